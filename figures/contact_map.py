@@ -1,0 +1,80 @@
+"""The body of Figures 7 and 9: which balls are loaded, and how much, over two periods.
+
+Above, one panel per speed as in the paper: black where a ball is in contact. Below, the same panels
+with the force of each ball in colour, white without contact, each on a scale of its own since the
+forces grow by an order of magnitude up to the resonance.
+"""
+
+from string import ascii_lowercase
+
+import matplotlib.pyplot as plt
+import numpy as np
+from matplotlib.ticker import MaxNLocator, MultipleLocator
+
+BALANCE = 1
+
+
+def force_map(panel):
+    """Q as an array, a row per ball and a column per time, and its extent on the axes."""
+    times = np.unique(panel["t_over_T"])
+    balls = np.unique(panel["ball"])
+    force = np.empty((balls.size, times.size))
+    rows = np.searchsorted(balls, panel["ball"])
+    force[rows, np.searchsorted(times, panel["t_over_T"])] = panel["Q"]
+    end = times[-1] + times[1] - times[0]
+    return force, (times[0], end, balls[0] - 0.5, balls[-1] + 0.5)
+
+
+def source_of(panel):
+    """In words, where the motion of a panel comes from."""
+    if panel.first("source") == BALANCE:
+        return f"harmonic balance, m = {panel.number('harmonic balance: m'):g}"
+    if panel.first("periodic") == 1:
+        return "time integration"
+    return "time integration, not T-periodic"
+
+
+def draw_contact(axes, panel, title):
+    """Black where Q > 0."""
+    force, extent = force_map(panel)
+    axes.imshow(force > 0, extent=extent, cmap="binary", vmin=0, vmax=1)
+    axes.set_title(f"{title}\n{source_of(panel)}")
+
+
+def draw_force(axes, panel, title):
+    """Q in colour with its bar, white where it is zero."""
+    force, extent = force_map(panel)
+    image = axes.imshow(np.ma.masked_less_equal(force, 0), extent=extent, vmin=0)
+    axes.figure.colorbar(image, ax=axes, pad=0.03, label="Q [N]", ticks=MaxNLocator(4))
+    axes.set_title(title)
+
+
+def draw_block(figure, panels, columns, draw_panel, heading):
+    """One block of panels under a heading."""
+    rows = -(-len(panels) // columns)
+    grid = figure.subplots(rows, columns, sharex=True, sharey=True, squeeze=False)
+    for axes in grid.flat[len(panels):]:
+        axes.remove()
+    for letter, axes, panel in zip(ascii_lowercase, grid.flat, panels):
+        draw_panel(axes, panel, f"({letter}) {panel.first('f'):g} Hz")
+        last = int(panel["ball"].max())
+        axes.set_yticks([1, *range(4, last, 4), last])
+        axes.xaxis.set_major_locator(MultipleLocator(0.5))
+        axes.xaxis.set_major_formatter("{x:g}")
+    figure.suptitle(heading)
+    figure.supxlabel("time over period t/T [-]")
+    figure.supylabel("ball j")
+
+
+def draw(table):
+    """Both blocks of all panels."""
+    panels = [table.where("panel", number) for number in np.unique(table["panel"])]
+    columns = min(len(panels), 2 if len(panels) <= 4 else 3)
+    rows = -(-len(panels) // columns)
+    figure = plt.figure(figsize=(10, 1.5 + 4.7 * rows), layout="constrained")
+    above, below = figure.subfigures(2, 1, hspace=0.03)
+    draw_block(above, panels, columns, draw_contact,
+               f"Contact (black) and no contact (white), δ = {1e6 * table.number('delta'):g} µm")
+    draw_block(below, panels, columns, draw_force,
+               "Force of each ball in the same panels (white: no contact)")
+    return figure

@@ -1,0 +1,83 @@
+# The body of Figures 4 and 5: displacements of rotor and stator at one speed
+#
+# Loaded by fig04_displacements.gp and fig05_displacements.gp with `table` and `output` set.
+# Left, x and y over two periods; right, both orbits and the rotor's motion relative to the stator.
+# Harmonic balance, one period in the table and drawn twice, is in colour; time integration is a
+# thin line over it, so that a coloured edge without it, or the reverse, shows where they differ.
+
+height = 920
+load 'figures/style.gp'
+
+balance = 1; integrated = 2
+of(source, value) = column("source") == source ? value : NaN
+shown(value) = value
+
+# Both orbits in the unit that suits the largest displacement; the relative motion, of the size of
+# the clearance, always in µm.
+load 'figures/orbit_axes.gp'
+relative_um(d) = 1e6 * (column(d."_r") - column(d."_s"))
+delta_um = 1e6 * clearance(1)
+stats table using (0):(sqrt(relative_um("x") ** 2 + relative_um("y") ** 2)) name 'U' nooutput
+
+# Three lines on top: the case, how far the methods differ, whether integration finds period T.
+stats table using "found":"periodic" name 'flag' nooutput
+stats table using "spread":"difference" name 'error' nooutput
+found = int(flag_max_x)
+comparison = found == 1 ? \
+  sprintf("Largest difference of both methods over one period: %.2g %% ", 100 * error_max_y).\
+    "of the largest displacement" : \
+  "No harmonic-balance solution found: time integration alone"
+regime = "Time integration is ".(flag_max_y == 1 ? "" : "not ").\
+  sprintf("T-periodic: Poincaré spread %.2g %% of the largest displacement", 100 * error_max_x)
+case = sprintf("f = %g Hz, δ = %g µm, harmonic balance with %d harmonics", \
+               speed, delta_um, harmonics(1))
+set label 1 case."\n".comparison."\n".regime at screen 0.5, 0.98 center
+
+set multiplot layout 2, 2 columnsfirst margins 0.09, 0.975, 0.085, 0.83 spacing 0.13, 0.11
+set key at screen 0.53, 0.905 center top vertical maxrows 2 Left reverse width 2
+
+# Left: x(t) and y(t). The first panel names the curves.
+set xrange [0 : 2]
+set xlabel "time over period t/T [-]"
+do for [d in "x y"] {
+  r = d."_r"
+  b = d."_s"
+  name(text) = d eq "x" ? text : ""
+  set ylabel d." [".unit(largest)."]"
+  plot \
+    for [k = 1 : 2 * found] table using (of(balance, column("t_over_T") + k - 1)):(scaled(r)) \
+      with lines ls rotor title k == 1 ? name("rotor, harmonic balance") : "", \
+    for [k = 1 : 2 * found] table using (of(balance, column("t_over_T") + k - 1)):(scaled(b)) \
+      with lines ls stator title k == 1 ? name("stator, harmonic balance") : "", \
+    table using (of(integrated, column("t_over_T"))):(scaled(r)) \
+      with lines ls rotor_time title name("rotor, time integration"), \
+    table using (of(integrated, column("t_over_T"))):(scaled(b)) \
+      with lines ls stator_time title name("stator, time integration")
+  unset label 1
+}
+
+# Right, above: the orbits.
+orbit = found ? closed_orbit(panel) : table
+eval orbit_axes
+plot \
+  orbit using (of(balance, scaled("x_r"))):(scaled("y_r")) with lines ls rotor notitle, \
+  orbit using (of(balance, scaled("x_s"))):(scaled("y_s")) with lines ls stator notitle, \
+  table using (of(integrated, scaled("x_r"))):(scaled("y_r")) with lines ls rotor_time notitle, \
+  table using (of(integrated, scaled("x_s"))):(scaled("y_s")) with lines ls stator_time notitle
+
+# Right, below: a contact needs a relative motion outside the circle of the clearance. Integration
+# is drawn as points, since the samples of the table are too far apart to join them there.
+span = 1.08 * max(delta_um, U_max_y)
+set xrange [-span : span]
+set yrange [-span : span]
+set xtics tic_step(2 * span)
+set ytics tic_step(2 * span)
+set xlabel "x of rotor − x of stator [µm]"
+set ylabel "y of rotor − y of stator [µm]"
+set object 1 circle at 0, 0 size delta_um fs empty border rgb '#000000'
+set label 1 sprintf("circle: clearance\nδ = %g µm", delta_um) at 0, 0 center
+plot \
+  orbit using (of(balance, relative_um("x"))):(relative_um("y")) with lines ls relative notitle, \
+  table using (of(integrated, relative_um("x"))):(relative_um("y")) \
+    with points ls rotor_time ps 0.25 notitle
+unset multiplot

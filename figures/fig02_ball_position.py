@@ -1,0 +1,59 @@
+"""Figure 2: position of ball j and its penetration
+
+Paper: §2.2, Fig. 2, Eqs 3 to 5. The inner ring displaced by u; the balls in contact are coloured.
+Usage: /usr/bin/python3 figures/fig02_ball_position.py data/generated/fig02.tsv fig02.svg
+"""
+
+from math import degrees
+
+from matplotlib.patches import Arc
+
+from bearing_sketch import INNER, MARKED, OUTER, arrow, label, polar, sketch
+from tables import run
+
+
+def name_angle(axes, marked, radius):
+    """θ_j from the x axis to the radius through the marked ball."""
+    angle = marked.first("theta")
+    axes.plot(*zip((0, 0), (marked.first("x"), marked.first("y"))), color="black", linewidth=0.75)
+    axes.add_patch(Arc((0, 0), 2 * radius, 2 * radius, theta1=0, theta2=degrees(angle)))
+    arrow(axes, polar(radius, angle - 0.05), polar(radius, angle))
+    axes.text(*polar(1.2 * radius, angle / 2), "$θ_j$", ha="center", va="center")
+
+
+def name_displacement(axes, table, inner):
+    """u, between the centres of the two rings."""
+    u = inner.first("x"), inner.first("y")
+    size = 1e6 * (u[0] ** 2 + u[1] ** 2) ** 0.5 / table.number("displacement_factor")
+    axes.plot(*zip((0, 0), u), color="C3", linewidth=3, marker="o", markersize=5)
+    label(axes, f"displacement $u$\nof the inner ring,\n|$u$| = {size:.3g} µm", u,
+          polar(0.45 * inner.first("radius"), 5.2))
+
+
+def name_cage(axes, outer):
+    """The direction in which the cage carries the balls, outside the ring."""
+    radius = 1.25 * outer
+    axes.add_patch(Arc((0, 0), 2 * radius, 2 * radius, theta1=110, theta2=140, linewidth=2))
+    arrow(axes, polar(radius, 2.42), polar(radius, 2.46), linewidth=2)
+    axes.text(*polar(1.4 * outer, 2.2), r"$ω_{\mathrm{cage}}$", ha="center", va="center")
+
+
+def draw(table):
+    """The sketch, with the angle and the penetration of the marked ball."""
+    figure, axes = sketch(
+        table, f"Clearance δ = {1e6 * table.number('delta'):g} µm drawn "
+               f"{table.number('clearance_factor'):g} times larger, displacement $u$ "
+               f"{table.number('displacement_factor'):g} times")
+    inner, marked = table.where("part", INNER), table.where("part", MARKED)
+    outer = table.where("part", OUTER).first("radius")
+    name_angle(axes, marked, 0.45 * inner.first("radius"))
+    name_displacement(axes, table, inner)
+    name_cage(axes, outer)
+    label(axes, f"ball $j$ = {marked.first('ball'):g}\n"
+                f"$Δ_j$ − δ = {1e6 * marked.first('penetration'):.2g} µm",
+          (marked.first("x"), marked.first("y")), polar(1.55 * outer, marked.first("theta") - 0.15))
+    axes.text(-1.8 * outer, -1.2 * outer, "coloured: balls in contact,\n$Δ_j$ − δ > 0")
+    return figure
+
+
+run(draw)

@@ -1,0 +1,56 @@
+# The body of Figures 6 and 8: orbits of rotor and stator, one speed per panel
+#
+# Loaded by fig06_orbits.gp and fig08_orbits.gp with `table` and `output` set.
+# A panel shows the harmonic-balance orbit, in colour, where time integration finds a motion of
+# period T; elsewhere it shows that motion over several periods, in grey, and says so.
+
+rows = int(ceil(system(sprintf("grep -c '^# panel' '%s'", table)) / 3.0))
+height = 115 + 350 * rows
+load 'figures/style.gp'
+
+balance = 1; integrated = 2
+of(source, value) = column("panel") == p && column("source") == source ? value : NaN
+
+# After the speed: nothing for harmonic balance; else why it is not drawn, and the spread.
+title_of(f, found, periodic, spread) = sprintf("%g Hz", f).( \
+  found == 1 && periodic == 1 ? "" : sprintf(", spread %.2g %%\n", 100 * spread).( \
+    found == 1 ? "not T-periodic" : sprintf("no %d-harmonic solution", harmonics(1))))
+
+# Above the panels: what is drawn, and the names of the curves, given by the first panel.
+from_top(units) = 1 - units / (1.0 * height)
+stats table using "panel":"t_over_T" name 'all' nooutput
+modelled = sprintf("δ = %g µm, harmonic balance with %d harmonics; ", \
+                   1e6 * clearance(1), harmonics(1)).\
+           sprintf("grey: %d periods of time integration\n", ceil(all_max_y)).\
+           "spread: Poincaré spread over the largest displacement"
+set label 1 modelled at screen 0.5, from_top(20) center
+set key at screen 0.53, from_top(58) center top vertical maxrows 2 Left reverse width 2
+
+set multiplot layout rows, 3 \
+  margins 0.09, 0.985, 65.0 / height, from_top(170) spacing 0.09, 120.0 / height
+do for [p = 1 : int(all_max_x)] {
+  # A range left from the panel before would hide rows from `stats`.
+  set xrange [* : *]
+  set yrange [* : *]
+  stats table using (of(integrated, column("found"))):"periodic" name 'flag' nooutput
+  stats table using (of(integrated, column("f"))):"spread" name 'motion' nooutput
+  source = flag_max_x * flag_max_y == 1 ? balance : integrated
+  shown(value) = of(source, value)
+  load 'figures/orbit_axes.gp'
+  eval orbit_axes
+  set title title_of(speed, flag_max_x, flag_max_y, motion_max_y) offset 0, -0.6
+  data = source == balance ? closed_orbit(p) : table
+  line = source == balance ? 1.6 : 1
+  plot \
+    data using (shown(scaled("x_r"))):(scaled("y_r")) notitle \
+      with lines ls source == balance ? rotor : rotor_time lw line, \
+    data using (shown(scaled("x_s"))):(scaled("y_s")) notitle \
+      with lines ls source == balance ? stator : stator_time lw line, \
+    keyentry with lines ls rotor title "rotor, harmonic balance", \
+    keyentry with lines ls stator title "stator, harmonic balance", \
+    keyentry with lines ls rotor_time title "rotor, time integration", \
+    keyentry with lines ls stator_time title "stator, time integration"
+  unset key
+  unset label 1
+}
+unset multiplot

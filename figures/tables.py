@@ -1,0 +1,53 @@
+"""Read a table, start and finish a figure: what every figure drawn by Python needs."""
+
+import re
+import sys
+from pathlib import Path
+
+import matplotlib.pyplot as plt
+import numpy as np
+
+ROTOR, STATOR = "C0", "C1"
+
+
+class Table:
+    """The columns of a tab-separated table by name, and its `#` lines."""
+
+    def __init__(self, path):
+        lines = Path(path).read_text(encoding="utf-8").splitlines()
+        self.header = "\n".join(line for line in lines if line.startswith("#"))
+        rows = [line for line in lines if line.strip() and not line.startswith("#")]
+        values = np.array([row.split("\t") for row in rows[1:]], dtype=float)
+        self.columns = dict(zip(rows[0].split("\t"), values.T))
+
+    def __getitem__(self, name):
+        return self.columns[name]
+
+    def where(self, name, value):
+        """The rows in which a column has a value, as a table with the same header."""
+        part = object.__new__(Table)
+        part.header = self.header
+        chosen = self[name] == value
+        part.columns = {key: column[chosen] for key, column in self.columns.items()}
+        return part
+
+    def first(self, name):
+        """A column's value in the first row, for columns that are constant in the rows."""
+        return self[name][0]
+
+    def number(self, name):
+        """The number that the header gives after `name = ` or `name: `."""
+        found = re.search(rf"\b{re.escape(name)}\s*[=:]\s*([-+.\deE]+)", self.header)
+        if found is None:
+            raise ValueError(f"the header of the table says nothing of {name}")
+        return float(found[1])
+
+
+def run(draw):
+    """Call draw(table) with the style of the project; save the figure that it returns."""
+    if len(sys.argv) != 3:
+        sys.exit(f"usage: {sys.argv[0]} TABLE.tsv OUTPUT.svg")
+    plt.switch_backend("svg")
+    plt.style.use(Path(__file__).with_name("rotor_stator.mplstyle"))
+    figure = draw(Table(sys.argv[1]))
+    figure.savefig(sys.argv[2], format="svg", metadata={"Date": None})

@@ -1,0 +1,205 @@
+#include "balance/bearing_problem.hpp"
+
+#include <cmath>
+#include <numbers>
+
+#include "model/errors.hpp"
+
+namespace rotor_stator
+{
+
+namespace
+{
+
+using Complex = std::complex<double>;
+
+/** A complex amplitude and its derivative with respect to ω. */
+struct Varying {
+  Complex value, slope;
+
+  Varying operator+(const Varying& o) const { return {value + o.value, slope + o.slope}; }
+  Varying operator-(const Varying& o) const { return {value - o.value, slope - o.slope}; }
+  Varying operator*(const Varying& o) const
+  {
+    return {value * o.value, slope * o.value + value * o.slope};
+  }
+  Varying operator/(const Varying& o) const
+  {
+    return {value / o.value, (slope - value / o.value * o.slope) / o.value};
+  }
+  Varying modulus() const
+  {
+    const double size = std::abs(value);
+    return {size, size > 0 ? (std::conj(value) * slope).real() / size : 0.0};
+  }
+};
+
+Varying impedance(const Body& body, double omega, int h)
+{
+  const auto z = dynamic_stiffness(body, h * omega);
+  return {z.value, static_cast<double>(h) * z.slope};
+}
+
+/** Load amplitudes on one body in x and y: weight on harmonic 0, unbalance on harmonic 1
+    (cos φ in x and sin φ = Re(-i e^{iφ}) in y). */
+std::array<Varying, 2> load(double weight, double unbalance, double omega, int h)
+{
+  if (h == 0) return {{{0, 0}, {-weight, 0}}};
+  if (h > 1) return {};
+  const Varying force{unbalance * omega * omega, 2 * unbalance * omega};
+  return {force, force * Varying{{0, -1}, 0}};
+}
+
+LinearBlock condensed_block(const Parameters& parameters, double ball_stiffness,
+                            double omega, int h)
+{
+  const Varying z_s = impedance(parameters.stator, omega, h);
+  const Varying z_r = impedance(parameters.rotor, omega, h);
+  const Varying product = z_s * z_r, sum = z_s + z_r;
+  const Varying sigma = product.modulus() + Varying{ball_stiffness, 0} * sum.modulus();
+  const auto f_s = load(parameters.stator.mass * parameters.gravity, 0, omega, h);
+  const auto f_r =
+      load(parameters.rotor.mass * parameters.gravity, parameters.unbalance, omega, h);
+
+  const Varying a = product / sigma, b = sum / sigma;
+  const SmallMatrix unit = SmallMatrix::Identity(2, 2);
+  LinearBlock block{.a = a.value * unit,
+                    .b = b.value * unit,
+                    .c = SmallVector(2),
+                    .a_slope = a.slope * unit,
+                    .b_slope = b.slope * unit,
+                    .c_slope = SmallVector(2)};
+  for (int axis = 0; axis < 2; ++axis) {
+    const Varying c = (z_s * f_r[axis] - z_r * f_s[axis]) / sigma;
+    block.c[axis] = c.value;
+    block.c_slope[axis] = c.slope;
+  }
+  return block;
+}
+
+}  // namespace
+
+Problem bearing_problem(const Parameters& parameters, int samples)
+{
+  if (!has_rotation_period(parameters.bearing))
+    throw NoSolution(
+        text("%s: n*omega_cage/omega = %.9g is not a whole number, so the bearing's "
+             "force has not the period of rotation; use a time method",
+             parameters.file.c_str(), passages_per_turn(parameters.bearing)));
+  const Scales scale = scales(parameters);
+  const BallBearing bearing(parameters.bearing);
+  std::vector<Direction> cage;
+  for (int k = 0; k < samples; ++k)
+    cage.push_back(Direction::of(parameters.bearing.cage_speed_ratio * 2 *
+                                 std::numbers::pi * k / samples));
+
+  const auto law = [bearing, cage](const Eigen::MatrixXd& q, Eigen::MatrixXd& force,
+                                   Eigen::MatrixXd& stiffness) {
+    force.resize(q.rows(), 2);
+    stiffness.resize(q.rows(), 4);
+    for (Eigen::Index k = 0; k < q.rows(); ++k) {
+      const auto [f, s] = bearing.reaction(cage[k], {q(k, 0), q(k, 1)});
+      force.row(k) << f.x, f.y;
+      stiffness.row(k) << s.xx, s.xy, s.xy, s.yy;
+    }
+  };
+  return {.dofs = 2,
+          .samples = samples,
+          .residual_scale = scale.penetration,
+          .unknown_scale = scale.penetration,
+          .linear =
+              [parameters, scale](double omega, int h) {
+                return condensed_block(parameters, scale.stiffness, omega, h);
+              },
+          .force = law};
+}
+
+namespace
+{
+
+/** N samples of a relative displacement that depends on the rotor's angle. */
+template <class Displacement>
+Eigen::MatrixXd sampled(int samples, Displacement displacement)
+{
+  Eigen::MatrixXd u(samples, 2);
+  for (int k = 0; k < samples; ++k) {
+    const Vec2 at = displacement(2 * std::numbers::pi * k / samples);
+    u.row(k) << at.x, at.y;
+  }
+  return u;
+}
+
+}  // namespace
+
+Eigen::VectorXd quasi_static_start(const Parameters& parameters, double omega,
+                                   int harmonics)
+{
+  const int samples = default_samples(harmonics);
+  Eigen::MatrixXd u = sampled(
+      samples, [&](double phase) { return free_displacement(parameters, omega, phase); });
+  const bool without_contact =
+      u.rowwise().norm().maxCoeff() <= parameters.bearing.clearance;
+  if (!without_contact)
+    u = sampled(samples, [&](double phase) {
+      return quasi_static_contact(parameters,
+                                  rigid_joint_force(parameters, omega, phase));
+    });
+  Eigen::MatrixXd series(2, 2 * harmonics + 1);
+  FourierTransform(samples).to_series(u, series);
+  return series.reshaped();
+}
+
+Eigen::VectorXd resize_harmonics(const Eigen::VectorXd& x, int dofs, int harmonics)
+{
+  Eigen::VectorXd resized = Eigen::VectorXd::Zero(dofs * (2 * harmonics + 1));
+  const auto common = std::min(x.size(), resized.size());
+  resized.head(common) = x.head(common);
+  return resized;
+}
+
+namespace
+{
+
+/** Complex amplitude of harmonic h in one row of a series, and back. */
+Complex amplitude(const Eigen::MatrixXd& series, int row, int h)
+{
+  if (h == 0) return series(row, 0);
+  return {series(row, 2 * h - 1), -series(row, 2 * h)};
+}
+
+void put(Eigen::MatrixXd& series, int row, int h, Complex value)
+{
+  series(row, h == 0 ? 0 : 2 * h - 1) = value.real();
+  if (h > 0) series(row, 2 * h) = -value.imag();
+}
+
+}  // namespace
+
+Eigen::MatrixXd body_series(const Parameters& parameters, const Balance& balance,
+                            double omega, const Eigen::VectorXd& x)
+{
+  const int m = balance.harmonics();
+  const Eigen::MatrixXd u = x.reshaped(2, 2 * m + 1);
+  Eigen::MatrixXd bodies(4, 2 * m + 1);
+  for (int h = 0; h <= m; ++h) {
+    const Complex z_s = impedance(parameters.stator, omega, h).value;
+    const Complex z_r = impedance(parameters.rotor, omega, h).value;
+    const auto f_s = load(parameters.stator.mass * parameters.gravity, 0, omega, h);
+    const auto f_r =
+        load(parameters.rotor.mass * parameters.gravity, parameters.unbalance, omega, h);
+    for (int axis = 0; axis < 2; ++axis) {
+      /** The stiffer of the two bodies gives its displacement and u the other's: the
+         resonance of an undamped body divides nothing by zero. */
+      const Complex force = amplitude(balance.force_series(), axis, h);
+      const Complex relative = amplitude(u, axis, h);
+      const Complex stator = std::abs(z_s) >= std::abs(z_r)
+                                 ? (f_s[axis].value + force) / z_s
+                                 : (f_r[axis].value - force) / z_r - relative;
+      put(bodies, axis, h, stator);
+      put(bodies, 2 + axis, h, stator + relative);
+    }
+  }
+  return bodies;
+}
+
+}  // namespace rotor_stator

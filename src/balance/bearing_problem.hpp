@@ -1,0 +1,43 @@
+/**
+# Rotor and stator as a harmonic-balance problem
+
+Each body is linear, so its displacement follows from the bearing's force harmonic by
+harmonic, and the four unknowns per harmonic condense exactly to the two of the relative
+motion u = x_r - x_s:
+
+$$u_h + (G_s + G_r)\,F_h(u) = G_r f_r - G_s f_s, \qquad G(\Omega) = 1/Z(\Omega),\ \Omega =
+h\omega.$$
+
+Multiplied by Z_s Z_r the equation stays finite where an undamped body resonates, and
+divided by σ = |Z_s Z_r| + k|Z_s + Z_r|, with k the stiffness of one loaded ball, every
+term is a length of the order of the penetration, for soft and stiff suspensions, low and
+high harmonics alike. */
+#pragma once
+
+#include "balance/balance.hpp"
+#include "model/rotor_stator.hpp"
+
+namespace rotor_stator
+{
+
+/** The bearing's problem: d = 2 unknowns u_x, u_y [m], N samples. Throws NoSolution when
+   the force has not the period of rotation (n ω_cage/ω not whole, D-11): no series in ω
+   can solve it. */
+Problem bearing_problem(const Parameters& parameters, int samples);
+
+/** A start for Newton without any previous solution, 2 × (2m+1) coefficients as a vector:
+   the motion without contact where it stays inside the clearance; otherwise at each
+   instant the force that would hold both bodies together, answered quasi-statically by
+   one ball. */
+Eigen::VectorXd quasi_static_start(const Parameters& parameters, double omega,
+                                   int harmonics);
+
+/** The coefficients x with `harmonics` harmonics: cut, or filled with zeros. */
+Eigen::VectorXd resize_harmonics(const Eigen::VectorXd& x, int dofs, int harmonics);
+
+/** Series of x_s, y_s, x_r, y_r [m], 4 × (2m+1), at the balance's last point (X, ω): the
+   bodies' linear responses to the bearing's force. */
+Eigen::MatrixXd body_series(const Parameters& parameters, const Balance& balance,
+                            double omega, const Eigen::VectorXd& x);
+
+}  // namespace rotor_stator

@@ -1,0 +1,162 @@
+#include "balance/fourier_transform.hpp"
+
+#include <fftw3.h>
+
+#include <algorithm>
+
+namespace rotor_stator
+{
+
+namespace
+{
+
+struct FftwFree {
+  void operator()(void* memory) const { fftw_free(memory); }
+};
+
+struct DestroyPlan {
+  void operator()(fftw_plan plan) const { fftw_destroy_plan(plan); }
+};
+
+using Plan = std::unique_ptr<std::remove_pointer_t<fftw_plan>, DestroyPlan>;
+
+}  // namespace
+
+/** FFTW_ESTIMATE plans do not depend on timings: the same machine gives the same bits. */
+struct FourierTransform::Plans {
+  int samples;
+  std::unique_ptr<double[], FftwFree> time;
+  std::unique_ptr<std::complex<double>[], FftwFree> frequency;
+  Plan forward, backward;
+
+  explicit Plans(int n)
+      : samples(n),
+        time(fftw_alloc_real(n)),
+        frequency(reinterpret_cast<std::complex<double>*>(fftw_alloc_complex(n / 2 + 1)))
+  {
+    auto* spectrum = reinterpret_cast<fftw_complex*>(frequency.get());
+    forward.reset(fftw_plan_dft_r2c_1d(n, time.get(), spectrum, FFTW_ESTIMATE));
+    backward.reset(fftw_plan_dft_c2r_1d(n, spectrum, time.get(), FFTW_ESTIMATE));
+  }
+};
+
+int fast_transform_size(int at_least)
+{
+  const auto is_fast = [](int n) {
+    for (int factor : {2, 3, 5, 7})
+      while (n % factor == 0) n /= factor;
+    return n == 1;
+  };
+  int n = std::max(2, at_least + at_least % 2);
+  while (!is_fast(n)) n += 2;
+  return n;
+}
+
+int default_samples(int harmonics)
+{
+  return fast_transform_size(std::max(32, 8 * harmonics + 1));
+}
+
+FourierTransform::FourierTransform(int samples) : plans_(std::make_unique<Plans>(samples))
+{
+}
+FourierTransform::~FourierTransform() = default;
+FourierTransform::FourierTransform(FourierTransform&&) noexcept = default;
+FourierTransform& FourierTransform::operator=(FourierTransform&&) noexcept = default;
+
+int FourierTransform::samples() const
+{
+  return plans_->samples;
+}
+
+void FourierTransform::to_samples(const Eigen::Ref<const Eigen::MatrixXd>& series,
+                                  Eigen::MatrixXd& samples)
+{
+  const int n = plans_->samples;
+  const auto harmonics = (series.cols() - 1) / 2;
+  std::complex<double>* spectrum = plans_->frequency.get();
+  samples.resize(n, series.rows());
+  for (Eigen::Index row = 0; row < series.rows(); ++row) {
+    spectrum[0] = series(row, 0);
+    for (Eigen::Index h = 1; h <= harmonics; ++h)
+      spectrum[h] = 0.5 * std::complex(series(row, 2 * h - 1), -series(row, 2 * h));
+    std::fill(spectrum + harmonics + 1, spectrum + n / 2 + 1, 0.0);
+    fftw_execute(plans_->backward.get());
+    std::copy_n(plans_->time.get(), n, samples.col(row).data());
+  }
+}
+
+void FourierTransform::to_series(const Eigen::MatrixXd& samples,
+                                 Eigen::Ref<Eigen::MatrixXd> series)
+{
+  const auto harmonics = (series.cols() - 1) / 2;
+  for (Eigen::Index row = 0; row < series.rows(); ++row) {
+    const auto kappa = spectrum(samples.col(row));
+    series(row, 0) = kappa[0].real();
+    for (Eigen::Index h = 1; h <= harmonics; ++h) {
+      series(row, 2 * h - 1) = 2 * kappa[h].real();
+      series(row, 2 * h) = -2 * kappa[h].imag();
+    }
+  }
+}
+
+Eigen::Map<const Eigen::VectorXcd> FourierTransform::spectrum(
+    const Eigen::Ref<const Eigen::VectorXd>& column)
+{
+  const int n = plans_->samples;
+  std::copy_n(column.data(), n, plans_->time.get());
+  fftw_execute(plans_->forward.get());
+  Eigen::Map<Eigen::VectorXcd> kappa(plans_->frequency.get(), n / 2 + 1);
+  kappa *= 1.0 / n;
+  return {plans_->frequency.get(), n / 2 + 1};
+}
+
+Eigen::MatrixXd sample_series(const Eigen::MatrixXd& series, int points)
+{
+  const int stride = static_cast<int>((series.cols() + points - 1) / points);
+  Eigen::MatrixXd fine;
+  FourierTransform(points * stride).to_samples(series, fine);
+  return fine(Eigen::seqN(0, points, stride), Eigen::all);
+}
+
+Eigen::MatrixXd differentiate(const Eigen::MatrixXd& series)
+{
+  Eigen::MatrixXd slope = Eigen::MatrixXd::Zero(series.rows(), series.cols());
+  for (Eigen::Index h = 1; 2 * h < series.cols(); ++h) {
+    slope.col(2 * h - 1) = static_cast<double>(h) * series.col(2 * h);
+    slope.col(2 * h) = -static_cast<double>(h) * series.col(2 * h - 1);
+  }
+  return slope;
+}
+
+namespace
+{
+
+/** The largest value of a periodic sequence, refined by the parabola through its
+ * neighbours. */
+double refined_maximum(const Eigen::VectorXd& samples)
+{
+  Eigen::Index k;
+  const double top = samples.maxCoeff(&k);
+  const auto n = samples.size();
+  const double before = samples[(k + n - 1) % n], after = samples[(k + 1) % n];
+  const double curvature = before - 2 * top + after;
+  const double slope = 0.5 * (after - before);
+  return curvature < 0 ? top - 0.5 * slope * slope / curvature : top;
+}
+
+}  // namespace
+
+Eigen::VectorXd half_peak_to_peak(const Eigen::MatrixXd& series)
+{
+  const int points =
+      fast_transform_size(std::max(256, 8 * static_cast<int>(series.cols())));
+  const Eigen::MatrixXd samples = sample_series(series, points);
+  Eigen::VectorXd amplitude(series.rows());
+  for (Eigen::Index row = 0; row < series.rows(); ++row)
+    amplitude[row] =
+        0.5 * (refined_maximum(samples.col(row)) + refined_maximum(-samples.col(row)));
+  return amplitude;
+}
+
+}  // namespace rotor_stator

@@ -1,0 +1,70 @@
+/**
+# Between the Fourier series and its samples (Eqs 9 and 13)
+
+A motion with m harmonics is the series
+
+$$x(\varphi) = X_0 + \sum_{i=1}^{m} X_{2i-1}\cos i\varphi + X_{2i}\sin i\varphi, \tag{9}$$
+
+with φ = ωt. Its N samples at φ_k = 2πk/N and back are real discrete Fourier transforms
+(FFTW). Γ takes samples to coefficients, Γ⁻¹ coefficients to samples (D-04: the paper's
+text names them the other way round). N is a parameter, at least 2m+1; the paper's own N =
+2m+1 aliases (D-05). */
+#pragma once
+
+#include <Eigen/Core>
+#include <complex>
+#include <memory>
+
+namespace rotor_stator
+{
+
+/** The smallest even number ≥ `at_least` with no prime factor above 7: a fast FFTW size.
+ */
+int fast_transform_size(int at_least);
+
+/** Samples per period for m harmonics when nothing else is asked: ≥ 8m+1, and at
+   least 32. With 4m+1 the sampling error still shows beside the truncation (64 harmonics,
+   30 Hz: 1.5e-6 against 4e-7); the test of the sample count measures it. */
+int default_samples(int harmonics);
+
+/** Real transforms of one length N, with their buffers. */
+class FourierTransform
+{
+public:
+  explicit FourierTransform(int samples);
+  ~FourierTransform();
+  FourierTransform(FourierTransform&&) noexcept;
+  FourierTransform& operator=(FourierTransform&&) noexcept;
+
+  int samples() const;
+
+  /** Γ⁻¹: series coefficients (rows = variables, columns = X_0, X_1, … X_2m) to samples
+      (rows = instants, columns = variables). N ≥ 2m+1. */
+  void to_samples(const Eigen::Ref<const Eigen::MatrixXd>& series,
+                  Eigen::MatrixXd& samples);
+
+  /** Γ: samples to the coefficients of as many harmonics as `series` has columns for. */
+  void to_series(const Eigen::MatrixXd& samples, Eigen::Ref<Eigen::MatrixXd> series);
+
+  /** The discrete Fourier coefficients κ_p = (1/N) Σ_k x(φ_k) e^{-ipφ_k}, p = 0…N/2, of
+     one column of samples; valid until the next call. */
+  Eigen::Map<const Eigen::VectorXcd> spectrum(
+      const Eigen::Ref<const Eigen::VectorXd>& column);
+
+private:
+  struct Plans;
+  std::unique_ptr<Plans> plans_;
+};
+
+/** Samples of a series at `points` equal phases of one period, for any number of points.
+ */
+Eigen::MatrixXd sample_series(const Eigen::MatrixXd& series, int points);
+
+/** The series of the derivative with respect to φ. */
+Eigen::MatrixXd differentiate(const Eigen::MatrixXd& series);
+
+/** Half peak-to-peak of each row of a series over the period, the extremes refined by a
+   parabola through three samples. */
+Eigen::VectorXd half_peak_to_peak(const Eigen::MatrixXd& series);
+
+}  // namespace rotor_stator

@@ -1,0 +1,53 @@
+/**
+# Newton's method, globalised (Eqs 14, 15, 17 and 18)
+
+X ← X + λΔX with (A + J)ΔX = -R: Eq. 15 as it follows from Eq. 10 (D-06). The step is
+halved until the residual decreases. Both criteria of the paper are reported, relative to
+the problem's scales: δ₁ = ‖R‖ (Eq. 17) and δ₂ = ‖ΔX‖ (Eq. 18). The iteration has
+converged when δ₁ ≤ tolerance and δ₂ ≤ √tolerance: Newton's convergence is quadratic, so a
+last step of √tolerance leaves an error of the order of the tolerance. */
+#pragma once
+
+#include <Eigen/Core>
+#include <functional>
+#include <string>
+
+#include "balance/balance.hpp"
+
+namespace rotor_stator
+{
+
+struct NewtonSettings {
+  double tolerance = 1e-10;  ///< relative to the problem's scales
+  int most_iterations = 40;
+  int most_halvings = 12;
+};
+
+enum class NewtonEnd { converged, too_many_iterations, no_decrease, singular };
+
+struct NewtonReport {
+  NewtonEnd end = NewtonEnd::too_many_iterations;
+  int iterations = 0;
+  double delta_1 = 0;  ///< Eq. 17 [-], over the residual's scale
+  double delta_2 = 0;  ///< Eq. 18 [-], over the unknown's scale
+
+  bool converged() const { return end == NewtonEnd::converged; }
+  std::string reason() const;
+};
+
+/** n equations in n unknowns. */
+struct Equations {
+  double residual_scale, unknown_scale;
+  std::function<void(const Eigen::VectorXd& y, Eigen::VectorXd& residual)> residual;
+  std::function<const Eigen::MatrixXd&()> jacobian;  ///< at the last point of `residual`
+};
+
+/** Iterates from `y`; on failure `y` is the best point reached. */
+NewtonReport newton(const Equations& equations, Eigen::VectorXd& y,
+                    const NewtonSettings& settings);
+
+/** Newton on the balance at a fixed speed ω [rad/s], from `x`. */
+NewtonReport solve(Balance& balance, double omega, Eigen::VectorXd& x,
+                   const NewtonSettings& settings);
+
+}  // namespace rotor_stator

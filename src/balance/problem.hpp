@@ -1,0 +1,59 @@
+/**
+# The seam: what harmonic balance needs to know of a system
+
+A system with d nonlinear unknowns q(t) gives, for each harmonic h, one linear block
+
+$$A_h(\omega)\, q_h + B_h(\omega)\, f_h(q) = c_h(\omega),$$
+
+in complex amplitudes, q(φ) = Re Σ q_h e^{ihφ}, where f_h is the harmonic of its nonlinear
+force f(q, φ). The plain form of Eq. 8 is A = K - (hω)²M + ihωC, B = 1, c = the load; a
+system with linear inner unknowns condenses them into A, B and c. The bearing is one such
+problem, the Duffing oscillator of the tests another. */
+#pragma once
+
+#include <Eigen/Core>
+#include <functional>
+
+namespace rotor_stator
+{
+
+/** Small complex matrices without heap memory: at most four nonlinear unknowns. */
+constexpr int most_dofs = 4;
+using SmallMatrix = Eigen::Matrix<std::complex<double>, Eigen::Dynamic, Eigen::Dynamic, 0,
+                                  most_dofs, most_dofs>;
+using SmallVector =
+    Eigen::Matrix<std::complex<double>, Eigen::Dynamic, 1, 0, most_dofs, 1>;
+
+/** A_h, B_h and c_h, and their derivatives with respect to ω. */
+struct LinearBlock {
+  SmallMatrix a, b;
+  SmallVector c;
+  SmallMatrix a_slope, b_slope;
+  SmallVector c_slope;
+};
+
+/** A nonlinear system under periodic load, sampled N times per period. */
+struct Problem {
+  int dofs;               ///< d ≤ 4
+  int samples;            ///< N
+  double residual_scale;  ///< size of c_h, for the relative tolerance
+  double unknown_scale;   ///< size of q [the unit of q]
+
+  /** The block of harmonic `h` ≥ 0 at speed `omega` [rad/s]. */
+  std::function<LinearBlock(double omega, int h)> linear;
+
+  /** The force at all N samples. `q`: N × d; `force`: N × d; `stiffness`: N × d², column
+     i + d j holding ∂f_i/∂q_j. */
+  std::function<void(const Eigen::MatrixXd& q, Eigen::MatrixXd& force,
+                     Eigen::MatrixXd& stiffness)>
+      force;
+};
+
+/** The block of M q̈ + D q̇ + K q + f(q) = Re(F e^{iωt}) for real d × d matrices and a
+   complex load amplitude `load` on harmonic 1. */
+LinearBlock second_order_block(const Eigen::MatrixXd& mass,
+                               const Eigen::MatrixXd& damping,
+                               const Eigen::MatrixXd& stiffness,
+                               const Eigen::VectorXcd& load, double omega, int h);
+
+}  // namespace rotor_stator

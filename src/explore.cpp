@@ -1,0 +1,92 @@
+/**
+# explore: one's own machine
+
+Run: build/explore orbit data/set1.toml --frequency 45 > orbit.tsv
+     build/explore contact data/set1.toml --frequency 45 --method rk8pd > contact.tsv
+     build/explore response data/set1.toml --from 1 --to 60 --harmonics 10 > response.tsv
+
+The general program for follow-up studies: any parameter file, any speed, harmonic balance
+or one of the time integrators. A table on stdout, the log on stderr. */
+#include <CLI/CLI.hpp>
+
+#include "model/errors.hpp"
+#include "output/explore_tables.hpp"
+#include "output/program.hpp"
+
+namespace
+{
+
+using namespace rotor_stator;
+
+/** Options that orbit and contact share. */
+void add_motion_options(CLI::App& command, MotionRequest& request)
+{
+  command.add_option("parameters", request.parameter_file, "TOML parameter file")
+      ->required();
+  command.add_option("--frequency", request.frequency, "speed of rotation [Hz]")
+      ->required();
+  command.add_option("--method", request.method, "aft, rk4, rkf45, rk8pd, …")
+      ->capture_default_str();
+  command.add_option("--harmonics", request.harmonics, "m of harmonic balance")
+      ->capture_default_str();
+  command.add_option("--samples", request.samples,
+                     "N per period (default: 8m+1 rounded up)");
+  command.add_option("--points", request.points, "P, rows per period")
+      ->capture_default_str();
+  command.add_option("--tolerance", request.tolerance, "relative tolerance of Newton")
+      ->capture_default_str();
+  command
+      .add_option("--local-error", request.local_error,
+                  "relative, per step, of GSL's methods")
+      ->capture_default_str();
+  command.add_option("--step", request.step,
+                     "longest step of rk4 [s] (default: from K_H)");
+  command.add_option("--longest", request.longest, "longest transient [s]")
+      ->capture_default_str();
+}
+
+void add_response_options(CLI::App& command, ResponseRequest& request)
+{
+  command.add_option("parameters", request.parameter_file, "TOML parameter file")
+      ->required();
+  command.add_option("--from", request.from, "first speed [Hz]")->required();
+  command.add_option("--to", request.to, "last speed [Hz]")->required();
+  command.add_option("--harmonics", request.harmonics, "m of harmonic balance")
+      ->capture_default_str();
+  command.add_option("--samples", request.samples,
+                     "N per period (default: 8m+1 rounded up)");
+  command.add_option("--tolerance", request.tolerance, "relative tolerance of Newton")
+      ->capture_default_str();
+}
+
+int finish(const Exploration& exploration)
+{
+  write(exploration.table.text());
+  if (exploration.unfinished.empty()) return 0;
+  throw NoSolution(exploration.unfinished);
+}
+
+}  // namespace
+
+int main(int argc, char** argv)
+{
+  CLI::App app("Explores a rotor and a stator joined by a ball bearing; TSV on stdout.");
+  app.require_subcommand(1);
+  MotionRequest motion;
+  ResponseRequest response;
+  CLI::App* orbit =
+      app.add_subcommand("orbit", "displacements and force over one period");
+  CLI::App* contact =
+      app.add_subcommand("contact", "force of every ball over two periods");
+  CLI::App* branch =
+      app.add_subcommand("response", "amplitudes along the branch, arc length");
+  add_motion_options(*orbit, motion);
+  add_motion_options(*contact, motion);
+  add_response_options(*branch, response);
+  return guarded([&] {
+    if (!parse(app, argc, argv)) return 0;
+    if (orbit->parsed()) return finish(explore_orbit(motion));
+    if (contact->parsed()) return finish(explore_contact(motion));
+    return finish(explore_response(response));
+  });
+}

@@ -1,0 +1,115 @@
+#include "integration/steady_state.hpp"
+
+#include <algorithm>
+#include <array>
+#include <bit>
+#include <cmath>
+#include <deque>
+#include <numbers>
+
+#include "model/errors.hpp"
+
+namespace rotor_stator
+{
+
+namespace
+{
+
+using Displacements = std::array<double, 4>;
+
+Displacements displacements(const State& state)
+{
+  return std::bit_cast<Displacements>(state.position);
+}
+
+double largest(const Displacements& x)
+{
+  double size = 0;
+  for (double value : x) size = std::max(size, std::abs(value));
+  return size;
+}
+
+/** The largest extent, over the four displacements, of the last points of a section. */
+double extent(const std::deque<Displacements>& section)
+{
+  double widest = 0;
+  for (int i = 0; i < 4; ++i) {
+    const auto [low, high] = std::minmax_element(
+        section.begin(), section.end(),
+        [i](const Displacements& a, const Displacements& b) { return a[i] < b[i]; });
+    widest = std::max(widest, (*high)[i] - (*low)[i]);
+  }
+  return widest;
+}
+
+/** A motion in progress, with the last points of its Poincaré section. */
+class Settling
+{
+public:
+  Settling(const Parameters& parameters, double omega, const State& start,
+           const SteadySettings& settings)
+      : stepper_(make_stepper(parameters, omega, settings.stepper)),
+        intervals_(settings.stepper.intervals_per_period),
+        state_(start)
+  {
+  }
+
+  /** One period; its states are added to `record` if there is one. */
+  void advance_one_period(std::size_t window, std::vector<State>* record = nullptr)
+  {
+    section_.push_back(displacements(state_));
+    if (section_.size() > window) section_.pop_front();
+    size_ = 0;
+    for (int k = 0; k < intervals_; ++k) {
+      if (record) record->push_back(state_);
+      size_ = std::max(size_, largest(displacements(state_)));
+      stepper_.advance(periods_ * intervals_ + k, state_);
+    }
+    ++periods_;
+    for (double x : std::bit_cast<std::array<double, 8>>(state_))
+      if (!std::isfinite(x))
+        throw NoSolution(text("time integration diverged after %ld periods", periods_));
+  }
+
+  double spread() const { return size_ > 0 ? extent(section_) / size_ : 0; }
+  long periods() const { return periods_; }
+  long evaluations() const { return stepper_.evaluations(); }
+
+private:
+  TimeStepper stepper_;
+  int intervals_;
+  State state_;
+  long periods_ = 0;
+  double size_ = 0;  ///< largest displacement of the last period [m]
+  std::deque<Displacements> section_;
+};
+
+}  // namespace
+
+SteadyState steady_state(const Parameters& parameters, double omega, const State& start,
+                         const SteadySettings& settings)
+{
+  const double period = 2 * std::numbers::pi / omega;
+  const long window = std::max(4L, std::lround(std::ceil(settings.window / period)));
+  const long most =
+      std::max(2 * window, std::lround(std::ceil(settings.longest / period)));
+  const auto section = static_cast<std::size_t>(window);
+  Settling motion(parameters, omega, start, settings);
+  do {
+    const long block = std::min(window, most - motion.periods());
+    for (long k = 0; k < block; ++k) motion.advance_one_period(section);
+  } while (motion.periods() < most && motion.spread() > settings.settled);
+
+  SteadyState steady{.states = {},
+                     .first_period = motion.periods(),
+                     .spread = motion.spread(),
+                     .periodic = motion.spread() < settings.periodic,
+                     .seconds = static_cast<double>(motion.periods()) * period,
+                     .evaluations = 0};
+  for (int k = 0; k < settings.shown_periods; ++k)
+    motion.advance_one_period(section, &steady.states);
+  steady.evaluations = motion.evaluations();
+  return steady;
+}
+
+}  // namespace rotor_stator

@@ -1,0 +1,43 @@
+/**
+# Steady state by time integration, and whether it is periodic
+
+Transients decay in seconds, not in periods, so they are counted in seconds. The motion is
+looked at once per period T (a Poincaré section); its spread is the largest distance
+between the section points of the last `window` seconds, over the largest displacement of
+the orbit. Integration ends when the spread falls below `settled`, or after `longest`
+seconds; the motion is then called periodic if the spread is below `periodic`, aperiodic
+(with period T) otherwise, and the periods that a scene shows are recorded from there on.
+*/
+#pragma once
+
+#include <vector>
+
+#include "integration/time_stepper.hpp"
+
+namespace rotor_stator
+{
+
+struct SteadySettings {
+  StepperSettings stepper;
+  double settled = 1e-9;   ///< spread at which integration ends [-]
+  double periodic = 1e-6;  ///< spread below which the motion is called periodic [-]
+  double window = 1.0;     ///< [s], at least four periods
+  double longest = 20.0;   ///< [s]
+  int shown_periods = 1;   ///< periods of the motion that are returned
+};
+
+struct SteadyState {
+  std::vector<State> states;  ///< P per period, `shown_periods` periods, from phase 0
+  long first_period;          ///< periods since t = 0 at states[0], for the cage's angle
+  double spread;              ///< Poincaré spread [-]
+  bool periodic;
+  double seconds;    ///< integrated time [s]
+  long evaluations;  ///< of Eq. 7
+};
+
+/** Integrates from `start` at t = 0. Throws NoSolution when the integration breaks down.
+ */
+SteadyState steady_state(const Parameters& parameters, double omega, const State& start,
+                         const SteadySettings& settings);
+
+}  // namespace rotor_stator

@@ -1,0 +1,50 @@
+/**
+# One interface for all time integrators
+
+Time is counted in output intervals: each period T = 2π/ω is cut into P of them, and a
+stepper advances a state over whole intervals, in as many steps of its own as it needs. */
+#pragma once
+
+#include <functional>
+#include <string>
+#include <vector>
+
+#include "model/rotor_stator.hpp"
+
+namespace rotor_stator
+{
+
+struct StepperSettings {
+  std::string method = "rk8pd";   ///< "rk4" (fixed step) or one of GSL's
+  int intervals_per_period = 64;  ///< P
+  double step = 0;                ///< rk4: longest step [s]; 0 chooses `default_step`
+  double tolerance =
+      1e-10;  ///< GSL: local error per step, over the size of each component
+};
+
+/** A stepper bound to one machine at one speed. */
+struct TimeStepper {
+  /** Advances `state` from the start of output interval `interval` (counted from t = 0)
+     to its end. Throws NoSolution when the step size underflows or the state is no longer
+     finite. */
+  std::function<void(long interval, State& state)> advance;
+
+  /** Evaluations of Eq. 7 so far. */
+  std::function<long()> evaluations;
+};
+
+/** Throws BadInput for a method that is neither a time method nor "aft", naming the known
+ * ones. */
+void require_method(const std::string& method);
+
+TimeStepper make_stepper(const Parameters& parameters, double omega,
+                         const StepperSettings& settings);
+
+/** "rk4" and GSL's explicit, multistep and implicit methods. */
+const std::vector<std::string>& time_methods();
+
+/** A step [s] that gives the contact mode about 40 steps per period: RK4 is stable up
+   to 2.8/ω and accurate well below it. */
+double default_step(const Parameters& parameters);
+
+}  // namespace rotor_stator

@@ -1,0 +1,104 @@
+/**
+# The ball bearing (Eqs 3 to 6)
+
+Ball j stands at θ_j = ω_cage t + 2π(j-1)/n (Eq. 3). It is squeezed by
+
+$$\Delta_j = \cos\theta_j\,(x_r - x_s) + \sin\theta_j\,(y_r - y_s), \tag{4}$$
+
+the approach of the rotor (inner ring) to it; the paper prints the opposite order, which
+would be a negative stiffness (D-01). Its force Q_j (Eq. 5) is summed over the balls (Eq.
+6):
+
+$$F = \sum_j Q_j\,(\cos\theta_j, \sin\theta_j), \tag{6}$$
+
+acting as +F on the stator and -F on the rotor. Only the relative motion u = (x_r - x_s,
+y_r - y_s) enters.
+
+In the frame that turns with the cage the directions of the balls are constants. The
+relative motion is turned into that frame, the balls are summed, and the force is turned
+back: one sine and one cosine of the cage angle serve all balls. */
+#pragma once
+
+#include <array>
+#include <cmath>
+#include <vector>
+
+#include "model/hertz.hpp"
+#include "model/parameters.hpp"
+
+namespace rotor_stator
+{
+
+/** A vector of the x-y plane. */
+struct Vec2 {
+  double x, y;
+};
+
+/** A direction, by its cosine and sine. */
+struct Direction {
+  double cos, sin;
+  static Direction of(double angle) { return {std::cos(angle), std::sin(angle)}; }
+};
+
+/** `v` seen from the frame turned by `d`. */
+inline Vec2 into_frame(Direction d, Vec2 v)
+{
+  return {d.cos * v.x + d.sin * v.y, d.cos * v.y - d.sin * v.x};
+}
+
+/** The inverse of `into_frame`. */
+inline Vec2 out_of_frame(Direction d, Vec2 v)
+{
+  return {d.cos * v.x - d.sin * v.y, d.sin * v.x + d.cos * v.y};
+}
+
+/** ∂F/∂u [N/m], symmetric. */
+struct Stiffness2 {
+  double xx, xy, yy;
+};
+
+/** Force on the stator [N] and its derivative with respect to u [N/m]. */
+struct BearingReaction {
+  Vec2 force;
+  Stiffness2 stiffness;
+};
+
+/** The bearing with its constant ball directions in the cage frame. */
+class BallBearing
+{
+public:
+  explicit BallBearing(const Bearing& bearing);
+
+  /** Eq. 6: force [N] on the stator for the relative displacement u [m], with the cage
+     (ball 1) turned to `cage`. */
+  Vec2 force(Direction cage, Vec2 u) const
+  {
+    if (u.x * u.x + u.y * u.y <= clearance_squared_) return {0, 0};
+    const Vec2 v = into_frame(cage, u);
+    Vec2 sum{0, 0};
+    for (const Direction& ball : balls_) {
+      const double p = ball.cos * v.x + ball.sin * v.y - clearance_;
+      if (p <= 0) continue;
+      const double q = p * std::sqrt(p);
+      sum.x += q * ball.cos;
+      sum.y += q * ball.sin;
+    }
+    return out_of_frame(cage, {contact_stiffness_ * sum.x, contact_stiffness_ * sum.y});
+  }
+
+  /** The same with ∂F/∂u. */
+  BearingReaction reaction(Direction cage, Vec2 u) const;
+
+  /** Eq. 5: the force Q_j [N] of each ball, j = 1…n in order. */
+  void ball_forces(Direction cage, Vec2 u, std::vector<double>& q) const;
+
+  const std::vector<Direction>& balls() const { return balls_; }
+
+private:
+  std::vector<Direction> balls_;  ///< at cage angle 0
+  double contact_stiffness_;
+  double clearance_;
+  double clearance_squared_;
+};
+
+}  // namespace rotor_stator

@@ -1,0 +1,55 @@
+/**
+# Parameters of the rotor, the stator and their bearing
+
+One TOML file describes one machine, in SI units named in each key. Every key is required
+unless said otherwise, an unknown key is an error, and every value is checked when it is
+read, so that the programs below never meet a machine that cannot exist. */
+#pragma once
+
+#include <string>
+
+namespace rotor_stator
+{
+
+/** A body on its own suspension, the same in x and y. */
+struct Body {
+  double mass;               ///< m [kg]
+  double natural_frequency;  ///< ω₀ [rad/s], the body alone
+  double damping_ratio;      ///< ξ [-]
+
+  double stiffness() const { return mass * natural_frequency * natural_frequency; }
+  double damping() const { return 2 * damping_ratio * mass * natural_frequency; }
+};
+
+/** The ball bearing between them. */
+struct Bearing {
+  int balls;                 ///< n
+  double contact_stiffness;  ///< K_H [N/m^{3/2}]
+  double clearance;          ///< δ [m], radial
+  double cage_speed_ratio;   ///< c = ω_cage/ω [-]
+  double radius_ratio;       ///< R_b/(R_b + R) [-]; 0 when only c was given
+};
+
+/** One machine. */
+struct Parameters {
+  std::string file;   ///< where it was read from
+  std::string title;  ///< one line for headers and legends
+  Body stator;
+  Body rotor;
+  double unbalance;  ///< m_e e [kg m], on the rotor
+  Bearing bearing;
+  double gravity;  ///< g [m/s²], along -y
+};
+
+/** Reads and checks a parameter file. Throws BadInput with file, line and key. */
+Parameters read_parameters(const std::string& file);
+
+/** Eq. 3: c = ω_cage/ω = ½(1 - R_b/(R_b + R)) from the radii of ball and inner race. */
+double cage_speed_ratio(double ball_radius, double inner_race_radius);
+
+/** Ball passages through a fixed direction per turn, n·c. The bearing's force has the
+   period T = 2π/ω only when this is a whole number (D-11). */
+double passages_per_turn(const Bearing& bearing);
+bool has_rotation_period(const Bearing& bearing);
+
+}  // namespace rotor_stator

@@ -1,0 +1,103 @@
+#include "model/rotor_stator.hpp"
+
+#include <cmath>
+#include <numbers>
+
+namespace rotor_stator
+{
+
+RotorStator::RotorStator(const Parameters& parameters, double omega)
+    : bearing_(parameters.bearing),
+      omega_(omega),
+      cage_ratio_(parameters.bearing.cage_speed_ratio),
+      unbalance_(parameters.unbalance * omega * omega),
+      gravity_(parameters.gravity),
+      k_s_(parameters.stator.stiffness()),
+      c_s_(parameters.stator.damping()),
+      per_m_s_(1 / parameters.stator.mass),
+      k_r_(parameters.rotor.stiffness()),
+      c_r_(parameters.rotor.damping()),
+      per_m_r_(1 / parameters.rotor.mass)
+{
+}
+
+double RotorStator::period() const
+{
+  return 2 * std::numbers::pi / omega_;
+}
+
+DynamicStiffness dynamic_stiffness(const Body& body, double frequency)
+{
+  return {.value = {body.stiffness() - body.mass * frequency * frequency,
+                    body.damping() * frequency},
+          .slope = {-2 * body.mass * frequency, body.damping()}};
+}
+
+double joint_resonance(const Parameters& parameters)
+{
+  return std::sqrt((parameters.stator.stiffness() + parameters.rotor.stiffness()) /
+                   (parameters.stator.mass + parameters.rotor.mass));
+}
+
+Scales scales(const Parameters& parameters)
+{
+  const double weight =
+      (parameters.stator.mass + parameters.rotor.mass) * parameters.gravity;
+  const double resonance = joint_resonance(parameters);
+  const double unbalance = parameters.unbalance * resonance * resonance;
+  const double k_h = parameters.bearing.contact_stiffness;
+
+  /** Without any load the answer is u = 0 and a nanometre of penetration stands for its
+   * size. */
+  const double load = std::max(weight + unbalance, hertz_force(k_h, 1e-9));
+  const double penetration = hertz_penetration(k_h, load);
+  return {.load = load,
+          .penetration = penetration,
+          .length = parameters.bearing.clearance + penetration,
+          .stiffness = hertz_stiffness(k_h, penetration)};
+}
+
+Vec2 rigid_joint_force(const Parameters& parameters, double omega, double phase)
+{
+  const double k_s = parameters.stator.stiffness(), k_r = parameters.rotor.stiffness();
+  const double weight_s = parameters.stator.mass * parameters.gravity;
+  const double weight_r = parameters.rotor.mass * parameters.gravity;
+  const double gravity = (k_r * weight_s - k_s * weight_r) / (k_s + k_r);
+
+  const auto z_s = dynamic_stiffness(parameters.stator, omega).value;
+  const auto z_r = dynamic_stiffness(parameters.rotor, omega).value;
+  const auto whirl =
+      z_s * parameters.unbalance * omega * omega / (z_s + z_r) * std::polar(1.0, phase);
+  return {whirl.real(), gravity + whirl.imag()};
+}
+
+Vec2 free_displacement(const Parameters& parameters, double omega, double phase)
+{
+  const auto sag = [&](const Body& body) {
+    return parameters.gravity / (body.natural_frequency * body.natural_frequency);
+  };
+  const auto whirl = parameters.unbalance * omega * omega /
+                     dynamic_stiffness(parameters.rotor, omega).value *
+                     std::polar(1.0, phase);
+  return {whirl.real(), sag(parameters.stator) - sag(parameters.rotor) + whirl.imag()};
+}
+
+Vec2 quasi_static_contact(const Parameters& parameters, Vec2 force)
+{
+  const double size = std::hypot(force.x, force.y);
+  if (size == 0) return {0, 0};
+  const double reach = parameters.bearing.clearance +
+                       hertz_penetration(parameters.bearing.contact_stiffness, size);
+  return {reach * force.x / size, reach * force.y / size};
+}
+
+State static_start(const Parameters& parameters)
+{
+  const Vec2 force = rigid_joint_force(parameters, 0, 0);
+  const Vec2 u = quasi_static_contact(parameters, force);
+  const double y_s = (force.y - parameters.stator.mass * parameters.gravity) /
+                     parameters.stator.stiffness();
+  return {.position = {.stator = {0, y_s}, .rotor = {u.x, y_s + u.y}}, .velocity = {}};
+}
+
+}  // namespace rotor_stator

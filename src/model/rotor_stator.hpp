@@ -1,0 +1,110 @@
+/**
+# Rotor and stator (Eq. 7)
+
+$$\begin{aligned}
+m_s \ddot{x}_s + c_s \dot{x}_s + k_s x_s &= F_x \\
+m_s \ddot{y}_s + c_s \dot{y}_s + k_s y_s &= F_y - m_s g \\
+m_r \ddot{x}_r + c_r \dot{x}_r + k_r x_r &= -F_x + m_e e\,\omega^2 \cos\omega t \\
+m_r \ddot{y}_r + c_r \dot{y}_r + k_r y_r &= -F_y + m_e e\,\omega^2 \sin\omega t - m_r g
+\end{aligned} \tag{7}$$
+
+Each body is linear on its own suspension; the bearing's force F(u, t) is all that joins
+them. */
+#pragma once
+
+#include <array>
+#include <complex>
+
+#include "model/ball_bearing.hpp"
+#include "model/parameters.hpp"
+
+namespace rotor_stator
+{
+
+/** Displacements of both bodies [m], or their speeds [m/s]. */
+struct Bodies {
+  Vec2 stator, rotor;
+
+  Vec2 relative() const { return {rotor.x - stator.x, rotor.y - stator.y}; }
+};
+
+/** Displacements [m] and speeds [m/s]. */
+struct State {
+  Bodies position, velocity;
+};
+
+/** Eq. 7 at one rotor speed: everything that does not change along a motion. */
+class RotorStator
+{
+public:
+  /** `omega` is the rotor's speed ω [rad/s]. */
+  RotorStator(const Parameters& parameters, double omega);
+
+  /** Accelerations [m/s²] for the rotor's angle ωt = `rotor` and the cage's angle `cage`.
+   */
+  Bodies acceleration(const State& state, Direction rotor, Direction cage) const
+  {
+    const Vec2 f = bearing_.force(cage, state.position.relative());
+    const Bodies& q = state.position;
+    const Bodies& v = state.velocity;
+    return {
+        {(f.x - c_s_ * v.stator.x - k_s_ * q.stator.x) * per_m_s_,
+         (f.y - c_s_ * v.stator.y - k_s_ * q.stator.y) * per_m_s_ - gravity_},
+        {(unbalance_ * rotor.cos - f.x - c_r_ * v.rotor.x - k_r_ * q.rotor.x) * per_m_r_,
+         (unbalance_ * rotor.sin - f.y - c_r_ * v.rotor.y - k_r_ * q.rotor.y) * per_m_r_ -
+             gravity_}};
+  }
+
+  double omega() const { return omega_; }
+  double period() const;
+  Direction rotor_direction(double phase) const { return Direction::of(phase); }
+  Direction cage_direction(double phase) const
+  {
+    return Direction::of(cage_ratio_ * phase);
+  }
+  const BallBearing& bearing() const { return bearing_; }
+
+private:
+  BallBearing bearing_;
+  double omega_, cage_ratio_, unbalance_, gravity_;
+  double k_s_, c_s_, per_m_s_, k_r_, c_r_, per_m_r_;
+};
+
+/** Dynamic stiffness Z(Ω) = K - mΩ² + i c Ω of a body alone [N/m], and dZ/dΩ. */
+struct DynamicStiffness {
+  std::complex<double> value, slope;
+};
+DynamicStiffness dynamic_stiffness(const Body& body, double frequency);
+
+/** Sizes that make the equations dimensionless. */
+struct Scales {
+  double load;  ///< weight of both bodies plus the unbalance at the joint resonance [N]
+  double penetration;  ///< of one ball under that load [m]
+  double length;       ///< clearance plus penetration: the size of u [m]
+  double stiffness;    ///< of one ball under that load [N/m]
+};
+Scales scales(const Parameters& parameters);
+
+/** Resonance [rad/s] of rotor and stator moving as one body on both suspensions. */
+double joint_resonance(const Parameters& parameters);
+
+/** The bearing's force [N] that would keep u = 0 at the rotor's angle `phase` [rad] in
+   the steady state at speed ω: F = (Z_s f_r - Z_r f_s)/(Z_s + Z_r) for gravity and for
+   the unbalance. */
+Vec2 rigid_joint_force(const Parameters& parameters, double omega, double phase);
+
+/** The relative displacement [m] of both bodies without any contact, u = G_r f_r - G_s
+   f_s, at the rotor's angle `phase` [rad]; infinite where the undamped rotor resonates.
+ */
+Vec2 free_displacement(const Parameters& parameters, double omega, double phase);
+
+/** The relative displacement [m] that the bearing needs to answer with `force`, all of it
+   on one ball: along the force, by the clearance plus the Hertz penetration. A start for
+   iterations. */
+Vec2 quasi_static_contact(const Parameters& parameters, Vec2 force);
+
+/** A state at rest with the bearing carrying the static load: where time integration
+ * starts. */
+State static_start(const Parameters& parameters);
+
+}  // namespace rotor_stator

@@ -1,0 +1,207 @@
+#include "output/explore_tables.hpp"
+
+#include <cmath>
+#include <numbers>
+
+#include "balance/bearing_problem.hpp"
+#include "continuation/arc_length.hpp"
+#include "model/errors.hpp"
+#include "scenes/contact.hpp"
+#include "scenes/motion.hpp"
+#include "scenes/response.hpp"
+
+namespace rotor_stator
+{
+
+namespace
+{
+
+void require_positive(const char* option, double value)
+{
+  if (!(std::isfinite(value) && value > 0))
+    throw BadInput(text("%s %g: must be a finite number > 0", option, value));
+}
+
+void require_range(const char* option, int value, int least, int most)
+{
+  if (value < least || value > most)
+    throw BadInput(text("%s %d: must be in %d...%d", option, value, least, most));
+}
+
+/** N as asked for, or the default for m; both checked. */
+int checked_samples(int harmonics, const std::optional<int>& samples)
+{
+  require_range("--harmonics", harmonics, 1, 4096);
+  if (samples) require_range("--samples", *samples, 2 * harmonics + 1, 1 << 20);
+  return samples.value_or(default_samples(harmonics));
+}
+
+SteadySettings steady_settings(const MotionRequest& request, int shown_periods)
+{
+  SteadySettings settings;
+  settings.stepper = {.method = request.method,
+                      .intervals_per_period = request.points,
+                      .step = request.step.value_or(0),
+                      .tolerance = request.local_error};
+  settings.longest = request.longest;
+  settings.shown_periods = shown_periods;
+  return settings;
+}
+
+void check(const MotionRequest& request)
+{
+  require_positive("--frequency", request.frequency);
+  require_range("--points", request.points, 1, 1 << 16);
+  require_positive("--tolerance", request.tolerance);
+  require_positive("--local-error", request.local_error);
+  require_positive("--longest", request.longest);
+  if (request.step) require_positive("--step", *request.step);
+  require_method(request.method);
+}
+
+Motion balance_motion(const Parameters& parameters, const MotionRequest& request,
+                      int samples, Table& table)
+{
+  const PeriodicSolution solution =
+      find_periodic(parameters, angular(request.frequency), request.harmonics, samples,
+                    {.tolerance = request.tolerance});
+  if (!solution.found())
+    throw NoSolution(text("%s: no solution with %d harmonics at %g Hz: %s",
+                          parameters.file.c_str(), request.harmonics, request.frequency,
+                          solution.newton.reason().c_str()));
+  table.note(text("method: aft, m = %d, N = %d, relative tolerance %g", request.harmonics,
+                  samples, request.tolerance));
+  table.note("newton: from " + solution.start + ", " + solution.newton.reason());
+  table.note("regime: periodic");
+  return motion_of(solution, request.points);
+}
+
+Motion integrated_motion(const Parameters& parameters, const MotionRequest& request,
+                         int periods, Table& table)
+{
+  const SteadyState steady =
+      steady_state(parameters, angular(request.frequency), static_start(parameters),
+                   steady_settings(request, periods));
+  table.note(text("method: %s, %g s from rest, %ld evaluations of Eq. 7",
+                  request.method.c_str(), steady.seconds, steady.evaluations));
+  table.note(text("Poincare spread: %.3g", steady.spread));
+  table.note(steady.periodic ? "regime: periodic" : "regime: aperiodic");
+  return motion_of(steady, request.points);
+}
+
+Motion requested_motion(const Parameters& parameters, const MotionRequest& request,
+                        int periods, Table& table)
+{
+  check(request);
+  const int samples = checked_samples(request.harmonics, request.samples);
+  table.describe(parameters);
+  table.note(text("frequency: %.15g Hz", request.frequency));
+  return request.method == "aft" ? balance_motion(parameters, request, samples, table)
+                                 : integrated_motion(parameters, request, periods, table);
+}
+
+}  // namespace
+
+Exploration explore_orbit(const MotionRequest& request)
+{
+  Table table("Orbit of rotor and stator over one period",
+              {{"phase", "rad", "omega t, modulo 2 pi"},
+               {"x_s", "m", "stator"},
+               {"y_s", "m", "stator"},
+               {"x_r", "m", "rotor"},
+               {"y_r", "m", "rotor"},
+               {"F_x", "N", "Eq. 6, on the stator"},
+               {"F_y", "N", "Eq. 6, on the stator"}});
+  const Parameters parameters = read_parameters(request.parameter_file);
+  const Motion motion = requested_motion(parameters, request, 1, table);
+  const auto forces = bearing_forces(parameters, motion);
+  for (std::size_t k = 0; k < motion.size(); ++k) {
+    const Bodies& q = motion.positions[k];
+    table.row({2 * std::numbers::pi * motion.t_over_period(k), q.stator.x, q.stator.y,
+               q.rotor.x, q.rotor.y, forces[k].x, forces[k].y});
+  }
+  return {std::move(table), ""};
+}
+
+Exploration explore_contact(const MotionRequest& request)
+{
+  Table table("Contact of every ball over two periods",
+              {{"t_over_T", "-", "time over the period, 0 to 2"},
+               {"ball", "-", "j of Eq. 3"},
+               {"Q", "N", "Eq. 5, force of the ball"}});
+  const Parameters parameters = read_parameters(request.parameter_file);
+  const Motion motion = requested_motion(parameters, request, 2, table);
+  const ContactEvolution evolution = contact_evolution(parameters, motion);
+  for (std::size_t k = 0; k < evolution.t_over_period.size(); ++k)
+    for (std::size_t j = 0; j < evolution.ball_force[k].size(); ++j)
+      table.row({evolution.t_over_period[k], j + 1, evolution.ball_force[k][j]});
+  return {std::move(table), ""};
+}
+
+namespace
+{
+
+void check(const ResponseRequest& request)
+{
+  require_positive("--from", request.from);
+  require_positive("--to", request.to);
+  if (request.from >= request.to)
+    throw BadInput(text("--from %g: must be below --to %g", request.from, request.to));
+  require_positive("--tolerance", request.tolerance);
+}
+
+/** Follows the branch from a solution at `--from`, one row of `table` per point. */
+Branch tabulated_branch(const Parameters& parameters, const ResponseRequest& request,
+                        int samples, Table& table)
+{
+  const NewtonSettings newton{.tolerance = request.tolerance};
+  const PeriodicSolution start = find_periodic(parameters, angular(request.from),
+                                               request.harmonics, samples, newton);
+  if (!start.found())
+    throw NoSolution(text("%s: no solution with %d harmonics at --from %g Hz: %s",
+                          parameters.file.c_str(), request.harmonics, request.from,
+                          start.newton.reason().c_str()));
+  Balance balance(bearing_problem(parameters, samples), request.harmonics);
+  const SweepSettings scaling = sweep_settings(parameters);
+  return follow_branch(
+      balance, angular(request.from), angular(request.to), start.x,
+      {.newton = newton,
+       .speed_scale = scaling.speed_scale,
+       .arc_unknown_scale = scaling.arc_unknown_scale},
+      [&](const BranchPoint& point) {
+        const Eigen::VectorXd amplitude =
+            half_peak_to_peak(body_series(parameters, balance, point.omega, point.x));
+        table.row({point.omega / angular(1), amplitude[0], amplitude[1], amplitude[2],
+                   amplitude[3], point.arc, point.newton.iterations});
+      });
+}
+
+}  // namespace
+
+Exploration explore_response(const ResponseRequest& request)
+{
+  Table table("Frequency response along the branch",
+              {{"f", "Hz", "speed of rotation"},
+               {"amp_x_s", "m", "half peak-to-peak of x_s"},
+               {"amp_y_s", "m", "half peak-to-peak of y_s"},
+               {"amp_x_r", "m", "half peak-to-peak of x_r"},
+               {"amp_y_r", "m", "half peak-to-peak of y_r"},
+               {"arc", "-", "scaled arc length from the first point"},
+               {"newton", "-", "Newton iterations of the corrector"}});
+  const Parameters parameters = read_parameters(request.parameter_file);
+  check(request);
+  const int samples = checked_samples(request.harmonics, request.samples);
+  const Branch branch = tabulated_branch(parameters, request, samples, table);
+  table.describe(parameters);
+  table.note(text("method: aft, m = %d, N = %d, relative tolerance %g, pseudo-arc-length",
+                  request.harmonics, samples, request.tolerance));
+  table.note(text("folds: %zu", branch.folds.size()));
+  table.note("ended: " + branch.end);
+  if (branch.covered) return {std::move(table), ""};
+  return {std::move(table),
+          text("%s: the branch stopped at %g Hz, before --to %g Hz: %s",
+               parameters.file.c_str(), branch.points.back().omega / angular(1),
+               request.to, branch.end.c_str())};
+}
+
+}  // namespace rotor_stator

@@ -1,0 +1,48 @@
+/**
+# The tables of explore
+
+What a follow-up study asks for, checked, computed and written as a table. */
+#pragma once
+
+#include <optional>
+#include <string>
+
+#include "output/table.hpp"
+
+namespace rotor_stator
+{
+
+/** One motion at one speed. */
+struct MotionRequest {
+  std::string parameter_file;
+  double frequency = 0;        ///< [Hz]
+  std::string method = "aft";  ///< or a time method
+  int harmonics = 6;           ///< m
+  std::optional<int> samples;  ///< N
+  int points = 256;            ///< P
+  double tolerance = 1e-10;    ///< Newton, relative
+  double local_error = 1e-11;  ///< GSL's methods, relative
+  std::optional<double> step;  ///< rk4 [s]
+  double longest = 30;         ///< transient at most [s]
+};
+
+/** One branch over a range of speeds. */
+struct ResponseRequest {
+  std::string parameter_file;
+  double from = 0, to = 0;  ///< [Hz]
+  int harmonics = 6;
+  std::optional<int> samples;
+  double tolerance = 1e-10;
+};
+
+struct Exploration {
+  Table table;
+  std::string unfinished;  ///< why a branch stopped early; empty when it did not
+};
+
+/** Throw BadInput for options out of range, NoSolution when nothing was found. */
+Exploration explore_orbit(const MotionRequest& request);
+Exploration explore_contact(const MotionRequest& request);
+Exploration explore_response(const ResponseRequest& request);
+
+}  // namespace rotor_stator

@@ -1,0 +1,181 @@
+#include "scenes/motion.hpp"
+
+#include <algorithm>
+#include <bit>
+#include <cmath>
+#include <limits>
+#include <numbers>
+
+#include "balance/bearing_problem.hpp"
+
+namespace rotor_stator
+{
+
+namespace
+{
+
+std::array<double, 4> displacements(const Bodies& bodies)
+{
+  return std::bit_cast<std::array<double, 4>>(bodies);
+}
+
+/** The larger of two sizes, where what is not a number counts as infinite: a diverged
+   motion is infinitely wrong, not right. */
+double larger(double a, double b)
+{
+  return std::isfinite(b) ? std::max(a, b) : std::numeric_limits<double>::infinity();
+}
+
+/** A start for Newton, with its name. Empty when it could not be had. */
+struct Start {
+  std::string name;
+  std::function<Eigen::VectorXd()> coefficients;
+};
+
+/** The solution with half as many harmonics, found in the same way from quasi-static
+ * contact. */
+Eigen::VectorXd fewer_harmonics(const Parameters& parameters, double omega, int harmonics,
+                                const NewtonSettings& settings)
+{
+  const int fewer = harmonics / 2;
+  if (fewer < 3) return {};
+  Balance balance(bearing_problem(parameters, default_samples(fewer)), fewer);
+  Eigen::VectorXd x = quasi_static_start(parameters, omega, fewer);
+  if (!solve(balance, omega, x, settings).converged())
+    x = fewer_harmonics(parameters, omega, fewer, settings);
+  if (x.size() == 0) return x;
+  x = resize_harmonics(x, 2, fewer);
+  if (!solve(balance, omega, x, settings).converged()) return {};
+  return resize_harmonics(x, 2, harmonics);
+}
+
+/** The relative motion of one period after ten seconds of RK4, as coefficients. */
+Eigen::VectorXd integrated_period(const Parameters& parameters, double omega,
+                                  int harmonics)
+{
+  SteadySettings settings;
+  settings.stepper = {.method = "rk4",
+                      .intervals_per_period = default_samples(harmonics)};
+  settings.longest = 10;
+  const SteadyState steady =
+      steady_state(parameters, omega, static_start(parameters), settings);
+  Eigen::MatrixXd u(steady.states.size(), 2);
+  for (std::size_t k = 0; k < steady.states.size(); ++k) {
+    const Vec2 relative = steady.states[k].position.relative();
+    u.row(static_cast<Eigen::Index>(k)) << relative.x, relative.y;
+  }
+  Eigen::MatrixXd series(2, 2 * harmonics + 1);
+  FourierTransform(static_cast<int>(u.rows())).to_series(u, series);
+  return series.reshaped();
+}
+
+}  // namespace
+
+double Motion::phase(std::size_t k) const
+{
+  return 2 * std::numbers::pi * (static_cast<double>(first_period) + t_over_period(k));
+}
+
+PeriodicSolution find_periodic(const Parameters& parameters, double omega, int harmonics,
+                               int samples, const NewtonSettings& settings)
+{
+  Balance balance(bearing_problem(parameters, samples), harmonics);
+  PeriodicSolution solution{omega, harmonics, samples, {}, {}, {}, {}};
+  const Start starts[] = {
+      {"quasi-static contact",
+       [&] { return quasi_static_start(parameters, omega, harmonics); }},
+      {"fewer harmonics",
+       [&] { return fewer_harmonics(parameters, omega, harmonics, settings); }},
+      {"time integration",
+       [&] { return integrated_period(parameters, omega, harmonics); }}};
+  for (const Start& start : starts) {
+    Eigen::VectorXd x = start.coefficients();
+    if (x.size() == 0) continue;
+    solution.newton = solve(balance, omega, x, settings);
+    solution.start = start.name;
+    if (!solution.found()) continue;
+    solution.bodies = body_series(parameters, balance, omega, x);
+    solution.x = std::move(x);
+    break;
+  }
+  return solution;
+}
+
+Motion motion_of(const PeriodicSolution& solution, int points)
+{
+  const Eigen::MatrixXd samples = sample_series(solution.bodies, points);
+  Motion motion{points, 0, {}};
+  for (int k = 0; k < points; ++k)
+    motion.positions.push_back(
+        {{samples(k, 0), samples(k, 1)}, {samples(k, 2), samples(k, 3)}});
+  return motion;
+}
+
+Motion motion_of(const SteadyState& steady, int points_per_period)
+{
+  Motion motion{points_per_period, steady.first_period, {}};
+  for (const State& state : steady.states) motion.positions.push_back(state.position);
+  return motion;
+}
+
+std::vector<Vec2> bearing_forces(const Parameters& parameters, const Motion& motion)
+{
+  const BallBearing bearing(parameters.bearing);
+  std::vector<Vec2> forces;
+  for (std::size_t k = 0; k < motion.size(); ++k)
+    forces.push_back(bearing.force(
+        Direction::of(parameters.bearing.cage_speed_ratio * motion.phase(k)),
+        motion.positions[k].relative()));
+  return forces;
+}
+
+std::array<double, 4> half_peak_to_peak(const Motion& motion)
+{
+  std::array<double, 4> amplitude;
+  for (int i = 0; i < 4; ++i) {
+    const auto [low, high] =
+        std::minmax_element(motion.positions.begin(), motion.positions.end(),
+                            [i](const Bodies& a, const Bodies& b) {
+                              return displacements(a)[i] < displacements(b)[i];
+                            });
+    amplitude[i] = 0.5 * (displacements(*high)[i] - displacements(*low)[i]);
+  }
+  return amplitude;
+}
+
+double contact_share(const Parameters& parameters, const Motion& motion)
+{
+  const auto forces = bearing_forces(parameters, motion);
+  const auto loaded = std::count_if(forces.begin(), forces.end(),
+                                    [](Vec2 f) { return f.x != 0 || f.y != 0; });
+  return static_cast<double>(loaded) / static_cast<double>(forces.size());
+}
+
+double relative_difference(const Motion& motion, const Motion& reference)
+{
+  double difference = 0, size = 0;
+  for (int k = 0; k < reference.points_per_period; ++k) {
+    const auto a = displacements(motion.positions[k]);
+    const auto b = displacements(reference.positions[k]);
+    for (int i = 0; i < 4; ++i) {
+      difference = larger(difference, std::abs(a[i] - b[i]));
+      size = std::max(size, std::abs(b[i]));
+    }
+  }
+  return difference / size;
+}
+
+double relative_force_difference(const Parameters& parameters, const Motion& motion,
+                                 const Motion& reference)
+{
+  const auto a = bearing_forces(parameters, motion);
+  const auto b = bearing_forces(parameters, reference);
+  double difference = 0, size = 0;
+  for (int k = 0; k < reference.points_per_period; ++k) {
+    difference = larger(difference, std::hypot(a[k].x - b[k].x, a[k].y - b[k].y));
+    size = std::max(size, std::hypot(b[k].x, b[k].y));
+  }
+  return difference / size;
+}
+
+}  // namespace rotor_stator

@@ -1,0 +1,75 @@
+/**
+# Motions: what harmonic balance and time integration both give
+
+A motion is a row of bearing states at equal phases. Scenes draw from it and nothing else,
+so that the two methods meet in the same table. */
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "balance/newton.hpp"
+#include "integration/steady_state.hpp"
+
+namespace rotor_stator
+{
+
+/** P instants per period, over one or more periods, from phase 0. */
+struct Motion {
+  int points_per_period;
+  long first_period;  ///< periods since t = 0, for the cage's angle
+  std::vector<Bodies> positions;
+
+  std::size_t size() const { return positions.size(); }
+  double t_over_period(std::size_t k) const
+  {
+    return static_cast<double>(k) / points_per_period;
+  }
+
+  /** The rotor's angle ωt [rad], counted from t = 0. */
+  double phase(std::size_t k) const;
+};
+
+/** A periodic solution by harmonic balance. */
+struct PeriodicSolution {
+  double omega;            ///< [rad/s]
+  int harmonics;           ///< m
+  int samples;             ///< N
+  NewtonReport newton;     ///< `converged()` says whether there is a solution
+  std::string start;       ///< what Newton started from
+  Eigen::VectorXd x;       ///< coefficients of u [m]
+  Eigen::MatrixXd bodies;  ///< series of x_s, y_s, x_r, y_r [m], 4 × (2m+1)
+
+  bool found() const { return newton.converged(); }
+};
+
+/** Looks for the periodic solution at ω with m harmonics and N samples. Newton starts
+   from the quasi-static contact, then from a solution with fewer harmonics, then from one
+   period of time integration; the first that converges is kept. */
+PeriodicSolution find_periodic(const Parameters& parameters, double omega, int harmonics,
+                               int samples, const NewtonSettings& settings = {});
+
+/** `points` instants of one period of a solution. */
+Motion motion_of(const PeriodicSolution& solution, int points);
+
+/** The periods kept by a time integration. */
+Motion motion_of(const SteadyState& steady, int points_per_period);
+
+/** Eq. 6: the bearing's force [N] on the stator at each instant of a motion. */
+std::vector<Vec2> bearing_forces(const Parameters& parameters, const Motion& motion);
+
+/** Half peak-to-peak of x_s, y_s, x_r, y_r [m] over the instants of a motion. */
+std::array<double, 4> half_peak_to_peak(const Motion& motion);
+
+/** Share of the instants with at least one loaded ball [-]. */
+double contact_share(const Parameters& parameters, const Motion& motion);
+
+/** The largest difference over the four displacements, over the largest displacement of
+    `reference`, on the first period of both [-]; both have the same points per period. */
+double relative_difference(const Motion& motion, const Motion& reference);
+
+/** The same for the bearing's force: largest |F - F_ref| over the largest |F_ref| [-]. */
+double relative_force_difference(const Parameters& parameters, const Motion& motion,
+                                 const Motion& reference);
+
+}  // namespace rotor_stator

@@ -1,0 +1,43 @@
+/**
+# Scene: orbits and displacements (Figs 4, 5, 6 and 8)
+
+At each speed the periodic solution with the asked number of harmonics, and the motion
+that time integration settles on, from rest. Whether that motion is periodic decides which
+of the two a panel may show as the truth. */
+#pragma once
+
+#include <optional>
+
+#include "scenes/motion.hpp"
+#include "scenes/scene_file.hpp"
+
+namespace rotor_stator
+{
+
+/** One speed: both methods and their distance. */
+struct OrbitPanel {
+  double frequency;          ///< [Hz]
+  PeriodicSolution balance;  ///< may not have been found
+  SteadyState steady;
+  std::optional<Motion> balance_motion;
+  Motion steady_motion;
+  double difference;  ///< relative, balance against time integration; -1 without balance
+
+  bool shows_balance() const { return balance.found() && steady.periodic; }
+};
+
+struct OrbitScene {
+  std::string title;
+  Parameters parameters;
+  std::vector<double> frequencies;  ///< [Hz]
+  int harmonics;                    ///< m
+  int samples;                      ///< N
+  SteadySettings time_integration;
+};
+
+OrbitScene read_orbit_scene(const std::string& file, const std::string& reading);
+
+OrbitPanel compute_panel(const OrbitScene& scene, double frequency);
+std::vector<OrbitPanel> compute_panels(const OrbitScene& scene);
+
+}  // namespace rotor_stator

@@ -1,0 +1,133 @@
+#include "scenes/response.hpp"
+
+#include <algorithm>
+
+#include "balance/bearing_problem.hpp"
+#include "model/errors.hpp"
+#include "model/progress.hpp"
+
+namespace rotor_stator
+{
+
+ResponseScene read_response_scene(const std::string& file, const std::string& reading)
+{
+  SceneFile scene_file(file, reading);
+  StrictToml& toml = scene_file.toml();
+  ResponseScene scene{.sets = scene_file.parameter_list("parameters"),
+                      .harmonics = toml.integers("harmonics", 1, 4096),
+                      .balance_speeds = scene_file.speed_range("balance_hz"),
+                      .time_speeds = scene_file.speed_range("time_integration_hz"),
+                      .time_integration = scene_file.time_integration()};
+  if (scene.harmonics.size() != scene.sets.size())
+    toml.fail("harmonics", "must have one value for each of parameters");
+  toml.refuse_unknown_keys();
+  return scene;
+}
+
+SweepSettings sweep_settings(const Parameters& parameters)
+{
+  return {.newton = {},
+          .speed_scale = joint_resonance(parameters),
+          .arc_unknown_scale = scales(parameters).length};
+}
+
+namespace
+{
+
+/** What one data set adds to the figure. */
+class SetResponse
+{
+public:
+  SetResponse(const ResponseScene& scene, std::size_t set,
+              std::vector<ResponsePoint>& points)
+      : scene_(scene),
+        parameters_(scene.sets[set]),
+        number_(static_cast<int>(set) + 1),
+        harmonics_(scene.harmonics[set]),
+        points_(points)
+  {
+  }
+
+  void add_sweep(Curve curve)
+  {
+    std::vector<double> omegas;
+    for (double frequency : scene_.balance_speeds) omegas.push_back(angular(frequency));
+    if (curve == Curve::speed_down) std::reverse(omegas.begin(), omegas.end());
+    Balance balance(bearing_problem(parameters_, default_samples(harmonics_)),
+                    harmonics_);
+    std::vector<PeriodicSolution> solutions;
+    const auto points = sweep(
+        balance, omegas,
+        [&](double omega) { return quasi_static_start(parameters_, omega, harmonics_); },
+        sweep_settings(parameters_),
+        [&](const SweepPoint& point) {
+          PeriodicSolution solution{};
+          solution.bodies = body_series(parameters_, balance, point.omega, point.x);
+          solutions.push_back(std::move(solution));
+        });
+    int segment = 1;
+    std::size_t solution = 0;
+    for (std::size_t k = 0; k < points.size(); ++k) {
+      if (!points[k].found()) {
+        if (k > 0 && points[k - 1].found()) ++segment;
+        continue;
+      }
+      add_solution(curve, segment, points[k], solutions[solution++].bodies);
+    }
+  }
+
+  void add_time_integration(Progress& progress)
+  {
+    const int points = scene_.time_integration.stepper.intervals_per_period;
+    for (double frequency : scene_.time_speeds) {
+      const SteadyState steady =
+          steady_state(parameters_, angular(frequency), static_start(parameters_),
+                       scene_.time_integration);
+      const Motion motion = motion_of(steady, points);
+      points_.push_back({number_, Curve::time_integration, 1, frequency,
+                         half_peak_to_peak(motion), contact_share(parameters_, motion), 0,
+                         steady.spread, steady.periodic});
+      progress.step();
+    }
+  }
+
+private:
+  void add_solution(Curve curve, int segment, const SweepPoint& point,
+                    const Eigen::MatrixXd& bodies)
+  {
+    PeriodicSolution solution{};
+    solution.bodies = bodies;
+    const Eigen::VectorXd amplitude = half_peak_to_peak(bodies);
+    points_.push_back({number_,
+                       curve,
+                       segment,
+                       point.omega / angular(1),
+                       {amplitude[0], amplitude[1], amplitude[2], amplitude[3]},
+                       contact_share(parameters_, motion_of(solution, 256)),
+                       point.newton.iterations,
+                       0,
+                       true});
+  }
+
+  const ResponseScene& scene_;
+  const Parameters& parameters_;
+  int number_, harmonics_;
+  std::vector<ResponsePoint>& points_;
+};
+
+}  // namespace
+
+std::vector<ResponsePoint> compute_response(const ResponseScene& scene)
+{
+  std::vector<ResponsePoint> points;
+  Progress progress("frequency response", scene.sets.size() * scene.time_speeds.size());
+  for (std::size_t set = 0; set < scene.sets.size(); ++set) {
+    SetResponse response(scene, set, points);
+    response.add_sweep(Curve::speed_up);
+    response.add_sweep(Curve::speed_down);
+    response.add_time_integration(progress);
+  }
+  return points;
+}
+
+}  // namespace rotor_stator

@@ -1,0 +1,64 @@
+#include "scenes/timed_sweeps.hpp"
+
+#include <cmath>
+
+#include "balance/bearing_problem.hpp"
+#include "integration/rk4.hpp"
+#include "scenes/response.hpp"
+
+namespace rotor_stator
+{
+
+void BalanceSweep::run()
+{
+  std::vector<double> omegas;
+  for (double frequency : scene_.frequencies) omegas.push_back(angular(frequency));
+  Balance balance(bearing_problem(scene_.parameters, samples_), harmonics_);
+  series_.clear();
+  points_ = sweep(
+      balance, omegas,
+      [&](double omega) {
+        return quasi_static_start(scene_.parameters, omega, harmonics_);
+      },
+      sweep_settings(scene_.parameters),
+      [&](const SweepPoint& point) {
+        series_.push_back(body_series(scene_.parameters, balance, point.omega, point.x));
+      });
+  evaluations_ = balance.evaluations() * samples_;
+}
+
+Motions BalanceSweep::motions() const
+{
+  Motions motions;
+  std::size_t found = 0;
+  for (const SweepPoint& point : points_) {
+    motions.emplace_back();
+    if (!point.found()) continue;
+    PeriodicSolution solution{};
+    solution.bodies = series_[found++];
+    motions.back() = motion_of(solution, scene_.reference.stepper.intervals_per_period);
+  }
+  return motions;
+}
+
+void Rk4Sweep::run()
+{
+  const int points = scene_.reference.stepper.intervals_per_period;
+  State state = static_start(scene_.parameters);
+  motions_.clear();
+  evaluations_ = 0;
+  for (double frequency : scene_.frequencies) {
+    Rk4 rk4(scene_.parameters, angular(frequency), points, step_);
+    const long periods = std::lround(std::ceil(transient_ * frequency));
+    for (long k = 0; k < periods * points; ++k) rk4.advance(k, state);
+    Motion motion{points, periods, {}};
+    for (long k = 0; k < points; ++k) {
+      motion.positions.push_back(state.position);
+      rk4.advance(periods * points + k, state);
+    }
+    motions_.push_back(std::move(motion));
+    evaluations_ += rk4.evaluations();
+  }
+}
+
+}  // namespace rotor_stator

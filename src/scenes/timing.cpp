@@ -1,0 +1,198 @@
+#include "scenes/timing.hpp"
+
+#include <time.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "model/errors.hpp"
+#include "model/progress.hpp"
+#include "scenes/timed_sweeps.hpp"
+
+namespace rotor_stator
+{
+
+TimingScene read_timing_scene(const std::string& file, const std::string& reading)
+{
+  SceneFile scene_file(file, reading);
+  StrictToml& toml = scene_file.toml();
+  TimingScene scene{.parameters = scene_file.parameters("parameters"),
+                    .frequencies = scene_file.speed_range("speeds_hz"),
+                    .harmonics = toml.integers("harmonics", 1, 4096),
+                    .samples = toml.integers("samples", 3, 1 << 20),
+                    .paper_cpu = toml.numbers("paper_cpu", Range::positive),
+                    .rk4_steps = toml.numbers("rk4_steps_s", Range::positive),
+                    .rk4_transients = toml.numbers("rk4_transients_s", Range::positive),
+                    .repetitions = toml.integer("repetitions", 1, 1000),
+                    .reference = scene_file.time_integration()};
+  if (scene.samples.size() != scene.harmonics.size())
+    toml.fail("samples", "must have one value for each of harmonics");
+  for (std::size_t k = 0; k < scene.samples.size(); ++k)
+    if (scene.samples[k] < 2 * scene.harmonics[k] + 1)
+      toml.fail("samples", "must be at least 2m+1 each");
+  if (scene.paper_cpu.size() != scene.harmonics.size() + 1)
+    toml.fail("paper_cpu", "must have one value for each of harmonics and one for RK4");
+  toml.refuse_unknown_keys();
+  return scene;
+}
+
+namespace
+{
+
+double thread_cpu_seconds()
+{
+  timespec now;
+  clock_gettime(CLOCK_THREAD_CPUTIME_ID, &now);
+  return static_cast<double>(now.tv_sec) + 1e-9 * static_cast<double>(now.tv_nsec);
+}
+
+CpuTime time_of(int repetitions, const std::function<void()>& work)
+{
+  std::vector<double> seconds;
+  for (int k = 0; k < repetitions; ++k) {
+    const double start = thread_cpu_seconds();
+    work();
+    seconds.push_back(thread_cpu_seconds() - start);
+  }
+  std::sort(seconds.begin(), seconds.end());
+  return {seconds[seconds.size() / 2], seconds.front(), seconds.back()};
+}
+
+/** The true motions, none where they are not T-periodic. */
+struct Reference {
+  Motions motions;
+  std::vector<double> aperiodic;
+  double spread = 0;
+};
+
+Reference compute_reference(const TimingScene& scene)
+{
+  Reference reference;
+  Progress progress("reference", scene.frequencies.size());
+  for (double frequency : scene.frequencies) {
+    const SteadyState steady =
+        steady_state(scene.parameters, angular(frequency), static_start(scene.parameters),
+                     scene.reference);
+    reference.motions.emplace_back();
+    if (steady.periodic) {
+      reference.motions.back() =
+          motion_of(steady, scene.reference.stepper.intervals_per_period);
+      reference.spread = std::max(reference.spread, steady.spread);
+    } else {
+      reference.aperiodic.push_back(frequency);
+    }
+    progress.step();
+  }
+  return reference;
+}
+
+struct Error {
+  double displacement = 0, force = 0, worst_frequency = 0;
+};
+
+/** Largest errors over the periodic speeds. */
+Error error_of(const TimingScene& scene, const Motions& motions,
+               const Reference& reference)
+{
+  Error error;
+  for (std::size_t k = 0; k < scene.frequencies.size(); ++k) {
+    if (!reference.motions[k]) continue;
+    if (!motions[k])
+      throw NoSolution(
+          text("no harmonic-balance solution at %g Hz", scene.frequencies[k]));
+    const double difference = relative_difference(*motions[k], *reference.motions[k]);
+    if (difference > error.displacement) {
+      error.displacement = difference;
+      error.worst_frequency = scene.frequencies[k];
+    }
+    error.force = std::max(
+        error.force,
+        relative_force_difference(scene.parameters, *motions[k], *reference.motions[k]));
+  }
+  return error;
+}
+
+/** An RK4 setting with what it costs and what it reaches. */
+struct Rk4Trial {
+  double step, transient;  ///< [s]
+  long evaluations;
+  Error error;
+};
+
+/** All settings of the scene, cheapest first. A step beyond RK4's stability ends in an
+   infinite error. */
+std::vector<Rk4Trial> try_rk4(const TimingScene& scene, const Reference& reference)
+{
+  std::vector<Rk4Trial> trials;
+  Progress progress("RK4 settings", scene.rk4_steps.size() * scene.rk4_transients.size());
+  for (double step : scene.rk4_steps)
+    for (double transient : scene.rk4_transients) {
+      Rk4Sweep sweep(scene, step, transient);
+      sweep.run();
+      trials.push_back({step, transient, sweep.evaluations(),
+                        error_of(scene, sweep.motions(), reference)});
+      progress.step();
+    }
+  std::stable_sort(
+      trials.begin(), trials.end(),
+      [](const Rk4Trial& a, const Rk4Trial& b) { return a.evaluations < b.evaluations; });
+  return trials;
+}
+
+TimedSweep time_rk4(const TimingScene& scene, const std::vector<Rk4Trial>& trials,
+                    const TimedSweep& aft)
+{
+  const auto chosen = std::find_if(
+      trials.begin(), trials.end(),
+      [&](const Rk4Trial& trial) { return trial.error.displacement <= aft.error; });
+  if (chosen == trials.end())
+    throw NoSolution(text("no tried RK4 setting reaches the error %.2g of %d harmonics",
+                          aft.error, aft.harmonics));
+  Rk4Sweep sweep(scene, chosen->step, chosen->transient);
+  const CpuTime cpu = time_of(scene.repetitions, [&] { sweep.run(); });
+  return {"rk4",
+          aft.harmonics,
+          0,
+          chosen->step,
+          chosen->transient,
+          cpu,
+          chosen->error.displacement,
+          chosen->error.force,
+          chosen->error.worst_frequency,
+          chosen->evaluations,
+          1,
+          scene.paper_cpu.back()};
+}
+
+}  // namespace
+
+TimingResult compute_timing(const TimingScene& scene)
+{
+  const Reference reference = compute_reference(scene);
+  const std::vector<Rk4Trial> trials = try_rk4(scene, reference);
+  TimingResult result{{}, reference.aperiodic, reference.spread};
+  for (std::size_t k = 0; k < scene.harmonics.size(); ++k) {
+    BalanceSweep balance(scene, scene.harmonics[k], scene.samples[k]);
+    const CpuTime cpu = time_of(scene.repetitions, [&] { balance.run(); });
+    const Error error = error_of(scene, balance.motions(), reference);
+    TimedSweep aft{"aft",
+                   scene.harmonics[k],
+                   scene.samples[k],
+                   0,
+                   0,
+                   cpu,
+                   error.displacement,
+                   error.force,
+                   error.worst_frequency,
+                   balance.evaluations(),
+                   1,
+                   scene.paper_cpu[k]};
+    const TimedSweep rk4 = time_rk4(scene, trials, aft);
+    aft.ratio = rk4.cpu.median / aft.cpu.median;
+    result.sweeps.push_back(std::move(aft));
+    result.sweeps.push_back(rk4);
+  }
+  return result;
+}
+
+}  // namespace rotor_stator

@@ -1,0 +1,67 @@
+/**
+# Scene: cost at equal error (the paper's CPU comparison, §3.3)
+
+The same sweep, at the same speeds, by harmonic balance with several m and by classical
+RK4. For each m RK4 runs at the cheapest step and transient whose largest displacement
+error over the sweep is not above that of harmonic balance: cheapest by its count of force
+evaluations, among the steps and transients of the scene file. RK4 goes from each speed to
+the next with the state it has; its first speed starts from the static load. Both are
+written with the same bearing and the same care.
+
+Errors are against time integration by rk8pd to its steady state, at the speeds where that
+is T-periodic; elsewhere there is no periodic motion to be right about, and those speeds
+are listed. */
+#pragma once
+
+#include "scenes/motion.hpp"
+#include "scenes/scene_file.hpp"
+
+namespace rotor_stator
+{
+
+struct TimingScene {
+  Parameters parameters;
+  std::vector<double> frequencies;  ///< [Hz]
+  std::vector<int> harmonics;       ///< m
+  std::vector<int> samples;         ///< N of each m
+  std::vector<double>
+      paper_cpu;  ///< printed for each m, and for RK4 last [CPU, unit not given]
+  std::vector<double> rk4_steps;       ///< [s], tried
+  std::vector<double> rk4_transients;  ///< [s], tried
+  int repetitions;
+  SteadySettings reference;
+};
+
+TimingScene read_timing_scene(const std::string& file, const std::string& reading);
+
+/** CPU seconds of one thread: median, least and most of the repetitions. */
+struct CpuTime {
+  double median, least, most;
+};
+
+/** One method on the whole sweep. */
+struct TimedSweep {
+  std::string method;  ///< "aft" or "rk4"
+  int harmonics;       ///< m; for rk4 that of the row whose error it reaches
+  int samples;         ///< N per period; 0 for rk4
+  double step;         ///< rk4 [s]
+  double transient;    ///< rk4 [s]
+  CpuTime cpu;
+  double error, error_force;  ///< largest over the periodic speeds [-]
+  double worst_frequency;     ///< where `error` is reached [Hz]
+  long evaluations;  ///< of the bearing's force (aft: instants of all iterations)
+  double ratio;      ///< CPU of the RK4 row of equal error over this row's
+  double paper_cpu;
+};
+
+struct TimingResult {
+  std::vector<TimedSweep> sweeps;
+  std::vector<double> aperiodic;  ///< speeds left out of the errors [Hz]
+  double reference_spread;  ///< largest Poincaré spread of the periodic references [-]
+};
+
+/** Throws NoSolution when harmonic balance fails at a periodic speed, or when no tried
+   RK4 setting reaches its error. */
+TimingResult compute_timing(const TimingScene& scene);
+
+}  // namespace rotor_stator

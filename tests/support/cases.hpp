@@ -1,0 +1,47 @@
+/**
+# Cases that others defined
+
+Small oscillators of public harmonic-balance tools (NLvib examples 01 to 03), set up
+through the seam of balance/problem.hpp. M q̈ + D q̇ + K q + f(q) = F cos Ωt. */
+#pragma once
+
+#include "balance/balance.hpp"
+#include "model/parameters.hpp"
+
+namespace rotor_stator::tests
+{
+
+/** A force on each mass from the masses' displacements, with its derivative (row i,
+ * column j). */
+struct LocalForce {
+  Eigen::VectorXd force;
+  Eigen::MatrixXd stiffness;
+};
+using ForceLaw = std::function<LocalForce(const Eigen::VectorXd& q)>;
+
+struct Oscillator {
+  Eigen::MatrixXd mass, damping, stiffness;
+  Eigen::VectorXd load;
+  ForceLaw law;
+
+  Problem problem(int samples) const;
+};
+
+Oscillator duffing();
+Oscillator two_masses_cubic();
+Oscillator two_masses_unilateral();
+
+/** The amplitude of harmonic `h` of variable `row` in the coefficients `x` with d
+ * variables. */
+double harmonic_amplitude(const Eigen::VectorXd& x, int dofs, int row, int h);
+
+/** Root mean square of variable `row`. */
+double rms(const Eigen::VectorXd& x, int dofs, int row);
+
+/** data/set1.toml. */
+Parameters set_1();
+
+/** 2π times a frequency. */
+double hertz(double frequency);
+
+}  // namespace rotor_stator::tests

@@ -1,0 +1,66 @@
+/** The analytic Jacobian against central differences, for the bearing and through the
+ * seam. */
+#include <catch2/catch.hpp>
+
+#include "balance/bearing_problem.hpp"
+#include "support/cases.hpp"
+
+using namespace rotor_stator;
+using namespace rotor_stator::tests;
+
+namespace
+{
+
+/** Largest relative error of a column of ∂R/∂X, and of ∂R/∂ω. */
+struct JacobianError {
+  double unknowns, speed;
+};
+
+JacobianError jacobian_error(Balance& balance, const Eigen::VectorXd& x, double omega,
+                             double h)
+{
+  balance.residual(x, omega);
+  const Eigen::MatrixXd jacobian = balance.jacobian();
+  const Eigen::VectorXd slope = balance.speed_derivative();
+  JacobianError error{0, 0};
+  for (Eigen::Index k = 0; k < x.size(); ++k) {
+    const Eigen::VectorXd shift = h * Eigen::VectorXd::Unit(x.size(), k);
+    const Eigen::VectorXd after = balance.residual(x + shift, omega);
+    const Eigen::VectorXd before = balance.residual(x - shift, omega);
+    const Eigen::VectorXd column = (after - before) / (2 * h);
+    error.unknowns = std::max(error.unknowns,
+                              (column - jacobian.col(k)).norm() / jacobian.col(k).norm());
+  }
+  const double step = 1e-5 * omega;
+  const Eigen::VectorXd after = balance.residual(x, omega + step);
+  const Eigen::VectorXd before = balance.residual(x, omega - step);
+  error.speed = ((after - before) / (2 * step) - slope).norm() / slope.norm();
+  return error;
+}
+
+}  // namespace
+
+TEST_CASE("AFT Jacobian of the bearing, also at the aliasing N = 2m+1")
+{
+  const Parameters parameters = set_1();
+  const int m = 5;
+  for (int samples : {2 * m + 1, 2 * m + 2, 4 * m + 1, 64}) {
+    Balance balance(bearing_problem(parameters, samples), m);
+    const Eigen::VectorXd x = 0.98 * quasi_static_start(parameters, hertz(16), m);
+    const JacobianError error = jacobian_error(balance, x, hertz(16), 1e-10);
+    CHECK(error.unknowns < 1e-6);
+    CHECK(error.speed < 1e-6);
+  }
+}
+
+TEST_CASE("AFT Jacobian of a two-mass oscillator with coupled forces")
+{
+  const Oscillator oscillator = two_masses_cubic();
+  Balance balance(oscillator.problem(48), 5);
+  Eigen::VectorXd x(balance.unknowns());
+  for (Eigen::Index k = 0; k < x.size(); ++k)
+    x[k] = std::sin(1.0 + static_cast<double>(k));
+  const JacobianError error = jacobian_error(balance, x, 1.1, 1e-6);
+  CHECK(error.unknowns < 1e-7);
+  CHECK(error.speed < 1e-7);
+}

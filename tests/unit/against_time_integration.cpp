@@ -1,0 +1,59 @@
+/** Harmonic balance against rk8pd on set 1: two methods that share nothing but Eq. 7. */
+#include <catch2/catch.hpp>
+
+#include "scenes/motion.hpp"
+#include "support/cases.hpp"
+
+using namespace rotor_stator;
+using namespace rotor_stator::tests;
+
+namespace
+{
+
+SteadyState accurate_steady_state(const Parameters& parameters, double frequency)
+{
+  SteadySettings settings;
+  settings.stepper = {.method = "rk8pd", .intervals_per_period = 64, .tolerance = 1e-13};
+  settings.settled = 1e-10;
+  settings.longest = 12;
+  const SteadyState steady =
+      steady_state(parameters, hertz(frequency), static_start(parameters), settings);
+  INFO("spread " << steady.spread);
+  REQUIRE(steady.periodic);
+  return steady;
+}
+
+double difference(double frequency, int harmonics)
+{
+  const Parameters parameters = set_1();
+  const auto solution =
+      find_periodic(parameters, hertz(frequency), harmonics, default_samples(harmonics));
+  REQUIRE(solution.found());
+  return relative_difference(motion_of(solution, 64),
+                             motion_of(accurate_steady_state(parameters, frequency), 64));
+}
+
+}  // namespace
+
+TEST_CASE("Set 1 at 30 and 45 Hz: 64 harmonics within 1e-6 of rk8pd")
+{
+  CHECK(difference(30, 64) < 1e-6);
+  CHECK(difference(45, 64) < 1e-6);
+}
+
+TEST_CASE("Set 1 at 6 Hz: 192 harmonics within 2e-6 of rk8pd")
+{
+  CHECK(difference(6, 192) < 2e-6);
+}
+
+TEST_CASE("Set 1 at 13.4 Hz: time integration says that the motion is not periodic")
+{
+  const Parameters parameters = set_1();
+  SteadySettings settings;
+  settings.stepper = {.method = "rk4"};
+  settings.longest = 6;
+  const SteadyState steady =
+      steady_state(parameters, hertz(13.4), static_start(parameters), settings);
+  CHECK_FALSE(steady.periodic);
+  CHECK(steady.spread > 1e-3);
+}

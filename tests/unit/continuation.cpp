@@ -1,0 +1,123 @@
+/** Predictor, sweep and arc length, and how much work they are allowed. */
+#include <catch2/catch.hpp>
+
+#include "balance/bearing_problem.hpp"
+#include "continuation/arc_length.hpp"
+#include "continuation/lagrange_predictor.hpp"
+#include "model/errors.hpp"
+#include "scenes/response.hpp"
+#include "support/cases.hpp"
+
+using namespace rotor_stator;
+using namespace rotor_stator::tests;
+
+namespace
+{
+
+std::vector<double> speeds(double from, double to, double step)
+{
+  std::vector<double> omegas;
+  for (double f = from; f <= to + 1e-9; f += step) omegas.push_back(hertz(f));
+  return omegas;
+}
+
+std::vector<SweepPoint> sweep_set_1(Balance& balance, const std::vector<double>& omegas)
+{
+  const Parameters parameters = set_1();
+  return sweep(
+      balance, omegas,
+      [&](double omega) {
+        return quasi_static_start(parameters, omega, balance.harmonics());
+      },
+      sweep_settings(parameters));
+}
+
+}  // namespace
+
+TEST_CASE(
+    "Eq. 20 as corrected extrapolates a straight line exactly and moves on from the last "
+    "point")
+{
+  LagrangePredictor predictor(2.0, 5.0);
+  for (int k = 0; k < 4; ++k)
+    predictor.add(Eigen::Vector2d(1.0 * k, 3 - 2.0 * k), 10 + 5.0 * k);
+  const double chord = std::hypot(std::sqrt(5.0) / 2, 1);
+  const auto point = predictor.at_distance(chord);
+  CHECK(point.omega == Approx(30));
+  CHECK(point.x[0] == Approx(4));
+  CHECK(point.x[1] == Approx(-5));
+  const Eigen::VectorXd x = predictor.at_speed(27.5);
+  CHECK(x[0] == Approx(3.5));
+}
+
+TEST_CASE("The predictor has the order of its cubic")
+{
+  /** Points on a circle: halving the spacing divides the error of a cubic extrapolation
+   * by 16. */
+  const auto error = [](double h) {
+    LagrangePredictor predictor(1, 1);
+    for (int k = -3; k <= 0; ++k)
+      predictor.add(Eigen::VectorXd::Constant(1, std::sin(k * h)), std::cos(k * h));
+    const auto point = predictor.at_distance(h);
+    return std::hypot(point.x[0] - std::sin(h), point.omega - std::cos(h));
+  };
+  const double ratio = error(0.1) / error(0.05);
+  CHECK(ratio > 7);
+}
+
+TEST_CASE("A sweep of set 1 finds every speed, up and down, with few Newton iterations")
+{
+  Balance balance(bearing_problem(set_1(), 32), 6);
+  std::vector<double> omegas = speeds(1, 60, 0.5);
+  const auto up = sweep_set_1(balance, omegas);
+  std::reverse(omegas.begin(), omegas.end());
+  const auto down = sweep_set_1(balance, omegas);
+  int iterations = 0;
+  for (std::size_t k = 0; k < up.size(); ++k) {
+    REQUIRE(up[k].found());
+    REQUIRE(down[k].found());
+    iterations += up[k].newton.iterations;
+    CHECK((up[k].x - down[down.size() - 1 - k].x).norm() < 1e-8 * up[k].x.norm());
+  }
+  CHECK(iterations <= 450);
+  CHECK(balance.evaluations() <= 1500);
+}
+
+TEST_CASE("Arc length follows set 1 over the whole range without folds at 6 harmonics")
+{
+  const Parameters parameters = set_1();
+  Balance balance(bearing_problem(parameters, 64), 6);
+  const SweepSettings scaling = sweep_settings(parameters);
+  const Branch branch = follow_branch(balance, hertz(1), hertz(60),
+                                      quasi_static_start(parameters, hertz(1), 6),
+                                      {.newton = {},
+                                       .speed_scale = scaling.speed_scale,
+                                       .arc_unknown_scale = scaling.arc_unknown_scale});
+  CHECK(branch.covered);
+  CHECK(branch.folds.empty());
+  CHECK(branch.points.size() < 500);
+  CHECK(branch.points.back().omega == hertz(60));
+}
+
+TEST_CASE("N = 2m+1 as printed creates folds that N = 64 does not have")
+{
+  const Parameters parameters = set_1();
+  const SweepSettings scaling = sweep_settings(parameters);
+  Balance balance(bearing_problem(parameters, 13), 6);
+  const Branch branch = follow_branch(balance, hertz(1), hertz(60),
+                                      quasi_static_start(parameters, hertz(1), 6),
+                                      {.newton = {},
+                                       .speed_scale = scaling.speed_scale,
+                                       .arc_unknown_scale = scaling.arc_unknown_scale});
+  CHECK(branch.folds.size() >= 4);
+}
+
+TEST_CASE("A branch without a start says so")
+{
+  const Oscillator oscillator = duffing();
+  Balance balance(oscillator.problem(16), 1);
+  const Eigen::VectorXd nonsense = Eigen::VectorXd::Constant(3, 1e200);
+  CHECK_THROWS_AS(follow_branch(balance, 0.5, 1.5, nonsense,
+                                {.newton = {}, .speed_scale = 1, .arc_unknown_scale = 1}),
+                  NoSolution);
+}

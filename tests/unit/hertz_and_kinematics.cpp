@@ -1,0 +1,106 @@
+/** Eqs 1 to 6 against closed forms. */
+#include <catch2/catch.hpp>
+#include <cmath>
+#include <numbers>
+
+#include "model/ball_bearing.hpp"
+#include "support/cases.hpp"
+
+using namespace rotor_stator;
+
+namespace
+{
+
+Bearing bearing_with(int balls, double clearance)
+{
+  return {.balls = balls,
+          .contact_stiffness = 1e11,
+          .clearance = clearance,
+          .cage_speed_ratio = 0.5,
+          .radius_ratio = 0};
+}
+
+}  // namespace
+
+TEST_CASE("Hertz force, its slope and its inverse are consistent")
+{
+  CHECK(hertz_force(1e11, 4e-6) == Approx(1e11 * 8e-9));
+  CHECK(hertz_force(1e11, 0) == 0);
+  CHECK(hertz_force(1e11, -1e-6) == 0);
+  CHECK(hertz_stiffness(1e11, 4e-6) == Approx(1.5 * 1e11 * 2e-3));
+  CHECK(hertz_penetration(1e11, hertz_force(1e11, 3e-6)) == Approx(3e-6));
+}
+
+TEST_CASE("Eq. 2 for steel on steel gives 1.5e10 at a ball of 1 cm, not Table 1's 1e11")
+{
+  const Solid steel{.young_modulus = 2.1e11, .poisson_ratio = 0.3};
+  const double e_star = 2.1e11 / (2 * (1 - 0.09));
+  CHECK(hertz_contact_stiffness(0.01, steel, steel) == Approx(4.0 / 3 * 0.1 * e_star));
+  CHECK(hertz_contact_stiffness(0.01, steel, steel) == Approx(1.54e10).epsilon(0.01));
+  CHECK(hertz_contact_stiffness(0.42, steel, steel) == Approx(1e11).epsilon(0.01));
+}
+
+TEST_CASE("Eq. 3: the cage turns at half the rotor's speed for small balls")
+{
+  CHECK(cage_speed_ratio(1e-9, 0.07) == Approx(0.5));
+  CHECK(cage_speed_ratio(0.01, 0.07) == Approx(7.0 / 16));
+}
+
+TEST_CASE("Eqs 4 to 6: a rotor pushed onto one ball meets that ball's Hertz force")
+{
+  const BallBearing bearing(bearing_with(4, 1e-5));
+  const double angle = 0.3;
+  const Direction cage = Direction::of(angle);
+  const Vec2 u{1.5e-5 * cage.cos, 1.5e-5 * cage.sin};
+  const Vec2 force = bearing.force(cage, u);
+  CHECK(force.x == Approx(hertz_force(1e11, 5e-6) * cage.cos));
+  CHECK(force.y == Approx(hertz_force(1e11, 5e-6) * cage.sin));
+
+  std::vector<double> q;
+  bearing.ball_forces(cage, u, q);
+  CHECK(q[0] == Approx(hertz_force(1e11, 5e-6)));
+  CHECK(q[1] == 0);
+  CHECK(q[2] == 0);
+}
+
+TEST_CASE(
+    "The bearing's force pushes the stator along and the rotor back: positive stiffness")
+{
+  const BallBearing bearing(bearing_with(16, 2e-5));
+  const auto [force, stiffness] = bearing.reaction(Direction::of(0.1), {1e-5, 2.5e-5});
+  CHECK(force.x * 1e-5 + force.y * 2.5e-5 > 0);
+  CHECK(stiffness.xx * stiffness.yy - stiffness.xy * stiffness.xy > 0);
+  CHECK(stiffness.xx > 0);
+}
+
+TEST_CASE("Force and reaction agree, and the stiffness is the slope of the force")
+{
+  const BallBearing bearing(bearing_with(16, 2e-5));
+  const Direction cage = Direction::of(0.7);
+  const Vec2 u{1.3e-5, -2.2e-5};
+  const double h = 1e-11;
+  const auto [force, k] = bearing.reaction(cage, u);
+  const Vec2 plain = bearing.force(cage, u);
+  CHECK(force.x == Approx(plain.x));
+  CHECK(force.y == Approx(plain.y));
+  const auto difference = [&](Vec2 a, Vec2 b) {
+    const Vec2 f_a = bearing.force(cage, a), f_b = bearing.force(cage, b);
+    return Vec2{(f_a.x - f_b.x) / (2 * h), (f_a.y - f_b.y) / (2 * h)};
+  };
+  const Vec2 along_x = difference({u.x + h, u.y}, {u.x - h, u.y});
+  const Vec2 along_y = difference({u.x, u.y + h}, {u.x, u.y - h});
+  CHECK(along_x.x == Approx(k.xx).epsilon(1e-6));
+  CHECK(along_x.y == Approx(k.xy).epsilon(1e-6));
+  CHECK(along_y.x == Approx(k.xy).epsilon(1e-6));
+  CHECK(along_y.y == Approx(k.yy).epsilon(1e-6));
+}
+
+TEST_CASE("Turning the cage by one ball spacing changes labels only")
+{
+  const BallBearing bearing(bearing_with(7, 1e-6));
+  const Vec2 u{4e-6, -3e-6};
+  const Vec2 a = bearing.force(Direction::of(0.2), u);
+  const Vec2 b = bearing.force(Direction::of(0.2 + 2 * std::numbers::pi / 7), u);
+  CHECK(a.x == Approx(b.x).epsilon(1e-12));
+  CHECK(a.y == Approx(b.y).epsilon(1e-12));
+}
