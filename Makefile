@@ -161,7 +161,7 @@ $(tables_dir) $(figures_dir):
 test: all  ## every test, after everything they read is there
 	ctest --preset release --no-tests=error
 
-sanitize:  ## the same tests with address and undefined-behaviour sanitizers
+sanitize: all  ## the same tests with address and undefined-behaviour sanitizers
 	$(require_packages)
 	cmake --preset debug > /dev/null
 	cmake --build --preset debug

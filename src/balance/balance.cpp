@@ -10,8 +10,8 @@ namespace rotor_stator
 namespace
 {
 
-/** Two dense matrices of this size are 0.4 GB. */
-constexpr Eigen::Index most_unknowns = 5000;
+/** Three dense matrices of this size, as the arc length needs, stay below 0.5 GB. */
+constexpr Eigen::Index most_unknowns = 4200;
 
 using Series = Eigen::MatrixXd;
 

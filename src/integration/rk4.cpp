@@ -1,7 +1,10 @@
 #include "integration/rk4.hpp"
 
+#include <algorithm>
 #include <cmath>
 #include <numbers>
+
+#include "model/errors.hpp"
 
 namespace rotor_stator
 {
@@ -32,14 +35,26 @@ Direction turned(Direction a, Direction b)
   return {a.cos * b.cos - a.sin * b.sin, a.sin * b.cos + a.cos * b.sin};
 }
 
+/** The table of angles stays below 200 MB. */
+constexpr double most_steps_per_period = 3e6;
+
+/** The fewest steps per output interval that are not longer than `longest_step` [s]. */
+int steps_per_interval(double period, int intervals, double longest_step)
+{
+  const double steps = std::ceil(period / intervals / longest_step - 1e-9);
+  if (!(steps * intervals <= most_steps_per_period))
+    throw NoSolution(text("rk4 would need %.3g steps per period; at most %.3g are taken",
+                          steps * intervals, most_steps_per_period));
+  return std::max(1, static_cast<int>(steps));
+}
+
 }  // namespace
 
 Rk4::Rk4(const Parameters& parameters, double omega, int intervals, double longest_step)
     : system_(parameters, omega),
       cage_turn_(2 * std::numbers::pi * parameters.bearing.cage_speed_ratio),
       intervals_(intervals),
-      steps_(
-          static_cast<int>(std::ceil(system_.period() / intervals / longest_step - 1e-9)))
+      steps_(steps_per_interval(system_.period(), intervals, longest_step))
 {
   const int half_steps = 2 * intervals_ * steps_;
   h_ = 2 * system_.period() / half_steps;
