@@ -3,6 +3,7 @@
 #include <fftw3.h>
 
 #include <algorithm>
+#include <mutex>
 
 namespace rotor_stator
 {
@@ -14,8 +15,19 @@ struct FftwFree {
   void operator()(void* memory) const { fftw_free(memory); }
 };
 
+/** FFTW's planner is shared by all threads; executing a plan is not. */
+std::mutex& planner()
+{
+  static std::mutex mutex;
+  return mutex;
+}
+
 struct DestroyPlan {
-  void operator()(fftw_plan plan) const { fftw_destroy_plan(plan); }
+  void operator()(fftw_plan plan) const
+  {
+    const std::lock_guard lock(planner());
+    fftw_destroy_plan(plan);
+  }
 };
 
 using Plan = std::unique_ptr<std::remove_pointer_t<fftw_plan>, DestroyPlan>;
@@ -35,6 +47,7 @@ struct FourierTransform::Plans {
         frequency(reinterpret_cast<std::complex<double>*>(fftw_alloc_complex(n / 2 + 1)))
   {
     auto* spectrum = reinterpret_cast<fftw_complex*>(frequency.get());
+    const std::lock_guard lock(planner());
     forward.reset(fftw_plan_dft_r2c_1d(n, time.get(), spectrum, FFTW_ESTIMATE));
     backward.reset(fftw_plan_dft_c2r_1d(n, spectrum, time.get(), FFTW_ESTIMATE));
   }

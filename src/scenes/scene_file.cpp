@@ -51,6 +51,18 @@ SteadySettings SceneFile::time_integration()
   return settings;
 }
 
+RegimeSettings SceneFile::regime_settings()
+{
+  StrictToml table = toml_.table("regime");
+  const RegimeSettings settings{
+      .step_over_default = table.number("step_over_default", Range::positive),
+      .longest = table.number("longest_s", Range::positive),
+      .window = table.number("window_s", Range::positive),
+      .points_per_period = table.integer("points_per_period", 4, 4096)};
+  table.refuse_unknown_keys();
+  return settings;
+}
+
 std::vector<double> SceneFile::speed_range(const std::string& key)
 {
   StrictToml table = toml_.table(key);

@@ -16,6 +16,14 @@ checked like the parameters. */
 namespace rotor_stator
 {
 
+/** How the motion of a regime is integrated, by rk4. */
+struct RegimeSettings {
+  double step_over_default;  ///< RK4's step over `default_step` [-]
+  double longest;            ///< integration at most [s]
+  double window;             ///< of the Poincaré section [s]
+  int points_per_period;     ///< of the two recorded periods, those of a ball's passage
+};
+
 /** A scene file being read, with the reading of Table 1 (D-09): "exchanged" or
  * "as-printed". */
 class SceneFile
@@ -33,6 +41,9 @@ public:
 
   /** The table [time_integration]. */
   SteadySettings time_integration();
+
+  /** The table [regime]. */
+  RegimeSettings regime_settings();
 
   /** `from`, `to` and `step` in hertz, both ends included. */
   std::vector<double> speed_range(const std::string& key);

@@ -1,0 +1,75 @@
+#include "output/claim_tables.hpp"
+
+#include "model/errors.hpp"
+#include "model/progress.hpp"
+
+namespace rotor_stator
+{
+
+namespace
+{
+
+const std::vector<Column> regime_columns{
+    {"set", "-", "data set"},
+    {"f", "Hz", "speed of rotation"},
+    {"periodic", "-", "1 if the motion has the period of rotation"},
+    {"spread", "-", "Poincare spread over the largest displacement"},
+    {"contact", "-",
+     "share of two periods with at least one loaded ball; 1 is permanent"},
+    {"higher_harmonics", "-", "rms of harmonics 2 and above over the first, larger body"},
+    {"passed_once", "-", "1 if every ball is loaded exactly once in two periods"},
+    {"passages", "-", "times a ball is loaded in two periods, mean over the balls"},
+    {"loaded_arc", "rad", "mean over time of the loaded arc"},
+    {"largest_force", "N", "largest force on one ball"},
+    {"amp_x_r", "m", "half peak-to-peak of x_r"}};
+
+}  // namespace
+
+Table regime_table(const std::string& scene_file, const std::string& reading)
+{
+  SceneFile scene(scene_file, reading);
+  const auto sets = scene.parameter_list("parameters");
+  const auto frequencies = scene.speed_range("speeds_hz");
+  const RegimeSettings settings = scene.regime_settings();
+  scene.toml().refuse_unknown_keys();
+  Table table("Regimes of the motion", regime_columns);
+  for (const Parameters& parameters : sets) table.describe(parameters);
+  table.note(text(
+      "modelled: rk4 from the 6-harmonic solution or the static load, at most %g s; two periods of %d instants",
+      settings.longest, settings.points_per_period));
+  Progress progress("regimes", sets.size() * frequencies.size());
+  for (std::size_t set = 0; set < sets.size(); ++set)
+    for (double frequency : frequencies) {
+      const Regime r = regime_at(sets[set], frequency, settings);
+      table.row({set + 1, r.frequency, r.periodic, r.spread, r.contact,
+                 r.higher_harmonics, r.passed_once, r.passages, r.loaded_arc,
+                 r.largest_force, r.amp_x_r});
+      progress.step();
+    }
+  return table;
+}
+
+Table truncation_table(const TruncationScene& scene)
+{
+  Table table(
+      "Distance of the m-harmonic solution to the integrated motion",
+      {{"set", "-", "data set"},
+       {"f", "Hz", "speed of rotation"},
+       {"m", "-", "harmonics"},
+       {"found", "-", "1 if a sweep up finds a solution"},
+       {"periodic", "-", "1 if the integrated motion has the period of rotation"},
+       {"distance", "-",
+        "rms of the displacements' difference over the motion's rms; -1"},
+       {"distance_force", "-", "the same of the bearing's force; -1 when not found"}});
+  for (const Parameters& parameters : scene.sets) table.describe(parameters);
+  table.note(text(
+      "modelled: sweeps up with m = 1 to %d, N = 8m+1 or more; %s from rest, %d periods",
+      scene.most_harmonics, scene.time_integration.stepper.method.c_str(),
+      scene.time_integration.shown_periods));
+  for (const TruncationPoint& p : compute_truncation(scene))
+    table.row({p.set, p.frequency, p.harmonics, p.found, p.periodic, p.distance,
+               p.distance_force});
+  return table;
+}
+
+}  // namespace rotor_stator

@@ -1,0 +1,17 @@
+/**
+# Regimes: contact and orbit, speed by speed
+
+Paper: §3.3, claims C4 to C7, C10 and C13.  Run: build/regimes >
+data/generated/regimes.tsv Permanent or lost contact, one harmonic or many, passages per
+ball, largest force, for both data sets. Modelled: the integrated motion over two periods
+at each speed. */
+#include "output/claim_tables.hpp"
+#include "output/program.hpp"
+
+int main(int argc, char** argv)
+{
+  using namespace rotor_stator;
+  return run(argc, argv, "data/scenes/regimes.toml", [](const Options& options) {
+    return regime_table(options.scene_file, options.reading);
+  });
+}

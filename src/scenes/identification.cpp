@@ -1,0 +1,177 @@
+#include "scenes/identification.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include "model/errors.hpp"
+
+namespace rotor_stator
+{
+
+ClaimRule read_claim_rule(const std::string& file)
+{
+  StrictToml toml(file);
+  StrictToml regimes = toml.table("regimes"), score = toml.table("score");
+  return {.low_to = regimes.number("low_to_hz", Range::positive),
+          .middle_to = regimes.number("middle_to_hz", Range::positive),
+          .multi_harmonic = regimes.number("multi_harmonic", Range::positive),
+          .paper_peak = score.number("paper_peak_hz", Range::positive),
+          .peak_width = score.number("peak_width_hz", Range::positive),
+          .within = score.number("within", Range::positive)};
+}
+
+namespace
+{
+
+/** The mass ratio m_r/m_s that puts the resonance of both bodies together at `resonance`
+ * [rad/s]. */
+double joint_mass_ratio(const Parameters& parameters, double resonance)
+{
+  const auto squared = [](double x) { return x * x; };
+  return (squared(parameters.stator.natural_frequency) - squared(resonance)) /
+         (squared(resonance) - squared(parameters.rotor.natural_frequency));
+}
+
+/** The grid of one reading: masses × mass ratios × cages around the working values of
+ * `base`. */
+void add_candidates(StrictToml& grid, int reading, const Parameters& base,
+                    double resonance, std::vector<Candidate>& candidates)
+{
+  const int masses = grid.integer("masses", 1, 1000);
+  const double decades = grid.number("decades_each_way", Range::positive);
+  const double ratio = joint_mass_ratio(base, resonance);
+  for (double cage : grid.numbers("cage_speed_ratios", Range::positive))
+    for (double factor : grid.numbers("mass_ratio_factors", Range::positive))
+      for (int k = 0; k < masses; ++k) {
+        Parameters parameters = base;
+        const double exponent = masses > 1 ? decades * (2.0 * k / (masses - 1) - 1) : 0;
+        parameters.stator.mass = base.stator.mass * std::pow(10, exponent);
+        parameters.rotor.mass = parameters.stator.mass * ratio * factor;
+        parameters.bearing.cage_speed_ratio = cage;
+        candidates.push_back({reading, factor, parameters});
+      }
+}
+
+}  // namespace
+
+IdentificationScene read_identification_scene(const std::string& file,
+                                              const std::string& claims_file)
+{
+  IdentificationScene scene;
+  scene.rule = read_claim_rule(claims_file);
+  int reading = 0;
+  for (const char* name : {"exchanged", "as-printed"}) {
+    SceneFile scene_file(file, name);
+    const Parameters base = scene_file.parameters("parameters");
+    scene.frequencies = scene_file.speed_range("speeds_hz");
+    scene.settings = scene_file.regime_settings();
+    StrictToml grid = scene_file.toml().table("grid");
+    add_candidates(grid, reading++, base, angular(scene.rule.paper_peak),
+                   scene.candidates);
+    grid.refuse_unknown_keys();
+    scene_file.toml().refuse_unknown_keys();
+  }
+  return scene;
+}
+
+namespace
+{
+
+bool is_simple(const Regime& r, const ClaimRule& rule)
+{
+  return r.higher_harmonics < rule.multi_harmonic;
+}
+
+/** Share of `regimes` for which `condition` holds; 0 of none. */
+template <class Condition>
+double share(const std::vector<Regime>& regimes, Condition condition)
+{
+  if (regimes.empty()) return 0;
+  return static_cast<double>(std::count_if(regimes.begin(), regimes.end(), condition)) /
+         static_cast<double>(regimes.size());
+}
+
+/** Speed of the largest amplitude, refined by the parabola through its neighbours. */
+double peak_frequency(const std::vector<Regime>& regimes)
+{
+  const auto top = std::max_element(
+      regimes.begin(), regimes.end(),
+      [](const Regime& a, const Regime& b) { return a.amp_x_r < b.amp_x_r; });
+  if (top == regimes.begin() || top + 1 == regimes.end()) return top->frequency;
+  const double before = (top - 1)->amp_x_r, after = (top + 1)->amp_x_r;
+  const double curvature = before - 2 * top->amp_x_r + after;
+  const double spacing = (top + 1)->frequency - top->frequency;
+  return top->frequency +
+         (curvature < 0 ? 0.5 * spacing * (before - after) / curvature : 0.0);
+}
+
+RangeShares shares_of(const std::vector<Regime>& regimes, const ClaimRule& rule)
+{
+  return {share(regimes, [](const Regime& r) { return r.permanent_contact(); }),
+          share(regimes, [](const Regime& r) { return r.periodic; }),
+          share(regimes, [&](const Regime& r) { return is_simple(r, rule); })};
+}
+
+/** The quantity of C5: complex middle speeds, and loss of contact nowhere else. */
+double middle_complex(const std::vector<Regime>& all, const std::vector<Regime>& middle,
+                      const ClaimRule& rule)
+{
+  const auto lost = [](const Regime& r) { return !r.permanent_contact(); };
+  const double lost_anywhere = share(all, lost) * static_cast<double>(all.size());
+  if (lost_anywhere == 0) return 0;
+  const double lost_here = share(middle, lost) * static_cast<double>(middle.size());
+  const double is_complex =
+      share(middle, [&](const Regime& r) { return lost(r) || !is_simple(r, rule); });
+  return is_complex * lost_here / lost_anywhere;
+}
+
+}  // namespace
+
+Judgement judge(const std::vector<Regime>& regimes, const ClaimRule& rule)
+{
+  std::vector<Regime> low, middle, high;
+  for (const Regime& r : regimes)
+    (r.frequency <= rule.low_to      ? low
+     : r.frequency <= rule.middle_to ? middle
+                                     : high)
+        .push_back(r);
+  Judgement j{};
+  j.f_peak = peak_frequency(regimes);
+  j.f_loss_first = j.f_loss_last = -1;
+  for (const Regime& r : regimes) {
+    if (r.permanent_contact()) continue;
+    if (j.f_loss_first < 0) j.f_loss_first = r.frequency;
+    j.f_loss_last = r.frequency;
+  }
+  j.low = shares_of(low, rule);
+  j.middle = shares_of(middle, rule);
+  j.high = shares_of(high, rule);
+  for (const Regime& r : high)
+    j.passages += r.passages / static_cast<double>(high.size());
+  j.c1 = std::max(0.0, 1 - std::abs(j.f_peak - rule.paper_peak) / rule.peak_width);
+  j.c4 = j.low.permanent_contact;
+  j.c5 = middle_complex(regimes, middle, rule);
+  j.c6 = share(
+      high, [&](const Regime& r) { return r.permanent_contact() && is_simple(r, rule); });
+  j.c10 = share(high, [](const Regime& r) { return r.passed_once; });
+  j.score = (j.c1 + j.c4 + j.c5 + j.c6 + j.c10) / 5;
+  return j;
+}
+
+std::vector<Regime> regimes_of(const Candidate& candidate,
+                               const IdentificationScene& scene)
+{
+  std::vector<Regime> regimes;
+  for (double frequency : scene.frequencies) {
+    try {
+      regimes.push_back(regime_at(candidate.parameters, frequency, scene.settings));
+    } catch (const NoSolution&) {
+      Regime broken{};
+      broken.frequency = frequency;
+      regimes.push_back(broken);
+    }
+  }
+  return regimes;
+}
+
+}  // namespace rotor_stator

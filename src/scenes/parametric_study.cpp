@@ -1,0 +1,100 @@
+#include "scenes/parametric_study.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include "balance/bearing_problem.hpp"
+#include "scenes/contact.hpp"
+#include "scenes/response.hpp"
+
+namespace rotor_stator
+{
+
+Parameters ParametricStudy::machine(std::size_t index) const
+{
+  Parameters parameters = base;
+  parameters.bearing.clearance = clearances[index % clearances.size()];
+  parameters.bearing.contact_stiffness = contact_stiffnesses[index / clearances.size()];
+  return parameters;
+}
+
+ParametricStudy read_parametric_study(const std::string& file)
+{
+  SceneFile scene_file(file, "exchanged");
+  StrictToml& toml = scene_file.toml();
+  ParametricStudy study{.base = scene_file.parameters("parameters"),
+                        .harmonics = toml.integer("harmonics", 1, 256),
+                        .frequencies = scene_file.speed_range("speeds_hz"),
+                        .clearances = {},
+                        .contact_stiffnesses = {}};
+  StrictToml grid = toml.table("grid");
+  const int clearances = grid.integer("clearances", 2, 1000);
+  const double largest = grid.number("largest_clearance_m", Range::positive);
+  for (int k = 0; k < clearances; ++k)
+    study.clearances.push_back(largest * k / (clearances - 1));
+  const int stiffnesses = grid.integer("stiffnesses", 2, 1000);
+  const double low = grid.number("least_stiffness_N_per_m1p5", Range::positive);
+  const double high = grid.number("largest_stiffness_N_per_m1p5", Range::positive);
+  for (int k = 0; k < stiffnesses; ++k)
+    study.contact_stiffnesses.push_back(low *
+                                        std::pow(high / low, k / (stiffnesses - 1.0)));
+  grid.refuse_unknown_keys();
+  toml.refuse_unknown_keys();
+  return study;
+}
+
+namespace
+{
+
+double largest_ball_force(const Parameters& parameters, const Motion& motion)
+{
+  double largest = 0;
+  for (const auto& forces : contact_evolution(parameters, motion).ball_force)
+    largest = std::max(largest, *std::max_element(forces.begin(), forces.end()));
+  return largest;
+}
+
+/** Adds one solution of the sweep to what it comes to. */
+void add_solution(const Parameters& parameters, double frequency,
+                  const PeriodicSolution& solution, StudyPoint& point)
+{
+  const Motion motion = motion_of(solution, 128);
+  point.largest_force =
+      std::max(point.largest_force, largest_ball_force(parameters, motion));
+  const double amplitude = half_peak_to_peak(motion)[2];
+  if (amplitude > point.amp_peak) {
+    point.amp_peak = amplitude;
+    point.f_peak = frequency;
+  }
+  if (contact_share(parameters, motion) < 1) {
+    if (point.f_loss_first < 0) point.f_loss_first = frequency;
+    point.f_loss_last = frequency;
+  }
+}
+
+}  // namespace
+
+StudyPoint sweep_machine(const Parameters& parameters, const ParametricStudy& study)
+{
+  std::vector<double> omegas;
+  for (double frequency : study.frequencies) omegas.push_back(angular(frequency));
+  Balance balance(bearing_problem(parameters, default_samples(study.harmonics)),
+                  study.harmonics);
+  StudyPoint point{-1, -1, -1, -1, 0, 0};
+  const auto swept = sweep(
+      balance, omegas,
+      [&](double omega) {
+        return quasi_static_start(parameters, omega, study.harmonics);
+      },
+      sweep_settings(parameters),
+      [&](const SweepPoint& found) {
+        PeriodicSolution solution{};
+        solution.bodies = body_series(parameters, balance, found.omega, found.x);
+        add_solution(parameters, found.omega / angular(1), solution, point);
+      });
+  point.missed = static_cast<int>(std::count_if(
+      swept.begin(), swept.end(), [](const SweepPoint& p) { return !p.found(); }));
+  return point;
+}
+
+}  // namespace rotor_stator
