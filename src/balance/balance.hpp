@@ -32,7 +32,7 @@ public:
   Eigen::Index unknowns() const { return problem_.dofs * (2 * harmonics_ + 1); }
 
   /** Evaluates the force and the residual R (Eq. 16, real: cosine and sine rows) at (X,
-   * ω). */
+      ω). */
   const Eigen::VectorXd& residual(const Eigen::VectorXd& x, double omega);
 
   /** ∂R/∂X and ∂R/∂ω at the last point given to `residual`. */

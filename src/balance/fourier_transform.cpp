@@ -146,7 +146,7 @@ namespace
 {
 
 /** The largest value of a periodic sequence, refined by the parabola through its
- * neighbours. */
+    neighbours. */
 double refined_maximum(const Eigen::VectorXd& samples)
 {
   Eigen::Index k;

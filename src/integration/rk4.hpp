@@ -17,7 +17,7 @@ class Rk4
 {
 public:
   /** P = `intervals` per period, each cut into the fewest steps not longer than
-   * `longest_step` [s]. */
+      `longest_step` [s]. */
   Rk4(const Parameters& parameters, double omega, int intervals, double longest_step);
 
   /** Advances over output interval `interval`, counted from t = 0. */

@@ -34,7 +34,7 @@ struct TimeStepper {
 };
 
 /** Throws BadInput for a method that is neither a time method nor "aft", naming the known
- * ones. */
+    ones. */
 void require_method(const std::string& method);
 
 TimeStepper make_stepper(const Parameters& parameters, double omega,

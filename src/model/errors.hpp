@@ -13,7 +13,7 @@ namespace rotor_stator
 {
 
 /** Bad input: the message names the file, line and key, or the option, and what is
- * accepted. */
+    accepted. */
 struct BadInput : std::runtime_error {
   using std::runtime_error::runtime_error;
 };

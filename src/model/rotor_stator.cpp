@@ -48,7 +48,7 @@ Scales scales(const Parameters& parameters)
   const double k_h = parameters.bearing.contact_stiffness;
 
   /** Without any load the answer is u = 0 and a nanometre of penetration stands for its
-   * size. */
+      size. */
   const double load = std::max(weight + unbalance, hertz_force(k_h, 1e-9));
   const double penetration = hertz_penetration(k_h, load);
   return {.load = load,

@@ -104,7 +104,7 @@ Vec2 free_displacement(const Parameters& parameters, double omega, double phase)
 Vec2 quasi_static_contact(const Parameters& parameters, Vec2 force);
 
 /** A state at rest with the bearing carrying the static load: where time integration
- * starts. */
+    starts. */
 State static_start(const Parameters& parameters);
 
 }  // namespace rotor_stator

@@ -36,7 +36,7 @@ bool parse(CLI::App& app, int argc, char** argv);
 int guarded(const std::function<int()>& work);
 
 /** Writes all of `text` to stdout. Throws NoSolution when it cannot (a full disk, a
- * closed pipe). */
+    closed pipe). */
 void write(const std::string& text);
 
 }  // namespace rotor_stator

@@ -10,7 +10,7 @@ namespace rotor_stator
 {
 
 /** The revision of the source, with "-dirty" after uncommitted changes; "unknown" outside
- * git. */
+    git. */
 std::string source_revision();
 
 /** Compiler, version and flags. */

@@ -24,7 +24,7 @@ namespace
 {
 
 /** The mass ratio m_r/m_s that puts the resonance of both bodies together at `resonance`
- * [rad/s]. */
+    [rad/s]. */
 double joint_mass_ratio(const Parameters& parameters, double resonance)
 {
   const auto squared = [](double x) { return x * x; };
@@ -32,11 +32,12 @@ double joint_mass_ratio(const Parameters& parameters, double resonance)
          (squared(resonance) - squared(parameters.rotor.natural_frequency));
 }
 
-/** The grid of one reading: masses × mass ratios × cages around the working values of
- * `base`. */
+/** The grid of one reading: masses × mass ratios × cages around its working mass. */
 void add_candidates(StrictToml& grid, int reading, const Parameters& base,
                     double resonance, std::vector<Candidate>& candidates)
 {
+  const auto working = grid.numbers("working_stator_masses_kg", Range::positive);
+  if (working.size() != 2) grid.fail("working_stator_masses_kg", "must have two values");
   const int masses = grid.integer("masses", 1, 1000);
   const double decades = grid.number("decades_each_way", Range::positive);
   const double ratio = joint_mass_ratio(base, resonance);
@@ -45,7 +46,7 @@ void add_candidates(StrictToml& grid, int reading, const Parameters& base,
       for (int k = 0; k < masses; ++k) {
         Parameters parameters = base;
         const double exponent = masses > 1 ? decades * (2.0 * k / (masses - 1) - 1) : 0;
-        parameters.stator.mass = base.stator.mass * std::pow(10, exponent);
+        parameters.stator.mass = working[reading] * std::pow(10, exponent);
         parameters.rotor.mass = parameters.stator.mass * ratio * factor;
         parameters.bearing.cage_speed_ratio = cage;
         candidates.push_back({reading, factor, parameters});

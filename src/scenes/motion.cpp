@@ -33,7 +33,7 @@ struct Start {
 };
 
 /** The solution with half as many harmonics, found in the same way from quasi-static
- * contact. */
+    contact. */
 Eigen::VectorXd fewer_harmonics(const Parameters& parameters, double omega, int harmonics,
                                 const NewtonSettings& settings)
 {

@@ -25,7 +25,7 @@ struct RegimeSettings {
 };
 
 /** A scene file being read, with the reading of Table 1 (D-09): "exchanged" or
- * "as-printed". */
+    "as-printed". */
 class SceneFile
 {
 public:

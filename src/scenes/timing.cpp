@@ -115,53 +115,86 @@ Error error_of(const TimingScene& scene, const Motions& motions,
 /** An RK4 setting with what it costs and what it reaches. */
 struct Rk4Trial {
   double step, transient;  ///< [s]
-  long evaluations;
+  double steps;            ///< of the whole sweep, before rounding up
   Error error;
 };
 
-/** All settings of the scene, cheapest first. A step beyond RK4's stability ends in an
-   infinite error. */
-std::vector<Rk4Trial> try_rk4(const TimingScene& scene, const Reference& reference)
+/** The settings of the scene, cheapest first. */
+std::vector<Rk4Trial> rk4_settings(const TimingScene& scene)
 {
   std::vector<Rk4Trial> trials;
-  Progress progress("RK4 settings", scene.rk4_steps.size() * scene.rk4_transients.size());
   for (double step : scene.rk4_steps)
     for (double transient : scene.rk4_transients) {
-      Rk4Sweep sweep(scene, step, transient);
-      sweep.run();
-      trials.push_back({step, transient, sweep.evaluations(),
-                        error_of(scene, sweep.motions(), reference)});
-      progress.step();
+      double seconds = 0;
+      for (double f : scene.frequencies) seconds += (std::ceil(transient * f) + 1) / f;
+      trials.push_back({step, transient, seconds / step, {}});
     }
-  std::stable_sort(
-      trials.begin(), trials.end(),
-      [](const Rk4Trial& a, const Rk4Trial& b) { return a.evaluations < b.evaluations; });
+  std::sort(trials.begin(), trials.end(),
+            [](const Rk4Trial& a, const Rk4Trial& b) { return a.steps < b.steps; });
   return trials;
 }
 
+/** The cheapest settings, tried one after the other until one reaches the error `target`. A step
+    beyond RK4's stability ends in an infinite error. */
+std::vector<Rk4Trial> try_rk4(const TimingScene& scene, const Reference& reference,
+                              double target)
+{
+  std::vector<Rk4Trial> tried;
+  const auto settings = rk4_settings(scene);
+  Progress progress("RK4 settings", settings.size());
+  for (Rk4Trial trial : settings) {
+    Rk4Sweep sweep(scene, trial.step, trial.transient);
+    sweep.run();
+    trial.error = error_of(scene, sweep.motions(), reference);
+    tried.push_back(trial);
+    progress.step();
+    if (trial.error.displacement <= target) return tried;
+  }
+  throw NoSolution(text("no tried RK4 setting reaches the error %.2g", target));
+}
+
+/** RK4 at the cheapest setting that reaches the error of a harmonic-balance row. */
 TimedSweep time_rk4(const TimingScene& scene, const std::vector<Rk4Trial>& trials,
                     const TimedSweep& aft)
 {
   const auto chosen = std::find_if(
       trials.begin(), trials.end(),
       [&](const Rk4Trial& trial) { return trial.error.displacement <= aft.error; });
-  if (chosen == trials.end())
-    throw NoSolution(text("no tried RK4 setting reaches the error %.2g of %d harmonics",
-                          aft.error, aft.harmonics));
   Rk4Sweep sweep(scene, chosen->step, chosen->transient);
   const CpuTime cpu = time_of(scene.repetitions, [&] { sweep.run(); });
-  return {"rk4",
-          aft.harmonics,
-          0,
-          chosen->step,
-          chosen->transient,
-          cpu,
-          chosen->error.displacement,
-          chosen->error.force,
-          chosen->error.worst_frequency,
-          chosen->evaluations,
-          1,
-          scene.paper_cpu.back()};
+  TimedSweep row{};
+  row.method = "rk4";
+  row.harmonics = aft.harmonics;
+  row.step = chosen->step;
+  row.transient = chosen->transient;
+  row.cpu = cpu;
+  row.error = chosen->error.displacement;
+  row.error_force = chosen->error.force;
+  row.worst_frequency = chosen->error.worst_frequency;
+  row.evaluations = sweep.evaluations();
+  row.ratio = 1;
+  row.paper_cpu = scene.paper_cpu.back();
+  return row;
+}
+
+/** Harmonic balance with the k-th number of harmonics; its ratio is still to be had. */
+TimedSweep time_balance(const TimingScene& scene, const Reference& reference,
+                        std::size_t k)
+{
+  BalanceSweep sweep(scene, scene.harmonics[k], scene.samples[k]);
+  const CpuTime cpu = time_of(scene.repetitions, [&] { sweep.run(); });
+  const Error error = error_of(scene, sweep.motions(), reference);
+  TimedSweep row{};
+  row.method = "aft";
+  row.harmonics = scene.harmonics[k];
+  row.samples = scene.samples[k];
+  row.cpu = cpu;
+  row.error = error.displacement;
+  row.error_force = error.force;
+  row.worst_frequency = error.worst_frequency;
+  row.evaluations = sweep.evaluations();
+  row.paper_cpu = scene.paper_cpu[k];
+  return row;
 }
 
 }  // namespace
@@ -169,27 +202,18 @@ TimedSweep time_rk4(const TimingScene& scene, const std::vector<Rk4Trial>& trial
 TimingResult compute_timing(const TimingScene& scene)
 {
   const Reference reference = compute_reference(scene);
-  const std::vector<Rk4Trial> trials = try_rk4(scene, reference);
+  std::vector<TimedSweep> balances;
+  for (std::size_t k = 0; k < scene.harmonics.size(); ++k)
+    balances.push_back(time_balance(scene, reference, k));
+  const auto tightest = std::min_element(
+      balances.begin(), balances.end(),
+      [](const TimedSweep& a, const TimedSweep& b) { return a.error < b.error; });
+  const auto trials = try_rk4(scene, reference, tightest->error);
   TimingResult result{{}, reference.aperiodic, reference.spread};
-  for (std::size_t k = 0; k < scene.harmonics.size(); ++k) {
-    BalanceSweep balance(scene, scene.harmonics[k], scene.samples[k]);
-    const CpuTime cpu = time_of(scene.repetitions, [&] { balance.run(); });
-    const Error error = error_of(scene, balance.motions(), reference);
-    TimedSweep aft{"aft",
-                   scene.harmonics[k],
-                   scene.samples[k],
-                   0,
-                   0,
-                   cpu,
-                   error.displacement,
-                   error.force,
-                   error.worst_frequency,
-                   balance.evaluations(),
-                   1,
-                   scene.paper_cpu[k]};
-    const TimedSweep rk4 = time_rk4(scene, trials, aft);
-    aft.ratio = rk4.cpu.median / aft.cpu.median;
-    result.sweeps.push_back(std::move(aft));
+  for (TimedSweep& balance : balances) {
+    const TimedSweep rk4 = time_rk4(scene, trials, balance);
+    balance.ratio = rk4.cpu.median / balance.cpu.median;
+    result.sweeps.push_back(balance);
     result.sweeps.push_back(rk4);
   }
   return result;

@@ -12,7 +12,7 @@ namespace rotor_stator::tests
 {
 
 /** A force on each mass from the masses' displacements, with its derivative (row i,
- * column j). */
+    column j). */
 struct LocalForce {
   Eigen::VectorXd force;
   Eigen::MatrixXd stiffness;
@@ -32,7 +32,7 @@ Oscillator two_masses_cubic();
 Oscillator two_masses_unilateral();
 
 /** The amplitude of harmonic `h` of variable `row` in the coefficients `x` with d
- * variables. */
+    variables. */
 double harmonic_amplitude(const Eigen::VectorXd& x, int dofs, int row, int h);
 
 /** Root mean square of variable `row`. */

@@ -14,7 +14,7 @@ struct Outcome {
 };
 
 /** Runs `arguments` (program name first, relative to the build folder) in the project's
- * root. */
+    root. */
 Outcome run_program(const std::string& arguments);
 
 /** A folder of its own for each use, removed at the end. */

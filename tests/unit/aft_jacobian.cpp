@@ -1,5 +1,5 @@
 /** The analytic Jacobian against central differences, for the bearing and through the
- * seam. */
+    seam. */
 #include <catch2/catch.hpp>
 
 #include "balance/bearing_problem.hpp"

@@ -53,7 +53,7 @@ TEST_CASE(
 TEST_CASE("The predictor has the order of its cubic")
 {
   /** Points on a circle: halving the spacing divides the error of a cubic extrapolation
-   * by 16. */
+      by 16. */
   const auto error = [](double h) {
     LagrangePredictor predictor(1, 1);
     for (int k = -3; k <= 0; ++k)

@@ -12,7 +12,7 @@ namespace
 {
 
 /** Largest relative error of the four displacements against the closed form without
- * contact. */
+    contact. */
 double error_without_contact(const Parameters& parameters, double frequency,
                              int harmonics)
 {

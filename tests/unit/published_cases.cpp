@@ -109,7 +109,7 @@ TEST_CASE("Unilateral spring: amplitudes converge with the harmonics as publishe
   const int harmonics[4] = {7, 21, 41, 81};
 
   /** The contact branch with few harmonics, by arc length; more harmonics start from
-   * fewer. */
+      fewer. */
   Balance coarse(two_masses_unilateral().problem(1024), 7);
   Eigen::VectorXd x = Eigen::VectorXd::Zero(coarse.unknowns());
   double omega = 0.59;
