@@ -30,8 +30,11 @@ folder := $(if $(filter as-printed,$(READING)),/as-printed)
 tables_dir := data/generated$(folder)
 figures_dir := figures/generated$(folder)
 
-figure_names := fig01 fig02 fig03 fig04 fig05 fig06 fig07 fig08 fig09
-table_names := $(figure_names) tab01_parameters
+# What the paper leaves out is varied about the default reading alone.
+varied := $(if $(filter exchanged,$(READING)),sensitivity)
+
+figure_names := fig01 fig02 fig03 fig04 fig05 fig06 fig07 fig08 fig09 $(varied)
+table_names := $(figure_names) tab01_parameters $(varied:%=%_derivatives)
 tables := $(table_names:%=$(tables_dir)/%.tsv)
 timing := $(tables_dir)/tab02_timing.tsv
 figures := $(figure_names:%=$(figures_dir)/%.svg)
@@ -95,7 +98,7 @@ $(programs): build/.built
 	+@:
 
 # ---------------------------------------------------------------------------------------------
-# Tables: $(call table,name,program,data sets)
+# Tables: $(call table,name,program,data sets[,scene, if it has another name])
 
 # Writes the target under another name and moves it into place when the command has ended well.
 # $(call whole,command), where the command writes to "$$new".
@@ -105,8 +108,8 @@ new=$@.$$$$.tmp; trap 'rm -f $$new' EXIT; $(1); mv $$new $@
 endef
 
 define table
-$$(tables_dir)/$(1).tsv: build/$(2) data/scenes/$(1).toml $(3:%=data/%$$(suffix).toml) | $$(tables_dir)
-	$$(call whole,$$< data/scenes/$(1).toml --reading $$(READING) > $$$$new)
+$$(tables_dir)/$(1).tsv: build/$(2) data/scenes/$(or $(4),$(1)).toml $(3:%=data/%$$(suffix).toml) | $$(tables_dir)
+	$$(call whole,$$< data/scenes/$(or $(4),$(1)).toml --reading $$(READING) > $$$$new)
 endef
 
 $(eval $(call table,fig01,fig01_bearing,set1))
@@ -120,6 +123,8 @@ $(eval $(call table,fig08,fig08_orbits,set2))
 $(eval $(call table,fig09,fig09_contact,set2))
 $(eval $(call table,tab01_parameters,tab01_parameters,set1 set2))
 $(eval $(call table,tab02_timing,tab02_timing,set1))
+$(eval $(call table,sensitivity,sensitivity,set1))
+$(eval $(call table,sensitivity_derivatives,sensitivity_derivatives,set1,sensitivity))
 
 # Timings run after everything else, alone.
 $(timing): | $(tables) $(figures)
@@ -146,6 +151,7 @@ $(eval $(call curves,fig06,fig06_orbits,figures/orbits.gp))
 $(eval $(call map,fig07,fig07_contact,figures/contact_map.py))
 $(eval $(call curves,fig08,fig08_orbits,figures/orbits.gp))
 $(eval $(call map,fig09,fig09_contact,figures/contact_map.py))
+$(eval $(call curves,sensitivity,sensitivity,))
 
 png: $(pictures)  ## the figures as PNG, for viewing
 

@@ -19,6 +19,10 @@ RESPONSE |= {"contact": (0, 0.02), "periodic": (0, 0)}
 PARAMETERS = {name: (1e-14, 0) for name in (
     "xi_r", "xi_s", "m_e_e", "omega_0_s", "omega_0_r", "K_H", "delta", "m_s", "m_r", "n",
     "cage_speed_ratio", "g", "f_joint")}
+# Aperiodic motion at 13.4 Hz: its mean size is compared to 3 %, its loss of contact to 0.5 Hz.
+SENSITIVITY = {"f_peak": (1e-5, 0), "amp_peak": (1e-6, 0), "f_loss_first": (0, 0.5),
+               "f_loss_last": (0, 0.5), "amp_x_13p4": (0.03, 0), "amp_y_13p4": (0.03, 0),
+               "amp_x_13p4_aft": (1e-6, 1e-12), "amp_y_13p4_aft": (1e-6, 1e-12)}
 
 # name: program, key columns, every how many rows, exceptions, tolerances.
 # In the transition of set 2 Newton finds or misses solutions at single speeds (Fig. 3, Fig. 8)
@@ -33,6 +37,7 @@ FIGURES = {
     "fig07": ("fig07_contact", "panel t_over_T ball", 37, None, CONTACT),
     "fig08": ("fig08_orbits", "panel source t_over_T", 29, "0 where periodic = 0", ORBIT),
     "fig09": ("fig09_contact", "panel t_over_T ball", 37, None, CONTACT),
+    "sensitivity": ("sensitivity", "parameter value", 1, None, SENSITIVITY),
     "tab01_parameters": ("tab01_parameters", "set", 1, None, PARAMETERS),
 }
 

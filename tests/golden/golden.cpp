@@ -224,3 +224,7 @@ TEST_CASE("Golden table of Table 1")
 {
   check_against_golden("tab01_parameters");
 }
+TEST_CASE("Golden table of the sensitivity to unpublished parameters")
+{
+  check_against_golden("sensitivity");
+}
