@@ -19,35 +19,50 @@ export PYTHONDONTWRITEBYTECODE := 1
 
 PYTHON ?= /usr/bin/python3
 
-# READING=as-printed draws the paper's printed frequencies (deviation D-09) beside the default.
+# `figures` draws one reading of Table 1's frequencies (deviation D-09), `all` both.
 READING ?= exchanged
 ifeq ($(filter $(READING),exchanged as-printed),)
 $(error READING=$(READING): must be exchanged or as-printed)
 endif
-suffix := $(if $(filter as-printed,$(READING)),-as-printed)
-folder := $(if $(filter as-printed,$(READING)),/as-printed)
 
-tables_dir := data/generated$(folder)
-figures_dir := figures/generated$(folder)
+# Where the tables and figures of a reading go, and which parameter files it takes.
+folder_exchanged :=
+folder_as-printed := /as-printed
+suffix_exchanged :=
+suffix_as-printed := -as-printed
 
-# What the paper leaves out is varied about the default reading alone.
-varied := $(if $(filter exchanged,$(READING)),sensitivity)
+figure_names := fig01 fig02 fig03 fig04 fig05 fig06 fig07 fig08 fig09
+table_names := $(figure_names) tab01_parameters regimes truncation
+drawn_names := $(figure_names) truncation
 
-figure_names := fig01 fig02 fig03 fig04 fig05 fig06 fig07 fig08 fig09 $(varied)
-table_names := $(figure_names) tab01_parameters $(varied:%=%_derivatives)
-tables := $(table_names:%=$(tables_dir)/%.tsv)
-timing := $(tables_dir)/tab02_timing.tsv
-figures := $(figure_names:%=$(figures_dir)/%.svg)
-pictures := $(figures:.svg=.png)
+tables_of = $(table_names:%=data/generated$(folder_$(1))/%.tsv)
+timing_of = data/generated$(folder_$(1))/tab02_timing.tsv
+claims_of = data/generated$(folder_$(1))/claims.tsv
+figures_of = $(drawn_names:%=figures/generated$(folder_$(1))/%.svg)
+results_of = $(tables_of) $(timing_of) $(figures_of)
+
+# What does not depend on the reading.
+studied := $(addprefix data/generated/,sensitivity.tsv sensitivity_derivatives.tsv) \
+  $(addprefix figures/generated/,sensitivity.svg identification.svg study.svg)
+
+readings := exchanged as-printed
+timings := $(foreach reading,$(readings),$(call timing_of,$(reading)))
+claims := $(foreach reading,$(readings),$(call claims_of,$(reading)))
+untimed := $(foreach reading,$(readings),$(call tables_of,$(reading)) $(call figures_of,$(reading))) \
+  $(studied)
 programs := $(patsubst src/%.cpp,build/%,$(wildcard src/*.cpp))
 
-.PHONY: all figures timing test sanitize deps list png readme golden format clean
+.PHONY: all figures timing claims test sanitize deps list png readme golden format clean \
+  studies identify study adopt
 
-all: figures  ## every figure and table of the paper, and the tests' programs (the default)
+all: $(untimed) $(timings) $(claims)  ## figures, tables and claims of both readings (the default)
 
-figures: $(tables) $(timing) $(figures)  ## the paper's figures and tables
+figures: $(call results_of,$(READING))  ## the paper's figures and tables, of one READING
 
-timing: $(timing)  ## the timing table, alone on the machine
+timing: $(call timing_of,$(READING))  ## the timing table, alone on the machine
+
+claims: $(claims)  ## the verdict on each claim, for both readings
+	$(PYTHON) figures/claims.py --print $(claims)
 
 # ---------------------------------------------------------------------------------------------
 # Packages
@@ -107,9 +122,15 @@ define whole
 new=$@.$$$$.tmp; trap 'rm -f $$new' EXIT; $(1); mv $$new $@
 endef
 
+# $(call table_of,name,program,data sets,scene,reading)
+define table_of
+data/generated$(folder_$(5))/$(1).tsv: build/$(2) data/scenes/$(4).toml $(3:%=data/%$(suffix_$(5)).toml)
+	@mkdir -p $$(@D)
+	$$(call whole,$$< data/scenes/$(4).toml --reading $(5) > $$$$new)
+endef
+
 define table
-$$(tables_dir)/$(1).tsv: build/$(2) data/scenes/$(or $(4),$(1)).toml $(3:%=data/%$$(suffix).toml) | $$(tables_dir)
-	$$(call whole,$$< data/scenes/$(or $(4),$(1)).toml --reading $$(READING) > $$$$new)
+$(foreach reading,$(readings),$(eval $(call table_of,$(1),$(2),$(3),$(or $(4),$(1)),$(reading))))
 endef
 
 $(eval $(call table,fig01,fig01_bearing,set1))
@@ -123,24 +144,37 @@ $(eval $(call table,fig08,fig08_orbits,set2))
 $(eval $(call table,fig09,fig09_contact,set2))
 $(eval $(call table,tab01_parameters,tab01_parameters,set1 set2))
 $(eval $(call table,tab02_timing,tab02_timing,set1))
+$(eval $(call table,regimes,regimes,set1 set2))
+$(eval $(call table,truncation,truncation,set1 set2))
 $(eval $(call table,sensitivity,sensitivity,set1))
 $(eval $(call table,sensitivity_derivatives,sensitivity_derivatives,set1,sensitivity))
 
-# Timings run after everything else, alone.
-$(timing): | $(tables) $(figures)
+# Timings run alone: after all that is not timed, one after the other.
+$(foreach reading,$(readings),$(eval $(call timing_of,$(reading)): | \
+  $(call tables_of,$(reading)) $(call figures_of,$(reading))))
+ifneq ($(filter all test sanitize claims,$(or $(MAKECMDGOALS),all)),)
+$(timings): | $(untimed)
+$(call timing_of,as-printed): | $(call timing_of,exchanged)
+endif
 
 # ---------------------------------------------------------------------------------------------
 # Figures: $(call curves,name,script,what it loads) with gnuplot, $(call map,…) with Matplotlib
 
-define curves
-$$(figures_dir)/$(1).svg: figures/$(2).gp figures/style.gp $(3) $$(tables_dir)/$(1).tsv | $$(figures_dir)
-	$$(call whole,gnuplot -e "table='$$(tables_dir)/$(1).tsv'; output='$$$$new'" $$<)
+# $(call curves_of,name,script,what it loads,reading), $(call map_of,…)
+define curves_of
+figures/generated$(folder_$(4))/$(1).svg: figures/$(2).gp figures/style.gp $(3) data/generated$(folder_$(4))/$(1).tsv
+	@mkdir -p $$(@D)
+	$$(call whole,gnuplot -e "table='data/generated$(folder_$(4))/$(1).tsv'; output='$$$$new'" $$<)
 endef
 
-define map
-$$(figures_dir)/$(1).svg: figures/$(2).py figures/rotor_stator.mplstyle figures/tables.py $(3) $$(tables_dir)/$(1).tsv | $$(figures_dir)
-	$$(call whole,$$(PYTHON) $$< $$(tables_dir)/$(1).tsv $$$$new)
+define map_of
+figures/generated$(folder_$(4))/$(1).svg: figures/$(2).py figures/rotor_stator.mplstyle figures/tables.py $(3) data/generated$(folder_$(4))/$(1).tsv
+	@mkdir -p $$(@D)
+	$$(call whole,$$(PYTHON) $$< data/generated$(folder_$(4))/$(1).tsv $$$$new)
 endef
+
+curves = $(foreach reading,$(readings),$(eval $(call curves_of,$(1),$(2),$(3),$(reading))))
+map = $(foreach reading,$(readings),$(eval $(call map_of,$(1),$(2),$(3),$(reading))))
 
 $(eval $(call map,fig01,fig01_bearing,))
 $(eval $(call map,fig02,fig02_ball_position,))
@@ -151,15 +185,54 @@ $(eval $(call curves,fig06,fig06_orbits,figures/orbits.gp))
 $(eval $(call map,fig07,fig07_contact,figures/contact_map.py))
 $(eval $(call curves,fig08,fig08_orbits,figures/orbits.gp))
 $(eval $(call map,fig09,fig09_contact,figures/contact_map.py))
+$(eval $(call curves,truncation,truncation,data/claims.toml))
 $(eval $(call curves,sensitivity,sensitivity,))
 
-png: $(pictures)  ## the figures as PNG, for viewing
+# The long studies are drawn from their kept tables.
+figures/generated/identification.svg figures/generated/study.svg: figures/generated/%.svg: \
+  figures/%.py figures/rotor_stator.mplstyle figures/tables.py data/claims.toml \
+  data/set1.toml data/set2.toml data/reference/%.tsv
+	@mkdir -p $(@D)
+	$(call whole,$(PYTHON) $< data/reference/$*.tsv $$new)
+
+png: $(patsubst %.svg,%.png,$(filter %.svg,$(untimed)))  ## the figures as PNG, for viewing
 
 %.png: %.svg
 	$(call whole,rsvg-convert --zoom 1.5 --background-color white --output $$new $<)
 
-$(tables_dir) $(figures_dir):
-	@mkdir -p $@
+# ---------------------------------------------------------------------------------------------
+# Claims: $(call claims_rule,reading)
+
+define claims_rule
+$(claims_of): figures/claims.py figures/tables.py data/claims.toml data/reference/study.tsv \
+  $(tables_of) $(timing_of)
+	$$(call whole,$$(PYTHON) figures/claims.py $$(@D) $$$$new)
+endef
+
+$(foreach reading,$(readings),$(eval $(call claims_rule,$(reading))))
+
+# ---------------------------------------------------------------------------------------------
+# Long studies. Finished pieces are kept in a journal, so an interrupted study goes on; the tables are
+# kept in data/reference, where `all` finds them, and compared with what is computed anew.
+
+studies: identify study  ## run the long studies and compare them with their kept tables
+
+identify: build/identify_parameters  ## score the grid of unpublished parameters (under 10 minutes)
+	@mkdir -p data/generated
+	new=data/generated/identification.tsv; $< --journal data/generated/identification.journal > $$new.tmp; \
+	  mv $$new.tmp $$new; $(PYTHON) tests/compare_tables.py data/reference/identification.tsv $$new
+
+study: build/clearance_stiffness_study  ## clearance against contact stiffness (under 5 minutes)
+	@mkdir -p data/generated
+	new=data/generated/study.tsv; $< --journal data/generated/study.journal > $$new.tmp; \
+	  mv $$new.tmp $$new; $(PYTHON) tests/compare_tables.py data/reference/study.tsv $$new
+
+adopt:  ## keep the tables of the studies just run, and the verdicts; a commit that does says why
+	@mkdir -p data/reference
+	for name in identification study; do \
+	  if [ -e data/generated/$$name.tsv ]; then cp data/generated/$$name.tsv data/reference/; fi; done
+	cp data/generated/claims.tsv data/reference/claims.tsv
+	cp data/generated/as-printed/claims.tsv data/reference/claims-as-printed.tsv
 
 # ---------------------------------------------------------------------------------------------
 # Checks and the rest
@@ -173,7 +246,7 @@ sanitize: all  ## the same tests with address and undefined-behaviour sanitizers
 	cmake --build --preset debug
 	ctest --preset debug --no-tests=error
 
-readme: figures  ## refresh the README's pictures and its generated block
+readme: all  ## refresh the README's pictures and its generated block
 	$(PYTHON) figures/readme.py --write
 
 golden:  ## rewrite the golden tables of the tests from data/generated; a commit that does says why

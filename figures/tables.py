@@ -10,6 +10,14 @@ import numpy as np
 ROTOR, STATOR = "C0", "C1"
 
 
+def numbers_or_words(column):
+    """A column as numbers if all of it can be read so."""
+    try:
+        return column.astype(float)
+    except ValueError:
+        return column
+
+
 class Table:
     """The columns of a tab-separated table by name, and its `#` lines."""
 
@@ -17,19 +25,23 @@ class Table:
         lines = Path(path).read_text(encoding="utf-8").splitlines()
         self.header = "\n".join(line for line in lines if line.startswith("#"))
         rows = [line for line in lines if line.strip() and not line.startswith("#")]
-        values = np.array([row.split("\t") for row in rows[1:]], dtype=float)
-        self.columns = dict(zip(rows[0].split("\t"), values.T))
+        cells = np.array([row.split("\t") for row in rows[1:]])
+        self.columns = {name: numbers_or_words(column)
+                        for name, column in zip(rows[0].split("\t"), cells.T)}
 
     def __getitem__(self, name):
         return self.columns[name]
 
-    def where(self, name, value):
-        """The rows in which a column has a value, as a table with the same header."""
+    def rows(self, chosen):
+        """The rows where `chosen` is true, as a table with the same header."""
         part = object.__new__(Table)
         part.header = self.header
-        chosen = self[name] == value
         part.columns = {key: column[chosen] for key, column in self.columns.items()}
         return part
+
+    def where(self, name, value):
+        """The rows in which a column has a value."""
+        return self.rows(self[name] == value)
 
     def first(self, name):
         """A column's value in the first row, for columns that are constant in the rows."""

@@ -92,18 +92,12 @@ double share(const std::vector<Regime>& regimes, Condition condition)
          static_cast<double>(regimes.size());
 }
 
-/** Speed of the largest amplitude, refined by the parabola through its neighbours. */
+/** Speed of the largest amplitude of x_r. */
 double peak_frequency(const std::vector<Regime>& regimes)
 {
-  const auto top = std::max_element(
-      regimes.begin(), regimes.end(),
-      [](const Regime& a, const Regime& b) { return a.amp_x_r < b.amp_x_r; });
-  if (top == regimes.begin() || top + 1 == regimes.end()) return top->frequency;
-  const double before = (top - 1)->amp_x_r, after = (top + 1)->amp_x_r;
-  const double curvature = before - 2 * top->amp_x_r + after;
-  const double spacing = (top + 1)->frequency - top->frequency;
-  return top->frequency +
-         (curvature < 0 ? 0.5 * spacing * (before - after) / curvature : 0.0);
+  std::vector<CurvePoint> curve;
+  for (const Regime& r : regimes) curve.push_back({r.frequency, r.amp_x_r});
+  return refined_peak(curve).frequency;
 }
 
 RangeShares shares_of(const std::vector<Regime>& regimes, const ClaimRule& rule)

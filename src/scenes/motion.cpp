@@ -143,6 +143,23 @@ std::array<double, 4> half_peak_to_peak(const Motion& motion)
   return amplitude;
 }
 
+CurvePoint refined_peak(const std::vector<CurvePoint>& curve)
+{
+  const auto top = std::max_element(
+      curve.begin(), curve.end(),
+      [](const CurvePoint& a, const CurvePoint& b) { return a.amplitude < b.amplitude; });
+  if (top == curve.begin() || top + 1 == curve.end()) return *top;
+  /** Newton's form of the parabola, for neighbours at any distance. */
+  const CurvePoint &a = *(top - 1), &b = *top, &c = *(top + 1);
+  const double left = (b.amplitude - a.amplitude) / (b.frequency - a.frequency);
+  const double right = (c.amplitude - b.amplitude) / (c.frequency - b.frequency);
+  const double bend = (right - left) / (c.frequency - a.frequency);
+  if (!(bend < 0)) return b;
+  const double slope = left + bend * (b.frequency - a.frequency);  // at b
+  const double shift = -slope / (2 * bend);
+  return {b.frequency + shift, b.amplitude + shift * (slope + bend * shift)};
+}
+
 double contact_share(const Parameters& parameters, const Motion& motion)
 {
   const auto forces = bearing_forces(parameters, motion);

@@ -61,6 +61,15 @@ std::vector<Vec2> bearing_forces(const Parameters& parameters, const Motion& mot
 /** Half peak-to-peak of x_s, y_s, x_r, y_r [m] over the instants of a motion. */
 std::array<double, 4> half_peak_to_peak(const Motion& motion);
 
+/** A point of a response curve: speed [Hz] and amplitude [m]. */
+struct CurvePoint {
+  double frequency, amplitude;
+};
+
+/** The highest point of a curve, refined by the parabola through it and its neighbours; the point
+    itself at an end of the curve. */
+CurvePoint refined_peak(const std::vector<CurvePoint>& curve);
+
 /** Share of the instants with at least one loaded ball [-]. */
 double contact_share(const Parameters& parameters, const Motion& motion);
 

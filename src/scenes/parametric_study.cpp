@@ -54,18 +54,15 @@ double largest_ball_force(const Parameters& parameters, const Motion& motion)
   return largest;
 }
 
-/** Adds one solution of the sweep to what it comes to. */
+/** Adds one solution of the sweep to what it comes to, and its amplitude to the curve. */
 void add_solution(const Parameters& parameters, double frequency,
-                  const PeriodicSolution& solution, StudyPoint& point)
+                  const PeriodicSolution& solution, StudyPoint& point,
+                  std::vector<CurvePoint>& curve)
 {
   const Motion motion = motion_of(solution, 128);
   point.largest_force =
       std::max(point.largest_force, largest_ball_force(parameters, motion));
-  const double amplitude = half_peak_to_peak(motion)[2];
-  if (amplitude > point.amp_peak) {
-    point.amp_peak = amplitude;
-    point.f_peak = frequency;
-  }
+  curve.push_back({frequency, half_peak_to_peak(motion)[2]});
   if (contact_share(parameters, motion) < 1) {
     if (point.f_loss_first < 0) point.f_loss_first = frequency;
     point.f_loss_last = frequency;
@@ -81,6 +78,7 @@ StudyPoint sweep_machine(const Parameters& parameters, const ParametricStudy& st
   Balance balance(bearing_problem(parameters, default_samples(study.harmonics)),
                   study.harmonics);
   StudyPoint point{-1, -1, -1, -1, 0, 0};
+  std::vector<CurvePoint> curve;
   const auto swept = sweep(
       balance, omegas,
       [&](double omega) {
@@ -90,8 +88,13 @@ StudyPoint sweep_machine(const Parameters& parameters, const ParametricStudy& st
       [&](const SweepPoint& found) {
         PeriodicSolution solution{};
         solution.bodies = body_series(parameters, balance, found.omega, found.x);
-        add_solution(parameters, found.omega / angular(1), solution, point);
+        add_solution(parameters, found.omega / angular(1), solution, point, curve);
       });
+  if (!curve.empty()) {
+    const CurvePoint peak = refined_peak(curve);
+    point.f_peak = peak.frequency;
+    point.amp_peak = peak.amplitude;
+  }
   point.missed = static_cast<int>(std::count_if(
       swept.begin(), swept.end(), [](const SweepPoint& p) { return !p.found(); }));
   return point;

@@ -1,0 +1,89 @@
+"""Clearance against contact stiffness: peak, loss of contact, largest force, speeds without solution.
+
+What (a) to (c) show is taken over the speeds with a solution; grey in (b): contact is never lost. The
+circles are the two data sets of the paper.
+Usage: /usr/bin/python3 figures/study.py data/reference/study.tsv study.svg
+"""
+
+import re
+import tomllib
+from pathlib import Path
+
+import matplotlib.pyplot as plt
+import numpy as np
+from matplotlib.colors import BoundaryNorm, LogNorm
+from matplotlib.ticker import LogLocator
+from tables import run
+
+NEVER = -1
+SETS = ("data/set1.toml", "data/set2.toml")
+
+
+def edges_of(values):
+    """Borders of the cells around values."""
+    middles = (values[1:] + values[:-1]) / 2
+    return np.array([2 * values[0] - middles[0], *middles, 2 * values[-1] - middles[-1]])
+
+
+def speeds_of(table):
+    """Number of speeds of a sweep, the first and the last."""
+    found = re.search(r"(\d+) speeds from ([\d.]+) to ([\d.]+) Hz", table.header)
+    return int(found[1]), float(found[2]), float(found[3])
+
+
+def whole_steps(values, step):
+    """A colour for each multiple of a step that the values take."""
+    borders = np.arange(values.min() - step / 2, values.max() + step, step)
+    return BoundaryNorm(borders, plt.get_cmap().N)
+
+
+def draw_map(axes, table, values, title, **colours):
+    """Values in colour, grey where masked; returns the colour bar."""
+    delta, stiffness = np.unique(table["delta"]), np.unique(table["K_H"])
+    cells = np.ma.masked_all((stiffness.size, delta.size))
+    rows = np.searchsorted(stiffness, table["K_H"])
+    cells[rows, np.searchsorted(delta, table["delta"])] = values
+    x, y = 1e6 * edges_of(delta), np.exp(edges_of(np.log(stiffness)))
+    image = axes.pcolormesh(x, y, cells, rasterized=True, **colours)
+    axes.set(yscale="log", title=title, facecolor="#bbbbbb",
+             xlim=1e6 * delta[[0, -1]], ylim=stiffness[[0, -1]])
+    return axes.figure.colorbar(image, ax=axes, pad=0.02)
+
+
+def mark_sets(axes):
+    """A numbered circle at each data set of the paper."""
+    for path in SETS:
+        bearing = tomllib.loads(Path(path).read_text(encoding="utf-8"))["bearing"]
+        where = 1e6 * bearing["radial_clearance_m"], bearing["contact_stiffness_N_per_m1p5"]
+        axes.plot(*where, "o", ms=17, mfc="white", mec="black", mew=1)
+        axes.annotate(re.search(r"\d", path)[0], where, ha="center", va="center_baseline")
+
+
+def draw(table):
+    """Four maps over the same axes."""
+    figure, grid = plt.subplots(2, 2, figsize=(10, 8), sharex=True, sharey=True,
+                                layout="constrained")
+    (peak, loss), (force, missed) = grid
+    count, first, last = speeds_of(table)
+    f_peak = np.ma.masked_equal(table["f_peak"], NEVER)
+    norm = whole_steps(f_peak, (last - first) / (count - 1))
+    bar = draw_map(peak, table, f_peak, "(a) speed of the peak [Hz]", norm=norm)
+    bar.set_ticks((norm.boundaries[1:] + norm.boundaries[:-1]) / 2)
+    bar.minorticks_off()
+    width = table["f_loss_last"] - table["f_loss_first"]
+    width = np.ma.masked_where(table["f_loss_first"] == NEVER, width)
+    draw_map(loss, table, width, "(b) last − first loss of contact [Hz]", vmin=0)
+    bar = draw_map(force, table, table["largest_force"] / 1e3, "(c) largest force on a ball [kN]",
+                   norm=LogNorm())
+    bar.ax.yaxis.set_major_locator(LogLocator(subs=(1, 2, 3, 5)))
+    bar.ax.yaxis.set_major_formatter("{x:g}")
+    bar.ax.yaxis.set_minor_formatter("")
+    draw_map(missed, table, table["missed"], f"(d) speeds without a solution, of {count:g}", vmin=0)
+    for axes in grid.flat:
+        mark_sets(axes)
+    figure.supxlabel("radial clearance δ [µm]")
+    figure.supylabel("contact stiffness $K_H$ [N/m$^{1.5}$]")
+    return figure
+
+
+run(draw)

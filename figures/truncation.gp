@@ -1,0 +1,105 @@
+# Truncation: distance of the m-harmonic solution to the integrated motion, both data sets
+#
+# Paper: §3.3, claims C2 and C3.
+# Usage: gnuplot -e "table='data/generated/truncation.tsv'; output='truncation.svg'" \
+#        figures/truncation.gp
+# Above, the largest distance over the speeds at which harmonic balance finds a solution; below, the
+# number of speeds at which it finds none, so that few harmonics are not favoured by what they miss.
+
+height = 800
+load 'figures/style.gp'
+
+all = 1; periodic = 2; force = 3; missing = 4; limit = 5; paper = 6
+set style line all      lc rgb '#0072B2' lw 2.2 dt 1 pt 7
+set style line periodic lc rgb '#009E73' lw 2.2 dt (6,3) pt 5
+set style line force    lc rgb '#D55E00' lw 1.6 dt 1 pt 9
+set style line missing  lc rgb '#777777'
+set style line limit    lc rgb '#404040' lw 1 dt (2,3)
+set style line paper    lc rgb '#CC79A7' lw 2 dt 1
+set style fill solid noborder
+
+# The rows of a set ($1) by m ($3): m, the largest distance over all found ($4), over those with
+# periodic motion ($5), of the force, the least of these, and the number not found.
+by_harmonics(s) = sprintf("< awk -F'\\t' -v OFS='\\t' 'function most(a, b) { return a > b ? a : b } \
+  BEGIN { print \"m\", \"all\", \"periodic\", \"force\", \"least\", \"missing\" } \
+  $1 == %d { seen[$3]; if (!$4) { missing[$3]++; next } all[$3] = most(all[$3], $6); \
+    if ($5) same[$3] = most(same[$3], $6); force[$3] = most(force[$3], $7) } \
+  END { for (m = 1; m in seen; m++) { least = m in same ? same[m] : m in all ? all[m] : 1; \
+    print m, all[m], same[m], force[m], least, missing[m] + 0 } }' '%s'", s, table)
+
+# The limits and the paper's number of harmonics, from the rules of the claims.
+claims = 'data/claims.toml'
+limits = system("sed -n 's/^distance_limits = .\\(.*\\)./\\1/p' ".claims." | tr -d ,")
+of_paper(claim) = real(system(sprintf( \
+  "sed -n '/^id = \"%s\"/,/^paper/ s/^paper = \"\\(.*\\)\"/\\1/p' %s", claim, claims)))
+
+# Both columns share their ranges.
+stats table using "m":"set" name 'M' nooutput
+sets = int(M_max_y)
+most_missed = 1
+least = real(word(limits, words(limits)))
+array title_of[sets]
+do for [s = 1 : sets] {
+  stats by_harmonics(s) using "least":"missing" name 'R' nooutput
+  least = min(least, R_min_x)
+  most_missed = max(most_missed, R_max_y)
+  stats table using (column("set") == s && column("m") == M_min_x ? column("periodic") : NaN) \
+    name 'T' nooutput
+  title_of[s] = sprintf("data set %d, δ = %g µm: motion T-periodic\nat %d of %d speeds", \
+                        s, 1e6 * clearance(s), T_sum, T_records)
+}
+stats table using (column("distance")):(column("distance_force")) name 'D' nooutput
+greatest = max(D_max_x, D_max_y)
+
+set xrange [M_min_x - 0.7 : M_max_x + 0.7]
+set xtics 2
+set key at screen 0.53, 0.995 center top vertical maxrows 2 Left reverse width -3
+name(text) = s == 1 ? text : ""
+column_width = 0.91 / sets
+
+set multiplot
+do for [s = 1 : sets] {
+  rows = by_harmonics(s)
+  set lmargin at screen 0.085 + (s - 1) * column_width
+  set rmargin at screen 0.04 + s * column_width
+
+  set tmargin at screen 0.84
+  set bmargin at screen 0.36
+  set title title_of[s] offset 0, -0.6
+  set logscale y
+  set yrange [least / 2 : 2 * greatest]
+  set ytics autofreq
+  set xlabel ""
+  set format x ""
+  set format y s == 1 ? "%g" : ""
+  set ylabel s == 1 ? "largest distance over the speeds [-]" : "" offset 0.5, 0
+  do for [i = 1 : words(limits)] {
+    set label i sprintf("%g %%", 100 * word(limits, i)) at graph 1, first real(word(limits, i)) \
+      left offset 0.3, 0
+  }
+  paper_m = of_paper(word("C2 C3", s))
+  set arrow 1 from paper_m, graph 0 rto 0, graph 1 nohead back ls paper
+  plot \
+    for [value in limits] real(value) with lines ls limit notitle, \
+    rows using "m":"all" with linespoints ls all ps 0.9 \
+      title name("displacement, all speeds solved"), \
+    rows using "m":"periodic" with linespoints ls periodic ps 0.5 \
+      title name("displacement, T-periodic speeds solved"), \
+    rows using "m":"force" with linespoints ls force ps 0.8 \
+      title name("force, all speeds solved"), \
+    keyentry with lines ls paper title name("harmonics needed, paper")
+  unset label
+  unset arrow
+
+  set tmargin at screen 0.33
+  set bmargin at screen 0.085
+  set title ""
+  unset logscale y
+  set yrange [0 : 1.1 * most_missed]
+  set ytics tic_step(most_missed)
+  set xlabel "number of harmonics m" offset 0, 0.3
+  set format x "%g"
+  set ylabel s == 1 ? "speeds unsolved [-]" : "" offset 0.5, 0
+  plot rows using (column("m")):(column("missing")):(0.7) with boxes ls missing notitle
+}
+unset multiplot

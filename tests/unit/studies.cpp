@@ -1,0 +1,166 @@
+/** Regimes, the judgement of a candidate, and studies that go on where they were interrupted. */
+#include <atomic>
+#include <catch2/catch.hpp>
+#include <cmath>
+#include <fstream>
+#include <numbers>
+
+#include "scenes/identification.hpp"
+#include "scenes/parametric_study.hpp"
+#include "scenes/resumable.hpp"
+#include "support/cases.hpp"
+#include "support/command.hpp"
+
+using namespace rotor_stator;
+using namespace rotor_stator::tests;
+
+namespace
+{
+
+const ClaimRule rule{.low_to = 10,
+                     .middle_to = 19,
+                     .multi_harmonic = 0.05,
+                     .paper_peak = 50,
+                     .peak_width = 10,
+                     .within = 0.1};
+
+/** A regime as the paper describes it: loss of contact and many harmonics from 10 to 19 Hz. */
+Regime as_the_paper_says(double frequency)
+{
+  const bool middle = frequency > 10 && frequency <= 19;
+  Regime regime{};
+  regime.frequency = frequency;
+  regime.periodic = true;
+  regime.contact = middle ? 0.8 : 1.0;
+  regime.higher_harmonics = middle ? 0.2 : 0.01;
+  regime.passed_once = true;
+  regime.passages = 1;
+  regime.amp_x_r = 1 / (1 + std::pow(frequency - 50, 2));
+  return regime;
+}
+
+std::vector<Regime> sixty_speeds()
+{
+  std::vector<Regime> regimes;
+  for (int f = 1; f <= 60; ++f) regimes.push_back(as_the_paper_says(f));
+  return regimes;
+}
+
+}  // namespace
+
+TEST_CASE("A candidate that is as the paper says scores 1")
+{
+  const Judgement j = judge(sixty_speeds(), rule);
+  CHECK(j.f_peak == Approx(50));
+  CHECK(j.f_loss_first == 11);
+  CHECK(j.f_loss_last == 19);
+  CHECK(j.passages == Approx(1));
+  CHECK(j.score == Approx(1));
+}
+
+TEST_CASE("Loss of contact elsewhere, a shifted peak and a second passage cost score")
+{
+  std::vector<Regime> regimes = sixty_speeds();
+  regimes[24].contact = 0.9;        // 25 Hz
+  regimes[39].passed_once = false;  // 40 Hz
+  for (Regime& r : regimes) r.amp_x_r = 1 / (1 + std::pow(r.frequency - 45, 2));
+  const Judgement j = judge(regimes, rule);
+  CHECK(j.c1 == Approx(0.5));
+  CHECK(j.c4 == 1);
+  CHECK(j.c5 == Approx(9.0 / 10));
+  CHECK(j.c6 == Approx(40.0 / 41));
+  CHECK(j.c10 == Approx(40.0 / 41));
+  CHECK(j.f_loss_last == 25);
+}
+
+TEST_CASE("Higher harmonics of a known motion")
+{
+  Motion motion{32, 0, {}};
+  for (int k = 0; k < 32; ++k) {
+    const double phase = 2 * std::numbers::pi * k / 32;
+    motion.positions.push_back(
+        {{std::cos(phase), 5.0}, {2 * std::cos(phase), 0.6 * std::cos(3 * phase)}});
+  }
+  CHECK(higher_harmonics(motion) == Approx(0.3));
+}
+
+TEST_CASE("Passages are counted around the end of the two periods")
+{
+  const std::vector<std::vector<double>> force{
+      {1, 0, 0}, {0, 1, 0}, {0, 1, 0}, {1, 0, 0}};
+  CHECK(passages_per_ball(force) == std::vector<int>{1, 1, 0});
+}
+
+TEST_CASE("At 45 Hz each ball of set 1 is passed once per 2T, at 13.4 Hz not")
+{
+  const RegimeSettings settings{
+      .step_over_default = 2, .longest = 4, .window = 0.5, .points_per_period = 64};
+  const Regime high = regime_at(set_1(), 45, settings);
+  CHECK(high.passed_once);
+  CHECK(high.permanent_contact());
+  CHECK(high.higher_harmonics < 0.01);
+  const Regime middle = regime_at(set_1(), 13.4, settings);
+  CHECK_FALSE(middle.permanent_contact());
+  CHECK_FALSE(middle.periodic);
+}
+
+TEST_CASE("An interrupted study goes on where it was, and a changed one starts anew")
+{
+  const Scratch scratch;
+  std::atomic<int> calls = 0;
+  Study study{.name = "squares",
+              .journal = scratch.path("journal"),
+              .stamp = "squares of small numbers",
+              .pieces = 20,
+              .work = [&](std::size_t piece) {
+                ++calls;
+                return Row{static_cast<double>(piece * piece), 0.1};
+              }};
+  const auto rows = run_study(study);
+  CHECK(calls == 20);
+  CHECK(rows[7] == Row{49, 0.1});
+
+  /** Five rows are lost, and the last kept line is cut off in the middle. */
+  std::string journal = read_whole(study.journal);
+  for (int lines = 0; lines < 5; ++lines)
+    journal.erase(journal.rfind('\n', journal.size() - 2) + 1);
+  journal.pop_back();
+  std::ofstream(study.journal) << journal;
+  calls = 0;
+  CHECK(run_study(study) == rows);
+  CHECK(calls == 6);
+
+  study.stamp = "other numbers";
+  calls = 0;
+  run_study(study);
+  CHECK(calls == 20);
+}
+
+TEST_CASE("A study that fails says why, and keeps what it has")
+{
+  const Scratch scratch;
+  const Study study{.name = "failing",
+                    .journal = scratch.path("journal"),
+                    .stamp = "stamp",
+                    .pieces = 4,
+                    .work = [](std::size_t piece) -> Row {
+                      if (piece == 3) throw std::runtime_error("the fourth piece");
+                      return {1.0};
+                    }};
+  CHECK_THROWS_WITH(run_study(study), "the fourth piece");
+  CHECK(read_whole(study.journal).find("0 1\n") != std::string::npos);
+}
+
+TEST_CASE("A point of the parametric study agrees with the paper's set 1")
+{
+  const ParametricStudy study{.base = set_1(),
+                              .harmonics = 6,
+                              .frequencies = {45, 48, 50, 52},
+                              .clearances = {2e-5},
+                              .contact_stiffnesses = {1e11}};
+  const StudyPoint point = sweep_machine(study.machine(0), study);
+  CHECK(point.missed == 0);
+  CHECK(point.f_peak == Approx(50).margin(0.5));
+  CHECK(point.amp_peak == Approx(12.7e-3).epsilon(0.01));
+  CHECK(point.f_loss_first == -1);
+}
