@@ -12,6 +12,7 @@ import shutil
 import sys
 from pathlib import Path
 
+from claims import stored
 from tables import Table
 
 README = Path("README.md")
@@ -68,6 +69,13 @@ def panel_lines(figure, table):
                f"| {distance if periodic else '-'} |")
 
 
+def claim_lines():
+    """The kept verdicts of both readings."""
+    kept = [stored(f"data/reference/{name}.tsv") for name in ("claims", "claims-as-printed")]
+    for exchanged, printed in zip(*kept):
+        yield f"| {exchanged[0]} | {exchanged[1]} | {exchanged[4]} | {printed[4]} |"
+
+
 def block():
     lines = ["| data set | peak of x_r | contact lost at times | not T-periodic |",
              "|---|---|---|---|"]
@@ -77,6 +85,8 @@ def block():
     for figure in ("fig04", "fig05", "fig06", "fig08"):
         lines += panel_lines(figure.replace("fig0", "Fig. "),
                              Table(f"data/generated/{figure}.tsv"))
+    lines += ["", "| | claim | exchanged reading | printed reading |", "|---|---|---|---|"]
+    lines += claim_lines()
     return "\n".join(lines) + "\n"
 
 
