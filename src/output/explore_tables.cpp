@@ -73,7 +73,7 @@ Motion balance_motion(const Parameters& parameters, const MotionRequest& request
                   samples, request.tolerance));
   table.note("newton: from " + solution.start + ", " + solution.newton.reason());
   table.note("regime: periodic");
-  return motion_of(solution, request.points);
+  return motion_of(solution.bodies, request.points);
 }
 
 Motion integrated_motion(const Parameters& parameters, const MotionRequest& request,

@@ -80,19 +80,25 @@ Table identification_table(const std::string& scene_file, const std::string& cla
   return table;
 }
 
+namespace
+{
+
+const std::vector<Column> study_columns{
+    {"delta", "m", "radial clearance"},
+    {"K_H", "N/m^1.5", "contact stiffness"},
+    {"f_peak", "Hz", "speed of the largest x_r; -1 without any solution"},
+    {"amp_peak", "m", "half peak-to-peak of x_r there"},
+    {"f_loss_first", "Hz", "first speed at which contact is lost; -1 when never"},
+    {"f_loss_last", "Hz", "last such speed; -1 when never"},
+    {"largest_force", "N", "largest force on one ball over all speeds"},
+    {"missed", "-", "speeds without a solution"}};
+
+}  // namespace
+
 Table study_table(const std::string& scene_file, const std::string& journal)
 {
   const ParametricStudy study = read_parametric_study(scene_file);
-  Table table(
-      "Clearance against contact stiffness",
-      {{"delta", "m", "radial clearance"},
-       {"K_H", "N/m^1.5", "contact stiffness"},
-       {"f_peak", "Hz", "speed of the largest x_r; -1 without any solution"},
-       {"amp_peak", "m", "half peak-to-peak of x_r there"},
-       {"f_loss_first", "Hz", "first speed at which contact is lost; -1 when never"},
-       {"f_loss_last", "Hz", "last such speed; -1 when never"},
-       {"largest_force", "N", "largest force on one ball over all speeds"},
-       {"missed", "-", "speeds without a solution"}});
+  Table table("Clearance against contact stiffness", study_columns);
   table.describe(study.base);
   table.note(text("modelled: sweeps up, m = %d, %zu speeds from %g to %g Hz",
                   study.harmonics, study.frequencies.size(), study.frequencies.front(),

@@ -101,9 +101,9 @@ PeriodicSolution find_periodic(const Parameters& parameters, double omega, int h
   return solution;
 }
 
-Motion motion_of(const PeriodicSolution& solution, int points)
+Motion motion_of(const Eigen::MatrixXd& bodies, int points)
 {
-  const Eigen::MatrixXd samples = sample_series(solution.bodies, points);
+  const Eigen::MatrixXd samples = sample_series(bodies, points);
   Motion motion{points, 0, {}};
   for (int k = 0; k < points; ++k)
     motion.positions.push_back(

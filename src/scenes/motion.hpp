@@ -49,8 +49,8 @@ struct PeriodicSolution {
 PeriodicSolution find_periodic(const Parameters& parameters, double omega, int harmonics,
                                int samples, const NewtonSettings& settings = {});
 
-/** `points` instants of one period of a solution. */
-Motion motion_of(const PeriodicSolution& solution, int points);
+/** `points` instants of one period of a solution, from its series of both bodies. */
+Motion motion_of(const Eigen::MatrixXd& bodies, int points);
 
 /** The periods kept by a time integration. */
 Motion motion_of(const SteadyState& steady, int points_per_period);

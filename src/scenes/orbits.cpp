@@ -36,7 +36,7 @@ OrbitPanel compute_panel(const OrbitScene& scene, double frequency)
       .difference = -1};
   panel.steady_motion = motion_of(panel.steady, points);
   if (panel.balance.found()) {
-    panel.balance_motion = motion_of(panel.balance, points);
+    panel.balance_motion = motion_of(panel.balance.bodies, points);
     panel.difference = relative_difference(*panel.balance_motion, panel.steady_motion);
   }
   return panel;

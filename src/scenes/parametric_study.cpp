@@ -56,10 +56,10 @@ double largest_ball_force(const Parameters& parameters, const Motion& motion)
 
 /** Adds one solution of the sweep to what it comes to, and its amplitude to the curve. */
 void add_solution(const Parameters& parameters, double frequency,
-                  const PeriodicSolution& solution, StudyPoint& point,
+                  const Eigen::MatrixXd& bodies, StudyPoint& point,
                   std::vector<CurvePoint>& curve)
 {
-  const Motion motion = motion_of(solution, 128);
+  const Motion motion = motion_of(bodies, 128);
   point.largest_force =
       std::max(point.largest_force, largest_ball_force(parameters, motion));
   curve.push_back({frequency, half_peak_to_peak(motion)[2]});
@@ -86,9 +86,9 @@ StudyPoint sweep_machine(const Parameters& parameters, const ParametricStudy& st
       },
       sweep_settings(parameters),
       [&](const SweepPoint& found) {
-        PeriodicSolution solution{};
-        solution.bodies = body_series(parameters, balance, found.omega, found.x);
-        add_solution(parameters, found.omega / angular(1), solution, point, curve);
+        add_solution(parameters, found.omega / angular(1),
+                     body_series(parameters, balance, found.omega, found.x), point,
+                     curve);
       });
   if (!curve.empty()) {
     const CurvePoint peak = refined_peak(curve);

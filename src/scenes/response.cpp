@@ -55,15 +55,13 @@ public:
     if (curve == Curve::speed_down) std::reverse(omegas.begin(), omegas.end());
     Balance balance(bearing_problem(parameters_, default_samples(harmonics_)),
                     harmonics_);
-    std::vector<PeriodicSolution> solutions;
+    std::vector<Eigen::MatrixXd> solutions;
     const auto points = sweep(
         balance, omegas,
         [&](double omega) { return quasi_static_start(parameters_, omega, harmonics_); },
         sweep_settings(parameters_),
         [&](const SweepPoint& point) {
-          PeriodicSolution solution{};
-          solution.bodies = body_series(parameters_, balance, point.omega, point.x);
-          solutions.push_back(std::move(solution));
+          solutions.push_back(body_series(parameters_, balance, point.omega, point.x));
         });
     int segment = 1;
     std::size_t solution = 0;
@@ -72,7 +70,7 @@ public:
         if (k > 0 && points[k - 1].found()) ++segment;
         continue;
       }
-      add_solution(curve, segment, points[k], solutions[solution++].bodies);
+      add_solution(curve, segment, points[k], solutions[solution++]);
     }
   }
 
@@ -95,15 +93,13 @@ private:
   void add_solution(Curve curve, int segment, const SweepPoint& point,
                     const Eigen::MatrixXd& bodies)
   {
-    PeriodicSolution solution{};
-    solution.bodies = bodies;
     const Eigen::VectorXd amplitude = half_peak_to_peak(bodies);
     points_.push_back({number_,
                        curve,
                        segment,
                        point.omega / angular(1),
                        {amplitude[0], amplitude[1], amplitude[2], amplitude[3]},
-                       contact_share(parameters_, motion_of(solution, 256)),
+                       contact_share(parameters_, motion_of(bodies, 256)),
                        point.newton.iterations,
                        0,
                        true});

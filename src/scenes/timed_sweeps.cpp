@@ -34,9 +34,8 @@ Motions BalanceSweep::motions() const
   for (const SweepPoint& point : points_) {
     motions.emplace_back();
     if (!point.found()) continue;
-    PeriodicSolution solution{};
-    solution.bodies = series_[found++];
-    motions.back() = motion_of(solution, scene_.reference.stepper.intervals_per_period);
+    motions.back() =
+        motion_of(series_[found++], scene_.reference.stepper.intervals_per_period);
   }
   return motions;
 }

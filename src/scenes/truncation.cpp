@@ -77,39 +77,50 @@ std::map<double, Eigen::MatrixXd> solutions(const Parameters& parameters, int ha
   return series;
 }
 
+/** Solutions of one data set, by number of harmonics and speed. */
+using Solutions = std::vector<std::map<double, Eigen::MatrixXd>>;
+
+/** One speed: all numbers of harmonics against the integrated motion. */
+void add_points(const TruncationScene& scene, std::size_t set, double frequency,
+                const Solutions& found, std::vector<TruncationPoint>& points)
+{
+  const Parameters& parameters = scene.sets[set];
+  const SteadyState steady = steady_state(
+      parameters, angular(frequency), static_start(parameters), scene.time_integration);
+  const int per_period = scene.time_integration.stepper.intervals_per_period;
+  const Motion reference = motion_of(steady, per_period);
+  for (std::size_t k = 0; k < found.size(); ++k) {
+    TruncationPoint point{static_cast<int>(set) + 1,
+                          frequency,
+                          static_cast<int>(k) + 1,
+                          false,
+                          steady.periodic,
+                          -1,
+                          -1};
+    const auto series = found[k].find(angular(frequency));
+    if (series != found[k].end()) {
+      const Distance d =
+          distance(parameters, motion_of(series->second, per_period), reference);
+      point.found = true;
+      point.distance = d.displacement;
+      point.distance_force = d.force;
+    }
+    points.push_back(point);
+  }
+}
+
 }  // namespace
 
 std::vector<TruncationPoint> compute_truncation(const TruncationScene& scene)
 {
   std::vector<TruncationPoint> points;
-  const int per_period = scene.time_integration.stepper.intervals_per_period;
   Progress progress("truncation", scene.sets.size() * scene.frequencies.size());
   for (std::size_t set = 0; set < scene.sets.size(); ++set) {
-    const Parameters& parameters = scene.sets[set];
-    std::vector<std::map<double, Eigen::MatrixXd>> found;
+    Solutions found;
     for (int m = 1; m <= scene.most_harmonics; ++m)
-      found.push_back(solutions(parameters, m, scene.frequencies));
+      found.push_back(solutions(scene.sets[set], m, scene.frequencies));
     for (double frequency : scene.frequencies) {
-      const SteadyState steady =
-          steady_state(parameters, angular(frequency), static_start(parameters),
-                       scene.time_integration);
-      const Motion reference = motion_of(steady, per_period);
-      for (int m = 1; m <= scene.most_harmonics; ++m) {
-        const auto& series = found[static_cast<std::size_t>(m) - 1];
-        TruncationPoint point{static_cast<int>(set) + 1, frequency, m, false,
-                              steady.periodic,           -1,        -1};
-        const auto at = series.find(angular(frequency));
-        if (at != series.end()) {
-          PeriodicSolution solution{};
-          solution.bodies = at->second;
-          const Distance d =
-              distance(parameters, motion_of(solution, per_period), reference);
-          point.found = true;
-          point.distance = d.displacement;
-          point.distance_force = d.force;
-        }
-        points.push_back(point);
-      }
+      add_points(scene, set, frequency, found, points);
       progress.step();
     }
   }

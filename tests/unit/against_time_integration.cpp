@@ -29,7 +29,7 @@ double difference(double frequency, int harmonics)
   const auto solution =
       find_periodic(parameters, hertz(frequency), harmonics, default_samples(harmonics));
   REQUIRE(solution.found());
-  return relative_difference(motion_of(solution, 64),
+  return relative_difference(motion_of(solution.bodies, 64),
                              motion_of(accurate_steady_state(parameters, frequency), 64));
 }
 

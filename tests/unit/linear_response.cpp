@@ -29,7 +29,7 @@ double error_without_contact(const Parameters& parameters, double frequency,
   const double sag_r =
       -parameters.gravity / std::pow(parameters.rotor.natural_frequency, 2);
 
-  const Motion motion = motion_of(solution, 32);
+  const Motion motion = motion_of(solution.bodies, 32);
   double error = 0;
   for (std::size_t k = 0; k < motion.size(); ++k) {
     const auto turned = whirl * std::polar(1.0, motion.phase(k));
