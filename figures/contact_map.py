@@ -28,7 +28,8 @@ def force_map(panel):
 def source_of(panel):
     """In words, where the motion of a panel comes from."""
     if panel.first("source") == BALANCE:
-        return f"harmonic balance, m = {panel.number('harmonic balance: m'):g}"
+        return (f"m = {panel.number('harmonic balance: m'):g}, "
+                f"force off by {100 * panel.first('difference_force'):.2g} %")
     if panel.first("periodic") == 1:
         return "time integration"
     return "time integration, not T-periodic"
@@ -74,7 +75,7 @@ def draw(table):
     figure = plt.figure(figsize=(10, 1.5 + 4.7 * rows), layout="constrained")
     above, below = figure.subfigures(2, 1, hspace=0.03)
     draw_block(above, panels, columns, draw_contact,
-               f"Contact (black) and no contact (white), δ = {1e6 * table.number('delta'):g} µm")
+               f"Contact (black), none (white), by harmonic balance unless said, δ = {1e6 * table.number('delta'):g} µm")
     draw_block(below, panels, columns, draw_force,
                "Force of each ball in the same panels (white: no contact)")
     return figure

@@ -2,7 +2,8 @@
 #
 # Loaded by fig06_orbits.gp and fig08_orbits.gp with `table` and `output` set.
 # A panel shows the harmonic-balance orbit, in colour, where time integration finds a motion of
-# period T; elsewhere it shows that motion over several periods, in grey, and says so.
+# period T, with that motion in grey below it and their largest difference over the orbit's own half
+# peak-to-peak; elsewhere it shows the integrated motion over several periods, and says so.
 
 rows = int(ceil(system(sprintf("grep -c '^# panel' '%s'", table)) / 3.0))
 height = 115 + 350 * rows
@@ -11,10 +12,11 @@ load 'figures/style.gp'
 balance = 1; integrated = 2
 of(source, value) = column("panel") == p && column("source") == source ? value : NaN
 
-# After the speed: nothing for harmonic balance; else why it is not drawn, and the spread.
-title_of(f, found, periodic, spread) = sprintf("%g Hz", f).( \
-  found == 1 && periodic == 1 ? "" : sprintf(", spread %.2g %%\n", 100 * spread).( \
-    found == 1 ? "not T-periodic" : sprintf("no %d-harmonic solution", harmonics(1))))
+# After the speed: how far harmonic balance is off; else why it is not drawn, and the spread.
+title_of(f, found, periodic, spread, off) = sprintf("%g Hz", f).( \
+  periodic == 0 ? sprintf(", spread %.2g %%\nnot T-periodic", 100 * spread) : \
+  found == 1 ? sprintf("\noff by %.2g %%", 100 * off) : \
+  sprintf("\nno %d-harmonic solution found", harmonics(1)))
 
 # Above the panels: what is drawn, and the names of the curves, given by the first panel.
 from_top(units) = 1 - units / (1.0 * height)
@@ -22,7 +24,7 @@ stats table using "panel":"t_over_T" name 'all' nooutput
 modelled = sprintf("δ = %g µm, harmonic balance with %d harmonics; ", \
                    1e6 * clearance(1), harmonics(1)).\
            sprintf("grey: %d periods of time integration\n", ceil(all_max_y)).\
-           "spread: Poincaré spread over the largest displacement"
+           "off: largest difference over half peak-to-peak; spread: Poincaré, over the largest displacement"
 set label 1 modelled at screen 0.5, from_top(20) center
 set key at screen 0.53, from_top(58) center top vertical maxrows 2 Left reverse width 2
 
@@ -34,14 +36,19 @@ do for [p = 1 : int(all_max_x)] {
   set yrange [* : *]
   stats table using (of(integrated, column("found"))):"periodic" name 'flag' nooutput
   stats table using (of(integrated, column("f"))):"spread" name 'motion' nooutput
+  stats table using (of(integrated, column("f"))):"difference_orbit" name 'off' nooutput
   source = flag_max_x * flag_max_y == 1 ? balance : integrated
   shown(value) = of(source, value)
   load 'figures/orbit_axes.gp'
   eval orbit_axes
-  set title title_of(speed, flag_max_x, flag_max_y, motion_max_y) offset 0, -0.6
+  set title title_of(speed, flag_max_x, flag_max_y, motion_max_y, off_max_y) offset 0, -0.6
   data = source == balance ? closed_orbit(p) : table
   line = source == balance ? 1.6 : 1
   plot \
+    table using (of(integrated, scaled("x_r"))):(scaled("y_r")) notitle \
+      with lines ls rotor_time lc rgb '#bbbbbb', \
+    table using (of(integrated, scaled("x_s"))):(scaled("y_s")) notitle \
+      with lines ls stator_time lc rgb '#bbbbbb', \
     data using (shown(scaled("x_r"))):(scaled("y_r")) notitle \
       with lines ls source == balance ? rotor : rotor_time lw line, \
     data using (shown(scaled("x_s"))):(scaled("y_s")) notitle \

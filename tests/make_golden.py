@@ -34,9 +34,9 @@ FIGURES = {
     "fig04": ("fig04_displacements", "panel source t_over_T", 5, None, ORBIT),
     "fig05": ("fig05_displacements", "panel source t_over_T", 5, None, ORBIT),
     "fig06": ("fig06_orbits", "panel source t_over_T", 29, None, ORBIT),
-    "fig07": ("fig07_contact", "panel t_over_T ball", 37, None, CONTACT),
+    "fig07": ("fig07_contact", "panel t_over_T ball", 73, None, CONTACT),
     "fig08": ("fig08_orbits", "panel source t_over_T", 29, "0 where periodic = 0", ORBIT),
-    "fig09": ("fig09_contact", "panel t_over_T ball", 37, None, CONTACT),
+    "fig09": ("fig09_contact", "panel t_over_T ball", 73, None, CONTACT),
     "sensitivity": ("sensitivity", "parameter value", 1, None, SENSITIVITY),
     "tab01_parameters": ("tab01_parameters", "set", 1, None, PARAMETERS),
 }

@@ -23,8 +23,8 @@ namespace rotor_stator
 int fast_transform_size(int at_least);
 
 /** Samples per period for m harmonics when nothing else is asked: ≥ 8m+1, and at
-   least 32. With 4m+1 the sampling error still shows beside the truncation (64 harmonics,
-   30 Hz: 1.5e-6 against 4e-7); the test of the sample count measures it. */
+   least 32. With 4m+1 the sampling error still shows beside the
+    truncation; the test of the sample count measures both. */
 int default_samples(int harmonics);
 
 /** Real transforms of one length N, with their buffers. */

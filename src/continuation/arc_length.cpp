@@ -45,11 +45,20 @@ public:
     return matrix_;
   }
 
-  /** The unit tangent at the last residual, on the side of `previous`. */
-  Eigen::VectorXd tangent(const Eigen::VectorXd& previous)
+  /** The unit tangent at the last residual, on the side of `previous`, and the sign of the
+      bordered Jacobian's determinant: along a branch that is followed in one direction the sign
+      stays the same, through folds too. */
+  struct Tangent {
+    Eigen::VectorXd direction;
+    bool positive;
+  };
+  Tangent tangent(const Eigen::VectorXd& previous)
   {
     const Eigen::VectorXd right = Eigen::VectorXd::Unit(n_ + 1, n_);
-    return bordered(previous).partialPivLu().solve(right).normalized();
+    const Eigen::PartialPivLU<Eigen::MatrixXd> factors(bordered(previous));
+    const auto negative = (factors.matrixLU().diagonal().array() < 0).count();
+    const bool even_permutation = factors.permutationP().determinant() > 0;
+    return {factors.solve(right).normalized(), (negative % 2 == 0) == even_permutation};
   }
 
   /** Newton on the balance and t·(y - predicted) = 0, from `predicted`. */
@@ -127,7 +136,7 @@ private:
     y_ = extended_.scaled(x, from_);
     const auto last = y_.size() - 1;
     tangent_ = extended_.tangent(forward_ * Eigen::VectorXd::Unit(last + 1, last));
-    accept({from_, 0, tangent_[last], report, std::move(x)});
+    accept({from_, 0, tangent_.direction[last], report, std::move(x)});
   }
 
   void accept(BranchPoint point)
@@ -161,10 +170,16 @@ private:
     if (step_ < settings_.least_step)
       return stop(false, text("the step fell below %g", settings_.least_step) + place());
     Eigen::VectorXd y;
-    const NewtonReport report = extended_.correct(tangent_, y_ + step_ * tangent_, y);
+    const NewtonReport report =
+        extended_.correct(tangent_.direction, y_ + step_ * tangent_.direction, y);
     if (!report.converged()) return shorten();
-    const Eigen::VectorXd tangent = extended_.tangent(tangent_);
-    if (tangent.dot(tangent_) < std::cos(settings_.most_turn)) return shorten();
+    const auto tangent = extended_.tangent(tangent_.direction);
+    if (tangent.direction.dot(tangent_.direction) < std::cos(settings_.most_turn))
+      return shorten();
+    /** Another sign is another leg of a hairpin, followed the wrong way; at the shortest steps it
+        is a branch point, and is passed. */
+    if (tangent.positive != tangent_.positive && step_ > 100 * settings_.least_step)
+      return shorten();
 
     const double omega = extended_.omega(y);
     if (forward_ * (omega - to_) >= 0) return finish(y);
@@ -173,7 +188,7 @@ private:
     const double arc = branch_.points.back().arc + (y - y_).norm();
     y_ = y;
     tangent_ = tangent;
-    accept({omega, arc, tangent[y.size() - 1], report, extended_.unknowns(y)});
+    accept({omega, arc, tangent.direction[y.size() - 1], report, extended_.unknowns(y)});
     const double wish = std::sqrt(static_cast<double>(settings_.wanted_iterations) /
                                   std::max(1, report.iterations));
     step_ = std::min(settings_.most_step, step_ * std::clamp(wish, 0.5, 1.5));
@@ -191,7 +206,8 @@ private:
     if (!report.converged()) return shorten();
     const Eigen::VectorXd y = extended_.scaled(x, to_);
     const double arc = branch_.points.back().arc + (y - y_).norm();
-    accept({to_, arc, extended_.tangent(tangent_)[y.size() - 1], report, std::move(x)});
+    accept({to_, arc, extended_.tangent(tangent_.direction).direction[y.size() - 1],
+            report, std::move(x)});
     stop(true, "the end of the range");
   }
 
@@ -201,7 +217,8 @@ private:
   double from_, to_, forward_;
   Extended extended_;
   double step_;
-  Eigen::VectorXd y_, tangent_;
+  Eigen::VectorXd y_;
+  Extended::Tangent tangent_;
   Branch branch_{};
   bool done_ = false;
 };

@@ -4,8 +4,9 @@
 The branch is followed in the scaled unknowns y = (X/ℓ, ω/ω_ref): a step along its
 tangent, then Newton on the balance together with t·(y - y_predicted) = 0, which stays
 regular where the branch folds back in ω. The step follows the corrector: longer after few
-iterations, shorter after many, halved and tried again when it fails or when the tangent
-turns by more than `most_turn`. */
+iterations, shorter after many, halved and tried again when it fails, when the tangent
+turns by more than `most_turn`, or when the sign of the bordered determinant says that the corrector
+has hopped to another leg of a hairpin. */
 #pragma once
 
 #include <functional>

@@ -28,7 +28,11 @@ public:
   }
 
   void add(const Eigen::VectorXd& x, double omega);
-  void clear() { points_.clear(); }
+  void clear()
+  {
+    points_.clear();
+    distance_.clear();
+  }
   bool empty() const { return points_.empty(); }
 
   /** Eq. 20 at S_3 + Δs: the extrapolated (X, ω). */

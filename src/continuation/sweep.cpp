@@ -22,10 +22,11 @@ public:
 
   SweepPoint solve_at(double omega)
   {
-    SweepPoint point{omega, {}, {}};
-    if (!predictor_.empty()) approach(point, settings_.most_halvings);
+    SweepPoint point{omega, {}, {}, false};
+    if (!predictor_.empty()) approach(point, omega, settings_.most_halvings);
     if (!point.found()) {
       predictor_.clear();
+      point.restarted = true;
       attempt(point, omega, cold_start_(omega));
     }
     if (!point.found()) point.x.resize(0);
@@ -48,13 +49,12 @@ private:
 
   /** From the last solution to the point's speed, through half-way speeds if it must be.
    */
-  bool approach(SweepPoint& point, int halvings)
+  bool approach(SweepPoint& point, double omega, int halvings)
   {
-    if (attempt(point, point.omega, predictor_.at_speed(point.omega))) return true;
+    if (attempt(point, omega, predictor_.at_speed(omega))) return true;
     if (halvings == 0) return false;
-    const double middle = 0.5 * (last_omega_ + point.omega);
-    return attempt(point, middle, predictor_.at_speed(middle)) &&
-           approach(point, halvings - 1);
+    const double middle = 0.5 * (last_omega_ + omega);
+    return approach(point, middle, halvings - 1) && approach(point, omega, halvings - 1);
   }
 
   Balance& balance_;

@@ -27,6 +27,8 @@ struct SweepPoint {
   Eigen::VectorXd x;  ///< empty when no solution was found
   NewtonReport
       newton;  ///< of the last attempt; `iterations` counts all attempts at this speed
+  bool
+      restarted;  ///< from a cold start: it may lie on another branch than the last point
 
   bool found() const { return newton.converged(); }
 };

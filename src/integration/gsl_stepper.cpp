@@ -137,6 +137,9 @@ GslStepper::GslStepper(const Parameters& parameters, double omega,
   driver_->driver.reset(gsl_odeiv2_driver_alloc_scaled_new(
       &driver_->system, step_types().at(settings.method), first_step, settings.tolerance,
       0, 1, 0, sizes.data()));
+  if (!driver_->driver)
+    throw NoSolution(text("%s cannot start with a step of %g s and a tolerance of %g",
+                          settings.method.c_str(), first_step, settings.tolerance));
 }
 
 GslStepper::~GslStepper() = default;

@@ -17,6 +17,9 @@ namespace
 
 using Displacements = std::array<double, 4>;
 
+/** A bound on the work of one steady state: half a minute of RK4. */
+constexpr long most_evaluations = 1'000'000'000;
+
 Displacements displacements(const State& state)
 {
   return std::bit_cast<Displacements>(state.position);
@@ -50,8 +53,16 @@ public:
            const SteadySettings& settings)
       : stepper_(make_stepper(parameters, omega, settings.stepper)),
         intervals_(settings.stepper.intervals_per_period),
+        cage_ratio_(parameters.bearing.cage_speed_ratio),
         state_(start)
   {
+  }
+
+  /** Whether the cage stands where it stood at t = 0. */
+  bool cage_is_home() const
+  {
+    const double turns = cage_ratio_ * static_cast<double>(periods_);
+    return std::abs(turns - std::round(turns)) < 1e-9;
   }
 
   /** One period; its states are added to `record` if there is one. */
@@ -66,6 +77,10 @@ public:
       stepper_.advance(periods_ * intervals_ + k, state_);
     }
     ++periods_;
+    if (stepper_.evaluations() > most_evaluations)
+      throw NoSolution(
+          text("no steady state within %.0e evaluations of Eq. 7 (%ld periods)",
+               static_cast<double>(most_evaluations), periods_));
     for (double x : std::bit_cast<std::array<double, 8>>(state_))
       if (!std::isfinite(x))
         throw NoSolution(text("time integration diverged after %ld periods", periods_));
@@ -78,6 +93,7 @@ public:
 private:
   TimeStepper stepper_;
   int intervals_;
+  double cage_ratio_;
   State state_;
   long periods_ = 0;
   double size_ = 0;  ///< largest displacement of the last period [m]
@@ -99,6 +115,12 @@ SteadyState steady_state(const Parameters& parameters, double omega, const State
     const long block = std::min(window, most - motion.periods());
     for (long k = 0; k < block; ++k) motion.advance_one_period(section);
   } while (motion.periods() < most && motion.spread() > settings.settled);
+
+  /** The shown periods start with the cage at home, so that ball j is the ball j of t = 0; a cage
+      that needs more than `most_home` periods has no such start within reach. */
+  constexpr int most_home = 64;
+  for (int k = 0; k < most_home && !motion.cage_is_home(); ++k)
+    motion.advance_one_period(section);
 
   SteadyState steady{.states = {},
                      .first_period = motion.periods(),

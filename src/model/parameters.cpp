@@ -71,6 +71,8 @@ Parameters read_parameters(const std::string& file)
   Parameters parameters{};
   parameters.file = file;
   parameters.title = root.string("title");
+  for (unsigned char c : parameters.title)
+    if (c < ' ') root.fail("title", "must be one line without control characters");
 
   StrictToml stator = root.table("stator");
   parameters.stator = read_body(stator);

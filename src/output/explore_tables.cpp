@@ -22,6 +22,12 @@ void require_positive(const char* option, double value)
     throw BadInput(text("%s %g: must be a finite number > 0", option, value));
 }
 
+void require_between(const char* option, double value, double least, double most)
+{
+  if (!(value >= least && value <= most))
+    throw BadInput(text("%s %g: must be in %g...%g", option, value, least, most));
+}
+
 void require_range(const char* option, int value, int least, int most)
 {
   if (value < least || value > most)
@@ -52,9 +58,9 @@ void check(const MotionRequest& request)
 {
   require_positive("--frequency", request.frequency);
   require_range("--points", request.points, 1, 1 << 16);
-  require_positive("--tolerance", request.tolerance);
-  require_positive("--local-error", request.local_error);
-  require_positive("--longest", request.longest);
+  require_between("--tolerance", request.tolerance, 1e-15, 1e-3);
+  require_between("--local-error", request.local_error, 1e-15, 1e-2);
+  require_between("--longest", request.longest, 1e-3, 1e5);
   if (request.step) require_positive("--step", *request.step);
   require_method(request.method);
 }
@@ -66,12 +72,13 @@ Motion balance_motion(const Parameters& parameters, const MotionRequest& request
       find_periodic(parameters, angular(request.frequency), request.harmonics, samples,
                     {.tolerance = request.tolerance});
   if (!solution.found())
-    throw NoSolution(text("%s: no solution with %d harmonics at %g Hz: %s",
+    throw NoSolution(text("%s: no solution found with %d harmonics at %g Hz: %s",
                           parameters.file.c_str(), request.harmonics, request.frequency,
                           solution.newton.reason().c_str()));
   table.note(text("method: aft, m = %d, N = %d, relative tolerance %g", request.harmonics,
                   samples, request.tolerance));
   table.note("newton: from " + solution.start + ", " + solution.newton.reason());
+  table.note("the period is imposed by the method; stability is not tested");
   table.note("regime: periodic");
   return motion_of(solution.bodies, request.points);
 }
@@ -147,7 +154,7 @@ void check(const ResponseRequest& request)
   require_positive("--to", request.to);
   if (request.from >= request.to)
     throw BadInput(text("--from %g: must be below --to %g", request.from, request.to));
-  require_positive("--tolerance", request.tolerance);
+  require_between("--tolerance", request.tolerance, 1e-15, 1e-3);
 }
 
 /** Follows the branch from a solution at `--from`, one row of `table` per point. */
@@ -158,7 +165,7 @@ Branch tabulated_branch(const Parameters& parameters, const ResponseRequest& req
   const PeriodicSolution start = find_periodic(parameters, angular(request.from),
                                                request.harmonics, samples, newton);
   if (!start.found())
-    throw NoSolution(text("%s: no solution with %d harmonics at --from %g Hz: %s",
+    throw NoSolution(text("%s: no solution found with %d harmonics at --from %g Hz: %s",
                           parameters.file.c_str(), request.harmonics, request.from,
                           start.newton.reason().c_str()));
   Balance balance(bearing_problem(parameters, samples), request.harmonics);
@@ -196,7 +203,7 @@ Exploration explore_response(const ResponseRequest& request)
   table.note(text("method: aft, m = %d, N = %d, relative tolerance %g, pseudo-arc-length",
                   request.harmonics, samples, request.tolerance));
   table.note(text("folds: %zu", branch.folds.size()));
-  table.note("ended: " + branch.end);
+  table.note((branch.covered ? "ended: " : "incomplete: ") + branch.end);
   if (branch.covered) return {std::move(table), ""};
   return {std::move(table),
           text("%s: the branch stopped at %g Hz, before --to %g Hz: %s",

@@ -41,7 +41,10 @@ const std::vector<Column> panel_columns{
     {"spread", "-", "Poincare spread of the integrated motion"},
     {"difference", "-",
      "largest difference of harmonic balance and time integration over one period, over the "
-     "largest displacement; -1 without solution"}};
+     "largest displacement; -1 without solution"},
+    {"difference_orbit", "-",
+     "the same with each displacement over its own half peak-to-peak"},
+    {"difference_force", "-", "the same of the bearing's force, over the largest force"}};
 
 std::vector<Cell> panel_cells(std::size_t number, const OrbitPanel& panel, int source)
 {
@@ -51,7 +54,9 @@ std::vector<Cell> panel_cells(std::size_t number, const OrbitPanel& panel, int s
           panel.balance.found(),
           panel.steady.periodic,
           panel.steady.spread,
-          panel.difference};
+          panel.difference,
+          panel.orbit_difference,
+          panel.force_difference};
 }
 
 std::vector<Column> with_panel_columns(std::vector<Column> more)

@@ -12,8 +12,11 @@ namespace rotor_stator
 namespace
 {
 
-int complain(const std::string& message, int status)
+/** One line on stderr, whatever the message holds. */
+int complain(std::string message, int status)
 {
+  for (char& c : message)
+    if (static_cast<unsigned char>(c) < ' ') c = ' ';
   std::fprintf(stderr, "%s\n", message.c_str());
   return status;
 }

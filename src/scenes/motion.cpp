@@ -7,6 +7,9 @@
 #include <numbers>
 
 #include "balance/bearing_problem.hpp"
+#include "continuation/arc_length.hpp"
+#include "continuation/sweep.hpp"
+#include "model/errors.hpp"
 
 namespace rotor_stator
 {
@@ -69,6 +72,29 @@ Eigen::VectorXd integrated_period(const Parameters& parameters, double omega,
   return series.reshaped();
 }
 
+/** The solution at the end of the branch that starts at 1 Hz, or at half the speed, by arc length
+    through all its folds; few harmonics only, since many see a fold at every contact resonance. */
+Eigen::VectorXd along_the_branch(const Parameters& parameters, double omega,
+                                 int harmonics, int samples, const NewtonSettings& newton)
+{
+  constexpr int most_harmonics = 16;
+  if (harmonics > most_harmonics) return {};
+  const double from = std::min(2 * std::numbers::pi, omega / 2);
+  const SweepSettings scaling = sweep_settings(parameters);
+  Balance balance(bearing_problem(parameters, samples), harmonics);
+  try {
+    const Branch branch = follow_branch(balance, from, omega,
+                                        quasi_static_start(parameters, from, harmonics),
+                                        {.newton = newton,
+                                         .speed_scale = scaling.speed_scale,
+                                         .arc_unknown_scale = scaling.arc_unknown_scale});
+    if (branch.covered) return branch.points.back().x;
+  } catch (const NoSolution&) {
+    // no start at the first speed: nothing to follow
+  }
+  return {};
+}
+
 }  // namespace
 
 double Motion::phase(std::size_t k) const
@@ -86,6 +112,8 @@ PeriodicSolution find_periodic(const Parameters& parameters, double omega, int h
        [&] { return quasi_static_start(parameters, omega, harmonics); }},
       {"fewer harmonics",
        [&] { return fewer_harmonics(parameters, omega, harmonics, settings); }},
+      {"arc length from a lower speed",
+       [&] { return along_the_branch(parameters, omega, harmonics, samples, settings); }},
       {"time integration",
        [&] { return integrated_period(parameters, omega, harmonics); }}};
   for (const Start& start : starts) {
@@ -127,6 +155,13 @@ std::vector<Vec2> bearing_forces(const Parameters& parameters, const Motion& mot
         Direction::of(parameters.bearing.cage_speed_ratio * motion.phase(k)),
         motion.positions[k].relative()));
   return forces;
+}
+
+SweepSettings sweep_settings(const Parameters& parameters)
+{
+  return {.newton = {},
+          .speed_scale = joint_resonance(parameters),
+          .arc_unknown_scale = scales(parameters).length};
 }
 
 std::array<double, 4> half_peak_to_peak(const Motion& motion)
@@ -180,6 +215,19 @@ double relative_difference(const Motion& motion, const Motion& reference)
     }
   }
   return difference / size;
+}
+
+double orbit_difference(const Motion& motion, const Motion& reference)
+{
+  const auto size = half_peak_to_peak(reference);
+  double difference = 0;
+  for (int k = 0; k < reference.points_per_period; ++k) {
+    const auto a = displacements(motion.positions[k]);
+    const auto b = displacements(reference.positions[k]);
+    for (int i = 0; i < 4; ++i)
+      if (size[i] > 0) difference = larger(difference, std::abs(a[i] - b[i]) / size[i]);
+  }
+  return difference;
 }
 
 double relative_force_difference(const Parameters& parameters, const Motion& motion,

@@ -9,6 +9,7 @@ so that the two methods meet in the same table. */
 #include <vector>
 
 #include "balance/newton.hpp"
+#include "continuation/sweep.hpp"
 #include "integration/steady_state.hpp"
 
 namespace rotor_stator
@@ -43,9 +44,14 @@ struct PeriodicSolution {
   bool found() const { return newton.converged(); }
 };
 
-/** Looks for the periodic solution at ω with m harmonics and N samples. Newton starts
-   from the quasi-static contact, then from a solution with fewer harmonics, then from one
-   period of time integration; the first that converges is kept. */
+/** The settings of a sweep for one machine: Eq. 19 scaled by the bearing's length and by
+   the joint resonance (D-03). */
+SweepSettings sweep_settings(const Parameters& parameters);
+
+/** Looks for the periodic solution at ω with m harmonics and N samples. Newton starts from the
+    quasi-static contact, then from a solution with fewer harmonics, then from the end of a branch
+    followed by arc length, then from one period of time integration; the first that converges is
+    kept. Not found means that none of these found one. */
 PeriodicSolution find_periodic(const Parameters& parameters, double omega, int harmonics,
                                int samples, const NewtonSettings& settings = {});
 
@@ -77,7 +83,11 @@ double contact_share(const Parameters& parameters, const Motion& motion);
     `reference`, on the first period of both [-]; both have the same points per period. */
 double relative_difference(const Motion& motion, const Motion& reference);
 
-/** The same for the bearing's force: largest |F - F_ref| over the largest |F_ref| [-]. */
+/** The largest difference of each displacement over that displacement's own half peak-to-peak: blind
+    to the static sag that the other measure divides by [-]. */
+double orbit_difference(const Motion& motion, const Motion& reference);
+
+/** For the bearing's force: largest |F - F_ref| over the largest |F_ref| [-]. */
 double relative_force_difference(const Parameters& parameters, const Motion& motion,
                                  const Motion& reference);
 

@@ -33,11 +33,16 @@ OrbitPanel compute_panel(const OrbitScene& scene, double frequency)
                              scene.time_integration),
       .balance_motion = {},
       .steady_motion = {},
-      .difference = -1};
+      .difference = -1,
+      .orbit_difference = -1,
+      .force_difference = -1};
   panel.steady_motion = motion_of(panel.steady, points);
   if (panel.balance.found()) {
     panel.balance_motion = motion_of(panel.balance.bodies, points);
     panel.difference = relative_difference(*panel.balance_motion, panel.steady_motion);
+    panel.orbit_difference = orbit_difference(*panel.balance_motion, panel.steady_motion);
+    panel.force_difference = relative_force_difference(
+        scene.parameters, *panel.balance_motion, panel.steady_motion);
   }
   return panel;
 }

@@ -21,7 +21,11 @@ struct OrbitPanel {
   SteadyState steady;
   std::optional<Motion> balance_motion;
   Motion steady_motion;
-  double difference;  ///< relative, balance against time integration; -1 without balance
+  /** Of balance against time integration, over one period; -1 without balance. */
+  double difference;  ///< of displacement, over the largest displacement [-]
+  double
+      orbit_difference;  ///< of displacement, over each one's own half peak-to-peak [-]
+  double force_difference;  ///< of the bearing's force, over the largest force [-]
 
   bool shows_balance() const { return balance.found() && steady.periodic; }
 };

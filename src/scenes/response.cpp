@@ -24,13 +24,6 @@ ResponseScene read_response_scene(const std::string& file, const std::string& re
   return scene;
 }
 
-SweepSettings sweep_settings(const Parameters& parameters)
-{
-  return {.newton = {},
-          .speed_scale = joint_resonance(parameters),
-          .arc_unknown_scale = scales(parameters).length};
-}
-
 namespace
 {
 
@@ -70,6 +63,7 @@ public:
         if (k > 0 && points[k - 1].found()) ++segment;
         continue;
       }
+      if (k > 0 && points[k - 1].found() && points[k].restarted) ++segment;
       add_solution(curve, segment, points[k], solutions[solution++]);
     }
   }

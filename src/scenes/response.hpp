@@ -39,10 +39,6 @@ struct ResponsePoint {
 
 ResponseScene read_response_scene(const std::string& file, const std::string& reading);
 
-/** The settings of a sweep for one machine: Eq. 19 scaled by the bearing's length and by
-   the joint resonance (D-03). */
-SweepSettings sweep_settings(const Parameters& parameters);
-
 /** All curves of all sets, in order. */
 std::vector<ResponsePoint> compute_response(const ResponseScene& scene);
 

@@ -32,7 +32,6 @@ public:
   SceneFile(const std::string& file, const std::string& reading);
 
   StrictToml& toml() { return toml_; }
-  const std::string& file() const { return file_; }
 
   /** The data set named by a key: "set1" is data/set1.toml beside the scenes' folder, or
       data/set1-as-printed.toml under that reading. */

@@ -47,16 +47,19 @@ void Rk4Sweep::run()
   motions_.clear();
   evaluations_ = 0;
   for (double frequency : scene_.frequencies) {
-    Rk4 rk4(scene_.parameters, angular(frequency), points, step_);
+    /** Whole periods of the transient in the fewest steps; one period cut at the instants that are
+        compared. */
+    Rk4 transient(scene_.parameters, angular(frequency), 1, step_);
     const long periods = std::lround(std::ceil(transient_ * frequency));
-    for (long k = 0; k < periods * points; ++k) rk4.advance(k, state);
+    for (long k = 0; k < periods; ++k) transient.advance(k, state);
+    Rk4 recorded(scene_.parameters, angular(frequency), points, step_);
     Motion motion{points, periods, {}};
     for (long k = 0; k < points; ++k) {
       motion.positions.push_back(state.position);
-      rk4.advance(periods * points + k, state);
+      recorded.advance(periods * points + k, state);
     }
     motions_.push_back(std::move(motion));
-    evaluations_ += rk4.evaluations();
+    evaluations_ += transient.evaluations() + recorded.evaluations();
   }
 }
 

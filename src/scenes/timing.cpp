@@ -115,19 +115,22 @@ Error error_of(const TimingScene& scene, const Motions& motions,
 /** An RK4 setting with what it costs and what it reaches. */
 struct Rk4Trial {
   double step, transient;  ///< [s]
-  double steps;            ///< of the whole sweep, before rounding up
+  double steps;            ///< of the whole sweep
   Error error;
 };
 
 /** The settings of the scene, cheapest first. */
 std::vector<Rk4Trial> rk4_settings(const TimingScene& scene)
 {
+  const int points = scene.reference.stepper.intervals_per_period;
   std::vector<Rk4Trial> trials;
   for (double step : scene.rk4_steps)
     for (double transient : scene.rk4_transients) {
-      double seconds = 0;
-      for (double f : scene.frequencies) seconds += (std::ceil(transient * f) + 1) / f;
-      trials.push_back({step, transient, seconds / step, {}});
+      double steps = 0;
+      for (double f : scene.frequencies)
+        steps += std::ceil(transient * f) * std::ceil(1 / (f * step)) +
+                 points * std::ceil(1 / (f * step * points));
+      trials.push_back({step, transient, steps, {}});
     }
   std::sort(trials.begin(), trials.end(),
             [](const Rk4Trial& a, const Rk4Trial& b) { return a.steps < b.steps; });

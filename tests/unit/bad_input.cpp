@@ -108,6 +108,7 @@ TEST_CASE("Bad parameter files are refused with file, line and key")
       {"acceleration_m_per_s2 = 9.81", "acceleration_m_per_s2 = -9.81",
        "gravity.acceleration"},
       {"title = \"good\"", "title = 3", "title must be a string"},
+      {"title = \"good\"", "title = \"two\\nlines\"", "title must be one line"},
       {"[stator]", "stator = 1\n[other]", "stator must be a table"},
       {"[stator]", "[stator", "not TOML"},
   };
@@ -148,6 +149,8 @@ TEST_CASE("Bad options are refused with what would be accepted")
       {orbit + "--frequency 30 --points 0", "--points"},
       {orbit + "--frequency 30 --colour red", "--colour"},
       {orbit + "--frequency 30 --tolerance 0", "--tolerance"},
+      {orbit + "--frequency 30 --tolerance 1e6", "must be in 1e-15...0.001"},
+      {orbit + "--frequency 30 --method rk8pd --local-error 1e10", "--local-error"},
       {orbit + "--frequency 30 --method rk4 --step 0", "--step"},
       {response + "--from 10 --to 10", "--from 10: must be below --to 10"},
       {response + "--from 20 --to 10", "--from"},
@@ -176,8 +179,8 @@ TEST_CASE("What has no solution ends with status 3 and the reason")
 {
   check_refused(explore_file(with("cage_speed_ratio = 0.5", "cage_speed_ratio = 0.4321")),
                 3, "not a whole number");
-  check_refused(explore_set_1("orbit data/set2.toml --frequency 13.4 --harmonics 10"), 3,
-                "no solution with 10 harmonics at 13.4 Hz");
+  check_refused(explore_set_1("orbit data/set2.toml --frequency 13.4 --harmonics 24"), 3,
+                "no solution found with 24 harmonics at 13.4 Hz");
   check_refused(explore_set_1("orbit data/set1.toml --frequency 30 --harmonics 4096"), 3,
                 "dense Jacobian");
 }

@@ -50,6 +50,31 @@ TEST_CASE(
   CHECK(x[0] == Approx(3.5));
 }
 
+TEST_CASE("A predictor that was cleared knows nothing of the points before")
+{
+  LagrangePredictor predictor(1, 1);
+  for (double old : {1.0, 7.0, 8.0})
+    predictor.add(Eigen::VectorXd::Constant(1, old), old);
+  predictor.clear();
+  for (double speed : {10.0, 11.0})
+    predictor.add(Eigen::VectorXd::Constant(1, 2 * speed), speed);
+  CHECK(predictor.at_speed(12)[0] == Approx(24));
+}
+
+TEST_CASE("Arc length does not turn round onto its own branch")
+{
+  const Parameters parameters = set_1();
+  Balance balance(bearing_problem(parameters, 50), 6);
+  const SweepSettings scaling = sweep_settings(parameters);
+  const Branch branch = follow_branch(balance, hertz(1), hertz(100),
+                                      quasi_static_start(parameters, hertz(1), 6),
+                                      {.newton = {},
+                                       .speed_scale = scaling.speed_scale,
+                                       .arc_unknown_scale = scaling.arc_unknown_scale});
+  CHECK(branch.covered);
+  CHECK(branch.folds.size() % 2 == 0);
+}
+
 TEST_CASE("The predictor has the order of its cubic")
 {
   /** Points on a circle: halving the spacing divides the error of a cubic extrapolation
@@ -62,7 +87,7 @@ TEST_CASE("The predictor has the order of its cubic")
     return std::hypot(point.x[0] - std::sin(h), point.omega - std::cos(h));
   };
   const double ratio = error(0.1) / error(0.05);
-  CHECK(ratio > 7);
+  CHECK(ratio > 11);
 }
 
 TEST_CASE("A sweep of set 1 finds every speed, up and down, with few Newton iterations")
