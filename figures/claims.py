@@ -77,7 +77,8 @@ class Evidence:
     def harmonics_set_2(self):
         value, words = self.harmonics(2)
         rows = self.table("truncation").where("set", 2).where("m", 10)
-        return value, f"{words}; m = 10 finds no solution at {int((rows['found'] == 0).sum())} speeds"
+        missed = int((rows["found"] == 0).sum())
+        return value, f"{words}; m = 10: the sweep misses {missed} speeds"
 
     def low_permanent(self, number=1):
         value = share(self.ranges(number)[0]["contact"] == 1)
