@@ -17,10 +17,10 @@ void read_equations(SceneFile& file, DeviationScene& scene)
 
   StrictToml sampling = file.toml().table("sampling");
   scene.sampled_harmonics = sampling.integers("harmonics", 1, 64);
-  scene.common_samples = sampling.integer("common_samples", 3, 1 << 20);
+  scene.common_samples = sampling.integers("common_samples", 3, 1 << 20);
   for (int m : scene.sampled_harmonics)
-    if (scene.common_samples < 2 * m + 1)
-      sampling.fail("common_samples", "must be at least 2m+1");
+    for (int n : scene.common_samples)
+      if (n < 2 * m + 1) sampling.fail("common_samples", "must be at least 2m+1 each");
   sampling.refuse_unknown_keys();
 
   StrictToml newton = file.toml().table("newton");

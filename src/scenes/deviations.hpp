@@ -39,7 +39,7 @@ struct DeviationScene {
   std::vector<double> range;             ///< the speeds of Fig. 3 [Hz]
   std::vector<double> predictor_speeds;  ///< four known solutions and the next [Hz]
   std::vector<int> sampled_harmonics;    ///< m of D-05
-  int common_samples;                    ///< an N for all of them
+  std::vector<int> common_samples;       ///< N for every m
   double newton_start_speed;             ///< [Hz]
   std::vector<int> newton_iterations;    ///< after which D-06 looks
   std::vector<double> block_speeds;      ///< of D-12 [Hz]

@@ -117,7 +117,10 @@ EvidenceList arc_length_scaling(const DeviationScene& scene)
           {"D-03.speed", scaling.speed_scale, "rad/s", "our speed scale"}};
 }
 
-EvidenceList tolerance_and_step(const DeviationScene& scene)
+namespace
+{
+
+void add_tolerances(EvidenceList& list, const DeviationScene& scene)
 {
   const auto solution = [&](double tolerance) {
     return require_periodic(scene.parameters, scene.speed, scene.harmonics,
@@ -125,23 +128,39 @@ EvidenceList tolerance_and_step(const DeviationScene& scene)
         .x;
   };
   const Eigen::VectorXd exact = solution(scene.fine_tolerance);
-  EvidenceList list{{"D-15.tolerance", NewtonSettings{}.tolerance, "-", "ours, relative"},
-                    {"D-15.speed", scene.speed, "Hz", "speed of the errors"}};
-  for (double tolerance : scene.tolerances)
-    list.push_back(
-        {text("D-15.error_%.0e", tolerance),
-         (solution(tolerance) - exact).norm() / exact.norm(), "-",
-         text("distance to the solution with Newton's tolerance %.0e", tolerance)});
+  int number = 0;
+  for (double tolerance : scene.tolerances) {
+    list.push_back({text("D-15.tolerance_%d", ++number), tolerance, "-", "of Newton"});
+    list.push_back({text("D-15.error_%d", number),
+                    (solution(tolerance) - exact).norm() / exact.norm(), "-",
+                    "distance to the solution with that tolerance"});
+  }
+}
+
+void add_steps(EvidenceList& list, const DeviationScene& scene)
+{
+  int number = 0;
   for (double step : scene.continuation_steps) {
     Balance balance = balance_of(scene, scene.harmonics);
     const auto points = sweep_at(scene, balance, step);
     double missed = 0;
     for (const SweepPoint& point : points) missed += point.found() ? 0 : 1;
-    list.push_back({text("D-15.iterations_%gHz", step), mean_iterations(points), "-",
-                    text("Newton iterations per speed in steps of %g Hz", step)});
-    list.push_back({text("D-15.missed_%gHz", step), missed, "-",
-                    text("speeds without solution in steps of %g Hz", step)});
+    list.push_back({text("D-15.step_%d", ++number), step, "Hz", "of the sweep"});
+    list.push_back({text("D-15.iterations_%d", number), mean_iterations(points), "-",
+                    "Newton iterations per speed with that step"});
+    list.push_back({text("D-15.missed_%d", number), missed, "-",
+                    "speeds without solution with that step"});
   }
+}
+
+}  // namespace
+
+EvidenceList tolerance_and_step(const DeviationScene& scene)
+{
+  EvidenceList list{{"D-15.tolerance", NewtonSettings{}.tolerance, "-", "ours, relative"},
+                    {"D-15.speed", scene.speed, "Hz", "speed of the errors"}};
+  add_tolerances(list, scene);
+  add_steps(list, scene);
   return list;
 }
 

@@ -146,16 +146,18 @@ EvidenceList unprinted_masses(const DeviationScene& scene)
       {"D-13.joint", in_hertz(joint_resonance(scene.parameters)), "Hz",
        "joint resonance"},
       {"D-13.speed", scene.transition_speed, "Hz", "speed of the following"}};
+  int number = 0;
   for (double factor : scene.mass_factors) {
+    list.push_back({text("D-13.factor_%d", ++number), factor, "-", "of both masses"});
     Parameters machine = scene.parameters;
     machine.stator.mass *= factor;
     machine.rotor.mass *= factor;
     const SteadyState steady = settled(scene, machine, scene.transition_speed);
     const Motion motion = motion_of(steady, points(scene));
     list.push_back(
-        {text("D-13.contact_x%g", factor), contact_share(machine, motion), "-",
+        {text("D-13.contact_%d", number), contact_share(machine, motion), "-",
          text("share of the time in contact with both masses times %g", factor)});
-    list.push_back({text("D-13.spread_x%g", factor), steady.spread, "-",
+    list.push_back({text("D-13.spread_%d", number), steady.spread, "-",
                     text("Poincare spread with both masses times %g", factor)});
   }
   return list;

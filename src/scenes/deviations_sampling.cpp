@@ -24,6 +24,22 @@ Branch branch_over_range(const DeviationScene& scene, int harmonics, int samples
                         .arc_unknown_scale = scaling.arc_unknown_scale});
 }
 
+/** What m harmonics with N samples give: folds, and the distance to the true motion. */
+void add_sampled(EvidenceList& list, const DeviationScene& scene, int m, int n,
+                 const Motion& truth)
+{
+  const Branch branch = branch_over_range(scene, m, n);
+  const std::string where = text("_m%d_N%d", m, n), with = text("m = %d, N = %d", m, n);
+  const auto solution = require_periodic(scene.parameters, scene.speed, m, n);
+  list.push_back({"D-05.folds" + where, static_cast<double>(branch.folds.size()), "-",
+                  "folds of the branch, " + with});
+  list.push_back({"D-05.end" + where, branch.points.back().omega / angular(1), "Hz",
+                  "speed where the branch ended, " + with + ": " + branch.end});
+  list.push_back({"D-05.error" + where,
+                  relative_difference(motion_of(solution, points(scene)), truth), "-",
+                  "distance to time integration, " + with});
+}
+
 }  // namespace
 
 EvidenceList names_of_gamma(const DeviationScene& scene)
@@ -50,20 +66,11 @@ EvidenceList samples_as_printed(const DeviationScene& scene)
       {"D-05.speed", scene.speed, "Hz", "speed of the errors"},
       {"D-05.from", scene.range.front(), "Hz", "first speed of the branches"},
       {"D-05.to", scene.range.back(), "Hz", "last speed of the branches"}};
-  for (int m : scene.sampled_harmonics)
-    for (int n : {2 * m + 1, 4 * m + 1, scene.common_samples}) {
-      const Branch branch = branch_over_range(scene, m, n);
-      const std::string where = text("m%d_N%d", m, n),
-                        words = text("m = %d, N = %d", m, n);
-      list.push_back({"D-05.folds_" + where, static_cast<double>(branch.folds.size()),
-                      "-", "folds of the branch, " + words});
-      list.push_back({"D-05.covered_" + where, branch.covered ? 1.0 : 0.0, "-",
-                      "1 if the branch reaches the last speed, " + words});
-      const auto solution = require_periodic(scene.parameters, scene.speed, m, n);
-      list.push_back({"D-05.error_" + where,
-                      relative_difference(motion_of(solution, points(scene)), truth), "-",
-                      "distance to time integration, " + words});
-    }
+  for (int m : scene.sampled_harmonics) {
+    std::vector<int> counts{2 * m + 1, 4 * m + 1};
+    counts.insert(counts.end(), scene.common_samples.begin(), scene.common_samples.end());
+    for (int n : counts) add_sampled(list, scene, m, n, truth);
+  }
   return list;
 }
 
