@@ -45,11 +45,14 @@ results_of = $(tables_of) $(timing_of) $(figures_of)
 studied := $(addprefix data/generated/,sensitivity.tsv sensitivity_derivatives.tsv) \
   $(addprefix figures/generated/,sensitivity.svg identification.svg study.svg)
 
+# The text whose numbers come from tables; the default reading's, since it compares both.
+pages := data/generated/deviations.md
+
 readings := exchanged as-printed
 timings := $(foreach reading,$(readings),$(call timing_of,$(reading)))
 claims := $(foreach reading,$(readings),$(call claims_of,$(reading)))
 untimed := $(foreach reading,$(readings),$(call tables_of,$(reading)) $(call figures_of,$(reading))) \
-  $(studied)
+  $(studied) $(pages)
 programs := $(patsubst src/%.cpp,build/%,$(wildcard src/*.cpp))
 
 .PHONY: all figures timing claims test sanitize deps list png readme golden format clean \
@@ -57,7 +60,7 @@ programs := $(patsubst src/%.cpp,build/%,$(wildcard src/*.cpp))
 
 all: $(untimed) $(timings) $(claims)  ## figures, tables and claims of both readings (the default)
 
-figures: $(call results_of,$(READING))  ## the paper's figures and tables, of one READING
+figures: $(call results_of,$(READING)) $(if $(filter exchanged,$(READING)),$(pages))  ## the paper's figures and tables, of one READING
 
 timing: $(call timing_of,$(READING))  ## the timing table, alone on the machine
 
@@ -149,6 +152,8 @@ $(eval $(call table,truncation,truncation,set1 set2))
 $(eval $(call table,sensitivity,sensitivity,set1))
 $(eval $(call table,sensitivity_derivatives,sensitivity_derivatives,set1,sensitivity))
 
+$(eval $(call table_of,deviations,deviations,set1 set1-as-printed,deviations,exchanged))
+
 # Timings run alone: after all that is not timed, one after the other.
 $(foreach reading,$(readings),$(eval $(call timing_of,$(reading)): | \
   $(call tables_of,$(reading)) $(call figures_of,$(reading))))
@@ -199,6 +204,12 @@ png: $(patsubst %.svg,%.png,$(filter %.svg,$(untimed)))  ## the figures as PNG, 
 
 %.png: %.svg
 	$(call whole,rsvg-convert --zoom 1.5 --background-color white --output $$new $<)
+
+# ---------------------------------------------------------------------------------------------
+# Pages: text of paper/ with the numbers of a table of the same name
+
+$(pages): data/generated/%.md: paper/include.py paper/%.md data/generated/%.tsv
+	$(call whole,$(PYTHON) $^ > $$new)
 
 # ---------------------------------------------------------------------------------------------
 # Claims: $(call claims_rule,reading)

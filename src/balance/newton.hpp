@@ -3,7 +3,7 @@
 
 X ← X + λΔX with (A + J)ΔX = -R: Eq. 15 as it follows from Eq. 10 (D-06). The step is
 halved until the residual decreases. Both criteria of the paper are reported, relative to
-the problem's scales: δ₁ = ‖R‖ (Eq. 17) and δ₂ = ‖ΔX‖ (Eq. 18). The iteration has
+the problem's scales (D-22): δ₁ = ‖R‖ (Eq. 17) and δ₂ = ‖ΔX‖ (Eq. 18). The iteration has
 converged when δ₁ ≤ tolerance and δ₂ ≤ √tolerance: Newton's convergence is quadratic, so a
 last step of √tolerance leaves an error of the order of the tolerance. */
 #pragma once
@@ -17,6 +17,7 @@ last step of √tolerance leaves an error of the order of the tolerance. */
 namespace rotor_stator
 {
 
+/** The paper names no tolerance (D-15). */
 struct NewtonSettings {
   double tolerance = 1e-10;  ///< relative to the problem's scales
   int most_iterations = 40;

@@ -50,7 +50,8 @@ struct Problem {
 };
 
 /** The block of M q̈ + D q̇ + K q + f(q) = Re(F e^{iωt}) for real d × d matrices and a
-   complex load amplitude `load` on harmonic 1. */
+   complex load amplitude `load` on harmonic 1: Eq. 11 with jω in both diagonal entries
+   (D-12). */
 LinearBlock second_order_block(const Eigen::MatrixXd& mass,
                                const Eigen::MatrixXd& damping,
                                const Eigen::MatrixXd& stiffness,

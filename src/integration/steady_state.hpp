@@ -1,8 +1,8 @@
 /**
 # Steady state by time integration, and whether it is periodic
 
-Transients decay in seconds, not in periods, so they are counted in seconds. The motion is
-looked at once per period T (a Poincaré section); its spread is the largest distance
+Transients decay in seconds, not in periods, so they are counted in seconds (D-16). The
+motion is looked at once per period T (a Poincaré section); its spread is the largest distance
 between the section points of the last `window` seconds, over the largest displacement of
 the orbit. Integration ends when the spread falls below `settled`, or after `longest`
 seconds; the motion is then called periodic if the spread is below `periodic`, aperiodic

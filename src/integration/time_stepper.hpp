@@ -44,7 +44,7 @@ TimeStepper make_stepper(const Parameters& parameters, double omega,
 const std::vector<std::string>& time_methods();
 
 /** A step [s] that gives the contact mode about 40 steps per period: RK4 is stable up
-   to 2.8/ω and accurate well below it. */
+   to 2.8/ω and accurate well below it. The paper gives none (D-16). */
 double default_step(const Parameters& parameters);
 
 }  // namespace rotor_stator

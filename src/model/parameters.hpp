@@ -13,7 +13,7 @@ namespace rotor_stator
 
 /** A body on its own suspension, the same in x and y. */
 struct Body {
-  double mass;               ///< m [kg]
+  double mass;               ///< m [kg], not in the paper (D-13)
   double natural_frequency;  ///< ω₀ [rad/s], the body alone
   double damping_ratio;      ///< ξ [-]
 
@@ -44,7 +44,8 @@ struct Parameters {
 /** Reads and checks a parameter file. Throws BadInput with file, line and key. */
 Parameters read_parameters(const std::string& file);
 
-/** Eq. 3: c = ω_cage/ω = ½(1 - R_b/(R_b + R)) from the radii of ball and inner race. */
+/** Eq. 3: c = ω_cage/ω = ½(1 - R_b/(R_b + R)) from the radii of ball and inner race
+   (the paper's R; in its Eq. 2 R is the ball's, D-07). */
 double cage_speed_ratio(double ball_radius, double inner_race_radius);
 
 /** Ball passages through a fixed direction per turn, n·c. The bearing's force has the

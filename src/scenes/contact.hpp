@@ -2,7 +2,7 @@
 # Scene: contact evolution (Figs 7 and 9)
 
 The force Q_j of every ball over two periods, 2T, because with ω_cage = ω/2 each ball is
-passed by the rotating contact once per 2T (D-11). The motion is the periodic solution
+passed by the rotating contact once per 2T (D-11, D-20). The motion is the periodic solution
 where time integration confirms one, and the integrated motion elsewhere. */
 #pragma once
 

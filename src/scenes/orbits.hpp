@@ -3,7 +3,8 @@
 
 At each speed the periodic solution with the asked number of harmonics, and the motion
 that time integration settles on, from rest. Whether that motion is periodic decides which
-of the two a panel may show as the truth. */
+of the two a panel may show as the truth. The speeds of the panels (D-17) and what Figs 4
+and 5 draw (D-19) are our choice. */
 #pragma once
 
 #include <optional>

@@ -4,8 +4,8 @@
 Amplitudes of both bodies against speed, for each data set: harmonic balance swept up and
 swept down with the paper's predictor, and time integration at fewer speeds to say where
 the branch is a motion. The amplitude is half the peak-to-peak value over the period (the
-paper does not say which it draws, D-10). Only amplitudes and the share of contact are
-kept. */
+paper does not say which it draws, D-10; nor the range, D-19). Only amplitudes and the
+share of contact are kept. */
 #pragma once
 
 #include "continuation/sweep.hpp"

@@ -1,5 +1,5 @@
 /**
-# Scene: cost at equal error (the paper's CPU comparison, §3.3)
+# Scene: cost at equal error (the paper's CPU comparison, §3.3; its unit is not given, D-18)
 
 The same sweep, at the same speeds, by harmonic balance with several m and by classical
 RK4. For each m RK4 runs at the cheapest step and transient whose largest displacement

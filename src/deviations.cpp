@@ -1,0 +1,16 @@
+/**
+# Deviations: the numbers behind paper/deviations.md
+
+Paper: all equations, Table 1.  Run: build/deviations > data/generated/deviations.tsv
+What each printed form that we replaced would have done, and what our choices change.
+Modelled: data set 1, one small computation per entry D-nn. */
+#include "output/deviation_table.hpp"
+#include "output/program.hpp"
+
+int main(int argc, char** argv)
+{
+  using namespace rotor_stator;
+  return run(argc, argv, "data/scenes/deviations.toml", [](const Options& options) {
+    return deviation_table(read_deviation_scene(options.scene_file, options.reading));
+  });
+}

@@ -1,0 +1,132 @@
+"""paper/deviations.md: complete entries, no typed result, known keys, and every citation answered.
+
+Usage: tests/paper/deviations.py PROGRAM, in the project's root; PROGRAM writes the table.
+"""
+import re
+import subprocess
+import sys
+import tempfile
+import unittest
+from pathlib import Path
+
+PAGE = Path("paper/deviations.md")
+HEADING = re.compile(r"^## (D-\d\d) ", re.MULTILINE)
+LABELS = ("Printed", "Ours", "Evidence", "Effect")
+
+# What may hold digits: values from the table, code, quotations, places in the paper, formulas.
+ALLOWED = [
+    r"\{\{[^{}]*\}\}", r"`[^`]*`", r'"[^"]*"', r"D-\d\d", r"\bC\d+\b", r"\(2004\)", r"doi \S+\d",
+    r"\b(?:Eqs?\.?|Figs?\.?|Tables?|sections?)\s+\d+(?:(?:, | and | to )\d+)*", r"\bdata set \d\b",
+    r"\b\d?m\+1\b", r"\b2[πT]", r"\b[A-Za-z]_\d\b", r"N/m\^\{3/2\}", r"\b[mN] = \d+\b", r"√2",
+    r"Δω = 0\b", r"\bω/2\b", r"\([ij]−1\)",
+]
+PROGRAM = None
+
+
+def entries():
+    """Each entry's text by its name."""
+    parts = HEADING.split(PAGE.read_text(encoding="utf-8"))
+    return dict(zip(parts[1::2], parts[2::2]))
+
+
+def paragraph(entry, label):
+    """What stands behind a label, up to the next one."""
+    found = re.search(rf"\*\*{label}\.\*\*(.*?)(?=\n\*\*[A-Z][a-z]+\.\*\*|\Z)", entry, re.DOTALL)
+    return found[1] if found else ""
+
+
+def typed_numbers(text):
+    """The digits of a text that nothing allows."""
+    text = re.sub(r"\*\*Printed\.\*\*.*?(?=\n\n)", "", text, flags=re.DOTALL)
+    for pattern in ALLOWED:
+        text = re.sub(pattern, "", text)
+    return re.findall(r"\S*\d\S*", text)
+
+
+def include(text, table):
+    """Runs paper/include.py on two texts."""
+    with tempfile.TemporaryDirectory() as folder:
+        page, tsv = Path(folder, "page.md"), Path(folder, "table.tsv")
+        page.write_text(text, encoding="utf-8")
+        tsv.write_text(table, encoding="utf-8")
+        return subprocess.run([sys.executable, "paper/include.py", page, tsv],
+                              capture_output=True, text=True, check=False)
+
+
+class Page(unittest.TestCase):
+    def test_entries_are_numbered_without_gap(self):
+        names = HEADING.findall(PAGE.read_text(encoding="utf-8"))
+        self.assertEqual(names, [f"D-{k:02}" for k in range(1, len(names) + 1)])
+
+    def test_every_entry_says_printed_ours_evidence_effect(self):
+        for name, entry in entries().items():
+            for label in LABELS:
+                with self.subTest(entry=name, label=label):
+                    self.assertTrue(paragraph(entry, label).strip())
+
+    def test_evidence_and_effect_quote_the_table(self):
+        for name, entry in entries().items():
+            for label in ("Evidence", "Effect"):
+                with self.subTest(entry=name, label=label):
+                    self.assertIn("{{", paragraph(entry, label))
+
+    def test_no_result_is_typed(self):
+        self.assertEqual(typed_numbers(PAGE.read_text(encoding="utf-8")), [])
+
+    def test_the_check_sees_typed_numbers(self):
+        for text in ("It is 3.2e-4 away.", "18 folds", "at 45 Hz", "by 12 %", "a factor of 3"):
+            with self.subTest(text=text):
+                self.assertTrue(typed_numbers(text))
+
+    def test_every_key_is_in_the_table(self):
+        table = subprocess.run([PROGRAM], capture_output=True, text=True, check=True).stdout
+        rendered = include(PAGE.read_text(encoding="utf-8"), table)
+        self.assertEqual(rendered.stderr, "")
+        self.assertEqual(rendered.returncode, 0)
+        self.assertNotIn("{{", rendered.stdout)
+        self.assertEqual(sorted(entries()), sorted({line[:4] for line in table.splitlines()
+                                                    if line.startswith("D-")}))
+
+
+class Citations(unittest.TestCase):
+    def test_every_citation_has_an_entry(self):
+        known = entries()
+        sources = [path for folder in ("src", "data", "figures", "tests/unit")
+                   for path in Path(folder).rglob("*")
+                   if path.suffix in (".cpp", ".hpp", ".toml", ".py", ".gp")
+                   and "generated" not in path.parts]
+        for path in [*sources, Path("Makefile"), Path("README.md")]:
+            for name in re.findall(r"\bD-\d\d\b", path.read_text(encoding="utf-8")):
+                with self.subTest(file=str(path), citation=name):
+                    self.assertIn(name, known)
+
+    def test_the_code_cites_every_entry(self):
+        """Where it departs: not counting the files that compute the evidence."""
+        evidence = re.compile(r"deviation|printed_equations|evidence")
+        text = "".join(path.read_text(encoding="utf-8") for path in Path("src").rglob("*.?pp")
+                       if not evidence.search(path.name))
+        for name in entries():
+            with self.subTest(entry=name):
+                self.assertIn(name, text)
+
+
+class Include(unittest.TestCase):
+    TABLE = "# a table\nkey\tvalue\tunit\tmeaning\na.b\t1.53846e10\tm\twords\nzero\t0\t-\twords\n"
+
+    def test_values_and_formats(self):
+        result = include("{{a.b}}, {{a.b:.2e}}, {{zero:.1e}}", self.TABLE)
+        self.assertEqual(result.stdout.splitlines()[-1], "1.54e10, 1.54e10, 0")
+
+    def test_an_unknown_key_ends_with_one_line_and_status_1(self):
+        for text in ("first\n{{a.c}}", "first\n{{a.b:.2q}}", "first\n{{a.b"):
+            with self.subTest(text=text):
+                result = include(text, self.TABLE)
+                self.assertEqual(result.returncode, 1)
+                self.assertEqual(result.stdout, "")
+                self.assertEqual(len(result.stderr.splitlines()), 1)
+                self.assertIn("page.md:2", result.stderr)
+
+
+if __name__ == "__main__":
+    PROGRAM = sys.argv.pop(1)
+    unittest.main()
