@@ -34,7 +34,7 @@ Motion plain_solution(const DeviationScene& scene, double frequency, FirstEntry 
     throw NoSolution(
         text("plain balance at %g Hz: %s", frequency, report.reason().c_str()));
   solution.bodies = x.reshaped(4, 2 * m + 1);
-  return motion_of(solution, points(scene));
+  return motion_of(solution.bodies, points(scene));
 }
 
 }  // namespace

@@ -36,8 +36,8 @@ void add_sampled(EvidenceList& list, const DeviationScene& scene, int m, int n,
   list.push_back({"D-05.end" + where, branch.points.back().omega / angular(1), "Hz",
                   "speed where the branch ended, " + with + ": " + branch.end});
   list.push_back({"D-05.error" + where,
-                  relative_difference(motion_of(solution, points(scene)), truth), "-",
-                  "distance to time integration, " + with});
+                  relative_difference(motion_of(solution.bodies, points(scene)), truth),
+                  "-", "distance to time integration, " + with});
 }
 
 }  // namespace
@@ -78,7 +78,7 @@ EvidenceList default_sample_count(const DeviationScene& scene)
 {
   const int m = scene.harmonics;
   const auto motion = [&](int n) {
-    return motion_of(require_periodic(scene.parameters, scene.speed, m, n),
+    return motion_of(require_periodic(scene.parameters, scene.speed, m, n).bodies,
                      points(scene));
   };
   const Motion fine = motion(scene.fine_samples), truth = integrated(scene, scene.speed);
