@@ -32,6 +32,19 @@ std::vector<SweepPoint> sweep_set_1(Balance& balance, const std::vector<double>&
       sweep_settings(parameters));
 }
 
+/** The branch of set 1 with 6 harmonics and N samples, from 1 Hz to `to` [Hz]. */
+Branch follow_set_1(int samples, double to)
+{
+  const Parameters parameters = set_1();
+  Balance balance(bearing_problem(parameters, samples), 6);
+  const SweepSettings scaling = sweep_settings(parameters);
+  return follow_branch(balance, hertz(1), hertz(to),
+                       quasi_static_start(parameters, hertz(1), 6),
+                       {.newton = {},
+                        .speed_scale = scaling.speed_scale,
+                        .arc_unknown_scale = scaling.arc_unknown_scale});
+}
+
 }  // namespace
 
 TEST_CASE(
@@ -63,14 +76,7 @@ TEST_CASE("A predictor that was cleared knows nothing of the points before")
 
 TEST_CASE("Arc length does not turn round onto its own branch")
 {
-  const Parameters parameters = set_1();
-  Balance balance(bearing_problem(parameters, 50), 6);
-  const SweepSettings scaling = sweep_settings(parameters);
-  const Branch branch = follow_branch(balance, hertz(1), hertz(100),
-                                      quasi_static_start(parameters, hertz(1), 6),
-                                      {.newton = {},
-                                       .speed_scale = scaling.speed_scale,
-                                       .arc_unknown_scale = scaling.arc_unknown_scale});
+  const Branch branch = follow_set_1(50, 100);
   CHECK(branch.covered);
   CHECK(branch.folds.size() % 2 == 0);
 }
@@ -110,14 +116,7 @@ TEST_CASE("A sweep of set 1 finds every speed, up and down, with few Newton iter
 
 TEST_CASE("Arc length follows set 1 over the whole range without folds at 6 harmonics")
 {
-  const Parameters parameters = set_1();
-  Balance balance(bearing_problem(parameters, 64), 6);
-  const SweepSettings scaling = sweep_settings(parameters);
-  const Branch branch = follow_branch(balance, hertz(1), hertz(60),
-                                      quasi_static_start(parameters, hertz(1), 6),
-                                      {.newton = {},
-                                       .speed_scale = scaling.speed_scale,
-                                       .arc_unknown_scale = scaling.arc_unknown_scale});
+  const Branch branch = follow_set_1(64, 60);
   CHECK(branch.covered);
   CHECK(branch.folds.empty());
   CHECK(branch.points.size() < 500);
@@ -126,14 +125,7 @@ TEST_CASE("Arc length follows set 1 over the whole range without folds at 6 harm
 
 TEST_CASE("N = 2m+1 as printed creates folds that N = 64 does not have")
 {
-  const Parameters parameters = set_1();
-  const SweepSettings scaling = sweep_settings(parameters);
-  Balance balance(bearing_problem(parameters, 13), 6);
-  const Branch branch = follow_branch(balance, hertz(1), hertz(60),
-                                      quasi_static_start(parameters, hertz(1), 6),
-                                      {.newton = {},
-                                       .speed_scale = scaling.speed_scale,
-                                       .arc_unknown_scale = scaling.arc_unknown_scale});
+  const Branch branch = follow_set_1(13, 60);
   CHECK(branch.folds.size() >= 4);
 }
 
