@@ -101,15 +101,21 @@ struct FreeDriver {
   void operator()(gsl_odeiv2_driver* driver) const { gsl_odeiv2_driver_free(driver); }
 };
 
-/** GSL calls abort() on errors unless told otherwise; every return value is checked here.
- */
+}  // namespace
+
 void keep_gsl_from_aborting()
 {
   static const bool once = (gsl_set_error_handler_off(), true);
   (void)once;
 }
 
-}  // namespace
+const gsl_odeiv2_step_type* gsl_step_type(const std::string& method)
+{
+  const auto found = step_types().find(method);
+  if (found == step_types().end())
+    throw BadInput("method " + method + ": not one of GSL's steppers");
+  return found->second;
+}
 
 struct GslStepper::Driver {
   Equation7 equation;
@@ -135,8 +141,8 @@ GslStepper::GslStepper(const Parameters& parameters, double omega,
   driver_->system = {derivative, jacobian, size, &driver_->equation};
   const double first_step = std::min(interval_length_, default_step(parameters));
   driver_->driver.reset(gsl_odeiv2_driver_alloc_scaled_new(
-      &driver_->system, step_types().at(settings.method), first_step, settings.tolerance,
-      0, 1, 0, sizes.data()));
+      &driver_->system, gsl_step_type(settings.method), first_step, settings.tolerance, 0,
+      1, 0, sizes.data()));
   if (!driver_->driver)
     throw NoSolution(text("%s cannot start with a step of %g s and a tolerance of %g",
                           settings.method.c_str(), first_step, settings.tolerance));

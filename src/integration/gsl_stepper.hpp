@@ -8,6 +8,8 @@ tolerance times its size: the bearing's length scale for displacements, that len
 the contact mode's frequency for speeds. */
 #pragma once
 
+#include <gsl/gsl_odeiv2.h>
+
 #include <memory>
 #include <string>
 #include <vector>
@@ -33,5 +35,12 @@ private:
 };
 
 const std::vector<std::string>& gsl_methods();
+
+/** GSL's own type of a method of the list above. */
+const gsl_odeiv2_step_type* gsl_step_type(const std::string& method);
+
+/** GSL calls abort() on errors unless told otherwise; whoever calls this checks every return value.
+ */
+void keep_gsl_from_aborting();
 
 }  // namespace rotor_stator

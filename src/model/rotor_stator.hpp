@@ -44,7 +44,12 @@ public:
    */
   Bodies acceleration(const State& state, Direction rotor, Direction cage) const
   {
-    const Vec2 f = bearing_.force(cage, state.position.relative());
+    return acceleration(state, rotor, bearing_.force(cage, state.position.relative()));
+  }
+
+  /** The same for a bearing force `f` [N] that is known already. */
+  Bodies acceleration(const State& state, Direction rotor, Vec2 f) const
+  {
     const Bodies& q = state.position;
     const Bodies& v = state.velocity;
     return {
