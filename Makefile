@@ -43,7 +43,7 @@ results_of = $(tables_of) $(timing_of) $(figures_of)
 
 # What does not depend on the reading.
 studied := $(addprefix data/generated/,sensitivity.tsv sensitivity_derivatives.tsv) \
-  $(addprefix figures/generated/,sensitivity.svg identification.svg study.svg)
+  $(addprefix figures/generated/,sensitivity.svg identification.svg study.svg peers.svg)
 
 # The text whose numbers come from tables; the default reading's, since it compares both.
 pages := data/generated/deviations.md
@@ -56,7 +56,7 @@ untimed := $(foreach reading,$(readings),$(call tables_of,$(reading)) $(call fig
 programs := $(patsubst src/%.cpp,build/%,$(wildcard src/*.cpp))
 
 .PHONY: all figures timing claims test sanitize deps list png readme golden format clean \
-  studies identify study adopt
+  studies identify study adopt peers deps-peers
 
 all: $(untimed) $(timings) $(claims)  ## figures, tables and claims of both readings (the default)
 
@@ -93,6 +93,12 @@ deps:  ## install the Debian packages; elsewhere, list what to install
 	sudo=; if [ "$$(id -u)" != 0 ] && command -v sudo > /dev/null; then sudo=sudo; fi; \
 	$$sudo apt-get update && \
 	$$sudo env DEBIAN_FRONTEND=noninteractive apt-get install -y --no-install-recommends $$missing
+
+# What only `peers` needs.
+packages_peers := libsundials-dev python3-scipy auto-07p gfortran
+
+deps-peers:
+	$(MAKE) deps packages="$(packages_peers)"
 
 # When deps is asked for, everything else waits for it, with -j too.
 build/.built: | $(filter deps,$(MAKECMDGOALS))
@@ -200,6 +206,11 @@ figures/generated/identification.svg figures/generated/study.svg: figures/genera
 	@mkdir -p $(@D)
 	$(call whole,$(PYTHON) $< data/reference/$*.tsv $$new)
 
+figures/generated/peers.svg: figures/peers.py figures/rotor_stator.mplstyle figures/tables.py \
+  data/reference/peers.tsv data/reference/peers_auto.tsv data/generated/fig03.tsv
+	@mkdir -p $(@D)
+	$(call whole,$(PYTHON) $< data/reference/peers.tsv $$new)
+
 png: $(patsubst %.svg,%.png,$(filter %.svg,$(untimed)))  ## the figures as PNG, for viewing
 
 %.png: %.svg
@@ -238,9 +249,20 @@ study: build/clearance_stiffness_study  ## clearance against contact stiffness (
 	new=data/generated/study.tsv; $< --journal data/generated/study.journal > $$new.tmp; \
 	  mv $$new.tmp $$new; $(PYTHON) tests/compare_tables.py data/reference/study.tsv $$new
 
+# Other people's programs on the same equations; not part of `studies`, and installed by this alone.
+peers: build/explore | deps-peers  ## outside integrators and AUTO-07p, timed (under 10 minutes)
+	@mkdir -p data/generated
+	flock build/.lock bash -euc 'cmake -S peers --preset release > build/configure-peers.log && \
+	  cmake --build build/peers'
+	export OMP_NUM_THREADS=1 OPENBLAS_NUM_THREADS=1; \
+	$(PYTHON) peers/check.py data/scenes/peers.toml; \
+	for table in peers.py:peers auto_curve.py:peers_auto; do \
+	  new=data/generated/$${table#*:}.tsv; \
+	  $(PYTHON) peers/$${table%:*} data/scenes/$${table#*:}.toml > $$new.tmp; mv $$new.tmp $$new; done
+
 adopt:  ## keep the tables of the studies just run, and the verdicts; a commit that does says why
 	@mkdir -p data/reference
-	for name in identification study; do \
+	for name in identification study peers peers_auto; do \
 	  if [ -e data/generated/$$name.tsv ]; then cp data/generated/$$name.tsv data/reference/; fi; done
 	cp data/generated/claims.tsv data/reference/claims.tsv
 	cp data/generated/as-printed/claims.tsv data/reference/claims-as-printed.tsv

@@ -1,0 +1,105 @@
+"""The text of peers_auto.tsv: header, columns, rows."""
+
+import subprocess
+
+import numpy as np
+from explore import child_seconds, explore
+
+FOLD = 5
+AMPLITUDES = ("amp_x_s", "amp_y_s", "amp_x_r", "amp_y_r")
+COLUMNS = (
+    ("run", "-", "down: from the highest speed; up: from the lowest"),
+    ("point", "-", "number along the run"),
+    ("f", "Hz", "speed of rotation"),
+    *((name, "m", f"half peak-to-peak of {name[4:]}") for name in AMPLITUDES),
+    ("fold", "-", "1 at the folds that AUTO located"),
+    ("distance", "-", "largest difference of the four amplitudes to harmonic balance at this "
+                      "speed, over the largest amplitude; -1: not compared"),
+)
+
+
+def version():
+    """AUTO's, from the package manager where there is one."""
+    try:
+        done = subprocess.run(["dpkg-query", "-W", "-f=${Version}", "auto-07p"], text=True,
+                              capture_output=True, check=False)
+        return done.stdout or "of unknown version"
+    except FileNotFoundError:
+        return "of unknown version"
+
+
+def gfortran():
+    done = subprocess.run(["gfortran", "-dumpfullversion"], text=True, capture_output=True,
+                          check=True)
+    return done.stdout.strip()
+
+
+def distance(row, amplitudes):
+    """Of one row to harmonic balance at its speed; -1 without that."""
+    truth = amplitudes.get(round(row[2], 6))
+    if truth is None or row[1] == FOLD:
+        return -1.0
+    return np.abs(np.array(row[3:7]) - truth).max() / truth.max()
+
+
+def nearest(curve, amplitudes):
+    """The distance at each compared speed, of the sheet of the branch that is nearest."""
+    best = {}
+    for row in curve["rows"]:
+        d = distance(row, amplitudes)
+        if d >= 0:
+            best[row[2]] = min(d, best.get(row[2], np.inf))
+    return best
+
+
+def spread(seconds):
+    """Median and range of CPU times, for the header."""
+    return (f"CPU {np.median(seconds):.3g} s ({min(seconds):.3g} to {max(seconds):.3g} s, "
+            f"{len(seconds)} runs)")
+
+
+def describe(scene, curve, amplitudes):
+    """What AUTO did in one run, and how far it is from harmonic balance."""
+    run, rows = curve["run"], curve["rows"]
+    speeds, folds = [row[2] for row in rows], sum(row[1] == FOLD for row in rows)
+    yield (f"run {run['name']}: from {run['from_hz']:g} Hz, NTST = {run['mesh']}, NCOL = 4: "
+           f"{len(rows)} points, {folds} folds, from {min(speeds):.6g} to {max(speeds):.6g} Hz; "
+           f"ended at {speeds[-1]:.6g} Hz: {curve['end']}; {spread(curve['seconds'])}")
+    met = nearest(curve, amplitudes)
+    if met:
+        worst = max(met, key=met.get)
+        yield (f"run {run['name']}: distance to harmonic balance, m = "
+               f"{scene['compared_harmonics']}, at {len(met)} speeds: median "
+               f"{np.median(list(met.values())):.2g}, largest {met[worst]:.2g} at {worst:g} Hz")
+
+
+def own_branch(scene, curve):
+    """Our branch over the same speeds, one line for each number of harmonics."""
+    speeds = [row[2] for row in curve["rows"]]
+    bounds = {"from": min(speeds), "to": max(speeds)}
+    for harmonics in scene["own_harmonics"]:
+        seconds = []
+        for _ in range(scene["own_repetitions"]):
+            before = child_seconds()
+            table, failed = explore("response", scene["parameters"], may_stop=True,
+                                    harmonics=harmonics, **bounds)
+            seconds.append(child_seconds() - before)
+        folds = next(line[2:] for line in table.header if line.startswith("# folds"))
+        yield (f"run {curve['run']['name']}: harmonic balance, m = {harmonics}, over the same "
+               f"speeds: {len(table['f'])} points, {folds}, "
+               f"{'stopped early' if failed else 'all of them'}; {spread(seconds)}")
+
+
+def table_text(scene, curves, amplitudes, start):
+    """The whole table; `start` is any explored table of the machine, for its provenance."""
+    lines = ["AUTO-07p along the response curve", *(line[2:] for line in start.provenance()),
+             f"auto-07p {version()}, gfortran {gfortran()} -O2; one thread"]
+    for curve in curves:
+        lines += [*describe(scene, curve, amplitudes), *own_branch(scene, curve)]
+    lines += [f"column: {name} [{unit}] {meaning}" for name, unit, meaning in COLUMNS]
+    lines = ["# " + line for line in lines] + ["\t".join(name for name, _, _ in COLUMNS)]
+    for curve in curves:
+        for row in curve["rows"]:
+            numbers = [row[0], *row[2:7], int(row[1] == FOLD), distance(row, amplitudes)]
+            lines.append("\t".join([curve["run"]["name"], *(f"{x:.15g}" for x in numbers)]))
+    return "\n".join(lines) + "\n"

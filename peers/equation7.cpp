@@ -1,0 +1,135 @@
+#include "equation7.hpp"
+
+#include <algorithm>
+#include <array>
+#include <bit>
+#include <cmath>
+#include <cstdio>
+#include <exception>
+#include <numbers>
+
+namespace rotor_stator
+{
+
+using Flat = std::array<double, Equation7::size>;
+
+void Equation7::derivative(double t, const double* y, double* dydt)
+{
+  ++evaluations;
+  const double phase = system.omega() * t;
+  Flat flat;
+  std::copy_n(y, size, flat.begin());
+  const State state = std::bit_cast<State>(flat);
+  const State slope{state.velocity,
+                    system.acceleration(state, system.rotor_direction(phase),
+                                        system.cage_direction(phase))};
+  const Flat result = std::bit_cast<Flat>(slope);
+  std::copy(result.begin(), result.end(), dydt);
+}
+
+void Equation7::jacobian(double t, const double* y, double* dfdy)
+{
+  ++jacobians;
+  const Vec2 u{y[2] - y[0], y[3] - y[1]};
+  const Stiffness2 s =
+      system.bearing().reaction(system.cage_direction(system.omega() * t), u).stiffness;
+  const double slope[2][2] = {{s.xx, s.xy}, {s.xy, s.yy}};
+  const Body* bodies[2] = {&parameters.stator, &parameters.rotor};
+  const auto at = [&](int i, int j) -> double& { return dfdy[j * size + i]; };
+
+  std::fill_n(dfdy, size * size, 0.0);
+  for (int i = 0; i < 4; ++i) at(i, i + 4) = 1;
+  for (int body = 0; body < 2; ++body)
+    for (int i = 0; i < 2; ++i) {
+      const int row = 4 + 2 * body + i;
+      const double sign = (body == 0 ? 1 : -1) / bodies[body]->mass;
+      for (int j = 0; j < 2; ++j) {
+        at(row, j) = -sign * slope[i][j];
+        at(row, j + 2) = sign * slope[i][j];
+      }
+      at(row, row - 4) -= bodies[body]->stiffness() / bodies[body]->mass;
+      at(row, row) -= bodies[body]->damping() / bodies[body]->mass;
+    }
+}
+
+void Equation7::sizes(double* y) const
+{
+  const Scales scale = scales(parameters);
+  const double contact_frequency = std::sqrt(
+      scale.stiffness * (1 / parameters.stator.mass + 1 / parameters.rotor.mass));
+  std::fill_n(y, 4, scale.length);
+  std::fill_n(y + 4, 4, scale.length * contact_frequency);
+}
+
+}  // namespace rotor_stator
+
+using namespace rotor_stator;
+
+Equation7* equation7_open(const char* parameter_file, double frequency)
+{
+  try {
+    return new Equation7(read_parameters(parameter_file),
+                         2 * std::numbers::pi * frequency);
+  } catch (const std::exception& error) {
+    std::fprintf(stderr, "%s\n", error.what());
+    return nullptr;
+  }
+}
+
+void equation7_close(Equation7* equation)
+{
+  delete equation;
+}
+
+void equation7_derivative(Equation7* equation, double t, const double* y, double* dydt)
+{
+  equation->derivative(t, y, dydt);
+}
+
+void equation7_jacobian(Equation7* equation, double t, const double* y, double* dfdy)
+{
+  equation->jacobian(t, y, dfdy);
+}
+
+void equation7_sizes(const Equation7* equation, double* y)
+{
+  equation->sizes(y);
+}
+
+void equation7_static_start(const Equation7* equation, double* y)
+{
+  const Flat flat = std::bit_cast<Flat>(static_start(equation->parameters));
+  std::copy(flat.begin(), flat.end(), y);
+}
+
+void equation7_forces(const Equation7* equation, int n, const double* t, const double* y,
+                      double* forces)
+{
+  const RotorStator& system = equation->system;
+  for (int k = 0; k < n; ++k, y += Equation7::size) {
+    const Vec2 f = system.bearing().force(system.cage_direction(system.omega() * t[k]),
+                                          {y[2] - y[0], y[3] - y[1]});
+    forces[2 * k] = f.x;
+    forces[2 * k + 1] = f.y;
+  }
+}
+
+void equation7_derivatives(Equation7* equation, int rounds, int n, const double* t,
+                           const double* y)
+{
+  Flat slope;
+  volatile double sink = 0;  // keeps the loop from being dropped
+  for (int round = 0; round < rounds; ++round)
+    for (int k = 0; k < n; ++k) {
+      equation->derivative(t[k], y + k * Equation7::size, slope.data());
+      sink = slope[4];
+    }
+  static_cast<void>(sink);
+}
+
+void equation7_counts(Equation7* equation, long* counts)
+{
+  counts[0] = equation->evaluations;
+  counts[1] = equation->jacobians;
+  equation->evaluations = equation->jacobians = 0;
+}

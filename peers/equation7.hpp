@@ -1,0 +1,67 @@
+/**
+# Equation 7 for outside integrators
+
+First-order form, y = (x_s, y_s, x_r, y_r, and their speeds), on the model's own
+`RotorStator::acceleration` and `BallBearing::reaction`, so that every integrator pays the
+same for a force. The C functions below are what SciPy calls through ctypes. */
+#pragma once
+
+#include "model/rotor_stator.hpp"
+
+namespace rotor_stator
+{
+
+/** One machine at one speed, with the counts of what was asked of it. */
+struct Equation7 {
+  static constexpr int size = 8;
+
+  Parameters parameters;
+  RotorStator system;
+  long evaluations = 0;  ///< of Eq. 7
+  long jacobians = 0;
+
+  Equation7(const Parameters& p, double omega) : parameters(p), system(p, omega) {}
+
+  /** dy/dt [m/s, m/s²] at the time t [s]. */
+  void derivative(double t, const double* y, double* dydt);
+
+  /** ∂(dy/dt)/∂y, 8 × 8 by columns. */
+  void jacobian(double t, const double* y, double* dfdy);
+
+  /** What a tolerance of 1 means for each component: the bearing's length [m], and that length
+      times the contact mode's frequency [m/s]. */
+  void sizes(double* y) const;
+};
+
+}  // namespace rotor_stator
+
+extern "C" {
+
+using rotor_stator::Equation7;
+
+/** Null after a line on stderr when the file cannot be read; `frequency` in Hz. */
+Equation7* equation7_open(const char* parameter_file, double frequency);
+void equation7_close(Equation7* equation);
+
+void equation7_derivative(Equation7* equation, double t, const double* y, double* dydt);
+void equation7_jacobian(Equation7* equation, double t, const double* y, double* dfdy);
+void equation7_sizes(const Equation7* equation, double* y);
+void equation7_static_start(const Equation7* equation, double* y);
+
+/** Eq. 6 [N] for `n` states by rows at the times t [s]; `forces` is n × 2. */
+void equation7_forces(const Equation7* equation, int n, const double* t, const double* y,
+                      double* forces);
+
+/** Evaluates `n` states by rows `rounds` times, to time an evaluation. */
+void equation7_derivatives(Equation7* equation, int rounds, int n, const double* t,
+                           const double* y);
+
+/** Evaluations and Jacobians since the last call. */
+void equation7_counts(Equation7* equation, long* counts);
+
+/** CVODE from y at t = 0 through the increasing `times` [s]: the states there, n × 8 by rows, and
+    after each the numbers of evaluations, Jacobians and steps so far, n × 3. `bdf` chooses BDF with
+    Newton and the analytic Jacobian, or Adams with fixed-point iteration. Returns CVODE's flag. */
+int cvode_integrate(Equation7* equation, int bdf, double tolerance, const double* start,
+                    int n, const double* times, double* states, long* counts);
+}

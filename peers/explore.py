@@ -1,0 +1,69 @@
+"""Orbits and branches from the project's own explore, and the tables it writes."""
+
+import resource
+import subprocess
+from io import StringIO
+
+import numpy as np
+from equation7 import ROOT
+
+
+def child_seconds():
+    """CPU seconds of all programs that were run and have ended."""
+    usage = resource.getrusage(resource.RUSAGE_CHILDREN)
+    return usage.ru_utime + usage.ru_stime
+
+
+class Table:
+    """An explored table: its `#` lines, and its columns by name."""
+
+    def __init__(self, text):
+        lines = text.splitlines()
+        self.header = [line for line in lines if line.startswith("#")]
+        body = [line for line in lines if line and not line.startswith("#")]
+        numbers = np.loadtxt(StringIO("\n".join(body[1:])), delimiter="\t", ndmin=2)
+        self.columns = dict(zip(body[0].split("\t"), numbers.T))
+
+    def __getitem__(self, name):
+        return self.columns[name]
+
+    def provenance(self):
+        """The header's lines from the source to the parameters."""
+        first = next(k for k, line in enumerate(self.header) if line.startswith("# source"))
+        last = max(k for k, line in enumerate(self.header) if line.startswith("#   "))
+        return self.header[first:last + 1]
+
+
+def explore(command, parameter_file, may_stop=False, **options):
+    """The table of `explore orbit` or `explore response`; with `may_stop` also of a branch that did
+    not reach its end, and whether it did not."""
+    words = [str(ROOT / "build/explore"), command, parameter_file]
+    for name, value in options.items():
+        words += ["--" + name, str(value)]
+    done = subprocess.run(words, cwd=ROOT, stdout=subprocess.PIPE, text=True, check=False)
+    if may_stop and done.stdout:
+        return Table(done.stdout), done.returncode != 0
+    if done.returncode:
+        raise SystemExit(done.returncode)
+    return Table(done.stdout)
+
+
+def orbit(parameter_file, frequency, harmonics, points):
+    """One period by harmonic balance."""
+    return explore("orbit", parameter_file, frequency=frequency, harmonics=harmonics,
+                   points=points, tolerance=1e-12)
+
+
+def displacements(table):
+    """x_s, y_s, x_r, y_r by columns."""
+    return np.column_stack([table[name] for name in ("x_s", "y_s", "x_r", "y_r")])
+
+
+def slopes(samples):
+    """Derivative of one period of samples with respect to the phase, by its Fourier series."""
+    count = len(samples)
+    harmonics = np.fft.rfftfreq(count, 1 / count)
+    if count % 2 == 0:
+        harmonics[-1] = 0
+    spectrum = 1j * harmonics[:, None] * np.fft.rfft(samples, axis=0)
+    return np.fft.irfft(spectrum, count, axis=0)
