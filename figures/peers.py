@@ -12,6 +12,7 @@ from tables import Table, run
 
 AUTO, RESPONSE = "data/reference/peers_auto.tsv", "data/generated/fig03.tsv"
 STYLES = {"cvode-adams": ("C0", "o", "CVODE, Adams"), "cvode-bdf": ("C5", "s", "CVODE, BDF"),
+          "cvode-bdf2": ("C4", "P", "CVODE, BDF of order 2"),
           "scipy-dop853": ("C1", "^", "SciPy, DOP853"), "scipy-lsoda": ("C2", "D", "SciPy, LSODA"),
           "scipy-radau": ("C3", "v", "SciPy, Radau")}
 ERRORS = (("error", "error of displacement [-]"), ("error_force", "error of force [-]"))

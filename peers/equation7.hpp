@@ -60,8 +60,10 @@ void equation7_derivatives(Equation7* equation, int rounds, int n, const double*
 void equation7_counts(Equation7* equation, long* counts);
 
 /** CVODE from y at t = 0 through the increasing `times` [s]: the states there, n × 8 by rows, and
-    after each the numbers of evaluations, Jacobians and steps so far, n × 3. `bdf` chooses BDF with
-    Newton and the analytic Jacobian, or Adams with fixed-point iteration. Returns CVODE's flag. */
-int cvode_integrate(Equation7* equation, int bdf, double tolerance, const double* start,
-                    int n, const double* times, double* states, long* counts);
+    after each the numbers of evaluations, Jacobians and steps so far, n × 3. `bdf_order` is
+    the highest order of BDF with Newton and the analytic Jacobian; 0 chooses Adams with
+    fixed-point iteration. Returns CVODE's flag. */
+int cvode_integrate(Equation7* equation, int bdf_order, double tolerance,
+                    const double* start, int n, const double* times, double* states,
+                    long* counts);
 }

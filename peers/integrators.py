@@ -17,9 +17,9 @@ class Broken(Exception):
     """An integration that its method gave up."""
 
 
-def cvode(case, bdf, tolerance, start, times):
+def cvode(case, bdf_order, tolerance, start, times):
     states, counts = np.empty((len(times), SIZE)), np.empty((len(times), 3), dtype=np.int64)
-    flag = LIBRARY.cvode_integrate(case.handle, bdf, tolerance, pointer(start), len(times),
+    flag = LIBRARY.cvode_integrate(case.handle, bdf_order, tolerance, pointer(start), len(times),
                                    pointer(times), pointer(states), pointer(counts, c_long))
     if flag < 0:
         raise Broken(f"CVODE's flag {flag}")
@@ -84,7 +84,8 @@ def integrate(case, method, tolerance, start, times):
 
 METHODS = {
     "cvode-adams": lambda case, *rest: cvode(case, 0, *rest),
-    "cvode-bdf": lambda case, *rest: cvode(case, 1, *rest),
+    "cvode-bdf": lambda case, *rest: cvode(case, 5, *rest),
+    "cvode-bdf2": lambda case, *rest: cvode(case, 2, *rest),
     "scipy-dop853": dop853,
     "scipy-lsoda": lsoda,
     "scipy-radau": radau,
