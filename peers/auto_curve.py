@@ -13,15 +13,15 @@ from pathlib import Path
 from shutil import rmtree
 
 import numpy as np
-from auto_table import table_text
+from auto_table import stop, table_text
 from equation7 import ROOT
-from explore import child_seconds, displacements, orbit, slopes
+from explore import Failed, child_seconds, displacements, orbit, slopes
 
 SOURCE, BUILD = ROOT / "peers/auto", ROOT / "build/peers/auto"
 OBJECTS = sorted(Path("/usr/lib/auto-07p/lib").glob("*.o"))
 FORTRAN = ["gfortran", "-O2", "-fopenmp"]
 BODY, RELATIVE = 1e-3, 1e-6  # the sizes in motion.f90 [m]
-USER, NO_CONVERGENCE = -4, -9
+NO_CONVERGENCE = -9
 
 
 def machine(values):
@@ -118,10 +118,14 @@ def reason(scene, run, rows, seconds):
 
 
 def balance_amplitudes(scene, speeds):
-    """Half peak-to-peak by harmonic balance at some speeds, and one of the tables."""
+    """Half peak-to-peak by harmonic balance at some speeds, where it has a solution, and one of the
+    tables."""
     amplitudes, table = {}, None
     for f in speeds:
-        table = orbit(scene["parameters"], f, scene["compared_harmonics"], 2048)
+        try:
+            table = orbit(scene["parameters"], f, scene["compared_harmonics"], 2048)
+        except Failed:
+            continue
         q = displacements(table)
         amplitudes[f] = (q.max(axis=0) - q.min(axis=0)) / 2
     return amplitudes, table
@@ -131,8 +135,7 @@ def main(scene_file):
     scene = tomllib.loads((ROOT / scene_file).read_text(encoding="utf-8"))
     build(scene["parameters"])
     curves = [follow(scene, run) for run in scene["runs"]]
-    met = {float(f) for f in scene["compared_hz"]} & {
-        round(row[2], 6) for curve in curves for row in curve["rows"] if row[1] == USER}
+    met = {stop(row, scene) for curve in curves for row in curve["rows"]} - {None}
     print(table_text(scene, curves, *balance_amplitudes(scene, sorted(met))), end="")
 
 

@@ -5,7 +5,7 @@ import subprocess
 import numpy as np
 from explore import child_seconds, explore
 
-FOLD = 5
+FOLD, USER = 5, -4
 AMPLITUDES = ("amp_x_s", "amp_y_s", "amp_x_r", "amp_y_r")
 COLUMNS = (
     ("run", "-", "down: from the highest speed; up: from the lowest"),
@@ -14,7 +14,7 @@ COLUMNS = (
     *((name, "m", f"half peak-to-peak of {name[4:]}") for name in AMPLITUDES),
     ("fold", "-", "1 at the folds that AUTO located"),
     ("distance", "-", "largest difference of the four amplitudes to harmonic balance at this "
-                      "speed, over the largest amplitude; -1: not compared"),
+                      "speed, over the largest amplitude; -1: none"),
 )
 
 
@@ -34,21 +34,28 @@ def gfortran():
     return done.stdout.strip()
 
 
-def distance(row, amplitudes):
+def stop(row, scene):
+    """The compared speed that AUTO stopped at in this row, to its tolerance; None elsewhere."""
+    if row[1] != USER:
+        return None
+    return min(scene["compared_hz"], key=lambda f: abs(f - row[2]))
+
+
+def distance(row, scene, amplitudes):
     """Of one row to harmonic balance at its speed; -1 without that."""
-    truth = amplitudes.get(round(row[2], 6))
-    if truth is None or row[1] == FOLD:
+    truth = amplitudes.get(stop(row, scene))
+    if truth is None:
         return -1.0
     return np.abs(np.array(row[3:7]) - truth).max() / truth.max()
 
 
-def nearest(curve, amplitudes):
+def nearest(curve, scene, amplitudes):
     """The distance at each compared speed, of the sheet of the branch that is nearest."""
     best = {}
     for row in curve["rows"]:
-        d = distance(row, amplitudes)
+        d, f = distance(row, scene, amplitudes), stop(row, scene)
         if d >= 0:
-            best[row[2]] = min(d, best.get(row[2], np.inf))
+            best[f] = min(d, best.get(f, np.inf))
     return best
 
 
@@ -65,7 +72,7 @@ def describe(scene, curve, amplitudes):
     yield (f"run {run['name']}: from {run['from_hz']:g} Hz, NTST = {run['mesh']}, NCOL = 4: "
            f"{len(rows)} points, {folds} folds, from {min(speeds):.6g} to {max(speeds):.6g} Hz; "
            f"ended at {speeds[-1]:.6g} Hz: {curve['end']}; {spread(curve['seconds'])}")
-    met = nearest(curve, amplitudes)
+    met = nearest(curve, scene, amplitudes)
     if met:
         worst = max(met, key=met.get)
         yield (f"run {run['name']}: distance to harmonic balance, m = "
@@ -100,6 +107,6 @@ def table_text(scene, curves, amplitudes, start):
     lines = ["# " + line for line in lines] + ["\t".join(name for name, _, _ in COLUMNS)]
     for curve in curves:
         for row in curve["rows"]:
-            numbers = [row[0], *row[2:7], int(row[1] == FOLD), distance(row, amplitudes)]
+            numbers = [row[0], *row[2:7], int(row[1] == FOLD), distance(row, scene, amplitudes)]
             lines.append("\t".join([curve["run"]["name"], *(f"{x:.15g}" for x in numbers)]))
     return "\n".join(lines) + "\n"

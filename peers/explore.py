@@ -8,6 +8,10 @@ import numpy as np
 from equation7 import ROOT
 
 
+class Failed(SystemExit):
+    """Ends the program with explore's status unless it is caught; explore has said why."""
+
+
 def child_seconds():
     """CPU seconds of all programs that were run and have ended."""
     usage = resource.getrusage(resource.RUSAGE_CHILDREN)
@@ -44,7 +48,7 @@ def explore(command, parameter_file, may_stop=False, **options):
     if may_stop and done.stdout:
         return Table(done.stdout), done.returncode != 0
     if done.returncode:
-        raise SystemExit(done.returncode)
+        raise Failed(done.returncode)
     return Table(done.stdout)
 
 

@@ -1,9 +1,9 @@
 """The outside integrators behind one call: SUNDIALS CVODE and SciPy.
 
 integrate(case, method, tolerance, start, times) gives the states at the times, n x 8, and after
-each time the numbers of evaluations of Eq. 7, of Jacobians and of steps so far, n x 3. The tolerance
-is relative, and absolute in each component times that component's size. Output times shorten no
-step, except in Radau's recorded period, whose interpolant is of a lower order than its steps.
+each time the numbers of evaluations of Eq. 7, of Jacobians and of steps so far, n x 3. The
+tolerance is relative, and absolute in each component times that component's size. Output times
+shorten no step, except Radau's, whose interpolant is of a lower order than its steps.
 """
 
 from ctypes import c_long

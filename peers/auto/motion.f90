@@ -1,9 +1,9 @@
 ! Equation 7 for AUTO-07p
 !
-! A boundary-value problem over one period (IPS = 4): U(i)(1) = U(i)(0), with the time t/T as the last
-! unknown, since AUTO's equations may not depend on time, and the speed of rotation PAR(1) = f [Hz]
-! as the parameter. The derivative is with respect to the phase wt, so that the unit interval is one
-! period at any speed:
+! A boundary-value problem over one period (IPS = 4): U(i)(1) = U(i)(0), with the time t/T as the
+! last unknown, since AUTO's equations may not depend on time, and the speed of rotation
+! PAR(1) = f [Hz] as the parameter. Derivatives are with respect to the phase wt, so that the unit
+! interval is one period at any speed:
 !
 !   U(1:2)  x_s, y_s over the size of the bodies' motion   U(5:6)  their derivatives
 !   U(3:4)  x_r - x_s, y_r - y_s over that of the contact   U(7:8)  theirs        U(9)  t/T
