@@ -73,7 +73,9 @@ def header(scene, speeds, missed, tried):
     asked = [", ".join(f"{e:g}" for e in scene[key]) for key in ("errors", "errors_force")]
     yield (f"rows: for each error asked for (displacement {asked[0]}; force {asked[1]}) the pair "
            "of tolerance and transient that reaches it with the fewest evaluations; "
-           f"tried transients up to {max(scene['transients_s']):g} s")
+           f"tried transients up to {max(scene['transients_s']):g} s, tolerances down to " +
+           ", ".join(f"{min(values):g} ({method})"
+                     for method, values in scene["tolerances"].items()))
     for speed in speeds:
         yield (f"set {speed.entry['set']}, {speed.frequency:g} Hz: nearest to the reference: " +
                agreement(speed, tried))
