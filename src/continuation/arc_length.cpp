@@ -1,9 +1,10 @@
 #include "continuation/arc_length.hpp"
 
-#include <Eigen/LU>
 #include <algorithm>
 #include <cmath>
 
+#include "continuation/locate.hpp"
+#include "continuation/trail.hpp"
 #include "model/errors.hpp"
 
 namespace rotor_stator
@@ -12,224 +13,248 @@ namespace rotor_stator
 namespace
 {
 
-/** The balance in scaled unknowns y = (X/ℓ, ω/ω_ref), with one linear constraint. */
-class Extended
-{
-public:
-  Extended(Balance& balance, const ArcLengthSettings& settings)
-      : balance_(balance),
-        settings_(settings),
-        n_(balance.unknowns()),
-        matrix_(n_ + 1, n_ + 1)
-  {
-  }
-
-  Eigen::VectorXd scaled(const Eigen::VectorXd& x, double omega) const
-  {
-    Eigen::VectorXd y(n_ + 1);
-    y << x / settings_.arc_unknown_scale, omega / settings_.speed_scale;
-    return y;
-  }
-  double omega(const Eigen::VectorXd& y) const { return y[n_] * settings_.speed_scale; }
-  Eigen::VectorXd unknowns(const Eigen::VectorXd& y) const
-  {
-    return y.head(n_) * settings_.arc_unknown_scale;
-  }
-
-  /** Jacobian of the balance bordered by `last_row`, at the last residual. */
-  const Eigen::MatrixXd& bordered(const Eigen::VectorXd& last_row)
-  {
-    matrix_.topLeftCorner(n_, n_) = balance_.jacobian() * settings_.arc_unknown_scale;
-    matrix_.topRightCorner(n_, 1) = balance_.speed_derivative() * settings_.speed_scale;
-    matrix_.row(n_) = residual_scale() * last_row.transpose();
-    return matrix_;
-  }
-
-  /** The unit tangent at the last residual, on the side of `previous`, and the sign of the
-      bordered Jacobian's determinant: along a branch that is followed in one direction the sign
-      stays the same, through folds too. */
-  struct Tangent {
-    Eigen::VectorXd direction;
-    bool positive;
-  };
-  Tangent tangent(const Eigen::VectorXd& previous)
-  {
-    const Eigen::VectorXd right = Eigen::VectorXd::Unit(n_ + 1, n_);
-    const Eigen::PartialPivLU<Eigen::MatrixXd> factors(bordered(previous));
-    const auto negative = (factors.matrixLU().diagonal().array() < 0).count();
-    const bool even_permutation = factors.permutationP().determinant() > 0;
-    return {factors.solve(right).normalized(), (negative % 2 == 0) == even_permutation};
-  }
-
-  /** Newton on the balance and t·(y - predicted) = 0, from `predicted`. */
-  NewtonReport correct(const Eigen::VectorXd& tangent, const Eigen::VectorXd& predicted,
-                       Eigen::VectorXd& y)
-  {
-    y = predicted;
-    const Equations equations{
-        .residual_scale = residual_scale(),
-        .unknown_scale = balance_.problem().unknown_scale / settings_.arc_unknown_scale,
-        .residual =
-            [&](const Eigen::VectorXd& at, Eigen::VectorXd& residual) {
-              residual.resize(n_ + 1);
-              residual << balance_.residual(unknowns(at), omega(at)),
-                  residual_scale() * tangent.dot(at - predicted);
-            },
-        .jacobian = [&]() -> const Eigen::MatrixXd& { return bordered(tangent); }};
-    return newton(equations, y, settings_.newton);
-  }
-
-private:
-  double residual_scale() const { return balance_.problem().residual_scale; }
-
-  Balance& balance_;
-  const ArcLengthSettings& settings_;
-  Eigen::Index n_;
-  Eigen::MatrixXd matrix_;
-};
-
-/** Speed of the fold between two points with speed directions of opposite sign: the
-   extremum of the cubic that takes both speeds and both slopes. */
-double fold_speed(const BranchPoint& a, const BranchPoint& b, double speed_scale)
+/** Two folds between points whose speeds move the same way: the cubic of the speed has
+    both its extrema inside the step. */
+bool hides_folds(const BranchPoint& a, const BranchPoint& b, double speed_scale)
 {
   const double h = b.arc - a.arc, rise = b.omega - a.omega;
   const double d_a = a.speed_direction * speed_scale * h;
   const double d_b = b.speed_direction * speed_scale * h;
-  /** ω = ω_a + d_a r + c r² + e r³ for 0 ≤ r ≤ 1, and dω/dr = 0. */
+  if (d_a * d_b <= 0) return false;
+  /** dω/dr = d_a + 2cr + 3er² has its extremum at r = -c/3e. */
   const double c = 3 * rise - 2 * d_a - d_b, e = d_a + d_b - 2 * rise;
-  const double root = std::sqrt(std::max(0.0, c * c - 3 * e * d_a));
-  const double r = -d_a / (c + std::copysign(root, d_b - d_a));
-  return a.omega + r * (d_a + r * (c + r * e));
+  const double r = -c / (3 * e);
+  return r > 0 && r < 1 && (d_a + c * r) * d_a < 0;
 }
 
 /** The walk along the branch, one accepted point after the other. */
 class Walk
 {
 public:
-  Walk(Balance& balance, double from, double to, const ArcLengthSettings& settings,
-       const std::function<void(const BranchPoint&)>& visit)
+  Walk(Balance& balance, SpeedRange range, const ArcLengthSettings& settings,
+       const Visit& visit)
       : balance_(balance),
         settings_(settings),
         visit_(visit),
-        from_(from),
-        to_(to),
-        forward_(to > from ? 1.0 : -1.0),
+        range_(range),
+        forward_(range.to > range.from ? 1 : -1),
         extended_(balance, settings),
-        step_(settings.first_step)
+        step_(settings.first_step),
+        evaluations_before_(balance.evaluations())
   {
   }
 
-  Branch run(Eigen::VectorXd x)
+  Branch run(const BranchPoint& start)
   {
-    start(std::move(x));
+    begin(start);
     while (!done_) advance();
+    branch_.evaluations = balance_.evaluations() - evaluations_before_;
     return std::move(branch_);
   }
 
 private:
-  void start(Eigen::VectorXd x)
+  void begin(const BranchPoint& start)
   {
-    const NewtonReport report = solve(balance_, from_, x, settings_.newton);
-    if (!report.converged())
-      throw NoSolution(
-          text("no start at omega = %g rad/s: %s", from_, report.reason().c_str()));
-    y_ = extended_.scaled(x, from_);
-    const auto last = y_.size() - 1;
-    tangent_ = extended_.tangent(forward_ * Eigen::VectorXd::Unit(last + 1, last));
-    accept({from_, 0, tangent_.direction[last], report, std::move(x)});
+    Eigen::VectorXd y;
+    const Correction correction =
+        extended_.correct(start.tangent, scaled(start, settings_), y);
+    if (!correction.newton.converged())
+      throw NoSolution(text("no start at omega = %g rad/s: %s", start.omega,
+                            correction.newton.reason().c_str()));
+    const Tangent tangent = extended_.tangent(start.tangent);
+    positive_ = tangent.positive;
+    BranchPoint first =
+        extended_.point(y, start.arc, correction.newton, tangent.direction);
+    if (start.newton.converged()) {
+      /** Solved already: kept to the last digit, the speed above all. */
+      first.x = start.x;
+      first.omega = start.omega;
+      first.newton = start.newton;
+    }
+    keep(std::move(first));
   }
 
-  void accept(BranchPoint point)
+  const BranchPoint& last() const { return branch_.points.back(); }
+
+  void keep(BranchPoint point)
   {
-    if (!branch_.points.empty()) {
-      const BranchPoint& previous = branch_.points.back();
-      if (previous.speed_direction * point.speed_direction < 0)
-        branch_.folds.push_back(fold_speed(previous, point, settings_.speed_scale));
+    if (visit_) {
+      balance_.residual(point.x, point.omega);
+      visit_(point);
     }
-    if (visit_) visit_(point);
     branch_.points.push_back(std::move(point));
   }
 
-  void stop(bool covered, const std::string& why)
+  void stop(BranchEnd kind, const std::string& why)
   {
-    branch_.covered = covered;
+    branch_.covered = kind == BranchEnd::goal;
+    branch_.kind = kind;
     branch_.end = why;
     done_ = true;
   }
 
-  std::string place() const
-  {
-    return text(" at omega = %.6g rad/s", extended_.omega(y_));
-  }
-
-  /** One step: predict, correct, and keep it unless it failed or turned too far. */
-  void advance()
-  {
-    if (static_cast<int>(branch_.points.size()) >= settings_.most_points)
-      return stop(false, text("%d points", settings_.most_points) + place());
-    if (step_ < settings_.least_step)
-      return stop(false, text("the step fell below %g", settings_.least_step) + place());
-    Eigen::VectorXd y;
-    const NewtonReport report =
-        extended_.correct(tangent_.direction, y_ + step_ * tangent_.direction, y);
-    if (!report.converged()) return shorten();
-    const auto tangent = extended_.tangent(tangent_.direction);
-    if (tangent.direction.dot(tangent_.direction) < std::cos(settings_.most_turn))
-      return shorten();
-    /** Another sign is another leg of a hairpin, followed the wrong way; at the shortest steps it
-        is a branch point, and is passed. */
-    if (tangent.positive != tangent_.positive && step_ > 100 * settings_.least_step)
-      return shorten();
-
-    const double omega = extended_.omega(y);
-    if (forward_ * (omega - to_) >= 0) return finish(y);
-    if (forward_ * (omega - from_) < 0)
-      return stop(false, "the branch came back" + place());
-    const double arc = branch_.points.back().arc + (y - y_).norm();
-    y_ = y;
-    tangent_ = tangent;
-    accept({omega, arc, tangent.direction[y.size() - 1], report, extended_.unknowns(y)});
-    const double wish = std::sqrt(static_cast<double>(settings_.wanted_iterations) /
-                                  std::max(1, report.iterations));
-    step_ = std::min(settings_.most_step, step_ * std::clamp(wish, 0.5, 1.5));
-  }
-
   void shorten() { step_ /= 2; }
 
-  /** The last point, at ω = `to`, between the last accepted point and `beyond`. */
-  void finish(const Eigen::VectorXd& beyond)
+  /** At the shortest steps no sign can be had from a nearby leg: the walk goes on. */
+  bool long_step() const { return step_ > 100 * settings_.least_step; }
+
+  bool out_of_bounds()
   {
-    const double r =
-        (to_ - extended_.omega(y_)) / (extended_.omega(beyond) - extended_.omega(y_));
-    Eigen::VectorXd x = extended_.unknowns(y_ + r * (beyond - y_));
-    const NewtonReport report = solve(balance_, to_, x, settings_.newton);
-    if (!report.converged()) return shorten();
-    const Eigen::VectorXd y = extended_.scaled(x, to_);
-    const double arc = branch_.points.back().arc + (y - y_).norm();
-    accept({to_, arc, extended_.tangent(tangent_.direction).direction[y.size() - 1],
-            report, std::move(x)});
-    stop(true, "the end of the range");
+    if (static_cast<int>(branch_.points.size()) >= settings_.most_points)
+      stop(BranchEnd::points, text("the bound of %d points", settings_.most_points));
+    else if (balance_.evaluations() - evaluations_before_ >= settings_.most_evaluations)
+      stop(BranchEnd::work, text("the bound on work, %ld evaluations of the force",
+                                 settings_.most_evaluations));
+    else if (step_ < settings_.least_step)
+      stop(BranchEnd::step,
+           text("the step fell below %g (%s)", settings_.least_step, refusal_.c_str()));
+    return done_;
+  }
+
+  /** One step: predict, correct, and keep it unless it failed or may have hopped. */
+  void advance()
+  {
+    if (out_of_bounds()) return;
+    std::optional<BranchPoint> point = corrected();
+    if (!point) return shorten();
+    try {
+      take(std::move(*point));
+    } catch (const NoSolution& error) {
+      refusal_ = error.what();
+      return shorten();
+    }
+    step_ = std::min(settings_.most_step, step_ / std::clamp(factor_, 0.5, 2.0));
+  }
+
+  std::optional<BranchPoint> refused(const std::string& why)
+  {
+    refusal_ = why;
+    return {};
+  }
+
+  /** The corrected point one step ahead, if nothing speaks against it; `factor_` is then f. */
+  std::optional<BranchPoint> corrected()
+  {
+    const Eigen::VectorXd &before = last().tangent, start = scaled(last(), settings_);
+    Eigen::VectorXd y;
+    const Correction correction = extended_.correct(before, start + step_ * before, y);
+    if (!correction.newton.converged()) return refused(correction.newton.reason());
+    const Tangent tangent = extended_.tangent(before);
+    const double length = (y - start).norm();
+    const double turn = angle(before, tangent.direction);
+    const double bend =
+        angle((y - start) / length, (before + tangent.direction).normalized());
+    if (turn > settings_.most_turn || bend > settings_.most_bend)
+      return refused(
+          text("the tangent turns by %.2g rad, the chord by %.2g", turn, bend));
+    if (tangent.positive != positive_ && long_step()) return refused("another leg");
+    BranchPoint point =
+        extended_.point(y, last().arc + length, correction.newton, tangent.direction);
+    if (hides_folds(last(), point, settings_.speed_scale) && long_step())
+      return refused("two folds in one step");
+    positive_ = tangent.positive;
+    factor_ =
+        std::max({std::sqrt(correction.contraction / settings_.wanted_contraction),
+                  turn / settings_.wanted_turn, std::sqrt(bend / settings_.wanted_bend)});
+    return point;
+  }
+
+  /** Up to `next`: a fold on the way, the edge of the range, a point that was passed before. */
+  void take(BranchPoint next)
+  {
+    const auto passed = passed_again(extended_, branch_.points, next, settings_);
+    if (passed) {
+      next = branch_.points[passed->index];
+      next.arc = last().arc + distance(last(), next, settings_);
+      if (!passed->same_direction) next = reversed(std::move(next));
+    }
+    if (last().speed_direction * next.speed_direction < 0) {
+      const BranchPoint fold = locate(
+          balance_, last(), next, [](const BranchPoint& p) { return p.speed_direction; },
+          settings_.fold_tolerance, settings_);
+      go_to(fold);
+      if (done_) return;
+      branch_.folds.push_back(fold.omega);
+    }
+    go_to(std::move(next));
+    if (!done_ && passed) end_on_itself(*passed);
+  }
+
+  void end_on_itself(const Passed& passed)
+  {
+    if (passed.index == 0 && passed.same_direction)
+      return stop(BranchEnd::closed, "the branch is closed");
+    stop(BranchEnd::on_itself, passed.same_direction
+                                   ? "the branch ran into one of its earlier points"
+                                   : "the branch turned round onto itself");
+  }
+
+  bool beyond(const BranchPoint& point) const
+  {
+    return forward_ * (point.omega - range_.to) >= 0;
+  }
+  bool behind(const BranchPoint& point) const
+  {
+    return forward_ * (point.omega - range_.from) < 0;
+  }
+
+  void go_to(BranchPoint next)
+  {
+    if (beyond(next)) return finish(next, range_.to);
+    if (behind(next)) return finish(next, range_.from);
+    keep(std::move(next));
+  }
+
+  /** The last point, at the edge of the range between the last kept point and `next`. */
+  void finish(const BranchPoint& next, double edge)
+  {
+    if (last().omega != edge)
+      keep(point_between(balance_, last(), next, edge, settings_));
+    if (edge == range_.to) return stop(BranchEnd::goal, "the end of the range");
+    stop(BranchEnd::came_back, "the branch came back to where the range begins");
   }
 
   Balance& balance_;
   const ArcLengthSettings& settings_;
-  const std::function<void(const BranchPoint&)>& visit_;
-  double from_, to_, forward_;
-  Extended extended_;
-  double step_;
-  Eigen::VectorXd y_;
-  Extended::Tangent tangent_;
+  const Visit& visit_;
+  SpeedRange range_;
+  double forward_;
+  ExtendedBalance extended_;
+  double step_, factor_ = 1;
+  long evaluations_before_;
+  bool positive_ = true;  ///< sign of the determinant along the walk
+  std::string refusal_;   ///< why the last step was shortened
   Branch branch_{};
   bool done_ = false;
 };
 
 }  // namespace
 
-Branch follow_branch(Balance& balance, double from, double to, Eigen::VectorXd x,
-                     const ArcLengthSettings& settings,
-                     const std::function<void(const BranchPoint&)>& visit)
+BranchPoint point_of(Balance& balance, double omega, Eigen::VectorXd x, bool upwards,
+                     const ArcLengthSettings& settings)
 {
-  return Walk(balance, from, to, settings, visit).run(std::move(x));
+  const NewtonReport report = solve(balance, omega, x, settings.newton);
+  if (!report.converged())
+    throw NoSolution(
+        text("no start at omega = %g rad/s: %s", omega, report.reason().c_str()));
+  const auto n = x.size();
+  const Tangent tangent =
+      ExtendedBalance(balance, settings)
+          .tangent((upwards ? 1 : -1) * Eigen::VectorXd::Unit(n + 1, n));
+  return {omega, 0, tangent.direction[n], report, std::move(x), tangent.direction};
+}
+
+Branch follow_branch(Balance& balance, const BranchPoint& start, SpeedRange range,
+                     const ArcLengthSettings& settings, const Visit& visit)
+{
+  return Walk(balance, range, settings, visit).run(start);
+}
+
+Branch follow_branch(Balance& balance, double from, double to, Eigen::VectorXd x,
+                     const ArcLengthSettings& settings, const Visit& visit)
+{
+  const BranchPoint start = point_of(balance, from, std::move(x), to > from, settings);
+  return follow_branch(balance, start, {from, to}, settings, visit);
 }
 
 }  // namespace rotor_stator

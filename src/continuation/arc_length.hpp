@@ -1,55 +1,48 @@
 /**
 # Pseudo-arc-length continuation
 
-The branch is followed in the scaled unknowns y = (X/ℓ, ω/ω_ref): a step along its
-tangent, then Newton on the balance together with t·(y - y_predicted) = 0, which stays
-regular where the branch folds back in ω. The step follows the corrector: longer after few
-iterations, shorter after many, halved and tried again when it fails, when the tangent
-turns by more than `most_turn`, or when the sign of the bordered determinant says that the corrector
-has hopped to another leg of a hairpin. */
+A step along the branch's tangent, then Newton on the balance and the condition of the
+extended balance. The step follows the corrector (Allgower and Georg 2003, section 6.1; Den Heijer
+and Rheinboldt 1981): with κ the ratio of successive Newton corrections, α the angle between the
+tangents at both ends of the step, and β the angle between its chord and their mean, it is divided by
+
+$$f = \max\left(\sqrt{\kappa/\tilde\kappa},\ \alpha/\tilde\alpha,\ \sqrt{\beta/\tilde\beta}\right),
+\qquad \tfrac12 \le f \le 2.$$
+
+κ grows like the square of the step and α like the step; β grows like its square on the branch, but is
+large at once when the corrector has hopped to another leg of a hairpin. A step is taken back and halved
+when Newton fails or contracts too slowly, when α or β is too large, when the sign of the bordered
+determinant changes, or when the cubic through the step shows two folds inside it. */
 #pragma once
 
 #include <functional>
-#include <string>
-#include <vector>
 
-#include "balance/newton.hpp"
+#include "continuation/branch.hpp"
 
 namespace rotor_stator
 {
 
-struct ArcLengthSettings {
-  NewtonSettings newton;
-  double speed_scale;        ///< ω_ref [rad/s]
-  double arc_unknown_scale;  ///< ℓ, in the unknowns' unit
-  double first_step = 0.01;  ///< [-], in scaled arc length
-  double least_step = 1e-7;
-  double most_step = 0.05;
-  double most_turn = 0.5;  ///< angle between successive tangents [rad]
-  int wanted_iterations = 3;
-  int most_points = 20000;
+/** Speeds [rad/s] between which a branch is followed; `from` may be the larger. The branch is covered
+    when it reaches `to`, and also ends where it leaves through `from`. */
+struct SpeedRange {
+  double from, to;
 };
 
-struct BranchPoint {
-  double omega;            ///< [rad/s]
-  double arc;              ///< scaled arc length from the start [-]
-  double speed_direction;  ///< dω/ds over ω_ref; changes sign at a fold
-  NewtonReport newton;
-  Eigen::VectorXd x;
-};
+using Visit = std::function<void(const BranchPoint&)>;
 
-struct Branch {
-  std::vector<BranchPoint> points;
-  std::vector<double> folds;  ///< speeds [rad/s] of the folds, in order
-  bool covered;               ///< the end of the range was reached
-  std::string end;            ///< why it stopped
-};
+/** The solution near `x` at `omega` with its tangent, on the side of higher speeds if `upwards`. Throws
+    NoSolution when there is none. */
+BranchPoint point_of(Balance& balance, double omega, Eigen::VectorXd x, bool upwards,
+                     const ArcLengthSettings& settings);
 
-/** Follows the branch through the solution near `x` at ω = `from` until it reaches `to`
-   [rad/s] (or comes back through `from`). Throws NoSolution when no solution is found at
-   `from`. `visit` is called at each point, while the balance still holds its residual. */
+/** Follows the branch from `start`, along its tangent, until it leaves the range or ends as `BranchEnd` says. Folds are located to
+    `fold_tolerance` and become points of the branch. Throws NoSolution when `start` cannot be corrected
+    onto a branch. `visit` is called at each point, while the balance holds its residual. */
+Branch follow_branch(Balance& balance, const BranchPoint& start, SpeedRange range,
+                     const ArcLengthSettings& settings, const Visit& visit = {});
+
+/** The same from the solution near `x` at ω = `from`, towards `to`. */
 Branch follow_branch(Balance& balance, double from, double to, Eigen::VectorXd x,
-                     const ArcLengthSettings& settings,
-                     const std::function<void(const BranchPoint&)>& visit = {});
+                     const ArcLengthSettings& settings, const Visit& visit = {});
 
 }  // namespace rotor_stator

@@ -1,0 +1,77 @@
+/**
+# A branch of solutions
+
+A branch is followed in the scaled unknowns y = (X/ℓ, ω/ω_ref), in which a step along it is
+measured. It is a row of solutions with the unit tangent at each; between two of them the
+cubic with both tangents stands for it. */
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "balance/newton.hpp"
+
+namespace rotor_stator
+{
+
+/** The first three have no default: two scales of the problem and Newton's settings. Lengths are
+    scaled arc lengths [-]. */
+struct ArcLengthSettings {
+  NewtonSettings newton;
+  double speed_scale;        ///< ω_ref [rad/s]
+  double arc_unknown_scale;  ///< ℓ, in the unknowns' unit
+  double first_step = 0.01;
+  double least_step = 1e-9;
+  double most_step = 0.05;
+  double most_turn = 0.5;            ///< angle between successive tangents [rad]
+  double wanted_turn = 0.25;         ///< the step grows below it, shrinks above it [rad]
+  double most_bend = 0.1;            ///< angle between chord and mean tangent [rad]
+  double wanted_bend = 0.03;         ///< as for the turn [rad]
+  double most_contraction = 0.5;     ///< second over first Newton correction [-]
+  double wanted_contraction = 0.15;  ///< as for the turn [-]
+  double fold_tolerance = 1e-8;      ///< of the folds' speeds, relative
+  int most_points = 100000;
+  long most_evaluations = 1000000;  ///< of the force: the bound on work
+};
+
+struct BranchPoint {
+  double omega;            ///< [rad/s]
+  double arc;              ///< scaled arc length from the start [-]
+  double speed_direction;  ///< dω/ds over ω_ref; changes sign at a fold
+  NewtonReport newton;
+  Eigen::VectorXd x;
+  Eigen::VectorXd tangent = {};  ///< unit, scaled: of X/ℓ, then `speed_direction`
+};
+
+/** How a branch ended. `goal`: at the end of the range. `came_back`: at the edge where it
+    began. `closed`: at its first point, going the same way. `on_itself`: at another of its
+    points. The rest: out of work, of points, or of step length. */
+enum class BranchEnd { goal, came_back, closed, on_itself, work, points, step };
+
+struct Branch {
+  std::vector<BranchPoint> points;  ///< folds included
+  std::vector<double> folds;        ///< speeds [rad/s] of the folds, in order
+  bool covered;                     ///< the end of the range was reached
+  std::string end;                  ///< why it stopped
+  BranchEnd kind = BranchEnd::goal;
+  long evaluations = 0;  ///< of the force: the work done
+};
+
+/** y = (X/ℓ, ω/ω_ref), n+1 values. */
+Eigen::VectorXd scaled(const BranchPoint& point, const ArcLengthSettings& settings);
+
+/** Scaled distance of two points [-]. */
+double distance(const BranchPoint& a, const BranchPoint& b,
+                const ArcLengthSettings& settings);
+
+/** Angle [rad] between two unit vectors, accurate when it is small. */
+double angle(const Eigen::VectorXd& a, const Eigen::VectorXd& b);
+
+/** The cubic through `a` and `b` with both tangents, at 0 ≤ r ≤ 1, scaled. */
+Eigen::VectorXd between(const BranchPoint& a, const BranchPoint& b, double r,
+                        const ArcLengthSettings& settings);
+
+/** The same point, walked through the other way. */
+BranchPoint reversed(BranchPoint point);
+
+}  // namespace rotor_stator

@@ -1,0 +1,154 @@
+#include "continuation/locate.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <optional>
+
+#include "continuation/extended_balance.hpp"
+#include "model/errors.hpp"
+
+namespace rotor_stator
+{
+
+namespace
+{
+
+/** An end of the bracket: a point and the quantity there, the latter as the Illinois method
+    weighs it. */
+struct End {
+  BranchPoint point;
+  double value, weighed;
+};
+
+/** The bracket with the zero, and its narrowing. */
+class Bracket
+{
+public:
+  Bracket(Balance& balance, const BranchPoint& a, const BranchPoint& b,
+          const TestFunction& test, const ArcLengthSettings& settings)
+      : settings_(settings), test_(test), extended_(balance, settings), balance_(balance)
+  {
+    a_ = valued(a);
+    b_ = valued(b);
+  }
+
+  bool has_zero() const { return a_.value * b_.value <= 0; }
+  double width() const { return b_.point.arc - a_.point.arc; }
+
+  /** Bound on the difference of speed between any two points of the bracket [rad/s]. */
+  double speed_width() const
+  {
+    return width() * settings_.speed_scale *
+           std::max(std::abs(a_.point.speed_direction),
+                    std::abs(b_.point.speed_direction));
+  }
+
+  const BranchPoint& best() const
+  {
+    return std::abs(a_.value) <= std::abs(b_.value) ? a_.point : b_.point;
+  }
+  bool exact() const { return a_.value == 0 || b_.value == 0; }
+
+  double secant() const { return a_.weighed / (a_.weighed - b_.weighed); }
+
+  /** Replaces one end by the point at 0 < r < 1. */
+  void cut(double r)
+  {
+    End end = valued(corrected(r));
+    const bool first = end.value * a_.value > 0;
+    End &moved = first ? a_ : b_, &stays = first ? b_ : a_;
+    if (moved_first_ == first) stays.weighed /= 2;
+    moved_first_ = first;
+    moved = std::move(end);
+  }
+
+private:
+  End valued(const BranchPoint& point)
+  {
+    balance_.residual(point.x, point.omega);
+    const double value = test_(point);
+    if (!std::isfinite(value))
+      throw NoSolution(text(
+          "the quantity to locate is not a number at omega = %.6g rad/s", point.omega));
+    return {point, value, value};
+  }
+
+  BranchPoint corrected(double r)
+  {
+    const Eigen::VectorXd start = scaled(a_.point, settings_);
+    const Eigen::VectorXd chord = scaled(b_.point, settings_) - start;
+    Eigen::VectorXd y;
+    const Correction correction = extended_.correct(
+        chord.normalized(), between(a_.point, b_.point, r, settings_), y);
+    if (!correction.newton.converged())
+      throw NoSolution(text("no point between omega = %.9g and %.9g rad/s: %s",
+                            a_.point.omega, b_.point.omega,
+                            correction.newton.reason().c_str()));
+    const double share = (y - start).dot(chord) / chord.squaredNorm();
+    return extended_.point(y, a_.point.arc + share * width(), correction.newton,
+                           extended_.tangent(chord.normalized()).direction);
+  }
+
+  const ArcLengthSettings& settings_;
+  const TestFunction& test_;
+  ExtendedBalance extended_;
+  Balance& balance_;
+  End a_, b_;
+  std::optional<bool> moved_first_;  ///< which end the last cut moved
+};
+
+}  // namespace
+
+BranchPoint locate(Balance& balance, const BranchPoint& a, const BranchPoint& b,
+                   const TestFunction& test, double tolerance,
+                   const ArcLengthSettings& settings)
+{
+  Bracket bracket(balance, a, b, test, settings);
+  if (!bracket.has_zero())
+    throw NoSolution(
+        text("no change of sign between omega = %.9g and %.9g rad/s", a.omega, b.omega));
+  const double least_width = 1e-14 * std::max(1.0, std::abs(b.arc));
+  double before = bracket.width();
+  for (int cuts = 1; !bracket.exact() && bracket.width() > least_width &&
+                     bracket.speed_width() > tolerance * a.omega;
+       ++cuts) {
+    const bool slow = cuts % 3 == 0 && bracket.width() > 0.5 * before;
+    if (cuts % 3 == 0) before = bracket.width();
+    bracket.cut(slow ? 0.5 : std::clamp(bracket.secant(), 1e-3, 1 - 1e-3));
+  }
+  return bracket.best();
+}
+
+BranchPoint point_between(Balance& balance, const BranchPoint& a, const BranchPoint& b,
+                          double omega, const ArcLengthSettings& settings)
+{
+  constexpr double tolerance = 1e-10;
+  BranchPoint point = locate(
+      balance, a, b, [omega](const BranchPoint& p) { return p.omega - omega; }, tolerance,
+      settings);
+  /** To the last digit of the speed, unless it is a fold's. */
+  Eigen::VectorXd x = point.x;
+  const NewtonReport report = solve(balance, omega, x, settings.newton);
+  if (report.converged()) {
+    point.x = std::move(x);
+    point.omega = omega;
+  }
+  return point;
+}
+
+std::vector<BranchPoint> points_at(Balance& balance, const Branch& branch, double omega,
+                                   const ArcLengthSettings& settings)
+{
+  std::vector<BranchPoint> found;
+  for (std::size_t k = 0; k < branch.points.size(); ++k) {
+    const BranchPoint& a = branch.points[k];
+    if (a.omega == omega) found.push_back(a);
+    if (k + 1 == branch.points.size()) break;
+    const BranchPoint& b = branch.points[k + 1];
+    if ((a.omega - omega) * (b.omega - omega) < 0)
+      found.push_back(point_between(balance, a, b, omega, settings));
+  }
+  return found;
+}
+
+}  // namespace rotor_stator
