@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "continuation/folds.hpp"
 #include "continuation/locate.hpp"
 #include "continuation/trail.hpp"
 #include "model/errors.hpp"
@@ -12,20 +13,6 @@ namespace rotor_stator
 
 namespace
 {
-
-/** Two folds between points whose speeds move the same way: the cubic of the speed has
-    both its extrema inside the step. */
-bool hides_folds(const BranchPoint& a, const BranchPoint& b, double speed_scale)
-{
-  const double h = b.arc - a.arc, rise = b.omega - a.omega;
-  const double d_a = a.speed_direction * speed_scale * h;
-  const double d_b = b.speed_direction * speed_scale * h;
-  if (d_a * d_b <= 0) return false;
-  /** dω/dr = d_a + 2cr + 3er² has its extremum at r = -c/3e. */
-  const double c = 3 * rise - 2 * d_a - d_b, e = d_a + d_b - 2 * rise;
-  const double r = -c / (3 * e);
-  return r > 0 && r < 1 && (d_a + c * r) * d_a < 0;
-}
 
 /** The walk along the branch, one accepted point after the other. */
 class Walk
@@ -144,14 +131,14 @@ private:
     const double turn = angle(before, tangent.direction);
     const double bend =
         angle((y - start) / length, (before + tangent.direction).normalized());
-    if (turn > settings_.most_turn || bend > settings_.most_bend)
+    /** Where two branches nearly meet, the corner is sharper than the shortest steps. */
+    const double ease = long_step() ? 1 : 2.5;
+    if (turn > ease * settings_.most_turn || bend > ease * settings_.most_bend)
       return refused(
           text("the tangent turns by %.2g rad, the chord by %.2g", turn, bend));
     if (tangent.positive != positive_ && long_step()) return refused("another leg");
     BranchPoint point =
         extended_.point(y, last().arc + length, correction.newton, tangent.direction);
-    if (hides_folds(last(), point, settings_.speed_scale) && long_step())
-      return refused("two folds in one step");
     positive_ = tangent.positive;
     factor_ =
         std::max({std::sqrt(correction.contraction / settings_.wanted_contraction),
@@ -169,15 +156,26 @@ private:
       if (!passed->same_direction) next = reversed(std::move(next));
     }
     if (last().speed_direction * next.speed_direction < 0) {
-      const BranchPoint fold = locate(
+      BranchPoint fold = locate(
           balance_, last(), next, [](const BranchPoint& p) { return p.speed_direction; },
           settings_.fold_tolerance, settings_);
-      go_to(fold);
+      refuse_hidden_folds(last(), fold);
+      refuse_hidden_folds(fold, next);
+      const double omega = fold.omega;
+      go_to(std::move(fold));
       if (done_) return;
-      branch_.folds.push_back(fold.omega);
+      branch_.folds.push_back(omega);
+    } else {
+      refuse_hidden_folds(last(), next);
     }
     go_to(std::move(next));
     if (!done_ && passed) end_on_itself(*passed);
+  }
+
+  void refuse_hidden_folds(const BranchPoint& a, const BranchPoint& b)
+  {
+    if (long_step() && turns_between(extended_, a, b, settings_))
+      throw NoSolution("more folds in one step than its ends show");
   }
 
   void end_on_itself(const Passed& passed)

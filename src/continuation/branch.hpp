@@ -21,7 +21,7 @@ struct ArcLengthSettings {
   double speed_scale;        ///< ω_ref [rad/s]
   double arc_unknown_scale;  ///< ℓ, in the unknowns' unit
   double first_step = 0.01;
-  double least_step = 1e-9;
+  double least_step = 1e-7;
   double most_step = 0.05;
   double most_turn = 0.5;            ///< angle between successive tangents [rad]
   double wanted_turn = 0.25;         ///< the step grows below it, shrinks above it [rad]
