@@ -8,6 +8,7 @@ Run: build/explore orbit data/set1.toml --frequency 45 > orbit.tsv
 The general program for follow-up studies: any parameter file, any speed, harmonic balance
 or one of the time integrators. A table on stdout, the log on stderr. */
 #include <CLI/CLI.hpp>
+#include <cstdio>
 
 #include "model/errors.hpp"
 #include "output/explore_tables.hpp"
@@ -51,17 +52,33 @@ void add_response_options(CLI::App& command, ResponseRequest& request)
       ->required();
   command.add_option("--from", request.from, "first speed [Hz]")->required();
   command.add_option("--to", request.to, "last speed [Hz]")->required();
-  command.add_option("--harmonics", request.harmonics, "m of harmonic balance")
-      ->capture_default_str();
+  command.add_option("--harmonics", request.harmonics,
+                     "m of harmonic balance (default: 6, or the saved branch's)");
   command.add_option("--samples", request.samples,
                      "N per period (default: 8m+1 rounded up)");
   command.add_option("--tolerance", request.tolerance, "relative tolerance of Newton")
+      ->capture_default_str();
+  command.add_option("--direction", request.direction,
+                     "up: from --from to --to; down: from --to to --from");
+  command.add_option("--work", request.work, "evaluations of the force at most")
+      ->capture_default_str();
+  command.add_option("--save", request.save, "file for the branch, all coefficients");
+  command.add_option("--restart", request.restart, "file of --save to go on from");
+  command.add_option("--at", request.at,
+                     "restart near this speed [Hz] (default: the end)");
+  command.add_option("--branch", request.branch, "number of the branch to restart")
+      ->capture_default_str();
+  command.add_option("--isolated", request.isolated,
+                     "look for isolated branches at so many speeds");
+  command.add_option("--seed", request.seed, "of the random starts of --isolated")
       ->capture_default_str();
 }
 
 int finish(const Exploration& exploration)
 {
   write(exploration.table.text());
+  for (const std::string& remark : exploration.remarks)
+    std::fprintf(stderr, "%s\n", remark.c_str());
   if (exploration.unfinished.empty()) return 0;
   throw NoSolution(exploration.unfinished);
 }

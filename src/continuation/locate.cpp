@@ -110,7 +110,7 @@ BranchPoint locate(Balance& balance, const BranchPoint& a, const BranchPoint& b,
   const double least_width = 1e-14 * std::max(1.0, std::abs(b.arc));
   double before = bracket.width();
   for (int cuts = 1; !bracket.exact() && bracket.width() > least_width &&
-                     bracket.speed_width() > tolerance * a.omega;
+                     bracket.speed_width() > tolerance * std::abs(a.omega);
        ++cuts) {
     const bool slow = cuts % 3 == 0 && bracket.width() > 0.5 * before;
     if (cuts % 3 == 0) before = bracket.width();

@@ -2,8 +2,8 @@
 # Has the branch been here before?
 
 A step that passes an earlier point of its branch has closed a loop, or has hopped onto a leg that was
-followed already. The earlier points that lie near the step are corrected from the step's cubic in
-the plane across their own tangent: the same solution comes out, or another. */
+followed already. A point that lies near a step is corrected from the step's cubic in the plane across
+the point's own tangent: the same solution comes out, or another. */
 #pragma once
 
 #include <optional>
@@ -13,13 +13,17 @@ the plane across their own tangent: the same solution comes out, or another. */
 namespace rotor_stator
 {
 
+/** Whether the solution `point` lies on the step from `a` to `b`, to the length that Newton's last
+    correction may have. */
+bool lies_between(ExtendedBalance& extended, const BranchPoint& a, const BranchPoint& b,
+                  const BranchPoint& point, const ArcLengthSettings& settings);
+
 struct Passed {
   std::size_t index;    ///< of the earlier point
   bool same_direction;  ///< of the walk
 };
 
-/** The first earlier point of `points` that lies on the step from its last point to `next`, to the
-    length that Newton's last correction may have. */
+/** The first earlier point of `points` that lies on the step from its last point to `next`. */
 std::optional<Passed> passed_again(ExtendedBalance& extended,
                                    const std::vector<BranchPoint>& points,
                                    const BranchPoint& next,

@@ -1,11 +1,9 @@
 #include "output/explore_tables.hpp"
 
-#include <cmath>
 #include <numbers>
 
-#include "balance/bearing_problem.hpp"
-#include "continuation/arc_length.hpp"
 #include "model/errors.hpp"
+#include "output/option_checks.hpp"
 #include "scenes/contact.hpp"
 #include "scenes/motion.hpp"
 #include "scenes/response.hpp"
@@ -15,32 +13,6 @@ namespace rotor_stator
 
 namespace
 {
-
-void require_positive(const char* option, double value)
-{
-  if (!(std::isfinite(value) && value > 0))
-    throw BadInput(text("%s %g: must be a finite number > 0", option, value));
-}
-
-void require_between(const char* option, double value, double least, double most)
-{
-  if (!(value >= least && value <= most))
-    throw BadInput(text("%s %g: must be in %g...%g", option, value, least, most));
-}
-
-void require_range(const char* option, int value, int least, int most)
-{
-  if (value < least || value > most)
-    throw BadInput(text("%s %d: must be in %d...%d", option, value, least, most));
-}
-
-/** N as asked for, or the default for m; both checked. */
-int checked_samples(int harmonics, const std::optional<int>& samples)
-{
-  require_range("--harmonics", harmonics, 1, 4096);
-  if (samples) require_range("--samples", *samples, 2 * harmonics + 1, 1 << 20);
-  return samples.value_or(default_samples(harmonics));
-}
 
 SteadySettings steady_settings(const MotionRequest& request, int shown_periods)
 {
@@ -143,72 +115,6 @@ Exploration explore_contact(const MotionRequest& request)
     for (std::size_t j = 0; j < evolution.ball_force[k].size(); ++j)
       table.row({evolution.t_over_period[k], j + 1, evolution.ball_force[k][j]});
   return {std::move(table), ""};
-}
-
-namespace
-{
-
-void check(const ResponseRequest& request)
-{
-  require_positive("--from", request.from);
-  require_positive("--to", request.to);
-  if (request.from >= request.to)
-    throw BadInput(text("--from %g: must be below --to %g", request.from, request.to));
-  require_between("--tolerance", request.tolerance, 1e-15, 1e-3);
-}
-
-/** Follows the branch from a solution at `--from`, one row of `table` per point. */
-Branch tabulated_branch(const Parameters& parameters, const ResponseRequest& request,
-                        int samples, Table& table)
-{
-  const NewtonSettings newton{.tolerance = request.tolerance};
-  const PeriodicSolution start = find_periodic(parameters, angular(request.from),
-                                               request.harmonics, samples, newton);
-  if (!start.found())
-    throw NoSolution(text("%s: no solution found with %d harmonics at --from %g Hz: %s",
-                          parameters.file.c_str(), request.harmonics, request.from,
-                          start.newton.reason().c_str()));
-  Balance balance(bearing_problem(parameters, samples), request.harmonics);
-  const SweepSettings scaling = sweep_settings(parameters);
-  return follow_branch(
-      balance, angular(request.from), angular(request.to), start.x,
-      {.newton = newton,
-       .speed_scale = scaling.speed_scale,
-       .arc_unknown_scale = scaling.arc_unknown_scale},
-      [&](const BranchPoint& point) {
-        const Eigen::VectorXd amplitude =
-            half_peak_to_peak(body_series(parameters, balance, point.omega, point.x));
-        table.row({point.omega / angular(1), amplitude[0], amplitude[1], amplitude[2],
-                   amplitude[3], point.arc, point.newton.iterations});
-      });
-}
-
-}  // namespace
-
-Exploration explore_response(const ResponseRequest& request)
-{
-  Table table("Frequency response along the branch",
-              {{"f", "Hz", "speed of rotation"},
-               {"amp_x_s", "m", "half peak-to-peak of x_s"},
-               {"amp_y_s", "m", "half peak-to-peak of y_s"},
-               {"amp_x_r", "m", "half peak-to-peak of x_r"},
-               {"amp_y_r", "m", "half peak-to-peak of y_r"},
-               {"arc", "-", "scaled arc length from the first point"},
-               {"newton", "-", "Newton iterations of the corrector"}});
-  const Parameters parameters = read_parameters(request.parameter_file);
-  check(request);
-  const int samples = checked_samples(request.harmonics, request.samples);
-  const Branch branch = tabulated_branch(parameters, request, samples, table);
-  table.describe(parameters);
-  table.note(text("method: aft, m = %d, N = %d, relative tolerance %g, pseudo-arc-length",
-                  request.harmonics, samples, request.tolerance));
-  table.note(text("folds: %zu", branch.folds.size()));
-  table.note((branch.covered ? "ended: " : "incomplete: ") + branch.end);
-  if (branch.covered) return {std::move(table), ""};
-  return {std::move(table),
-          text("%s: the branch stopped at %g Hz, before --to %g Hz: %s",
-               parameters.file.c_str(), branch.points.back().omega / angular(1),
-               request.to, branch.end.c_str())};
 }
 
 }  // namespace rotor_stator

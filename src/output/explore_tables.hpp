@@ -26,18 +26,26 @@ struct MotionRequest {
   double longest = 30;         ///< transient at most [s]
 };
 
-/** One branch over a range of speeds. */
+/** One branch over a range of speeds, and on demand others beside it. */
 struct ResponseRequest {
   std::string parameter_file;
-  double from = 0, to = 0;  ///< [Hz]
-  int harmonics = 6;
+  double from = 0, to = 0;       ///< [Hz]
+  std::optional<int> harmonics;  ///< of the saved branch, or 6
   std::optional<int> samples;
   double tolerance = 1e-10;
+  std::string direction;      ///< "up", "down", or empty: the saved branch's, or up
+  double work = 1e6;          ///< evaluations of the force at most, for each branch
+  std::string save, restart;  ///< files; empty for none
+  int branch = 1;             ///< number in the file `restart`
+  std::optional<double> at;   ///< speed to restart from [Hz]
+  int isolated = 0;           ///< speeds at which isolated branches are looked for
+  int seed = 1;
 };
 
 struct Exploration {
   Table table;
   std::string unfinished;  ///< why a branch stopped early; empty when it did not
+  std::vector<std::string> remarks = {};  ///< for stderr
 };
 
 /** Throw BadInput for options out of range, NoSolution when nothing was found. */

@@ -15,13 +15,10 @@ namespace
 Branch branch_over_range(const DeviationScene& scene, int harmonics, int samples)
 {
   const Parameters& parameters = scene.parameters;
-  const SweepSettings scaling = sweep_settings(parameters);
   const double from = angular(scene.range.front()), to = angular(scene.range.back());
   Balance balance(bearing_problem(parameters, samples), harmonics);
   return follow_branch(balance, from, to, quasi_static_start(parameters, from, harmonics),
-                       {.newton = {},
-                        .speed_scale = scaling.speed_scale,
-                        .arc_unknown_scale = scaling.arc_unknown_scale});
+                       arc_length_settings(parameters));
 }
 
 /** What m harmonics with N samples give: folds, and the distance to the true motion. */

@@ -7,8 +7,6 @@
 #include <numbers>
 
 #include "balance/bearing_problem.hpp"
-#include "continuation/arc_length.hpp"
-#include "continuation/sweep.hpp"
 #include "model/errors.hpp"
 
 namespace rotor_stator
@@ -52,9 +50,36 @@ Eigen::VectorXd fewer_harmonics(const Parameters& parameters, double omega, int 
   return resize_harmonics(x, 2, harmonics);
 }
 
-/** The relative motion of one period after ten seconds of RK4, as coefficients. */
-Eigen::VectorXd integrated_period(const Parameters& parameters, double omega,
-                                  int harmonics)
+/** The solution at the end of the branch that starts at 1 Hz, or at half the speed, by arc length
+    through all its folds; few harmonics only, since many see a fold at every contact resonance. */
+Eigen::VectorXd along_the_branch(const Parameters& parameters, double omega,
+                                 int harmonics, int samples, const NewtonSettings& newton)
+{
+  constexpr int most_harmonics = 16;
+  if (harmonics > most_harmonics) return {};
+  const double from = std::min(2 * std::numbers::pi, omega / 2);
+  ArcLengthSettings settings = arc_length_settings(parameters, newton);
+  settings.most_evaluations = 150000;  // one start among others, not a study
+  Balance balance(bearing_problem(parameters, samples), harmonics);
+  try {
+    const Branch branch = follow_branch(
+        balance, from, omega, quasi_static_start(parameters, from, harmonics), settings);
+    if (branch.covered) return branch.points.back().x;
+  } catch (const NoSolution&) {
+    // no start at the first speed: nothing to follow
+  }
+  return {};
+}
+
+}  // namespace
+
+double Motion::phase(std::size_t k) const
+{
+  return 2 * std::numbers::pi * (static_cast<double>(first_period) + t_over_period(k));
+}
+
+Eigen::VectorXd integrated_start(const Parameters& parameters, double omega,
+                                 int harmonics)
 {
   SteadySettings settings;
   settings.stepper = {.method = "rk4",
@@ -72,36 +97,6 @@ Eigen::VectorXd integrated_period(const Parameters& parameters, double omega,
   return series.reshaped();
 }
 
-/** The solution at the end of the branch that starts at 1 Hz, or at half the speed, by arc length
-    through all its folds; few harmonics only, since many see a fold at every contact resonance. */
-Eigen::VectorXd along_the_branch(const Parameters& parameters, double omega,
-                                 int harmonics, int samples, const NewtonSettings& newton)
-{
-  constexpr int most_harmonics = 16;
-  if (harmonics > most_harmonics) return {};
-  const double from = std::min(2 * std::numbers::pi, omega / 2);
-  const SweepSettings scaling = sweep_settings(parameters);
-  Balance balance(bearing_problem(parameters, samples), harmonics);
-  try {
-    const Branch branch = follow_branch(balance, from, omega,
-                                        quasi_static_start(parameters, from, harmonics),
-                                        {.newton = newton,
-                                         .speed_scale = scaling.speed_scale,
-                                         .arc_unknown_scale = scaling.arc_unknown_scale});
-    if (branch.covered) return branch.points.back().x;
-  } catch (const NoSolution&) {
-    // no start at the first speed: nothing to follow
-  }
-  return {};
-}
-
-}  // namespace
-
-double Motion::phase(std::size_t k) const
-{
-  return 2 * std::numbers::pi * (static_cast<double>(first_period) + t_over_period(k));
-}
-
 PeriodicSolution find_periodic(const Parameters& parameters, double omega, int harmonics,
                                int samples, const NewtonSettings& settings)
 {
@@ -115,7 +110,7 @@ PeriodicSolution find_periodic(const Parameters& parameters, double omega, int h
       {"arc length from a lower speed",
        [&] { return along_the_branch(parameters, omega, harmonics, samples, settings); }},
       {"time integration",
-       [&] { return integrated_period(parameters, omega, harmonics); }}};
+       [&] { return integrated_start(parameters, omega, harmonics); }}};
   for (const Start& start : starts) {
     Eigen::VectorXd x = start.coefficients();
     if (x.size() == 0) continue;
@@ -162,6 +157,13 @@ SweepSettings sweep_settings(const Parameters& parameters)
   return {.newton = {},
           .speed_scale = joint_resonance(parameters),
           .arc_unknown_scale = scales(parameters).length};
+}
+
+ArcLengthSettings arc_length_settings(const Parameters& parameters,
+                                      const NewtonSettings& newton)
+{
+  const SweepSettings same = sweep_settings(parameters);
+  return {newton, same.speed_scale, same.arc_unknown_scale};
 }
 
 std::array<double, 4> half_peak_to_peak(const Motion& motion)

@@ -8,7 +8,7 @@ so that the two methods meet in the same table. */
 #include <string>
 #include <vector>
 
-#include "balance/newton.hpp"
+#include "continuation/arc_length.hpp"
 #include "continuation/sweep.hpp"
 #include "integration/steady_state.hpp"
 
@@ -47,6 +47,15 @@ struct PeriodicSolution {
 /** The settings of a sweep for one machine: Eq. 19 scaled by the bearing's length and by
    the joint resonance (D-03). */
 SweepSettings sweep_settings(const Parameters& parameters);
+
+/** The settings of arc length for one machine, with the same scales. */
+ArcLengthSettings arc_length_settings(const Parameters& parameters,
+                                      const NewtonSettings& newton = {});
+
+/** A start for Newton: the relative motion [m] of one period after ten seconds of RK4 from rest, as
+    coefficients. Throws NoSolution when the integration breaks down. */
+Eigen::VectorXd integrated_start(const Parameters& parameters, double omega,
+                                 int harmonics);
 
 /** Looks for the periodic solution at ω with m harmonics and N samples. Newton starts from the
     quasi-static contact, then from a solution with fewer harmonics, then from the end of a branch

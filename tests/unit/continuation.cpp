@@ -37,12 +37,9 @@ Branch follow_set_1(int samples, double to)
 {
   const Parameters parameters = set_1();
   Balance balance(bearing_problem(parameters, samples), 6);
-  const SweepSettings scaling = sweep_settings(parameters);
   return follow_branch(balance, hertz(1), hertz(to),
                        quasi_static_start(parameters, hertz(1), 6),
-                       {.newton = {},
-                        .speed_scale = scaling.speed_scale,
-                        .arc_unknown_scale = scaling.arc_unknown_scale});
+                       arc_length_settings(parameters));
 }
 
 }  // namespace

@@ -123,14 +123,17 @@ TEST_CASE("explore response: from end to end, with the peak near 50 Hz")
   CHECK(table.number(static_cast<std::size_t>(peak), "f") == Approx(50).margin(1));
 }
 
-TEST_CASE(
-    "explore response: a branch that turns back is printed, and said to be unfinished")
+TEST_CASE("explore response: a branch that is not covered is printed and said to be")
 {
-  const Outcome outcome =
-      run_program("explore response data/set2.toml --from 1 --to 60 --harmonics 16");
+  const Outcome outcome = run_program(
+      "explore response data/set2.toml --from 1 --to 60 --harmonics 16 --work 2000");
   CHECK(outcome.status == 3);
-  CHECK(parse_tsv(outcome.out).rows.size() > 10);
+  const Tsv table = parse_tsv(outcome.out);
+  CHECK(table.rows.size() > 10);
+  CHECK(
+      has_line(table, "# incomplete: the bound on work, 2000 evaluations of the force"));
   CHECK(outcome.err.find("the branch stopped at") != std::string::npos);
+  CHECK(outcome.err.find("before --to 60 Hz: the bound on work") != std::string::npos);
 }
 
 TEST_CASE("Another bearing: harmonic balance approaches rk8pd as harmonics are added")
@@ -148,4 +151,118 @@ TEST_CASE("Another bearing: harmonic balance approaches rk8pd as harmonics are a
     CHECK(error("--harmonics 64") < 5e-4);
     CHECK(error("--harmonics 256") < 3e-6);
   }
+}
+
+namespace
+{
+
+const std::string response = "explore response data/set1.toml --from 1 --to 60 ";
+
+/** The largest relative difference of the amplitudes in one row of each table. */
+double row_difference(const Tsv& a, std::size_t i, const Tsv& b, std::size_t j)
+{
+  double largest = 0;
+  for (const char* name : {"f", "amp_x_s", "amp_y_s", "amp_x_r", "amp_y_r"})
+    largest = std::max(largest, std::abs(a.number(i, name) / b.number(j, name) - 1));
+  return largest;
+}
+
+}  // namespace
+
+TEST_CASE("explore response: downwards it ends where upwards it begins")
+{
+  const Tsv up = parse_tsv(run_program(response).out);
+  const Tsv down = parse_tsv(run_program(response + "--direction down").out);
+  const std::size_t last_up = up.rows.size() - 1, last_down = down.rows.size() - 1;
+  CHECK(down.number(0, "f") == Approx(60).epsilon(1e-12));
+  CHECK(row_difference(down, last_down, up, 0) < 1e-9);
+  CHECK(row_difference(down, 0, up, last_up) < 1e-9);
+}
+
+TEST_CASE("explore response: a saved branch is gone on with, either way")
+{
+  const Scratch scratch;
+  const std::string file = scratch.path("branch.tsv");
+  const Outcome whole = run_program(response + "--save " + file);
+  REQUIRE(whole.status == 0);
+  const Tsv table = parse_tsv(whole.out);
+  const std::string restart = response + "--restart " + file + " ";
+  const auto end_of = [&](const std::string& options, std::size_t row) {
+    const Outcome outcome = run_program(restart + options);
+    INFO(options << ": " << outcome.err);
+    REQUIRE(outcome.status == 0);
+    const Tsv part = parse_tsv(outcome.out);
+    CHECK(row_difference(part, part.rows.size() - 1, table, row) < 1e-9);
+  };
+  end_of("--at 30", table.rows.size() - 1);
+  end_of("--at 30 --direction down", 0);
+  end_of("--direction down", 0);
+
+  /** With more harmonics the saved points are starts. */
+  const Outcome more = run_program(restart + "--at 30 --harmonics 12");
+  REQUIRE(more.status == 0);
+  const Tsv direct = parse_tsv(run_program(response + "--harmonics 12").out);
+  const Tsv warm = parse_tsv(more.out);
+  CHECK(row_difference(warm, warm.rows.size() - 1, direct, direct.rows.size() - 1) <
+        1e-9);
+}
+
+TEST_CASE("explore response: what is no saved branch of this machine is refused by line")
+{
+  const Scratch scratch;
+  const std::string file = scratch.path("branch.tsv");
+  REQUIRE(run_program(response + "--save " + file).status == 0);
+  const std::string saved = read_whole(file);
+  const auto refused = [&](const std::string& content, const std::string& mentions) {
+    const std::string changed = scratch.write("changed.tsv", content);
+    const Outcome outcome = run_program(response + "--restart " + changed);
+    INFO(outcome.err);
+    CHECK(outcome.status == 2);
+    CHECK(outcome.out.empty());
+    CHECK(outcome.err.find("changed.tsv:") != std::string::npos);
+    CHECK(outcome.err.find(mentions) != std::string::npos);
+  };
+  const auto with = [&](const std::string& from, const std::string& to) {
+    std::string changed = saved;
+    const auto place = changed.find(from);
+    REQUIRE(place != std::string::npos);
+    return changed.replace(place, from.size(), to);
+  };
+  refused("", "is no saved branch");
+  refused("f\tamp\n1\t2\n", "is no saved branch");
+  refused("# a table\n", "changed.tsv:1: is no saved branch");
+  refused(with("# machine: 20 ", "# machine: 21 "), "another machine");
+  refused(with("# harmonics: 6", "# harmonics: 7"), "the names of the columns");
+  refused(with("# harmonics: 6", "# harmonics: many"), "'many' is not a finite number");
+  refused(with("# direction: up", "# direction: left"), "must be up or down");
+  refused(saved.substr(0, saved.size() - 20), "the line is cut off");
+  refused(saved + "1\tnan\n", "where 30 are expected");
+  const auto last_row = saved.rfind("\n1\t") + 1;
+  refused(saved + saved.substr(last_row), "arc must increase");
+  refused(
+      saved.substr(0, last_row) + "1\tinf" + saved.substr(saved.find('\t', last_row + 2)),
+      "'inf' is not a finite number");
+  CHECK(run_program(response + "--branch 2 --restart " + file)
+            .err.find("there is no branch 2") != std::string::npos);
+  CHECK(run_program("explore response data/set2.toml --from 1 --to 60 --restart " + file)
+            .status == 2);
+}
+
+TEST_CASE("explore response: a branch beside the followed one is reported and printed")
+{
+  const Outcome outcome =
+      run_program("explore response data/set2.toml --from 1 --to 60 --isolated 10");
+  REQUIRE(outcome.status == 0);
+  CHECK(outcome.err.find("branch 2: off the branches before it") != std::string::npos);
+  CHECK(outcome.err.find("the branch is closed") != std::string::npos);
+  const Tsv table = parse_tsv(outcome.out);
+  const auto number = table.column("branch");
+  CHECK(number.front() == 1);
+  CHECK(number.back() == 2);
+  /** It begins and ends at the same point, and that is no row of the first branch. */
+  const auto first = static_cast<std::size_t>(std::find(number.begin(), number.end(), 2) -
+                                              number.begin());
+  CHECK(row_difference(table, first, table, number.size() - 1) < 1e-12);
+  for (std::size_t k = 0; k < first; ++k)
+    CHECK(row_difference(table, first, table, k) > 1e-6);
 }

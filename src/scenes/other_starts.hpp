@@ -1,0 +1,28 @@
+/**
+# Starts off the branch that is followed
+
+Newton finds the solution that is near: other branches need other starts. At each speed one comes
+from time integration, the others are random: harmonics of the size of the clearance that fall like
+1/h², from a seeded generator. */
+#pragma once
+
+#include <cstdint>
+#include <vector>
+
+#include "continuation/isolated.hpp"
+#include "model/parameters.hpp"
+
+namespace rotor_stator
+{
+
+struct OtherStarts {
+  int speeds = 0;  ///< in the range, evenly spaced, the edges left out
+  int random = 8;  ///< at each speed
+  std::uint64_t seed = 1;
+};
+
+/** The starts with m harmonics in the range; the same for the same seed on every machine. */
+std::vector<Candidate> other_starts(const Parameters& parameters, SpeedRange range,
+                                    int harmonics, const OtherStarts& wanted);
+
+}  // namespace rotor_stator

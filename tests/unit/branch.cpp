@@ -1,0 +1,333 @@
+/** Branches against closed forms: folds, closed and isolated branches, restarts, bounds. The branches of
+   set 1 followed both ways and with half the step must have the same folds. */
+#include <algorithm>
+#include <catch2/catch.hpp>
+
+#include "balance/bearing_problem.hpp"
+#include "continuation/isolated.hpp"
+#include "continuation/locate.hpp"
+#include "continuation/trail.hpp"
+#include "model/errors.hpp"
+#include "scenes/motion.hpp"
+#include "support/cases.hpp"
+
+using namespace rotor_stator;
+using namespace rotor_stator::tests;
+
+namespace
+{
+
+/** f(x) = c(ω) for one constant unknown: solution sets that are known curves. */
+Problem curve(double (*f)(double), double (*slope)(double),
+              std::function<double(double)> c, std::function<double(double)> c_slope)
+{
+  return {.dofs = 1,
+          .samples = 1,
+          .residual_scale = 1,
+          .unknown_scale = 1,
+          .linear =
+              [=](double omega, int) {
+                const SmallMatrix zero = SmallMatrix::Zero(1, 1);
+                const SmallMatrix one = SmallMatrix::Identity(1, 1);
+                return LinearBlock{zero, one,  SmallVector::Constant(1, c(omega)),
+                                   zero, zero, SmallVector::Constant(1, c_slope(omega))};
+              },
+          .force =
+              [=](const Eigen::MatrixXd& q, Eigen::MatrixXd& force,
+                  Eigen::MatrixXd& stiffness) {
+                force = q.unaryExpr([=](double x) { return f(x); });
+                stiffness = q.unaryExpr([=](double x) { return slope(x); });
+              }};
+}
+
+/** x² + (ω - 2)² = r². */
+Problem circle(double radius)
+{
+  return curve([](double x) { return x * x; }, [](double x) { return 2 * x; },
+               [=](double w) { return radius * radius - (w - 2) * (w - 2); },
+               [](double w) { return -2 * (w - 2); });
+}
+
+/** x³ - 3x = top - 4(ω - 2)². The cubic has the values 2 at -1 and -2 at 1: for -2 < top < 2 the
+    solutions are a line x < -1 and a closed curve around x = 1; for top > 2, one line. */
+Problem island(double top)
+{
+  return curve([](double x) { return x * x * x - 3 * x; },
+               [](double x) { return 3 * x * x - 3; },
+               [=](double w) { return top - 4 * (w - 2) * (w - 2); },
+               [](double w) { return -8 * (w - 2); });
+}
+
+const ArcLengthSettings plain{.newton = {}, .speed_scale = 1, .arc_unknown_scale = 1};
+
+Eigen::VectorXd at(double x)
+{
+  return Eigen::VectorXd::Constant(1, x);
+}
+
+/** Speeds of the folds of x with 1 harmonic, from the amplitude equation: with a = x² and k = 3γ/4,
+    ω² = 1 + ka - c²/2 + √(P²/a - c²(1 + ka) + c⁴/4), and dω²/da = 0. */
+double duffing_fold(double low, double high)
+{
+  const double k = 0.075, c2 = 0.0025, p2 = 0.18 * 0.18;
+  const auto root = [&](double a) {
+    return std::sqrt(p2 / a - c2 * (1 + k * a) + c2 * c2 / 4);
+  };
+  const auto slope = [&](double a) {
+    return k - (p2 / (a * a) + c2 * k) / (2 * root(a));
+  };
+  for (int halvings = 0; halvings < 80; ++halvings) {
+    const double middle = 0.5 * (low + high);
+    (slope(low) * slope(middle) > 0 ? low : high) = middle;
+  }
+  return std::sqrt(1 + k * low - c2 / 2 + root(low));
+}
+
+Branch follow(const Parameters& parameters, int harmonics, int samples, double from,
+              double to, double most_step)
+{
+  Balance balance(bearing_problem(parameters, samples), harmonics);
+  ArcLengthSettings settings = arc_length_settings(parameters);
+  settings.most_step = most_step;
+  return follow_branch(balance, hertz(from), hertz(to),
+                       find_periodic(parameters, hertz(from), harmonics, samples).x,
+                       settings);
+}
+
+/** The folds of `a` that have none of `b` within `tolerance`, relative. */
+std::vector<double> unmatched(const Branch& a, const Branch& b, double tolerance)
+{
+  std::vector<double> left;
+  for (double fold : a.folds)
+    if (std::none_of(b.folds.begin(), b.folds.end(), [&](double other) {
+          return std::abs(other - fold) <= tolerance * fold;
+        }))
+      left.push_back(fold);
+  return left;
+}
+
+}  // namespace
+
+TEST_CASE("Folds of Duffing against the amplitude equation, up and down, at any step")
+{
+  const double upper = duffing_fold(7.5, 8.07), lower = duffing_fold(1, 7);
+  CHECK(upper == Approx(1.267537).epsilon(1e-6));
+  CHECK(lower == Approx(1.115586).epsilon(1e-6));
+  for (double most_step : {0.5, 0.05, 0.005}) {
+    Balance balance(duffing().problem(128), 1);
+    ArcLengthSettings settings = plain;
+    settings.most_step = most_step;
+    const Eigen::VectorXd rest = Eigen::VectorXd::Zero(3);
+    const Branch up = follow_branch(balance, 0.5, 1.6, rest, settings);
+    const Branch down = follow_branch(balance, 1.6, 0.5, rest, settings);
+    REQUIRE(up.covered);
+    REQUIRE(down.covered);
+    REQUIRE(up.folds.size() == 2);
+    REQUIRE(down.folds.size() == 2);
+    CHECK(up.folds[0] == Approx(upper).epsilon(1e-8));
+    CHECK(up.folds[1] == Approx(lower).epsilon(1e-8));
+    CHECK(down.folds[0] == Approx(lower).epsilon(1e-8));
+    CHECK(down.folds[1] == Approx(upper).epsilon(1e-8));
+    CHECK(up.points.back().omega == 1.6);
+    CHECK(up.points.back().arc == Approx(down.points.back().arc).epsilon(1e-3));
+  }
+}
+
+TEST_CASE("A fold is a point of its branch, with a tangent across the speed")
+{
+  Balance balance(duffing().problem(128), 7);
+  const Branch branch =
+      follow_branch(balance, 0.5, 1.6, Eigen::VectorXd::Zero(15), plain);
+  REQUIRE(branch.folds.size() == 2);
+  for (double fold : branch.folds) {
+    const auto point = std::find_if(branch.points.begin(), branch.points.end(),
+                                    [&](const auto& p) { return p.omega == fold; });
+    REQUIRE(point != branch.points.end());
+    CHECK(std::abs(point->speed_direction) < 1e-4);
+    CHECK(balance.residual(point->x, point->omega).norm() < 1e-9);
+  }
+}
+
+TEST_CASE("A circle is followed once round and recognised as closed, either way")
+{
+  for (bool upwards : {true, false}) {
+    Balance balance(circle(0.7), 0);
+    const BranchPoint start = point_of(balance, 2, at(0.7), upwards, plain);
+    const Branch branch = follow_branch(balance, start, {0.5, 3.5}, plain);
+    CHECK(branch.kind == BranchEnd::closed);
+    CHECK_FALSE(branch.covered);
+    REQUIRE(branch.folds.size() == 2);
+    CHECK(*std::min_element(branch.folds.begin(), branch.folds.end()) ==
+          Approx(1.3).epsilon(1e-8));
+    CHECK(*std::max_element(branch.folds.begin(), branch.folds.end()) ==
+          Approx(2.7).epsilon(1e-8));
+    CHECK(branch.points.back().omega == branch.points.front().omega);
+    CHECK(branch.points.back().x == branch.points.front().x);
+    /** The chords of a circle are shorter than its arcs. */
+    CHECK(branch.points.back().arc == Approx(2 * M_PI * 0.7).epsilon(1e-3));
+    CHECK(follow_both_ways(balance, start, {0.5, 3.5}, plain).covered);
+  }
+}
+
+TEST_CASE("A closed branch that leaves the range is followed to both edges")
+{
+  Balance balance(circle(0.7), 0);
+  const BranchPoint start = point_of(balance, 2.2, at(0.6), true, plain);
+  const Branch branch = follow_both_ways(balance, start, {2.0, 3.5}, plain);
+  CHECK(branch.covered);
+  CHECK(branch.points.front().omega == 2.0);
+  CHECK(branch.points.back().omega == 2.0);
+  CHECK(branch.points.front().x[0] == Approx(0.7));
+  CHECK(branch.points.back().x[0] == Approx(-0.7));
+  REQUIRE(branch.folds.size() == 1);
+  CHECK(branch.folds[0] == Approx(2.7).epsilon(1e-8));
+}
+
+TEST_CASE("An isolated branch is found from starts off the main one, once")
+{
+  Balance balance(island(1), 0);
+  const Branch main = follow_branch(balance, 0.5, 3.5, at(-2), plain);
+  REQUIRE(main.covered);
+  CHECK(main.folds.empty());
+  const std::vector<Candidate> candidates{
+      {1.5, at(-1.9), "main"}, {2.2, at(1.5), "first"}, {1.8, at(0.5), "second"}};
+  const auto found = isolated_branches(balance, main, candidates, {0.5, 3.5}, plain);
+  REQUIRE(found.size() == 1);
+  CHECK(found[0].origin == "first");
+  CHECK(found[0].branch.kind == BranchEnd::closed);
+  auto folds = found[0].branch.folds;
+  std::sort(folds.begin(), folds.end());
+  REQUIRE(folds.size() == 2);
+  CHECK(folds[0] == Approx(2 - std::sqrt(3.0) / 2).epsilon(1e-8));
+  CHECK(folds[1] == Approx(2 + std::sqrt(3.0) / 2).epsilon(1e-8));
+
+  /** Where the curve rises above the cubic's upper value the island has joined the line. */
+  Balance joined(island(2.5), 0);
+  const Branch line = follow_branch(joined, 0.5, 3.5, at(-2), plain);
+  REQUIRE(line.covered);
+  REQUIRE(line.folds.size() == 4);
+  const double inner = std::sqrt(0.5) / 2, outer = std::sqrt(4.5) / 2;
+  CHECK(line.folds[0] == Approx(2 - inner).epsilon(1e-8));
+  CHECK(line.folds[1] == Approx(2 - outer).epsilon(1e-8));
+  CHECK(line.folds[2] == Approx(2 + outer).epsilon(1e-8));
+  CHECK(line.folds[3] == Approx(2 + inner).epsilon(1e-8));
+  CHECK(isolated_branches(joined, line, {{2.0, at(2), ""}}, {0.5, 3.5}, plain).empty());
+}
+
+TEST_CASE("locate finds where a quantity has a value, and refuses what has no zero")
+{
+  Balance balance(circle(1), 0);
+  const Branch branch =
+      follow_branch(balance, point_of(balance, 2, at(1), true, plain), {0.5, 3.5}, plain);
+  const auto quantity = [](const BranchPoint& p) { return p.x[0] - 0.6; };
+  int found = 0;
+  for (std::size_t k = 1; k < branch.points.size(); ++k) {
+    const BranchPoint &a = branch.points[k - 1], &b = branch.points[k];
+    if (quantity(a) * quantity(b) >= 0) {
+      CHECK_THROWS_AS(locate(balance, a, b, quantity, 1e-10, plain), NoSolution);
+      continue;
+    }
+    const BranchPoint point = locate(balance, a, b, quantity, 1e-10, plain);
+    CHECK(std::abs(point.omega - 2) == Approx(0.8).epsilon(1e-9));
+    CHECK(point.arc > a.arc);
+    CHECK(point.arc < b.arc);
+    ++found;
+  }
+  CHECK(found == 2);
+  CHECK(points_at(balance, branch, 2.3, plain).size() == 2);
+  for (const BranchPoint& point : points_at(balance, branch, 2.3, plain))
+    CHECK(std::abs(point.x[0]) == Approx(std::sqrt(0.91)));
+}
+
+TEST_CASE("A step that passes an earlier point knows which way it goes")
+{
+  Balance balance(circle(1), 0);
+  const Branch branch =
+      follow_branch(balance, point_of(balance, 2, at(1), true, plain), {0.5, 3.5}, plain);
+  ExtendedBalance extended(balance, plain);
+  std::vector<BranchPoint> walked(branch.points.begin(), branch.points.begin() + 12);
+  CHECK_FALSE(passed_again(extended, walked, branch.points[12], plain));
+
+  /** Back over the fifth to the fourth point. */
+  walked.push_back(reversed(walked[5]));
+  walked.back().arc = walked[11].arc + 1;
+  BranchPoint next = reversed(walked[3]);
+  next.arc = walked.back().arc + 0.1;
+  const auto passed = passed_again(extended, walked, next, plain);
+  REQUIRE(passed);
+  CHECK(passed->index >= 3);
+  CHECK(passed->index <= 5);
+  CHECK_FALSE(passed->same_direction);
+}
+
+TEST_CASE("The bound on work ends a branch, with what was found so far")
+{
+  const Parameters parameters = set_1();
+  Balance balance(bearing_problem(parameters, 50), 6);
+  ArcLengthSettings settings = arc_length_settings(parameters);
+  settings.most_evaluations = 200;
+  const Eigen::VectorXd x = find_periodic(parameters, hertz(1), 6, 50).x;
+  const Branch branch = follow_branch(balance, hertz(1), hertz(60), x, settings);
+  CHECK(branch.kind == BranchEnd::work);
+  CHECK_FALSE(branch.covered);
+  CHECK(branch.points.size() > 10);
+  CHECK(branch.evaluations >= 200);
+  CHECK(branch.evaluations < 260);
+  CHECK(branch.end.find("bound on work") != std::string::npos);
+}
+
+TEST_CASE("A branch gone on with from any of its points, either way, is the same branch")
+{
+  const Parameters parameters = set_1();
+  const Branch branch = follow(parameters, 10, 21, 1, 60, 0.05);
+  Balance balance(bearing_problem(parameters, 21), 10);
+  const ArcLengthSettings settings = arc_length_settings(parameters);
+  const std::size_t k = branch.points.size() / 2;
+  const SpeedRange range{hertz(1), hertz(60)};
+  const Branch ahead = follow_branch(balance, branch.points[k], range, settings);
+  const Branch back = follow_branch(balance, reversed(branch.points[k]),
+                                    {range.to, range.from}, settings);
+  REQUIRE(ahead.covered);
+  REQUIRE(back.covered);
+  const auto close = [](const BranchPoint& a, const BranchPoint& b) {
+    return (a.x - b.x).norm() < 1e-8 * b.x.norm();
+  };
+  CHECK(close(ahead.points.back(), branch.points.back()));
+  CHECK(close(back.points.back(), branch.points.front()));
+  REQUIRE(ahead.folds.size() + back.folds.size() == branch.folds.size());
+  std::vector<double> folds(back.folds.rbegin(), back.folds.rend());
+  folds.insert(folds.end(), ahead.folds.begin(), ahead.folds.end());
+  for (std::size_t j = 0; j < folds.size(); ++j)
+    CHECK(folds[j] == Approx(branch.folds[j]).epsilon(1e-6));
+}
+
+TEST_CASE("A branch has the same folds upwards and downwards and with half the step")
+{
+  const Branch up = follow(set_1(), 10, 21, 1, 60, 0.05);
+  REQUIRE(up.covered);
+  CHECK(up.folds.size() > 100);
+  for (const Branch& other :
+       {follow(set_1(), 10, 21, 60, 1, 0.05), follow(set_1(), 10, 21, 1, 60, 0.025)}) {
+    REQUIRE(other.covered);
+    CHECK(other.folds.size() == up.folds.size());
+    CHECK(unmatched(up, other, 1e-6).empty());
+    CHECK(unmatched(other, up, 1e-6).empty());
+  }
+}
+
+TEST_CASE("With many harmonics only pairs of folds that are next to each other go unseen")
+{
+  const Branch up = follow(set_1(), 16, 129, 1, 60, 0.05);
+  const Branch down = follow(set_1(), 16, 129, 60, 1, 0.05);
+  REQUIRE(up.covered);
+  REQUIRE(down.covered);
+  const std::size_t most = up.folds.size() / 10;
+  for (const auto& [a, b] : {std::pair{up, down}, std::pair{down, up}}) {
+    const auto left = unmatched(a, b, 1e-6);
+    CHECK(left.size() <= most);
+    for (double fold : left)
+      CHECK(std::count_if(a.folds.begin(), a.folds.end(), [&](double other) {
+              return std::abs(other - fold) < 1e-4 * fold;
+            }) >= 2);
+  }
+}
