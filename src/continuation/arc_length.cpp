@@ -49,6 +49,8 @@ private:
       throw NoSolution(text("no start at omega = %g rad/s: %s", start.omega,
                             correction.newton.reason().c_str()));
     const Tangent tangent = extended_.tangent(start.tangent);
+    if (!tangent.direction.allFinite())
+      throw NoSolution(text("no tangent at omega = %g rad/s", start.omega));
     positive_ = tangent.positive;
     BranchPoint first =
         extended_.point(y, start.arc, correction.newton, tangent.direction);
@@ -69,6 +71,7 @@ private:
       balance_.residual(point.x, point.omega);
       visit_(point);
     }
+    trail_.add(point);
     branch_.points.push_back(std::move(point));
   }
 
@@ -110,6 +113,7 @@ private:
       refusal_ = error.what();
       return shorten();
     }
+    positive_ = next_positive_;
     step_ = std::min(settings_.most_step, step_ / std::clamp(factor_, 0.5, 2.0));
   }
 
@@ -133,23 +137,21 @@ private:
         angle((y - start) / length, (before + tangent.direction).normalized());
     /** Where two branches nearly meet, the corner is sharper than the shortest steps. */
     const double ease = long_step() ? 1 : 2.5;
-    if (turn > ease * settings_.most_turn || bend > ease * settings_.most_bend)
+    if (!(turn <= ease * settings_.most_turn && bend <= ease * settings_.most_bend))
       return refused(
           text("the tangent turns by %.2g rad, the chord by %.2g", turn, bend));
     if (tangent.positive != positive_ && long_step()) return refused("another leg");
-    BranchPoint point =
-        extended_.point(y, last().arc + length, correction.newton, tangent.direction);
-    positive_ = tangent.positive;
+    next_positive_ = tangent.positive;
     factor_ =
         std::max({std::sqrt(correction.contraction / settings_.wanted_contraction),
                   turn / settings_.wanted_turn, std::sqrt(bend / settings_.wanted_bend)});
-    return point;
+    return extended_.point(y, last().arc + length, correction.newton, tangent.direction);
   }
 
   /** Up to `next`: a fold on the way, the edge of the range, a point that was passed before. */
   void take(BranchPoint next)
   {
-    const auto passed = passed_again(extended_, branch_.points, next, settings_);
+    const auto passed = trail_.passed(extended_, branch_.points, next, settings_);
     if (passed) {
       next = branch_.points[passed->index];
       next.arc = last().arc + distance(last(), next, settings_);
@@ -220,27 +222,14 @@ private:
   ExtendedBalance extended_;
   double step_, factor_ = 1;
   long evaluations_before_;
-  bool positive_ = true;  ///< sign of the determinant along the walk
-  std::string refusal_;   ///< why the last step was shortened
+  bool positive_ = true, next_positive_ = true;  ///< sign of the determinant
+  std::string refusal_;                          ///< why the last step was shortened
   Branch branch_{};
+  Trail trail_;
   bool done_ = false;
 };
 
 }  // namespace
-
-BranchPoint point_of(Balance& balance, double omega, Eigen::VectorXd x, bool upwards,
-                     const ArcLengthSettings& settings)
-{
-  const NewtonReport report = solve(balance, omega, x, settings.newton);
-  if (!report.converged())
-    throw NoSolution(
-        text("no start at omega = %g rad/s: %s", omega, report.reason().c_str()));
-  const auto n = x.size();
-  const Tangent tangent =
-      ExtendedBalance(balance, settings)
-          .tangent((upwards ? 1 : -1) * Eigen::VectorXd::Unit(n + 1, n));
-  return {omega, 0, tangent.direction[n], report, std::move(x), tangent.direction};
-}
 
 Branch follow_branch(Balance& balance, const BranchPoint& start, SpeedRange range,
                      const ArcLengthSettings& settings, const Visit& visit)

@@ -17,7 +17,7 @@ determinant changes, or when the cubic through the step shows two folds inside i
 
 #include <functional>
 
-#include "continuation/branch.hpp"
+#include "continuation/extended_balance.hpp"
 
 namespace rotor_stator
 {
@@ -29,11 +29,6 @@ struct SpeedRange {
 };
 
 using Visit = std::function<void(const BranchPoint&)>;
-
-/** The solution near `x` at `omega` with its tangent, on the side of higher speeds if `upwards`. Throws
-    NoSolution when there is none. */
-BranchPoint point_of(Balance& balance, double omega, Eigen::VectorXd x, bool upwards,
-                     const ArcLengthSettings& settings);
 
 /** Follows the branch from `start`, along its tangent, until it leaves the range or ends as `BranchEnd` says. Folds are located to
     `fold_tolerance` and become points of the branch. Throws NoSolution when `start` cannot be corrected

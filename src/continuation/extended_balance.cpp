@@ -4,6 +4,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "model/errors.hpp"
+
 namespace rotor_stator
 {
 
@@ -59,6 +61,18 @@ const Eigen::MatrixXd& ExtendedBalance::bordered(const Eigen::VectorXd& last_row
   return matrix_;
 }
 
+NewtonEnd ExtendedBalance::verdict(const Correction& correction, double length) const
+{
+  if (!std::isfinite(length)) return NewtonEnd::singular;
+  if (!std::isfinite(correction.newton.delta_1) ||
+      correction.contraction > settings_.most_contraction)
+    return NewtonEnd::no_decrease;
+  return correction.newton.delta_1 <= settings_.newton.tolerance &&
+                 length <= last_correction()
+             ? NewtonEnd::converged
+             : NewtonEnd::too_many_iterations;
+}
+
 Correction ExtendedBalance::correct(const Eigen::VectorXd& direction,
                                     const Eigen::VectorXd& predicted, Eigen::VectorXd& y)
 {
@@ -69,33 +83,22 @@ Correction ExtendedBalance::correct(const Eigen::VectorXd& direction,
   Eigen::VectorXd right(n_ + 1);
   double last = 0;
   y = predicted;
+  /** The condition is linear: after the first correction it holds to rounding. */
   right << -residual(y), 0;
-  while (report.iterations < most_corrections) {
-    /** The condition is linear: after the first correction it holds to rounding. */
+  do {
     const Eigen::VectorXd step = bordered(direction).partialPivLu().solve(right);
     const double length = step.norm();
-    ++report.iterations;
-    report.end =
-        std::isfinite(length) ? NewtonEnd::too_many_iterations : NewtonEnd::singular;
-    if (report.end == NewtonEnd::singular) break;
-    if (last == 0) correction.distance = length;
-    report.delta_2 = length / unknown_scale;
     y += step;
     right << -residual(y), 0;
+    ++report.iterations;
     report.delta_1 = right.norm() / balance_.problem().residual_scale;
+    report.delta_2 = length / unknown_scale;
     if (last > last_correction())
       correction.contraction = std::max(correction.contraction, length / last);
-    if (correction.contraction > settings_.most_contraction ||
-        !std::isfinite(report.delta_1)) {
-      report.end = NewtonEnd::no_decrease;
-      break;
-    }
-    if (report.delta_1 <= settings_.newton.tolerance && length <= last_correction()) {
-      report.end = NewtonEnd::converged;
-      break;
-    }
+    report.end = verdict(correction, length);
     last = length;
-  }
+  } while (report.end == NewtonEnd::too_many_iterations &&
+           report.iterations < most_corrections);
   return correction;
 }
 
@@ -106,6 +109,20 @@ Tangent ExtendedBalance::tangent(const Eigen::VectorXd& previous)
   const auto negative = (factors.matrixLU().diagonal().array() < 0).count();
   const bool even_permutation = factors.permutationP().determinant() > 0;
   return {factors.solve(right).normalized(), (negative % 2 == 0) == even_permutation};
+}
+
+BranchPoint point_of(Balance& balance, double omega, Eigen::VectorXd x, bool upwards,
+                     const ArcLengthSettings& settings)
+{
+  const NewtonReport report = solve(balance, omega, x, settings.newton);
+  if (!report.converged())
+    throw NoSolution(
+        text("no start at omega = %g rad/s: %s", omega, report.reason().c_str()));
+  const auto n = x.size();
+  const Tangent tangent =
+      ExtendedBalance(balance, settings)
+          .tangent((upwards ? 1 : -1) * Eigen::VectorXd::Unit(n + 1, n));
+  return {omega, 0, tangent.direction[n], report, std::move(x), tangent.direction};
 }
 
 }  // namespace rotor_stator

@@ -13,11 +13,9 @@ another solution far away. */
 namespace rotor_stator
 {
 
-/** What Newton's first two corrections say of the predictor (Allgower and Georg 2003, section
-    6.1; Den Heijer and Rheinboldt 1981). */
+/** How Newton ended, and how fast it was (Den Heijer and Rheinboldt 1981). */
 struct Correction {
   NewtonReport newton;
-  double distance = 0;     ///< ‖Δy₁‖ [-]
   double contraction = 0;  ///< the largest ‖Δy_{k+1}‖/‖Δy_k‖ above rounding [-]
 };
 
@@ -50,6 +48,7 @@ public:
 private:
   double omega(const Eigen::VectorXd& y) const;
   Eigen::VectorXd unknowns(const Eigen::VectorXd& y) const;
+  NewtonEnd verdict(const Correction& correction, double length) const;
   const Eigen::MatrixXd& bordered(const Eigen::VectorXd& last_row);
   const Eigen::VectorXd& residual(const Eigen::VectorXd& y);
 
@@ -58,5 +57,10 @@ private:
   Eigen::Index n_;
   Eigen::MatrixXd matrix_;
 };
+
+/** The solution near `x` at `omega` with its tangent, on the side of higher speeds if `upwards`. Throws
+    NoSolution when there is none. */
+BranchPoint point_of(Balance& balance, double omega, Eigen::VectorXd x, bool upwards,
+                     const ArcLengthSettings& settings);
 
 }  // namespace rotor_stator

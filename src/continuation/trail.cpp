@@ -8,13 +8,15 @@ namespace rotor_stator
 namespace
 {
 
-/** Speeds of the step, with room for its bend. */
-bool speed_fits(const BranchPoint& a, const BranchPoint& b, double omega,
-                const ArcLengthSettings& settings)
+/** Speeds of a step, with room for its bend. */
+struct Speeds {
+  double low, high;
+};
+Speeds speeds_of(const BranchPoint& a, const BranchPoint& b,
+                 const ArcLengthSettings& settings)
 {
   const double room = 0.1 * (b.arc - a.arc) * settings.speed_scale;
-  return omega >= std::min(a.omega, b.omega) - room &&
-         omega <= std::max(a.omega, b.omega) + room;
+  return {std::min(a.omega, b.omega) - room, std::max(a.omega, b.omega) + room};
 }
 
 }  // namespace
@@ -22,7 +24,8 @@ bool speed_fits(const BranchPoint& a, const BranchPoint& b, double omega,
 bool lies_between(ExtendedBalance& extended, const BranchPoint& a, const BranchPoint& b,
                   const BranchPoint& point, const ArcLengthSettings& settings)
 {
-  if (!speed_fits(a, b, point.omega, settings)) return false;
+  const Speeds speeds = speeds_of(a, b, settings);
+  if (point.omega < speeds.low || point.omega > speeds.high) return false;
   constexpr double near = 0.1, rounding = 1e-6;
   const Eigen::VectorXd start = scaled(a, settings), y = scaled(point, settings);
   const Eigen::VectorXd chord = scaled(b, settings) - start;
@@ -36,20 +39,25 @@ bool lies_between(ExtendedBalance& extended, const BranchPoint& a, const BranchP
          (corrected - y).norm() <= extended.last_correction();
 }
 
-std::optional<Passed> passed_again(ExtendedBalance& extended,
-                                   const std::vector<BranchPoint>& points,
-                                   const BranchPoint& next,
-                                   const ArcLengthSettings& settings)
+std::optional<Passed> Trail::passed(ExtendedBalance& extended,
+                                    const std::vector<BranchPoint>& points,
+                                    const BranchPoint& next,
+                                    const ArcLengthSettings& settings) const
 {
   const BranchPoint& last = points.back();
   const double reach = 2 * (next.arc - last.arc);
-  for (std::size_t k = 0; k < points.size(); ++k) {
-    if (last.arc - points[k].arc < reach) break;
+  const Speeds speeds = speeds_of(last, next, settings);
+  std::optional<Passed> first;
+  for (auto near = index_.lower_bound(speeds.low), end = index_.upper_bound(speeds.high);
+       near != end; ++near) {
+    const std::size_t k = near->second;
+    if (first && first->index < k) continue;
+    if (last.arc - points[k].arc < reach) continue;
     if (!lies_between(extended, last, next, points[k], settings)) continue;
     const Eigen::VectorXd chord = scaled(next, settings) - scaled(last, settings);
-    return Passed{k, points[k].tangent.dot(chord) > 0};
+    first = Passed{k, points[k].tangent.dot(chord) > 0};
   }
-  return {};
+  return first;
 }
 
 }  // namespace rotor_stator

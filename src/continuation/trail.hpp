@@ -6,6 +6,7 @@ followed already. A point that lies near a step is corrected from the step's cub
 the point's own tangent: the same solution comes out, or another. */
 #pragma once
 
+#include <map>
 #include <optional>
 
 #include "continuation/extended_balance.hpp"
@@ -23,10 +24,21 @@ struct Passed {
   bool same_direction;  ///< of the walk
 };
 
-/** The first earlier point of `points` that lies on the step from its last point to `next`. */
-std::optional<Passed> passed_again(ExtendedBalance& extended,
-                                   const std::vector<BranchPoint>& points,
-                                   const BranchPoint& next,
-                                   const ArcLengthSettings& settings);
+/** The points of a walk, found again by their speed. */
+class Trail
+{
+public:
+  void add(const BranchPoint& point) { index_.emplace(point.omega, index_.size()); }
+
+  /** The first of `points`, all of which were added in order, that lies on the step from the last of
+      them to `next`. */
+  std::optional<Passed> passed(ExtendedBalance& extended,
+                               const std::vector<BranchPoint>& points,
+                               const BranchPoint& next,
+                               const ArcLengthSettings& settings) const;
+
+private:
+  std::multimap<double, std::size_t> index_;
+};
 
 }  // namespace rotor_stator

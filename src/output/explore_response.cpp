@@ -4,6 +4,7 @@
 #include "output/branch_file.hpp"
 #include "output/explore_tables.hpp"
 #include "output/option_checks.hpp"
+#include "output/whole_file.hpp"
 #include "scenes/motion.hpp"
 #include "scenes/other_starts.hpp"
 #include "scenes/response.hpp"

@@ -59,7 +59,8 @@ Eigen::VectorXd along_the_branch(const Parameters& parameters, double omega,
   if (harmonics > most_harmonics) return {};
   const double from = std::min(2 * std::numbers::pi, omega / 2);
   ArcLengthSettings settings = arc_length_settings(parameters, newton);
-  settings.most_evaluations = 150000;  // one start among others, not a study
+  /** One start among others, not a study: as long for many harmonics as for few. */
+  settings.most_evaluations = std::min(150000, 15000000 / (harmonics * harmonics));
   Balance balance(bearing_problem(parameters, samples), harmonics);
   try {
     const Branch branch = follow_branch(

@@ -246,14 +246,19 @@ TEST_CASE("A step that passes an earlier point knows which way it goes")
       follow_branch(balance, point_of(balance, 2, at(1), true, plain), {0.5, 3.5}, plain);
   ExtendedBalance extended(balance, plain);
   std::vector<BranchPoint> walked(branch.points.begin(), branch.points.begin() + 12);
-  CHECK_FALSE(passed_again(extended, walked, branch.points[12], plain));
+  const auto passed_to = [&](const BranchPoint& next) {
+    Trail trail;
+    for (const BranchPoint& point : walked) trail.add(point);
+    return trail.passed(extended, walked, next, plain);
+  };
+  CHECK_FALSE(passed_to(branch.points[12]));
 
   /** Back over the fifth to the fourth point. */
   walked.push_back(reversed(walked[5]));
   walked.back().arc = walked[11].arc + 1;
   BranchPoint next = reversed(walked[3]);
   next.arc = walked.back().arc + 0.1;
-  const auto passed = passed_again(extended, walked, next, plain);
+  const auto passed = passed_to(next);
   REQUIRE(passed);
   CHECK(passed->index >= 3);
   CHECK(passed->index <= 5);
