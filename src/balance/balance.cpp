@@ -2,7 +2,7 @@
 
 #include <limits>
 
-#include "model/errors.hpp"
+#include "balance/with_dofs.hpp"
 
 namespace rotor_stator
 {
@@ -10,16 +10,16 @@ namespace rotor_stator
 namespace
 {
 
-/** Three dense matrices of this size, as the arc length needs, stay below 0.5 GB. */
-constexpr Eigen::Index most_unknowns = 4200;
-
-using Series = Eigen::MatrixXd;
-
-/** Complex amplitude of harmonic h: q_h = a - i b for a cos hφ + b sin hφ. */
-SmallVector amplitude(const Series& series, int h)
+/** A complex matrix z as it acts on (cosine, sine) coefficients, q = a - ib: ((Re z, Im z),
+    (-Im z, Re z)). */
+template <class Block>
+void expand(const SmallMatrix& z, Block block)
 {
-  if (h == 0) return series.col(0).cast<std::complex<double>>();
-  return series.col(2 * h - 1) - std::complex(0.0, 1.0) * series.col(2 * h);
+  const auto d = z.rows();
+  block.topLeftCorner(d, d) = z.real();
+  block.topRightCorner(d, d) = z.imag();
+  block.bottomLeftCorner(d, d) = -z.imag();
+  block.bottomRightCorner(d, d) = z.real();
 }
 
 /** Writes a complex amplitude into the rows of harmonic h of a real vector. */
@@ -32,6 +32,13 @@ void put(Eigen::VectorXd& x, int h, const SmallVector& amplitude)
   }
   x.segment((2 * h - 1) * d, d) = amplitude.real();
   x.segment(2 * h * d, d) = -amplitude.imag();
+}
+
+/** Complex amplitude of harmonic h. */
+SmallVector amplitude(const Eigen::MatrixXd& series, int h)
+{
+  if (h == 0) return series.col(0).cast<std::complex<double>>();
+  return series.col(2 * h - 1) - std::complex(0.0, 1.0) * series.col(2 * h);
 }
 
 }  // namespace
@@ -57,38 +64,67 @@ Balance::Balance(Problem problem, int harmonics)
     : problem_(std::move(problem)),
       harmonics_(harmonics),
       transform_(problem_.samples),
-      blocks_(harmonics + 1),
       omega_(std::numeric_limits<double>::quiet_NaN()),
-      force_series_(problem_.dofs, 2 * harmonics + 1)
+      a_(2 * problem_.dofs, 2 * problem_.dofs * (harmonics + 1)),
+      b_(a_.rows(), a_.cols()),
+      c_(unknowns()),
+      force_series_(problem_.dofs, 2 * harmonics + 1),
+      product_series_(problem_.dofs, 2 * harmonics + 1),
+      residual_(unknowns())
 {
-  if (unknowns() > most_unknowns)
-    throw NoSolution(
-        text("%d harmonics give %ld unknowns; the dense Jacobian stops at %ld", harmonics,
-             static_cast<long>(unknowns()), static_cast<long>(most_unknowns)));
 }
 
 void Balance::refresh_blocks(double omega)
 {
   if (omega == omega_) return;
-  for (int h = 0; h <= harmonics_; ++h) blocks_[h] = problem_.linear(omega, h);
+  const auto size = a_.rows();
+  for (int h = 0; h <= harmonics_; ++h) {
+    const LinearBlock block = problem_.linear(omega, h);
+    expand(block.a, a_.middleCols(h * size, size));
+    expand(block.b, b_.middleCols(h * size, size));
+    put(c_, h, block.c);
+  }
   omega_ = omega;
 }
 
-const Eigen::VectorXd& Balance::residual(const Eigen::VectorXd& x, double omega)
+/** Rows of A q + B f for the coefficients `series` of q and `force` of f. */
+void Balance::combine(const Eigen::Ref<const Eigen::MatrixXd>& series,
+                      const Eigen::MatrixXd& force, Eigen::VectorXd& sum) const
+{
+  with_dofs(problem_.dofs, [&](auto constant) {
+    constexpr int d = constant, two = 2 * d;
+    using Part = Eigen::Matrix<double, two, 1>;
+    sum.template head<d>() = a_.template topLeftCorner<d, d>() * series.col(0) +
+                             b_.template topLeftCorner<d, d>() * force.col(0);
+    for (Eigen::Index h = 1; h <= harmonics_; ++h) {
+      const Eigen::Index first = (2 * h - 1) * d;
+      const Eigen::Map<const Part> q(series.data() + first), f(force.data() + first);
+      sum.template segment<two>(first) = a_.template middleCols<two>(h * two) * q +
+                                         b_.template middleCols<two>(h * two) * f;
+    }
+  });
+}
+
+void Balance::evaluate_force(With with)
 {
   ++evaluations_;
+  has_stiffness_ = with == With::stiffness;
+  has_spectra_ = false;
+  problem_.force(samples_, force_samples_,
+                 has_stiffness_ ? &stiffness_samples_ : nullptr);
+}
+
+const Eigen::VectorXd& Balance::residual(const Eigen::VectorXd& x, double omega,
+                                         With with)
+{
   refresh_blocks(omega);
-  series_ = Eigen::Map<const Series>(x.data(), problem_.dofs, 2 * harmonics_ + 1);
+  series_ =
+      Eigen::Map<const Eigen::MatrixXd>(x.data(), problem_.dofs, 2 * harmonics_ + 1);
   transform_.to_samples(series_, samples_);
-  problem_.force(samples_, force_samples_, stiffness_samples_);
+  evaluate_force(with);
   transform_.to_series(force_samples_, force_series_);
-  residual_.resize(unknowns());
-  for (int h = 0; h <= harmonics_; ++h) {
-    const LinearBlock& block = blocks_[h];
-    put(residual_, h,
-        block.a * amplitude(series_, h) + block.b * amplitude(force_series_, h) -
-            block.c);
-  }
+  combine(series_, force_series_, residual_);
+  residual_ -= c_;
   return residual_;
 }
 
@@ -96,70 +132,12 @@ const Eigen::VectorXd& Balance::speed_derivative()
 {
   speed_derivative_.resize(unknowns());
   for (int h = 0; h <= harmonics_; ++h) {
-    const LinearBlock& block = blocks_[h];
+    const LinearBlock block = problem_.linear(omega_, h);
     put(speed_derivative_, h,
         block.a_slope * amplitude(series_, h) +
             block.b_slope * amplitude(force_series_, h) - block.c_slope);
   }
   return speed_derivative_;
-}
-
-/** Entries ∂(coefficients of f_i)/∂(coefficients of q_j) before the blocks B_h multiply
-   them. With k(φ) the stiffness and κ_p = α_p - iβ_p, cosine column q and row p hold
-   α_{p-q} + α_{p+q} and so on; the indices are modulo N, which makes the derivative exact
-   for any N ≥ 2m+1. */
-void Balance::fill_force_jacobian(int i, int j)
-{
-  const int d = problem_.dofs, n = problem_.samples, m = harmonics_;
-  const auto kappa = transform_.spectrum(stiffness_samples_.col(i + d * j));
-  const auto at = [&](int p) {
-    return 2 * p <= n ? std::conj(kappa[p]) : kappa[n - p];  // α_p + iβ_p
-  };
-  const auto entry = [&](int row, int column) -> double& {
-    return jacobian_(row * d + i, column * d + j);
-  };
-  entry(0, 0) = kappa[0].real();
-  for (int h = 1; h <= m; ++h) {
-    const auto k = at(h);
-    entry(0, 2 * h - 1) = k.real();
-    entry(0, 2 * h) = k.imag();
-    entry(2 * h - 1, 0) = 2 * k.real();
-    entry(2 * h, 0) = 2 * k.imag();
-  }
-  for (int q = 1; q <= m; ++q)
-    for (int p = 1; p <= m; ++p) {
-      const auto sum = at(p + q);
-      const auto difference = p >= q ? at(p - q) : std::conj(at(q - p));
-      entry(2 * p - 1, 2 * q - 1) = difference.real() + sum.real();
-      entry(2 * p - 1, 2 * q) = sum.imag() - difference.imag();
-      entry(2 * p, 2 * q - 1) = sum.imag() + difference.imag();
-      entry(2 * p, 2 * q) = difference.real() - sum.real();
-    }
-}
-
-const Eigen::MatrixXd& Balance::jacobian()
-{
-  const int d = problem_.dofs;
-  jacobian_.resize(unknowns(), unknowns());
-  for (int j = 0; j < d; ++j)
-    for (int i = 0; i < d; ++i) fill_force_jacobian(i, j);
-
-  /** Rows of harmonic h: multiply by B_h, add A_h on the diagonal. A complex number a +
-     ib acts on (cosine, sine) coefficients as the matrix ((a, b), (-b, a)). */
-  jacobian_.topRows(d).applyOnTheLeft(blocks_[0].b.real());
-  jacobian_.topLeftCorner(d, d) += blocks_[0].a.real();
-  Eigen::MatrixXd left(2 * d, 2 * d);
-  const auto expand = [&](const SmallMatrix& z) {
-    left << z.real(), z.imag(), -z.imag(), z.real();
-  };
-  for (int h = 1; h <= harmonics_; ++h) {
-    const auto first = (2 * h - 1) * d;
-    expand(blocks_[h].b);
-    jacobian_.middleRows(first, 2 * d).applyOnTheLeft(left);
-    expand(blocks_[h].a);
-    jacobian_.block(first, first, 2 * d, 2 * d) += left;
-  }
-  return jacobian_;
 }
 
 }  // namespace rotor_stator

@@ -4,6 +4,7 @@
 #include <numbers>
 
 #include "model/errors.hpp"
+#include "model/sampled_bearing.hpp"
 
 namespace rotor_stator
 {
@@ -23,9 +24,11 @@ struct Varying {
   {
     return {value * o.value, slope * o.value + value * o.slope};
   }
-  Varying operator/(const Varying& o) const
+  Varying over(const Varying& real) const
   {
-    return {value / o.value, (slope - value / o.value * o.slope) / o.value};
+    const double per = 1 / real.value.real();
+    const Complex quotient = value * per;
+    return {quotient, (slope - quotient * real.slope.real()) * per};
   }
   Varying modulus() const
   {
@@ -61,7 +64,7 @@ LinearBlock condensed_block(const Parameters& parameters, double ball_stiffness,
   const auto f_r =
       load(parameters.rotor.mass * parameters.gravity, parameters.unbalance, omega, h);
 
-  const Varying a = product / sigma, b = sum / sigma;
+  const Varying a = product.over(sigma), b = sum.over(sigma);
   const SmallMatrix unit = SmallMatrix::Identity(2, 2);
   LinearBlock block{.a = a.value * unit,
                     .b = b.value * unit,
@@ -70,7 +73,7 @@ LinearBlock condensed_block(const Parameters& parameters, double ball_stiffness,
                     .b_slope = b.slope * unit,
                     .c_slope = SmallVector(2)};
   for (int axis = 0; axis < 2; ++axis) {
-    const Varying c = (z_s * f_r[axis] - z_r * f_s[axis]) / sigma;
+    const Varying c = (z_s * f_r[axis] - z_r * f_s[axis]).over(sigma);
     block.c[axis] = c.value;
     block.c_slope[axis] = c.slope;
   }
@@ -87,31 +90,18 @@ Problem bearing_problem(const Parameters& parameters, int samples)
              "force has not the period of rotation; use a time method",
              parameters.file.c_str(), passages_per_turn(parameters.bearing)));
   const Scales scale = scales(parameters);
-  const BallBearing bearing(parameters.bearing);
-  std::vector<Direction> cage;
-  for (int k = 0; k < samples; ++k)
-    cage.push_back(Direction::of(parameters.bearing.cage_speed_ratio * 2 *
-                                 std::numbers::pi * k / samples));
-
-  const auto law = [bearing, cage](const Eigen::MatrixXd& q, Eigen::MatrixXd& force,
-                                   Eigen::MatrixXd& stiffness) {
-    force.resize(q.rows(), 2);
-    stiffness.resize(q.rows(), 4);
-    for (Eigen::Index k = 0; k < q.rows(); ++k) {
-      const auto [f, s] = bearing.reaction(cage[k], {q(k, 0), q(k, 1)});
-      force.row(k) << f.x, f.y;
-      stiffness.row(k) << s.xx, s.xy, s.xy, s.yy;
-    }
-  };
-  return {.dofs = 2,
-          .samples = samples,
-          .residual_scale = scale.penetration,
-          .unknown_scale = scale.penetration,
-          .linear =
-              [parameters, scale](double omega, int h) {
-                return condensed_block(parameters, scale.stiffness, omega, h);
-              },
-          .force = law};
+  return {
+      .dofs = 2,
+      .samples = samples,
+      .residual_scale = scale.penetration,
+      .unknown_scale = scale.penetration,
+      .linear =
+          [parameters, scale](double omega, int h) {
+            return condensed_block(parameters, scale.stiffness, omega, h);
+          },
+      .force = [bearing = SampledBearing(parameters.bearing, samples)](
+                   const Eigen::MatrixXd& u, Eigen::MatrixXd& force,
+                   Eigen::MatrixXd* stiffness) { bearing.force(u, force, stiffness); }};
 }
 
 namespace

@@ -22,6 +22,10 @@ struct NewtonSettings {
   double tolerance = 1e-10;  ///< relative to the problem's scales
   int most_iterations = 40;
   int most_halvings = 12;
+
+  /** A chord step, with the Jacobian of an earlier point, is kept when it leaves at most this
+     part of the residual; otherwise Newton's own step is taken. 0: always Newton's. */
+  double frozen_contraction = 0.1;
 };
 
 enum class NewtonEnd { converged, too_many_iterations, no_decrease, singular };
@@ -34,6 +38,11 @@ struct NewtonReport {
 
   bool converged() const { return end == NewtonEnd::converged; }
   std::string reason() const;
+};
+
+/** Sizes that the tolerance is relative to. */
+struct NewtonScales {
+  double residual, unknown;
 };
 
 /** n equations in n unknowns. */

@@ -24,6 +24,10 @@ using SmallMatrix = Eigen::Matrix<std::complex<double>, Eigen::Dynamic, Eigen::D
 using SmallVector =
     Eigen::Matrix<std::complex<double>, Eigen::Dynamic, 1, 0, most_dofs, 1>;
 
+/** A block of one harmonic acting on its cosine and sine coefficients. */
+using RealBlock = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, 0, 2 * most_dofs,
+                                2 * most_dofs>;
+
 /** A_h, B_h and c_h, and their derivatives with respect to ω. */
 struct LinearBlock {
   SmallMatrix a, b;
@@ -42,10 +46,10 @@ struct Problem {
   /** The block of harmonic `h` ≥ 0 at speed `omega` [rad/s]. */
   std::function<LinearBlock(double omega, int h)> linear;
 
-  /** The force at all N samples. `q`: N × d; `force`: N × d; `stiffness`: N × d², column
-     i + d j holding ∂f_i/∂q_j. */
+  /** The force at all N samples. `q`: N × d; `force`: N × d; `stiffness`, unless it is
+     null: N × d², column i + d j holding ∂f_i/∂q_j. */
   std::function<void(const Eigen::MatrixXd& q, Eigen::MatrixXd& force,
-                     Eigen::MatrixXd& stiffness)>
+                     Eigen::MatrixXd* stiffness)>
       force;
 };
 

@@ -9,13 +9,13 @@ namespace rotor_stator::tests
 Problem Oscillator::problem(int samples) const
 {
   const auto all_samples = [law = law](const Eigen::MatrixXd& q, Eigen::MatrixXd& force,
-                                       Eigen::MatrixXd& slopes) {
+                                       Eigen::MatrixXd* slopes) {
     force.resize(q.rows(), q.cols());
-    slopes.resize(q.rows(), q.cols() * q.cols());
+    if (slopes) slopes->resize(q.rows(), q.cols() * q.cols());
     for (Eigen::Index k = 0; k < q.rows(); ++k) {
       const LocalForce local = law(q.row(k));
       force.row(k) = local.force;
-      slopes.row(k) = local.stiffness.reshaped();
+      if (slopes) slopes->row(k) = local.stiffness.reshaped();
     }
   };
   return {.dofs = static_cast<int>(mass.rows()),

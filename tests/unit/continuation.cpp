@@ -100,15 +100,16 @@ TEST_CASE("A sweep of set 1 finds every speed, up and down, with few Newton iter
   const auto up = sweep_set_1(balance, omegas);
   std::reverse(omegas.begin(), omegas.end());
   const auto down = sweep_set_1(balance, omegas);
-  int iterations = 0;
+  int iterations = 0;  // chord steps included
   for (std::size_t k = 0; k < up.size(); ++k) {
     REQUIRE(up[k].found());
     REQUIRE(down[k].found());
     iterations += up[k].newton.iterations;
     CHECK((up[k].x - down[down.size() - 1 - k].x).norm() < 1e-8 * up[k].x.norm());
   }
-  CHECK(iterations <= 450);
-  CHECK(balance.evaluations() <= 1500);
+  CHECK(iterations <= 700);
+  CHECK(balance.evaluations() <= 1900);
+  CHECK(balance.steps().factorisations() <= 400);
 }
 
 TEST_CASE("Arc length follows set 1 over the whole range without folds at 6 harmonics")

@@ -1,0 +1,111 @@
+#include "balance/step_solver.hpp"
+
+#include <cmath>
+
+#include "balance/balance.hpp"
+
+namespace rotor_stator
+{
+
+namespace
+{
+
+/** Harmonics whose coupling through the contact is weaker than this leave the dense block. */
+constexpr double weak_coupling = 0.5;
+
+/** Past this share of all harmonics the dense block takes them all. */
+constexpr double most_low_share = 0.6;
+
+constexpr int most_linear_iterations = 80;
+
+/** More than this and the factors are made anew. */
+constexpr int many_linear_iterations = 25;
+
+/** The highest harmonic that the contact still couples strongly. */
+int strongly_coupled(Balance& balance)
+{
+  int h = balance.harmonics();
+  while (h > 0 && balance.coupling(h) < weak_coupling) --h;
+  return h;
+}
+
+}  // namespace
+
+void StepSolver::factor(Balance& balance)
+{
+  const int m = balance.harmonics(), two = 2 * balance.problem().dofs;
+  low_ = std::max(least_low_, m > least_low_ ? strongly_coupled(balance) : m);
+  is_complete_ = low_ >= most_low_share * m;
+  if (is_complete_) low_ = m;
+  balance.jacobian(low_, low_jacobian_);
+  low_factors_.compute(low_jacobian_);
+  high_inverses_.resize(two, two * (m - low_));
+  for (int h = low_ + 1; h <= m; ++h) {
+    const RealBlock block = balance.diagonal_block(h);
+    high_inverses_.middleCols((h - low_ - 1) * two, two) = block.inverse();
+  }
+  factored_ = true;
+  ++factorisations_;
+}
+
+void StepSolver::precondition(const Eigen::VectorXd& r, Eigen::VectorXd& z) const
+{
+  const auto low = low_jacobian_.rows(), two = high_inverses_.rows();
+  z.resize(r.size());
+  z.head(low) = low_factors_.solve(r.head(low));
+  for (Eigen::Index k = 0; low + k < r.size(); k += two)
+    z.segment(low + k, two).noalias() =
+        high_inverses_.middleCols(k, two) * r.segment(low + k, two);
+}
+
+void StepSolver::iterate(Balance& balance, const Eigen::VectorXd& residual, double goal,
+                         Eigen::VectorXd& step)
+{
+  const auto report = gmres_.solve(
+      [&](const Eigen::VectorXd& v, Eigen::VectorXd& product) {
+        balance.apply_jacobian(v, product);
+      },
+      [&](const Eigen::VectorXd& v, Eigen::VectorXd& z) { precondition(v, z); }, residual,
+      goal, most_linear_iterations, step);
+  step = -step;
+  linear_iterations_ += report.iterations;
+  if (report.iterations > many_linear_iterations) factored_ = false;
+  if (report.iterations == most_linear_iterations) least_low_ = 2 * low_;
+}
+
+/** Frozen steps cost an evaluation each, new factors about one for every eight unknowns: they
+    pay when the steps that are left, at the contraction of the last ones, cost more. A first
+    step's contraction is trusted a little less each time it is not tried. */
+bool StepSolver::pays_to_freeze(double decrease) const
+{
+  const double contraction = entering_ ? entering_contraction_ : contraction_;
+  if (contraction > frozen_contraction_) return false;
+  const double worth = 2 + static_cast<double>(low_jacobian_.rows()) / 8;
+  return std::log(decrease) >= worth * std::log(contraction);
+}
+
+void StepSolver::learn(double contraction)
+{
+  contraction_ = contraction;
+  if (entering_ && last_ == Kind::frozen) entering_contraction_ = contraction;
+  if (entering_ && last_ == Kind::fresh) entering_contraction_ *= 0.9;
+  entering_ = false;
+  if (last_ == Kind::frozen && !(contraction <= frozen_contraction_)) factored_ = false;
+}
+
+StepSolver::Kind StepSolver::step(Balance& balance, const Eigen::VectorXd& residual,
+                                  double goal, Eigen::VectorXd& step)
+{
+  if (factored_ && is_complete_ && !pays_to_freeze(goal / residual.norm())) forget();
+  last_ = factored_ ? Kind::frozen : Kind::fresh;
+  if (!factored_) factor(balance);
+  if (!is_complete_) {
+    iterate(balance, residual, goal, step);
+    return last_ = Kind::iterated;
+  }
+  precondition(residual, step);
+  step = -step;
+  return last_;
+}
+
+}  // namespace rotor_stator

@@ -1,0 +1,82 @@
+/**
+# The linear equations of a Newton step
+
+What is expensive is kept from step to step and from speed to speed: the LU factors of the low
+harmonics' block of the Jacobian, where the contact couples everything, and beyond them one
+small inverse per harmonic, where the bodies' inertia decides. With few harmonics that is the
+whole Jacobian. A step then is either
+
+- fresh: the factors are those of the present point and hold all harmonics;
+- frozen: older factors of all harmonics, a chord step;
+- iterated: GMRES on the present Jacobian, preconditioned by the factors, old or new. Its cost
+  per iteration is that of the transforms, m log m. */
+#pragma once
+
+#include <Eigen/Core>
+#include <Eigen/LU>
+
+#include "balance/gmres.hpp"
+#include "balance/problem.hpp"
+
+namespace rotor_stator
+{
+
+class Balance;
+
+/** Vectors of Newton's iteration, kept so that they are allocated once. */
+struct NewtonVectors {
+  Eigen::VectorXd residual, step, start;
+};
+
+class StepSolver
+{
+public:
+  enum class Kind { fresh, frozen, iterated };
+
+  /** Solves ∂R/∂X step = -`residual` at the balance's last point. `goal` is the linear residual
+     an iterated step may leave. */
+  Kind step(Balance& balance, const Eigen::VectorXd& residual, double goal,
+            Eigen::VectorXd& step);
+
+  /** A new solution begins. A frozen step that leaves more than `frozen_contraction` of the
+     residual ends the use of its factors. */
+  void begin(double frozen_contraction)
+  {
+    entering_ = true;
+    frozen_contraction_ = frozen_contraction;
+  }
+
+  /** What the last step, whole, left of the residual [-]. */
+  void learn(double contraction);
+
+  /** The next step factors the Jacobian anew. */
+  void forget() { factored_ = false; }
+
+  /** Whether the next step is likely to be frozen: it needs no stiffness. */
+  bool will_freeze() const { return factored_ && is_complete_ && !entering_; }
+
+  long factorisations() const { return factorisations_; }
+  long linear_iterations() const { return linear_iterations_; }
+
+private:
+  bool pays_to_freeze(double decrease) const;
+  void factor(Balance& balance);
+  void precondition(const Eigen::VectorXd& r, Eigen::VectorXd& z) const;
+  void iterate(Balance& balance, const Eigen::VectorXd& residual, double goal,
+               Eigen::VectorXd& step);
+
+  bool factored_ = false, is_complete_ = false, entering_ = true;
+  Kind last_ = Kind::fresh;
+  double frozen_contraction_ = 0;
+  double contraction_ = 0;           ///< of the last step with these factors
+  double entering_contraction_ = 0;  ///< of the last first step with older factors
+  int low_ = 0;                      ///< harmonics in the dense block
+  int least_low_ = 16;               ///< grows when GMRES stalls
+  Eigen::MatrixXd low_jacobian_;
+  Eigen::PartialPivLU<Eigen::MatrixXd> low_factors_;
+  Eigen::MatrixXd high_inverses_;  ///< 2d × 2d blocks side by side
+  Gmres gmres_;
+  long factorisations_ = 0, linear_iterations_ = 0;
+};
+
+}  // namespace rotor_stator
