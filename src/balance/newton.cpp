@@ -91,7 +91,7 @@ NewtonReport iterate(const Evaluate& evaluate, const FindStep& find_step,
     const double contraction = kind == Kind::fresh ? 0 : at.norm / before;
     if (report.delta_1 <= settings.tolerance &&
         report.delta_2 <= std::sqrt(settings.tolerance) &&
-        contraction * report.delta_2 <= settings.tolerance) {
+        contraction * report.delta_2 <= 0.1 * settings.tolerance) {
       report.end = NewtonEnd::converged;
       break;
     }

@@ -11,10 +11,13 @@ namespace
 {
 
 /** Harmonics whose coupling through the contact is weaker than this leave the dense block. */
-constexpr double weak_coupling = 0.5;
+constexpr double weak_coupling = 1;
 
 /** Past this share of all harmonics the dense block takes them all. */
-constexpr double most_low_share = 0.6;
+constexpr double most_low_share = 0.8;
+
+/** With more unknowns than this, an iteration of GMRES costs little beside new factors. */
+constexpr Eigen::Index most_chord_unknowns = 100;
 
 constexpr int most_linear_iterations = 80;
 
@@ -73,6 +76,11 @@ void StepSolver::iterate(Balance& balance, const Eigen::VectorXd& residual, doub
   if (report.iterations == most_linear_iterations) least_low_ = 2 * low_;
 }
 
+bool StepSolver::takes_chords() const
+{
+  return is_complete_ && low_jacobian_.rows() <= most_chord_unknowns;
+}
+
 /** Frozen steps cost an evaluation each, new factors about one for every eight unknowns: they
     pay when the steps that are left, at the contraction of the last ones, cost more. A first
     step's contraction is trusted a little less each time it is not tried. */
@@ -96,10 +104,10 @@ void StepSolver::learn(double contraction)
 StepSolver::Kind StepSolver::step(Balance& balance, const Eigen::VectorXd& residual,
                                   double goal, Eigen::VectorXd& step)
 {
-  if (factored_ && is_complete_ && !pays_to_freeze(goal / residual.norm())) forget();
+  if (factored_ && takes_chords() && !pays_to_freeze(goal / residual.norm())) forget();
   last_ = factored_ ? Kind::frozen : Kind::fresh;
   if (!factored_) factor(balance);
-  if (!is_complete_) {
+  if (!is_complete_ || (last_ == Kind::frozen && !takes_chords())) {
     iterate(balance, residual, goal, step);
     return last_ = Kind::iterated;
   }

@@ -7,7 +7,7 @@ small inverse per harmonic, where the bodies' inertia decides. With few harmonic
 whole Jacobian. A step then is either
 
 - fresh: the factors are those of the present point and hold all harmonics;
-- frozen: older factors of all harmonics, a chord step;
+- frozen: older factors of all harmonics, a chord step, where there are few;
 - iterated: GMRES on the present Jacobian, preconditioned by the factors, old or new. Its cost
   per iteration is that of the transforms, m log m. */
 #pragma once
@@ -53,12 +53,13 @@ public:
   void forget() { factored_ = false; }
 
   /** Whether the next step is likely to be frozen: it needs no stiffness. */
-  bool will_freeze() const { return factored_ && is_complete_ && !entering_; }
+  bool will_freeze() const { return factored_ && takes_chords() && !entering_; }
 
   long factorisations() const { return factorisations_; }
   long linear_iterations() const { return linear_iterations_; }
 
 private:
+  bool takes_chords() const;
   bool pays_to_freeze(double decrease) const;
   void factor(Balance& balance);
   void precondition(const Eigen::VectorXd& r, Eigen::VectorXd& z) const;
