@@ -94,13 +94,16 @@ void Balance::combine(const Eigen::Ref<const Eigen::MatrixXd>& series,
   with_dofs(problem_.dofs, [&](auto constant) {
     constexpr int d = constant, two = 2 * d;
     using Part = Eigen::Matrix<double, two, 1>;
-    sum.template head<d>() = a_.template topLeftCorner<d, d>() * series.col(0) +
-                             b_.template topLeftCorner<d, d>() * force.col(0);
+    using Mean = Eigen::Matrix<double, d, 1>;
+    sum.template head<d>() =
+        a_.template topLeftCorner<d, d>() * Eigen::Map<const Mean>(series.data()) +
+        b_.template topLeftCorner<d, d>() * Eigen::Map<const Mean>(force.data());
+    using Block = Eigen::Map<const Eigen::Matrix<double, two, two>>;
     for (Eigen::Index h = 1; h <= harmonics_; ++h) {
       const Eigen::Index first = (2 * h - 1) * d;
       const Eigen::Map<const Part> q(series.data() + first), f(force.data() + first);
-      sum.template segment<two>(first) = a_.template middleCols<two>(h * two) * q +
-                                         b_.template middleCols<two>(h * two) * f;
+      sum.template segment<two>(first) =
+          Block(&a_(0, h * two)) * q + Block(&b_(0, h * two)) * f;
     }
   });
 }

@@ -55,9 +55,9 @@ public:
   /** The diagonal block of ∂R/∂X of harmonic `h` ≥ 1, 2d × 2d. */
   RealBlock diagonal_block(int h);
 
-  /** ‖A_h⁻¹ B_h‖ times the largest stiffness over the period [-]: below one the linear part
-      decides on harmonic h ≥ 1. */
-  double coupling(int h);
+  /** The highest harmonic h that the nonlinear force still decides on: ‖A_h⁻¹ B_h‖ times the
+      largest stiffness over the period is at least `coupling` [-]. */
+  int highest_coupled(double coupling);
 
   /** Coefficients of the nonlinear force at that point, d × (2m+1). */
   const Eigen::MatrixXd& force_series() const { return force_series_; }

@@ -145,13 +145,16 @@ RealBlock Balance::diagonal_block(int h)
   return a_.middleCols(h * two, two) + b_.middleCols(h * two, two) * force;
 }
 
-double Balance::coupling(int h)
+int Balance::highest_coupled(double coupling)
 {
   need_stiffness();
+  const double stiffness = stiffness_samples_.rowwise().norm().maxCoeff();
   const int two = 2 * problem_.dofs;
-  const RealBlock a = a_.middleCols(h * two, two), b = b_.middleCols(h * two, two);
-  return a.partialPivLu().solve(b).norm() *
-         stiffness_samples_.rowwise().norm().maxCoeff();
+  for (int h = harmonics_; h > 0; --h) {
+    const RealBlock a = a_.middleCols(h * two, two), b = b_.middleCols(h * two, two);
+    if (!(a.partialPivLu().solve(b).norm() * stiffness < coupling)) return h;
+  }
+  return 0;
 }
 
 }  // namespace rotor_stator

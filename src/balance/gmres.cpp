@@ -13,11 +13,11 @@ void Gmres::orthogonalise(int k)
   auto h = hessenberg_.col(k);
   h.head(k + 1).noalias() = known.transpose() * product_;
   product_.noalias() -= known * h.head(k + 1);
-  const Eigen::VectorXd again = known.transpose() * product_;
-  product_.noalias() -= known * again;
-  h.head(k + 1) += again;
+  again_.head(k + 1).noalias() = known.transpose() * product_;
+  product_.noalias() -= known * again_.head(k + 1);
+  h.head(k + 1) += again_.head(k + 1);
   h[k + 1] = product_.norm();
-  basis_.col(k + 1) = h[k + 1] > 0 ? product_ / h[k + 1] : product_;
+  basis_.col(k + 1) = product_ / (h[k + 1] > 0 ? h[k + 1] : 1);
 }
 
 /** Givens rotations, the old ones and a new one, take column k to the upper triangle. */
@@ -43,7 +43,7 @@ Gmres::Report Gmres::solve(const Operator& apply, const Operator& precondition,
 {
   basis_.resize(b.size(), most_iterations + 1);
   hessenberg_.resize(most_iterations + 1, most_iterations);
-  for (auto* vector : {&cosine_, &sine_}) vector->resize(most_iterations);
+  for (auto* vector : {&cosine_, &sine_, &again_}) vector->resize(most_iterations);
   right_.resize(most_iterations + 1);
   right_[0] = b.norm();
   basis_.col(0) = b / (right_[0] > 0 ? right_[0] : 1);
@@ -56,12 +56,12 @@ Gmres::Report Gmres::solve(const Operator& apply, const Operator& precondition,
     rotate(k);
     ++k;
   }
-  const Eigen::VectorXd weights =
-      hessenberg_.topLeftCorner(k, k).triangularView<Eigen::Upper>().solve(
-          right_.head(k));
+  const double residual = std::abs(right_[k]);
+  auto weights = right_.head(k);
+  hessenberg_.topLeftCorner(k, k).triangularView<Eigen::Upper>().solveInPlace(weights);
   product_.noalias() = basis_.leftCols(k) * weights;
   precondition(product_, x);
-  return {k, std::abs(right_[k])};
+  return {k, residual};
 }
 
 }  // namespace rotor_stator

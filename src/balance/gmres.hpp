@@ -35,7 +35,7 @@ private:
 
   Eigen::MatrixXd basis_;       ///< orthonormal, one column per iteration
   Eigen::MatrixXd hessenberg_;  ///< made triangular by the rotations
-  Eigen::VectorXd cosine_, sine_, right_, product_, preconditioned_;
+  Eigen::VectorXd cosine_, sine_, right_, again_, product_, preconditioned_;
 };
 
 }  // namespace rotor_stator

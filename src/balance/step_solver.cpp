@@ -3,6 +3,7 @@
 #include <cmath>
 
 #include "balance/balance.hpp"
+#include "balance/with_dofs.hpp"
 
 namespace rotor_stator
 {
@@ -24,20 +25,13 @@ constexpr int most_linear_iterations = 80;
 /** More than this and the factors are made anew. */
 constexpr int many_linear_iterations = 25;
 
-/** The highest harmonic that the contact still couples strongly. */
-int strongly_coupled(Balance& balance)
-{
-  int h = balance.harmonics();
-  while (h > 0 && balance.coupling(h) < weak_coupling) --h;
-  return h;
-}
-
 }  // namespace
 
 void StepSolver::factor(Balance& balance)
 {
   const int m = balance.harmonics(), two = 2 * balance.problem().dofs;
-  low_ = std::max(least_low_, m > least_low_ ? strongly_coupled(balance) : m);
+  low_ =
+      std::max(least_low_, m > least_low_ ? balance.highest_coupled(weak_coupling) : m);
   is_complete_ = low_ >= most_low_share * m;
   if (is_complete_) low_ = m;
   balance.jacobian(low_, low_jacobian_);
@@ -53,12 +47,17 @@ void StepSolver::factor(Balance& balance)
 
 void StepSolver::precondition(const Eigen::VectorXd& r, Eigen::VectorXd& z) const
 {
-  const auto low = low_jacobian_.rows(), two = high_inverses_.rows();
+  const auto low = low_jacobian_.rows();
   z.resize(r.size());
   z.head(low) = low_factors_.solve(r.head(low));
-  for (Eigen::Index k = 0; low + k < r.size(); k += two)
-    z.segment(low + k, two).noalias() =
-        high_inverses_.middleCols(k, two) * r.segment(low + k, two);
+  with_dofs(static_cast<int>(high_inverses_.rows() / 2), [&](auto dofs) {
+    constexpr int two = 2 * dofs;
+    using Part = Eigen::Matrix<double, two, 1>;
+    using Block = Eigen::Map<const Eigen::Matrix<double, two, two>>;
+    for (Eigen::Index k = 0; low + k < r.size(); k += two)
+      Eigen::Map<Part>(z.data() + low + k) =
+          Block(&high_inverses_(0, k)) * Eigen::Map<const Part>(r.data() + low + k);
+  });
 }
 
 void StepSolver::iterate(Balance& balance, const Eigen::VectorXd& residual, double goal,

@@ -1,0 +1,166 @@
+/** Factors that are kept, GMRES and chord steps, against dense Newton at every point; and what a
+    solution costs, in counts. */
+#include <Eigen/LU>
+#include <catch2/catch.hpp>
+
+#include "balance/bearing_problem.hpp"
+#include "balance/gmres.hpp"
+#include "balance/newton.hpp"
+#include "continuation/sweep.hpp"
+#include "scenes/motion.hpp"
+#include "support/allocations.hpp"
+#include "support/cases.hpp"
+
+using namespace rotor_stator;
+using namespace rotor_stator::tests;
+
+namespace
+{
+
+/** A start for m harmonics: the solution with 6. */
+Eigen::VectorXd start_with(int harmonics, double frequency)
+{
+  Balance balance(bearing_problem(set_1(), 64), 6);
+  Eigen::VectorXd x = quasi_static_start(set_1(), hertz(frequency), 6);
+  REQUIRE(solve(balance, hertz(frequency), x, {}).converged());
+  return resize_harmonics(x, 2, harmonics);
+}
+
+Balance balance_with(int harmonics)
+{
+  return {bearing_problem(set_1(), default_samples(harmonics)), harmonics};
+}
+
+/** Newton with a dense matrix, factored at every point. */
+NewtonReport solve_densely(Balance& balance, double omega, Eigen::VectorXd& x)
+{
+  return newton(
+      {.residual_scale = balance.problem().residual_scale,
+       .unknown_scale = balance.problem().unknown_scale,
+       .residual = [&](const Eigen::VectorXd& y,
+                       Eigen::VectorXd& r) { r = balance.residual(y, omega); },
+       .jacobian = [&]() -> const Eigen::MatrixXd& { return balance.jacobian(); }},
+      x, {});
+}
+
+Eigen::VectorXd waves(Eigen::Index size)
+{
+  Eigen::VectorXd v(size);
+  for (Eigen::Index k = 0; k < size; ++k) v[k] = std::sin(1.0 + static_cast<double>(k));
+  return v;
+}
+
+}  // namespace
+
+TEST_CASE("GMRES solves what LU solves, and says when it did not")
+{
+  const Eigen::Index n = 40;
+  Eigen::MatrixXd matrix = Eigen::MatrixXd::Identity(n, n) * 3;
+  for (Eigen::Index k = 0; k < n; ++k) matrix.col(k) += 0.2 * waves(n + k).tail(n);
+  const Eigen::VectorXd b = waves(n);
+  const auto apply = [&](const Eigen::VectorXd& v, Eigen::VectorXd& product) {
+    product = matrix * v;
+  };
+  const auto diagonal = [&](const Eigen::VectorXd& v, Eigen::VectorXd& z) {
+    z = v.cwiseQuotient(matrix.diagonal());
+  };
+  Gmres gmres;
+  Eigen::VectorXd x;
+  const auto report = gmres.solve(apply, diagonal, b, 1e-12, static_cast<int>(n), x);
+  CHECK(report.residual <= 1e-12);
+  CHECK((matrix * x - b).norm() < 1e-11);
+  CHECK((x - matrix.partialPivLu().solve(b)).norm() < 1e-11 * x.norm());
+  const auto stopped = gmres.solve(apply, diagonal, b, 1e-12, 1, x);
+  CHECK(stopped.iterations == 1);
+  CHECK(stopped.residual == Approx((matrix * x - b).norm()));
+}
+
+TEST_CASE("Product, leading part and diagonal blocks are those of the dense Jacobian")
+{
+  const Oscillator oscillator = two_masses_cubic();
+  Balance cubic(oscillator.problem(48), 9);
+  Balance bearing(bearing_problem(set_1(), 19), 9);
+  cubic.residual(waves(cubic.unknowns()), 1.1);
+  bearing.residual(0.98 * quasi_static_start(set_1(), hertz(16), 9), hertz(16));
+  for (Balance* balance : {&cubic, &bearing}) {
+    const Eigen::MatrixXd dense = balance->jacobian();
+    const double size = dense.norm();
+    Eigen::VectorXd product(dense.rows());
+    balance->apply_jacobian(waves(dense.rows()), product);
+    CHECK((product - dense * waves(dense.rows())).norm() < 1e-13 * size);
+    Eigen::MatrixXd low;
+    balance->jacobian(4, low);
+    CHECK((low - dense.topLeftCorner(18, 18)).norm() < 1e-14 * size);
+    for (int h : {1, 5, 9}) {
+      const auto block = dense.block(2 * (2 * h - 1), 2 * (2 * h - 1), 4, 4);
+      CHECK((balance->diagonal_block(h) - block).norm() < 1e-14 * size);
+    }
+  }
+}
+
+TEST_CASE("With many harmonics GMRES finds the solution of the dense Jacobian")
+{
+  for (const auto& [harmonics, frequency] : {std::pair(64, 55.0), std::pair(256, 30.0)}) {
+    INFO("m = " << harmonics);
+    Eigen::VectorXd x = start_with(harmonics, frequency), dense = x;
+    Balance balance = balance_with(harmonics), other = balance_with(harmonics);
+    REQUIRE(solve(balance, hertz(frequency), x, {}).converged());
+    REQUIRE(solve_densely(other, hertz(frequency), dense).converged());
+    CHECK(balance.steps().linear_iterations() > 0);
+    CHECK((x - dense).norm() < 1e-9 * dense.norm());
+  }
+}
+
+TEST_CASE("Chord steps lead where Newton's own steps lead")
+{
+  std::vector<double> omegas;
+  for (double f = 1; f <= 60; f += 0.5) omegas.push_back(hertz(f));
+  const auto solutions = [&](double contraction) {
+    Balance balance = balance_with(6);
+    SweepSettings settings = sweep_settings(set_1());
+    settings.newton.frozen_contraction = contraction;
+    return sweep(
+        balance, omegas,
+        [](double omega) { return quasi_static_start(set_1(), omega, 6); }, settings);
+  };
+  const auto chord = solutions(0.1), newton = solutions(0);
+  for (std::size_t k = 0; k < omegas.size(); ++k) {
+    REQUIRE(chord[k].found());
+    CHECK((chord[k].x - newton[k].x).norm() < 1e-8 * newton[k].x.norm());
+  }
+}
+
+TEST_CASE("What a solution costs, in iterations, evaluations and factorisations")
+{
+  struct Bound {
+    int harmonics, iterations, evaluations, factorisations, linear_iterations;
+  };
+  for (const Bound& bound : {Bound{6, 6, 9, 2, 0}, Bound{10, 9, 12, 3, 0},
+                             Bound{64, 7, 8, 1, 40}, Bound{1024, 7, 8, 1, 40}}) {
+    INFO("m = " << bound.harmonics);
+    Balance balance = balance_with(bound.harmonics);
+    Eigen::VectorXd x = start_with(bound.harmonics, 30);
+    const NewtonReport report = solve(balance, hertz(30), x, {});
+    REQUIRE(report.converged());
+    CHECK(report.iterations <= bound.iterations);
+    CHECK(balance.evaluations() <= bound.evaluations);
+    CHECK(balance.steps().factorisations() <= bound.factorisations);
+    CHECK(balance.steps().linear_iterations() <= bound.linear_iterations);
+  }
+}
+
+TEST_CASE("A solution allocates nothing once its balance has solved another")
+{
+  if (!counts_allocations()) return;
+  for (int harmonics : {6, 10, 64, 256}) {
+    INFO("m = " << harmonics);
+    Balance balance = balance_with(harmonics);
+    Eigen::VectorXd x = start_with(harmonics, 30);
+    REQUIRE(solve(balance, hertz(30), x, {}).converged());
+    const long before = allocations();
+    const NewtonReport report = solve(balance, hertz(30.5), x, {});
+    const long after = allocations();
+    REQUIRE(report.converged());
+    CHECK(after - before == 0);
+  }
+}
