@@ -56,7 +56,7 @@ untimed := $(foreach reading,$(readings),$(call tables_of,$(reading)) $(call fig
 programs := $(patsubst src/%.cpp,build/%,$(wildcard src/*.cpp))
 
 .PHONY: all figures timing claims test sanitize deps list png readme golden format clean \
-  studies identify study adopt peers deps-peers
+  studies identify study adopt peers deps-peers bench
 
 all: $(untimed) $(timings) $(claims)  ## figures, tables and claims of both readings (the default)
 
@@ -71,7 +71,8 @@ claims: $(claims)  ## the verdict on each claim, for both readings
 # Packages
 
 packages := cmake ninja-build g++ pkg-config libeigen3-dev libfftw3-dev libgsl-dev \
-  libtomlplusplus-dev libcli11-dev catch2 gnuplot-nox python3-matplotlib librsvg2-bin git
+  libtomlplusplus-dev libcli11-dev catch2 gnuplot-nox python3-matplotlib librsvg2-bin git \
+  libbenchmark-dev
 
 # The packages of the list that dpkg does not have; nothing on systems without dpkg.
 missing_packages = command -v dpkg-query > /dev/null || exit 0; \
@@ -272,6 +273,14 @@ adopt:  ## keep the tables of the studies just run, and the verdicts; a commit t
 
 test: all  ## every test, after everything they read is there
 	ctest --preset release --no-tests=error
+
+bench: build/.built  ## time the parts of an iteration, alone on the machine (a minute)
+	cmake --build --preset release --target bench
+	@mkdir -p data/generated
+	build/tests/bench --benchmark_repetitions=5 --benchmark_report_aggregates_only=true \
+	  --benchmark_out=data/generated/bench.json --benchmark_out_format=json
+	$(PYTHON) tests/bench/table.py < data/generated/bench.json > data/generated/bench.tsv
+	grep -v '^#' data/generated/bench.tsv
 
 sanitize: all  ## the same tests with address and undefined-behaviour sanitizers
 	$(require_packages)
