@@ -2,6 +2,7 @@
 # explore: one's own machine
 
 Run: build/explore orbit data/set1.toml --frequency 45 > orbit.tsv
+     build/explore orbit data/set1.toml --frequency 45 --tolerance 1e-4 > orbit.tsv
      build/explore contact data/set1.toml --frequency 45 --method rk8pd > contact.tsv
      build/explore response data/set1.toml --from 1 --to 60 --harmonics 10 > response.tsv
 
@@ -28,13 +29,17 @@ void add_motion_options(CLI::App& command, MotionRequest& request)
       ->required();
   command.add_option("--method", request.method, "aft, rk4, rkf45, rk8pd, …")
       ->capture_default_str();
-  command.add_option("--harmonics", request.harmonics, "m of harmonic balance")
-      ->capture_default_str();
+  command.add_option("--harmonics", request.harmonics,
+                     "m of harmonic balance (default: 6, or by --tolerance)");
   command.add_option("--samples", request.samples,
                      "N per period (default: 8m+1 rounded up)");
+  command.add_option("--tolerance", request.tolerance,
+                     "relative error of displacement; without --harmonics, m is chosen");
   command.add_option("--points", request.points, "P, rows per period")
       ->capture_default_str();
-  command.add_option("--tolerance", request.tolerance, "relative tolerance of Newton")
+  command
+      .add_option("--newton-tolerance", request.newton_tolerance,
+                  "relative tolerance of Newton")
       ->capture_default_str();
   command
       .add_option("--local-error", request.local_error,
@@ -56,7 +61,9 @@ void add_response_options(CLI::App& command, ResponseRequest& request)
                      "m of harmonic balance (default: 6, or the saved branch's)");
   command.add_option("--samples", request.samples,
                      "N per period (default: 8m+1 rounded up)");
-  command.add_option("--tolerance", request.tolerance, "relative tolerance of Newton")
+  command
+      .add_option("--newton-tolerance", request.newton_tolerance,
+                  "relative tolerance of Newton")
       ->capture_default_str();
   command.add_option("--direction", request.direction,
                      "up: from --from to --to; down: from --to to --from");

@@ -21,7 +21,7 @@ void check(const ResponseRequest& request)
   require_positive("--to", request.to);
   if (request.from >= request.to)
     throw BadInput(text("--from %g: must be below --to %g", request.from, request.to));
-  require_between("--tolerance", request.tolerance, 1e-15, 1e-3);
+  require_between("--newton-tolerance", request.newton_tolerance, 1e-15, 1e-3);
   require_between("--work", request.work, 1, 1e12);
   require_range("--isolated", request.isolated, 0, 10000);
   require_range("--seed", request.seed, 0, 1000000000);
@@ -63,7 +63,7 @@ Task task_of(const ResponseRequest& request)
   if (!samples && saved && saved->harmonics == harmonics) samples = saved->samples;
   const int checked = checked_samples(harmonics, samples);
   ArcLengthSettings settings =
-      arc_length_settings(parameters, {.tolerance = request.tolerance});
+      arc_length_settings(parameters, {.tolerance = request.newton_tolerance});
   settings.most_evaluations = static_cast<long>(request.work);
   const bool upwards =
       request.direction.empty() ? !saved || saved->upwards : request.direction == "up";
@@ -183,7 +183,7 @@ void describe(Table& table, const Task& task, const Branch& branch)
   table.describe(task.parameters);
   table.note(
       text("method: aft, m = %d, N = %d, relative tolerance %g, pseudo-arc-length %s",
-           task.harmonics, task.samples, task.request.tolerance,
+           task.harmonics, task.samples, task.request.newton_tolerance,
            task.upwards ? "up" : "down"));
   table.note(text("folds: %zu", branch.folds.size()));
   table.note(text("work: %ld evaluations of the force", branch.evaluations));

@@ -4,6 +4,7 @@
 
 #include "model/errors.hpp"
 #include "output/option_checks.hpp"
+#include "scenes/adaptive.hpp"
 #include "scenes/contact.hpp"
 #include "scenes/motion.hpp"
 #include "scenes/response.hpp"
@@ -30,29 +31,64 @@ void check(const MotionRequest& request)
 {
   require_positive("--frequency", request.frequency);
   require_range("--points", request.points, 1, 1 << 16);
-  require_between("--tolerance", request.tolerance, 1e-15, 1e-3);
+  require_between("--newton-tolerance", request.newton_tolerance, 1e-15, 1e-3);
   require_between("--local-error", request.local_error, 1e-15, 1e-2);
   require_between("--longest", request.longest, 1e-3, 1e5);
   if (request.step) require_positive("--step", *request.step);
   require_method(request.method);
+  if (!request.tolerance) return;
+  require_between("--tolerance", *request.tolerance, 1e-8, 0.1);
+  if (request.method != "aft")
+    throw BadInput("--tolerance: for --method aft; the others have --local-error");
+  if (request.samples && !request.harmonics)
+    throw BadInput("--samples: chosen with m for --tolerance; give --harmonics too");
+}
+
+constexpr int usual_harmonics = 6;
+
+/** Without a tolerance any error is accepted, and none is estimated. */
+AdaptiveSolution solved(const Parameters& parameters, const MotionRequest& request)
+{
+  const double omega = angular(request.frequency);
+  const NewtonSettings newton{.tolerance = request.newton_tolerance};
+  const int m = request.harmonics.value_or(usual_harmonics);
+  const int n = checked_samples(m, request.samples);
+  if (!request.tolerance) {
+    AdaptiveSolution at{};
+    at.solution = find_periodic(parameters, omega, m, n, newton);
+    at.reached = at.found();
+    at.end = at.solution.newton.reason();
+    return at;
+  }
+  if (request.harmonics)
+    return find_with_error(parameters, omega, m, n, *request.tolerance, newton);
+  return solve_adaptively(parameters, omega,
+                          {.tolerance = *request.tolerance, .newton = newton});
 }
 
 Motion balance_motion(const Parameters& parameters, const MotionRequest& request,
-                      int samples, Table& table)
+                      Table& table)
 {
-  const PeriodicSolution solution =
-      find_periodic(parameters, angular(request.frequency), request.harmonics, samples,
-                    {.tolerance = request.tolerance});
-  if (!solution.found())
-    throw NoSolution(text("%s: no solution found with %d harmonics at %g Hz: %s",
-                          parameters.file.c_str(), request.harmonics, request.frequency,
-                          solution.newton.reason().c_str()));
-  table.note(text("method: aft, m = %d, N = %d, relative tolerance %g", request.harmonics,
-                  samples, request.tolerance));
-  table.note("newton: from " + solution.start + ", " + solution.newton.reason());
+  const AdaptiveSolution at = solved(parameters, request);
+  const std::string wanted =
+      request.tolerance
+          ? text("tolerance %g not reached", *request.tolerance)
+          : text("no solution found with %d harmonics", at.solution.harmonics);
+  if (!at.reached)
+    throw NoSolution(text("%s: %s at %g Hz: %s", parameters.file.c_str(), wanted.c_str(),
+                          request.frequency, at.end.c_str()));
+  table.note(text("method: aft, m = %d, N = %d, relative tolerance of Newton %g",
+                  at.solution.harmonics, at.solution.samples, request.newton_tolerance));
+  table.note("newton: from " + at.solution.start + ", " + at.solution.newton.reason());
+  if (request.tolerance)
+    table.note(
+        text("error: %.2g of the largest displacement, estimated with m = %d, N = %d; "
+             "tolerance %g",
+             at.estimate.displacement, at.estimate.harmonics, at.estimate.samples,
+             *request.tolerance));
   table.note("the period is imposed by the method; stability is not tested");
   table.note("regime: periodic");
-  return motion_of(solution.bodies, request.points);
+  return motion_of(at.solution.bodies, request.points);
 }
 
 Motion integrated_motion(const Parameters& parameters, const MotionRequest& request,
@@ -72,10 +108,10 @@ Motion requested_motion(const Parameters& parameters, const MotionRequest& reque
                         int periods, Table& table)
 {
   check(request);
-  const int samples = checked_samples(request.harmonics, request.samples);
+  checked_samples(request.harmonics.value_or(usual_harmonics), request.samples);
   table.describe(parameters);
   table.note(text("frequency: %.15g Hz", request.frequency));
-  return request.method == "aft" ? balance_motion(parameters, request, samples, table)
+  return request.method == "aft" ? balance_motion(parameters, request, table)
                                  : integrated_motion(parameters, request, periods, table);
 }
 

@@ -15,15 +15,16 @@ namespace rotor_stator
 /** One motion at one speed. */
 struct MotionRequest {
   std::string parameter_file;
-  double frequency = 0;        ///< [Hz]
-  std::string method = "aft";  ///< or a time method
-  int harmonics = 6;           ///< m
-  std::optional<int> samples;  ///< N
-  int points = 256;            ///< P
-  double tolerance = 1e-10;    ///< Newton, relative
-  double local_error = 1e-11;  ///< GSL's methods, relative
-  std::optional<double> step;  ///< rk4 [s]
-  double longest = 30;         ///< transient at most [s]
+  double frequency = 0;             ///< [Hz]
+  std::string method = "aft";       ///< or a time method
+  std::optional<int> harmonics;     ///< m; without it 6, or what the tolerance asks for
+  std::optional<int> samples;       ///< N
+  std::optional<double> tolerance;  ///< of displacement, relative
+  int points = 256;                 ///< P
+  double newton_tolerance = 1e-10;  ///< relative
+  double local_error = 1e-11;       ///< GSL's methods, relative
+  std::optional<double> step;       ///< rk4 [s]
+  double longest = 30;              ///< transient at most [s]
 };
 
 /** One branch over a range of speeds, and on demand others beside it. */
@@ -32,7 +33,7 @@ struct ResponseRequest {
   double from = 0, to = 0;       ///< [Hz]
   std::optional<int> harmonics;  ///< of the saved branch, or 6
   std::optional<int> samples;
-  double tolerance = 1e-10;
+  double newton_tolerance = 1e-10;
   std::string direction;      ///< "up", "down", or empty: the saved branch's, or up
   double work = 1e6;          ///< evaluations of the force at most, for each branch
   std::string save, restart;  ///< files; empty for none

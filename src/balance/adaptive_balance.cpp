@@ -1,0 +1,237 @@
+#include "balance/adaptive_balance.hpp"
+
+#include <cmath>
+#include <limits>
+
+#include "balance/bearing_problem.hpp"
+#include "model/errors.hpp"
+
+namespace rotor_stator
+{
+
+namespace
+{
+
+constexpr double infinite = std::numeric_limits<double>::infinity();
+
+/** A series with `columns` columns, filled with zeros. */
+Eigen::MatrixXd widened(const Eigen::MatrixXd& series, Eigen::Index columns)
+{
+  Eigen::MatrixXd wide = Eigen::MatrixXd::Zero(series.rows(), columns);
+  wide.leftCols(series.cols()) = series;
+  return wide;
+}
+
+int harmonics_of(const Eigen::MatrixXd& series)
+{
+  return static_cast<int>(series.cols() / 2);
+}
+
+double largest(const Eigen::MatrixXd& series)
+{
+  const int points = fast_transform_size(std::max(64, 4 * harmonics_of(series) + 1));
+  return sample_series(series, points).cwiseAbs().maxCoeff();
+}
+
+/** Sum of the amplitudes of the harmonics above m, of the row where it is largest. */
+double tail(const Eigen::MatrixXd& series, int m)
+{
+  Eigen::VectorXd sum = Eigen::VectorXd::Zero(series.rows());
+  for (int h = m + 1; h <= harmonics_of(series); ++h)
+    sum +=
+        (series.col(2 * h - 1).cwiseAbs2() + series.col(2 * h).cwiseAbs2()).cwiseSqrt();
+  return sum.maxCoeff();
+}
+
+}  // namespace
+
+double series_difference(const Eigen::MatrixXd& series, const Eigen::MatrixXd& reference)
+{
+  const auto columns = std::max(series.cols(), reference.cols());
+  const double size = largest(reference);
+  const double off = largest(widened(series, columns) - widened(reference, columns));
+  return size > 0 ? off / size : off > 0 ? infinite : 0;
+}
+
+int adaptive_samples(int harmonics)
+{
+  return fast_transform_size(std::max(32, 4 * harmonics + 1));
+}
+
+Refined estimate_error(const ObservedProblem& observed, double omega,
+                       const Discretised& coarse, const EstimateSettings& settings)
+{
+  const int m = 3 * coarse.harmonics;
+  const int n = fast_transform_size(std::max(8 * coarse.harmonics, 2 * coarse.samples));
+  Balance balance(observed.problem(n), m);
+  const Problem& problem = balance.problem();
+  Refined refined{{infinite, false, m, n, 0, 0}, {m, n, {}, {}}};
+  auto& [estimate, finer] = refined;
+  finer.x = resize_harmonics(coarse.x, problem.dofs, m);
+
+  /** Newton's step, and as many more as it takes until what is left of the residual is small
+     against the estimate, which a resonance of the contact magnifies more than a hundredfold. */
+  constexpr double small = 0.003;
+  constexpr int most_steps = 12;
+  const double unit = small * largest(coarse.series) / problem.unknown_scale;
+  double error = settings.interesting;
+  while (!estimate.settled && estimate.newton < most_steps) {
+    const double goal = std::max(unit * error, settings.newton_tolerance);
+    const NewtonReport report =
+        solve(balance, omega, finer.x,
+              {.tolerance = goal, .most_iterations = most_steps - estimate.newton});
+    estimate.newton += report.iterations;
+    estimate.force_samples = balance.evaluations() * n;
+    if (!report.converged()) break;
+    finer.series = observed.series(balance, finer.x);
+    error = estimate.displacement = series_difference(coarse.series, finer.series);
+    estimate.settled =
+        report.delta_1 <= std::max(unit * error, settings.newton_tolerance);
+  }
+  return refined;
+}
+
+namespace
+{
+
+/** The search for m, level by level. */
+class Search
+{
+public:
+  Search(const ObservedProblem& observed, double omega, const ColdSolve& cold_solve,
+         const AdaptiveSettings& settings)
+      : observed_(observed),
+        omega_(omega),
+        cold_solve_(cold_solve),
+        settings_(settings),
+        result_{}
+  {
+    constexpr int most_iterations = 15;  ///< more seldom end well
+    settings_.newton.most_iterations =
+        std::min(settings_.newton.most_iterations, most_iterations);
+  }
+
+  AdaptiveBalance run()
+  {
+    int m = settings_.first_harmonics;
+    while (!solve_level(m) || !estimate_level()) {
+      if (m >= settings_.most_harmonics) {
+        result_.end = end(m);
+        break;
+      }
+      m = std::min(settings_.most_harmonics, next(m));
+    }
+    return std::move(result_);
+  }
+
+private:
+  /** Newton with m harmonics from the finer solution at hand; cold when that fails, and thoroughly
+     so when several m have failed. */
+  bool solve_level(int m)
+  {
+    constexpr int patience = 3;
+    const int n = adaptive_samples(m);
+    const auto before = result_.solution.series;
+    const double expected = result_.estimate.displacement;
+    result_.levels.push_back({m, n, 0, {infinite, false, 0, 0, 0, 0}, 0, false});
+    const bool thorough = failures_ == patience || m >= settings_.most_harmonics;
+    if (!warm(m, n) && !cold(m, n, thorough)) {
+      ++failures_;
+      return false;
+    }
+    failures_ = 0;
+    AdaptiveLevel& level = result_.levels.back();
+    level.newton = result_.newton.iterations;
+    if (before.size() == 0) return true;
+    level.moved = series_difference(before, result_.solution.series);
+    constexpr double far = 10;
+    level.jumped = result_.estimate.settled && level.moved > far * expected;
+    return true;
+  }
+
+  bool warm(int m, int n)
+  {
+    if (start_.size() == 0) return false;
+    Balance balance(observed_.problem(n), m);
+    Eigen::VectorXd x = resize_harmonics(start_, balance.problem().dofs, m);
+    const NewtonReport newton = solve(balance, omega_, x, settings_.newton);
+    result_.force_samples += balance.evaluations() * n;
+    if (!newton.converged()) return false;
+    result_.newton = newton;
+    result_.solution = {m, n, x, observed_.series(balance, x)};
+    return true;
+  }
+
+  bool cold(int m, int n, bool thorough)
+  {
+    FirstSolution first = cold_solve_(m, n, thorough, settings_.newton);
+    result_.force_samples += first.force_samples;
+    if (!first.newton.converged()) return false;
+    result_.newton = first.newton;
+    result_.solution = std::move(first.solution);
+    return true;
+  }
+
+  /** Whether the estimate is good enough; otherwise it is what the next level starts from. */
+  bool estimate_level()
+  {
+    Refined refined = estimate_error(observed_, omega_, result_.solution,
+                                     {settings_.tolerance, settings_.newton.tolerance});
+    result_.estimate = result_.levels.back().estimate = refined.estimate;
+    result_.force_samples += refined.estimate.force_samples;
+    finer_ = refined.estimate.settled ? std::move(refined.finer) : Discretised{};
+    start_ = refined.estimate.settled ? finer_.x : result_.solution.x;
+    result_.reached =
+        refined.estimate.settled && refined.estimate.displacement <= settings_.tolerance;
+    if (result_.reached) result_.end = "the estimate is below the tolerance";
+    return result_.reached;
+  }
+
+  /** The next m: the least for which the amplitudes of the finer solution beyond it promise half the
+     tolerance, the estimate being to them as it was at the last m. */
+  int next(int m) const
+  {
+    const int a_little = std::max(m + 2, m + 2 * m / 5), half_as_many = m + m / 2;
+    if (finer_.harmonics == 0 || failures_ > 0) return half_as_many;
+    const double goal = 0.5 * settings_.tolerance / result_.estimate.displacement *
+                        tail(finer_.series, m);
+    int more = a_little;
+    while (more < finer_.harmonics && tail(finer_.series, more) > goal) ++more;
+    return more;
+  }
+
+  std::string end(int m) const
+  {
+    if (result_.solution.x.size() == 0)
+      return text("no solution with up to %d harmonics", m);
+    const int solved = result_.solution.harmonics;
+    if (!result_.estimate.settled)
+      return text(
+          "the error with %d harmonics could not be estimated: no solution with %d "
+          "was found from it",
+          solved, result_.estimate.harmonics);
+    const std::string reached = text("the error with %d harmonics is estimated as %.2g",
+                                     solved, result_.estimate.displacement);
+    return solved == m ? reached : reached + text(", and none with %d was found", m);
+  }
+
+  const ObservedProblem& observed_;
+  double omega_;
+  const ColdSolve& cold_solve_;
+  AdaptiveSettings settings_;
+  AdaptiveBalance result_;
+  Discretised finer_{};
+  Eigen::VectorXd start_;
+  int failures_ = 0;  ///< levels without a solution since the last one
+};
+
+}  // namespace
+
+AdaptiveBalance solve_adaptively(const ObservedProblem& observed, double omega,
+                                 const ColdSolve& cold_solve,
+                                 const AdaptiveSettings& settings)
+{
+  return Search(observed, omega, cold_solve, settings).run();
+}
+
+}  // namespace rotor_stator

@@ -1,0 +1,116 @@
+/**
+# As many harmonics as a tolerance asks for
+
+A solution with m harmonics and N samples leaves a residual R in a finer discretisation, with m' =
+3m harmonics and about twice as many samples. The linearised operator maps it to a displacement error,
+
+$$\delta = -(A + J)^{-1} R,$$
+
+which is one Newton step from the solution, filled with zeros, towards that of the finer one: it holds
+what was truncated, what that does to the harmonics kept, and the error of sampling. Where the step
+does not end near the finer solution, as at a superharmonic resonance of the contact, more steps
+are taken until it does. The step is not wasted: it says how large each dropped harmonic is, hence how many
+are needed, and it is what the next solution starts from.
+
+Three times m, because the coefficients do not fall monotonically: with two, a contact resonance above
+2m is overlooked more often. */
+#pragma once
+
+#include <functional>
+#include <string>
+#include <vector>
+
+#include "balance/newton.hpp"
+
+namespace rotor_stator
+{
+
+/** What is solved, and what its error is measured on. */
+struct ObservedProblem {
+  std::function<Problem(int samples)> problem;
+
+  /** The observed series, rows × (2m+1), at the balance's last point. */
+  std::function<Eigen::MatrixXd(const Balance& balance, const Eigen::VectorXd& x)> series;
+};
+
+/** A solution with m harmonics and N samples. */
+struct Discretised {
+  int harmonics, samples;
+  Eigen::VectorXd x;
+  Eigen::MatrixXd series;  ///< observed
+};
+
+struct ErrorEstimate {
+  double displacement;     ///< largest difference over the rows and the period, over the
+                           ///< largest value [-]; infinite when nothing was found
+  bool settled;            ///< Newton's steps contracted: the estimate can be relied on
+  int harmonics, samples;  ///< m' and N' of the finer discretisation
+  int newton;              ///< steps taken there
+  long force_samples;      ///< evaluations of the force times N'
+};
+
+struct EstimateSettings {
+  double interesting =
+      1e-3;  ///< the estimate is first made accurate for an error of this size [-]
+  double newton_tolerance = 1e-10;
+};
+
+/** The error of `coarse`, and the finer solution it was measured with. */
+struct Refined {
+  ErrorEstimate estimate;
+  Discretised finer;
+};
+Refined estimate_error(const ObservedProblem& observed, double omega,
+                       const Discretised& coarse, const EstimateSettings& settings = {});
+
+/** Samples with m harmonics: half of `default_samples`, since here the error of sampling is estimated
+    with the rest. */
+int adaptive_samples(int harmonics);
+
+/** How far to go. */
+struct AdaptiveSettings {
+  double tolerance = 1e-4;   ///< wanted estimate [-]
+  int first_harmonics = 8;   ///< m to begin with
+  int most_harmonics = 340;  ///< of the solution, not of its estimate
+  NewtonSettings newton = {};
+};
+
+/** One number of harmonics that was tried. */
+struct AdaptiveLevel {
+  int harmonics, samples;
+  int newton;              ///< iterations
+  ErrorEstimate estimate;  ///< not settled when no solution was found
+  double moved;  ///< distance to the level before, relative [-]; 0 for the first one
+  bool jumped;   ///< it moved by far more than that level's estimate: another branch
+};
+
+struct AdaptiveBalance {
+  Discretised solution;  ///< the last one; `x` is empty when none was found
+  NewtonReport newton;
+  ErrorEstimate estimate;
+  std::vector<AdaptiveLevel> levels;
+  long force_samples;  ///< evaluations of the force times samples, all levels
+  bool reached;        ///< the estimate is settled and below the tolerance
+  std::string end;     ///< why it stopped
+};
+
+/** A solution from no other one, when it is found. What is cheap is tried first, for a few numbers of
+    harmonics; a `thorough` search only when that fails. */
+struct FirstSolution {
+  Discretised solution;
+  NewtonReport newton;
+  long force_samples;
+};
+using ColdSolve = std::function<FirstSolution(int harmonics, int samples, bool thorough,
+                                              const NewtonSettings&)>;
+
+/** Raises m until the estimate is below the tolerance. */
+AdaptiveBalance solve_adaptively(const ObservedProblem& observed, double omega,
+                                 const ColdSolve& cold_solve,
+                                 const AdaptiveSettings& settings);
+
+/** The largest difference of two observed series over rows and period, over the largest value of
+    `reference` [-]; they may differ in their numbers of harmonics. */
+double series_difference(const Eigen::MatrixXd& series, const Eigen::MatrixXd& reference);
+
+}  // namespace rotor_stator

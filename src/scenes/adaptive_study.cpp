@@ -1,0 +1,172 @@
+#include "scenes/adaptive_study.hpp"
+
+#include <algorithm>
+
+#include "model/errors.hpp"
+#include "scenes/regime.hpp"
+#include "stability/shooting.hpp"
+
+namespace rotor_stator
+{
+
+std::size_t AdaptiveStudy::speeds() const
+{
+  std::size_t sum = 0;
+  for (const auto& of_set : frequencies) sum += of_set.size();
+  return sum;
+}
+
+AdaptiveStudy read_adaptive_study(const std::string& file, const std::string& reading)
+{
+  SceneFile scene_file(file, reading);
+  StrictToml& toml = scene_file.toml();
+  AdaptiveStudy study{
+      .sets = scene_file.parameter_list("parameters"),
+      .frequencies = {},
+      .tolerances = toml.numbers("tolerances", Range::positive),
+      .most_fixed_harmonics = toml.integer("most_fixed_harmonics", 8, 340)};
+  for (std::size_t set = 1; set <= study.sets.size(); ++set)
+    study.frequencies.push_back(
+        toml.numbers("speeds_of_set_" + std::to_string(set) + "_hz", Range::positive));
+  toml.refuse_unknown_keys();
+  return study;
+}
+
+Motion exact_motion(const Parameters& parameters, const PeriodicSolution& solution,
+                    int points)
+{
+  constexpr double tolerance = 1e-13;
+  Motion motion{points, 0, {}};
+  State state = state_of(solution);
+  const Shooting shooting = shoot(parameters, solution.omega, state,
+                                  {.tolerance = tolerance, .closure = 1e-11});
+  if (!shooting.converged) return motion;
+  const TimeStepper stepper =
+      make_stepper(parameters, solution.omega,
+                   {.intervals_per_period = points, .tolerance = tolerance});
+  for (int k = 0; k < points; ++k) {
+    motion.positions.push_back(state.position);
+    stepper.advance(k, state);
+  }
+  return motion;
+}
+
+namespace
+{
+
+constexpr int points_per_period = 2048;
+
+double error_of(const Eigen::MatrixXd& bodies, const Motion& exact)
+{
+  return relative_difference(motion_of(bodies, points_per_period), exact);
+}
+
+/** The error of one solution, against the exact motion of the speed or, where that is far away, of its
+    own branch. */
+void judge(const Parameters& parameters, const PeriodicSolution& solution,
+           const Motion& exact, AdaptivePoint& point)
+{
+  constexpr double far = 10;
+  if (exact.size() > 0) point.error = error_of(solution.bodies, exact);
+  if (exact.size() > 0 && point.error <= far * point.estimate) return;
+  const Motion own = exact_motion(parameters, solution, points_per_period);
+  if (own.size() == 0) return;
+  const double error = error_of(solution.bodies, own);
+  point.own_branch = point.error < 0 || error < point.error;
+  if (point.own_branch) point.error = error;
+}
+
+struct FixedSolution {
+  int harmonics;
+  double error, force_samples;
+};
+
+/** The ladder, up to the first m whose error is below the least that is wanted. */
+std::vector<FixedSolution> ladder(const Parameters& parameters, double omega,
+                                  const Motion& exact, int most, double least_error)
+{
+  std::vector<FixedSolution> steps;
+  for (int m = 4; m <= most; m += std::max(1, m / 7)) {
+    const FirstSolution fixed =
+        quasi_static_solution(parameters, omega, m, default_samples(m));
+    if (!fixed.newton.converged()) continue;
+    steps.push_back({m, error_of(fixed.solution.series, exact),
+                     static_cast<double>(fixed.force_samples)});
+    if (steps.back().error <= least_error) break;
+  }
+  return steps;
+}
+
+void choose_best(const std::vector<FixedSolution>& steps, AdaptivePoint& point)
+{
+  for (const FixedSolution& step : steps) {
+    const bool better =
+        point.fixed_harmonics < 0 || step.force_samples < point.fixed_force_samples;
+    if (!(step.error <= point.error) || !better) continue;
+    point.fixed_harmonics = step.harmonics;
+    point.fixed_error = step.error;
+    point.fixed_force_samples = step.force_samples;
+  }
+}
+
+AdaptivePoint point_of(int set, double frequency, double tolerance,
+                       const AdaptiveSolution& at)
+{
+  return {set,
+          frequency,
+          tolerance,
+          at.reached,
+          at.reached ? at.solution.harmonics : -1,
+          at.reached ? at.solution.samples : -1,
+          at.reached ? at.estimate.displacement : -1,
+          -1,
+          false,
+          at.solution.start != quasi_static_name,
+          static_cast<double>(at.force_samples),
+          -1,
+          -1,
+          -1};
+}
+
+}  // namespace
+
+std::vector<AdaptivePoint> adaptive_points(const AdaptiveStudy& study, std::size_t index)
+{
+  std::size_t set = 0;
+  for (; index >= study.frequencies[set].size(); ++set)
+    index -= study.frequencies[set].size();
+  const Parameters& parameters = study.sets[set];
+  const double frequency = study.frequencies[set][index], omega = angular(frequency);
+
+  std::vector<AdaptivePoint> points;
+  std::vector<AdaptiveSolution> solutions;
+  for (double tolerance : study.tolerances) {
+    solutions.push_back(solve_adaptively(parameters, omega, {.tolerance = tolerance}));
+    points.push_back(
+        point_of(static_cast<int>(set) + 1, frequency, tolerance, solutions.back()));
+  }
+
+  /** The exact motion from the most accurate solution. */
+  Motion exact{points_per_period, 0, {}};
+  const auto best = std::min_element(
+      solutions.begin(), solutions.end(), [](const auto& a, const auto& b) {
+        return std::pair(!a.reached, a.estimate.displacement) <
+               std::pair(!b.reached, b.estimate.displacement);
+      });
+  if (best->reached) exact = exact_motion(parameters, best->solution, points_per_period);
+  double least_error = 1;
+  for (std::size_t k = 0; k < points.size(); ++k) {
+    if (!points[k].reached) continue;
+    judge(parameters, solutions[k].solution, exact, points[k]);
+    if (points[k].error > 0 && !points[k].own_branch)
+      least_error = std::min(least_error, points[k].error);
+  }
+  if (exact.size() == 0) return points;
+  const auto steps =
+      ladder(parameters, omega, exact, study.most_fixed_harmonics, least_error);
+  for (AdaptivePoint& point : points)
+    if (point.error > 0 && !point.own_branch) choose_best(steps, point);
+  return points;
+}
+
+}  // namespace rotor_stator
