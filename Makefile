@@ -43,7 +43,8 @@ results_of = $(tables_of) $(timing_of) $(figures_of)
 
 # What does not depend on the reading.
 studied := $(addprefix data/generated/,sensitivity.tsv sensitivity_derivatives.tsv) \
-  $(addprefix figures/generated/,sensitivity.svg identification.svg study.svg peers.svg)
+  $(addprefix figures/generated/,sensitivity.svg identification.svg study.svg peers.svg) \
+  $(addprefix figures/generated/,work_precision.svg cost_growth.svg)
 
 # The text whose numbers come from tables; the default reading's, since it compares both.
 pages := data/generated/deviations.md
@@ -62,7 +63,13 @@ all: $(untimed) $(timings) $(claims)  ## figures, tables and claims of both read
 
 figures: $(call results_of,$(READING)) $(if $(filter exchanged,$(READING)),$(pages))  ## the paper's figures and tables, of one READING
 
-timing: $(call timing_of,$(READING))  ## the timing table, alone on the machine
+# The programs of cost; their tables are kept, since their numbers are those of one machine.
+costs := work_precision tab02_equal_error cost_growth
+
+timing: $(call timing_of,$(READING)) $(costs:%=build/%)  ## all tables of cost, alone on the machine (under 10 minutes)
+	@mkdir -p data/generated
+	for name in $(costs); do new=data/generated/$$name.tsv; build/$$name > $$new.tmp; mv $$new.tmp $$new; \
+	  $(PYTHON) tests/compare_costs.py data/reference/$$name.tsv $$new; done
 
 claims: $(claims)  ## the verdict on each claim, for both readings
 	$(PYTHON) figures/claims.py --print $(claims)
@@ -212,6 +219,12 @@ figures/generated/peers.svg: figures/peers.py figures/rotor_stator.mplstyle figu
 	@mkdir -p $(@D)
 	$(call whole,$(PYTHON) $< data/reference/peers.tsv $$new)
 
+figures/generated/work_precision.svg figures/generated/cost_growth.svg: figures/generated/%.svg: \
+  figures/%.py figures/rotor_stator.mplstyle figures/tables.py data/reference/%.tsv \
+  $(wildcard data/reference/peers.tsv)
+	@mkdir -p $(@D)
+	$(call whole,$(PYTHON) $< data/reference/$*.tsv $$new)
+
 png: $(patsubst %.svg,%.png,$(filter %.svg,$(untimed)))  ## the figures as PNG, for viewing
 
 %.png: %.svg
@@ -238,7 +251,11 @@ $(foreach reading,$(readings),$(eval $(call claims_rule,$(reading))))
 # Long studies. Finished pieces are kept in a journal, so an interrupted study goes on; the tables are
 # kept in data/reference, where `all` finds them, and compared with what is computed anew.
 
-studies: identify study  ## run the long studies and compare them with their kept tables
+studies: identify study timing  ## run the long studies and compare them with their kept tables
+
+ifneq ($(filter studies,$(MAKECMDGOALS)),)
+timing: | identify study
+endif
 
 identify: build/identify_parameters  ## score the grid of unpublished parameters (under 10 minutes)
 	@mkdir -p data/generated
@@ -263,7 +280,7 @@ peers: build/explore | deps-peers  ## outside integrators and AUTO-07p, timed (u
 
 adopt:  ## keep the tables of the studies just run, and the verdicts; a commit that does says why
 	@mkdir -p data/reference
-	for name in identification study peers peers_auto; do \
+	for name in identification study peers peers_auto $(costs); do \
 	  if [ -e data/generated/$$name.tsv ]; then cp data/generated/$$name.tsv data/reference/; fi; done
 	cp data/generated/claims.tsv data/reference/claims.tsv
 	cp data/generated/as-printed/claims.tsv data/reference/claims-as-printed.tsv

@@ -152,6 +152,8 @@ GslStepper::~GslStepper() = default;
 
 void GslStepper::advance(long interval, State& state)
 {
+  if (interval != next_) gsl_odeiv2_driver_reset(driver_->driver.get());
+  next_ = interval + 1;
   Flat y = std::bit_cast<Flat>(state);
   double t = static_cast<double>(interval) * interval_length_;
   const double end = static_cast<double>(interval + 1) * interval_length_;

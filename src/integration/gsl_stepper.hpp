@@ -25,6 +25,8 @@ public:
   GslStepper(const Parameters& parameters, double omega, const StepperSettings& settings);
   ~GslStepper();
 
+  /** A jump to another interval than the next one forgets the history of multistep methods; the step
+      size is kept. */
   void advance(long interval, State& state);
   long evaluations() const;
 
@@ -32,6 +34,7 @@ private:
   struct Driver;
   std::unique_ptr<Driver> driver_;
   double interval_length_;  ///< T/P [s]
+  long next_ = 0;           ///< the interval that would continue the motion
 };
 
 const std::vector<std::string>& gsl_methods();

@@ -5,29 +5,13 @@
 #include <numbers>
 
 #include "model/errors.hpp"
+#include "model/vector_arithmetic.hpp"
 
 namespace rotor_stator
 {
 
 namespace
 {
-
-Vec2 operator+(Vec2 a, Vec2 b)
-{
-  return {a.x + b.x, a.y + b.y};
-}
-Vec2 operator*(double s, Vec2 a)
-{
-  return {s * a.x, s * a.y};
-}
-Bodies operator+(const Bodies& a, const Bodies& b)
-{
-  return {a.stator + b.stator, a.rotor + b.rotor};
-}
-Bodies operator*(double s, const Bodies& a)
-{
-  return {s * a.stator, s * a.rotor};
-}
 
 /** The direction turned further by another. */
 Direction turned(Direction a, Direction b)

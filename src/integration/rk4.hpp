@@ -26,18 +26,20 @@ public:
   long evaluations() const { return evaluations_; }
   double step() const { return h_; }
 
-private:
+  /** Directions at the half steps of one period, both ends included. */
   struct Angles {
     Direction rotor, cage;
   };
+  const std::vector<Angles>& angles() const { return angles_; }
 
+private:
   void step(const Angles* angles, Direction turns, State& state) const;
 
   RotorStator system_;
   double cage_turn_;  ///< the cage's angle after one period [rad]
   int intervals_, steps_;
   double h_;
-  std::vector<Angles> angles_;  ///< at the half steps of one period, both ends included
+  std::vector<Angles> angles_;
   long evaluations_ = 0;
 };
 

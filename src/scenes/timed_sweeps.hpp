@@ -5,16 +5,11 @@ The same speeds, one after the other, by harmonic balance and by classical Runge
 Each `run` does all of its method's work anew and keeps the motions. */
 #pragma once
 
-#include <optional>
-
 #include "continuation/sweep.hpp"
 #include "scenes/timing.hpp"
 
 namespace rotor_stator
 {
-
-/** The motion at each speed of a sweep; none where no solution was found. */
-using Motions = std::vector<std::optional<Motion>>;
 
 /** Harmonic balance on all speeds: plans, tables and continuation included. */
 class BalanceSweep

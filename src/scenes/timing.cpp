@@ -1,13 +1,12 @@
 #include "scenes/timing.hpp"
 
-#include <time.h>
-
 #include <algorithm>
 #include <cmath>
 
 #include "model/errors.hpp"
 #include "model/progress.hpp"
 #include "scenes/timed_sweeps.hpp"
+#include "scenes/true_motion.hpp"
 
 namespace rotor_stator
 {
@@ -39,25 +38,6 @@ TimingScene read_timing_scene(const std::string& file, const std::string& readin
 namespace
 {
 
-double thread_cpu_seconds()
-{
-  timespec now;
-  clock_gettime(CLOCK_THREAD_CPUTIME_ID, &now);
-  return static_cast<double>(now.tv_sec) + 1e-9 * static_cast<double>(now.tv_nsec);
-}
-
-CpuTime time_of(int repetitions, const std::function<void()>& work)
-{
-  std::vector<double> seconds;
-  for (int k = 0; k < repetitions; ++k) {
-    const double start = thread_cpu_seconds();
-    work();
-    seconds.push_back(thread_cpu_seconds() - start);
-  }
-  std::sort(seconds.begin(), seconds.end());
-  return {seconds[seconds.size() / 2], seconds.front(), seconds.back()};
-}
-
 /** The true motions, none where they are not T-periodic. */
 struct Reference {
   Motions motions;
@@ -86,29 +66,15 @@ Reference compute_reference(const TimingScene& scene)
   return reference;
 }
 
-struct Error {
-  double displacement = 0, force = 0, worst_frequency = 0;
-};
-
 /** Largest errors over the periodic speeds. */
-Error error_of(const TimingScene& scene, const Motions& motions,
-               const Reference& reference)
+MotionError error_of(const TimingScene& scene, const Motions& motions,
+                     const Reference& reference)
 {
-  Error error;
-  for (std::size_t k = 0; k < scene.frequencies.size(); ++k) {
-    if (!reference.motions[k]) continue;
-    if (!motions[k])
-      throw NoSolution(
-          text("no harmonic-balance solution at %g Hz", scene.frequencies[k]));
-    const double difference = relative_difference(*motions[k], *reference.motions[k]);
-    if (difference > error.displacement) {
-      error.displacement = difference;
-      error.worst_frequency = scene.frequencies[k];
-    }
-    error.force = std::max(
-        error.force,
-        relative_force_difference(scene.parameters, *motions[k], *reference.motions[k]));
-  }
+  const MotionError error =
+      error_of(scene.parameters, scene.frequencies, motions, reference.motions);
+  if (!error.missing.empty())
+    throw NoSolution(
+        text("no harmonic-balance solution at %g Hz", error.missing.front()));
   return error;
 }
 
@@ -116,7 +82,7 @@ Error error_of(const TimingScene& scene, const Motions& motions,
 struct Rk4Trial {
   double step, transient;  ///< [s]
   double steps;            ///< of the whole sweep
-  Error error;
+  MotionError error;
 };
 
 /** The settings of the scene, cheapest first. */
@@ -186,7 +152,7 @@ TimedSweep time_balance(const TimingScene& scene, const Reference& reference,
 {
   BalanceSweep sweep(scene, scene.harmonics[k], scene.samples[k]);
   const CpuTime cpu = time_of(scene.repetitions, [&] { sweep.run(); });
-  const Error error = error_of(scene, sweep.motions(), reference);
+  const MotionError error = error_of(scene, sweep.motions(), reference);
   TimedSweep row{};
   row.method = "aft";
   row.harmonics = scene.harmonics[k];

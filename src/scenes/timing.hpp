@@ -13,7 +13,8 @@ is T-periodic; elsewhere there is no periodic motion to be right about, and thos
 are listed. */
 #pragma once
 
-#include "scenes/motion.hpp"
+#include "scenes/cpu_time.hpp"
+#include "scenes/motions.hpp"
 #include "scenes/scene_file.hpp"
 
 namespace rotor_stator
@@ -33,11 +34,6 @@ struct TimingScene {
 };
 
 TimingScene read_timing_scene(const std::string& file, const std::string& reading);
-
-/** CPU seconds of one thread: median, least and most of the repetitions. */
-struct CpuTime {
-  double median, least, most;
-};
 
 /** One method on the whole sweep. */
 struct TimedSweep {

@@ -11,6 +11,7 @@
 #include "integration/gsl_stepper.hpp"
 #include "integration/time_stepper.hpp"
 #include "model/errors.hpp"
+#include "stability/disturbances.hpp"
 
 namespace rotor_stator
 {
@@ -47,11 +48,11 @@ constexpr int equations = 8 + 8 * 8;
 /** What GSL's callback sees. */
 struct Variation {
   RotorStator system;
-  Eigen::Vector4d per_mass, damping, stiffness;  ///< 1/m, C/m, K/m
+  DisturbanceRates rates;
   long evaluations = 0;
 };
 
-/** State first, then Φ column by column. */
+/** State first, then the displacements and the speeds of the disturbances. */
 int derivative(double t, const double y[], double dydt[], void* data)
 {
   auto& variation = *static_cast<Variation*>(data);
@@ -68,31 +69,11 @@ int derivative(double t, const double y[], double dydt[], void* data)
   Eigen::Map<Vector8> slopes(dydt);
   slopes = vector_of(slope);
 
-  const Stiffness2& s = bearing.stiffness;
-  Eigen::Map<const Matrix8> phi(y + 8);
-  Eigen::Map<Matrix8> phi_slope(dydt + 8);
-  for (int column = 0; column < 8; ++column) {
-    const Eigen::Vector4d q = phi.col(column).head<4>(), v = phi.col(column).tail<4>();
-    const double u_x = q[2] - q[0], u_y = q[3] - q[1];
-    const double f_x = s.xx * u_x + s.xy * u_y, f_y = s.xy * u_x + s.yy * u_y;
-    phi_slope.col(column).head<4>() = v;
-    phi_slope.col(column).tail<4>() =
-        variation.per_mass.cwiseProduct(Eigen::Vector4d(f_x, f_y, -f_x, -f_y)) -
-        variation.damping.cwiseProduct(v) - variation.stiffness.cwiseProduct(q);
-  }
+  const Eigen::Map<const Disturbances> q(y + 8), v(y + 40);
+  Eigen::Map<Disturbances>(dydt + 8) = v;
+  Eigen::Map<Disturbances>(dydt + 40) =
+      variation.rates.acceleration(bearing.stiffness, q, v);
   return slopes.allFinite() ? GSL_SUCCESS : GSL_EBADFUNC;
-}
-
-Variation variation_of(const Parameters& parameters, double omega)
-{
-  const Body &s = parameters.stator, &r = parameters.rotor;
-  const auto both = [&](double stator, double rotor) {
-    return Eigen::Vector4d(stator, stator, rotor, rotor);
-  };
-  return {.system = {parameters, omega},
-          .per_mass = both(1 / s.mass, 1 / r.mass),
-          .damping = both(s.damping() / s.mass, r.damping() / r.mass),
-          .stiffness = both(s.stiffness() / s.mass, r.stiffness() / r.mass)};
 }
 
 /** Error scales: those of the state; the variations are given so much room that they never
@@ -103,8 +84,8 @@ std::array<double, equations> error_scales(const Parameters& parameters)
   const Vector8 sizes = state_scales(parameters);
   std::array<double, equations> scale;
   for (int i = 0; i < 8; ++i) scale[i] = sizes[i];
-  for (int j = 0; j < 8; ++j)
-    for (int i = 0; i < 8; ++i) scale[8 + 8 * j + i] = room * sizes[i] / sizes[j];
+  for (int i = 0; i < 8; ++i)
+    for (int j = 0; j < 8; ++j) scale[8 + 8 * i + j] = room * sizes[i] / sizes[j];
   return scale;
 }
 
@@ -118,7 +99,7 @@ PeriodMap period_map(const Parameters& parameters, double omega, const State& st
                      double tolerance, const std::string& method)
 {
   keep_gsl_from_aborting();
-  Variation variation = variation_of(parameters, omega);
+  Variation variation{{parameters, omega}, DisturbanceRates(parameters)};
   gsl_odeiv2_system system{derivative, nullptr, equations, &variation};
   const double period = variation.system.period();
   const auto scale = error_scales(parameters);
@@ -129,14 +110,15 @@ PeriodMap period_map(const Parameters& parameters, double omega, const State& st
   if (!driver) throw NoSolution(text("%s cannot start a period", method.c_str()));
   std::array<double, equations> y{};
   Eigen::Map<Vector8>(y.data()) = vector_of(start);
-  Eigen::Map<Matrix8>(y.data() + 8).setIdentity();
+  Eigen::Map<Matrix8> disturbances(y.data() + 8);  // the transpose of Φ
+  disturbances.setIdentity();
   double t = 0;
   const int status = gsl_odeiv2_driver_apply(driver.get(), &t, period, y.data());
   if (status != GSL_SUCCESS)
     throw NoSolution(
         text("time integration stopped at t = %.9g s: %s", t, gsl_strerror(status)));
   return {.end = state_of(Eigen::Map<const Vector8>(y.data())),
-          .derivative = Eigen::Map<const Matrix8>(y.data() + 8),
+          .derivative = disturbances.transpose(),
           .evaluations = variation.evaluations};
 }
 

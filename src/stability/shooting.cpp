@@ -2,9 +2,13 @@
 
 #include <Eigen/LU>
 #include <cmath>
+#include <functional>
+#include <memory>
 
+#include "integration/gsl_stepper.hpp"
 #include "integration/time_stepper.hpp"
 #include "model/errors.hpp"
+#include "stability/rk4_period_map.hpp"
 
 namespace rotor_stator
 {
@@ -12,15 +16,57 @@ namespace rotor_stator
 namespace
 {
 
+/** P with and without its derivative. */
+struct Maps {
+  std::function<State(const State&)> end;
+  std::function<PeriodMap(const State&)> map;
+  std::function<long()> evaluations;
+};
+
+Maps rk4_maps(const Parameters& parameters, double omega,
+              const ShootingSettings& settings)
+{
+  const double step = settings.step > 0 ? settings.step : default_step(parameters);
+  const auto period = std::make_shared<Rk4PeriodMap>(parameters, omega, step);
+  return {.end = [period](const State& s) { return period->end(s); },
+          .map = [period](const State& s) { return period->map(s); },
+          .evaluations = [period] { return period->evaluations(); }};
+}
+
+Maps gsl_maps(const Parameters& parameters, double omega,
+              const ShootingSettings& settings)
+{
+  const auto stepper =
+      std::make_shared<GslStepper>(parameters, omega,
+                                   StepperSettings{.method = settings.method,
+                                                   .intervals_per_period = 1,
+                                                   .tolerance = settings.tolerance});
+  const auto varied = std::make_shared<long>(0);
+  return {.end =
+              [stepper](const State& start) {
+                State state = start;
+                stepper->advance(0, state);
+                return state;
+              },
+          .map =
+              [=, &parameters, &settings](const State& start) {
+                const PeriodMap map = period_map(parameters, omega, start,
+                                                 settings.tolerance, settings.method);
+                *varied += map.evaluations;
+                return map;
+              },
+          .evaluations = [=] { return stepper->evaluations() + *varied; }};
+}
+
 /** Newton in the scaled state y = s/sizes. */
 class Iteration
 {
 public:
   Iteration(const Parameters& parameters, double omega, const State& start,
             const ShootingSettings& settings)
-      : parameters_(parameters),
-        omega_(omega),
-        settings_(settings),
+      : settings_(settings),
+        maps_(settings.method == "rk4" ? rk4_maps(parameters, omega, settings)
+                                       : gsl_maps(parameters, omega, settings)),
         sizes_(state_scales(parameters)),
         y_(vector_of(start).cwiseQuotient(sizes_)),
         report_{.converged = false,
@@ -33,51 +79,67 @@ public:
   {
   }
 
-  Shooting run(State& state)
+  Shooting run(State& state, ClosureJacobian& jacobian)
   {
     try {
+      if (jacobian) start_with(*jacobian);
       while (report_.reason.empty()) newton_step();
+      if (report_.converged) take_known_step();
     } catch (const NoSolution& broken) {
       report_.reason = broken.what();
     }
+    if (report_.derivatives > 0 || jacobian) jacobian = jacobian_;
+    report_.evaluations = maps_.evaluations();
     state = state_of(Vector8(y_.cwiseProduct(sizes_)));
     return report_;
   }
 
 private:
-  void newton_step()
+  void start_with(const Matrix8& jacobian)
   {
-    const PeriodMap map = period_map(parameters_, omega_, unscaled(y_),
-                                     settings_.tolerance, settings_.method);
-    ++report_.maps;
-    ++report_.derivatives;
-    report_.evaluations += map.evaluations;
-    report_.derivative = map.derivative;
-    open_ = vector_of(map.end).cwiseQuotient(sizes_) - y_;
+    jacobian_ = jacobian;
+    open_ = mapped(y_) - y_;
     report_.closure = open_.norm();
-    if (finished()) return;
-    const Matrix8 scaled =
-        sizes_.cwiseInverse().asDiagonal() * map.derivative * sizes_.asDiagonal();
-    factors_.compute(scaled - Matrix8::Identity());
-    if (!chord_step()) {
-      stop("no step closes the motion better");
-      return;
-    }
-    constexpr double well = 0.1;  ///< a reduction that earns another step with the same Φ
-    while (!finished() && reduction_ < well && chord_step()) {
-    }
+    if (!finished()) quasi_newton_steps();
   }
 
-  /** One step with the factors at hand, halved until the closure decreases. */
-  bool chord_step()
+  /** Φ at y, one step with it, and further ones while they reduce the closure well. */
+  void newton_step()
   {
-    const Vector8 step = -factors_.solve(open_);
+    const PeriodMap map = integrate_derivative();
+    open_ = vector_of(map.end).cwiseQuotient(sizes_) - y_;
+    report_.closure = open_.norm();
+    jacobian_ = sizes_.cwiseInverse().asDiagonal() * map.derivative * sizes_.asDiagonal();
+    jacobian_ -= Matrix8::Identity();
+    if (finished()) return;
+    if (!quasi_newton_steps() && report_.reason.empty())
+      stop("no step closes the motion better");
+  }
+
+  /** False when not even the first step reduces the closure. */
+  bool quasi_newton_steps()
+  {
+    constexpr double well = 0.3;  ///< a reduction that earns another step without Φ
+    bool reduced = false;
+    do {
+      if (!damped_step()) return reduced;
+      reduced = true;
+    } while (!finished() && reduction_ < well);
+    return true;
+  }
+
+  /** One step, halved until the closure decreases; Broyden's rule learns from it. */
+  bool damped_step()
+  {
+    const Vector8 step = -jacobian_.partialPivLu().solve(open_);
     double length = 1;
     for (int halvings = 0; halvings < 8 && !out_of_maps(); ++halvings, length /= 2) {
       const Vector8 y = y_ + length * step;
       const Vector8 open = mapped(y) - y;
       const double reduction = open.norm() / report_.closure;
       if (!(reduction < 1)) continue;
+      jacobian_ += (open - (1 - length) * open_) * step.transpose() /
+                   (length * step.squaredNorm());
       y_ = y;
       open_ = open;
       reduction_ = reduction;
@@ -87,18 +149,27 @@ private:
     return false;
   }
 
-  /** P without its derivative. */
+  void take_known_step()
+  {
+    const Vector8 step = jacobian_.partialPivLu().solve(open_);
+    if (step.allFinite()) y_ -= step;
+    if (settings_.final_derivative) integrate_derivative();
+  }
+
+  PeriodMap integrate_derivative()
+  {
+    const PeriodMap map = maps_.map(unscaled(y_));
+    ++report_.maps;
+    ++report_.derivatives;
+    report_.derivative = map.derivative;
+    return map;
+  }
+
   Vector8 mapped(const Vector8& y)
   {
-    const TimeStepper stepper = make_stepper(parameters_, omega_,
-                                             {.method = settings_.method,
-                                              .intervals_per_period = 1,
-                                              .tolerance = settings_.tolerance});
-    State state = unscaled(y);
-    stepper.advance(0, state);
     ++report_.maps;
-    report_.evaluations += stepper.evaluations();
-    return vector_of(state).cwiseQuotient(sizes_);
+    const Vector8 end = vector_of(maps_.end(unscaled(y)));
+    return end.cwiseQuotient(sizes_);
   }
 
   State unscaled(const Vector8& y) const
@@ -122,22 +193,23 @@ private:
     report_.reason = why + text(" (closure %.1e)", report_.closure);
   }
 
-  const Parameters& parameters_;
-  double omega_;
   const ShootingSettings& settings_;
+  Maps maps_;
   Vector8 sizes_, y_;
-  Vector8 open_;  ///< P(y) - y
+  Vector8 open_;      ///< P(y) - y
+  Matrix8 jacobian_;  ///< its derivative
   double reduction_ = 1;
-  Eigen::PartialPivLU<Matrix8> factors_;
   Shooting report_;
 };
 
 }  // namespace
 
 Shooting shoot(const Parameters& parameters, double omega, State& state,
-               const ShootingSettings& settings)
+               const ShootingSettings& settings, ClosureJacobian* jacobian)
 {
-  return Iteration(parameters, omega, state, settings).run(state);
+  ClosureJacobian none;
+  return Iteration(parameters, omega, state, settings)
+      .run(state, jacobian ? *jacobian : none);
 }
 
 }  // namespace rotor_stator

@@ -1,11 +1,17 @@
 /**
 # Shooting: the periodic motion as a fixed point of the period map
 
-P(s) = s is solved by Newton, (Φ - 1) Δs = s - P(s), with Φ from the variational equations. A step
-that reduces the closure well is followed by chord steps, which integrate the state alone with the same
-Φ; a step that does not is halved. No transient has to decay, and unstable motions are found like
-stable ones: the fair rival of harmonic balance, and an independent check of it. */
+P(s) = s is solved by Newton, (Φ - 1) Δs = s - P(s), with Φ from the variational equations. After
+Newton's step Broyden's rule corrects Φ from what each further map shows, so that the state alone is
+integrated while that reduces the closure well; a step that does not is halved, and then Φ is computed
+anew. A sweep hands Φ on from speed to speed. When the motion is closed as well as asked, the step that
+is then known takes the state closer yet, for no further map.
+
+No transient has to decay, and unstable motions are found like stable ones: the fair rival of harmonic
+balance, and an independent check of it. */
 #pragma once
+
+#include <optional>
 
 #include "stability/period_map.hpp"
 
@@ -13,24 +19,31 @@ namespace rotor_stator
 {
 
 struct ShootingSettings {
-  std::string method = "rk8pd";
-  double tolerance = 1e-12;  ///< local error per step, over the size of each component
+  std::string method = "rk8pd";  ///< "rk4" with a fixed step, or one of GSL's
+  double tolerance = 1e-12;  ///< GSL: local error per step, over each component's size
+  double step = 0;           ///< rk4: longest step [s]; 0 chooses `default_step`
   double closure = 1e-10;    ///< wanted ‖P(s) - s‖ over the sizes [-]
   int most_maps = 60;        ///< periods integrated
+  bool final_derivative = true;  ///< integrate Φ at the motion that was found
 };
 
 struct Shooting {
   bool converged;
-  double closure;      ///< reached [-]
-  int maps;            ///< periods integrated, chord steps included
+  double closure;      ///< reached before the last step [-]
+  int maps;            ///< periods integrated, those with the derivative included
   int derivatives;     ///< of them with the variational equations
   long evaluations;    ///< of Eq. 7, with or without its derivative
-  Matrix8 derivative;  ///< the last Φ
+  Matrix8 derivative;  ///< Φ at the motion found; otherwise the last one integrated
   std::string reason;  ///< why it stopped
 };
 
-/** Iterates from `state` (at phase 0), which becomes the fixed point or the best state reached. */
+/** Φ - 1 in units of the sizes, as the last iteration left it. */
+using ClosureJacobian = std::optional<Matrix8>;
+
+/** Iterates from `state` (at phase 0), which becomes the fixed point or the best state reached. With
+    `jacobian`, the iteration starts from what it holds, if anything, and leaves its own there. */
 Shooting shoot(const Parameters& parameters, double omega, State& state,
-               const ShootingSettings& settings = {});
+               const ShootingSettings& settings = {},
+               ClosureJacobian* jacobian = nullptr);
 
 }  // namespace rotor_stator

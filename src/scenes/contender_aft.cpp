@@ -1,0 +1,198 @@
+#include <cmath>
+#include <map>
+#include <memory>
+#include <numbers>
+
+#include "balance/bearing_problem.hpp"
+#include "continuation/lagrange_predictor.hpp"
+#include "scenes/contender_kinds.hpp"
+#include "scenes/cpu_time.hpp"
+#include "scenes/left_out.hpp"
+#include "scenes/scene_file.hpp"
+
+namespace rotor_stator
+{
+
+namespace
+{
+
+/** All that one run uses: one balance for each number of harmonics. */
+class Balances
+{
+public:
+  Balances(const Task& task, const Setting& setting) : task_(task), setting_(setting) {}
+
+  Balance& with(int harmonics)
+  {
+    auto& balance = balances_[harmonics];
+    if (!balance) balance = std::make_unique<Balance>(problem(harmonics), harmonics);
+    return *balance;
+  }
+
+  Counts counts() const
+  {
+    Counts counts;
+    for (const auto& [m, balance] : balances_) {
+      const long samples = balance->problem().samples;
+      counts.force_calls += balance->evaluations();
+      counts.force_instants += balance->evaluations() * samples;
+      const long transforms = 4 * balance->evaluations() +
+                              4 * balance->steps().factorisations() +
+                              4 * balance->steps().linear_iterations();
+      counts.transforms += transforms;
+      counts.transformed += transforms * samples;
+    }
+    counts.force_seconds = *force_seconds_;
+    return counts;
+  }
+
+private:
+  Problem problem(int harmonics) const
+  {
+    Problem problem = bearing_problem(task_.parameters, samples_for(setting_, harmonics));
+    if (!task_.profiled) return problem;
+    problem.force = [inner = problem.force, seconds = force_seconds_](const auto& q,
+                                                                      auto&&... results) {
+      const double start = thread_cpu_seconds();
+      inner(q, results...);
+      *seconds += thread_cpu_seconds() - start;
+    };
+    return problem;
+  }
+
+  const Task& task_;
+  const Setting& setting_;
+  std::map<int, std::unique_ptr<Balance>> balances_;
+  std::shared_ptr<double> force_seconds_ = std::make_shared<double>(0);
+};
+
+class AftSolver
+{
+public:
+  AftSolver(const Task& task, const Setting& setting) : task_(task), setting_(setting)
+  {
+    newton_.tolerance = setting.tolerance;
+    if (!task.before) return;
+    balances_ = std::make_unique<Balances>(task_, setting_);
+    const double frequency = task.before->frequency;
+    before_ = cold_start(angular(frequency), harmonics_at(setting_, frequency));
+  }
+
+  void run()
+  {
+    balances_ = std::make_unique<Balances>(task_, setting_);
+    solutions_.clear();
+    adapted_ = setting_.harmonics;
+    const SweepSettings scaling = sweep_settings(task_.parameters);
+    LagrangePredictor predictor(scaling.arc_unknown_scale, scaling.speed_scale);
+    if (before_.size() > 0)
+      predictor.add(padded(before_), angular(task_.before->frequency));
+    for (double frequency : task_.frequencies) {
+      solutions_.emplace_back();
+      const double omega = angular(frequency);
+      Eigen::VectorXd x;
+      if (!predictor.empty()) x = predictor.at_speed(omega);
+      if (!solve_at(frequency, x)) {
+        predictor.clear();
+        x.resize(0);
+        if (!solve_at(frequency, x)) continue;
+      }
+      predictor.add(padded(x), omega);
+    }
+  }
+
+  Motions motions(int points) const
+  {
+    Motions motions;
+    for (const Eigen::MatrixXd& bodies : solutions_) {
+      motions.emplace_back();
+      if (bodies.size() > 0) motions.back() = motion_of(bodies, points);
+    }
+    return motions;
+  }
+
+  Counts counts() const { return balances_ ? balances_->counts() : Counts{}; }
+
+private:
+  static constexpr int most_harmonics = 1024;
+
+  /** The predictor's vectors have the length of the largest m. */
+  Eigen::VectorXd padded(const Eigen::VectorXd& x) const
+  {
+    int most = setting_.estimate > 0 ? most_harmonics : 0;
+    for (double frequency : task_.frequencies)
+      most = std::max(most, harmonics_at(setting_, frequency));
+    return resize_harmonics(x, 2, most);
+  }
+
+  /** From `x`, or cold if it is empty; with as many harmonics as the setting asks for. */
+  bool solve_at(double frequency, Eigen::VectorXd& x)
+  {
+    const double omega = angular(frequency);
+    int m = setting_.estimate > 0 ? adapted_ : harmonics_at(setting_, frequency);
+    if (!solve_from(omega, m, x)) return false;
+    while (setting_.estimate > 0) {
+      const int far = rounded_up(look_ahead(task_.parameters, omega, m));
+      const LeftOut left_out =
+          what_is_left_out(task_.parameters, omega, x, balances_->with(far));
+      const int wanted =
+          std::min(most_harmonics, rounded_up(left_out.harmonics(setting_.estimate)));
+      adapted_ = std::max(setting_.harmonics, wanted);
+      if (wanted <= m) break;
+      m = wanted;
+      x = left_out.x;
+      if (!solve_from(omega, m, x)) return false;
+    }
+    return true;
+  }
+
+  bool solve_from(double omega, int m, Eigen::VectorXd& x)
+  {
+    Balance& balance = balances_->with(m);
+    if (x.size() == 0) {
+      x = cold_start(omega, m);
+    } else {
+      x = resize_harmonics(x, 2, m);
+      if (!solve(balance, omega, x, newton_).converged()) return false;
+    }
+    if (x.size() == 0) return false;
+    solutions_.back() = body_series(task_.parameters, balance, omega, x);
+    return true;
+  }
+
+  /** With few harmonics from quasi-static contact, then with twice as many at a time; else from time
+      integration. Empty when none of this has a solution. */
+  Eigen::VectorXd cold_start(double omega, int harmonics)
+  {
+    constexpr int few = 8;
+    const bool is_few = harmonics <= few;
+    Eigen::VectorXd x = is_few ? quasi_static_start(task_.parameters, omega, harmonics)
+                               : cold_start(omega, harmonics / 2);
+    if (x.size() > 0) x = resize_harmonics(x, 2, harmonics);
+    Balance& balance = balances_->with(harmonics);
+    if (x.size() > 0 && solve(balance, omega, x, newton_).converged()) return x;
+    x = integrated_start(task_.parameters, omega, harmonics);
+    if (!solve(balance, omega, x, newton_).converged()) x.resize(0);
+    return x;
+  }
+
+  Task task_;
+  Setting setting_;
+  NewtonSettings newton_;
+  Eigen::VectorXd before_;
+  int adapted_ = 0;  ///< harmonics that the estimate asked for last
+  std::unique_ptr<Balances> balances_;
+  std::vector<Eigen::MatrixXd> solutions_;  ///< of both bodies; empty where not found
+};
+
+}  // namespace
+
+Contender aft_contender(const Task& task, const Setting& setting)
+{
+  const auto solver = std::make_shared<AftSolver>(task, setting);
+  return {.run = [solver] { solver->run(); },
+          .motions = [solver](int points) { return solver->motions(points); },
+          .counts = [solver] { return solver->counts(); }};
+}
+
+}  // namespace rotor_stator

@@ -1,0 +1,84 @@
+#include "scenes/left_out.hpp"
+
+#include <cmath>
+#include <numbers>
+
+#include "integration/time_stepper.hpp"
+#include "model/quasi_static_state.hpp"
+
+namespace rotor_stator
+{
+
+int LeftOut::harmonics(double part) const
+{
+  int m = 1;
+  while (above(m) > part) ++m;
+  return m;
+}
+
+int look_ahead(const Parameters& parameters, double omega, int harmonics)
+{
+  const Scales scale = scales(parameters);
+  const double contact_mode = std::sqrt(
+      scale.stiffness * (1 / parameters.stator.mass + 1 / parameters.rotor.mass));
+  return std::max(2 * harmonics, static_cast<int>(std::ceil(contact_mode / omega)));
+}
+
+LeftOut what_is_left_out(const Parameters& parameters, double omega,
+                         const Eigen::VectorXd& x, Balance& balance)
+{
+  const int m = static_cast<int>(x.size() / 4), far = balance.harmonics();
+  /** One evaluation of the force, then harmonic by harmonic. */
+  LeftOut result{resize_harmonics(x, 2, far), Eigen::VectorXd::Zero(far + 1)};
+  balance.residual(result.x, omega);
+  const Eigen::MatrixXd& force = balance.force_series();
+  const Eigen::MatrixXd bodies = body_series(parameters, balance, omega, result.x);
+  const double size = bodies.leftCols(3).cwiseAbs().rowwise().sum().maxCoeff();
+  double sum = 0;
+  for (int h = far; h > 0; --h) {
+    double largest = 0;
+    const auto z_s = dynamic_stiffness(parameters.stator, h * omega).value;
+    const auto z_r = dynamic_stiffness(parameters.rotor, h * omega).value;
+    const auto compliance = 1.0 / z_s + 1.0 / z_r;
+    for (int axis = 0; axis < 2; ++axis) {
+      double& cosine = result.x[2 * (2 * h - 1) + axis];
+      double& sine = result.x[2 * (2 * h) + axis];
+      if (h > m) {
+        const std::complex<double> f(force(axis, 2 * h - 1), -force(axis, 2 * h));
+        const auto u = -compliance * f;
+        cosine = u.real();
+        sine = -u.imag();
+      }
+      largest = std::max(largest, std::hypot(cosine, sine));
+    }
+    result.tail[h] = sum / size;
+    sum += largest;
+  }
+  result.tail[0] = sum / size;
+  return result;
+}
+
+Eigen::VectorXd integrated_start(const Parameters& parameters, double omega,
+                                 int harmonics)
+{
+  constexpr double transient = 0.5;
+  const int points = 2 * harmonics + 2;
+  const long periods = std::lround(std::ceil(transient * omega / (2 * std::numbers::pi)));
+  State state = quasi_static_state(parameters, omega);
+  const TimeStepper whole =
+      make_stepper(parameters, omega, {.method = "rk4", .intervals_per_period = 1});
+  for (long k = 0; k < periods; ++k) whole.advance(k, state);
+  const TimeStepper parts =
+      make_stepper(parameters, omega, {.method = "rk4", .intervals_per_period = points});
+  Eigen::MatrixXd u(points, 2), series(2, 2 * harmonics + 1);
+  for (int k = 0; k < points; ++k) {
+    const Vec2 relative = state.position.relative();
+    u.row(k) << relative.x, relative.y;
+    parts.advance(k, state);
+  }
+  if (!u.allFinite()) return Eigen::VectorXd::Zero(series.size());
+  FourierTransform(points).to_series(u, series);
+  return series.reshaped();
+}
+
+}  // namespace rotor_stator

@@ -1,0 +1,238 @@
+/** What the tables of cost rest on: references, counted operations, fits, and the rivals themselves. No
+    time is asserted. */
+#include <catch2/catch.hpp>
+#include <cmath>
+#include <filesystem>
+
+#include "integration/rk4.hpp"
+#include "model/errors.hpp"
+#include "model/quasi_static_state.hpp"
+#include "scenes/cost_growth.hpp"
+#include "scenes/equal_error.hpp"
+#include "scenes/own_process.hpp"
+#include "scenes/work_precision.hpp"
+#include "stability/rk4_period_map.hpp"
+#include "stability/shooting.hpp"
+#include "support/cases.hpp"
+#include "support/command.hpp"
+
+using namespace rotor_stator;
+using namespace rotor_stator::tests;
+
+namespace
+{
+
+TruthSettings truth_settings()
+{
+  TruthSettings settings;
+  settings.settling = {.stepper = {.method = "rk4", .intervals_per_period = 90},
+                       .longest = 12};
+  return settings;
+}
+
+/** A scene of the repository, with one piece of text replaced, beside the data sets. */
+Outcome refused(const std::string& program, const std::string& from,
+                const std::string& to)
+{
+  const std::string root = SOURCE_DIR;
+  std::string content = read_whole(root + "/data/scenes/" + program + ".toml");
+  const auto at = content.find(from);
+  REQUIRE(at != std::string::npos);
+  content.replace(at, from.size(), to);
+  const Scratch scratch;
+  std::filesystem::create_directories(scratch.path("scenes"));
+  for (const char* set : {"set1.toml", "set2.toml"})
+    std::filesystem::copy(root + "/data/" + set, scratch.path(set));
+  return run_program(program + " " + scratch.write("scenes/scene.toml", content));
+}
+
+}  // namespace
+
+TEST_CASE("Scenes of cost: bad input ends with status 2, its key and nothing else")
+{
+  struct Bad {
+    const char *program, *from, *to, *key;
+  };
+  const Bad cases[] = {
+      {"tab02_equal_error", "[1e-3, 1e-6]", "[1e-6, 1e-3]", "targets"},
+      {"tab02_equal_error", "[25.0, 60.0]", "[60.0, 25.0]", "range_ends_hz"},
+      {"tab02_equal_error", "\"rkf45\"", "\"rkf46\"", "methods"},
+      {"tab02_equal_error", "closures", "closure", "closures"},
+      {"tab02_equal_error", "[bsimp]", "colour = 1\n[bsimp]", "colour"},
+      {"work_precision", "50.0, 45.0]", "50.0]", "speeds_hz"},
+      {"work_precision", "below_hz = 0.5", "below_hz = 7.0", "below_hz"},
+      {"cost_growth", "below_hz = 29.5", "below_hz = 30.5", "below_hz"},
+      {"cost_growth", "sweep_to_hz = 60.0", "sweep_to_hz = 20.0", "sweep_to_hz"},
+      {"cost_growth", "samples_per_harmonic = 8", "samples_per_harmonic = 1",
+       "samples_per_harmonic"}};
+  for (const Bad& bad : cases) {
+    const Outcome outcome = refused(bad.program, bad.from, bad.to);
+    INFO(bad.to << ": " << outcome.err);
+    CHECK(outcome.status == 2);
+    CHECK(outcome.out.empty());
+    CHECK(outcome.err.find(bad.key) != std::string::npos);
+  }
+}
+
+TEST_CASE("RK4's period map is RK4's, and its derivative that of its differences")
+{
+  const Parameters parameters = set_1();
+  const double omega = hertz(45), step = 1e-4;
+  Rk4PeriodMap period(parameters, omega, step);
+  const State start = quasi_static_state(parameters, omega);
+  State expected = start;
+  Rk4(parameters, omega, 1, step).advance(0, expected);
+  const PeriodMap map = period.map(start);
+  const Vector8 sizes = state_scales(parameters);
+  const Vector8 off = (vector_of(map.end) - vector_of(expected)).cwiseQuotient(sizes);
+  CHECK(off.norm() < 1e-12);
+  for (int j = 0; j < 8; ++j) {
+    const Vector8 step_j = 1e-7 * sizes[j] * Vector8::Unit(j);
+    const Vector8 y = vector_of(start);
+    const Vector8 difference = (vector_of(period.end(state_of(Vector8(y + step_j)))) -
+                                vector_of(period.end(state_of(Vector8(y - step_j))))) /
+                               2e-7;
+    const Vector8 error =
+        (difference - sizes[j] * map.derivative.col(j)).cwiseQuotient(sizes);
+    CHECK(error.norm() < 1e-4 * map.derivative.norm());
+  }
+}
+
+TEST_CASE("Shooting with RK4 converges to the motion with the fourth power of the step")
+{
+  const Parameters parameters = set_1();
+  const TrueMotion truth = true_motion(parameters, 45, truth_settings());
+  REQUIRE(truth.periodic);
+  const Task task{.parameters = parameters, .frequencies = {45}};
+  double coarse = 0;
+  for (double step : {4e-5, 2e-5}) {
+    const Contender shooting = make_contender(
+        task,
+        {.method = "shooting-rk4", .step = step, .transient = 0.3, .closure = 1e-9});
+    shooting.run();
+    const auto motion = shooting.motions(90).front();
+    REQUIRE(motion);
+    const double error = relative_difference(*motion, truth.motion);
+    if (coarse > 0) CHECK(error < coarse / 6);
+    coarse = error;
+  }
+}
+
+TEST_CASE("Shooting and harmonic balance, which share nothing, agree on the reference")
+{
+  const Parameters parameters = set_1();
+  const TrueMotion truth = true_motion(parameters, 45, truth_settings());
+  REQUIRE(truth.periodic);
+  CHECK(truth.closure < 1e-11);
+  CHECK(agreement(parameters, truth, 512) < 1e-8);
+  CHECK(agreement(parameters, truth, 16) > 1e-6);
+}
+
+TEST_CASE("A time method's count is that of its setting")
+{
+  const Task task{.parameters = set_1(), .frequencies = {30, 31}};
+  const Contender rk4 =
+      make_contender(task, {.method = "rk4", .step = 1e-4, .transient = 0.25});
+  rk4.run();
+  const long steps =
+      std::lround(8 * std::ceil(1 / (30 * 1e-4)) + 8 * std::ceil(1 / (31 * 1e-4)));
+  CHECK(rk4.counts().force_instants == 4 * steps);
+  rk4.run();
+  CHECK(rk4.counts().force_instants == 4 * steps);
+}
+
+TEST_CASE("Harmonic balance: N of the setting, three transforms or more per evaluation")
+{
+  Setting setting{
+      .method = "aft", .harmonics = 6, .samples_per_harmonic = 8, .tolerance = 1e-8};
+  CHECK(samples_for(setting, 6) == 50);
+  const Task task{.parameters = set_1(), .frequencies = {45}};
+  const Contender aft = make_contender(task, setting);
+  aft.run();
+  REQUIRE(aft.motions(8).front());
+  const Counts counts = aft.counts();
+  CHECK(counts.force_instants % samples_for(setting, 6) == 0);
+  const long evaluations = counts.force_instants / samples_for(setting, 6);
+  CHECK(evaluations <= 12);
+  CHECK(counts.transforms >= 3 * evaluations);
+  CHECK(counts.transformed == counts.transforms * samples_for(setting, 6));
+  setting.corner = 1000;
+  CHECK(harmonics_at(setting, 10) == 112);
+  CHECK(harmonics_at(setting, 500) == 6);
+}
+
+TEST_CASE("The estimate of what is left out raises the harmonics until the error falls")
+{
+  const Parameters parameters = set_1();
+  const TrueMotion truth = true_motion(parameters, 30, truth_settings());
+  REQUIRE(truth.periodic);
+  const Task task{.parameters = parameters, .frequencies = {30}};
+  double before = 1;
+  for (double estimate : {1e-2, 1e-5, 1e-7}) {
+    const Contender aft = make_contender(task, {.method = "aft",
+                                                .harmonics = 2,
+                                                .estimate = estimate,
+                                                .samples_per_harmonic = 8,
+                                                .tolerance = 1e-9});
+    aft.run();
+    const auto motion = aft.motions(90).front();
+    REQUIRE(motion);
+    const double error = relative_difference(*motion, truth.motion);
+    CHECK(error < before);
+    before = error;
+  }
+  CHECK(before < 1e-5);
+}
+
+TEST_CASE("Equal error: what the table calls reached is reached, and aft is its unit")
+{
+  EqualErrorScene scene{.parameters = set_1(),
+                        .frequencies = {40, 41},
+                        .range_ends = {60},
+                        .targets = {1e-3, 1e-12},
+                        .paper_ratios = {9},
+                        .candidates = {},
+                        .repetitions = 1,
+                        .long_run = 10,
+                        .truth = truth_settings()};
+  const Setting aft{
+      .method = "aft", .harmonics = 8, .samples_per_harmonic = 4, .tolerance = 1e-6};
+  const Setting rk4{.method = "rk4", .step = 2e-4, .transient = 2};
+  scene.candidates = {{"aft", {{aft}}}, {"rk4", {{rk4}}}};
+  const EqualErrorResult result = compute_equal_error(scene);
+  REQUIRE(result.rows.size() == 2);
+  CHECK(result.rows[0].ratio == 1);
+  CHECK(result.rows[0].setting.text() == "m=8 N>4m tol=1e-06");
+  for (const EqualErrorRow& row : result.rows) {
+    CHECK(row.speeds == 2);
+    CHECK(row.error.displacement <= row.target);
+    CHECK(row.error.displacement > 0);
+  }
+  CHECK(result.not_reached.size() == 2);
+}
+
+TEST_CASE("The exponent of a power law is found, through scatter too")
+{
+  std::vector<double> x, exact, scattered;
+  for (int k = 0; k < 9; ++k) {
+    x.push_back(std::pow(2.0, k));
+    exact.push_back(3e-4 * std::pow(x.back(), 1.7));
+    scattered.push_back(exact.back() * (k % 2 == 0 ? 1.05 : 1 / 1.05));
+  }
+  CHECK(fitted_exponent(x, exact) == Approx(1.7).epsilon(1e-12));
+  CHECK(fitted_exponent(x, scattered) == Approx(1.7).margin(0.02));
+}
+
+TEST_CASE("A process of its own hands back numbers and its own peak of memory")
+{
+  const auto little = in_own_process([] { return std::vector<double>{1, 2.5}; });
+  CHECK(little.numbers == std::vector<double>{1, 2.5});
+  const auto much = in_own_process([] {
+    const std::vector<double> block(4'000'000, 1.0);
+    return std::vector<double>{block[17]};
+  });
+  CHECK(much.peak_bytes - little.peak_bytes > 30e6);
+  CHECK(in_own_process([]() -> std::vector<double> {
+          throw NoSolution("nothing");
+        }).numbers.empty());
+}
