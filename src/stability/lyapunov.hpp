@@ -8,8 +8,8 @@ $$\lambda = \lim_{t \to \infty} \frac{1}{t} \ln \frac{|\delta(t)|}{|\delta(0)|},
 after Benettin: both motions are integrated by the same stepper, and after every output interval the
 neighbour is pulled back to its first distance along the line that joins them. No force needs a
 derivative, and the contact's missing second derivative does no harm. On a T-periodic motion λ is
-ln|μ|/T of the largest Floquet multiplier. The growth is added up over blocks, and their scatter gives
-the standard error. */
+ln|μ|/T of the largest Floquet multiplier. The growth is added up over blocks; the scatter of the means
+of ten batches of them gives the standard error. */
 #pragma once
 
 #include <functional>
@@ -26,7 +26,8 @@ struct Exponent {
   double value, error;
 };
 
-/** Mean and standard error of the mean of the blocks' growth rates [1/s]; at least two blocks. */
+/** Mean of the growth rates [1/s] of equal blocks in order, at least two, and its standard error from
+    the means of at most ten batches. */
 Exponent exponent_of(const std::vector<double>& rates);
 
 /** A motion with a neighbour. */
