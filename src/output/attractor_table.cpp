@@ -14,7 +14,7 @@ const std::vector<Column> columns{
     {"set", "-", "data set"},
     {"f", "Hz", "speed of rotation"},
     {"origin", "-",
-     "1 carried on from the next lower speed, 2 from the next higher, 3 begun on the harmonic-balance solution, 4 at random states"},
+     "1 carried on from the next lower speed, 2 from the next higher; begun on the solution with 3 few, 4 many harmonics; 5 at random states"},
     {"starts", "-", "number of starts that ended so"},
     {"attractor", "-", "number of the attractor at this set and speed"},
     {"verdict", "-",
@@ -65,9 +65,9 @@ void describe(const AttractorScene& scene, Table& table)
   const AttractorSettings& s = scene.settings;
   for (const Parameters& parameters : scene.sets) table.describe(parameters);
   table.note(text(
-      "modelled: rk4, up and down through %zu speeds, from %d harmonics at each, and from %d random states at %zu speeds (seed %d)",
-      scene.frequencies.size(), scene.harmonics, scene.random_starts,
-      scene.random_frequencies.size(), scene.seed));
+      "modelled: rk4, up and down through %zu speeds, from %d and %d harmonics at each, and from %d random states at %zu speeds (seed %d)",
+      scene.frequencies.size(), scene.few_harmonics, scene.many_harmonics,
+      scene.random_starts, scene.random_frequencies.size(), scene.seed));
   table.note(text(
       "transient: until the section's spread is below %g, at most %g s; then %g s if the section closes, %g s if chaotic, at most %g s else",
       s.transient.settled, s.transient.longest, s.least, s.chaotic, s.most));

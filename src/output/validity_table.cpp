@@ -122,6 +122,9 @@ Table section_table(const std::string& scene_file, const std::string& reading,
               {{"set", "-", "data set"},
                {"f", "Hz", "speed of rotation"},
                {"origin", "-", "1 up in speed, 2 down"},
+               {"verdict", "-", "of the motion, as in the table of attractors"},
+               {"exponent", "1/s", "largest Lyapunov exponent of the motion"},
+               {"exponent_error", "1/s", "its standard error"},
                {"u_x", "m", "x_r - x_s at phase 0"},
                {"u_y", "m", "y_r - y_s at phase 0"}});
   for (const Parameters& parameters : sets) table.describe(parameters);
@@ -134,7 +137,9 @@ Table section_table(const std::string& scene_file, const std::string& reading,
     if (one.origin != Origin::up && one.origin != Origin::down) continue;
     const auto set = static_cast<std::size_t>(one.set);
     for (const Vec2 u : section_of(one, sets.at(set - 1), points))
-      table.row({one.set, one.frequency, static_cast<int>(one.origin), u.x, u.y});
+      table.row({one.set, one.frequency, static_cast<int>(one.origin),
+                 static_cast<int>(one.verdict), one.exponent.value, one.exponent.error,
+                 u.x, u.y});
   }
   return table;
 }

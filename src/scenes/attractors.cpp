@@ -83,12 +83,12 @@ Row follow(const Parameters& parameters, std::vector<double> frequencies, Origin
   return row;
 }
 
-/** Every speed from the solution with m harmonics, where a sweep up finds one. */
-Row from_balance(const Parameters& parameters, const AttractorScene& scene)
+/** Every speed from the solution with few harmonics, where a sweep up finds one. */
+Row from_sweep(const Parameters& parameters, const AttractorScene& scene)
 {
   std::vector<double> omegas;
   for (double frequency : scene.frequencies) omegas.push_back(angular(frequency));
-  const int m = scene.harmonics, samples = default_samples(m);
+  const int m = scene.few_harmonics, samples = default_samples(m);
   Balance balance(bearing_problem(parameters, samples), m);
   Row row;
   sweep(
@@ -112,6 +112,21 @@ Row from_balance(const Parameters& parameters, const AttractorScene& scene)
   return row;
 }
 
+/** Every speed from a solution with many harmonics, where there is one. */
+Row from_solutions(const Parameters& parameters, const AttractorScene& scene)
+{
+  Row row;
+  const int m = scene.many_harmonics;
+  for (double frequency : scene.frequencies) {
+    const double omega = angular(frequency);
+    const auto solution = find_periodic(parameters, omega, m, default_samples(m));
+    if (!solution.found()) continue;
+    append(frequency,
+           attractor_from(parameters, omega, state_of(solution), scene.settings), row);
+  }
+  return row;
+}
+
 /** One speed from random states. */
 Row from_random(const AttractorScene& scene, std::size_t set, std::size_t speed)
 {
@@ -131,7 +146,8 @@ Row from_random(const AttractorScene& scene, std::size_t set, std::size_t speed)
   return row;
 }
 
-/** What piece `k` of the study is: the three long chains of each set first, then the random starts. */
+/** What piece `k` of the study is: three long chains of each set, the random starts, and the starts from
+    many harmonics. */
 struct Piece {
   std::size_t set;
   Origin origin;
@@ -140,18 +156,22 @@ struct Piece {
 
 Piece piece_of(const AttractorScene& scene, std::size_t k)
 {
-  const std::size_t chains = 3 * scene.sets.size();
-  if (k < chains) return {k / 3, static_cast<Origin>(1 + k % 3), 0};
+  const std::size_t sets = scene.sets.size();
+  if (k < 3 * sets) return {k / 3, static_cast<Origin>(1 + k % 3), 0};
+  k -= 3 * sets;
   const std::size_t speeds = scene.random_frequencies.size();
-  return {(k - chains) / speeds, Origin::random, (k - chains) % speeds};
+  if (k < sets * speeds) return {k / speeds, Origin::random, k % speeds};
+  return {k - sets * speeds, Origin::many_harmonics, 0};
 }
 
 Row work_on(const AttractorScene& scene, const Piece& piece)
 {
   const Parameters& parameters = scene.sets[piece.set];
   switch (piece.origin) {
-    case Origin::balance:
-      return from_balance(parameters, scene);
+    case Origin::few_harmonics:
+      return from_sweep(parameters, scene);
+    case Origin::many_harmonics:
+      return from_solutions(parameters, scene);
     case Origin::random:
       return from_random(scene, piece.set, piece.speed);
     default:
@@ -196,7 +216,7 @@ std::vector<AttractorPoint> compute_attractors(const AttractorScene& scene,
                                                const std::string& journal,
                                                const std::string& stamp)
 {
-  const std::size_t pieces = scene.sets.size() * (3 + scene.random_frequencies.size());
+  const std::size_t pieces = scene.sets.size() * (4 + scene.random_frequencies.size());
   const auto rows = run_study(
       {.name = "attractors",
        .journal = journal,

@@ -3,7 +3,8 @@
 
 Where time integration settles, and what kind of motion it is. Each data set is followed up and down
 in speed, the state carried on from speed to speed, and started at every speed from the
-harmonic-balance solution; at some speeds it is started from random states too. Motions that differ
+harmonic-balance solutions with few and with many harmonics; at some speeds it is started from random
+states too. Motions that differ
 in mean or in scatter are different attractors; where there are several, the motion depends on how
 it was begun. */
 #pragma once
@@ -61,13 +62,13 @@ struct AttractorScene {
   std::vector<double> random_frequencies;  ///< [Hz]
   int random_starts;                       ///< per speed
   int seed;
-  int harmonics;  ///< m of the solution that is started from
+  int few_harmonics, many_harmonics;  ///< m of the two solutions that are started from
   AttractorSettings settings;
 };
 
 AttractorScene read_attractor_scene(const std::string& file, const std::string& reading);
 
-enum class Origin { up = 1, down = 2, balance = 3, random = 4 };
+enum class Origin { up = 1, down = 2, few_harmonics = 3, many_harmonics = 4, random = 5 };
 
 /** Motions of one set at one speed that were begun in one way and ended on one attractor. */
 struct AttractorPoint {

@@ -39,7 +39,8 @@ AttractorScene read_attractor_scene(const std::string& file, const std::string& 
                        .random_frequencies = scene_file.speed_range("random_speeds_hz"),
                        .random_starts = toml.integer("random_starts", 0, 64),
                        .seed = toml.integer("seed", 0, 1'000'000),
-                       .harmonics = toml.integer("harmonics", 1, 256),
+                       .few_harmonics = toml.integer("few_harmonics", 1, 256),
+                       .many_harmonics = toml.integer("many_harmonics", 1, 256),
                        .settings = read_settings(toml.table("attractor"))};
   toml.refuse_unknown_keys();
   return scene;

@@ -26,11 +26,15 @@ std::vector<KnownAttractor> read_attractors(const std::string& file)
   const NumberTable table(file);
   std::vector<KnownAttractor> attractors;
   for (std::size_t k = 0; k < table.rows(); ++k)
-    attractors.push_back({static_cast<int>(table.at(k, "set")), table.at(k, "f"),
-                          static_cast<Origin>(table.at(k, "origin")),
-                          static_cast<int>(table.at(k, "attractor")),
-                          static_cast<Verdict>(table.at(k, "verdict")),
-                          static_cast<int>(table.at(k, "period")), state_in(table, k)});
+    attractors.push_back(
+        {.set = static_cast<int>(table.at(k, "set")),
+         .frequency = table.at(k, "f"),
+         .origin = static_cast<Origin>(table.at(k, "origin")),
+         .number = static_cast<int>(table.at(k, "attractor")),
+         .verdict = static_cast<Verdict>(table.at(k, "verdict")),
+         .period = static_cast<int>(table.at(k, "period")),
+         .exponent = {table.at(k, "exponent"), table.at(k, "exponent_error")},
+         .state = state_in(table, k)});
   return attractors;
 }
 

@@ -20,7 +20,8 @@ struct KnownAttractor {
   Origin origin;
   int number;  ///< at this set and speed
   Verdict verdict;
-  int period;   ///< k
+  int period;         ///< k
+  Exponent exponent;  ///< [1/s]
   State state;  ///< at phase 0
 
   bool closed() const
