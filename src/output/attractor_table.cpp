@@ -72,7 +72,7 @@ void describe(const AttractorScene& scene, Table& table)
       "transient: until the section's spread is below %g, at most %g s; then %g s if the section closes, %g s if chaotic, at most %g s else",
       s.transient.settled, s.transient.longest, s.least, s.chaotic, s.most));
   table.note(text(
-      "verdict: closed below a spread of %g, k up to %d; chaotic if the exponent less 3 errors is above %g 1/s; quasi-periodic if it is that close to 0",
+      "verdict: closed below a spread of %g, k up to %d; chaotic if the exponent less 3 errors is above %g 1/s; quasi-periodic if it is within 3 errors of 0",
       s.rule.periodic, s.rule.most_period, s.rule.zero_rate));
   table.note(text(
       "same attractor: means and scatters within %g of the largest scatter if closed, %g else",

@@ -38,8 +38,8 @@ Verdict verdict_of(const SectionJudgement& j, const VerdictRule& rule)
   const double doubt = 3 * j.exponent.error;
   if (j.exponent.value - doubt > rule.zero_rate) return Verdict::chaotic;
   const bool known = doubt < 2 * rule.zero_rate;
-  if (known && std::abs(j.exponent.value) - doubt < rule.zero_rate)
-    return Verdict::quasi_periodic;
+  const bool zero = std::abs(j.exponent.value) <= std::max(doubt, 0.1 * rule.zero_rate);
+  if (known && zero) return Verdict::quasi_periodic;
   return Verdict::undecided;
 }
 

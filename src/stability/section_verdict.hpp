@@ -7,7 +7,8 @@ the tolerance the motion has the period kT. A section that does not close is jud
 Lyapunov exponent λ, known to a standard error s:
 
 - chaotic if λ - 3s is above a small rate;
-- quasi-periodic if |λ| - 3s is below that rate and λ is known well enough to say so;
+- quasi-periodic if |λ| is below 3s, and 3s is small enough for that to say something; where λ hardly
+  scatters, a tenth of the small rate stands for 3s;
 - undecided otherwise, for instance a transient that has not ended (λ < 0, no period). */
 #pragma once
 
@@ -32,7 +33,7 @@ enum class Verdict {
 struct VerdictRule {
   double periodic = 1e-6;  ///< largest spread of a closed section [-]
   int most_period = 16;    ///< k
-  double zero_rate = 0.1;  ///< a rate that is taken for zero [1/s]
+  double zero_rate = 0.1;  ///< the small rate [1/s]
 };
 
 struct SectionJudgement {
