@@ -12,6 +12,7 @@ import numpy as np
 from tables import run
 
 UP, DOWN = 1, 2
+CLOSED = (1, 2)  # T-periodic, kT-periodic
 STYLE = {UP: ("C0", "up in speed"), DOWN: ("C1", "down in speed")}
 
 
@@ -22,17 +23,17 @@ def draw_sections(axes, rows, clearance):
         shift = 0.06 if origin == DOWN else -0.06
         axes.plot(part["f"] + shift, part["u_x"] / clearance, ".", ms=2.4, mew=0, color=colour,
                   label=label, rasterized=True)
-    axes.set_ylim(-2.2, 2.2) if abs(rows["u_x"]).max() > 2.2 * clearance else None
 
 
 def draw_exponents(axes, rows):
-    """One point per speed and direction, with three standard errors."""
+    """One point per speed and direction, with three standard errors where the section does not close."""
     for origin, (colour, _) in STYLE.items():
         part = rows.where("origin", origin)
         _, first = np.unique(part["f"], return_index=True)
         part = part.rows(first)
-        axes.errorbar(part["f"], part["exponent"], yerr=3 * part["exponent_error"], fmt=".", ms=4,
-                      mew=0, elinewidth=0.7, color=colour, alpha=0.8)
+        error = np.where(np.isin(part["verdict"], CLOSED), 0, 3 * part["exponent_error"])
+        axes.errorbar(part["f"], part["exponent"], yerr=error, fmt=".", ms=4, mew=0,
+                      elinewidth=0.7, color=colour, alpha=0.8)
     axes.axhline(0, color="#404040", lw=0.75)
     axes.set_xlim(0, rows["f"].max() + 1)
 

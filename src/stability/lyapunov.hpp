@@ -34,7 +34,8 @@ Exponent exponent_of(const std::vector<double>& rates);
 class Neighbours
 {
 public:
-  /** `scales`: sizes of the eight components, which make the distance a number. */
+  /** `stepper`: of fixed step, since an adaptive one takes other steps for the neighbour and its
+      error would pass for growth. `scales`: sizes of the eight components, which make the distance a number. */
   Neighbours(TimeStepper stepper, int intervals_per_period, const Vector8& scales,
              const State& start);
 
