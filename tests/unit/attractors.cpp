@@ -292,7 +292,7 @@ TEST_CASE("The distance of a motion to itself is zero, to rest one")
 
 TEST_CASE("A table of numbers is read back, and a damaged one refused with its line")
 {
-  const std::string file = "number_table_test.tsv";
+  const std::string file = PROGRAM_DIR "/number_table_test.tsv";
   const auto written = [&](const std::string& content) {
     std::ofstream(file) << content;
     return NumberTable(file);
