@@ -303,10 +303,10 @@ for r in $(readings); do s=-$$r; d=/$$r; if [ $$r = exchanged ]; then s=; d=; fi
 endef
 
 attractors: build/attractors  ## where time integration settles, speed by speed (under 6 minutes)
-	$(call of_readings,attractors,,--key set$(comma)f$(comma)origin --columns verdict)
+	$(call of_readings,attractors,,--key set$(comma)f$(comma)origin$(comma)verdict --columns set)
 
 validity: build/validity attractors  ## distance of the solutions to the attractors (under 3 minutes)
-	$(call of_readings,validity,--attractors data/generated$$d/attractors.tsv,)
+	$(call of_readings,validity,--attractors data/generated$$d/attractors.tsv,--columns found$(comma)distance$(comma)periodic)
 
 adopt:  ## keep the tables of the studies just run, and the verdicts; a commit that does says why
 	@mkdir -p data/reference

@@ -66,8 +66,8 @@ void describe(const ValidityScene& scene, Table& table)
 {
   for (const Parameters& parameters : scene.sets) table.describe(parameters);
   table.note(text(
-      "modelled: sweeps up with m = 1 to %d, N = 8m+1 or more; adaptive: tolerance %g, m at most %d",
-      scene.most_harmonics, scene.tolerance, scene.most_adaptive));
+      "modelled: sweeps up with m = 1 to %d, N = 8m+1 or more; adaptive: tolerance %g, m at most %d, %d where no attractor is T-periodic",
+      scene.most_harmonics, scene.tolerance, scene.most_adaptive, scene.most_elsewhere));
   table.note(text("reference: rk4 from the attractor's state, %d periods of %d instants",
                   scene.periods, scene.points_per_period));
 }

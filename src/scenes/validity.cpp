@@ -21,6 +21,7 @@ ValidityScene read_validity_scene(const std::string& file, const std::string& re
       .examined_harmonics = toml.integers("examined_harmonics", 1, 256),
       .tolerance = toml.number("tolerance", Range::positive),
       .most_adaptive = toml.integer("most_adaptive_harmonics", 1, 4096),
+      .most_elsewhere = toml.integer("most_adaptive_elsewhere", 1, 4096),
       .floquet = {.tolerance = toml.number("multiplier_tolerance", Range::positive)},
       .points_per_period = toml.integer("points_per_period", 4, 4096),
       .periods = toml.integer("periods", 1, 1000),
@@ -110,9 +111,10 @@ public:
   {
     ValidityPoint point = blank_;
     point.adaptive = true;
-    const AdaptiveSolution chosen = solve_adaptively(
-        parameters_, angular(blank_.frequency),
-        {.tolerance = scene_.tolerance, .most_harmonics = scene_.most_adaptive});
+    const int most = point.periodic ? scene_.most_adaptive : scene_.most_elsewhere;
+    const AdaptiveSolution chosen =
+        solve_adaptively(parameters_, angular(blank_.frequency),
+                         {.tolerance = scene_.tolerance, .most_harmonics = most});
     if (!chosen.found()) return point;
     point.harmonics = chosen.solution.harmonics;
     if (chosen.estimate.settled) point.estimate = chosen.estimate.displacement;

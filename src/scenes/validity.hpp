@@ -30,7 +30,8 @@ struct ValidityScene {
   int most_harmonics;                   ///< m = 1…most
   std::vector<int> examined_harmonics;  ///< those whose stability is asked for
   double tolerance;                     ///< of the adaptive solution [-]
-  int most_adaptive;                    ///< its m at most
+  int most_adaptive;   ///< its m at most, where an attractor is T-periodic
+  int most_elsewhere;  ///< its m at most, where no m can be true
   FloquetSettings floquet;
   int points_per_period, periods;  ///< of the reference motion
   std::vector<KnownAttractor> attractors;
