@@ -25,6 +25,8 @@ ifeq ($(filter $(READING),exchanged as-printed),)
 $(error READING=$(READING): must be exchanged or as-printed)
 endif
 
+comma := ,
+
 # Where the tables and figures of a reading go, and which parameter files it takes.
 folder_exchanged :=
 folder_as-printed := /as-printed
@@ -32,8 +34,8 @@ suffix_exchanged :=
 suffix_as-printed := -as-printed
 
 figure_names := fig01 fig02 fig03 fig04 fig05 fig06 fig07 fig08 fig09
-table_names := $(figure_names) tab01_parameters regimes truncation
-drawn_names := $(figure_names) truncation
+table_names := $(figure_names) tab01_parameters regimes sections truth_intervals
+drawn_names := $(figure_names) truncation attractors validity
 
 tables_of = $(table_names:%=data/generated$(folder_$(1))/%.tsv)
 timing_of = data/generated$(folder_$(1))/tab02_timing.tsv
@@ -57,7 +59,7 @@ untimed := $(foreach reading,$(readings),$(call tables_of,$(reading)) $(call fig
 programs := $(patsubst src/%.cpp,build/%,$(wildcard src/*.cpp))
 
 .PHONY: all figures timing claims test sanitize deps list png readme golden format clean \
-  studies identify study adopt peers deps-peers bench
+  studies identify study truth attractors validity adopt peers deps-peers bench
 
 all: $(untimed) $(timings) $(claims)  ## figures, tables and claims of both readings (the default)
 
@@ -162,7 +164,6 @@ $(eval $(call table,fig09,fig09_contact,set2))
 $(eval $(call table,tab01_parameters,tab01_parameters,set1 set2))
 $(eval $(call table,tab02_timing,tab02_timing,set1))
 $(eval $(call table,regimes,regimes,set1 set2))
-$(eval $(call table,truncation,truncation,set1 set2))
 $(eval $(call table,sensitivity,sensitivity,set1))
 $(eval $(call table,sensitivity_derivatives,sensitivity_derivatives,set1,sensitivity))
 
@@ -204,7 +205,6 @@ $(eval $(call curves,fig06,fig06_orbits,figures/orbits.gp figures/orbit_axes.gp)
 $(eval $(call map,fig07,fig07_contact,figures/contact_map.py))
 $(eval $(call curves,fig08,fig08_orbits,figures/orbits.gp figures/orbit_axes.gp))
 $(eval $(call map,fig09,fig09_contact,figures/contact_map.py))
-$(eval $(call curves,truncation,truncation,data/claims.toml))
 $(eval $(call curves,sensitivity,sensitivity,))
 
 # The long studies are drawn from their kept tables.
@@ -225,6 +225,36 @@ figures/generated/work_precision.svg figures/generated/cost_growth.svg: figures/
 	@mkdir -p $(@D)
 	$(call whole,$(PYTHON) $< data/reference/$*.tsv $$new)
 
+# What is true is drawn from its kept tables too, of each reading; the sections are integrated anew from the
+# states of the attractors. $(call truth_of,folder,suffix,reading)
+define truth_of
+data/generated$(1)/sections.tsv: build/sections data/scenes/sections.toml \
+  data/set1$(2).toml data/set2$(2).toml data/reference/attractors$(2).tsv
+	@mkdir -p $$(@D)
+	$$(call whole,$$< data/scenes/sections.toml --reading $(3) --attractors data/reference/attractors$(2).tsv > $$$$new)
+
+data/generated$(1)/truth_intervals.tsv: figures/truth_intervals.py figures/tables.py data/claims.toml \
+  data/reference/attractors$(2).tsv data/reference/validity$(2).tsv
+	@mkdir -p $$(@D)
+	$$(call whole,$$(PYTHON) $$< data/reference/attractors$(2).tsv data/reference/validity$(2).tsv > $$$$new)
+
+figures/generated$(1)/truncation.svg: figures/truncation.gp figures/style.gp data/claims.toml data/reference/validity$(2).tsv
+	@mkdir -p $$(@D)
+	$$(call whole,gnuplot -e "table='data/reference/validity$(2).tsv'; output='$$$$new'" $$<)
+
+figures/generated$(1)/validity.svg: figures/validity.py figures/rotor_stator.mplstyle figures/tables.py data/claims.toml \
+  data/reference/validity$(2).tsv
+	@mkdir -p $$(@D)
+	$$(call whole,$$(PYTHON) $$< data/reference/validity$(2).tsv $$$$new)
+
+figures/generated$(1)/attractors.svg: figures/attractors.py figures/rotor_stator.mplstyle figures/tables.py \
+  data/generated$(1)/sections.tsv
+	@mkdir -p $$(@D)
+	$$(call whole,$$(PYTHON) $$< data/generated$(1)/sections.tsv $$$$new)
+endef
+
+$(foreach reading,$(readings),$(eval $(call truth_of,$(folder_$(reading)),$(suffix_$(reading)),$(reading))))
+
 png: $(patsubst %.svg,%.png,$(filter %.svg,$(untimed)))  ## the figures as PNG, for viewing
 
 %.png: %.svg
@@ -241,6 +271,7 @@ $(pages): data/generated/%.md: paper/include.py paper/%.md data/generated/%.tsv
 
 define claims_rule
 $(claims_of): figures/claims.py figures/tables.py data/claims.toml data/reference/study.tsv \
+  data/reference/validity$(suffix_$(1)).tsv \
   $(tables_of) $(timing_of)
 	$$(call whole,$$(PYTHON) figures/claims.py $$(@D) $$$$new)
 endef
@@ -251,10 +282,10 @@ $(foreach reading,$(readings),$(eval $(call claims_rule,$(reading))))
 # Long studies. Finished pieces are kept in a journal, so an interrupted study goes on; the tables are
 # kept in data/reference, where `all` finds them, and compared with what is computed anew.
 
-studies: identify study timing  ## run the long studies and compare them with their kept tables
+studies: identify study truth timing  ## run the long studies and compare them with their kept tables
 
 ifneq ($(filter studies,$(MAKECMDGOALS)),)
-timing: | identify study
+timing: | identify study truth
 endif
 
 identify: build/identify_parameters  ## score the grid of unpublished parameters (under 10 minutes)
@@ -278,10 +309,30 @@ peers: build/explore | deps-peers  ## outside integrators and AUTO-07p, timed (u
 	  new=data/generated/$${table#*:}.tsv; \
 	  $(PYTHON) peers/$${table%:*} data/scenes/$${table#*:}.toml > $$new.tmp; mv $$new.tmp $$new; done
 
+truth: attractors validity  ## where the periodic solution is true: attractors and validity map
+
+# $(call of_readings,name,shell words of a run with $$r and $$s for reading and suffix,how to compare)
+define of_readings
+@mkdir -p data/generated/as-printed
+for r in $(readings); do s=-$$r; d=/$$r; if [ $$r = exchanged ]; then s=; d=; fi; \
+  new=data/generated$$d/$(1).tsv; \
+  build/$(1) data/scenes/$(1).toml --reading $$r --journal data/generated$$d/$(1).journal $(2) > $$new.tmp; \
+  mv $$new.tmp $$new; $(PYTHON) tests/compare_tables.py $(3) data/reference/$(1)$$s.tsv $$new; done
+endef
+
+attractors: build/attractors  ## where time integration settles, speed by speed (under 6 minutes)
+	$(call of_readings,attractors,,--key set$(comma)f$(comma)origin$(comma)verdict --columns set)
+
+validity: build/validity attractors  ## distance of the solutions to the attractors (under 3 minutes)
+	$(call of_readings,validity,--attractors data/generated$$d/attractors.tsv,--columns found$(comma)distance$(comma)periodic)
+
 adopt:  ## keep the tables of the studies just run, and the verdicts; a commit that does says why
 	@mkdir -p data/reference
 	for name in identification study peers peers_auto $(costs); do \
 	  if [ -e data/generated/$$name.tsv ]; then cp data/generated/$$name.tsv data/reference/; fi; done
+	for name in attractors validity; do for s in "" -as-printed; do \
+	  new=data/generated/$${s#-}/$$name.tsv; \
+	  if [ -e $$new ]; then cp $$new data/reference/$$name$$s.tsv; fi; done; done
 	cp data/generated/claims.tsv data/reference/claims.tsv
 	cp data/generated/as-printed/claims.tsv data/reference/claims-as-printed.tsv
 

@@ -32,8 +32,11 @@ class Table:
     def __getitem__(self, name):
         return self.columns[name]
 
+    def __len__(self):
+        return next(iter(self.columns.values())).size
+
     def rows(self, chosen):
-        """The rows where `chosen` is true, as a table with the same header."""
+        """The rows where `chosen` is true, or of these numbers, as a table with the same header."""
         part = object.__new__(Table)
         part.header = self.header
         part.columns = {key: column[chosen] for key, column in self.columns.items()}

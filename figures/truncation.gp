@@ -1,7 +1,7 @@
-# Truncation: distance of the m-harmonic solution to the integrated motion, both data sets
+# Truncation: distance of the m-harmonic solution to the nearest attractor's motion, both data sets
 #
 # Paper: §3.3, claims C2 and C3.
-# Usage: gnuplot -e "table='data/generated/truncation.tsv'; output='truncation.svg'" \
+# Usage: gnuplot -e "table='data/reference/validity.tsv'; output='truncation.svg'" \
 #        figures/truncation.gp
 # Above, the largest distance over the speeds at which harmonic balance finds a solution; below, the
 # number of speeds at which it finds none, so that few harmonics are not favoured by what they miss.
@@ -18,12 +18,15 @@ set style line limit    lc rgb '#404040' lw 1 dt (2,3)
 set style line paper    lc rgb '#CC79A7' lw 2 dt 1
 set style fill solid noborder
 
-# The rows of a set ($1) by m ($3): m, the largest distance over all found ($4), over those with
-# periodic motion ($5), of the force, the least of these, and the number not found.
+# The rows of the solutions with fixed m.
+fixed = sprintf("< awk -F'\\t' '/^#/ || $3 != 1' '%s'", table)
+
+# The rows of a set ($1) by m ($4): m, the largest distance over all found ($5), over the speeds with a
+# T-periodic attractor ($15), of the force, the least of these, and the number not found.
 by_harmonics(s) = sprintf("< awk -F'\\t' -v OFS='\\t' 'function most(a, b) { return a > b ? a : b } \
   BEGIN { print \"m\", \"all\", \"periodic\", \"force\", \"least\", \"missing\" } \
-  $1 == %d { seen[$3]; if (!$4) { missing[$3]++; next } all[$3] = most(all[$3], $6); \
-    if ($5) same[$3] = most(same[$3], $6); force[$3] = most(force[$3], $7) } \
+  $1 == %d && $3 == 0 { seen[$4]; if (!$5) { missing[$4]++; next } all[$4] = most(all[$4], $6); \
+    if ($15) same[$4] = most(same[$4], $6); force[$4] = most(force[$4], $7) } \
   END { for (m = 1; m in seen; m++) { least = m in same ? same[m] : m in all ? all[m] : 1; \
     print m, all[m], same[m], force[m], least, missing[m] + 0 } }' '%s'", s, table)
 
@@ -34,7 +37,7 @@ of_paper(claim) = real(system(sprintf( \
   "sed -n '/^id = \"%s\"/,/^paper/ s/^paper = \"\\(.*\\)\"/\\1/p' %s", claim, claims)))
 
 # Both columns share their ranges.
-stats table using "m":"set" name 'M' nooutput
+stats fixed using "m":"set" name 'M' nooutput
 sets = int(M_max_y)
 most_missed = 1
 least = real(word(limits, words(limits)))
@@ -43,12 +46,12 @@ do for [s = 1 : sets] {
   stats by_harmonics(s) using "least":"missing" name 'R' nooutput
   least = min(least, R_min_x)
   most_missed = max(most_missed, R_max_y)
-  stats table using (column("set") == s && column("m") == M_min_x ? column("periodic") : NaN) \
+  stats fixed using (column("set") == s && column("m") == M_min_x ? column("periodic") : NaN) \
     name 'T' nooutput
-  title_of[s] = sprintf("data set %d, δ = %g µm: motion T-periodic\nat %d of %d speeds", \
+  title_of[s] = sprintf("data set %d, δ = %g µm: T-periodic\nattractor at %d of %d speeds", \
                         s, 1e6 * clearance(s), T_sum, T_records)
 }
-stats table using (column("distance")):(column("distance_force")) name 'D' nooutput
+stats fixed using (column("distance")):(column("distance_force")) name 'D' nooutput
 greatest = max(D_max_x, D_max_y)
 
 set xrange [M_min_x - 0.7 : M_max_x + 0.7]

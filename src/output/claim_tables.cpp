@@ -49,27 +49,4 @@ Table regime_table(const std::string& scene_file, const std::string& reading)
   return table;
 }
 
-Table truncation_table(const TruncationScene& scene)
-{
-  Table table(
-      "Distance of the m-harmonic solution to the integrated motion",
-      {{"set", "-", "data set"},
-       {"f", "Hz", "speed of rotation"},
-       {"m", "-", "harmonics"},
-       {"found", "-", "1 if a sweep up finds a solution"},
-       {"periodic", "-", "1 if the integrated motion has the period of rotation"},
-       {"distance", "-",
-        "rms of the displacements' difference over the motion's rms; -1"},
-       {"distance_force", "-", "the same of the bearing's force; -1 when not found"}});
-  for (const Parameters& parameters : scene.sets) table.describe(parameters);
-  table.note(text(
-      "modelled: sweeps up with m = 1 to %d, N = 8m+1 or more; %s from rest, %d periods",
-      scene.most_harmonics, scene.time_integration.stepper.method.c_str(),
-      scene.time_integration.shown_periods));
-  for (const TruncationPoint& p : compute_truncation(scene))
-    table.row({p.set, p.frequency, p.harmonics, p.found, p.periodic, p.distance,
-               p.distance_force});
-  return table;
-}
-
 }  // namespace rotor_stator

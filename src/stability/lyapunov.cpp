@@ -1,0 +1,85 @@
+#include "stability/lyapunov.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include "model/errors.hpp"
+
+namespace rotor_stator
+{
+
+namespace
+{
+
+/** Far above rounding, far below what bends the motion. */
+constexpr double first_distance = 1e-7;
+
+/** Few and long, so that neighbouring batches know little of each other. */
+constexpr std::size_t most_batches = 10;
+
+std::vector<double> batch_means(const std::vector<double>& rates)
+{
+  const std::size_t batches = std::min(most_batches, rates.size());
+  std::vector<double> means(batches, 0);
+  for (std::size_t batch = 0; batch < batches; ++batch) {
+    const std::size_t first = batch * rates.size() / batches;
+    const std::size_t last = (batch + 1) * rates.size() / batches;
+    for (std::size_t k = first; k < last; ++k)
+      means[batch] += rates[k] / static_cast<double>(last - first);
+  }
+  return means;
+}
+
+}  // namespace
+
+Exponent exponent_of(const std::vector<double>& rates)
+{
+  const auto count = static_cast<double>(rates.size());
+  double mean = 0;
+  for (double rate : rates) mean += rate / count;
+  const std::vector<double> batches = batch_means(rates);
+  const auto n = static_cast<double>(batches.size());
+  double squares = 0;
+  for (double batch : batches) squares += (batch - mean) * (batch - mean);
+  return {mean, std::sqrt(squares / (n * (n - 1)))};
+}
+
+/** The neighbour starts off in all directions, so that none is missed. */
+Neighbours::Neighbours(TimeStepper stepper, int intervals_per_period,
+                       const Vector8& scales, const State& start)
+    : stepper_(std::move(stepper)),
+      intervals_(intervals_per_period),
+      scales_(scales),
+      state_(start)
+{
+  const double share = first_distance / std::sqrt(8.0);
+  neighbour_ = state_of(vector_of(start) + share * scales);
+}
+
+double Neighbours::advance_one_period(const std::function<void(const State&)>& visit)
+{
+  double growth = 0;
+  for (long k = 0; k < intervals_; ++k) {
+    if (visit) visit(state_);
+    const long interval = periods_ * intervals_ + k;
+    stepper_.advance(interval, state_);
+    stepper_.advance(interval, neighbour_);
+    growth += pull_back();
+  }
+  ++periods_;
+  return growth;
+}
+
+double Neighbours::pull_back()
+{
+  const Vector8 y = vector_of(state_);
+  const Vector8 apart = vector_of(neighbour_) - y;
+  const double growth = apart.cwiseQuotient(scales_).norm() / first_distance;
+  if (!std::isfinite(growth) || !(growth > 0))
+    throw NoSolution(text("neighbouring motions after %ld periods: distance %g", periods_,
+                          growth * first_distance));
+  neighbour_ = state_of(y + apart / growth);
+  return std::log(growth);
+}
+
+}  // namespace rotor_stator
