@@ -49,6 +49,9 @@ studied := $(addprefix data/generated/,sensitivity.tsv sensitivity_derivatives.t
 pages := data/generated/deviations.md
 
 readings := exchanged as-printed
+# Drawn for the readings whose table is kept.
+studied += $(foreach reading,$(readings),$(if \
+  $(wildcard data/reference/stability$(suffix_$(reading)).tsv),figures/generated$(folder_$(reading))/stability.svg))
 timings := $(foreach reading,$(readings),$(call timing_of,$(reading)))
 claims := $(foreach reading,$(readings),$(call claims_of,$(reading)))
 untimed := $(foreach reading,$(readings),$(call tables_of,$(reading)) $(call figures_of,$(reading))) \
@@ -56,7 +59,7 @@ untimed := $(foreach reading,$(readings),$(call tables_of,$(reading)) $(call fig
 programs := $(patsubst src/%.cpp,build/%,$(wildcard src/*.cpp))
 
 .PHONY: all figures timing claims test sanitize deps list png readme golden format clean \
-  studies identify study adopt peers deps-peers
+  studies identify study stability adopt peers deps-peers
 
 all: $(untimed) $(timings) $(claims)  ## figures, tables and claims of both readings (the default)
 
@@ -211,6 +214,16 @@ figures/generated/peers.svg: figures/peers.py figures/rotor_stator.mplstyle figu
 	@mkdir -p $(@D)
 	$(call whole,$(PYTHON) $< data/reference/peers.tsv $$new)
 
+# So is the stability of the response curves.
+define stability_of
+figures/generated$(folder_$(1))/stability.svg: figures/stability.gp figures/style.gp \
+  data/reference/stability$(suffix_$(1)).tsv
+	@mkdir -p $$(@D)
+	$$(call whole,gnuplot -e "table='data/reference/stability$(suffix_$(1)).tsv'; output='$$$$new'" $$<)
+endef
+
+$(foreach reading,$(readings),$(eval $(call stability_of,$(reading))))
+
 png: $(patsubst %.svg,%.png,$(filter %.svg,$(untimed)))  ## the figures as PNG, for viewing
 
 %.png: %.svg
@@ -237,7 +250,7 @@ $(foreach reading,$(readings),$(eval $(call claims_rule,$(reading))))
 # Long studies. Finished pieces are kept in a journal, so an interrupted study goes on; the tables are
 # kept in data/reference, where `all` finds them, and compared with what is computed anew.
 
-studies: identify study  ## run the long studies and compare them with their kept tables
+studies: identify study stability  ## run the long studies and compare them with their kept tables
 
 identify: build/identify_parameters  ## score the grid of unpublished parameters (under 10 minutes)
 	@mkdir -p data/generated
@@ -248,6 +261,15 @@ study: build/clearance_stiffness_study  ## clearance against contact stiffness (
 	@mkdir -p data/generated
 	new=data/generated/study.tsv; $< --journal data/generated/study.journal > $$new.tmp; \
 	  mv $$new.tmp $$new; $(PYTHON) tests/compare_tables.py data/reference/study.tsv $$new
+
+stability: build/response_stability  ## stability along the response curves, both readings (under 5 minutes)
+	@mkdir -p data/generated
+	for reading in exchanged as-printed; do suffix=; \
+	  if [ $$reading = as-printed ]; then suffix=-as-printed; fi; \
+	  new=data/generated/stability$$suffix.tsv; \
+	  $< --reading $$reading --journal data/generated/stability$$suffix.journal > $$new.tmp; mv $$new.tmp $$new; \
+	  if [ -e data/reference/stability$$suffix.tsv ]; then \
+	    $(PYTHON) tests/compare_tables.py data/reference/stability$$suffix.tsv $$new; fi; done
 
 # Other people's programs on the same equations; not part of `studies`, and installed by this alone.
 peers: build/explore | deps-peers  ## outside integrators and AUTO-07p, timed (under 10 minutes)
@@ -262,7 +284,7 @@ peers: build/explore | deps-peers  ## outside integrators and AUTO-07p, timed (u
 
 adopt:  ## keep the tables of the studies just run, and the verdicts; a commit that does says why
 	@mkdir -p data/reference
-	for name in identification study peers peers_auto; do \
+	for name in identification study stability stability-as-printed peers peers_auto; do \
 	  if [ -e data/generated/$$name.tsv ]; then cp data/generated/$$name.tsv data/reference/; fi; done
 	cp data/generated/claims.tsv data/reference/claims.tsv
 	cp data/generated/as-printed/claims.tsv data/reference/claims-as-printed.tsv

@@ -7,6 +7,7 @@
 #include "scenes/contact.hpp"
 #include "scenes/motion.hpp"
 #include "scenes/response.hpp"
+#include "stability/floquet.hpp"
 
 namespace rotor_stator
 {
@@ -37,6 +38,23 @@ void check(const MotionRequest& request)
   require_method(request.method);
 }
 
+/** What the Floquet multipliers say of a solution. */
+std::string stability_note(const Parameters& parameters, const PeriodicSolution& solution)
+{
+  try {
+    const Floquet motion = floquet(parameters, solution.omega, solution.x);
+    const char* verdict = motion.stable()     ? "stable"
+                          : motion.unstable() ? "unstable"
+                                              : "undecided";
+    return text(
+        "stability: %s; largest Floquet multiplier %.9g +- %.2g, along the %d "
+        "harmonics",
+        verdict, motion.largest(), motion.uncertainty(), solution.harmonics);
+  } catch (const NoSolution& error) {
+    return std::string("stability: not found; ") + error.what();
+  }
+}
+
 Motion balance_motion(const Parameters& parameters, const MotionRequest& request,
                       int samples, Table& table)
 {
@@ -50,7 +68,9 @@ Motion balance_motion(const Parameters& parameters, const MotionRequest& request
   table.note(text("method: aft, m = %d, N = %d, relative tolerance %g", request.harmonics,
                   samples, request.tolerance));
   table.note("newton: from " + solution.start + ", " + solution.newton.reason());
-  table.note("the period is imposed by the method; stability is not tested");
+  table.note("the period is imposed by the method");
+  table.note(request.stability ? stability_note(parameters, solution)
+                               : "stability is not tested");
   table.note("regime: periodic");
   return motion_of(solution.bodies, request.points);
 }

@@ -80,7 +80,7 @@ public:
   {
   }
 
-  std::vector<StablePoint> along(const Branch& branch)
+  BranchStability along(const Branch& branch)
   {
     std::size_t folds = 0;
     for (const BranchPoint& point : branch.points) {
@@ -94,11 +94,14 @@ public:
       else
         go_to(std::move(next), settings_.most_halvings);
     }
-    return std::move(found_);
+    return {std::move(found_), missed_};
   }
 
 private:
-  StablePoint known(const BranchPoint& point) const { return {point, floquet_at_(point)}; }
+  StablePoint known(const BranchPoint& point) const
+  {
+    return {point, floquet_at_(point)};
+  }
 
   /** What happens between the last point and `next`, then `next`. */
   void go_to(StablePoint next, int halvings)
@@ -133,20 +136,32 @@ private:
   {
     const double omega = 0.5 * (a.point.omega + b.point.omega);
     if (std::abs(a.point.omega - b.point.omega) <= settings_.tolerance * omega) return {};
-    return known(point_between(balance_, a.point, b.point, omega, arc_length_));
+    try {
+      return known(point_between(balance_, a.point, b.point, omega, arc_length_));
+    } catch (const NoSolution&) {
+      return {};
+    }
   }
 
   void add(const Kind& kind, const StablePoint& a, const StablePoint& b,
-           std::vector<StablePoint>& passed) const
+           std::vector<StablePoint>& passed)
   {
-    StablePoint point = known(locate(
-        balance_, a.point, b.point,
-        [&](const BranchPoint& p) { return kind.test(floquet_at_(p).multipliers); },
-        settings_.tolerance, arc_length_));
+    const TestFunction test = [&](const BranchPoint& p) {
+      return kind.test(floquet_at_(p).multipliers);
+    };
+    StablePoint point;
+    try {
+      point = known(
+          locate(balance_, a.point, b.point, test, settings_.tolerance, arc_length_));
+    } catch (const NoSolution&) {
+      ++missed_;
+      return;
+    }
     if (kind.bifurcation == Bifurcation::neimark_sacker &&
         !is_complex_pair(point.floquet.multipliers))
       return;
-    if (kind.bifurcation == Bifurcation::plus_one && (is_fold(a, point) || is_fold(b, point)))
+    if (kind.bifurcation == Bifurcation::plus_one &&
+        (is_fold(a, point) || is_fold(b, point)))
       return;
     point.bifurcation = kind.bifurcation;
     passed.push_back(std::move(point));
@@ -165,6 +180,7 @@ private:
   const FloquetAt& floquet_at_;
   const BranchStabilitySettings& settings_;
   std::vector<StablePoint> found_;
+  int missed_ = 0;
 };
 
 }  // namespace
@@ -175,10 +191,10 @@ int unstable_count(const Multipliers& multipliers)
                                         [](Complex mu) { return std::abs(mu) > 1; }));
 }
 
-std::vector<StablePoint> stability_along(Balance& balance, const Branch& branch,
-                                         const ArcLengthSettings& arc_length,
-                                         const FloquetAt& floquet_at,
-                                         const BranchStabilitySettings& settings)
+BranchStability stability_along(Balance& balance, const Branch& branch,
+                                const ArcLengthSettings& arc_length,
+                                const FloquetAt& floquet_at,
+                                const BranchStabilitySettings& settings)
 {
   return Walk(balance, arc_length, floquet_at, settings).along(branch);
 }

@@ -41,12 +41,17 @@ struct BranchStabilitySettings {
   int most_halvings = 6;    ///< of a step of the branch
 };
 
-/** The points of the branch, those added, and the bifurcations, in order. `balance` and
-    `arc_length` are those the branch was followed with. */
-std::vector<StablePoint> stability_along(Balance& balance, const Branch& branch,
-                                         const ArcLengthSettings& arc_length,
-                                         const FloquetAt& floquet_at,
-                                         const BranchStabilitySettings& settings = {});
+struct BranchStability {
+  std::vector<StablePoint> points;  ///< of the branch, added ones, bifurcations, in order
+  int missed = 0;  ///< changes of sign that could not be located on the branch
+};
+
+/** `balance` and `arc_length` are those the branch was followed with. Throws what `floquet_at`
+    throws. */
+BranchStability stability_along(Balance& balance, const Branch& branch,
+                                const ArcLengthSettings& arc_length,
+                                const FloquetAt& floquet_at,
+                                const BranchStabilitySettings& settings = {});
 
 /** Multipliers outside the unit circle. */
 int unstable_count(const Multipliers& multipliers);

@@ -47,9 +47,10 @@ double distance(const Multipliers& a, Multipliers b)
 {
   double largest = 0;
   for (const auto& mu : a) {
-    const auto partner = std::min_element(
-        b.begin(), b.end(),
-        [&](const auto& p, const auto& q) { return std::abs(p - mu) < std::abs(q - mu); });
+    const auto partner =
+        std::min_element(b.begin(), b.end(), [&](const auto& p, const auto& q) {
+          return std::abs(p - mu) < std::abs(q - mu);
+        });
     largest = std::max(largest, std::abs(*partner - mu) / std::max(1.0, std::abs(mu)));
     b.erase(partner);
   }

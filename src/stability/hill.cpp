@@ -72,9 +72,8 @@ Quadratic quadratic_of(const Vibration& v, const std::vector<Eigen::MatrixXcd>& 
         per_mass * v.damping + 2.0 * turn * Eigen::MatrixXcd::Identity(d, d);
     for (int l = -harmonics; l <= harmonics; ++l)
       constant.block(row, d * (harmonics + l), d, d) = per_mass * coupling(kappa, k, l);
-    constant.block(row, row, d, d) +=
-        per_mass * (v.stiffness + turn * v.damping) +
-        turn * turn * Eigen::MatrixXcd::Identity(d, d);
+    constant.block(row, row, d, d) += per_mass * (v.stiffness + turn * v.damping) +
+                                      turn * turn * Eigen::MatrixXcd::Identity(d, d);
   }
   return {(t.adjoint() * linear * t).real(), (t.adjoint() * constant * t).real()};
 }
@@ -103,14 +102,15 @@ std::vector<Candidate> candidates(const Quadratic& q, const Eigen::MatrixXcd& t,
   Eigen::MatrixXd standard(2 * n, 2 * n);
   standard << Eigen::MatrixXd::Zero(n, n), rate * Eigen::MatrixXd::Identity(n, n),
       -q.constant / rate, -q.linear;
-  const Eigen::EigenSolver<Eigen::MatrixXd> solver(
-      standard, choice == HillChoice::most_symmetric);
+  const Eigen::EigenSolver<Eigen::MatrixXd> solver(standard,
+                                                   choice == HillChoice::most_symmetric);
   std::vector<Candidate> all;
   for (Eigen::Index j = 0; j < 2 * n; ++j) {
     const Complex exponent = solver.eigenvalues()[j];
-    all.push_back({exponent, choice == HillChoice::least_imaginary
-                                 ? std::abs(exponent.imag())
-                                 : asymmetry(t * solver.eigenvectors().col(j).head(n), d)});
+    all.push_back(
+        {exponent, choice == HillChoice::least_imaginary
+                       ? std::abs(exponent.imag())
+                       : asymmetry(t * solver.eigenvectors().col(j).head(n), d)});
   }
   std::sort(all.begin(), all.end(), [](const Candidate& a, const Candidate& b) {
     return a.rank != b.rank ? a.rank < b.rank : a.exponent.imag() > b.exponent.imag();

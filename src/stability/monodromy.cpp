@@ -102,8 +102,7 @@ private:
     for (double tau : {0.2, 0.5, 0.8})
       fastest = std::max(fastest, squared_rate(panel.phase(tau)));
     const bool shortest = panel.width() < 1e-12;
-    const bool too_long =
-        std::sqrt(fastest) * panel.width() * seconds_ > settings_.panel;
+    const bool too_long = std::sqrt(fastest) * panel.width() * seconds_ > settings_.panel;
     const bool done = (shortest || !too_long) && extrapolate(panel);
     if (!done && !shortest) {
       const double middle = panel.begin + panel.width() / 2;
@@ -175,7 +174,7 @@ private:
   double seconds_;  ///< per radian of the phase
   const MonodromySettings& settings_;
   double rate_ = 0;  ///< r [1/s]
-  Columns q_, w_;   ///< the disturbances that began as the unit vectors
+  Columns q_, w_;    ///< the disturbances that began as the unit vectors
   Propagator product_, total_ = Propagator::Identity();
   double log_determinant_ = 0;
   long evaluations_ = 0;

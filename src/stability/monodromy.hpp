@@ -31,12 +31,13 @@ struct Vibration {
 struct PeriodicStiffness {
   /** Writes k at a phase, column by column, d² values. */
   std::function<void(double phase, double* k)> at;
-  std::vector<double> breaks = {};  ///< phases in [0, 2π] where k is not smooth, ascending
+  std::vector<double> breaks =
+      {};  ///< phases in [0, 2π] where k is not smooth, ascending
 };
 
 struct MonodromySettings {
   double tolerance = 1e-8;  ///< of the extrapolation in a panel, relative
-  double panel = 2;          ///< longest panel, in radians of the fastest vibration in it
+  double panel = 2;         ///< longest panel, in radians of the fastest vibration in it
   long most_evaluations = 8000000;  ///< of k
 };
 
