@@ -41,7 +41,8 @@ struct Followed {
 
 Followed follow(const Oscillator& oscillator, int harmonics, int samples, double from,
                 double to, double most_step, const Eigen::VectorXd* start = nullptr,
-                const BranchStabilitySettings& marks = {})
+                const BranchStabilitySettings& marks = {},
+                const FloquetSettings& accuracy = {})
 {
   Balance balance(oscillator.problem(samples), harmonics);
   const Eigen::VectorXd x = start ? *start : Eigen::VectorXd::Zero(balance.unknowns());
@@ -50,7 +51,7 @@ Followed follow(const Oscillator& oscillator, int harmonics, int samples, double
   const Vibration vibration{oscillator.mass, oscillator.damping, oscillator.stiffness};
   const auto floquet_at = [&](const BranchPoint& p) {
     return floquet(vibration, stiffness_along(oscillator, p.x),
-                   2 * std::numbers::pi / p.omega);
+                   2 * std::numbers::pi / p.omega, accuracy);
   };
   followed.stability =
       stability_along(balance, followed.branch, settings, floquet_at, marks);
@@ -126,15 +127,17 @@ TEST_CASE(
     return resize_harmonics(lead.points.back().x, 2, 41);
   };
   const BranchStabilitySettings rough{.tolerance = 1e-3, .most_halvings = 0};
+  const FloquetSettings quick{
+      .tolerance = 1e-3, .first = {.tolerance = 1e-6}, .most_refinements = 1};
   Eigen::VectorXd start = at(0.6);
-  const auto low = follow(oscillator, 41, 1024, 0.6, 0.635, 0.5, &start, rough);
-  CHECK(low.stability.points.front().floquet.unstable());
-  CHECK(low.stability.points.back().floquet.stable());
+  const auto low = follow(oscillator, 41, 1024, 0.6, 0.635, 0.5, &start, rough, quick);
+  CHECK(low.stability.points.front().floquet.largest() > 1);
+  CHECK(low.stability.points.back().floquet.largest() < 1);
   CHECK_FALSE(low.speeds(Bifurcation::neimark_sacker).empty());
   start = at(0.7);
-  const auto high = follow(oscillator, 41, 1024, 0.7, 0.75, 0.5, &start, rough);
-  CHECK(high.stability.points.front().floquet.stable());
-  CHECK(high.stability.points.back().floquet.unstable());
+  const auto high = follow(oscillator, 41, 1024, 0.7, 0.75, 0.5, &start, rough, quick);
+  CHECK(high.stability.points.front().floquet.largest() < 1);
+  CHECK(high.stability.points.back().floquet.largest() > 1);
   CHECK_FALSE(high.speeds(Bifurcation::period_doubling).empty());
 }
 
