@@ -52,6 +52,9 @@ studied := $(addprefix data/generated/,sensitivity.tsv sensitivity_derivatives.t
 pages := data/generated/deviations.md
 
 readings := exchanged as-printed
+# Drawn for the readings whose table is kept.
+studied += $(foreach reading,$(readings),$(if \
+  $(wildcard data/reference/stability$(suffix_$(reading)).tsv),figures/generated$(folder_$(reading))/stability.svg))
 timings := $(foreach reading,$(readings),$(call timing_of,$(reading)))
 claims := $(foreach reading,$(readings),$(call claims_of,$(reading)))
 untimed := $(foreach reading,$(readings),$(call tables_of,$(reading)) $(call figures_of,$(reading))) \
@@ -59,7 +62,7 @@ untimed := $(foreach reading,$(readings),$(call tables_of,$(reading)) $(call fig
 programs := $(patsubst src/%.cpp,build/%,$(wildcard src/*.cpp))
 
 .PHONY: all figures timing claims test sanitize deps list png readme golden format clean \
-  studies identify study truth attractors validity adopt peers deps-peers bench
+  studies identify study truth attractors validity stability adopt peers deps-peers bench
 
 all: $(untimed) $(timings) $(claims)  ## figures, tables and claims of both readings (the default)
 
@@ -255,6 +258,16 @@ endef
 
 $(foreach reading,$(readings),$(eval $(call truth_of,$(folder_$(reading)),$(suffix_$(reading)),$(reading))))
 
+# So is the stability of the response curves.
+define stability_of
+figures/generated$(folder_$(1))/stability.svg: figures/stability.gp figures/style.gp \
+  data/reference/stability$(suffix_$(1)).tsv
+	@mkdir -p $$(@D)
+	$$(call whole,gnuplot -e "table='data/reference/stability$(suffix_$(1)).tsv'; output='$$$$new'" $$<)
+endef
+
+$(foreach reading,$(readings),$(eval $(call stability_of,$(reading))))
+
 png: $(patsubst %.svg,%.png,$(filter %.svg,$(untimed)))  ## the figures as PNG, for viewing
 
 %.png: %.svg
@@ -298,6 +311,15 @@ study: build/clearance_stiffness_study  ## clearance against contact stiffness (
 	new=data/generated/study.tsv; $< --journal data/generated/study.journal > $$new.tmp; \
 	  mv $$new.tmp $$new; $(PYTHON) tests/compare_tables.py data/reference/study.tsv $$new
 
+stability: build/response_stability  ## stability along the response curves, both readings (under 5 minutes)
+	@mkdir -p data/generated
+	for reading in exchanged as-printed; do suffix=; \
+	  if [ $$reading = as-printed ]; then suffix=-as-printed; fi; \
+	  new=data/generated/stability$$suffix.tsv; \
+	  $< --reading $$reading --journal data/generated/stability$$suffix.journal > $$new.tmp; mv $$new.tmp $$new; \
+	  if [ -e data/reference/stability$$suffix.tsv ]; then \
+	    $(PYTHON) tests/compare_tables.py data/reference/stability$$suffix.tsv $$new; fi; done
+
 # Other people's programs on the same equations; not part of `studies`, and installed by this alone.
 peers: build/explore | deps-peers  ## outside integrators and AUTO-07p, timed (under 10 minutes)
 	@mkdir -p data/generated
@@ -309,7 +331,7 @@ peers: build/explore | deps-peers  ## outside integrators and AUTO-07p, timed (u
 	  new=data/generated/$${table#*:}.tsv; \
 	  $(PYTHON) peers/$${table%:*} data/scenes/$${table#*:}.toml > $$new.tmp; mv $$new.tmp $$new; done
 
-truth: attractors validity  ## where the periodic solution is true: attractors and validity map
+truth: attractors validity stability  ## where the periodic solution is true: attractors, validity map, stability
 
 # $(call of_readings,name,shell words of a run with $$r and $$s for reading and suffix,how to compare)
 define of_readings
@@ -328,7 +350,7 @@ validity: build/validity attractors  ## distance of the solutions to the attract
 
 adopt:  ## keep the tables of the studies just run, and the verdicts; a commit that does says why
 	@mkdir -p data/reference
-	for name in identification study peers peers_auto $(costs); do \
+	for name in identification study stability stability-as-printed peers peers_auto $(costs); do \
 	  if [ -e data/generated/$$name.tsv ]; then cp data/generated/$$name.tsv data/reference/; fi; done
 	for name in attractors validity; do for s in "" -as-printed; do \
 	  new=data/generated/$${s#-}/$$name.tsv; \

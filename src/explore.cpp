@@ -49,6 +49,8 @@ void add_motion_options(CLI::App& command, MotionRequest& request)
                      "longest step of rk4 [s] (default: from K_H)");
   command.add_option("--longest", request.longest, "longest transient [s]")
       ->capture_default_str();
+  command.add_flag("!--no-stability", request.stability,
+                   "leave out the Floquet multipliers of aft");
 }
 
 void add_response_options(CLI::App& command, ResponseRequest& request)

@@ -45,6 +45,9 @@ def main(arguments):
         sys.exit(f"{arguments.new}: {len(new)} rows, {arguments.kept} has {len(kept)}")
     agrees = np.full(len(kept), True)
     for name in arguments.columns or kept.columns:
+        if kept[name].dtype.kind == "U":
+            agrees &= kept[name] == new[name]
+            continue
         off = abs(kept[name] - new[name])
         agrees &= off <= OF_LARGEST * abs(kept[name]).max()
         print(f"{name}: largest difference {off.max():.3g}")

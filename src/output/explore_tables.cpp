@@ -8,6 +8,7 @@
 #include "scenes/contact.hpp"
 #include "scenes/motion.hpp"
 #include "scenes/response.hpp"
+#include "stability/floquet.hpp"
 
 namespace rotor_stator
 {
@@ -66,6 +67,23 @@ AdaptiveSolution solved(const Parameters& parameters, const MotionRequest& reque
                           {.tolerance = *request.tolerance, .newton = newton});
 }
 
+/** What the Floquet multipliers say of a solution. */
+std::string stability_note(const Parameters& parameters, const PeriodicSolution& solution)
+{
+  try {
+    const Floquet motion = floquet(parameters, solution.omega, solution.x);
+    const char* verdict = motion.stable()     ? "stable"
+                          : motion.unstable() ? "unstable"
+                                              : "undecided";
+    return text(
+        "stability: %s; largest Floquet multiplier %.9g +- %.2g, along the %d "
+        "harmonics",
+        verdict, motion.largest(), motion.uncertainty(), solution.harmonics);
+  } catch (const NoSolution& error) {
+    return std::string("stability: not found; ") + error.what();
+  }
+}
+
 Motion balance_motion(const Parameters& parameters, const MotionRequest& request,
                       Table& table)
 {
@@ -86,7 +104,9 @@ Motion balance_motion(const Parameters& parameters, const MotionRequest& request
              "tolerance %g",
              at.estimate.displacement, at.estimate.harmonics, at.estimate.samples,
              *request.tolerance));
-  table.note("the period is imposed by the method; stability is not tested");
+  table.note("the period is imposed by the method");
+  table.note(request.stability ? stability_note(parameters, at.solution)
+                               : "stability is not tested");
   table.note("regime: periodic");
   return motion_of(at.solution.bodies, request.points);
 }

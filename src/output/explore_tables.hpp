@@ -25,6 +25,7 @@ struct MotionRequest {
   double local_error = 1e-11;       ///< GSL's methods, relative
   std::optional<double> step;       ///< rk4 [s]
   double longest = 30;              ///< transient at most [s]
+  bool stability = true;            ///< Floquet multipliers in the header (aft)
 };
 
 /** One branch over a range of speeds, and on demand others beside it. */

@@ -1,9 +1,9 @@
 #include "stability/floquet.hpp"
 
 #include <Eigen/Eigenvalues>
-#include <Eigen/LU>
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <numbers>
 
 #include "balance/fourier_transform.hpp"
@@ -13,98 +13,73 @@
 namespace rotor_stator
 {
 
-namespace
+void sort_by_modulus(Multipliers& multipliers)
 {
-
-using Multipliers = std::vector<std::complex<double>>;
-
-Multipliers eigenvalues(const Eigen::MatrixXd& phi)
-{
-  if (!phi.allFinite())
-    throw NoSolution("the disturbances of the motion overflow within one period");
-  const Eigen::VectorXcd values = phi.eigenvalues();
-  Multipliers sorted(values.begin(), values.end());
-  /** A conjugate pair has one modulus but for rounding; its upper half comes first. */
-  std::sort(sorted.begin(), sorted.end(), [](const auto& a, const auto& b) {
+  /** A conjugate pair has one modulus but for rounding. */
+  std::sort(multipliers.begin(), multipliers.end(), [](const auto& a, const auto& b) {
     const double difference = std::abs(a) - std::abs(b);
     return std::abs(difference) > 1e-12 * std::abs(a) ? difference > 0
                                                       : a.imag() > b.imag();
   });
-  return sorted;
 }
 
-/** The largest distance of a multiplier to its nearest partner among the coarser ones. */
-double change(const Multipliers& fine, Multipliers coarse)
+Multipliers multipliers_of(const Eigen::MatrixXd& phi)
+{
+  if (!phi.allFinite())
+    throw NoSolution("the disturbances of the motion overflow within one period");
+  /** Displacements and speeds on one scale, which keeps the small eigenvalues. */
+  const auto d = phi.rows() / 2;
+  Eigen::MatrixXd scaled = phi;
+  const double up = phi.bottomLeftCorner(d, d).norm();
+  const double down = phi.topRightCorner(d, d).norm();
+  if (up > 0 && down > 0) {
+    const double rate = std::sqrt(up / down);
+    scaled.topRightCorner(d, d) *= rate;
+    scaled.bottomLeftCorner(d, d) /= rate;
+  }
+  const Eigen::VectorXcd values = scaled.eigenvalues();
+  Multipliers multipliers(values.begin(), values.end());
+  sort_by_modulus(multipliers);
+  return multipliers;
+}
+
+double distance(const Multipliers& a, Multipliers b)
 {
   double largest = 0;
-  for (const auto& mu : fine) {
+  for (const auto& mu : a) {
     const auto partner =
-        std::min_element(coarse.begin(), coarse.end(), [&](const auto& a, const auto& b) {
-          return std::abs(a - mu) < std::abs(b - mu);
+        std::min_element(b.begin(), b.end(), [&](const auto& p, const auto& q) {
+          return std::abs(p - mu) < std::abs(q - mu);
         });
     largest = std::max(largest, std::abs(*partner - mu) / std::max(1.0, std::abs(mu)));
-    coarse.erase(partner);
+    b.erase(partner);
   }
   return largest;
 }
 
-/** Of the product of the multipliers against its closed form; the product of all is the
-    determinant, whose small factors an eigenvalue solver would lose. */
-double liouville_error(const Vibration& vibration, const Eigen::MatrixXd& phi,
-                       double period)
-{
-  const double exact = -period * (vibration.mass.inverse() * vibration.damping).trace();
-  return std::abs(phi.determinant() / std::exp(exact) - 1);
-}
-
-/** Steps that resolve the fastest vibration along the motion. */
-int first_steps(const Vibration& vibration, const StiffnessAlong& stiffness,
-                double period, double steps_per_radian)
-{
-  constexpr int looked_at = 512;
-  const Eigen::MatrixXd table = stiffness(looked_at);
-  const Eigen::MatrixXd per_mass = vibration.mass.inverse();
-  const auto d = vibration.mass.rows();
-  double fastest = 0;
-  for (Eigen::Index row = 0; row < table.rows(); ++row)
-    fastest = std::max(
-        fastest,
-        (per_mass * (vibration.stiffness + table.row(row).reshaped(d, d))).norm());
-  const double steps = steps_per_radian * std::sqrt(fastest) * period;
-  int power = 64;
-  while (power < steps && power < (1 << 24)) power *= 2;
-  return power;
-}
-
-}  // namespace
-
-Floquet floquet(const Vibration& vibration, const StiffnessAlong& stiffness,
+Floquet floquet(const Vibration& vibration, const PeriodicStiffness& stiffness,
                 double period, const FloquetSettings& settings)
 {
-  int steps = first_steps(vibration, stiffness, period, settings.steps_per_radian);
-  if (steps > settings.most_steps)
-    throw NoSolution(
-        text("a period would need %d steps of the linearised motion; at "
-             "most %d are taken",
-             steps, settings.most_steps));
-  Multipliers coarse = eigenvalues(monodromy(vibration, stiffness(2 * steps), period));
-  Floquet result{.multipliers = coarse,
+  const double log_product =
+      -period * (vibration.mass.inverse() * vibration.damping).trace();
+  MonodromySettings finer = settings.first;
+  Monodromy along = monodromy(vibration, stiffness, period, finer);
+  Floquet result{.multipliers = multipliers_of(along.phi),
                  .change = std::numeric_limits<double>::infinity(),
                  .liouville = 0,
-                 .steps = steps,
+                 .evaluations = along.evaluations,
                  .settled = false};
-  int agreements = 0;
-  while (agreements < 2 && 2 * steps <= settings.most_steps) {
-    steps *= 2;
-    const Eigen::MatrixXd phi = monodromy(vibration, stiffness(2 * steps), period);
-    result.multipliers = eigenvalues(phi);
-    result.change = change(result.multipliers, coarse);
-    result.liouville = liouville_error(vibration, phi, period);
-    result.steps = steps;
-    agreements = result.change <= settings.tolerance ? agreements + 1 : 0;
-    coarse = result.multipliers;
+  for (int k = 0; k < settings.most_refinements && !result.settled; ++k) {
+    finer.tolerance /= 100;
+    finer.panel /= 1.5;
+    along = monodromy(vibration, stiffness, period, finer);
+    Multipliers fine = multipliers_of(along.phi);
+    result.change = distance(fine, result.multipliers);
+    result.settled = result.change <= settings.tolerance;
+    result.multipliers = std::move(fine);
+    result.evaluations += along.evaluations;
   }
-  result.settled = agreements >= 2;
+  result.liouville = std::abs(std::expm1(along.log_determinant - log_product));
   return result;
 }
 
@@ -119,26 +94,103 @@ Vibration vibration_of(const Parameters& parameters)
           .stiffness = diagonal(s.stiffness(), r.stiffness())};
 }
 
-StiffnessAlong stiffness_along(const Parameters& parameters, const Eigen::VectorXd& x)
+namespace
 {
-  const Eigen::MatrixXd series = x.reshaped(2, x.size() / 2);
-  return [parameters, series](int n) {
-    const BallBearing bearing(parameters.bearing);
-    const Eigen::MatrixXd u = sample_series(series, n);
-    Eigen::MatrixXd table(n, 16);
-    for (int k = 0; k < n; ++k) {
-      const double cage =
-          parameters.bearing.cage_speed_ratio * 2 * std::numbers::pi * k / n;
-      const Stiffness2 s =
-          bearing.reaction(Direction::of(cage), {u(k, 0), u(k, 1)}).stiffness;
-      Eigen::Matrix2d joint;
-      joint << s.xx, s.xy, s.xy, s.yy;
-      Eigen::Matrix4d both;
-      both << joint, -joint, -joint, joint;
-      table.row(k) = both.reshaped();
+
+/** The bearing along a series of u. */
+class BearingAlong
+{
+public:
+  BearingAlong(const Bearing& bearing, const Eigen::VectorXd& x)
+      : bearing_(bearing),
+        clearance_(bearing.clearance),
+        cage_ratio_(bearing.cage_speed_ratio),
+        series_(x.reshaped(2, x.size() / 2))
+  {
+  }
+
+  Vec2 at(double phase) const
+  {
+    const std::complex<double> turn = std::polar(1.0, phase);
+    std::complex<double> power = 1;
+    double u_x = series_(0, 0), u_y = series_(1, 0);
+    for (Eigen::Index h = 1; h < series_.cols(); h += 2) {
+      power *= turn;
+      u_x += power.real() * series_(0, h) + power.imag() * series_(0, h + 1);
+      u_y += power.real() * series_(1, h) + power.imag() * series_(1, h + 1);
     }
-    return table;
-  };
+    return {u_x, u_y};
+  }
+
+  /** ∂F/∂u as the stiffness of x_s, y_s, x_r, y_r. */
+  void stiffness(double phase, double* k) const
+  {
+    const Stiffness2 s =
+        bearing_.reaction(Direction::of(cage_ratio_ * phase), at(phase)).stiffness;
+    Eigen::Matrix2d joint;
+    joint << s.xx, s.xy, s.xy, s.yy;
+    Eigen::Map<Eigen::Matrix4d>(k) << joint, -joint, -joint, joint;
+  }
+
+  /** The phases where a ball's penetration changes its sign, ascending. */
+  std::vector<double> contact_changes() const
+  {
+    const int points = static_cast<int>(std::max<Eigen::Index>(512, 8 * series_.cols()));
+    std::vector<double> before = penetrations(0), found;
+    for (int k = 1; k <= points; ++k) {
+      const double step = 2 * std::numbers::pi / points;
+      std::vector<double> after = penetrations(k * step);
+      for (std::size_t ball = 0; ball < after.size(); ++ball)
+        if ((before[ball] > 0) != (after[ball] > 0))
+          found.push_back(change_of(ball, (k - 1) * step, k * step));
+      before = std::move(after);
+    }
+    std::sort(found.begin(), found.end());
+    return found;
+  }
+
+private:
+  double penetration(std::size_t ball, Vec2 in_cage) const
+  {
+    const Direction& d = bearing_.balls()[ball];
+    return d.cos * in_cage.x + d.sin * in_cage.y - clearance_;
+  }
+
+  Vec2 in_cage(double phase) const
+  {
+    return into_frame(Direction::of(cage_ratio_ * phase), at(phase));
+  }
+
+  std::vector<double> penetrations(double phase) const
+  {
+    const Vec2 u = in_cage(phase);
+    std::vector<double> values(bearing_.balls().size());
+    for (std::size_t ball = 0; ball < values.size(); ++ball)
+      values[ball] = penetration(ball, u);
+    return values;
+  }
+
+  /** The change between two phases, by bisection to rounding. */
+  double change_of(std::size_t ball, double a, double b) const
+  {
+    const bool before = penetration(ball, in_cage(a)) > 0;
+    for (double middle; (middle = a + (b - a) / 2) > a && middle < b;)
+      ((penetration(ball, in_cage(middle)) > 0) == before ? a : b) = middle;
+    return b;
+  }
+
+  BallBearing bearing_;
+  double clearance_, cage_ratio_;
+  Eigen::MatrixXd series_;
+};
+
+}  // namespace
+
+PeriodicStiffness stiffness_along(const Parameters& parameters, const Eigen::VectorXd& x)
+{
+  const BearingAlong bearing(parameters.bearing, x);
+  return {.at = [bearing](double phase, double* k) { bearing.stiffness(phase, k); },
+          .breaks = bearing.contact_changes()};
 }
 
 Floquet floquet(const Parameters& parameters, double omega, const Eigen::VectorXd& x,

@@ -2,21 +2,21 @@
 # Floquet multipliers of a periodic motion
 
 The eigenvalues of the monodromy matrix say how small disturbances grow over one period: the motion
-is stable when all of them lie inside the unit circle. They converge far more slowly than
-amplitudes, so the steps of the integration are doubled until no multiplier changes any more, twice in
-a row, and the last change is reported: a contact shorter than a step is missed by two step sizes
-alike, and one agreement alone has been seen to be wrong. Their product is known exactly (Liouville):
+is stable when all of them lie inside the unit circle. They belong to the linearisation along the
+motion that is given: along a truncated series they may differ from those of the exact motion far
+more than the amplitudes do. The tolerance of the integration is tightened until no multiplier changes
+any more, and the last change is reported. Their product is known exactly (Liouville):
 
 $$\prod_i \mu_i = \exp\left(-T\,\mathrm{tr}(M^{-1} C)\right),$$
 
-which checks the integration independently where it is not below rounding.
+which checks the integration independently; it is compared as a sum of logarithms over the panels,
+since the product itself is below rounding at low speeds.
 
 For the bearing the four displacements are those of both bodies, although the balance has condensed
 them to the relative motion u: the multipliers belong to the full system of Eq. 7. */
 #pragma once
 
 #include <complex>
-#include <functional>
 #include <vector>
 
 #include "model/parameters.hpp"
@@ -25,32 +25,33 @@ them to the relative motion u: the multipliers belong to the full system of Eq. 
 namespace rotor_stator
 {
 
+using Multipliers = std::vector<std::complex<double>>;
+
 struct FloquetSettings {
-  double tolerance = 1e-6;      ///< change of a multiplier at the last doubling [-]
-  double steps_per_radian = 2;  ///< of the fastest linearised vibration, at first
-  int most_steps = 1 << 20;
+  double tolerance = 1e-6;  ///< change of a multiplier at the last refinement [-]
+  MonodromySettings first;  ///< of the first integration; each later one asks for 1/100
+  int most_refinements = 2;
 };
 
 struct Floquet {
-  std::vector<std::complex<double>> multipliers;  ///< 2d, largest modulus first
-  double change;  ///< largest |Δμ|/max(1, |μ|) at the last doubling [-]
-  double
-      liouville;  ///< relative error of the product; of its logarithm when it underflows [-]
-  int steps;      ///< of the finest integration
-  bool settled;  ///< `change` is below the tolerance
+  Multipliers multipliers;  ///< 2d, largest modulus first
+  double change;            ///< largest |Δμ|/max(1, |μ|) at the last refinement [-]
+  double liouville;         ///< relative error of the product [-]
+  long evaluations;         ///< of the stiffness, in all integrations
+  bool settled;             ///< `change` is below the tolerance
 
   double largest() const { return std::abs(multipliers.front()); }
 
+  /** Uncertainty of the largest modulus. */
+  double uncertainty() const { return change * std::max(1.0, largest()); }
+
   /** Whether the largest modulus is below 1 by more than its uncertainty. */
-  bool stable() const { return settled && largest() + change < 1; }
-  bool unstable() const { return settled && largest() - change > 1; }
+  bool stable() const { return settled && largest() + uncertainty() < 1; }
+  bool unstable() const { return settled && largest() - uncertainty() > 1; }
 };
 
-/** k(φ) at n equal phases of the period, n × d². */
-using StiffnessAlong = std::function<Eigen::MatrixXd(int n)>;
-
-/** Throws NoSolution when the disturbances overflow. */
-Floquet floquet(const Vibration& vibration, const StiffnessAlong& stiffness,
+/** Throws NoSolution when the disturbances overflow or need too much work. */
+Floquet floquet(const Vibration& vibration, const PeriodicStiffness& stiffness,
                 double period, const FloquetSettings& settings = {});
 
 /** The bearing's machine along the relative motion u with the coefficients `x` (2 × (2m+1) as a
@@ -59,8 +60,18 @@ Floquet floquet(const Parameters& parameters, double omega, const Eigen::VectorX
                 const FloquetSettings& settings = {});
 
 /** The parts of the previous one: the constant matrices of x_s, y_s, x_r, y_r, and ∂F/∂u along u
-    as a 4 × 4 stiffness. */
+    as a 4 × 4 stiffness, with the phases where a ball meets or leaves its race. */
 Vibration vibration_of(const Parameters& parameters);
-StiffnessAlong stiffness_along(const Parameters& parameters, const Eigen::VectorXd& x);
+PeriodicStiffness stiffness_along(const Parameters& parameters, const Eigen::VectorXd& x);
+
+/** Largest modulus first, of a conjugate pair the upper half first. */
+void sort_by_modulus(Multipliers& multipliers);
+
+/** The eigenvalues of a monodromy matrix, sorted. Throws NoSolution when it is not finite. */
+Multipliers multipliers_of(const Eigen::MatrixXd& phi);
+
+/** The largest distance |Δμ|/max(1, |μ|) of a multiplier to its nearest partner among as many
+    others. */
+double distance(const Multipliers& a, Multipliers b);
 
 }  // namespace rotor_stator

@@ -1,6 +1,7 @@
 #include "support/cases.hpp"
 
 #include <cmath>
+#include <complex>
 #include <numbers>
 
 namespace rotor_stator::tests
@@ -64,6 +65,23 @@ Oscillator two_masses_unilateral()
             slope(0, 0) = touching ? 100 : 0;
             return LocalForce{Eigen::Vector2d(touching ? 100 * (q[0] - 1) : 0, 0), slope};
           }};
+}
+
+PeriodicStiffness stiffness_along(const Oscillator& oscillator, const Eigen::VectorXd& x)
+{
+  const auto d = oscillator.mass.rows();
+  const Eigen::MatrixXd series = x.reshaped(d, x.size() / d);
+  const auto at = [oscillator, series, d](double phase, double* k) {
+    const std::complex<double> turn = std::polar(1.0, phase);
+    std::complex<double> power = 1;
+    Eigen::VectorXd q = series.col(0);
+    for (Eigen::Index h = 1; h < series.cols(); h += 2) {
+      power *= turn;
+      q += power.real() * series.col(h) + power.imag() * series.col(h + 1);
+    }
+    Eigen::Map<Eigen::MatrixXd>(k, d, d) = oscillator.law(q).stiffness;
+  };
+  return {.at = at};
 }
 
 double harmonic_amplitude(const Eigen::VectorXd& x, int dofs, int row, int h)

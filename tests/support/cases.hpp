@@ -7,6 +7,7 @@ through the seam of balance/problem.hpp. M q̈ + D q̇ + K q + f(q) = F cos Ωt.
 
 #include "balance/balance.hpp"
 #include "model/parameters.hpp"
+#include "stability/monodromy.hpp"
 
 namespace rotor_stator::tests
 {
@@ -30,6 +31,9 @@ struct Oscillator {
 Oscillator duffing();
 Oscillator two_masses_cubic();
 Oscillator two_masses_unilateral();
+
+/** The stiffness of an oscillator's force along the solution `x`. */
+PeriodicStiffness stiffness_along(const Oscillator& oscillator, const Eigen::VectorXd& x);
 
 /** The amplitude of harmonic `h` of variable `row` in the coefficients `x` with d
     variables. */

@@ -6,6 +6,7 @@
 #include "balance/bearing_problem.hpp"
 #include "continuation/arc_length.hpp"
 #include "integration/time_stepper.hpp"
+#include "model/errors.hpp"
 #include "scenes/motion.hpp"
 #include "scenes/regime.hpp"
 #include "stability/floquet.hpp"
@@ -25,19 +26,6 @@ PeriodicSolution solution_at(const Parameters& parameters, double frequency,
       find_periodic(parameters, hertz(frequency), harmonics, default_samples(harmonics));
   REQUIRE(solution.found());
   return solution;
-}
-
-/** The stiffness of an oscillator's force along its solution. */
-StiffnessAlong stiffness_of(const Oscillator& oscillator, const Eigen::VectorXd& x)
-{
-  return [oscillator, x](int n) {
-    const auto d = oscillator.mass.rows();
-    const Eigen::MatrixXd q = sample_series(x.reshaped(d, x.size() / d), n);
-    Eigen::MatrixXd table(n, d * d);
-    for (int k = 0; k < n; ++k)
-      table.row(k) = oscillator.law(q.row(k)).stiffness.reshaped();
-    return table;
-  };
 }
 
 }  // namespace
@@ -60,13 +48,68 @@ TEST_CASE("Multipliers without contact are those of two damped oscillators")
 
 TEST_CASE("The product of the multipliers is Liouville's, in contact, above 20 Hz")
 {
-  for (double frequency : {25.0, 30.0, 45.0, 55.0}) {
-    const auto solution = solution_at(set_1(), frequency, 32);
+  const Parameters parameters = set_1();
+  const Body &s = parameters.stator, &r = parameters.rotor;
+  const double decay =
+      4 * (s.damping_ratio * s.natural_frequency + r.damping_ratio * r.natural_frequency);
+  for (double frequency : {20.5, 25.0, 30.0, 45.0, 55.0})
+    for (int harmonics : {6, 32}) {
+      const auto solution = solution_at(parameters, frequency, harmonics);
+      const auto motion = floquet(parameters, solution.omega, solution.x);
+      std::complex<double> product = 1;
+      for (const auto& mu : motion.multipliers) product *= mu;
+      INFO(frequency);
+      CHECK(motion.settled);
+      CHECK(std::abs(product / std::exp(-decay / frequency) - 1.0) < 1e-6);
+      CHECK(motion.liouville < 1e-6);
+    }
+}
+
+TEST_CASE("Liouville's product as a sum of logarithms holds where it is below rounding")
+{
+  for (double frequency : {1.0, 4.0}) {
+    const auto solution = solution_at(set_1(), frequency, 10);
     const auto motion = floquet(set_1(), solution.omega, solution.x);
-    INFO(frequency);
-    CHECK(motion.settled);
     CHECK(motion.liouville < 1e-6);
+    CHECK(motion.stable());
   }
+}
+
+TEST_CASE("Multipliers do not depend on whether the changes of contact are known")
+{
+  const auto solution = solution_at(set_1(), 30, 10);
+  const double period = 2 * std::numbers::pi / solution.omega;
+  PeriodicStiffness stiffness = stiffness_along(set_1(), solution.x);
+  REQUIRE(stiffness.breaks.size() >= 8);
+  const Vibration vibration = vibration_of(set_1());
+  const auto known = monodromy(vibration, stiffness, period, {.tolerance = 1e-10});
+  stiffness.breaks.clear();
+  const auto unknown = monodromy(vibration, stiffness, period, {.tolerance = 1e-10});
+  CHECK(distance(multipliers_of(known.phi), multipliers_of(unknown.phi)) < 1e-6);
+  CHECK(known.evaluations < unknown.evaluations);
+}
+
+TEST_CASE("Multipliers report a bound on work instead of going on")
+{
+  const auto solution = solution_at(set_1(), 30, 10);
+  CHECK_THROWS_AS(
+      floquet(set_1(), solution.omega, solution.x, {.first = {.most_evaluations = 100}}),
+      NoSolution);
+}
+
+TEST_CASE("The multipliers of Mathieu's equation: product and trace as tabulated")
+{
+  /** q" + (a - 2 p cos 2t) q = 0 over π: at a = a_r(p) a solution has the period π or 2π, so
+      that the multipliers are both 1 or both -1. Abramowitz and Stegun, table 20.1, p = 5. */
+  const Eigen::MatrixXd one = Eigen::MatrixXd::Identity(1, 1);
+  const auto at = [&](double a) {
+    const PeriodicStiffness stiffness{
+        .at = [](double phase, double* k) { *k = -10 * std::cos(phase); }};
+    return monodromy({one, 0 * one, a * one}, stiffness, std::numbers::pi).phi;
+  };
+  CHECK(at(-5.80004602).trace() == Approx(2).margin(1e-6));
+  CHECK(at(1.85818754).trace() == Approx(-2).margin(1e-6));
+  CHECK(at(7.44910974).trace() == Approx(2).margin(1e-6));
 }
 
 TEST_CASE("The derivative of the period map is that of its differences")
@@ -133,9 +176,9 @@ TEST_CASE(
     Balance fine(oscillator.problem(16384), harmonics);
     Eigen::VectorXd resized = resize_harmonics(x, 2, harmonics);
     REQUIRE(solve(fine, at, resized, {}).converged());
-    const auto motion = floquet(vibration, stiffness_of(oscillator, resized),
-                                2 * std::numbers::pi / at, {.tolerance = 1e-4});
-    CHECK(motion.change < 2e-3);
+    const auto motion = floquet(vibration, stiffness_along(oscillator, resized),
+                                2 * std::numbers::pi / at);
+    CHECK(motion.settled);
     return motion.multipliers.front();
   };
   /** The stiffness jumps, which leaves multipliers to about 2e-3. */

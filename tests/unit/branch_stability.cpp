@@ -1,0 +1,154 @@
+/** Stability along branches and the bifurcations on them, against published cases. */
+#include <algorithm>
+#include <catch2/catch.hpp>
+#include <numbers>
+
+#include "balance/bearing_problem.hpp"
+#include "continuation/arc_length.hpp"
+#include "model/errors.hpp"
+#include "stability/branch_stability.hpp"
+#include "stability/hill.hpp"
+#include "support/cases.hpp"
+
+using namespace rotor_stator;
+using namespace rotor_stator::tests;
+
+namespace
+{
+
+ArcLengthSettings steps(double most_step)
+{
+  return {.newton = {},
+          .speed_scale = 1,
+          .arc_unknown_scale = 1,
+          .first_step = most_step / 4,
+          .most_step = most_step};
+}
+
+struct Followed {
+  Branch branch;
+  BranchStability stability;
+
+  /** Speeds of the bifurcations of one kind, in order. */
+  std::vector<double> speeds(Bifurcation kind) const
+  {
+    std::vector<double> found;
+    for (const StablePoint& p : stability.points)
+      if (p.bifurcation == kind) found.push_back(p.point.omega);
+    return found;
+  }
+};
+
+Followed follow(const Oscillator& oscillator, int harmonics, int samples, double from,
+                double to, double most_step, const Eigen::VectorXd* start = nullptr,
+                const BranchStabilitySettings& marks = {},
+                const FloquetSettings& accuracy = {})
+{
+  Balance balance(oscillator.problem(samples), harmonics);
+  const Eigen::VectorXd x = start ? *start : Eigen::VectorXd::Zero(balance.unknowns());
+  const ArcLengthSettings settings = steps(most_step);
+  Followed followed{follow_branch(balance, from, to, x, settings), {}};
+  const Vibration vibration{oscillator.mass, oscillator.damping, oscillator.stiffness};
+  const auto floquet_at = [&](const BranchPoint& p) {
+    return floquet(vibration, stiffness_along(oscillator, p.x),
+                   2 * std::numbers::pi / p.omega, accuracy);
+  };
+  followed.stability =
+      stability_along(balance, followed.branch, settings, floquet_at, marks);
+  return followed;
+}
+
+}  // namespace
+
+TEST_CASE("Two masses, cubic springs: Neimark-Sacker points and folds as published")
+{
+  const Oscillator oscillator = two_masses_cubic();
+  const Vibration vibration{oscillator.mass, oscillator.damping, oscillator.stiffness};
+  const auto followed = follow(oscillator, 15, 128, 0.8, 1.4, 0.05);
+  REQUIRE(followed.branch.covered);
+  CHECK(followed.stability.missed == 0);
+  const auto circle = followed.speeds(Bifurcation::neimark_sacker);
+  REQUIRE(circle.size() == 2);
+  /** The public tool stepped over it; Hill's method below checks the point itself. */
+  CHECK(circle[0] == Approx(1.1126).margin(2e-4));
+  CHECK(circle[1] == Approx(1.1957).margin(5e-5));
+  const auto folds = followed.speeds(Bifurcation::fold);
+  REQUIRE(folds.size() == 2);
+  CHECK(folds[0] == Approx(1.214626).margin(1e-6));
+  CHECK(folds[1] == Approx(1.206219).margin(1e-6));
+  for (const StablePoint& p : followed.stability.points)
+    if (p.bifurcation == Bifurcation::neimark_sacker) {
+      CHECK(std::abs(p.floquet.largest() - 1) < 1e-5);
+      CHECK(std::abs(p.floquet.multipliers.front().imag()) > 1e-3);
+      const auto hill =
+          hill_multipliers(vibration, stiffness_along(oscillator, p.point.x),
+                           2 * std::numbers::pi / p.point.omega, 24);
+      CHECK(std::abs(hill.front()) == Approx(1).margin(1e-5));
+    }
+}
+
+TEST_CASE(
+    "Duffing: a multiplier passes +1 at the folds, more exactly with more harmonics")
+{
+  double before = 1;
+  for (int harmonics : {3, 7}) {
+    const auto followed = follow(duffing(), harmonics, 64, 0.8, 1.6, 0.1);
+    double off = 0;
+    int folds = 0, unstable = 0;
+    for (const StablePoint& p : followed.stability.points) {
+      unstable += p.floquet.unstable();
+      if (p.bifurcation != Bifurcation::fold) continue;
+      ++folds;
+      double nearest = 1;
+      for (const auto& mu : p.floquet.multipliers)
+        nearest = std::min(nearest, std::abs(mu - 1.0));
+      off = std::max(off, nearest);
+    }
+    CHECK(folds == 2);
+    CHECK(unstable > 0);
+    CHECK(followed.speeds(Bifurcation::period_doubling).empty());
+    CHECK(followed.speeds(Bifurcation::neimark_sacker).empty());
+    CHECK(off < before / 10);
+    before = off;
+  }
+  CHECK(before < 1e-4);
+}
+
+TEST_CASE(
+    "Unilateral spring: Neimark-Sacker and period doubling, between published speeds")
+{
+  /** 7 harmonics reach the contact branch; 41 hold the multipliers. */
+  const Oscillator oscillator = two_masses_unilateral();
+  Balance coarse(oscillator.problem(1024), 7);
+  const auto at = [&](double omega) {
+    const Branch lead = follow_branch(
+        coarse, 0.59, omega, Eigen::VectorXd::Zero(coarse.unknowns()), steps(0.02));
+    REQUIRE(lead.covered);
+    return resize_harmonics(lead.points.back().x, 2, 41);
+  };
+  const BranchStabilitySettings rough{.tolerance = 1e-3, .most_halvings = 0};
+  const FloquetSettings quick{
+      .tolerance = 1e-3, .first = {.tolerance = 1e-6}, .most_refinements = 1};
+  Eigen::VectorXd start = at(0.6);
+  const auto low = follow(oscillator, 41, 1024, 0.6, 0.635, 0.5, &start, rough, quick);
+  CHECK(low.stability.points.front().floquet.largest() > 1);
+  CHECK(low.stability.points.back().floquet.largest() < 1);
+  CHECK_FALSE(low.speeds(Bifurcation::neimark_sacker).empty());
+  start = at(0.7);
+  const auto high = follow(oscillator, 41, 1024, 0.7, 0.75, 0.5, &start, rough, quick);
+  CHECK(high.stability.points.front().floquet.largest() < 1);
+  CHECK(high.stability.points.back().floquet.largest() > 1);
+  CHECK_FALSE(high.speeds(Bifurcation::period_doubling).empty());
+}
+
+TEST_CASE("Bifurcations are the same whichever way the branch is walked")
+{
+  const auto up = follow(two_masses_cubic(), 5, 64, 1.1, 1.13, 0.02);
+  const Eigen::VectorXd start = up.branch.points.back().x;
+  const auto down = follow(two_masses_cubic(), 5, 64, 1.13, 1.1, 0.03, &start);
+  const auto a = up.speeds(Bifurcation::neimark_sacker);
+  const auto b = down.speeds(Bifurcation::neimark_sacker);
+  REQUIRE(a.size() == 1);
+  REQUIRE(b.size() == 1);
+  CHECK(a[0] == Approx(b[0]).epsilon(1e-6));
+}
