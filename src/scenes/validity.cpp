@@ -22,7 +22,8 @@ ValidityScene read_validity_scene(const std::string& file, const std::string& re
       .tolerance = toml.number("tolerance", Range::positive),
       .most_adaptive = toml.integer("most_adaptive_harmonics", 1, 4096),
       .most_elsewhere = toml.integer("most_adaptive_elsewhere", 1, 4096),
-      .floquet = {.tolerance = toml.number("multiplier_tolerance", Range::positive)},
+      .floquet = {.tolerance = toml.number("multiplier_tolerance", Range::positive),
+                  .first = {}},
       .points_per_period = toml.integer("points_per_period", 4, 4096),
       .periods = toml.integer("periods", 1, 1000),
       .attractors = read_attractors(attractors)};
