@@ -43,7 +43,7 @@ results_of = $(tables_of) $(timing_of) $(figures_of)
 
 # What does not depend on the reading.
 studied := $(addprefix data/generated/,sensitivity.tsv sensitivity_derivatives.tsv) \
-  $(addprefix figures/generated/,sensitivity.svg identification.svg study.svg peers.svg)
+  $(addprefix figures/generated/,sensitivity.svg identification.svg study.svg peers.svg adaptive.svg)
 
 # The text whose numbers come from tables; the default reading's, since it compares both.
 pages := data/generated/deviations.md
@@ -56,7 +56,7 @@ untimed := $(foreach reading,$(readings),$(call tables_of,$(reading)) $(call fig
 programs := $(patsubst src/%.cpp,build/%,$(wildcard src/*.cpp))
 
 .PHONY: all figures timing claims test sanitize deps list png readme golden format clean \
-  studies identify study adopt peers deps-peers
+  studies identify study adaptive adopt peers deps-peers
 
 all: $(untimed) $(timings) $(claims)  ## figures, tables and claims of both readings (the default)
 
@@ -211,6 +211,11 @@ figures/generated/peers.svg: figures/peers.py figures/rotor_stator.mplstyle figu
 	@mkdir -p $(@D)
 	$(call whole,$(PYTHON) $< data/reference/peers.tsv $$new)
 
+figures/generated/adaptive.svg: figures/adaptive.py figures/rotor_stator.mplstyle figures/tables.py \
+  data/reference/adaptive.tsv
+	@mkdir -p $(@D)
+	$(call whole,$(PYTHON) $< data/reference/adaptive.tsv $$new)
+
 png: $(patsubst %.svg,%.png,$(filter %.svg,$(untimed)))  ## the figures as PNG, for viewing
 
 %.png: %.svg
@@ -237,7 +242,7 @@ $(foreach reading,$(readings),$(eval $(call claims_rule,$(reading))))
 # Long studies. Finished pieces are kept in a journal, so an interrupted study goes on; the tables are
 # kept in data/reference, where `all` finds them, and compared with what is computed anew.
 
-studies: identify study  ## run the long studies and compare them with their kept tables
+studies: identify study adaptive  ## run the long studies and compare them with their kept tables
 
 identify: build/identify_parameters  ## score the grid of unpublished parameters (under 10 minutes)
 	@mkdir -p data/generated
@@ -248,6 +253,11 @@ study: build/clearance_stiffness_study  ## clearance against contact stiffness (
 	@mkdir -p data/generated
 	new=data/generated/study.tsv; $< --journal data/generated/study.journal > $$new.tmp; \
 	  mv $$new.tmp $$new; $(PYTHON) tests/compare_tables.py data/reference/study.tsv $$new
+
+adaptive: build/adaptive  ## estimate, true error and cost of adaptive harmonics (under 5 minutes)
+	@mkdir -p data/generated
+	new=data/generated/adaptive.tsv; $< --journal data/generated/adaptive.journal > $$new.tmp; \
+	  mv $$new.tmp $$new; $(PYTHON) tests/compare_tables.py data/reference/adaptive.tsv $$new
 
 # Other people's programs on the same equations; not part of `studies`, and installed by this alone.
 peers: build/explore | deps-peers  ## outside integrators and AUTO-07p, timed (under 10 minutes)
@@ -262,7 +272,7 @@ peers: build/explore | deps-peers  ## outside integrators and AUTO-07p, timed (u
 
 adopt:  ## keep the tables of the studies just run, and the verdicts; a commit that does says why
 	@mkdir -p data/reference
-	for name in identification study peers peers_auto; do \
+	for name in identification study adaptive peers peers_auto; do \
 	  if [ -e data/generated/$$name.tsv ]; then cp data/generated/$$name.tsv data/reference/; fi; done
 	cp data/generated/claims.tsv data/reference/claims.tsv
 	cp data/generated/as-printed/claims.tsv data/reference/claims-as-printed.tsv
