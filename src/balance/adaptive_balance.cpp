@@ -12,6 +12,10 @@ namespace rotor_stator
 namespace
 {
 
+/** A Newton iteration that halves its steps again and again seldom ends well here, where the start is
+    good or another one follows. */
+constexpr int few_halvings = 4;
+
 constexpr double infinite = std::numeric_limits<double>::infinity();
 
 /** A series with `columns` columns, filled with zeros. */
@@ -72,14 +76,15 @@ Refined estimate_error(const ObservedProblem& observed, double omega,
   /** Newton's step, and as many more as it takes until what is left of the residual is small
      against the estimate, which a resonance of the contact magnifies more than a hundredfold. */
   constexpr double small = 0.003;
-  constexpr int most_steps = 12;
+  constexpr int most_steps = 8;
   const double unit = small * largest(coarse.series) / problem.unknown_scale;
   double error = settings.interesting;
   while (!estimate.settled && estimate.newton < most_steps) {
     const double goal = std::max(unit * error, settings.newton_tolerance);
-    const NewtonReport report =
-        solve(balance, omega, finer.x,
-              {.tolerance = goal, .most_iterations = most_steps - estimate.newton});
+    const NewtonReport report = solve(balance, omega, finer.x,
+                                      {.tolerance = goal,
+                                       .most_iterations = most_steps - estimate.newton,
+                                       .most_halvings = few_halvings});
     estimate.newton += report.iterations;
     estimate.force_samples = balance.evaluations() * n;
     if (!report.converged()) break;
@@ -106,9 +111,10 @@ public:
         settings_(settings),
         result_{}
   {
-    constexpr int most_iterations = 15;  ///< more seldom end well
-    settings_.newton.most_iterations =
-        std::min(settings_.newton.most_iterations, most_iterations);
+    constexpr int few_iterations = 12;
+    NewtonSettings& newton = settings_.newton;
+    newton.most_iterations = std::min(newton.most_iterations, few_iterations);
+    newton.most_halvings = std::min(newton.most_halvings, few_halvings);
   }
 
   AdaptiveBalance run()

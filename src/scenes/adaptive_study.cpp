@@ -24,7 +24,7 @@ AdaptiveStudy read_adaptive_study(const std::string& file, const std::string& re
       .sets = scene_file.parameter_list("parameters"),
       .frequencies = {},
       .tolerances = toml.numbers("tolerances", Range::positive),
-      .most_fixed_harmonics = toml.integer("most_fixed_harmonics", 8, 340)};
+      .most_fixed_harmonics = toml.integer("most_fixed_harmonics", 8, 1024)};
   for (std::size_t set = 1; set <= study.sets.size(); ++set)
     study.frequencies.push_back(
         toml.numbers("speeds_of_set_" + std::to_string(set) + "_hz", Range::positive));
