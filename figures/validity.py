@@ -37,12 +37,13 @@ def draw_solution(axes, rows, colour, marker, label):
                   label=name)
 
 
-def draw_set(axes, rows):
+def draw_set(axes, rows, tolerance):
     """Fixed numbers of harmonics, and the one chosen for a tolerance."""
     shade(axes, rows)
     for m, (colour, marker) in FIXED.items():
         draw_solution(axes, rows.where("adaptive", 0).where("m", m), colour, marker, f"m = {m}")
-    draw_solution(axes, rows.where("adaptive", 1), "C0", "D", "m chosen")
+    draw_solution(axes, rows.where("adaptive", 1), "C0", "D",
+                  f"m chosen for {100 * tolerance:g} %")
     for limit in LIMITS:
         axes.axhline(limit, color="#404040", lw=0.7, ls=":")
         axes.annotate(f"{100 * limit:g} %", (0.998, limit), xycoords=("axes fraction", "data"),
@@ -52,10 +53,11 @@ def draw_set(axes, rows):
 def draw(table):
     """One panel per data set."""
     clearances = [float(x) for x in re.findall(r"delta = (\S+) m", table.header)]
+    tolerance = float(re.search(r"adaptive: tolerance ([\d.e-]+)", table.header)[1])
     figure, grid = plt.subplots(len(clearances), 1, figsize=(10, 9), sharex=True, sharey=True,
                                 layout="constrained")
     for number, (axes, clearance) in enumerate(zip(grid, clearances), 1):
-        draw_set(axes, table.where("set", number))
+        draw_set(axes, table.where("set", number), tolerance)
         axes.set(yscale="log", xlim=(0, 61), title=f"data set {number}, δ = {1e6 * clearance:g} µm",
                  ylabel="distance over the motion's size [-]")
     grid[-1].set_xlabel("speed of rotation [Hz]")

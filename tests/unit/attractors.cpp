@@ -175,7 +175,8 @@ TEST_CASE("On a T-periodic motion the exponent is that of the largest multiplier
       attractor_from(parameters, hertz(frequency), static_start(parameters), settings());
   REQUIRE(attractor.periodic());
   const auto map = period_map(parameters, hertz(frequency), attractor.state, 1e-10);
-  const double modulus = map.derivative.eigenvalues().cwiseAbs().maxCoeff();
+  const double modulus =
+      Eigen::MatrixXd(map.derivative).eigenvalues().cwiseAbs().maxCoeff();
   CHECK(attractor.judgement.exponent.value ==
         Approx(std::log(modulus) * frequency).margin(0.1));
 }
