@@ -45,12 +45,8 @@ results_of = $(tables_of) $(timing_of) $(figures_of)
 
 # What does not depend on the reading.
 studied := $(addprefix data/generated/,sensitivity.tsv sensitivity_derivatives.tsv) \
-<<<<<<< HEAD
-  $(addprefix figures/generated/,sensitivity.svg identification.svg study.svg peers.svg) \
+  $(addprefix figures/generated/,sensitivity.svg identification.svg study.svg peers.svg adaptive.svg) \
   $(addprefix figures/generated/,work_precision.svg cost_growth.svg)
-=======
-  $(addprefix figures/generated/,sensitivity.svg identification.svg study.svg peers.svg adaptive.svg)
->>>>>>> c7437471bfcd16b80930e625f06cfa6fca025baf
 
 # The text whose numbers come from tables; the default reading's, since it compares both.
 pages := data/generated/deviations.md
@@ -66,11 +62,7 @@ untimed := $(foreach reading,$(readings),$(call tables_of,$(reading)) $(call fig
 programs := $(patsubst src/%.cpp,build/%,$(wildcard src/*.cpp))
 
 .PHONY: all figures timing claims test sanitize deps list png readme golden format clean \
-<<<<<<< HEAD
-  studies identify study truth attractors validity stability adopt peers deps-peers bench
-=======
-  studies identify study adaptive adopt peers deps-peers
->>>>>>> c7437471bfcd16b80930e625f06cfa6fca025baf
+  studies identify study truth attractors validity stability adaptive adopt peers deps-peers bench
 
 all: $(untimed) $(timings) $(claims)  ## figures, tables and claims of both readings (the default)
 
@@ -230,7 +222,6 @@ figures/generated/peers.svg: figures/peers.py figures/rotor_stator.mplstyle figu
 	@mkdir -p $(@D)
 	$(call whole,$(PYTHON) $< data/reference/peers.tsv $$new)
 
-<<<<<<< HEAD
 figures/generated/work_precision.svg figures/generated/cost_growth.svg: figures/generated/%.svg: \
   figures/%.py figures/rotor_stator.mplstyle figures/tables.py data/reference/%.tsv \
   $(wildcard data/reference/peers.tsv)
@@ -276,12 +267,11 @@ figures/generated$(folder_$(1))/stability.svg: figures/stability.gp figures/styl
 endef
 
 $(foreach reading,$(readings),$(eval $(call stability_of,$(reading))))
-=======
+
 figures/generated/adaptive.svg: figures/adaptive.py figures/rotor_stator.mplstyle figures/tables.py \
   data/reference/adaptive.tsv
 	@mkdir -p $(@D)
 	$(call whole,$(PYTHON) $< data/reference/adaptive.tsv $$new)
->>>>>>> c7437471bfcd16b80930e625f06cfa6fca025baf
 
 png: $(patsubst %.svg,%.png,$(filter %.svg,$(untimed)))  ## the figures as PNG, for viewing
 
@@ -310,15 +300,11 @@ $(foreach reading,$(readings),$(eval $(call claims_rule,$(reading))))
 # Long studies. Finished pieces are kept in a journal, so an interrupted study goes on; the tables are
 # kept in data/reference, where `all` finds them, and compared with what is computed anew.
 
-<<<<<<< HEAD
 studies: identify study truth timing  ## run the long studies and compare them with their kept tables
 
 ifneq ($(filter studies,$(MAKECMDGOALS)),)
 timing: | identify study truth
 endif
-=======
-studies: identify study adaptive  ## run the long studies and compare them with their kept tables
->>>>>>> c7437471bfcd16b80930e625f06cfa6fca025baf
 
 identify: build/identify_parameters  ## score the grid of unpublished parameters (under 10 minutes)
 	@mkdir -p data/generated
@@ -330,7 +316,6 @@ study: build/clearance_stiffness_study  ## clearance against contact stiffness (
 	new=data/generated/study.tsv; $< --journal data/generated/study.journal > $$new.tmp; \
 	  mv $$new.tmp $$new; $(PYTHON) tests/compare_tables.py data/reference/study.tsv $$new
 
-<<<<<<< HEAD
 stability: build/response_stability  ## stability along the response curves, both readings (under 5 minutes)
 	@mkdir -p data/generated
 	for reading in exchanged as-printed; do suffix=; \
@@ -339,12 +324,11 @@ stability: build/response_stability  ## stability along the response curves, bot
 	  $< --reading $$reading --journal data/generated/stability$$suffix.journal > $$new.tmp; mv $$new.tmp $$new; \
 	  if [ -e data/reference/stability$$suffix.tsv ]; then \
 	    $(PYTHON) tests/compare_tables.py data/reference/stability$$suffix.tsv $$new; fi; done
-=======
+
 adaptive: build/adaptive  ## estimate, true error and cost of adaptive harmonics (under 5 minutes)
 	@mkdir -p data/generated
 	new=data/generated/adaptive.tsv; $< --journal data/generated/adaptive.journal > $$new.tmp; \
 	  mv $$new.tmp $$new; $(PYTHON) tests/compare_tables.py data/reference/adaptive.tsv $$new
->>>>>>> c7437471bfcd16b80930e625f06cfa6fca025baf
 
 # Other people's programs on the same equations; not part of `studies`, and installed by this alone.
 peers: build/explore | deps-peers  ## outside integrators and AUTO-07p, timed (under 10 minutes)
@@ -357,7 +341,7 @@ peers: build/explore | deps-peers  ## outside integrators and AUTO-07p, timed (u
 	  new=data/generated/$${table#*:}.tsv; \
 	  $(PYTHON) peers/$${table%:*} data/scenes/$${table#*:}.toml > $$new.tmp; mv $$new.tmp $$new; done
 
-truth: attractors validity stability  ## where the periodic solution is true: attractors, validity map, stability
+truth: attractors validity stability adaptive  ## where the periodic solution is true: attractors, validity map, stability
 
 # $(call of_readings,name,shell words of a run with $$r and $$s for reading and suffix,how to compare)
 define of_readings
@@ -376,11 +360,7 @@ validity: build/validity attractors  ## distance of the solutions to the attract
 
 adopt:  ## keep the tables of the studies just run, and the verdicts; a commit that does says why
 	@mkdir -p data/reference
-<<<<<<< HEAD
-	for name in identification study stability stability-as-printed peers peers_auto $(costs); do \
-=======
-	for name in identification study adaptive peers peers_auto; do \
->>>>>>> c7437471bfcd16b80930e625f06cfa6fca025baf
+	for name in identification study adaptive stability stability-as-printed peers peers_auto $(costs); do \
 	  if [ -e data/generated/$$name.tsv ]; then cp data/generated/$$name.tsv data/reference/; fi; done
 	for name in attractors validity; do for s in "" -as-printed; do \
 	  new=data/generated/$${s#-}/$$name.tsv; \

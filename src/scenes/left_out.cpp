@@ -58,8 +58,8 @@ LeftOut what_is_left_out(const Parameters& parameters, double omega,
   return result;
 }
 
-Eigen::VectorXd integrated_start(const Parameters& parameters, double omega,
-                                 int harmonics)
+Eigen::VectorXd briefly_integrated_start(const Parameters& parameters, double omega,
+                                         int harmonics)
 {
   constexpr double transient = 0.5;
   const int points = 2 * harmonics + 2;

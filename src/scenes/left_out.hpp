@@ -38,7 +38,7 @@ LeftOut what_is_left_out(const Parameters& parameters, double omega,
                          const Eigen::VectorXd& x, Balance& balance);
 
 /** Coefficients of the relative motion over one period after half a second of RK4. */
-Eigen::VectorXd integrated_start(const Parameters& parameters, double omega,
-                                 int harmonics);
+Eigen::VectorXd briefly_integrated_start(const Parameters& parameters, double omega,
+                                         int harmonics);
 
 }  // namespace rotor_stator
