@@ -34,9 +34,10 @@ Problem curve(double (*f)(double), double (*slope)(double),
               },
           .force =
               [=](const Eigen::MatrixXd& q, Eigen::MatrixXd& force,
-                  Eigen::MatrixXd& stiffness) {
+                  Eigen::MatrixXd* stiffness) {
                 force = q.unaryExpr([=](double x) { return f(x); });
-                stiffness = q.unaryExpr([=](double x) { return slope(x); });
+                if (stiffness)
+                  *stiffness = q.unaryExpr([=](double x) { return slope(x); });
               }};
 }
 
