@@ -44,8 +44,8 @@ figures_of = $(drawn_names:%=figures/generated$(folder_$(1))/%.svg)
 results_of = $(tables_of) $(timing_of) $(figures_of)
 
 # What does not depend on the reading.
-studied := $(addprefix data/generated/,sensitivity.tsv sensitivity_derivatives.tsv) \
-  $(addprefix figures/generated/,sensitivity.svg identification.svg study.svg peers.svg adaptive.svg) \
+studied := $(addprefix data/generated/,sensitivity.tsv sensitivity_derivatives.tsv sampling.tsv) \
+  $(addprefix figures/generated/,sensitivity.svg sampling.svg identification.svg study.svg peers.svg adaptive.svg) \
   $(addprefix figures/generated/,work_precision.svg cost_growth.svg)
 
 # The text whose numbers come from tables; the default reading's, since it compares both.
@@ -170,6 +170,8 @@ $(eval $(call table,regimes,regimes,set1 set2))
 $(eval $(call table,sensitivity,sensitivity,set1))
 $(eval $(call table,sensitivity_derivatives,sensitivity_derivatives,set1,sensitivity))
 
+$(eval $(call table,sampling,sampling,set1 set2))
+
 $(eval $(call table_of,deviations,deviations,set1 set1-as-printed,deviations,exchanged))
 
 # Timings run alone: after all that is not timed, one after the other.
@@ -209,6 +211,7 @@ $(eval $(call map,fig07,fig07_contact,figures/contact_map.py))
 $(eval $(call curves,fig08,fig08_orbits,figures/orbits.gp figures/orbit_axes.gp))
 $(eval $(call map,fig09,fig09_contact,figures/contact_map.py))
 $(eval $(call curves,sensitivity,sensitivity,))
+$(eval $(call curves,sampling,sampling,))
 
 # The long studies are drawn from their kept tables.
 figures/generated/identification.svg figures/generated/study.svg: figures/generated/%.svg: \

@@ -22,8 +22,10 @@ namespace rotor_stator
 int fast_transform_size(int at_least);
 
 /** Samples per period for m harmonics when nothing else is asked (D-14): ≥ 8m+1, and at
-    least 32. With 4m+1 the sampling error still shows beside the truncation; the test of the
-    sample count measures both. */
+    least 32. The sample rule (figure `sampling`) follows: this is where the error of sampling falls
+    below that of truncation for all of m = 6 … 64. With more harmonics the displacement's truncation
+    error falls faster with m than the sampling error does with N, and N decides: who needs those
+    digits asks for more samples. */
 int default_samples(int harmonics);
 
 /** Real transforms of one length N, with their buffers. */

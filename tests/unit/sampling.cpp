@@ -4,6 +4,7 @@
 
 #include "balance/bearing_problem.hpp"
 #include "balance/newton.hpp"
+#include "scenes/sampling_rule.hpp"
 #include "support/cases.hpp"
 
 using namespace rotor_stator;
@@ -121,4 +122,24 @@ TEST_CASE(
   REQUIRE(solve(finer, hertz(30), x, {}).converged());
   const double truncation = (resize_harmonics(x, 2, m) - exact).norm() / exact.norm();
   CHECK(error(default_samples(m)) < truncation);
+}
+
+TEST_CASE("Up to 64 harmonics the default N samples finer than the series is truncated")
+{
+  const Parameters set_2 = read_parameters(SOURCE_DIR "/data/set2.toml");
+  const auto points = compute_sampling({.machines = {set_1(), set_2},
+                                        .frequencies = {6, 45},
+                                        .harmonics = {6, 64},
+                                        .samples_over_m = {3, 8},
+                                        .fine_over_m = 128,
+                                        .reference_harmonics = 256});
+  REQUIRE(points.size() == 8);
+  for (const SamplingPoint& p : points) {
+    INFO("m = " << p.harmonics << ", N = " << p.samples);
+    REQUIRE(p.found);
+    if (p.samples_over_m < 8) continue;
+    CHECK(p.samples == default_samples(p.harmonics));
+    CHECK(p.sampling.displacement < p.truncation.displacement);
+    CHECK(p.sampling.force < p.truncation.force);
+  }
 }
