@@ -71,7 +71,7 @@ int adaptive_samples(int harmonics);
 struct AdaptiveSettings {
   double tolerance = 1e-4;   ///< wanted estimate [-]
   int first_harmonics = 8;   ///< m to begin with
-  int most_harmonics = 1024;  ///< of the solution, not of its estimate
+  int most_harmonics = 512;  ///< of the solution, not of its estimate
   NewtonSettings newton = {};
 };
 
