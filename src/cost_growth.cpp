@@ -1,9 +1,10 @@
 /**
 # Growth of the cost
 
-Paper: claim C12, the method extends to large problems. Run: build/cost_growth > data/generated/cost_growth.tsv
-CPU time and memory of harmonic balance against harmonics, balls and speeds, with fitted exponents. Modelled:
-one periodic motion, and sweeps above the transition. */
+Paper: claim C12, the method extends to large problems. Run: build/cost_growth >
+data/generated/cost_growth.tsv. CPU time and memory of harmonic balance against harmonics,
+balls and speeds, with fitted exponents. Modelled: one periodic motion, and sweeps above
+the transition. */
 #include "output/cost_tables.hpp"
 #include "output/program.hpp"
 

@@ -1,9 +1,10 @@
 /**
 # Work against precision
 
-Paper: §3.3, claim C9. Run: build/work_precision > data/generated/work_precision.tsv
-CPU time of one thread for one periodic motion against its error, for harmonic balance, time integration
-and shooting at many settings. Modelled: seven T-periodic motions of both data sets. */
+Paper: §3.3, claim C9. Run: build/work_precision > data/generated/work_precision.tsv. CPU
+time of one thread for one periodic motion against its error, for harmonic balance, time
+integration and shooting at many settings. Modelled: seven T-periodic motions of both data
+sets. */
 #include "output/cost_tables.hpp"
 #include "output/program.hpp"
 

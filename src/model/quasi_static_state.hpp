@@ -7,8 +7,8 @@
 namespace rotor_stator
 {
 
-/** The state at phase 0 of the motion in which the bearing answers the force of the rigid joint at every
-    instant and the stator follows its harmonic response. */
+/** The state at phase 0 of the motion in which the bearing answers the force of the rigid
+    joint at every instant and the stator follows its harmonic response. */
 State quasi_static_state(const Parameters& parameters, double omega);
 
 }  // namespace rotor_stator

@@ -1,8 +1,9 @@
 /**
 # Settings to be tried
 
-A table of a scene file for each method, with the values of its settings. They come in groups: one
-accuracy each, within it the cheaper ones first, so that a search can stop early. */
+A table of a scene file for each method, with the values of its settings. They come in
+groups: one accuracy each, within it the cheaper ones first, so that a search can stop
+early. */
 #pragma once
 
 #include "model/strict_toml.hpp"

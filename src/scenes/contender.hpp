@@ -1,17 +1,16 @@
 /**
 # Contenders: every method on the same task
 
-A task is a row of speeds of one machine, to be solved in order for the motion of period T. A contender
-is one method at one setting. Its `run` does all the work anew and is what is timed: plans and tables,
-the start, the transient or the iteration, at every speed. Writing the motions down afterwards belongs
-to the comparison and is timed for none.
+A task is a row of speeds of one machine, to be solved in order for the motion of period
+T. A contender is one method at one setting. Its `run` does all the work anew and is what
+is timed: plans and tables, the start, the transient or the iteration, at every speed.
+Writing the motions down afterwards belongs to the comparison and is timed for none.
 
 - *aft*: harmonic balance. The first speed starts cold, with few harmonics from quasi-static contact
   and then twice as many at a time, or from the known solution before it; the others start from the
   paper's predictor. Where that fails the speed starts cold, and last from a period of time integration.
-  The number of harmonics is the same at all speeds, or falls with the speed, or is doubled until an
-  estimate of what is left out is small: the force of the solution in the harmonics above m, answered by
-  the bodies alone.
+  The number of harmonics is the same at all speeds, or falls with the speed, or is raised until an
+  estimate of what is left out is small (left_out.hpp).
 - *rk4* (fixed step) and GSL's steppers: a transient in seconds, whole periods, from the static load or
   from the known state; then from speed to speed.
 - *shooting-rk4*, *shooting-rk8pd*, …: Newton on the period map. From speed to speed the state is
@@ -32,7 +31,7 @@ struct Setting {
   int harmonics = 0;  ///< aft: m, the least where `corner` asks for more
   double corner = 0;  ///< aft: m f is at least this [Hz]
   double estimate =
-      0;  ///< aft: m is doubled until what it leaves out is estimated below this
+      0;  ///< aft: m is raised until what it leaves out is estimated below this
   int samples_per_harmonic =
       0;                 ///< aft: N is the fast size from this times m, plus 1, on
   double tolerance = 0;  ///< aft: Newton's; GSL: local error

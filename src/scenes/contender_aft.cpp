@@ -171,7 +171,7 @@ private:
     if (x.size() > 0) x = resize_harmonics(x, 2, harmonics);
     Balance& balance = balances_->with(harmonics);
     if (x.size() > 0 && solve(balance, omega, x, newton_).converged()) return x;
-    x = briefly_integrated_start(task_.parameters, omega, harmonics);
+    x = start_after_transient(task_.parameters, omega, harmonics);
     if (!solve(balance, omega, x, newton_).converged()) x.resize(0);
     return x;
   }

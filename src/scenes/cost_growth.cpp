@@ -126,7 +126,7 @@ void fit(std::vector<Growth>& rows, int first, double least_memory)
   }
   for (Growth& row : rows) {
     if (size.size() > 1) row.exponent_cpu = fitted_exponent(size, cpu);
-    if (memory.size() > 1) row.exponent_memory = fitted_exponent(memory_size, memory);
+    if (memory.size() > 2) row.exponent_memory = fitted_exponent(memory_size, memory);
   }
 }
 

@@ -1,10 +1,10 @@
 /**
 # Scene: how the cost grows
 
-CPU time and memory of harmonic balance against the number of harmonics (one solution, from that at the
-speed below), of balls and of speeds (one sweep each), and the exponents of the power laws fitted to them.
-Each size runs in a process of its own, whose peak of memory is reported above that of one that solves one
-speed with one harmonic. */
+CPU time and memory of harmonic balance against the number of harmonics (one solution,
+from that at the speed below), of balls and of speeds (one sweep each), and the exponents
+of the power laws fitted to them. Each size runs in a process of its own, whose peak of
+memory is reported above that of one that solves one speed with one harmonic. */
 #pragma once
 
 #include "scenes/contender.hpp"

@@ -22,6 +22,7 @@ EqualErrorScene read_equal_error_scene(const std::string& file,
                         .candidates = read_candidates(toml),
                         .repetitions = toml.integer("repetitions", 1, 1000),
                         .long_run = toml.number("long_run_s", Range::positive),
+                        .search = toml.number("search_s", Range::positive),
                         .truth = {.settling = scene_file.time_integration()}};
   if (!std::is_sorted(scene.range_ends.begin(), scene.range_ends.end()))
     toml.fail("range_ends_hz", "must rise");
@@ -81,10 +82,13 @@ std::vector<Trial> try_all(const Speeds& speeds, const Candidates& candidates,
   constexpr double clearly = 1.3;
   const int points = scene.truth.settling.stepper.intervals_per_period;
   std::vector<Trial> trials;
+  double used = 0;
   Progress progress(candidates.method, candidates.groups.size());
   for (const SettingGroup& group : candidates.groups) {
+    if (used > scene.search) break;
     for (const Setting& setting : group) {
       trials.push_back(run_once(speeds, setting, points));
+      used += trials.back().cpu;
       if (trials.back().cpu > clearly * cheapest(trials, scene.targets.back())) break;
     }
     progress.step();

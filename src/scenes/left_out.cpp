@@ -1,5 +1,6 @@
 #include "scenes/left_out.hpp"
 
+#include <Eigen/LU>
 #include <cmath>
 #include <numbers>
 
@@ -30,36 +31,29 @@ LeftOut what_is_left_out(const Parameters& parameters, double omega,
   const int m = static_cast<int>(x.size() / 4), far = balance.harmonics();
   /** One evaluation of the force, then harmonic by harmonic. */
   LeftOut result{resize_harmonics(x, 2, far), Eigen::VectorXd::Zero(far + 1)};
-  balance.residual(result.x, omega);
-  const Eigen::MatrixXd& force = balance.force_series();
-  const Eigen::MatrixXd bodies = body_series(parameters, balance, omega, result.x);
-  const double size = bodies.leftCols(3).cwiseAbs().rowwise().sum().maxCoeff();
+  const Eigen::VectorXd residual = balance.residual(result.x, omega);
+  const double size = body_series(parameters, balance, omega, result.x)
+                          .leftCols(3)
+                          .cwiseAbs()
+                          .rowwise()
+                          .sum()
+                          .maxCoeff();
   double sum = 0;
   for (int h = far; h > 0; --h) {
-    double largest = 0;
-    const auto z_s = dynamic_stiffness(parameters.stator, h * omega).value;
-    const auto z_r = dynamic_stiffness(parameters.rotor, h * omega).value;
-    const auto compliance = 1.0 / z_s + 1.0 / z_r;
-    for (int axis = 0; axis < 2; ++axis) {
-      double& cosine = result.x[2 * (2 * h - 1) + axis];
-      double& sine = result.x[2 * (2 * h) + axis];
-      if (h > m) {
-        const std::complex<double> f(force(axis, 2 * h - 1), -force(axis, 2 * h));
-        const auto u = -compliance * f;
-        cosine = u.real();
-        sine = -u.imag();
-      }
-      largest = std::max(largest, std::hypot(cosine, sine));
+    auto u = result.x.segment<4>((2 * h - 1) * 2);  // cosine, then sine coefficients
+    if (h > m) {
+      const Eigen::Matrix4d block = balance.diagonal_block(h);
+      u = -block.partialPivLu().solve(residual.segment<4>((2 * h - 1) * 2));
     }
     result.tail[h] = sum / size;
-    sum += largest;
+    sum += std::max(std::hypot(u[0], u[2]), std::hypot(u[1], u[3]));
   }
   result.tail[0] = sum / size;
   return result;
 }
 
-Eigen::VectorXd briefly_integrated_start(const Parameters& parameters, double omega,
-                                         int harmonics)
+Eigen::VectorXd start_after_transient(const Parameters& parameters, double omega,
+                                      int harmonics)
 {
   constexpr double transient = 0.5;
   const int points = 2 * harmonics + 2;

@@ -1,13 +1,14 @@
 /**
 # What a truncated solution leaves out
 
-The force of a solution with m harmonics has harmonics above m too. The bodies alone would answer them
-with
+The force of a solution with m harmonics has harmonics above m too, which leave a residual
+R_h there. Newton's step with the diagonal blocks of the Jacobian alone,
 
-$$u_h \approx -(G_s(h\omega) + G_r(h\omega))\, F_h(u), \qquad h > m,$$
+$$u_h \approx -(A + J)_{hh}^{-1} R_h, \qquad h > m,$$
 
-which is right above the contact mode and of the right size around it. It costs one evaluation of the
-force and no linear system: an indicator, not a bound. */
+answers it with the inertia of the bodies and the mean stiffness of the contact: right
+above the contact mode and of the right size around it. It costs one evaluation of the
+force and no large linear system: an indicator, not a bound. */
 #pragma once
 
 #include "balance/bearing_problem.hpp"
@@ -38,7 +39,7 @@ LeftOut what_is_left_out(const Parameters& parameters, double omega,
                          const Eigen::VectorXd& x, Balance& balance);
 
 /** Coefficients of the relative motion over one period after half a second of RK4. */
-Eigen::VectorXd briefly_integrated_start(const Parameters& parameters, double omega,
-                                         int harmonics);
+Eigen::VectorXd start_after_transient(const Parameters& parameters, double omega,
+                                      int harmonics);
 
 }  // namespace rotor_stator

@@ -1,8 +1,8 @@
 /**
 # Work in a process of its own
 
-Its peak of memory is that of the work alone: what was done before, and what is kept for later, does not
-count. */
+Its peak of memory is that of the work alone: what was done before, and what is kept for
+later, does not count. */
 #pragma once
 
 #include <functional>

@@ -1,10 +1,10 @@
 /**
 # The motions that errors are measured against
 
-Time integration says what the motion is, and whether it has the period T; shooting with a tight
-tolerance then closes it, so that no rest of a transient is left. Harmonic balance with many harmonics,
-which shares neither the discretisation nor the iteration with shooting, says how far both can be
-trusted. */
+Time integration says what the motion is, and whether it has the period T; shooting with a
+tight tolerance then closes it, so that no rest of a transient is left. Harmonic balance
+with many harmonics, which shares neither the discretisation nor the iteration with
+shooting, says how far both can be trusted. */
 #pragma once
 
 #include "scenes/motions.hpp"

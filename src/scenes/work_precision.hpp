@@ -1,11 +1,12 @@
 /**
 # Scene: work against precision
 
-One periodic motion at each of a few speeds, by every method at many settings: the CPU time of one thread
-against the error of displacement and of force. Each is run from nothing (the static load, quasi-static
-contact) and from the known motion at a speed a little below. The time is also split: what the bearing's
-force takes, what the Fourier transforms take, and the rest, which is the linear algebra of harmonic
-balance and the steps of the time methods. The force inside harmonic balance is timed in a run of its own;
+One periodic motion at each of a few speeds, by every method at many settings: the CPU
+time of one thread against the error of displacement and of force. Each is run from
+nothing (the static load, quasi-static contact) and from the known motion at a speed a
+little below. The time is also split: what the bearing's force takes, what the Fourier
+transforms take, and the rest, which is the linear algebra of harmonic balance and the
+steps of the time methods. The force inside harmonic balance is timed in a run of its own;
 all other parts are numbers of operations times what one takes in the same run. */
 #pragma once
 

@@ -1,9 +1,9 @@
 /**
 # The variational equations of Eq. 7
 
-Eight small disturbances of the state at once. Displacement (or speed) i of disturbance j is in row j and
-column i, so that the eight of one displacement lie side by side in memory, where the compiler's vectors
-share them. */
+Eight small disturbances of the state at once. Displacement (or speed) i of disturbance j
+is in row j and column i, so that the eight of one displacement lie side by side in
+memory, where the compiler's vectors share them. */
 #pragma once
 
 #include <Eigen/Core>

@@ -1,9 +1,9 @@
 /**
 # The period map by classical Runge-Kutta, with its derivative
 
-One period in S equal steps: 4S evaluations of Eq. 7 and no sine or cosine. The derivative is that of
-the map as it is computed: each stage of the variational equations takes the bearing's stiffness at
-the same stage of the state. */
+One period in S equal steps: 4S evaluations of Eq. 7 and no sine or cosine. The derivative
+is that of the map as it is computed: each stage of the variational equations takes the
+bearing's stiffness at the same stage of the state. */
 #pragma once
 
 #include "integration/rk4.hpp"

@@ -1,14 +1,15 @@
 /**
 # Shooting: the periodic motion as a fixed point of the period map
 
-P(s) = s is solved by Newton, (Φ - 1) Δs = s - P(s), with Φ from the variational equations. After
-Newton's step Broyden's rule corrects Φ from what each further map shows, so that the state alone is
-integrated while that reduces the closure well; a step that does not is halved, and then Φ is computed
-anew. A sweep hands Φ on from speed to speed. When the motion is closed as well as asked, the step that
-is then known takes the state closer yet, for no further map.
+P(s) = s is solved by Newton, (Φ - 1) Δs = s - P(s), with Φ from the variational
+equations. After Newton's step Broyden's rule corrects Φ from what each further map shows,
+so that the state alone is integrated while that reduces the closure well; a step that
+does not is halved, and then Φ is computed anew. A sweep hands Φ on from speed to speed.
+When the motion is closed as well as asked, the step that is then known takes the state
+closer yet, for no further map.
 
-No transient has to decay, and unstable motions are found like stable ones: the fair rival of harmonic
-balance, and an independent check of it. */
+No transient has to decay, and unstable motions are found like stable ones: the fair rival
+of harmonic balance, and an independent check of it. */
 #pragma once
 
 #include <optional>

@@ -194,6 +194,7 @@ TEST_CASE("Equal error: what the table calls reached is reached, and aft is its 
                         .candidates = {},
                         .repetitions = 1,
                         .long_run = 10,
+                        .search = 100,
                         .truth = truth_settings()};
   const Setting aft{
       .method = "aft", .harmonics = 8, .samples_per_harmonic = 4, .tolerance = 1e-6};
