@@ -128,16 +128,35 @@ AdaptivePoint point_of(int set, double frequency, double tolerance,
           -1};
 }
 
-}  // namespace
+/** The exact motion from the most accurate of the solutions. */
+Motion exact_motion(const Parameters& parameters,
+                    const std::vector<AdaptiveSolution>& solutions)
+{
+  const auto best = std::min_element(
+      solutions.begin(), solutions.end(), [](const auto& a, const auto& b) {
+        return std::pair(!a.reached, a.estimate.displacement) <
+               std::pair(!b.reached, b.estimate.displacement);
+      });
+  if (!best->reached) return {points_per_period, 0, {}};
+  return exact_motion(parameters, best->solution, points_per_period);
+}
 
-std::vector<AdaptivePoint> adaptive_points(const AdaptiveStudy& study, std::size_t index)
+/** Which set and which speed number `index` is. */
+std::pair<std::size_t, double> speed_of(const AdaptiveStudy& study, std::size_t index)
 {
   std::size_t set = 0;
   for (; index >= study.frequencies[set].size(); ++set)
     index -= study.frequencies[set].size();
-  const Parameters& parameters = study.sets[set];
-  const double frequency = study.frequencies[set][index], omega = angular(frequency);
+  return {set, study.frequencies[set][index]};
+}
 
+}  // namespace
+
+std::vector<AdaptivePoint> adaptive_points(const AdaptiveStudy& study, std::size_t index)
+{
+  const auto [set, frequency] = speed_of(study, index);
+  const Parameters& parameters = study.sets[set];
+  const double omega = angular(frequency);
   std::vector<AdaptivePoint> points;
   std::vector<AdaptiveSolution> solutions;
   for (double tolerance : study.tolerances) {
@@ -146,14 +165,7 @@ std::vector<AdaptivePoint> adaptive_points(const AdaptiveStudy& study, std::size
         point_of(static_cast<int>(set) + 1, frequency, tolerance, solutions.back()));
   }
 
-  /** The exact motion from the most accurate solution. */
-  Motion exact{points_per_period, 0, {}};
-  const auto best = std::min_element(
-      solutions.begin(), solutions.end(), [](const auto& a, const auto& b) {
-        return std::pair(!a.reached, a.estimate.displacement) <
-               std::pair(!b.reached, b.estimate.displacement);
-      });
-  if (best->reached) exact = exact_motion(parameters, best->solution, points_per_period);
+  const Motion exact = exact_motion(parameters, solutions);
   double least_error = 1;
   for (std::size_t k = 0; k < points.size(); ++k) {
     if (!points[k].reached) continue;
