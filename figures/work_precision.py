@@ -16,6 +16,7 @@ from tables import Table, run
 SHOWN = ((6, "set1"), (16, "set1"), (45, "set1"), (45, "set2"))
 START = "below"
 SPLIT_AT = 1e-3
+LEGEND = 0.12  # of the height
 PEERS = Path("data/reference/peers.tsv")
 STYLES = {"aft": ("harmonic balance", "C0", "-", "o"),
           "shooting-rk4": ("shooting, RK4", "C1", "-", "s"),
@@ -27,7 +28,7 @@ STYLES = {"aft": ("harmonic balance", "C0", "-", "o"),
           "msbdf": ("BDF", "C5", "-", "x"),
           "bsimp": ("Bulirsch-Stoer", "C5", "--", "+")}
 PARTS = (("force", "bearing's force", "0.25"), ("transform", "Fourier transforms", "C5"),
-         ("rest", "linear algebra, steps, rest", "0.8"))
+         ("rest", "algebra, steps, rest", "0.8"))
 
 
 def front(cpu, error):
@@ -111,7 +112,7 @@ def draw(table):
             draw_peers(axes, frequency, data_set, name)
         draw_split(column[2], rows)
         column[1].set_xlabel("CPU time [ms]")
-        column[2].set_xlabel(f"share of CPU, error ≤ {SPLIT_AT:g}")
+        column[2].set_xlabel("share of CPU")
     for row in grid:
         for axes in row[1:]:
             axes.tick_params(labelleft=False)
@@ -122,10 +123,11 @@ def draw(table):
             axes.set_ylim(low, min(high, 3))
     grid[0, 0].set_ylabel("error of displacement [-]")
     grid[1, 0].set_ylabel("error of force [-]")
+    grid[2, 0].set_ylabel(f"displacement to {SPLIT_AT:g}")
     handles, labels = grid[0, 2].get_legend_handles_labels()
     bars, parts = grid[2, 0].get_legend_handles_labels()
-    figure.legend(handles + bars, labels + parts, loc="outside lower center", ncols=5, fontsize=10,
-                  frameon=False)
+    figure.get_layout_engine().set(rect=(0.02, LEGEND, 0.97, 1 - LEGEND))
+    figure.legend(handles + bars, labels + parts, loc="lower center", ncols=4, frameon=False)
     return figure
 
 
