@@ -35,12 +35,22 @@ struct StrictToml::Content {
 namespace
 {
 
-/** A whole file as text, or the reason why not. */
+/** No parameter or scene file comes near this. */
+constexpr std::uintmax_t most_bytes = 1'000'000;
+
+/** A whole file as text, or the reason why not. Devices and pipes may never end. */
 std::string read_file(const std::string& file)
 {
-  if (!std::filesystem::exists(file)) throw BadInput(file + ": no such file");
-  if (std::filesystem::is_directory(file))
-    throw BadInput(file + ": is a directory; a TOML file is expected");
+  std::error_code ignored;
+  const auto status = std::filesystem::status(file, ignored);
+  if (!std::filesystem::exists(status)) throw BadInput(file + ": no such file");
+  if (!std::filesystem::is_regular_file(status))
+    throw BadInput(file + ": is " +
+                   (is_directory(status) ? "a directory" : "no plain file") +
+                   "; a TOML file is expected");
+  if (std::filesystem::file_size(file, ignored) > most_bytes)
+    throw BadInput(file + text(": is longer than %d bytes; a TOML file is expected",
+                               static_cast<int>(most_bytes)));
   std::ifstream in(file);
   if (!in) throw BadInput(file + ": cannot be read");
   std::ostringstream content;
