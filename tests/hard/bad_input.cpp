@@ -163,6 +163,6 @@ TEST_CASE("Legal and extreme machines and options")
 
 TEST_CASE("Legal and extreme machines with the work that explore allows by itself")
 {
-  run_cases(Fuzz::extreme, 4'000'000, cases(sanitized ? 20 : 100),
+  run_cases(Fuzz::extreme, 4'000'000, cases(sanitized ? 20 : 40),
             sanitized ? "0.1" : "");
 }
