@@ -49,7 +49,8 @@ std::string table_problem(const std::string& table)
   std::istringstream lines(table);
   long columns = 0, rows = 0;
   for (std::string line; std::getline(lines, line);) {
-    if (line.starts_with("# parameters:")) continue;  // the title is the reader's
+    /** The title is the reader's, the flags may name NaN. */
+    if (line.starts_with("# parameters:") || line.starts_with("# compiler:")) continue;
     if (has_no_number(line)) return "not finite: " + line;
     if (line.starts_with("#")) continue;
     const long cells = 1 + std::count(line.begin(), line.end(), '\t');
