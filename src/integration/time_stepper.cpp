@@ -45,7 +45,7 @@ double default_step(const Parameters& parameters)
 
 void too_many_evaluations(double allowed)
 {
-  throw NoSolution(text("no steady state within %.3g evaluations of Eq. 7", allowed));
+  throw NoSolution(text("not done within %.3g evaluations of Eq. 7", allowed));
 }
 
 double affordable_evaluations(const Parameters& parameters, const std::string& method,

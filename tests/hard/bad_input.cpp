@@ -2,16 +2,13 @@
    within 5 s of processor time, with status 0, 2 or 3 and the output that belongs to it, and prints
    no number that is not finite. The seed of a failing case is in the message, and its file is kept in
    the build folder under fuzz/. FUZZ_SEED and FUZZ_CASES in the environment give other cases. */
-#include <algorithm>
 #include <catch2/catch.hpp>
-#include <cctype>
-#include <cmath>
 #include <cstdlib>
 #include <filesystem>
 #include <fstream>
-#include <sstream>
 
 #include "hard/fuzz_cases.hpp"
+#include "hard/outcome.hpp"
 #include "support/command.hpp"
 #include "support/limited_run.hpp"
 
@@ -19,79 +16,6 @@ using namespace rotor_stator::tests;
 
 namespace
 {
-
-#ifdef __SANITIZE_ADDRESS__
-constexpr bool sanitized = true;
-#else
-constexpr bool sanitized = false;
-#endif
-
-constexpr int cpu_seconds = 5;
-
-/** Whether nan or inf stands somewhere as a word. */
-bool has_no_number(const std::string& text)
-{
-  std::string word;
-  for (char c : text + " ") {
-    if (std::isalnum(static_cast<unsigned char>(c))) {
-      word += static_cast<char>(std::tolower(static_cast<unsigned char>(c)));
-      continue;
-    }
-    if (word == "nan" || word == "inf" || word == "infinity") return true;
-    word.clear();
-  }
-  return false;
-}
-
-/** What is wrong with a table; empty when every row has as many finite numbers as there are names. */
-std::string table_problem(const std::string& table)
-{
-  std::istringstream lines(table);
-  long columns = 0, rows = 0;
-  for (std::string line; std::getline(lines, line);) {
-    /** The title is the reader's, the flags may name NaN. */
-    if (line.starts_with("# parameters:") || line.starts_with("# compiler:")) continue;
-    if (has_no_number(line)) return "not finite: " + line;
-    if (line.starts_with("#")) continue;
-    const long cells = 1 + std::count(line.begin(), line.end(), '\t');
-    if (columns == 0)
-      columns = cells;
-    else if (cells != columns)
-      return "cells of row " + std::to_string(rows) + ": " + line;
-    else
-      ++rows;
-  }
-  return rows > 0 ? "" : "no rows";
-}
-
-bool is_one_line(const std::string& text)
-{
-  return text.size() > 1 && std::count(text.begin(), text.end(), '\n') == 1 &&
-         text.back() == '\n';
-}
-
-/** What is wrong with how the program ended; empty when nothing is. */
-std::string problem(const LimitedOutcome& outcome)
-{
-  if (outcome.signal != 0) return "signal " + std::to_string(outcome.signal);
-  const bool help =
-      outcome.out.starts_with("Explores") || outcome.out.find("Usage:") < 200;
-  switch (outcome.status) {
-    case 0:
-      if (!outcome.err.empty()) return "status 0 with words on stderr";
-      return help ? "" : table_problem(outcome.out);
-    case 2:
-      if (!outcome.out.empty()) return "status 2 with words on stdout";
-      return is_one_line(outcome.err) ? "" : "status 2 without one line on stderr";
-    case 3:
-      if (!is_one_line(outcome.err)) return "status 3 without one line on stderr";
-      if (has_no_number(outcome.err))
-        return "status 3 with a reason that is not a number";
-      return outcome.out.empty() ? "" : table_problem(outcome.out);
-    default:
-      return "status " + std::to_string(outcome.status);
-  }
-}
 
 long from_environment(const char* name, long otherwise)
 {
@@ -164,6 +88,5 @@ TEST_CASE("Legal and extreme machines and options")
 
 TEST_CASE("Legal and extreme machines with the work that explore allows by itself")
 {
-  run_cases(Fuzz::extreme, 4'000'000, cases(sanitized ? 20 : 40),
-            sanitized ? "0.1" : "");
+  run_cases(Fuzz::extreme, 4'000'000, cases(sanitized ? 20 : 40), sanitized ? "0.1" : "");
 }

@@ -1,6 +1,7 @@
 #include "hard/fuzz_cases.hpp"
 
 #include "hard/fuzz_file.hpp"
+#include "hard/fuzz_words.hpp"
 
 namespace rotor_stator::tests
 {
@@ -8,70 +9,12 @@ namespace rotor_stator::tests
 namespace
 {
 
-using Words = std::vector<std::string>;
-
-/** Values that no option takes, or that only some do. */
+/** One of the odd words, or a very long one. */
 std::string odd_word(Dice& dice)
 {
-  static const Words words{"",
-                           " ",
-                           "nan",
-                           "NaN",
-                           "-nan",
-                           "inf",
-                           "-inf",
-                           "infinity",
-                           "0",
-                           "-0",
-                           "0.0",
-                           "-1",
-                           "1e308",
-                           "1e309",
-                           "1e-308",
-                           "1e-320",
-                           "5e-324",
-                           "0x10",
-                           "0x1p-1074",
-                           "1e",
-                           "1,5",
-                           "1 2",
-                           "ten",
-                           "--",
-                           "-",
-                           "--help",
-                           "2147483647",
-                           "2147483648",
-                           "-2147483648",
-                           "4294967296",
-                           "9223372036854775808",
-                           "1e3",
-                           "3.5",
-                           "+5",
-                           "05",
-                           "1_000",
-                           "1e400",
-                           "é",
-                           "∞",
-                           "%s%n",
-                           "$(true)",
-                           "'",
-                           "\"",
-                           "\n",
-                           "\t5",
-                           "5 ",
-                           "5Hz",
-                           "true",
-                           "machine.toml",
-                           "/dev/null",
-                           "@machine.toml",
-                           "[1,2]",
-                           "{}",
-                           "\xff\xfe",
-                           "aft ",
-                           "AFT"};
   if (dice.one_in(20))
     return std::string(1 + dice.roll(5000), dice.one_in(2) ? '9' : 'x');
-  return dice.pick(words);
+  return dice.pick(odd_words());
 }
 
 struct Option {
@@ -155,11 +98,8 @@ void spoil(Dice& dice, std::vector<Option>& options)
 
 std::string parameter_path(Dice& dice)
 {
-  static const Words odd{"",          ".",   "/",    "no/such/file",  "/dev/null",
-                         "/dev/zero", "out", "../x", "machine.toml/", "machine.toml\n",
-                         "\xff",      "-",   "--",   "/proc/self/mem"};
   if (dice.one_in(4)) return std::string(1 + dice.roll(9000), dice.one_in(2) ? 'p' : '/');
-  return dice.pick(odd);
+  return dice.pick(odd_paths());
 }
 
 }  // namespace
