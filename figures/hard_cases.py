@@ -30,7 +30,7 @@ def mark_of(verdict, regime):
 
 def groups_of(cases):
     """The group of each case: its name without varied value and speed."""
-    return [re.sub(r"( [-+.\de]+)?, [\d.e+]+ Hz$", "", case) for case in cases]
+    return [re.sub(r"(: [-+.\de]+)?, [\d.e+]+ Hz$", "", case) for case in cases]
 
 
 def draw_method(axes, rows, groups, column):
@@ -64,9 +64,9 @@ def draw(table):
         axes.axvline(line - 0.12, color="#404040", lw=0.75)
     for line in range(len(order)):
         axes.axhline(line, color="#e4e4e4", lw=0.75, zorder=0)
-    figure.legend([Line2D([], [], ls="", marker=marker, mfc=face, mec=edge, ms=7, mew=1.4)
-                   for marker, face, edge in MARKS.values()], MARKS,
-                  loc="outside lower center", ncols=3, frameon=False)
+    axes.legend([Line2D([], [], ls="", marker=marker, mfc=face, mec=edge, ms=7, mew=1.4)
+                 for marker, face, edge in MARKS.values()], MARKS,
+                loc="upper center", bbox_to_anchor=(0.4, 0), ncols=3, frameon=False)
     return figure
 
 

@@ -138,7 +138,7 @@ void add_group(StrictToml toml, const Parameters& parameters,
   for (double value : toml.numbers("values", Range::any)) {
     HardCase hard = group.base;
     change(hard, key, value, toml);
-    hard.name += text(" %g", value);
+    hard.name += text(": %g", value);
     add_speeds(group, hard, cases);
   }
 }

@@ -195,9 +195,9 @@ std::string name_of(Method method)
   return "";
 }
 
-Judgement judge(const HardCase& hard, Method method, const HardRule& rule)
+Judgement judge(const HardCase& hard, Method method, Answer answer, const HardRule& rule)
 {
-  Judgement judgement{answer_of(hard, method, rule), {}, {}};
+  Judgement judgement{std::move(answer), {}, {}};
   if (judgement.answer.claimed) {
     try {
       if (method == Method::shooting)
@@ -212,6 +212,11 @@ Judgement judge(const HardCase& hard, Method method, const HardRule& rule)
   }
   judgement.verdict = verdict(judgement.answer, judgement.check, rule);
   return judgement;
+}
+
+Judgement judge(const HardCase& hard, Method method, const HardRule& rule)
+{
+  return judge(hard, method, answer_of(hard, method, rule), rule);
 }
 
 std::vector<Judgement> judge_all(const HardCases& hard, int every)

@@ -35,6 +35,10 @@ struct Judgement {
   std::string verdict;  ///< solved, refused, silent error or unconfirmed
 };
 
+/** Puts an answer to the check that belongs to its method. */
+Judgement judge(const HardCase& hard, Method method, Answer answer, const HardRule& rule);
+
+/** Puts a case to a method, and its answer to the check. */
 Judgement judge(const HardCase& hard, Method method, const HardRule& rule);
 
 /** All methods on every case, two at a time: `every`-th piece only, for a quick look. */

@@ -6,7 +6,7 @@
 
 #include "hard/outcome.hpp"
 #include "model/errors.hpp"
-#include "scenes/hard_cases.hpp"
+#include "scenes/hard_checks.hpp"
 #include "support/command.hpp"
 #include "support/tsv.hpp"
 
@@ -106,6 +106,31 @@ TEST_CASE("Hard cases end with a confirmed answer or a reason")
   }
   if (!sanitized) CHECK(cases.size() >= 60);
   if (!sanitized) CHECK(table.rows.size() == 4 * cases.size());
+}
+
+TEST_CASE("The check finds a wrong answer that claims success")
+{
+  const HardCases hard = read_hard_cases(list);
+  const auto named = [](const HardCase& h) {
+    return h.name == "balls of finite size, 30 Hz";
+  };
+  const auto found = std::find_if(hard.cases.begin(), hard.cases.end(), named);
+  REQUIRE(found != hard.cases.end());
+  const auto answers = {
+      std::pair{Method::predictor, answer_by_predictor(*found, hard.rule)},
+      std::pair{Method::shooting, answer_by_shooting(*found, hard.rule)},
+      std::pair{Method::rk4, answer_by_rk4(*found, hard.rule)}};
+  for (const auto& [method, answer] : answers) {
+    INFO(name_of(method));
+    CHECK(judge(*found, method, answer, hard.rule).verdict == "solved");
+    Answer wrong = answer;
+    for (Bodies& q : wrong.motion.positions) q.rotor.x *= 1.02;
+    CHECK(judge(*found, method, wrong, hard.rule).verdict == "silent error");
+    wrong = answer;
+    wrong.periodic = false;
+    if (method == Method::rk4)
+      CHECK(judge(*found, method, wrong, hard.rule).verdict == "silent error");
+  }
 }
 
 TEST_CASE("explore ends on every hard case, with an answer or a reason")
