@@ -85,7 +85,7 @@ PeriodicSolution solved(const HardCase& hard, Resolution with,
 {
   const Parameters& p = hard.parameters;
   const double omega = angular(hard.frequency);
-  Balance balance(bearing_problem(p, with.samples, with.harmonics, work), with.harmonics);
+  Balance balance(bearing_problem(p, with.samples, work), with.harmonics);
   PeriodicSolution solution{omega, with.harmonics, with.samples, {}, {}, {}, {}};
   solution.x = resize_harmonics(start, 2, with.harmonics);
   solution.newton = solve(balance, omega, solution.x, {});
@@ -105,8 +105,7 @@ PeriodicSolution reached(const HardCase& hard, Approach approach, const Work& wo
         hard, {hard.harmonics, hard.samples},
         quasi_static_start(hard.parameters, angular(hard.frequency), hard.harmonics),
         work);
-  Balance balance(bearing_problem(hard.parameters, with.samples, with.harmonics, work),
-                  with.harmonics);
+  Balance balance(bearing_problem(hard.parameters, with.samples, work), with.harmonics);
   Eigen::VectorXd x = approach(hard, balance);
   while (2 * with.harmonics < hard.harmonics) {
     with = {2 * with.harmonics, default_samples(2 * with.harmonics)};

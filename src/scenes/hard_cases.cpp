@@ -68,15 +68,12 @@ double grazing_clearance(const Parameters& parameters, double frequency)
 double first_fold(const HardCase& hard, double from, double to)
 {
   const Parameters& p = hard.parameters;
-  const SweepSettings scaling = sweep_settings(p);
   Balance balance(bearing_problem(p, hard.samples), hard.harmonics);
+  ArcLengthSettings settings = arc_length_settings(p);
+  settings.most_points = 3000;
   const Branch branch =
       follow_branch(balance, angular(from), angular(to),
-                    quasi_static_start(p, angular(from), hard.harmonics),
-                    {.newton = {},
-                     .speed_scale = scaling.speed_scale,
-                     .arc_unknown_scale = scaling.arc_unknown_scale,
-                     .most_points = 3000});
+                    quasi_static_start(p, angular(from), hard.harmonics), settings);
   if (branch.folds.empty())
     throw NoSolution(hard.name + text(": no fold from %g to %g Hz", from, to));
   return branch.folds.front() / angular(1);
