@@ -46,7 +46,7 @@ results_of = $(tables_of) $(timing_of) $(figures_of)
 # What does not depend on the reading.
 studied := $(addprefix data/generated/,sensitivity.tsv sensitivity_derivatives.tsv sampling.tsv) \
   $(addprefix figures/generated/,sensitivity.svg sampling.svg identification.svg study.svg peers.svg adaptive.svg) \
-  $(addprefix figures/generated/,work_precision.svg cost_growth.svg)
+  $(addprefix figures/generated/,work_precision.svg cost_growth.svg hard_cases.svg)
 
 # The text whose numbers come from tables; the default reading's, since it compares both.
 pages := data/generated/deviations.md
@@ -62,7 +62,7 @@ untimed := $(foreach reading,$(readings),$(call tables_of,$(reading)) $(call fig
 programs := $(patsubst src/%.cpp,build/%,$(wildcard src/*.cpp))
 
 .PHONY: all figures timing claims test sanitize deps list png readme golden format clean \
-  studies identify study truth attractors validity stability adaptive adopt peers deps-peers bench
+  studies identify study hard truth attractors validity stability adaptive adopt peers deps-peers bench
 
 all: $(untimed) $(timings) $(claims)  ## figures, tables and claims of both readings (the default)
 
@@ -214,7 +214,8 @@ $(eval $(call curves,sensitivity,sensitivity,))
 $(eval $(call curves,sampling,sampling,))
 
 # The long studies are drawn from their kept tables.
-figures/generated/identification.svg figures/generated/study.svg: figures/generated/%.svg: \
+figures/generated/identification.svg figures/generated/study.svg figures/generated/hard_cases.svg: \
+  figures/generated/%.svg: \
   figures/%.py figures/rotor_stator.mplstyle figures/tables.py data/claims.toml \
   data/set1.toml data/set2.toml data/reference/%.tsv
 	@mkdir -p $(@D)
@@ -303,10 +304,10 @@ $(foreach reading,$(readings),$(eval $(call claims_rule,$(reading))))
 # Long studies. Finished pieces are kept in a journal, so an interrupted study goes on; the tables are
 # kept in data/reference, where `all` finds them, and compared with what is computed anew.
 
-studies: identify study truth timing  ## run the long studies and compare them with their kept tables
+studies: identify study hard truth timing  ## run the long studies and compare them with their kept tables
 
 ifneq ($(filter studies,$(MAKECMDGOALS)),)
-timing: | identify study truth
+timing: | identify study hard truth
 endif
 
 identify: build/identify_parameters  ## score the grid of unpublished parameters (under 10 minutes)
@@ -332,6 +333,12 @@ adaptive: build/adaptive  ## estimate, true error and cost of adaptive harmonics
 	@mkdir -p data/generated
 	new=data/generated/adaptive.tsv; $< --journal data/generated/adaptive.journal > $$new.tmp; \
 	  mv $$new.tmp $$new; $(PYTHON) tests/compare_tables.py data/reference/adaptive.tsv $$new
+
+hard: build/hard_cases  ## how each method ends on the hard cases (under 5 minutes)
+	@mkdir -p data/generated
+	new=data/generated/hard_cases.tsv; $< > $$new.tmp; \
+	  mv $$new.tmp $$new; $(PYTHON) tests/compare_tables.py \
+    --columns case,method,status,verdict,regime data/reference/hard_cases.tsv $$new
 
 # Other people's programs on the same equations; not part of `studies`, and installed by this alone.
 peers: build/explore | deps-peers  ## outside integrators and AUTO-07p, timed (under 10 minutes)
@@ -363,7 +370,7 @@ validity: build/validity attractors  ## distance of the solutions to the attract
 
 adopt:  ## keep the tables of the studies just run, and the verdicts; a commit that does says why
 	@mkdir -p data/reference
-	for name in identification study adaptive stability stability-as-printed peers peers_auto $(costs); do \
+	for name in identification study hard_cases adaptive stability stability-as-printed peers peers_auto $(costs); do \
 	  if [ -e data/generated/$$name.tsv ]; then cp data/generated/$$name.tsv data/reference/; fi; done
 	for name in attractors validity; do for s in "" -as-printed; do \
 	  new=data/generated/$${s#-}/$$name.tsv; \

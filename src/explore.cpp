@@ -20,6 +20,14 @@ namespace
 
 using namespace rotor_stator;
 
+void add_operations_option(CLI::App& command, double& operations)
+{
+  command
+      .add_option("--operations", operations,
+                  "bound on all work, in billions of operations: about a second each")
+      ->capture_default_str();
+}
+
 /** Options that orbit and contact share. */
 void add_motion_options(CLI::App& command, MotionRequest& request)
 {
@@ -51,6 +59,7 @@ void add_motion_options(CLI::App& command, MotionRequest& request)
       ->capture_default_str();
   command.add_flag("!--no-stability", request.stability,
                    "leave out the Floquet multipliers of aft");
+  add_operations_option(command, request.operations);
 }
 
 void add_response_options(CLI::App& command, ResponseRequest& request)
@@ -71,6 +80,7 @@ void add_response_options(CLI::App& command, ResponseRequest& request)
                      "up: from --from to --to; down: from --to to --from");
   command.add_option("--work", request.work, "evaluations of the force at most")
       ->capture_default_str();
+  add_operations_option(command, request.operations);
   command.add_option("--save", request.save, "file for the branch, all coefficients");
   command.add_option("--restart", request.restart, "file of --save to go on from");
   command.add_option("--at", request.at,

@@ -71,6 +71,10 @@ void Balance::fill_force_jacobian(int i, int j, int harmonics, Eigen::MatrixXd& 
 
 void Balance::jacobian(int harmonics, Eigen::MatrixXd& jacobian)
 {
+  if (problem_.spend) {
+    const double n = problem_.dofs * (2.0 * harmonics + 1);
+    problem_.spend(10 * n * n + n * n * n / 40);  // with its factorisation
+  }
   need_spectra();
   const int dofs = problem_.dofs;
   const Eigen::Index size = dofs * (2 * harmonics + 1);
@@ -111,6 +115,7 @@ const Eigen::MatrixXd& Balance::jacobian()
 void Balance::apply_jacobian(const Eigen::VectorXd& v, Eigen::VectorXd& product)
 {
   need_stiffness();
+  if (problem_.spend) problem_.spend(60.0 * problem_.samples);
   const int d = problem_.dofs;
   const Eigen::Map<const Eigen::MatrixXd> series(v.data(), d, 2 * harmonics_ + 1);
   transform_.to_samples(series, product_samples_);

@@ -104,6 +104,21 @@ Problem bearing_problem(const Parameters& parameters, int samples)
                    Eigen::MatrixXd* stiffness) { bearing.force(u, force, stiffness); }};
 }
 
+Problem bearing_problem(const Parameters& parameters, int samples, const Work& work)
+{
+  Problem problem = bearing_problem(parameters, samples);
+  if (!work.bounded()) return problem;
+  const double evaluation = 3e3 + samples * (10 + 1.5 * parameters.bearing.balls);
+  problem.force = [law = problem.force, work, evaluation](const Eigen::MatrixXd& u,
+                                                          Eigen::MatrixXd& force,
+                                                          Eigen::MatrixXd* stiffness) {
+    work.spend(evaluation);
+    law(u, force, stiffness);
+  };
+  problem.spend = [work](double operations) { work.spend(operations); };
+  return problem;
+}
+
 namespace
 {
 

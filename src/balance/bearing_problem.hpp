@@ -16,6 +16,7 @@ high harmonics alike. */
 
 #include "balance/balance.hpp"
 #include "model/rotor_stator.hpp"
+#include "model/work.hpp"
 
 namespace rotor_stator
 {
@@ -24,6 +25,9 @@ namespace rotor_stator
    the force has not the period of rotation (n ω_cage/ω not whole, D-11): no series in ω
    can solve it. */
 Problem bearing_problem(const Parameters& parameters, int samples);
+
+/** The same, where force and factorisations are taken from an account of work. */
+Problem bearing_problem(const Parameters& parameters, int samples, const Work& work);
 
 /** A start for Newton without any previous solution, 2 × (2m+1) coefficients as a vector:
    the motion without contact where it stays inside the clearance; otherwise at each

@@ -51,6 +51,10 @@ struct Problem {
   std::function<void(const Eigen::MatrixXd& q, Eigen::MatrixXd& force,
                      Eigen::MatrixXd* stiffness)>
       force;
+
+  /** Takes the operations of one factorisation from an account, and throws when they are not there;
+      empty without a bound on work. */
+  std::function<void(double operations)> spend = {};
 };
 
 /** The block of M q̈ + D q̇ + K q + f(q) = Re(F e^{iωt}) for real d × d matrices and a

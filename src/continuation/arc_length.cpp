@@ -34,7 +34,11 @@ public:
   Branch run(const BranchPoint& start)
   {
     begin(start);
-    while (!done_) advance();
+    try {
+      while (!done_) advance();
+    } catch (const NoSolution& out_of_work) {
+      stop(BranchEnd::work, out_of_work.what());
+    }
     branch_.evaluations = balance_.evaluations() - evaluations_before_;
     return std::move(branch_);
   }

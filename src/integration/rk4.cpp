@@ -4,6 +4,7 @@
 #include <cmath>
 #include <numbers>
 
+#include "integration/time_stepper.hpp"
 #include "model/errors.hpp"
 #include "model/vector_arithmetic.hpp"
 
@@ -27,18 +28,21 @@ int steps_per_interval(double period, int intervals, double longest_step)
 {
   const double steps = std::ceil(period / intervals / longest_step - 1e-9);
   if (!(steps * intervals <= most_steps_per_period))
-    throw NoSolution(text("rk4 would need %.3g steps per period; at most %.3g are taken",
-                          steps * intervals, most_steps_per_period));
+    throw NoSolution(
+        text("rk4 would need steps of %.3g s in a period of %.3g s, more than %.3g",
+             longest_step, period, most_steps_per_period));
   return std::max(1, static_cast<int>(steps));
 }
 
 }  // namespace
 
-Rk4::Rk4(const Parameters& parameters, double omega, int intervals, double longest_step)
+Rk4::Rk4(const Parameters& parameters, double omega, int intervals, double longest_step,
+         double most_evaluations)
     : system_(parameters, omega),
       cage_turn_(2 * std::numbers::pi * parameters.bearing.cage_speed_ratio),
       intervals_(intervals),
-      steps_(steps_per_interval(system_.period(), intervals, longest_step))
+      steps_(steps_per_interval(system_.period(), intervals, longest_step)),
+      most_evaluations_(most_evaluations)
 {
   const int half_steps = 2 * intervals_ * steps_;
   h_ = 2 * system_.period() / half_steps;
@@ -50,6 +54,8 @@ Rk4::Rk4(const Parameters& parameters, double omega, int intervals, double longe
 
 void Rk4::advance(long interval, State& state)
 {
+  if (!(static_cast<double>(evaluations_) + 4.0 * steps_ <= most_evaluations_))
+    too_many_evaluations(most_evaluations_);
   const Direction turns =
       Direction::of(cage_turn_ * static_cast<double>(interval / intervals_));
   const Angles* angles = &angles_[2 * steps_ * (interval % intervals_)];

@@ -18,7 +18,8 @@ class Rk4
 public:
   /** P = `intervals` per period, each cut into the fewest steps not longer than
       `longest_step` [s]. */
-  Rk4(const Parameters& parameters, double omega, int intervals, double longest_step);
+  Rk4(const Parameters& parameters, double omega, int intervals, double longest_step,
+      double most_evaluations = 1e9);
 
   /** Advances over output interval `interval`, counted from t = 0. */
   void advance(long interval, State& state);
@@ -39,6 +40,7 @@ private:
   double cage_turn_;  ///< the cage's angle after one period [rad]
   int intervals_, steps_;
   double h_;
+  double most_evaluations_;
   std::vector<Angles> angles_;
   long evaluations_ = 0;
 };

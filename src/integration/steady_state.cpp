@@ -17,9 +17,6 @@ namespace
 
 using Displacements = std::array<double, 4>;
 
-/** A bound on the work of one steady state: half a minute of RK4. */
-constexpr long most_evaluations = 1'000'000'000;
-
 Displacements displacements(const State& state)
 {
   return std::bit_cast<Displacements>(state.position);
@@ -43,6 +40,21 @@ double extent(const std::deque<Displacements>& section)
     widest = std::max(widest, (*high)[i] - (*low)[i]);
   }
   return widest;
+}
+
+/** Beyond this the section alone fills the memory. */
+constexpr double most_periods = 1e7;
+
+/** The period T [s], when `seconds` of it can be integrated. */
+double checked_period(double omega, double seconds)
+{
+  const double period = 2 * std::numbers::pi / omega;
+  if (!std::isfinite(period))
+    throw NoSolution("the period of rotation is too long to be integrated");
+  if (!(seconds / period <= most_periods))
+    throw NoSolution(
+        text("%g s are more than %g periods of rotation", seconds, most_periods));
+  return period;
 }
 
 /** A motion in progress, with the last points of its Poincaré section. */
@@ -77,10 +89,6 @@ public:
       stepper_.advance(periods_ * intervals_ + k, state_);
     }
     ++periods_;
-    if (stepper_.evaluations() > most_evaluations)
-      throw NoSolution(
-          text("no steady state within %.0e evaluations of Eq. 7 (%ld periods)",
-               static_cast<double>(most_evaluations), periods_));
     for (double x : std::bit_cast<std::array<double, 8>>(state_))
       if (!std::isfinite(x))
         throw NoSolution(text("time integration diverged after %ld periods", periods_));
@@ -105,7 +113,8 @@ private:
 SteadyState steady_state(const Parameters& parameters, double omega, const State& start,
                          const SteadySettings& settings)
 {
-  const double period = 2 * std::numbers::pi / omega;
+  const double period =
+      checked_period(omega, std::max(settings.window, settings.longest));
   const long window = std::max(4L, std::lround(std::ceil(settings.window / period)));
   const long most =
       std::max(2 * window, std::lround(std::ceil(settings.longest / period)));

@@ -43,6 +43,19 @@ double default_step(const Parameters& parameters)
   return 2 * std::numbers::pi / contact_frequency / 40;
 }
 
+void too_many_evaluations(double allowed)
+{
+  throw NoSolution(text("not done within %.3g evaluations of Eq. 7", allowed));
+}
+
+double affordable_evaluations(const Parameters& parameters, const std::string& method,
+                              double work)
+{
+  const bool implicit = method == "msbdf" || method == "bsimp" || method == "msadams";
+  const double around = method == "rk4" ? 10 : implicit ? 300 : 50;
+  return work / (around + parameters.bearing.balls);
+}
+
 void require_method(const std::string& method)
 {
   const auto& known = time_methods();
@@ -59,8 +72,8 @@ TimeStepper make_stepper(const Parameters& parameters, double omega,
   require_method(settings.method);
   if (settings.method == "rk4") {
     const double step = settings.step > 0 ? settings.step : default_step(parameters);
-    return wrap(
-        std::make_shared<Rk4>(parameters, omega, settings.intervals_per_period, step));
+    return wrap(std::make_shared<Rk4>(parameters, omega, settings.intervals_per_period,
+                                      step, settings.most_evaluations));
   }
   return wrap(std::make_shared<GslStepper>(parameters, omega, settings));
 }

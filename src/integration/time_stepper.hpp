@@ -20,13 +20,14 @@ struct StepperSettings {
   double step = 0;                ///< rk4: longest step [s]; 0 chooses `default_step`
   double tolerance =
       1e-10;  ///< GSL: local error per step, over the size of each component
+  double most_evaluations = 1e9;  ///< of Eq. 7, a bound on work: half a minute of RK4
 };
 
 /** A stepper bound to one machine at one speed. */
 struct TimeStepper {
   /** Advances `state` from the start of output interval `interval` (counted from t = 0)
-     to its end. Throws NoSolution when the step size underflows or the state is no longer
-     finite. */
+     to its end. Throws NoSolution when the step size underflows, the state is no longer finite
+     or the evaluations are used up. */
   std::function<void(long interval, State& state)> advance;
 
   /** Evaluations of Eq. 7 so far. */
@@ -42,6 +43,13 @@ TimeStepper make_stepper(const Parameters& parameters, double omega,
 
 /** "rk4" and GSL's explicit, multistep and implicit methods. */
 const std::vector<std::string>& time_methods();
+
+/** Throws NoSolution: the evaluations of Eq. 7 that were allowed are used up. */
+[[noreturn]] void too_many_evaluations(double allowed);
+
+/** Evaluations of Eq. 7 by a method that cost as much as `work` [operations]. */
+double affordable_evaluations(const Parameters& parameters, const std::string& method,
+                              double work);
 
 /** A step [s] that gives the contact mode about 40 steps per period: RK4 is stable up
    to 2.8/ω and accurate well below it. The paper gives none (D-16). */

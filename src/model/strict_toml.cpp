@@ -26,6 +26,16 @@ struct StrictToml::Content {
     reader.fail(key, "is missing");
   }
 
+  /** The table in a node of this one. */
+  StrictToml inner(toml::node& node, const std::string& key) const
+  {
+    auto content = std::make_shared<Content>();
+    content->file = file;
+    content->path = path + key + ".";
+    content->table = std::move(*node.as_table());
+    return StrictToml(content);
+  }
+
   static std::string line(const toml::node& node)
   {
     return ":" + std::to_string(node.source().begin.line);
@@ -35,12 +45,22 @@ struct StrictToml::Content {
 namespace
 {
 
-/** A whole file as text, or the reason why not. */
+/** No parameter or scene file comes near this. */
+constexpr std::uintmax_t most_bytes = 1'000'000;
+
+/** A whole file as text, or the reason why not. Devices and pipes may never end. */
 std::string read_file(const std::string& file)
 {
-  if (!std::filesystem::exists(file)) throw BadInput(file + ": no such file");
-  if (std::filesystem::is_directory(file))
-    throw BadInput(file + ": is a directory; a TOML file is expected");
+  std::error_code ignored;
+  const auto status = std::filesystem::status(file, ignored);
+  if (!std::filesystem::exists(status)) throw BadInput(file + ": no such file");
+  if (!std::filesystem::is_regular_file(status))
+    throw BadInput(file + ": is " +
+                   (is_directory(status) ? "a directory" : "no plain file") +
+                   "; a TOML file is expected");
+  if (std::filesystem::file_size(file, ignored) > most_bytes)
+    throw BadInput(file + text(": is longer than %d bytes; a TOML file is expected",
+                               static_cast<int>(most_bytes)));
   std::ifstream in(file);
   if (!in) throw BadInput(file + ": cannot be read");
   std::ostringstream content;
@@ -165,15 +185,35 @@ std::vector<std::string> StrictToml::strings(const std::string& key)
       [&](const toml::node& node) { return checked_string(node, *this, key); });
 }
 
+bool StrictToml::flag(const std::string& key)
+{
+  const toml::node& node = content_->require(key, *this);
+  if (!node.is_boolean()) fail(key, "must be true or false");
+  return *node.value<bool>();
+}
+
 StrictToml StrictToml::table(const std::string& key)
 {
   toml::node& node = content_->require(key, *this);
   if (!node.is_table()) fail(key, "must be a table");
-  auto inner = std::make_shared<Content>();
-  inner->file = content_->file;
-  inner->path = content_->path + key + ".";
-  inner->table = std::move(*node.as_table());
-  return StrictToml(inner);
+  return content_->inner(node, key);
+}
+
+std::vector<StrictToml> StrictToml::tables(const std::string& key)
+{
+  toml::node& node = content_->require(key, *this);
+  if (!node.is_array_of_tables()) fail(key, "must be [[" + key + "]] tables");
+  std::vector<StrictToml> list;
+  for (toml::node& element : *node.as_array())
+    list.push_back(content_->inner(element, key));
+  return list;
+}
+
+std::vector<std::string> StrictToml::keys() const
+{
+  std::vector<std::string> list;
+  for (const auto& [key, node] : content_->table) list.emplace_back(key.str());
+  return list;
 }
 
 void StrictToml::fail(const std::string& key, const std::string& problem) const

@@ -31,7 +31,12 @@ public:
   std::vector<double> numbers(const std::string& key, Range range);
   std::vector<int> integers(const std::string& key, int least, int most);
   std::vector<std::string> strings(const std::string& key);
+  bool flag(const std::string& key);
   StrictToml table(const std::string& key);
+  std::vector<StrictToml> tables(const std::string& key);
+
+  /** The keys of this table, in the file's alphabet. */
+  std::vector<std::string> keys() const;
 
   /** Throws BadInput about `key`: file, line, key and `problem`. */
   [[noreturn]] void fail(const std::string& key, const std::string& problem) const;

@@ -23,6 +23,7 @@ void check(const ResponseRequest& request)
     throw BadInput(text("--from %g: must be below --to %g", request.from, request.to));
   require_between("--newton-tolerance", request.newton_tolerance, 1e-15, 1e-3);
   require_between("--work", request.work, 1, 1e12);
+  require_between("--operations", request.operations, 1e-6, 1e6);
   require_range("--isolated", request.isolated, 0, 10000);
   require_range("--seed", request.seed, 0, 1000000000);
   require_range("--branch", request.branch, 1, 1000000);
@@ -43,6 +44,7 @@ struct Task {
   int harmonics, samples;
   ArcLengthSettings settings;
   bool upwards;
+  Work work;
 
   SpeedRange range() const
   {
@@ -67,8 +69,10 @@ Task task_of(const ResponseRequest& request)
   settings.most_evaluations = static_cast<long>(request.work);
   const bool upwards =
       request.direction.empty() ? !saved || saved->upwards : request.direction == "up";
-  return {request, std::move(parameters), std::move(saved), harmonics, checked, settings,
-          upwards};
+  return {request,          std::move(parameters),
+          std::move(saved), harmonics,
+          checked,          settings,
+          upwards,          Work(request.operations * 1e9)};
 }
 
 /** A saved point, turned and with as many harmonics as are asked for. */
@@ -100,8 +104,9 @@ BranchPoint saved_start(const Task& task, Table& table)
 BranchPoint found_start(const Task& task, Balance& balance, Table& table)
 {
   const double omega = task.range().from;
-  const PeriodicSolution start = find_periodic(task.parameters, omega, task.harmonics,
-                                               task.samples, task.settings.newton);
+  const PeriodicSolution start =
+      find_periodic(task.parameters, omega, task.harmonics, task.samples,
+                    task.settings.newton, task.work);
   if (!start.found())
     throw NoSolution(text("%s: no solution found with %d harmonics at --%s %g Hz: %s",
                           task.parameters.file.c_str(), task.harmonics,
@@ -206,7 +211,8 @@ Exploration explore_response(const ResponseRequest& request)
   const Task task = task_of(request);
   const bool numbered = request.isolated > 0;
   Table table("Frequency response along the branch", response_columns(numbered));
-  Balance balance(bearing_problem(task.parameters, task.samples), task.harmonics);
+  Balance balance(bearing_problem(task.parameters, task.samples, task.work),
+                  task.harmonics);
   const BranchPoint start =
       task.saved ? saved_start(task, table) : found_start(task, balance, table);
   const Branch main = follow_branch(balance, start, task.range(), task.settings);

@@ -16,13 +16,15 @@ namespace rotor_stator
 namespace
 {
 
-SteadySettings steady_settings(const MotionRequest& request, int shown_periods)
+SteadySettings steady_settings(const MotionRequest& request, int shown_periods,
+                               double most_evaluations)
 {
   SteadySettings settings;
   settings.stepper = {.method = request.method,
                       .intervals_per_period = request.points,
                       .step = request.step.value_or(0),
-                      .tolerance = request.local_error};
+                      .tolerance = request.local_error,
+                      .most_evaluations = most_evaluations};
   settings.longest = request.longest;
   settings.shown_periods = shown_periods;
   return settings;
@@ -35,6 +37,7 @@ void check(const MotionRequest& request)
   require_between("--newton-tolerance", request.newton_tolerance, 1e-15, 1e-3);
   require_between("--local-error", request.local_error, 1e-15, 1e-2);
   require_between("--longest", request.longest, 1e-3, 1e5);
+  require_between("--operations", request.operations, 1e-6, 1e6);
   if (request.step) require_positive("--step", *request.step);
   require_method(request.method);
   if (!request.tolerance) return;
@@ -54,24 +57,37 @@ AdaptiveSolution solved(const Parameters& parameters, const MotionRequest& reque
   const NewtonSettings newton{.tolerance = request.newton_tolerance};
   const int m = request.harmonics.value_or(usual_harmonics);
   const int n = checked_samples(m, request.samples);
+  const Work work(request.operations * 1e9);
   if (!request.tolerance) {
     AdaptiveSolution at{};
-    at.solution = find_periodic(parameters, omega, m, n, newton);
+    at.solution = find_periodic(parameters, omega, m, n, newton, work);
     at.reached = at.found();
     at.end = at.solution.newton.reason();
     return at;
   }
   if (request.harmonics)
-    return find_with_error(parameters, omega, m, n, *request.tolerance, newton);
+    return find_with_error(parameters, omega, m, n, *request.tolerance, newton, work);
   return solve_adaptively(parameters, omega,
-                          {.tolerance = *request.tolerance, .newton = newton});
+                          {.tolerance = *request.tolerance, .newton = newton}, work);
+}
+
+/** The finest integration of the multipliers that `operations` pay for, all coarser ones before it. */
+FloquetSettings affordable_floquet(const Parameters& parameters, double operations)
+{
+  FloquetSettings settings;
+  while (settings.most_steps > 64 &&
+         8.0 * settings.most_steps * (200 + 2 * parameters.bearing.balls) > operations)
+    settings.most_steps /= 2;
+  return settings;
 }
 
 /** What the Floquet multipliers say of a solution. */
-std::string stability_note(const Parameters& parameters, const PeriodicSolution& solution)
+std::string stability_note(const Parameters& parameters, const PeriodicSolution& solution,
+                           double operations)
 {
   try {
-    const Floquet motion = floquet(parameters, solution.omega, solution.x);
+    const Floquet motion = floquet(parameters, solution.omega, solution.x,
+                                   affordable_floquet(parameters, operations));
     const char* verdict = motion.stable()     ? "stable"
                           : motion.unstable() ? "unstable"
                                               : "undecided";
@@ -105,8 +121,9 @@ Motion balance_motion(const Parameters& parameters, const MotionRequest& request
              at.estimate.displacement, at.estimate.harmonics, at.estimate.samples,
              *request.tolerance));
   table.note("the period is imposed by the method");
-  table.note(request.stability ? stability_note(parameters, at.solution)
-                               : "stability is not tested");
+  table.note(request.stability
+                 ? stability_note(parameters, at.solution, request.operations * 1e9)
+                 : "stability is not tested");
   table.note("regime: periodic");
   return motion_of(at.solution.bodies, request.points);
 }
@@ -114,9 +131,11 @@ Motion balance_motion(const Parameters& parameters, const MotionRequest& request
 Motion integrated_motion(const Parameters& parameters, const MotionRequest& request,
                          int periods, Table& table)
 {
-  const SteadyState steady =
-      steady_state(parameters, angular(request.frequency), static_start(parameters),
-                   steady_settings(request, periods));
+  const SteadyState steady = steady_state(
+      parameters, angular(request.frequency), static_start(parameters),
+      steady_settings(
+          request, periods,
+          affordable_evaluations(parameters, request.method, request.operations * 1e9)));
   table.note(text("method: %s, %g s from rest, %ld evaluations of Eq. 7",
                   request.method.c_str(), steady.seconds, steady.evaluations));
   table.note(text("Poincare spread: %.3g", steady.spread));
@@ -134,6 +153,9 @@ Motion requested_motion(const Parameters& parameters, const MotionRequest& reque
   return request.method == "aft" ? balance_motion(parameters, request, table)
                                  : integrated_motion(parameters, request, periods, table);
 }
+
+/** A table of this length takes about a second and 0.4 GB to write. */
+constexpr int most_contact_rows = 1 << 20;
 
 }  // namespace
 
@@ -165,6 +187,10 @@ Exploration explore_contact(const MotionRequest& request)
                {"ball", "-", "j of Eq. 3"},
                {"Q", "N", "Eq. 5, force of the ball"}});
   const Parameters parameters = read_parameters(request.parameter_file);
+  const int most_points = most_contact_rows / (2 * parameters.bearing.balls);
+  if (request.points > most_points)
+    throw BadInput(text("--points %d: must be at most %d with %d balls", request.points,
+                        most_points, parameters.bearing.balls));
   const Motion motion = requested_motion(parameters, request, 2, table);
   const ContactEvolution evolution = contact_evolution(parameters, motion);
   for (std::size_t k = 0; k < evolution.t_over_period.size(); ++k)

@@ -26,6 +26,7 @@ struct MotionRequest {
   std::optional<double> step;       ///< rk4 [s]
   double longest = 30;              ///< transient at most [s]
   bool stability = true;            ///< Floquet multipliers in the header (aft)
+  double operations = 3;            ///< at most, in billions
 };
 
 /** One branch over a range of speeds, and on demand others beside it. */
@@ -37,6 +38,7 @@ struct ResponseRequest {
   double newton_tolerance = 1e-10;
   std::string direction;      ///< "up", "down", or empty: the saved branch's, or up
   double work = 1e6;          ///< evaluations of the force at most, for each branch
+  double operations = 3;      ///< at most, in billions, for all of it
   std::string save, restart;  ///< files; empty for none
   int branch = 1;             ///< number in the file `restart`
   std::optional<double> at;   ///< speed to restart from [Hz]

@@ -28,17 +28,19 @@ struct AdaptiveSolution {
 /** Chooses m and N for the tolerance at speed `omega` [rad/s]. Newton starts from quasi-static contact;
     when that fails with several m, from whatever `find_periodic` finds. */
 AdaptiveSolution solve_adaptively(const Parameters& parameters, double omega,
-                                  const AdaptiveSettings& settings);
+                                  const AdaptiveSettings& settings,
+                                  const Work& work = {});
 
 /** The solution with m harmonics and N samples; `reached` when its error is estimated below the
     tolerance. */
 AdaptiveSolution find_with_error(const Parameters& parameters, double omega,
                                  int harmonics, int samples, double tolerance,
-                                 const NewtonSettings& newton = {});
+                                 const NewtonSettings& newton = {},
+                                 const Work& work = {});
 
 /** The error of a solution that is at hand. */
 ErrorEstimate estimate_error(const Parameters& parameters,
-                             const PeriodicSolution& solution);
+                             const PeriodicSolution& solution, const Work& work = {});
 
 /** The name of that start. */
 inline constexpr const char* quasi_static_name = "quasi-static contact";
@@ -46,9 +48,11 @@ inline constexpr const char* quasi_static_name = "quasi-static contact";
 /** Newton from quasi-static contact alone, and what it took. */
 FirstSolution quasi_static_solution(const Parameters& parameters, double omega,
                                     int harmonics, int samples,
-                                    const NewtonSettings& newton = {});
+                                    const NewtonSettings& newton = {},
+                                    const Work& work = {});
 
 /** The bearing's problem, observed in its four displacements. */
-ObservedProblem observed_bearing(const Parameters& parameters, double omega);
+ObservedProblem observed_bearing(const Parameters& parameters, double omega,
+                                 const Work& work = {});
 
 }  // namespace rotor_stator

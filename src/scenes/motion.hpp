@@ -11,6 +11,7 @@ so that the two methods meet in the same table. */
 #include "continuation/arc_length.hpp"
 #include "continuation/sweep.hpp"
 #include "integration/steady_state.hpp"
+#include "model/work.hpp"
 
 namespace rotor_stator
 {
@@ -55,14 +56,15 @@ ArcLengthSettings arc_length_settings(const Parameters& parameters,
 /** A start for Newton: the relative motion [m] of one period after ten seconds of RK4 from rest, as
     coefficients. Throws NoSolution when the integration breaks down. */
 Eigen::VectorXd integrated_start(const Parameters& parameters, double omega,
-                                 int harmonics);
+                                 int harmonics, double work = 3e10);
 
 /** Looks for the periodic solution at ω with m harmonics and N samples. Newton starts from the
     quasi-static contact, then from a solution with fewer harmonics, then from the end of a branch
     followed by arc length, then from one period of time integration; the first that converges is
-    kept. Not found means that none of these found one. */
+    kept. Not found means that none of these found one. Throws NoSolution when `work` is used up. */
 PeriodicSolution find_periodic(const Parameters& parameters, double omega, int harmonics,
-                               int samples, const NewtonSettings& settings = {});
+                               int samples, const NewtonSettings& settings = {},
+                               const Work& work = {});
 
 /** `points` instants of one period of a solution, from its series of both bodies. */
 Motion motion_of(const Eigen::MatrixXd& bodies, int points);

@@ -49,6 +49,7 @@ constexpr int equations = 8 + 8 * 8;
 struct Variation {
   RotorStator system;
   DisturbanceRates rates;
+  double most_evaluations;
   long evaluations = 0;
 };
 
@@ -57,7 +58,8 @@ int derivative(double t, const double y[], double dydt[], void* data)
 {
   auto& variation = *static_cast<Variation*>(data);
   const RotorStator& system = variation.system;
-  ++variation.evaluations;
+  if (static_cast<double>(++variation.evaluations) > variation.most_evaluations)
+    return GSL_EBADFUNC;
   const double phase = system.omega() * t;
   const State state = state_of(Eigen::Map<const Vector8>(y));
   const Direction cage = system.cage_direction(phase);
@@ -96,10 +98,11 @@ struct FreeDriver {
 }  // namespace
 
 PeriodMap period_map(const Parameters& parameters, double omega, const State& start,
-                     double tolerance, const std::string& method)
+                     double tolerance, const std::string& method, double most_evaluations)
 {
   keep_gsl_from_aborting();
-  Variation variation{{parameters, omega}, DisturbanceRates(parameters)};
+  Variation variation{
+      {parameters, omega}, DisturbanceRates(parameters), most_evaluations};
   gsl_odeiv2_system system{derivative, nullptr, equations, &variation};
   const double period = variation.system.period();
   const auto scale = error_scales(parameters);
@@ -114,6 +117,8 @@ PeriodMap period_map(const Parameters& parameters, double omega, const State& st
   disturbances.setIdentity();
   double t = 0;
   const int status = gsl_odeiv2_driver_apply(driver.get(), &t, period, y.data());
+  if (static_cast<double>(variation.evaluations) > most_evaluations)
+    too_many_evaluations(most_evaluations);
   if (status != GSL_SUCCESS)
     throw NoSolution(
         text("time integration stopped at t = %.9g s: %s", t, gsl_strerror(status)));

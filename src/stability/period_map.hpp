@@ -37,8 +37,9 @@ struct PeriodMap {
 };
 
 /** From `start` at phase 0. `tolerance`: local error per step, over the size of each component.
-    Throws NoSolution when the integration breaks down. */
+    Throws NoSolution when the integration breaks down or takes more than `most_evaluations`. */
 PeriodMap period_map(const Parameters& parameters, double omega, const State& start,
-                     double tolerance, const std::string& method = "rk8pd");
+                     double tolerance, const std::string& method = "rk8pd",
+                     double most_evaluations = 1e9);
 
 }  // namespace rotor_stator
