@@ -1,5 +1,6 @@
 #include "output/explore_tables.hpp"
 
+#include <algorithm>
 #include <numbers>
 
 #include "model/errors.hpp"
@@ -71,13 +72,14 @@ AdaptiveSolution solved(const Parameters& parameters, const MotionRequest& reque
                           {.tolerance = *request.tolerance, .newton = newton}, work);
 }
 
-/** The finest integration of the multipliers that `operations` pay for, all coarser ones before it. */
-FloquetSettings affordable_floquet(const Parameters& parameters, double operations)
+/** Three integrations of the disturbances within `operations`. */
+FloquetSettings affordable_floquet(const Parameters& parameters, int harmonics,
+                                   double operations)
 {
   FloquetSettings settings;
-  while (settings.most_steps > 64 &&
-         8.0 * settings.most_steps * (200 + 2 * parameters.bearing.balls) > operations)
-    settings.most_steps /= 2;
+  const double evaluation = 500 + 2.0 * parameters.bearing.balls + 5.0 * harmonics;
+  settings.first.most_evaluations = std::min(
+      settings.first.most_evaluations, static_cast<long>(operations / 3 / evaluation));
   return settings;
 }
 
@@ -86,8 +88,9 @@ std::string stability_note(const Parameters& parameters, const PeriodicSolution&
                            double operations)
 {
   try {
-    const Floquet motion = floquet(parameters, solution.omega, solution.x,
-                                   affordable_floquet(parameters, operations));
+    const Floquet motion =
+        floquet(parameters, solution.omega, solution.x,
+                affordable_floquet(parameters, solution.harmonics, operations));
     const char* verdict = motion.stable()     ? "stable"
                           : motion.unstable() ? "unstable"
                                               : "undecided";

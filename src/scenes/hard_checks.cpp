@@ -84,7 +84,7 @@ void check_by_refinement(const HardCase& hard, const Answer& answer, Check& chec
 /** The multipliers of the motion with 2m harmonics, and how far those with m are from them. */
 void check_balance(const HardCase& hard, const Answer& answer, Check& check)
 {
-  const FloquetSettings settings{.tolerance = 1e-4, .most_steps = 1 << 18};
+  const FloquetSettings settings{};
   const double omega = angular(hard.frequency);
   const Floquet fine = floquet(hard.parameters, omega, answer.finer, settings);
   const Floquet coarse = floquet(hard.parameters, omega, answer.x, settings);
