@@ -111,7 +111,7 @@ Table equal_error_table(const EqualErrorScene& scene)
       "modelled: speeds of %g to %g Hz with T-periodic motion, in order; %d repetitions",
       scene.frequencies.front(), scene.frequencies.back(), scene.repetitions));
   table.note(
-      text("a search begins no further group of settings after %g s", scene.search));
+      text("the search of a method in a range ends after %g s of CPU", scene.search));
   table.note(timed);
   table.note(text(
       "reference: shooting by rk8pd, tolerance %g, closure below %.2g, from time integration with Poincare spread below %.2g",

@@ -85,8 +85,8 @@ std::vector<Trial> try_all(const Speeds& speeds, const Candidates& candidates,
   double used = 0;
   Progress progress(candidates.method, candidates.groups.size());
   for (const SettingGroup& group : candidates.groups) {
-    if (used > scene.search) break;
     for (const Setting& setting : group) {
+      if (used > scene.search) return trials;
       trials.push_back(run_once(speeds, setting, points));
       used += trials.back().cpu;
       if (trials.back().cpu > clearly * cheapest(trials, scene.targets.back())) break;

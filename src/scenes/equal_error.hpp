@@ -5,7 +5,7 @@ The speeds of a sweep at which the motion has the period T, in ranges; in each r
 method solves them in order, at each target of error at its cheapest setting that reaches
 the target. All settings of the scene file are run once; within a group of equal accuracy,
 where the cheaper ones come first, the search stops when a run costs more than the
-cheapest that has reached every target, and no group is begun once the search of the method
+cheapest that has reached every target, and the search ends once the method
 has used its time. The two cheapest that reach a target are then
 repeated, and the one with the least median is the row. */
 #pragma once
@@ -27,7 +27,7 @@ struct EqualErrorScene {
   std::vector<Candidates> candidates;
   int repetitions;
   double long_run;  ///< [s]: a single run above it is repeated three times only
-  double search;    ///< [s]: no group is begun when a method has used that in a range
+  double search;    ///< [s]: a method's search in a range ends when it has used that
   TruthSettings truth;
 };
 

@@ -23,7 +23,7 @@ WorkPrecisionScene read_work_precision_scene(const std::string& file,
       .candidates = read_candidates(toml),
       .repetitions = toml.integer("repetitions", 1, 1000),
       .long_run = toml.number("long_run_s", Range::positive),
-      .reference_harmonics = toml.integer("reference_harmonics", 1, 1024),
+      .reference_harmonics = toml.integer("reference_harmonics", 1, 4096),
       .truth = {.settling = scene_file.time_integration()}};
   if (scene.sets.size() != scene.frequencies.size())
     toml.fail("speeds_hz", "must have one value for each of parameters");
