@@ -29,20 +29,23 @@ std::vector<SettingGroup> aft_groups(StrictToml& table)
   const auto tolerances = table.numbers("newton_tolerances", Range::positive);
   const auto per_harmonic = table.integers("samples_per_harmonic", 2, 64);
   const auto harmonics = table.integers("harmonics", 1, 1024);
-  const auto add = [&](const Setting& accuracy) {
-    SettingGroup group = each({accuracy}, per_harmonic, [](Setting& s, int value) {
+  const auto add = [&](const SettingGroup& accuracies) {
+    const SettingGroup group = each(accuracies, per_harmonic, [](Setting& s, int value) {
       s.samples_per_harmonic = value;
     });
     groups.push_back(
         each(group, tolerances, [](Setting& s, double value) { s.tolerance = value; }));
   };
-  for (int m : harmonics) add({.method = "aft", .harmonics = m});
-  if (table.has("corners_hz"))
-    for (double corner : table.numbers("corners_hz", Range::positive))
-      add({.method = "aft", .harmonics = harmonics.front(), .corner = corner});
-  if (table.has("estimates"))
-    for (double estimate : table.numbers("estimates", Range::positive))
-      add({.method = "aft", .harmonics = harmonics.front(), .estimate = estimate});
+  for (int m : harmonics) add({{.method = "aft", .harmonics = m}});
+  if (!table.has("least_harmonics")) return groups;
+  const auto least = table.integers("least_harmonics", 1, 1024);
+  const auto from_least = [&](const Setting& accuracy) {
+    add(each({accuracy}, least, [](Setting& s, int value) { s.harmonics = value; }));
+  };
+  for (double corner : table.numbers("corners_hz", Range::positive))
+    from_least({.method = "aft", .corner = corner});
+  for (double estimate : table.numbers("estimates", Range::positive))
+    from_least({.method = "aft", .estimate = estimate});
   return groups;
 }
 

@@ -29,24 +29,38 @@ public:
     return *balance;
   }
 
+  /** Frees the large balances but one, whose factors the next speed can use. */
+  void keep_only(int harmonics)
+  {
+    constexpr int large = 128;
+    std::erase_if(balances_, [&](const auto& entry) {
+      const bool drop = entry.first > large && entry.first != harmonics;
+      if (drop) add(*entry.second, dropped_);
+      return drop;
+    });
+  }
+
   Counts counts() const
   {
-    Counts counts;
-    for (const auto& [m, balance] : balances_) {
-      const long samples = balance->problem().samples;
-      counts.force_calls += balance->evaluations();
-      counts.force_instants += balance->evaluations() * samples;
-      const long transforms = 4 * balance->evaluations() +
-                              4 * balance->steps().factorisations() +
-                              4 * balance->steps().linear_iterations();
-      counts.transforms += transforms;
-      counts.transformed += transforms * samples;
-    }
+    Counts counts = dropped_;
+    for (const auto& [m, balance] : balances_) add(*balance, counts);
     counts.force_seconds = *force_seconds_;
     return counts;
   }
 
 private:
+  static void add(Balance& balance, Counts& counts)
+  {
+    const long samples = balance.problem().samples;
+    const long transforms = 4 * balance.evaluations() +
+                            4 * balance.steps().factorisations() +
+                            4 * balance.steps().linear_iterations();
+    counts.force_calls += balance.evaluations();
+    counts.force_instants += balance.evaluations() * samples;
+    counts.transforms += transforms;
+    counts.transformed += transforms * samples;
+  }
+
   Problem problem(int harmonics) const
   {
     Problem problem = bearing_problem(task_.parameters, samples_for(setting_, harmonics));
@@ -63,6 +77,7 @@ private:
   const Task& task_;
   const Setting& setting_;
   std::map<int, std::unique_ptr<Balance>> balances_;
+  Counts dropped_;  ///< of the freed ones
   std::shared_ptr<double> force_seconds_ = std::make_shared<double>(0);
 };
 
@@ -89,6 +104,7 @@ public:
       predictor.add(padded(before_), angular(task_.before->frequency));
     for (double frequency : task_.frequencies) {
       solutions_.emplace_back();
+      balances_->keep_only(first_harmonics(frequency));
       const double omega = angular(frequency);
       Eigen::VectorXd x;
       if (!predictor.empty()) x = predictor.at_speed(omega);
@@ -125,11 +141,16 @@ private:
     return resize_harmonics(x, 2, most);
   }
 
+  int first_harmonics(double frequency) const
+  {
+    return setting_.estimate > 0 ? adapted_ : harmonics_at(setting_, frequency);
+  }
+
   /** From `x`, or cold if it is empty; with as many harmonics as the setting asks for. */
   bool solve_at(double frequency, Eigen::VectorXd& x)
   {
     const double omega = angular(frequency);
-    int m = setting_.estimate > 0 ? adapted_ : harmonics_at(setting_, frequency);
+    int m = first_harmonics(frequency);
     if (!solve_from(omega, m, x)) return false;
     while (setting_.estimate > 0) {
       const int far = rounded_up(look_ahead(task_.parameters, omega, m));
