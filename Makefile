@@ -61,7 +61,7 @@ untimed := $(foreach reading,$(readings),$(call tables_of,$(reading)) $(call fig
   $(studied) $(pages)
 programs := $(patsubst src/%.cpp,build/%,$(wildcard src/*.cpp))
 
-.PHONY: all figures timing claims test sanitize deps list png readme golden format clean \
+.PHONY: book article all figures timing claims test sanitize deps list png readme golden format clean \
   studies identify study hard truth attractors validity stability adaptive adopt peers deps-peers bench
 
 all: $(untimed) $(timings) $(claims)  ## figures, tables and claims of both readings (the default)
@@ -276,6 +276,16 @@ figures/generated/adaptive.svg: figures/adaptive.py figures/rotor_stator.mplstyl
   data/reference/adaptive.tsv
 	@mkdir -p $(@D)
 	$(call whole,$(PYTHON) $< data/reference/adaptive.tsv $$new)
+
+# The sources as pages and the article: drafts, made on demand (pandoc is needed), not part of `all`.
+book:  ## draft: the sources as pages in reading order, build/book/index.html (needs pandoc)
+	$(PYTHON) paper/book/weave.py build/book
+
+article: data/generated/deviations.tsv  ## draft: the article, build/paper/article.html (needs pandoc)
+	@mkdir -p build/paper
+	$(PYTHON) paper/article_values.py > data/generated/article.tsv
+	$(PYTHON) paper/include.py paper/article.md data/generated/article.tsv | sed 1,2d > data/generated/article.md
+	$(PYTHON) paper/render_article.py data/generated/article.md build/paper/article.html
 
 png: $(patsubst %.svg,%.png,$(filter %.svg,$(untimed)))  ## the figures as PNG, for viewing
 

@@ -1,10 +1,30 @@
 /**
 # Figure 7: evolution of the contact, data set 1
 
-Paper: §3.3, Fig. 7.  Run: build/fig07_contact > data/generated/fig07.tsv
-From contact under gravity, which changes balls only as the cage turns (a), to contact
-that rotates with the unbalance and passes each ball once per 2T (f). Modelled: the force
-of each ball over two periods at six speeds. */
+Paper: §3.3, Fig. 7.
+
+    build/fig07_contact > data/generated/fig07.tsv
+
+The paper's most telling figure: time runs to the right over two periods of rotation, the balls
+are stacked upwards, and a mark stands where a ball carries load. With a cage that turns at half
+the rotor's speed two periods are just one turn of the cage, so every ball has been everywhere
+once and the picture closes on itself.
+
+Read it as follows. A line that slopes down is a load that stays in one place while the balls
+travel through it: gravity, in the first panels; the ball below carries, and hands over to the
+next as the cage turns (claim C4). A line that slopes up is a load that turns with the rotor and
+overtakes the balls, each of which it meets once in two periods (claim C10, Fig. 7f). In between
+the line bends, breaks and doubles: the load swings about the bottom without making the turn, and
+contact is lost at times (claim C5). The width of the line is the loaded arc of the bearing, which
+claim C8 compares with that of the larger clearance.
+
+Below each map the same panel is drawn with the force of every ball, on a scale of its own,
+because a map of contact alone makes a ball that carries thousands of newtons look like one that
+is barely touched; how forces rise towards the resonance is claim C7.
+
+Modelled: the force of each ball over two periods at six speeds, from the harmonic-balance
+solution where the motion is periodic and from time integration where it is not. The title of each
+panel says which, and how far off the force of the balance is. */
 #include "output/figure_tables.hpp"
 #include "output/program.hpp"
 

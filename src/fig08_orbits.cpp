@@ -1,9 +1,31 @@
 /**
 # Figure 8: evolution of the orbits, data set 2
 
-Paper: §3.3, Fig. 8.  Run: build/fig08_orbits > data/generated/fig08.tsv
-With ten times the clearance the paper asks for 10 harmonics (claim C3).
-Modelled: one solution with 10 harmonics and the integrated motion at each speed. */
+Paper: §3.3, Fig. 8.
+
+    build/fig08_orbits > data/generated/fig08.tsv
+
+The second data set differs from the first in one number, a clearance ten times as large. The
+paper says that its behaviour shows the same three phases (claim C13) and that more harmonics are
+needed to describe it (claim C3). The orbits here are computed with the number of harmonics that
+it names.
+
+A larger clearance gives the rotor more room to fall before it is caught. Between the speeds where
+gravity holds it down and those where the unbalance holds it out, the relative motion crosses the
+clearance and hits the other side; impacts follow one another before the ringing of the last one
+has died out. Time integration then shows motion that does not repeat with the period of rotation
+over most of the range below the resonance, and the panels draw several turns of it, which fill a
+band instead of a curve.
+
+Harmonic balance finds a solution at every panel all the same, sometimes only at the end of a
+branch followed through hundreds of folds. That is worth knowing and is in the table; but a
+periodic solution that no motion settles on is not what a measurement would show, and drawing it
+in the place of the motion would mislead. This is the largest difference between this repository
+and the paper, whose Fig. 8 has closed orbits throughout.
+
+Modelled: one solution with the paper's number of harmonics at each speed, and the integrated
+motion from rest over several periods; the verdict on periodicity is that of the Poincaré section,
+with its spread in the table. */
 #include "output/figure_tables.hpp"
 #include "output/program.hpp"
 

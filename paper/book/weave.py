@@ -1,0 +1,256 @@
+"""Weaves the sources into pages: comments as text, the code between them highlighted, and below
+them the figure and the table that a program makes.
+
+Every program and every module (header and implementation together) of src/ becomes a page; chapters.toml
+gives the order in which they teach. pandoc converts; what is done here is to turn comments into
+Markdown and to link.
+
+Usage: weave.py OUTPUT_FOLDER   (from the project's root; reads figures/generated and data/generated)
+"""
+import html
+import json
+import re
+import shutil
+import subprocess
+import sys
+import tomllib
+from concurrent.futures import ThreadPoolExecutor
+from pathlib import Path
+
+from folder_map import folder_map
+
+HERE = Path("paper/book")
+REPOSITORY_FILES = ("book.css", "book.js")
+COMMENT = re.compile(r"^[ \t]*/\*\*(.*?)\*/[ \t]*\n", re.DOTALL | re.MULTILINE)
+INCLUDE = re.compile(r'^#include "([^"]+)"', re.MULTILINE)
+EQUATION = re.compile(r"\$\$(.+?)\$\$", re.DOTALL)
+TAG = re.compile(r"\\tag\{([^}]*)\}")
+DEVIATION = re.compile(r"\bD-(\d\d)\b")
+
+
+class Page:
+    """One program or module: where it stands, what it says, what it makes."""
+
+    def __init__(self, files):
+        self.files = files
+        path = files[0].relative_to("src")
+        self.is_program = len(path.parts) == 1
+        self.key = str(path.with_suffix(""))
+        self.file = self.key.replace("/", "-") + ".html"
+        self.text = {file: file.read_text() for file in files}
+        self.title = self.first_heading() or f"{self.key}"
+
+    def first_heading(self):
+        for text in self.text.values():
+            found = re.search(r"^# (.+)$", text, re.MULTILINE)
+            if found:
+                return found[1]
+        return None
+
+    def includes(self):
+        return sorted({name for text in self.text.values() for name in INCLUDE.findall(text)})
+
+    def made(self, folder, suffix):
+        """The figure or table that goes by the program's name, or by its number."""
+        for stem in (self.key, self.key.split("_")[0]):
+            path = Path(folder) / (stem + suffix)
+            if self.is_program and path.exists():
+                return path
+        return None
+
+    def script(self):
+        for suffix in (".gp", ".py"):
+            path = Path("figures") / (self.key + suffix)
+            if self.is_program and path.exists():
+                return path
+        return None
+
+
+def all_pages():
+    """Programs first, then modules; a header and its implementation are one page."""
+    groups = {}
+    for file in sorted(Path("src").rglob("*.?pp")):
+        groups.setdefault(file.with_suffix(""), []).append(file)
+    return [Page(sorted(files, key=lambda f: f.suffix, reverse=True))
+            for files in groups.values()]
+
+
+def numbered(match):
+    """A displayed equation with the paper's number beside it."""
+    body = match[1]
+    tags = TAG.findall(body)
+    equation = f"$${TAG.sub('', body).strip()}$$"
+    if not tags:
+        return equation
+    return f"\n::: equation\n{equation}\n\n[({', '.join(tags)})]{{.number}}\n:::\n"
+
+
+def markdown_of(source):
+    """Comments as they are, code as fenced blocks."""
+    parts, at = [], 0
+    for comment in COMMENT.finditer(source):
+        parts += [code_block(source[at:comment.start()]), prose(comment[1])]
+        at = comment.end()
+    parts.append(code_block(source[at:]))
+    return "\n\n".join(part for part in parts if part)
+
+
+def prose(comment):
+    lines = comment.strip("\n").split("\n")
+    indent = min((len(line) - len(line.lstrip()) for line in lines[1:] if line.strip()), default=0)
+    text = "\n".join([lines[0].strip()] + [line[indent:].rstrip() for line in lines[1:]])
+    text = EQUATION.sub(numbered, text)
+    return DEVIATION.sub(r"[D-\1](deviations.html#d-\1)", text)
+
+
+def code_block(code):
+    code = code.strip("\n")
+    return f"````cpp\n{code}\n````" if code.strip() else ""
+
+
+def link(page):
+    return f"[{page.title}]({page.file})"
+
+
+def neighbours(page, pages):
+    """What the page builds on, and what builds on it."""
+    by_header = {f"{other.key}.hpp": other for other in pages}
+    builds_on = [by_header[name] for name in page.includes()
+                 if name in by_header and by_header[name] is not page]
+    used_by = [other for other in pages
+               if other is not page and f"{page.key}.hpp" in other.includes()]
+    lines = []
+    if builds_on:
+        lines.append("Builds on: " + ", ".join(link(p) for p in builds_on) + ".")
+    if used_by:
+        lines.append("Used by: " + ", ".join(link(p) for p in used_by) + ".")
+    return "\n\n".join(lines)
+
+
+def table_excerpt(path, rows=6):
+    """The names and the first rows of a table; the whole of it is a link away."""
+    lines = [line for line in path.read_text().split("\n") if line and not line.startswith("#")]
+    cells = [[html.escape(cell) for cell in line.split("\t")] for line in lines[:rows + 1]]
+    if not cells:
+        return ""
+    head = "".join(f"<th>{cell}</th>" for cell in cells[0])
+    body = "".join("<tr>" + "".join(f"<td>{shortened(cell)}</td>" for cell in row) + "</tr>"
+                   for row in cells[1:])
+    return (f'```{{=html}}\n<div class="table"><table><thead><tr>{head}</tr></thead>'
+            f"<tbody>{body}</tbody></table></div>\n```")
+
+
+def shortened(cell):
+    """Six digits are enough to look at."""
+    try:
+        return f"{float(cell):.6g}"
+    except ValueError:
+        return cell
+
+
+def results(page, output):
+    """The figure, its script and the table of a program."""
+    parts = []
+    figure, table, script = (page.made("figures/generated", ".svg"),
+                             page.made("data/generated", ".tsv"), page.script())
+    if figure:
+        shutil.copy(figure, output / "figures")
+        parts.append(f"![{page.title}](figures/{figure.name})")
+    if script:
+        shutil.copy(script, output / "scripts")
+        parts.append(f"Drawn by [{script}](scripts/{script.name}).")
+    if table:
+        shutil.copy(table, output / "tables")
+        parts += [f"The first rows of [{table.name}](tables/{table.name}):", table_excerpt(table)]
+    return "\n\n## What it makes\n\n" + "\n\n".join(parts) if parts else ""
+
+
+def page_markdown(page, pages, output):
+    bodies = []
+    for file in page.files:
+        bodies.append((f"## {file}\n\n" if len(page.files) > 1 and bodies else "")
+                      + markdown_of(page.text[file]))
+    return "\n\n".join([*bodies, results(page, output), "## Where it stands",
+                        neighbours(page, pages)])
+
+
+def convert(markdown, title, target, navigation=""):
+    subprocess.run(
+        ["pandoc", "--from", "markdown-markdown_in_html_blocks+tex_math_dollars", "--to", "html5",
+         "--mathml", "--standalone", "--template", str(HERE / "template.html"),
+         "--metadata", f"title={title}", "--variable", f"navigation={navigation}",
+         "--output", str(target)],
+        input=markdown, text=True, check=True)
+
+
+def chapters(pages):
+    """Titles with their introductions and pages, in teaching order; nothing is left out."""
+    known = tomllib.loads((HERE / "chapters.toml").read_text())["chapter"]
+    left = {page.key: page for page in pages}
+    for chapter in known:
+        chapter["found"] = [left.pop(key) for key in chapter.get("pages", []) if key in left]
+        for key in sorted(left):
+            if any(key.startswith(prefix) for prefix in chapter.get("rest_of", [])):
+                chapter["found"].append(left.pop(key))
+    if left:
+        raise SystemExit("no chapter for: " + ", ".join(sorted(left)))
+    return known
+
+
+def index_markdown(found_chapters, pages):
+    parts = [(HERE / "index.md").read_text(), folder_map(pages)]
+    for chapter in found_chapters:
+        parts.append(f"## {chapter['title']}\n\n{chapter['introduction'].strip()}\n")
+        parts.append("\n".join(f"- {link(page)} `{page.key}`" for page in chapter["found"]))
+    return "\n\n".join(parts)
+
+
+def search_words(pages):
+    """What the search box looks through: title, name and the comments of each page."""
+    entries = []
+    for page in pages:
+        words = " ".join(match[1] for text in page.text.values() for match in COMMENT.finditer(text))
+        entries.append({"title": page.title, "file": page.file, "name": page.key,
+                        "text": re.sub(r"\s+", " ", words).strip()})
+    return "const pages = " + json.dumps(entries, ensure_ascii=False, indent=0) + ";\n"
+
+
+def navigation(order, k):
+    """Back, index, on."""
+    before = f'<a href="{order[k - 1].file}">← {html.escape(order[k - 1].title)}</a>' if k else ""
+    after = (f'<a href="{order[k + 1].file}">{html.escape(order[k + 1].title)} →</a>'
+             if k + 1 < len(order) else "")
+    return f'<span>{before}</span><a href="index.html">Index</a><span>{after}</span>'
+
+
+def with_names(deviations):
+    """Each entry can be pointed at by its number."""
+    return re.sub(r"^## D-(\d\d) (.*)$", r"## D-\1 \2 {#d-\1}", deviations, flags=re.MULTILINE)
+
+
+def main(output):
+    for folder in ("figures", "tables", "scripts"):
+        (output / folder).mkdir(parents=True, exist_ok=True)
+    pages = all_pages()
+    found = chapters(pages)
+    order = [page for chapter in found for page in chapter["found"]]
+    for name in REPOSITORY_FILES:
+        shutil.copy(HERE / name, output)
+    (output / "pages.js").write_text(search_words(order))
+
+    def weave(k):
+        page = order[k]
+        convert(page_markdown(page, pages, output), page.title, output / page.file,
+                navigation(order, k))
+
+    with ThreadPoolExecutor(2) as pool:
+        list(pool.map(weave, range(len(order))))
+    convert(with_names(Path("data/generated/deviations.md").read_text()), "Deviations",
+            output / "deviations.html", '<a href="index.html">Index</a>')
+    convert(Path("paper/guide.md").read_text(), "A study of one's own", output / "guide.html",
+            '<a href="index.html">Index</a>')
+    convert(index_markdown(found, pages), "Contents", output / "index.html")
+
+
+if __name__ == "__main__":
+    main(Path(sys.argv[1]))

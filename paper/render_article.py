@@ -1,0 +1,72 @@
+"""The article as HTML or as PDF, from its text with the numbers filled in.
+
+A line `<!-- table: FILE column column … -->` becomes those columns of a table.
+
+Usage: paper/render_article.py ARTICLE.md OUTPUT.html|OUTPUT.pdf   (from the project's root)
+"""
+import re
+import shutil
+import subprocess
+import sys
+import tempfile
+from pathlib import Path
+
+sys.path.insert(0, "paper/book")
+from weave import EQUATION, numbered  # noqa: E402
+
+TABLE = re.compile(r"^<!-- table: (\S+) (.*?) -->$", re.MULTILINE)
+FIGURE = re.compile(r"\]\((figures/(?:as-printed/)?\w+)\.svg\)")
+DRAWN = Path("figures/generated")
+
+
+def table_rows(match):
+    """The named columns as a table of Markdown."""
+    lines = [line.split("\t") for line in Path(match[1]).read_text(encoding="utf-8").splitlines()
+             if line and not line.startswith("#")]
+    chosen = [lines[0].index(name) for name in match[2].split()]
+    rows = [[line[k].replace("|", r"\|") for k in chosen] for line in lines]
+    widths = [min(40, max(len(row[k]) for row in rows)) for k in range(len(chosen))]
+    rows.insert(1, ["-" * width for width in widths])
+    return "\n".join("| " + " | ".join(row) + " |" for row in rows)
+
+
+def pandoc(text, *options):
+    subprocess.run(["pandoc", "--from", "markdown", "--citeproc", *options], input=text, text=True,
+                   check=True)
+
+
+def drawings(text):
+    """The figures that the article shows, by their names in the text."""
+    return {name: DRAWN / f"{name.removeprefix('figures/')}.svg" for name in FIGURE.findall(text)}
+
+
+def as_html(text, output):
+    (output.parent / "figures").mkdir(parents=True, exist_ok=True)
+    for drawing in drawings(text).values():
+        shutil.copy(drawing, output.parent / "figures")
+    shutil.copy("paper/book/book.css", output.parent)
+    pandoc(EQUATION.sub(numbered, text), "--to", "html5", "--mathml", "--standalone", "--toc",
+           "--toc-depth", "2", "--template", "paper/article.html", "--output", str(output))
+
+
+def as_pdf(text, output):
+    """Figures as PDF, so that they stay drawings."""
+    with tempfile.TemporaryDirectory() as folder:
+        for name, drawing in drawings(text).items():
+            target = Path(folder) / f"{Path(name).name}.pdf"
+            subprocess.run(["rsvg-convert", "--format", "pdf", "--output", str(target),
+                            str(drawing)], check=True)
+        text = FIGURE.sub(lambda match: f"]({folder}/{Path(match[1]).name}.pdf)", text)
+        pandoc(text, "--standalone", "--pdf-engine", "lualatex", "--include-in-header",
+               "paper/article.tex", "--variable", "geometry:margin=25mm", "--variable",
+               "fontsize=10pt", "--variable", "colorlinks=true", "--output", str(output))
+
+
+def main():
+    source, output = Path(sys.argv[1]), Path(sys.argv[2])
+    text = TABLE.sub(table_rows, source.read_text(encoding="utf-8"))
+    (as_pdf if output.suffix == ".pdf" else as_html)(text, output)
+
+
+if __name__ == "__main__":
+    main()

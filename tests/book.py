@@ -1,0 +1,152 @@
+"""Reads the pages as a reader would, in a headless browser.
+
+All pages: every link leads somewhere, every picture has an alternative text, and the HTML is valid.
+The index, two pages and the article, opened: no message of the browser, all pictures loaded, equations
+rendered, nothing wider than the window, and the search finds what is there and nothing else. Each
+is kept as a picture, 1280 and 400 pixels wide, in build/screenshots.
+
+Usage: tests/book.py   (from the project's root, after `make all`)
+"""
+import re
+import shutil
+import subprocess
+import sys
+import tempfile
+from html.parser import HTMLParser
+from pathlib import Path
+
+from selenium import webdriver
+from selenium.webdriver.chrome.service import Service
+from selenium.webdriver.common.by import By
+
+BOOK, ARTICLE = Path("build/book"), Path("build/paper/article.html")
+SHOTS = Path("build/screenshots")
+OPENED = [BOOK / "index.html", BOOK / "model-ball_bearing.html", BOOK / "fig07_contact.html",
+          ARTICLE]
+WITH_EQUATIONS = {"model-ball_bearing.html", "article.html"}
+WIDTHS = (1280, 400)
+
+
+class Links(HTMLParser):
+    """What a page points to, what it can be pointed at, and its pictures without a text."""
+
+    def __init__(self):
+        super().__init__()
+        self.targets, self.names, self.silent = [], set(), []
+
+    def handle_starttag(self, tag, attributes):
+        found = dict(attributes)
+        self.targets += [found[key] for key in ("href", "src") if found.get(key)]
+        self.names.update(found[key] for key in ("id", "name") if found.get(key))
+        if tag == "img" and not found.get("alt"):
+            self.silent.append(found.get("src"))
+
+
+def read(page):
+    links = Links()
+    links.feed(page.read_text(encoding="utf-8"))
+    return links
+
+
+def broken_links(pages):
+    """Links within the project that lead nowhere; those to the network are not followed."""
+    known = {page.resolve(): read(page) for page in pages}
+    for page, links in known.items():
+        yield from (f"{page.name}: no text for {name}" for name in links.silent)
+        for target in links.targets:
+            if re.match(r"[a-z]+:", target):
+                continue
+            file, _, name = target.partition("#")
+            to = (page.parent / file).resolve() if file else page
+            if not to.exists():
+                yield f"{page.name}: {target} is not there"
+            elif name and to in known and name not in known[to].names:
+                yield f"{page.name}: {target} names no place"
+
+
+def invalid(pages):
+    """What the validator says; MathML and SVG it does not know."""
+    foreign = re.compile(r"<(math|svg)\b.*?</\1>", re.DOTALL)
+    for page in pages:
+        text = foreign.sub("", page.read_text(encoding="utf-8"))
+        said = subprocess.run(["tidy", "-quiet", "-errors", "-utf8", "--drop-empty-elements", "no"],
+                              input=text, text=True, capture_output=True)
+        yield from (f"{page.name}: {line}" for line in said.stderr.splitlines()
+                    if "Error:" in line or "Warning:" in line)
+
+
+def browser(profile):
+    options = webdriver.ChromeOptions()
+    for flag in ("headless=new", "no-sandbox", "disable-gpu", "hide-scrollbars", "no-first-run",
+                 "disable-background-networking", "disable-component-update", "disable-sync",
+                 "allow-file-access-from-files", f"user-data-dir={profile}"):
+        options.add_argument(f"--{flag}")
+    options.set_capability("goog:loggingPrefs", {"browser": "ALL"})
+    return webdriver.Chrome(service=Service(shutil.which("chromedriver")), options=options)
+
+
+def window(driver, width):
+    """Sets the width of the page itself, whatever the least width of a window is."""
+    driver.execute_cdp_cmd("Emulation.setDeviceMetricsOverride", {
+        "width": width, "height": 900, "deviceScaleFactor": 1, "mobile": False})
+
+
+def faults_of(driver, page, width):
+    """What is wrong with an opened page."""
+    for entry in driver.get_log("browser"):
+        yield f"the browser says {entry['message']}"
+    for image in driver.find_elements(By.TAG_NAME, "img"):
+        if not driver.execute_script("return arguments[0].naturalWidth > 0", image):
+            yield f"{image.get_attribute('src')} did not load"
+    if page.name in WITH_EQUATIONS:
+        shown = driver.execute_script(
+            "return [...document.querySelectorAll('math')].filter("
+            "m => m.getBoundingClientRect().height > 5).length")
+        if shown == 0:
+            yield "no equation is rendered"
+    wide = driver.execute_script("return document.documentElement.scrollWidth")
+    if wide > width:
+        yield f"{wide} pixels wide in a window of {width}"
+
+
+def search_faults(driver):
+    """The box finds the page of the ball bearing, and nothing for a word that is not there."""
+    for word, least, most in (("clearance stiffness", 1, 60), ("xylophone", 0, 0)):
+        box = driver.find_element(By.CSS_SELECTOR, ".search")
+        box.clear()
+        box.send_keys(word)
+        found = len(driver.find_elements(By.CSS_SELECTOR, "#found li"))
+        if not least <= found <= most:
+            yield f"the search for {word!r} finds {found} pages"
+
+
+def opened(profile):
+    driver = browser(profile)
+    try:
+        for page in OPENED:
+            for width in WIDTHS:
+                window(driver, width)
+                driver.get(page.resolve().as_uri())
+                yield from (f"{page.name} at {width}: {fault}"
+                            for fault in faults_of(driver, page, width))
+                driver.save_screenshot(str(SHOTS / f"{page.stem}-{width}.png"))
+            if page.name == "index.html":
+                yield from search_faults(driver)
+    finally:
+        driver.quit()
+
+
+def main():
+    pages = sorted(BOOK.glob("*.html")) + [ARTICLE]
+    SHOTS.mkdir(parents=True, exist_ok=True)
+    faults = [*broken_links(pages), *invalid(pages)]
+    with tempfile.TemporaryDirectory() as profile:
+        faults += opened(profile)
+    for fault in faults:
+        print(fault, file=sys.stderr)
+    print(f"{len(pages)} pages, {len(faults)} faults")
+    return 1 if faults or len(pages) < 10 else 0
+
+
+if __name__ == "__main__":
+    sys.exit(main())
