@@ -2,6 +2,7 @@
 
 #include <Eigen/LU>
 #include <cmath>
+#include <limits>
 
 #include "model/errors.hpp"
 
@@ -31,76 +32,141 @@ std::string NewtonReport::reason() const
 namespace
 {
 
-/** Where a step leads, and the vectors that lead there. */
-struct Iterate {
-  Eigen::VectorXd& y;
-  NewtonVectors& vectors;
-  double norm = 0;  ///< of the residual
+/** Sizes that the tolerance is relative to. */
+struct NewtonScales {
+  double residual, unknown;
 };
 
-/** Moves along the step, halved until the residual decreases; false, and back at the start, if
-    it never does. */
-template <class Evaluate, class Learn>
-bool line_search(const Evaluate& evaluate, const Learn& learn, double goal,
-                 int most_halvings, double slope, Iterate& at)
+/** Newton's iteration on `Steps`: what evaluates the residual, solves the linear equations, hears
+    what became of its step, and says whether another step would be better than none. */
+template <class Steps>
+class Iteration
 {
-  const double before = at.norm;
-  auto& [residual, step, start] = at.vectors;
-  start = at.y;
-  double length = 1;
-  for (int halvings = 0; halvings <= most_halvings; ++halvings, length /= 2) {
-    at.y = start + length * step;
-    evaluate(at);
-    if (halvings == 0) learn(at.norm / before);
-    if (at.norm <= goal || at.norm <= (1 - slope * length) * before) return true;
+public:
+  Iteration(Steps& steps, NewtonScales scales, const NewtonSettings& settings,
+            Eigen::VectorXd& y, NewtonVectors& vectors)
+      : steps_(steps), scales_(scales), settings_(settings), y_(y), vectors_(vectors)
+  {
   }
-  at.y = start;
-  evaluate(at);
-  return false;
-}
 
-/** The iteration, for a way `find_step` to solve the linear equations that says of which kind the
-    step is. `evaluate` computes the residual of an iterate. */
-template <class Evaluate, class FindStep, class Learn>
-NewtonReport iterate(const Evaluate& evaluate, const FindStep& find_step,
-                     const Learn& learn, const NewtonScales& scales,
-                     const NewtonSettings& settings, Iterate at)
-{
-  using Kind = StepSolver::Kind;
-  const double goal = settings.tolerance * scales.residual;
-  NewtonReport report;
-  evaluate(at);
-  report.delta_1 = at.norm / scales.residual;
-  while (report.iterations < settings.most_iterations) {
-    const Kind kind = find_step(at);
-    report.delta_2 = at.vectors.step.norm() / scales.unknown;
-    ++report.iterations;
-    const bool finite = std::isfinite(report.delta_2);
-    if (!finite && kind == Kind::fresh) {
-      report.end = NewtonEnd::singular;
-      break;
+  NewtonReport run()
+  {
+    evaluate();
+    while (report_.iterations < settings_.most_iterations) {
+      const StepKind kind = steps_.step(vectors_.residual, vectors_.step);
+      report_.delta_2 = vectors_.step.norm() / scales_.unknown;
+      ++report_.iterations;
+      const double before = norm_;
+      if (!move(kind)) {
+        if (steps_.retries()) continue;
+        report_.end =
+            std::isfinite(report_.delta_2) ? NewtonEnd::no_decrease : NewtonEnd::singular;
+        break;
+      }
+      if (has_converged(kind, norm_ / before)) {
+        report_.end = NewtonEnd::converged;
+        break;
+      }
     }
-    const double before = at.norm;
-    const bool frozen = kind == Kind::frozen;
-    const bool decreased =
-        finite && line_search(evaluate, learn, goal, frozen ? 0 : settings.most_halvings,
-                              frozen ? 1 - settings.frozen_contraction : 1e-4, at);
-    report.delta_1 = at.norm / scales.residual;
-    if (!decreased) {
-      if (frozen) continue;
-      report.end = NewtonEnd::no_decrease;
-      break;
-    }
-    const double contraction = kind == Kind::fresh ? 0 : at.norm / before;
-    if (report.delta_1 <= settings.tolerance &&
-        report.delta_2 <= std::sqrt(settings.tolerance) &&
-        contraction * report.delta_2 <= 0.1 * settings.tolerance) {
-      report.end = NewtonEnd::converged;
-      break;
-    }
+    return report_;
   }
-  return report;
-}
+
+private:
+  void evaluate()
+  {
+    steps_.evaluate(y_, vectors_.residual);
+    norm_ = vectors_.residual.norm();
+    report_.delta_1 = norm_ / scales_.residual;
+  }
+
+  /** Moves along the step, halved until the residual decreases; a frozen step is taken whole, and
+      must decrease it more. False, and back at the start, if it does not. */
+  bool move(StepKind kind)
+  {
+    if (!std::isfinite(report_.delta_2)) {
+      steps_.learn(std::numeric_limits<double>::infinity());
+      return false;
+    }
+    const bool frozen = kind == StepKind::frozen;
+    const double slope = frozen ? 1 - settings_.frozen_contraction : 1e-4;
+    const int most_halvings = frozen ? 0 : settings_.most_halvings;
+    const double before = norm_, goal = settings_.tolerance * scales_.residual;
+    vectors_.start = y_;
+    double length = 1;
+    for (int halvings = 0; halvings <= most_halvings; ++halvings, length /= 2) {
+      y_ = vectors_.start + length * vectors_.step;
+      evaluate();
+      if (halvings == 0) steps_.learn(norm_ / before);
+      if (norm_ <= goal || norm_ <= (1 - slope * length) * before) return true;
+    }
+    y_ = vectors_.start;
+    evaluate();
+    return false;
+  }
+
+  /** After Newton's own step the error is of the order of δ₂²; after another step it is what its
+      contraction leaves of δ₂, or what so small a residual allows. */
+  bool has_converged(StepKind kind, double contraction) const
+  {
+    const double tolerance = settings_.tolerance;
+    if (report_.delta_1 > tolerance || report_.delta_2 > std::sqrt(tolerance))
+      return false;
+    return kind == StepKind::fresh || report_.delta_1 <= 0.1 * tolerance ||
+           contraction * report_.delta_2 <= 0.1 * tolerance;
+  }
+
+  Steps& steps_;
+  NewtonScales scales_;
+  const NewtonSettings& settings_;
+  Eigen::VectorXd& y_;
+  NewtonVectors& vectors_;
+  NewtonReport report_;
+  double norm_ = 0;
+};
+
+/** Newton's own steps, from a dense matrix. */
+struct DenseSteps {
+  const Equations& equations;
+  Eigen::PartialPivLU<Eigen::MatrixXd> factors;
+
+  void evaluate(const Eigen::VectorXd& y, Eigen::VectorXd& residual) const
+  {
+    equations.residual(y, residual);
+  }
+  StepKind step(const Eigen::VectorXd& residual, Eigen::VectorXd& step)
+  {
+    factors.compute(equations.jacobian());
+    step = -factors.solve(residual);
+    return StepKind::fresh;
+  }
+  void learn(double) const {}
+  bool retries() const { return false; }
+};
+
+/** The steps that a balance keeps the factors for. */
+struct BalanceSteps {
+  Balance& balance;
+  double omega, tolerance;
+
+  void evaluate(const Eigen::VectorXd& x, Eigen::VectorXd& residual) const
+  {
+    residual = balance.residual(
+        x, omega,
+        balance.steps().will_freeze() ? Balance::With::force : Balance::With::stiffness);
+  }
+
+  /** The linear equations are solved so well that the iteration stays quadratic, and no better
+      than the tolerance asks. */
+  StepKind step(const Eigen::VectorXd& residual, Eigen::VectorXd& step) const
+  {
+    const double scale = balance.problem().residual_scale, norm = residual.norm();
+    const double goal =
+        std::max(std::min(1e-2, norm / scale) * norm, 0.1 * tolerance * scale);
+    return balance.steps().step(balance, residual, goal, step);
+  }
+  void learn(double contraction) const { balance.steps().learn(contraction); }
+  bool retries() const { return balance.steps().retries(); }
+};
 
 }  // namespace
 
@@ -108,19 +174,9 @@ NewtonReport newton(const Equations& equations, Eigen::VectorXd& y,
                     const NewtonSettings& settings)
 {
   NewtonVectors vectors;
-  Eigen::PartialPivLU<Eigen::MatrixXd> factors(y.size());
-  return iterate(
-      [&](Iterate& at) {
-        equations.residual(at.y, at.vectors.residual);
-        at.norm = at.vectors.residual.norm();
-      },
-      [&](Iterate& at) {
-        factors.compute(equations.jacobian());
-        at.vectors.step = -factors.solve(at.vectors.residual);
-        return StepSolver::Kind::fresh;
-      },
-      [](double) {}, {equations.residual_scale, equations.unknown_scale}, settings,
-      {y, vectors});
+  DenseSteps steps{equations, Eigen::PartialPivLU<Eigen::MatrixXd>(y.size())};
+  const NewtonScales scales{equations.residual_scale, equations.unknown_scale};
+  return Iteration<DenseSteps>(steps, scales, settings, y, vectors).run();
 }
 
 NewtonReport solve(Balance& balance, double omega, Eigen::VectorXd& x,
@@ -128,24 +184,10 @@ NewtonReport solve(Balance& balance, double omega, Eigen::VectorXd& x,
 {
   const NewtonScales scales{balance.problem().residual_scale,
                             balance.problem().unknown_scale};
-  StepSolver& steps = balance.steps();
-  steps.begin(settings.frozen_contraction);
-  return iterate(
-      [&](Iterate& at) {
-        at.vectors.residual = balance.residual(
-            at.y, omega,
-            steps.will_freeze() ? Balance::With::force : Balance::With::stiffness);
-        at.norm = at.vectors.residual.norm();
-      },
-      [&](Iterate& at) {
-        /** Exact enough that the iteration stays quadratic, no more exact than it asks. */
-        const double forcing = std::min(1e-2, at.norm / scales.residual);
-        const double goal =
-            std::max(forcing * at.norm, 0.1 * settings.tolerance * scales.residual);
-        return steps.step(balance, at.vectors.residual, goal, at.vectors.step);
-      },
-      [&](double contraction) { steps.learn(contraction); }, scales, settings,
-      {x, balance.newton_vectors()});
+  balance.steps().begin(settings.frozen_contraction);
+  BalanceSteps steps{balance, omega, settings.tolerance};
+  return Iteration<BalanceSteps>(steps, scales, settings, x, balance.newton_vectors())
+      .run();
 }
 
 }  // namespace rotor_stator

@@ -40,11 +40,6 @@ struct NewtonReport {
   std::string reason() const;
 };
 
-/** Sizes that the tolerance is relative to. */
-struct NewtonScales {
-  double residual, unknown;
-};
-
 /** n equations in n unknowns. */
 struct Equations {
   double residual_scale, unknown_scale;

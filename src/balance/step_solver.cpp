@@ -17,6 +17,9 @@ constexpr double weak_coupling = 1;
 /** Past this share of all harmonics the dense block takes them all. */
 constexpr double most_low_share = 0.8;
 
+/** The dense block and its factors stay below 0.3 GB. */
+constexpr int most_low_unknowns = 4200;
+
 /** With more unknowns than this, an iteration of GMRES costs little beside new factors. */
 constexpr Eigen::Index most_chord_unknowns = 100;
 
@@ -25,6 +28,12 @@ constexpr int most_linear_iterations = 80;
 /** More than this and the factors are made anew. */
 constexpr int many_linear_iterations = 25;
 
+int largest_low(const Balance& balance)
+{
+  return std::min(balance.harmonics(),
+                  (most_low_unknowns / balance.problem().dofs - 1) / 2);
+}
+
 }  // namespace
 
 void StepSolver::factor(Balance& balance)
@@ -32,8 +41,9 @@ void StepSolver::factor(Balance& balance)
   const int m = balance.harmonics(), two = 2 * balance.problem().dofs;
   low_ =
       std::max(least_low_, m > least_low_ ? balance.highest_coupled(weak_coupling) : m);
-  is_complete_ = low_ >= most_low_share * m;
-  if (is_complete_) low_ = m;
+  if (low_ >= most_low_share * m) low_ = m;
+  low_ = std::min(low_, largest_low(balance));
+  is_complete_ = low_ == m;
   balance.jacobian(low_, low_jacobian_);
   low_factors_.compute(low_jacobian_);
   high_inverses_.resize(two, two * (m - low_));
@@ -61,7 +71,7 @@ void StepSolver::precondition(const Eigen::VectorXd& r, Eigen::VectorXd& z) cons
 }
 
 void StepSolver::iterate(Balance& balance, const Eigen::VectorXd& residual, double goal,
-                         Eigen::VectorXd& step)
+                         bool are_new, Eigen::VectorXd& step)
 {
   const auto report = gmres_.solve(
       [&](const Eigen::VectorXd& v, Eigen::VectorXd& product) {
@@ -71,8 +81,12 @@ void StepSolver::iterate(Balance& balance, const Eigen::VectorXd& residual, doub
       goal, most_linear_iterations, step);
   step = -step;
   linear_iterations_ += report.iterations;
+  stalled_ = !(report.residual <= goal);
   if (report.iterations > many_linear_iterations) factored_ = false;
-  if (report.iterations == most_linear_iterations) least_low_ = 2 * low_;
+  if (!stalled_ || !are_new) return;
+  /** Factors of this very point were not enough: a larger block, if there is one. */
+  least_low_ = 2 * low_;
+  factored_ = low_ >= largest_low(balance);
 }
 
 bool StepSolver::takes_chords() const
@@ -86,7 +100,7 @@ bool StepSolver::takes_chords() const
 bool StepSolver::pays_to_freeze(double decrease) const
 {
   const double contraction = entering_ ? entering_contraction_ : contraction_;
-  if (contraction > frozen_contraction_) return false;
+  if (contraction >= frozen_contraction_) return false;
   const double worth = 2 + static_cast<double>(low_jacobian_.rows()) / 8;
   return std::log(decrease) >= worth * std::log(contraction);
 }
@@ -94,25 +108,27 @@ bool StepSolver::pays_to_freeze(double decrease) const
 void StepSolver::learn(double contraction)
 {
   contraction_ = contraction;
-  if (entering_ && last_ == Kind::frozen) entering_contraction_ = contraction;
-  if (entering_ && last_ == Kind::fresh) entering_contraction_ *= 0.9;
+  if (entering_ && last_ == StepKind::frozen) entering_contraction_ = contraction;
+  if (entering_ && last_ == StepKind::fresh) entering_contraction_ *= 0.9;
   entering_ = false;
-  if (last_ == Kind::frozen && !(contraction <= frozen_contraction_)) factored_ = false;
+  if (last_ == StepKind::frozen && !(contraction <= frozen_contraction_))
+    factored_ = false;
 }
 
-StepSolver::Kind StepSolver::step(Balance& balance, const Eigen::VectorXd& residual,
-                                  double goal, Eigen::VectorXd& step)
+StepKind StepSolver::step(Balance& balance, const Eigen::VectorXd& residual, double goal,
+                          Eigen::VectorXd& step)
 {
   if (factored_ && takes_chords() && !pays_to_freeze(goal / residual.norm())) forget();
-  last_ = factored_ ? Kind::frozen : Kind::fresh;
-  if (!factored_) factor(balance);
-  if (!is_complete_ || (last_ == Kind::frozen && !takes_chords())) {
-    iterate(balance, residual, goal, step);
-    return last_ = Kind::iterated;
+  stalled_ = false;
+  const bool are_new = !factored_;
+  if (are_new) factor(balance);
+  if (is_complete_ && (are_new || takes_chords())) {
+    precondition(residual, step);
+    step = -step;
+    return last_ = are_new ? StepKind::fresh : StepKind::frozen;
   }
-  precondition(residual, step);
-  step = -step;
-  return last_;
+  iterate(balance, residual, goal, are_new, step);
+  return last_ = StepKind::iterated;
 }
 
 }  // namespace rotor_stator

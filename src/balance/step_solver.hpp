@@ -28,15 +28,15 @@ struct NewtonVectors {
   Eigen::VectorXd residual, step, start;
 };
 
+enum class StepKind { fresh, frozen, iterated };
+
 class StepSolver
 {
 public:
-  enum class Kind { fresh, frozen, iterated };
-
   /** Solves ∂R/∂X step = -`residual` at the balance's last point. `goal` is the linear residual
      an iterated step may leave. */
-  Kind step(Balance& balance, const Eigen::VectorXd& residual, double goal,
-            Eigen::VectorXd& step);
+  StepKind step(Balance& balance, const Eigen::VectorXd& residual, double goal,
+                Eigen::VectorXd& step);
 
   /** A new solution begins. A frozen step that leaves more than `frozen_contraction` of the
      residual ends the use of its factors. */
@@ -52,6 +52,10 @@ public:
   /** The next step factors the Jacobian anew. */
   void forget() { factored_ = false; }
 
+  /** Whether the next step from the same point would be a better one: the last was frozen, or GMRES
+     stalled and has a larger block to try. */
+  bool retries() const { return !factored_ && (last_ == StepKind::frozen || stalled_); }
+
   /** Whether the next step is likely to be frozen: it needs no stiffness. */
   bool will_freeze() const { return factored_ && takes_chords() && !entering_; }
 
@@ -64,10 +68,11 @@ private:
   void factor(Balance& balance);
   void precondition(const Eigen::VectorXd& r, Eigen::VectorXd& z) const;
   void iterate(Balance& balance, const Eigen::VectorXd& residual, double goal,
-               Eigen::VectorXd& step);
+               bool are_new, Eigen::VectorXd& step);
 
   bool factored_ = false, is_complete_ = false, entering_ = true;
-  Kind last_ = Kind::fresh;
+  StepKind last_ = StepKind::fresh;
+  bool stalled_ = false;  ///< GMRES did not reach its goal
   double frozen_contraction_ = 0;
   double contraction_ = 0;           ///< of the last step with these factors
   double entering_contraction_ = 0;  ///< of the last first step with older factors

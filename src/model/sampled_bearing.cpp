@@ -55,49 +55,69 @@ struct Rectangle {
   }
 };
 
-/** One group from instant k on: the motion turned into the cage frame, the balls summed, the
-    force R F and the stiffness R S Rᵀ turned back. */
-template <bool with_stiffness>
-[[gnu::always_inline]] inline void evaluate_group(const Balls& balls, const Columns& at,
-                                                  Eigen::Index k)
-{
-  const double *cage_cos = at.cos + k, *cage_sin = at.sin + k;
-  const double *u_x = at.x + k, *u_y = at.y + k;
-  double x[lanes], y[lanes], f_x[lanes] = {}, f_y[lanes] = {};
+/** Relative motion in the cage frame [m], and the sums over the balls: the force over K_H, the
+    stiffness over 3/2 K_H. */
+struct Group {
+  double x[lanes], y[lanes];
+  double f_x[lanes] = {}, f_y[lanes] = {};
   double xx[lanes] = {}, xy[lanes] = {}, yy[lanes] = {};
-  for (int l = 0; l < lanes; ++l) {
-    x[l] = cage_cos[l] * u_x[l] + cage_sin[l] * u_y[l];
-    y[l] = cage_cos[l] * u_y[l] - cage_sin[l] * u_x[l];
-  }
-  const Rectangle rectangle(x, y);
+};
+
+#define IN_PLACE \
+  [[gnu::always_inline]] inline  // else compiled once, for the narrowest registers
+
+template <bool with_stiffness>
+IN_PLACE void sum_balls(const Balls& balls, Group& g)
+{
+  const Rectangle rectangle(g.x, g.y);
   for (Eigen::Index j = 0; j < balls.count; ++j) {
     const double c = balls.cos[j], s = balls.sin[j];
     if (rectangle.is_clear_of(c, s, balls.clearance)) continue;
     for (int l = 0; l < lanes; ++l) {
-      const double p = c * x[l] + s * y[l] - balls.clearance;
+      const double p = c * g.x[l] + s * g.y[l] - balls.clearance;
       const double pressed = p > 0 ? p : 0.0;
       const double root = std::sqrt(pressed), q = pressed * root;
-      f_x[l] += q * c;
-      f_y[l] += q * s;
+      g.f_x[l] += q * c;
+      g.f_y[l] += q * s;
       if constexpr (with_stiffness) {
-        xx[l] += root * (c * c);
-        xy[l] += root * (c * s);
-        yy[l] += root * (s * s);
+        g.xx[l] += root * (c * c);
+        g.xy[l] += root * (c * s);
+        g.yy[l] += root * (s * s);
       }
     }
   }
+}
+
+/** R S Rᵀ. */
+IN_PLACE void put_stiffness(const Group& g, double hertz, const Columns& at,
+                            Eigen::Index k)
+{
+  for (int l = 0; l < lanes; ++l) {
+    const double c = at.cos[k + l], s = at.sin[k + l], mixed = 2 * c * s * g.xy[l];
+    at.xx[k + l] = 1.5 * hertz * (c * c * g.xx[l] + s * s * g.yy[l] - mixed);
+    at.xy[k + l] =
+        1.5 * hertz * (c * s * (g.xx[l] - g.yy[l]) + (c * c - s * s) * g.xy[l]);
+    at.yy[k + l] = 1.5 * hertz * (s * s * g.xx[l] + c * c * g.yy[l] + mixed);
+  }
+}
+
+/** One group, from instant k on. */
+template <bool with_stiffness>
+IN_PLACE void evaluate_group(const Balls& balls, const Columns& at, Eigen::Index k)
+{
+  const double *c = at.cos + k, *s = at.sin + k;
+  Group g;
+  for (int l = 0; l < lanes; ++l) {
+    g.x[l] = c[l] * at.x[k + l] + s[l] * at.y[k + l];
+    g.y[l] = c[l] * at.y[k + l] - s[l] * at.x[k + l];
+  }
+  sum_balls<with_stiffness>(balls, g);
   const double hertz = balls.contact_stiffness;
   for (int l = 0; l < lanes; ++l) {
-    at.f_x[k + l] = hertz * (cage_cos[l] * f_x[l] - cage_sin[l] * f_y[l]);
-    at.f_y[k + l] = hertz * (cage_sin[l] * f_x[l] + cage_cos[l] * f_y[l]);
+    at.f_x[k + l] = hertz * (c[l] * g.f_x[l] - s[l] * g.f_y[l]);
+    at.f_y[k + l] = hertz * (s[l] * g.f_x[l] + c[l] * g.f_y[l]);
   }
-  if constexpr (with_stiffness)
-    for (int l = 0; l < lanes; ++l) {
-      const double c = cage_cos[l], s = cage_sin[l], mixed = 2 * c * s * xy[l];
-      at.xx[k + l] = 1.5 * hertz * (c * c * xx[l] + s * s * yy[l] - mixed);
-      at.xy[k + l] = 1.5 * hertz * (c * s * (xx[l] - yy[l]) + (c * c - s * s) * xy[l]);
-      at.yy[k + l] = 1.5 * hertz * (s * s * xx[l] + c * c * yy[l] + mixed);
-    }
+  if constexpr (with_stiffness) put_stiffness(g, hertz, at, k);
 }
 
 /** All groups; the last one overlaps the one before where N is no multiple of the lanes. */
