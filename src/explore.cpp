@@ -96,10 +96,10 @@ void add_response_options(CLI::App& command, ResponseRequest& request)
 int finish(const Exploration& exploration)
 {
   write(exploration.table.text());
+  if (!exploration.unfinished.empty()) throw NoSolution(exploration.unfinished);
   for (const std::string& remark : exploration.remarks)
     std::fprintf(stderr, "%s\n", remark.c_str());
-  if (exploration.unfinished.empty()) return 0;
-  throw NoSolution(exploration.unfinished);
+  return 0;
 }
 
 }  // namespace

@@ -73,7 +73,7 @@ void Balance::jacobian(int harmonics, Eigen::MatrixXd& jacobian)
 {
   if (problem_.spend) {
     const double n = problem_.dofs * (2.0 * harmonics + 1);
-    problem_.spend(10 * n * n + n * n * n / 40);  // with its factorisation
+    problem_.spend(2e4 + 10 * n * n + n * n * n / 40);  // with its factorisation
   }
   need_spectra();
   const int dofs = problem_.dofs;

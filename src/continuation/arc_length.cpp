@@ -68,7 +68,6 @@ private:
   }
 
   const BranchPoint& last() const { return branch_.points.back(); }
-
   void keep(BranchPoint point)
   {
     if (visit_) {

@@ -29,6 +29,9 @@ public:
   /** What is left; infinite without a bound. */
   double left() const;
 
+  /** Whether a part could not be paid for, or nothing is left. */
+  bool used_up() const { return left() <= 0; }
+
   /** Takes `operations` from the account. Throws NoSolution when they are not there. */
   void spend(double operations) const;
 

@@ -64,6 +64,8 @@ Task task_of(const ResponseRequest& request)
   std::optional<int> samples = request.samples;
   if (!samples && saved && saved->harmonics == harmonics) samples = saved->samples;
   const int checked = checked_samples(harmonics, samples);
+  /** The starts beside the branch, nine at each speed, must fit into the memory. */
+  require_range("--isolated", request.isolated, 0, 500000 / harmonics);
   ArcLengthSettings settings =
       arc_length_settings(parameters, {.tolerance = request.newton_tolerance});
   settings.most_evaluations = static_cast<long>(request.work);
@@ -171,14 +173,17 @@ std::vector<IsolatedBranch> others(const Task& task, Balance& balance, const Bra
   const auto starts =
       other_starts(task.parameters, task.range(), task.harmonics,
                    {.speeds = task.request.isolated,
-                    .seed = static_cast<std::uint64_t>(task.request.seed)});
+                    .seed = static_cast<std::uint64_t>(task.request.seed)},
+                   task.work);
   auto found = isolated_branches(balance, main, starts, task.range(), task.settings);
   int number = 1;
   for (const IsolatedBranch& other : found)
     remarks.push_back(text(
         "branch %d: off the branches before it, found at %g Hz from %s; %s", ++number,
         other.omega / angular(1), other.origin.c_str(), summary(other.branch).c_str()));
-  if (found.empty())
+  if (task.work.used_up())
+    remarks.push_back("the work allowed is used up: not every start was followed");
+  else if (found.empty())
     remarks.push_back(text("no other branch found from %zu starts", starts.size()));
   return found;
 }
@@ -197,6 +202,9 @@ void describe(Table& table, const Task& task, const Branch& branch)
 
 std::string unfinished(const Task& task, const Branch& branch)
 {
+  if (branch.covered && task.request.isolated > 0 && task.work.used_up())
+    return text("%s: the search for isolated branches used up the work allowed",
+                task.parameters.file.c_str());
   if (branch.covered) return "";
   return text("%s: the branch stopped at %g Hz, before --%s %g Hz: %s",
               task.parameters.file.c_str(), branch.points.back().omega / angular(1),
@@ -223,11 +231,13 @@ Exploration explore_response(const ResponseRequest& request)
   if (numbered) beside = others(task, balance, main, remarks);
   for (const std::string& remark : remarks) table.note(remark);
 
-  add_rows(table, task, balance, main, numbered ? std::optional(1UL) : std::nullopt);
+  /** The table is written, whatever work is left. */
+  Balance shown(bearing_problem(task.parameters, task.samples), task.harmonics);
+  add_rows(table, task, shown, main, numbered ? std::optional(1UL) : std::nullopt);
   std::vector<const Branch*> all{&main};
   for (const IsolatedBranch& other : beside) {
     all.push_back(&other.branch);
-    add_rows(table, task, balance, other.branch, all.size());
+    add_rows(table, task, shown, other.branch, all.size());
   }
   if (!request.save.empty())
     write_file(request.save, branch_text(task.parameters, task.harmonics, task.samples,

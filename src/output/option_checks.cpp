@@ -10,8 +10,10 @@ namespace rotor_stator
 
 void require_positive(const char* option, double value)
 {
-  if (!(std::isfinite(value) && value > 0))
-    throw BadInput(text("%s %g: must be a finite number > 0", option, value));
+  constexpr double most = 1e300;  // 2 pi times as much is still a number
+  if (!(value > 0 && value <= most))
+    throw BadInput(
+        text("%s %g: must be a finite number > 0, at most %g", option, value, most));
 }
 
 void require_between(const char* option, double value, double least, double most)

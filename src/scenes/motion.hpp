@@ -56,7 +56,7 @@ ArcLengthSettings arc_length_settings(const Parameters& parameters,
 /** A start for Newton: the relative motion [m] of one period after ten seconds of RK4 from rest, as
     coefficients. Throws NoSolution when the integration breaks down. */
 Eigen::VectorXd integrated_start(const Parameters& parameters, double omega,
-                                 int harmonics, double work = 3e10);
+                                 int harmonics, const Work& work = {});
 
 /** Looks for the periodic solution at ω with m harmonics and N samples. Newton starts from the
     quasi-static contact, then from a solution with fewer harmonics, then from the end of a branch

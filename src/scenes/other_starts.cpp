@@ -33,7 +33,8 @@ Eigen::VectorXd random_coefficients(double size, int harmonics,
 }  // namespace
 
 std::vector<Candidate> other_starts(const Parameters& parameters, SpeedRange range,
-                                    int harmonics, const OtherStarts& wanted)
+                                    int harmonics, const OtherStarts& wanted,
+                                    const Work& work)
 {
   /** The motion of the rings is free to be several clearances wide. */
   const double size = 2 * scales(parameters).length;
@@ -43,7 +44,9 @@ std::vector<Candidate> other_starts(const Parameters& parameters, SpeedRange ran
     const double omega = range.from + (range.to - range.from) * k / (wanted.speeds + 1);
     try {
       starts.push_back(
-          {omega, integrated_start(parameters, omega, harmonics), "time integration"});
+          {omega,
+           integrated_start(parameters, omega, harmonics, work.part(0.5 / wanted.speeds)),
+           "time integration"});
     } catch (const NoSolution&) {
       // the integration broke down: only random starts here
     }

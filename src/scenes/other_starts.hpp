@@ -11,6 +11,7 @@ from time integration, the others are random: harmonics of the size of the clear
 
 #include "continuation/isolated.hpp"
 #include "model/parameters.hpp"
+#include "model/work.hpp"
 
 namespace rotor_stator
 {
@@ -21,8 +22,10 @@ struct OtherStarts {
   std::uint64_t seed = 1;
 };
 
-/** The starts with m harmonics in the range; the same for the same seed on every machine. */
+/** The starts with m harmonics in the range; the same for the same seed on every machine. The
+    integrations take at most half of `work`. */
 std::vector<Candidate> other_starts(const Parameters& parameters, SpeedRange range,
-                                    int harmonics, const OtherStarts& wanted);
+                                    int harmonics, const OtherStarts& wanted,
+                                    const Work& work = {});
 
 }  // namespace rotor_stator

@@ -34,7 +34,7 @@ std::string table_problem(const std::string& table)
     /** The title is the reader's, the flags may name NaN. */
     if (line.starts_with("# parameters:") || line.starts_with("# compiler:")) continue;
     if (has_no_number(line)) return "not finite: " + line;
-    if (line.starts_with("#")) continue;
+    if (line.empty() || line.starts_with("#")) continue;  // empty between two branches
     const long cells = 1 + std::count(line.begin(), line.end(), '\t');
     if (columns == 0)
       columns = cells;
@@ -61,7 +61,7 @@ std::string problem(const LimitedOutcome& outcome)
       outcome.out.starts_with("Explores") || outcome.out.find("Usage:") < 200;
   switch (outcome.status) {
     case 0:
-      if (!outcome.err.empty()) return "status 0 with words on stderr";
+      if (has_no_number(outcome.err)) return "a log that is not a number";
       return help ? "" : table_problem(outcome.out);
     case 2:
       if (!outcome.out.empty()) return "status 2 with words on stdout";
