@@ -8,6 +8,7 @@ import tomllib
 from pathlib import Path
 
 sys.path.insert(0, "figures")
+from project import source_line  # noqa: E402
 from tables import Table  # noqa: E402
 
 GENERATED = Path("data/generated")
@@ -97,7 +98,7 @@ def rows_of(path):
 def main():
     for part in (paper_values, claim_counts, response, displacements, regimes, identification, deviations):
         part()
-    print("# The numbers of the article\n# column: key [-] name\n# column: value [-] in its unit\n"
+    print(f"# The numbers of the article\n{source_line()}\n# column: key [-] name\n# column: value [-] in its unit\n"
           "# column: unit [-] of the value\n# column: meaning [-] what the value is")
     print("key\tvalue\tunit\tmeaning")
     for key, value, unit, meaning in VALUES:
