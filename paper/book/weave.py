@@ -2,8 +2,8 @@
 them the figure and the table that a program makes.
 
 Every program and every module (header and implementation together) of src/ becomes a page; chapters.toml
-gives the order in which they teach. pandoc converts; what is done here is to turn comments into
-Markdown and to link.
+gives the order in which they teach, figures.toml says what the figures show. pandoc converts; what is done
+here is to turn comments into Markdown and to link.
 
 Usage: weave.py OUTPUT_FOLDER   (from the project's root; reads figures/generated and data/generated)
 """
@@ -18,8 +18,11 @@ from concurrent.futures import ThreadPoolExecutor
 from pathlib import Path
 
 from folder_map import folder_map
+from overview import claims_section, deviations_section, gallery
 
 HERE = Path("paper/book")
+DRAWN, TABLES = Path("figures/generated"), (Path("data/generated"), Path("data/reference"))
+SHOWN = tomllib.loads((HERE / "figures.toml").read_text())
 REPOSITORY_FILES = ("book.css", "book.js")
 COMMENT = re.compile(r"^[ \t]*/\*\*(.*?)\*/[ \t]*\n", re.DOTALL | re.MULTILINE)
 INCLUDE = re.compile(r'^#include "([^"]+)"', re.MULTILINE)
@@ -42,7 +45,7 @@ class Page:
 
     def first_heading(self):
         for text in self.text.values():
-            found = re.search(r"^# (.+)$", text, re.MULTILINE)
+            found = re.search(r"^(?:/\*\* )?# (.+?)(?: \*/)?$", text, re.MULTILINE)
             if found:
                 return found[1]
         return None
@@ -50,20 +53,27 @@ class Page:
     def includes(self):
         return sorted({name for text in self.text.values() for name in INCLUDE.findall(text)})
 
-    def made(self, folder, suffix):
-        """The figure or table that goes by the program's name, or by its number."""
-        for stem in (self.key, self.key.split("_")[0]):
-            path = Path(folder) / (stem + suffix)
-            if self.is_program and path.exists():
-                return path
-        return None
+    def names(self):
+        """The program's name, and the number of the paper's figure or table that begins it."""
+        number = re.match(r"fig\d\d|tab\d\d", self.key)
+        return [self.key, *([number[0]] if number else [])] if self.is_program else []
 
-    def script(self):
-        for suffix in (".gp", ".py"):
-            path = Path("figures") / (self.key + suffix)
-            if self.is_program and path.exists():
-                return path
-        return None
+    def figures(self):
+        """The drawn figures that stand on this page."""
+        return [name for name, figure in SHOWN.items()
+                if figure.get("program", name) in self.names() and (DRAWN / f"{name}.svg").exists()]
+
+    def table(self):
+        """The table that the program writes: computed, or kept from a long study."""
+        names = self.names() + self.figures()[:1]
+        found = [folder / f"{name}.tsv" for name in names for folder in TABLES]
+        return next((path for path in found if path.exists()), None)
+
+
+def script_of(figure):
+    """The script that draws a figure: of its name, or of a name that begins so."""
+    return next(path for suffix in (".gp", ".py") for pattern in ("", "_*")
+                for path in sorted(Path("figures").glob(figure + pattern + suffix)))
 
 
 def all_pages():
@@ -148,17 +158,18 @@ def shortened(cell):
         return cell
 
 
+def figure_markdown(name, caption, output):
+    script = script_of(name)
+    shutil.copy(DRAWN / f"{name}.svg", output / "figures")
+    shutil.copy(script, output / "scripts")
+    return (f"![{caption}](figures/{name}.svg){{alt=\"{SHOWN[name]['alt']}\"}}\n\n"
+            f"Drawn by [{script}](scripts/{script.name}).")
+
+
 def results(page, output):
-    """The figure, its script and the table of a program."""
-    parts = []
-    figure, table, script = (page.made("figures/generated", ".svg"),
-                             page.made("data/generated", ".tsv"), page.script())
-    if figure:
-        shutil.copy(figure, output / "figures")
-        parts.append(f"![{page.title}](figures/{figure.name})")
-    if script:
-        shutil.copy(script, output / "scripts")
-        parts.append(f"Drawn by [{script}](scripts/{script.name}).")
+    """The figures, their scripts and the table of a program."""
+    parts = [figure_markdown(name, page.title, output) for name in page.figures()]
+    table = page.table()
     if table:
         shutil.copy(table, output / "tables")
         parts += [f"The first rows of [{table.name}](tables/{table.name}):", table_excerpt(table)]
@@ -202,7 +213,9 @@ def index_markdown(found_chapters, pages):
     for chapter in found_chapters:
         parts.append(f"## {chapter['title']}\n\n{chapter['introduction'].strip()}\n")
         parts.append("\n".join(f"- {link(page)} `{page.key}`" for page in chapter["found"]))
-    return "\n\n".join(parts)
+        parts.append(gallery([(page.file, page.title, name) for page in chapter["found"]
+                              for name in page.figures()], SHOWN))
+    return "\n\n".join([*parts, claims_section(), deviations_section()])
 
 
 def search_words(pages):
