@@ -24,6 +24,7 @@ HERE = Path("paper/book")
 DRAWN, TABLES = Path("figures/generated"), (Path("data/generated"), Path("data/reference"))
 SHOWN = tomllib.loads((HERE / "figures.toml").read_text())
 REPOSITORY_FILES = ("book.css", "book.js")
+MOST_CODE = 250  # lines on a page
 COMMENT = re.compile(r"^[ \t]*/\*\*(.*?)\*/[ \t]*\n", re.DOTALL | re.MULTILINE)
 INCLUDE = re.compile(r'^#include "([^"]+)"', re.MULTILINE)
 EQUATION = re.compile(r"\$\$(.+?)\$\$", re.DOTALL)
@@ -34,14 +35,15 @@ DEVIATION = re.compile(r"\bD-(\d\d)\b")
 class Page:
     """One program or module: where it stands, what it says, what it makes."""
 
-    def __init__(self, files):
+    def __init__(self, files, part_of=None):
         self.files = files
         path = files[0].relative_to("src")
         self.is_program = len(path.parts) == 1
-        self.key = str(path.with_suffix(""))
-        self.file = self.key.replace("/", "-") + ".html"
+        self.key = str(path if part_of else path.with_suffix(""))
+        self.file = self.key.replace("/", "-").replace(".", "-") + ".html"
         self.text = {file: file.read_text() for file in files}
-        self.title = self.first_heading() or f"{self.key}"
+        self.title = (f"{part_of.title}: implementation" if part_of
+                      else self.first_heading() or self.key)
 
     def first_heading(self):
         for text in self.text.values():
@@ -76,13 +78,22 @@ def script_of(figure):
                 for path in sorted(Path("figures").glob(figure + pattern + suffix)))
 
 
+def code_lines(file):
+    return sum(bool(line.strip()) for line in COMMENT.sub("", file.read_text()).split("\n"))
+
+
 def all_pages():
-    """Programs first, then modules; a header and its implementation are one page."""
-    groups = {}
+    """A header and its implementation are one page, or two where that is more than a sitting."""
+    groups, pages = {}, []
     for file in sorted(Path("src").rglob("*.?pp")):
         groups.setdefault(file.with_suffix(""), []).append(file)
-    return [Page(sorted(files, key=lambda f: f.suffix, reverse=True))
-            for files in groups.values()]
+    for group in groups.values():
+        files = sorted(group, key=lambda f: f.suffix, reverse=True)
+        long = len(files) > 1 and sum(map(code_lines, files)) > MOST_CODE
+        pages.append(Page(files[:1] if long else files))
+        if long:
+            pages.append(Page(files[1:], part_of=pages[-1]))
+    return pages
 
 
 def numbered(match):
@@ -199,7 +210,8 @@ def chapters(pages):
     known = tomllib.loads((HERE / "chapters.toml").read_text())["chapter"]
     left = {page.key: page for page in pages}
     for chapter in known:
-        chapter["found"] = [left.pop(key) for key in chapter.get("pages", []) if key in left]
+        named = [key + part for key in chapter.get("pages", []) for part in ("", ".cpp")]
+        chapter["found"] = [left.pop(key) for key in named if key in left]
         for key in sorted(left):
             if any(key.startswith(prefix) for prefix in chapter.get("rest_of", [])):
                 chapter["found"].append(left.pop(key))
