@@ -311,7 +311,7 @@ $(book): $(wildcard paper/book/*) paper/guide.md paper/references.bib $(shell fi
 
 article: $(article)  ## the article: build/paper/article.html
 
-data/generated/article.tsv: paper/article_values.py figures/tables.py figures/project.py \
+data/generated/article.tsv: paper/article_values.py paper/article_results.py figures/tables.py figures/project.py \
   data/claims.toml paper/deviations.md $(untimed) $(timings) $(claims) $(kept)
 	$(call whole,$(PYTHON) $< > $$new)
 
@@ -319,7 +319,7 @@ data/generated/article.md: paper/include.py paper/article.md data/generated/arti
 	$(call whole,$(PYTHON) $^ > $$new)
 
 $(article): data/generated/article.md paper/render_article.py paper/article.html \
-  paper/book/weave.py paper/book/book.css paper/references.bib
+  paper/book/weave.py paper/book/book.css paper/book/figures.toml paper/references.bib
 	@mkdir -p $(@D)
 	$(PYTHON) paper/render_article.py $< $@
 
