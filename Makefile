@@ -61,10 +61,13 @@ untimed := $(foreach reading,$(readings),$(call tables_of,$(reading)) $(call fig
   $(studied) $(pages)
 programs := $(patsubst src/%.cpp,build/%,$(wildcard src/*.cpp))
 
-.PHONY: book article all figures timing claims test sanitize deps list png readme golden format clean \
+book := build/book/index.html
+article := build/paper/article.html
+
+.PHONY: all figures timing claims book article pdf deps-pdf dist test sanitize deps list png readme golden format clean \
   studies identify study hard truth attractors validity stability adaptive adopt peers deps-peers bench
 
-all: $(untimed) $(timings) $(claims)  ## figures, tables and claims of both readings (the default)
+all: $(untimed) $(timings) $(claims) $(book) $(article)  ## figures, tables and claims of both readings, pages and article (the default)
 
 figures: $(call results_of,$(READING)) $(if $(filter exchanged,$(READING)),$(pages))  ## the paper's figures and tables, of one READING
 
@@ -84,7 +87,7 @@ claims: $(claims)  ## the verdict on each claim, for both readings
 
 packages := cmake ninja-build g++ pkg-config libeigen3-dev libfftw3-dev libgsl-dev \
   libtomlplusplus-dev libcli11-dev catch2 gnuplot-nox python3-matplotlib librsvg2-bin git \
-  libbenchmark-dev
+  libbenchmark-dev pandoc chromium chromium-driver python3-selenium tidy
 
 # The packages of the list that dpkg does not have; nothing on systems without dpkg.
 missing_packages = command -v dpkg-query > /dev/null || exit 0; \
@@ -106,6 +109,12 @@ deps:  ## install the Debian packages; elsewhere, list what to install
 	sudo=; if [ "$$(id -u)" != 0 ] && command -v sudo > /dev/null; then sudo=sudo; fi; \
 	$$sudo apt-get update && \
 	$$sudo env DEBIAN_FRONTEND=noninteractive apt-get install -y --no-install-recommends $$missing
+
+# What only `pdf` needs.
+packages_pdf := texlive-luatex texlive-latex-recommended texlive-fonts-recommended lmodern
+
+deps-pdf:  ## install the LaTeX packages of the PDF
+	$(MAKE) deps packages="$(packages_pdf)"
 
 # What only `peers` needs.
 packages_peers := libsundials-dev python3-scipy auto-07p gfortran
@@ -240,7 +249,7 @@ data/generated$(1)/sections.tsv: build/sections data/scenes/sections.toml \
 	@mkdir -p $$(@D)
 	$$(call whole,$$< data/scenes/sections.toml --reading $(3) --attractors data/reference/attractors$(2).tsv > $$$$new)
 
-data/generated$(1)/truth_intervals.tsv: figures/truth_intervals.py figures/tables.py data/claims.toml \
+data/generated$(1)/truth_intervals.tsv: figures/truth_intervals.py figures/tables.py figures/project.py CMakeLists.txt data/claims.toml \
   data/reference/attractors$(2).tsv data/reference/validity$(2).tsv
 	@mkdir -p $$(@D)
 	$$(call whole,$$(PYTHON) $$< data/reference/attractors$(2).tsv data/reference/validity$(2).tsv > $$$$new)
@@ -277,16 +286,6 @@ figures/generated/adaptive.svg: figures/adaptive.py figures/rotor_stator.mplstyl
 	@mkdir -p $(@D)
 	$(call whole,$(PYTHON) $< data/reference/adaptive.tsv $$new)
 
-# The sources as pages and the article: drafts, made on demand (pandoc is needed), not part of `all`.
-book:  ## draft: the sources as pages in reading order, build/book/index.html (needs pandoc)
-	$(PYTHON) paper/book/weave.py build/book
-
-article: data/generated/deviations.tsv  ## draft: the article, build/paper/article.html (needs pandoc)
-	@mkdir -p build/paper
-	$(PYTHON) paper/article_values.py > data/generated/article.tsv
-	$(PYTHON) paper/include.py paper/article.md data/generated/article.tsv | sed 1,2d > data/generated/article.md
-	$(PYTHON) paper/render_article.py data/generated/article.md build/paper/article.html
-
 png: $(patsubst %.svg,%.png,$(filter %.svg,$(untimed)))  ## the figures as PNG, for viewing
 
 %.png: %.svg
@@ -298,11 +297,44 @@ png: $(patsubst %.svg,%.png,$(filter %.svg,$(untimed)))  ## the figures as PNG, 
 $(pages): data/generated/%.md: paper/include.py paper/%.md data/generated/%.tsv
 	$(call whole,$(PYTHON) $^ > $$new)
 
+# The sources as pages, with their figures and tables. A folder is complete when it has its index: it
+# is made under another name and moved into place.
+kept := $(wildcard data/reference/*.tsv)
+
+book: $(book)  ## the sources as pages, in reading order: build/book/index.html
+
+$(book): $(wildcard paper/book/*) paper/guide.md paper/references.bib $(shell find src -type f) \
+  $(untimed) $(timings) $(claims) $(kept)
+	rm -rf build/book build/book.new
+	$(PYTHON) paper/book/weave.py build/book.new
+	mv build/book.new build/book
+
+article: $(article)  ## the article: build/paper/article.html
+
+data/generated/article.tsv: paper/article_values.py paper/article_results.py figures/tables.py figures/project.py \
+  data/claims.toml paper/deviations.md $(untimed) $(timings) $(claims) $(kept)
+	$(call whole,$(PYTHON) $< > $$new)
+
+data/generated/article.md: paper/include.py paper/article.md data/generated/article.tsv
+	$(call whole,$(PYTHON) $^ > $$new)
+
+$(article): data/generated/article.md paper/render_article.py paper/article.html \
+  paper/book/weave.py paper/book/book.css paper/book/figures.toml paper/references.bib
+	@mkdir -p $(@D)
+	$(PYTHON) paper/render_article.py $< $@
+
+pdf: build/paper/article.pdf  ## the article as PDF (its packages: make deps-pdf)
+
+build/paper/article.pdf: data/generated/article.md paper/render_article.py paper/article.tex \
+  paper/references.bib
+	@mkdir -p $(@D)
+	$(PYTHON) paper/render_article.py $< $@
+
 # ---------------------------------------------------------------------------------------------
 # Claims: $(call claims_rule,reading)
 
 define claims_rule
-$(claims_of): figures/claims.py figures/tables.py data/claims.toml data/reference/study.tsv \
+$(claims_of): figures/claims.py figures/tables.py figures/project.py data/claims.toml data/reference/study.tsv \
   data/reference/validity$(suffix_$(1)).tsv \
   $(tables_of) $(timing_of)
 	$$(call whole,$$(PYTHON) figures/claims.py $$(@D) $$$$new)
@@ -417,8 +449,23 @@ golden:  ## rewrite the golden tables of the tests from data/generated; a commit
 format:  ## clang-format on all C++ sources
 	clang-format -i $$(find src tests -name '*.?pp')
 
+# Files in the order of their names, without dates or owners: the same commit gives the same archive.
+version = $(shell sed -nE 's/^project\(rotor_stator VERSION ([0-9.]+).*/\1/p' CMakeLists.txt)
+archive = rotor-stator-$(version)
+
+dist: all  ## an archive of the commit with its tables, figures and pages: build/rotor-stator-VERSION.tar.gz
+	@git diff --quiet HEAD || { echo "dist: the work tree differs from the commit" >&2; exit 1; }
+	rm -rf build/$(archive)
+	mkdir -p build/$(archive)
+	git archive HEAD | tar -x -C build/$(archive)
+	cp -r --parents data/generated figures/generated build/book build/paper build/$(archive)
+	find build/$(archive) \( -name '*.journal' -o -name '*.tmp' \) -delete
+	tar --sort=name --mtime=@0 --owner=0 --group=0 --numeric-owner -C build -c $(archive) | \
+	  gzip -n > build/$(archive).tar.gz
+	rm -rf build/$(archive)
+
 list:  ## this list
-	@sed -nE 's/^([a-z]+):.*##  ?(.*)/\1\t\2/p' $(MAKEFILE_LIST) | sort | column -t -s "$$(printf '\t')"
+	@sed -nE 's/^([a-z-]+):.*##  ?(.*)/\1\t\2/p' $(MAKEFILE_LIST) | sort | column -t -s "$$(printf '\t')"
 
 clean:  ## remove everything that was built, computed or drawn
 	rm -rf build build-debug data/generated figures/generated

@@ -22,7 +22,7 @@ def draw_sections(axes, rows, clearance):
         part = rows.where("origin", origin)
         shift = 0.06 if origin == DOWN else -0.06
         axes.plot(part["f"] + shift, part["u_x"] / clearance, ".", ms=2.4, mew=0, color=colour,
-                  label=label, rasterized=True)
+                  label=label)
 
 
 def draw_exponents(axes, rows):

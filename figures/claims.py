@@ -10,6 +10,7 @@ import tomllib
 from pathlib import Path
 
 import numpy as np
+from project import source_line
 from tables import Table
 
 RULES = tomllib.loads(Path("data/claims.toml").read_text(encoding="utf-8"))
@@ -180,7 +181,7 @@ def judged(folder):
 
 
 def write(folder, output):
-    header = ["# The paper's claims, judged by the rules of data/claims.toml",
+    header = ["# The paper's claims, judged by the rules of data/claims.toml", source_line(),
               f"# modelled: nothing; the tables of {folder} and data/reference",
               "# column: id [-] of the claim", "# column: claim [-] in words",
               "# column: paper [-] what the paper says", "# column: ours [-] what the tables say",

@@ -2,27 +2,48 @@
 
 Above, one panel per speed as in the paper: black where a ball is in contact. Below, the same panels
 with the force of each ball in colour, white without contact, each on a scale of its own since the
-forces grow by an order of magnitude up to the resonance.
+forces grow by an order of magnitude up to the resonance. Both are drawn as areas, one path for each
+colour, so that the maps stay drawings at any size.
 """
 
 from string import ascii_lowercase
 
 import matplotlib.pyplot as plt
 import numpy as np
+from matplotlib.cm import ScalarMappable
+from matplotlib.colors import Normalize
+from matplotlib.patches import PathPatch
+from matplotlib.path import Path
 from matplotlib.ticker import MaxNLocator, MultipleLocator
 
 BALANCE = 1
+COLOURS = 40
 
 
 def force_map(panel):
-    """Q as an array, a row per ball and a column per time, and its extent on the axes."""
+    """Q as an array, a row per ball and a column per time, and the ends of the times."""
     times = np.unique(panel["t_over_T"])
     balls = np.unique(panel["ball"])
     force = np.empty((balls.size, times.size))
     rows = np.searchsorted(balls, panel["ball"])
     force[rows, np.searchsorted(times, panel["t_over_T"])] = panel["Q"]
-    end = times[-1] + times[1] - times[0]
-    return force, (times[0], end, balls[0] - 0.5, balls[-1] + 0.5)
+    return force, np.append(times, 2 * times[-1] - times[-2])
+
+
+def area_of(cells, ends):
+    """All true cells of a map as one path: a rectangle for each run of neighbouring times."""
+    steps = np.diff(cells.astype(int), axis=1, prepend=0, append=0)
+    corners = [(ends[a], ends[b], ball + 0.5) for ball in range(cells.shape[0])
+               for a, b in zip(np.flatnonzero(steps[ball] == 1), np.flatnonzero(steps[ball] == -1))]
+    return Path(np.array([point for a, b, low in corners for point in
+                          ((a, low), (b, low), (b, low + 1), (a, low + 1), (a, low))]),
+                [Path.MOVETO, *3 * [Path.LINETO], Path.CLOSEPOLY] * len(corners))
+
+
+def fill(axes, cells, ends, colour):
+    if cells.any():
+        axes.add_patch(PathPatch(area_of(cells, ends), facecolor=colour, edgecolor=colour, lw=0.15))
+    axes.set(xlim=(ends[0], ends[-1]), ylim=(0.5, cells.shape[0] + 0.5))
 
 
 def source_of(panel):
@@ -37,16 +58,20 @@ def source_of(panel):
 
 def draw_contact(axes, panel, title):
     """Black where Q > 0."""
-    force, extent = force_map(panel)
-    axes.imshow(force > 0, extent=extent, cmap="binary", vmin=0, vmax=1)
+    force, ends = force_map(panel)
+    fill(axes, force > 0, ends, "black")
     axes.set_title(f"{title}\n{source_of(panel)}")
 
 
 def draw_force(axes, panel, title):
     """Q in colour with its bar, white where it is zero."""
-    force, extent = force_map(panel)
-    image = axes.imshow(np.ma.masked_less_equal(force, 0), extent=extent, vmin=0)
-    axes.figure.colorbar(image, ax=axes, pad=0.03, label="Q [N]", ticks=MaxNLocator(4))
+    force, ends = force_map(panel)
+    largest = force.max() or 1
+    colours = ScalarMappable(Normalize(0, largest), plt.get_cmap(lut=COLOURS))
+    level = np.minimum(COLOURS * force / largest, COLOURS - 1).astype(int)
+    for step in range(COLOURS):
+        fill(axes, (force > 0) & (level == step), ends, colours.cmap(step))
+    axes.figure.colorbar(colours, ax=axes, pad=0.03, label="Q [N]", ticks=MaxNLocator(4))
     axes.set_title(title)
 
 

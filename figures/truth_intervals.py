@@ -7,6 +7,7 @@ import tomllib
 from pathlib import Path
 
 import numpy as np
+from project import source_line
 from tables import Table
 
 PERIODIC = 1
@@ -88,6 +89,7 @@ def row(number, interval, validity):
 def main(attractors_file, validity_file):
     attractors, validity = Table(attractors_file), Table(validity_file)
     print("# Intervals of speed with and without a stable T-periodic motion")
+    print(source_line())
     print(f"# modelled: nothing; {attractors_file} and {validity_file}")
     for name, unit, meaning in COLUMNS:
         print(f"# column: {name} [{unit}] {meaning}")

@@ -8,6 +8,8 @@ import tomllib
 from pathlib import Path
 
 sys.path.insert(0, "figures")
+from article_results import add_all  # noqa: E402
+from project import source_line  # noqa: E402
 from tables import Table  # noqa: E402
 
 GENERATED = Path("data/generated")
@@ -16,7 +18,8 @@ VALUES = []
 
 
 def add(key, value, unit, meaning):
-    VALUES.append((key, float(value), unit, meaning))
+    """A number, or words made from numbers."""
+    VALUES.append((key, value if isinstance(value, str) else f"{float(value):.15g}", unit, meaning))
 
 
 def paper_values():
@@ -54,6 +57,13 @@ def displacements():
         for key, column in (("difference", "difference"), ("force", "difference_force"),
                             ("spread", "spread")):
             add(f"{name}.{key}", table.first(column), "-", column)
+        add(f"{name}.regime", "T-periodic" if table.first("periodic") == 1 else "not T-periodic", "-",
+            "the integrated motion")
+    for name in ("fig06", "fig08"):
+        table = Table(GENERATED / f"{name}.tsv")
+        closed = [table.where("panel", panel).first("periodic") == 1 for panel in sorted(set(table["panel"]))]
+        add(f"{name}.panels", len(closed), "-", "panels")
+        add(f"{name}.open", len(closed) - sum(closed), "-", "of them with a motion that is not T-periodic")
 
 
 def regimes():
@@ -85,7 +95,7 @@ def deviations():
     entries = re.findall(r"^## D-\d\d", Path("paper/deviations.md").read_text(), re.MULTILINE)
     add("deviations.count", len(entries), "-", "entries of the page of deviations")
     for key, value, unit, meaning in rows_of(GENERATED / "deviations.tsv"):
-        add(key, value, unit, meaning)
+        add(key, float(value), unit, meaning)
 
 
 def rows_of(path):
@@ -97,11 +107,12 @@ def rows_of(path):
 def main():
     for part in (paper_values, claim_counts, response, displacements, regimes, identification, deviations):
         part()
-    print("# The numbers of the article\n# column: key [-] name\n# column: value [-] in its unit\n"
+    add_all(add)
+    print(f"# The numbers of the article\n{source_line()}\n# column: key [-] name\n# column: value [-] in its unit\n"
           "# column: unit [-] of the value\n# column: meaning [-] what the value is")
     print("key\tvalue\tunit\tmeaning")
     for key, value, unit, meaning in VALUES:
-        print(f"{key}\t{value:.15g}\t{unit}\t{meaning}")
+        print(f"{key}\t{value}\t{unit}\t{meaning}")
 
 
 if __name__ == "__main__":

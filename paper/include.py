@@ -1,7 +1,8 @@
 """Fill the numbers of a table into a text.
 
 {{key}} becomes the value that the table's row `key` holds, with three digits; {{key:FORMAT}} takes
-a format of Python's, such as .2e or .1%. An unknown key or format ends with one line and status 1.
+a format of Python's, such as .2e or .1%. A value may also be words, written as they are; \\n in them is
+the end of a line. An unknown key or format ends with one line and status 1.
 
 Usage: paper/include.py TEXT.md TABLE.tsv > RENDERED.md
 """
@@ -20,11 +21,20 @@ def read_values(path):
     names = lines[0].split("\t")
     key, value = names.index("key"), names.index("value")
     rows = [line.split("\t") for line in lines[1:]]
-    return {row[key]: float(row[value]) for row in rows}
+    return {row[key]: number_or_words(row[value]) for row in rows}
+
+
+def number_or_words(cell):
+    try:
+        return float(cell)
+    except ValueError:
+        return cell.replace("\\n", "\n")
 
 
 def written(value, style):
-    """A number in a format, its power of ten without a plus sign and leading zeros: 1.5e10."""
+    """A number in a format, its power of ten without a plus sign and leading zeros: 1.5e10; or words."""
+    if isinstance(value, str):
+        return value
     if value == 0:
         return "0"
     return re.sub(r"e([+-])0*(\d)", lambda m: f"e{'-' if m[1] == '-' else ''}{m[2]}",

@@ -9,6 +9,7 @@ import shutil
 import subprocess
 import sys
 import tempfile
+import tomllib
 from pathlib import Path
 
 sys.path.insert(0, "paper/book")
@@ -17,6 +18,7 @@ from weave import EQUATION, numbered  # noqa: E402
 TABLE = re.compile(r"^<!-- table: (\S+) (.*?) -->$", re.MULTILINE)
 FIGURE = re.compile(r"\]\((figures/(?:as-printed/)?\w+)\.svg\)")
 DRAWN = Path("figures/generated")
+SHOWN = tomllib.loads(Path("paper/book/figures.toml").read_text(encoding="utf-8"))
 
 
 def table_rows(match):
@@ -45,6 +47,7 @@ def as_html(text, output):
     for drawing in drawings(text).values():
         shutil.copy(drawing, output.parent / "figures")
     shutil.copy("paper/book/book.css", output.parent)
+    text = FIGURE.sub(lambda match: f'{match[0]}{{alt="{SHOWN[Path(match[1]).name]["alt"]}"}}', text)
     pandoc(EQUATION.sub(numbered, text), "--to", "html5", "--mathml", "--standalone", "--toc",
            "--toc-depth", "2", "--template", "paper/article.html", "--output", str(output))
 

@@ -1,11 +1,24 @@
 /**
 # Hard cases: what each method does where it may fail
 
-Run: build/hard_cases > data/generated/hard_cases.tsv
+Beside the paper, which reports no failure.
+
+    build/hard_cases > data/generated/hard_cases.tsv
+
+A method is trusted for what it does when it cannot succeed. This list collects cases that are likely to
+break one: no clearance, hardly any damping, a single ball, no gravity, grazing contact, bodies of very
+unequal mass, a cage whose balls never return to where they were, starts far from the answer, speeds on a
+fold or at the resonance of the contact.
+
 Each case ends in one of two ways: a solution that an independent check confirms, or a refusal with its
-reason. A wrong answer that claims success is the only failure. Modelled: all cases of
-data/scenes/hard_cases.toml by harmonic balance (the paper's predictor, arc length), shooting and
-RK4. */
+reason. A wrong answer that claims success is the only failure, and would be drawn in orange. Filled circles
+are periodic motions that were confirmed, open ones aperiodic motions whose statistics were; a dash is a
+refusal. Harmonic balance and shooting must refuse where no periodic motion exists; time integration can
+still answer there, so it has fewer dashes without being the better method for that. An answer that could
+be neither confirmed nor refuted is marked as such and not counted as solved.
+
+Modelled: all cases of data/scenes/hard_cases.toml by harmonic balance (the paper's predictor, arc length),
+shooting and RK4. */
 #include <CLI/CLI.hpp>
 
 #include "output/hard_table.hpp"

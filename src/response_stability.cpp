@@ -1,10 +1,26 @@
 /**
 # Stability of the response curves
 
-Paper: §3.3, Fig. 3.  Run: make stability
-Stable and unstable stretches of the branches with 6, 10 and 24 harmonics, and the folds, period
-doublings and Neimark-Sacker points on them. Modelled: harmonic balance by arc length; the Floquet
-multipliers of rotor and stator at every point. Finished branches are kept in a journal. */
+Paper: §3.3, Fig. 3, where stability is not mentioned.
+
+    make stability
+
+A periodic solution that harmonic balance finds satisfies the equations; whether the machine would stay on
+it is another question. The answer is in the Floquet multipliers of the motion, which say by what factor a
+small disturbance has changed after one period: all of them inside the unit circle, and it dies out.
+
+The curves are those of Fig. 3, followed by their arc length so that they may turn back, with a row for each
+number of harmonics. Thick stretches are stable, thin ones are not. Marks stand where a multiplier leaves the
+circle or comes back: at plus one, at a fold of the curve or where branches cross; at minus one, where a motion
+of twice the period begins; as a pair, where a second frequency does. A curve that ends early reached its bound on
+points, which the header of the table reports with the place.
+
+The multipliers are those of the linearisation along the solution with that many harmonics, and with few of them
+they can be wrong where the amplitude is right. So every point carries how much its largest multiplier changed
+at the last refinement, and is left undecided when that could change the answer.
+
+Modelled: harmonic balance by arc length; the Floquet multipliers of rotor and stator at every point. Finished
+branches are kept in a journal. */
 #include <CLI/CLI.hpp>
 
 #include "output/program.hpp"

@@ -1,10 +1,23 @@
 /**
 # The sample rule: how many samples per period m harmonics need
 
-Paper: §3.1, where N = 2m+1 (D-05, D-14).  Run: build/sampling > data/generated/sampling.tsv
-The error of sampling against the error of truncation, for several m and N: the default N is past
-the point where the second is the larger.
-Modelled: harmonic balance with many N for each m, and one solution with many harmonics. */
+Paper: §3.1, where N = 2m+1 (D-05, D-14).
+
+    build/sampling > data/generated/sampling.tsv
+
+A solution with m harmonics has two errors. One is that of truncation: the harmonics beyond m are missing.
+The other is that of sampling: the force is evaluated at N instants, and what it holds beyond N/2 harmonics
+is folded back onto those that are kept. The first cannot be avoided at a given m; the second can, by more
+samples, and should then be the smaller.
+
+The panels show the second divided by the first, against the samples per harmonic, at four motions;
+displacement above, force below. Below the grey line sampling adds less than truncation already does, and
+further samples buy nothing; the dashed line is the default of all programs here. The paper's choice stands
+at the left end of each curve. With many harmonics truncation is small, so sampling has more to keep up with
+and the curves lie higher: a rule of so many samples per harmonic is a compromise, and with very many
+harmonics a generous one is worth its cost.
+
+Modelled: harmonic balance with many N for each m, and one solution with many harmonics for the truth. */
 #include "output/program.hpp"
 #include "output/sampling_table.hpp"
 

@@ -1,10 +1,25 @@
 /**
 # Work against precision
 
-Paper: §3.3, claim C9. Run: build/work_precision > data/generated/work_precision.tsv. CPU
-time of one thread for one periodic motion against its error, for harmonic balance, time
-integration and shooting at many settings. Modelled: seven T-periodic motions of both data
-sets. */
+Paper: §3.3, claim C9.
+
+    build/work_precision > data/generated/work_precision.tsv
+
+One periodic motion, computed by every method at many settings: harmonic balance, shooting, and time
+integration with all steppers. Each run is a point, error upwards and CPU time of one thread to the right, and
+the line joins the best points of a method. Further down and to the left is better; where two lines cross, the
+answer to which method is faster depends on the error one wants.
+
+The upper row takes the error of displacement, the row below it that of the force, which is the larger by far:
+forces feel the harmonics that displacements hide. The bars tell where the time goes at an error of a thousandth:
+in the bearing's force, in Fourier transforms, or in the algebra and the rest. A method whose time is all force
+cannot be made much faster than the force.
+
+Cost is counted with everything that a user has to pay: tables and plans, the start, the transient or the
+iterations. The reference is shooting at a far tighter tolerance, checked against harmonic balance with very many
+harmonics; the header says how well both agree.
+
+Modelled: seven T-periodic motions of both data sets, four of which are drawn. */
 #include "output/cost_tables.hpp"
 #include "output/program.hpp"
 

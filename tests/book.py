@@ -1,6 +1,7 @@
 """Reads the pages as a reader would, in a headless browser.
 
-All pages: every link leads somewhere, every picture has an alternative text, and the HTML is valid.
+All pages: every link leads somewhere, every picture has an alternative text, the HTML is valid, and none
+is longer than a sitting; a page with a figure has words of its own.
 The index, two pages and the article, opened: no message of the browser, all pictures loaded, equations
 rendered, nothing wider than the window, and the search finds what is there and nothing else. Each
 is kept as a picture, 1280 and 400 pixels wide, in build/screenshots.
@@ -23,8 +24,10 @@ BOOK, ARTICLE = Path("build/book"), Path("build/paper/article.html")
 SHOTS = Path("build/screenshots")
 OPENED = [BOOK / "index.html", BOOK / "model-ball_bearing.html", BOOK / "fig07_contact.html",
           ARTICLE]
+COLLECTIONS = {"index.html", "deviations.html", "article.html"}
 WITH_EQUATIONS = {"model-ball_bearing.html", "article.html"}
 WIDTHS = (1280, 400)
+LEAST_WORDS, MOST_WORDS, MOST_CODE = 200, 3000, 250
 
 
 class Links(HTMLParser):
@@ -73,6 +76,26 @@ def invalid(pages):
                               input=text, text=True, capture_output=True)
         yield from (f"{page.name}: {line}" for line in said.stderr.splitlines()
                     if "Error:" in line or "Warning:" in line)
+
+
+def words_in(text):
+    return len(re.sub(r"<[^>]+>", " ", text).split())
+
+
+def lengths(pages):
+    """Pages that are too long to read at once, and pages of a figure that say too little of it. Code,
+    tables, captions and links to neighbours are not words of their own."""
+    for page in pages:
+        text = re.search(r"<main>(.*)</main>", page.read_text(encoding="utf-8"), re.DOTALL)[1]
+        code = re.findall(r"<pre.*?</pre>", text, re.DOTALL)
+        lines = sum(bool(line.strip()) for block in code
+                    for line in re.sub(r"<[^>]+>", "", block).splitlines())
+        prose = re.sub(r"<(pre|table|figure|math|style)\b.*?</\1>", " ", text, flags=re.DOTALL)
+        own = words_in(re.split(r"<h2[^>]*>(?:What it makes|Where it stands)</h2>", prose)[0])
+        if lines > MOST_CODE or own > MOST_WORDS:
+            yield f"{page.name}: {lines} lines of code and {own} words are too much for one sitting"
+        if 'src="figures/' in text and own < LEAST_WORDS:
+            yield f"{page.name}: shows a figure and has {own} words of its own"
 
 
 def browser(profile):
@@ -139,7 +162,8 @@ def opened(profile):
 def main():
     pages = sorted(BOOK.glob("*.html")) + [ARTICLE]
     SHOTS.mkdir(parents=True, exist_ok=True)
-    faults = [*broken_links(pages), *invalid(pages)]
+    sittings = [page for page in pages if page.name not in COLLECTIONS]
+    faults = [*broken_links(pages), *invalid(pages), *lengths(sittings)]
     with tempfile.TemporaryDirectory() as profile:
         faults += opened(profile)
     for fault in faults:

@@ -2,8 +2,8 @@
 them the figure and the table that a program makes.
 
 Every program and every module (header and implementation together) of src/ becomes a page; chapters.toml
-gives the order in which they teach. pandoc converts; what is done here is to turn comments into
-Markdown and to link.
+gives the order in which they teach, figures.toml says what the figures show. pandoc converts; what is done
+here is to turn comments into Markdown and to link.
 
 Usage: weave.py OUTPUT_FOLDER   (from the project's root; reads figures/generated and data/generated)
 """
@@ -18,9 +18,13 @@ from concurrent.futures import ThreadPoolExecutor
 from pathlib import Path
 
 from folder_map import folder_map
+from overview import claims_section, deviations_section, gallery
 
 HERE = Path("paper/book")
+DRAWN, TABLES = Path("figures/generated"), (Path("data/generated"), Path("data/reference"))
+SHOWN = tomllib.loads((HERE / "figures.toml").read_text())
 REPOSITORY_FILES = ("book.css", "book.js")
+MOST_CODE = 250  # lines on a page
 COMMENT = re.compile(r"^[ \t]*/\*\*(.*?)\*/[ \t]*\n", re.DOTALL | re.MULTILINE)
 INCLUDE = re.compile(r'^#include "([^"]+)"', re.MULTILINE)
 EQUATION = re.compile(r"\$\$(.+?)\$\$", re.DOTALL)
@@ -31,18 +35,19 @@ DEVIATION = re.compile(r"\bD-(\d\d)\b")
 class Page:
     """One program or module: where it stands, what it says, what it makes."""
 
-    def __init__(self, files):
+    def __init__(self, files, part_of=None):
         self.files = files
         path = files[0].relative_to("src")
         self.is_program = len(path.parts) == 1
-        self.key = str(path.with_suffix(""))
-        self.file = self.key.replace("/", "-") + ".html"
+        self.key = str(path if part_of else path.with_suffix(""))
+        self.file = self.key.replace("/", "-").replace(".", "-") + ".html"
         self.text = {file: file.read_text() for file in files}
-        self.title = self.first_heading() or f"{self.key}"
+        self.title = (f"{part_of.title}: implementation" if part_of
+                      else self.first_heading() or self.key)
 
     def first_heading(self):
         for text in self.text.values():
-            found = re.search(r"^# (.+)$", text, re.MULTILINE)
+            found = re.search(r"^(?:/\*\* )?# (.+?)(?: \*/)?$", text, re.MULTILINE)
             if found:
                 return found[1]
         return None
@@ -50,29 +55,45 @@ class Page:
     def includes(self):
         return sorted({name for text in self.text.values() for name in INCLUDE.findall(text)})
 
-    def made(self, folder, suffix):
-        """The figure or table that goes by the program's name, or by its number."""
-        for stem in (self.key, self.key.split("_")[0]):
-            path = Path(folder) / (stem + suffix)
-            if self.is_program and path.exists():
-                return path
-        return None
+    def names(self):
+        """The program's name, and the number of the paper's figure or table that begins it."""
+        number = re.match(r"fig\d\d|tab\d\d", self.key)
+        return [self.key, *([number[0]] if number else [])] if self.is_program else []
 
-    def script(self):
-        for suffix in (".gp", ".py"):
-            path = Path("figures") / (self.key + suffix)
-            if self.is_program and path.exists():
-                return path
-        return None
+    def figures(self):
+        """The drawn figures that stand on this page."""
+        return [name for name, figure in SHOWN.items()
+                if figure.get("program", name) in self.names() and (DRAWN / f"{name}.svg").exists()]
+
+    def table(self):
+        """The table that the program writes: computed, or kept from a long study."""
+        names = self.names() + self.figures()[:1]
+        found = [folder / f"{name}.tsv" for name in names for folder in TABLES]
+        return next((path for path in found if path.exists()), None)
+
+
+def script_of(figure):
+    """The script that draws a figure: of its name, or of a name that begins so."""
+    return next(path for suffix in (".gp", ".py") for pattern in ("", "_*")
+                for path in sorted(Path("figures").glob(figure + pattern + suffix)))
+
+
+def code_lines(file):
+    return sum(bool(line.strip()) for line in COMMENT.sub("", file.read_text()).split("\n"))
 
 
 def all_pages():
-    """Programs first, then modules; a header and its implementation are one page."""
-    groups = {}
+    """A header and its implementation are one page, or two where that is more than a sitting."""
+    groups, pages = {}, []
     for file in sorted(Path("src").rglob("*.?pp")):
         groups.setdefault(file.with_suffix(""), []).append(file)
-    return [Page(sorted(files, key=lambda f: f.suffix, reverse=True))
-            for files in groups.values()]
+    for group in groups.values():
+        files = sorted(group, key=lambda f: f.suffix, reverse=True)
+        long = len(files) > 1 and sum(map(code_lines, files)) > MOST_CODE
+        pages.append(Page(files[:1] if long else files))
+        if long:
+            pages.append(Page(files[1:], part_of=pages[-1]))
+    return pages
 
 
 def numbered(match):
@@ -148,17 +169,18 @@ def shortened(cell):
         return cell
 
 
+def figure_markdown(name, caption, output):
+    script = script_of(name)
+    shutil.copy(DRAWN / f"{name}.svg", output / "figures")
+    shutil.copy(script, output / "scripts")
+    return (f"![{caption}](figures/{name}.svg){{alt=\"{SHOWN[name]['alt']}\"}}\n\n"
+            f"Drawn by [{script}](scripts/{script.name}).")
+
+
 def results(page, output):
-    """The figure, its script and the table of a program."""
-    parts = []
-    figure, table, script = (page.made("figures/generated", ".svg"),
-                             page.made("data/generated", ".tsv"), page.script())
-    if figure:
-        shutil.copy(figure, output / "figures")
-        parts.append(f"![{page.title}](figures/{figure.name})")
-    if script:
-        shutil.copy(script, output / "scripts")
-        parts.append(f"Drawn by [{script}](scripts/{script.name}).")
+    """The figures, their scripts and the table of a program."""
+    parts = [figure_markdown(name, page.title, output) for name in page.figures()]
+    table = page.table()
     if table:
         shutil.copy(table, output / "tables")
         parts += [f"The first rows of [{table.name}](tables/{table.name}):", table_excerpt(table)]
@@ -188,7 +210,8 @@ def chapters(pages):
     known = tomllib.loads((HERE / "chapters.toml").read_text())["chapter"]
     left = {page.key: page for page in pages}
     for chapter in known:
-        chapter["found"] = [left.pop(key) for key in chapter.get("pages", []) if key in left]
+        named = [key + part for key in chapter.get("pages", []) for part in ("", ".cpp")]
+        chapter["found"] = [left.pop(key) for key in named if key in left]
         for key in sorted(left):
             if any(key.startswith(prefix) for prefix in chapter.get("rest_of", [])):
                 chapter["found"].append(left.pop(key))
@@ -202,7 +225,9 @@ def index_markdown(found_chapters, pages):
     for chapter in found_chapters:
         parts.append(f"## {chapter['title']}\n\n{chapter['introduction'].strip()}\n")
         parts.append("\n".join(f"- {link(page)} `{page.key}`" for page in chapter["found"]))
-    return "\n\n".join(parts)
+        parts.append(gallery([(page.file, page.title, name) for page in chapter["found"]
+                              for name in page.figures()], SHOWN))
+    return "\n\n".join([*parts, claims_section(), deviations_section()])
 
 
 def search_words(pages):

@@ -1,4 +1,7 @@
-/** The derivative of the balance: as a matrix, as a product, and the block of one harmonic. */
+/**
+# The derivative of the balance
+
+As a matrix, as a product, and the block of one harmonic. */
 #include <Eigen/LU>
 
 #include "balance/balance.hpp"

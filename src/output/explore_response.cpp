@@ -1,4 +1,7 @@
-/** The branch of explore response: where it starts, what it meets, what is beside it. */
+/**
+# The branch of explore response
+
+Where it starts, what it meets, what is beside it. */
 #include "balance/bearing_problem.hpp"
 #include "model/errors.hpp"
 #include "output/explore_stability.hpp"

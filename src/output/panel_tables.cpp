@@ -1,3 +1,7 @@
+/**
+# The tables of orbits and contact
+
+Figures 4 to 9, panel by panel, with how each solution ended. */
 #include "output/figure_tables.hpp"
 
 #include "model/errors.hpp"

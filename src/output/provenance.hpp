@@ -9,8 +9,8 @@ Stamped when the library is compiled. A new commit alone triggers no rebuild. */
 namespace rotor_stator
 {
 
-/** The revision of the source, with "-dirty" after uncommitted changes; "unknown" outside
-    git. */
+/** Name and version of the project and the revision of its source, with "-dirty" after
+    uncommitted changes; "unknown" outside git. */
 std::string source_revision();
 
 /** Compiler, version and flags. */

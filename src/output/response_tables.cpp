@@ -1,3 +1,7 @@
+/**
+# The table of the response
+
+Figure 3: amplitudes against speed, by both methods. */
 #include "output/figure_tables.hpp"
 
 #include "model/errors.hpp"

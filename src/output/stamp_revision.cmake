@@ -1,4 +1,4 @@
-# Writes the header that provenance.cpp includes: revision of the source and compiler flags.
+# Writes the header that provenance.cpp includes: version and revision of the source, compiler flags.
 execute_process(
   COMMAND git describe --always --dirty --abbrev=12
   WORKING_DIRECTORY ${SOURCE_DIR}
@@ -8,4 +8,4 @@ if(failed)
   set(revision unknown)
 endif()
 file(WRITE ${OUTPUT}
-  "#define ROTOR_STATOR_REVISION \"${revision}\"\n#define ROTOR_STATOR_FLAGS \"${FLAGS}\"\n")
+  "#define ROTOR_STATOR_REVISION \"rotor_stator ${VERSION} ${revision}\"\n#define ROTOR_STATOR_FLAGS \"${FLAGS}\"\n")

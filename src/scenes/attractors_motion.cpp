@@ -1,4 +1,7 @@
-/** One motion: its transient, its section, its exponent (attractors.hpp). */
+/**
+# Attractors: one motion
+
+Its transient, its section, its exponent (attractors.hpp). */
 #include <algorithm>
 #include <bit>
 #include <cmath>

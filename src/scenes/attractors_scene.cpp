@@ -1,3 +1,7 @@
+/**
+# Attractors: the scene file
+
+What data/scenes/attractors.toml may say. */
 #include "scenes/attractors.hpp"
 
 namespace rotor_stator

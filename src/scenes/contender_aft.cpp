@@ -1,3 +1,7 @@
+/**
+# Contenders: harmonic balance
+
+One motion, timed with all that a user pays: tables, plans, start and iterations. */
 #include <cmath>
 #include <map>
 #include <memory>

@@ -1,3 +1,7 @@
+/**
+# Contenders: time integration and shooting
+
+One motion, timed with its transient, or with the start and the maps of shooting. */
 #include <cmath>
 #include <memory>
 #include <numbers>

@@ -1,4 +1,7 @@
-/** Evidence on section 3.2 of the paper: predictor, arc length, tolerance, step, cost. */
+/**
+# Evidence on continuation (§3.2)
+
+Predictor, arc length, tolerance, step, cost. */
 #include <cmath>
 
 #include "balance/bearing_problem.hpp"

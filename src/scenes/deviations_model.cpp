@@ -1,4 +1,7 @@
-/** Evidence on section 2 and Table 1 of the paper: contact, readings, masses, cage. */
+/**
+# Evidence on the model (§2 and Table 1)
+
+Contact, readings, masses, cage. */
 #include <algorithm>
 #include <cmath>
 #include <numbers>

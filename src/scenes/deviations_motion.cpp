@@ -1,4 +1,7 @@
-/** Evidence on section 3.3 of the paper: amplitudes, cage, time integration, figures. */
+/**
+# Evidence on the motions (§3.3)
+
+Amplitudes, cage, time integration, figures. */
 #include <algorithm>
 #include <bit>
 #include <cmath>

@@ -1,5 +1,7 @@
-/** Evidence on the blocks of Eq. 11, Newton's step and its criteria (section 3.1 of the
- * paper). */
+/**
+# Evidence on Newton's method (§3.1)
+
+The blocks of Eq. 11, Newton's step and its criteria. */
 #include "model/errors.hpp"
 #include "scenes/evidence.hpp"
 #include "scenes/printed_equations.hpp"

@@ -1,4 +1,7 @@
-/** Evidence on Γ and the samples of a period (section 3.1 of the paper). */
+/**
+# Evidence on the samples of a period (§3.1)
+
+What Γ takes to harmonics, and what too few samples fold onto them. */
 #include "balance/bearing_problem.hpp"
 #include "continuation/arc_length.hpp"
 #include "model/errors.hpp"

@@ -1,4 +1,7 @@
-/** The periodic solution at one speed, and the starts that Newton is given. */
+/**
+# The periodic solution at one speed
+
+And the starts that Newton is given. */
 #include <algorithm>
 #include <cmath>
 #include <numbers>

@@ -1,3 +1,7 @@
+/**
+# Hard cases: harmonic balance
+
+The paper's predictor and the arc length, each refined until the answer can be stated with an error. */
 #include <algorithm>
 #include <cmath>
 

@@ -1,3 +1,7 @@
+/**
+# Sensitivity: the scene file
+
+What data/scenes/sensitivity.toml may say. */
 #include "scenes/sensitivity.hpp"
 
 #include <algorithm>

@@ -4,6 +4,10 @@ The benchmarks' medians of CPU time, and the ratios of one run that do not depen
 speed alone. Dates and host names are left out."""
 import json
 import sys
+from pathlib import Path
+
+sys.path.insert(0, str(Path(__file__).parents[2] / "figures"))
+from project import source_line  # noqa: E402
 
 NANOSECONDS = {"ns": 1, "us": 1e3, "ms": 1e6, "s": 1e9}
 
@@ -23,6 +27,7 @@ def medians(report):
 def main():
     cpu = medians(json.load(sys.stdin))
     print("# Benchmarks: medians of CPU time, data set 1 at its solution at 30 Hz")
+    print(source_line())
     print("# column: what [-] benchmark; of a ratio: numerator/denominator")
     print("# column: m [-] harmonics")
     print("# column: speeds [-] of a sweep; 0 elsewhere")

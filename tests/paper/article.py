@@ -18,6 +18,7 @@ ALLOWED = [
     r"\b(?:Eqs?|Figs?|Figures?)\.? \d+(?:[a-f]?(?:(?:,| and| to) \d+[a-f]?)*)",
     r"§\d(?:\.\d)?", r"\bTable \d", r"\bD-\d\d\b", r"\bC\d+\b",
     r"\^1\.5\^",                              # the unit of K_H
+    r"\bAUTO-07p\b",
 ]
 
 

@@ -1,0 +1,154 @@
+"""The article's numbers and words on cost, truth, stability and hard cases.
+
+Words are made here from numbers, so that no sentence of the article says which of two is larger unless
+a table says so. A list is one value; its lines are joined by \\n, which include.py turns into lines.
+"""
+import re
+import tomllib
+from pathlib import Path
+
+import numpy as np
+from tables import Table
+
+GENERATED, KEPT = Path("data/generated"), Path("data/reference")
+METHODS = {"aft": "harmonic balance", "rk4": "Runge-Kutta of order 4", "rkf45": "Runge-Kutta-Fehlberg",
+           "rk8pd": "Runge-Kutta of order 8", "msadams": "Adams", "msbdf": "BDF", "bsimp": "Bulirsch-Stoer",
+           "shooting-rk4": "shooting by Runge-Kutta of order 4",
+           "shooting-rk8pd": "shooting by Runge-Kutta of order 8"}
+FRENCH = {"reproduced": "reproduite", "partly": "en partie", "not reproduced": "non reproduite",
+          "not tested": "non examinée"}
+
+
+def times(seconds):
+    """A CPU time in a unit that suits it."""
+    unit, factor = ("s", 1) if seconds >= 1 else ("ms", 1e3) if seconds >= 1e-3 else ("µs", 1e6)
+    return f"{seconds * factor:.2g} {unit}" if seconds * factor < 99.5 else f"{seconds * factor:.0f} {unit}"
+
+
+def power(error):
+    """An error as 1 % or, where small, as a power of ten."""
+    if error >= 1e-4:
+        return f"{100 * error:.2g} %"
+    exponent = int(np.floor(np.log10(error)))
+    return rf"${error / 10.0 ** exponent:.2g}\cdot 10^{{{exponent}}}$"
+
+
+def costs(add):
+    """Each range and error: the methods in the order of their time, and those that do not reach it."""
+    table = Table(KEPT / "tab02_equal_error.tsv")
+    missed = re.findall(r"^# not reached: (\S+), (\S+) Hz, target (\S+);", table.header, re.MULTILINE)
+    lines = []
+    for reach in dict.fromkeys(table["range"]):
+        for target in sorted(set(table["target"]), reverse=True):
+            rows = table.where("range", reach).where("target", target)
+            order = ", ".join(f"{METHODS.get(rows['method'][k], rows['method'][k])} {times(rows['cpu_s'][k])}"
+                              for k in np.argsort(rows["cpu_s"]))
+            without = [METHODS.get(name, name) for name, at, error in missed
+                       if at == reach and np.isclose(float(error), target)]
+            lines.append(f"- {reach} Hz, error {power(target)}: {order}."
+                         + (f" Not reached within the bound on time by {', '.join(without)}." if without else ""))
+    add("cost.list", r"\n".join(lines), "-", "CPU of the sweep at equal error, methods in order")
+    timing = Table(GENERATED / "tab02_timing.tsv")
+    slow, timing = timing.where("method", "rk4").first("paper_cpu"), timing.where("method", "aft")
+    words = [f"with {m:.0f} harmonics {ratio:.2g} at an error of {power(error)} (the paper: {slow / paper:.1f})"
+             for m, ratio, error, paper in zip(timing["harmonics"], timing["ratio"], timing["error"],
+                                               timing["paper_cpu"])]
+    add("cost.paper", "; ".join(words), "-", "Runge-Kutta's time over that of harmonic balance")
+
+
+def growth(add):
+    table = Table(KEPT / "cost_growth.tsv")
+    for kind in ("harmonics", "balls", "speeds"):
+        add(f"growth.{kind}", table.where("against", kind).first("exponent_cpu"), "-",
+            f"exponent of the CPU time against {kind}")
+
+
+def peers(add):
+    """AUTO-07p beside harmonic balance, from the header of its table."""
+    header = Table(KEPT / "peers_auto.tsv").header
+    runs = re.findall(r"^# run (\w+): from [^:]*: \d+ points, (\d+) folds, from (\S+) to (\S+) Hz;",
+                      header, re.MULTILINE)
+    ours = re.findall(r"^# run (\w+): harmonic balance, m = (\d+), .*?folds: (\d+),", header, re.MULTILINE)
+    for run, folds, low, high in runs:
+        counts = ", ".join(f"{count} with {m} harmonics" for name, m, count in ours if name == run)
+        add(f"auto.{run}", f"{folds} folds between {float(low):.0f} and {float(high):.0f} Hz, harmonic balance "
+            f"over the same speeds {counts}", "-", "folds by AUTO-07p and by harmonic balance")
+
+
+def truth(add):
+    """Shares of the speeds with a T-periodic attractor, and the harmonics that reach it."""
+    limit = min(tomllib.loads(Path("data/claims.toml").read_text())["regimes"]["distance_limits"])
+    add("truth.limit", limit, "-", "distance that counts as reached")
+    for number in (1, 2):
+        rows = Table(GENERATED / "truth_intervals.tsv").where("set", number)
+        count = rows["speeds"]
+        add(f"truth.all_{number}", count.sum(), "-", "speeds looked at")
+        for share, name in ((1, "only"), (0.5, "beside"), (0, "none")):
+            add(f"truth.{name}_{number}", count[rows["T_periodic"] == share].sum() / count.sum(), "-",
+                "share of the speeds with only T-periodic attractors, with others beside, with others alone")
+        single = Table(KEPT / "attractors.tsv").where("set", number)
+        add(f"truth.exponent_{number}", single["exponent"].max(), "1/s", "largest Lyapunov exponent")
+        validity = Table(KEPT / "validity.tsv").where("set", number).where("periodic", 1)
+        wanted = 6 if number == 1 else 10
+        fixed = validity.where("adaptive", 0).where("m", wanted)
+        near = (fixed["found"] == 1) & (fixed["distance"] <= limit)
+        add(f"truth.near_{number}", near.mean(), "-", "share of these speeds within the limit with the paper's m")
+        chosen = validity.where("adaptive", 1)
+        good = (chosen["found"] == 1) & (chosen["distance"] >= 0) & (chosen["distance"] <= limit)
+        add(f"truth.adaptive_{number}", good.mean() if len(chosen) else 0, "-", "the same, m chosen")
+        add(f"truth.adaptive_m_{number}", chosen["m"][good].max() if good.any() else 0, "-", "its largest m")
+
+
+def stability(add):
+    """The branches in the order of the table's header, one line each."""
+    table, lines = Table(KEPT / "stability.tsv"), []
+    for curve in np.unique(table["curve"]):
+        rows = table.where("curve", curve)
+        unstable = (rows["stable"] == 0).mean()
+        kinds = [f"{(rows['bifurcation'] == kind).sum()} {name}" for kind, name in
+                 (("fold", "folds"), ("plus-one", "multipliers through one"),
+                  ("period-doubling", "period doublings"), ("neimark-sacker", "Neimark-Sacker points"))]
+        lines.append(f"- data set {rows.first('set'):.0f}, {rows.first('harmonics'):.0f} harmonics, from "
+                     f"{rows['f'][0]:.3g} to {rows['f'][-1]:.3g} Hz: {100 * unstable:.2g} % of the points "
+                     f"unstable; {', '.join(kinds)}.")
+    add("stability.list", r"\n".join(lines), "-", "stability along the followed branches")
+
+
+def estimates(add):
+    table = Table(KEPT / "adaptive.tsv")
+    known = table.rows((table["reached"] == 1) & (table["effectivity"] > 0))
+    add("adaptive.reached", table["reached"].mean(), "-", "share of the wanted errors that were reached")
+    for share, name in ((0.05, "low"), (0.5, "middle"), (0.95, "high")):
+        add(f"adaptive.{name}", np.quantile(known["effectivity"], share), "-", "estimate over true error")
+    add("adaptive.cost", np.median(table["ratio"][table["ratio"] > 0]), "-",
+        "median cost over that of the best fixed number of harmonics")
+
+
+def hard(add):
+    table, lines = Table(KEPT / "hard_cases.tsv"), []
+    for method in dict.fromkeys(table["method"]):
+        verdict = table.where("method", method)["verdict"]
+        counts = ", ".join(f"{(verdict == name).sum()} {word}" for name, word in
+                           (("solved", "solved and confirmed"), ("refused", "refused with a reason"),
+                            ("silent error", "silently wrong"), ("unconfirmed", "unconfirmed")))
+        name = {"aft predictor": "harmonic balance with the paper's predictor",
+                "aft arc length": "harmonic balance by arc length"}.get(method, METHODS.get(method, method))
+        lines.append(f"- {name}: {counts}.")
+    add("hard.list", r"\n".join(lines), "-", "how the hard cases end")
+
+
+def verdicts(add):
+    """Each claim's verdict and our words on it; those that are not reproduced as a list."""
+    table = Table(GENERATED / "claims.tsv")
+    lines = []
+    for key, claim, ours, verdict in zip(*(table[name] for name in ("id", "claim", "ours", "verdict"))):
+        add(f"{key}.verdict", verdict, "-", f"verdict on {key}")
+        add(f"{key}.verdict_fr", FRENCH[verdict], "-", f"verdict on {key}, in French")
+        if verdict in ("not reproduced", "partly"):
+            lines.append(f"- {key}, {claim}: {verdict}. {ours[0].upper()}{ours[1:]}.")
+    add("claims.open", r"\n".join(lines), "-", "claims that are not, or only partly, reproduced")
+
+
+def add_all(add):
+    for part in (costs, growth, peers, truth, stability, estimates, hard, verdicts):
+        part(add)
