@@ -166,9 +166,9 @@ std::vector<Column> response_columns(bool numbered)
   return columns;
 }
 
-/** The branches beside `main`, and what is said of each. */
+/** The branches beside `main`; what is said of each stands in the table's header. */
 std::vector<IsolatedBranch> others(const Task& task, Balance& balance, const Branch& main,
-                                   std::vector<std::string>& remarks)
+                                   Table& table)
 {
   const auto starts =
       other_starts(task.parameters, task.range(), task.harmonics,
@@ -178,13 +178,13 @@ std::vector<IsolatedBranch> others(const Task& task, Balance& balance, const Bra
   auto found = isolated_branches(balance, main, starts, task.range(), task.settings);
   int number = 1;
   for (const IsolatedBranch& other : found)
-    remarks.push_back(text(
-        "branch %d: off the branches before it, found at %g Hz from %s; %s", ++number,
-        other.omega / angular(1), other.origin.c_str(), summary(other.branch).c_str()));
+    table.note(text("branch %d: off the branches before it, found at %g Hz from %s; %s",
+                    ++number, other.omega / angular(1), other.origin.c_str(),
+                    summary(other.branch).c_str()));
   if (task.work.used_up())
-    remarks.push_back("the work allowed is used up: not every start was followed");
+    table.note("the work allowed is used up: not every start was followed");
   else if (found.empty())
-    remarks.push_back(text("no other branch found from %zu starts", starts.size()));
+    table.note(text("no other branch found from %zu starts", starts.size()));
   return found;
 }
 
@@ -226,10 +226,8 @@ Exploration explore_response(const ResponseRequest& request)
   const Branch main = follow_branch(balance, start, task.range(), task.settings);
   describe(table, task, main);
 
-  std::vector<std::string> remarks;
   std::vector<IsolatedBranch> beside;
-  if (numbered) beside = others(task, balance, main, remarks);
-  for (const std::string& remark : remarks) table.note(remark);
+  if (numbered) beside = others(task, balance, main, table);
 
   /** The table is written, whatever work is left. */
   Balance shown(bearing_problem(task.parameters, task.samples), task.harmonics);
@@ -242,7 +240,7 @@ Exploration explore_response(const ResponseRequest& request)
   if (!request.save.empty())
     write_file(request.save, branch_text(task.parameters, task.harmonics, task.samples,
                                          task.upwards, all));
-  return {std::move(table), unfinished(task, main), std::move(remarks)};
+  return {std::move(table), unfinished(task, main)};
 }
 
 }  // namespace rotor_stator
