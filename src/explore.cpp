@@ -7,7 +7,7 @@ Run: build/explore orbit data/set1.toml --frequency 45 > orbit.tsv
      build/explore response data/set1.toml --from 1 --to 60 --harmonics 10 > response.tsv
 
 The general program for follow-up studies: any parameter file, any speed, harmonic balance
-or one of the time integrators. A table on stdout, the log on stderr. */
+or one of the time integrators. A table on stdout, errors on stderr. */
 #include <CLI/CLI.hpp>
 #include <cstdio>
 
@@ -101,8 +101,6 @@ int finish(const Exploration& exploration)
 {
   write(exploration.table.text());
   if (!exploration.unfinished.empty()) throw NoSolution(exploration.unfinished);
-  for (const std::string& remark : exploration.remarks)
-    std::fprintf(stderr, "%s\n", remark.c_str());
   return 0;
 }
 

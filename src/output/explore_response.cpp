@@ -116,9 +116,9 @@ std::vector<Column> response_columns(bool stability, bool numbered)
   return columns;
 }
 
-/** The branches beside `main`, and what is said of each. */
+/** The branches beside `main`; what is said of each stands in the table's header. */
 std::vector<IsolatedBranch> others(const ResponseTask& task, Balance& balance,
-                                   const Branch& main, std::vector<std::string>& remarks)
+                                   const Branch& main, Table& table)
 {
   const auto starts =
       other_starts(task.parameters, task.range(), task.harmonics,
@@ -128,13 +128,13 @@ std::vector<IsolatedBranch> others(const ResponseTask& task, Balance& balance,
   auto found = isolated_branches(balance, main, starts, task.range(), task.settings);
   int number = 1;
   for (const IsolatedBranch& other : found)
-    remarks.push_back(text(
-        "branch %d: off the branches before it, found at %g Hz from %s; %s", ++number,
-        other.omega / angular(1), other.origin.c_str(), summary(other.branch).c_str()));
+    table.note(text("branch %d: off the branches before it, found at %g Hz from %s; %s",
+                    ++number, other.omega / angular(1), other.origin.c_str(),
+                    summary(other.branch).c_str()));
   if (task.work.used_up())
-    remarks.push_back("the work allowed is used up: not every start was followed");
+    table.note("the work allowed is used up: not every start was followed");
   else if (found.empty())
-    remarks.push_back(text("no other branch found from %zu starts", starts.size()));
+    table.note(text("no other branch found from %zu starts", starts.size()));
   return found;
 }
 
@@ -205,10 +205,8 @@ Exploration explore_response(const ResponseRequest& request)
   const Branch main = follow_branch(balance, start, task.range(), task.settings);
   describe(table, task, main);
 
-  std::vector<std::string> remarks;
   std::vector<IsolatedBranch> beside;
-  if (numbered) beside = others(task, balance, main, remarks);
-  for (const std::string& remark : remarks) table.note(remark);
+  if (numbered) beside = others(task, balance, main, table);
 
   std::vector<const Branch*> all{&main};
   for (const IsolatedBranch& other : beside) all.push_back(&other.branch);
@@ -217,8 +215,7 @@ Exploration explore_response(const ResponseRequest& request)
   if (!request.save.empty())
     write_file(request.save, branch_text(task.parameters, task.harmonics, task.samples,
                                          task.upwards, all));
-  return {std::move(table), unfinished(task, main, without_multipliers),
-          std::move(remarks)};
+  return {std::move(table), unfinished(task, main, without_multipliers)};
 }
 
 }  // namespace rotor_stator

@@ -53,7 +53,6 @@ struct ResponseRequest {
 struct Exploration {
   Table table;
   std::string unfinished;  ///< why a branch stopped early; empty when it did not
-  std::vector<std::string> remarks = {};  ///< for stderr
 };
 
 /** Throw BadInput for options out of range, NoSolution when nothing was found. */

@@ -61,7 +61,7 @@ std::string problem(const LimitedOutcome& outcome)
       outcome.out.starts_with("Explores") || outcome.out.find("Usage:") < 200;
   switch (outcome.status) {
     case 0:
-      if (has_no_number(outcome.err)) return "a log that is not a number";
+      if (!outcome.err.empty()) return "status 0 with words on stderr";
       return help ? "" : table_problem(outcome.out);
     case 2:
       if (!outcome.out.empty()) return "status 2 with words on stdout";

@@ -19,7 +19,7 @@ constexpr bool sanitized = false;
 constexpr int cpu_seconds = 5;
 
 /** What is wrong with how the program ended; empty when nothing is: status 0 with a table of finite
-    numbers, status 2 with one line on stderr and nothing else, status 3 with one line and at most a
+    numbers and nothing on stderr, status 2 with one line on stderr and nothing else, status 3 with one line and at most a
     part of a table. */
 std::string problem(const LimitedOutcome& outcome);
 

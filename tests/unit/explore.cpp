@@ -253,8 +253,9 @@ TEST_CASE("explore response: a branch beside the followed one is reported and pr
   const Outcome outcome =
       run_program("explore response data/set2.toml --from 1 --to 60 --isolated 10");
   REQUIRE(outcome.status == 0);
-  CHECK(outcome.err.find("branch 2: off the branches before it") != std::string::npos);
-  CHECK(outcome.err.find("the branch is closed") != std::string::npos);
+  CHECK(outcome.err.empty());
+  CHECK(outcome.out.find("# branch 2: off the branches before it") != std::string::npos);
+  CHECK(outcome.out.find("the branch is closed") != std::string::npos);
   const Tsv table = parse_tsv(outcome.out);
   const auto number = table.column("branch");
   CHECK(number.front() == 1);
