@@ -12,6 +12,7 @@ load 'figures/style.gp'
 mm(name) = 1e3 * column(name)
 stats table using "set":"f" name 'F' nooutput
 sets = int(F_max_x)
+stats table using "amp_x_r" name 'A' nooutput
 ms = system(sprintf("awk -F'\\t' '/^#/ || !NF { next } !names { names = 1; next } \
   !seen[$3]++ { print $3 }' '%s' | sort -n", table))
 
@@ -48,7 +49,7 @@ x_r = 15
 
 set xrange [0 : F_max_y]
 set logscale y
-set yrange [1e-4 : 30]
+set yrange [1e-4 : 2.5e3 * A_max]
 set format y '10^{%T}'
 set key at screen 0.53, 0.998 center top vertical maxrows 3 Left reverse font ',14' samplen 2
 set style line 31 pt 2 ps 0.35 lc rgb '#000000'

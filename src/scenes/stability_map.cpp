@@ -153,19 +153,22 @@ std::vector<std::vector<StabilityBranch>> compute_stability(const StabilityScene
                                                             const std::string& journal,
                                                             const std::string& stamp)
 {
+  /** The last first: a set's curve with the most harmonics takes longest. */
+  const std::vector<StabilityCurve> pieces(scene.curves.rbegin(), scene.curves.rend());
   const auto rows =
       run_study({.name = "branches",
                  .journal = journal,
                  .stamp = stamp,
-                 .pieces = scene.curves.size(),
+                 .pieces = pieces.size(),
                  .work = [&](std::size_t k) {
                    Row row;
-                   for (const auto& branch : follow_stability(scene, scene.curves[k]))
+                   for (const auto& branch : follow_stability(scene, pieces[k]))
                      append(row, branch);
                    return row;
                  }});
   std::vector<std::vector<StabilityBranch>> branches;
-  for (const Row& row : rows) branches.push_back(from_row(row));
+  for (auto row = rows.rbegin(); row != rows.rend(); ++row)
+    branches.push_back(from_row(*row));
   return branches;
 }
 
