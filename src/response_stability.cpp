@@ -11,10 +11,10 @@ small disturbance has changed after one period: all of them inside the unit circ
 
 The curves are those of Fig. 3, followed by their arc length so that they may turn back, with a row for each
 number of harmonics, and lie over the motions on which time integration settles. Solid stretches are stable,
-dashed ones are not. Marks stand where a multiplier leaves the
-circle or comes back: at plus one, at a fold of the curve or where branches cross; at minus one, where a motion
-of twice the period begins; as a pair, where a second frequency does. A curve that does not reach the end of
-the range is followed from there too; the header of the table says where each ended, and why.
+dashed ones are not. Marks stand where a multiplier leaves the circle or comes back: at plus one, at a fold of
+the curve or where branches cross; at minus one, where a motion of twice the period begins; as a pair, where a
+second frequency does. A curve that does not reach the end of the range is followed from there too; the header of
+the table says where each ended, and why.
 
 Where a curve folds at every contact resonance it has hundreds of points within a hertz. The multipliers are
 then those of an even choice of them, thin grey between, and marks stand where stability is gained or lost, not
