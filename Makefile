@@ -34,7 +34,7 @@ suffix_exchanged :=
 suffix_as-printed := -as-printed
 
 figure_names := fig01 fig02 fig03 fig04 fig05 fig06 fig07 fig08 fig09
-table_names := $(figure_names) tab01_parameters regimes sections truth_intervals
+table_names := $(figure_names) tab01_parameters regimes sections truth_intervals multipliers
 drawn_names := $(figure_names) truncation attractors validity
 
 tables_of = $(table_names:%=data/generated$(folder_$(1))/%.tsv)
@@ -176,6 +176,7 @@ $(eval $(call table,fig09,fig09_contact,set2))
 $(eval $(call table,tab01_parameters,tab01_parameters,set1 set2))
 $(eval $(call table,tab02_timing,tab02_timing,set1))
 $(eval $(call table,regimes,regimes,set1 set2))
+$(eval $(call table,multipliers,multipliers,set1 set2))
 $(eval $(call table,sensitivity,sensitivity,set1))
 $(eval $(call table,sensitivity_derivatives,sensitivity_derivatives,set1,sensitivity))
 
@@ -274,9 +275,10 @@ $(foreach reading,$(readings),$(eval $(call truth_of,$(folder_$(reading)),$(suff
 # So is the stability of the response curves.
 define stability_of
 figures/generated$(folder_$(1))/stability.svg: figures/stability.gp figures/style.gp \
-  data/reference/stability$(suffix_$(1)).tsv
+  data/reference/stability$(suffix_$(1)).tsv data/reference/attractors$(suffix_$(1)).tsv
 	@mkdir -p $$(@D)
-	$$(call whole,gnuplot -e "table='data/reference/stability$(suffix_$(1)).tsv'; output='$$$$new'" $$<)
+	$$(call whole,gnuplot -e "table='data/reference/stability$(suffix_$(1)).tsv'; \
+	  attractors='data/reference/attractors$(suffix_$(1)).tsv'; output='$$$$new'" $$<)
 endef
 
 $(foreach reading,$(readings),$(eval $(call stability_of,$(reading))))

@@ -1,9 +1,10 @@
 # Stability along the response curves of both data sets
 #
-# Paper: §3.3, Fig. 3.  Usage: gnuplot -e "table='data/reference/stability.tsv'; output='stability.svg'" \
-#        figures/stability.gp
-# Rows: numbers of harmonics; columns: data sets. Solid: stable, thin and dotted: unstable. The multipliers
-# are those of the linearisation along the truncated series.
+# Paper: §3.3, Fig. 3.  Usage: gnuplot -e "table='data/reference/stability.tsv'; \
+#        attractors='data/reference/attractors.tsv'; output='stability.svg'" figures/stability.gp
+# Rows: numbers of harmonics; columns: data sets. Solid: stable, dashed: unstable, thin grey: multipliers
+# not computed. The multipliers are those of the linearisation along the truncated series. Behind: where
+# time integration settles, T-periodic (dots) and otherwise (bars over all such attractors at a speed).
 
 height = 1150
 load 'figures/style.gp'
@@ -11,30 +12,47 @@ load 'figures/style.gp'
 mm(name) = 1e3 * column(name)
 stats table using "set":"f" name 'F' nooutput
 sets = int(F_max_x)
+stats table using "amp_x_r" name 'A' nooutput
 ms = system(sprintf("awk -F'\\t' '/^#/ || !NF { next } !names { names = 1; next } \
   !seen[$3]++ { print $3 }' '%s' | sort -n", table))
 
 set style line 11 lc rgb '#0072B2' lw 2.2
 set style line 12 lc rgb '#D55E00' lw 2.2
-set style line 21 lc rgb '#0072B2' lw 1.1 dt (2,3)
-set style line 22 lc rgb '#D55E00' lw 1.1 dt (2,3)
+set style line 21 lc rgb '#0072B2' lw 1.1 dt (4,3)
+set style line 22 lc rgb '#D55E00' lw 1.1 dt (4,3)
+set style line 23 lc rgb '#999999' lw 0.4
+set style line 41 lc rgb '#9CCBE8' pt 7 ps 0.35
+set style line 42 lc rgb '#F6C79F' pt 7 ps 0.35
+set style line 43 lc rgb '#BBBBBB' lw 2.5 pt 7 ps 0.3
 
-# The points of one panel: rows of a set and m, of which those of one verdict; others are gaps. A stretch of
-# one verdict begins with the last point of the stretch before it.
-rows(s, m, verdict) = sprintf("< awk -F'\\t' '/^#/ { next } !NF { print \"\"; before = \"\"; next } \
+# The points of one panel: rows of a set and m, of which those of one kind (1 stable, 0 unstable, 2 not
+# examined); others are gaps. A stretch of one kind begins with the last point of the stretch before it.
+rows(s, m, kind) = sprintf("< awk -F'\\t' '/^#/ { next } !NF { print \"\"; before = \"\"; next } \
   !names { names = 1; print; next } $1 != %d || $3 != %s { next } \
-  { good = ($13 == 1); if (good == %d) { if (before != \"\" && last != good) print before; print } \
-    else if (last == %d && before != \"\") { print; print \"\" } before = $0; last = good }' '%s'", \
-  s, m, verdict, verdict, table)
+  { now = $13 == 1 ? 1 : $13 == -2 ? 2 : 0; \
+    if (now == %d) { if (before != \"\" && last != now) print before; print } \
+    else if (last == %d && before != \"\") { print; print \"\" } before = $0; last = now }' '%s'", \
+  s, m, kind, kind, table)
 marks(s, m, kind) = sprintf("< awk -F'\\t' '/^#/ || !NF { next } !names { names = 1; print; next } \
   $1 == %d && $3 == %s && $14 == \"%s\"' '%s'; echo", s, m, kind, table)
 
+# Attractors: speed and amplitude of those with the period of rotation; speed and least and largest amplitude
+# of the others. The column is that of amp_x_s or amp_x_r.
+periodic(s, column) = sprintf("< echo f; awk -F'\\t' -v OFS='\\t' '/^#/ || $1 != %d || $6 != 1 { next } \
+  { print $2, $%d }' '%s' | sort -u", s, column, attractors)
+others(s, column) = sprintf("< echo f; awk -F'\\t' -v OFS='\\t' '/^#/ || $1 != %d || $6 == 1 { next } \
+  !($2 in low) || $%d < low[$2] { low[$2] = $%d } !($2 in high) || $%d > high[$2] { high[$2] = $%d } \
+  END { for (f in low) print f, low[f], high[f] }' '%s' | sort -n", \
+  s, column, column, column, column, attractors)
+x_s = 13
+x_r = 15
+
 set xrange [0 : F_max_y]
 set logscale y
-set yrange [1e-4 : 30]
+set yrange [1e-4 : 2.5e3 * A_max]
 set format y '10^{%T}'
-set key at screen 0.53, 0.998 center top vertical maxrows 3 Left reverse width 1
-set style line 31 pt 2 ps 0.5 lc rgb '#000000'
+set key at screen 0.53, 0.998 center top vertical maxrows 3 Left reverse font ',14' samplen 2
+set style line 31 pt 2 ps 0.35 lc rgb '#000000'
 set style line 32 pt 6 ps 0.6 lc rgb '#009E73'
 set style line 33 pt 8 ps 0.7 lc rgb '#CC79A7'
 set style line 34 pt 4 ps 0.4 lc rgb '#777777'
@@ -57,10 +75,21 @@ do for [k = 1 : words(ms)] {
       keyentry with lines ls 21 title "rotor, unstable", \
       keyentry with lines ls 12 title "stator, stable", \
       keyentry with lines ls 22 title "stator, unstable", \
+      keyentry with lines ls 23 title "not examined", \
+      keyentry with points ls 41 title "T-periodic motion", \
+      keyentry with lines ls 43 title "other motions", \
       keyentry with points ls 31 title "fold", \
       keyentry with points ls 32 title "period doubling", \
       keyentry with points ls 33 title "Neimark-Sacker", \
-      keyentry with points ls 34 title "multiplier +1", \
+      keyentry with points ls 34 title "multiplier 1", \
+      others(s, x_r) using 1:(1e3*$2):(0):(1e3*($3 - $2)) with vectors ls 43 nohead notitle, \
+      others(s, x_r) using 1:(1e3*$2) with points ls 43 notitle, \
+      others(s, x_s) using 1:(1e3*$2):(0):(1e3*($3 - $2)) with vectors ls 43 nohead notitle, \
+      others(s, x_s) using 1:(1e3*$2) with points ls 43 notitle, \
+      periodic(s, x_r) using 1:(1e3*$2) with points ls 41 notitle, \
+      periodic(s, x_s) using 1:(1e3*$2) with points ls 42 notitle, \
+      rows(s, m, 2) using "f":(mm("amp_x_r")) with lines ls 23 notitle, \
+      rows(s, m, 2) using "f":(mm("amp_x_s")) with lines ls 23 notitle, \
       rows(s, m, 1) using "f":(mm("amp_x_r")) with lines ls 11 notitle, \
       rows(s, m, 0) using "f":(mm("amp_x_r")) with lines ls 21 notitle, \
       rows(s, m, 1) using "f":(mm("amp_x_s")) with lines ls 12 notitle, \

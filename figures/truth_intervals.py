@@ -20,8 +20,8 @@ COLUMNS = [
     ("T_periodic", "-", "1 only T-periodic attractors, 0.5 beside others, 0 none"),
     ("found", "-", "what there is: number of speeds with each kind"),
     ("m", "-", f"smallest m within {100 * LIMIT:g} % of a T-periodic attractor at all speeds of the raster "
-     "of the validity map, by a sweep up; 0 if none or none asked for"),
-    ("m_all", "-", "smallest m from which on that holds; 0 likewise"),
+     "of the validity map, by a sweep up; 0 if none, -1 without such speeds or a T-periodic attractor"),
+    ("m_all", "-", "smallest m from which on that holds; 0, -1 likewise"),
     ("adaptive", "-", "share of these speeds with an adaptive solution that close; -1 without speeds"),
     ("adaptive_m", "-", "its largest m; 0 if none")]
 
@@ -58,7 +58,7 @@ def harmonics_for(rows):
     """Smallest m that is close at all speeds, and smallest from which on all are."""
     fixed = rows.where("adaptive", 0)
     if len(fixed) == 0:
-        return 0, 0
+        return -1, -1
     reached = {m: close(fixed.where("m", m)).all() for m in np.unique(fixed["m"]).astype(int)}
     first = next((m for m in reached if reached[m]), 0)
     missed = max((m for m in reached if not reached[m]), default=0)
@@ -81,7 +81,7 @@ def row(number, interval, validity):
     words = ", ".join(f"{name} {sum(name in here for here in kinds)}" for name in names)
     rows = validity.where("set", number)
     rows = rows.rows((rows["f"] >= speeds[0]) & (rows["f"] <= speeds[-1]))
-    m = harmonics_for(rows) if sort > 0 else (0, 0)
+    m = harmonics_for(rows) if sort > 0 else (-1, -1)
     adaptive = adaptive_for(rows) if sort > 0 else (-1, 0)
     return [number, speeds[0], speeds[-1], len(speeds), sort, words, *m, *adaptive]
 

@@ -10,17 +10,22 @@ it is another question. The answer is in the Floquet multipliers of the motion, 
 small disturbance has changed after one period: all of them inside the unit circle, and it dies out.
 
 The curves are those of Fig. 3, followed by their arc length so that they may turn back, with a row for each
-number of harmonics. Thick stretches are stable, thin ones are not. Marks stand where a multiplier leaves the
-circle or comes back: at plus one, at a fold of the curve or where branches cross; at minus one, where a motion
-of twice the period begins; as a pair, where a second frequency does. A curve that ends early reached its bound on
-points, which the header of the table reports with the place.
+number of harmonics, and lie over the motions on which time integration settles. Solid stretches are stable,
+dashed ones are not. Marks stand where a multiplier leaves the circle or comes back: at plus one, at a fold of
+the curve or where branches cross; at minus one, where a motion of twice the period begins; as a pair, where a
+second frequency does. A curve that does not reach the end of the range is followed from there too; the header of
+the table says where each ended, and why.
+
+Where a curve folds at every contact resonance it has hundreds of points within a hertz. The multipliers are
+then those of an even choice of them, thin grey between, and marks stand where stability is gained or lost, not
+between two unstable motions; folds are all marked.
 
 The multipliers are those of the linearisation along the solution with that many harmonics, and with few of them
 they can be wrong where the amplitude is right. So every point carries how much its largest multiplier changed
 at the last refinement, and is left undecided when that could change the answer.
 
-Modelled: harmonic balance by arc length; the Floquet multipliers of rotor and stator at every point. Finished
-branches are kept in a journal. */
+Modelled: harmonic balance by arc length; the Floquet multipliers of rotor and stator. Finished curves are kept
+in a journal. */
 #include <CLI/CLI.hpp>
 
 #include "output/program.hpp"

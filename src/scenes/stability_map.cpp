@@ -1,5 +1,8 @@
 #include "scenes/stability_map.hpp"
 
+#include <algorithm>
+#include <cmath>
+
 #include "balance/bearing_problem.hpp"
 #include "continuation/arc_length.hpp"
 #include "model/errors.hpp"
@@ -13,17 +16,15 @@ StabilityScene read_stability_scene(const std::string& file, const std::string& 
   StrictToml& toml = scene_file.toml();
   StabilityScene scene{.sets = scene_file.parameter_list("parameters"),
                        .curves = {},
-                       .most_points = toml.integer("most_points", 2, 1000000)};
-  const auto sets = toml.integers("set", 1, static_cast<int>(scene.sets.size()));
+                       .from = toml.number("from_hz", Range::positive),
+                       .to = toml.number("to_hz", Range::positive),
+                       .most_evaluations = toml.integer("most_evaluations", 1, 100000000),
+                       .examined_per_hz = toml.integer("examined_per_hz", 1, 1000000)};
   const auto harmonics = toml.integers("harmonics", 1, 4096);
-  const auto from = toml.numbers("from_hz", Range::positive);
-  const auto to = toml.numbers("to_hz", Range::positive);
-  if (harmonics.size() != sets.size() || from.size() != sets.size() ||
-      to.size() != sets.size())
-    toml.fail("set", "must be as long as harmonics, from_hz and to_hz");
+  if (scene.from >= scene.to) toml.fail("to_hz", "must be above from_hz");
   toml.refuse_unknown_keys();
-  for (std::size_t k = 0; k < sets.size(); ++k)
-    scene.curves.push_back({sets[k], harmonics[k], from[k], to[k]});
+  for (int set = 1; set <= static_cast<int>(scene.sets.size()); ++set)
+    for (int m : harmonics) scene.curves.push_back({set, m});
   return scene;
 }
 
@@ -35,88 +36,139 @@ StabilityPoint shown(const Parameters& parameters, Balance& balance, const Stabl
   balance.residual(p.point.x, p.point.omega);
   const Eigen::VectorXd amplitude =
       half_peak_to_peak(body_series(parameters, balance, p.point.omega, p.point.x));
-  const Floquet& floquet = p.floquet;
-  return {p.point.omega / angular(1),
-          {amplitude[0], amplitude[1], amplitude[2], amplitude[3]},
-          p.point.arc,
-          floquet.largest(),
-          floquet.uncertainty(),
-          floquet.settled,
-          floquet.stable()     ? 1
-          : floquet.unstable() ? 0
-                               : -1,
-          p.bifurcation};
+  StabilityPoint point{p.point.omega / angular(1),
+                       {amplitude[0], amplitude[1], amplitude[2], amplitude[3]},
+                       p.point.arc,
+                       -1,
+                       -1,
+                       false,
+                       -2,
+                       p.bifurcation};
+  if (!p.examined()) return point;
+  point.largest = p.floquet.largest();
+  point.uncertainty = p.floquet.uncertainty();
+  point.settled = p.floquet.settled;
+  point.stable = p.floquet.stable() ? 1 : p.floquet.unstable() ? 0 : -1;
+  return point;
 }
 
-/** A branch as one row of a journal, and back. */
-Row flattened(const StabilityBranch& branch)
+/** Whether a point without multipliers can be left out after `before`: no eye would miss it. */
+bool dispensable(const StabilityPoint& point, const StabilityPoint& before)
 {
-  Row row{static_cast<double>(branch.end), static_cast<double>(branch.missed)};
+  constexpr double speed = 0.1, amplitude = 0.03;  // [Hz], relative
+  if (point.stable != -2 || point.bifurcation != Bifurcation::none) return false;
+  if (std::abs(point.frequency - before.frequency) > speed) return false;
+  for (std::size_t k = 0; k < point.amplitude.size(); ++k)
+    if (std::abs(point.amplitude[k] - before.amplitude[k]) >
+        amplitude * before.amplitude[k])
+      return false;
+  return true;
+}
+
+/** The branches of a curve as one row of a journal, and back. */
+void append(Row& row, const StabilityBranch& branch)
+{
+  row.insert(row.end(),
+             {static_cast<double>(branch.points.size()), branch.from,
+              static_cast<double>(branch.end), static_cast<double>(branch.missed),
+              static_cast<double>(branch.failed), static_cast<double>(branch.passed),
+              branch.low, branch.high});
   for (const StabilityPoint& p : branch.points)
     row.insert(row.end(), {p.frequency, p.amplitude[0], p.amplitude[1], p.amplitude[2],
                            p.amplitude[3], p.arc, p.largest, p.uncertainty,
                            static_cast<double>(p.settled), static_cast<double>(p.stable),
                            static_cast<double>(p.bifurcation)});
-  return row;
 }
 
-StabilityBranch from_row(const Row& row)
+std::vector<StabilityBranch> from_row(const Row& row)
 {
-  constexpr std::size_t numbers = 11;
-  StabilityBranch branch{{}, static_cast<BranchEnd>(row[0]), static_cast<int>(row[1])};
-  for (std::size_t k = 2; k + numbers <= row.size(); k += numbers) {
-    const double* n = &row[k];
-    branch.points.push_back({n[0],
-                             {n[1], n[2], n[3], n[4]},
-                             n[5],
-                             n[6],
-                             n[7],
-                             n[8] != 0,
-                             static_cast<int>(n[9]),
-                             static_cast<Bifurcation>(n[10])});
+  std::vector<StabilityBranch> branches;
+  for (auto n = row.begin(); n != row.end();) {
+    const auto points = static_cast<std::size_t>(*n++);
+    const double from = *n++;
+    StabilityBranch branch{{}, from, static_cast<BranchEnd>(*n++), 0, 0, 0, from, from};
+    for (int* count : {&branch.missed, &branch.failed, &branch.passed})
+      *count = static_cast<int>(*n++);
+    branch.low = *n++;
+    branch.high = *n++;
+    for (std::size_t k = 0; k < points; ++k, n += 11)
+      branch.points.push_back({n[0],
+                               {n[1], n[2], n[3], n[4]},
+                               n[5],
+                               n[6],
+                               n[7],
+                               n[8] != 0,
+                               static_cast<int>(n[9]),
+                               static_cast<Bifurcation>(n[10])});
+    branches.push_back(std::move(branch));
   }
-  return branch;
+  return branches;
+}
+
+StabilityBranch follow(const StabilityScene& scene, const StabilityCurve& curve,
+                       double from, double to)
+{
+  const Parameters& parameters = scene.sets[curve.set - 1];
+  const int samples = default_samples(curve.harmonics);
+  StabilityBranch result{{}, from, BranchEnd::step, 0, 0, 0, from, from};
+  const PeriodicSolution start =
+      find_periodic(parameters, angular(from), curve.harmonics, samples);
+  if (!start.found()) return result;
+  Balance balance(bearing_problem(parameters, samples), curve.harmonics);
+  ArcLengthSettings settings = arc_length_settings(parameters);
+  settings.most_evaluations = scene.most_evaluations;
+  const Branch branch =
+      follow_branch(balance, angular(from), angular(to), start.x, settings);
+  const BranchStability stability = stability_along(
+      balance, branch, settings,
+      [&](const BranchPoint& p) { return floquet(parameters, p.omega, p.x); },
+      {.chosen = evenly_chosen(branch, angular(1), scene.examined_per_hz),
+       .among_unstable = false});
+  result.end = branch.kind;
+  result.missed = stability.missed;
+  result.failed = stability.failed;
+  result.passed = static_cast<int>(branch.points.size());
+  for (const StablePoint& point : stability.points) {
+    StabilityPoint next = shown(parameters, balance, point);
+    result.low = std::min(result.low, next.frequency);
+    result.high = std::max(result.high, next.frequency);
+    if (result.points.empty() || !dispensable(next, result.points.back()))
+      result.points.push_back(next);
+  }
+  return result;
 }
 
 }  // namespace
 
-StabilityBranch follow_stability(const StabilityScene& scene, const StabilityCurve& curve)
+std::vector<StabilityBranch> follow_stability(const StabilityScene& scene,
+                                              const StabilityCurve& curve)
 {
-  const Parameters& parameters = scene.sets[curve.set - 1];
-  const int samples = default_samples(curve.harmonics);
-  const PeriodicSolution start =
-      find_periodic(parameters, angular(curve.from), curve.harmonics, samples);
-  if (!start.found()) return {{}, BranchEnd::step, 0};
-  Balance balance(bearing_problem(parameters, samples), curve.harmonics);
-  ArcLengthSettings settings = arc_length_settings(parameters);
-  settings.most_points = scene.most_points;
-  const Branch branch =
-      follow_branch(balance, angular(curve.from), angular(curve.to), start.x, settings);
-  const auto floquet_at = [&](const BranchPoint& p) {
-    return floquet(parameters, p.omega, p.x);
-  };
-  const BranchStability stability =
-      stability_along(balance, branch, settings, floquet_at);
-  StabilityBranch result{{}, branch.kind, stability.missed};
-  for (const StablePoint& point : stability.points)
-    result.points.push_back(shown(parameters, balance, point));
-  return result;
+  std::vector<StabilityBranch> branches{follow(scene, curve, scene.from, scene.to)};
+  if (branches[0].points.empty() || branches[0].end != BranchEnd::goal)
+    branches.push_back(follow(scene, curve, scene.to, scene.from));
+  return branches;
 }
 
-std::vector<StabilityBranch> compute_stability(const StabilityScene& scene,
-                                               const std::string& journal,
-                                               const std::string& stamp)
+std::vector<std::vector<StabilityBranch>> compute_stability(const StabilityScene& scene,
+                                                            const std::string& journal,
+                                                            const std::string& stamp)
 {
+  /** The last first: a set's curve with the most harmonics takes longest. */
+  const std::vector<StabilityCurve> pieces(scene.curves.rbegin(), scene.curves.rend());
   const auto rows =
       run_study({.name = "branches",
                  .journal = journal,
                  .stamp = stamp,
-                 .pieces = scene.curves.size(),
+                 .pieces = pieces.size(),
                  .work = [&](std::size_t k) {
-                   return flattened(follow_stability(scene, scene.curves[k]));
+                   Row row;
+                   for (const auto& branch : follow_stability(scene, pieces[k]))
+                     append(row, branch);
+                   return row;
                  }});
-  std::vector<StabilityBranch> branches;
-  for (const Row& row : rows) branches.push_back(from_row(row));
+  std::vector<std::vector<StabilityBranch>> branches;
+  for (auto row = rows.rbegin(); row != rows.rend(); ++row)
+    branches.push_back(from_row(*row));
   return branches;
 }
 

@@ -98,11 +98,17 @@ private:
     return unstable_count(point.floquet.multipliers) == 0;
   }
 
+  bool worth_a_look(const StablePoint& a, const StablePoint& b) const
+  {
+    if (!a.examined() || !b.examined()) return false;
+    return settings_.among_unstable || is_stable(a) || is_stable(b);
+  }
+
   /** What happens between the last point and `next`, then `next`. */
   void go_to(StablePoint next, int halvings)
   {
     const StablePoint last = result_.points.back();
-    if (!last.examined() || !next.examined()) {
+    if (!worth_a_look(last, next)) {
       result_.points.push_back(std::move(next));
       return;
     }

@@ -1,0 +1,27 @@
+/**
+# Floquet multipliers, checked
+
+Paper: the speeds of §3.3, Figs 4 to 9.
+
+    build/multipliers > data/generated/multipliers.tsv
+
+A verdict of stability is as good as the largest multiplier, and that can be wrong without looking wrong. So
+each is computed in ways that have nothing in common but the motion:
+
+- by integration of the disturbances, again and finer until no multiplier moves; the last move is shown;
+- the product of all eight is known exactly (Liouville), whatever the motion is;
+- by Hill's method, in the frequency domain. It needs harmonics up to the contact mode of the bearing, which
+  is out of reach at low speeds. At the larger clearance balls strike their races, and it is still far from
+  converged where the integration has settled: the two columns show how far.
+
+Modelled: harmonic balance with the scene's harmonics; the disturbances of rotor and stator along it. */
+#include "output/multiplier_table.hpp"
+#include "output/program.hpp"
+
+int main(int argc, char** argv)
+{
+  using namespace rotor_stator;
+  return run(argc, argv, "data/scenes/multipliers.toml", [](const Options& options) {
+    return multiplier_table(read_multiplier_scene(options.scene_file, options.reading));
+  });
+}
