@@ -319,14 +319,14 @@ data/generated/article.md: paper/include.py paper/article.md data/generated/arti
 	$(call whole,$(PYTHON) $^ > $$new)
 
 $(article): data/generated/article.md paper/render_article.py paper/article.html \
-  paper/book/weave.py paper/book/book.css paper/book/figures.toml paper/references.bib
+  paper/book/comments.py paper/book/book.css paper/book/figures.toml paper/references.bib
 	@mkdir -p $(@D)
 	$(PYTHON) paper/render_article.py $< $@
 
 pdf: build/paper/article.pdf  ## the article as PDF (its packages: make deps-pdf)
 
 build/paper/article.pdf: data/generated/article.md paper/render_article.py paper/article.tex \
-  paper/references.bib
+  paper/book/comments.py paper/references.bib
 	@mkdir -p $(@D)
 	$(PYTHON) paper/render_article.py $< $@
 

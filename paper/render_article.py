@@ -13,7 +13,7 @@ import tomllib
 from pathlib import Path
 
 sys.path.insert(0, "paper/book")
-from weave import DEVIATION, EQUATION, numbered  # noqa: E402
+from comments import DEVIATION, EQUATION, numbered  # noqa: E402
 
 TABLE = re.compile(r"^<!-- table: (\S+) (.*?) -->$", re.MULTILINE)
 FIGURE = re.compile(r"\]\((figures/(?:as-printed/)?\w+)\.svg\)")

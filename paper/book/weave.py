@@ -17,6 +17,7 @@ import tomllib
 from concurrent.futures import ThreadPoolExecutor
 from pathlib import Path
 
+from comments import COMMENT, code_lines, markdown_of
 from folder_map import folder_map
 from overview import claims_section, deviations_section, gallery
 
@@ -25,11 +26,7 @@ DRAWN, TABLES = Path("figures/generated"), (Path("data/generated"), Path("data/r
 SHOWN = tomllib.loads((HERE / "figures.toml").read_text())
 REPOSITORY_FILES = ("book.css", "book.js")
 MOST_CODE = 250  # lines on a page
-COMMENT = re.compile(r"^[ \t]*/\*\*(.*?)\*/[ \t]*\n", re.DOTALL | re.MULTILINE)
 INCLUDE = re.compile(r'^#include "([^"]+)"', re.MULTILINE)
-EQUATION = re.compile(r"\$\$(.+?)\$\$", re.DOTALL)
-TAG = re.compile(r"\\tag\{([^}]*)\}")
-DEVIATION = re.compile(r"\bD-(\d\d)\b")
 
 
 class Page:
@@ -78,10 +75,6 @@ def script_of(figure):
                 for path in sorted(Path("figures").glob(figure + pattern + suffix)))
 
 
-def code_lines(file):
-    return sum(bool(line.strip()) for line in COMMENT.sub("", file.read_text()).split("\n"))
-
-
 def all_pages():
     """A header and its implementation are one page, or two where that is more than a sitting."""
     groups, pages = {}, []
@@ -94,39 +87,6 @@ def all_pages():
         if long:
             pages.append(Page(files[1:], part_of=pages[-1]))
     return pages
-
-
-def numbered(match):
-    """A displayed equation with the paper's number beside it."""
-    body = match[1]
-    tags = TAG.findall(body)
-    equation = f"$${TAG.sub('', body).strip()}$$"
-    if not tags:
-        return equation
-    return f"\n::: equation\n{equation}\n\n[({', '.join(tags)})]{{.number}}\n:::\n"
-
-
-def markdown_of(source):
-    """Comments as they are, code as fenced blocks."""
-    parts, at = [], 0
-    for comment in COMMENT.finditer(source):
-        parts += [code_block(source[at:comment.start()]), prose(comment[1])]
-        at = comment.end()
-    parts.append(code_block(source[at:]))
-    return "\n\n".join(part for part in parts if part)
-
-
-def prose(comment):
-    lines = comment.strip("\n").split("\n")
-    indent = min((len(line) - len(line.lstrip()) for line in lines[1:] if line.strip()), default=0)
-    text = "\n".join([lines[0].strip()] + [line[indent:].rstrip() for line in lines[1:]])
-    text = EQUATION.sub(numbered, text)
-    return DEVIATION.sub(r"[D-\1](deviations.html#d-\1)", text)
-
-
-def code_block(code):
-    code = code.strip("\n")
-    return f"````cpp\n{code}\n````" if code.strip() else ""
 
 
 def link(page):
