@@ -1,4 +1,5 @@
-"""Comments of a source as Markdown, the code between them as blocks."""
+"""Text made ready for pandoc: a source's comments as Markdown with the code between them as blocks, and the
+pages that are Markdown already."""
 import re
 
 COMMENT = re.compile(r"^[ \t]*/\*\*(.*?)\*/[ \t]*\n", re.DOTALL | re.MULTILINE)
@@ -49,3 +50,16 @@ def code_block(code):
 
 def code_lines(file):
     return sum(bool(line.strip()) for line in COMMENT.sub("", file.read_text()).split("\n"))
+
+
+def with_names(deviations):
+    """Each entry can be pointed at by its number."""
+    return re.sub(r"^## D-(\d\d) (.*)$", r"## D-\1 \2 {#d-\1}", deviations, flags=re.MULTILINE)
+
+
+def with_files(guide):
+    """The file that a block is written to stands above it."""
+    return re.sub(r'^(```\{\.\w+ (file|append)="([^"]+)"\})$',
+                  lambda match: f"`{match[3]}`"
+                  f"{', at the end' if match[2] == 'append' else ''}:\n\n{match[1]}",
+                  guide, flags=re.MULTILINE)

@@ -17,7 +17,7 @@ import tomllib
 from concurrent.futures import ThreadPoolExecutor
 from pathlib import Path
 
-from comments import COMMENT, code_lines, markdown_of
+from comments import COMMENT, code_lines, markdown_of, with_files, with_names
 from folder_map import folder_map
 from overview import claims_section, deviations_section, gallery
 
@@ -156,12 +156,12 @@ def page_markdown(page, pages, output):
                         neighbours(page, pages)])
 
 
-def convert(markdown, title, target, navigation=""):
+def convert(markdown, title, target, navigation="", options=()):
     subprocess.run(
         ["pandoc", "--from", "markdown-markdown_in_html_blocks+tex_math_dollars", "--to", "html5",
          "--mathml", "--standalone", "--template", str(HERE / "template.html"),
          "--metadata", f"title={title}", "--variable", f"navigation={navigation}",
-         "--output", str(target)],
+         "--output", str(target), *options],
         input=markdown, text=True, check=True)
 
 
@@ -183,11 +183,15 @@ def chapters(pages):
 def index_markdown(found_chapters, pages):
     parts = [(HERE / "index.md").read_text(), folder_map(pages)]
     for chapter in found_chapters:
+        if not chapter["found"]:
+            continue
+        if chapter.get("after_results"):
+            parts += [claims_section(), deviations_section()]
         parts.append(f"## {chapter['title']}\n\n{chapter['introduction'].strip()}\n")
         parts.append("\n".join(f"- {link(page)} `{page.key}`" for page in chapter["found"]))
         parts.append(gallery([(page.file, page.title, name) for page in chapter["found"]
                               for name in page.figures()], SHOWN))
-    return "\n\n".join([*parts, claims_section(), deviations_section()])
+    return "\n\n".join(parts)
 
 
 def search_words(pages):
@@ -208,11 +212,6 @@ def navigation(order, k):
     return f'<span>{before}</span><a href="index.html">Index</a><span>{after}</span>'
 
 
-def with_names(deviations):
-    """Each entry can be pointed at by its number."""
-    return re.sub(r"^## D-(\d\d) (.*)$", r"## D-\1 \2 {#d-\1}", deviations, flags=re.MULTILINE)
-
-
 def main(output):
     for folder in ("figures", "tables", "scripts"):
         (output / folder).mkdir(parents=True, exist_ok=True)
@@ -230,10 +229,12 @@ def main(output):
 
     with ThreadPoolExecutor(2) as pool:
         list(pool.map(weave, range(len(order))))
+    back = '<a href="index.html">Index</a>'
+    cited = ("--citeproc", "--bibliography", "paper/references.bib", "--metadata", "link-citations=true")
     convert(with_names(Path("data/generated/deviations.md").read_text()), "Deviations",
-            output / "deviations.html", '<a href="index.html">Index</a>')
-    convert(Path("paper/guide.md").read_text(), "A study of one's own", output / "guide.html",
-            '<a href="index.html">Index</a>')
+            output / "deviations.html", back, cited)
+    convert(with_files(Path("paper/guide.md").read_text()), "A study of one's own",
+            output / "guide.html", back, cited)
     convert(index_markdown(found, pages), "Contents", output / "index.html")
 
 
