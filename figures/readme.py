@@ -93,11 +93,14 @@ def cost_lines(table):
             at = rows.where("target", target)
             aft = at.where("method", "aft")
             start = f"| {span} Hz | {target:g} "
+            others = at.rows(at["method"] != "aft")
             if aft["cpu_s"].size == 0:
-                yield start + "| not reached | - | - |"
+                taken = [f"{1e3 * cpu:.3g} ms ({named(method)})" for method, cpu
+                         in zip(others["method"], others["cpu_s"]) if method == "rk4"
+                         or cpu == others["cpu_s"].min()]
+                yield start + f"| not reached | - | {', '.join(taken) or 'not reached'} |"
                 continue
             rk4 = at.where("method", "rk4")["ratio"]
-            others = at.rows(at["method"] != "aft")
             least = others["ratio"].argmin()
             yield (start + f"| {1e3 * aft.first('cpu_s'):.3g} ms "
                    f"| {f'{rk4[0]:.2g}' if rk4.size else 'not reached'} "

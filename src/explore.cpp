@@ -80,7 +80,9 @@ void add_response_options(CLI::App& command, ResponseRequest& request)
                      "up: from --from to --to; down: from --to to --from");
   command.add_option("--work", request.work, "evaluations of the force at most")
       ->capture_default_str();
-  add_operations_option(command, request.operations);
+  command.add_option("--operations", request.operations,
+                     "bound on all work, in billions of operations: about a second each "
+                     "(default: 3, with --stability 30)");
   command.add_option("--save", request.save, "file for the branch, all coefficients");
   command.add_option("--restart", request.restart, "file of --save to go on from");
   command.add_option("--at", request.at,
@@ -89,6 +91,8 @@ void add_response_options(CLI::App& command, ResponseRequest& request)
       ->capture_default_str();
   command.add_option("--isolated", request.isolated,
                      "look for isolated branches at so many speeds");
+  command.add_flag("--stability", request.stability,
+                   "Floquet multipliers of each point, and the bifurcations between");
   command.add_option("--seed", request.seed, "of the random starts of --isolated")
       ->capture_default_str();
 }

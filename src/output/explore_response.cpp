@@ -4,9 +4,9 @@
 Where it starts, what it meets, what is beside it. */
 #include "balance/bearing_problem.hpp"
 #include "model/errors.hpp"
-#include "output/branch_file.hpp"
+#include "output/explore_stability.hpp"
 #include "output/explore_tables.hpp"
-#include "output/option_checks.hpp"
+#include "output/response_task.hpp"
 #include "output/whole_file.hpp"
 #include "scenes/motion.hpp"
 #include "scenes/other_starts.hpp"
@@ -18,70 +18,8 @@ namespace rotor_stator
 namespace
 {
 
-void check(const ResponseRequest& request)
-{
-  require_positive("--from", request.from);
-  require_positive("--to", request.to);
-  if (request.from >= request.to)
-    throw BadInput(text("--from %g: must be below --to %g", request.from, request.to));
-  require_between("--newton-tolerance", request.newton_tolerance, 1e-15, 1e-3);
-  require_between("--work", request.work, 1, 1e12);
-  require_between("--operations", request.operations, 1e-6, 1e6);
-  require_range("--isolated", request.isolated, 0, 10000);
-  require_range("--seed", request.seed, 0, 1000000000);
-  require_range("--branch", request.branch, 1, 1000000);
-  if (request.at) require_between("--at", *request.at, request.from, request.to);
-  if (!request.direction.empty() && request.direction != "up" &&
-      request.direction != "down")
-    throw BadInput("--direction " + request.direction + ": must be up or down");
-  if (request.restart.empty() && (request.at || request.branch != 1))
-    throw BadInput("--at and --branch: only with --restart");
-  if (!request.save.empty()) require_writable(request.save);
-}
-
-/** What a run of explore response works with. */
-struct Task {
-  const ResponseRequest& request;
-  Parameters parameters;
-  std::optional<SavedBranch> saved;
-  int harmonics, samples;
-  ArcLengthSettings settings;
-  bool upwards;
-  Work work;
-
-  SpeedRange range() const
-  {
-    const double low = angular(request.from), high = angular(request.to);
-    return upwards ? SpeedRange{low, high} : SpeedRange{high, low};
-  }
-};
-
-Task task_of(const ResponseRequest& request)
-{
-  Parameters parameters = read_parameters(request.parameter_file);
-  check(request);
-  std::optional<SavedBranch> saved;
-  if (!request.restart.empty())
-    saved = read_branch(request.restart, parameters, request.branch);
-  const int harmonics = request.harmonics.value_or(saved ? saved->harmonics : 6);
-  std::optional<int> samples = request.samples;
-  if (!samples && saved && saved->harmonics == harmonics) samples = saved->samples;
-  const int checked = checked_samples(harmonics, samples);
-  /** The starts beside the branch, nine at each speed, must fit into the memory. */
-  require_range("--isolated", request.isolated, 0, 500000 / harmonics);
-  ArcLengthSettings settings =
-      arc_length_settings(parameters, {.tolerance = request.newton_tolerance});
-  settings.most_evaluations = static_cast<long>(request.work);
-  const bool upwards =
-      request.direction.empty() ? !saved || saved->upwards : request.direction == "up";
-  return {request,          std::move(parameters),
-          std::move(saved), harmonics,
-          checked,          settings,
-          upwards,          Work(request.operations * 1e9)};
-}
-
 /** A saved point, turned and with as many harmonics as are asked for. */
-BranchPoint saved_start(const Task& task, Table& table)
+BranchPoint saved_start(const ResponseTask& task, Table& table)
 {
   const ResponseRequest& request = task.request;
   const double at = angular(request.at.value_or(0));
@@ -106,7 +44,7 @@ BranchPoint saved_start(const Task& task, Table& table)
 }
 
 /** A solution at the edge of the range, by whatever start finds one. */
-BranchPoint found_start(const Task& task, Balance& balance, Table& table)
+BranchPoint found_start(const ResponseTask& task, Balance& balance, Table& table)
 {
   const double omega = task.range().from;
   const PeriodicSolution start =
@@ -121,24 +59,31 @@ BranchPoint found_start(const Task& task, Balance& balance, Table& table)
   return point_of(balance, omega, start.x, task.upwards, task.settings);
 }
 
-/** One row per point; with `number` in front where there may be several branches. */
-void add_rows(Table& table, const Task& task, Balance& balance, const Branch& branch,
-              std::optional<std::size_t> number)
+/** A branch, and on demand its multipliers. */
+struct Examined {
+  const Branch& branch;
+  std::optional<BranchStability> stability;
+};
+
+/** One row per point; with `number` at the end where there may be several branches. */
+void add_rows(Table& table, const ResponseTask& task, Balance& balance,
+              const Examined& examined, std::optional<std::size_t> number)
 {
-  for (const BranchPoint& point : branch.points) {
+  const auto add = [&](const BranchPoint& point, std::vector<Cell> more) {
     balance.residual(point.x, point.omega);
-    const Eigen::VectorXd amplitude =
+    const Eigen::VectorXd a =
         half_peak_to_peak(body_series(task.parameters, balance, point.omega, point.x));
-    std::vector<Cell> row{point.omega / angular(1),
-                          amplitude[0],
-                          amplitude[1],
-                          amplitude[2],
-                          amplitude[3],
-                          point.arc,
+    std::vector<Cell> row{point.omega / angular(1), a[0], a[1], a[2], a[3], point.arc,
                           point.newton.iterations};
+    row.insert(row.end(), more.begin(), more.end());
     if (number) row.emplace_back(*number);
     table.row(std::move(row));
-  }
+  };
+  if (examined.stability)
+    for (const StablePoint& p : examined.stability->points)
+      add(p.point, stability_cells(p));
+  else
+    for (const BranchPoint& point : examined.branch.points) add(point, {});
   if (number) table.gap();
 }
 
@@ -155,7 +100,7 @@ std::string summary(const Branch& branch)
               ((branch.covered ? "ended: " : "incomplete: ") + branch.end).c_str());
 }
 
-std::vector<Column> response_columns(bool numbered)
+std::vector<Column> response_columns(bool stability, bool numbered)
 {
   std::vector<Column> columns{{"f", "Hz", "speed of rotation"},
                               {"amp_x_s", "m", "half peak-to-peak of x_s"},
@@ -164,14 +109,16 @@ std::vector<Column> response_columns(bool numbered)
                               {"amp_y_r", "m", "half peak-to-peak of y_r"},
                               {"arc", "-", "scaled arc length from the first point"},
                               {"newton", "-", "Newton iterations of the corrector"}};
+  if (stability)
+    for (Column& column : stability_columns()) columns.push_back(std::move(column));
   if (numbered)
     columns.push_back({"branch", "-", "1 the branch followed, then those beside it"});
   return columns;
 }
 
 /** The branches beside `main`, and what is said of each. */
-std::vector<IsolatedBranch> others(const Task& task, Balance& balance, const Branch& main,
-                                   std::vector<std::string>& remarks)
+std::vector<IsolatedBranch> others(const ResponseTask& task, Balance& balance,
+                                   const Branch& main, std::vector<std::string>& remarks)
 {
   const auto starts =
       other_starts(task.parameters, task.range(), task.harmonics,
@@ -191,7 +138,32 @@ std::vector<IsolatedBranch> others(const Task& task, Balance& balance, const Bra
   return found;
 }
 
-void describe(Table& table, const Task& task, const Branch& branch)
+/** The rows of all branches, and what their header says of the multipliers: which are missing. */
+std::string add_branches(Table& table, const ResponseTask& task, Balance& balance,
+                         const std::vector<const Branch*>& all, bool numbered)
+{
+  /** The table is written, whatever work is left. */
+  Balance shown(bearing_problem(task.parameters, task.samples), task.harmonics);
+  std::string missing;
+  for (std::size_t k = 0; k < all.size(); ++k) {
+    Examined examined{*all[k], {}};
+    if (task.request.stability) {
+      examined.stability =
+          stability_within(task.work, task.parameters, balance, *all[k], task.settings);
+      const std::string prefix = numbered ? text("branch %zu, ", k + 1) : "";
+      for (const std::string& note : stability_notes(*examined.stability))
+        table.note(prefix + note);
+      const std::string here = missing_stability(*examined.stability, task.work);
+      if (!here.empty()) table.note("incomplete: " + prefix + here);
+      if (missing.empty()) missing = here;
+    }
+    add_rows(table, task, shown, examined,
+             numbered ? std::optional(k + 1) : std::nullopt);
+  }
+  return missing;
+}
+
+void describe(Table& table, const ResponseTask& task, const Branch& branch)
 {
   table.describe(task.parameters);
   table.note(
@@ -203,12 +175,15 @@ void describe(Table& table, const Task& task, const Branch& branch)
   table.note((branch.covered ? "ended: " : "incomplete: ") + branch.end);
 }
 
-std::string unfinished(const Task& task, const Branch& branch)
+/** The first thing that is missing, in the order in which it was asked for. */
+std::string unfinished(const ResponseTask& task, const Branch& branch,
+                       const std::string& stability)
 {
   if (branch.covered && task.request.isolated > 0 && task.work.used_up())
     return text("%s: the search for isolated branches used up the work allowed",
                 task.parameters.file.c_str());
-  if (branch.covered) return "";
+  if (branch.covered)
+    return stability.empty() ? "" : task.parameters.file + ": " + stability;
   return text("%s: the branch stopped at %g Hz, before --%s %g Hz: %s",
               task.parameters.file.c_str(), branch.points.back().omega / angular(1),
               task.upwards ? "to" : "from", task.range().to / angular(1),
@@ -219,9 +194,10 @@ std::string unfinished(const Task& task, const Branch& branch)
 
 Exploration explore_response(const ResponseRequest& request)
 {
-  const Task task = task_of(request);
+  const ResponseTask task = task_of(request);
   const bool numbered = request.isolated > 0;
-  Table table("Frequency response along the branch", response_columns(numbered));
+  Table table("Frequency response along the branch",
+              response_columns(request.stability, numbered));
   Balance balance(bearing_problem(task.parameters, task.samples, task.work),
                   task.harmonics);
   const BranchPoint start =
@@ -234,18 +210,15 @@ Exploration explore_response(const ResponseRequest& request)
   if (numbered) beside = others(task, balance, main, remarks);
   for (const std::string& remark : remarks) table.note(remark);
 
-  /** The table is written, whatever work is left. */
-  Balance shown(bearing_problem(task.parameters, task.samples), task.harmonics);
-  add_rows(table, task, shown, main, numbered ? std::optional(1UL) : std::nullopt);
   std::vector<const Branch*> all{&main};
-  for (const IsolatedBranch& other : beside) {
-    all.push_back(&other.branch);
-    add_rows(table, task, shown, other.branch, all.size());
-  }
+  for (const IsolatedBranch& other : beside) all.push_back(&other.branch);
+  const std::string without_multipliers =
+      add_branches(table, task, balance, all, numbered);
   if (!request.save.empty())
     write_file(request.save, branch_text(task.parameters, task.harmonics, task.samples,
                                          task.upwards, all));
-  return {std::move(table), unfinished(task, main), std::move(remarks)};
+  return {std::move(table), unfinished(task, main, without_multipliers),
+          std::move(remarks)};
 }
 
 }  // namespace rotor_stator

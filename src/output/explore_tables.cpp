@@ -4,12 +4,12 @@
 #include <numbers>
 
 #include "model/errors.hpp"
+#include "output/explore_stability.hpp"
 #include "output/option_checks.hpp"
 #include "scenes/adaptive.hpp"
 #include "scenes/contact.hpp"
 #include "scenes/motion.hpp"
 #include "scenes/response.hpp"
-#include "stability/floquet.hpp"
 
 namespace rotor_stator
 {
@@ -72,17 +72,6 @@ AdaptiveSolution solved(const Parameters& parameters, const MotionRequest& reque
                           {.tolerance = *request.tolerance, .newton = newton}, work);
 }
 
-/** Three integrations of the disturbances within `operations`. */
-FloquetSettings affordable_floquet(const Parameters& parameters, int harmonics,
-                                   double operations)
-{
-  FloquetSettings settings;
-  const double evaluation = 500 + 2.0 * parameters.bearing.balls + 5.0 * harmonics;
-  settings.first.most_evaluations = std::min(
-      settings.first.most_evaluations, static_cast<long>(operations / 3 / evaluation));
-  return settings;
-}
-
 /** What the Floquet multipliers say of a solution. */
 std::string stability_note(const Parameters& parameters, const PeriodicSolution& solution,
                            double operations)
@@ -91,13 +80,10 @@ std::string stability_note(const Parameters& parameters, const PeriodicSolution&
     const Floquet motion =
         floquet(parameters, solution.omega, solution.x,
                 affordable_floquet(parameters, solution.harmonics, operations));
-    const char* verdict = motion.stable()     ? "stable"
-                          : motion.unstable() ? "unstable"
-                                              : "undecided";
     return text(
         "stability: %s; largest Floquet multiplier %.9g +- %.2g, along the %d "
         "harmonics",
-        verdict, motion.largest(), motion.uncertainty(), solution.harmonics);
+        motion.verdict(), motion.largest(), motion.uncertainty(), solution.harmonics);
   } catch (const NoSolution& error) {
     return std::string("stability: not found; ") + error.what();
   }

@@ -36,14 +36,18 @@ struct ResponseRequest {
   std::optional<int> harmonics;  ///< of the saved branch, or 6
   std::optional<int> samples;
   double newton_tolerance = 1e-10;
-  std::string direction;      ///< "up", "down", or empty: the saved branch's, or up
-  double work = 1e6;          ///< evaluations of the force at most, for each branch
-  double operations = 3;      ///< at most, in billions, for all of it
-  std::string save, restart;  ///< files; empty for none
-  int branch = 1;             ///< number in the file `restart`
-  std::optional<double> at;   ///< speed to restart from [Hz]
-  int isolated = 0;           ///< speeds at which isolated branches are looked for
+  std::string direction;  ///< "up", "down", or empty: the saved branch's, or up
+  double work = 1e6;      ///< evaluations of the force at most, for each branch
+  std::optional<double> operations;  ///< at most, in billions, for all of it
+  std::string save, restart;         ///< files; empty for none
+  int branch = 1;                    ///< number in the file `restart`
+  std::optional<double> at;          ///< speed to restart from [Hz]
+  int isolated = 0;                  ///< speeds at which isolated branches are looked for
   int seed = 1;
+  bool stability = false;  ///< multipliers at each point, and the bifurcations
+
+  /** Without `operations` as many as the paper's machines need. */
+  double most_operations() const { return 1e9 * operations.value_or(stability ? 30 : 3); }
 };
 
 struct Exploration {

@@ -6,11 +6,11 @@ T. A contender is one method at one setting. Its `run` does all the work anew an
 is timed: plans and tables, the start, the transient or the iteration, at every speed.
 Writing the motions down afterwards belongs to the comparison and is timed for none.
 
-- *aft*: harmonic balance. The first speed starts cold, with few harmonics from quasi-static contact
-  and then twice as many at a time, or from the known solution before it; the others start from the
-  paper's predictor. Where that fails the speed starts cold, and last from a period of time integration.
-  The number of harmonics is the same at all speeds, or falls with the speed, or is raised until an
-  estimate of what is left out is small (left_out.hpp).
+- *aft*: harmonic balance. A speed starts from the paper's predictor; without one, or where Newton fails
+  from it, from quasi-static contact if the harmonics are few, and then from half a second of time
+  integration with coarse steps; where that fails too, with half as many harmonics more. The number of
+  harmonics is the same at all speeds, or falls with the speed, or is raised until an estimate of what
+  is left out is small (left_out.hpp).
 - *rk4* (fixed step) and GSL's steppers: a transient in seconds, whole periods, from the static load or
   from the known state; then from speed to speed.
 - *shooting-rk4*, *shooting-rk8pd*, …: Newton on the period map. From speed to speed the state is

@@ -91,10 +91,13 @@ public:
   AftSolver(const Task& task, const Setting& setting) : task_(task), setting_(setting)
   {
     newton_.tolerance = setting.tolerance;
+    newton_.most_iterations = 12;  // a new start is cheaper than a long iteration
+    newton_.most_halvings = 4;
     if (!task.before) return;
     balances_ = std::make_unique<Balances>(task_, setting_);
     const double frequency = task.before->frequency;
-    before_ = cold_start(angular(frequency), harmonics_at(setting_, frequency));
+    Eigen::VectorXd x;
+    if (solve_from(angular(frequency), harmonics_at(setting_, frequency), x)) before_ = x;
   }
 
   void run()
@@ -112,12 +115,7 @@ public:
       const double omega = angular(frequency);
       Eigen::VectorXd x;
       if (!predictor.empty()) x = predictor.at_speed(omega);
-      if (!solve_at(frequency, x)) {
-        predictor.clear();
-        x.resize(0);
-        if (!solve_at(frequency, x)) continue;
-      }
-      predictor.add(padded(x), omega);
+      if (solve_at(frequency, x)) predictor.add(padded(x), omega);
     }
   }
 
@@ -141,7 +139,7 @@ private:
   {
     int most = setting_.estimate > 0 ? most_harmonics : 0;
     for (double frequency : task_.frequencies)
-      most = std::max(most, harmonics_at(setting_, frequency));
+      most = std::max(most, 2 * harmonics_at(setting_, frequency));
     return resize_harmonics(x, 2, most);
   }
 
@@ -150,12 +148,16 @@ private:
     return setting_.estimate > 0 ? adapted_ : harmonics_at(setting_, frequency);
   }
 
-  /** From `x`, or cold if it is empty; with as many harmonics as the setting asks for. */
+  /** From `x`, or cold if it is empty; with as many harmonics as the setting asks for, or half as
+      many more where those have no solution. */
   bool solve_at(double frequency, Eigen::VectorXd& x)
   {
     const double omega = angular(frequency);
     int m = first_harmonics(frequency);
-    if (!solve_from(omega, m, x)) return false;
+    if (!solve_from(omega, m, x)) {
+      m += (m + 1) / 2;
+      if (!solve_from(omega, m, x)) return false;
+    }
     while (setting_.estimate > 0) {
       const int far = rounded_up(look_ahead(task_.parameters, omega, m));
       const LeftOut left_out =
@@ -171,34 +173,28 @@ private:
     return true;
   }
 
+  /** From `x`; without it, or where that fails, from quasi-static contact, which is near with few
+      harmonics only, and then from time integration. */
   bool solve_from(double omega, int m, Eigen::VectorXd& x)
   {
-    Balance& balance = balances_->with(m);
-    if (x.size() == 0) {
-      x = cold_start(omega, m);
-    } else {
-      x = resize_harmonics(x, 2, m);
-      if (!solve(balance, omega, x, newton_).converged()) return false;
+    constexpr int few = 12;
+    if (x.size() > 0 && converges(omega, m, x)) return true;
+    if (m <= few) {
+      x = quasi_static_start(task_.parameters, omega, m);
+      if (converges(omega, m, x)) return true;
     }
-    if (x.size() == 0) return false;
-    solutions_.back() = body_series(task_.parameters, balance, omega, x);
-    return true;
+    x = start_after_transient(task_.parameters, omega, m);
+    return converges(omega, m, x);
   }
 
-  /** With few harmonics from quasi-static contact, then with twice as many at a time; else from time
-      integration. Empty when none of this has a solution. */
-  Eigen::VectorXd cold_start(double omega, int harmonics)
+  bool converges(double omega, int m, Eigen::VectorXd& x)
   {
-    constexpr int few = 8;
-    const bool is_few = harmonics <= few;
-    Eigen::VectorXd x = is_few ? quasi_static_start(task_.parameters, omega, harmonics)
-                               : cold_start(omega, harmonics / 2);
-    if (x.size() > 0) x = resize_harmonics(x, 2, harmonics);
-    Balance& balance = balances_->with(harmonics);
-    if (x.size() > 0 && solve(balance, omega, x, newton_).converged()) return x;
-    x = start_after_transient(task_.parameters, omega, harmonics);
-    if (!solve(balance, omega, x, newton_).converged()) x.resize(0);
-    return x;
+    Balance& balance = balances_->with(m);
+    x = resize_harmonics(x, 2, m);
+    if (!solve(balance, omega, x, newton_).converged()) return false;
+    if (!solutions_.empty())
+      solutions_.back() = body_series(task_.parameters, balance, omega, x);
+    return true;
   }
 
   Task task_;

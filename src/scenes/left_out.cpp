@@ -56,14 +56,16 @@ Eigen::VectorXd start_after_transient(const Parameters& parameters, double omega
                                       int harmonics)
 {
   constexpr double transient = 0.5;
+  const double coarse = 4 * default_step(parameters);  ///< a start needs no more
   const int points = 2 * harmonics + 2;
   const long periods = std::lround(std::ceil(transient * omega / (2 * std::numbers::pi)));
   State state = quasi_static_state(parameters, omega);
-  const TimeStepper whole =
-      make_stepper(parameters, omega, {.method = "rk4", .intervals_per_period = 1});
+  const TimeStepper whole = make_stepper(
+      parameters, omega, {.method = "rk4", .intervals_per_period = 1, .step = coarse});
   for (long k = 0; k < periods; ++k) whole.advance(k, state);
   const TimeStepper parts =
-      make_stepper(parameters, omega, {.method = "rk4", .intervals_per_period = points});
+      make_stepper(parameters, omega,
+                   {.method = "rk4", .intervals_per_period = points, .step = coarse});
   Eigen::MatrixXd u(points, 2), series(2, 2 * harmonics + 1);
   for (int k = 0; k < points; ++k) {
     const Vec2 relative = state.position.relative();

@@ -48,6 +48,12 @@ struct Floquet {
   /** Whether the largest modulus is below 1 by more than its uncertainty. */
   bool stable() const { return settled && largest() + uncertainty() < 1; }
   bool unstable() const { return settled && largest() - uncertainty() > 1; }
+
+  /** "stable", "unstable", or "undecided" within the uncertainty. */
+  const char* verdict() const
+  {
+    return stable() ? "stable" : unstable() ? "unstable" : "undecided";
+  }
 };
 
 /** Throws NoSolution when the disturbances overflow or need too much work. */

@@ -2,6 +2,7 @@
 #include <algorithm>
 #include <catch2/catch.hpp>
 #include <numbers>
+#include <utility>
 
 #include "balance/bearing_problem.hpp"
 #include "continuation/arc_length.hpp"
@@ -69,7 +70,8 @@ TEST_CASE("Two masses, cubic springs: Neimark-Sacker points and folds as publish
   CHECK(followed.stability.missed == 0);
   const auto circle = followed.speeds(Bifurcation::neimark_sacker);
   REQUIRE(circle.size() == 2);
-  /** The public tool stepped over it; Hill's method below checks the point itself. */
+  /** The published speed is lower by 1e-4, its conditions unknown; Hill's method below checks the point
+      itself. */
   CHECK(circle[0] == Approx(1.1126).margin(2e-4));
   CHECK(circle[1] == Approx(1.1957).margin(5e-5));
   const auto folds = followed.speeds(Bifurcation::fold);
@@ -139,6 +141,66 @@ TEST_CASE(
   CHECK(high.stability.points.front().floquet.largest() < 1);
   CHECK(high.stability.points.back().floquet.largest() > 1);
   CHECK_FALSE(high.speeds(Bifurcation::period_doubling).empty());
+}
+
+TEST_CASE("Where some points are skipped, a change of stability is found all the same")
+{
+  const Oscillator oscillator = two_masses_cubic();
+  Balance balance(oscillator.problem(64), 5);
+  const ArcLengthSettings settings = steps(0.005);
+  const Branch branch = follow_branch(
+      balance, 1.05, 1.2, Eigen::VectorXd::Zero(balance.unknowns()), settings);
+  const Vibration vibration{oscillator.mass, oscillator.damping, oscillator.stiffness};
+  long asked = 0;
+  const auto floquet_at = [&](const BranchPoint& p) {
+    ++asked;
+    return floquet(vibration, stiffness_along(oscillator, p.x),
+                   2 * std::numbers::pi / p.omega);
+  };
+  const auto all = stability_along(balance, branch, settings, floquet_at);
+  const long asked_for_all = std::exchange(asked, 0);
+  BranchStabilitySettings few;
+  few.chosen = evenly_chosen(branch, 0.05, 4);
+  const auto some = stability_along(balance, branch, settings, floquet_at, few);
+  CHECK(asked < asked_for_all / 2);
+  CHECK(some.points.size() >= branch.points.size());
+
+  /** The same speeds of the bifurcations, and at each point the same verdict or none. */
+  const auto speeds = [](const BranchStability& stability) {
+    std::vector<double> found;
+    for (const StablePoint& p : stability.points)
+      if (p.bifurcation != Bifurcation::none) found.push_back(p.point.omega);
+    return found;
+  };
+  const auto exact = speeds(all), found = speeds(some);
+  REQUIRE(found.size() == exact.size());
+  REQUIRE_FALSE(found.empty());
+  for (std::size_t k = 0; k < found.size(); ++k)
+    CHECK(found[k] == Approx(exact[k]).epsilon(1e-6));
+  long unexamined = 0;
+  for (const StablePoint& p : some.points) {
+    if (!p.examined()) ++unexamined;
+    for (const StablePoint& q : all.points)
+      if (p.examined() && q.point.arc == p.point.arc)
+        CHECK(p.floquet.largest() == Approx(q.floquet.largest()));
+  }
+  CHECK(unexamined > 10);
+}
+
+TEST_CASE("A point whose multipliers cannot be had is kept without them")
+{
+  const Oscillator oscillator = two_masses_cubic();
+  Balance balance(oscillator.problem(64), 5);
+  const ArcLengthSettings settings = steps(0.02);
+  const Branch branch = follow_branch(
+      balance, 1.1, 1.13, Eigen::VectorXd::Zero(balance.unknowns()), settings);
+  const auto stability = stability_along(
+      balance, branch, settings,
+      [](const BranchPoint&) -> Floquet { throw NoSolution("no more work"); });
+  CHECK(stability.points.size() == branch.points.size());
+  CHECK(stability.failed == static_cast<int>(branch.points.size()));
+  CHECK(stability.failure == "no more work");
+  for (const StablePoint& p : stability.points) CHECK_FALSE(p.examined());
 }
 
 TEST_CASE("Bifurcations are the same whichever way the branch is walked")

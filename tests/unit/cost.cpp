@@ -54,7 +54,7 @@ TEST_CASE("Scenes of cost: bad input ends with status 2, its key and nothing els
     const char *program, *from, *to, *key;
   };
   const Bad cases[] = {
-      {"tab02_equal_error", "[1e-3, 1e-6]", "[1e-6, 1e-3]", "targets"},
+      {"tab02_equal_error", "[1e-2, 1e-3, 1e-6]", "[1e-6, 1e-3, 1e-2]", "targets"},
       {"tab02_equal_error", "[25.0, 60.0]", "[60.0, 25.0]", "range_ends_hz"},
       {"tab02_equal_error", "\"rkf45\"", "\"rkf46\"", "methods"},
       {"tab02_equal_error", "closures", "closure", "closures"},

@@ -1,0 +1,35 @@
+/**
+# Stability in the tables of explore
+
+Floquet multipliers within a bound on work, and what is said of them. */
+#pragma once
+
+#include "model/work.hpp"
+#include "output/table.hpp"
+#include "stability/branch_stability.hpp"
+
+namespace rotor_stator
+{
+
+/** Settings that keep the multipliers of one solution with m `harmonics` within `operations`. */
+FloquetSettings affordable_floquet(const Parameters& parameters, int harmonics,
+                                   double operations);
+
+/** The multipliers and bifurcations of a branch, as far as `work` goes; `balance` is the one the branch
+    was followed with. */
+BranchStability stability_within(const Work& work, const Parameters& parameters,
+                                 Balance& balance, const Branch& branch,
+                                 const ArcLengthSettings& settings);
+
+std::vector<Column> stability_columns();
+
+/** The cells of these columns; -1 for a multiplier that was not computed. */
+std::vector<Cell> stability_cells(const StablePoint& point);
+
+/** One line in all, then one line per bifurcation. */
+std::vector<std::string> stability_notes(const BranchStability& stability);
+
+/** What was not computed and why; empty when nothing is missing. */
+std::string missing_stability(const BranchStability& stability, const Work& work);
+
+}  // namespace rotor_stator
