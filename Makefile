@@ -123,7 +123,7 @@ deps-peers:
 	$(MAKE) deps packages="$(packages_peers)"
 
 # When deps is asked for, everything else waits for it, with -j too.
-build/.built: | $(filter deps,$(MAKECMDGOALS))
+build/.built $(untimed): | $(filter deps,$(MAKECMDGOALS))
 
 # ---------------------------------------------------------------------------------------------
 # Programs. CMake knows what each one needs: build/.built only says that it had nothing left to do,

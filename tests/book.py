@@ -1,7 +1,8 @@
 """Reads the pages as a reader would, in a headless browser.
 
-Every program and module has its page. All pages: every link leads somewhere, every picture has an alternative
-text, the HTML is valid, and none is longer than a sitting; a page with a figure has words of its own.
+Every program and module has its page. All pages: every link leads somewhere, every picture has an
+alternative text, the HTML is valid, and none is longer than a sitting; a page with a figure has words of
+its own.
 The index, two pages and the article, opened: no message of the browser, all pictures loaded, equations
 rendered, nothing wider than the window, and the search finds what is there and nothing else. Each
 is kept as a picture, 1280 and 400 pixels wide, in build/screenshots.
