@@ -450,7 +450,7 @@ format:  ## clang-format on all C++ sources
 	clang-format -i $$(find src tests -name '*.?pp')
 
 # Files in the order of their names, without dates or owners: the same commit gives the same archive.
-version = $(shell sed -nE 's/^project\(rotor_stator VERSION ([0-9.]+).*/\1/p' CMakeLists.txt)
+version = $(shell sed -nE 's/^project.rotor_stator VERSION ([0-9.]+).*/\1/p' CMakeLists.txt)
 archive = rotor-stator-$(version)
 
 dist: all  ## an archive of the commit with its tables, figures and pages: build/rotor-stator-VERSION.tar.gz
