@@ -123,7 +123,7 @@ deps-peers:
 	$(MAKE) deps packages="$(packages_peers)"
 
 # When deps is asked for, everything else waits for it, with -j too.
-build/.built: | $(filter deps,$(MAKECMDGOALS))
+build/.built $(untimed): | $(filter deps,$(MAKECMDGOALS))
 
 # ---------------------------------------------------------------------------------------------
 # Programs. CMake knows what each one needs: build/.built only says that it had nothing left to do,
@@ -321,14 +321,14 @@ data/generated/article.md: paper/include.py paper/article.md data/generated/arti
 	$(call whole,$(PYTHON) $^ > $$new)
 
 $(article): data/generated/article.md paper/render_article.py paper/article.html \
-  paper/book/weave.py paper/book/book.css paper/book/figures.toml paper/references.bib
+  paper/book/comments.py paper/book/book.css paper/book/figures.toml paper/references.bib
 	@mkdir -p $(@D)
 	$(PYTHON) paper/render_article.py $< $@
 
 pdf: build/paper/article.pdf  ## the article as PDF (its packages: make deps-pdf)
 
 build/paper/article.pdf: data/generated/article.md paper/render_article.py paper/article.tex \
-  paper/references.bib
+  paper/book/comments.py paper/references.bib
 	@mkdir -p $(@D)
 	$(PYTHON) paper/render_article.py $< $@
 
@@ -452,7 +452,7 @@ format:  ## clang-format on all C++ sources
 	clang-format -i $$(find src tests -name '*.?pp')
 
 # Files in the order of their names, without dates or owners: the same commit gives the same archive.
-version = $(shell sed -nE 's/^project\(rotor_stator VERSION ([0-9.]+).*/\1/p' CMakeLists.txt)
+version = $(shell sed -nE 's/^project.rotor_stator VERSION ([0-9.]+).*/\1/p' CMakeLists.txt)
 archive = rotor-stator-$(version)
 
 dist: all  ## an archive of the commit with its tables, figures and pages: build/rotor-stator-VERSION.tar.gz

@@ -17,7 +17,7 @@ from matplotlib.path import Path
 from matplotlib.ticker import MaxNLocator, MultipleLocator
 
 BALANCE = 1
-COLOURS = 40
+COLOURS = 24
 
 
 def force_map(panel):

@@ -1,7 +1,8 @@
 """Reads the pages as a reader would, in a headless browser.
 
-All pages: every link leads somewhere, every picture has an alternative text, the HTML is valid, and none
-is longer than a sitting; a page with a figure has words of its own.
+Every program and module has its page. All pages: every link leads somewhere, every picture has an
+alternative text, the HTML is valid, and none is longer than a sitting; a page with a figure has words of
+its own.
 The index, two pages and the article, opened: no message of the browser, all pictures loaded, equations
 rendered, nothing wider than the window, and the search finds what is there and nothing else. Each
 is kept as a picture, 1280 and 400 pixels wide, in build/screenshots.
@@ -94,8 +95,18 @@ def lengths(pages):
         own = words_in(re.split(r"<h2[^>]*>(?:What it makes|Where it stands)</h2>", prose)[0])
         if lines > MOST_CODE or own > MOST_WORDS:
             yield f"{page.name}: {lines} lines of code and {own} words are too much for one sitting"
+        if re.match(r"fig\d\d", page.name) and 'src="figures/' not in text:
+            yield f"{page.name}: shows no figure"
         if 'src="figures/' in text and own < LEAST_WORDS:
             yield f"{page.name}: shows a figure and has {own} words of its own"
+
+
+def without_page():
+    """Programs and modules that have no page."""
+    for source in sorted(Path("src").rglob("*.?pp")):
+        name = "-".join(source.with_suffix("").parts[1:]) + ".html"
+        if not (BOOK / name).exists():
+            yield f"{source}: no page {name}"
 
 
 def browser(profile):
@@ -163,7 +174,7 @@ def main():
     pages = sorted(BOOK.glob("*.html")) + [ARTICLE]
     SHOTS.mkdir(parents=True, exist_ok=True)
     sittings = [page for page in pages if page.name not in COLLECTIONS]
-    faults = [*broken_links(pages), *invalid(pages), *lengths(sittings)]
+    faults = [*broken_links(pages), *invalid(pages), *lengths(sittings), *without_page()]
     with tempfile.TemporaryDirectory() as profile:
         faults += opened(profile)
     for fault in faults:

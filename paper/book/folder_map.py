@@ -2,7 +2,7 @@
 arrow wherever one includes another, as thick as the number of includes."""
 ORDER = ["model", "balance", "continuation", "integration", "stability", "scenes", "output",
          "programs"]
-WIDTH, STEP, TOP, HEIGHT = 92, 102, 84, 40
+WIDTH, STEP, TOP, HEIGHT = 98, 104, 84, 40
 
 
 def folder_of(page):

@@ -17,6 +17,7 @@ import tomllib
 from concurrent.futures import ThreadPoolExecutor
 from pathlib import Path
 
+from comments import COMMENT, code_lines, markdown_of, with_files, with_names
 from folder_map import folder_map
 from overview import claims_section, deviations_section, gallery
 
@@ -25,11 +26,7 @@ DRAWN, TABLES = Path("figures/generated"), (Path("data/generated"), Path("data/r
 SHOWN = tomllib.loads((HERE / "figures.toml").read_text())
 REPOSITORY_FILES = ("book.css", "book.js")
 MOST_CODE = 250  # lines on a page
-COMMENT = re.compile(r"^[ \t]*/\*\*(.*?)\*/[ \t]*\n", re.DOTALL | re.MULTILINE)
 INCLUDE = re.compile(r'^#include "([^"]+)"', re.MULTILINE)
-EQUATION = re.compile(r"\$\$(.+?)\$\$", re.DOTALL)
-TAG = re.compile(r"\\tag\{([^}]*)\}")
-DEVIATION = re.compile(r"\bD-(\d\d)\b")
 
 
 class Page:
@@ -78,10 +75,6 @@ def script_of(figure):
                 for path in sorted(Path("figures").glob(figure + pattern + suffix)))
 
 
-def code_lines(file):
-    return sum(bool(line.strip()) for line in COMMENT.sub("", file.read_text()).split("\n"))
-
-
 def all_pages():
     """A header and its implementation are one page, or two where that is more than a sitting."""
     groups, pages = {}, []
@@ -94,39 +87,6 @@ def all_pages():
         if long:
             pages.append(Page(files[1:], part_of=pages[-1]))
     return pages
-
-
-def numbered(match):
-    """A displayed equation with the paper's number beside it."""
-    body = match[1]
-    tags = TAG.findall(body)
-    equation = f"$${TAG.sub('', body).strip()}$$"
-    if not tags:
-        return equation
-    return f"\n::: equation\n{equation}\n\n[({', '.join(tags)})]{{.number}}\n:::\n"
-
-
-def markdown_of(source):
-    """Comments as they are, code as fenced blocks."""
-    parts, at = [], 0
-    for comment in COMMENT.finditer(source):
-        parts += [code_block(source[at:comment.start()]), prose(comment[1])]
-        at = comment.end()
-    parts.append(code_block(source[at:]))
-    return "\n\n".join(part for part in parts if part)
-
-
-def prose(comment):
-    lines = comment.strip("\n").split("\n")
-    indent = min((len(line) - len(line.lstrip()) for line in lines[1:] if line.strip()), default=0)
-    text = "\n".join([lines[0].strip()] + [line[indent:].rstrip() for line in lines[1:]])
-    text = EQUATION.sub(numbered, text)
-    return DEVIATION.sub(r"[D-\1](deviations.html#d-\1)", text)
-
-
-def code_block(code):
-    code = code.strip("\n")
-    return f"````cpp\n{code}\n````" if code.strip() else ""
 
 
 def link(page):
@@ -196,12 +156,12 @@ def page_markdown(page, pages, output):
                         neighbours(page, pages)])
 
 
-def convert(markdown, title, target, navigation=""):
+def convert(markdown, title, target, navigation="", options=()):
     subprocess.run(
         ["pandoc", "--from", "markdown-markdown_in_html_blocks+tex_math_dollars", "--to", "html5",
          "--mathml", "--standalone", "--template", str(HERE / "template.html"),
          "--metadata", f"title={title}", "--variable", f"navigation={navigation}",
-         "--output", str(target)],
+         "--output", str(target), *options],
         input=markdown, text=True, check=True)
 
 
@@ -223,11 +183,15 @@ def chapters(pages):
 def index_markdown(found_chapters, pages):
     parts = [(HERE / "index.md").read_text(), folder_map(pages)]
     for chapter in found_chapters:
+        if not chapter["found"]:
+            continue
+        if chapter.get("after_results"):
+            parts += [claims_section(), deviations_section()]
         parts.append(f"## {chapter['title']}\n\n{chapter['introduction'].strip()}\n")
         parts.append("\n".join(f"- {link(page)} `{page.key}`" for page in chapter["found"]))
         parts.append(gallery([(page.file, page.title, name) for page in chapter["found"]
                               for name in page.figures()], SHOWN))
-    return "\n\n".join([*parts, claims_section(), deviations_section()])
+    return "\n\n".join(parts)
 
 
 def search_words(pages):
@@ -248,11 +212,6 @@ def navigation(order, k):
     return f'<span>{before}</span><a href="index.html">Index</a><span>{after}</span>'
 
 
-def with_names(deviations):
-    """Each entry can be pointed at by its number."""
-    return re.sub(r"^## D-(\d\d) (.*)$", r"## D-\1 \2 {#d-\1}", deviations, flags=re.MULTILINE)
-
-
 def main(output):
     for folder in ("figures", "tables", "scripts"):
         (output / folder).mkdir(parents=True, exist_ok=True)
@@ -270,10 +229,12 @@ def main(output):
 
     with ThreadPoolExecutor(2) as pool:
         list(pool.map(weave, range(len(order))))
+    back = '<a href="index.html">Index</a>'
+    cited = ("--citeproc", "--bibliography", "paper/references.bib", "--metadata", "link-citations=true")
     convert(with_names(Path("data/generated/deviations.md").read_text()), "Deviations",
-            output / "deviations.html", '<a href="index.html">Index</a>')
-    convert(Path("paper/guide.md").read_text(), "A study of one's own", output / "guide.html",
-            '<a href="index.html">Index</a>')
+            output / "deviations.html", back, cited)
+    convert(with_files(Path("paper/guide.md").read_text()), "A study of one's own",
+            output / "guide.html", back, cited)
     convert(index_markdown(found, pages), "Contents", output / "index.html")
 
 

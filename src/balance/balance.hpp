@@ -7,10 +7,14 @@ residual
 $$R_h = A_h q_h + B_h f_h(q) - c_h \tag{16}$$
 
 takes the force through time: Γ⁻¹ to samples, the force at each sample, Γ back to
-coefficients (Cameron and Griffin). The Jacobian A + J (Eqs 11, 12) is exact for the N
-samples used: with κ_p the discrete Fourier coefficients of a stiffness series, Γ diag(k)
-Γ⁻¹ has the entries of a Toeplitz plus a Hankel matrix, so no product with Γ is ever
-formed. Its product with a vector takes the way of the residual, through the samples. */
+coefficients (Cameron and Griffin). The Jacobian is A + J with
+
+$$J = \Gamma\, \mathrm{diag}\!\left(\partial f/\partial q\,(\varphi_k)\right) \Gamma^{-1}, \tag{12}$$
+
+exact for the N samples used: with κ_p the discrete Fourier coefficients of a stiffness
+series, Γ diag(k) Γ⁻¹ has the entries of a Toeplitz plus a Hankel matrix, so no product
+with Γ is ever formed. Its product with a vector takes the way of the residual, through
+the samples. */
 #pragma once
 
 #include <Eigen/Core>

@@ -1,11 +1,23 @@
 /**
 # Newton's method, globalised (Eqs 14, 15, 17 and 18)
 
-X ← X + λΔX with (A + J)ΔX = -R: Eq. 15 as it follows from Eq. 10 (D-06). The step is
-halved until the residual decreases. Both criteria of the paper are reported, relative to
-the problem's scales (D-22): δ₁ = ‖R‖ (Eq. 17) and δ₂ = ‖ΔX‖ (Eq. 18). The iteration has
-converged when δ₁ ≤ tolerance and δ₂ ≤ √tolerance: Newton's convergence is quadratic, so a
-last step of √tolerance leaves an error of the order of the tolerance. */
+The step follows from the linearised balance at a fixed speed (Eq. 10; the paper's Eq. 15 does
+not follow from it, D-06):
+
+$$X \leftarrow X + \lambda \Delta X, \tag{14}$$
+
+$$(A + J)\,\Delta X = -R. \tag{15}$$
+
+λ is 1 and halved until the residual decreases. Both criteria of the paper are reported,
+relative to the problem's scales (D-22):
+
+$$\delta_1 = \|R\|, \tag{17}$$
+
+$$\delta_2 = \|\Delta X\|. \tag{18}$$
+
+The iteration has converged when δ₁ ≤ tolerance and δ₂ ≤ √tolerance: Newton's convergence
+is quadratic, so a last step of √tolerance leaves an error of the order of the tolerance.
+*/
 #pragma once
 
 #include <Eigen/Core>

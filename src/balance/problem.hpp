@@ -6,8 +6,16 @@ A system with d nonlinear unknowns q(t) gives, for each harmonic h, one linear b
 $$A_h(\omega)\, q_h + B_h(\omega)\, f_h(q) = c_h(\omega),$$
 
 in complex amplitudes, q(φ) = Re Σ q_h e^{ihφ}, where f_h is the harmonic of its nonlinear
-force f(q, φ). The plain form of Eq. 8 is A = K - (hω)²M + ihωC, B = 1, c = the load; a
-system with linear inner unknowns condenses them into A, B and c. The bearing is one such
+force f(q, φ). For the equations of motion
+
+$$M\ddot q + C\dot q + Kq + f(q, \varphi) = p(\varphi) \tag{8}$$
+
+that block is
+
+$$A_h = K - (h\omega)^2 M + i h\omega C, \tag{11}$$
+
+with B = 1 and c the harmonic of the load p (the paper forgets h in one of the two diagonal
+entries, D-12). A system with linear inner unknowns condenses them into A, B and c. The bearing is one such
 problem, the Duffing oscillator of the tests another. */
 #pragma once
 

@@ -8,9 +8,16 @@ $$\delta s_{i+1} = \sqrt{\|X_{i+1} - X_i\|^2 / \ell^2 + (\omega_{i+1} - \omega_i
 \omega_{ref}^2}, \tag{19}$$
 
 with X scaled by a length ℓ and ω by a reference speed: as printed, metres are added to
-rad/s and ω alone decides (D-03). The cubic through them is read at S_4 = S_3 + Δs (Eq. 20
-with S_4 in the numerator; as printed, with S_3, it returns the last point unchanged,
-D-02). With fewer points the polynomial has a lower degree. */
+rad/s and ω alone decides (D-03). Summed up,
+
+$$S_0 = 0, \quad S_{i+1} = S_i + \delta s_{i+1}, \quad S_4 = S_3 + \Delta s, \tag{21}$$
+
+they are the argument of the cubic through the four points, which is read at S_4:
+
+$$(X_4, \omega_4) = \sum_{i=0}^{3} \Big(\prod_{j \ne i} \frac{S_4 - S_j}{S_i - S_j}\Big)\,
+(X_i, \omega_i). \tag{20}$$
+
+As printed, with S_3 in the numerator, it returns the last point unchanged (D-02). With fewer points the polynomial has a lower degree. */
 #pragma once
 
 #include <Eigen/Core>

@@ -1,7 +1,11 @@
 /**
 # The ball bearing (Eqs 3 to 6)
 
-Ball j stands at θ_j = ω_cage t + 2π(j-1)/n (Eq. 3). It is squeezed by
+Ball j stands at
+
+$$\theta_j = \omega_{cage}\, t + 2\pi (j-1)/n \tag{3}$$
+
+and is squeezed by
 
 $$\Delta_j = \cos\theta_j\,(x_r - x_s) + \sin\theta_j\,(y_r - y_s), \tag{4}$$
 

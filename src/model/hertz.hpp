@@ -38,8 +38,11 @@ struct Solid {
   double poisson_ratio;
 };
 
-/** Eq. 2: K_H = 4/3 √R_b E* [N/m^{3/2}] for a ball of radius `ball_radius` [m] on a flat,
-   with 1/E* = (1-ν₁²)/E₁ + (1-ν₂²)/E₂. The figures take K_H from Table 1 instead (D-07:
+/** The contact stiffness [N/m^{3/2}] of a ball of radius R_b = `ball_radius` [m] on a flat:
+
+   $$K_H = \tfrac43 \sqrt{R_b}\, E^*, \qquad 1/E^* = (1-\nu_1^2)/E_1 + (1-\nu_2^2)/E_2. \tag{2}$$
+
+   The figures take K_H from Table 1 instead (D-07:
    on steel Table 1's 1e11 would need a ball of 0.42 m). */
 inline double hertz_contact_stiffness(double ball_radius, const Solid& a, const Solid& b)
 {
