@@ -12,92 +12,22 @@ namespace rotor_stator
 namespace
 {
 
-/** A Newton iteration that halves its steps again and again seldom ends well here, where the start is
-    good or another one follows. */
-constexpr int few_halvings = 4;
+/** A Newton iteration that takes many steps, or halves them again and again, seldom ends well here,
+    where another start follows; the less so from a good one. */
+constexpr int few_iterations = 12, few_halvings = 4;
+constexpr int few_warm_iterations = 8, few_warm_halvings = 2;
 
 constexpr double infinite = std::numeric_limits<double>::infinity();
-
-/** A series with `columns` columns, filled with zeros. */
-Eigen::MatrixXd widened(const Eigen::MatrixXd& series, Eigen::Index columns)
-{
-  Eigen::MatrixXd wide = Eigen::MatrixXd::Zero(series.rows(), columns);
-  wide.leftCols(series.cols()) = series;
-  return wide;
-}
-
-int harmonics_of(const Eigen::MatrixXd& series)
-{
-  return static_cast<int>(series.cols() / 2);
-}
-
-double largest(const Eigen::MatrixXd& series)
-{
-  const int points = fast_transform_size(std::max(64, 4 * harmonics_of(series) + 1));
-  return sample_series(series, points).cwiseAbs().maxCoeff();
-}
 
 /** Sum of the amplitudes of the harmonics above m, of the row where it is largest. */
 double tail(const Eigen::MatrixXd& series, int m)
 {
   Eigen::VectorXd sum = Eigen::VectorXd::Zero(series.rows());
-  for (int h = m + 1; h <= harmonics_of(series); ++h)
+  for (int h = m + 1; h <= static_cast<int>(series.cols() / 2); ++h)
     sum +=
         (series.col(2 * h - 1).cwiseAbs2() + series.col(2 * h).cwiseAbs2()).cwiseSqrt();
   return sum.maxCoeff();
 }
-
-}  // namespace
-
-double series_difference(const Eigen::MatrixXd& series, const Eigen::MatrixXd& reference)
-{
-  const auto columns = std::max(series.cols(), reference.cols());
-  const double size = largest(reference);
-  const double off = largest(widened(series, columns) - widened(reference, columns));
-  return size > 0 ? off / size : off > 0 ? infinite : 0;
-}
-
-int adaptive_samples(int harmonics)
-{
-  return fast_transform_size(std::max(32, 4 * harmonics + 1));
-}
-
-Refined estimate_error(const ObservedProblem& observed, double omega,
-                       const Discretised& coarse, const EstimateSettings& settings)
-{
-  const int m = 3 * coarse.harmonics;
-  const int n = fast_transform_size(std::max(8 * coarse.harmonics, 2 * coarse.samples));
-  Balance balance(observed.problem(n), m);
-  const Problem& problem = balance.problem();
-  Refined refined{{infinite, false, m, n, 0, 0}, {m, n, {}, {}}};
-  auto& [estimate, finer] = refined;
-  finer.x = resize_harmonics(coarse.x, problem.dofs, m);
-
-  /** Newton's step, and as many more as it takes until what is left of the residual is small
-     against the estimate, which a resonance of the contact magnifies more than a hundredfold. */
-  constexpr double small = 0.003;
-  constexpr int most_steps = 8;
-  const double unit = small * largest(coarse.series) / problem.unknown_scale;
-  double error = settings.interesting;
-  while (!estimate.settled && estimate.newton < most_steps) {
-    const double goal = std::max(unit * error, settings.newton_tolerance);
-    const NewtonReport report = solve(balance, omega, finer.x,
-                                      {.tolerance = goal,
-                                       .most_iterations = most_steps - estimate.newton,
-                                       .most_halvings = few_halvings});
-    estimate.newton += report.iterations;
-    estimate.force_samples = balance.evaluations() * n;
-    if (!report.converged()) break;
-    finer.series = observed.series(balance, finer.x);
-    error = estimate.displacement = series_difference(coarse.series, finer.series);
-    estimate.settled =
-        report.delta_1 <= std::max(unit * error, settings.newton_tolerance);
-  }
-  return refined;
-}
-
-namespace
-{
 
 /** The search for m, level by level. */
 class Search
@@ -109,10 +39,11 @@ public:
         omega_(omega),
         cold_solve_(cold_solve),
         settings_(settings),
+        estimate_tolerance_(settings.newton.tolerance),
         result_{}
   {
-    constexpr int few_iterations = 12;
     NewtonSettings& newton = settings_.newton;
+    newton.tolerance = level_tolerance(settings);
     newton.most_iterations = std::min(newton.most_iterations, few_iterations);
     newton.most_halvings = std::min(newton.most_halvings, few_halvings);
   }
@@ -158,9 +89,12 @@ private:
   bool warm(int m, int n)
   {
     if (start_.size() == 0) return false;
+    NewtonSettings warmly = settings_.newton;
+    warmly.most_iterations = std::min(warmly.most_iterations, few_warm_iterations);
+    warmly.most_halvings = std::min(warmly.most_halvings, few_warm_halvings);
     Balance balance(observed_.problem(n), m);
     Eigen::VectorXd x = resize_harmonics(start_, balance.problem().dofs, m);
-    const NewtonReport newton = solve(balance, omega_, x, settings_.newton);
+    const NewtonReport newton = solve(balance, omega_, x, warmly);
     result_.force_samples += balance.evaluations() * n;
     if (!newton.converged()) return false;
     result_.newton = newton;
@@ -181,8 +115,8 @@ private:
   /** Whether the estimate is good enough; otherwise it is what the next level starts from. */
   bool estimate_level()
   {
-    Refined refined = estimate_error(observed_, omega_, result_.solution,
-                                     {settings_.tolerance, settings_.newton.tolerance});
+    Refined refined =
+        estimate_error(observed_, omega_, result_.solution, estimate_tolerance_);
     result_.estimate = result_.levels.back().estimate = refined.estimate;
     result_.force_samples += refined.estimate.force_samples;
     finer_ = refined.estimate.settled ? std::move(refined.finer) : Discretised{};
@@ -225,6 +159,7 @@ private:
   double omega_;
   const ColdSolve& cold_solve_;
   AdaptiveSettings settings_;
+  double estimate_tolerance_;
   AdaptiveBalance result_;
   Discretised finer_{};
   Eigen::VectorXd start_;
@@ -232,6 +167,11 @@ private:
 };
 
 }  // namespace
+
+double level_tolerance(const AdaptiveSettings& settings)
+{
+  return std::max(settings.newton.tolerance, 1e-3 * settings.tolerance);
+}
 
 AdaptiveBalance solve_adaptively(const ObservedProblem& observed, double omega,
                                  const ColdSolve& cold_solve,

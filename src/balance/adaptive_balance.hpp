@@ -7,9 +7,9 @@ A solution with m harmonics and N samples leaves a residual R in a finer discret
 $$\delta = -(A + J)^{-1} R,$$
 
 which is one Newton step from the solution, filled with zeros, towards that of the finer one: it holds
-what was truncated, what that does to the harmonics kept, and the error of sampling. Where the step
-does not end near the finer solution, as at a superharmonic resonance of the contact, more steps
-are taken until it does. The step is not wasted: it says how large each dropped harmonic is, hence how many
+what was truncated, what that does to the harmonics kept, and the error of sampling. The next step,
+from there, says what the first one left: where it is not small against it, as at a superharmonic
+resonance of the contact, more are taken until it is. The step is not wasted: it says how large each dropped harmonic is, hence how many
 are needed, and it is what the next solution starts from.
 
 Three times m, because the coefficients do not fall monotonically: with two, a contact resonance above
@@ -43,16 +43,10 @@ struct Discretised {
 struct ErrorEstimate {
   double displacement;     ///< largest difference over the rows and the period, over the
                            ///< largest value [-]; infinite when nothing was found
-  bool settled;            ///< Newton's steps contracted: the estimate can be relied on
+  bool settled;            ///< the last step is small: the estimate can be relied on
   int harmonics, samples;  ///< m' and N' of the finer discretisation
   int newton;              ///< steps taken there
   long force_samples;      ///< evaluations of the force times N'
-};
-
-struct EstimateSettings {
-  double interesting =
-      1e-3;  ///< the estimate is first made accurate for an error of this size [-]
-  double newton_tolerance = 1e-10;
 };
 
 /** The error of `coarse`, and the finer solution it was measured with. */
@@ -61,7 +55,7 @@ struct Refined {
   Discretised finer;
 };
 Refined estimate_error(const ObservedProblem& observed, double omega,
-                       const Discretised& coarse, const EstimateSettings& settings = {});
+                       const Discretised& coarse, double newton_tolerance = 1e-10);
 
 /** Samples with m harmonics: half of `default_samples`, since here the error of sampling is estimated
     with the rest. */
@@ -74,6 +68,10 @@ struct AdaptiveSettings {
   int most_harmonics = 512;  ///< of the solution, not of its estimate
   NewtonSettings newton = {};
 };
+
+/** What Newton solves each level to, relative: a thousandth of the tolerance where that is more than
+    its own, since the estimate covers it. */
+double level_tolerance(const AdaptiveSettings& settings);
 
 /** One number of harmonics that was tried. */
 struct AdaptiveLevel {

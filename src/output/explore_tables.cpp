@@ -51,6 +51,13 @@ void check(const MotionRequest& request)
 
 constexpr int usual_harmonics = 6;
 
+/** When the tolerance chooses m. */
+AdaptiveSettings settings_of(const MotionRequest& request)
+{
+  return {.tolerance = *request.tolerance,
+          .newton = {.tolerance = request.newton_tolerance}};
+}
+
 /** Without a tolerance any error is accepted, and none is estimated. */
 AdaptiveSolution solved(const Parameters& parameters, const MotionRequest& request)
 {
@@ -68,8 +75,7 @@ AdaptiveSolution solved(const Parameters& parameters, const MotionRequest& reque
   }
   if (request.harmonics)
     return find_with_error(parameters, omega, m, n, *request.tolerance, newton, work);
-  return solve_adaptively(parameters, omega,
-                          {.tolerance = *request.tolerance, .newton = newton}, work);
+  return solve_adaptively(parameters, omega, settings_of(request), work);
 }
 
 /** What the Floquet multipliers say of a solution. */
@@ -100,8 +106,11 @@ Motion balance_motion(const Parameters& parameters, const MotionRequest& request
   if (!at.reached)
     throw NoSolution(text("%s: %s at %g Hz: %s", parameters.file.c_str(), wanted.c_str(),
                           request.frequency, at.end.c_str()));
-  table.note(text("method: aft, m = %d, N = %d, relative tolerance of Newton %g",
-                  at.solution.harmonics, at.solution.samples, request.newton_tolerance));
+  const bool is_chosen = request.tolerance && !request.harmonics;
+  table.note(
+      text("method: aft, m = %d, N = %d, relative tolerance of Newton %g",
+           at.solution.harmonics, at.solution.samples,
+           is_chosen ? level_tolerance(settings_of(request)) : request.newton_tolerance));
   table.note("newton: from " + at.solution.start + ", " + at.solution.newton.reason());
   if (request.tolerance)
     table.note(
