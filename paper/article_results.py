@@ -104,13 +104,14 @@ def stability(add):
     table, lines = Table(KEPT / "stability.tsv"), []
     for curve in np.unique(table["curve"]):
         rows = table.where("curve", curve)
-        unstable = (rows["stable"] == 0).mean()
+        decided = rows["stable"] >= 0
+        unstable = (rows["stable"][decided] == 0).mean() if decided.any() else 0
         kinds = [f"{(rows['bifurcation'] == kind).sum()} {name}" for kind, name in
                  (("fold", "folds"), ("plus-one", "multipliers through one"),
                   ("period-doubling", "period doublings"), ("neimark-sacker", "Neimark-Sacker points"))]
         lines.append(f"- data set {rows.first('set'):.0f}, {rows.first('harmonics'):.0f} harmonics, from "
-                     f"{rows['f'][0]:.3g} to {rows['f'][-1]:.3g} Hz: {100 * unstable:.2g} % of the points "
-                     f"unstable; {', '.join(kinds)}.")
+                     f"{rows['f'][0]:.3g} to {rows['f'][-1]:.3g} Hz: of {decided.sum()} points with a verdict "
+                     f"{100 * unstable:.2g} % unstable; {', '.join(kinds)}.")
     add("stability.list", r"\n".join(lines), "-", "stability along the followed branches")
 
 

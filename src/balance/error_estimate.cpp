@@ -1,4 +1,7 @@
-/** The error of a solution, by Newton's first steps in a finer discretisation. */
+/**
+# The error of a solution
+
+Estimated by Newton's first steps in a finer discretisation (adaptive_balance.hpp). */
 #include <cmath>
 #include <limits>
 
