@@ -43,7 +43,7 @@ def explore(command, parameter_file, may_stop=False, **options):
     not reach its end, and whether it did not."""
     words = [str(ROOT / "build/explore"), command, parameter_file]
     for name, value in options.items():
-        words += ["--" + name, str(value)]
+        words += ["--" + name.replace("_", "-"), str(value)]
     done = subprocess.run(words, cwd=ROOT, stdout=subprocess.PIPE, text=True, check=False)
     if may_stop and done.stdout:
         return Table(done.stdout), done.returncode != 0
@@ -55,7 +55,7 @@ def explore(command, parameter_file, may_stop=False, **options):
 def orbit(parameter_file, frequency, harmonics, points):
     """One period by harmonic balance."""
     return explore("orbit", parameter_file, frequency=frequency, harmonics=harmonics,
-                   points=points, tolerance=1e-12)
+                   points=points, newton_tolerance=1e-12)
 
 
 def displacements(table):
