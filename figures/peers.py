@@ -34,8 +34,8 @@ def draw_costs(axes, rows, error):
             axes.plot(*front(part, error), line, color=colour, marker=marker, ms=4.5, mfc=face,
                       mew=1, lw=1)
     axes.set(xscale="log", yscale="log")
-    for axis in (axes.xaxis, axes.yaxis):
-        axis.set_major_locator(LogLocator(numticks=5))
+    for axis, most in ((axes.xaxis, 3), (axes.yaxis, 5)):
+        axis.set_major_locator(LogLocator(numticks=most))
         axis.set_minor_locator(LogLocator(subs=[1], numticks=20))
         axis.set_minor_formatter("")
     axes.grid(color="#d9d9d9", lw=0.7)
