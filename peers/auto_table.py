@@ -81,9 +81,12 @@ def describe(scene, curve, amplitudes):
 
 
 def own_branch(scene, curve):
-    """Our branch over the same speeds, one line for each number of harmonics."""
+    """Our branch over the same speeds from the same end, one line for each number of harmonics; as much
+    work as it takes."""
     speeds = [row[2] for row in curve["rows"]]
-    bounds = {"from": min(speeds), "to": max(speeds)}
+    upwards = curve["run"]["from_hz"] < curve["run"]["to_hz"]
+    bounds = {"from": min(speeds), "to": max(speeds), "direction": "up" if upwards else "down",
+              "operations": 1000}
     for harmonics in scene["own_harmonics"]:
         seconds = []
         for _ in range(scene["own_repetitions"]):
