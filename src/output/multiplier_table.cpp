@@ -34,9 +34,7 @@ std::vector<Cell> row_of(const MultiplierPoint& p)
           p.harmonics,
           1,
           largest,
-          p.floquet.stable()     ? 1
-          : p.floquet.unstable() ? 0
-                                 : -1,
+          p.floquet.stable_number(),
           p.floquet.change,
           p.floquet.liouville,
           p.hill[0],

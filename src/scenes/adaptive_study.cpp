@@ -36,19 +36,14 @@ Motion exact_motion(const Parameters& parameters, const PeriodicSolution& soluti
                     int points)
 {
   constexpr double tolerance = 1e-13;
-  Motion motion{points, 0, {}};
   State state = state_of(solution);
   const Shooting shooting = shoot(parameters, solution.omega, state,
                                   {.tolerance = tolerance, .closure = 1e-11});
-  if (!shooting.converged) return motion;
+  if (!shooting.converged) return {points, 0, {}};
   const TimeStepper stepper =
       make_stepper(parameters, solution.omega,
                    {.intervals_per_period = points, .tolerance = tolerance});
-  for (int k = 0; k < points; ++k) {
-    motion.positions.push_back(state.position);
-    stepper.advance(k, state);
-  }
-  return motion;
+  return recorded(stepper, points, state);
 }
 
 namespace

@@ -93,6 +93,9 @@ public:
     newton_.tolerance = setting.tolerance;
     newton_.most_iterations = 12;  // a new start is cheaper than a long iteration
     newton_.most_halvings = 4;
+    longest_ = setting.estimate > 0 ? most_harmonics : 0;
+    for (double frequency : task.frequencies)
+      longest_ = std::max(longest_, 2 * harmonics_at(setting, frequency));
     if (!task.before) return;
     balances_ = std::make_unique<Balances>(task_, setting_);
     const double frequency = task.before->frequency;
@@ -134,13 +137,10 @@ public:
 private:
   static constexpr int most_harmonics = 1024;
 
-  /** The predictor's vectors have the length of the largest m. */
+  /** The predictor's vectors all have one length. */
   Eigen::VectorXd padded(const Eigen::VectorXd& x) const
   {
-    int most = setting_.estimate > 0 ? most_harmonics : 0;
-    for (double frequency : task_.frequencies)
-      most = std::max(most, 2 * harmonics_at(setting_, frequency));
-    return resize_harmonics(x, 2, most);
+    return resize_harmonics(x, 2, longest_);
   }
 
   int first_harmonics(double frequency) const
@@ -201,6 +201,7 @@ private:
   Setting setting_;
   NewtonSettings newton_;
   Eigen::VectorXd before_;
+  int longest_;      ///< harmonics of the predictor's vectors
   int adapted_ = 0;  ///< harmonics that the estimate asked for last
   std::unique_ptr<Balances> balances_;
   std::vector<Eigen::MatrixXd> solutions_;  ///< of both bodies; empty where not found
@@ -210,10 +211,7 @@ private:
 
 Contender aft_contender(const Task& task, const Setting& setting)
 {
-  const auto solver = std::make_shared<AftSolver>(task, setting);
-  return {.run = [solver] { solver->run(); },
-          .motions = [solver](int points) { return solver->motions(points); },
-          .counts = [solver] { return solver->counts(); }};
+  return contender<AftSolver>(task, setting);
 }
 
 }  // namespace rotor_stator

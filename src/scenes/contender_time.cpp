@@ -40,23 +40,18 @@ StepperSettings stepper_settings(const Setting& setting, int intervals)
 }
 
 /** One period from each state, by the same method at the same setting. */
-Motions recorded(const Task& task, const Setting& setting, int points,
-                 const std::vector<std::optional<Reached>>& reached)
+Motions periods_from(const Task& task, const Setting& setting, int points,
+                     const std::vector<std::optional<Reached>>& reached)
 {
   Motions motions;
   for (const auto& start : reached) {
     motions.emplace_back();
     if (!start) continue;
     State state = start->state;
-    Motion motion{points, start->periods, {}};
     try {
       const TimeStepper stepper = make_stepper(task.parameters, angular(start->frequency),
                                                stepper_settings(setting, points));
-      for (long k = 0; k < points; ++k) {
-        motion.positions.push_back(state.position);
-        stepper.advance(start->periods * points + k, state);
-      }
-      motions.back() = std::move(motion);
+      motions.back() = recorded(stepper, points, state, start->periods);
     } catch (const NoSolution&) {
       // the state was no motion
     }
@@ -92,7 +87,7 @@ public:
 
   Motions motions(int points) const
   {
-    return recorded(task_, setting_, points, reached_);
+    return periods_from(task_, setting_, points, reached_);
   }
   Counts counts() const { return counts_; }
 
@@ -136,7 +131,7 @@ public:
 
   Motions motions(int points) const
   {
-    return recorded(task_, setting_, points, reached_);
+    return periods_from(task_, setting_, points, reached_);
   }
   Counts counts() const { return counts_; }
 
@@ -185,24 +180,16 @@ private:
   Counts counts_;
 };
 
-template <class Solver>
-Contender wrap(std::shared_ptr<Solver> solver)
-{
-  return {.run = [solver] { solver->run(); },
-          .motions = [solver](int points) { return solver->motions(points); },
-          .counts = [solver] { return solver->counts(); }};
-}
-
 }  // namespace
 
 Contender time_contender(const Task& task, const Setting& setting)
 {
-  return wrap(std::make_shared<Transients>(task, setting));
+  return contender<Transients>(task, setting);
 }
 
 Contender shooting_contender(const Task& task, const Setting& setting)
 {
-  return wrap(std::make_shared<Shots>(task, setting));
+  return contender<Shots>(task, setting);
 }
 
 }  // namespace rotor_stator

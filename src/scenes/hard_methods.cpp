@@ -29,13 +29,8 @@ Motion period_from(const Parameters& parameters, double omega, const State& star
                                             .intervals_per_period = compared_points,
                                             .tolerance = 1e-11,
                                             .most_evaluations = 1e8});
-  Motion motion{compared_points, 0, {}};
   State state = start;
-  for (int k = 0; k < compared_points; ++k) {
-    motion.positions.push_back(state.position);
-    stepper.advance(k, state);
-  }
-  return motion;
+  return recorded(stepper, compared_points, state);
 }
 
 double distance(const Motion& motion, const Motion& reference)

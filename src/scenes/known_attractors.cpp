@@ -61,12 +61,8 @@ Motion motion_on(const KnownAttractor& attractor, const Parameters& parameters,
       make_stepper(parameters, angular(attractor.frequency),
                    {.method = "rk4", .intervals_per_period = points_per_period});
   const long own = attractor.closed() ? attractor.period : periods;
-  Motion motion{points_per_period, 0, {}};
   State state = attractor.state;
-  for (long k = 0; k < own * points_per_period; ++k) {
-    motion.positions.push_back(state.position);
-    stepper.advance(k, state);
-  }
+  Motion motion = recorded(stepper, points_per_period, state, 0, own);
   const std::size_t once = motion.size();
   const auto whole = static_cast<std::size_t>(periods) * points_per_period;
   for (std::size_t k = once; k < whole; ++k)

@@ -6,6 +6,7 @@
 
 #include "integration/time_stepper.hpp"
 #include "model/quasi_static_state.hpp"
+#include "scenes/motion.hpp"
 
 namespace rotor_stator
 {
@@ -66,15 +67,9 @@ Eigen::VectorXd start_after_transient(const Parameters& parameters, double omega
   const TimeStepper parts =
       make_stepper(parameters, omega,
                    {.method = "rk4", .intervals_per_period = points, .step = coarse});
-  Eigen::MatrixXd u(points, 2), series(2, 2 * harmonics + 1);
-  for (int k = 0; k < points; ++k) {
-    const Vec2 relative = state.position.relative();
-    u.row(k) << relative.x, relative.y;
-    parts.advance(k, state);
-  }
-  if (!u.allFinite()) return Eigen::VectorXd::Zero(series.size());
-  FourierTransform(points).to_series(u, series);
-  return series.reshaped();
+  Eigen::VectorXd x = relative_series(recorded(parts, points, state), harmonics);
+  if (!x.allFinite()) x.setZero();
+  return x;
 }
 
 }  // namespace rotor_stator

@@ -34,6 +34,17 @@ double Motion::phase(std::size_t k) const
   return 2 * std::numbers::pi * (static_cast<double>(first_period) + t_over_period(k));
 }
 
+Eigen::VectorXd relative_series(const Motion& motion, int harmonics)
+{
+  Eigen::MatrixXd u(motion.size(), 2), series(2, 2 * harmonics + 1);
+  for (std::size_t k = 0; k < motion.size(); ++k) {
+    const Vec2 relative = motion.positions[k].relative();
+    u.row(static_cast<Eigen::Index>(k)) << relative.x, relative.y;
+  }
+  FourierTransform(static_cast<int>(u.rows())).to_series(u, series);
+  return series.reshaped();
+}
+
 Motion motion_of(const Eigen::MatrixXd& bodies, int points)
 {
   const Eigen::MatrixXd samples = sample_series(bodies, points);

@@ -32,6 +32,25 @@ struct Motion {
   double phase(std::size_t k) const;
 };
 
+/** Whole periods by a stepper that cuts each into P intervals, from `state` at the start of period
+    `first_period`; `state` is left at their end. */
+template <class Stepper>
+Motion recorded(Stepper& stepper, int points_per_period, State& state,
+                long first_period = 0, long periods = 1)
+{
+  Motion motion{points_per_period, first_period, {}};
+  const long begin = first_period * points_per_period;
+  for (long k = begin; k < begin + periods * points_per_period; ++k) {
+    motion.positions.push_back(state.position);
+    stepper.advance(k, state);
+  }
+  return motion;
+}
+
+/** The relative motion u of one period as the unknowns of a balance: 2 × (2m+1) coefficients as a
+    vector [m]. */
+Eigen::VectorXd relative_series(const Motion& motion, int harmonics);
+
 /** A periodic solution by harmonic balance. */
 struct PeriodicSolution {
   double omega;            ///< [rad/s]

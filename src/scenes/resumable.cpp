@@ -1,15 +1,13 @@
 #include "scenes/resumable.hpp"
 
-#include <atomic>
-#include <exception>
 #include <fstream>
 #include <mutex>
 #include <optional>
 #include <sstream>
-#include <thread>
 
 #include "model/errors.hpp"
 #include "model/progress.hpp"
+#include "scenes/two_threads.hpp"
 
 namespace rotor_stator
 {
@@ -56,50 +54,24 @@ std::ofstream begin_journal(const Study& study, const Rows& rows)
   return out;
 }
 
-/** What the threads share. */
-struct Workshop {
-  const Study& study;
-  Rows rows;
-  std::ofstream journal;
-  Progress progress;
-  std::atomic<std::size_t> next{0};
-  std::mutex mutex;
-  std::exception_ptr failure;
-
-  void work_until_done()
-  {
-    for (std::size_t piece; (piece = next++) < study.pieces;) {
-      if (rows[piece]) continue;
-      try {
-        Row row = study.work(piece);
-        const std::lock_guard lock(mutex);
-        journal << journal_line(piece, row) << std::flush;
-        rows[piece] = std::move(row);
-        progress.step();
-      } catch (...) {
-        const std::lock_guard lock(mutex);
-        failure = std::current_exception();
-        next = study.pieces;
-      }
-    }
-  }
-};
-
 }  // namespace
 
 std::vector<Row> run_study(const Study& study)
 {
   Rows known = read_journal(study);
   std::ofstream journal = begin_journal(study, known);
-  Workshop workshop{
-      study, std::move(known), std::move(journal), {study.name, study.pieces}, 0, {}, {}};
-  {
-    std::jthread other([&] { workshop.work_until_done(); });
-    workshop.work_until_done();
-  }
-  if (workshop.failure) std::rethrow_exception(workshop.failure);
+  Progress progress(study.name, study.pieces);
+  std::mutex mutex;
+  on_two_threads(study.pieces, [&](std::size_t piece) {
+    if (known[piece]) return;
+    Row row = study.work(piece);
+    const std::lock_guard lock(mutex);
+    journal << journal_line(piece, row) << std::flush;
+    known[piece] = std::move(row);
+    progress.step();
+  });
   std::vector<Row> rows;
-  for (auto& row : workshop.rows) rows.push_back(std::move(*row));
+  for (auto& row : known) rows.push_back(std::move(*row));
   return rows;
 }
 

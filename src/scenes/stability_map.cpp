@@ -48,7 +48,7 @@ StabilityPoint shown(const Parameters& parameters, Balance& balance, const Stabl
   point.largest = p.floquet.largest();
   point.uncertainty = p.floquet.uncertainty();
   point.settled = p.floquet.settled;
-  point.stable = p.floquet.stable() ? 1 : p.floquet.unstable() ? 0 : -1;
+  point.stable = p.floquet.stable_number();
   return point;
 }
 

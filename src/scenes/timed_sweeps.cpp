@@ -52,14 +52,9 @@ void Rk4Sweep::run()
     Rk4 transient(scene_.parameters, angular(frequency), 1, step_);
     const long periods = std::lround(std::ceil(transient_ * frequency));
     for (long k = 0; k < periods; ++k) transient.advance(k, state);
-    Rk4 recorded(scene_.parameters, angular(frequency), points, step_);
-    Motion motion{points, periods, {}};
-    for (long k = 0; k < points; ++k) {
-      motion.positions.push_back(state.position);
-      recorded.advance(periods * points + k, state);
-    }
-    motions_.push_back(std::move(motion));
-    evaluations_ += transient.evaluations() + recorded.evaluations();
+    Rk4 last_period(scene_.parameters, angular(frequency), points, step_);
+    motions_.push_back(recorded(last_period, points, state, periods));
+    evaluations_ += transient.evaluations() + last_period.evaluations();
   }
 }
 

@@ -18,12 +18,7 @@ Motion one_period(const Parameters& parameters, double frequency, State state, i
   const TimeStepper stepper =
       make_stepper(parameters, angular(frequency),
                    {.intervals_per_period = points, .tolerance = tolerance});
-  Motion motion{points, 0, {}};
-  for (long k = 0; k < points; ++k) {
-    motion.positions.push_back(state.position);
-    stepper.advance(k, state);
-  }
-  return motion;
+  return recorded(stepper, points, state);
 }
 
 }  // namespace
@@ -60,14 +55,7 @@ double agreement(const Parameters& parameters, const TrueMotion& truth, int harm
   const double omega = angular(truth.frequency);
   const Motion fine =
       one_period(parameters, truth.frequency, truth.state, 2 * harmonics + 2, tolerance);
-  Eigen::MatrixXd u(fine.size(), 2);
-  for (std::size_t k = 0; k < fine.size(); ++k) {
-    const Vec2 relative = fine.positions[k].relative();
-    u.row(static_cast<Eigen::Index>(k)) << relative.x, relative.y;
-  }
-  Eigen::MatrixXd series(2, 2 * harmonics + 1);
-  FourierTransform(static_cast<int>(u.rows())).to_series(u, series);
-  Eigen::VectorXd x = series.reshaped();
+  Eigen::VectorXd x = relative_series(fine, harmonics);
   Balance balance(bearing_problem(parameters, samples), harmonics);
   const NewtonReport report = solve(balance, omega, x, {.tolerance = 1e-11});
   if (!report.converged())
