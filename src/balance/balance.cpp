@@ -120,6 +120,7 @@ void Balance::evaluate_force(With with)
 const Eigen::VectorXd& Balance::residual(const Eigen::VectorXd& x, double omega,
                                          With with)
 {
+  spend(2 * problem_.dofs * transform_.operations());
   refresh_blocks(omega);
   series_ =
       Eigen::Map<const Eigen::MatrixXd>(x.data(), problem_.dofs, 2 * harmonics_ + 1);

@@ -69,6 +69,12 @@ public:
   /** Evaluations of the force at all N samples. */
   long evaluations() const { return evaluations_; }
 
+  /** Pays for work beside the force, where there is an account. Throws NoSolution when it is used up. */
+  void spend(double operations) const
+  {
+    if (problem_.spend) problem_.spend(operations);
+  }
+
   /** What Newton keeps from one solution to the next. */
   StepSolver& steps() { return steps_; }
   NewtonVectors& newton_vectors() { return newton_vectors_; }

@@ -28,6 +28,7 @@ void Balance::need_spectra()
 {
   need_stiffness();
   if (has_spectra_) return;
+  spend(static_cast<double>(stiffness_samples_.cols()) * transform_.operations());
   spectra_.resize(problem_.samples / 2 + 1, stiffness_samples_.cols());
   for (Eigen::Index k = 0; k < spectra_.cols(); ++k)
     spectra_.col(k) = transform_.spectrum(stiffness_samples_.col(k));
@@ -74,10 +75,8 @@ void Balance::fill_force_jacobian(int i, int j, int harmonics, Eigen::MatrixXd& 
 
 void Balance::jacobian(int harmonics, Eigen::MatrixXd& jacobian)
 {
-  if (problem_.spend) {
-    const double n = problem_.dofs * (2.0 * harmonics + 1);
-    problem_.spend(2e4 + 10 * n * n + n * n * n / 40);  // with its factorisation
-  }
+  const double n = problem_.dofs * (2.0 * harmonics + 1);
+  spend(1.5e4 + 10 * n * n + n * n * n / 18);  // with its factorisation
   need_spectra();
   const int dofs = problem_.dofs;
   const Eigen::Index size = dofs * (2 * harmonics + 1);
@@ -118,8 +117,8 @@ const Eigen::MatrixXd& Balance::jacobian()
 void Balance::apply_jacobian(const Eigen::VectorXd& v, Eigen::VectorXd& product)
 {
   need_stiffness();
-  if (problem_.spend) problem_.spend(60.0 * problem_.samples);
   const int d = problem_.dofs;
+  spend(2 * d * transform_.operations() + 2.0 * d * d * problem_.samples);
   const Eigen::Map<const Eigen::MatrixXd> series(v.data(), d, 2 * harmonics_ + 1);
   transform_.to_samples(series, product_samples_);
   product_force_.resize(problem_.samples, d);

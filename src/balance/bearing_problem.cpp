@@ -108,7 +108,7 @@ Problem bearing_problem(const Parameters& parameters, int samples, const Work& w
 {
   Problem problem = bearing_problem(parameters, samples);
   if (!work.bounded()) return problem;
-  const double evaluation = 8e3 + samples * (10 + 1.5 * parameters.bearing.balls);
+  const double evaluation = 5e3 + samples * (8 + 1.5 * parameters.bearing.balls);
   problem.force = [law = problem.force, work, evaluation](const Eigen::MatrixXd& u,
                                                           Eigen::MatrixXd& force,
                                                           Eigen::MatrixXd* stiffness) {

@@ -40,6 +40,7 @@ struct FourierTransform::Plans {
   std::unique_ptr<double[], FftwFree> time;
   std::unique_ptr<std::complex<double>[], FftwFree> frequency;
   Plan forward, backward;
+  double operations;
 
   explicit Plans(int n)
       : samples(n),
@@ -50,6 +51,9 @@ struct FourierTransform::Plans {
     const std::lock_guard lock(planner());
     forward.reset(fftw_plan_dft_r2c_1d(n, time.get(), spectrum, FFTW_ESTIMATE));
     backward.reset(fftw_plan_dft_c2r_1d(n, spectrum, time.get(), FFTW_ESTIMATE));
+    double additions, products, both;
+    fftw_flops(forward.get(), &additions, &products, &both);
+    operations = additions + products + 2 * both + 5.0 * n;
   }
 };
 
@@ -80,6 +84,11 @@ FourierTransform& FourierTransform::operator=(FourierTransform&&) noexcept = def
 int FourierTransform::samples() const
 {
   return plans_->samples;
+}
+
+double FourierTransform::operations() const
+{
+  return plans_->operations;
 }
 
 void FourierTransform::to_samples(const Eigen::Ref<const Eigen::MatrixXd>& series,

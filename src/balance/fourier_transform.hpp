@@ -44,6 +44,9 @@ public:
 
   int samples() const;
 
+  /** Operations of one transform, with the copies around it: many where N has a large prime factor. */
+  double operations() const;
+
   /** Γ⁻¹: series coefficients (rows = variables, columns = X_0, X_1, … X_2m) to samples
       (rows = instants, columns = variables). N ≥ 2m+1. */
   void to_samples(const Eigen::Ref<const Eigen::MatrixXd>& series,

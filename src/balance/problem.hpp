@@ -60,8 +60,8 @@ struct Problem {
                      Eigen::MatrixXd* stiffness)>
       force;
 
-  /** Takes the operations of one factorisation from an account, and throws when they are not there;
-      empty without a bound on work. */
+  /** Takes operations from an account, and throws when they are not there; empty without a bound on
+      work. */
   std::function<void(double operations)> spend = {};
 };
 

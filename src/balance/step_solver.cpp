@@ -1,6 +1,7 @@
 #include "balance/step_solver.hpp"
 
 #include <cmath>
+#include <functional>
 
 #include "balance/balance.hpp"
 #include "balance/with_dofs.hpp"
@@ -73,10 +74,15 @@ void StepSolver::precondition(const Eigen::VectorXd& r, Eigen::VectorXd& z) cons
 void StepSolver::iterate(Balance& balance, const Eigen::VectorXd& residual, double goal,
                          bool are_new, Eigen::VectorXd& step)
 {
+  const auto n = static_cast<double>(residual.size());
+  const auto low = static_cast<double>(low_jacobian_.rows());
+  int vectors = 0;  // those that the next one is made orthogonal to, twice
+  const auto apply = [&](const Eigen::VectorXd& v, Eigen::VectorXd& product) {
+    balance.spend(1.5 * low * low + 5.0 * n * ++vectors);
+    balance.apply_jacobian(v, product);
+  };
   const auto report = gmres_.solve(
-      [&](const Eigen::VectorXd& v, Eigen::VectorXd& product) {
-        balance.apply_jacobian(v, product);
-      },
+      std::ref(apply),  // a copy would be allocated
       [&](const Eigen::VectorXd& v, Eigen::VectorXd& z) { precondition(v, z); }, residual,
       goal, most_linear_iterations, step);
   step = -step;

@@ -38,6 +38,9 @@ public:
   /** The longest last correction with which Newton may end [-]. */
   double last_correction() const;
 
+  /** Pays for work beside the balance. */
+  void spend(double operations) const { balance_.spend(operations); }
+
   /** Newton on the balance and direction·(y - predicted) = 0, from `y` = `predicted`. */
   Correction correct(const Eigen::VectorXd& direction, const Eigen::VectorXd& predicted,
                      Eigen::VectorXd& y);

@@ -13,7 +13,8 @@ bool lies_on(Balance& balance, const Branch& branch, const BranchPoint& point,
 {
   ExtendedBalance extended(balance, settings);
   for (std::size_t k = 1; k < branch.points.size(); ++k)
-    if (lies_between(extended, branch.points[k - 1], branch.points[k], point, settings))
+    if (StepOfBranch(extended, branch.points[k - 1], branch.points[k], settings)
+            .holds(point))
       return true;
   return false;
 }

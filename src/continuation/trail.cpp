@@ -5,38 +5,34 @@
 namespace rotor_stator
 {
 
-namespace
-{
-
-/** Speeds of a step, with room for its bend. */
-struct Speeds {
-  double low, high;
-};
-Speeds speeds_of(const BranchPoint& a, const BranchPoint& b,
-                 const ArcLengthSettings& settings)
+StepOfBranch::StepOfBranch(ExtendedBalance& extended, const BranchPoint& a,
+                           const BranchPoint& b, const ArcLengthSettings& settings)
+    : extended_(extended), a_(a), b_(b), settings_(settings)
 {
   const double room = 0.1 * (b.arc - a.arc) * settings.speed_scale;
-  return {std::min(a.omega, b.omega) - room, std::max(a.omega, b.omega) + room};
+  low_ = std::min(a.omega, b.omega) - room;
+  high_ = std::max(a.omega, b.omega) + room;
 }
 
-}  // namespace
-
-bool lies_between(ExtendedBalance& extended, const BranchPoint& a, const BranchPoint& b,
-                  const BranchPoint& point, const ArcLengthSettings& settings)
+bool StepOfBranch::holds(const BranchPoint& point)
 {
-  const Speeds speeds = speeds_of(a, b, settings);
-  if (point.omega < speeds.low || point.omega > speeds.high) return false;
+  if (point.omega < low_ || point.omega > high_) return false;
+  if (chord_.size() == 0) {  // not before a point has the speed for it: most have not
+    start_ = scaled(a_, settings_);
+    chord_ = scaled(b_, settings_) - start_;
+    y_.resize(start_.size());
+  }
   constexpr double near = 0.1, rounding = 1e-6;
-  const Eigen::VectorXd start = scaled(a, settings), y = scaled(point, settings);
-  const Eigen::VectorXd chord = scaled(b, settings) - start;
-  const double share = (y - start).dot(chord) / chord.squaredNorm();
+  extended_.spend(50 + 3 * static_cast<double>(y_.size()));
+  y_ << point.x / settings_.arc_unknown_scale, point.omega / settings_.speed_scale;
+  const double share = (y_ - start_).dot(chord_) / chord_.squaredNorm();
   if (share < -rounding || share > 1 + rounding) return false;
-  Eigen::VectorXd predicted = between(a, b, share, settings);
-  if ((y - predicted).norm() > near * chord.norm()) return false;
-  predicted += point.tangent * point.tangent.dot(y - predicted);
+  Eigen::VectorXd predicted = between(a_, b_, share, settings_);
+  if ((y_ - predicted).norm() > near * chord_.norm()) return false;
+  predicted += point.tangent * point.tangent.dot(y_ - predicted);
   Eigen::VectorXd corrected;
-  return extended.correct(point.tangent, predicted, corrected).newton.converged() &&
-         (corrected - y).norm() <= extended.last_correction();
+  return extended_.correct(point.tangent, predicted, corrected).newton.converged() &&
+         (corrected - y_).norm() <= extended_.last_correction();
 }
 
 std::optional<Passed> Trail::passed(ExtendedBalance& extended,
@@ -46,16 +42,15 @@ std::optional<Passed> Trail::passed(ExtendedBalance& extended,
 {
   const BranchPoint& last = points.back();
   const double reach = 2 * (next.arc - last.arc);
-  const Speeds speeds = speeds_of(last, next, settings);
+  StepOfBranch step(extended, last, next, settings);
   std::optional<Passed> first;
-  for (auto near = index_.lower_bound(speeds.low), end = index_.upper_bound(speeds.high);
+  for (auto near = index_.lower_bound(step.low()), end = index_.upper_bound(step.high());
        near != end; ++near) {
     const std::size_t k = near->second;
     if (first && first->index < k) continue;
     if (last.arc - points[k].arc < reach) continue;
-    if (!lies_between(extended, last, next, points[k], settings)) continue;
-    const Eigen::VectorXd chord = scaled(next, settings) - scaled(last, settings);
-    first = Passed{k, points[k].tangent.dot(chord) > 0};
+    if (!step.holds(points[k])) continue;
+    first = Passed{k, step.agrees_with(points[k])};
   }
   return first;
 }

@@ -14,10 +14,32 @@ the point's own tangent: the same solution comes out, or another. */
 namespace rotor_stator
 {
 
-/** Whether the solution `point` lies on the step from `a` to `b`, to the length that Newton's last
-    correction may have. */
-bool lies_between(ExtendedBalance& extended, const BranchPoint& a, const BranchPoint& b,
-                  const BranchPoint& point, const ArcLengthSettings& settings);
+/** The step from one point of a branch to the next, in whose way others may lie. Points, settings and
+    balance must outlive it. */
+class StepOfBranch
+{
+public:
+  StepOfBranch(ExtendedBalance& extended, const BranchPoint& a, const BranchPoint& b,
+               const ArcLengthSettings& settings);
+
+  /** The speeds of the step, with room for its bend. */
+  double low() const { return low_; }
+  double high() const { return high_; }
+
+  /** Whether the solution `point` lies on the step, to the length that Newton's last correction may
+      have. */
+  bool holds(const BranchPoint& point);
+
+  /** Whether a point that the step holds was passed in the step's own direction. */
+  bool agrees_with(const BranchPoint& held) const { return held.tangent.dot(chord_) > 0; }
+
+private:
+  ExtendedBalance& extended_;
+  const BranchPoint &a_, &b_;
+  const ArcLengthSettings& settings_;
+  double low_, high_;
+  Eigen::VectorXd start_, chord_, y_;
+};
 
 struct Passed {
   std::size_t index;    ///< of the earlier point

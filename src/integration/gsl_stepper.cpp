@@ -32,17 +32,13 @@ const std::map<std::string, const gsl_odeiv2_step_type*>& step_types()
 struct Equation7 {
   Parameters parameters;
   RotorStator system;
-  double most_evaluations;
-  long evaluations = 0;
-
-  /** Counts one; false when there are none left. */
-  bool count() { return static_cast<double>(++evaluations) <= most_evaluations; }
+  Allowance allowance;
 };
 
 int derivative(double t, const double y[], double dydt[], void* data)
 {
   auto& equation = *static_cast<Equation7*>(data);
-  if (!equation.count()) return GSL_EBADFUNC;
+  if (!equation.allowance.took_one()) return GSL_EBADFUNC;
   const double phase = equation.system.omega() * t;
   Flat flat;
   std::copy_n(y, size, flat.begin());
@@ -82,7 +78,7 @@ void state_slopes(const Parameters& parameters, const Stiffness2& s, double* dfd
 int jacobian(double t, const double y[], double* dfdy, double dfdt[], void* data)
 {
   auto& equation = *static_cast<Equation7*>(data);
-  if (!equation.count()) return GSL_EBADFUNC;
+  if (!equation.allowance.took_one()) return GSL_EBADFUNC;
   const Parameters& p = equation.parameters;
   const double omega = equation.system.omega(), phase = omega * t;
   const Vec2 u{y[2] - y[0], y[3] - y[1]};
@@ -130,8 +126,8 @@ struct GslStepper::Driver {
 
 GslStepper::GslStepper(const Parameters& parameters, double omega,
                        const StepperSettings& settings)
-    : driver_(std::make_unique<Driver>(
-          Driver{{parameters, {parameters, omega}, settings.most_evaluations}, {}, {}})),
+    : driver_(std::make_unique<Driver>(Driver{
+          {parameters, {parameters, omega}, allowance(parameters, settings)}, {}, {}})),
       interval_length_(driver_->equation.system.period() / settings.intervals_per_period)
 {
   keep_gsl_from_aborting();
@@ -163,18 +159,17 @@ void GslStepper::advance(long interval, State& state)
   double t = static_cast<double>(interval) * interval_length_;
   const double end = static_cast<double>(interval + 1) * interval_length_;
   const int status = gsl_odeiv2_driver_apply(driver_->driver.get(), &t, end, y.data());
-  const Equation7& equation = driver_->equation;
-  if (static_cast<double>(equation.evaluations) > equation.most_evaluations)
-    too_many_evaluations(equation.most_evaluations);
-  if (status != GSL_SUCCESS)
+  if (status != GSL_SUCCESS) {
+    driver_->equation.allowance.take(1);  // throws where that was the reason
     throw NoSolution(
         text("time integration stopped at t = %.9g s: %s", t, gsl_strerror(status)));
+  }
   state = std::bit_cast<State>(y);
 }
 
 long GslStepper::evaluations() const
 {
-  return driver_->equation.evaluations;
+  return driver_->equation.allowance.used();
 }
 
 const std::vector<std::string>& gsl_methods()

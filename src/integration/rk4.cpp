@@ -4,7 +4,6 @@
 #include <cmath>
 #include <numbers>
 
-#include "integration/time_stepper.hpp"
 #include "model/errors.hpp"
 #include "model/vector_arithmetic.hpp"
 
@@ -37,12 +36,12 @@ int steps_per_interval(double period, int intervals, double longest_step)
 }  // namespace
 
 Rk4::Rk4(const Parameters& parameters, double omega, int intervals, double longest_step,
-         double most_evaluations)
+         Allowance allowance)
     : system_(parameters, omega),
       cage_turn_(2 * std::numbers::pi * parameters.bearing.cage_speed_ratio),
       intervals_(intervals),
       steps_(steps_per_interval(system_.period(), intervals, longest_step)),
-      most_evaluations_(most_evaluations)
+      allowance_(std::move(allowance))
 {
   const int half_steps = 2 * intervals_ * steps_;
   h_ = 2 * system_.period() / half_steps;
@@ -54,13 +53,11 @@ Rk4::Rk4(const Parameters& parameters, double omega, int intervals, double longe
 
 void Rk4::advance(long interval, State& state)
 {
-  if (!(static_cast<double>(evaluations_) + 4.0 * steps_ <= most_evaluations_))
-    too_many_evaluations(most_evaluations_);
+  allowance_.take(4L * steps_);
   const Direction turns =
       Direction::of(cage_turn_ * static_cast<double>(interval / intervals_));
   const Angles* angles = &angles_[2 * steps_ * (interval % intervals_)];
   for (int k = 0; k < steps_; ++k, angles += 2) step(angles, turns, state);
-  evaluations_ += 4 * steps_;
 }
 
 /** Nyström's form of the classical rule for q̈ = a(q, q̇, t): the four slopes of q are

@@ -8,6 +8,7 @@ Eq. 7 and no sine or cosine. The step divides the output interval. */
 
 #include <vector>
 
+#include "integration/allowance.hpp"
 #include "model/rotor_stator.hpp"
 
 namespace rotor_stator
@@ -19,12 +20,13 @@ public:
   /** P = `intervals` per period, each cut into the fewest steps not longer than
       `longest_step` [s]. */
   Rk4(const Parameters& parameters, double omega, int intervals, double longest_step,
-      double most_evaluations = 1e9);
+      Allowance allowance = Allowance());
 
-  /** Advances over output interval `interval`, counted from t = 0. */
+  /** Advances over output interval `interval`, counted from t = 0. Throws NoSolution when the
+      allowance is used up. */
   void advance(long interval, State& state);
 
-  long evaluations() const { return evaluations_; }
+  long evaluations() const { return allowance_.used(); }
   double step() const { return h_; }
 
   /** Directions at the half steps of one period, both ends included. */
@@ -40,9 +42,8 @@ private:
   double cage_turn_;  ///< the cage's angle after one period [rad]
   int intervals_, steps_;
   double h_;
-  double most_evaluations_;
+  Allowance allowance_;
   std::vector<Angles> angles_;
-  long evaluations_ = 0;
 };
 
 }  // namespace rotor_stator

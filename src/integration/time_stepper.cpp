@@ -43,17 +43,18 @@ double default_step(const Parameters& parameters)
   return 2 * std::numbers::pi / contact_frequency / 40;
 }
 
-void too_many_evaluations(double allowed)
+double evaluation_cost(const Parameters& parameters, const std::string& method)
 {
-  throw NoSolution(text("not done within %.3g evaluations of Eq. 7", allowed));
+  const double balls = parameters.bearing.balls;
+  if (method == "rk4") return 15 + 1.35 * balls;
+  const bool explicit_steps = method == "rkf45" || method == "rkck" || method == "rk8pd";
+  return explicit_steps ? 75 + 1.5 * balls : 330 + 1.5 * balls;
 }
 
-double affordable_evaluations(const Parameters& parameters, const std::string& method,
-                              double work)
+Allowance allowance(const Parameters& parameters, const StepperSettings& settings)
 {
-  const bool implicit = method == "msbdf" || method == "bsimp" || method == "msadams";
-  const double around = method == "rk4" ? 10 : implicit ? 300 : 50;
-  return work / (around + parameters.bearing.balls);
+  return {settings.most_evaluations, settings.work,
+          evaluation_cost(parameters, settings.method)};
 }
 
 void require_method(const std::string& method)
@@ -73,7 +74,7 @@ TimeStepper make_stepper(const Parameters& parameters, double omega,
   if (settings.method == "rk4") {
     const double step = settings.step > 0 ? settings.step : default_step(parameters);
     return wrap(std::make_shared<Rk4>(parameters, omega, settings.intervals_per_period,
-                                      step, settings.most_evaluations));
+                                      step, allowance(parameters, settings)));
   }
   return wrap(std::make_shared<GslStepper>(parameters, omega, settings));
 }

@@ -9,6 +9,7 @@ stepper advances a state over whole intervals, in as many steps of its own as it
 #include <string>
 #include <vector>
 
+#include "integration/allowance.hpp"
 #include "model/rotor_stator.hpp"
 
 namespace rotor_stator
@@ -21,13 +22,14 @@ struct StepperSettings {
   double tolerance =
       1e-10;  ///< GSL: local error per step, over the size of each component
   double most_evaluations = 1e9;  ///< of Eq. 7, a bound on work: half a minute of RK4
+  Work work = {};                 ///< pays for them
 };
 
 /** A stepper bound to one machine at one speed. */
 struct TimeStepper {
   /** Advances `state` from the start of output interval `interval` (counted from t = 0)
      to its end. Throws NoSolution when the step size underflows, the state is no longer finite
-     or the evaluations are used up. */
+     or the evaluations or the work are used up. */
   std::function<void(long interval, State& state)> advance;
 
   /** Evaluations of Eq. 7 so far. */
@@ -44,12 +46,11 @@ TimeStepper make_stepper(const Parameters& parameters, double omega,
 /** "rk4" and GSL's explicit, multistep and implicit methods. */
 const std::vector<std::string>& time_methods();
 
-/** Throws NoSolution: the evaluations of Eq. 7 that were allowed are used up. */
-[[noreturn]] void too_many_evaluations(double allowed);
+/** What `settings` allow. */
+Allowance allowance(const Parameters& parameters, const StepperSettings& settings);
 
-/** Evaluations of Eq. 7 by a method that cost as much as `work` [operations]. */
-double affordable_evaluations(const Parameters& parameters, const std::string& method,
-                              double work);
+/** Operations for an evaluation of Eq. 7, with the method's share of a step. */
+double evaluation_cost(const Parameters& parameters, const std::string& method);
 
 /** A step [s] that gives the contact mode about 40 steps per period: RK4 is stable up
    to 2.8/ω and accurate well below it. The paper gives none (D-16). */

@@ -1,6 +1,7 @@
 #include "output/explore_tables.hpp"
 
 #include <algorithm>
+#include <limits>
 #include <numbers>
 
 #include "model/errors.hpp"
@@ -18,14 +19,15 @@ namespace
 {
 
 SteadySettings steady_settings(const MotionRequest& request, int shown_periods,
-                               double most_evaluations)
+                               const Work& work)
 {
   SteadySettings settings;
   settings.stepper = {.method = request.method,
                       .intervals_per_period = request.points,
                       .step = request.step.value_or(0),
                       .tolerance = request.local_error,
-                      .most_evaluations = most_evaluations};
+                      .most_evaluations = std::numeric_limits<double>::infinity(),
+                      .work = work};
   settings.longest = request.longest;
   settings.shown_periods = shown_periods;
   return settings;
@@ -59,13 +61,13 @@ AdaptiveSettings settings_of(const MotionRequest& request)
 }
 
 /** Without a tolerance any error is accepted, and none is estimated. */
-AdaptiveSolution solved(const Parameters& parameters, const MotionRequest& request)
+AdaptiveSolution solved(const Parameters& parameters, const MotionRequest& request,
+                        const Work& work)
 {
   const double omega = angular(request.frequency);
   const NewtonSettings newton{.tolerance = request.newton_tolerance};
   const int m = request.harmonics.value_or(usual_harmonics);
   const int n = checked_samples(m, request.samples);
-  const Work work(request.operations * 1e9);
   if (!request.tolerance) {
     AdaptiveSolution at{};
     at.solution = find_periodic(parameters, omega, m, n, newton, work);
@@ -96,9 +98,9 @@ std::string stability_note(const Parameters& parameters, const PeriodicSolution&
 }
 
 Motion balance_motion(const Parameters& parameters, const MotionRequest& request,
-                      Table& table)
+                      const Work& work, Table& table)
 {
-  const AdaptiveSolution at = solved(parameters, request);
+  const AdaptiveSolution at = solved(parameters, request, work);
   const std::string wanted =
       request.tolerance
           ? text("tolerance %g not reached", *request.tolerance)
@@ -119,21 +121,18 @@ Motion balance_motion(const Parameters& parameters, const MotionRequest& request
              at.estimate.displacement, at.estimate.harmonics, at.estimate.samples,
              *request.tolerance));
   table.note("the period is imposed by the method");
-  table.note(request.stability
-                 ? stability_note(parameters, at.solution, request.operations * 1e9)
-                 : "stability is not tested");
+  table.note(request.stability ? stability_note(parameters, at.solution, work.left())
+                               : "stability is not tested");
   table.note("regime: periodic");
   return motion_of(at.solution.bodies, request.points);
 }
 
 Motion integrated_motion(const Parameters& parameters, const MotionRequest& request,
-                         int periods, Table& table)
+                         int periods, const Work& work, Table& table)
 {
-  const SteadyState steady = steady_state(
-      parameters, angular(request.frequency), static_start(parameters),
-      steady_settings(
-          request, periods,
-          affordable_evaluations(parameters, request.method, request.operations * 1e9)));
+  const SteadyState steady =
+      steady_state(parameters, angular(request.frequency), static_start(parameters),
+                   steady_settings(request, periods, work));
   table.note(text("method: %s, %g s from rest, %ld evaluations of Eq. 7",
                   request.method.c_str(), steady.seconds, steady.evaluations));
   table.note(text("Poincare spread: %.3g", steady.spread));
@@ -148,8 +147,10 @@ Motion requested_motion(const Parameters& parameters, const MotionRequest& reque
   checked_samples(request.harmonics.value_or(usual_harmonics), request.samples);
   table.describe(parameters);
   table.note(text("frequency: %.15g Hz", request.frequency));
-  return request.method == "aft" ? balance_motion(parameters, request, table)
-                                 : integrated_motion(parameters, request, periods, table);
+  const Work work(request.operations * 1e9);
+  return request.method == "aft"
+             ? balance_motion(parameters, request, work, table)
+             : integrated_motion(parameters, request, periods, work, table);
 }
 
 /** A table of this length takes about a second and 0.4 GB to write. */

@@ -74,23 +74,12 @@ Eigen::VectorXd integrated_start(const Parameters& parameters, double omega,
                                  int harmonics, const Work& work)
 {
   SteadySettings settings;
-  settings.stepper = {.method = "rk4",
-                      .intervals_per_period = default_samples(harmonics),
-                      .most_evaluations = std::min(
-                          1e9, affordable_evaluations(parameters, "rk4", work.left()))};
+  const int points = default_samples(harmonics);
+  settings.stepper = {.method = "rk4", .intervals_per_period = points, .work = work};
   settings.longest = 10;
   const SteadyState steady =
       steady_state(parameters, omega, static_start(parameters), settings);
-  work.spend(static_cast<double>(steady.evaluations) /
-             affordable_evaluations(parameters, "rk4", 1));
-  Eigen::MatrixXd u(steady.states.size(), 2);
-  for (std::size_t k = 0; k < steady.states.size(); ++k) {
-    const Vec2 relative = steady.states[k].position.relative();
-    u.row(static_cast<Eigen::Index>(k)) << relative.x, relative.y;
-  }
-  Eigen::MatrixXd series(2, 2 * harmonics + 1);
-  FourierTransform(static_cast<int>(u.rows())).to_series(u, series);
-  return series.reshaped();
+  return relative_series(motion_of(steady, points), harmonics);
 }
 
 PeriodicSolution find_periodic(const Parameters& parameters, double omega, int harmonics,

@@ -21,9 +21,9 @@ namespace
     itself. */
 constexpr int most_followed = 10;
 
-/** About three seconds to the speed, and eight for the refinement there: two dense solutions with
+/** A few seconds to the speed, and ten for the refinement there: two dense solutions with
     1024 harmonics. */
-constexpr double most_work = 3e9, most_refining_work = 8e9;
+constexpr double most_work = 6e9, most_refining_work = 20e9;
 
 struct Resolution {
   int harmonics, samples;
@@ -69,13 +69,10 @@ Eigen::VectorXd by_predictor(const HardCase& hard, Balance& balance)
 Eigen::VectorXd by_arc_length(const HardCase& hard, Balance& balance)
 {
   const Parameters& p = hard.parameters;
-  const SweepSettings scaling = sweep_settings(p);
   const Branch branch =
       follow_branch(balance, angular(hard.from), angular(hard.frequency),
                     quasi_static_start(p, angular(hard.from), balance.harmonics()),
-                    {.newton = {},
-                     .speed_scale = scaling.speed_scale,
-                     .arc_unknown_scale = scaling.arc_unknown_scale});
+                    arc_length_settings(p));
   if (!branch.covered)
     throw NoSolution(text("the branch with m = %d ended before %g Hz: ",
                           balance.harmonics(), hard.frequency) +

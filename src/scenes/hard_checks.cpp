@@ -2,15 +2,11 @@
 
 #include <Eigen/Eigenvalues>
 #include <Eigen/LU>
-#include <atomic>
 #include <cmath>
-#include <exception>
-#include <mutex>
-#include <thread>
 
 #include "balance/bearing_problem.hpp"
 #include "model/errors.hpp"
-#include "model/progress.hpp"
+#include "scenes/two_threads.hpp"
 #include "stability/shooting.hpp"
 
 namespace rotor_stator
@@ -72,7 +68,7 @@ void check_by_refinement(const HardCase& hard, const Answer& answer, Check& chec
 {
   const int m = 4 * answer.harmonics, samples = 4 * answer.samples;
   const double omega = angular(hard.frequency);
-  Balance balance(bearing_problem(hard.parameters, samples, Work(6e9)), m);
+  Balance balance(bearing_problem(hard.parameters, samples, Work(15e9)), m);
   Eigen::VectorXd x = resize_harmonics(answer.finer, 2, m);
   if (!solve(balance, omega, x, {}).converged()) return;
   check.by = "4m, 4N";
@@ -103,24 +99,18 @@ void check_shooting(const HardCase& hard, const Answer& answer, Check& check)
                                             .intervals_per_period = compared_points,
                                             .step = default_step(hard.parameters) / 4,
                                             .most_evaluations = 2e8});
-  const auto over_one_period = [&](State state) {
-    Motion motion{compared_points, 0, {}};
-    for (int k = 0; k < compared_points; ++k) {
-      motion.positions.push_back(state.position);
-      stepper.advance(k, state);
-    }
-    return std::pair(motion, state);
-  };
+  State state = answer.state;
+  recorded(stepper, compared_points, state);
   const Vector8 start = vector_of(answer.state), sizes = state_scales(hard.parameters);
-  const Vector8 open = vector_of(over_one_period(answer.state).second) - start;
+  const Vector8 open = vector_of(state) - start;
   const Matrix8 scaled = sizes.cwiseInverse().asDiagonal() *
                          bounded_map(hard, answer.state, 1e-11).derivative *
                          sizes.asDiagonal();
   const Vector8 correction = sizes.cwiseProduct(
       (scaled - Matrix8::Identity()).partialPivLu().solve(open.cwiseQuotient(sizes)));
   check.by = "rk4, a quarter of the step";
-  check.error = distance(answer.motion,
-                         over_one_period(state_of(Vector8(start - correction))).first);
+  state = state_of(Vector8(start - correction));
+  check.error = distance(answer.motion, recorded(stepper, compared_points, state));
 }
 
 void check_rk4(const HardCase& hard, const Answer& answer, Check& check)
@@ -223,24 +213,11 @@ std::vector<Judgement> judge_all(const HardCases& hard, int every)
 {
   const std::size_t methods = std::size(all_methods);
   std::vector<Judgement> judgements(hard.cases.size() * methods);
-  std::atomic<std::size_t> next{0};
-  std::exception_ptr failure;
-  std::mutex mutex;
-  const auto work = [&] {
-    try {
-      for (std::size_t piece; (piece = every * next++) < judgements.size();)
-        judgements[piece] =
-            judge(hard.cases[piece / methods], all_methods[piece % methods], hard.rule);
-    } catch (...) {
-      const std::lock_guard lock(mutex);
-      failure = std::current_exception();
-    }
-  };
-  {
-    std::jthread other(work);
-    work();
-  }
-  if (failure) std::rethrow_exception(failure);
+  const auto step = static_cast<std::size_t>(every);
+  on_two_threads((judgements.size() + step - 1) / step, [&](std::size_t piece) {
+    const std::size_t k = step * piece;
+    judgements[k] = judge(hard.cases[k / methods], all_methods[k % methods], hard.rule);
+  });
   return judgements;
 }
 

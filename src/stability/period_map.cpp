@@ -49,8 +49,7 @@ constexpr int equations = 8 + 8 * 8;
 struct Variation {
   RotorStator system;
   DisturbanceRates rates;
-  double most_evaluations;
-  long evaluations = 0;
+  Allowance allowance;
 };
 
 /** State first, then the displacements and the speeds of the disturbances. */
@@ -58,8 +57,7 @@ int derivative(double t, const double y[], double dydt[], void* data)
 {
   auto& variation = *static_cast<Variation*>(data);
   const RotorStator& system = variation.system;
-  if (static_cast<double>(++variation.evaluations) > variation.most_evaluations)
-    return GSL_EBADFUNC;
+  if (!variation.allowance.took_one()) return GSL_EBADFUNC;
   const double phase = system.omega() * t;
   const State state = state_of(Eigen::Map<const Vector8>(y));
   const Direction cage = system.cage_direction(phase);
@@ -102,7 +100,7 @@ PeriodMap period_map(const Parameters& parameters, double omega, const State& st
 {
   keep_gsl_from_aborting();
   Variation variation{
-      {parameters, omega}, DisturbanceRates(parameters), most_evaluations};
+      {parameters, omega}, DisturbanceRates(parameters), Allowance(most_evaluations)};
   gsl_odeiv2_system system{derivative, nullptr, equations, &variation};
   const double period = variation.system.period();
   const auto scale = error_scales(parameters);
@@ -117,14 +115,14 @@ PeriodMap period_map(const Parameters& parameters, double omega, const State& st
   disturbances.setIdentity();
   double t = 0;
   const int status = gsl_odeiv2_driver_apply(driver.get(), &t, period, y.data());
-  if (static_cast<double>(variation.evaluations) > most_evaluations)
-    too_many_evaluations(most_evaluations);
-  if (status != GSL_SUCCESS)
+  if (status != GSL_SUCCESS) {
+    variation.allowance.take(1);  // throws where that was the reason
     throw NoSolution(
         text("time integration stopped at t = %.9g s: %s", t, gsl_strerror(status)));
+  }
   return {.end = state_of(Eigen::Map<const Vector8>(y.data())),
           .derivative = disturbances.transpose(),
-          .evaluations = variation.evaluations};
+          .evaluations = variation.allowance.used()};
 }
 
 }  // namespace rotor_stator

@@ -37,6 +37,19 @@ struct Tally {
   long done = 0, bad_input = 0, no_solution = 0;
 };
 
+int status_of(Fuzz kind, std::uint64_t seed, const std::string& work,
+              const Scratch& scratch)
+{
+  const FuzzCase made = fuzz_case(seed, kind, work);
+  std::ofstream(scratch.path("machine.toml"), std::ios::binary) << made.file;
+  const auto outcome = run_limited(made.arguments, scratch.path(""), cpu_seconds);
+  const std::string wrong = problem(outcome);
+  if (!wrong.empty()) keep(made, seed);
+  INFO("seed " << seed << ": " << made.command() << "\n" << outcome.err.substr(0, 2000));
+  CHECK(wrong == "");
+  return outcome.status;
+}
+
 Tally run_cases(Fuzz kind, std::uint64_t first_seed, long cases, const std::string& work)
 {
   const Scratch scratch;
@@ -44,17 +57,10 @@ Tally run_cases(Fuzz kind, std::uint64_t first_seed, long cases, const std::stri
       from_environment("FUZZ_SEED", static_cast<long>(first_seed)));
   Tally tally;
   for (std::uint64_t seed = seed_0; seed < seed_0 + cases; ++seed) {
-    const FuzzCase made = fuzz_case(seed, kind, work);
-    std::ofstream(scratch.path("machine.toml"), std::ios::binary) << made.file;
-    const auto outcome = run_limited(made.arguments, scratch.path(""), cpu_seconds);
-    const std::string wrong = problem(outcome);
-    if (!wrong.empty()) keep(made, seed);
-    INFO("seed " << seed << ": " << made.command() << "\n"
-                 << outcome.err.substr(0, 2000));
-    CHECK(wrong == "");
-    tally.done += outcome.status == 0;
-    tally.bad_input += outcome.status == 2;
-    tally.no_solution += outcome.status == 3;
+    const int status = status_of(kind, seed, work, scratch);
+    tally.done += status == 0;
+    tally.bad_input += status == 2;
+    tally.no_solution += status == 3;
   }
   WARN(cases << " cases from seed " << seed_0 << ": " << tally.done << " done, "
              << tally.bad_input << " bad input, " << tally.no_solution << " no solution");
@@ -89,4 +95,14 @@ TEST_CASE("Legal and extreme machines and options")
 TEST_CASE("Legal and extreme machines with the work that explore allows by itself")
 {
   run_cases(Fuzz::extreme, 4'000'000, cases(sanitized ? 20 : 40), sanitized ? "0.1" : "");
+}
+
+TEST_CASE("Machines whose work was once counted too cheap")
+{
+  /** In order: integrations that break down; a large dense block; two branches along one speed, whose
+      every step met all earlier ones; a thousand balls in contact; N with a large prime factor. */
+  const Scratch scratch;
+  for (std::uint64_t seed :
+       {4000011, 4000298, 4000434, 4000497, 4000329, 4000991, 4001380})
+    status_of(Fuzz::extreme, seed, sanitized ? "0.1" : "", scratch);
 }
