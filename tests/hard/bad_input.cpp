@@ -37,6 +37,7 @@ struct Tally {
   long done = 0, bad_input = 0, no_solution = 0;
 };
 
+/** Runs a case and checks how it ended. */
 int status_of(Fuzz kind, std::uint64_t seed, const std::string& work,
               const Scratch& scratch)
 {
