@@ -3,8 +3,8 @@
 
 Paper: §3.3, claims C4 to C7, C10 and C13.  Run: build/regimes >
 data/generated/regimes.tsv Permanent or lost contact, one harmonic or many, passages per
-ball, largest force, for both data sets. Modelled: the integrated motion over two periods
-at each speed. */
+ball, largest force, for both data sets. Modelled: at each speed the integrated motion,
+over a second for contact, over two periods for the rest. */
 #include "output/claim_tables.hpp"
 #include "output/program.hpp"
 

@@ -14,8 +14,7 @@ const std::vector<Column> regime_columns{
     {"f", "Hz", "speed of rotation"},
     {"periodic", "-", "1 if the motion has the period of rotation"},
     {"spread", "-", "Poincare spread over the largest displacement"},
-    {"contact", "-",
-     "share of two periods with at least one loaded ball; 1 is permanent"},
+    {"contact", "-", "share of the window with at least one loaded ball; 1 is permanent"},
     {"higher_harmonics", "-", "rms of harmonics 2 and above over the first, larger body"},
     {"passed_once", "-", "1 if every ball is loaded exactly once in two periods"},
     {"passages", "-", "times a ball is loaded in two periods, mean over the balls"},
@@ -35,8 +34,9 @@ Table regime_table(const std::string& scene_file, const std::string& reading)
   Table table("Regimes of the motion", regime_columns);
   for (const Parameters& parameters : sets) table.describe(parameters);
   table.note(text(
-      "modelled: rk4 from the 6-harmonic solution or the static load, at most %g s; two periods of %d instants",
-      settings.longest, settings.points_per_period));
+      "modelled: rk4 from the 6-harmonic solution or the static load, at most %g s; then "
+      "%g s for contact and two periods for the rest, %d instants per period",
+      settings.longest, settings.window, settings.points_per_period));
   Progress progress("regimes", sets.size() * frequencies.size());
   for (std::size_t set = 0; set < sets.size(); ++set)
     for (double frequency : frequencies) {

@@ -100,15 +100,19 @@ Regime regime_at(const Parameters& parameters, double frequency,
   steady_settings.settled = 1e-7;
   steady_settings.window = settings.window;
   steady_settings.longest = settings.longest;
-  steady_settings.shown_periods = 2;
+  /** Contact that is lost now and then takes more than two periods to be seen. */
+  steady_settings.shown_periods =
+      std::max(2, static_cast<int>(std::ceil(settings.window * frequency)));
   const SteadyState steady =
       steady_state(parameters, omega, start_of(parameters, omega), steady_settings);
-  const Motion motion = motion_of(steady, settings.points_per_period);
+  Motion motion = motion_of(steady, settings.points_per_period);
+  const double contact = contact_share(parameters, motion);
+  motion.positions.resize(2 * static_cast<std::size_t>(settings.points_per_period));
 
   Regime regime{.frequency = frequency,
                 .periodic = steady.periodic,
                 .spread = steady.spread,
-                .contact = contact_share(parameters, motion),
+                .contact = contact,
                 .higher_harmonics = higher_harmonics(motion),
                 .passed_once = false,
                 .passages = 0,

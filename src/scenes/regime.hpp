@@ -18,7 +18,7 @@ struct Regime {
   double frequency;  ///< [Hz]
   bool periodic;     ///< with period T
   double spread;     ///< Poincaré spread [-]
-  double contact;    ///< share of the recorded instants with at least one loaded ball [-]
+  double contact;    ///< share of `window` seconds with at least one loaded ball [-]
   double higher_harmonics;  ///< rms of harmonics ≥ 2 over the first, the larger of both
                             ///< bodies [-]
   bool passed_once;         ///< every ball is loaded exactly once in two periods

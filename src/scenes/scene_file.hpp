@@ -20,8 +20,8 @@ namespace rotor_stator
 struct RegimeSettings {
   double step_over_default;  ///< RK4's step over `default_step` [-]
   double longest;            ///< integration at most [s]
-  double window;             ///< of the Poincaré section [s]
-  int points_per_period;     ///< of the two recorded periods, those of a ball's passage
+  double window;          ///< of the Poincaré section, and of contact [s], ≥ 2 periods
+  int points_per_period;  ///< of the two recorded periods, those of a ball's passage
 };
 
 /** A scene file being read, with the reading of Table 1 (D-09): "exchanged" or
