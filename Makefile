@@ -314,7 +314,7 @@ $(book): $(wildcard paper/book/*) paper/guide.md paper/references.bib $(shell fi
 article: $(article)  ## the article: build/paper/article.html
 
 data/generated/article.tsv: paper/article_values.py paper/article_results.py figures/tables.py figures/project.py \
-  data/claims.toml paper/deviations.md $(untimed) $(timings) $(claims) $(kept)
+  data/claims.toml data/scenes/validity.toml data/set1.toml data/set1-as-printed.toml paper/deviations.md $(untimed) $(timings) $(claims) $(kept)
 	$(call whole,$(PYTHON) $< > $$new)
 
 data/generated/article.md: paper/include.py paper/article.md data/generated/article.tsv

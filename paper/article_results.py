@@ -15,7 +15,7 @@ METHODS = {"aft": "harmonic balance", "rk4": "Runge-Kutta of order 4", "rkf45": 
            "rk8pd": "Runge-Kutta of order 8", "msadams": "Adams", "msbdf": "BDF", "bsimp": "Bulirsch-Stoer",
            "shooting-rk4": "shooting by Runge-Kutta of order 4",
            "shooting-rk8pd": "shooting by Runge-Kutta of order 8"}
-FRENCH = {"reproduced": "reproduite", "partly": "en partie", "not reproduced": "non reproduite",
+FRENCH = {"reproduced": "reproduite", "partly": "reproduite en partie", "not reproduced": "non reproduite",
           "not tested": "non examinée"}
 
 
@@ -41,19 +41,39 @@ def costs(add):
     for reach in dict.fromkeys(table["range"]):
         for target in sorted(set(table["target"]), reverse=True):
             rows = table.where("range", reach).where("target", target)
-            order = ", ".join(f"{METHODS.get(rows['method'][k], rows['method'][k])} {times(rows['cpu_s'][k])}"
-                              for k in np.argsort(rows["cpu_s"]))
+            order = ", ".join(f"{METHODS.get(rows['method'][k], rows['method'][k])} {times(rows['cpu_s'][k])} "
+                              f"({100 * rows['error_force'][k]:.2g} %)" for k in np.argsort(rows["cpu_s"]))
             without = [METHODS.get(name, name) for name, at, error in missed
                        if at == reach and np.isclose(float(error), target)]
             lines.append(f"- {reach} Hz, error {power(target)}: {order}."
                          + (f" Not reached within the bound on time by {', '.join(without)}." if without else ""))
     add("cost.list", r"\n".join(lines), "-", "CPU of the sweep at equal error, methods in order")
+    low, high = dict.fromkeys(table["range"])
+    for reach, name in ((low, "low"), (high, "high")):
+        for rival in ("rk4", "shooting-rk4"):
+            add(f"cost.{name}_{rival.split('-')[0]}",
+                " and ".join(faster(ratio_of(table, reach, rival, target)) + f" at {power(target)}"
+                             for target in (0.01, 0.001)), "-", f"harmonic balance beside {rival}, {reach} Hz")
+    add("cost.low_to", float(low.split("-")[1]), "Hz", "end of the lower range")
+    add("cost.high_from", float(high.split("-")[0]), "Hz", "begin of the upper range")
     timing = Table(GENERATED / "tab02_timing.tsv")
-    slow, timing = timing.where("method", "rk4").first("paper_cpu"), timing.where("method", "aft")
-    words = [f"with {m:.0f} harmonics {ratio:.2g} at an error of {power(error)} (the paper: {slow / paper:.1f})"
-             for m, ratio, error, paper in zip(timing["harmonics"], timing["ratio"], timing["error"],
-                                               timing["paper_cpu"])]
+    rivals, timing = timing.where("method", "rk4"), timing.where("method", "aft")
+    slow = rivals.first("paper_cpu")
+    words = [f"with {m:.0f} harmonics {ratio:.2g} at an error of {power(error)}, Runge-Kutta {power(other)} "
+             f"(the paper: {slow / paper:.1f})"
+             for m, ratio, error, other, paper in zip(timing["harmonics"], timing["ratio"], timing["error"],
+                                                      rivals["error"], timing["paper_cpu"])]
     add("cost.paper", "; ".join(words), "-", "Runge-Kutta's time over that of harmonic balance")
+
+
+def ratio_of(table, reach, method, target):
+    """CPU of a method over that of harmonic balance."""
+    rows = table.where("range", reach).where("target", target)
+    return rows.where("method", method).first("cpu_s") / rows.where("method", "aft").first("cpu_s")
+
+
+def faster(ratio):
+    return f"{ratio:.2g} times faster" if ratio >= 1 else f"{1 / ratio:.2g} times slower"
 
 
 def growth(add):
@@ -61,6 +81,13 @@ def growth(add):
     for kind in ("harmonics", "balls", "speeds"):
         add(f"growth.{kind}", table.where("against", kind).first("exponent_cpu"), "-",
             f"exponent of the CPU time against {kind}")
+    begin = float(re.search(r"exponents from harmonics = (\d+)", table.header)[1])
+    rows = table.where("against", "harmonics")
+    size, cpu = np.log(rows["size"]), np.log(rows["cpu_s"])
+    few = rows["size"] <= begin
+    add("growth.from", begin, "-", "harmonics from which on the exponent is fitted")
+    add("growth.few", np.polyfit(size[few], cpu[few], 1)[0], "-", "exponent up to there")
+    add("growth.last", (cpu[-1] - cpu[-2]) / (size[-1] - size[-2]), "-", "exponent of the last doubling")
 
 
 def peers(add):
@@ -71,6 +98,10 @@ def peers(add):
     ours = re.findall(r"^# run (\w+): harmonic balance, m = (\d+), .*?folds: (\d+),", header, re.MULTILINE)
     for run, folds, low, high in runs:
         counts = ", ".join(f"{count} with {m} harmonics" for name, m, count in ours if name == run)
+        end = re.search(rf"^# run {run}: .*?; ended at (\S+) Hz: ([^;]*);", header, re.MULTILINE)
+        add(f"auto.{run}_end", f"{float(end[1]):.1f} Hz ({end[2]})", "-", "where AUTO-07p ended, and why")
+        far = re.search(rf"^# run {run}: distance .* largest (\S+) at", header, re.MULTILINE)
+        add(f"auto.{run}_distance", float(far[1]), "-", "largest difference of amplitudes over the largest one")
         add(f"auto.{run}", f"{folds} folds between {float(low):.0f} and {float(high):.0f} Hz, harmonic balance "
             f"over the same speeds {counts}", "-", "folds by AUTO-07p and by harmonic balance")
 
@@ -79,6 +110,8 @@ def truth(add):
     """Shares of the speeds with a T-periodic attractor, and the harmonics that reach it."""
     limit = min(tomllib.loads(Path("data/claims.toml").read_text())["regimes"]["distance_limits"])
     add("truth.limit", limit, "-", "distance that counts as reached")
+    tight = tomllib.loads(Path("data/scenes/validity.toml").read_text())["tolerance"]
+    add("truth.tolerance", tight, "-", "error that was asked for with m chosen")
     for number in (1, 2):
         rows = Table(GENERATED / "truth_intervals.tsv").where("set", number)
         count = rows["speeds"]
@@ -96,6 +129,7 @@ def truth(add):
         chosen = validity.where("adaptive", 1)
         good = (chosen["found"] == 1) & (chosen["distance"] >= 0) & (chosen["distance"] <= limit)
         add(f"truth.adaptive_{number}", good.mean() if len(chosen) else 0, "-", "the same, m chosen")
+        add(f"truth.tight_{number}", (good & (chosen["distance"] <= tight)).mean(), "-", "share within that")
         add(f"truth.adaptive_m_{number}", chosen["m"][good].max() if good.any() else 0, "-", "its largest m")
 
 
@@ -109,32 +143,41 @@ def stability(add):
         kinds = [f"{(rows['bifurcation'] == kind).sum()} {name}" for kind, name in
                  (("fold", "folds"), ("plus-one", "multipliers through one"),
                   ("period-doubling", "period doublings"), ("neimark-sacker", "Neimark-Sacker points"))]
+        examined = (rows["stable"] > -2).sum()
         lines.append(f"- data set {rows.first('set'):.0f}, {rows.first('harmonics'):.0f} harmonics, from "
-                     f"{rows['f'][0]:.3g} to {rows['f'][-1]:.3g} Hz: of {decided.sum()} points with a verdict "
-                     f"{100 * unstable:.2g} % unstable; {', '.join(kinds)}.")
+                     f"{rows['f'][0]:.3g} to {rows['f'][-1]:.3g} Hz: of {examined} points examined "
+                     f"{decided.sum()} have a verdict, {100 * unstable:.2g} % of them unstable; {', '.join(kinds)}.")
     add("stability.list", r"\n".join(lines), "-", "stability along the followed branches")
 
 
 def estimates(add):
     table = Table(KEPT / "adaptive.tsv")
     known = table.rows((table["reached"] == 1) & (table["effectivity"] > 0))
-    add("adaptive.reached", table["reached"].mean(), "-", "share of the wanted errors that were reached")
+    add("adaptive.asked", len(table), "-", "errors asked for")
+    add("adaptive.claimed", (table["reached"] == 1).sum(), "-", "estimates below the error asked for")
+    add("adaptive.known", len(known), "-", "of them with a known true error")
+    add("adaptive.true", (known["error"] <= known["tolerance"]).sum(), "-", "of these truly within it")
     for share, name in ((0.05, "low"), (0.5, "middle"), (0.95, "high")):
         add(f"adaptive.{name}", np.quantile(known["effectivity"], share), "-", "estimate over true error")
     add("adaptive.cost", np.median(table["ratio"][table["ratio"] > 0]), "-",
         "median cost over that of the best fixed number of harmonics")
+    add("adaptive.compared", (table["ratio"] > 0).sum(), "-", "cases of that comparison")
+    add("adaptive.dear", (table["ratio"] > 2).sum(), "-", "of them above 2")
+    add("adaptive.dearest", table["ratio"].max(), "-", "largest ratio")
 
 
 def hard(add):
     table, lines = Table(KEPT / "hard_cases.tsv"), []
     for method in dict.fromkeys(table["method"]):
-        verdict = table.where("method", method)["verdict"]
+        rows = table.where("method", method)
+        verdict, other = rows["verdict"], (rows["verdict"] == "solved") & (rows["regime"] != "T-periodic")
         counts = ", ".join(f"{(verdict == name).sum()} {word}" for name, word in
                            (("solved", "solved and confirmed"), ("refused", "refused with a reason"),
                             ("silent error", "silently wrong"), ("unconfirmed", "unconfirmed")))
         name = {"aft predictor": "harmonic balance with the paper's predictor",
                 "aft arc length": "harmonic balance by arc length"}.get(method, METHODS.get(method, method))
-        lines.append(f"- {name}: {counts}.")
+        more = f" ({other.sum()} of the former are motions without the period T)" if other.any() else ""
+        lines.append(f"- {name}: {counts}{more}.")
     add("hard.list", r"\n".join(lines), "-", "how the hard cases end")
 
 

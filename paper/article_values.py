@@ -7,6 +7,8 @@ import sys
 import tomllib
 from pathlib import Path
 
+import numpy as np
+
 sys.path.insert(0, "figures")
 from article_results import add_all  # noqa: E402
 from project import source_line  # noqa: E402
@@ -89,6 +91,11 @@ def identification():
     for reading, name in ((0, "exchanged"), (1, "printed")):
         add(f"identification.best_{name}", table.where("reading", reading)["score"].max(), "-",
             f"best score of the {name} reading")
+        used = tomllib.loads(Path(f"data/set1{'' if reading == 0 else '-as-printed'}.toml").read_text())
+        rows = table.where("reading", reading)
+        off = (np.abs(rows["m_s"] / used["stator"]["mass_kg"] - 1) + np.abs(rows["m_r"] / used["rotor"]["mass_kg"] - 1)
+               + np.abs(rows["cage_speed_ratio"] - used["bearing"]["cage_speed_ratio"]))
+        add(f"identification.used_{name}", rows["score"][off.argmin()], "-", "score of the masses used, on the grid")
 
 
 def deviations():

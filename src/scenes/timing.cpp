@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <map>
 
 #include "model/errors.hpp"
 #include "model/progress.hpp"
@@ -122,24 +123,18 @@ std::vector<Rk4Trial> try_rk4(const TimingScene& scene, const Reference& referen
   throw NoSolution(text("no tried RK4 setting reaches the error %.2g", target));
 }
 
-/** RK4 at the cheapest setting that reaches the error of a harmonic-balance row. */
-TimedSweep time_rk4(const TimingScene& scene, const std::vector<Rk4Trial>& trials,
-                    const TimedSweep& aft)
+/** RK4 at one of the settings tried. */
+TimedSweep time_rk4(const TimingScene& scene, const Rk4Trial& trial)
 {
-  const auto chosen = std::find_if(
-      trials.begin(), trials.end(),
-      [&](const Rk4Trial& trial) { return trial.error.displacement <= aft.error; });
-  Rk4Sweep sweep(scene, chosen->step, chosen->transient);
-  const CpuTime cpu = time_of(scene.repetitions, [&] { sweep.run(); });
+  Rk4Sweep sweep(scene, trial.step, trial.transient);
   TimedSweep row{};
   row.method = "rk4";
-  row.harmonics = aft.harmonics;
-  row.step = chosen->step;
-  row.transient = chosen->transient;
-  row.cpu = cpu;
-  row.error = chosen->error.displacement;
-  row.error_force = chosen->error.force;
-  row.worst_frequency = chosen->error.worst_frequency;
+  row.cpu = time_of(scene.repetitions, [&] { sweep.run(); });
+  row.step = trial.step;
+  row.transient = trial.transient;
+  row.error = trial.error.displacement;
+  row.error_force = trial.error.force;
+  row.worst_frequency = trial.error.worst_frequency;
   row.evaluations = sweep.evaluations();
   row.ratio = 1;
   row.paper_cpu = scene.paper_cpu.back();
@@ -179,8 +174,16 @@ TimingResult compute_timing(const TimingScene& scene)
       [](const TimedSweep& a, const TimedSweep& b) { return a.error < b.error; });
   const auto trials = try_rk4(scene, reference, tightest->error);
   TimingResult result{{}, reference.aperiodic, reference.spread};
+  /** By the trial's number: rows that choose the same setting share its one measurement. */
+  std::map<std::ptrdiff_t, TimedSweep> timed;
   for (TimedSweep& balance : balances) {
-    const TimedSweep rk4 = time_rk4(scene, trials, balance);
+    const auto chosen = std::find_if(
+        trials.begin(), trials.end(),
+        [&](const Rk4Trial& trial) { return trial.error.displacement <= balance.error; });
+    const auto number = chosen - trials.begin();
+    if (!timed.contains(number)) timed[number] = time_rk4(scene, *chosen);
+    TimedSweep rk4 = timed[number];
+    rk4.harmonics = balance.harmonics;
     balance.ratio = rk4.cpu.median / balance.cpu.median;
     result.sweeps.push_back(balance);
     result.sweeps.push_back(rk4);
