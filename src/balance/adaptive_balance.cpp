@@ -68,21 +68,14 @@ private:
   {
     constexpr int patience = 3;
     const int n = adaptive_samples(m);
-    const auto before = result_.solution.series;
-    const double expected = result_.estimate.displacement;
-    result_.levels.push_back({m, n, 0, {infinite, false, 0, 0, 0, 0}, 0, false});
+    result_.levels.push_back({m, n, 0, {infinite, false, 0, 0, 0, 0}});
     const bool thorough = failures_ == patience || m >= settings_.most_harmonics;
     if (!warm(m, n) && !cold(m, n, thorough)) {
       ++failures_;
       return false;
     }
     failures_ = 0;
-    AdaptiveLevel& level = result_.levels.back();
-    level.newton = result_.newton.iterations;
-    if (before.size() == 0) return true;
-    level.moved = series_difference(before, result_.solution.series);
-    constexpr double far = 10;
-    level.jumped = result_.estimate.settled && level.moved > far * expected;
+    result_.levels.back().newton = result_.newton.iterations;
     return true;
   }
 
@@ -131,7 +124,8 @@ private:
      tolerance, the estimate being to them as it was at the last m. */
   int next(int m) const
   {
-    const int a_little = std::max(m + 2, m + 2 * m / 5), half_as_many = m + m / 2;
+    const int a_little = std::max(m + 2, m + 2 * m / 5),
+              half_as_many = m + std::max(1, m / 2);
     if (finer_.harmonics == 0 || failures_ > 0) return half_as_many;
     const double goal = 0.5 * settings_.tolerance / result_.estimate.displacement *
                         tail(finer_.series, m);

@@ -78,8 +78,6 @@ struct AdaptiveLevel {
   int harmonics, samples;
   int newton;              ///< iterations
   ErrorEstimate estimate;  ///< not settled when no solution was found
-  double moved;  ///< distance to the level before, relative [-]; 0 for the first one
-  bool jumped;   ///< it moved by far more than that level's estimate: another branch
 };
 
 struct AdaptiveBalance {

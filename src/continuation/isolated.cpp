@@ -61,7 +61,14 @@ Branch follow_both_ways(Balance& balance, const BranchPoint& start, SpeedRange r
     ahead.covered = true;
     return ahead;
   }
-  return joined(follow_branch(balance, reversed(start), range, settings), ahead);
+  try {
+    return joined(follow_branch(balance, reversed(start), range, settings), ahead);
+  } catch (const NoSolution& nothing_behind) {
+    ahead.end = nothing_behind.what();
+    ahead.kind = BranchEnd::work;
+    ahead.covered = false;
+    return ahead;
+  }
 }
 
 std::vector<IsolatedBranch> isolated_branches(Balance& balance, const Branch& main,

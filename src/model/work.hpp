@@ -29,7 +29,7 @@ public:
   /** What is left; infinite without a bound. */
   double left() const;
 
-  /** Whether a part could not be paid for, or nothing is left. */
+  /** Whether something could not be paid for from this account, or nothing is left. */
   bool used_up() const { return left() <= 0; }
 
   /** Takes `operations` from the account. Throws NoSolution when they are not there. */

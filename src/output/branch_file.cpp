@@ -85,9 +85,13 @@ class Reader
 public:
   explicit Reader(const std::string& file) : file_(file)
   {
-    if (!std::filesystem::exists(file)) throw BadInput(file + ": no such file");
-    if (std::filesystem::is_directory(file))
-      throw BadInput(file + ": is a directory; a saved branch is expected");
+    std::error_code ignored;
+    const auto status = std::filesystem::status(file, ignored);
+    if (!std::filesystem::exists(status)) throw BadInput(file + ": no such file");
+    if (!std::filesystem::is_regular_file(status))
+      throw BadInput(file + ": is " +
+                     (is_directory(status) ? "a directory" : "no plain file") +
+                     "; a saved branch is expected");
     in_.open(file);
     if (!in_) throw BadInput(file + ": cannot be read");
   }

@@ -26,7 +26,7 @@ BranchPoint saved_start(const ResponseTask& task, Table& table)
   BranchPoint point =
       restart_point(*task.saved, request.at ? &at : nullptr, task.settings);
   const double frequency = point.omega / angular(1);
-  if (frequency < request.from || frequency > request.to)
+  if (point.omega < angular(request.from) || point.omega > angular(request.to))
     throw BadInput(text("%s: the point at %.9g Hz is outside --from %g --to %g",
                         request.restart.c_str(), frequency, request.from, request.to));
   if (task.upwards != task.saved->upwards) point = reversed(std::move(point));
@@ -116,26 +116,38 @@ std::vector<Column> response_columns(bool stability, bool numbered)
   return columns;
 }
 
+/** The branches beside the followed one, and what was not looked at. */
+struct Others {
+  std::vector<IsolatedBranch> found;
+  std::string missing;
+};
+
 /** The branches beside `main`; what is said of each stands in the table's header. */
-std::vector<IsolatedBranch> others(const ResponseTask& task, Balance& balance,
-                                   const Branch& main, Table& table)
+Others others(const ResponseTask& task, Balance& balance, const Branch& main,
+              Table& table)
 {
   const auto starts =
       other_starts(task.parameters, task.range(), task.harmonics,
                    {.speeds = task.request.isolated,
                     .seed = static_cast<std::uint64_t>(task.request.seed)},
                    task.work);
-  auto found = isolated_branches(balance, main, starts, task.range(), task.settings);
+  Others others{
+      isolated_branches(balance, main, starts.candidates, task.range(), task.settings),
+      {}};
   int number = 1;
-  for (const IsolatedBranch& other : found)
+  for (const IsolatedBranch& other : others.found)
     table.note(text("branch %d: off the branches before it, found at %g Hz from %s; %s",
                     ++number, other.omega / angular(1), other.origin.c_str(),
                     summary(other.branch).c_str()));
   if (task.work.used_up())
-    table.note("the work allowed is used up: not every start was followed");
-  else if (found.empty())
-    table.note(text("no other branch found from %zu starts", starts.size()));
-  return found;
+    others.missing = "the work allowed is used up: not every start was followed";
+  else if (starts.cut_off > 0)
+    others.missing = text("the work allowed cut off %d of %d time integrations",
+                          starts.cut_off, task.request.isolated);
+  if (!others.missing.empty()) table.note("incomplete: " + others.missing);
+  if (others.found.empty())
+    table.note(text("no other branch found from %zu starts", starts.candidates.size()));
+  return others;
 }
 
 /** The rows of all branches, and what their header says of the multipliers: which are missing. */
@@ -177,11 +189,10 @@ void describe(Table& table, const ResponseTask& task, const Branch& branch)
 
 /** The first thing that is missing, in the order in which it was asked for. */
 std::string unfinished(const ResponseTask& task, const Branch& branch,
-                       const std::string& stability)
+                       const std::string& isolated, const std::string& stability)
 {
-  if (branch.covered && task.request.isolated > 0 && task.work.used_up())
-    return text("%s: the search for isolated branches used up the work allowed",
-                task.parameters.file.c_str());
+  if (branch.covered && !isolated.empty())
+    return task.parameters.file + ": isolated branches: " + isolated;
   if (branch.covered)
     return stability.empty() ? "" : task.parameters.file + ": " + stability;
   return text("%s: the branch stopped at %g Hz, before --%s %g Hz: %s",
@@ -205,17 +216,17 @@ Exploration explore_response(const ResponseRequest& request)
   const Branch main = follow_branch(balance, start, task.range(), task.settings);
   describe(table, task, main);
 
-  std::vector<IsolatedBranch> beside;
+  Others beside;
   if (numbered) beside = others(task, balance, main, table);
 
   std::vector<const Branch*> all{&main};
-  for (const IsolatedBranch& other : beside) all.push_back(&other.branch);
+  for (const IsolatedBranch& other : beside.found) all.push_back(&other.branch);
   const std::string without_multipliers =
       add_branches(table, task, balance, all, numbered);
   if (!request.save.empty())
     write_file(request.save, branch_text(task.parameters, task.harmonics, task.samples,
                                          task.upwards, all));
-  return {std::move(table), unfinished(task, main, without_multipliers)};
+  return {std::move(table), unfinished(task, main, beside.missing, without_multipliers)};
 }
 
 }  // namespace rotor_stator

@@ -1,6 +1,7 @@
 #include "output/explore_stability.hpp"
 
 #include <algorithm>
+#include <numbers>
 
 #include "model/errors.hpp"
 #include "scenes/scene_file.hpp"
@@ -11,40 +12,6 @@ namespace rotor_stator
 namespace
 {
 
-/** Operations for one value of the stiffness along m harmonics, with the disturbances' step. */
-double stiffness_cost(const Parameters& parameters, int harmonics)
-{
-  return 300 + 2.0 * parameters.bearing.balls + 5.0 * harmonics;
-}
-
-/** Operations for the phases where balls meet or leave their race. */
-double contact_changes_cost(const Parameters& parameters, int harmonics)
-{
-  return std::max(512.0, 16.0 * harmonics) *
-         (50 + 5.0 * parameters.bearing.balls + 5.0 * harmonics);
-}
-
-/** The multipliers at a point, taken from the account. */
-Floquet paid_floquet(const Work& work, const Parameters& parameters,
-                     const BranchPoint& point, int harmonics)
-{
-  work.spend(contact_changes_cost(parameters, harmonics));
-  const double evaluation = stiffness_cost(parameters, harmonics);
-  const FloquetSettings settings =
-      affordable_floquet(parameters, harmonics, work.left());
-  try {
-    const Floquet found = floquet(parameters, point.omega, point.x, settings);
-    work.spend(evaluation * static_cast<double>(found.evaluations));
-    return found;
-  } catch (const NoSolution&) {
-    /** How far it came is not known: all that it was allowed is taken, and where that was all there
-        is, the account says so. */
-    const auto most = static_cast<double>(settings.first.most_evaluations + 1);
-    work.spend(3 * evaluation * most);
-    throw;
-  }
-}
-
 int count_of(const BranchStability& stability, Bifurcation kind)
 {
   return static_cast<int>(
@@ -54,14 +21,21 @@ int count_of(const BranchStability& stability, Bifurcation kind)
 
 }  // namespace
 
-FloquetSettings affordable_floquet(const Parameters& parameters, int harmonics,
-                                   double operations)
+Floquet paid_floquet(const Work& work, const Parameters& parameters, double omega,
+                     const Eigen::VectorXd& x)
 {
-  FloquetSettings settings;
-  const double evaluations = operations / 3 / stiffness_cost(parameters, harmonics);
-  settings.first.most_evaluations = static_cast<long>(std::min(
-      static_cast<double>(settings.first.most_evaluations), std::max(evaluations, 0.0)));
-  return settings;
+  const double balls = parameters.bearing.balls;
+  const auto harmonics = static_cast<double>(x.size() / 4);
+  /** The phases where balls meet or leave their race; then the stiffness, value by value, each with its
+      step of the disturbances. */
+  work.spend(std::max(512.0, 16 * harmonics) * (50 + 5 * balls + 5 * harmonics));
+  PeriodicStiffness stiffness = stiffness_along(parameters, x);
+  stiffness.at = [at = std::move(stiffness.at), work,
+                  value = 300 + 2 * balls + 5 * harmonics](double phase, double* k) {
+    work.spend(value);
+    at(phase, k);
+  };
+  return floquet(vibration_of(parameters), stiffness, 2 * std::numbers::pi / omega);
 }
 
 BranchStability stability_within(const Work& work, const Parameters& parameters,
@@ -69,7 +43,7 @@ BranchStability stability_within(const Work& work, const Parameters& parameters,
                                  const ArcLengthSettings& settings)
 {
   const auto floquet_at = [&](const BranchPoint& point) {
-    return paid_floquet(work, parameters, point, balance.harmonics());
+    return paid_floquet(work, parameters, point.omega, point.x);
   };
   return stability_along(balance, branch, settings, floquet_at);
 }
@@ -112,9 +86,11 @@ std::vector<std::string> stability_notes(const BranchStability& stability)
 std::string missing_stability(const BranchStability& stability, const Work& work)
 {
   if (stability.failed == 0)
-    return work.used_up() && stability.missed > 0
-               ? text("%d bifurcations not located: the work allowed is used up",
-                      stability.missed)
+    return work.used_up()
+               ? text(
+                     "the work allowed is used up: bifurcations may be missing, %d were "
+                     "seen and not located",
+                     stability.missed)
                : "";
   const auto first = std::find_if(stability.points.begin(), stability.points.end(),
                                   [](const StablePoint& p) { return !p.examined(); });

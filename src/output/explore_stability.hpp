@@ -11,9 +11,10 @@ Floquet multipliers within a bound on work, and what is said of them. */
 namespace rotor_stator
 {
 
-/** Settings that keep the multipliers of one solution with m `harmonics` within `operations`. */
-FloquetSettings affordable_floquet(const Parameters& parameters, int harmonics,
-                                   double operations);
+/** The multipliers along the coefficients `x`, paid for from `work`. Throws NoSolution when it is used
+    up. */
+Floquet paid_floquet(const Work& work, const Parameters& parameters, double omega,
+                     const Eigen::VectorXd& x);
 
 /** The multipliers and bifurcations of a branch, as far as `work` goes; `balance` is the one the branch
     was followed with. */

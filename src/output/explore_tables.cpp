@@ -82,12 +82,10 @@ AdaptiveSolution solved(const Parameters& parameters, const MotionRequest& reque
 
 /** What the Floquet multipliers say of a solution. */
 std::string stability_note(const Parameters& parameters, const PeriodicSolution& solution,
-                           double operations)
+                           const Work& work)
 {
   try {
-    const Floquet motion =
-        floquet(parameters, solution.omega, solution.x,
-                affordable_floquet(parameters, solution.harmonics, operations));
+    const Floquet motion = paid_floquet(work, parameters, solution.omega, solution.x);
     return text(
         "stability: %s; largest Floquet multiplier %.9g +- %.2g, along the %d "
         "harmonics",
@@ -121,7 +119,7 @@ Motion balance_motion(const Parameters& parameters, const MotionRequest& request
              at.estimate.displacement, at.estimate.harmonics, at.estimate.samples,
              *request.tolerance));
   table.note("the period is imposed by the method");
-  table.note(request.stability ? stability_note(parameters, at.solution, work.left())
+  table.note(request.stability ? stability_note(parameters, at.solution, work)
                                : "stability is not tested");
   table.note("regime: periodic");
   return motion_of(at.solution.bodies, request.points);

@@ -70,7 +70,6 @@ struct Task {
 /** Operations of the last run. */
 struct Counts {
   long force_instants = 0;   ///< evaluations of the bearing's force, one instant each
-  long force_calls = 0;      ///< aft: evaluations at all samples at once
   long transforms = 0;       ///< Fourier transforms of one series
   long transformed = 0;      ///< samples of all of them
   int maps = 0;              ///< periods integrated by shooting

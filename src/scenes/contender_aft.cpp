@@ -59,7 +59,6 @@ private:
     const long transforms = 4 * balance.evaluations() +
                             4 * balance.steps().factorisations() +
                             4 * balance.steps().linear_iterations();
-    counts.force_calls += balance.evaluations();
     counts.force_instants += balance.evaluations() * samples;
     counts.transforms += transforms;
     counts.transformed += transforms * samples;

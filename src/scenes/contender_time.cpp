@@ -3,7 +3,6 @@
 
 One motion, timed with its transient, or with the start and the maps of shooting. */
 #include <cmath>
-#include <memory>
 #include <numbers>
 
 #include "continuation/lagrange_predictor.hpp"

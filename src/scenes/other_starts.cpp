@@ -32,28 +32,29 @@ Eigen::VectorXd random_coefficients(double size, int harmonics,
 
 }  // namespace
 
-std::vector<Candidate> other_starts(const Parameters& parameters, SpeedRange range,
-                                    int harmonics, const OtherStarts& wanted,
-                                    const Work& work)
+FoundStarts other_starts(const Parameters& parameters, SpeedRange range, int harmonics,
+                         const OtherStarts& wanted, const Work& work)
 {
   /** The motion of the rings is free to be several clearances wide. */
   const double size = 2 * scales(parameters).length;
   std::mt19937_64 generator(wanted.seed);
-  std::vector<Candidate> starts;
+  const Work half = work.part(0.5);
+  FoundStarts starts;
   for (int k = 1; k <= wanted.speeds; ++k) {
     const double omega = range.from + (range.to - range.from) * k / (wanted.speeds + 1);
+    const Work share = half.part(1.0 / (wanted.speeds - k + 1));
     try {
-      starts.push_back(
-          {omega,
-           integrated_start(parameters, omega, harmonics, work.part(0.5 / wanted.speeds)),
-           "time integration"});
+      starts.candidates.push_back({omega,
+                                   integrated_start(parameters, omega, harmonics, share),
+                                   "time integration"});
     } catch (const NoSolution&) {
-      // the integration broke down: only random starts here
+      // cut off or broken down: only random starts here
+      starts.cut_off += share.used_up();
     }
     for (int j = 1; j <= wanted.random; ++j)
-      starts.push_back({omega, random_coefficients(size, harmonics, generator),
-                        text("random start %d of seed %llu", j,
-                             static_cast<unsigned long long>(wanted.seed))});
+      starts.candidates.push_back({omega, random_coefficients(size, harmonics, generator),
+                                   text("random start %d of seed %llu", j,
+                                        static_cast<unsigned long long>(wanted.seed))});
   }
   return starts;
 }

@@ -22,10 +22,14 @@ struct OtherStarts {
   std::uint64_t seed = 1;
 };
 
+struct FoundStarts {
+  std::vector<Candidate> candidates;
+  int cut_off = 0;  ///< time integrations that used up their part of the work
+};
+
 /** The starts with m harmonics in the range; the same for the same seed on every machine. The
-    integrations take at most half of `work`. */
-std::vector<Candidate> other_starts(const Parameters& parameters, SpeedRange range,
-                                    int harmonics, const OtherStarts& wanted,
-                                    const Work& work = {});
+    integrations take at most half of `work`, in equal parts of what is left of it. */
+FoundStarts other_starts(const Parameters& parameters, SpeedRange range, int harmonics,
+                         const OtherStarts& wanted, const Work& work = {});
 
 }  // namespace rotor_stator

@@ -1,5 +1,6 @@
 #include "scenes/two_threads.hpp"
 
+#include <algorithm>
 #include <atomic>
 #include <exception>
 #include <mutex>
@@ -13,6 +14,7 @@ void on_two_threads(std::size_t pieces,
 {
   std::atomic<std::size_t> next{0};
   std::exception_ptr failure;
+  std::size_t failed = pieces;  // the first of the pieces that threw
   std::mutex mutex;
   const auto until_done = [&] {
     for (std::size_t piece; (piece = next++) < pieces;) {
@@ -20,7 +22,8 @@ void on_two_threads(std::size_t pieces,
         work(piece);
       } catch (...) {
         const std::lock_guard lock(mutex);
-        failure = std::current_exception();
+        if (piece < failed) failure = std::current_exception();
+        failed = std::min(failed, piece);
         next = pieces;
       }
     }

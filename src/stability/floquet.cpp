@@ -30,14 +30,17 @@ Multipliers multipliers_of(const Eigen::MatrixXd& phi)
   /** Displacements and speeds on one scale, which keeps the small eigenvalues. */
   const auto d = phi.rows() / 2;
   Eigen::MatrixXd scaled = phi;
-  const double up = phi.bottomLeftCorner(d, d).norm();
-  const double down = phi.topRightCorner(d, d).norm();
+  const double up = phi.bottomLeftCorner(d, d).stableNorm();
+  const double down = phi.topRightCorner(d, d).stableNorm();
   if (up > 0 && down > 0) {
     const double rate = std::sqrt(up / down);
     scaled.topRightCorner(d, d) *= rate;
     scaled.bottomLeftCorner(d, d) /= rate;
   }
-  const Eigen::VectorXcd values = scaled.eigenvalues();
+  const Eigen::EigenSolver<Eigen::MatrixXd> solver(scaled, false);
+  if (solver.info() != Eigen::Success)
+    throw NoSolution("the multipliers of the motion cannot be computed");
+  const Eigen::VectorXcd values = solver.eigenvalues();
   Multipliers multipliers(values.begin(), values.end());
   sort_by_modulus(multipliers);
   return multipliers;

@@ -6,6 +6,7 @@
 #include <numbers>
 
 #include "balance/fourier_transform.hpp"
+#include "model/errors.hpp"
 
 namespace rotor_stator
 {
@@ -104,6 +105,8 @@ std::vector<Candidate> candidates(const Quadratic& q, const Eigen::MatrixXcd& t,
       -q.constant / rate, -q.linear;
   const Eigen::EigenSolver<Eigen::MatrixXd> solver(standard,
                                                    choice == HillChoice::most_symmetric);
+  if (solver.info() != Eigen::Success)
+    throw NoSolution("the eigenvalues of Hill's matrix cannot be computed");
   std::vector<Candidate> all;
   for (Eigen::Index j = 0; j < 2 * n; ++j) {
     const Complex exponent = solver.eigenvalues()[j];

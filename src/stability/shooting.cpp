@@ -89,6 +89,7 @@ public:
       while (report_.reason.empty()) newton_step();
       if (report_.converged) take_known_step();
     } catch (const NoSolution& broken) {
+      report_.converged = false;
       report_.reason = broken.what();
     }
     if (report_.derivatives > 0 || jacobian) jacobian = jacobian_;

@@ -170,6 +170,8 @@ TEST_CASE("Bad options are refused with what would be accepted")
       {response + "--from 1 --to 2 --save data", "is a directory"},
       {response + "--from 1 --to 2 --restart no/such/file", "no such file"},
       {response + "--from 1 --to 2 --restart data", "is a directory"},
+      {response + "--from 1 --to 2 --restart /dev/zero", "is no plain file"},
+      {response + "--from 1 --to 2 --restart " + std::string(300, 'x'), "no such file"},
       {response + "--from 1 --to 2 --restart data/set1.toml", "set1.toml:1: is no saved"},
       {"", "subcommand"},
       {"dance", "subcommand"},

@@ -207,6 +207,29 @@ TEST_CASE("explore response: a saved branch is gone on with, either way")
         1e-9);
 }
 
+TEST_CASE("explore response: a branch is gone on with from the very end of its range")
+{
+  const Scratch scratch;
+  const std::string file = scratch.path("branch.tsv"),
+                    machine = "explore response data/set1.toml ";
+  for (const auto& [first, on] :
+       {std::pair("--from 29 --to 30 --direction up", "--from 30 --to 31"),
+        std::pair("--from 26 --to 27 --direction down", "--from 25 --to 26")}) {
+    INFO(first);
+    REQUIRE(run_program(machine + first + " --save " + file).status == 0);
+    CHECK(run_program(machine + on + " --restart " + file).status == 0);
+  }
+}
+
+TEST_CASE("explore response: a search for isolated branches that was cut off says so")
+{
+  const Outcome outcome = run_program(
+      "explore response data/set2.toml --from 1 --to 60 --isolated 10 --operations 2");
+  CHECK(outcome.status == 3);
+  CHECK(outcome.err.find("cut off") != std::string::npos);
+  CHECK(outcome.out.find("# incomplete: the work allowed cut off") != std::string::npos);
+}
+
 TEST_CASE("explore response: what is no saved branch of this machine is refused by line")
 {
   const Scratch scratch;
