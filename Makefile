@@ -231,6 +231,8 @@ figures/generated/identification.svg figures/generated/study.svg figures/generat
 	@mkdir -p $(@D)
 	$(call whole,$(PYTHON) $< data/reference/$*.tsv $$new)
 
+figures/generated/identification.svg: data/set1-as-printed.toml
+
 figures/generated/peers.svg: figures/peers.py figures/rotor_stator.mplstyle figures/tables.py \
   data/reference/peers.tsv data/reference/peers_auto.tsv data/generated/fig03.tsv
 	@mkdir -p $(@D)

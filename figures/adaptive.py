@@ -5,6 +5,8 @@ cross near the upper edge: the tolerance was not reached.
 Usage: /usr/bin/python3 figures/adaptive.py data/reference/adaptive.tsv adaptive.svg
 """
 
+from itertools import zip_longest
+
 import matplotlib.pyplot as plt
 import numpy as np
 from matplotlib.ticker import LogLocator
@@ -69,10 +71,23 @@ def draw_harmonics(axes, table, styles, number, title):
     axes.yaxis.set_major_formatter("{x:g}")
 
 
+def legend_of(styles):
+    """Column by column: a tolerance above, and below it what filled, open and crossed marks mean."""
+    tolerances = [plt.Line2D([], [], color=colour, marker=marker, ms=5, lw=1,
+                             label=f"tolerance $10^{{{np.log10(tolerance):g}}}$")
+                  for tolerance, colour, marker in styles]
+    marks = [plt.Line2D([], [], color="black", marker=marker, mfc=face, ms=ms, ls="", label=label)
+             for marker, face, ms, label in (("o", "black", 5, "data set 1 in (a), (b)"),
+                                             ("o", "none", 5, "data set 2 in (a), (b)"),
+                                             ("x", "none", 6, "tolerance not reached"))]
+    return [handle for pair in zip_longest(tolerances, marks) for handle in pair if handle]
+
+
 def draw(table):
     """Estimate and cost above, harmonics of both data sets below."""
-    figure, ((estimate, cost), (first, second)) = plt.subplots(
-        2, 2, figsize=(10, 8), layout="constrained")
+    figure = plt.figure(figsize=(10, 8.6), layout="constrained")
+    key, panels = figure.subfigures(2, 1, height_ratios=(1, 13))
+    (estimate, cost), (first, second) = panels.subplots(2, 2)
     styles = styles_of(table)
     draw_effectivity(estimate, table, styles)
     draw_cost(cost, table, styles)
@@ -82,10 +97,7 @@ def draw(table):
         axes.grid(color="#d9d9d9", lw=0.7)
         axes.set_axisbelow(True)
     estimate.xaxis.set_major_locator(LogLocator(numticks=4))
-    handles = [plt.Line2D([], [], color=colour, marker=marker, ms=5, lw=1,
-                          label=f"tolerance $10^{{{np.log10(tolerance):g}}}$")
-               for tolerance, colour, marker in styles]
-    first.legend(handles=handles, loc="upper right")
+    key.legend(handles=legend_of(styles), ncols=len(styles), loc="center")
     return figure
 
 

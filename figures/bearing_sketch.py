@@ -63,6 +63,7 @@ def draw_axes(axes, outer):
 def sketch(table, sentence):
     """A figure with the bearing, its axes and a sentence above; returns the figure and its axes."""
     figure, axes = plt.subplots(figsize=(10, 7.8), layout="constrained")
+    figure.get_layout_engine().set(h_pad=0.15)
     draw_rings(axes, table)
     draw_balls(axes, table)
     outer = table.where("part", OUTER).first("radius")

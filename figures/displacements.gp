@@ -5,8 +5,9 @@
 # Harmonic balance, one period in the table and drawn twice, is in colour; time integration is a
 # thin line over it, so that a coloured edge without it, or the reverse, shows where they differ.
 
-height = 920
+height = 960
 load 'figures/style.gp'
+from_top(units) = 1 - units / (1.0 * height)
 
 balance = 1; integrated = 2
 of(source, value) = column("source") == source ? value : NaN
@@ -31,10 +32,11 @@ regime = "Time integration is ".(flag_max_y == 1 ? "" : "not ").\
   sprintf("T-periodic: Poincaré spread %.2g %% of the largest displacement", 100 * error_max_x)
 case = sprintf("f = %g Hz, δ = %g µm, harmonic balance with %d harmonics", \
                speed, delta_um, harmonics(1))
-set label 1 case."\n".comparison."\n".regime at screen 0.5, 0.98 center
+set label 1 case."\n".comparison."\n".regime at screen 0.5, from_top(18) center
 
-set multiplot layout 2, 2 columnsfirst margins 0.09, 0.975, 0.085, 0.83 spacing 0.13, 0.11
-set key at screen 0.53, 0.905 center top vertical maxrows 2 Left reverse width 2
+set multiplot layout 2, 2 columnsfirst \
+  margins 0.09, 0.975, 78.0 / height, from_top(156) spacing 0.13, 140.0 / height
+set key at screen 0.53, from_top(87) center top vertical maxrows 2 Left reverse width 2
 
 # Left: x(t) and y(t). The first panel names the curves.
 set xrange [0 : 2]
@@ -66,7 +68,8 @@ plot \
   table using (of(integrated, scaled("x_s"))):(scaled("y_s")) with lines ls stator_time notitle
 
 # Right, below: a contact needs a relative motion outside the circle of the clearance. Integration
-# is drawn as points, since the samples of the table are too far apart to join them there.
+# is drawn as points, since the samples of the table are too far apart to join them there. The key
+# stands above the panel, whose middle the points may cross.
 span = 1.08 * max(delta_um, U_max_y)
 set xrange [-span : span]
 set yrange [-span : span]
@@ -75,9 +78,12 @@ set ytics tic_step(2 * span)
 set xlabel "x of rotor − x of stator [µm]"
 set ylabel "y of rotor − y of stator [µm]"
 set object 1 circle at 0, 0 size delta_um fs empty border rgb '#000000'
-set label 1 sprintf("circle: clearance\nδ = %g µm", delta_um) at 0, 0 center
+set key at graph 0.46, 1.025 center bottom vertical maxrows 2 Left reverse width -5
 plot \
-  orbit using (of(balance, relative_um("x"))):(relative_um("y")) with lines ls relative notitle, \
+  orbit using (of(balance, relative_um("x"))):(relative_um("y")) \
+    with lines ls relative title found ? "harmonic balance" : "", \
   table using (of(integrated, relative_um("x"))):(relative_um("y")) \
-    with points ls rotor_time ps 0.25 notitle
+    with points ls rotor_time ps 0.25 notitle, \
+  keyentry with points ls rotor_time ps 0.4 title "time integration", \
+  keyentry with points pt 6 lw 1 ps 1.6 lc rgb '#000000' title sprintf("clearance δ = %g µm", delta_um)
 unset multiplot

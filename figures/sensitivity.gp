@@ -17,8 +17,10 @@ mm(name) = 1e3 * column(name)
 um(name) = 1e6 * column(name)
 peak(row) = row == 1 ? column("f_peak") : mm("amp_peak")
 
-# All but the cage ratio are varied by factors.
+# All but the cage ratio are varied by factors. The space after an index is lost in some viewers, unless two
+# in a row make gnuplot declare that spaces count.
 array label[5] = ["m_s + m_r [kg]", "m_r / m_s", "ω_{cage} / ω", "samples N", "step h [µs]"]
+spaced(text) = "  ".text."  "
 array span[5] = ["[26 : 139]", "[0.86 : 4.65]", "[0.395 : 0.51]", "[10 : 660]", "[3.8 : 265]"]
 array tics[5] = ["30, 60, 120", "1, 2, 4", "0.4, 0.45, 0.5", "13, 50, 512", "5, 20, 200"]
 
@@ -52,7 +54,7 @@ do for [row = 1 : 5] {
     eval "set xtics (".tics[p].")"
     set format x row == 5 ? "%g" : ""
     set format y p == 1 ? "%g" : ""
-    set xlabel row == 5 ? label[p] : "" offset 0, 0.3
+    set xlabel row == 5 ? spaced(label[p]) : "" offset 0, 0.3
     set ylabel p == 1 ? output_label[row] : "" offset 1, 0
     direction = row == 4 ? "x" : "y"
     time = "amp_".direction."_13p4"

@@ -1,7 +1,7 @@
 """Where a harmonic-balance solution is true: distance to the nearest attractor's motion against speed.
 
 Full points are stable solutions, open ones unstable or unknown; a speed without a point has no solution.
-Grey: no attractor has the period of rotation, so no periodic solution can be the motion.
+Grey: no attractor has the period of rotation, so no periodic solution can be the motion; no line crosses it.
 Usage: /usr/bin/python3 figures/validity.py data/reference/validity.tsv validity.svg
 """
 
@@ -28,9 +28,9 @@ def shade(axes, rows):
 
 
 def draw_solution(axes, rows, colour, marker, label):
-    """A line through neighbouring speeds; full points where the solution is stable."""
+    """Full points where the solution is stable; a line through speeds with T-periodic attractor."""
     distance = np.where(rows["found"] == 1, rows["distance"], np.nan)
-    axes.plot(rows["f"], distance, "-", color=colour, lw=0.8)
+    axes.plot(rows["f"], np.where(rows["periodic"] == 1, distance, np.nan), "-", color=colour, lw=0.8)
     stable = rows["stable"] == 1
     for chosen, face, name in ((stable, colour, label), (~stable, "white", None)):
         axes.plot(rows["f"][chosen], distance[chosen], marker, ms=4.5, mfc=face, mec=colour, mew=0.9,
@@ -50,6 +50,11 @@ def draw_set(axes, rows, tolerance):
                       ha="right", va="bottom", fontsize=9)
 
 
+def point(face, label):
+    """The legend's entry of a point that is full or open, whatever its colour and shape."""
+    return plt.Line2D([], [], marker="o", ls="", ms=5.5, mfc=face, mec="black", mew=0.9, label=label)
+
+
 def draw(table):
     """One panel per data set."""
     clearances = [float(x) for x in re.findall(r"delta = (\S+) m", table.header)]
@@ -61,9 +66,12 @@ def draw(table):
         axes.set(yscale="log", xlim=(0, 61), title=f"data set {number}, δ = {1e6 * clearance:g} µm",
                  ylabel="distance over the motion's size [-]")
     grid[-1].set_xlabel("speed of rotation [Hz]")
-    handles, labels = grid[-1].get_legend_handles_labels()
-    grid[0].legend(handles, labels, ncols=5, loc="lower center", bbox_to_anchor=(0.5, 1.1),
-                   handletextpad=0.2, columnspacing=1.2)
+    shaded, *methods = grid[-1].get_legend_handles_labels()[0]
+    points = point("black", "stable"), point("white", "unstable or unknown")
+    # column by column: the methods above, what points and shade mean below
+    order = methods[0], points[0], methods[1], points[1], methods[2], shaded, methods[3]
+    grid[0].legend(handles=order, ncols=4, loc="lower center", bbox_to_anchor=(0.5, 1.1),
+                   handletextpad=0.4, columnspacing=1.6)
     return figure
 
 

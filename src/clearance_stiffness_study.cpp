@@ -10,8 +10,8 @@ of reach of time integration. So here is one: a grid of clearances and contact s
 curve at every point of it, and four numbers kept of each curve.
 
 Map (a) is the speed of the peak. With both bodies moving together the bearing hardly matters, and the map
-is nearly flat: two bodies on their suspensions fix that speed. Map (b) is the width of the band in which
-contact is lost at times, map (c) the largest force on a ball, which is what a designer asks for. Map (d)
+is nearly flat, as its scale says: two bodies on their suspensions fix that speed. Map (b) is the width of the
+band in which contact is lost at times, map (c) the largest force on a ball, which is what a designer asks for. Map (d)
 has to be read with all the others: it counts the speeds at which the sweep with this number of harmonics
 found no solution, and where it is dark the other three maps say little. The numbered circles are the
 data sets of the paper. What the same grid would cost by time integration is worked out, from the measured

@@ -12,10 +12,10 @@ low speed, lost at middle speeds and rotating at high speed, and that each ball 
 periods. The score is the mean of the five parts; a candidate is accepted when each part passes its rule.
 
 The maps show the score over the stator's mass, to the right, and the cage ratio with the ratio of the masses,
-upwards; the two columns are the two readings of Table 1. The orange line surrounds what is accepted, the star is the
-machine used everywhere else. The curves below split the score into its parts along one row of the map, and show
-which part tells one mass from another and which is met by nearly all. The score cannot prove a reading; it says
-how well the text describes each.
+upwards; the two columns are the two readings of Table 1. The orange line surrounds what is accepted, the star is
+the best candidate, and a circle stands at the masses used everywhere else. The curves below split the score into
+its parts along one row of the map, and show which part tells one mass from another and which is met by nearly
+all. The score cannot prove a reading; it says how well the text describes each.
 
 Modelled: the integrated motion of every candidate at 60 speeds, judged by data/claims.toml. Finished candidates
 are kept in a journal: an interrupted run goes on where it was. */
