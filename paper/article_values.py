@@ -48,6 +48,9 @@ def response():
         add(f"peak.mm_set_{number}", 1e3 * up["amp_x_r"][peak], "mm", "largest amp_x_r")
         add(f"loss.first_set_{number}", lost.min(), "Hz", "first speed that loses contact")
         add(f"loss.last_set_{number}", lost.max(), "Hz", "last speed that loses contact")
+        add(f"peak.fr_set_{number}", f"{up['f'][peak]:.1f}".replace(".", ","), "Hz", "the same in French")
+        add(f"aperiodic.fr_set_{number}", f"{100 * (time['periodic'] == 0).mean():.0f} %", "-",
+            "the share that follows, in French")
         add(f"aperiodic.share_set_{number}", (time["periodic"] == 0).mean(), "-",
             "share of the speeds whose integrated motion is not T-periodic")
 

@@ -13,7 +13,8 @@ sets where the motion is T-periodic.
 Panel (a) divides the estimate by the true error, the distance to the exact periodic motion found by
 shooting: on the line the estimate is right, below it it is too hopeful; the grey band is what is
 asked of it. Panel (b) divides the cost by that of the cheapest fixed number of harmonics that does as well, a
-number that nobody knows beforehand: above one is what not knowing costs. Panels (c) and (d) show the
+number that nobody knows beforehand: above one is what not knowing costs, and the line at two is what it may
+cost. Panels (c) and (d) show the
 number chosen, speed by speed; a cross is a tolerance that was not reached. The number varies over the range
 by far more than one number for a whole data set suggests. Open marks in (a) and (b) belong to data set 2. Speeds
 at which the motion is not T-periodic have no exact solution to compare with and are left out.
