@@ -71,8 +71,9 @@ class Evidence:
         above = [m for m in worst if not worst[m] <= REGIMES["distance_limits"][0]]
         smallest = max(above, default=0) + 1
         stays = smallest if smallest <= MOST_HARMONICS else "none"
-        gaps = ", ".join(str(m) for m in worst if not np.isfinite(worst[m]))
-        missed = f"; speeds without solution count as above, with m = {gaps}" if gaps else ""
+        gaps = [m for m in worst if not np.isfinite(worst[m])]
+        missed = (f"; {len(gaps)} of the {MOST_HARMONICS} m leave speeds without solution, from m = {gaps[0]} on"
+                  if gaps else "")
         return smallest, f"first m below {', '.join(words)}; staying below: {stays}{missed}"
 
     def harmonics_set_1(self):

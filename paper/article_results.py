@@ -176,7 +176,7 @@ def hard(add):
                             ("silent error", "silently wrong"), ("unconfirmed", "unconfirmed")))
         name = {"aft predictor": "harmonic balance with the paper's predictor",
                 "aft arc length": "harmonic balance by arc length"}.get(method, METHODS.get(method, method))
-        more = f" ({other.sum()} of the former are motions without the period T)" if other.any() else ""
+        more = f" ({other.sum()} of those solved are motions without the period T)" if other.any() else ""
         lines.append(f"- {name}: {counts}{more}.")
     add("hard.list", r"\n".join(lines), "-", "how the hard cases end")
 
