@@ -51,8 +51,9 @@ def costs(add):
     low, high = dict.fromkeys(table["range"])
     for reach, name in ((low, "low"), (high, "high")):
         for rival in ("rk4", "shooting-rk4"):
+            rows = table.where("range", reach).where("method", rival)
             add(f"cost.{name}_{rival.split('-')[0]}",
-                " and ".join(faster(ratio_of(table, reach, rival, target)) + f" at {power(target)}"
+                " and ".join(faster(rows.where("target", target).first("ratio")) + f" at {power(target)}"
                              for target in (0.01, 0.001)), "-", f"harmonic balance beside {rival}, {reach} Hz")
     add("cost.low_to", float(low.split("-")[1]), "Hz", "end of the lower range")
     add("cost.high_from", float(high.split("-")[0]), "Hz", "begin of the upper range")
@@ -64,12 +65,6 @@ def costs(add):
              for m, ratio, error, other, paper in zip(timing["harmonics"], timing["ratio"], timing["error"],
                                                       rivals["error"], timing["paper_cpu"])]
     add("cost.paper", "; ".join(words), "-", "Runge-Kutta's time over that of harmonic balance")
-
-
-def ratio_of(table, reach, method, target):
-    """CPU of a method over that of harmonic balance."""
-    rows = table.where("range", reach).where("target", target)
-    return rows.where("method", method).first("cpu_s") / rows.where("method", "aft").first("cpu_s")
 
 
 def faster(ratio):

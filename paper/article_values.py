@@ -49,10 +49,10 @@ def response():
         add(f"loss.first_set_{number}", lost.min(), "Hz", "first speed that loses contact")
         add(f"loss.last_set_{number}", lost.max(), "Hz", "last speed that loses contact")
         add(f"peak.fr_set_{number}", f"{up['f'][peak]:.1f}".replace(".", ","), "Hz", "the same in French")
-        add(f"aperiodic.fr_set_{number}", f"{100 * (time['periodic'] == 0).mean():.0f} %", "-",
-            "the share that follows, in French")
-        add(f"aperiodic.share_set_{number}", (time["periodic"] == 0).mean(), "-",
+        aperiodic = (time["periodic"] == 0).mean()
+        add(f"aperiodic.share_set_{number}", aperiodic, "-",
             "share of the speeds whose integrated motion is not T-periodic")
+        add(f"aperiodic.fr_set_{number}", f"{100 * aperiodic:.0f} %", "-", "the same in French")
 
 
 def displacements():

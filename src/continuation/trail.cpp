@@ -20,19 +20,18 @@ bool StepOfBranch::holds(const BranchPoint& point)
   if (chord_.size() == 0) {  // not before a point has the speed for it: most have not
     start_ = scaled(a_, settings_);
     chord_ = scaled(b_, settings_) - start_;
-    y_.resize(start_.size());
   }
   constexpr double near = 0.1, rounding = 1e-6;
-  extended_.spend(50 + 3 * static_cast<double>(y_.size()));
-  y_ << point.x / settings_.arc_unknown_scale, point.omega / settings_.speed_scale;
-  const double share = (y_ - start_).dot(chord_) / chord_.squaredNorm();
+  extended_.spend(50 + 3 * static_cast<double>(start_.size()));
+  const Eigen::VectorXd y = scaled(point, settings_);
+  const double share = (y - start_).dot(chord_) / chord_.squaredNorm();
   if (share < -rounding || share > 1 + rounding) return false;
   Eigen::VectorXd predicted = between(a_, b_, share, settings_);
-  if ((y_ - predicted).norm() > near * chord_.norm()) return false;
-  predicted += point.tangent * point.tangent.dot(y_ - predicted);
+  if ((y - predicted).norm() > near * chord_.norm()) return false;
+  predicted += point.tangent * point.tangent.dot(y - predicted);
   Eigen::VectorXd corrected;
   return extended_.correct(point.tangent, predicted, corrected).newton.converged() &&
-         (corrected - y_).norm() <= extended_.last_correction();
+         (corrected - y).norm() <= extended_.last_correction();
 }
 
 std::optional<Passed> Trail::passed(ExtendedBalance& extended,

@@ -38,7 +38,7 @@ private:
   const BranchPoint &a_, &b_;
   const ArcLengthSettings& settings_;
   double low_, high_;
-  Eigen::VectorXd start_, chord_, y_;
+  Eigen::VectorXd start_, chord_;
 };
 
 struct Passed {

@@ -23,6 +23,15 @@ TimeStepper wrap(std::shared_ptr<Stepper> stepper)
           .evaluations = [stepper] { return stepper->evaluations(); }};
 }
 
+/** Operations for an evaluation of Eq. 7, with the method's share of a step. */
+double evaluation_cost(const Parameters& parameters, const std::string& method)
+{
+  const double balls = parameters.bearing.balls;
+  if (method == "rk4") return 15 + 1.35 * balls;
+  const bool explicit_steps = method == "rkf45" || method == "rkck" || method == "rk8pd";
+  return explicit_steps ? 75 + 1.5 * balls : 330 + 1.5 * balls;
+}
+
 }  // namespace
 
 const std::vector<std::string>& time_methods()
@@ -41,14 +50,6 @@ double default_step(const Parameters& parameters)
       std::sqrt(scales(parameters).stiffness *
                 (1 / parameters.stator.mass + 1 / parameters.rotor.mass));
   return 2 * std::numbers::pi / contact_frequency / 40;
-}
-
-double evaluation_cost(const Parameters& parameters, const std::string& method)
-{
-  const double balls = parameters.bearing.balls;
-  if (method == "rk4") return 15 + 1.35 * balls;
-  const bool explicit_steps = method == "rkf45" || method == "rkck" || method == "rk8pd";
-  return explicit_steps ? 75 + 1.5 * balls : 330 + 1.5 * balls;
 }
 
 Allowance allowance(const Parameters& parameters, const StepperSettings& settings)

@@ -49,9 +49,6 @@ const std::vector<std::string>& time_methods();
 /** What `settings` allow. */
 Allowance allowance(const Parameters& parameters, const StepperSettings& settings);
 
-/** Operations for an evaluation of Eq. 7, with the method's share of a step. */
-double evaluation_cost(const Parameters& parameters, const std::string& method);
-
 /** A step [s] that gives the contact mode about 40 steps per period: RK4 is stable up
    to 2.8/ω and accurate well below it. The paper gives none (D-16). */
 double default_step(const Parameters& parameters);

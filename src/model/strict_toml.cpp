@@ -8,6 +8,7 @@
 #include <sstream>
 
 #include "model/errors.hpp"
+#include "model/plain_file.hpp"
 
 namespace rotor_stator
 {
@@ -48,16 +49,11 @@ namespace
 /** No parameter or scene file comes near this. */
 constexpr std::uintmax_t most_bytes = 1'000'000;
 
-/** A whole file as text, or the reason why not. Devices and pipes may never end. */
+/** A whole file as text, or the reason why not. */
 std::string read_file(const std::string& file)
 {
+  require_plain_file(file, "a TOML file");
   std::error_code ignored;
-  const auto status = std::filesystem::status(file, ignored);
-  if (!std::filesystem::exists(status)) throw BadInput(file + ": no such file");
-  if (!std::filesystem::is_regular_file(status))
-    throw BadInput(file + ": is " +
-                   (is_directory(status) ? "a directory" : "no plain file") +
-                   "; a TOML file is expected");
   if (std::filesystem::file_size(file, ignored) > most_bytes)
     throw BadInput(file + text(": is longer than %d bytes; a TOML file is expected",
                                static_cast<int>(most_bytes)));

@@ -2,12 +2,12 @@
 
 #include <charconv>
 #include <cmath>
-#include <filesystem>
 #include <fstream>
 #include <map>
 #include <sstream>
 
 #include "model/errors.hpp"
+#include "model/plain_file.hpp"
 #include "output/table.hpp"
 
 namespace rotor_stator
@@ -85,13 +85,7 @@ class Reader
 public:
   explicit Reader(const std::string& file) : file_(file)
   {
-    std::error_code ignored;
-    const auto status = std::filesystem::status(file, ignored);
-    if (!std::filesystem::exists(status)) throw BadInput(file + ": no such file");
-    if (!std::filesystem::is_regular_file(status))
-      throw BadInput(file + ": is " +
-                     (is_directory(status) ? "a directory" : "no plain file") +
-                     "; a saved branch is expected");
+    require_plain_file(file, "a saved branch");
     in_.open(file);
     if (!in_) throw BadInput(file + ": cannot be read");
   }
