@@ -22,12 +22,13 @@ at which the motion is not T-periodic have no exact solution to compare with and
 Modelled: harmonic balance, and shooting for the exact motion. Finished speeds are kept in a journal. */
 #include <CLI/CLI.hpp>
 
-#include "output/adaptive_table.hpp"
-#include "output/program.hpp"
+#include "io/program.hpp"
+#include "truth/adaptive.hpp"
 
 int main(int argc, char** argv)
 {
   using namespace rotor_stator;
+  using namespace rotor_stator::truth;
   std::string scene = "data/scenes/adaptive.toml", journal = "adaptive.journal";
   CLI::App app("Estimates and true errors of adaptive harmonics; TSV on stdout.");
   app.add_option("scene", scene, "scene file")->capture_default_str();

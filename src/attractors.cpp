@@ -22,12 +22,13 @@ Modelled: the motion once per period, and the largest Lyapunov exponent, for bot
 are kept in a journal. */
 #include <CLI/CLI.hpp>
 
-#include "output/attractor_table.hpp"
-#include "output/program.hpp"
+#include "io/program.hpp"
+#include "truth/attractors.hpp"
 
 int main(int argc, char** argv)
 {
   using namespace rotor_stator;
+  using namespace rotor_stator::truth;
   Options options{"data/scenes/attractors.toml", "exchanged"};
   std::string journal = "attractors.journal";
   CLI::App app("Settles on the attractors of both data sets; TSV on stdout.");

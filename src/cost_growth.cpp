@@ -18,12 +18,13 @@ memory are the allocator's pages and not the method's. None of this is a test of
 number of degrees of freedom of rotor and stator would have to grow, and here it stays at four.
 
 Modelled: one periodic motion, and sweeps above the transition. */
-#include "output/cost_tables.hpp"
-#include "output/program.hpp"
+#include "costs/cost_growth.hpp"
+#include "io/program.hpp"
 
 int main(int argc, char** argv)
 {
   using namespace rotor_stator;
+  using namespace rotor_stator::costs;
   return run(argc, argv, "data/scenes/cost_growth.toml", [](const Options& options) {
     return cost_growth_table(read_cost_growth_scene(options.scene_file, options.reading));
   });

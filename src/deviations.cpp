@@ -4,12 +4,13 @@
 Paper: all equations, Table 1.  Run: build/deviations > data/generated/deviations.tsv
 What each printed form that we replaced would have done, and what our choices change.
 Modelled: data set 1, one small computation per entry D-nn. */
-#include "output/deviation_table.hpp"
-#include "output/program.hpp"
+#include "deviations/deviations.hpp"
+#include "io/program.hpp"
 
 int main(int argc, char** argv)
 {
   using namespace rotor_stator;
+  using namespace rotor_stator::deviations;
   return run(argc, argv, "data/scenes/deviations.toml", [](const Options& options) {
     return deviation_table(read_deviation_scene(options.scene_file, options.reading));
   });

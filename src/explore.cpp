@@ -11,14 +11,15 @@ or one of the time integrators. A table on stdout, errors on stderr. */
 #include <CLI/CLI.hpp>
 #include <cstdio>
 
-#include "model/errors.hpp"
-#include "output/explore_tables.hpp"
-#include "output/program.hpp"
+#include "explore/tables.hpp"
+#include "io/errors.hpp"
+#include "io/program.hpp"
 
 namespace
 {
 
 using namespace rotor_stator;
+using namespace rotor_stator::explore;
 
 void add_operations_option(CLI::App& command, double& operations)
 {

@@ -23,12 +23,13 @@ cage's speed follows.
 
 Modelled: geometry alone. The table holds circles: centre, radius and what each one is. Nothing is
 computed about forces, and the balls stand where Eq. 3 puts them at the start of a turn. */
-#include "output/figure_tables.hpp"
-#include "output/program.hpp"
+#include "figures/bearing.hpp"
+#include "io/program.hpp"
 
 int main(int argc, char** argv)
 {
   using namespace rotor_stator;
+  using namespace rotor_stator::figures;
   return run(argc, argv, "data/scenes/fig01.toml", [](const Options& options) {
     return geometry_table(read_geometry_scene(options.scene_file, options.reading));
   });

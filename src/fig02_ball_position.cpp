@@ -25,12 +25,13 @@ turns under a steady load, the load passes from ball to ball, which excites the 
 rate of passages even without any unbalance.
 
 Modelled: geometry alone, at the one instant and the one displacement of the scene file. */
-#include "output/figure_tables.hpp"
-#include "output/program.hpp"
+#include "figures/bearing.hpp"
+#include "io/program.hpp"
 
 int main(int argc, char** argv)
 {
   using namespace rotor_stator;
+  using namespace rotor_stator::figures;
   return run(argc, argv, "data/scenes/fig02.toml", [](const Options& options) {
     return geometry_table(read_geometry_scene(options.scene_file, options.reading));
   });

@@ -25,12 +25,13 @@ draws a smooth line through it.
 Modelled: amplitudes of harmonic-balance solutions at all speeds, with as many harmonics as the
 paper asks for in each set; integrated motions at fewer speeds, several periods of each, with the
 share of time in contact. No waveform is kept, and nothing is said about stability here. */
-#include "output/figure_tables.hpp"
-#include "output/program.hpp"
+#include "figures/response.hpp"
+#include "io/program.hpp"
 
 int main(int argc, char** argv)
 {
   using namespace rotor_stator;
+  using namespace rotor_stator::figures;
   return run(argc, argv, "data/scenes/fig03.toml", [](const Options& options) {
     return response_table(read_response_scene(options.scene_file, options.reading));
   });

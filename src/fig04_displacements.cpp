@@ -27,12 +27,13 @@ it.
 
 Modelled: one solution with the paper's number of harmonics, and the integrated motion over two
 periods. */
-#include "output/figure_tables.hpp"
-#include "output/program.hpp"
+#include "figures/orbits.hpp"
+#include "io/program.hpp"
 
 int main(int argc, char** argv)
 {
   using namespace rotor_stator;
+  using namespace rotor_stator::figures;
   return run(argc, argv, "data/scenes/fig04.toml", [](const Options& options) {
     return orbit_table(read_orbit_scene(options.scene_file, options.reading));
   });

@@ -26,12 +26,13 @@ wrong.
 
 Modelled: one solution with the paper's number of harmonics, and the integrated motion over two
 periods; the force is Eq. 6 evaluated on either motion. */
-#include "output/figure_tables.hpp"
-#include "output/program.hpp"
+#include "figures/orbits.hpp"
+#include "io/program.hpp"
 
 int main(int argc, char** argv)
 {
   using namespace rotor_stator;
+  using namespace rotor_stator::figures;
   return run(argc, argv, "data/scenes/fig05.toml", [](const Options& options) {
     return orbit_table(read_orbit_scene(options.scene_file, options.reading));
   });

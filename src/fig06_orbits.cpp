@@ -26,12 +26,13 @@ Modelled: one solution with the paper's number of harmonics at each speed, searc
 starts, and the integrated motion from rest. Differences stand in the table, over the largest
 displacement and over each displacement's own size; the second is the one to read at low speed,
 where the static sag is much larger than the orbit. */
-#include "output/figure_tables.hpp"
-#include "output/program.hpp"
+#include "figures/orbits.hpp"
+#include "io/program.hpp"
 
 int main(int argc, char** argv)
 {
   using namespace rotor_stator;
+  using namespace rotor_stator::figures;
   return run(argc, argv, "data/scenes/fig06.toml", [](const Options& options) {
     return orbit_table(read_orbit_scene(options.scene_file, options.reading));
   });

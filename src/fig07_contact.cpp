@@ -25,12 +25,13 @@ is barely touched; how forces rise towards the resonance is claim C7.
 Modelled: the force of each ball over two periods at six speeds, from the harmonic-balance
 solution where the motion is periodic and from time integration where it is not. The title of each
 panel says which, and how far off the force of the balance is. */
-#include "output/figure_tables.hpp"
-#include "output/program.hpp"
+#include "figures/orbits.hpp"
+#include "io/program.hpp"
 
 int main(int argc, char** argv)
 {
   using namespace rotor_stator;
+  using namespace rotor_stator::figures;
   return run(argc, argv, "data/scenes/fig07.toml", [](const Options& options) {
     return contact_table(read_orbit_scene(options.scene_file, options.reading));
   });

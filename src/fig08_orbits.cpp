@@ -26,12 +26,13 @@ and the paper, whose Fig. 8 has closed orbits throughout.
 Modelled: one solution with the paper's number of harmonics at each speed, and the integrated
 motion from rest over several periods; the verdict on periodicity is that of the Poincaré section,
 with its spread in the table. */
-#include "output/figure_tables.hpp"
-#include "output/program.hpp"
+#include "figures/orbits.hpp"
+#include "io/program.hpp"
 
 int main(int argc, char** argv)
 {
   using namespace rotor_stator;
+  using namespace rotor_stator::figures;
   return run(argc, argv, "data/scenes/fig08.toml", [](const Options& options) {
     return orbit_table(read_orbit_scene(options.scene_file, options.reading));
   });

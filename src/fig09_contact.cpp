@@ -25,12 +25,13 @@ of the forces.
 Modelled: the force of each ball over two periods at four speeds. The forces of an impact last for
 a fraction of the period of the contact's own vibration, so the motion is recorded at many
 instants per period, as many as the scene file says. */
-#include "output/figure_tables.hpp"
-#include "output/program.hpp"
+#include "figures/orbits.hpp"
+#include "io/program.hpp"
 
 int main(int argc, char** argv)
 {
   using namespace rotor_stator;
+  using namespace rotor_stator::figures;
   return run(argc, argv, "data/scenes/fig09.toml", [](const Options& options) {
     return contact_table(read_orbit_scene(options.scene_file, options.reading));
   });

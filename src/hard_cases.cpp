@@ -21,12 +21,13 @@ Modelled: all cases of data/scenes/hard_cases.toml by harmonic balance (the pape
 shooting and RK4. */
 #include <CLI/CLI.hpp>
 
-#include "output/hard_table.hpp"
-#include "output/program.hpp"
+#include "hard/checks.hpp"
+#include "io/program.hpp"
 
 int main(int argc, char** argv)
 {
   using namespace rotor_stator;
+  using namespace rotor_stator::hard;
   std::string list = "data/scenes/hard_cases.toml";
   int every = 1;
   CLI::App app("Puts every hard case to every method; TSV on stdout.");

@@ -15,12 +15,13 @@ each is computed in ways that have nothing in common but the motion:
   converged where the integration has settled: the two columns show how far.
 
 Modelled: harmonic balance with the scene's harmonics; the disturbances of rotor and stator along it. */
-#include "output/multiplier_table.hpp"
-#include "output/program.hpp"
+#include "truth/multipliers.hpp"
+#include "io/program.hpp"
 
 int main(int argc, char** argv)
 {
   using namespace rotor_stator;
+  using namespace rotor_stator::truth;
   return run(argc, argv, "data/scenes/multipliers.toml", [](const Options& options) {
     return multiplier_table(read_multiplier_scene(options.scene_file, options.reading));
   });

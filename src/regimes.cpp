@@ -5,12 +5,13 @@ Paper: §3.3, claims C4 to C7, C10 and C13.  Run: build/regimes >
 data/generated/regimes.tsv Permanent or lost contact, one harmonic or many, passages per
 ball, largest force, for both data sets. Modelled: at each speed the integrated motion,
 over a second for contact, over two periods for the rest. */
-#include "output/claim_tables.hpp"
-#include "output/program.hpp"
+#include "figures/regimes.hpp"
+#include "io/program.hpp"
 
 int main(int argc, char** argv)
 {
   using namespace rotor_stator;
+  using namespace rotor_stator::figures;
   return run(argc, argv, "data/scenes/regimes.toml", [](const Options& options) {
     return regime_table(options.scene_file, options.reading);
   });

@@ -19,12 +19,13 @@ grey line before the dashed one. With m = 128 the sampling error of the displace
 truncation at the default N at some of these motions, and who needs those digits asks for more samples.
 
 Modelled: harmonic balance with many N for each m, and one solution with many harmonics for the truth. */
-#include "output/program.hpp"
-#include "output/sampling_table.hpp"
+#include "costs/sampling.hpp"
+#include "io/program.hpp"
 
 int main(int argc, char** argv)
 {
   using namespace rotor_stator;
+  using namespace rotor_stator::costs;
   return run(argc, argv, "data/scenes/sampling.toml", [](const Options& options) {
     return sampling_table(read_sampling_scene(options.scene_file, options.reading));
   });

@@ -6,12 +6,13 @@ Points of the Poincaré sections of both data sets, up and down in speed. Modell
 states of the table of attractors. */
 #include <CLI/CLI.hpp>
 
-#include "output/program.hpp"
-#include "output/validity_table.hpp"
+#include "io/program.hpp"
+#include "truth/validity.hpp"
 
 int main(int argc, char** argv)
 {
   using namespace rotor_stator;
+  using namespace rotor_stator::truth;
   Options options{"data/scenes/sections.toml", "exchanged"};
   std::string attractors = "data/reference/attractors.tsv";
   CLI::App app("Integrates the sections of the attractors; TSV on stdout.");

@@ -17,12 +17,13 @@ step should be of the first, since they belong to the method and not to the mach
 with them would mean that they are too coarse. Where a method has no such parameter it is not computed.
 
 Modelled: harmonic balance with 6 harmonics and RK4 from rest, each only where the parameter enters. */
-#include "output/program.hpp"
-#include "output/sensitivity_table.hpp"
+#include "studies/sensitivity.hpp"
+#include "io/program.hpp"
 
 int main(int argc, char** argv)
 {
   using namespace rotor_stator;
+  using namespace rotor_stator::studies;
   return run(argc, argv, "data/scenes/sensitivity.toml", [](const Options& options) {
     return sensitivity_table(read_sensitivity_scene(options.scene_file, options.reading));
   });

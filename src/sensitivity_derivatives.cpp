@@ -5,12 +5,13 @@ Run: build/sensitivity_derivatives > data/generated/sensitivity_derivatives.tsv
 By what power of an unpublished parameter each output changes at the defaults: 0 says that
 the paper could leave it out. Modelled: the scene of sensitivity.cpp next to the defaults
 alone. */
-#include "output/program.hpp"
-#include "output/sensitivity_table.hpp"
+#include "io/program.hpp"
+#include "studies/sensitivity.hpp"
 
 int main(int argc, char** argv)
 {
   using namespace rotor_stator;
+  using namespace rotor_stator::studies;
   return run(argc, argv, "data/scenes/sensitivity.toml", [](const Options& options) {
     return sensitivity_derivative_table(
         near_defaults(read_sensitivity_scene(options.scene_file, options.reading)));

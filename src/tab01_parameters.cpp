@@ -24,12 +24,13 @@ rotor's speed, every ball passes the load once in two periods, which the paper s
 balls of finite size the ratio is smaller, and only some ratios leave the motion its period.
 
 Modelled: nothing. The program reads, checks and prints. */
-#include "output/figure_tables.hpp"
-#include "output/program.hpp"
+#include "figures/bearing.hpp"
+#include "io/program.hpp"
 
 int main(int argc, char** argv)
 {
   using namespace rotor_stator;
+  using namespace rotor_stator::figures;
   return run(argc, argv, "data/scenes/tab01_parameters.toml", [](const Options& options) {
     return parameter_table(options.scene_file, options.reading);
   });

@@ -18,12 +18,13 @@ evaluation than the C++ programs pay; the header of their table has both numbers
 far as the eye can tell, and has folds that few harmonics do not show.
 
 Modelled: the speeds with T-periodic motion, below and above 25 Hz. */
-#include "output/cost_tables.hpp"
-#include "output/program.hpp"
+#include "costs/equal_error.hpp"
+#include "io/program.hpp"
 
 int main(int argc, char** argv)
 {
   using namespace rotor_stator;
+  using namespace rotor_stator::costs;
   return run(argc, argv, "data/scenes/tab02_equal_error.toml",
              [](const Options& options) {
                return equal_error_table(

@@ -26,12 +26,13 @@ tables of cost against error.
 
 Modelled: the whole response, by each method; amplitudes of all four displacements and nothing per
 ball. */
-#include "output/figure_tables.hpp"
-#include "output/program.hpp"
+#include "costs/timing.hpp"
+#include "io/program.hpp"
 
 int main(int argc, char** argv)
 {
   using namespace rotor_stator;
+  using namespace rotor_stator::costs;
   return run(argc, argv, "data/scenes/tab02_timing.toml", [](const Options& options) {
     return timing_table(read_timing_scene(options.scene_file, options.reading));
   });

@@ -21,12 +21,13 @@ more harmonics do not help.
 Modelled: harmonic-balance sweeps up, Floquet multipliers, and motions from the states of the attractors. */
 #include <CLI/CLI.hpp>
 
-#include "output/program.hpp"
-#include "output/validity_table.hpp"
+#include "io/program.hpp"
+#include "truth/validity.hpp"
 
 int main(int argc, char** argv)
 {
   using namespace rotor_stator;
+  using namespace rotor_stator::truth;
   Options options{"data/scenes/validity.toml", "exchanged"};
   std::string attractors = "data/reference/attractors.tsv", journal = "validity.journal";
   CLI::App app("Compares solutions with the attractors; TSV on stdout.");

@@ -20,12 +20,13 @@ iterations. The reference is shooting at a far tighter tolerance, checked agains
 harmonics; the header says how well both agree.
 
 Modelled: seven T-periodic motions of both data sets, four of which are drawn. */
-#include "output/cost_tables.hpp"
-#include "output/program.hpp"
+#include "costs/work_precision.hpp"
+#include "io/program.hpp"
 
 int main(int argc, char** argv)
 {
   using namespace rotor_stator;
+  using namespace rotor_stator::costs;
   return run(argc, argv, "data/scenes/work_precision.toml", [](const Options& options) {
     return work_precision_table(
         read_work_precision_scene(options.scene_file, options.reading));

@@ -3,8 +3,8 @@
 #include <cmath>
 #include <numbers>
 
-#include "model/errors.hpp"
-#include "model/sampled_bearing.hpp"
+#include "io/errors.hpp"
+#include "model/ball_bearing.hpp"
 
 namespace rotor_stator
 {

@@ -15,8 +15,8 @@ high harmonics alike. */
 #pragma once
 
 #include "balance/balance.hpp"
+#include "io/budget.hpp"
 #include "model/rotor_stator.hpp"
-#include "model/work.hpp"
 
 namespace rotor_stator
 {

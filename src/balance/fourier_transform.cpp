@@ -1,7 +1,6 @@
 #include "balance/fourier_transform.hpp"
 
 #include <fftw3.h>
-
 #include <algorithm>
 #include <mutex>
 

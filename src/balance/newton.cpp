@@ -4,7 +4,7 @@
 #include <cmath>
 #include <limits>
 
-#include "model/errors.hpp"
+#include "io/errors.hpp"
 
 namespace rotor_stator
 {

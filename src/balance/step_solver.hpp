@@ -1,5 +1,48 @@
 /**
-# The linear equations of a Newton step
+# GMRES
+
+The generalised minimal residual method of Saad and Schultz (1986), preconditioned from the
+right, so that its residual is that of the equations. Eigen's own (unsupported) takes a relative
+tolerance only, allocates at each call and wants the operator dressed as a sparse matrix. */
+#pragma once
+
+#include <Eigen/Core>
+#include <Eigen/LU>
+#include <functional>
+
+#include "balance/problem.hpp"
+
+namespace rotor_stator
+{
+
+class Gmres
+{
+public:
+  using Operator =
+      std::function<void(const Eigen::VectorXd& v, Eigen::VectorXd& product)>;
+
+  struct Report {
+    int iterations;
+    double residual;  ///< ‖b - A x‖
+  };
+
+  /** Solves A x = b from x = 0 until ‖b - A x‖ ≤ `goal`, in at most `most_iterations`.
+     `precondition` applies an approximate inverse of A. */
+  Report solve(const Operator& apply, const Operator& precondition,
+               const Eigen::VectorXd& b, double goal, int most_iterations,
+               Eigen::VectorXd& x);
+
+private:
+  void orthogonalise(int k);
+  void rotate(int k);
+
+  Eigen::MatrixXd basis_;       ///< orthonormal, one column per iteration
+  Eigen::MatrixXd hessenberg_;  ///< made triangular by the rotations
+  Eigen::VectorXd cosine_, sine_, right_, again_, product_, preconditioned_;
+};
+
+/**
+## The linear equations of a Newton step
 
 What is expensive is kept from step to step and from speed to speed: the LU factors of the low
 harmonics' block of the Jacobian, where the contact couples everything, and beyond them one
@@ -10,16 +53,6 @@ whole Jacobian. A step then is either
 - frozen: older factors of all harmonics, a chord step, where there are few;
 - iterated: GMRES on the present Jacobian, preconditioned by the factors, old or new. Its cost
   per iteration is that of the transforms, m log m. */
-#pragma once
-
-#include <Eigen/Core>
-#include <Eigen/LU>
-
-#include "balance/gmres.hpp"
-#include "balance/problem.hpp"
-
-namespace rotor_stator
-{
 
 class Balance;
 

@@ -1,5 +1,71 @@
 /**
-# Pseudo-arc-length continuation
+# Has the branch been here before?
+
+A step that passes an earlier point of its branch has closed a loop, or has hopped onto a leg that was
+followed already. A point that lies near a step is corrected from the step's cubic in the plane across
+the point's own tangent: the same solution comes out, or another. */
+#pragma once
+
+#include <functional>
+#include <map>
+#include <optional>
+
+#include "continuation/branch.hpp"
+
+namespace rotor_stator
+{
+
+/** The step from one point of a branch to the next, in whose way others may lie. Points, settings and
+    balance must outlive it. */
+class StepOfBranch
+{
+public:
+  StepOfBranch(ExtendedBalance& extended, const BranchPoint& a, const BranchPoint& b,
+               const ArcLengthSettings& settings);
+
+  /** The speeds of the step, with room for its bend. */
+  double low() const { return low_; }
+  double high() const { return high_; }
+
+  /** Whether the solution `point` lies on the step, to the length that Newton's last correction may
+      have. */
+  bool holds(const BranchPoint& point);
+
+  /** Whether a point that the step holds was passed in the step's own direction. */
+  bool agrees_with(const BranchPoint& held) const { return held.tangent.dot(chord_) > 0; }
+
+private:
+  ExtendedBalance& extended_;
+  const BranchPoint &a_, &b_;
+  const ArcLengthSettings& settings_;
+  double low_, high_;
+  Eigen::VectorXd start_, chord_;
+};
+
+struct Passed {
+  std::size_t index;    ///< of the earlier point
+  bool same_direction;  ///< of the walk
+};
+
+/** The points of a walk, found again by their speed. */
+class Trail
+{
+public:
+  void add(const BranchPoint& point) { index_.emplace(point.omega, index_.size()); }
+
+  /** The first of `points`, all of which were added in order, that lies on the step from the last of
+      them to `next`. */
+  std::optional<Passed> passed(ExtendedBalance& extended,
+                               const std::vector<BranchPoint>& points,
+                               const BranchPoint& next,
+                               const ArcLengthSettings& settings) const;
+
+private:
+  std::multimap<double, std::size_t> index_;
+};
+
+/**
+## Pseudo-arc-length continuation
 
 A step along the branch's tangent, then Newton on the balance and the condition of the
 extended balance. The step follows the corrector (Allgower and Georg 2003, section 6.1; Den Heijer
@@ -13,14 +79,6 @@ $$f = \max\left(\sqrt{\kappa/\tilde\kappa},\ \alpha/\tilde\alpha,\ \sqrt{\beta/\
 large at once when the corrector has hopped to another leg of a hairpin. A step is taken back and halved
 when Newton fails or contracts too slowly, when α or β is too large, when the sign of the bordered
 determinant changes, or when the cubic through the step shows two folds inside it. */
-#pragma once
-
-#include <functional>
-
-#include "continuation/extended_balance.hpp"
-
-namespace rotor_stator
-{
 
 /** Speeds [rad/s] between which a branch is followed; `from` may be the larger. The branch is covered
     when it reaches `to`, and also ends where it leaves through `from`. */

@@ -2,8 +2,8 @@
 
 #include <algorithm>
 
-#include "continuation/trail.hpp"
-#include "model/errors.hpp"
+#include "continuation/arc_length.hpp"
+#include "io/errors.hpp"
 
 namespace rotor_stator
 {

@@ -4,8 +4,8 @@
 #include <cmath>
 #include <numbers>
 
-#include "model/errors.hpp"
-#include "model/vector_arithmetic.hpp"
+#include "io/errors.hpp"
+#include "model/rotor_stator.hpp"
 
 namespace rotor_stator
 {

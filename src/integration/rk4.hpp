@@ -8,7 +8,7 @@ Eq. 7 and no sine or cosine. The step divides the output interval. */
 
 #include <vector>
 
-#include "integration/allowance.hpp"
+#include "io/budget.hpp"
 #include "model/rotor_stator.hpp"
 
 namespace rotor_stator

@@ -7,7 +7,7 @@
 #include <deque>
 #include <numbers>
 
-#include "model/errors.hpp"
+#include "io/errors.hpp"
 
 namespace rotor_stator
 {
@@ -141,6 +141,22 @@ SteadyState steady_state(const Parameters& parameters, double omega, const State
     motion.advance_one_period(section, &steady.states);
   steady.evaluations = motion.evaluations();
   return steady;
+}
+
+SteadySettings read_steady_settings(SceneFile& scene)
+{
+  SteadySettings settings;
+  StrictToml table = scene.toml().table("time_integration");
+  settings.stepper.method = table.string("method");
+  const bool fixed_step = settings.stepper.method == "rk4";
+  if (fixed_step) settings.stepper.step = table.number("step_s", Range::positive);
+  if (!fixed_step)
+    settings.stepper.tolerance = table.number("tolerance", Range::positive);
+  settings.stepper.intervals_per_period = table.integer("points_per_period", 4, 4096);
+  settings.longest = table.number("longest_s", Range::positive);
+  settings.shown_periods = table.integer("shown_periods", 1, 1000);
+  table.refuse_unknown_keys();
+  return settings;
 }
 
 }  // namespace rotor_stator

@@ -26,6 +26,9 @@ struct SteadySettings {
   int shown_periods = 1;   ///< periods of the motion that are returned
 };
 
+/** The table [time_integration] of a scene. */
+SteadySettings read_steady_settings(SceneFile& scene);
+
 struct SteadyState {
   std::vector<State> states;  ///< P per period, `shown_periods` periods, from phase 0
   long first_period;          ///< periods since t = 0 at states[0], for the cage's angle

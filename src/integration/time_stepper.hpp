@@ -5,11 +5,13 @@ Time is counted in output intervals: each period T = 2π/ω is cut into P of the
 stepper advances a state over whole intervals, in as many steps of its own as it needs. */
 #pragma once
 
+#include <gsl/gsl_odeiv2.h>
 #include <functional>
+#include <memory>
 #include <string>
 #include <vector>
 
-#include "integration/allowance.hpp"
+#include "io/budget.hpp"
 #include "model/rotor_stator.hpp"
 
 namespace rotor_stator
@@ -52,5 +54,41 @@ Allowance allowance(const Parameters& parameters, const StepperSettings& setting
 /** A step [s] that gives the contact mode about 40 steps per period: RK4 is stable up
    to 2.8/ω and accurate well below it. The paper gives none (D-16). */
 double default_step(const Parameters& parameters);
+
+/**
+## GSL's ODE steppers
+
+Adaptive explicit Runge-Kutta (rkf45, rkck, rk8pd), variable-order multistep (msadams,
+msbdf) and the implicit Bulirsch-Stoer method (bsimp); the last two use the analytic
+Jacobian of Eq. 7. The step size keeps the local error of each component below the
+tolerance times its size: the bearing's length scale for displacements, that length times
+the contact mode's frequency for speeds. */
+
+class GslStepper
+{
+public:
+  GslStepper(const Parameters& parameters, double omega, const StepperSettings& settings);
+  ~GslStepper();
+
+  /** A jump to another interval than the next one forgets the history of multistep methods; the step
+      size is kept. */
+  void advance(long interval, State& state);
+  long evaluations() const;
+
+private:
+  struct Driver;
+  std::unique_ptr<Driver> driver_;
+  double interval_length_;  ///< T/P [s]
+  long next_ = 0;           ///< the interval that would continue the motion
+};
+
+const std::vector<std::string>& gsl_methods();
+
+/** GSL's own type of a method of the list above. */
+const gsl_odeiv2_step_type* gsl_step_type(const std::string& method);
+
+/** GSL calls abort() on errors unless told otherwise; whoever calls this checks every return value.
+ */
+void keep_gsl_from_aborting();
 
 }  // namespace rotor_stator

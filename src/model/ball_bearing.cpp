@@ -1,6 +1,15 @@
 #include "model/ball_bearing.hpp"
 
+#include <algorithm>
 #include <numbers>
+
+/** The same operations for wider registers, chosen when the program starts. No sum is reordered
+    and none fused, so the bits do not depend on the choice. */
+#if defined(__x86_64__) && defined(__GLIBC__) && defined(__GNUC__) && !defined(__clang__)
+#define WIDEST_REGISTERS __attribute__((target_clones("avx512f", "avx2", "default")))
+#else
+#define WIDEST_REGISTERS
+#endif
 
 namespace rotor_stator
 {
@@ -49,6 +58,175 @@ void BallBearing::ball_forces(Direction cage, Vec2 u, std::vector<double>& q) co
   for (std::size_t j = 0; j < balls_.size(); ++j)
     q[j] = hertz_force(contact_stiffness_,
                        balls_[j].cos * v.x + balls_[j].sin * v.y - clearance_);
+}
+
+namespace
+{
+
+/** Instants of a group, one per lane: loops of this fixed length become vector instructions. */
+constexpr int lanes = 8;
+
+/** Columns of N numbers. */
+struct Columns {
+  const double *cos, *sin;  ///< of the cage
+  const double *x, *y;      ///< relative displacement [m]
+  double *f_x, *f_y;        ///< force [N]
+  double *xx, *xy, *yy;     ///< stiffness [N/m]
+};
+
+struct Balls {
+  Eigen::Index count;
+  const double *cos, *sin;  ///< in the cage frame
+  double contact_stiffness, clearance;
+};
+
+/** Whether a ball touches nowhere in the rectangle of a group's motions: c x + s y ≤ δ.
+    Rounding is monotone, so this holds for the rounded numbers too. */
+struct Rectangle {
+  double left, right, bottom, top;
+
+  Rectangle(const double* x, const double* y)
+      : left(x[0]), right(x[0]), bottom(y[0]), top(y[0])
+  {
+    for (int l = 1; l < lanes; ++l) {
+      left = std::min(left, x[l]);
+      right = std::max(right, x[l]);
+      bottom = std::min(bottom, y[l]);
+      top = std::max(top, y[l]);
+    }
+  }
+  bool is_clear_of(double c, double s, double clearance) const
+  {
+    return std::max(c * left, c * right) + std::max(s * bottom, s * top) <= clearance;
+  }
+};
+
+/** Relative motion in the cage frame [m], and the sums over the balls: the force over K_H, the
+    stiffness over 3/2 K_H. */
+struct Group {
+  double x[lanes], y[lanes];
+  double f_x[lanes] = {}, f_y[lanes] = {};
+  double xx[lanes] = {}, xy[lanes] = {}, yy[lanes] = {};
+};
+
+#define IN_PLACE \
+  [[gnu::always_inline]] inline  // else compiled once, for the narrowest registers
+
+template <bool with_stiffness>
+IN_PLACE void sum_balls(const Balls& balls, Group& g)
+{
+  const Rectangle rectangle(g.x, g.y);
+  for (Eigen::Index j = 0; j < balls.count; ++j) {
+    const double c = balls.cos[j], s = balls.sin[j];
+    if (rectangle.is_clear_of(c, s, balls.clearance)) continue;
+    for (int l = 0; l < lanes; ++l) {
+      const double p = c * g.x[l] + s * g.y[l] - balls.clearance;
+      const double pressed = p > 0 ? p : 0.0;
+      const double root = std::sqrt(pressed), q = pressed * root;
+      g.f_x[l] += q * c;
+      g.f_y[l] += q * s;
+      if constexpr (with_stiffness) {
+        g.xx[l] += root * (c * c);
+        g.xy[l] += root * (c * s);
+        g.yy[l] += root * (s * s);
+      }
+    }
+  }
+}
+
+/** R S Rᵀ. */
+IN_PLACE void put_stiffness(const Group& g, double hertz, const Columns& at,
+                            Eigen::Index k)
+{
+  for (int l = 0; l < lanes; ++l) {
+    const double c = at.cos[k + l], s = at.sin[k + l], mixed = 2 * c * s * g.xy[l];
+    at.xx[k + l] = 1.5 * hertz * (c * c * g.xx[l] + s * s * g.yy[l] - mixed);
+    at.xy[k + l] =
+        1.5 * hertz * (c * s * (g.xx[l] - g.yy[l]) + (c * c - s * s) * g.xy[l]);
+    at.yy[k + l] = 1.5 * hertz * (s * s * g.xx[l] + c * c * g.yy[l] + mixed);
+  }
+}
+
+/** One group, from instant k on. */
+template <bool with_stiffness>
+IN_PLACE void evaluate_group(const Balls& balls, const Columns& at, Eigen::Index k)
+{
+  const double *c = at.cos + k, *s = at.sin + k;
+  Group g;
+  for (int l = 0; l < lanes; ++l) {
+    g.x[l] = c[l] * at.x[k + l] + s[l] * at.y[k + l];
+    g.y[l] = c[l] * at.y[k + l] - s[l] * at.x[k + l];
+  }
+  sum_balls<with_stiffness>(balls, g);
+  const double hertz = balls.contact_stiffness;
+  for (int l = 0; l < lanes; ++l) {
+    at.f_x[k + l] = hertz * (c[l] * g.f_x[l] - s[l] * g.f_y[l]);
+    at.f_y[k + l] = hertz * (s[l] * g.f_x[l] + c[l] * g.f_y[l]);
+  }
+  if constexpr (with_stiffness) put_stiffness(g, hertz, at, k);
+}
+
+/** All groups; the last one overlaps the one before where N is no multiple of the lanes. */
+WIDEST_REGISTERS void evaluate_force(const Balls& balls, const Columns& at,
+                                     Eigen::Index n)
+{
+  for (Eigen::Index k = 0; k < n; k += lanes)
+    evaluate_group<false>(balls, at, std::min(k, n - lanes));
+}
+
+WIDEST_REGISTERS void evaluate_both(const Balls& balls, const Columns& at, Eigen::Index n)
+{
+  for (Eigen::Index k = 0; k < n; k += lanes)
+    evaluate_group<true>(balls, at, std::min(k, n - lanes));
+}
+
+}  // namespace
+
+SampledBearing::SampledBearing(const Bearing& bearing, int samples)
+    : samples_(samples),
+      cage_(std::max(samples, lanes), 2),
+      balls_(bearing.balls, 2),
+      contact_stiffness_(bearing.contact_stiffness),
+      clearance_(bearing.clearance)
+{
+  const auto row = [](Direction d) { return Eigen::RowVector2d(d.cos, d.sin); };
+  for (Eigen::Index k = 0; k < cage_.rows(); ++k)
+    cage_.row(k) = row(Direction::of(bearing.cage_speed_ratio * 2 * std::numbers::pi *
+                                     static_cast<double>(k) / samples));
+  const BallBearing plain(bearing);
+  for (int j = 0; j < bearing.balls; ++j) balls_.row(j) = row(plain.balls()[j]);
+}
+
+void SampledBearing::force(const Eigen::MatrixXd& u, Eigen::MatrixXd& force,
+                           Eigen::MatrixXd* stiffness) const
+{
+  if (samples_ < lanes) return force_of_few(u, force, stiffness);
+  force.resize(samples_, 2);
+  if (stiffness) stiffness->resize(samples_, 4);
+  const auto column = [&](Eigen::Index k) {
+    return stiffness ? stiffness->col(k).data() : nullptr;
+  };
+  const Balls balls{balls_.rows(), balls_.col(0).data(), balls_.col(1).data(),
+                    contact_stiffness_, clearance_};
+  const Columns at{cage_.col(0).data(), cage_.col(1).data(), u.col(0).data(),
+                   u.col(1).data(),     force.col(0).data(), force.col(1).data(),
+                   column(0),           column(1),           column(3)};
+  if (!stiffness) return evaluate_force(balls, at, samples_);
+  evaluate_both(balls, at, samples_);
+  stiffness->col(2) = stiffness->col(1);
+}
+
+/** Fewer instants than lanes: filled up with motions at rest. */
+void SampledBearing::force_of_few(const Eigen::MatrixXd& u, Eigen::MatrixXd& force,
+                                  Eigen::MatrixXd* stiffness) const
+{
+  Eigen::MatrixXd filled = Eigen::MatrixXd::Zero(lanes, 2);
+  filled.topRows(samples_) = u;
+  SampledBearing wide = *this;
+  wide.samples_ = lanes;
+  wide.force(filled, force, stiffness);
+  force.conservativeResize(samples_, 2);
+  if (stiffness) stiffness->conservativeResize(samples_, 4);
 }
 
 }  // namespace rotor_stator

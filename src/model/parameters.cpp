@@ -3,8 +3,8 @@
 #include <cmath>
 #include <numbers>
 
-#include "model/errors.hpp"
-#include "model/strict_toml.hpp"
+#include "io/errors.hpp"
+#include "io/strict_toml.hpp"
 
 namespace rotor_stator
 {
@@ -103,6 +103,42 @@ bool has_rotation_period(const Bearing& bearing)
 {
   const double passages = passages_per_turn(bearing);
   return std::abs(passages - std::round(passages)) < 1e-9;
+}
+
+Parameters read_parameters(SceneFile& scene, const std::string& key)
+{
+  return read_parameters(scene.data_set(key));
+}
+
+std::vector<Parameters> read_parameter_list(SceneFile& scene, const std::string& key)
+{
+  std::vector<Parameters> list;
+  for (const std::string& file : scene.data_sets(key))
+    list.push_back(read_parameters(file));
+  return list;
+}
+
+void describe(Table& table, const Parameters& parameters)
+{
+  const auto body = [](const char* name, const Body& b) {
+    return text("%s: m = %.15g kg, omega_0 = %.15g rad/s, xi = %.15g", name, b.mass,
+                b.natural_frequency, b.damping_ratio);
+  };
+  const Bearing& bearing = parameters.bearing;
+  table.note("parameters: " + parameters.file + " (" + parameters.title + ")");
+  table.note("  " + body("stator", parameters.stator) + "; " +
+             body("rotor", parameters.rotor));
+  table.note(text("  m_e e = %.15g kg m; g = %.15g m/s^2", parameters.unbalance,
+                  parameters.gravity));
+  table.note(text(
+      "  bearing: n = %d, K_H = %.15g N/m^1.5, delta = %.15g m, omega_cage/omega = %.15g",
+      bearing.balls, bearing.contact_stiffness, bearing.clearance,
+      bearing.cage_speed_ratio));
+}
+
+double angular(double hertz)
+{
+  return 2 * std::numbers::pi * hertz;
 }
 
 }  // namespace rotor_stator

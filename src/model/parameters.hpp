@@ -7,6 +7,10 @@ read, so that the programs below never meet a machine that cannot exist. */
 #pragma once
 
 #include <string>
+#include <vector>
+
+#include "io/scene.hpp"
+#include "io/table.hpp"
 
 namespace rotor_stator
 {
@@ -43,6 +47,16 @@ struct Parameters {
 
 /** Reads and checks a parameter file. Throws BadInput with file, line and key. */
 Parameters read_parameters(const std::string& file);
+
+/** Those of the data sets that a key of a scene names. */
+Parameters read_parameters(SceneFile& scene, const std::string& key);
+std::vector<Parameters> read_parameter_list(SceneFile& scene, const std::string& key);
+
+/** The `#` lines of a machine: its file and its values. */
+void describe(Table& table, const Parameters& parameters);
+
+/** ω [rad/s] of a frequency [Hz]. */
+double angular(double hertz);
 
 /** Eq. 3: c = ω_cage/ω = ½(1 - R_b/(R_b + R)) from the radii of ball and inner race
    (the paper's R; in its Eq. 2 R is the ball's, D-07). */

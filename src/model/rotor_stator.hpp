@@ -112,4 +112,33 @@ Vec2 quasi_static_contact(const Parameters& parameters, Vec2 force);
     starts. */
 State static_start(const Parameters& parameters);
 
+/**
+## Sums and multiples of vectors and of pairs of bodies
+
+What a time integrator does with slopes. */
+
+inline Vec2 operator+(Vec2 a, Vec2 b)
+{
+  return {a.x + b.x, a.y + b.y};
+}
+inline Vec2 operator*(double s, Vec2 a)
+{
+  return {s * a.x, s * a.y};
+}
+inline Bodies operator+(const Bodies& a, const Bodies& b)
+{
+  return {a.stator + b.stator, a.rotor + b.rotor};
+}
+inline Bodies operator*(double s, const Bodies& a)
+{
+  return {s * a.stator, s * a.rotor};
+}
+
+/**
+## Where an iteration for a periodic motion starts */
+
+/** The state at phase 0 of the motion in which the bearing answers the force of the rigid
+    joint at every instant and the stator follows its harmonic response. */
+State quasi_static_state(const Parameters& parameters, double omega);
+
 }  // namespace rotor_stator

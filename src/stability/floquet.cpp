@@ -7,7 +7,7 @@
 #include <numbers>
 
 #include "balance/fourier_transform.hpp"
-#include "model/errors.hpp"
+#include "io/errors.hpp"
 #include "model/rotor_stator.hpp"
 
 namespace rotor_stator

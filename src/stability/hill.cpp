@@ -6,7 +6,7 @@
 #include <numbers>
 
 #include "balance/fourier_transform.hpp"
-#include "model/errors.hpp"
+#include "io/errors.hpp"
 
 namespace rotor_stator
 {

@@ -5,7 +5,7 @@
 #include <cmath>
 #include <numbers>
 
-#include "model/errors.hpp"
+#include "io/errors.hpp"
 
 namespace rotor_stator
 {

@@ -15,6 +15,7 @@ answer depends on. */
 #include <array>
 #include <string>
 
+#include "integration/rk4.hpp"
 #include "model/rotor_stator.hpp"
 
 namespace rotor_stator
@@ -41,5 +42,92 @@ struct PeriodMap {
 PeriodMap period_map(const Parameters& parameters, double omega, const State& start,
                      double tolerance, const std::string& method = "rk8pd",
                      double most_evaluations = 1e9);
+
+/**
+## The variational equations of Eq. 7
+
+Eight small disturbances of the state at once. Displacement (or speed) i of disturbance j
+is in row j and column i, so that the eight of one displacement lie side by side in
+memory, where the compiler's vectors share them. */
+
+using Disturbances = Eigen::Matrix<double, 8, 4>;
+
+class DisturbanceRates
+{
+public:
+  explicit DisturbanceRates(const Parameters& parameters)
+  {
+    int k = 0;
+    for (const Body* body : {&parameters.stator, &parameters.rotor}) {
+      per_mass_[k] = 1 / body->mass;
+      damping_[k] = body->damping() / body->mass;
+      stiffness_[k] = body->stiffness() / body->mass;
+      ++k;
+    }
+  }
+
+  /** Accelerations of the disturbances `q` and their speeds `v`, with the bearing's stiffness `s`
+      [N/m] at that instant of the motion. */
+  template <class Q, class V>
+  Disturbances acceleration(const Stiffness2& s, const Q& q, const V& v) const
+  {
+    using Eight = Eigen::Matrix<double, 8, 1>;
+    const Eight u_x = q.col(2) - q.col(0), u_y = q.col(3) - q.col(1);
+    const Eight force[2] = {s.xx * u_x + s.xy * u_y, s.xy * u_x + s.yy * u_y};
+    Disturbances a;
+    for (int i = 0; i < 4; ++i) {
+      const int body = i / 2;
+      const double per_mass = body == 0 ? per_mass_[0] : -per_mass_[1];
+      a.col(i) = per_mass * force[i % 2] - damping_[body] * v.col(i) -
+                 stiffness_[body] * q.col(i);
+    }
+    return a;
+  }
+
+private:
+  std::array<double, 2> per_mass_, damping_,
+      stiffness_;  ///< 1/m, c/m, k/m of both bodies
+};
+
+/**
+## The period map by classical Runge-Kutta, with its derivative
+
+One period in S equal steps: 4S evaluations of Eq. 7 and no sine or cosine. The derivative
+is that of the map as it is computed: each stage of the variational equations takes the
+bearing's stiffness at the same stage of the state. */
+
+class Rk4PeriodMap
+{
+public:
+  /** The fewest steps per period not longer than `longest_step` [s]. */
+  Rk4PeriodMap(const Parameters& parameters, double omega, double longest_step);
+
+  /** The state one period after `start` at phase 0. */
+  State end(const State& start);
+
+  /** The same with its derivative. */
+  PeriodMap map(const State& start);
+
+  /** Of the bearing's force, with or without its stiffness. */
+  long evaluations() const { return rk4_.evaluations() + evaluations_; }
+
+private:
+  struct Variation {
+    Disturbances q, v;
+  };
+  struct Slopes {
+    Bodies state;
+    Disturbances disturbances;
+  };
+
+  Slopes acceleration(const State& state, const Variation& variation,
+                      const Rk4::Angles& at) const;
+  void step(const Rk4::Angles* angles, State& state, Variation& variation) const;
+
+  Rk4 rk4_;
+  RotorStator system_;
+  DisturbanceRates rates_;
+  long evaluations_ = 0;
+};
 
 }  // namespace rotor_stator

@@ -5,10 +5,9 @@
 #include <functional>
 #include <memory>
 
-#include "integration/gsl_stepper.hpp"
 #include "integration/time_stepper.hpp"
-#include "model/errors.hpp"
-#include "stability/rk4_period_map.hpp"
+#include "io/errors.hpp"
+#include "stability/period_map.hpp"
 
 namespace rotor_stator
 {

@@ -11,10 +11,12 @@ the same matrix. Everything on data set 1, at its solution at 30 Hz, with the de
 
 #include "balance/bearing_problem.hpp"
 #include "balance/newton.hpp"
-#include "scenes/motion.hpp"
-#include "scenes/scene_file.hpp"
+#include "io/scene.hpp"
+#include "motion/find_periodic.hpp"
+#include "motion/motion.hpp"
 
 using namespace rotor_stator;
+using namespace rotor_stator::motion;
 
 namespace
 {

@@ -10,7 +10,7 @@ The distributions of the standard library differ between implementations; these 
 #include <string>
 #include <vector>
 
-#include "model/errors.hpp"
+#include "io/errors.hpp"
 
 namespace rotor_stator::tests
 {

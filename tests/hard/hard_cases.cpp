@@ -4,13 +4,15 @@
 #include <catch2/catch.hpp>
 #include <set>
 
+#include "hard/checks.hpp"
 #include "hard/outcome.hpp"
-#include "model/errors.hpp"
-#include "scenes/hard_checks.hpp"
+#include "io/errors.hpp"
 #include "support/command.hpp"
 #include "support/tsv.hpp"
 
 using namespace rotor_stator;
+using namespace rotor_stator::hard;
+using namespace rotor_stator::motion;
 using namespace rotor_stator::tests;
 
 namespace

@@ -4,11 +4,14 @@
 
 #include "balance/bearing_problem.hpp"
 #include "continuation/arc_length.hpp"
-#include "scenes/adaptive_study.hpp"
+#include "motion/find_periodic.hpp"
 #include "support/cases.hpp"
 #include "support/command.hpp"
+#include "truth/adaptive.hpp"
 
 using namespace rotor_stator;
+using namespace rotor_stator::motion;
+using namespace rotor_stator::truth;
 using namespace rotor_stator::tests;
 
 namespace

@@ -1,10 +1,12 @@
 /** Harmonic balance against rk8pd on set 1: two methods that share nothing but Eq. 7. */
 #include <catch2/catch.hpp>
 
-#include "scenes/motion.hpp"
+#include "motion/find_periodic.hpp"
+#include "motion/motion.hpp"
 #include "support/cases.hpp"
 
 using namespace rotor_stator;
+using namespace rotor_stator::motion;
 using namespace rotor_stator::tests;
 
 namespace

@@ -6,14 +6,16 @@
 #include <fstream>
 #include <numbers>
 
-#include "model/errors.hpp"
-#include "model/number_table.hpp"
-#include "scenes/known_attractors.hpp"
-#include "scenes/validity.hpp"
+#include "io/errors.hpp"
+#include "io/table.hpp"
 #include "stability/period_map.hpp"
 #include "support/cases.hpp"
+#include "truth/attractors.hpp"
+#include "truth/validity.hpp"
 
 using namespace rotor_stator;
+using namespace rotor_stator::truth;
+using namespace rotor_stator::motion;
 using namespace rotor_stator::tests;
 
 namespace

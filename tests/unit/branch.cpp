@@ -4,14 +4,16 @@
 #include <catch2/catch.hpp>
 
 #include "balance/bearing_problem.hpp"
+#include "continuation/arc_length.hpp"
 #include "continuation/isolated.hpp"
 #include "continuation/locate.hpp"
-#include "continuation/trail.hpp"
-#include "model/errors.hpp"
-#include "scenes/motion.hpp"
+#include "io/errors.hpp"
+#include "motion/find_periodic.hpp"
+#include "motion/motion.hpp"
 #include "support/cases.hpp"
 
 using namespace rotor_stator;
+using namespace rotor_stator::motion;
 using namespace rotor_stator::tests;
 
 namespace

@@ -6,7 +6,7 @@
 
 #include "balance/bearing_problem.hpp"
 #include "continuation/arc_length.hpp"
-#include "model/errors.hpp"
+#include "io/errors.hpp"
 #include "stability/branch_stability.hpp"
 #include "stability/hill.hpp"
 #include "support/cases.hpp"

@@ -10,10 +10,12 @@
 #include <complex>
 #include <numbers>
 
-#include "scenes/motion.hpp"
+#include "motion/find_periodic.hpp"
+#include "motion/motion.hpp"
 #include "support/cases.hpp"
 
 using namespace rotor_stator;
+using namespace rotor_stator::motion;
 using namespace rotor_stator::tests;
 
 namespace

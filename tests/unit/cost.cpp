@@ -4,19 +4,20 @@
 #include <cmath>
 #include <filesystem>
 
+#include "costs/cost_growth.hpp"
+#include "costs/equal_error.hpp"
+#include "costs/work_precision.hpp"
 #include "integration/rk4.hpp"
-#include "model/errors.hpp"
-#include "model/quasi_static_state.hpp"
-#include "scenes/cost_growth.hpp"
-#include "scenes/equal_error.hpp"
-#include "scenes/own_process.hpp"
-#include "scenes/work_precision.hpp"
-#include "stability/rk4_period_map.hpp"
+#include "io/errors.hpp"
+#include "model/rotor_stator.hpp"
+#include "stability/period_map.hpp"
 #include "stability/shooting.hpp"
 #include "support/cases.hpp"
 #include "support/command.hpp"
 
 using namespace rotor_stator;
+using namespace rotor_stator::costs;
+using namespace rotor_stator::motion;
 using namespace rotor_stator::tests;
 
 namespace

@@ -3,13 +3,15 @@
 #include <catch2/catch.hpp>
 #include <cmath>
 
-#include "model/errors.hpp"
-#include "scenes/evidence.hpp"
-#include "scenes/printed_equations.hpp"
+#include "deviations/deviations.hpp"
+#include "deviations/printed_equations.hpp"
+#include "io/errors.hpp"
 #include "support/cases.hpp"
 #include "support/command.hpp"
 
 using namespace rotor_stator;
+using namespace rotor_stator::deviations;
+using namespace rotor_stator::motion;
 using namespace rotor_stator::tests;
 
 namespace

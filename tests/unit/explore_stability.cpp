@@ -3,7 +3,7 @@
 #include <catch2/catch.hpp>
 #include <cmath>
 
-#include "model/errors.hpp"
+#include "io/errors.hpp"
 #include "support/command.hpp"
 #include "support/tsv.hpp"
 

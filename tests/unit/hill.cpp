@@ -1,11 +1,13 @@
 /** Hill's method against the monodromy matrix: where it converges, and where it misleads. */
 #include <catch2/catch.hpp>
 
-#include "scenes/motion.hpp"
+#include "motion/find_periodic.hpp"
+#include "motion/motion.hpp"
 #include "stability/hill.hpp"
 #include "support/cases.hpp"
 
 using namespace rotor_stator;
+using namespace rotor_stator::motion;
 using namespace rotor_stator::tests;
 
 namespace

@@ -2,10 +2,12 @@
 #include <catch2/catch.hpp>
 #include <complex>
 
-#include "scenes/motion.hpp"
+#include "motion/find_periodic.hpp"
+#include "motion/motion.hpp"
 #include "support/cases.hpp"
 
 using namespace rotor_stator;
+using namespace rotor_stator::motion;
 using namespace rotor_stator::tests;
 
 namespace

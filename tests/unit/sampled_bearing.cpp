@@ -2,8 +2,8 @@
 #include <catch2/catch.hpp>
 #include <numbers>
 
+#include "model/ball_bearing.hpp"
 #include "model/hertz.hpp"
-#include "model/sampled_bearing.hpp"
 
 using namespace rotor_stator;
 

@@ -4,10 +4,12 @@
 
 #include "balance/bearing_problem.hpp"
 #include "balance/newton.hpp"
-#include "scenes/sampling_rule.hpp"
+#include "costs/sampling.hpp"
 #include "support/cases.hpp"
 
 using namespace rotor_stator;
+using namespace rotor_stator::costs;
+using namespace rotor_stator::motion;
 using namespace rotor_stator::tests;
 
 namespace

@@ -5,7 +5,7 @@
 #include <functional>
 #include <numbers>
 
-#include "stability/section_verdict.hpp"
+#include "stability/lyapunov.hpp"
 
 using namespace rotor_stator;
 

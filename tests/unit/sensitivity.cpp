@@ -3,12 +3,14 @@
 #include <catch2/catch.hpp>
 #include <cmath>
 
-#include "model/errors.hpp"
-#include "scenes/sensitivity.hpp"
+#include "io/errors.hpp"
+#include "studies/sensitivity.hpp"
 #include "support/cases.hpp"
 #include "support/command.hpp"
 
 using namespace rotor_stator;
+using namespace rotor_stator::studies;
+using namespace rotor_stator::motion;
 using namespace rotor_stator::tests;
 
 namespace

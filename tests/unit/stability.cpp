@@ -6,14 +6,16 @@
 #include "balance/bearing_problem.hpp"
 #include "continuation/arc_length.hpp"
 #include "integration/time_stepper.hpp"
-#include "model/errors.hpp"
-#include "scenes/motion.hpp"
-#include "scenes/regime.hpp"
+#include "io/errors.hpp"
+#include "motion/find_periodic.hpp"
+#include "motion/motion.hpp"
+#include "motion/regime.hpp"
 #include "stability/floquet.hpp"
 #include "stability/shooting.hpp"
 #include "support/cases.hpp"
 
 using namespace rotor_stator;
+using namespace rotor_stator::motion;
 using namespace rotor_stator::tests;
 
 namespace

@@ -4,14 +4,16 @@
 #include <catch2/catch.hpp>
 
 #include "balance/bearing_problem.hpp"
-#include "balance/gmres.hpp"
 #include "balance/newton.hpp"
+#include "balance/step_solver.hpp"
 #include "continuation/sweep.hpp"
-#include "scenes/motion.hpp"
+#include "motion/find_periodic.hpp"
+#include "motion/motion.hpp"
 #include "support/allocations.hpp"
 #include "support/cases.hpp"
 
 using namespace rotor_stator;
+using namespace rotor_stator::motion;
 using namespace rotor_stator::tests;
 
 namespace

@@ -5,13 +5,15 @@
 #include <fstream>
 #include <numbers>
 
-#include "scenes/identification.hpp"
-#include "scenes/parametric_study.hpp"
-#include "scenes/resumable.hpp"
+#include "io/journal.hpp"
+#include "studies/clearance_stiffness.hpp"
+#include "studies/identification.hpp"
 #include "support/cases.hpp"
 #include "support/command.hpp"
 
 using namespace rotor_stator;
+using namespace rotor_stator::studies;
+using namespace rotor_stator::motion;
 using namespace rotor_stator::tests;
 
 namespace

@@ -3,7 +3,7 @@
 #include <cmath>
 
 #include "integration/steady_state.hpp"
-#include "model/errors.hpp"
+#include "io/errors.hpp"
 #include "support/cases.hpp"
 
 using namespace rotor_stator;

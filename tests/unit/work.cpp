@@ -1,8 +1,8 @@
 /** The account that bounds all work, and the evaluations that are paid from it. */
 #include <catch2/catch.hpp>
 
-#include "integration/allowance.hpp"
-#include "model/errors.hpp"
+#include "io/budget.hpp"
+#include "io/errors.hpp"
 
 using namespace rotor_stator;
 

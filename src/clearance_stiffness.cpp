@@ -1,0 +1,40 @@
+/**
+# A parametric study: clearance against contact stiffness
+
+Paper: §1, claim C11.
+
+    make study
+
+The introduction of the paper gives parametric studies as the reason for the method: they are called out
+of reach of time integration. So here is one: a grid of clearances and contact stiffnesses, a whole response
+curve at every point of it, and four numbers kept of each curve.
+
+Map (a) is the speed of the peak. With both bodies moving together the bearing hardly matters, and the map
+is nearly flat, as its scale says: two bodies on their suspensions fix that speed. Map (b) is the width of the
+band in which contact is lost at times, map (c) the largest force on a ball, which is what a designer asks for. Map (d)
+has to be read with all the others: it counts the speeds at which the sweep with this number of harmonics
+found no solution, and where it is dark the other three maps say little. The numbered circles are the
+data sets of the paper. What the same grid would cost by time integration is worked out, from the measured
+times of one sweep, under claim C11.
+
+Modelled: one sweep with 6 harmonics per point of the grid, by harmonic balance alone. Finished points are
+kept in a journal. */
+#include <CLI/CLI.hpp>
+
+#include "io/program.hpp"
+#include "studies/clearance_stiffness.hpp"
+
+int main(int argc, char** argv)
+{
+  using namespace rotor_stator;
+  using namespace rotor_stator::studies;
+  std::string scene = "data/scenes/study.toml", journal = "study.journal";
+  CLI::App app("Sweeps a grid of clearance and contact stiffness; TSV on stdout.");
+  app.add_option("scene", scene, "scene file")->capture_default_str();
+  app.add_option("--journal", journal, "finished points")->capture_default_str();
+  return guarded([&] {
+    if (!parse(app, argc, argv)) return 0;
+    write(study_table(scene, journal).text());
+    return 0;
+  });
+}

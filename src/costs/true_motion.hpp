@@ -1,0 +1,49 @@
+/**
+# The motions that errors are measured against
+
+Time integration says what the motion is, and whether it has the period T; shooting with a
+tight tolerance then closes it, so that no rest of a transient is left. Harmonic balance
+with many harmonics, which shares neither the discretisation nor the iteration with
+shooting, says how far both can be trusted. */
+#pragma once
+
+#include "motion/motion.hpp"
+
+namespace rotor_stator::costs
+{
+
+struct TruthSettings {
+  SteadySettings settling;   ///< its points per period are those of the motion
+  double tolerance = 1e-13;  ///< of shooting by rk8pd
+  double closure = 1e-11;
+};
+
+struct TrueMotion {
+  double frequency;       ///< [Hz]
+  bool periodic;          ///< with period T; nothing else is known if not
+  double spread;          ///< Poincaré spread of the time integration [-]
+  State state;            ///< at phase 0
+  motion::Motion motion;  ///< one period
+  double closure;         ///< of shooting [-]
+};
+
+/** Throws NoSolution when the integration breaks down or shooting does not close the motion. */
+TrueMotion true_motion(const Parameters& parameters, double frequency,
+                       const TruthSettings& settings);
+
+/** Largest relative difference to harmonic balance with `harmonics` harmonics, started from the
+    motion [-]. Throws NoSolution when that has no solution. */
+double agreement(const Parameters& parameters, const TrueMotion& truth, int harmonics);
+
+/** The largest errors over some speeds [-]. */
+struct MotionError {
+  double displacement = 0, force = 0;
+  double worst_frequency = 0;   ///< where the displacement is worst [Hz]
+  std::vector<double> missing;  ///< speeds with a reference but without a solution [Hz]
+};
+
+/** Over the speeds where `references` has a motion. */
+MotionError error_of(const Parameters& parameters, const std::vector<double>& frequencies,
+                     const motion::Motions& motions, const motion::Motions& references);
+
+}  // namespace rotor_stator::costs

@@ -1,0 +1,187 @@
+#include "deviations/printed_equations.hpp"
+
+#include <Eigen/Eigenvalues>
+#include <Eigen/LU>
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+#include "io/errors.hpp"
+
+namespace rotor_stator::deviations
+{
+
+namespace
+{
+
+constexpr int dofs = 4;  ///< x_s, y_s, x_r, y_r
+
+/** The argument of row i ≥ 2 and column j, both counted from 1 as in Eq. 13. For the
+   parenthesised one 2m+1 is the number of samples. */
+double argument_of(int i, int j, int harmonics, int samples, Argument argument)
+{
+  const double turns = (j - 1) * (i - i % 2) * std::numbers::pi;
+  if (argument == Argument::printed) return turns / (2 * harmonics) + 1;
+  return turns / samples;
+}
+
+}  // namespace
+
+Eigen::MatrixXd gamma_matrix(int harmonics, int samples, Argument argument)
+{
+  Eigen::MatrixXd gamma(2 * harmonics + 1, samples);
+  for (int j = 1; j <= samples; ++j) {
+    gamma(0, j - 1) = 1.0 / samples;
+    for (int i = 2; i <= 2 * harmonics + 1; ++i) {
+      const double angle = argument_of(i, j, harmonics, samples, argument);
+      gamma(i - 1, j - 1) =
+          2.0 / samples * (i % 2 == 0 ? std::cos(angle) : std::sin(angle));
+    }
+  }
+  return gamma;
+}
+
+Eigen::MatrixXd gamma_inverse(int harmonics, int samples)
+{
+  Eigen::MatrixXd inverse =
+      0.5 * samples *
+      gamma_matrix(harmonics, samples, Argument::parenthesised).transpose();
+  inverse.col(0).setOnes();
+  return inverse;
+}
+
+KnownSolution printed_prediction(const std::vector<KnownSolution>& last_four)
+{
+  std::vector<double> s{0};
+  for (int i = 0; i < 3; ++i)
+    s.push_back(s.back() + std::hypot((last_four[i + 1].x - last_four[i].x).norm(),
+                                      last_four[i + 1].omega - last_four[i].omega));
+  KnownSolution next{Eigen::VectorXd::Zero(last_four[0].x.size()), 0};
+  for (int i = 0; i <= 3; ++i) {
+    double weight = 1;
+    for (int j = 0; j <= 3; ++j)
+      if (i != j) weight *= (s[3] - s[j]) / (s[i] - s[j]);
+    next.x += weight * last_four[i].x;
+    next.omega += weight * last_four[i].omega;
+  }
+  return next;
+}
+
+PlainBalance::PlainBalance(const Parameters& parameters, double omega, int harmonics,
+                           int samples, FirstEntry first)
+    : harmonics_(harmonics),
+      samples_(samples),
+      bearing_(parameters.bearing),
+      gamma_(gamma_matrix(harmonics, samples, Argument::parenthesised)),
+      inverse_(gamma_inverse(harmonics, samples))
+{
+  for (int k = 0; k < samples; ++k)
+    cage_.push_back(Direction::of(parameters.bearing.cage_speed_ratio * 2 *
+                                  std::numbers::pi * k / samples));
+  fill_linear(parameters, omega, first);
+  fill_load(parameters, omega);
+}
+
+void PlainBalance::fill_linear(const Parameters& parameters, double omega,
+                               FirstEntry first)
+{
+  const Body &s = parameters.stator, &r = parameters.rotor;
+  const auto diagonal = [](double stator, double rotor) {
+    return Eigen::Vector4d(stator, stator, rotor, rotor).asDiagonal().toDenseMatrix();
+  };
+  const Eigen::Matrix4d mass = diagonal(s.mass, r.mass);
+  const Eigen::Matrix4d damping = diagonal(s.damping(), r.damping());
+  const Eigen::Matrix4d stiffness = diagonal(s.stiffness(), r.stiffness());
+  const int size = dofs * (2 * harmonics_ + 1);
+  linear_ = Eigen::MatrixXd::Zero(size, size);
+  linear_.topLeftCorner<dofs, dofs>() = stiffness;
+  for (int j = 1; j <= harmonics_; ++j) {
+    const int cosine = (2 * j - 1) * dofs, sine = cosine + dofs;
+    const double frequency = j * omega;
+    const double printed = first == FirstEntry::printed ? omega : frequency;
+    linear_.block<dofs, dofs>(cosine, cosine) = stiffness - printed * printed * mass;
+    linear_.block<dofs, dofs>(cosine, sine) = frequency * damping;
+    linear_.block<dofs, dofs>(sine, cosine) = -frequency * damping;
+    linear_.block<dofs, dofs>(sine, sine) = stiffness - frequency * frequency * mass;
+  }
+}
+
+void PlainBalance::fill_load(const Parameters& parameters, double omega)
+{
+  const double unbalance = parameters.unbalance * omega * omega;
+  load_ = Eigen::VectorXd::Zero(linear_.rows());
+  load_[1] = -parameters.stator.mass * parameters.gravity;
+  load_[3] = -parameters.rotor.mass * parameters.gravity;
+  load_[dofs + 2] = unbalance;      // x_r, cosine
+  load_[2 * dofs + 3] = unbalance;  // y_r, sine
+}
+
+const Eigen::VectorXd& PlainBalance::residual(const Eigen::VectorXd& x)
+{
+  const int coefficients = 2 * harmonics_ + 1;
+  const Eigen::MatrixXd samples = x.reshaped(dofs, coefficients) * inverse_.transpose();
+  Eigen::MatrixXd force(dofs, samples_);
+  jacobian_ = linear_;
+  for (int k = 0; k < samples_; ++k) {
+    const auto [f, s] = bearing_.reaction(
+        cage_[k], {samples(2, k) - samples(0, k), samples(3, k) - samples(1, k)});
+    force.col(k) << -f.x, -f.y, f.x, f.y;
+    Eigen::Matrix4d slope;
+    slope << s.xx, s.xy, -s.xx, -s.xy, s.xy, s.yy, -s.xy, -s.yy, -s.xx, -s.xy, s.xx, s.xy,
+        -s.xy, -s.yy, s.xy, s.yy;
+    for (int p = 0; p < coefficients; ++p)
+      for (int q = 0; q < coefficients; ++q)
+        jacobian_.block<dofs, dofs>(dofs * p, dofs * q) +=
+            gamma_(p, k) * inverse_(k, q) * slope;
+  }
+  const Eigen::MatrixXd force_series = force * gamma_.transpose();
+  residual_ = linear_ * x + force_series.reshaped() - load_;
+  return residual_;
+}
+
+Eigen::VectorXd PlainBalance::corrected_step(const Eigen::VectorXd& x)
+{
+  residual(x);
+  return -jacobian_.partialPivLu().solve(residual_);
+}
+
+Eigen::VectorXd PlainBalance::printed_step(const Eigen::VectorXd& x)
+{
+  residual(x);
+  const Eigen::VectorXd right = residual_ - linear_ * x + jacobian_ * x;
+  return -jacobian_.partialPivLu().solve(right);
+}
+
+StaticContact static_contact(const Parameters& parameters)
+{
+  const double compliance =
+      1 / parameters.stator.stiffness() + 1 / parameters.rotor.stiffness();
+  const double sag = free_displacement(parameters, 0, 0).y;
+  const BallBearing bearing(parameters.bearing);
+  double u = quasi_static_contact(parameters, rigid_joint_force(parameters, 0, 0)).y;
+  for (int iteration = 0; iteration < 50; ++iteration) {
+    const auto [force, slope] = bearing.reaction({1, 0}, {0, u});
+    const double step = (sag - u - compliance * force.y) / (1 + compliance * slope.yy);
+    u += step;
+    if (std::abs(step) <= 1e-14 * std::abs(u)) return {u, force.y, slope.yy};
+  }
+  throw NoSolution(text("%s: no static contact found", parameters.file.c_str()));
+}
+
+std::vector<double> free_mode_rates(const Parameters& parameters, double joint_stiffness)
+{
+  const Body &s = parameters.stator, &r = parameters.rotor;
+  const double k = joint_stiffness;
+  Eigen::Matrix4d matrix = Eigen::Matrix4d::Zero();
+  matrix.topRightCorner<2, 2>().setIdentity();
+  matrix.bottomLeftCorner<2, 2>() << -(s.stiffness() + k) / s.mass, k / s.mass,
+      k / r.mass, -(r.stiffness() + k) / r.mass;
+  matrix(2, 2) = -s.damping() / s.mass;
+  matrix(3, 3) = -r.damping() / r.mass;
+  const Eigen::Vector4d real = matrix.eigenvalues().real();
+  std::vector<double> rates(real.begin(), real.end());
+  std::sort(rates.rbegin(), rates.rend());
+  return rates;
+}
+
+}  // namespace rotor_stator::deviations

@@ -1,0 +1,90 @@
+/**
+# The paper's equations, word for word
+
+Dense and slow, in all four displacements, as a reader would type them in: what the rest
+of the library replaces, kept to show with numbers why it was replaced. Each printed form
+has its corrected one beside it. */
+#pragma once
+
+#include <Eigen/Core>
+#include <vector>
+
+#include "model/rotor_stator.hpp"
+
+namespace rotor_stator::deviations
+{
+
+/** How the arguments of Eq. 13 are read (D-21). */
+enum class Argument {
+  parenthesised,  ///< (j-1)iπ/(2m+1)
+  printed         ///< (j-1)iπ/2m + 1
+};
+
+/** Γ of Eq. 13 for N samples, (2m+1) × N: samples to coefficients (D-04). The paper has N
+    = 2m+1 (D-05). */
+Eigen::MatrixXd gamma_matrix(int harmonics, int samples, Argument argument);
+
+/** Γ⁻¹ for N samples, N × (2m+1): coefficients to samples. */
+Eigen::MatrixXd gamma_inverse(int harmonics, int samples);
+
+/** A solution (X_i, ω_i) as Eq. 20 meets it. */
+struct KnownSolution {
+  Eigen::VectorXd x;
+  double omega;
+};
+
+/** Eq. 20 as printed, read at S_3 (D-02), from the four last solutions, oldest first.
+   Distances by Eq. 19 as printed, without scales (D-03). */
+KnownSolution printed_prediction(const std::vector<KnownSolution>& last_four);
+
+/** The first diagonal entry of the blocks of Eq. 11 (D-12). */
+enum class FirstEntry {
+  corrected,  ///< K - (jω)²M
+  printed     ///< K - ω²M
+};
+
+/** Eqs 8 to 16 at one speed in x_s, y_s, x_r, y_r: 4(2m+1) unknowns, one block of four
+   values per coefficient. */
+class PlainBalance
+{
+public:
+  PlainBalance(const Parameters& parameters, double omega, int harmonics, int samples,
+               FirstEntry first = FirstEntry::corrected);
+
+  /** Eq. 16: R = AX + F_NL - F [N]; also evaluates J (Eq. 12) at X. */
+  const Eigen::VectorXd& residual(const Eigen::VectorXd& x);
+
+  /** A + J at the last point given to `residual` [N/m]. */
+  const Eigen::MatrixXd& jacobian() const { return jacobian_; }
+
+  /** ΔX [m] from X: Eq. 15 as printed, at Δω = 0, and as it follows from Eq. 10 (D-06).
+   */
+  Eigen::VectorXd printed_step(const Eigen::VectorXd& x);
+  Eigen::VectorXd corrected_step(const Eigen::VectorXd& x);
+
+  const Eigen::VectorXd& load() const { return load_; }  ///< F [N]
+
+private:
+  void fill_linear(const Parameters& parameters, double omega, FirstEntry first);
+  void fill_load(const Parameters& parameters, double omega);
+
+  int harmonics_, samples_;
+  BallBearing bearing_;
+  std::vector<Direction> cage_;  ///< at each sample
+  Eigen::MatrixXd gamma_, inverse_, linear_, jacobian_;
+  Eigen::VectorXd load_, residual_;
+};
+
+/** The motion with K_H [N/m^{3/2}] and gravity alone at rest (cage angle 0). */
+struct StaticContact {
+  double displacement;  ///< u_y = y_r - y_s [m]
+  double force;         ///< F_y on the stator [N]
+  double stiffness;     ///< ∂F_y/∂u_y with Eq. 4 as corrected [N/m]
+};
+StaticContact static_contact(const Parameters& parameters);
+
+/** Rates [1/s] of the four free modes of both bodies joined in one direction by a linear
+    stiffness [N/m], largest real part first; a positive one grows. */
+std::vector<double> free_mode_rates(const Parameters& parameters, double joint_stiffness);
+
+}  // namespace rotor_stator::deviations

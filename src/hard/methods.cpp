@@ -1,0 +1,357 @@
+#include "hard/methods.hpp"
+#include "motion/find_periodic.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+#include "balance/bearing_problem.hpp"
+#include "continuation/arc_length.hpp"
+#include "io/errors.hpp"
+#include "motion/regime.hpp"
+#include "stability/shooting.hpp"
+
+namespace rotor_stator::hard
+{
+
+SteadySettings hard_settings(const std::string& method, double step)
+{
+  SteadySettings settings;
+  settings.stepper = {.method = method,
+                      .intervals_per_period = compared_points,
+                      .step = step,
+                      .most_evaluations = 1e8};
+  settings.settled = 1e-8;
+  settings.longest = 20;
+  return settings;
+}
+
+motion::Motion period_from(const Parameters& parameters, double omega, const State& start)
+{
+  const TimeStepper stepper = make_stepper(parameters, omega,
+                                           {.method = "rk8pd",
+                                            .intervals_per_period = compared_points,
+                                            .tolerance = 1e-11,
+                                            .most_evaluations = 1e8});
+  State state = start;
+  return motion::recorded(stepper, compared_points, state);
+}
+
+double distance(const motion::Motion& motion, const motion::Motion& reference)
+{
+  const double difference = motion::relative_difference(motion, reference);
+  return std::isnan(difference) ? 0 : difference;
+}
+
+double amplitude_change(const motion::Motion& motion, const motion::Motion& reference)
+{
+  const auto a = half_peak_to_peak(motion), b = half_peak_to_peak(reference);
+  double largest = 0, size = 0;
+  for (int i = 0; i < 4; ++i) {
+    largest = std::max(largest, std::abs(a[i] - b[i]));
+    size = std::max(size, b[i]);
+  }
+  return size > 0 ? largest / size : 0;
+}
+
+int shown_periods(const HardCase& hard)
+{
+  return static_cast<int>(std::clamp(hard.frequency, 1.0, 100.0));
+}
+
+namespace
+{
+
+/** Refuses what is less accurate than wanted; else the answer is claimed. */
+void claim(const HardRule& rule, const std::string& what, Answer& answer)
+{
+  if (!(answer.stated <= rule.accuracy))
+    throw NoSolution(what + text(" moves it by %.2g of its size", answer.stated));
+  answer.claimed = true;
+}
+
+/** A fixed point of the period map near `state`. */
+Shooting closed(const HardCase& hard, double tolerance, State& state)
+{
+  return shoot(hard.parameters, angular(hard.frequency), state,
+               {.tolerance = tolerance,
+                .closure = 100 * tolerance,
+                .most_maps = 40,
+                .most_evaluations = most_shooting_evaluations});
+}
+
+/** Shooting from the static state, then from two seconds of integration. */
+Shooting closed_from_rest(const HardCase& hard, Answer& answer)
+{
+  constexpr double tolerance = 1e-10;
+  const Parameters& p = hard.parameters;
+  State state = static_start(p);
+  answer.reason = "from the static state";
+  Shooting shooting = closed(hard, tolerance, state);
+  if (!shooting.converged && hard.from != hard.frequency) {
+    SteadySettings settings = hard_settings("rk4", 0);
+    settings.longest = 2;
+    state = steady_state(p, angular(hard.frequency), static_start(p), settings)
+                .states.front();
+    answer.reason = "from 2 s of integration";
+    shooting = closed(hard, tolerance, state);
+  }
+  answer.state = state;
+  answer.residual = shooting.closure;
+  return shooting;
+}
+
+}  // namespace
+
+Answer answer_by_shooting(const HardCase& hard, const HardRule& rule)
+{
+  Answer answer;
+  const double omega = angular(hard.frequency);
+  try {
+    if (!has_rotation_period(hard.parameters.bearing))
+      throw NoSolution(text("n*omega_cage/omega = %.9g is not a whole number: no period",
+                            passages_per_turn(hard.parameters.bearing)));
+    const Shooting coarse = closed_from_rest(hard, answer);
+    if (!coarse.converged) throw NoSolution("shooting: " + coarse.reason);
+    State finer = answer.state;
+    const Shooting fine = closed(hard, 1e-12, finer);
+    if (!fine.converged)
+      throw NoSolution("shooting, a hundredth of the tolerance: " + fine.reason);
+    answer.motion = period_from(hard.parameters, omega, answer.state);
+    answer.stated = distance(answer.motion, period_from(hard.parameters, omega, finer));
+    claim(rule, "a hundredth of the tolerance", answer);
+  } catch (const NoSolution& refusal) {
+    answer.reason = refusal.what();
+  }
+  return answer;
+}
+
+namespace
+{
+
+/** The slowest decay of a disturbance [1/s]: the contact has no damping of its own. */
+double slowest_decay(const Parameters& p)
+{
+  return std::min(p.stator.damping_ratio * p.stator.natural_frequency,
+                  p.rotor.damping_ratio * p.rotor.natural_frequency);
+}
+
+/** Refuses a motion that has not repeated itself after less than the time in which every transient
+    decays to a millionth. */
+void require_waited(const HardCase& hard, const SteadyState& steady)
+{
+  const double wait = std::log(1e6) / slowest_decay(hard.parameters);
+  if (!steady.periodic && steady.seconds < wait)
+    throw NoSolution(
+        text("not settled after %.3g s, where a transient may last %s", steady.seconds,
+             std::isfinite(wait) ? text("%.3g s", wait).c_str() : "for ever"));
+}
+
+/** What is left of a transient whose section moves by `spread` in one window. */
+double remaining_transient(const HardCase& hard, const SteadyState& steady, double window)
+{
+  return steady.spread / std::min(1.0, slowest_decay(hard.parameters) * window);
+}
+
+/** Settled and shown long enough for the amplitudes of an aperiodic motion. */
+SteadyState settled(const HardCase& hard, double step, const State& start)
+{
+  SteadySettings settings = hard_settings("rk4", step);
+  settings.shown_periods = shown_periods(hard);
+  return steady_state(hard.parameters, angular(hard.frequency), start, settings);
+}
+
+}  // namespace
+
+Answer answer_by_rk4(const HardCase& hard, const HardRule& rule)
+{
+  Answer answer;
+  const double step = default_step(hard.parameters);
+  try {
+    const SteadyState steady = settled(hard, step, static_start(hard.parameters));
+    require_waited(hard, steady);
+    answer.reason = text("%.3g s from rest", steady.seconds);
+    answer.residual = steady.spread;
+    answer.periodic = steady.periodic;
+    answer.state = steady.states.front();
+    answer.motion = motion::motion_of(steady, compared_points);
+    const SteadyState finer = settled(hard, step / 2, answer.state);
+    if (finer.periodic != steady.periodic)
+      throw NoSolution("half the step settles on another regime");
+    const motion::Motion fine = motion::motion_of(finer, compared_points);
+    if (!steady.periodic) {
+      answer.stated = amplitude_change(answer.motion, fine);
+      answer.claimed = answer.stated <= rule.most_change;
+      if (!answer.claimed)
+        throw NoSolution("aperiodic, and half the step changes its size");
+      return answer;
+    }
+    answer.stated = distance(answer.motion, fine) + remaining_transient(hard, steady, 1);
+    claim(rule, "half the step", answer);
+  } catch (const NoSolution& refusal) {
+    answer.claimed = false;
+    answer.reason = refusal.what();
+  }
+  return answer;
+}
+
+/**
+## Hard cases: harmonic balance
+
+The paper's predictor and the arc length, each refined until the answer can be stated with an error. */
+
+namespace
+{
+
+/** The branch is followed with no more than the paper's harmonics; the rest is added at the speed
+    itself. */
+constexpr int most_followed = 10;
+
+/** A few seconds to the speed, and ten for the refinement there: two dense solutions with
+    1024 harmonics. */
+constexpr double most_work = 6e9, most_refining_work = 20e9;
+
+struct Resolution {
+  int harmonics, samples;
+};
+
+Resolution followed(const HardCase& hard)
+{
+  const int m = std::min(hard.harmonics, most_followed);
+  const bool printed = hard.samples == 2 * hard.harmonics + 1;
+  return {m, m == hard.harmonics ? hard.samples
+             : printed           ? 2 * m + 1
+                                 : default_samples(m)};
+}
+
+/** A start for Newton at the case's speed; throws NoSolution when it was not reached. */
+using Approach = Eigen::VectorXd (*)(const HardCase& hard, Balance& balance);
+
+/** Equal steps of at most half a hertz, at least 20 and at most 400. */
+std::vector<double> swept_speeds(const HardCase& hard)
+{
+  const int steps =
+      static_cast<int>(std::clamp((hard.frequency - hard.from) / 0.5, 20.0, 400.0));
+  std::vector<double> omegas;
+  for (int k = 0; k <= steps; ++k)
+    omegas.push_back(angular(hard.from + (hard.frequency - hard.from) * k / steps));
+  return omegas;
+}
+
+Eigen::VectorXd by_predictor(const HardCase& hard, Balance& balance)
+{
+  const Parameters& p = hard.parameters;
+  const auto points = sweep(
+      balance, swept_speeds(hard),
+      [&](double omega) { return quasi_static_start(p, omega, balance.harmonics()); },
+      motion::sweep_settings(p));
+  if (!points.back().found())
+    throw NoSolution(text("the sweep with m = %d found nothing at %g Hz: %s",
+                          balance.harmonics(), hard.frequency,
+                          points.back().newton.reason().c_str()));
+  return points.back().x;
+}
+
+Eigen::VectorXd by_arc_length(const HardCase& hard, Balance& balance)
+{
+  const Parameters& p = hard.parameters;
+  const Branch branch =
+      follow_branch(balance, angular(hard.from), angular(hard.frequency),
+                    quasi_static_start(p, angular(hard.from), balance.harmonics()),
+                    motion::arc_length_settings(p));
+  if (!branch.covered)
+    throw NoSolution(text("the branch with m = %d ended before %g Hz: ",
+                          balance.harmonics(), hard.frequency) +
+                     branch.end);
+  return branch.points.back().x;
+}
+
+/** Newton with these harmonics, from a solution with others. */
+motion::PeriodicSolution solved(const HardCase& hard, Resolution with,
+                                const Eigen::VectorXd& start, const Work& work)
+{
+  const Parameters& p = hard.parameters;
+  const double omega = angular(hard.frequency);
+  Balance balance(bearing_problem(p, with.samples, work), with.harmonics);
+  motion::PeriodicSolution solution{omega, with.harmonics, with.samples, {}, {}, {}, {}};
+  solution.x = resize_harmonics(start, 2, with.harmonics);
+  solution.newton = solve(balance, omega, solution.x, {});
+  if (!solution.found())
+    throw NoSolution(text("Newton with m = %d, N = %d: ", with.harmonics, with.samples) +
+                     solution.newton.reason());
+  solution.bodies = body_series(p, balance, omega, solution.x);
+  return solution;
+}
+
+/** The start along the branch, with its harmonics doubled until they are the case's. */
+motion::PeriodicSolution reached(const HardCase& hard, Approach approach,
+                                 const Work& work)
+{
+  Resolution with = followed(hard);
+  if (hard.from == hard.frequency)
+    return solved(
+        hard, {hard.harmonics, hard.samples},
+        quasi_static_start(hard.parameters, angular(hard.frequency), hard.harmonics),
+        work);
+  Balance balance(bearing_problem(hard.parameters, with.samples, work), with.harmonics);
+  Eigen::VectorXd x = approach(hard, balance);
+  while (2 * with.harmonics < hard.harmonics) {
+    with = {2 * with.harmonics, default_samples(2 * with.harmonics)};
+    x = solved(hard, with, x, work).x;
+  }
+  return solved(hard, {hard.harmonics, hard.samples}, x, work);
+}
+
+/** The balance refined once: its distance is the error that is stated. */
+void refine(const HardCase& hard, const motion::PeriodicSolution& solution,
+            const HardRule& rule, const Work& work, Answer& answer)
+{
+  const motion::PeriodicSolution finer =
+      solved(hard, {2 * hard.harmonics, 2 * hard.samples}, solution.x, work);
+  const int points =
+      std::max(compared_points, fast_transform_size(4 * hard.harmonics + 2));
+  const motion::Motion coarse = motion::motion_of(solution.bodies, points);
+  const motion::Motion fine = motion::motion_of(finer.bodies, points);
+  answer.finer = finer.x;
+  answer.stated = distance(coarse, fine);
+  const double force = motion::relative_force_difference(hard.parameters, coarse, fine);
+  answer.stated_force = std::isfinite(force) ? force : 0;
+  if (!(answer.stated <= rule.accuracy))
+    throw NoSolution(text("m = %d is too few: 2m and 2N move it by %.2g of its size",
+                          hard.harmonics, answer.stated));
+  answer.claimed = true;
+}
+
+Answer by_balance(const HardCase& hard, const HardRule& rule, Approach approach)
+{
+  Answer answer;
+  const Work work(most_work);
+  try {
+    const motion::PeriodicSolution solution = reached(hard, approach, work);
+    answer.reason = hard.from == hard.frequency ? "cold" : text("from %g Hz", hard.from);
+    answer.residual = solution.newton.delta_1;
+    answer.harmonics = hard.harmonics;
+    answer.samples = hard.samples;
+    answer.motion = motion::motion_of(solution.bodies, compared_points);
+    answer.state = state_of(solution);
+    answer.x = solution.x;
+    refine(hard, solution, rule, Work(most_refining_work), answer);
+  } catch (const NoSolution& refusal) {
+    answer.reason = refusal.what();
+  }
+  return answer;
+}
+
+}  // namespace
+
+Answer answer_by_predictor(const HardCase& hard, const HardRule& rule)
+{
+  return by_balance(hard, rule, by_predictor);
+}
+
+Answer answer_by_arc_length(const HardCase& hard, const HardRule& rule)
+{
+  return by_balance(hard, rule, by_arc_length);
+}
+
+}  // namespace rotor_stator::hard

@@ -1,0 +1,67 @@
+/**
+# Hard cases: what the methods answer
+
+Harmonic balance, found by the paper's predictor or by arc length, shooting, and RK4. Each either claims
+an answer, with the error that it states itself, or refuses with a reason:
+
+- harmonic balance solves its m harmonics with N samples and again 2m with 2N from there; the distance of
+  both is its stated error;
+- shooting closes the period with one tolerance and again with a hundredth of it;
+- RK4 settles with one step and again with half of it; a transient that cannot have decayed yet is
+  neither periodic nor aperiodic, but refused.
+
+An answer whose stated error exceeds the accuracy of the rule is refused too. */
+#pragma once
+
+#include <optional>
+
+#include "hard/cases.hpp"
+#include "io/scene.hpp"
+#include "motion/motion.hpp"
+#include "stability/floquet.hpp"
+
+namespace rotor_stator::hard
+{
+
+/** What a method says of a case. */
+struct Answer {
+  bool claimed = false;
+  std::string reason;    ///< of a refusal; of a claim, where it started
+  bool periodic = true;  ///< with the period of rotation
+  double residual = -1;  ///< Newton's, the closure, or the Poincaré spread [-]
+  double stated = -1;    ///< error of displacement that the method states itself [-]
+  double stated_force = -1;
+  int harmonics = -1, samples = -1;  ///< of harmonic balance
+  motion::Motion motion{};           ///< claimed, from phase 0
+  State state{};                     ///< its state at phase 0
+  Eigen::VectorXd x, finer;          ///< harmonic balance: u with m and with 2m harmonics
+};
+
+/** Instants per period at which motions are compared. */
+constexpr int compared_points = 512;
+
+/** About three seconds of shooting. */
+constexpr double most_shooting_evaluations = 1.5e7;
+
+Answer answer_by_predictor(const HardCase& hard, const HardRule& rule);
+Answer answer_by_arc_length(const HardCase& hard, const HardRule& rule);
+Answer answer_by_shooting(const HardCase& hard, const HardRule& rule);
+Answer answer_by_rk4(const HardCase& hard, const HardRule& rule);
+
+/** What RK4 settles on, or another method from where `start` says: shared with the checks. */
+SteadySettings hard_settings(const std::string& method, double step);
+
+/** About a second, for the amplitudes of an aperiodic motion. */
+int shown_periods(const HardCase& hard);
+
+/** One period of Eq. 7 from a state at phase 0, by rk8pd. */
+motion::Motion period_from(const Parameters& parameters, double omega,
+                           const State& start);
+
+/** `relative_difference`, and 0 between two motions that are both at rest. */
+double distance(const motion::Motion& motion, const motion::Motion& reference);
+
+/** The relative change of the four half peak-to-peaks, over the largest [-]. */
+double amplitude_change(const motion::Motion& motion, const motion::Motion& reference);
+
+}  // namespace rotor_stator::hard

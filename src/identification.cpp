@@ -1,0 +1,42 @@
+/**
+# Identification: masses and cage that the paper leaves out
+
+Paper: claims C1, C4, C5, C6 and C10.
+
+    make identify
+
+The paper gives neither masses nor the radii that fix the speed of the cage, and prints natural frequencies
+that may be exchanged (D-09). It does describe what its machine did. So every candidate of a grid fixed
+beforehand is integrated and judged by what the text says: where the peak is, that contact is permanent at
+low speed, lost at middle speeds and rotating at high speed, and that each ball is passed once in two
+periods. The score is the mean of the five parts; a candidate is accepted when each part passes its rule.
+
+The maps show the score over the stator's mass, to the right, and the cage ratio with the ratio of the masses,
+upwards; the two columns are the two readings of Table 1. The orange line surrounds what is accepted, the star is
+the best candidate, and a circle stands at the masses used everywhere else. The curves below split the score into
+its parts along one row of the map, and show which part tells one mass from another and which is met by nearly
+all. The score cannot prove a reading; it says how well the text describes each.
+
+Modelled: the integrated motion of every candidate at 60 speeds, judged by data/claims.toml. Finished candidates
+are kept in a journal: an interrupted run goes on where it was. */
+#include <CLI/CLI.hpp>
+
+#include "io/program.hpp"
+#include "studies/identification.hpp"
+
+int main(int argc, char** argv)
+{
+  using namespace rotor_stator;
+  using namespace rotor_stator::studies;
+  std::string scene = "data/scenes/identify.toml", claims = "data/claims.toml";
+  std::string journal = "identify.journal";
+  CLI::App app("Scores the candidates of the identification grid; TSV on stdout.");
+  app.add_option("scene", scene, "scene file")->capture_default_str();
+  app.add_option("--claims", claims, "rule of the verdicts")->capture_default_str();
+  app.add_option("--journal", journal, "finished candidates")->capture_default_str();
+  return guarded([&] {
+    if (!parse(app, argc, argv)) return 0;
+    write(identification_table(scene, claims, journal).text());
+    return 0;
+  });
+}

@@ -1,0 +1,97 @@
+/**
+# Where a table comes from
+
+Stamped when the library is compiled. A new commit alone triggers no rebuild. */
+#pragma once
+
+#include <concepts>
+#include <string>
+#include <variant>
+#include <vector>
+
+namespace rotor_stator
+{
+
+/** Name and version of the project and the revision of its source, with "-dirty" after
+    uncommitted changes; "unknown" outside git. */
+std::string source_revision();
+
+/** Compiler, version and flags. */
+std::string compiler();
+
+/**
+## Tables
+
+Tab-separated text that describes itself: `#` lines say what was computed, from which
+source with which compiler and parameters; `# column:` lines give name, unit and meaning;
+then one row of names and the numbers. There are no dates and no host names: the same
+source gives the same bytes. */
+
+struct Column {
+  std::string name, unit, meaning;
+};
+
+/** A number or a word. */
+class Cell
+{
+public:
+  Cell(double number) : value_(number) {}
+  Cell(std::integral auto number) : value_(static_cast<double>(number)) {}
+  Cell(std::string word) : value_(std::move(word)) {}
+
+  bool is_printable() const;  ///< not infinite and not a NaN
+  std::string text() const;   ///< 15 significant digits
+
+private:
+  std::variant<double, std::string> value_;
+};
+
+class Table
+{
+public:
+  /** `what` is the first line of the header. */
+  Table(std::string what, std::vector<Column> columns);
+
+  /** One more `#` line. */
+  void note(const std::string& line);
+
+  /** Throws NoSolution if a number is not finite: no NaN is ever printed as a result. */
+  void row(std::vector<Cell> cells);
+
+  /** A blank line: curves are drawn with a gap here. */
+  void gap();
+
+  std::string text() const;
+
+private:
+  std::vector<std::string> header_;
+  std::vector<Column> columns_;
+  std::vector<std::vector<Cell>> rows_;  ///< an empty row is a gap
+};
+
+/**
+## Tables of numbers, read back
+
+What a program wrote (output/table.hpp) and another goes on from: `#` lines, a row of names, rows of
+numbers, separated by tabs. */
+
+class NumberTable
+{
+public:
+  /** Throws BadInput with file and line when it is missing, empty or not such a table. */
+  explicit NumberTable(const std::string& file);
+
+  std::size_t rows() const { return rows_.size(); }
+
+  /** Throws BadInput if there is no such column. */
+  double at(std::size_t row, const std::string& column) const;
+
+private:
+  void read_row(const std::string& line, int number);
+
+  std::string file_;
+  std::vector<std::string> names_;
+  std::vector<std::vector<double>> rows_;
+};
+
+}  // namespace rotor_stator

@@ -1,0 +1,114 @@
+/**
+# Motions: what harmonic balance and time integration both give
+
+A motion is a row of bearing states at equal phases. Scenes draw from it and nothing else,
+so that the two methods meet in the same table. */
+#pragma once
+
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "continuation/arc_length.hpp"
+#include "continuation/sweep.hpp"
+#include "integration/steady_state.hpp"
+#include "io/budget.hpp"
+
+namespace rotor_stator::motion
+{
+
+/** P instants per period, over one or more periods, from phase 0. */
+struct Motion {
+  int points_per_period;
+  long first_period;  ///< periods since t = 0, for the cage's angle
+  std::vector<Bodies> positions;
+
+  std::size_t size() const { return positions.size(); }
+  double t_over_period(std::size_t k) const
+  {
+    return static_cast<double>(k) / points_per_period;
+  }
+
+  /** The rotor's angle ωt [rad], counted from t = 0. */
+  double phase(std::size_t k) const;
+};
+
+/** Whole periods by a stepper that cuts each into P intervals, from `state` at the start of period
+    `first_period`; `state` is left at their end. */
+template <class Stepper>
+Motion recorded(Stepper& stepper, int points_per_period, State& state,
+                long first_period = 0, long periods = 1)
+{
+  Motion motion{points_per_period, first_period, {}};
+  const long begin = first_period * points_per_period;
+  for (long k = begin; k < begin + periods * points_per_period; ++k) {
+    motion.positions.push_back(state.position);
+    stepper.advance(k, state);
+  }
+  return motion;
+}
+
+/** The relative motion u of one period as the unknowns of a balance: 2 × (2m+1) coefficients as a
+    vector [m]. */
+Eigen::VectorXd relative_series(const Motion& motion, int harmonics);
+
+/** `points` instants of one period of a solution, from its series of both bodies. */
+Motion motion_of(const Eigen::MatrixXd& bodies, int points);
+
+/** The periods kept by a time integration. */
+Motion motion_of(const SteadyState& steady, int points_per_period);
+
+/** Eq. 6: the bearing's force [N] on the stator at each instant of a motion. */
+std::vector<Vec2> bearing_forces(const Parameters& parameters, const Motion& motion);
+
+/** Half peak-to-peak of x_s, y_s, x_r, y_r [m] over the instants of a motion. */
+std::array<double, 4> half_peak_to_peak(const Motion& motion);
+
+/** A point of a response curve: speed [Hz] and amplitude [m]. */
+struct CurvePoint {
+  double frequency, amplitude;
+};
+
+/** The highest point of a curve, refined by the parabola through it and its neighbours; the point
+    itself at an end of the curve. */
+CurvePoint refined_peak(const std::vector<CurvePoint>& curve);
+
+/** Share of the instants with at least one loaded ball [-]. */
+double contact_share(const Parameters& parameters, const Motion& motion);
+
+/** The largest difference over the four displacements, over the largest displacement of
+    `reference`, on the first period of both [-]; both have the same points per period. */
+double relative_difference(const Motion& motion, const Motion& reference);
+
+/** The largest difference of each displacement over that displacement's own half peak-to-peak: blind
+    to the static sag that the other measure divides by [-]. */
+double orbit_difference(const Motion& motion, const Motion& reference);
+
+/** For the bearing's force: largest |F - F_ref| over the largest |F_ref| [-]. */
+double relative_force_difference(const Parameters& parameters, const Motion& motion,
+                                 const Motion& reference);
+
+/**
+## The motions of a sweep */
+
+/** The motion at each speed of a sweep; none where no solution was found. */
+using Motions = std::vector<std::optional<Motion>>;
+
+/**
+## Scene: contact evolution (Figs 7 and 9)
+
+The force Q_j of every ball over two periods, 2T, because with ω_cage = ω/2 each ball is
+passed by the rotating contact once per 2T (D-11, D-20). The motion is the periodic solution
+where time integration confirms one, and the integrated motion elsewhere. */
+
+/** Ball forces at P instants per period over two periods. */
+struct ContactEvolution {
+  std::vector<double> t_over_period;            ///< 0 ≤ t/T < 2
+  std::vector<std::vector<double>> ball_force;  ///< [instant][ball] Q_j [N]
+};
+
+/** Ball j stands where Eq. 3 puts it, with t counted as the motion counts it. A motion of
+   one period is repeated. */
+ContactEvolution contact_evolution(const Parameters& parameters, const Motion& motion);
+
+}  // namespace rotor_stator::motion

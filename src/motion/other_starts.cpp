@@ -1,0 +1,63 @@
+#include "motion/other_starts.hpp"
+
+#include <random>
+
+#include "io/errors.hpp"
+#include "model/rotor_stator.hpp"
+#include "motion/find_periodic.hpp"
+#include "motion/motion.hpp"
+
+namespace rotor_stator::motion
+{
+
+namespace
+{
+
+/** Uniform in -1 … 1 from the generator's bits: the standard's distributions differ between
+    libraries. */
+double uniform(std::mt19937_64& generator)
+{
+  return 2 * static_cast<double>(generator() >> 11) * 0x1p-53 - 1;
+}
+
+Eigen::VectorXd random_coefficients(double size, int harmonics,
+                                    std::mt19937_64& generator)
+{
+  Eigen::VectorXd x(2 * (2 * harmonics + 1));
+  for (Eigen::Index k = 0; k < x.size(); ++k) {
+    const double order = static_cast<double>((k / 2 + 1) / 2);
+    x[k] = size * uniform(generator) / ((1 + order) * (1 + order));
+  }
+  return x;
+}
+
+}  // namespace
+
+FoundStarts other_starts(const Parameters& parameters, SpeedRange range, int harmonics,
+                         const OtherStarts& wanted, const Work& work)
+{
+  /** The motion of the rings is free to be several clearances wide. */
+  const double size = 2 * scales(parameters).length;
+  std::mt19937_64 generator(wanted.seed);
+  const Work half = work.part(0.5);
+  FoundStarts starts;
+  for (int k = 1; k <= wanted.speeds; ++k) {
+    const double omega = range.from + (range.to - range.from) * k / (wanted.speeds + 1);
+    const Work share = half.part(1.0 / (wanted.speeds - k + 1));
+    try {
+      starts.candidates.push_back({omega,
+                                   integrated_start(parameters, omega, harmonics, share),
+                                   "time integration"});
+    } catch (const NoSolution&) {
+      // cut off or broken down: only random starts here
+      starts.cut_off += share.used_up();
+    }
+    for (int j = 1; j <= wanted.random; ++j)
+      starts.candidates.push_back({omega, random_coefficients(size, harmonics, generator),
+                                   text("random start %d of seed %llu", j,
+                                        static_cast<unsigned long long>(wanted.seed))});
+  }
+  return starts;
+}
+
+}  // namespace rotor_stator::motion

@@ -1,0 +1,139 @@
+#include "motion/regime.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+#include "balance/bearing_problem.hpp"
+#include "motion/find_periodic.hpp"
+#include "motion/motion.hpp"
+
+namespace rotor_stator::motion
+{
+
+State state_of(const PeriodicSolution& solution)
+{
+  const Eigen::Vector4d q = sample_series(solution.bodies, 1).row(0);
+  const Eigen::Vector4d v =
+      solution.omega * sample_series(differentiate(solution.bodies), 1).row(0);
+  return {.position = {{q[0], q[1]}, {q[2], q[3]}},
+          .velocity = {{v[0], v[1]}, {v[2], v[3]}}};
+}
+
+double higher_harmonics(const Motion& motion)
+{
+  const int points = motion.points_per_period;
+  Eigen::MatrixXd samples(points, 4), series(4, 2 * ((points - 1) / 2) + 1);
+  for (int k = 0; k < points; ++k) {
+    const Bodies& q = motion.positions[static_cast<std::size_t>(k)];
+    samples.row(k) << q.stator.x, q.stator.y, q.rotor.x, q.rotor.y;
+  }
+  FourierTransform(points).to_series(samples, series);
+  const auto size = [&](int body, Eigen::Index first, Eigen::Index count) {
+    return series.block(2 * body, first, 2, count).norm();
+  };
+  double share = 0;
+  for (int body : {0, 1})
+    if (size(body, 1, 2) > 0)
+      share = std::max(share, size(body, 3, series.cols() - 3) / size(body, 1, 2));
+  return share;
+}
+
+std::vector<int> passages_per_ball(const std::vector<std::vector<double>>& ball_force)
+{
+  std::vector<int> passages(ball_force.front().size(), 0);
+  for (std::size_t k = 0; k < ball_force.size(); ++k) {
+    const auto& before = ball_force[(k + ball_force.size() - 1) % ball_force.size()];
+    for (std::size_t j = 0; j < passages.size(); ++j)
+      if (before[j] == 0 && ball_force[k][j] > 0) ++passages[j];
+  }
+  return passages;
+}
+
+namespace
+{
+
+/** Where integration starts: on the periodic solution if Newton finds one from the
+   quasi-static contact, else at the static load. */
+State start_of(const Parameters& parameters, double omega)
+{
+  if (!has_rotation_period(parameters.bearing)) return static_start(parameters);
+  const int harmonics = 6, samples = default_samples(harmonics);
+  PeriodicSolution solution{omega, harmonics, samples, {}, {}, {}, {}};
+  Balance balance(bearing_problem(parameters, samples), harmonics);
+  solution.x = quasi_static_start(parameters, omega, harmonics);
+  solution.newton = solve(balance, omega, solution.x, {});
+  if (!solution.found()) return static_start(parameters);
+  solution.bodies = body_series(parameters, balance, omega, solution.x);
+  return state_of(solution);
+}
+
+/** What the ball forces over two periods say. */
+void judge_contact(const ContactEvolution& evolution, Regime& regime)
+{
+  const auto passages = passages_per_ball(evolution.ball_force);
+  regime.passed_once =
+      std::all_of(passages.begin(), passages.end(), [](int count) { return count == 1; });
+  double loaded = 0, total = 0;
+  for (int count : passages) total += count;
+  for (const auto& forces : evolution.ball_force)
+    for (double q : forces) {
+      loaded += q > 0;
+      regime.largest_force = std::max(regime.largest_force, q);
+    }
+  const auto balls = static_cast<double>(passages.size());
+  regime.passages = total / balls;
+  regime.loaded_arc = loaded / static_cast<double>(evolution.ball_force.size()) * 2 *
+                      std::numbers::pi / balls;
+}
+
+}  // namespace
+
+Regime regime_at(const Parameters& parameters, double frequency,
+                 const RegimeSettings& settings)
+{
+  const double omega = 2 * std::numbers::pi * frequency;
+  SteadySettings steady_settings;
+  steady_settings.stepper = {
+      .method = "rk4",
+      .intervals_per_period = settings.points_per_period,
+      .step = settings.step_over_default * default_step(parameters)};
+  steady_settings.settled = 1e-7;
+  steady_settings.window = settings.window;
+  steady_settings.longest = settings.longest;
+  /** Contact that is lost now and then takes more than two periods to be seen. */
+  steady_settings.shown_periods =
+      std::max(2, static_cast<int>(std::ceil(settings.window * frequency)));
+  const SteadyState steady =
+      steady_state(parameters, omega, start_of(parameters, omega), steady_settings);
+  Motion motion = motion_of(steady, settings.points_per_period);
+  const double contact = contact_share(parameters, motion);
+  motion.positions.resize(2 * static_cast<std::size_t>(settings.points_per_period));
+
+  Regime regime{.frequency = frequency,
+                .periodic = steady.periodic,
+                .spread = steady.spread,
+                .contact = contact,
+                .higher_harmonics = higher_harmonics(motion),
+                .passed_once = false,
+                .passages = 0,
+                .loaded_arc = 0,
+                .largest_force = 0,
+                .amp_x_r = half_peak_to_peak(motion)[2]};
+  judge_contact(contact_evolution(parameters, motion), regime);
+  return regime;
+}
+
+RegimeSettings read_regime_settings(SceneFile& scene)
+{
+  StrictToml table = scene.toml().table("regime");
+  const RegimeSettings settings{
+      .step_over_default = table.number("step_over_default", Range::positive),
+      .longest = table.number("longest_s", Range::positive),
+      .window = table.number("window_s", Range::positive),
+      .points_per_period = table.integer("points_per_period", 4, 4096)};
+  table.refuse_unknown_keys();
+  return settings;
+}
+
+}  // namespace rotor_stator::motion

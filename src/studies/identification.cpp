@@ -1,0 +1,243 @@
+#include "studies/identification.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include "io/errors.hpp"
+#include "io/table.hpp"
+#include "studies/clearance_stiffness.hpp"
+
+namespace rotor_stator::studies
+{
+
+ClaimRule read_claim_rule(const std::string& file)
+{
+  StrictToml toml(file);
+  StrictToml regimes = toml.table("regimes"), score = toml.table("score");
+  return {.low_to = regimes.number("low_to_hz", Range::positive),
+          .middle_to = regimes.number("middle_to_hz", Range::positive),
+          .multi_harmonic = regimes.number("multi_harmonic", Range::positive),
+          .paper_peak = score.number("paper_peak_hz", Range::positive),
+          .peak_width = score.number("peak_width_hz", Range::positive),
+          .within = score.number("within", Range::positive)};
+}
+
+namespace
+{
+
+/** The mass ratio m_r/m_s that puts the resonance of both bodies together at `resonance`
+    [rad/s]. */
+double joint_mass_ratio(const Parameters& parameters, double resonance)
+{
+  const auto squared = [](double x) { return x * x; };
+  return (squared(parameters.stator.natural_frequency) - squared(resonance)) /
+         (squared(resonance) - squared(parameters.rotor.natural_frequency));
+}
+
+/** The grid of one reading: masses × mass ratios × cages around its working mass. */
+void add_candidates(StrictToml& grid, int reading, const Parameters& base,
+                    double resonance, std::vector<Candidate>& candidates)
+{
+  const auto working = grid.numbers("working_stator_masses_kg", Range::positive);
+  if (working.size() != 2) grid.fail("working_stator_masses_kg", "must have two values");
+  const int masses = grid.integer("masses", 1, 1000);
+  const double decades = grid.number("decades_each_way", Range::positive);
+  const double ratio = joint_mass_ratio(base, resonance);
+  for (double cage : grid.numbers("cage_speed_ratios", Range::positive))
+    for (double factor : grid.numbers("mass_ratio_factors", Range::positive))
+      for (int k = 0; k < masses; ++k) {
+        Parameters parameters = base;
+        const double exponent = masses > 1 ? decades * (2.0 * k / (masses - 1) - 1) : 0;
+        parameters.stator.mass = working[reading] * std::pow(10, exponent);
+        parameters.rotor.mass = parameters.stator.mass * ratio * factor;
+        parameters.bearing.cage_speed_ratio = cage;
+        candidates.push_back({reading, factor, parameters});
+      }
+}
+
+}  // namespace
+
+IdentificationScene read_identification_scene(const std::string& file,
+                                              const std::string& claims_file)
+{
+  IdentificationScene scene;
+  scene.rule = read_claim_rule(claims_file);
+  int reading = 0;
+  for (const char* name : {"exchanged", "as-printed"}) {
+    SceneFile scene_file(file, name);
+    const Parameters base = read_parameters(scene_file, "parameters");
+    scene.frequencies = scene_file.speed_range("speeds_hz");
+    scene.settings = motion::read_regime_settings(scene_file);
+    StrictToml grid = scene_file.toml().table("grid");
+    add_candidates(grid, reading++, base, angular(scene.rule.paper_peak),
+                   scene.candidates);
+    grid.refuse_unknown_keys();
+    scene_file.toml().refuse_unknown_keys();
+  }
+  return scene;
+}
+
+namespace
+{
+
+bool is_simple(const motion::Regime& r, const ClaimRule& rule)
+{
+  return r.higher_harmonics < rule.multi_harmonic;
+}
+
+/** Share of `regimes` for which `condition` holds; 0 of none. */
+template <class Condition>
+double share(const std::vector<motion::Regime>& regimes, Condition condition)
+{
+  if (regimes.empty()) return 0;
+  return static_cast<double>(std::count_if(regimes.begin(), regimes.end(), condition)) /
+         static_cast<double>(regimes.size());
+}
+
+/** Speed of the largest amplitude of x_r. */
+double peak_frequency(const std::vector<motion::Regime>& regimes)
+{
+  std::vector<motion::CurvePoint> curve;
+  for (const motion::Regime& r : regimes) curve.push_back({r.frequency, r.amp_x_r});
+  return motion::refined_peak(curve).frequency;
+}
+
+RangeShares shares_of(const std::vector<motion::Regime>& regimes, const ClaimRule& rule)
+{
+  return {share(regimes, [](const motion::Regime& r) { return r.permanent_contact(); }),
+          share(regimes, [](const motion::Regime& r) { return r.periodic; }),
+          share(regimes, [&](const motion::Regime& r) { return is_simple(r, rule); })};
+}
+
+/** The quantity of C5: complex middle speeds, and loss of contact nowhere else. */
+double middle_complex(const std::vector<motion::Regime>& all,
+                      const std::vector<motion::Regime>& middle, const ClaimRule& rule)
+{
+  const auto lost = [](const motion::Regime& r) { return !r.permanent_contact(); };
+  const double lost_anywhere = share(all, lost) * static_cast<double>(all.size());
+  if (lost_anywhere == 0) return 0;
+  const double lost_here = share(middle, lost) * static_cast<double>(middle.size());
+  const double is_complex = share(
+      middle, [&](const motion::Regime& r) { return lost(r) || !is_simple(r, rule); });
+  return is_complex * lost_here / lost_anywhere;
+}
+
+}  // namespace
+
+Judgement judge(const std::vector<motion::Regime>& regimes, const ClaimRule& rule)
+{
+  std::vector<motion::Regime> low, middle, high;
+  for (const motion::Regime& r : regimes)
+    (r.frequency <= rule.low_to      ? low
+     : r.frequency <= rule.middle_to ? middle
+                                     : high)
+        .push_back(r);
+  Judgement j{};
+  j.f_peak = peak_frequency(regimes);
+  j.f_loss_first = j.f_loss_last = -1;
+  for (const motion::Regime& r : regimes) {
+    if (r.permanent_contact()) continue;
+    if (j.f_loss_first < 0) j.f_loss_first = r.frequency;
+    j.f_loss_last = r.frequency;
+  }
+  j.low = shares_of(low, rule);
+  j.middle = shares_of(middle, rule);
+  j.high = shares_of(high, rule);
+  for (const motion::Regime& r : high)
+    j.passages += r.passages / static_cast<double>(high.size());
+  j.c1 = std::max(0.0, 1 - std::abs(j.f_peak - rule.paper_peak) / rule.peak_width);
+  j.c4 = j.low.permanent_contact;
+  j.c5 = middle_complex(regimes, middle, rule);
+  j.c6 = share(high, [&](const motion::Regime& r) {
+    return r.permanent_contact() && is_simple(r, rule);
+  });
+  j.c10 = share(high, [](const motion::Regime& r) { return r.passed_once; });
+  j.score = (j.c1 + j.c4 + j.c5 + j.c6 + j.c10) / 5;
+  return j;
+}
+
+std::vector<motion::Regime> regimes_of(const Candidate& candidate,
+                                       const IdentificationScene& scene)
+{
+  std::vector<motion::Regime> regimes;
+  for (double frequency : scene.frequencies) {
+    try {
+      regimes.push_back(
+          motion::regime_at(candidate.parameters, frequency, scene.settings));
+    } catch (const NoSolution&) {
+      motion::Regime broken{};
+      broken.frequency = frequency;
+      regimes.push_back(broken);
+    }
+  }
+  return regimes;
+}
+
+namespace
+{
+
+const std::vector<Column> identification_columns{
+    {"reading", "-", "of Table 1: 0 exchanged, 1 as printed"},
+    {"m_s", "kg", "mass of the stator"},
+    {"m_r", "kg", "mass of the rotor"},
+    {"ratio_factor", "-",
+     "m_r/m_s over the ratio that puts the joint resonance at the paper's peak"},
+    {"cage_speed_ratio", "-", "omega_cage/omega"},
+    {"f_peak", "Hz", "speed of the largest x_r"},
+    {"f_loss_first", "Hz", "first speed at which contact is lost; -1 when never"},
+    {"f_loss_last", "Hz", "last such speed; -1 when never"},
+    {"low_contact", "-", "share of the low speeds with permanent contact"},
+    {"low_periodic", "-", "share with T-periodic motion"},
+    {"low_simple", "-", "share with higher harmonics below the limit"},
+    {"middle_contact", "-", "the same of the middle speeds"},
+    {"middle_periodic", "-", ""},
+    {"middle_simple", "-", ""},
+    {"high_contact", "-", "the same of the high speeds"},
+    {"high_periodic", "-", ""},
+    {"high_simple", "-", ""},
+    {"passages", "-", "times a ball is loaded in 2T, mean over balls and high speeds"},
+    {"c1", "-", "quantity of C1 for the score"},
+    {"c4", "-", "quantity of C4"},
+    {"c5", "-", "quantity of C5"},
+    {"c6", "-", "quantity of C6"},
+    {"c10", "-", "quantity of C10"},
+    {"score", "-", "mean of the five"}};
+
+Row numbers(const Judgement& j)
+{
+  Row row{j.f_peak, j.f_loss_first, j.f_loss_last};
+  for (const RangeShares& s : {j.low, j.middle, j.high})
+    row.insert(row.end(), {s.permanent_contact, s.periodic, s.simple});
+  row.insert(row.end(), {j.passages, j.c1, j.c4, j.c5, j.c6, j.c10, j.score});
+  return row;
+}
+
+}  // namespace
+
+Table identification_table(const std::string& scene_file, const std::string& claims_file,
+                           const std::string& journal)
+{
+  const IdentificationScene scene = read_identification_scene(scene_file, claims_file);
+  Table table("Score of the candidates for what the paper leaves out",
+              identification_columns);
+  table.note(text("modelled: rk4 at %zu speeds, at most %g s each; rule of %s",
+                  scene.frequencies.size(), scene.settings.longest, claims_file.c_str()));
+  const auto rows = run_study(
+      {.name = "candidates",
+       .journal = journal,
+       .stamp = stamp_of({scene_file, claims_file}),
+       .pieces = scene.candidates.size(),
+       .work = [&](std::size_t k) {
+         return numbers(judge(regimes_of(scene.candidates[k], scene), scene.rule));
+       }});
+  for (std::size_t k = 0; k < rows.size(); ++k) {
+    const Candidate& c = scene.candidates[k];
+    std::vector<Cell> cells{c.reading, c.parameters.stator.mass, c.parameters.rotor.mass,
+                            c.ratio_factor, c.parameters.bearing.cage_speed_ratio};
+    cells.insert(cells.end(), rows[k].begin(), rows[k].end());
+    table.row(std::move(cells));
+  }
+  return table;
+}
+
+}  // namespace rotor_stator::studies
