@@ -104,18 +104,19 @@ Problem bearing_problem(const Parameters& parameters, int samples)
                    Eigen::MatrixXd* stiffness) { bearing.force(u, force, stiffness); }};
 }
 
-Problem bearing_problem(const Parameters& parameters, int samples, const Work& work)
+Problem bearing_problem(const Parameters& parameters, int samples,
+                        const OperationBudget& budget)
 {
   Problem problem = bearing_problem(parameters, samples);
-  if (!work.bounded()) return problem;
+  if (!budget.bounded()) return problem;
   const double evaluation = 5e3 + samples * (8 + 1.5 * parameters.bearing.balls);
-  problem.force = [law = problem.force, work, evaluation](const Eigen::MatrixXd& u,
-                                                          Eigen::MatrixXd& force,
-                                                          Eigen::MatrixXd* stiffness) {
-    work.spend(evaluation);
+  problem.force = [law = problem.force, budget, evaluation](const Eigen::MatrixXd& u,
+                                                            Eigen::MatrixXd& force,
+                                                            Eigen::MatrixXd* stiffness) {
+    budget.spend(evaluation);
     law(u, force, stiffness);
   };
-  problem.spend = [work](double operations) { work.spend(operations); };
+  problem.spend = [budget](double operations) { budget.spend(operations); };
   return problem;
 }
 

@@ -27,7 +27,8 @@ namespace rotor_stator
 Problem bearing_problem(const Parameters& parameters, int samples);
 
 /** The same, where force and factorisations are taken from an account of work. */
-Problem bearing_problem(const Parameters& parameters, int samples, const Work& work);
+Problem bearing_problem(const Parameters& parameters, int samples,
+                        const OperationBudget& budget);
 
 /** A start for Newton without any previous solution, 2 × (2m+1) coefficients as a vector:
    the motion without contact where it stays inside the clearance; otherwise at each

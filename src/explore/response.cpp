@@ -60,7 +60,7 @@ ResponseTask task_of(const ResponseRequest& request)
   return {request,          std::move(parameters),
           std::move(saved), harmonics,
           checked,          settings,
-          upwards,          Work(request.most_operations())};
+          upwards,          OperationBudget(request.most_operations())};
 }
 
 /**
@@ -102,7 +102,7 @@ BranchPoint found_start(const ResponseTask& task, Balance& balance, Table& table
   const double omega = task.range().from;
   const motion::PeriodicSolution start =
       motion::find_periodic(task.parameters, omega, task.harmonics, task.samples,
-                            task.settings.newton, task.work);
+                            task.settings.newton, task.budget);
   if (!start.found())
     throw NoSolution(text("%s: no solution found with %d harmonics at --%s %g Hz: %s",
                           task.parameters.file.c_str(), task.harmonics,
@@ -183,7 +183,7 @@ Others others(const ResponseTask& task, Balance& balance, const Branch& main,
       motion::other_starts(task.parameters, task.range(), task.harmonics,
                            {.speeds = task.request.isolated,
                             .seed = static_cast<std::uint64_t>(task.request.seed)},
-                           task.work);
+                           task.budget);
   Others others{
       isolated_branches(balance, main, starts.candidates, task.range(), task.settings),
       {}};
@@ -192,7 +192,7 @@ Others others(const ResponseTask& task, Balance& balance, const Branch& main,
     table.note(text("branch %d: off the branches before it, found at %g Hz from %s; %s",
                     ++number, other.omega / angular(1), other.origin.c_str(),
                     summary(other.branch).c_str()));
-  if (task.work.used_up())
+  if (task.budget.used_up())
     others.missing = "the work allowed is used up: not every start was followed";
   else if (starts.cut_off > 0)
     others.missing = text("the work allowed cut off %d of %d time integrations",
@@ -214,11 +214,11 @@ std::string add_branches(Table& table, const ResponseTask& task, Balance& balanc
     Examined examined{*all[k], {}};
     if (task.request.stability) {
       examined.stability =
-          stability_within(task.work, task.parameters, balance, *all[k], task.settings);
+          stability_within(task.budget, task.parameters, balance, *all[k], task.settings);
       const std::string prefix = numbered ? text("branch %zu, ", k + 1) : "";
       for (const std::string& note : stability_notes(*examined.stability))
         table.note(prefix + note);
-      const std::string here = missing_stability(*examined.stability, task.work);
+      const std::string here = missing_stability(*examined.stability, task.budget);
       if (!here.empty()) table.note("incomplete: " + prefix + here);
       if (missing.empty()) missing = here;
     }
@@ -262,7 +262,7 @@ Exploration explore_response(const ResponseRequest& request)
   const bool numbered = request.isolated > 0;
   Table table("Frequency response along the branch",
               response_columns(request.stability, numbered));
-  Balance balance(bearing_problem(task.parameters, task.samples, task.work),
+  Balance balance(bearing_problem(task.parameters, task.samples, task.budget),
                   task.harmonics);
   const BranchPoint start =
       task.saved ? saved_start(task, table) : found_start(task, balance, table);

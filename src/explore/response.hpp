@@ -20,7 +20,7 @@ struct ResponseTask {
   int harmonics, samples;
   ArcLengthSettings settings;
   bool upwards;
-  Work work;
+  OperationBudget budget;
 
   SpeedRange range() const
   {

@@ -21,29 +21,29 @@ int count_of(const BranchStability& stability, Bifurcation kind)
 
 }  // namespace
 
-Floquet paid_floquet(const Work& work, const Parameters& parameters, double omega,
-                     const Eigen::VectorXd& x)
+Floquet paid_floquet(const OperationBudget& budget, const Parameters& parameters,
+                     double omega, const Eigen::VectorXd& x)
 {
   const double balls = parameters.bearing.balls;
   const auto harmonics = static_cast<double>(x.size() / 4);
   /** The phases where balls meet or leave their race; then the stiffness, value by value, each with its
       step of the disturbances. */
-  work.spend(std::max(512.0, 16 * harmonics) * (50 + 5 * balls + 5 * harmonics));
+  budget.spend(std::max(512.0, 16 * harmonics) * (50 + 5 * balls + 5 * harmonics));
   PeriodicStiffness stiffness = stiffness_along(parameters, x);
-  stiffness.at = [at = std::move(stiffness.at), work,
+  stiffness.at = [at = std::move(stiffness.at), budget,
                   value = 300 + 2 * balls + 5 * harmonics](double phase, double* k) {
-    work.spend(value);
+    budget.spend(value);
     at(phase, k);
   };
   return floquet(vibration_of(parameters), stiffness, 2 * std::numbers::pi / omega);
 }
 
-BranchStability stability_within(const Work& work, const Parameters& parameters,
-                                 Balance& balance, const Branch& branch,
-                                 const ArcLengthSettings& settings)
+BranchStability stability_within(const OperationBudget& budget,
+                                 const Parameters& parameters, Balance& balance,
+                                 const Branch& branch, const ArcLengthSettings& settings)
 {
   const auto floquet_at = [&](const BranchPoint& point) {
-    return paid_floquet(work, parameters, point.omega, point.x);
+    return paid_floquet(budget, parameters, point.omega, point.x);
   };
   return stability_along(balance, branch, settings, floquet_at);
 }
@@ -83,10 +83,11 @@ std::vector<std::string> stability_notes(const BranchStability& stability)
   return notes;
 }
 
-std::string missing_stability(const BranchStability& stability, const Work& work)
+std::string missing_stability(const BranchStability& stability,
+                              const OperationBudget& budget)
 {
   if (stability.failed == 0)
-    return work.used_up()
+    return budget.used_up()
                ? text(
                      "the work allowed is used up: bifurcations may be missing, %d were "
                      "seen and not located",

@@ -11,16 +11,16 @@ Floquet multipliers within a bound on work, and what is said of them. */
 namespace rotor_stator::explore
 {
 
-/** The multipliers along the coefficients `x`, paid for from `work`. Throws NoSolution when it is used
+/** The multipliers along the coefficients `x`, paid for from `budget`. Throws NoSolution when it is used
     up. */
-Floquet paid_floquet(const Work& work, const Parameters& parameters, double omega,
-                     const Eigen::VectorXd& x);
+Floquet paid_floquet(const OperationBudget& budget, const Parameters& parameters,
+                     double omega, const Eigen::VectorXd& x);
 
-/** The multipliers and bifurcations of a branch, as far as `work` goes; `balance` is the one the branch
+/** The multipliers and bifurcations of a branch, as far as `budget` goes; `balance` is the one the branch
     was followed with. */
-BranchStability stability_within(const Work& work, const Parameters& parameters,
-                                 Balance& balance, const Branch& branch,
-                                 const ArcLengthSettings& settings);
+BranchStability stability_within(const OperationBudget& budget,
+                                 const Parameters& parameters, Balance& balance,
+                                 const Branch& branch, const ArcLengthSettings& settings);
 
 std::vector<Column> stability_columns();
 
@@ -31,6 +31,7 @@ std::vector<Cell> stability_cells(const StablePoint& point);
 std::vector<std::string> stability_notes(const BranchStability& stability);
 
 /** What was not computed and why; empty when nothing is missing. */
-std::string missing_stability(const BranchStability& stability, const Work& work);
+std::string missing_stability(const BranchStability& stability,
+                              const OperationBudget& budget);
 
 }  // namespace rotor_stator::explore

@@ -47,7 +47,7 @@ namespace
 {
 
 SteadySettings steady_settings(const MotionRequest& request, int shown_periods,
-                               const Work& work)
+                               const OperationBudget& budget)
 {
   SteadySettings settings;
   settings.stepper = {.method = request.method,
@@ -55,7 +55,7 @@ SteadySettings steady_settings(const MotionRequest& request, int shown_periods,
                       .step = request.step.value_or(0),
                       .tolerance = request.local_error,
                       .most_evaluations = std::numeric_limits<double>::infinity(),
-                      .work = work};
+                      .budget = budget};
   settings.longest = request.longest;
   settings.shown_periods = shown_periods;
   return settings;
@@ -90,7 +90,8 @@ AdaptiveSettings settings_of(const MotionRequest& request)
 
 /** Without a tolerance any error is accepted, and none is estimated. */
 motion::AdaptiveSolution solved(const Parameters& parameters,
-                                const MotionRequest& request, const Work& work)
+                                const MotionRequest& request,
+                                const OperationBudget& budget)
 {
   const double omega = angular(request.frequency);
   const NewtonSettings newton{.tolerance = request.newton_tolerance};
@@ -98,23 +99,24 @@ motion::AdaptiveSolution solved(const Parameters& parameters,
   const int n = checked_samples(m, request.samples);
   if (!request.tolerance) {
     motion::AdaptiveSolution at{};
-    at.solution = motion::find_periodic(parameters, omega, m, n, newton, work);
+    at.solution = motion::find_periodic(parameters, omega, m, n, newton, budget);
     at.reached = at.found();
     at.end = at.solution.newton.reason();
     return at;
   }
   if (request.harmonics)
     return motion::find_with_error(parameters, omega, m, n, *request.tolerance, newton,
-                                   work);
-  return motion::solve_adaptively(parameters, omega, settings_of(request), work);
+                                   budget);
+  return motion::solve_adaptively(parameters, omega, settings_of(request), budget);
 }
 
 /** What the Floquet multipliers say of a solution. */
 std::string stability_note(const Parameters& parameters,
-                           const motion::PeriodicSolution& solution, const Work& work)
+                           const motion::PeriodicSolution& solution,
+                           const OperationBudget& budget)
 {
   try {
-    const Floquet motion = paid_floquet(work, parameters, solution.omega, solution.x);
+    const Floquet motion = paid_floquet(budget, parameters, solution.omega, solution.x);
     return text(
         "stability: %s; largest Floquet multiplier %.9g +- %.2g, along the %d "
         "harmonics",
@@ -125,9 +127,9 @@ std::string stability_note(const Parameters& parameters,
 }
 
 motion::Motion balance_motion(const Parameters& parameters, const MotionRequest& request,
-                              const Work& work, Table& table)
+                              const OperationBudget& budget, Table& table)
 {
-  const motion::AdaptiveSolution at = solved(parameters, request, work);
+  const motion::AdaptiveSolution at = solved(parameters, request, budget);
   const std::string wanted =
       request.tolerance
           ? text("tolerance %g not reached", *request.tolerance)
@@ -148,7 +150,7 @@ motion::Motion balance_motion(const Parameters& parameters, const MotionRequest&
              at.estimate.displacement, at.estimate.harmonics, at.estimate.samples,
              *request.tolerance));
   table.note("the period is imposed by the method");
-  table.note(request.stability ? stability_note(parameters, at.solution, work)
+  table.note(request.stability ? stability_note(parameters, at.solution, budget)
                                : "stability is not tested");
   table.note("regime: periodic");
   return motion::motion_of(at.solution.bodies, request.points);
@@ -156,11 +158,11 @@ motion::Motion balance_motion(const Parameters& parameters, const MotionRequest&
 
 motion::Motion integrated_motion(const Parameters& parameters,
                                  const MotionRequest& request, int periods,
-                                 const Work& work, Table& table)
+                                 const OperationBudget& budget, Table& table)
 {
   const SteadyState steady =
       steady_state(parameters, angular(request.frequency), static_start(parameters),
-                   steady_settings(request, periods, work));
+                   steady_settings(request, periods, budget));
   table.note(text("method: %s, %g s from rest, %ld evaluations of Eq. 7",
                   request.method.c_str(), steady.seconds, steady.evaluations));
   table.note(text("Poincare spread: %.3g", steady.spread));
@@ -175,10 +177,10 @@ motion::Motion requested_motion(const Parameters& parameters,
   checked_samples(request.harmonics.value_or(usual_harmonics), request.samples);
   describe(table, parameters);
   table.note(text("frequency: %.15g Hz", request.frequency));
-  const Work work(request.operations * 1e9);
+  const OperationBudget budget(request.operations * 1e9);
   return request.method == "aft"
-             ? balance_motion(parameters, request, work, table)
-             : integrated_motion(parameters, request, periods, work, table);
+             ? balance_motion(parameters, request, budget, table)
+             : integrated_motion(parameters, request, periods, budget, table);
 }
 
 /** A table of this length takes about a second and 0.4 GB to write. */

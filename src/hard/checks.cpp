@@ -69,7 +69,7 @@ void check_by_refinement(const HardCase& hard, const Answer& answer, Check& chec
 {
   const int m = 4 * answer.harmonics, samples = 4 * answer.samples;
   const double omega = angular(hard.frequency);
-  Balance balance(bearing_problem(hard.parameters, samples, Work(15e9)), m);
+  Balance balance(bearing_problem(hard.parameters, samples, OperationBudget(15e9)), m);
   Eigen::VectorXd x = resize_harmonics(answer.finer, 2, m);
   if (!solve(balance, omega, x, {}).converged()) return;
   check.by = "4m, 4N";

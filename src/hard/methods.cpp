@@ -268,11 +268,12 @@ Eigen::VectorXd by_arc_length(const HardCase& hard, Balance& balance)
 
 /** Newton with these harmonics, from a solution with others. */
 motion::PeriodicSolution solved(const HardCase& hard, Resolution with,
-                                const Eigen::VectorXd& start, const Work& work)
+                                const Eigen::VectorXd& start,
+                                const OperationBudget& budget)
 {
   const Parameters& p = hard.parameters;
   const double omega = angular(hard.frequency);
-  Balance balance(bearing_problem(p, with.samples, work), with.harmonics);
+  Balance balance(bearing_problem(p, with.samples, budget), with.harmonics);
   motion::PeriodicSolution solution{omega, with.harmonics, with.samples, {}, {}, {}, {}};
   solution.x = resize_harmonics(start, 2, with.harmonics);
   solution.newton = solve(balance, omega, solution.x, {});
@@ -285,29 +286,29 @@ motion::PeriodicSolution solved(const HardCase& hard, Resolution with,
 
 /** The start along the branch, with its harmonics doubled until they are the case's. */
 motion::PeriodicSolution reached(const HardCase& hard, Approach approach,
-                                 const Work& work)
+                                 const OperationBudget& budget)
 {
   Resolution with = followed(hard);
   if (hard.from == hard.frequency)
     return solved(
         hard, {hard.harmonics, hard.samples},
         quasi_static_start(hard.parameters, angular(hard.frequency), hard.harmonics),
-        work);
-  Balance balance(bearing_problem(hard.parameters, with.samples, work), with.harmonics);
+        budget);
+  Balance balance(bearing_problem(hard.parameters, with.samples, budget), with.harmonics);
   Eigen::VectorXd x = approach(hard, balance);
   while (2 * with.harmonics < hard.harmonics) {
     with = {2 * with.harmonics, default_samples(2 * with.harmonics)};
-    x = solved(hard, with, x, work).x;
+    x = solved(hard, with, x, budget).x;
   }
-  return solved(hard, {hard.harmonics, hard.samples}, x, work);
+  return solved(hard, {hard.harmonics, hard.samples}, x, budget);
 }
 
 /** The balance refined once: its distance is the error that is stated. */
 void refine(const HardCase& hard, const motion::PeriodicSolution& solution,
-            const HardRule& rule, const Work& work, Answer& answer)
+            const HardRule& rule, const OperationBudget& budget, Answer& answer)
 {
   const motion::PeriodicSolution finer =
-      solved(hard, {2 * hard.harmonics, 2 * hard.samples}, solution.x, work);
+      solved(hard, {2 * hard.harmonics, 2 * hard.samples}, solution.x, budget);
   const int points =
       std::max(compared_points, fast_transform_size(4 * hard.harmonics + 2));
   const motion::Motion coarse = motion::motion_of(solution.bodies, points);
@@ -325,9 +326,9 @@ void refine(const HardCase& hard, const motion::PeriodicSolution& solution,
 Answer by_balance(const HardCase& hard, const HardRule& rule, Approach approach)
 {
   Answer answer;
-  const Work work(most_work);
+  const OperationBudget budget(most_work);
   try {
-    const motion::PeriodicSolution solution = reached(hard, approach, work);
+    const motion::PeriodicSolution solution = reached(hard, approach, budget);
     answer.reason = hard.from == hard.frequency ? "cold" : text("from %g Hz", hard.from);
     answer.residual = solution.newton.delta_1;
     answer.harmonics = hard.harmonics;
@@ -335,7 +336,7 @@ Answer by_balance(const HardCase& hard, const HardRule& rule, Approach approach)
     answer.motion = motion::motion_of(solution.bodies, compared_points);
     answer.state = state_of(solution);
     answer.x = solution.x;
-    refine(hard, solution, rule, Work(most_refining_work), answer);
+    refine(hard, solution, rule, OperationBudget(most_refining_work), answer);
   } catch (const NoSolution& refusal) {
     answer.reason = refusal.what();
   }

@@ -24,7 +24,7 @@ struct StepperSettings {
   double tolerance =
       1e-10;  ///< GSL: local error per step, over the size of each component
   double most_evaluations = 1e9;  ///< of Eq. 7, a bound on work: half a minute of RK4
-  Work work = {};                 ///< pays for them
+  OperationBudget budget = {};    ///< pays for them
 };
 
 /** A stepper bound to one machine at one speed. */

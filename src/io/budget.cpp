@@ -7,12 +7,12 @@
 namespace rotor_stator
 {
 
-double Work::left() const
+double OperationBudget::left() const
 {
   return account_ ? account_->left : std::numeric_limits<double>::infinity();
 }
 
-void Work::spend(double operations) const
+void OperationBudget::spend(double operations) const
 {
   for (Account* account = account_.get(); account; account = account->parent.get()) {
     if (!(operations <= account->left)) {
@@ -24,10 +24,10 @@ void Work::spend(double operations) const
   }
 }
 
-Work Work::part(double share) const
+OperationBudget OperationBudget::part(double share) const
 {
   if (!account_) return {};
-  Work inner(share * account_->left);
+  OperationBudget inner(share * account_->left);
   inner.account_->parent = account_;
   return inner;
 }

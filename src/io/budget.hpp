@@ -12,14 +12,14 @@ namespace rotor_stator
 {
 
 /** A shared account of operations: copies spend from the same account. */
-class Work
+class OperationBudget
 {
 public:
   /** Without a bound. */
-  Work() = default;
+  OperationBudget() = default;
 
   /** At most `most` operations. */
-  explicit Work(double most)
+  explicit OperationBudget(double most)
       : account_(std::make_shared<Account>(Account{most, most, nullptr}))
   {
   }
@@ -36,7 +36,7 @@ public:
   void spend(double operations) const;
 
   /** An account of its own with a part of what is left; what it spends is spent here too. */
-  Work part(double share) const;
+  OperationBudget part(double share) const;
 
 private:
   struct Account {
@@ -59,7 +59,7 @@ public:
   explicit Allowance(double most = 1e9) : most_(most) {}
 
   /** At `price` operations each from `work`. */
-  Allowance(double most, Work work, double price)
+  Allowance(double most, OperationBudget work, double price)
       : most_(most), work_(std::move(work)), price_(price)
   {
   }
@@ -74,7 +74,7 @@ public:
 
 private:
   double most_;
-  Work work_;
+  OperationBudget work_;
   double price_ = 0;
   long used_ = 0;
 };

@@ -8,10 +8,10 @@ namespace rotor_stator::motion
 {
 
 ObservedProblem observed_bearing(const Parameters& parameters, double omega,
-                                 const Work& work)
+                                 const OperationBudget& budget)
 {
-  return {[&parameters, work](int samples) {
-            return bearing_problem(parameters, samples, work);
+  return {[&parameters, budget](int samples) {
+            return bearing_problem(parameters, samples, budget);
           },
           [&parameters, omega](const Balance& balance, const Eigen::VectorXd& x) {
             return body_series(parameters, balance, omega, x);
@@ -20,9 +20,10 @@ ObservedProblem observed_bearing(const Parameters& parameters, double omega,
 
 FirstSolution quasi_static_solution(const Parameters& parameters, double omega,
                                     int harmonics, int samples,
-                                    const NewtonSettings& newton, const Work& work)
+                                    const NewtonSettings& newton,
+                                    const OperationBudget& budget)
 {
-  Balance balance(bearing_problem(parameters, samples, work), harmonics);
+  Balance balance(bearing_problem(parameters, samples, budget), harmonics);
   FirstSolution first{{harmonics, samples, {}, {}}, {}, 0};
   Eigen::VectorXd& x = first.solution.x;
   x = quasi_static_start(parameters, omega, harmonics);
@@ -34,17 +35,18 @@ FirstSolution quasi_static_solution(const Parameters& parameters, double omega,
 }
 
 AdaptiveSolution solve_adaptively(const Parameters& parameters, double omega,
-                                  const AdaptiveSettings& settings, const Work& work)
+                                  const AdaptiveSettings& settings,
+                                  const OperationBudget& budget)
 {
-  const ObservedProblem observed = observed_bearing(parameters, omega, work);
+  const ObservedProblem observed = observed_bearing(parameters, omega, budget);
   std::string start;
   const auto cold = [&](int m, int n, bool thorough,
                         const NewtonSettings& newton) -> FirstSolution {
     start = quasi_static_name;
-    FirstSolution first = quasi_static_solution(parameters, omega, m, n, newton, work);
+    FirstSolution first = quasi_static_solution(parameters, omega, m, n, newton, budget);
     if (first.newton.converged() || !thorough) return first;
     PeriodicSolution found =
-        find_periodic(parameters, omega, m, n, settings.newton, work);
+        find_periodic(parameters, omega, m, n, settings.newton, budget);
     start = found.start;
     return {{m, n, found.x, found.bodies}, found.newton, first.force_samples};
   };
@@ -60,26 +62,28 @@ AdaptiveSolution solve_adaptively(const Parameters& parameters, double omega,
 }
 
 ErrorEstimate estimate_error(const Parameters& parameters,
-                             const PeriodicSolution& solution, const Work& work)
+                             const PeriodicSolution& solution,
+                             const OperationBudget& budget)
 {
   return estimate_error(
-             observed_bearing(parameters, solution.omega, work), solution.omega,
+             observed_bearing(parameters, solution.omega, budget), solution.omega,
              {solution.harmonics, solution.samples, solution.x, solution.bodies})
       .estimate;
 }
 
 AdaptiveSolution find_with_error(const Parameters& parameters, double omega,
                                  int harmonics, int samples, double tolerance,
-                                 const NewtonSettings& newton, const Work& work)
+                                 const NewtonSettings& newton,
+                                 const OperationBudget& budget)
 {
   AdaptiveSolution at{};
-  at.solution = find_periodic(parameters, omega, harmonics, samples, newton, work);
+  at.solution = find_periodic(parameters, omega, harmonics, samples, newton, budget);
   if (!at.found()) {
     at.end = text("no solution found with %d harmonics: %s", harmonics,
                   at.solution.newton.reason().c_str());
     return at;
   }
-  at.estimate = estimate_error(parameters, at.solution, work);
+  at.estimate = estimate_error(parameters, at.solution, budget);
   at.reached = at.estimate.settled && at.estimate.displacement <= tolerance;
   at.end = at.estimate.settled
                ? text("the error with %d harmonics is estimated as %.2g", harmonics,

@@ -30,18 +30,19 @@ struct AdaptiveSolution {
     when that fails with several m, from whatever `find_periodic` finds. */
 AdaptiveSolution solve_adaptively(const Parameters& parameters, double omega,
                                   const AdaptiveSettings& settings,
-                                  const Work& work = {});
+                                  const OperationBudget& budget = {});
 
 /** The solution with m harmonics and N samples; `reached` when its error is estimated below the
     tolerance. */
 AdaptiveSolution find_with_error(const Parameters& parameters, double omega,
                                  int harmonics, int samples, double tolerance,
                                  const NewtonSettings& newton = {},
-                                 const Work& work = {});
+                                 const OperationBudget& budget = {});
 
 /** The error of a solution that is at hand. */
 ErrorEstimate estimate_error(const Parameters& parameters,
-                             const PeriodicSolution& solution, const Work& work = {});
+                             const PeriodicSolution& solution,
+                             const OperationBudget& budget = {});
 
 /** The name of that start. */
 inline constexpr const char* quasi_static_name = "quasi-static contact";
@@ -50,10 +51,10 @@ inline constexpr const char* quasi_static_name = "quasi-static contact";
 FirstSolution quasi_static_solution(const Parameters& parameters, double omega,
                                     int harmonics, int samples,
                                     const NewtonSettings& newton = {},
-                                    const Work& work = {});
+                                    const OperationBudget& budget = {});
 
 /** The bearing's problem, observed in its four displacements. */
 ObservedProblem observed_bearing(const Parameters& parameters, double omega,
-                                 const Work& work = {});
+                                 const OperationBudget& budget = {});
 
 }  // namespace rotor_stator::motion

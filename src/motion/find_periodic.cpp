@@ -38,14 +38,15 @@ Eigen::VectorXd start_or_none(const Start& start)
 /** The solution with half as many harmonics, found in the same way from quasi-static
     contact. */
 Eigen::VectorXd fewer_harmonics(const Parameters& parameters, double omega, int harmonics,
-                                const NewtonSettings& settings, const Work& work)
+                                const NewtonSettings& settings,
+                                const OperationBudget& budget)
 {
   const int fewer = harmonics / 2;
   if (fewer < 3) return {};
-  Balance balance(bearing_problem(parameters, default_samples(fewer), work), fewer);
+  Balance balance(bearing_problem(parameters, default_samples(fewer), budget), fewer);
   Eigen::VectorXd x = quasi_static_start(parameters, omega, fewer);
   if (!solve(balance, omega, x, settings).converged())
-    x = fewer_harmonics(parameters, omega, fewer, settings, work);
+    x = fewer_harmonics(parameters, omega, fewer, settings, budget);
   if (x.size() == 0) return x;
   x = resize_harmonics(x, 2, fewer);
   if (!solve(balance, omega, x, settings).converged()) return {};
@@ -56,7 +57,7 @@ Eigen::VectorXd fewer_harmonics(const Parameters& parameters, double omega, int 
     through all its folds; few harmonics only, since many see a fold at every contact resonance. */
 Eigen::VectorXd along_the_branch(const Parameters& parameters, double omega,
                                  int harmonics, int samples, const NewtonSettings& newton,
-                                 const Work& work)
+                                 const OperationBudget& budget)
 {
   constexpr int most_harmonics = 16;
   if (harmonics > most_harmonics) return {};
@@ -64,7 +65,7 @@ Eigen::VectorXd along_the_branch(const Parameters& parameters, double omega,
   ArcLengthSettings settings = arc_length_settings(parameters, newton);
   /** One start among others, not a study: as long for many harmonics as for few. */
   settings.most_evaluations = std::min(150000, 15000000 / (harmonics * harmonics));
-  Balance balance(bearing_problem(parameters, samples, work), harmonics);
+  Balance balance(bearing_problem(parameters, samples, budget), harmonics);
   const Branch branch = follow_branch(
       balance, from, omega, quasi_static_start(parameters, from, harmonics), settings);
   return branch.covered ? branch.points.back().x : Eigen::VectorXd();
@@ -73,11 +74,11 @@ Eigen::VectorXd along_the_branch(const Parameters& parameters, double omega,
 }  // namespace
 
 Eigen::VectorXd integrated_start(const Parameters& parameters, double omega,
-                                 int harmonics, const Work& work)
+                                 int harmonics, const OperationBudget& budget)
 {
   SteadySettings settings;
   const int points = default_samples(harmonics);
-  settings.stepper = {.method = "rk4", .intervals_per_period = points, .work = work};
+  settings.stepper = {.method = "rk4", .intervals_per_period = points, .budget = budget};
   settings.longest = 10;
   const SteadyState steady =
       steady_state(parameters, omega, static_start(parameters), settings);
@@ -86,22 +87,22 @@ Eigen::VectorXd integrated_start(const Parameters& parameters, double omega,
 
 PeriodicSolution find_periodic(const Parameters& parameters, double omega, int harmonics,
                                int samples, const NewtonSettings& settings,
-                               const Work& work)
+                               const OperationBudget& budget)
 {
-  Balance balance(bearing_problem(parameters, samples, work), harmonics);
+  Balance balance(bearing_problem(parameters, samples, budget), harmonics);
   PeriodicSolution solution{omega, harmonics, samples, {}, {}, {}, {}};
   const Start starts[] = {
       {"quasi-static contact",
        [&] { return quasi_static_start(parameters, omega, harmonics); }},
       {"fewer harmonics",
-       [&] { return fewer_harmonics(parameters, omega, harmonics, settings, work); }},
+       [&] { return fewer_harmonics(parameters, omega, harmonics, settings, budget); }},
       {"arc length from a lower speed",
        [&] {
          return along_the_branch(parameters, omega, harmonics, samples, settings,
-                                 work.part(0.3));
+                                 budget.part(0.3));
        }},
       {"time integration",
-       [&] { return integrated_start(parameters, omega, harmonics, work); }}};
+       [&] { return integrated_start(parameters, omega, harmonics, budget); }}};
   for (const Start& start : starts) {
     Eigen::VectorXd x = start_or_none(start);
     if (x.size() == 0) continue;

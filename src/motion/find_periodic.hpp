@@ -35,14 +35,14 @@ ArcLengthSettings arc_length_settings(const Parameters& parameters,
 /** A start for Newton: the relative motion [m] of one period after ten seconds of RK4 from rest, as
     coefficients. Throws NoSolution when the integration breaks down. */
 Eigen::VectorXd integrated_start(const Parameters& parameters, double omega,
-                                 int harmonics, const Work& work = {});
+                                 int harmonics, const OperationBudget& budget = {});
 
 /** Looks for the periodic solution at ω with m harmonics and N samples. Newton starts from the
     quasi-static contact, then from a solution with fewer harmonics, then from the end of a branch
     followed by arc length, then from one period of time integration; the first that converges is
-    kept. Not found means that none of these found one. Throws NoSolution when `work` is used up. */
+    kept. Not found means that none of these found one. Throws NoSolution when `budget` is used up. */
 PeriodicSolution find_periodic(const Parameters& parameters, double omega, int harmonics,
                                int samples, const NewtonSettings& settings = {},
-                               const Work& work = {});
+                               const OperationBudget& budget = {});
 
 }  // namespace rotor_stator::motion

@@ -34,16 +34,16 @@ Eigen::VectorXd random_coefficients(double size, int harmonics,
 }  // namespace
 
 FoundStarts other_starts(const Parameters& parameters, SpeedRange range, int harmonics,
-                         const OtherStarts& wanted, const Work& work)
+                         const OtherStarts& wanted, const OperationBudget& budget)
 {
   /** The motion of the rings is free to be several clearances wide. */
   const double size = 2 * scales(parameters).length;
   std::mt19937_64 generator(wanted.seed);
-  const Work half = work.part(0.5);
+  const OperationBudget half = budget.part(0.5);
   FoundStarts starts;
   for (int k = 1; k <= wanted.speeds; ++k) {
     const double omega = range.from + (range.to - range.from) * k / (wanted.speeds + 1);
-    const Work share = half.part(1.0 / (wanted.speeds - k + 1));
+    const OperationBudget share = half.part(1.0 / (wanted.speeds - k + 1));
     try {
       starts.candidates.push_back({omega,
                                    integrated_start(parameters, omega, harmonics, share),

@@ -28,8 +28,8 @@ struct FoundStarts {
 };
 
 /** The starts with m harmonics in the range; the same for the same seed on every machine. The
-    integrations take at most half of `work`, in equal parts of what is left of it. */
+    integrations take at most half of `budget`, in equal parts of what is left of it. */
 FoundStarts other_starts(const Parameters& parameters, SpeedRange range, int harmonics,
-                         const OtherStarts& wanted, const Work& work = {});
+                         const OtherStarts& wanted, const OperationBudget& budget = {});
 
 }  // namespace rotor_stator::motion

@@ -8,18 +8,18 @@ using namespace rotor_stator;
 
 TEST_CASE("Copies of an account spend the same money")
 {
-  const Work work(100);
-  const Work copy = work;
+  const OperationBudget work(100);
+  const OperationBudget copy = work;
   copy.spend(30);
   CHECK(work.left() == 70);
   CHECK_FALSE(work.used_up());
-  CHECK_FALSE(Work().bounded());
-  CHECK_NOTHROW(Work().part(0.5).spend(1e300));
+  CHECK_FALSE(OperationBudget().bounded());
+  CHECK_NOTHROW(OperationBudget().part(0.5).spend(1e300));
 }
 
 TEST_CASE("What cannot be paid for empties the account")
 {
-  const Work work(100);
+  const OperationBudget work(100);
   CHECK_THROWS_AS(work.spend(101), NoSolution);
   CHECK(work.used_up());
   CHECK_THROWS_AS(work.spend(1), NoSolution);
@@ -27,8 +27,8 @@ TEST_CASE("What cannot be paid for empties the account")
 
 TEST_CASE("A part spends from the whole, and ends before it")
 {
-  const Work work(100);
-  const Work part = work.part(0.5);
+  const OperationBudget work(100);
+  const OperationBudget part = work.part(0.5);
   part.spend(40);
   CHECK(work.left() == 60);
   CHECK(part.left() == 10);
@@ -48,7 +48,7 @@ TEST_CASE("Evaluations are counted, paid for and refused")
   CHECK(counted.used() == 10);
   CHECK_THROWS_AS(counted.take(1), NoSolution);
 
-  const Work work(100);
+  const OperationBudget work(100);
   Allowance paid(1e9, work, 20);
   paid.take(4);
   CHECK(work.left() == 20);
