@@ -356,17 +356,17 @@ ifneq ($(filter studies,$(MAKECMDGOALS)),)
 timing: | identify study hard truth
 endif
 
-identify: build/identify_parameters  ## score the grid of unpublished parameters (under 10 minutes)
+identify: build/identification  ## score the grid of unpublished parameters (under 10 minutes)
 	@mkdir -p data/generated
 	new=data/generated/identification.tsv; $< --journal data/generated/identification.journal > $$new.tmp; \
 	  mv $$new.tmp $$new; $(PYTHON) tests/compare_tables.py data/reference/identification.tsv $$new
 
-study: build/clearance_stiffness_study  ## clearance against contact stiffness (under 5 minutes)
+study: build/clearance_stiffness  ## clearance against contact stiffness (under 5 minutes)
 	@mkdir -p data/generated
 	new=data/generated/study.tsv; $< --journal data/generated/study.journal > $$new.tmp; \
 	  mv $$new.tmp $$new; $(PYTHON) tests/compare_tables.py data/reference/study.tsv $$new
 
-stability: build/response_stability  ## stability along the response curves, both readings (under 5 minutes)
+stability: build/stability  ## stability along the response curves, both readings (under 5 minutes)
 	@mkdir -p data/generated
 	for reading in exchanged as-printed; do suffix=; \
 	  if [ $$reading = as-printed ]; then suffix=-as-printed; fi; \

@@ -20,22 +20,16 @@ by far more than one number for a whole data set suggests. Open marks in (a) and
 at which the motion is not T-periodic have no exact solution to compare with and are left out.
 
 Modelled: harmonic balance, and shooting for the exact motion. Finished speeds are kept in a journal. */
-#include <CLI/CLI.hpp>
-
-#include "io/program.hpp"
 #include "truth/adaptive.hpp"
+#include "io/program.hpp"
 
 int main(int argc, char** argv)
 {
   using namespace rotor_stator;
-  using namespace rotor_stator::truth;
-  std::string scene = "data/scenes/adaptive.toml", journal = "adaptive.journal";
-  CLI::App app("Estimates and true errors of adaptive harmonics; TSV on stdout.");
-  app.add_option("scene", scene, "scene file")->capture_default_str();
-  app.add_option("--journal", journal, "finished speeds")->capture_default_str();
-  return guarded([&] {
-    if (!parse(app, argc, argv)) return 0;
-    write(adaptive_table(scene, journal).text());
-    return 0;
+  const Program program{"data/scenes/adaptive.toml",
+                        {{"--journal", "adaptive.journal", "finished speeds"}},
+                        false};
+  return run(argc, argv, program, [](const Options& options) {
+    return truth::adaptive_table(options.scene_file, options["--journal"]);
   });
 }

@@ -20,25 +20,16 @@ undecided, not as the more interesting of the two.
 
 Modelled: the motion once per period, and the largest Lyapunov exponent, for both data sets. Finished pieces
 are kept in a journal. */
-#include <CLI/CLI.hpp>
-
-#include "io/program.hpp"
 #include "truth/attractors.hpp"
+#include "io/program.hpp"
 
 int main(int argc, char** argv)
 {
   using namespace rotor_stator;
-  using namespace rotor_stator::truth;
-  Options options{"data/scenes/attractors.toml", "exchanged"};
-  std::string journal = "attractors.journal";
-  CLI::App app("Settles on the attractors of both data sets; TSV on stdout.");
-  app.add_option("scene", options.scene_file, "scene file")->capture_default_str();
-  app.add_option("--reading", options.reading, "exchanged or as-printed")
-      ->capture_default_str();
-  app.add_option("--journal", journal, "finished pieces")->capture_default_str();
-  return guarded([&] {
-    if (!parse(app, argc, argv)) return 0;
-    write(attractor_table(options.scene_file, options.reading, journal).text());
-    return 0;
+  const Program program{"data/scenes/attractors.toml",
+                        {{"--journal", "attractors.journal", "finished pieces"}}};
+  return run(argc, argv, program, [](const Options& options) {
+    return truth::attractor_table(options.scene_file, options.reading,
+                                  options["--journal"]);
   });
 }

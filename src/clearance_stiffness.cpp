@@ -19,22 +19,16 @@ times of one sweep, under claim C11.
 
 Modelled: one sweep with 6 harmonics per point of the grid, by harmonic balance alone. Finished points are
 kept in a journal. */
-#include <CLI/CLI.hpp>
-
-#include "io/program.hpp"
 #include "studies/clearance_stiffness.hpp"
+#include "io/program.hpp"
 
 int main(int argc, char** argv)
 {
   using namespace rotor_stator;
-  using namespace rotor_stator::studies;
-  std::string scene = "data/scenes/study.toml", journal = "study.journal";
-  CLI::App app("Sweeps a grid of clearance and contact stiffness; TSV on stdout.");
-  app.add_option("scene", scene, "scene file")->capture_default_str();
-  app.add_option("--journal", journal, "finished points")->capture_default_str();
-  return guarded([&] {
-    if (!parse(app, argc, argv)) return 0;
-    write(study_table(scene, journal).text());
-    return 0;
+  const Program program{"data/scenes/study.toml",
+                        {{"--journal", "study.journal", "finished points"}},
+                        false};
+  return run(argc, argv, program, [](const Options& options) {
+    return studies::study_table(options.scene_file, options["--journal"]);
   });
 }

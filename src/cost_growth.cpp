@@ -24,8 +24,8 @@ Modelled: one periodic motion, and sweeps above the transition. */
 int main(int argc, char** argv)
 {
   using namespace rotor_stator;
-  using namespace rotor_stator::costs;
-  return run(argc, argv, "data/scenes/cost_growth.toml", [](const Options& options) {
-    return cost_growth_table(read_cost_growth_scene(options.scene_file, options.reading));
+  return run(argc, argv, {"data/scenes/cost_growth.toml"}, [](const Options& options) {
+    return costs::cost_growth_table(
+        costs::read_cost_growth_scene(options.scene_file, options.reading));
   });
 }

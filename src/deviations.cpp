@@ -10,8 +10,8 @@ Modelled: data set 1, one small computation per entry D-nn. */
 int main(int argc, char** argv)
 {
   using namespace rotor_stator;
-  using namespace rotor_stator::deviations;
-  return run(argc, argv, "data/scenes/deviations.toml", [](const Options& options) {
-    return deviation_table(read_deviation_scene(options.scene_file, options.reading));
+  return run(argc, argv, {"data/scenes/deviations.toml"}, [](const Options& options) {
+    return deviations::deviation_table(
+        deviations::read_deviation_scene(options.scene_file, options.reading));
   });
 }

@@ -29,8 +29,8 @@ computed about forces, and the balls stand where Eq. 3 puts them at the start of
 int main(int argc, char** argv)
 {
   using namespace rotor_stator;
-  using namespace rotor_stator::figures;
-  return run(argc, argv, "data/scenes/fig01.toml", [](const Options& options) {
-    return geometry_table(read_geometry_scene(options.scene_file, options.reading));
+  return run(argc, argv, {"data/scenes/fig01.toml"}, [](const Options& options) {
+    return figures::geometry_table(
+        figures::read_geometry_scene(options.scene_file, options.reading));
   });
 }

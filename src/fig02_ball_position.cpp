@@ -31,8 +31,8 @@ Modelled: geometry alone, at the one instant and the one displacement of the sce
 int main(int argc, char** argv)
 {
   using namespace rotor_stator;
-  using namespace rotor_stator::figures;
-  return run(argc, argv, "data/scenes/fig02.toml", [](const Options& options) {
-    return geometry_table(read_geometry_scene(options.scene_file, options.reading));
+  return run(argc, argv, {"data/scenes/fig02.toml"}, [](const Options& options) {
+    return figures::geometry_table(
+        figures::read_geometry_scene(options.scene_file, options.reading));
   });
 }

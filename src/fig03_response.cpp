@@ -31,8 +31,8 @@ share of time in contact. No waveform is kept, and nothing is said about stabili
 int main(int argc, char** argv)
 {
   using namespace rotor_stator;
-  using namespace rotor_stator::figures;
-  return run(argc, argv, "data/scenes/fig03.toml", [](const Options& options) {
-    return response_table(read_response_scene(options.scene_file, options.reading));
+  return run(argc, argv, {"data/scenes/fig03.toml"}, [](const Options& options) {
+    return figures::response_table(
+        figures::read_response_scene(options.scene_file, options.reading));
   });
 }

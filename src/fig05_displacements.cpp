@@ -32,8 +32,8 @@ periods; the force is Eq. 6 evaluated on either motion. */
 int main(int argc, char** argv)
 {
   using namespace rotor_stator;
-  using namespace rotor_stator::figures;
-  return run(argc, argv, "data/scenes/fig05.toml", [](const Options& options) {
-    return orbit_table(read_orbit_scene(options.scene_file, options.reading));
+  return run(argc, argv, {"data/scenes/fig05.toml"}, [](const Options& options) {
+    return figures::orbit_table(
+        figures::read_orbit_scene(options.scene_file, options.reading));
   });
 }

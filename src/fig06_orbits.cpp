@@ -32,8 +32,8 @@ where the static sag is much larger than the orbit. */
 int main(int argc, char** argv)
 {
   using namespace rotor_stator;
-  using namespace rotor_stator::figures;
-  return run(argc, argv, "data/scenes/fig06.toml", [](const Options& options) {
-    return orbit_table(read_orbit_scene(options.scene_file, options.reading));
+  return run(argc, argv, {"data/scenes/fig06.toml"}, [](const Options& options) {
+    return figures::orbit_table(
+        figures::read_orbit_scene(options.scene_file, options.reading));
   });
 }

@@ -32,8 +32,8 @@ with its spread in the table. */
 int main(int argc, char** argv)
 {
   using namespace rotor_stator;
-  using namespace rotor_stator::figures;
-  return run(argc, argv, "data/scenes/fig08.toml", [](const Options& options) {
-    return orbit_table(read_orbit_scene(options.scene_file, options.reading));
+  return run(argc, argv, {"data/scenes/fig08.toml"}, [](const Options& options) {
+    return figures::orbit_table(
+        figures::read_orbit_scene(options.scene_file, options.reading));
   });
 }

@@ -31,8 +31,8 @@ instants per period, as many as the scene file says. */
 int main(int argc, char** argv)
 {
   using namespace rotor_stator;
-  using namespace rotor_stator::figures;
-  return run(argc, argv, "data/scenes/fig09.toml", [](const Options& options) {
-    return contact_table(read_orbit_scene(options.scene_file, options.reading));
+  return run(argc, argv, {"data/scenes/fig09.toml"}, [](const Options& options) {
+    return figures::contact_table(
+        figures::read_orbit_scene(options.scene_file, options.reading));
   });
 }

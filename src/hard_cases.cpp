@@ -19,25 +19,17 @@ be neither confirmed nor refuted is marked as such and not counted as solved.
 
 Modelled: all cases of data/scenes/hard_cases.toml by harmonic balance (the paper's predictor, arc length),
 shooting and RK4. */
-#include <CLI/CLI.hpp>
-
 #include "hard/checks.hpp"
 #include "io/program.hpp"
 
 int main(int argc, char** argv)
 {
   using namespace rotor_stator;
-  using namespace rotor_stator::hard;
-  std::string list = "data/scenes/hard_cases.toml";
-  int every = 1;
-  CLI::App app("Puts every hard case to every method; TSV on stdout.");
-  app.add_option("list", list, "the cases")->capture_default_str();
-  app.add_option("--every", every, "only each n-th of the rows")
-      ->capture_default_str()
-      ->check(CLI::Range(1, 1000));
-  return guarded([&] {
-    if (!parse(app, argc, argv)) return 0;
-    write(hard_table(list, every).text());
-    return 0;
+  const Program program{"data/scenes/hard_cases.toml",
+                        {{"--every", "1", "only each n-th of the rows"}},
+                        false};
+  return run(argc, argv, program, [](const Options& options) {
+    return hard::hard_table(options.scene_file,
+                            whole_number("--every", options["--every"], 1, 1000));
   });
 }

@@ -19,24 +19,18 @@ all. The score cannot prove a reading; it says how well the text describes each.
 
 Modelled: the integrated motion of every candidate at 60 speeds, judged by data/claims.toml. Finished candidates
 are kept in a journal: an interrupted run goes on where it was. */
-#include <CLI/CLI.hpp>
-
-#include "io/program.hpp"
 #include "studies/identification.hpp"
+#include "io/program.hpp"
 
 int main(int argc, char** argv)
 {
   using namespace rotor_stator;
-  using namespace rotor_stator::studies;
-  std::string scene = "data/scenes/identify.toml", claims = "data/claims.toml";
-  std::string journal = "identify.journal";
-  CLI::App app("Scores the candidates of the identification grid; TSV on stdout.");
-  app.add_option("scene", scene, "scene file")->capture_default_str();
-  app.add_option("--claims", claims, "rule of the verdicts")->capture_default_str();
-  app.add_option("--journal", journal, "finished candidates")->capture_default_str();
-  return guarded([&] {
-    if (!parse(app, argc, argv)) return 0;
-    write(identification_table(scene, claims, journal).text());
-    return 0;
+  const Program program{"data/scenes/identify.toml",
+                        {{"--claims", "data/claims.toml", "rule of the verdicts"},
+                         {"--journal", "identify.journal", "finished candidates"}},
+                        false};
+  return run(argc, argv, program, [](const Options& options) {
+    return studies::identification_table(options.scene_file, options["--claims"],
+                                         options["--journal"]);
   });
 }

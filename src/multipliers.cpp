@@ -21,8 +21,8 @@ Modelled: harmonic balance with the scene's harmonics; the disturbances of rotor
 int main(int argc, char** argv)
 {
   using namespace rotor_stator;
-  using namespace rotor_stator::truth;
-  return run(argc, argv, "data/scenes/multipliers.toml", [](const Options& options) {
-    return multiplier_table(read_multiplier_scene(options.scene_file, options.reading));
+  return run(argc, argv, {"data/scenes/multipliers.toml"}, [](const Options& options) {
+    return truth::multiplier_table(
+        truth::read_multiplier_scene(options.scene_file, options.reading));
   });
 }

@@ -11,8 +11,7 @@ over a second for contact, over two periods for the rest. */
 int main(int argc, char** argv)
 {
   using namespace rotor_stator;
-  using namespace rotor_stator::figures;
-  return run(argc, argv, "data/scenes/regimes.toml", [](const Options& options) {
-    return regime_table(options.scene_file, options.reading);
+  return run(argc, argv, {"data/scenes/regimes.toml"}, [](const Options& options) {
+    return figures::regime_table(options.scene_file, options.reading);
   });
 }

@@ -25,8 +25,8 @@ Modelled: harmonic balance with many N for each m, and one solution with many ha
 int main(int argc, char** argv)
 {
   using namespace rotor_stator;
-  using namespace rotor_stator::costs;
-  return run(argc, argv, "data/scenes/sampling.toml", [](const Options& options) {
-    return sampling_table(read_sampling_scene(options.scene_file, options.reading));
+  return run(argc, argv, {"data/scenes/sampling.toml"}, [](const Options& options) {
+    return costs::sampling_table(
+        costs::read_sampling_scene(options.scene_file, options.reading));
   });
 }

@@ -23,8 +23,8 @@ Modelled: harmonic balance with 6 harmonics and RK4 from rest, each only where t
 int main(int argc, char** argv)
 {
   using namespace rotor_stator;
-  using namespace rotor_stator::studies;
-  return run(argc, argv, "data/scenes/sensitivity.toml", [](const Options& options) {
-    return sensitivity_table(read_sensitivity_scene(options.scene_file, options.reading));
+  return run(argc, argv, {"data/scenes/sensitivity.toml"}, [](const Options& options) {
+    return studies::sensitivity_table(
+        studies::read_sensitivity_scene(options.scene_file, options.reading));
   });
 }

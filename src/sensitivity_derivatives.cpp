@@ -11,9 +11,8 @@ alone. */
 int main(int argc, char** argv)
 {
   using namespace rotor_stator;
-  using namespace rotor_stator::studies;
-  return run(argc, argv, "data/scenes/sensitivity.toml", [](const Options& options) {
-    return sensitivity_derivative_table(
-        near_defaults(read_sensitivity_scene(options.scene_file, options.reading)));
+  return run(argc, argv, {"data/scenes/sensitivity.toml"}, [](const Options& options) {
+    return studies::sensitivity_derivative_table(near_defaults(
+        studies::read_sensitivity_scene(options.scene_file, options.reading)));
   });
 }

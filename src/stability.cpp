@@ -26,25 +26,16 @@ at the last refinement, and is left undecided when that could change the answer.
 
 Modelled: harmonic balance by arc length; the Floquet multipliers of rotor and stator. Finished curves are kept
 in a journal. */
-#include <CLI/CLI.hpp>
-
-#include "io/program.hpp"
 #include "truth/stability.hpp"
+#include "io/program.hpp"
 
 int main(int argc, char** argv)
 {
   using namespace rotor_stator;
-  using namespace rotor_stator::truth;
-  std::string scene = "data/scenes/stability.toml", reading = "exchanged";
-  std::string journal = "stability.journal";
-  CLI::App app("Stability along the branches of Fig. 3; TSV on stdout.");
-  app.add_option("scene", scene, "scene file")->capture_default_str();
-  app.add_option("--reading", reading, "of Table 1: exchanged or as-printed")
-      ->capture_default_str();
-  app.add_option("--journal", journal, "finished branches")->capture_default_str();
-  return guarded([&] {
-    if (!parse(app, argc, argv)) return 0;
-    write(stability_table(scene, reading, journal).text());
-    return 0;
+  const Program program{"data/scenes/stability.toml",
+                        {{"--journal", "stability.journal", "finished branches"}}};
+  return run(argc, argv, program, [](const Options& options) {
+    return truth::stability_table(options.scene_file, options.reading,
+                                  options["--journal"]);
   });
 }

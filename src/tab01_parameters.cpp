@@ -30,8 +30,8 @@ Modelled: nothing. The program reads, checks and prints. */
 int main(int argc, char** argv)
 {
   using namespace rotor_stator;
-  using namespace rotor_stator::figures;
-  return run(argc, argv, "data/scenes/tab01_parameters.toml", [](const Options& options) {
-    return parameter_table(options.scene_file, options.reading);
-  });
+  return run(argc, argv, {"data/scenes/tab01_parameters.toml"},
+             [](const Options& options) {
+               return figures::parameter_table(options.scene_file, options.reading);
+             });
 }

@@ -24,10 +24,9 @@ Modelled: the speeds with T-periodic motion, below and above 25 Hz. */
 int main(int argc, char** argv)
 {
   using namespace rotor_stator;
-  using namespace rotor_stator::costs;
-  return run(argc, argv, "data/scenes/tab02_equal_error.toml",
+  return run(argc, argv, {"data/scenes/tab02_equal_error.toml"},
              [](const Options& options) {
-               return equal_error_table(
-                   read_equal_error_scene(options.scene_file, options.reading));
+               return costs::equal_error_table(
+                   costs::read_equal_error_scene(options.scene_file, options.reading));
              });
 }

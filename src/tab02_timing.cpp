@@ -32,8 +32,8 @@ ball. */
 int main(int argc, char** argv)
 {
   using namespace rotor_stator;
-  using namespace rotor_stator::costs;
-  return run(argc, argv, "data/scenes/tab02_timing.toml", [](const Options& options) {
-    return timing_table(read_timing_scene(options.scene_file, options.reading));
+  return run(argc, argv, {"data/scenes/tab02_timing.toml"}, [](const Options& options) {
+    return costs::timing_table(
+        costs::read_timing_scene(options.scene_file, options.reading));
   });
 }

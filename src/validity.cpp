@@ -19,27 +19,17 @@ rotation, where a periodic solution may exist, and be exact, and still be nothin
 more harmonics do not help.
 
 Modelled: harmonic-balance sweeps up, Floquet multipliers, and motions from the states of the attractors. */
-#include <CLI/CLI.hpp>
-
-#include "io/program.hpp"
 #include "truth/validity.hpp"
+#include "io/program.hpp"
 
 int main(int argc, char** argv)
 {
   using namespace rotor_stator;
-  using namespace rotor_stator::truth;
-  Options options{"data/scenes/validity.toml", "exchanged"};
-  std::string attractors = "data/reference/attractors.tsv", journal = "validity.journal";
-  CLI::App app("Compares solutions with the attractors; TSV on stdout.");
-  app.add_option("scene", options.scene_file, "scene file")->capture_default_str();
-  app.add_option("--reading", options.reading, "exchanged or as-printed")
-      ->capture_default_str();
-  app.add_option("--attractors", attractors, "their table")->capture_default_str();
-  app.add_option("--journal", journal, "finished speeds")->capture_default_str();
-  return guarded([&] {
-    if (!parse(app, argc, argv)) return 0;
-    write(
-        validity_table(options.scene_file, options.reading, attractors, journal).text());
-    return 0;
+  const Program program{"data/scenes/validity.toml",
+                        {{"--attractors", "data/reference/attractors.tsv", "their table"},
+                         {"--journal", "validity.journal", "finished speeds"}}};
+  return run(argc, argv, program, [](const Options& options) {
+    return truth::validity_table(options.scene_file, options.reading,
+                                 options["--attractors"], options["--journal"]);
   });
 }

@@ -26,9 +26,8 @@ Modelled: seven T-periodic motions of both data sets, four of which are drawn. *
 int main(int argc, char** argv)
 {
   using namespace rotor_stator;
-  using namespace rotor_stator::costs;
-  return run(argc, argv, "data/scenes/work_precision.toml", [](const Options& options) {
-    return work_precision_table(
-        read_work_precision_scene(options.scene_file, options.reading));
+  return run(argc, argv, {"data/scenes/work_precision.toml"}, [](const Options& options) {
+    return costs::work_precision_table(
+        costs::read_work_precision_scene(options.scene_file, options.reading));
   });
 }

@@ -137,16 +137,16 @@ private:
   std::string end(int m) const
   {
     if (result_.solution.x.size() == 0)
-      return text("no solution with up to %d harmonics", m);
+      return format("no solution with up to %d harmonics", m);
     const int solved = result_.solution.harmonics;
     if (!result_.estimate.settled)
-      return text(
+      return format(
           "the error with %d harmonics could not be estimated: no solution with %d "
           "was found from it",
           solved, result_.estimate.harmonics);
-    const std::string reached = text("the error with %d harmonics is estimated as %.2g",
-                                     solved, result_.estimate.displacement);
-    return solved == m ? reached : reached + text(", and none with %d was found", m);
+    const std::string reached = format("the error with %d harmonics is estimated as %.2g",
+                                       solved, result_.estimate.displacement);
+    return solved == m ? reached : reached + format(", and none with %d was found", m);
   }
 
   const ObservedProblem& observed_;

@@ -247,7 +247,7 @@ void Balance::jacobian(int harmonics, Eigen::MatrixXd& jacobian)
 const Eigen::MatrixXd& Balance::jacobian()
 {
   if (unknowns() > most_unknowns)
-    throw NoSolution(text(
+    throw NoSolution(format(
         "%d harmonics give %ld unknowns; the dense Jacobian stops at %ld", harmonics_,
         static_cast<long>(unknowns()), static_cast<long>(most_unknowns)));
   jacobian(harmonics_, jacobian_);

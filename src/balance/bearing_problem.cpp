@@ -86,9 +86,9 @@ Problem bearing_problem(const Parameters& parameters, int samples)
 {
   if (!has_rotation_period(parameters.bearing))
     throw NoSolution(
-        text("%s: n*omega_cage/omega = %.9g is not a whole number, so the bearing's "
-             "force has not the period of rotation; use a time method",
-             parameters.file.c_str(), passages_per_turn(parameters.bearing)));
+        format("%s: n*omega_cage/omega = %.9g is not a whole number, so the bearing's "
+               "force has not the period of rotation; use a time method",
+               parameters.file.c_str(), passages_per_turn(parameters.bearing)));
   const Scales scale = scales(parameters);
   return {
       .dofs = 2,

@@ -13,9 +13,9 @@ std::string NewtonReport::reason() const
 {
   const std::string numbers =
       std::isfinite(delta_1) && std::isfinite(delta_2)
-          ? text(" after %d iterations (residual %.1e, step %.1e)", iterations, delta_1,
-                 delta_2)
-          : text(" after %d iterations (residual or step not finite)", iterations);
+          ? format(" after %d iterations (residual %.1e, step %.1e)", iterations, delta_1,
+                   delta_2)
+          : format(" after %d iterations (residual or step not finite)", iterations);
   switch (end) {
     case NewtonEnd::converged:
       return "converged" + numbers;

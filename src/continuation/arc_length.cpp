@@ -97,11 +97,11 @@ private:
     const Correction correction =
         extended_.correct(start.tangent, scaled(start, settings_), y);
     if (!correction.newton.converged())
-      throw NoSolution(text("no start at omega = %g rad/s: %s", start.omega,
-                            correction.newton.reason().c_str()));
+      throw NoSolution(format("no start at omega = %g rad/s: %s", start.omega,
+                              correction.newton.reason().c_str()));
     const Tangent tangent = extended_.tangent(start.tangent);
     if (!tangent.direction.allFinite())
-      throw NoSolution(text("no tangent at omega = %g rad/s", start.omega));
+      throw NoSolution(format("no tangent at omega = %g rad/s", start.omega));
     positive_ = tangent.positive;
     BranchPoint first =
         extended_.point(y, start.arc, correction.newton, tangent.direction);
@@ -141,13 +141,13 @@ private:
   bool out_of_bounds()
   {
     if (static_cast<int>(branch_.points.size()) >= settings_.most_points)
-      stop(BranchEnd::points, text("the bound of %d points", settings_.most_points));
+      stop(BranchEnd::points, format("the bound of %d points", settings_.most_points));
     else if (balance_.evaluations() - evaluations_before_ >= settings_.most_evaluations)
-      stop(BranchEnd::work, text("the bound on work, %ld evaluations of the force",
-                                 settings_.most_evaluations));
+      stop(BranchEnd::work, format("the bound on work, %ld evaluations of the force",
+                                   settings_.most_evaluations));
     else if (step_ < settings_.least_step)
       stop(BranchEnd::step,
-           text("the step fell below %g (%s)", settings_.least_step, refusal_.c_str()));
+           format("the step fell below %g (%s)", settings_.least_step, refusal_.c_str()));
     return done_;
   }
 
@@ -189,7 +189,7 @@ private:
     const double ease = long_step() ? 1 : 2.5;
     if (!(turn <= ease * settings_.most_turn && bend <= ease * settings_.most_bend))
       return refused(
-          text("the tangent turns by %.2g rad, the chord by %.2g", turn, bend));
+          format("the tangent turns by %.2g rad, the chord by %.2g", turn, bend));
     if (tangent.positive != positive_ && long_step()) return refused("another leg");
     next_positive_ = tangent.positive;
     factor_ =

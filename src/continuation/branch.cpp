@@ -152,7 +152,7 @@ BranchPoint point_of(Balance& balance, double omega, Eigen::VectorXd x, bool upw
   const NewtonReport report = solve(balance, omega, x, settings.newton);
   if (!report.converged())
     throw NoSolution(
-        text("no start at omega = %g rad/s: %s", omega, report.reason().c_str()));
+        format("no start at omega = %g rad/s: %s", omega, report.reason().c_str()));
   const auto n = x.size();
   const Tangent tangent =
       ExtendedBalance(balance, settings)

@@ -68,7 +68,7 @@ private:
     balance_.residual(point.x, point.omega);
     const double value = test_(point);
     if (!std::isfinite(value))
-      throw NoSolution(text(
+      throw NoSolution(format(
           "the quantity to locate is not a number at omega = %.6g rad/s", point.omega));
     return {point, value, value};
   }
@@ -81,9 +81,9 @@ private:
     const Correction correction = extended_.correct(
         chord.normalized(), between(a_.point, b_.point, r, settings_), y);
     if (!correction.newton.converged())
-      throw NoSolution(text("no point between omega = %.9g and %.9g rad/s: %s",
-                            a_.point.omega, b_.point.omega,
-                            correction.newton.reason().c_str()));
+      throw NoSolution(format("no point between omega = %.9g and %.9g rad/s: %s",
+                              a_.point.omega, b_.point.omega,
+                              correction.newton.reason().c_str()));
     const double share = (y - start).dot(chord) / chord.squaredNorm();
     return extended_.point(y, a_.point.arc + share * width(), correction.newton,
                            extended_.tangent(chord.normalized()).direction);
@@ -105,8 +105,8 @@ BranchPoint locate(Balance& balance, const BranchPoint& a, const BranchPoint& b,
 {
   Bracket bracket(balance, a, b, test, settings);
   if (!bracket.has_zero())
-    throw NoSolution(
-        text("no change of sign between omega = %.9g and %.9g rad/s", a.omega, b.omega));
+    throw NoSolution(format("no change of sign between omega = %.9g and %.9g rad/s",
+                            a.omega, b.omega));
   const double least_width = 1e-14 * std::max(1.0, std::abs(b.arc));
   double before = bracket.width();
   for (int cuts = 1; !bracket.exact() && bracket.width() > least_width &&

@@ -143,7 +143,7 @@ Growth measure(const CostGrowthScene& scene, const std::string& against, int siz
   });
   const auto& numbers = result.numbers;
   if (numbers.size() != 4)
-    throw NoSolution(text("%s = %d: the process ended early", against.c_str(), size));
+    throw NoSolution(format("%s = %d: the process ended early", against.c_str(), size));
   return {.against = against,
           .size = size,
           .cpu = {numbers[0], numbers[1], numbers[2]},
@@ -247,20 +247,22 @@ Table cost_growth_table(const CostGrowthScene& scene)
   Table table("Growth of the cost of harmonic balance", growth_columns);
   describe(table, scene.parameters);
   const auto rows = compute_cost_growth(scene);
+  table.note(format(
+      "against harmonics: one solution at %g Hz from that at %g Hz with the same m",
+      scene.frequency, scene.below));
+  table.note(format(
+      "against balls: a sweep of %d speeds from %g to %g Hz, m = %d, cage ratio %g",
+      scene.sweep_speeds, scene.sweep_from, scene.sweep_to, scene.sweep_harmonics,
+      scene.parameters.bearing.cage_speed_ratio));
+  table.note(format("against speeds: the same sweep with more or fewer speeds, n = %d",
+                    scene.parameters.bearing.balls));
+  table.note(format("N above %d m; Newton's tolerance %g; %d repetitions",
+                    scene.samples_per_harmonic, scene.newton_tolerance,
+                    scene.repetitions));
   table.note(
-      text("against harmonics: one solution at %g Hz from that at %g Hz with the same m",
-           scene.frequency, scene.below));
-  table.note(
-      text("against balls: a sweep of %d speeds from %g to %g Hz, m = %d, cage ratio %g",
-           scene.sweep_speeds, scene.sweep_from, scene.sweep_to, scene.sweep_harmonics,
-           scene.parameters.bearing.cage_speed_ratio));
-  table.note(text("against speeds: the same sweep with more or fewer speeds, n = %d",
-                  scene.parameters.bearing.balls));
-  table.note(text("N above %d m; Newton's tolerance %g; %d repetitions",
-                  scene.samples_per_harmonic, scene.newton_tolerance, scene.repetitions));
-  table.note(text("exponents from harmonics = %d, balls = %d, speeds = %d, bytes = %g on",
-                  scene.fitted_harmonics, scene.fitted_balls, scene.fitted_speeds,
-                  scene.least_memory));
+      format("exponents from harmonics = %d, balls = %d, speeds = %d, bytes = %g on",
+             scene.fitted_harmonics, scene.fitted_balls, scene.fitted_speeds,
+             scene.least_memory));
   for (const Growth& g : rows)
     table.row({g.against, g.size, g.cpu.median, g.cpu.least, g.cpu.most, g.memory,
                g.found, g.speeds, g.exponent_cpu, g.exponent_memory});

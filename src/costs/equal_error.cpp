@@ -217,7 +217,7 @@ const std::vector<Column> equal_error_columns{
 std::string list_of(const std::vector<double>& values)
 {
   std::string list;
-  for (double value : values) list += text(" %g", value);
+  for (double value : values) list += format(" %g", value);
   return list.empty() ? " none" : list;
 }
 
@@ -230,13 +230,13 @@ Table equal_error_table(const EqualErrorScene& scene)
       equal_error_columns);
   describe(table, scene.parameters);
   const EqualErrorResult result = compute_equal_error(scene);
-  table.note(text(
+  table.note(format(
       "modelled: speeds of %g to %g Hz with T-periodic motion, in order; %d repetitions",
       scene.frequencies.front(), scene.frequencies.back(), scene.repetitions));
   table.note(
-      text("the search of a method in a range ends after %g s of CPU", scene.search));
-  table.note(timed);
-  table.note(text(
+      format("the search of a method in a range ends after %g s of CPU", scene.search));
+  table.note(what_is_timed);
+  table.note(format(
       "reference: shooting by rk8pd, tolerance %g, closure below %.2g, from time integration with Poincare spread below %.2g",
       scene.truth.tolerance, result.closure, result.spread));
   table.note("not T-periodic, left out [Hz]:" + list_of(result.aperiodic));
@@ -245,15 +245,16 @@ Table equal_error_table(const EqualErrorScene& scene)
   for (const NotReached& n : result.not_reached)
     table.note(
         std::isfinite(n.best)
-            ? text("not reached: %s, %g-%g Hz, target %g; best %.2g", n.method.c_str(),
-                   n.from, n.to, n.target, n.best)
-            : text("not reached: %s, %g-%g Hz, target %g; no setting solves every speed",
-                   n.method.c_str(), n.from, n.to, n.target));
+            ? format("not reached: %s, %g-%g Hz, target %g; best %.2g", n.method.c_str(),
+                     n.from, n.to, n.target, n.best)
+            : format(
+                  "not reached: %s, %g-%g Hz, target %g; no setting solves every speed",
+                  n.method.c_str(), n.from, n.to, n.target));
   for (const EqualErrorRow& r : result.rows)
-    table.row({text("%g-%g", r.from, r.to), r.target, r.setting.method, r.setting.text(),
-               r.cpu.median, r.error.displacement, r.error.force, r.ratio, r.cpu.least,
-               r.cpu.most, r.repetitions, r.error.worst_frequency, r.speeds,
-               r.counts.force_instants, r.tried});
+    table.row({format("%g-%g", r.from, r.to), r.target, r.setting.method,
+               r.setting.text(), r.cpu.median, r.error.displacement, r.error.force,
+               r.ratio, r.cpu.least, r.cpu.most, r.repetitions, r.error.worst_frequency,
+               r.speeds, r.counts.force_instants, r.tried});
   return table;
 }
 

@@ -70,9 +70,9 @@ public:
 private:
   [[noreturn]] void fail(int m, int samples) const
   {
-    throw NoSolution(text("%s at %g Hz: no solution with m = %d, N = %d",
-                          parameters_.file.c_str(), scene_.frequencies[machine_], m,
-                          samples));
+    throw NoSolution(format("%s at %g Hz: no solution with m = %d, N = %d",
+                            parameters_.file.c_str(), scene_.frequencies[machine_], m,
+                            samples));
   }
 
   std::optional<motion::Motion> solution(int m, int samples, Eigen::VectorXd& x) const
@@ -130,12 +130,12 @@ Table sampling_table(const SamplingScene& scene)
        {"truncation_force", "-", "the same of the bearing's force"}});
   for (std::size_t k = 0; k < scene.machines.size(); ++k) {
     describe(table, scene.machines[k]);
-    table.note(text("panel %zu: %s at %g Hz", k + 1, scene.machines[k].title.c_str(),
-                    scene.frequencies[k]));
+    table.note(format("panel %zu: %s at %g Hz", k + 1, scene.machines[k].title.c_str(),
+                      scene.frequencies[k]));
   }
   table.note(
-      text("modelled: harmonic balance; finely sampled: N = %d m; reference: m = %d",
-           scene.fine_over_m, scene.reference_harmonics));
+      format("modelled: harmonic balance; finely sampled: N = %d m; reference: m = %d",
+             scene.fine_over_m, scene.reference_harmonics));
   for (const SamplingPoint& p : compute_sampling(scene))
     table.row({p.machine + 1, scene.frequencies[p.machine], p.harmonics, p.samples_over_m,
                p.samples, p.samples == default_samples(p.harmonics), p.found,

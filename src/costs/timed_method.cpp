@@ -68,15 +68,14 @@ std::string Setting::text() const
   const auto add = [&](const std::string& word) {
     words += (words.empty() ? "" : " ") + word;
   };
-  using rotor_stator::text;
-  if (harmonics > 0) add(text(corner + estimate > 0 ? "m>=%d" : "m=%d", harmonics));
-  if (corner > 0) add(text("m*f>=%g", corner));
-  if (estimate > 0) add(text("estimate<%g", estimate));
-  if (samples_per_harmonic > 0) add(text("N>%dm", samples_per_harmonic));
-  if (step > 0) add(text("step=%g", step));
-  if (tolerance > 0) add(text("tol=%g", tolerance));
-  if (transient > 0) add(text("transient=%g", transient));
-  if (closure > 0) add(text("closure=%g", closure));
+  if (harmonics > 0) add(format(corner + estimate > 0 ? "m>=%d" : "m=%d", harmonics));
+  if (corner > 0) add(format("m*f>=%g", corner));
+  if (estimate > 0) add(format("estimate<%g", estimate));
+  if (samples_per_harmonic > 0) add(format("N>%dm", samples_per_harmonic));
+  if (step > 0) add(format("step=%g", step));
+  if (tolerance > 0) add(format("tol=%g", tolerance));
+  if (transient > 0) add(format("transient=%g", transient));
+  if (closure > 0) add(format("closure=%g", closure));
   return words;
 }
 

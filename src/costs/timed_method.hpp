@@ -157,7 +157,7 @@ Eigen::VectorXd start_after_transient(const Parameters& parameters, double omega
                                       int harmonics);
 
 /** For headers of tables: what is timed. */
-inline constexpr const char* timed =
+inline constexpr const char* what_is_timed =
     "timed: the whole solution on one thread, tables and plans, start, transient or iteration; "
     "writing the motion down is timed for none";
 

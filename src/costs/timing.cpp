@@ -78,7 +78,7 @@ MotionError error_of(const TimingScene& scene, const motion::Motions& motions,
       costs::error_of(scene.parameters, scene.frequencies, motions, reference.motions);
   if (!error.missing.empty())
     throw NoSolution(
-        text("no harmonic-balance solution at %g Hz", error.missing.front()));
+        format("no harmonic-balance solution at %g Hz", error.missing.front()));
   return error;
 }
 
@@ -123,7 +123,7 @@ std::vector<Rk4Trial> try_rk4(const TimingScene& scene, const Reference& referen
     progress.step();
     if (trial.error.displacement <= target) return tried;
   }
-  throw NoSolution(text("no tried RK4 setting reaches the error %.2g", target));
+  throw NoSolution(format("no tried RK4 setting reaches the error %.2g", target));
 }
 
 /** RK4 at one of the settings tried. */
@@ -270,13 +270,13 @@ Table timing_table(const TimingScene& scene)
               timing_columns);
   describe(table, scene.parameters);
   const TimingResult result = compute_timing(scene);
-  table.note(text("modelled: %zu speeds from %g to %g Hz; %d repetitions",
-                  scene.frequencies.size(), scene.frequencies.front(),
-                  scene.frequencies.back(), scene.repetitions));
-  table.note(text("reference: %s to its steady state, Poincare spread below %.3g",
-                  scene.reference.stepper.method.c_str(), result.reference_spread));
+  table.note(format("modelled: %zu speeds from %g to %g Hz; %d repetitions",
+                    scene.frequencies.size(), scene.frequencies.front(),
+                    scene.frequencies.back(), scene.repetitions));
+  table.note(format("reference: %s to its steady state, Poincare spread below %.3g",
+                    scene.reference.stepper.method.c_str(), result.reference_spread));
   std::string list;
-  for (double frequency : result.aperiodic) list += text(" %g", frequency);
+  for (double frequency : result.aperiodic) list += format(" %g", frequency);
   table.note("not T-periodic, left out of the errors [Hz]:" +
              (list.empty() ? " none" : list));
   for (const TimedSweep& s : result.sweeps)

@@ -40,7 +40,7 @@ TrueMotion true_motion(const Parameters& parameters, double frequency,
             {.tolerance = settings.tolerance, .closure = settings.closure});
   if (!shooting.converged)
     throw NoSolution(
-        text("no reference at %g Hz: %s", frequency, shooting.reason.c_str()));
+        format("no reference at %g Hz: %s", frequency, shooting.reason.c_str()));
   truth.closure = shooting.closure;
   truth.motion =
       one_period(parameters, frequency, truth.state,
@@ -59,8 +59,8 @@ double agreement(const Parameters& parameters, const TrueMotion& truth, int harm
   Balance balance(bearing_problem(parameters, samples), harmonics);
   const NewtonReport report = solve(balance, omega, x, {.tolerance = 1e-11});
   if (!report.converged())
-    throw NoSolution(text("no balance of %d harmonics at %g Hz: %s", harmonics,
-                          truth.frequency, report.reason().c_str()));
+    throw NoSolution(format("no balance of %d harmonics at %g Hz: %s", harmonics,
+                            truth.frequency, report.reason().c_str()));
   return motion::relative_difference(
       motion::motion_of(body_series(parameters, balance, omega, x),
                         truth.motion.points_per_period),

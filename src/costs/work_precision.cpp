@@ -91,8 +91,9 @@ TrueMotion periodic_motion(const Parameters& parameters, double frequency,
 {
   TrueMotion truth = true_motion(parameters, frequency, settings);
   if (!truth.periodic)
-    throw NoSolution(text("the motion at %g Hz is not T-periodic (Poincare spread %.1e)",
-                          frequency, truth.spread));
+    throw NoSolution(
+        format("the motion at %g Hz is not T-periodic (Poincare spread %.1e)", frequency,
+               truth.spread));
   return truth;
 }
 
@@ -175,7 +176,7 @@ WorkPrecision compute_work_precision(const WorkPrecisionScene& scene)
         .agreement = 0};
     reference.agreement =
         agreement(parameters, reference.truth, scene.reference_harmonics);
-    Progress progress(text("work at %g Hz", frequency), scene.candidates.size());
+    Progress progress(format("work at %g Hz", frequency), scene.candidates.size());
     for (const Candidates& candidates : scene.candidates) {
       for (bool continued : {false, true})
         for (const SettingGroup& group : candidates.groups)
@@ -222,18 +223,18 @@ Table work_precision_table(const WorkPrecisionScene& scene)
 {
   Table table("Work against precision: one periodic motion, every method", work_columns);
   const WorkPrecision result = compute_work_precision(scene);
-  table.note(text("known motion below: %g Hz below the speed; %d repetitions",
-                  scene.below, scene.repetitions));
-  table.note(timed);
-  table.note(text(
+  table.note(format("known motion below: %g Hz below the speed; %d repetitions",
+                    scene.below, scene.repetitions));
+  table.note(what_is_timed);
+  table.note(format(
       "reference: shooting by rk8pd, tolerance %g; agreement: with harmonic balance, m = %d",
       scene.truth.tolerance, scene.reference_harmonics));
   for (std::size_t k = 0; k < result.cases.size(); ++k) {
     const WorkCase& c = result.cases[k];
     table.note(
-        text("case %d: %g Hz, %s; Poincare spread %.2g, closure %.2g, agreement %.2g",
-             c.number, c.truth.frequency, scene.sets[k].file.c_str(), c.truth.spread,
-             c.truth.closure, c.agreement));
+        format("case %d: %g Hz, %s; Poincare spread %.2g, closure %.2g, agreement %.2g",
+               c.number, c.truth.frequency, scene.sets[k].file.c_str(), c.truth.spread,
+               c.truth.closure, c.agreement));
   }
   for (const WorkPoint& p : result.points)
     table.row({p.number, p.frequency, std::string(p.continued ? "below" : "nothing"),

@@ -128,8 +128,8 @@ motion::PeriodicSolution require_periodic(const Parameters& parameters, double f
   motion::PeriodicSolution solution =
       motion::find_periodic(parameters, angular(frequency), harmonics, samples, settings);
   if (!solution.found())
-    throw NoSolution(text("%s: %d harmonics at %g Hz: %s", parameters.file.c_str(),
-                          harmonics, frequency, solution.newton.reason().c_str()));
+    throw NoSolution(format("%s: %d harmonics at %g Hz: %s", parameters.file.c_str(),
+                            harmonics, frequency, solution.newton.reason().c_str()));
   return solution;
 }
 
@@ -149,8 +149,8 @@ motion::Motion integrated(const DeviationScene& scene, double frequency)
 {
   const SteadyState steady = settled(scene, scene.parameters, frequency);
   if (!steady.periodic)
-    throw NoSolution(text("the motion at %g Hz is not T-periodic (spread %.2g)",
-                          frequency, steady.spread));
+    throw NoSolution(format("the motion at %g Hz is not T-periodic (spread %.2g)",
+                            frequency, steady.spread));
   return motion::motion_of(steady, points(scene));
 }
 
@@ -276,10 +276,11 @@ EvidenceList two_readings(const DeviationScene& scene)
        {std::pair{"exchanged", &ours}, std::pair{"printed", &printed}}) {
     const SteadyState steady = settled(scene, *machine, scene.reading_speed);
     list.push_back(
-        {text("D-09.contact_%s", name),
+        {format("D-09.contact_%s", name),
          motion::contact_share(*machine, motion::motion_of(steady, points(scene))), "-",
          "share of the time with a loaded ball"});
-    list.push_back({text("D-09.spread_%s", name), steady.spread, "-", "Poincare spread"});
+    list.push_back(
+        {format("D-09.spread_%s", name), steady.spread, "-", "Poincare spread"});
   }
   return list;
 }
@@ -298,17 +299,17 @@ EvidenceList unprinted_masses(const DeviationScene& scene)
       {"D-13.speed", scene.transition_speed, "Hz", "speed of the following"}};
   int number = 0;
   for (double factor : scene.mass_factors) {
-    list.push_back({text("D-13.factor_%d", ++number), factor, "-", "of both masses"});
+    list.push_back({format("D-13.factor_%d", ++number), factor, "-", "of both masses"});
     Parameters machine = scene.parameters;
     machine.stator.mass *= factor;
     machine.rotor.mass *= factor;
     const SteadyState steady = settled(scene, machine, scene.transition_speed);
     const motion::Motion motion = motion::motion_of(steady, points(scene));
     list.push_back(
-        {text("D-13.contact_%d", number), motion::contact_share(machine, motion), "-",
-         text("share of the time in contact with both masses times %g", factor)});
-    list.push_back({text("D-13.spread_%d", number), steady.spread, "-",
-                    text("Poincare spread with both masses times %g", factor)});
+        {format("D-13.contact_%d", number), motion::contact_share(machine, motion), "-",
+         format("share of the time in contact with both masses times %g", factor)});
+    list.push_back({format("D-13.spread_%d", number), steady.spread, "-",
+                    format("Poincare spread with both masses times %g", factor)});
   }
   return list;
 }
@@ -344,7 +345,7 @@ motion::Motion plain_solution(const DeviationScene& scene, double frequency,
   const NewtonReport report = newton(equations, x, {});
   if (!report.converged())
     throw NoSolution(
-        text("plain balance at %g Hz: %s", frequency, report.reason().c_str()));
+        format("plain balance at %g Hz: %s", frequency, report.reason().c_str()));
   solution.bodies = x.reshaped(4, 2 * m + 1);
   return motion::motion_of(solution.bodies, points(scene));
 }
@@ -374,14 +375,15 @@ EvidenceList printed_newton_step(const DeviationScene& scene)
       printed += balance.printed_step(printed);
       ours += balance.corrected_step(ours);
     }
-    list.push_back({text("D-06.printed_%d", iterations), residual(printed), "-",
-                    text("residual over the load after %d printed steps", iterations)});
-    list.push_back({text("D-06.ours_%d", iterations), residual(ours), "-",
-                    text("the same after %d corrected steps", iterations)});
+    list.push_back({format("D-06.printed_%d", iterations), residual(printed), "-",
+                    format("residual over the load after %d printed steps", iterations)});
+    list.push_back({format("D-06.ours_%d", iterations), residual(ours), "-",
+                    format("the same after %d corrected steps", iterations)});
   }
   for (const auto& [name, x] : {std::pair{"printed", &printed}, std::pair{"ours", &ours}})
-    list.push_back({text("D-06.distance_%s", name), (*x - truth).norm() / truth.norm(),
-                    "-", text("distance to the solution after the last step, %s", name)});
+    list.push_back({format("D-06.distance_%s", name), (*x - truth).norm() / truth.norm(),
+                    "-",
+                    format("distance to the solution after the last step, %s", name)});
   return list;
 }
 
@@ -393,7 +395,7 @@ EvidenceList printed_block(const DeviationScene& scene)
     const motion::Motion truth = integrated(scene, frequency);
     const motion::Motion printed = plain_solution(scene, frequency, FirstEntry::printed);
     const motion::Motion ours = plain_solution(scene, frequency, FirstEntry::corrected);
-    const std::string at = text("_%gHz", frequency);
+    const std::string at = format("_%gHz", frequency);
     list.push_back({"D-12.printed" + at, motion::relative_difference(printed, truth), "-",
                     "distance to time integration with the printed block"});
     list.push_back({"D-12.ours" + at, motion::relative_difference(ours, truth), "-",
@@ -449,7 +451,8 @@ void add_sampled(EvidenceList& list, const DeviationScene& scene, int m, int n,
                  const motion::Motion& truth)
 {
   const Branch branch = branch_over_range(scene, m, n);
-  const std::string where = text("_m%d_N%d", m, n), with = text("m = %d, N = %d", m, n);
+  const std::string where = format("_m%d_N%d", m, n),
+                    with = format("m = %d, N = %d", m, n);
   const auto solution = require_periodic(scene.parameters, scene.speed, m, n);
   list.push_back({"D-05.folds" + where, static_cast<double>(branch.folds.size()), "-",
                   "folds of the branch, " + with});
@@ -506,7 +509,7 @@ EvidenceList default_sample_count(const DeviationScene& scene)
                        truth = integrated(scene, scene.speed);
   const int n = default_samples(m);
   return {{"D-14.speed", scene.speed, "Hz", "speed of the errors"},
-          {"D-14.samples", static_cast<double>(n), "-", text("our N for m = %d", m)},
+          {"D-14.samples", static_cast<double>(n), "-", format("our N for m = %d", m)},
           {"D-14.samples_printed", 2.0 * m + 1, "-", "the printed N"},
           {"D-14.samples_fine", static_cast<double>(scene.fine_samples), "-",
            "the N that stands for exact"},
@@ -662,8 +665,8 @@ void add_tolerances(EvidenceList& list, const DeviationScene& scene)
   const Eigen::VectorXd exact = solution(scene.fine_tolerance);
   int number = 0;
   for (double tolerance : scene.tolerances) {
-    list.push_back({text("D-15.tolerance_%d", ++number), tolerance, "-", "of Newton"});
-    list.push_back({text("D-15.error_%d", number),
+    list.push_back({format("D-15.tolerance_%d", ++number), tolerance, "-", "of Newton"});
+    list.push_back({format("D-15.error_%d", number),
                     (solution(tolerance) - exact).norm() / exact.norm(), "-",
                     "distance to the solution with that tolerance"});
   }
@@ -677,10 +680,10 @@ void add_steps(EvidenceList& list, const DeviationScene& scene)
     const auto points = sweep_at(scene, balance, step);
     double missed = 0;
     for (const SweepPoint& point : points) missed += point.found() ? 0 : 1;
-    list.push_back({text("D-15.step_%d", ++number), step, "Hz", "of the sweep"});
-    list.push_back({text("D-15.iterations_%d", number), mean_iterations(points), "-",
+    list.push_back({format("D-15.step_%d", ++number), step, "Hz", "of the sweep"});
+    list.push_back({format("D-15.iterations_%d", number), mean_iterations(points), "-",
                     "Newton iterations per speed with that step"});
-    list.push_back({text("D-15.missed_%d", number), missed, "-",
+    list.push_back({format("D-15.missed_%d", number), missed, "-",
                     "speeds without solution with that step"});
   }
 }
@@ -707,10 +710,10 @@ EvidenceList unit_of_cpu(const DeviationScene& scene)
         static_cast<double>(balance.evaluations()) * default_samples(m);
     if (first == 0) first = instants;
     list.push_back(
-        {text("D-18.instants_m%d", m), instants, "-",
-         text("evaluations of the bearing's force over the sweep, m = %d", m)});
-    list.push_back({text("D-18.ratio_m%d", m), instants / first, "-",
-                    text("the same over the first, m = %d", m)});
+        {format("D-18.instants_m%d", m), instants, "-",
+         format("evaluations of the bearing's force over the sweep, m = %d", m)});
+    list.push_back({format("D-18.ratio_m%d", m), instants / first, "-",
+                    format("the same over the first, m = %d", m)});
   }
   return list;
 }
@@ -797,10 +800,10 @@ EvidenceList amplitude_definitions(const DeviationScene& scene)
                          default_samples(scene.harmonics))
             .bodies;
     list.push_back(
-        {text("D-10.speed_%s", name), frequency, "Hz", "speed of the amplitudes"});
+        {format("D-10.speed_%s", name), frequency, "Hz", "speed of the amplitudes"});
     for (int row : {2, 3}) {
       const Amplitudes a = amplitudes(series, row, points(scene));
-      const std::string key = text("_%s_%s", row == 2 ? "x_r" : "y_r", name);
+      const std::string key = format("_%s_%s", row == 2 ? "x_r" : "y_r", name);
       list.push_back({"D-10.half" + key, a.half_peak_to_peak, "m", "half peak-to-peak"});
       list.push_back({"D-10.largest" + key, a.largest, "-",
                       "largest modulus over half peak-to-peak"});
@@ -825,11 +828,12 @@ EvidenceList cage_and_period(const DeviationScene& scene)
   for (double ratio : scene.cage_ratios) {
     Parameters machine = scene.parameters;
     machine.bearing.cage_speed_ratio = ratio;
-    list.push_back({text("D-11.passages_c%g", ratio), passages_per_turn(machine.bearing),
-                    "-", text("ball passages per turn, c = %g", ratio)});
-    list.push_back({text("D-11.spread_c%g", ratio),
+    list.push_back({format("D-11.passages_c%g", ratio),
+                    passages_per_turn(machine.bearing), "-",
+                    format("ball passages per turn, c = %g", ratio)});
+    list.push_back({format("D-11.spread_c%g", ratio),
                     settled(scene, machine, scene.speed).spread, "-",
-                    text("Poincare spread, c = %g", ratio)});
+                    format("Poincare spread, c = %g", ratio)});
   }
   return list;
 }
@@ -851,8 +855,8 @@ EvidenceList runge_kutta_settings(const DeviationScene& scene)
     const Rk4Run run = run_rk4(scene, scene.rk4_steps[k], truth);
     (k == 0 ? first : last) = run.evaluations;
     list.push_back(
-        {text("D-16.step_%zu", k + 1), scene.rk4_steps[k], "s", "longest step of rk4"});
-    list.push_back({text("D-16.error_%zu", k + 1), run.error, "-",
+        {format("D-16.step_%zu", k + 1), scene.rk4_steps[k], "s", "longest step of rk4"});
+    list.push_back({format("D-16.error_%zu", k + 1), run.error, "-",
                     "distance of rk4 with that step to rk8pd"});
   }
   list.push_back({"D-16.work_ratio", last / first, "-",
@@ -871,7 +875,7 @@ EvidenceList speeds_of_panels(const DeviationScene& scene)
     double higher = 0;
     for (int h = 2; h <= scene.harmonics; ++h)
       higher += std::pow(harmonic(series, 2, h), 2);
-    const std::string key = text("_%zu", k + 1);
+    const std::string key = format("_%zu", k + 1);
     list.push_back({"D-17.speed" + key, frequency, "Hz", "speed of the panel"});
     list.push_back({"D-17.contact" + key, motion::contact_share(scene.parameters, motion),
                     "-", "share of the time with a loaded ball"});
@@ -919,11 +923,12 @@ EvidenceList passages_over_2t(const DeviationScene& scene)
     const SteadyState steady = settled(scene, machine, scene.speed);
     const motion::Motion motion = motion::motion_of(steady, points(scene));
     list.push_back(
-        {text("D-20.loadings_c%g", ratio),
+        {format("D-20.loadings_c%g", ratio),
          loadings_per_ball(motion::contact_evolution(machine, motion)), "-",
-         text("loadings of a ball in 2T, mean over the balls, c = %g", ratio)});
-    list.push_back({text("D-20.interval_c%g", ratio), 1 / (1 - ratio), "-",
-                    text("time between two loadings over T, 1/(1 - c), c = %g", ratio)});
+         format("loadings of a ball in 2T, mean over the balls, c = %g", ratio)});
+    list.push_back(
+        {format("D-20.interval_c%g", ratio), 1 / (1 - ratio), "-",
+         format("time between two loadings over T, 1/(1 - c), c = %g", ratio)});
   }
   return list;
 }

@@ -1,12 +1,12 @@
 #include "deviations/printed_equations.hpp"
 
-#include <Eigen/Eigenvalues>
 #include <Eigen/LU>
 #include <algorithm>
 #include <cmath>
 #include <numbers>
 
 #include "io/errors.hpp"
+#include "stability/eigenvalues.hpp"
 
 namespace rotor_stator::deviations
 {
@@ -165,7 +165,7 @@ StaticContact static_contact(const Parameters& parameters)
     u += step;
     if (std::abs(step) <= 1e-14 * std::abs(u)) return {u, force.y, slope.yy};
   }
-  throw NoSolution(text("%s: no static contact found", parameters.file.c_str()));
+  throw NoSolution(format("%s: no static contact found", parameters.file.c_str()));
 }
 
 std::vector<double> free_mode_rates(const Parameters& parameters, double joint_stiffness)
@@ -178,7 +178,7 @@ std::vector<double> free_mode_rates(const Parameters& parameters, double joint_s
       k / r.mass, -(r.stiffness() + k) / r.mass;
   matrix(2, 2) = -s.damping() / s.mass;
   matrix(3, 3) = -r.damping() / r.mass;
-  const Eigen::Vector4d real = matrix.eigenvalues().real();
+  const Eigen::VectorXd real = eigenvalues(matrix).real();
   std::vector<double> rates(real.begin(), real.end());
   std::sort(rates.rbegin(), rates.rend());
   return rates;

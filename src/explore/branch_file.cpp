@@ -20,7 +20,7 @@ const std::string format_name = "branch of harmonic balance, version 1";
 
 std::string exact(double number)
 {
-  return text("%.17g", number);
+  return format("%.17g", number);
 }
 
 /** All values of a machine on one line. */
@@ -45,12 +45,12 @@ std::vector<Column> columns_of(int harmonics)
   const auto add = [&](const std::string& name, const std::string& meaning) {
     for (const char* axis : {"x", "y"})
       columns.push_back(
-          {text("u_%s_%s", axis, name.c_str()), "m", meaning + " of u_" + axis});
+          {format("u_%s_%s", axis, name.c_str()), "m", meaning + " of u_" + axis});
   };
   add("0", "mean");
   for (int h = 1; h <= harmonics; ++h) {
-    add(text("cos%d", h), text("cosine %d", h));
-    add(text("sin%d", h), text("sine %d", h));
+    add(format("cos%d", h), format("cosine %d", h));
+    add(format("sin%d", h), format("sine %d", h));
   }
   return columns;
 }
@@ -63,8 +63,8 @@ std::string branch_text(const Parameters& parameters, int harmonics, int samples
   Table table("format: " + format_name, columns_of(harmonics));
   describe(table, parameters);
   table.note("machine: " + machine(parameters));
-  table.note(text("harmonics: %d", harmonics));
-  table.note(text("samples: %d", samples));
+  table.note(format("harmonics: %d", harmonics));
+  table.note(format("samples: %d", samples));
   table.note(std::string("direction: ") + (upwards ? "up" : "down"));
   for (std::size_t k = 0; k < branches.size(); ++k)
     for (const BranchPoint& point : branches[k]->points) {
@@ -92,7 +92,7 @@ public:
 
   [[noreturn]] void fail(const std::string& problem) const
   {
-    throw BadInput(text("%s:%d: %s", file_.c_str(), line_, problem.c_str()));
+    throw BadInput(format("%s:%d: %s", file_.c_str(), line_, problem.c_str()));
   }
 
   bool next(std::string& line)
@@ -118,7 +118,7 @@ public:
     const double value = number(word);
     if (value < least || value > most || value != std::floor(value))
       fail("'" + word.substr(0, 40) +
-           text("' is not a whole number in %d...%d", least, most));
+           format("' is not a whole number in %d...%d", least, most));
     return static_cast<int>(value);
   }
 
@@ -153,7 +153,7 @@ std::map<std::string, std::string> read_keys(Reader& reader, const Parameters& p
   }
   if (values["format"] != format_name) reader.fail("is no saved branch");
   for (const char* key : {"machine", "harmonics", "samples", "direction"})
-    if (!values.contains(key)) reader.fail(text("'# %s: ' is missing above", key));
+    if (!values.contains(key)) reader.fail(format("'# %s: ' is missing above", key));
   return values;
 }
 
@@ -170,7 +170,7 @@ SavedBranch read_header(Reader& reader, const Parameters& parameters)
     names += (names.empty() ? "" : "\t") + column.name;
   if (line != names)
     reader.fail(
-        text("the names of the columns are not those of %d harmonics", harmonics));
+        format("the names of the columns are not those of %d harmonics", harmonics));
   return {harmonics, samples, direction == "up", {}};
 }
 
@@ -198,7 +198,7 @@ SavedBranch read_branch(const std::string& file, const Parameters& parameters, i
   for (std::string line; reader.next(line);) {
     const auto words = words_of(line);
     if (words.size() != wanted)
-      reader.fail(text("%zu numbers where %zu are expected", words.size(), wanted));
+      reader.fail(format("%zu numbers where %zu are expected", words.size(), wanted));
     const int which = reader.integer(words[0], 1, 1000000);
     BranchPoint point = read_point(reader, words);
     if (which != number) continue;
@@ -206,7 +206,7 @@ SavedBranch read_branch(const std::string& file, const Parameters& parameters, i
       reader.fail("arc must increase along a branch");
     branch.points.push_back(std::move(point));
   }
-  if (branch.points.empty()) reader.fail(text("there is no branch %d", number));
+  if (branch.points.empty()) reader.fail(format("there is no branch %d", number));
   return branch;
 }
 

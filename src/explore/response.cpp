@@ -21,7 +21,7 @@ void check(const ResponseRequest& request)
   require_positive("--from", request.from);
   require_positive("--to", request.to);
   if (request.from >= request.to)
-    throw BadInput(text("--from %g: must be below --to %g", request.from, request.to));
+    throw BadInput(format("--from %g: must be below --to %g", request.from, request.to));
   require_between("--newton-tolerance", request.newton_tolerance, 1e-15, 1e-3);
   require_between("--work", request.work, 1, 1e12);
   if (request.operations) require_between("--operations", *request.operations, 1e-6, 1e6);
@@ -80,8 +80,8 @@ BranchPoint saved_start(const ResponseTask& task, Table& table)
       restart_point(*task.saved, request.at ? &at : nullptr, task.settings);
   const double frequency = point.omega / angular(1);
   if (point.omega < angular(request.from) || point.omega > angular(request.to))
-    throw BadInput(text("%s: the point at %.9g Hz is outside --from %g --to %g",
-                        request.restart.c_str(), frequency, request.from, request.to));
+    throw BadInput(format("%s: the point at %.9g Hz is outside --from %g --to %g",
+                          request.restart.c_str(), frequency, request.from, request.to));
   if (task.upwards != task.saved->upwards) point = reversed(std::move(point));
   if (task.harmonics != task.saved->harmonics) {
     const double speed = point.tangent[point.x.size()];
@@ -91,8 +91,8 @@ BranchPoint saved_start(const ResponseTask& task, Table& table)
     point.tangent.conservativeResize(point.x.size() + 1);
     point.tangent[point.x.size()] = speed;
   }
-  table.note(text("start: %s at %.12g Hz, %d harmonics", request.restart.c_str(),
-                  frequency, task.saved->harmonics));
+  table.note(format("start: %s at %.12g Hz, %d harmonics", request.restart.c_str(),
+                    frequency, task.saved->harmonics));
   return point;
 }
 
@@ -104,10 +104,10 @@ BranchPoint found_start(const ResponseTask& task, Balance& balance, Table& table
       motion::find_periodic(task.parameters, omega, task.harmonics, task.samples,
                             task.settings.newton, task.budget);
   if (!start.found())
-    throw NoSolution(text("%s: no solution found with %d harmonics at --%s %g Hz: %s",
-                          task.parameters.file.c_str(), task.harmonics,
-                          task.upwards ? "from" : "to", omega / angular(1),
-                          start.newton.reason().c_str()));
+    throw NoSolution(format("%s: no solution found with %d harmonics at --%s %g Hz: %s",
+                            task.parameters.file.c_str(), task.harmonics,
+                            task.upwards ? "from" : "to", omega / angular(1),
+                            start.newton.reason().c_str()));
   table.note("start: " + start.start);
   return point_of(balance, omega, start.x, task.upwards, task.settings);
 }
@@ -147,10 +147,11 @@ std::string summary(const Branch& branch)
     low = std::min(low, point.omega);
     high = std::max(high, point.omega);
   }
-  return text("%.9g to %.9g Hz, %zu points, %zu folds, %ld evaluations of the force, %s",
-              low / angular(1), high / angular(1), branch.points.size(),
-              branch.folds.size(), branch.evaluations,
-              ((branch.covered ? "ended: " : "incomplete: ") + branch.end).c_str());
+  return format(
+      "%.9g to %.9g Hz, %zu points, %zu folds, %ld evaluations of the force, %s",
+      low / angular(1), high / angular(1), branch.points.size(), branch.folds.size(),
+      branch.evaluations,
+      ((branch.covered ? "ended: " : "incomplete: ") + branch.end).c_str());
 }
 
 std::vector<Column> response_columns(bool stability, bool numbered)
@@ -189,17 +190,17 @@ Others others(const ResponseTask& task, Balance& balance, const Branch& main,
       {}};
   int number = 1;
   for (const IsolatedBranch& other : others.found)
-    table.note(text("branch %d: off the branches before it, found at %g Hz from %s; %s",
-                    ++number, other.omega / angular(1), other.origin.c_str(),
-                    summary(other.branch).c_str()));
+    table.note(format("branch %d: off the branches before it, found at %g Hz from %s; %s",
+                      ++number, other.omega / angular(1), other.origin.c_str(),
+                      summary(other.branch).c_str()));
   if (task.budget.used_up())
     others.missing = "the work allowed is used up: not every start was followed";
   else if (starts.cut_off > 0)
-    others.missing = text("the work allowed cut off %d of %d time integrations",
-                          starts.cut_off, task.request.isolated);
+    others.missing = format("the work allowed cut off %d of %d time integrations",
+                            starts.cut_off, task.request.isolated);
   if (!others.missing.empty()) table.note("incomplete: " + others.missing);
   if (others.found.empty())
-    table.note(text("no other branch found from %zu starts", starts.candidates.size()));
+    table.note(format("no other branch found from %zu starts", starts.candidates.size()));
   return others;
 }
 
@@ -215,7 +216,7 @@ std::string add_branches(Table& table, const ResponseTask& task, Balance& balanc
     if (task.request.stability) {
       examined.stability =
           stability_within(task.budget, task.parameters, balance, *all[k], task.settings);
-      const std::string prefix = numbered ? text("branch %zu, ", k + 1) : "";
+      const std::string prefix = numbered ? format("branch %zu, ", k + 1) : "";
       for (const std::string& note : stability_notes(*examined.stability))
         table.note(prefix + note);
       const std::string here = missing_stability(*examined.stability, task.budget);
@@ -232,11 +233,11 @@ void describe(Table& table, const ResponseTask& task, const Branch& branch)
 {
   describe(table, task.parameters);
   table.note(
-      text("method: aft, m = %d, N = %d, relative tolerance %g, pseudo-arc-length %s",
-           task.harmonics, task.samples, task.request.newton_tolerance,
-           task.upwards ? "up" : "down"));
-  table.note(text("folds: %zu", branch.folds.size()));
-  table.note(text("work: %ld evaluations of the force", branch.evaluations));
+      format("method: aft, m = %d, N = %d, relative tolerance %g, pseudo-arc-length %s",
+             task.harmonics, task.samples, task.request.newton_tolerance,
+             task.upwards ? "up" : "down"));
+  table.note(format("folds: %zu", branch.folds.size()));
+  table.note(format("work: %ld evaluations of the force", branch.evaluations));
   table.note((branch.covered ? "ended: " : "incomplete: ") + branch.end);
 }
 
@@ -248,10 +249,10 @@ std::string unfinished(const ResponseTask& task, const Branch& branch,
     return task.parameters.file + ": isolated branches: " + isolated;
   if (branch.covered)
     return stability.empty() ? "" : task.parameters.file + ": " + stability;
-  return text("%s: the branch stopped at %g Hz, before --%s %g Hz: %s",
-              task.parameters.file.c_str(), branch.points.back().omega / angular(1),
-              task.upwards ? "to" : "from", task.range().to / angular(1),
-              branch.end.c_str());
+  return format("%s: the branch stopped at %g Hz, before --%s %g Hz: %s",
+                task.parameters.file.c_str(), branch.points.back().omega / angular(1),
+                task.upwards ? "to" : "from", task.range().to / angular(1),
+                branch.end.c_str());
 }
 
 }  // namespace

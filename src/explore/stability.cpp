@@ -69,7 +69,7 @@ std::vector<Cell> stability_cells(const StablePoint& point)
 
 std::vector<std::string> stability_notes(const BranchStability& stability)
 {
-  std::vector<std::string> notes{text(
+  std::vector<std::string> notes{format(
       "stability: %d folds, %d plus-one, %d period doublings, %d Neimark-Sacker points, "
       "speeds to %g, relative; %d not located",
       count_of(stability, Bifurcation::fold), count_of(stability, Bifurcation::plus_one),
@@ -79,7 +79,7 @@ std::vector<std::string> stability_notes(const BranchStability& stability)
   for (const StablePoint& p : stability.points)
     if (p.bifurcation != Bifurcation::none)
       notes.push_back(
-          text("%s: %.9g Hz", name_of(p.bifurcation), p.point.omega / angular(1)));
+          format("%s: %.9g Hz", name_of(p.bifurcation), p.point.omega / angular(1)));
   return notes;
 }
 
@@ -88,16 +88,16 @@ std::string missing_stability(const BranchStability& stability,
 {
   if (stability.failed == 0)
     return budget.used_up()
-               ? text(
+               ? format(
                      "the work allowed is used up: bifurcations may be missing, %d were "
                      "seen and not located",
                      stability.missed)
                : "";
   const auto first = std::find_if(stability.points.begin(), stability.points.end(),
                                   [](const StablePoint& p) { return !p.examined(); });
-  return text("no multipliers at %d of %zu points, the first at %.6g Hz: %s",
-              stability.failed, stability.points.size(), first->point.omega / angular(1),
-              stability.failure.c_str());
+  return format("no multipliers at %d of %zu points, the first at %.6g Hz: %s",
+                stability.failed, stability.points.size(),
+                first->point.omega / angular(1), stability.failure.c_str());
 }
 
 }  // namespace rotor_stator::explore

@@ -21,19 +21,19 @@ void require_positive(const char* option, double value)
   constexpr double most = 1e300;  // 2 pi times as much is still a number
   if (!(value > 0 && value <= most))
     throw BadInput(
-        text("%s %g: must be a finite number > 0, at most %g", option, value, most));
+        format("%s %g: must be a finite number > 0, at most %g", option, value, most));
 }
 
 void require_between(const char* option, double value, double least, double most)
 {
   if (!(value >= least && value <= most))
-    throw BadInput(text("%s %g: must be in %g...%g", option, value, least, most));
+    throw BadInput(format("%s %g: must be in %g...%g", option, value, least, most));
 }
 
 void require_range(const char* option, int value, int least, int most)
 {
   if (value < least || value > most)
-    throw BadInput(text("%s %d: must be in %d...%d", option, value, least, most));
+    throw BadInput(format("%s %d: must be in %d...%d", option, value, least, most));
 }
 
 int checked_samples(int harmonics, const std::optional<int>& samples)
@@ -117,7 +117,7 @@ std::string stability_note(const Parameters& parameters,
 {
   try {
     const Floquet motion = paid_floquet(budget, parameters, solution.omega, solution.x);
-    return text(
+    return format(
         "stability: %s; largest Floquet multiplier %.9g +- %.2g, along the %d "
         "harmonics",
         motion.verdict(), motion.largest(), motion.uncertainty(), solution.harmonics);
@@ -132,23 +132,23 @@ motion::Motion balance_motion(const Parameters& parameters, const MotionRequest&
   const motion::AdaptiveSolution at = solved(parameters, request, budget);
   const std::string wanted =
       request.tolerance
-          ? text("tolerance %g not reached", *request.tolerance)
-          : text("no solution found with %d harmonics", at.solution.harmonics);
+          ? format("tolerance %g not reached", *request.tolerance)
+          : format("no solution found with %d harmonics", at.solution.harmonics);
   if (!at.reached)
-    throw NoSolution(text("%s: %s at %g Hz: %s", parameters.file.c_str(), wanted.c_str(),
-                          request.frequency, at.end.c_str()));
+    throw NoSolution(format("%s: %s at %g Hz: %s", parameters.file.c_str(),
+                            wanted.c_str(), request.frequency, at.end.c_str()));
   const bool is_chosen = request.tolerance && !request.harmonics;
-  table.note(
-      text("method: aft, m = %d, N = %d, relative tolerance of Newton %g",
-           at.solution.harmonics, at.solution.samples,
-           is_chosen ? level_tolerance(settings_of(request)) : request.newton_tolerance));
+  table.note(format(
+      "method: aft, m = %d, N = %d, relative tolerance of Newton %g",
+      at.solution.harmonics, at.solution.samples,
+      is_chosen ? level_tolerance(settings_of(request)) : request.newton_tolerance));
   table.note("newton: from " + at.solution.start + ", " + at.solution.newton.reason());
   if (request.tolerance)
     table.note(
-        text("error: %.2g of the largest displacement, estimated with m = %d, N = %d; "
-             "tolerance %g",
-             at.estimate.displacement, at.estimate.harmonics, at.estimate.samples,
-             *request.tolerance));
+        format("error: %.2g of the largest displacement, estimated with m = %d, N = %d; "
+               "tolerance %g",
+               at.estimate.displacement, at.estimate.harmonics, at.estimate.samples,
+               *request.tolerance));
   table.note("the period is imposed by the method");
   table.note(request.stability ? stability_note(parameters, at.solution, budget)
                                : "stability is not tested");
@@ -163,9 +163,9 @@ motion::Motion integrated_motion(const Parameters& parameters,
   const SteadyState steady =
       steady_state(parameters, angular(request.frequency), static_start(parameters),
                    steady_settings(request, periods, budget));
-  table.note(text("method: %s, %g s from rest, %ld evaluations of Eq. 7",
-                  request.method.c_str(), steady.seconds, steady.evaluations));
-  table.note(text("Poincare spread: %.3g", steady.spread));
+  table.note(format("method: %s, %g s from rest, %ld evaluations of Eq. 7",
+                    request.method.c_str(), steady.seconds, steady.evaluations));
+  table.note(format("Poincare spread: %.3g", steady.spread));
   table.note(steady.periodic ? "regime: periodic" : "regime: aperiodic");
   return motion::motion_of(steady, request.points);
 }
@@ -176,8 +176,8 @@ motion::Motion requested_motion(const Parameters& parameters,
   check(request);
   checked_samples(request.harmonics.value_or(usual_harmonics), request.samples);
   describe(table, parameters);
-  table.note(text("frequency: %.15g Hz", request.frequency));
-  const OperationBudget budget(request.operations * 1e9);
+  table.note(format("frequency: %.15g Hz", request.frequency));
+  const Work work(request.operations * 1e9);
   return request.method == "aft"
              ? balance_motion(parameters, request, budget, table)
              : integrated_motion(parameters, request, periods, budget, table);
@@ -218,8 +218,8 @@ Exploration explore_contact(const MotionRequest& request)
   const Parameters parameters = read_parameters(request.parameter_file);
   const int most_points = most_contact_rows / (2 * parameters.bearing.balls);
   if (request.points > most_points)
-    throw BadInput(text("--points %d: must be at most %d with %d balls", request.points,
-                        most_points, parameters.bearing.balls));
+    throw BadInput(format("--points %d: must be at most %d with %d balls", request.points,
+                          most_points, parameters.bearing.balls));
   const motion::Motion motion = requested_motion(parameters, request, 2, table);
   const motion::ContactEvolution evolution =
       motion::contact_evolution(parameters, motion);

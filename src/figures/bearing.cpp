@@ -78,10 +78,10 @@ Table geometry_table(const GeometryScene& scene)
        {"penetration", "m", "Delta_j - delta of Eqs 4, 5, not enlarged; 0 for a race"}});
   describe(table, scene.parameters);
   table.note("modelled: geometry alone");
-  table.note(text("clearance_factor: %.15g", scene.clearance_factor));
-  table.note(text("displacement_factor: %.15g", scene.displacement_factor));
-  table.note(text("drawn radii: R = %.15g m, R_b = %.15g m", scene.inner_race_radius,
-                  scene.ball_radius));
+  table.note(format("clearance_factor: %.15g", scene.clearance_factor));
+  table.note(format("displacement_factor: %.15g", scene.displacement_factor));
+  table.note(format("drawn radii: R = %.15g m, R_b = %.15g m", scene.inner_race_radius,
+                    scene.ball_radius));
   for (const Circle& c : draw_bearing(scene))
     table.row({static_cast<int>(c.part), c.ball, c.centre.x, c.centre.y, c.radius,
                c.angle, c.penetration});

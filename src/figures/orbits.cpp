@@ -87,24 +87,24 @@ namespace
 void describe_panels(Table& table, const OrbitScene& scene)
 {
   describe(table, scene.parameters);
-  table.note(text("harmonic balance: m = %d, N = %d, relative tolerance %g",
-                  scene.harmonics, scene.samples, NewtonSettings{}.tolerance));
-  table.note(
-      text("time integration: %s from rest until the Poincare spread is below %g or "
-           "for %g s; periodic below %g",
-           scene.time_integration.stepper.method.c_str(), scene.time_integration.settled,
-           scene.time_integration.longest, scene.time_integration.periodic));
+  table.note(format("harmonic balance: m = %d, N = %d, relative tolerance %g",
+                    scene.harmonics, scene.samples, NewtonSettings{}.tolerance));
+  table.note(format(
+      "time integration: %s from rest until the Poincare spread is below %g or "
+      "for %g s; periodic below %g",
+      scene.time_integration.stepper.method.c_str(), scene.time_integration.settled,
+      scene.time_integration.longest, scene.time_integration.periodic));
 }
 
 void describe_panel(Table& table, std::size_t number, const OrbitPanel& panel)
 {
   const NewtonReport& newton = panel.balance.newton;
-  table.note(
-      text("panel %zu: %g Hz: harmonic balance from %s, %s; time integration %s, spread "
-           "%.3g after %.3g s",
-           number, panel.frequency, panel.balance.start.c_str(), newton.reason().c_str(),
-           panel.steady.periodic ? "periodic" : "aperiodic", panel.steady.spread,
-           panel.steady.seconds));
+  table.note(format(
+      "panel %zu: %g Hz: harmonic balance from %s, %s; time integration %s, spread "
+      "%.3g after %.3g s",
+      number, panel.frequency, panel.balance.start.c_str(), newton.reason().c_str(),
+      panel.steady.periodic ? "periodic" : "aperiodic", panel.steady.spread,
+      panel.steady.seconds));
 }
 
 const std::vector<Column> panel_columns{

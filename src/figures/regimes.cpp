@@ -33,7 +33,7 @@ Table regime_table(const std::string& scene_file, const std::string& reading)
   scene.toml().refuse_unknown_keys();
   Table table("Regimes of the motion", regime_columns);
   for (const Parameters& parameters : sets) describe(table, parameters);
-  table.note(text(
+  table.note(format(
       "modelled: rk4 from the 6-harmonic solution or the static load, at most %g s; then "
       "%g s for contact and two periods for the rest, %d instants per period",
       settings.longest, settings.window, settings.points_per_period));

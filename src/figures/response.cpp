@@ -167,9 +167,9 @@ Table response_table(const ResponseScene& scene)
   Table table("Frequency response (Fig. 3)", response_columns);
   for (std::size_t set = 0; set < scene.sets.size(); ++set) {
     describe(table, scene.sets[set]);
-    table.note(text("  harmonic balance: m = %d, N = %d, relative tolerance %g",
-                    scene.harmonics[set], default_samples(scene.harmonics[set]),
-                    NewtonSettings{}.tolerance));
+    table.note(format("  harmonic balance: m = %d, N = %d, relative tolerance %g",
+                      scene.harmonics[set], default_samples(scene.harmonics[set]),
+                      NewtonSettings{}.tolerance));
   }
   table.note("modelled: amplitudes of the m-harmonic solution; time integration by " +
              scene.time_integration.stepper.method + " from rest at each of its speeds");

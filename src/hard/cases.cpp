@@ -75,7 +75,7 @@ double first_fold(const HardCase& hard, double from, double to)
       follow_branch(balance, angular(from), angular(to),
                     quasi_static_start(p, angular(from), hard.harmonics), settings);
   if (branch.folds.empty())
-    throw NoSolution(hard.name + text(": no fold from %g to %g Hz", from, to));
+    throw NoSolution(hard.name + format(": no fold from %g to %g Hz", from, to));
   return branch.folds.front() / angular(1);
 }
 
@@ -110,7 +110,7 @@ void add_speeds(Group& group, HardCase hard, std::vector<HardCase>& cases)
     hard.from = cold ? frequency : branch_start(frequency);
     if (graze)
       hard.parameters.bearing.clearance = grazing_clearance(hard.parameters, frequency);
-    hard.name = name + text(", %.6g Hz", frequency);
+    hard.name = name + format(", %.6g Hz", frequency);
     cases.push_back(hard);
   }
 }
@@ -135,7 +135,7 @@ void add_group(StrictToml toml, const Parameters& parameters,
   for (double value : toml.numbers("values", Range::any)) {
     HardCase hard = group.base;
     change(hard, key, value, toml);
-    hard.name += text(": %g", value);
+    hard.name += format(": %g", value);
     add_speeds(group, hard, cases);
   }
 }

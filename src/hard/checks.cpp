@@ -1,6 +1,5 @@
 #include "hard/checks.hpp"
 
-#include <Eigen/Eigenvalues>
 #include <Eigen/LU>
 #include <algorithm>
 #include <cmath>
@@ -8,6 +7,7 @@
 #include "balance/bearing_problem.hpp"
 #include "io/errors.hpp"
 #include "io/journal.hpp"
+#include "stability/eigenvalues.hpp"
 #include "stability/shooting.hpp"
 
 namespace rotor_stator::hard
@@ -18,7 +18,7 @@ namespace
 
 double largest_modulus(const Matrix8& phi)
 {
-  return phi.allFinite() ? phi.eigenvalues().cwiseAbs().maxCoeff() : -1;
+  return phi.allFinite() ? eigenvalues(phi).cwiseAbs().maxCoeff() : -1;
 }
 
 /** What can be said of stability from the largest multiplier and its change when refined: nothing
@@ -273,9 +273,9 @@ void count(const std::vector<Judgement>& judgements, Table& table)
       return number;
     };
     table.note(name_of(all_methods[k]) +
-               text(": %d solved, %d refused, %d silent errors, %d unconfirmed",
-                    ended("solved"), ended("refused"), ended("silent error"),
-                    ended("unconfirmed")));
+               format(": %d solved, %d refused, %d silent errors, %d unconfirmed",
+                      ended("solved"), ended("refused"), ended("silent error"),
+                      ended("unconfirmed")));
   }
 }
 
@@ -287,11 +287,11 @@ Table hard_table(const std::string& list, int every)
   const auto judgements = judge_all(hard, every);
   Table table("How each method ends on the hard cases", columns);
   table.note(
-      text("rule: claimed when the stated error is at most %g; false when the check "
-           "finds more than %g times it (and %g), or more than %g",
-           hard.rule.accuracy, hard.rule.most_error_ratio, hard.rule.least_error,
-           hard.rule.most_error));
-  table.note(text("cases: %zu", hard.cases.size()));
+      format("rule: claimed when the stated error is at most %g; false when the check "
+             "finds more than %g times it (and %g), or more than %g",
+             hard.rule.accuracy, hard.rule.most_error_ratio, hard.rule.least_error,
+             hard.rule.most_error));
+  table.note(format("cases: %zu", hard.cases.size()));
   count(judgements, table);
   const std::size_t methods = std::size(all_methods);
   for (std::size_t piece = 0; piece < judgements.size(); piece += every)

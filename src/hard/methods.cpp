@@ -66,7 +66,7 @@ namespace
 void claim(const HardRule& rule, const std::string& what, Answer& answer)
 {
   if (!(answer.stated <= rule.accuracy))
-    throw NoSolution(what + text(" moves it by %.2g of its size", answer.stated));
+    throw NoSolution(what + format(" moves it by %.2g of its size", answer.stated));
   answer.claimed = true;
 }
 
@@ -109,8 +109,9 @@ Answer answer_by_shooting(const HardCase& hard, const HardRule& rule)
   const double omega = angular(hard.frequency);
   try {
     if (!has_rotation_period(hard.parameters.bearing))
-      throw NoSolution(text("n*omega_cage/omega = %.9g is not a whole number: no period",
-                            passages_per_turn(hard.parameters.bearing)));
+      throw NoSolution(
+          format("n*omega_cage/omega = %.9g is not a whole number: no period",
+                 passages_per_turn(hard.parameters.bearing)));
     const Shooting coarse = closed_from_rest(hard, answer);
     if (!coarse.converged) throw NoSolution("shooting: " + coarse.reason);
     State finer = answer.state;
@@ -143,8 +144,8 @@ void require_waited(const HardCase& hard, const SteadyState& steady)
   const double wait = std::log(1e6) / slowest_decay(hard.parameters);
   if (!steady.periodic && steady.seconds < wait)
     throw NoSolution(
-        text("not settled after %.3g s, where a transient may last %s", steady.seconds,
-             std::isfinite(wait) ? text("%.3g s", wait).c_str() : "for ever"));
+        format("not settled after %.3g s, where a transient may last %s", steady.seconds,
+               std::isfinite(wait) ? format("%.3g s", wait).c_str() : "for ever"));
 }
 
 /** What is left of a transient whose section moves by `spread` in one window. */
@@ -170,7 +171,7 @@ Answer answer_by_rk4(const HardCase& hard, const HardRule& rule)
   try {
     const SteadyState steady = settled(hard, step, static_start(hard.parameters));
     require_waited(hard, steady);
-    answer.reason = text("%.3g s from rest", steady.seconds);
+    answer.reason = format("%.3g s from rest", steady.seconds);
     answer.residual = steady.spread;
     answer.periodic = steady.periodic;
     answer.state = steady.states.front();
@@ -246,9 +247,9 @@ Eigen::VectorXd by_predictor(const HardCase& hard, Balance& balance)
       [&](double omega) { return quasi_static_start(p, omega, balance.harmonics()); },
       motion::sweep_settings(p));
   if (!points.back().found())
-    throw NoSolution(text("the sweep with m = %d found nothing at %g Hz: %s",
-                          balance.harmonics(), hard.frequency,
-                          points.back().newton.reason().c_str()));
+    throw NoSolution(format("the sweep with m = %d found nothing at %g Hz: %s",
+                            balance.harmonics(), hard.frequency,
+                            points.back().newton.reason().c_str()));
   return points.back().x;
 }
 
@@ -260,8 +261,8 @@ Eigen::VectorXd by_arc_length(const HardCase& hard, Balance& balance)
                     quasi_static_start(p, angular(hard.from), balance.harmonics()),
                     motion::arc_length_settings(p));
   if (!branch.covered)
-    throw NoSolution(text("the branch with m = %d ended before %g Hz: ",
-                          balance.harmonics(), hard.frequency) +
+    throw NoSolution(format("the branch with m = %d ended before %g Hz: ",
+                            balance.harmonics(), hard.frequency) +
                      branch.end);
   return branch.points.back().x;
 }
@@ -278,8 +279,9 @@ motion::PeriodicSolution solved(const HardCase& hard, Resolution with,
   solution.x = resize_harmonics(start, 2, with.harmonics);
   solution.newton = solve(balance, omega, solution.x, {});
   if (!solution.found())
-    throw NoSolution(text("Newton with m = %d, N = %d: ", with.harmonics, with.samples) +
-                     solution.newton.reason());
+    throw NoSolution(
+        format("Newton with m = %d, N = %d: ", with.harmonics, with.samples) +
+        solution.newton.reason());
   solution.bodies = body_series(p, balance, omega, solution.x);
   return solution;
 }
@@ -318,8 +320,8 @@ void refine(const HardCase& hard, const motion::PeriodicSolution& solution,
   const double force = motion::relative_force_difference(hard.parameters, coarse, fine);
   answer.stated_force = std::isfinite(force) ? force : 0;
   if (!(answer.stated <= rule.accuracy))
-    throw NoSolution(text("m = %d is too few: 2m and 2N move it by %.2g of its size",
-                          hard.harmonics, answer.stated));
+    throw NoSolution(format("m = %d is too few: 2m and 2N move it by %.2g of its size",
+                            hard.harmonics, answer.stated));
   answer.claimed = true;
 }
 
@@ -329,7 +331,8 @@ Answer by_balance(const HardCase& hard, const HardRule& rule, Approach approach)
   const OperationBudget budget(most_work);
   try {
     const motion::PeriodicSolution solution = reached(hard, approach, budget);
-    answer.reason = hard.from == hard.frequency ? "cold" : text("from %g Hz", hard.from);
+    answer.reason =
+        hard.from == hard.frequency ? "cold" : format("from %g Hz", hard.from);
     answer.residual = solution.newton.delta_1;
     answer.harmonics = hard.harmonics;
     answer.samples = hard.samples;

@@ -28,8 +28,8 @@ int steps_per_interval(double period, int intervals, double longest_step)
   const double steps = std::ceil(period / intervals / longest_step - 1e-9);
   if (!(steps * intervals <= most_steps_per_period))
     throw NoSolution(
-        text("rk4 would need steps of %.3g s in a period of %.3g s, more than %.3g",
-             longest_step, period, most_steps_per_period));
+        format("rk4 would need steps of %.3g s in a period of %.3g s, more than %.3g",
+               longest_step, period, most_steps_per_period));
   return std::max(1, static_cast<int>(steps));
 }
 

@@ -53,7 +53,7 @@ double checked_period(double omega, double seconds)
     throw NoSolution("the period of rotation is too long to be integrated");
   if (!(seconds / period <= most_periods))
     throw NoSolution(
-        text("%g s are more than %g periods of rotation", seconds, most_periods));
+        format("%g s are more than %g periods of rotation", seconds, most_periods));
   return period;
 }
 
@@ -91,7 +91,7 @@ public:
     ++periods_;
     for (double x : std::bit_cast<std::array<double, 8>>(state_))
       if (!std::isfinite(x))
-        throw NoSolution(text("time integration diverged after %ld periods", periods_));
+        throw NoSolution(format("time integration diverged after %ld periods", periods_));
   }
 
   double spread() const { return size_ > 0 ? extent(section_) / size_ : 0; }

@@ -216,8 +216,8 @@ GslStepper::GslStepper(const Parameters& parameters, double omega,
       &driver_->system, gsl_step_type(settings.method), first_step, settings.tolerance, 0,
       1, 0, sizes.data()));
   if (!driver_->driver)
-    throw NoSolution(text("%s cannot start with a step of %g s and a tolerance of %g",
-                          settings.method.c_str(), first_step, settings.tolerance));
+    throw NoSolution(format("%s cannot start with a step of %g s and a tolerance of %g",
+                            settings.method.c_str(), first_step, settings.tolerance));
 }
 
 GslStepper::~GslStepper() = default;
@@ -233,7 +233,7 @@ void GslStepper::advance(long interval, State& state)
   if (status != GSL_SUCCESS) {
     driver_->equation.allowance.take(1);  // throws where that was the reason
     throw NoSolution(
-        text("time integration stopped at t = %.9g s: %s", t, gsl_strerror(status)));
+        format("time integration stopped at t = %.9g s: %s", t, gsl_strerror(status)));
   }
   state = std::bit_cast<State>(y);
 }

@@ -17,8 +17,8 @@ void OperationBudget::spend(double operations) const
   for (Account* account = account_.get(); account; account = account->parent.get()) {
     if (!(operations <= account->left)) {
       account->left = 0;
-      throw NoSolution(text("the work allowed, %.3g billion operations, is used up",
-                            account->most / 1e9));
+      throw NoSolution(format("the work allowed, %.3g billion operations, is used up",
+                              account->most / 1e9));
     }
     account->left -= operations;
   }
@@ -35,7 +35,7 @@ OperationBudget OperationBudget::part(double share) const
 void Allowance::take(long more)
 {
   if (!(static_cast<double>(used_ + more) <= most_))
-    throw NoSolution(text("not done within %.3g evaluations of Eq. 7", most_));
+    throw NoSolution(format("not done within %.3g evaluations of Eq. 7", most_));
   if (work_.bounded()) work_.spend(static_cast<double>(more) * price_);
   used_ += more;
 }

@@ -6,15 +6,15 @@
 namespace rotor_stator
 {
 
-std::string text(const char* format, ...)
+std::string format(const char* pattern, ...)
 {
   std::va_list arguments;
-  va_start(arguments, format);
+  va_start(arguments, pattern);
   std::va_list copy;
   va_copy(copy, arguments);
-  std::string result(std::vsnprintf(nullptr, 0, format, copy), '\0');
+  std::string result(std::vsnprintf(nullptr, 0, pattern, copy), '\0');
   va_end(copy);
-  std::vsnprintf(result.data(), result.size() + 1, format, arguments);
+  std::vsnprintf(result.data(), result.size() + 1, pattern, arguments);
   va_end(arguments);
   return result;
 }

@@ -24,6 +24,6 @@ struct NoSolution : std::runtime_error {
 };
 
 /** printf-style formatting of one message. */
-std::string text(const char* format, ...) __attribute__((format(printf, 1, 2)));
+std::string format(const char* pattern, ...) __attribute__((format(printf, 1, 2)));
 
 }  // namespace rotor_stator

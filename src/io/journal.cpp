@@ -69,7 +69,7 @@ Rows read_journal(const Study& study)
 std::string journal_line(std::size_t piece, const Row& row)
 {
   std::string line = std::to_string(piece);
-  for (double value : row) line += text(" %.17g", value);
+  for (double value : row) line += format(" %.17g", value);
   return line + "\n";
 }
 

@@ -2,6 +2,8 @@
 
 #include <unistd.h>
 #include <CLI/CLI.hpp>
+#include <algorithm>
+#include <charconv>
 #include <cstdio>
 #include <new>
 
@@ -72,15 +74,36 @@ void write(const std::string& text)
     throw NoSolution("the table could not be written to stdout");
 }
 
-int run(int argc, char** argv, const std::string& scene_file,
+const std::string& Options::operator[](const std::string& name) const
+{
+  return std::find_if(others.begin(), others.end(),
+                      [&](const ExtraOption& option) { return option.name == name; })
+      ->value;
+}
+
+int whole_number(const std::string& option, const std::string& value, int least, int most)
+{
+  int number = 0;
+  const char* const end = value.data() + value.size();
+  const auto [rest, error] = std::from_chars(value.data(), end, number);
+  if (error != std::errc() || rest != end || number < least || number > most)
+    throw BadInput(format("%s %s: must be a whole number from %d to %d", option.c_str(),
+                          value.c_str(), least, most));
+  return number;
+}
+
+int run(int argc, char** argv, const Program& program,
         const std::function<Table(const Options&)>& compute)
 {
-  Options options{scene_file, "exchanged"};
-  CLI::App app("Computes one table of the paper; TSV on stdout.");
+  Options options{program.scene_file, "exchanged", program.options};
+  CLI::App app("Computes one table; TSV on stdout.");
   app.add_option("scene", options.scene_file, "scene file")->capture_default_str();
-  app.add_option("--reading", options.reading,
-                 "reading of Table 1: exchanged or as-printed")
-      ->capture_default_str();
+  if (program.has_readings)
+    app.add_option("--reading", options.reading,
+                   "reading of Table 1: exchanged or as-printed")
+        ->capture_default_str();
+  for (ExtraOption& option : options.others)
+    app.add_option(option.name, option.value, option.meaning)->capture_default_str();
   return guarded([&] {
     if (!parse(app, argc, argv)) return 0;
     write(compute(options).text());

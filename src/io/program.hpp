@@ -6,6 +6,7 @@ A line on stderr that is rewritten in place, and only when a person is watching.
 
 #include <functional>
 #include <string>
+#include <vector>
 
 #include "io/table.hpp"
 
@@ -39,15 +40,35 @@ private:
 Options in, one table out on stdout, log on stderr; the exit status says how it ended: 0
 done, 2 bad input, 3 no solution. Nothing is written before everything is computed. */
 
+/** One more option of a program, with its default. */
+struct ExtraOption {
+  std::string name;  ///< with its dashes
+  std::string value;
+  std::string meaning;
+};
+
+/** What a program reads. */
+struct Program {
+  std::string scene_file;
+  std::vector<ExtraOption> options = {};
+  bool has_readings = true;  ///< of Table 1 (D-09)
+};
+
 struct Options {
   std::string scene_file;  ///< the scene of the figure
   std::string reading;     ///< of Table 1: "exchanged" or "as-printed" (D-09)
+  std::vector<ExtraOption> others;
+
+  const std::string& operator[](const std::string& name) const;
 };
 
-/** Runs the program of a figure whose scene is `scene_file` unless another one is named.
- */
-int run(int argc, char** argv, const std::string& scene_file,
+/** Runs a program: parses its options, computes its table, prints it. */
+int run(int argc, char** argv, const Program& program,
         const std::function<Table(const Options&)>& compute);
+
+/** The whole number that an option's value is. Throws BadInput unless `least` ≤ it ≤ `most`. */
+int whole_number(const std::string& option, const std::string& value, int least,
+                 int most);
 
 /** Parses the options; false when the help was asked for and printed. Throws BadInput. */
 bool parse(CLI::App& app, int argc, char** argv);

@@ -65,8 +65,8 @@ std::string read_file(const std::string& file)
   require_plain_file(file, "a TOML file");
   std::error_code ignored;
   if (std::filesystem::file_size(file, ignored) > most_bytes)
-    throw BadInput(file + text(": is longer than %d bytes; a TOML file is expected",
-                               static_cast<int>(most_bytes)));
+    throw BadInput(file + format(": is longer than %d bytes; a TOML file is expected",
+                                 static_cast<int>(most_bytes)));
   std::ifstream in(file);
   if (!in) throw BadInput(file + ": cannot be read");
   std::ostringstream content;
@@ -90,9 +90,9 @@ double checked_number(const toml::node& node, Range range, const StrictToml& rea
   const double value = *node.value<double>();
   if (!std::isfinite(value)) reader.fail(key, "must be finite");
   if (range == Range::positive && value <= 0)
-    reader.fail(key, text("must be > 0, got %g", value));
+    reader.fail(key, format("must be > 0, got %g", value));
   if (range == Range::not_negative && value < 0)
-    reader.fail(key, text("must be >= 0, got %g", value));
+    reader.fail(key, format("must be >= 0, got %g", value));
   return value;
 }
 
@@ -102,8 +102,8 @@ int checked_integer(const toml::node& node, int least, int most, const StrictTom
   if (!node.is_integer()) reader.fail(key, "must be a whole number");
   const auto value = *node.value<std::int64_t>();
   if (value < least || value > most)
-    reader.fail(key, text("must be in %d...%d, got %lld", least, most,
-                          static_cast<long long>(value)));
+    reader.fail(key, format("must be in %d...%d, got %lld", least, most,
+                            static_cast<long long>(value)));
   return static_cast<int>(value);
 }
 

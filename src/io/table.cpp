@@ -44,7 +44,7 @@ bool Cell::is_printable() const
 std::string Cell::text() const
 {
   if (const auto* word = std::get_if<std::string>(&value_)) return *word;
-  return rotor_stator::text("%.15g", std::get<double>(value_));
+  return format("%.15g", std::get<double>(value_));
 }
 
 Table::Table(std::string what, std::vector<Column> columns) : columns_(std::move(columns))
@@ -126,12 +126,12 @@ void NumberTable::read_row(const std::string& line, int number)
     const auto [last, error] = std::from_chars(cell.data(), end, value);
     if (error != std::errc() || last != end)
       throw BadInput(
-          text("%s:%d: \"%s\" is not a number", file_.c_str(), number, cell.c_str()));
+          format("%s:%d: \"%s\" is not a number", file_.c_str(), number, cell.c_str()));
     row.push_back(value);
   }
   if (row.size() != names_.size())
-    throw BadInput(text("%s:%d: %zu cells, must be %zu", file_.c_str(), number,
-                        row.size(), names_.size()));
+    throw BadInput(format("%s:%d: %zu cells, must be %zu", file_.c_str(), number,
+                          row.size(), names_.size()));
   rows_.push_back(std::move(row));
 }
 

@@ -5,6 +5,7 @@ Stamped when the library is compiled. A new commit alone triggers no rebuild. */
 #pragma once
 
 #include <concepts>
+#include <functional>
 #include <string>
 #include <variant>
 #include <vector>
@@ -46,17 +47,39 @@ private:
   std::variant<double, std::string> value_;
 };
 
+/** A column with where its value stands in a row of type `Row`. */
+template <class Row>
+struct Field : Column {
+  std::function<Cell(const Row&)> value;
+};
+
 class Table
 {
 public:
   /** `what` is the first line of the header. */
   Table(std::string what, std::vector<Column> columns);
 
+  /** Columns from a list of fields. */
+  template <class Row>
+  Table(std::string what, const std::vector<Field<Row>>& fields)
+      : Table(std::move(what), std::vector<Column>(fields.begin(), fields.end()))
+  {
+  }
+
   /** One more `#` line. */
   void note(const std::string& line);
 
   /** Throws NoSolution if a number is not finite: no NaN is ever printed as a result. */
   void row(std::vector<Cell> cells);
+
+  /** The row of `item`. */
+  template <class Row>
+  void row(const std::vector<Field<Row>>& fields, const Row& item)
+  {
+    std::vector<Cell> cells;
+    for (const Field<Row>& field : fields) cells.push_back(field.value(item));
+    row(std::move(cells));
+  }
 
   /** A blank line: curves are drawn with a gap here. */
   void gap();

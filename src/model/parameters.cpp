@@ -46,10 +46,10 @@ void read_cage(StrictToml& table, Bearing& bearing)
   if (bearing.balls >= 2 &&
       bearing.radius_ratio >= std::sin(std::numbers::pi / bearing.balls))
     table.fail("ball_radius_m",
-               text("makes the %d balls overlap: R_b/(R_b+R) = %g must be "
-                    "below sin(pi/n) = %g",
-                    bearing.balls, bearing.radius_ratio,
-                    std::sin(std::numbers::pi / bearing.balls)));
+               format("makes the %d balls overlap: R_b/(R_b+R) = %g must be "
+                      "below sin(pi/n) = %g",
+                      bearing.balls, bearing.radius_ratio,
+                      std::sin(std::numbers::pi / bearing.balls)));
 }
 
 Bearing read_bearing(StrictToml& table)
@@ -121,16 +121,16 @@ std::vector<Parameters> read_parameter_list(SceneFile& scene, const std::string&
 void describe(Table& table, const Parameters& parameters)
 {
   const auto body = [](const char* name, const Body& b) {
-    return text("%s: m = %.15g kg, omega_0 = %.15g rad/s, xi = %.15g", name, b.mass,
-                b.natural_frequency, b.damping_ratio);
+    return format("%s: m = %.15g kg, omega_0 = %.15g rad/s, xi = %.15g", name, b.mass,
+                  b.natural_frequency, b.damping_ratio);
   };
   const Bearing& bearing = parameters.bearing;
   table.note("parameters: " + parameters.file + " (" + parameters.title + ")");
   table.note("  " + body("stator", parameters.stator) + "; " +
              body("rotor", parameters.rotor));
-  table.note(text("  m_e e = %.15g kg m; g = %.15g m/s^2", parameters.unbalance,
-                  parameters.gravity));
-  table.note(text(
+  table.note(format("  m_e e = %.15g kg m; g = %.15g m/s^2", parameters.unbalance,
+                    parameters.gravity));
+  table.note(format(
       "  bearing: n = %d, K_H = %.15g N/m^1.5, delta = %.15g m, omega_cage/omega = %.15g",
       bearing.balls, bearing.contact_stiffness, bearing.clearance,
       bearing.cage_speed_ratio));

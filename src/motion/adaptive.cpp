@@ -79,16 +79,16 @@ AdaptiveSolution find_with_error(const Parameters& parameters, double omega,
   AdaptiveSolution at{};
   at.solution = find_periodic(parameters, omega, harmonics, samples, newton, budget);
   if (!at.found()) {
-    at.end = text("no solution found with %d harmonics: %s", harmonics,
-                  at.solution.newton.reason().c_str());
+    at.end = format("no solution found with %d harmonics: %s", harmonics,
+                    at.solution.newton.reason().c_str());
     return at;
   }
   at.estimate = estimate_error(parameters, at.solution, budget);
   at.reached = at.estimate.settled && at.estimate.displacement <= tolerance;
   at.end = at.estimate.settled
-               ? text("the error with %d harmonics is estimated as %.2g", harmonics,
-                      at.estimate.displacement)
-               : text("the error with %d harmonics cannot be estimated", harmonics);
+               ? format("the error with %d harmonics is estimated as %.2g", harmonics,
+                        at.estimate.displacement)
+               : format("the error with %d harmonics cannot be estimated", harmonics);
   return at;
 }
 

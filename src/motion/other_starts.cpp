@@ -54,8 +54,8 @@ FoundStarts other_starts(const Parameters& parameters, SpeedRange range, int har
     }
     for (int j = 1; j <= wanted.random; ++j)
       starts.candidates.push_back({omega, random_coefficients(size, harmonics, generator),
-                                   text("random start %d of seed %llu", j,
-                                        static_cast<unsigned long long>(wanted.seed))});
+                                   format("random start %d of seed %llu", j,
+                                          static_cast<unsigned long long>(wanted.seed))});
   }
   return starts;
 }

@@ -1,6 +1,5 @@
 #include "stability/floquet.hpp"
 
-#include <Eigen/Eigenvalues>
 #include <algorithm>
 #include <cmath>
 #include <limits>
@@ -9,6 +8,7 @@
 #include "balance/fourier_transform.hpp"
 #include "io/errors.hpp"
 #include "model/rotor_stator.hpp"
+#include "stability/eigenvalues.hpp"
 
 namespace rotor_stator
 {
@@ -37,10 +37,7 @@ Multipliers multipliers_of(const Eigen::MatrixXd& phi)
     scaled.topRightCorner(d, d) *= rate;
     scaled.bottomLeftCorner(d, d) /= rate;
   }
-  const Eigen::EigenSolver<Eigen::MatrixXd> solver(scaled, false);
-  if (solver.info() != Eigen::Success)
-    throw NoSolution("the multipliers of the motion cannot be computed");
-  const Eigen::VectorXcd values = solver.eigenvalues();
+  const Eigen::VectorXcd values = eigenvalues(scaled);
   Multipliers multipliers(values.begin(), values.end());
   sort_by_modulus(multipliers);
   return multipliers;

@@ -1,12 +1,11 @@
 #include "stability/hill.hpp"
 
-#include <Eigen/Eigenvalues>
 #include <algorithm>
 #include <cmath>
 #include <numbers>
 
 #include "balance/fourier_transform.hpp"
-#include "io/errors.hpp"
+#include "stability/eigenvalues.hpp"
 
 namespace rotor_stator
 {
@@ -103,17 +102,14 @@ std::vector<Candidate> candidates(const Quadratic& q, const Eigen::MatrixXcd& t,
   Eigen::MatrixXd standard(2 * n, 2 * n);
   standard << Eigen::MatrixXd::Zero(n, n), rate * Eigen::MatrixXd::Identity(n, n),
       -q.constant / rate, -q.linear;
-  const Eigen::EigenSolver<Eigen::MatrixXd> solver(standard,
-                                                   choice == HillChoice::most_symmetric);
-  if (solver.info() != Eigen::Success)
-    throw NoSolution("the eigenvalues of Hill's matrix cannot be computed");
+  const bool symmetric = choice == HillChoice::most_symmetric;
+  const Eigensystem system =
+      symmetric ? eigensystem(standard) : Eigensystem{eigenvalues(standard), {}};
   std::vector<Candidate> all;
   for (Eigen::Index j = 0; j < 2 * n; ++j) {
-    const Complex exponent = solver.eigenvalues()[j];
-    all.push_back(
-        {exponent, choice == HillChoice::least_imaginary
-                       ? std::abs(exponent.imag())
-                       : asymmetry(t * solver.eigenvectors().col(j).head(n), d)});
+    const Complex exponent = system.values[j];
+    all.push_back({exponent, symmetric ? asymmetry(t * system.vectors.col(j).head(n), d)
+                                       : std::abs(exponent.imag())});
   }
   std::sort(all.begin(), all.end(), [](const Candidate& a, const Candidate& b) {
     return a.rank != b.rank ? a.rank < b.rank : a.exponent.imag() > b.exponent.imag();

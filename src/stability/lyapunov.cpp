@@ -76,8 +76,8 @@ double Neighbours::pull_back()
   const Vector8 apart = vector_of(neighbour_) - y;
   const double growth = apart.cwiseQuotient(scales_).norm() / first_distance;
   if (!std::isfinite(growth) || !(growth > 0))
-    throw NoSolution(text("neighbouring motions after %ld periods: distance %g", periods_,
-                          growth * first_distance));
+    throw NoSolution(format("neighbouring motions after %ld periods: distance %g",
+                            periods_, growth * first_distance));
   neighbour_ = state_of(y + apart / growth);
   return std::log(growth);
 }

@@ -95,9 +95,9 @@ private:
   {
     if (evaluations_ > settings_.most_evaluations)
       throw NoSolution(
-          text("the disturbances need more than %ld evaluations of the stiffness over "
-               "one period",
-               settings_.most_evaluations));
+          format("the disturbances need more than %ld evaluations of the stiffness over "
+                 "one period",
+                 settings_.most_evaluations));
     double fastest = 0;
     for (double tau : {0.2, 0.5, 0.8})
       fastest = std::max(fastest, squared_rate(panel.phase(tau)));

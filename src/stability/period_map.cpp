@@ -106,7 +106,7 @@ PeriodMap period_map(const Parameters& parameters, double omega, const State& st
       gsl_odeiv2_driver_alloc_scaled_new(&system, gsl_step_type(method),
                                          std::min(period, default_step(parameters)),
                                          tolerance, 0, 1, 0, scale.data()));
-  if (!driver) throw NoSolution(text("%s cannot start a period", method.c_str()));
+  if (!driver) throw NoSolution(format("%s cannot start a period", method.c_str()));
   std::array<double, equations> y{};
   Eigen::Map<Vector8>(y.data()) = vector_of(start);
   Eigen::Map<Matrix8> disturbances(y.data() + 8);  // the transpose of Φ
@@ -116,7 +116,7 @@ PeriodMap period_map(const Parameters& parameters, double omega, const State& st
   if (status != GSL_SUCCESS) {
     variation.allowance.take(1);  // throws where that was the reason
     throw NoSolution(
-        text("time integration stopped at t = %.9g s: %s", t, gsl_strerror(status)));
+        format("time integration stopped at t = %.9g s: %s", t, gsl_strerror(status)));
   }
   return {.end = state_of(Eigen::Map<const Vector8>(y.data())),
           .derivative = disturbances.transpose(),

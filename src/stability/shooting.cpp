@@ -187,13 +187,13 @@ private:
     if (report_.converged)
       stop("converged");
     else if (out_of_maps())
-      stop(text("%d periods were integrated", report_.maps));
+      stop(format("%d periods were integrated", report_.maps));
     return !report_.reason.empty();
   }
 
   void stop(const std::string& why)
   {
-    report_.reason = why + text(" (closure %.1e)", report_.closure);
+    report_.reason = why + format(" (closure %.1e)", report_.closure);
   }
 
   const ShootingSettings& settings_;

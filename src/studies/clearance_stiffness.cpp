@@ -123,9 +123,9 @@ Table study_table(const std::string& scene_file, const std::string& journal)
   const ParametricStudy study = read_parametric_study(scene_file);
   Table table("Clearance against contact stiffness", study_columns);
   describe(table, study.base);
-  table.note(text("modelled: sweeps up, m = %d, %zu speeds from %g to %g Hz",
-                  study.harmonics, study.frequencies.size(), study.frequencies.front(),
-                  study.frequencies.back()));
+  table.note(format("modelled: sweeps up, m = %d, %zu speeds from %g to %g Hz",
+                    study.harmonics, study.frequencies.size(), study.frequencies.front(),
+                    study.frequencies.back()));
   const auto rows = run_study(
       {.name = "machines",
        .journal = journal,

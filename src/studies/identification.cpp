@@ -220,8 +220,9 @@ Table identification_table(const std::string& scene_file, const std::string& cla
   const IdentificationScene scene = read_identification_scene(scene_file, claims_file);
   Table table("Score of the candidates for what the paper leaves out",
               identification_columns);
-  table.note(text("modelled: rk4 at %zu speeds, at most %g s each; rule of %s",
-                  scene.frequencies.size(), scene.settings.longest, claims_file.c_str()));
+  table.note(format("modelled: rk4 at %zu speeds, at most %g s each; rule of %s",
+                    scene.frequencies.size(), scene.settings.longest,
+                    claims_file.c_str()));
   const auto rows = run_study(
       {.name = "candidates",
        .journal = journal,

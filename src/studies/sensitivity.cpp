@@ -395,7 +395,7 @@ Variation read_variation(StrictToml& table, const std::string& key, const Model&
     return std::abs(value - standard) < 1e-9 * standard;
   });
   if (found == values.end())
-    table.fail(key, text("must hold the default, %.9g", standard));
+    table.fail(key, format("must hold the default, %.9g", standard));
   variation.usual = static_cast<std::size_t>(found - values.begin());
   return variation;
 }
@@ -543,15 +543,15 @@ void describe(Table& table, const SensitivityScene& scene)
 {
   const Model& usual = scene.usual;
   describe(table, usual.parameters);
-  table.note(text("  harmonic balance: m = %d, N = %d, relative tolerance %g",
-                  usual.harmonics, usual.samples, NewtonSettings{}.tolerance));
+  table.note(format("  harmonic balance: m = %d, N = %d, relative tolerance %g",
+                    usual.harmonics, usual.samples, NewtonSettings{}.tolerance));
   table.note(
-      text("  time integration: rk4, h = %g s, %g s from rest, then %d periods "
-           "(orbit: %d); a whole number of steps fits each of %d parts of a period",
-           usual.time_integration.stepper.step, usual.time_integration.longest,
-           usual.time_integration.shown_periods, scene.orbit_periods,
-           usual.time_integration.stepper.intervals_per_period));
-  table.note(text(
+      format("  time integration: rk4, h = %g s, %g s from rest, then %d periods "
+             "(orbit: %d); a whole number of steps fits each of %d parts of a period",
+             usual.time_integration.stepper.step, usual.time_integration.longest,
+             usual.time_integration.shown_periods, scene.orbit_periods,
+             usual.time_integration.stepper.intervals_per_period));
+  table.note(format(
       "  peak: %g to %g Hz by harmonic balance, %g to %g Hz by rk4; loss of "
       "contact: %zu speeds from %g to %g Hz, then bisection; orbit: %g Hz",
       scene.peak_speeds.front(), scene.peak_speeds.back(), scene.time_peak_speeds.front(),

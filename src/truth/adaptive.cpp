@@ -233,8 +233,8 @@ Table adaptive_table(const std::string& scene_file, const std::string& journal)
     files.push_back(parameters.file);
   }
   table.note(
-      text("modelled: harmonic balance; exact motions by shooting; fixed m up to %d",
-           study.most_fixed_harmonics));
+      format("modelled: harmonic balance; exact motions by shooting; fixed m up to %d",
+             study.most_fixed_harmonics));
   const auto rows = run_study(
       {.name = "speeds",
        .journal = journal,

@@ -531,7 +531,7 @@ std::vector<KnownAttractor> attractors_at(const std::vector<KnownAttractor>& all
   }
   if (here.empty())
     throw BadInput(
-        text("the table of attractors has none of set %d at %g Hz", set, frequency));
+        format("the table of attractors has none of set %d at %g Hz", set, frequency));
   return here;
 }
 
@@ -626,17 +626,17 @@ void describe(const AttractorScene& scene, Table& table)
 {
   const AttractorSettings& s = scene.settings;
   for (const Parameters& parameters : scene.sets) describe(table, parameters);
-  table.note(text(
+  table.note(format(
       "modelled: rk4, up and down through %zu speeds, from %d and %d harmonics at each, and from %d random states at %zu speeds (seed %d)",
       scene.frequencies.size(), scene.few_harmonics, scene.many_harmonics,
       scene.random_starts, scene.random_frequencies.size(), scene.seed));
-  table.note(text(
+  table.note(format(
       "transient: until the section's spread is below %g, at most %g s; then %g s if the section closes, %g s if chaotic, at most %g s else",
       s.transient.settled, s.transient.longest, s.least, s.chaotic, s.most));
-  table.note(text(
+  table.note(format(
       "verdict: closed below a spread of %g, k up to %d; chaotic if the exponent less 3 errors is above %g 1/s; quasi-periodic if it is within 3 errors of 0",
       s.rule.periodic, s.rule.most_period, s.rule.zero_rate));
-  table.note(text(
+  table.note(format(
       "same attractor: means and scatters within %g of the largest scatter if closed, %g else",
       s.same_periodic, s.same_aperiodic));
 }

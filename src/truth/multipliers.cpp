@@ -104,10 +104,10 @@ Table multiplier_table(const MultiplierScene& scene)
 {
   Table table("Floquet multipliers and what checks them", columns);
   for (const Parameters& parameters : scene.sets) describe(table, parameters);
-  table.note(
-      text("modelled: disturbances along harmonic balance; Hill's method with %d and %d "
-           "harmonics from %g Hz",
-           scene.hill_harmonics[0], scene.hill_harmonics[1], scene.hill_from));
+  table.note(format(
+      "modelled: disturbances along harmonic balance; Hill's method with %d and %d "
+      "harmonics from %g Hz",
+      scene.hill_harmonics[0], scene.hill_harmonics[1], scene.hill_from));
   for (const MultiplierPoint& point : compute_multipliers(scene))
     table.row(row_of(point));
   return table;

@@ -219,7 +219,7 @@ const char* word(BranchEnd end)
 /** With so many digits: tens of thousands of rows are kept. */
 double short_number(double value, int digits)
 {
-  return std::stod(text("%.*g", digits, value));
+  return std::stod(format("%.*g", digits, value));
 }
 
 /** What a branch came to, in a line of the header. */
@@ -227,8 +227,8 @@ std::string summary(std::size_t number, const StabilityCurve& curve,
                     const StabilityBranch& branch)
 {
   const std::string name =
-      text("curve %zu: set %d, m = %d, N = %d, from %g Hz", number, curve.set,
-           curve.harmonics, default_samples(curve.harmonics), branch.from);
+      format("curve %zu: set %d, m = %d, N = %d, from %g Hz", number, curve.set,
+             curve.harmonics, default_samples(curve.harmonics), branch.from);
   if (branch.points.empty()) return name + ": no solution found there";
   const auto count = [&](Bifurcation kind) {
     return std::count_if(branch.points.begin(), branch.points.end(),
@@ -236,7 +236,7 @@ std::string summary(std::size_t number, const StabilityCurve& curve,
   };
   const auto examined = std::count_if(branch.points.begin(), branch.points.end(),
                                       [](const auto& p) { return p.stable != -2; });
-  return name + text(
+  return name + format(
                     ": followed between %.6g and %.6g Hz, %d points, multipliers at %zd, "
                     "not had at %d; %zd folds, %zd plus-one, %zd period doublings, %zd "
                     "Neimark-Sacker, %d not located; stopped at %.6g Hz: %s",
@@ -275,7 +275,7 @@ Table stability_table(const std::string& scene_file, const std::string& reading,
   table.note(
       "modelled: harmonic balance by arc length, Floquet multipliers of the full "
       "system along each solution");
-  table.note(text(
+  table.note(format(
       "multipliers: of at most %d points per hertz, those added between them and where "
       "stability changes; bifurcations between two unstable points are not looked for",
       scene.examined_per_hz));

@@ -259,11 +259,12 @@ Row numbers(const std::vector<ValidityPoint>& points)
 void describe(const ValidityScene& scene, Table& table)
 {
   for (const Parameters& parameters : scene.sets) describe(table, parameters);
-  table.note(text(
+  table.note(format(
       "modelled: sweeps up with m = 1 to %d, N = 8m+1 or more; adaptive: tolerance %g, m at most %d, %d where no attractor is T-periodic",
       scene.most_harmonics, scene.tolerance, scene.most_adaptive, scene.most_elsewhere));
-  table.note(text("reference: rk4 from the attractor's state, %d periods of %d instants",
-                  scene.periods, scene.points_per_period));
+  table.note(
+      format("reference: rk4 from the attractor's state, %d periods of %d instants",
+             scene.periods, scene.points_per_period));
 }
 
 std::string stamp(std::vector<std::string> files, const ValidityScene& scene)
@@ -322,7 +323,7 @@ Table section_table(const std::string& scene_file, const std::string& reading,
                {"u_x", "m", "x_r - x_s at phase 0"},
                {"u_y", "m", "y_r - y_s at phase 0"}});
   for (const Parameters& parameters : sets) describe(table, parameters);
-  table.note(text(
+  table.note(format(
       "modelled: rk4 from the states of the table of attractors; %d points, k of a kT-periodic motion",
       points));
   Progress progress("sections", known.size());

@@ -24,7 +24,7 @@ struct Option {
 
 std::string whole(Dice& dice, double low, double high)
 {
-  return text("%.0f", dice.decade(low, high));
+  return format("%.0f", dice.decade(low, high));
 }
 
 std::string some_method(Dice& dice)
@@ -59,7 +59,8 @@ std::vector<Option> response_options(Dice& dice, bool extreme)
 {
   const double from = dice.decade(extreme ? -4 : 0, extreme ? 4 : 1.5);
   const double to = from * (1 + dice.decade(-3, extreme ? 4 : 0.5));
-  std::vector<Option> options{{"--from", text("%.6e", from)}, {"--to", text("%.6e", to)}};
+  std::vector<Option> options{{"--from", format("%.6e", from)},
+                              {"--to", format("%.6e", to)}};
   if (dice.one_in(2))
     options.push_back({"--harmonics", whole(dice, 0, extreme ? 2.5 : 1)});
   if (dice.one_in(4)) options.push_back({"--samples", whole(dice, 1, extreme ? 5 : 3)});

@@ -37,7 +37,7 @@ public:
   }
   std::string decade_text(double low, double high)
   {
-    return text("%.6e", decade(low, high));
+    return format("%.6e", decade(low, high));
   }
 
 private:

@@ -70,18 +70,18 @@ void check_claim(const Line& line, const HardRule& rule)
 std::string machine_file(const Parameters& p)
 {
   const auto body = [](const char* name, const Body& b) {
-    return text(
+    return format(
         "[%s]\nmass_kg = %.17e\nnatural_frequency_rad_per_s = %.17e\n"
         "damping_ratio = %.17e\n",
         name, b.mass, b.natural_frequency, b.damping_ratio);
   };
   return "title = \"hard\"\n" + body("stator", p.stator) + body("rotor", p.rotor) +
-         text("unbalance_kg_m = %.17e\n[bearing]\nballs = %d\n", p.unbalance,
-              p.bearing.balls) +
-         text("contact_stiffness_N_per_m1p5 = %.17e\nradial_clearance_m = %.17e\n",
-              p.bearing.contact_stiffness, p.bearing.clearance) +
-         text("cage_speed_ratio = %.17e\n[gravity]\nacceleration_m_per_s2 = %.17e\n",
-              p.bearing.cage_speed_ratio, p.gravity);
+         format("unbalance_kg_m = %.17e\n[bearing]\nballs = %d\n", p.unbalance,
+                p.bearing.balls) +
+         format("contact_stiffness_N_per_m1p5 = %.17e\nradial_clearance_m = %.17e\n",
+                p.bearing.contact_stiffness, p.bearing.clearance) +
+         format("cage_speed_ratio = %.17e\n[gravity]\nacceleration_m_per_s2 = %.17e\n",
+                p.bearing.cage_speed_ratio, p.gravity);
 }
 
 }  // namespace
@@ -147,7 +147,7 @@ TEST_CASE("explore ends on every hard case, with an answer or a reason")
                                          "orbit",
                                          "machine.toml",
                                          "--frequency",
-                                         text("%.17e", hard.frequency),
+                                         format("%.17e", hard.frequency),
                                          "--method",
                                          method,
                                          "--harmonics",

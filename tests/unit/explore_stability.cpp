@@ -24,7 +24,7 @@ struct Single {
 Single orbit_at(double frequency)
 {
   const Outcome outcome = run_program(
-      text("explore orbit data/set1.toml --points 1 --frequency %.15g", frequency));
+      format("explore orbit data/set1.toml --points 1 --frequency %.15g", frequency));
   const std::string before = "# stability: ", between = "; largest Floquet multiplier ";
   const auto line = outcome.out.find(before) + before.size();
   const auto number = outcome.out.find(between, line);
@@ -66,7 +66,7 @@ TEST_CASE("explore response --stability: a period doubling is right to 1e-6 in s
   for (std::size_t k = 0; k < table.rows.size(); ++k)
     if (cell(table, k, "bifurcation") == "period-doubling") {
       doublings.push_back(table.number(k, "f"));
-      CHECK(outcome.out.find(text("# period-doubling: %.9g Hz\n", doublings.back())) !=
+      CHECK(outcome.out.find(format("# period-doubling: %.9g Hz\n", doublings.back())) !=
             std::string::npos);
     }
   /** The first opens a stretch of unstable orbits, the second closes it. */
