@@ -177,7 +177,7 @@ motion::Motion requested_motion(const Parameters& parameters,
   checked_samples(request.harmonics.value_or(usual_harmonics), request.samples);
   describe(table, parameters);
   table.note(format("frequency: %.15g Hz", request.frequency));
-  const Work work(request.operations * 1e9);
+  const OperationBudget budget(request.operations * 1e9);
   return request.method == "aft"
              ? balance_motion(parameters, request, budget, table)
              : integrated_motion(parameters, request, periods, budget, table);
