@@ -33,9 +33,9 @@ folder_as-printed := /as-printed
 suffix_exchanged :=
 suffix_as-printed := -as-printed
 
-figure_names := fig01 fig02 fig03 fig04 fig05 fig06 fig07 fig08 fig09
+figure_names := fig01_bearing fig02_ball_position fig03_response fig04_displacements fig05_displacements fig06_orbits fig07_contact fig08_orbits fig09_contact
 table_names := $(figure_names) tab01_parameters regimes sections truth_intervals multipliers
-drawn_names := $(figure_names) truncation attractors validity
+drawn_names := $(figure_names) truncation sections validity
 
 tables_of = $(table_names:%=data/generated$(folder_$(1))/%.tsv)
 timing_of = data/generated$(folder_$(1))/tab02_timing.tsv
@@ -45,7 +45,7 @@ results_of = $(tables_of) $(timing_of) $(figures_of)
 
 # What does not depend on the reading.
 studied := $(addprefix data/generated/,sensitivity.tsv sensitivity_derivatives.tsv sampling.tsv) \
-  $(addprefix figures/generated/,sensitivity.svg sampling.svg identification.svg study.svg peers.svg adaptive.svg) \
+  $(addprefix figures/generated/,sensitivity.svg sampling.svg identification.svg clearance_stiffness.svg peers.svg adaptive.svg) \
   $(addprefix figures/generated/,work_precision.svg cost_growth.svg hard_cases.svg)
 
 # The text whose numbers come from tables; the default reading's, since it compares both.
@@ -54,7 +54,7 @@ pages := data/generated/deviations.md
 readings := exchanged as-printed
 # Drawn for the readings whose table is kept.
 studied += $(foreach reading,$(readings),$(if \
-  $(wildcard data/reference/stability$(suffix_$(reading)).tsv),figures/generated$(folder_$(reading))/stability.svg))
+  $(wildcard data/reference$(folder_$(reading))/stability.tsv),figures/generated$(folder_$(reading))/stability.svg))
 timings := $(foreach reading,$(readings),$(call timing_of,$(reading)))
 claims := $(foreach reading,$(readings),$(call claims_of,$(reading)))
 untimed := $(foreach reading,$(readings),$(call tables_of,$(reading)) $(call figures_of,$(reading))) \
@@ -65,7 +65,7 @@ book := build/book/index.html
 article := build/paper/article.html
 
 .PHONY: all figures timing claims book article pdf deps-pdf dist test sanitize deps list png readme golden format clean \
-  studies identify study hard truth attractors validity stability adaptive adopt peers deps-peers bench
+  studies identification clearance_stiffness hard truth attractors validity stability adaptive adopt peers deps-peers bench
 
 all: $(untimed) $(timings) $(claims) $(book) $(article)  ## figures, tables and claims of both readings, pages and article (the default)
 
@@ -164,15 +164,15 @@ define table
 $(foreach reading,$(readings),$(eval $(call table_of,$(1),$(2),$(3),$(or $(4),$(1)),$(reading))))
 endef
 
-$(eval $(call table,fig01,fig01_bearing,set1))
-$(eval $(call table,fig02,fig02_ball_position,set1))
-$(eval $(call table,fig03,fig03_response,set1 set2))
-$(eval $(call table,fig04,fig04_displacements,set1))
-$(eval $(call table,fig05,fig05_displacements,set1))
-$(eval $(call table,fig06,fig06_orbits,set1))
-$(eval $(call table,fig07,fig07_contact,set1))
-$(eval $(call table,fig08,fig08_orbits,set2))
-$(eval $(call table,fig09,fig09_contact,set2))
+$(eval $(call table,fig01_bearing,fig01_bearing,set1))
+$(eval $(call table,fig02_ball_position,fig02_ball_position,set1))
+$(eval $(call table,fig03_response,fig03_response,set1 set2))
+$(eval $(call table,fig04_displacements,fig04_displacements,set1))
+$(eval $(call table,fig05_displacements,fig05_displacements,set1))
+$(eval $(call table,fig06_orbits,fig06_orbits,set1))
+$(eval $(call table,fig07_contact,fig07_contact,set1))
+$(eval $(call table,fig08_orbits,fig08_orbits,set2))
+$(eval $(call table,fig09_contact,fig09_contact,set2))
 $(eval $(call table,tab01_parameters,tab01_parameters,set1 set2))
 $(eval $(call table,tab02_timing,tab02_timing,set1))
 $(eval $(call table,regimes,regimes,set1 set2))
@@ -211,20 +211,20 @@ endef
 curves = $(foreach reading,$(readings),$(eval $(call curves_of,$(1),$(2),$(3),$(reading))))
 map = $(foreach reading,$(readings),$(eval $(call map_of,$(1),$(2),$(3),$(reading))))
 
-$(eval $(call map,fig01,fig01_bearing,figures/bearing_sketch.py))
-$(eval $(call map,fig02,fig02_ball_position,figures/bearing_sketch.py))
-$(eval $(call curves,fig03,fig03_response,))
-$(eval $(call curves,fig04,fig04_displacements,figures/displacements.gp figures/orbit_axes.gp))
-$(eval $(call curves,fig05,fig05_displacements,figures/displacements.gp figures/orbit_axes.gp))
-$(eval $(call curves,fig06,fig06_orbits,figures/orbits.gp figures/orbit_axes.gp))
-$(eval $(call map,fig07,fig07_contact,figures/contact_map.py))
-$(eval $(call curves,fig08,fig08_orbits,figures/orbits.gp figures/orbit_axes.gp))
-$(eval $(call map,fig09,fig09_contact,figures/contact_map.py))
+$(eval $(call map,fig01_bearing,fig01_bearing,figures/bearing_sketch.py))
+$(eval $(call map,fig02_ball_position,fig02_ball_position,figures/bearing_sketch.py))
+$(eval $(call curves,fig03_response,fig03_response,))
+$(eval $(call curves,fig04_displacements,fig04_displacements,figures/displacements.gp figures/orbit_axes.gp))
+$(eval $(call curves,fig05_displacements,fig05_displacements,figures/displacements.gp figures/orbit_axes.gp))
+$(eval $(call curves,fig06_orbits,fig06_orbits,figures/orbits.gp figures/orbit_axes.gp))
+$(eval $(call map,fig07_contact,fig07_contact,figures/contact_map.py))
+$(eval $(call curves,fig08_orbits,fig08_orbits,figures/orbits.gp figures/orbit_axes.gp))
+$(eval $(call map,fig09_contact,fig09_contact,figures/contact_map.py))
 $(eval $(call curves,sensitivity,sensitivity,))
 $(eval $(call curves,sampling,sampling,))
 
 # The long studies are drawn from their kept tables.
-figures/generated/identification.svg figures/generated/study.svg figures/generated/hard_cases.svg: \
+figures/generated/identification.svg figures/generated/clearance_stiffness.svg figures/generated/hard_cases.svg: \
   figures/generated/%.svg: \
   figures/%.py figures/rotor_stator.mplstyle figures/tables.py data/claims.toml \
   data/set1.toml data/set2.toml data/reference/%.tsv
@@ -234,7 +234,7 @@ figures/generated/identification.svg figures/generated/study.svg figures/generat
 figures/generated/identification.svg: data/set1-as-printed.toml
 
 figures/generated/peers.svg: figures/peers.py figures/rotor_stator.mplstyle figures/tables.py \
-  data/reference/peers.tsv data/reference/peers_auto.tsv data/generated/fig03.tsv
+  data/reference/peers.tsv data/reference/peers_auto.tsv data/generated/fig03_response.tsv
 	@mkdir -p $(@D)
 	$(call whole,$(PYTHON) $< data/reference/peers.tsv $$new)
 
@@ -248,25 +248,25 @@ figures/generated/work_precision.svg figures/generated/cost_growth.svg: figures/
 # states of the attractors. $(call truth_of,folder,suffix,reading)
 define truth_of
 data/generated$(1)/sections.tsv: build/sections data/scenes/sections.toml \
-  data/set1$(2).toml data/set2$(2).toml data/reference/attractors$(2).tsv
+  data/set1$(2).toml data/set2$(2).toml data/reference$(1)/attractors.tsv
 	@mkdir -p $$(@D)
-	$$(call whole,$$< data/scenes/sections.toml --reading $(3) --attractors data/reference/attractors$(2).tsv > $$$$new)
+	$$(call whole,$$< data/scenes/sections.toml --reading $(3) --attractors data/reference$(1)/attractors.tsv > $$$$new)
 
 data/generated$(1)/truth_intervals.tsv: figures/truth_intervals.py figures/tables.py figures/project.py CMakeLists.txt data/claims.toml \
-  data/reference/attractors$(2).tsv data/reference/validity$(2).tsv
+  data/reference$(1)/attractors.tsv data/reference$(1)/validity.tsv
 	@mkdir -p $$(@D)
-	$$(call whole,$$(PYTHON) $$< data/reference/attractors$(2).tsv data/reference/validity$(2).tsv > $$$$new)
+	$$(call whole,$$(PYTHON) $$< data/reference$(1)/attractors.tsv data/reference$(1)/validity.tsv > $$$$new)
 
-figures/generated$(1)/truncation.svg: figures/truncation.gp figures/style.gp data/claims.toml data/reference/validity$(2).tsv
+figures/generated$(1)/truncation.svg: figures/truncation.gp figures/style.gp data/claims.toml data/reference$(1)/validity.tsv
 	@mkdir -p $$(@D)
-	$$(call whole,gnuplot -e "table='data/reference/validity$(2).tsv'; output='$$$$new'" $$<)
+	$$(call whole,gnuplot -e "table='data/reference$(1)/validity.tsv'; output='$$$$new'" $$<)
 
 figures/generated$(1)/validity.svg: figures/validity.py figures/rotor_stator.mplstyle figures/tables.py data/claims.toml \
-  data/reference/validity$(2).tsv
+  data/reference$(1)/validity.tsv
 	@mkdir -p $$(@D)
-	$$(call whole,$$(PYTHON) $$< data/reference/validity$(2).tsv $$$$new)
+	$$(call whole,$$(PYTHON) $$< data/reference$(1)/validity.tsv $$$$new)
 
-figures/generated$(1)/attractors.svg: figures/attractors.py figures/rotor_stator.mplstyle figures/tables.py \
+figures/generated$(1)/sections.svg: figures/sections.py figures/rotor_stator.mplstyle figures/tables.py \
   data/generated$(1)/sections.tsv
 	@mkdir -p $$(@D)
 	$$(call whole,$$(PYTHON) $$< data/generated$(1)/sections.tsv $$$$new)
@@ -277,10 +277,10 @@ $(foreach reading,$(readings),$(eval $(call truth_of,$(folder_$(reading)),$(suff
 # So is the stability of the response curves.
 define stability_of
 figures/generated$(folder_$(1))/stability.svg: figures/stability.gp figures/style.gp \
-  data/reference/stability$(suffix_$(1)).tsv data/reference/attractors$(suffix_$(1)).tsv
+  data/reference$(folder_$(1))/stability.tsv data/reference$(folder_$(1))/attractors.tsv
 	@mkdir -p $$(@D)
-	$$(call whole,gnuplot -e "table='data/reference/stability$(suffix_$(1)).tsv'; \
-	  attractors='data/reference/attractors$(suffix_$(1)).tsv'; output='$$$$new'" $$<)
+	$$(call whole,gnuplot -e "table='data/reference$(folder_$(1))/stability.tsv'; \
+	  attractors='data/reference$(folder_$(1))/attractors.tsv'; output='$$$$new'" $$<)
 endef
 
 $(foreach reading,$(readings),$(eval $(call stability_of,$(reading))))
@@ -338,8 +338,8 @@ build/paper/article.pdf: data/generated/article.md paper/render_article.py paper
 # Claims: $(call claims_rule,reading)
 
 define claims_rule
-$(claims_of): figures/claims.py figures/tables.py figures/project.py data/claims.toml data/reference/study.tsv \
-  data/reference/validity$(suffix_$(1)).tsv \
+$(claims_of): figures/claims.py figures/tables.py figures/project.py data/claims.toml data/reference/clearance_stiffness.tsv \
+  data/reference$(folder_$(1))/validity.tsv \
   $(tables_of) $(timing_of)
 	$$(call whole,$$(PYTHON) figures/claims.py $$(@D) $$$$new)
 endef
@@ -350,21 +350,21 @@ $(foreach reading,$(readings),$(eval $(call claims_rule,$(reading))))
 # Long studies. Finished pieces are kept in a journal, so an interrupted study goes on; the tables are
 # kept in data/reference, where `all` finds them, and compared with what is computed anew.
 
-studies: identify study hard truth timing  ## run the long studies and compare them with their kept tables
+studies: identification clearance_stiffness hard truth timing  ## run the long studies and compare them with their kept tables
 
 ifneq ($(filter studies,$(MAKECMDGOALS)),)
-timing: | identify study hard truth
+timing: | identification clearance_stiffness hard truth
 endif
 
-identify: build/identification  ## score the grid of unpublished parameters (under 10 minutes)
+identification: build/identification  ## score the grid of unpublished parameters (under 10 minutes)
 	@mkdir -p data/generated
 	new=data/generated/identification.tsv; $< --journal data/generated/identification.journal > $$new.tmp; \
 	  mv $$new.tmp $$new; $(PYTHON) tests/compare_tables.py data/reference/identification.tsv $$new
 
-study: build/clearance_stiffness  ## clearance against contact stiffness (under 5 minutes)
+clearance_stiffness: build/clearance_stiffness  ## clearance against contact stiffness (under 5 minutes)
 	@mkdir -p data/generated
-	new=data/generated/study.tsv; $< --journal data/generated/study.journal > $$new.tmp; \
-	  mv $$new.tmp $$new; $(PYTHON) tests/compare_tables.py data/reference/study.tsv $$new
+	new=data/generated/clearance_stiffness.tsv; $< --journal data/generated/clearance_stiffness.journal > $$new.tmp; \
+	  mv $$new.tmp $$new; $(PYTHON) tests/compare_tables.py data/reference/clearance_stiffness.tsv $$new
 
 stability: build/stability  ## stability along the response curves, both readings (under 5 minutes)
 	@mkdir -p data/generated

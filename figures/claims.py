@@ -30,9 +30,10 @@ class Evidence:
         self.folder = Path(folder)
         self.tables = {}
         # The long studies' tables are kept; the parametric study does not depend on the reading.
-        suffix = "-as-printed" if self.folder.name == "as-printed" else ""
-        self.kept = {"study": Path("data/reference/study.tsv"),
-                     "validity": Path(f"data/reference/validity{suffix}.tsv")}
+        kept = Path("data/reference")
+        printed = "as-printed" if self.folder.name == "as-printed" else ""
+        self.kept = {"clearance_stiffness": kept / "clearance_stiffness.tsv",
+                     "validity": kept / printed / "validity.tsv"}
 
     def table(self, name):
         if name not in self.tables:
@@ -49,7 +50,7 @@ class Evidence:
     # -- quantities of claims.toml: a number, and what there is to say beside it ----------------
 
     def peak_frequency(self):
-        rows = self.table("fig03").where("set", 1).where("curve", 1)
+        rows = self.table("fig03_response").where("set", 1).where("curve", 1)
         top = rows["amp_x_r"].argmax()
         return rows["f"][top], f"{rows['f'][top]:.1f} Hz, {1e3 * rows['amp_x_r'][top]:.2f} mm"
 
@@ -120,7 +121,7 @@ class Evidence:
 
     def arc_ratio(self):
         arcs = []
-        for figure in ("fig07", "fig09"):
+        for figure in ("fig07_contact", "fig09_contact"):
             table = self.table(figure)
             last = table.where("panel", table["panel"].max())
             arcs.append(360 * share(last["Q"] > 0))
@@ -137,7 +138,7 @@ class Evidence:
         return value, f"{100 * value:.0f} % of the high speeds"
 
     def study_hours_rk4(self):
-        timing, study = self.table("tab02_timing"), self.table("study")
+        timing, study = self.table("tab02_timing"), self.table("clearance_stiffness")
         aft = timing.where("method", "aft").where("harmonics", 6)
         rk4 = timing.where("method", "rk4").where("harmonics", 6)
         points, speeds = study["delta"].size, int(re.search(r"(\d+) speeds", study.header)[1])

@@ -1,7 +1,7 @@
 """Figure 1: the ball bearing
 
 Paper: §2.1, Fig. 1. The rings, the balls and the clearance, at rest and centred.
-Usage: /usr/bin/python3 figures/fig01_bearing.py data/generated/fig01.tsv fig01.svg
+Usage: /usr/bin/python3 figures/fig01_bearing.py data/generated/fig01_bearing.tsv fig01_bearing.svg
 """
 
 from bearing_sketch import BALL, BOTH_WAYS, INNER, OUTER, arrow, label, polar, sketch

@@ -1,7 +1,7 @@
 """Figure 2: position of ball j and its penetration
 
 Paper: §2.2, Fig. 2, Eqs 3 to 5. The inner ring displaced by u; the balls in contact are coloured.
-Usage: /usr/bin/python3 figures/fig02_ball_position.py data/generated/fig02.tsv fig02.svg
+Usage: /usr/bin/python3 figures/fig02_ball_position.py data/generated/fig02_ball_position.tsv fig02_ball_position.svg
 """
 
 from math import degrees

@@ -1,7 +1,7 @@
 # Figure 3: frequency response of rotor and stator, both data sets
 #
 # Paper: §3.3, Fig. 3 (data set 1; set 2 is added here), claims C1 to C3.
-# Usage: gnuplot -e "table='data/generated/fig03.tsv'; output='fig03.svg'" \
+# Usage: gnuplot -e "table='data/generated/fig03_response.tsv'; output='fig03_response.svg'" \
 #        figures/fig03_response.gp
 # Harmonic balance with the speed rising lies over the same with the speed falling, so that the pale
 # curve shows where they differ; a gap is a speed without solution. Markers are time integration.

@@ -10,7 +10,7 @@ import numpy as np
 from matplotlib.ticker import LogLocator
 from tables import Table, run
 
-AUTO, RESPONSE = "data/reference/peers_auto.tsv", "data/generated/fig03.tsv"
+AUTO, RESPONSE = "data/reference/peers_auto.tsv", "data/generated/fig03_response.tsv"
 STYLES = {"cvode-adams": ("C0", "o", "CVODE, Adams"), "cvode-bdf": ("C5", "s", "CVODE, BDF"),
           "cvode-bdf2": ("C4", "P", "CVODE, BDF of order 2"),
           "scipy-dop853": ("C1", "^", "SciPy, DOP853"), "scipy-lsoda": ("C2", "D", "SciPy, LSODA"),

@@ -38,7 +38,7 @@ def claim_counts():
 
 
 def response():
-    table = Table(GENERATED / "fig03.tsv")
+    table = Table(GENERATED / "fig03_response.tsv")
     for number in (1, 2):
         rows = table.where("set", number)
         up, time = rows.where("curve", 1), rows.where("curve", 3)
@@ -57,7 +57,7 @@ def response():
 
 def displacements():
     for name in ("fig04", "fig05"):
-        table = Table(GENERATED / f"{name}.tsv")
+        table = Table(GENERATED / f"{name}_displacements.tsv")
         add(f"{name}.f", table.first("f"), "Hz", "speed of the figure")
         for key, column in (("difference", "difference"), ("force", "difference_force"),
                             ("spread", "spread")):
@@ -65,7 +65,7 @@ def displacements():
         add(f"{name}.regime", "T-periodic" if table.first("periodic") == 1 else "not T-periodic", "-",
             "the integrated motion")
     for name in ("fig06", "fig08"):
-        table = Table(GENERATED / f"{name}.tsv")
+        table = Table(GENERATED / f"{name}_orbits.tsv")
         closed = [table.where("panel", panel).first("periodic") == 1 for panel in sorted(set(table["panel"]))]
         add(f"{name}.panels", len(closed), "-", "panels")
         add(f"{name}.open", len(closed) - sum(closed), "-", "of them with a motion that is not T-periodic")

@@ -3,7 +3,7 @@
 
 Paper: §1, claim C11.
 
-    make study
+    make clearance_stiffness
 
 The introduction of the paper gives parametric studies as the reason for the method: they are called out
 of reach of time integration. So here is one: a grid of clearances and contact stiffnesses, a whole response
@@ -25,8 +25,8 @@ kept in a journal. */
 int main(int argc, char** argv)
 {
   using namespace rotor_stator;
-  const Program program{"data/scenes/study.toml",
-                        {{"--journal", "study.journal", "finished points"}},
+  const Program program{"data/scenes/clearance_stiffness.toml",
+                        {{"--journal", "clearance_stiffness.journal", "finished points"}},
                         false};
   return run(argc, argv, program, [](const Options& options) {
     return studies::study_table(options.scene_file, options["--journal"]);

@@ -3,7 +3,7 @@
 
 Paper: §2.2, Fig. 1.
 
-    build/fig01_bearing > data/generated/fig01.tsv
+    build/fig01_bearing > data/generated/fig01_bearing.tsv
 
 The paper begins with a drawing of a bearing: an outer race carried by the stator, an inner race
 on the rotor, and n balls between them, held at equal angles by a cage. This is the same drawing
@@ -29,7 +29,7 @@ computed about forces, and the balls stand where Eq. 3 puts them at the start of
 int main(int argc, char** argv)
 {
   using namespace rotor_stator;
-  return run(argc, argv, {"data/scenes/fig01.toml"}, [](const Options& options) {
+  return run(argc, argv, {"data/scenes/fig01_bearing.toml"}, [](const Options& options) {
     return figures::geometry_table(
         figures::read_geometry_scene(options.scene_file, options.reading));
   });

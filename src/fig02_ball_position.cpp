@@ -3,7 +3,7 @@
 
 Paper: §2.2 and §2.3, Fig. 2 and Eqs 3, 4.
 
-    build/fig02_ball_position > data/generated/fig02.tsv
+    build/fig02_ball_position > data/generated/fig02_ball_position.tsv
 
 The second drawing explains the only nonlinearity of the model. The inner race has moved by u, and
 one ball is marked. What presses the ball is the part of u along the ball's direction, Δ_j of Eq.
@@ -31,8 +31,9 @@ Modelled: geometry alone, at the one instant and the one displacement of the sce
 int main(int argc, char** argv)
 {
   using namespace rotor_stator;
-  return run(argc, argv, {"data/scenes/fig02.toml"}, [](const Options& options) {
-    return figures::geometry_table(
-        figures::read_geometry_scene(options.scene_file, options.reading));
-  });
+  return run(argc, argv, {"data/scenes/fig02_ball_position.toml"},
+             [](const Options& options) {
+               return figures::geometry_table(
+                   figures::read_geometry_scene(options.scene_file, options.reading));
+             });
 }

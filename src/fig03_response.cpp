@@ -3,7 +3,7 @@
 
 Paper: §3.3, Fig. 3; set 2 is drawn beside set 1.
 
-    build/fig03_response > data/generated/fig03.tsv
+    build/fig03_response > data/generated/fig03_response.tsv
 
 This is the figure that the others explain. At each speed of rotation the periodic motion is
 computed and reduced to four numbers, half the peak-to-peak of each displacement (D-19: the paper
@@ -31,7 +31,7 @@ share of time in contact. No waveform is kept, and nothing is said about stabili
 int main(int argc, char** argv)
 {
   using namespace rotor_stator;
-  return run(argc, argv, {"data/scenes/fig03.toml"}, [](const Options& options) {
+  return run(argc, argv, {"data/scenes/fig03_response.toml"}, [](const Options& options) {
     return figures::response_table(
         figures::read_response_scene(options.scene_file, options.reading));
   });

@@ -3,7 +3,7 @@
 
 Paper: §3.3, Fig. 4, data set 1.
 
-    build/fig04_displacements > data/generated/fig04.tsv
+    build/fig04_displacements > data/generated/fig04_displacements.tsv
 
 The paper picks this speed to show that harmonic balance "conforms" to time integration where the
 motion is complicated: in the transition, gravity still pulls the rotor down, the unbalance
@@ -33,8 +33,9 @@ periods. */
 int main(int argc, char** argv)
 {
   using namespace rotor_stator;
-  return run(argc, argv, {"data/scenes/fig04.toml"}, [](const Options& options) {
-    return figures::orbit_table(
-        figures::read_orbit_scene(options.scene_file, options.reading));
-  });
+  return run(argc, argv, {"data/scenes/fig04_displacements.toml"},
+             [](const Options& options) {
+               return figures::orbit_table(
+                   figures::read_orbit_scene(options.scene_file, options.reading));
+             });
 }

@@ -3,7 +3,7 @@
 
 Paper: §3.3, Fig. 5, data set 1.
 
-    build/fig05_displacements > data/generated/fig05.tsv
+    build/fig05_displacements > data/generated/fig05_displacements.tsv
 
 The counterpart of the previous figure, beyond the transition and just below the resonance. The
 unbalance now dominates gravity: the rotor is thrown against the same side of its inner race all
@@ -32,8 +32,9 @@ periods; the force is Eq. 6 evaluated on either motion. */
 int main(int argc, char** argv)
 {
   using namespace rotor_stator;
-  return run(argc, argv, {"data/scenes/fig05.toml"}, [](const Options& options) {
-    return figures::orbit_table(
-        figures::read_orbit_scene(options.scene_file, options.reading));
-  });
+  return run(argc, argv, {"data/scenes/fig05_displacements.toml"},
+             [](const Options& options) {
+               return figures::orbit_table(
+                   figures::read_orbit_scene(options.scene_file, options.reading));
+             });
 }

@@ -3,7 +3,7 @@
 
 Paper: §3.3, Fig. 6.
 
-    build/fig06_orbits > data/generated/fig06.tsv
+    build/fig06_orbits > data/generated/fig06_orbits.tsv
 
 Nine speeds, three in each of the regimes that the paper describes. At low speed gravity presses
 the rotor on the balls below it, and the orbits are small: the sag of the balls as they pass, with
@@ -32,7 +32,7 @@ where the static sag is much larger than the orbit. */
 int main(int argc, char** argv)
 {
   using namespace rotor_stator;
-  return run(argc, argv, {"data/scenes/fig06.toml"}, [](const Options& options) {
+  return run(argc, argv, {"data/scenes/fig06_orbits.toml"}, [](const Options& options) {
     return figures::orbit_table(
         figures::read_orbit_scene(options.scene_file, options.reading));
   });

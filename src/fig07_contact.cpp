@@ -3,7 +3,7 @@
 
 Paper: §3.3, Fig. 7.
 
-    build/fig07_contact > data/generated/fig07.tsv
+    build/fig07_contact > data/generated/fig07_contact.tsv
 
 The paper's most telling figure: time runs to the right over two periods of rotation, the balls
 are stacked upwards, and a mark stands where a ball carries load. With a cage that turns at half
@@ -31,7 +31,7 @@ panel says which, and how far off the force of the balance is. */
 int main(int argc, char** argv)
 {
   using namespace rotor_stator;
-  return run(argc, argv, {"data/scenes/fig07.toml"}, [](const Options& options) {
+  return run(argc, argv, {"data/scenes/fig07_contact.toml"}, [](const Options& options) {
     return figures::contact_table(
         figures::read_orbit_scene(options.scene_file, options.reading));
   });

@@ -3,7 +3,7 @@
 
 Paper: §3.3, Fig. 8.
 
-    build/fig08_orbits > data/generated/fig08.tsv
+    build/fig08_orbits > data/generated/fig08_orbits.tsv
 
 The second data set differs from the first in one number, a clearance ten times as large. The
 paper says that its behaviour shows the same three phases (claim C13) and that more harmonics are
@@ -32,7 +32,7 @@ with its spread in the table. */
 int main(int argc, char** argv)
 {
   using namespace rotor_stator;
-  return run(argc, argv, {"data/scenes/fig08.toml"}, [](const Options& options) {
+  return run(argc, argv, {"data/scenes/fig08_orbits.toml"}, [](const Options& options) {
     return figures::orbit_table(
         figures::read_orbit_scene(options.scene_file, options.reading));
   });

@@ -3,7 +3,7 @@
 
 Paper: §3.3, Fig. 9.
 
-    build/fig09_contact > data/generated/fig09.tsv
+    build/fig09_contact > data/generated/fig09_contact.tsv
 
 The contact maps of the larger clearance, to be laid beside those of the smaller one. Axes and
 marks are the same: time over two periods to the right, balls upwards, black where a ball is
@@ -31,7 +31,7 @@ instants per period, as many as the scene file says. */
 int main(int argc, char** argv)
 {
   using namespace rotor_stator;
-  return run(argc, argv, {"data/scenes/fig09.toml"}, [](const Options& options) {
+  return run(argc, argv, {"data/scenes/fig09_contact.toml"}, [](const Options& options) {
     return figures::contact_table(
         figures::read_orbit_scene(options.scene_file, options.reading));
   });

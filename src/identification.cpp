@@ -3,7 +3,7 @@
 
 Paper: claims C1, C4, C5, C6 and C10.
 
-    make identify
+    make identification
 
 The paper gives neither masses nor the radii that fix the speed of the cage, and prints natural frequencies
 that may be exchanged (D-09). It does describe what its machine did. So every candidate of a grid fixed
@@ -25,9 +25,9 @@ are kept in a journal: an interrupted run goes on where it was. */
 int main(int argc, char** argv)
 {
   using namespace rotor_stator;
-  const Program program{"data/scenes/identify.toml",
+  const Program program{"data/scenes/identification.toml",
                         {{"--claims", "data/claims.toml", "rule of the verdicts"},
-                         {"--journal", "identify.journal", "finished candidates"}},
+                         {"--journal", "identification.journal", "finished candidates"}},
                         false};
   return run(argc, argv, program, [](const Options& options) {
     return studies::identification_table(options.scene_file, options["--claims"],

@@ -28,15 +28,15 @@ SENSITIVITY = {"f_peak": (1e-5, 0), "amp_peak": (1e-6, 0), "f_loss_first": (0, 0
 # In the transition of set 2 Newton finds or misses solutions at single speeds (Fig. 3, Fig. 8)
 # depending on the last digit of its starts.
 FIGURES = {
-    "fig01": ("fig01_bearing", "part ball", 1, None, GEOMETRY),
-    "fig02": ("fig02_ball_position", "part ball", 1, None, GEOMETRY),
-    "fig03": ("fig03_response", "set curve f", 3, "0.9 where set = 2", RESPONSE),
-    "fig04": ("fig04_displacements", "panel source t_over_T", 5, None, ORBIT),
-    "fig05": ("fig05_displacements", "panel source t_over_T", 5, None, ORBIT),
-    "fig06": ("fig06_orbits", "panel source t_over_T", 29, None, ORBIT),
-    "fig07": ("fig07_contact", "panel t_over_T ball", 73, None, CONTACT),
-    "fig08": ("fig08_orbits", "panel source t_over_T", 29, "0 where periodic = 0", ORBIT),
-    "fig09": ("fig09_contact", "panel t_over_T ball", 73, None, CONTACT),
+    "fig01_bearing": ("fig01_bearing", "part ball", 1, None, GEOMETRY),
+    "fig02_ball_position": ("fig02_ball_position", "part ball", 1, None, GEOMETRY),
+    "fig03_response": ("fig03_response", "set curve f", 3, "0.9 where set = 2", RESPONSE),
+    "fig04_displacements": ("fig04_displacements", "panel source t_over_T", 5, None, ORBIT),
+    "fig05_displacements": ("fig05_displacements", "panel source t_over_T", 5, None, ORBIT),
+    "fig06_orbits": ("fig06_orbits", "panel source t_over_T", 29, None, ORBIT),
+    "fig07_contact": ("fig07_contact", "panel t_over_T ball", 73, None, CONTACT),
+    "fig08_orbits": ("fig08_orbits", "panel source t_over_T", 29, "0 where periodic = 0", ORBIT),
+    "fig09_contact": ("fig09_contact", "panel t_over_T ball", 73, None, CONTACT),
     "sensitivity": ("sensitivity", "parameter value", 1, None, SENSITIVITY),
     "tab01_parameters": ("tab01_parameters", "set", 1, None, PARAMETERS),
 }

@@ -1,8 +1,8 @@
 """The folders of src/ as a drawing: a column each, in the order in which they may include, with an
 arrow wherever one includes another, as thick as the number of includes."""
-ORDER = ["model", "balance", "continuation", "integration", "stability", "scenes", "output",
-         "programs"]
-WIDTH, STEP, TOP, HEIGHT = 98, 104, 84, 40
+ORDER = ["io", "model", "balance", "continuation", "integration", "stability", "motion", "figures",
+         "truth", "costs", "studies", "deviations", "hard", "explore", "programs"]
+WIDTH, STEP, TOP, HEIGHT = 98, 104, 196, 40
 
 
 def folder_of(page):

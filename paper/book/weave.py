@@ -52,27 +52,20 @@ class Page:
     def includes(self):
         return sorted({name for text in self.text.values() for name in INCLUDE.findall(text)})
 
-    def names(self):
-        """The program's name, and the number of the paper's figure or table that begins it."""
-        number = re.match(r"fig\d\d|tab\d\d", self.key)
-        return [self.key, *([number[0]] if number else [])] if self.is_program else []
-
     def figures(self):
         """The drawn figures that stand on this page."""
-        return [name for name, figure in SHOWN.items()
-                if figure.get("program", name) in self.names() and (DRAWN / f"{name}.svg").exists()]
+        return [name for name, figure in SHOWN.items() if self.is_program
+                and figure.get("program", name) == self.key and (DRAWN / f"{name}.svg").exists()]
 
     def table(self):
         """The table that the program writes: computed, or kept from a long study."""
-        names = self.names() + self.figures()[:1]
-        found = [folder / f"{name}.tsv" for name in names for folder in TABLES]
+        found = [folder / f"{self.key}.tsv" for folder in TABLES if self.is_program]
         return next((path for path in found if path.exists()), None)
 
 
 def script_of(figure):
-    """The script that draws a figure: of its name, or of a name that begins so."""
-    return next(path for suffix in (".gp", ".py") for pattern in ("", "_*")
-                for path in sorted(Path("figures").glob(figure + pattern + suffix)))
+    """The script that draws a figure."""
+    return next(Path("figures").glob(f"{figure}.*"))
 
 
 def all_pages():

@@ -184,39 +184,39 @@ void check_against_golden(const std::string& name)
 
 TEST_CASE("Golden table of Fig. 1")
 {
-  check_against_golden("fig01");
+  check_against_golden("fig01_bearing");
 }
 TEST_CASE("Golden table of Fig. 2")
 {
-  check_against_golden("fig02");
+  check_against_golden("fig02_ball_position");
 }
 TEST_CASE("Golden table of Fig. 3")
 {
-  check_against_golden("fig03");
+  check_against_golden("fig03_response");
 }
 TEST_CASE("Golden table of Fig. 4")
 {
-  check_against_golden("fig04");
+  check_against_golden("fig04_displacements");
 }
 TEST_CASE("Golden table of Fig. 5")
 {
-  check_against_golden("fig05");
+  check_against_golden("fig05_displacements");
 }
 TEST_CASE("Golden table of Fig. 6")
 {
-  check_against_golden("fig06");
+  check_against_golden("fig06_orbits");
 }
 TEST_CASE("Golden table of Fig. 7")
 {
-  check_against_golden("fig07");
+  check_against_golden("fig07_contact");
 }
 TEST_CASE("Golden table of Fig. 8")
 {
-  check_against_golden("fig08");
+  check_against_golden("fig08_orbits");
 }
 TEST_CASE("Golden table of Fig. 9")
 {
-  check_against_golden("fig09");
+  check_against_golden("fig09_contact");
 }
 TEST_CASE("Golden table of Table 1")
 {

@@ -186,7 +186,7 @@ TEST_CASE("Figure programs refuse bad scenes and readings")
 {
   check_refused(run_program("fig05_displacements no/such/scene.toml"), 2, "no such file");
   check_refused(
-      run_program("fig05_displacements data/scenes/fig05.toml --reading upside-down"), 2,
+      run_program("fig05_displacements data/scenes/fig05_displacements.toml --reading upside-down"), 2,
       "must be exchanged or as-printed");
   check_refused(run_program("fig05_displacements data/scenes/tab01_parameters.toml"), 2,
                 "title is missing");

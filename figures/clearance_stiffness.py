@@ -3,7 +3,8 @@
 What (a) to (c) show is taken over the speeds with a solution; (a) is the top of a parabola through the
 largest amplitude and its neighbours on the grid of speeds; grey in (b): contact is never lost. The
 circles are the two data sets of the paper.
-Usage: /usr/bin/python3 figures/study.py data/reference/study.tsv study.svg
+Usage: /usr/bin/python3 figures/clearance_stiffness.py data/reference/clearance_stiffness.tsv
+       clearance_stiffness.svg
 """
 
 import re

@@ -2,7 +2,7 @@
 
 One point per period: the relative displacement at phase 0 over the clearance. A single point at a speed
 is a T-periodic motion. Up and down in speed differ where attractors coexist.
-Usage: /usr/bin/python3 figures/attractors.py data/generated/sections.tsv attractors.svg
+Usage: /usr/bin/python3 figures/sections.py data/generated/sections.tsv sections.svg
 """
 
 import re
