@@ -58,7 +58,7 @@ double default_step(const Parameters& parameters)
 
 Allowance allowance(const Parameters& parameters, const StepperSettings& settings)
 {
-  return {settings.most_evaluations, settings.work,
+  return {settings.most_evaluations, settings.budget,
           evaluation_cost(parameters, settings.method)};
 }
 
