@@ -21,12 +21,12 @@ namespace
 using namespace rotor_stator;
 using namespace rotor_stator::explore;
 
-void add_operations_option(CLI::App& command, double& operations)
+void add_budget_option(CLI::App& command, std::optional<double>& budget)
 {
-  command
-      .add_option("--operations", operations,
-                  "bound on all work, in billions of operations: about a second each")
-      ->capture_default_str();
+  command.add_option(
+      "--budget", budget,
+      "evaluations of the force at most, all else charged in as many as take "
+      "its time (default: 3 s, with --stability 30 s; 16 balls: 8e7 in 3 s)");
 }
 
 /** Options that orbit and contact share. */
@@ -60,7 +60,7 @@ void add_motion_options(CLI::App& command, MotionRequest& request)
       ->capture_default_str();
   command.add_flag("!--no-stability", request.stability,
                    "leave out the Floquet multipliers of aft");
-  add_operations_option(command, request.operations);
+  add_budget_option(command, request.budget);
 }
 
 void add_response_options(CLI::App& command, ResponseRequest& request)
@@ -79,11 +79,7 @@ void add_response_options(CLI::App& command, ResponseRequest& request)
       ->capture_default_str();
   command.add_option("--direction", request.direction,
                      "up: from --from to --to; down: from --to to --from");
-  command.add_option("--work", request.work, "evaluations of the force at most")
-      ->capture_default_str();
-  command.add_option("--operations", request.operations,
-                     "bound on all work, in billions of operations: about a second each "
-                     "(default: 3, with --stability 30)");
+  add_budget_option(command, request.budget);
   command.add_option("--save", request.save, "file for the branch, all coefficients");
   command.add_option("--restart", request.restart, "file of --save to go on from");
   command.add_option("--at", request.at,

@@ -82,7 +82,8 @@ LinearBlock condensed_block(const Parameters& parameters, double ball_stiffness,
 
 }  // namespace
 
-Problem bearing_problem(const Parameters& parameters, int samples)
+Problem bearing_problem(const Parameters& parameters, int samples,
+                        const OperationBudget& budget)
 {
   if (!has_rotation_period(parameters.bearing))
     throw NoSolution(
@@ -90,7 +91,7 @@ Problem bearing_problem(const Parameters& parameters, int samples)
                "force has not the period of rotation; use a time method",
                parameters.file.c_str(), passages_per_turn(parameters.bearing)));
   const Scales scale = scales(parameters);
-  return {
+  Problem problem{
       .dofs = 2,
       .samples = samples,
       .residual_scale = scale.penetration,
@@ -102,21 +103,19 @@ Problem bearing_problem(const Parameters& parameters, int samples)
       .force = [bearing = SampledBearing(parameters.bearing, samples)](
                    const Eigen::MatrixXd& u, Eigen::MatrixXd& force,
                    Eigen::MatrixXd* stiffness) { bearing.force(u, force, stiffness); }};
-}
-
-Problem bearing_problem(const Parameters& parameters, int samples,
-                        const OperationBudget& budget)
-{
-  Problem problem = bearing_problem(parameters, samples);
   if (!budget.bounded()) return problem;
-  const double evaluation = 5e3 + samples * (8 + 1.5 * parameters.bearing.balls);
+  const double share = 1 / operations_per_evaluation(parameters.bearing.balls);
+  const double evaluation =
+      share * (5e3 + samples * (8 + 1.5 * parameters.bearing.balls));
   problem.force = [law = problem.force, budget, evaluation](const Eigen::MatrixXd& u,
                                                             Eigen::MatrixXd& force,
                                                             Eigen::MatrixXd* stiffness) {
     budget.spend(evaluation);
     law(u, force, stiffness);
   };
-  problem.spend = [budget](double operations) { budget.spend(operations); };
+  problem.spend = [budget, share](double operations) {
+    budget.spend(share * operations);
+  };
   return problem;
 }
 

@@ -23,12 +23,9 @@ namespace rotor_stator
 
 /** The bearing's problem: d = 2 unknowns u_x, u_y [m], N samples. Throws NoSolution when
    the force has not the period of rotation (n ω_cage/ω not whole, D-11): no series in ω
-   can solve it. */
-Problem bearing_problem(const Parameters& parameters, int samples);
-
-/** The same, where force and factorisations are taken from an account of work. */
+   can solve it. Evaluations, transforms and factorisations are paid for from `budget`. */
 Problem bearing_problem(const Parameters& parameters, int samples,
-                        const OperationBudget& budget);
+                        const OperationBudget& budget = {});
 
 /** A start for Newton without any previous solution, 2 × (2m+1) coefficients as a vector:
    the motion without contact where it stays inside the clearance; otherwise at each

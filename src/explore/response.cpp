@@ -23,8 +23,6 @@ void check(const ResponseRequest& request)
   if (request.from >= request.to)
     throw BadInput(format("--from %g: must be below --to %g", request.from, request.to));
   require_between("--newton-tolerance", request.newton_tolerance, 1e-15, 1e-3);
-  require_between("--work", request.work, 1, 1e12);
-  if (request.operations) require_between("--operations", *request.operations, 1e-6, 1e6);
   require_range("--isolated", request.isolated, 0, 10000);
   require_range("--seed", request.seed, 0, 1000000000);
   require_range("--branch", request.branch, 1, 1000000);
@@ -54,13 +52,16 @@ ResponseTask task_of(const ResponseRequest& request)
   require_range("--isolated", request.isolated, 0, 500000 / harmonics);
   ArcLengthSettings settings =
       motion::arc_length_settings(parameters, {.tolerance = request.newton_tolerance});
-  settings.most_evaluations = static_cast<long>(request.work);
+  settings.most_evaluations =
+      std::numeric_limits<long>::max();  // the budget is the bound
   const bool upwards =
       request.direction.empty() ? !saved || saved->upwards : request.direction == "up";
+  const OperationBudget budget =
+      checked_budget(request.budget, request.stability ? 3e10 : 3e9, parameters);
   return {request,          std::move(parameters),
           std::move(saved), harmonics,
           checked,          settings,
-          upwards,          OperationBudget(request.most_operations())};
+          upwards,          budget};
 }
 
 /**
@@ -194,10 +195,12 @@ Others others(const ResponseTask& task, Balance& balance, const Branch& main,
                       ++number, other.omega / angular(1), other.origin.c_str(),
                       summary(other.branch).c_str()));
   if (task.budget.used_up())
-    others.missing = "the work allowed is used up: not every start was followed";
+    others.missing =
+        "the budget is used up, more with --budget: not every start was followed";
   else if (starts.cut_off > 0)
-    others.missing = format("the work allowed cut off %d of %d time integrations",
-                            starts.cut_off, task.request.isolated);
+    others.missing =
+        format("the budget cut off %d of %d time integrations, more with --budget",
+               starts.cut_off, task.request.isolated);
   if (!others.missing.empty()) table.note("incomplete: " + others.missing);
   if (others.found.empty())
     table.note(format("no other branch found from %zu starts", starts.candidates.size()));

@@ -28,10 +28,13 @@ Floquet paid_floquet(const OperationBudget& budget, const Parameters& parameters
   const auto harmonics = static_cast<double>(x.size() / 4);
   /** The phases where balls meet or leave their race; then the stiffness, value by value, each with its
       step of the disturbances. */
-  budget.spend(std::max(512.0, 16 * harmonics) * (50 + 5 * balls + 5 * harmonics));
+  const double share = 1 / operations_per_evaluation(parameters.bearing.balls);
+  budget.spend(share * std::max(512.0, 16 * harmonics) *
+               (50 + 5 * balls + 5 * harmonics));
   PeriodicStiffness stiffness = stiffness_along(parameters, x);
   stiffness.at = [at = std::move(stiffness.at), budget,
-                  value = 300 + 2 * balls + 5 * harmonics](double phase, double* k) {
+                  value = share * (300 + 2 * balls + 5 * harmonics)](double phase,
+                                                                     double* k) {
     budget.spend(value);
     at(phase, k);
   };
@@ -89,7 +92,7 @@ std::string missing_stability(const BranchStability& stability,
   if (stability.failed == 0)
     return budget.used_up()
                ? format(
-                     "the work allowed is used up: bifurcations may be missing, %d were "
+                     "the budget is used up, more with --budget: bifurcations may be missing, %d were "
                      "seen and not located",
                      stability.missed)
                : "";

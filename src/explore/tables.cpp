@@ -43,6 +43,14 @@ int checked_samples(int harmonics, const std::optional<int>& samples)
   return samples.value_or(default_samples(harmonics));
 }
 
+OperationBudget checked_budget(const std::optional<double>& evaluations,
+                               double operations, const Parameters& parameters)
+{
+  if (evaluations) require_between("--budget", *evaluations, 1, 1e15);
+  const double each = operations_per_evaluation(parameters.bearing.balls);
+  return OperationBudget(evaluations.value_or(operations / each), "--budget");
+}
+
 namespace
 {
 
@@ -54,7 +62,6 @@ SteadySettings steady_settings(const MotionRequest& request, int shown_periods,
                       .intervals_per_period = request.points,
                       .step = request.step.value_or(0),
                       .tolerance = request.local_error,
-                      .most_evaluations = std::numeric_limits<double>::infinity(),
                       .budget = budget};
   settings.longest = request.longest;
   settings.shown_periods = shown_periods;
@@ -68,7 +75,6 @@ void check(const MotionRequest& request)
   require_between("--newton-tolerance", request.newton_tolerance, 1e-15, 1e-3);
   require_between("--local-error", request.local_error, 1e-15, 1e-2);
   require_between("--longest", request.longest, 1e-3, 1e5);
-  require_between("--operations", request.operations, 1e-6, 1e6);
   if (request.step) require_positive("--step", *request.step);
   require_method(request.method);
   if (!request.tolerance) return;
@@ -177,7 +183,7 @@ motion::Motion requested_motion(const Parameters& parameters,
   checked_samples(request.harmonics.value_or(usual_harmonics), request.samples);
   describe(table, parameters);
   table.note(format("frequency: %.15g Hz", request.frequency));
-  const OperationBudget budget(request.operations * 1e9);
+  const OperationBudget budget = checked_budget(request.budget, 3e9, parameters);
   return request.method == "aft"
              ? balance_motion(parameters, request, budget, table)
              : integrated_motion(parameters, request, periods, budget, table);

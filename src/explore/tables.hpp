@@ -6,7 +6,9 @@ Each throws BadInput with the option, its value and what is accepted. */
 #include <optional>
 #include <string>
 
+#include "io/budget.hpp"
 #include "io/table.hpp"
+#include "model/parameters.hpp"
 
 namespace rotor_stator::explore
 {
@@ -17,6 +19,10 @@ void require_range(const char* option, int value, int least, int most);
 
 /** N as asked for, or the default for m; both checked. */
 int checked_samples(int harmonics, const std::optional<int>& samples);
+
+/** The budget that --budget gives; without it the evaluations that take `operations`. */
+OperationBudget checked_budget(const std::optional<double>& evaluations,
+                               double operations, const Parameters& parameters);
 
 /**
 ## The tables of explore
@@ -37,7 +43,7 @@ struct MotionRequest {
   std::optional<double> step;       ///< rk4 [s]
   double longest = 30;              ///< transient at most [s]
   bool stability = true;            ///< Floquet multipliers in the header (aft)
-  double operations = 3;            ///< at most, in billions
+  std::optional<double> budget;     ///< evaluations of the force at most
 };
 
 /** One branch over a range of speeds, and on demand others beside it. */
@@ -47,18 +53,14 @@ struct ResponseRequest {
   std::optional<int> harmonics;  ///< of the saved branch, or 6
   std::optional<int> samples;
   double newton_tolerance = 1e-10;
-  std::string direction;  ///< "up", "down", or empty: the saved branch's, or up
-  double work = 1e6;      ///< evaluations of the force at most, for each branch
-  std::optional<double> operations;  ///< at most, in billions, for all of it
-  std::string save, restart;         ///< files; empty for none
-  int branch = 1;                    ///< number in the file `restart`
-  std::optional<double> at;          ///< speed to restart from [Hz]
-  int isolated = 0;                  ///< speeds at which isolated branches are looked for
+  std::string direction;         ///< "up", "down", or empty: the saved branch's, or up
+  std::optional<double> budget;  ///< evaluations of the force at most, for all of it
+  std::string save, restart;     ///< files; empty for none
+  int branch = 1;                ///< number in the file `restart`
+  std::optional<double> at;      ///< speed to restart from [Hz]
+  int isolated = 0;              ///< speeds at which isolated branches are looked for
   int seed = 1;
   bool stability = false;  ///< multipliers at each point, and the bifurcations
-
-  /** Without `operations` as many as the paper's machines need. */
-  double most_operations() const { return 1e9 * operations.value_or(stability ? 30 : 3); }
 };
 
 struct Exploration {

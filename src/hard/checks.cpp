@@ -36,7 +36,7 @@ void set_stability(double multiplier, double change, Check& check)
 PeriodMap bounded_map(const HardCase& hard, const State& state, double tolerance)
 {
   return period_map(hard.parameters, angular(hard.frequency), state, tolerance, "rk8pd",
-                    most_shooting_evaluations);
+                    shooting_budget(hard.parameters));
 }
 
 /** Shooting from the answer's state; false when it does not close. */
@@ -48,7 +48,7 @@ bool check_by_shooting(const HardCase& hard, const Answer& answer, Check& check)
                                   {.tolerance = 1e-11,
                                    .closure = 1e-9,
                                    .most_maps = 30,
-                                   .most_evaluations = most_shooting_evaluations});
+                                   .budget = shooting_budget(hard.parameters)});
   if (!shooting.converged) return false;
   check.by = "shooting";
   check.error = distance(answer.motion, period_from(hard.parameters, omega, state));
@@ -69,7 +69,11 @@ void check_by_refinement(const HardCase& hard, const Answer& answer, Check& chec
 {
   const int m = 4 * answer.harmonics, samples = 4 * answer.samples;
   const double omega = angular(hard.frequency);
-  Balance balance(bearing_problem(hard.parameters, samples, OperationBudget(15e9)), m);
+  Balance balance(
+      bearing_problem(hard.parameters, samples,
+                      OperationBudget(15e9 / operations_per_evaluation(
+                                                 hard.parameters.bearing.balls))),
+      m);
   Eigen::VectorXd x = resize_harmonics(answer.finer, 2, m);
   if (!solve(balance, omega, x, {}).converged()) return;
   check.by = "4m, 4N";
@@ -95,11 +99,12 @@ void check_shooting(const HardCase& hard, const Answer& answer, Check& check)
 {
   const double omega = angular(hard.frequency);
   floquet_by_map(hard, answer.state, check);
-  const TimeStepper stepper = make_stepper(hard.parameters, omega,
-                                           {.method = "rk4",
-                                            .intervals_per_period = compared_points,
-                                            .step = default_step(hard.parameters) / 4,
-                                            .most_evaluations = 2e8});
+  const TimeStepper stepper =
+      make_stepper(hard.parameters, omega,
+                   {.method = "rk4",
+                    .intervals_per_period = compared_points,
+                    .step = default_step(hard.parameters) / 4,
+                    .budget = budget_of(hard.parameters, "rk4", 2e8)});
   State state = answer.state;
   motion::recorded(stepper, compared_points, state);
   const Vector8 start = vector_of(answer.state), sizes = state_scales(hard.parameters);
@@ -121,7 +126,7 @@ void check_rk4(const HardCase& hard, const Answer& answer, Check& check)
     floquet_by_map(hard, answer.state, check);
     if (check_by_shooting(hard, answer, check)) return;
   }
-  SteadySettings settings = hard_settings("rk8pd", 0);
+  SteadySettings settings = hard_settings(hard.parameters, "rk8pd", 0);
   settings.stepper.tolerance = 1e-9;
   settings.shown_periods = shown_periods(hard);
   const SteadyState steady =

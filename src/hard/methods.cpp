@@ -14,13 +14,25 @@
 namespace rotor_stator::hard
 {
 
-SteadySettings hard_settings(const std::string& method, double step)
+OperationBudget budget_of(const Parameters& parameters, const std::string& method,
+                          double evaluations)
+{
+  return OperationBudget(evaluations * evaluation_price(parameters, method));
+}
+
+OperationBudget shooting_budget(const Parameters& parameters)
+{
+  return budget_of(parameters, "rk8pd", 1.5e7);
+}
+
+SteadySettings hard_settings(const Parameters& parameters, const std::string& method,
+                             double step)
 {
   SteadySettings settings;
   settings.stepper = {.method = method,
                       .intervals_per_period = compared_points,
                       .step = step,
-                      .most_evaluations = 1e8};
+                      .budget = budget_of(parameters, method, 1e8)};
   settings.settled = 1e-8;
   settings.longest = 20;
   return settings;
@@ -28,11 +40,12 @@ SteadySettings hard_settings(const std::string& method, double step)
 
 motion::Motion period_from(const Parameters& parameters, double omega, const State& start)
 {
-  const TimeStepper stepper = make_stepper(parameters, omega,
-                                           {.method = "rk8pd",
-                                            .intervals_per_period = compared_points,
-                                            .tolerance = 1e-11,
-                                            .most_evaluations = 1e8});
+  const TimeStepper stepper =
+      make_stepper(parameters, omega,
+                   {.method = "rk8pd",
+                    .intervals_per_period = compared_points,
+                    .tolerance = 1e-11,
+                    .budget = budget_of(parameters, "rk8pd", 1e8)});
   State state = start;
   return motion::recorded(stepper, compared_points, state);
 }
@@ -77,7 +90,7 @@ Shooting closed(const HardCase& hard, double tolerance, State& state)
                {.tolerance = tolerance,
                 .closure = 100 * tolerance,
                 .most_maps = 40,
-                .most_evaluations = most_shooting_evaluations});
+                .budget = shooting_budget(hard.parameters)});
 }
 
 /** Shooting from the static state, then from two seconds of integration. */
@@ -89,7 +102,7 @@ Shooting closed_from_rest(const HardCase& hard, Answer& answer)
   answer.reason = "from the static state";
   Shooting shooting = closed(hard, tolerance, state);
   if (!shooting.converged && hard.from != hard.frequency) {
-    SteadySettings settings = hard_settings("rk4", 0);
+    SteadySettings settings = hard_settings(p, "rk4", 0);
     settings.longest = 2;
     state = steady_state(p, angular(hard.frequency), static_start(p), settings)
                 .states.front();
@@ -157,7 +170,7 @@ double remaining_transient(const HardCase& hard, const SteadyState& steady, doub
 /** Settled and shown long enough for the amplitudes of an aperiodic motion. */
 SteadyState settled(const HardCase& hard, double step, const State& start)
 {
-  SteadySettings settings = hard_settings("rk4", step);
+  SteadySettings settings = hard_settings(hard.parameters, "rk4", step);
   settings.shown_periods = shown_periods(hard);
   return steady_state(hard.parameters, angular(hard.frequency), start, settings);
 }
@@ -210,7 +223,7 @@ constexpr int most_followed = 10;
 
 /** A few seconds to the speed, and ten for the refinement there: two dense solutions with
     1024 harmonics. */
-constexpr double most_work = 6e9, most_refining_work = 20e9;
+constexpr double most_operations = 6e9, most_refining_operations = 20e9;
 
 struct Resolution {
   int harmonics, samples;
@@ -328,7 +341,8 @@ void refine(const HardCase& hard, const motion::PeriodicSolution& solution,
 Answer by_balance(const HardCase& hard, const HardRule& rule, Approach approach)
 {
   Answer answer;
-  const OperationBudget budget(most_work);
+  const double each = operations_per_evaluation(hard.parameters.bearing.balls);
+  const OperationBudget budget(most_operations / each);
   try {
     const motion::PeriodicSolution solution = reached(hard, approach, budget);
     answer.reason =
@@ -339,7 +353,8 @@ Answer by_balance(const HardCase& hard, const HardRule& rule, Approach approach)
     answer.motion = motion::motion_of(solution.bodies, compared_points);
     answer.state = state_of(solution);
     answer.x = solution.x;
-    refine(hard, solution, rule, OperationBudget(most_refining_work), answer);
+    refine(hard, solution, rule, OperationBudget(most_refining_operations / each),
+           answer);
   } catch (const NoSolution& refusal) {
     answer.reason = refusal.what();
   }

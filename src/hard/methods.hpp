@@ -40,8 +40,12 @@ struct Answer {
 /** Instants per period at which motions are compared. */
 constexpr int compared_points = 512;
 
-/** About three seconds of shooting. */
-constexpr double most_shooting_evaluations = 1.5e7;
+/** A budget of so many evaluations of Eq. 7 by a time method. */
+OperationBudget budget_of(const Parameters& parameters, const std::string& method,
+                          double evaluations);
+
+/** About three seconds of shooting by rk8pd. */
+OperationBudget shooting_budget(const Parameters& parameters);
 
 Answer answer_by_predictor(const HardCase& hard, const HardRule& rule);
 Answer answer_by_arc_length(const HardCase& hard, const HardRule& rule);
@@ -49,7 +53,8 @@ Answer answer_by_shooting(const HardCase& hard, const HardRule& rule);
 Answer answer_by_rk4(const HardCase& hard, const HardRule& rule);
 
 /** What RK4 settles on, or another method from where `start` says: shared with the checks. */
-SteadySettings hard_settings(const std::string& method, double step);
+SteadySettings hard_settings(const Parameters& parameters, const std::string& method,
+                             double step);
 
 /** About a second, for the amplitudes of an aperiodic motion. */
 int shown_periods(const HardCase& hard);

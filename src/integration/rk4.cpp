@@ -36,12 +36,12 @@ int steps_per_interval(double period, int intervals, double longest_step)
 }  // namespace
 
 Rk4::Rk4(const Parameters& parameters, double omega, int intervals, double longest_step,
-         Allowance allowance)
+         OperationBudget budget)
     : system_(parameters, omega),
       cage_turn_(2 * std::numbers::pi * parameters.bearing.cage_speed_ratio),
       intervals_(intervals),
       steps_(steps_per_interval(system_.period(), intervals, longest_step)),
-      allowance_(std::move(allowance))
+      budget_(std::move(budget))
 {
   const int half_steps = 2 * intervals_ * steps_;
   h_ = 2 * system_.period() / half_steps;
@@ -53,7 +53,9 @@ Rk4::Rk4(const Parameters& parameters, double omega, int intervals, double longe
 
 void Rk4::advance(long interval, State& state)
 {
-  allowance_.take(4L * steps_);
+  const long evaluations = 4L * steps_;
+  budget_.spend(static_cast<double>(evaluations));
+  evaluations_ += evaluations;
   const Direction turns =
       Direction::of(cage_turn_ * static_cast<double>(interval / intervals_));
   const Angles* angles = &angles_[2 * steps_ * (interval % intervals_)];

@@ -20,13 +20,13 @@ public:
   /** P = `intervals` per period, each cut into the fewest steps not longer than
       `longest_step` [s]. */
   Rk4(const Parameters& parameters, double omega, int intervals, double longest_step,
-      Allowance allowance = Allowance());
+      OperationBudget budget = {});
 
-  /** Advances over output interval `interval`, counted from t = 0. Throws NoSolution when the
-      allowance is used up. */
+  /** Advances over output interval `interval`, counted from t = 0. Throws NoSolution when the budget
+      is used up. */
   void advance(long interval, State& state);
 
-  long evaluations() const { return allowance_.used(); }
+  long evaluations() const { return evaluations_; }
   double step() const { return h_; }
 
   /** Directions at the half steps of one period, both ends included. */
@@ -42,7 +42,8 @@ private:
   double cage_turn_;  ///< the cage's angle after one period [rad]
   int intervals_, steps_;
   double h_;
-  Allowance allowance_;
+  OperationBudget budget_;
+  long evaluations_ = 0;
   std::vector<Angles> angles_;
 };
 

@@ -27,13 +27,10 @@ TimeStepper wrap(std::shared_ptr<Stepper> stepper)
           .evaluations = [stepper] { return stepper->evaluations(); }};
 }
 
-/** Operations for an evaluation of Eq. 7, with the method's share of a step. */
-double evaluation_cost(const Parameters& parameters, const std::string& method)
+/** The budget of a stepper, bounded in any case: 1e9 evaluations are half a minute of RK4. */
+OperationBudget budget_of(const StepperSettings& settings, double price)
 {
-  const double balls = parameters.bearing.balls;
-  if (method == "rk4") return 15 + 1.35 * balls;
-  const bool explicit_steps = method == "rkf45" || method == "rkck" || method == "rk8pd";
-  return explicit_steps ? 75 + 1.5 * balls : 330 + 1.5 * balls;
+  return settings.budget.bounded() ? settings.budget : OperationBudget(1e9 * price);
 }
 
 }  // namespace
@@ -56,10 +53,12 @@ double default_step(const Parameters& parameters)
   return 2 * std::numbers::pi / contact_frequency / 40;
 }
 
-Allowance allowance(const Parameters& parameters, const StepperSettings& settings)
+double evaluation_price(const Parameters& parameters, const std::string& method)
 {
-  return {settings.most_evaluations, settings.budget,
-          evaluation_cost(parameters, settings.method)};
+  if (method == "rk4") return 1;
+  const int balls = parameters.bearing.balls;
+  const bool explicit_steps = method == "rkf45" || method == "rkck" || method == "rk8pd";
+  return ((explicit_steps ? 75 : 330) + 1.5 * balls) / operations_per_evaluation(balls);
 }
 
 void require_method(const std::string& method)
@@ -79,7 +78,7 @@ TimeStepper make_stepper(const Parameters& parameters, double omega,
   if (settings.method == "rk4") {
     const double step = settings.step > 0 ? settings.step : default_step(parameters);
     return wrap(std::make_shared<Rk4>(parameters, omega, settings.intervals_per_period,
-                                      step, allowance(parameters, settings)));
+                                      step, budget_of(settings, 1)));
   }
   return wrap(std::make_shared<GslStepper>(parameters, omega, settings));
 }
@@ -103,13 +102,21 @@ const std::map<std::string, const gsl_odeiv2_step_type*>& step_types()
 struct Equation7 {
   Parameters parameters;
   RotorStator system;
-  Allowance allowance;
+  OperationBudget budget;
+  double price;  ///< of one evaluation
+  long evaluations = 0;
+
+  bool pay_for_one()
+  {
+    ++evaluations;
+    return budget.pay(price);
+  }
 };
 
 int derivative(double t, const double y[], double dydt[], void* data)
 {
   auto& equation = *static_cast<Equation7*>(data);
-  if (!equation.allowance.took_one()) return GSL_EBADFUNC;
+  if (!equation.pay_for_one()) return GSL_EBADFUNC;
   const double phase = equation.system.omega() * t;
   Flat flat;
   std::copy_n(y, size, flat.begin());
@@ -149,7 +156,7 @@ void state_slopes(const Parameters& parameters, const Stiffness2& s, double* dfd
 int jacobian(double t, const double y[], double* dfdy, double dfdt[], void* data)
 {
   auto& equation = *static_cast<Equation7*>(data);
-  if (!equation.allowance.took_one()) return GSL_EBADFUNC;
+  if (!equation.pay_for_one()) return GSL_EBADFUNC;
   const Parameters& p = equation.parameters;
   const double omega = equation.system.omega(), phase = omega * t;
   const Vec2 u{y[2] - y[0], y[3] - y[1]};
@@ -189,6 +196,18 @@ const gsl_odeiv2_step_type* gsl_step_type(const std::string& method)
   return found->second;
 }
 
+namespace
+{
+
+Equation7 equation_of(const Parameters& parameters, double omega,
+                      const StepperSettings& settings)
+{
+  const double price = evaluation_price(parameters, settings.method);
+  return {parameters, {parameters, omega}, budget_of(settings, price), price};
+}
+
+}  // namespace
+
 struct GslStepper::Driver {
   Equation7 equation;
   gsl_odeiv2_system system;
@@ -197,8 +216,8 @@ struct GslStepper::Driver {
 
 GslStepper::GslStepper(const Parameters& parameters, double omega,
                        const StepperSettings& settings)
-    : driver_(std::make_unique<Driver>(Driver{
-          {parameters, {parameters, omega}, allowance(parameters, settings)}, {}, {}})),
+    : driver_(std::make_unique<Driver>(
+          Driver{equation_of(parameters, omega, settings), {}, {}})),
       interval_length_(driver_->equation.system.period() / settings.intervals_per_period)
 {
   keep_gsl_from_aborting();
@@ -231,7 +250,8 @@ void GslStepper::advance(long interval, State& state)
   const double end = static_cast<double>(interval + 1) * interval_length_;
   const int status = gsl_odeiv2_driver_apply(driver_->driver.get(), &t, end, y.data());
   if (status != GSL_SUCCESS) {
-    driver_->equation.allowance.take(1);  // throws where that was the reason
+    driver_->equation.budget.spend(
+        driver_->equation.price);  // throws where that was the reason
     throw NoSolution(
         format("time integration stopped at t = %.9g s: %s", t, gsl_strerror(status)));
   }
@@ -240,7 +260,7 @@ void GslStepper::advance(long interval, State& state)
 
 long GslStepper::evaluations() const
 {
-  return driver_->equation.allowance.used();
+  return driver_->equation.evaluations;
 }
 
 const std::vector<std::string>& gsl_methods()

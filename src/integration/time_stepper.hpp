@@ -23,15 +23,15 @@ struct StepperSettings {
   double step = 0;                ///< rk4: longest step [s]; 0 chooses `default_step`
   double tolerance =
       1e-10;  ///< GSL: local error per step, over the size of each component
-  double most_evaluations = 1e9;  ///< of Eq. 7, a bound on work: half a minute of RK4
-  OperationBudget budget = {};    ///< pays for them
+  OperationBudget budget =
+      {};  ///< for the evaluations of Eq. 7; without one, 1e9 of them
 };
 
 /** A stepper bound to one machine at one speed. */
 struct TimeStepper {
   /** Advances `state` from the start of output interval `interval` (counted from t = 0)
      to its end. Throws NoSolution when the step size underflows, the state is no longer finite
-     or the evaluations or the work are used up. */
+     or the budget is used up. */
   std::function<void(long interval, State& state)> advance;
 
   /** Evaluations of Eq. 7 so far. */
@@ -48,8 +48,8 @@ TimeStepper make_stepper(const Parameters& parameters, double omega,
 /** "rk4" and GSL's explicit, multistep and implicit methods. */
 const std::vector<std::string>& time_methods();
 
-/** What `settings` allow. */
-Allowance allowance(const Parameters& parameters, const StepperSettings& settings);
+/** What an evaluation of Eq. 7 costs with the method's share of a step, in evaluations by rk4. */
+double evaluation_price(const Parameters& parameters, const std::string& method);
 
 /** A step [s] that gives the contact mode about 40 steps per period: RK4 is stable up
    to 2.8/ω and accurate well below it. The paper gives none (D-16). */

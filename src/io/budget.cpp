@@ -12,42 +12,40 @@ double OperationBudget::left() const
   return account_ ? account_->left : std::numeric_limits<double>::infinity();
 }
 
-void OperationBudget::spend(double operations) const
+const OperationBudget::Account* OperationBudget::short_of(double evaluations) const
 {
   for (Account* account = account_.get(); account; account = account->parent.get()) {
-    if (!(operations <= account->left)) {
+    if (!(evaluations <= account->left)) {
       account->left = 0;
-      throw NoSolution(format("the work allowed, %.3g billion operations, is used up",
-                              account->most / 1e9));
+      return account;
     }
-    account->left -= operations;
+    account->left -= evaluations;
   }
+  return nullptr;
+}
+
+bool OperationBudget::pay(double evaluations) const
+{
+  return !short_of(evaluations);
+}
+
+void OperationBudget::spend(double evaluations) const
+{
+  const Account* account = short_of(evaluations);
+  if (!account) return;
+  const std::string more =
+      account->option.empty() ? "" : "; more with " + account->option;
+  throw NoSolution(format("the %s of %.3g evaluations of the force is used up%s",
+                          account->parent ? "share" : "budget", account->most,
+                          more.c_str()));
 }
 
 OperationBudget OperationBudget::part(double share) const
 {
   if (!account_) return {};
-  OperationBudget inner(share * account_->left);
+  OperationBudget inner(share * account_->left, account_->option);
   inner.account_->parent = account_;
   return inner;
-}
-
-void Allowance::take(long more)
-{
-  if (!(static_cast<double>(used_ + more) <= most_))
-    throw NoSolution(format("not done within %.3g evaluations of Eq. 7", most_));
-  if (work_.bounded()) work_.spend(static_cast<double>(more) * price_);
-  used_ += more;
-}
-
-bool Allowance::took_one()
-{
-  try {
-    take(1);
-  } catch (const NoSolution&) {
-    return false;
-  }
-  return true;
 }
 
 }  // namespace rotor_stator

@@ -47,7 +47,9 @@ constexpr int equations = 8 + 8 * 8;
 struct Variation {
   RotorStator system;
   DisturbanceRates rates;
-  Allowance allowance;
+  OperationBudget budget;
+  double price;  ///< of one evaluation
+  long evaluations = 0;
 };
 
 /** State first, then the displacements and the speeds of the disturbances. */
@@ -55,7 +57,8 @@ int derivative(double t, const double y[], double dydt[], void* data)
 {
   auto& variation = *static_cast<Variation*>(data);
   const RotorStator& system = variation.system;
-  if (!variation.allowance.took_one()) return GSL_EBADFUNC;
+  ++variation.evaluations;
+  if (!variation.budget.pay(variation.price)) return GSL_EBADFUNC;
   const double phase = system.omega() * t;
   const State state = state_of(Eigen::Map<const Vector8>(y));
   const Direction cage = system.cage_direction(phase);
@@ -94,11 +97,14 @@ struct FreeDriver {
 }  // namespace
 
 PeriodMap period_map(const Parameters& parameters, double omega, const State& start,
-                     double tolerance, const std::string& method, double most_evaluations)
+                     double tolerance, const std::string& method,
+                     const OperationBudget& budget)
 {
   keep_gsl_from_aborting();
-  Variation variation{
-      {parameters, omega}, DisturbanceRates(parameters), Allowance(most_evaluations)};
+  Variation variation{{parameters, omega},
+                      DisturbanceRates(parameters),
+                      budget,
+                      evaluation_price(parameters, method)};
   gsl_odeiv2_system system{derivative, nullptr, equations, &variation};
   const double period = variation.system.period();
   const auto scale = error_scales(parameters);
@@ -114,13 +120,13 @@ PeriodMap period_map(const Parameters& parameters, double omega, const State& st
   double t = 0;
   const int status = gsl_odeiv2_driver_apply(driver.get(), &t, period, y.data());
   if (status != GSL_SUCCESS) {
-    variation.allowance.take(1);  // throws where that was the reason
+    variation.budget.spend(variation.price);  // throws where that was the reason
     throw NoSolution(
         format("time integration stopped at t = %.9g s: %s", t, gsl_strerror(status)));
   }
   return {.end = state_of(Eigen::Map<const Vector8>(y.data())),
           .derivative = disturbances.transpose(),
-          .evaluations = variation.allowance.used()};
+          .evaluations = variation.evaluations};
 }
 
 Rk4PeriodMap::Rk4PeriodMap(const Parameters& parameters, double omega,

@@ -38,10 +38,10 @@ struct PeriodMap {
 };
 
 /** From `start` at phase 0. `tolerance`: local error per step, over the size of each component.
-    Throws NoSolution when the integration breaks down or takes more than `most_evaluations`. */
+    Throws NoSolution when the integration breaks down or the budget is used up. */
 PeriodMap period_map(const Parameters& parameters, double omega, const State& start,
                      double tolerance, const std::string& method = "rk8pd",
-                     double most_evaluations = 1e9);
+                     const OperationBudget& budget = {});
 
 /**
 ## The variational equations of Eq. 7

@@ -35,12 +35,12 @@ Maps rk4_maps(const Parameters& parameters, double omega,
 Maps gsl_maps(const Parameters& parameters, double omega,
               const ShootingSettings& settings)
 {
-  const auto stepper = std::make_shared<GslStepper>(
-      parameters, omega,
-      StepperSettings{.method = settings.method,
-                      .intervals_per_period = 1,
-                      .tolerance = settings.tolerance,
-                      .most_evaluations = settings.most_evaluations});
+  const auto stepper =
+      std::make_shared<GslStepper>(parameters, omega,
+                                   StepperSettings{.method = settings.method,
+                                                   .intervals_per_period = 1,
+                                                   .tolerance = settings.tolerance,
+                                                   .budget = settings.budget});
   const auto varied = std::make_shared<long>(0);
   return {.end =
               [stepper](const State& start) {
@@ -50,10 +50,9 @@ Maps gsl_maps(const Parameters& parameters, double omega,
               },
           .map =
               [=, &parameters, &settings](const State& start) {
-                const double left = settings.most_evaluations -
-                                    static_cast<double>(stepper->evaluations() + *varied);
-                const PeriodMap map = period_map(
-                    parameters, omega, start, settings.tolerance, settings.method, left);
+                const PeriodMap map =
+                    period_map(parameters, omega, start, settings.tolerance,
+                               settings.method, settings.budget);
                 *varied += map.evaluations;
                 return map;
               },

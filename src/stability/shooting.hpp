@@ -25,8 +25,8 @@ struct ShootingSettings {
   double step = 0;           ///< rk4: longest step [s]; 0 chooses `default_step`
   double closure = 1e-10;    ///< wanted ‖P(s) - s‖ over the sizes [-]
   int most_maps = 60;        ///< periods integrated
-  bool final_derivative = true;   ///< integrate Φ at the motion that was found
-  double most_evaluations = 1e9;  ///< of Eq. 7, by GSL's methods
+  bool final_derivative = true;  ///< integrate Φ at the motion that was found
+  OperationBudget budget = {};   ///< for the evaluations of Eq. 7, by GSL's methods
 };
 
 struct Shooting {

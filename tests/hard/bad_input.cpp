@@ -77,25 +77,25 @@ long cases(long usual)
 
 TEST_CASE("Spoilt parameter files")
 {
-  const Tally tally = run_cases(Fuzz::file, 1'000'000, cases(3000), "0.01");
+  const Tally tally = run_cases(Fuzz::file, 1'000'000, cases(3000), "3e5");
   CHECK(tally.bad_input > tally.done);
 }
 
 TEST_CASE("Spoilt options")
 {
-  const Tally tally = run_cases(Fuzz::options, 2'000'000, cases(2000), "0.01");
+  const Tally tally = run_cases(Fuzz::options, 2'000'000, cases(2000), "3e5");
   CHECK(tally.bad_input > tally.done);
 }
 
 TEST_CASE("Legal and extreme machines and options")
 {
-  const Tally tally = run_cases(Fuzz::extreme, 3'000'000, cases(1000), "0.01");
+  const Tally tally = run_cases(Fuzz::extreme, 3'000'000, cases(1000), "3e5");
   CHECK(tally.done + tally.no_solution > tally.bad_input);
 }
 
 TEST_CASE("Legal and extreme machines with the work that explore allows by itself")
 {
-  run_cases(Fuzz::extreme, 4'000'000, cases(sanitized ? 20 : 40), sanitized ? "0.1" : "");
+  run_cases(Fuzz::extreme, 4'000'000, cases(sanitized ? 20 : 40), sanitized ? "3e6" : "");
 }
 
 TEST_CASE("Machines whose work was once counted too cheap")
@@ -105,5 +105,5 @@ TEST_CASE("Machines whose work was once counted too cheap")
   const Scratch scratch;
   for (std::uint64_t seed :
        {4000011, 4000298, 4000434, 4000497, 4000329, 4000991, 4001380})
-    status_of(Fuzz::extreme, seed, sanitized ? "0.1" : "", scratch);
+    status_of(Fuzz::extreme, seed, sanitized ? "3e6" : "", scratch);
 }

@@ -138,7 +138,7 @@ FuzzCase fuzz_case(std::uint64_t seed, Fuzz kind, const std::string& work)
   if (kind == Fuzz::options && dice.one_in(8)) made.arguments.push_back(odd_word(dice));
   if (!work.empty() && command == "response" && dice.one_in(4))
     made.arguments.push_back("--stability");
-  if (!work.empty()) made.arguments.insert(made.arguments.end(), {"--operations", work});
+  if (!work.empty()) made.arguments.insert(made.arguments.end(), {"--budget", work});
   return made;
 }
 

@@ -24,7 +24,7 @@ struct FuzzCase {
 /** What is wrong: the file, the options, or nothing (legal and extreme). */
 enum class Fuzz { file, options, extreme };
 
-/** The case of a seed, bounded to `work` (the option --work) if that is not empty. The same on every
+/** The case of a seed, bounded to `work` (the option --budget) if that is not empty. The same on every
     machine. */
 FuzzCase fuzz_case(std::uint64_t seed, Fuzz kind, const std::string& work);
 

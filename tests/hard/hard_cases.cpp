@@ -154,7 +154,7 @@ TEST_CASE("explore ends on every hard case, with an answer or a reason")
                                          std::to_string(hard.harmonics),
                                          "--samples",
                                          std::to_string(hard.samples)};
-      if (sanitized) arguments.insert(arguments.end(), {"--operations", "0.1"});
+      if (sanitized) arguments.insert(arguments.end(), {"--budget", "3e6"});
       const auto outcome = run_limited(arguments, scratch.path(""), cpu_seconds);
       INFO(hard.name << " by " << method << ": " << outcome.err);
       CHECK(problem(outcome) == "");

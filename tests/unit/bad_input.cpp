@@ -163,7 +163,7 @@ TEST_CASE("Bad options are refused with what would be accepted")
       {response + "--from 0 --to 10", "--from"},
       {response + "--from 1 --to inf", "--to"},
       {response + "--from 1 --to 2 --direction left", "must be up or down"},
-      {response + "--from 1 --to 2 --work 0", "--work 0: must be in 1"},
+      {response + "--from 1 --to 2 --budget 0", "--budget 0: must be in 1"},
       {response + "--from 1 --to 2 --isolated -1", "--isolated -1: must be in 0"},
       {response + "--from 1 --to 2 --at 1.5", "only with --restart"},
       {response + "--from 1 --to 2 --save no/such/folder/file", "folder does not exist"},

@@ -126,14 +126,15 @@ TEST_CASE("explore response: from end to end, with the peak near 50 Hz")
 TEST_CASE("explore response: a branch that is not covered is printed and said to be")
 {
   const Outcome outcome = run_program(
-      "explore response data/set2.toml --from 1 --to 60 --harmonics 16 --work 2000");
+      "explore response data/set2.toml --from 1 --to 60 --harmonics 16 --budget 2e5");
   CHECK(outcome.status == 3);
   const Tsv table = parse_tsv(outcome.out);
   CHECK(table.rows.size() > 10);
-  CHECK(
-      has_line(table, "# incomplete: the bound on work, 2000 evaluations of the force"));
+  const std::string why =
+      "the budget of 2e+05 evaluations of the force is used up; more with --budget";
+  CHECK(has_line(table, "# incomplete: " + why));
   CHECK(outcome.err.find("the branch stopped at") != std::string::npos);
-  CHECK(outcome.err.find("before --to 60 Hz: the bound on work") != std::string::npos);
+  CHECK(outcome.err.find("before --to 60 Hz: " + why) != std::string::npos);
 }
 
 TEST_CASE("Another bearing: harmonic balance approaches rk8pd as harmonics are added")
@@ -224,10 +225,10 @@ TEST_CASE("explore response: a branch is gone on with from the very end of its r
 TEST_CASE("explore response: a search for isolated branches that was cut off says so")
 {
   const Outcome outcome = run_program(
-      "explore response data/set2.toml --from 1 --to 60 --isolated 10 --operations 2");
+      "explore response data/set2.toml --from 1 --to 60 --isolated 10 --budget 5.5e7");
   CHECK(outcome.status == 3);
   CHECK(outcome.err.find("cut off") != std::string::npos);
-  CHECK(outcome.out.find("# incomplete: the work allowed cut off") != std::string::npos);
+  CHECK(outcome.out.find("# incomplete: the budget cut off") != std::string::npos);
 }
 
 TEST_CASE("explore response: what is no saved branch of this machine is refused by line")

@@ -80,7 +80,7 @@ TEST_CASE("explore response --stability: a period doubling is right to 1e-6 in s
 TEST_CASE("explore response --stability: what the work does not allow is said")
 {
   const Outcome outcome =
-      run_program(response + "--from 1 --to 60 --stability --operations 1");
+      run_program(response + "--from 1 --to 60 --stability --budget 2.7e7");
   CHECK(outcome.status == 3);
   CHECK(outcome.err.find("no multipliers at") != std::string::npos);
   CHECK(outcome.err.find("used up") != std::string::npos);
