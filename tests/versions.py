@@ -26,7 +26,7 @@ def computed():
 def versions():
     yield "CITATION.cff", found(r"^version: (\S+)", "CITATION.cff")
     yield "codemeta.json", json.loads(Path("codemeta.json").read_text(encoding="utf-8"))["version"]
-    yield "CHANGELOG.md", found(r"^## (\S+)", "CHANGELOG.md")
+    yield "CHANGELOG.md", found(r"^## (\d\S*)", "CHANGELOG.md")
     for table in computed():
         yield str(table), found(r"^# source: rotor_stator (\S+)", table)
 
