@@ -168,16 +168,28 @@ double refined_maximum(const Eigen::VectorXd& samples)
 
 }  // namespace
 
-Eigen::VectorXd half_peak_to_peak(const Eigen::MatrixXd& series)
+FourierTransform amplitude_transform(int harmonics)
 {
-  const int points =
-      fast_transform_size(std::max(256, 8 * static_cast<int>(series.cols())));
-  const Eigen::MatrixXd samples = sample_series(series, points);
+  return FourierTransform(fast_transform_size(std::max(256, 8 * (2 * harmonics + 1))));
+}
+
+Eigen::VectorXd half_peak_to_peak(const Eigen::MatrixXd& series,
+                                  FourierTransform& transform)
+{
+  Eigen::MatrixXd samples;
+  transform.to_samples(series, samples);
   Eigen::VectorXd amplitude(series.rows());
   for (Eigen::Index row = 0; row < series.rows(); ++row)
     amplitude[row] =
         0.5 * (refined_maximum(samples.col(row)) + refined_maximum(-samples.col(row)));
   return amplitude;
+}
+
+Eigen::VectorXd half_peak_to_peak(const Eigen::MatrixXd& series)
+{
+  FourierTransform transform =
+      amplitude_transform(static_cast<int>(series.cols() - 1) / 2);
+  return half_peak_to_peak(series, transform);
 }
 
 }  // namespace rotor_stator

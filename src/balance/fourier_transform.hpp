@@ -72,8 +72,13 @@ Eigen::MatrixXd sample_series(const Eigen::MatrixXd& series, int points);
 /** The series of the derivative with respect to φ. */
 Eigen::MatrixXd differentiate(const Eigen::MatrixXd& series);
 
+/** The transform of the next function for m harmonics, planned once for many series. */
+FourierTransform amplitude_transform(int harmonics);
+
 /** Half peak-to-peak of each row of a series over the period, the extremes refined by a
    parabola through three samples. */
+Eigen::VectorXd half_peak_to_peak(const Eigen::MatrixXd& series,
+                                  FourierTransform& transform);
 Eigen::VectorXd half_peak_to_peak(const Eigen::MatrixXd& series);
 
 }  // namespace rotor_stator

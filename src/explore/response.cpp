@@ -123,10 +123,11 @@ struct Examined {
 void add_rows(Table& table, const ResponseTask& task, Balance& balance,
               const Examined& examined, std::optional<std::size_t> number)
 {
+  FourierTransform transform = amplitude_transform(task.harmonics);
   const auto add = [&](const BranchPoint& point, std::vector<Cell> more) {
     balance.residual(point.x, point.omega);
-    const Eigen::VectorXd a =
-        half_peak_to_peak(body_series(task.parameters, balance, point.omega, point.x));
+    const Eigen::VectorXd a = half_peak_to_peak(
+        body_series(task.parameters, balance, point.omega, point.x), transform);
     std::vector<Cell> row{point.omega / angular(1), a[0], a[1], a[2], a[3], point.arc,
                           point.newton.iterations};
     row.insert(row.end(), more.begin(), more.end());

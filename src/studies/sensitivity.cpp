@@ -61,6 +61,7 @@ Peak balance_peak(const Model& model, const std::vector<double>& frequencies)
 {
   const Parameters& parameters = model.parameters;
   Balance balance(bearing_problem(parameters, model.samples), model.harmonics);
+  FourierTransform transform = amplitude_transform(model.harmonics);
   const ColdStart start = [&](double omega) {
     return quasi_static_start(parameters, omega, model.harmonics);
   };
@@ -68,11 +69,12 @@ Peak balance_peak(const Model& model, const std::vector<double>& frequencies)
     std::vector<double> omegas, amplitude;
     for (double frequency : speeds) omegas.push_back(angular(frequency));
     std::vector<double> found;
-    const auto points = sweep(balance, omegas, start, motion::sweep_settings(parameters),
-                              [&](const SweepPoint& point) {
-                                found.push_back(half_peak_to_peak(body_series(
-                                    parameters, balance, point.omega, point.x))[2]);
-                              });
+    const auto points = sweep(
+        balance, omegas, start, motion::sweep_settings(parameters),
+        [&](const SweepPoint& point) {
+          found.push_back(half_peak_to_peak(
+              body_series(parameters, balance, point.omega, point.x), transform)[2]);
+        });
     auto next = found.begin();
     for (const SweepPoint& point : points)
       amplitude.push_back(point.found() ? *next++ : 0);
