@@ -29,8 +29,15 @@ computed about forces, and the balls stand where Eq. 3 puts them at the start of
 int main(int argc, char** argv)
 {
   using namespace rotor_stator;
-  return run(argc, argv, {"data/scenes/fig01_bearing.toml"}, [](const Options& options) {
-    return figures::geometry_table(
-        figures::read_geometry_scene(options.scene_file, options.reading));
+  return run_figure(argc, argv, [](SceneFile& file) {
+    const figures::BearingScene scene = figures::read_bearing_scene(file);
+    Table table = figures::bearing_table(scene);
+    figures::add_races(table, scene);
+    for (int ball = 1; ball <= scene.machine.bearing.balls; ++ball) {
+      const double angle = figures::ball_angle(scene, ball);          // Eq. 3
+      const double penetration = figures::penetration(scene, angle);  // Eqs 4, 5
+      figures::add_ball(table, scene, ball, angle, penetration);
+    }
+    return table;
   });
 }

@@ -31,8 +31,25 @@ share of time in contact. No waveform is kept, and nothing is said about stabili
 int main(int argc, char** argv)
 {
   using namespace rotor_stator;
-  return run(argc, argv, {"data/scenes/fig03_response.toml"}, [](const Options& options) {
-    return figures::response_table(
-        figures::read_response_scene(options.scene_file, options.reading));
+  return run_figure(argc, argv, [](SceneFile& file) {
+    const figures::ResponseScene scene = figures::read_response(file);
+    Table table = figures::response_table(scene);
+    const std::vector<double>& upwards = scene.balance_speeds;
+    const std::vector<double> downwards(upwards.rbegin(), upwards.rend());
+    for (const figures::DataSet& set : scene.sets) {
+      figures::add_curve(table, set, figures::Curve::speed_up,
+                         figures::sweep_speeds(set, upwards));
+      figures::add_curve(table, set, figures::Curve::speed_down,
+                         figures::sweep_speeds(set, downwards));
+      for (double frequency : Watched("time integration", scene.time_speeds)) {
+        const SteadyState settled =
+            steady_state(set.machine, angular(frequency), static_start(set.machine),
+                         scene.time_integration);
+        figures::add_settled(table, set, frequency,
+                             scene.time_integration.stepper.intervals_per_period,
+                             settled);
+      }
+    }
+    return table;
   });
 }

@@ -32,8 +32,18 @@ where the static sag is much larger than the orbit. */
 int main(int argc, char** argv)
 {
   using namespace rotor_stator;
-  return run(argc, argv, {"data/scenes/fig06_orbits.toml"}, [](const Options& options) {
-    return figures::orbit_table(
-        figures::read_orbit_scene(options.scene_file, options.reading));
+  return run_figure(argc, argv, [](SceneFile& file) {
+    const figures::PanelScene scene = figures::read_panels(file);
+    Table table = figures::orbit_table(scene);
+    for (double frequency : Watched(scene.title, scene.frequencies)) {
+      const double omega = angular(frequency);
+      const motion::PeriodicSolution balance =
+          motion::find_periodic(scene.machine, omega, scene.harmonics, scene.samples);
+      const SteadyState settled = steady_state(
+          scene.machine, omega, static_start(scene.machine), scene.time_integration);
+      const figures::Panel panel = figures::compare(scene, frequency, balance, settled);
+      figures::add_orbits(table, scene, panel);
+    }
+    return table;
   });
 }

@@ -25,14 +25,25 @@ is barely touched; how forces rise towards the resonance is claim C7.
 Modelled: the force of each ball over two periods at six speeds, from the harmonic-balance
 solution where the motion is periodic and from time integration where it is not. The title of each
 panel says which, and how far off the force of the balance is. */
-#include "figures/orbits.hpp"
+#include "figures/contact.hpp"
 #include "io/program.hpp"
 
 int main(int argc, char** argv)
 {
   using namespace rotor_stator;
-  return run(argc, argv, {"data/scenes/fig07_contact.toml"}, [](const Options& options) {
-    return figures::contact_table(
-        figures::read_orbit_scene(options.scene_file, options.reading));
+  return run_figure(argc, argv, [](SceneFile& file) {
+    const figures::PanelScene scene = figures::read_panels(file);
+    Table table = figures::contact_table(scene);
+    for (double frequency : Watched(scene.title, scene.frequencies)) {
+      const double omega = angular(frequency);
+      const motion::PeriodicSolution balance =
+          motion::find_periodic(scene.machine, omega, scene.harmonics, scene.samples);
+      const SteadyState settled = steady_state(
+          scene.machine, omega, static_start(scene.machine), scene.time_integration);
+      const figures::Panel panel = figures::compare(scene, frequency, balance, settled);
+      const auto contact = motion::contact_evolution(scene.machine, panel.shown());
+      figures::add_contact(table, panel, contact);
+    }
+    return table;
   });
 }

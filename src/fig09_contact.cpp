@@ -25,14 +25,25 @@ of the forces.
 Modelled: the force of each ball over two periods at four speeds. The forces of an impact last for
 a fraction of the period of the contact's own vibration, so the motion is recorded at many
 instants per period, as many as the scene file says. */
-#include "figures/orbits.hpp"
+#include "figures/contact.hpp"
 #include "io/program.hpp"
 
 int main(int argc, char** argv)
 {
   using namespace rotor_stator;
-  return run(argc, argv, {"data/scenes/fig09_contact.toml"}, [](const Options& options) {
-    return figures::contact_table(
-        figures::read_orbit_scene(options.scene_file, options.reading));
+  return run_figure(argc, argv, [](SceneFile& file) {
+    const figures::PanelScene scene = figures::read_panels(file);
+    Table table = figures::contact_table(scene);
+    for (double frequency : Watched(scene.title, scene.frequencies)) {
+      const double omega = angular(frequency);
+      const motion::PeriodicSolution balance =
+          motion::find_periodic(scene.machine, omega, scene.harmonics, scene.samples);
+      const SteadyState settled = steady_state(
+          scene.machine, omega, static_start(scene.machine), scene.time_integration);
+      const figures::Panel panel = figures::compare(scene, frequency, balance, settled);
+      const auto contact = motion::contact_evolution(scene.machine, panel.shown());
+      figures::add_contact(table, panel, contact);
+    }
+    return table;
   });
 }

@@ -11,7 +11,15 @@ over a second for contact, over two periods for the rest. */
 int main(int argc, char** argv)
 {
   using namespace rotor_stator;
-  return run(argc, argv, {"data/scenes/regimes.toml"}, [](const Options& options) {
-    return figures::regime_table(options.scene_file, options.reading);
+  return run_figure(argc, argv, [](SceneFile& file) {
+    const figures::RegimeScene scene = figures::read_regimes(file);
+    Table table = figures::regime_table(scene);
+    for (int set = 0; const Parameters& machine : scene.machines) {
+      ++set;
+      for (double frequency : Watched("regimes", scene.frequencies))
+        figures::add_regime(table, set,
+                            motion::regime_at(machine, frequency, scene.settings));
+    }
+    return table;
   });
 }

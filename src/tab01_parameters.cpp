@@ -24,14 +24,20 @@ rotor's speed, every ball passes the load once in two periods, which the paper s
 balls of finite size the ratio is smaller, and only some ratios leave the motion its period.
 
 Modelled: nothing. The program reads, checks and prints. */
-#include "figures/bearing.hpp"
+#include "figures/data_sets.hpp"
 #include "io/program.hpp"
+#include "model/rotor_stator.hpp"
 
 int main(int argc, char** argv)
 {
   using namespace rotor_stator;
-  return run(argc, argv, {"data/scenes/tab01_parameters.toml"},
-             [](const Options& options) {
-               return figures::parameter_table(options.scene_file, options.reading);
-             });
+  return run_figure(argc, argv, [](SceneFile& file) {
+    const std::vector<Parameters> machines = figures::read_data_sets(file);
+    Table table = figures::data_set_table(machines);
+    for (int set = 0; const Parameters& machine : machines) {
+      const double joint = joint_resonance(machine) / angular(1);  // [Hz]
+      figures::add_data_set(table, ++set, machine, joint);
+    }
+    return table;
+  });
 }

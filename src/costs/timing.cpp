@@ -7,7 +7,6 @@
 
 #include "balance/bearing_problem.hpp"
 #include "costs/true_motion.hpp"
-#include "figures/response.hpp"
 #include "integration/rk4.hpp"
 #include "io/errors.hpp"
 #include "io/program.hpp"

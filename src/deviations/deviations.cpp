@@ -10,7 +10,6 @@
 #include "continuation/arc_length.hpp"
 #include "continuation/sweep.hpp"
 #include "deviations/printed_equations.hpp"
-#include "figures/response.hpp"
 #include "integration/time_stepper.hpp"
 #include "io/errors.hpp"
 #include "motion/find_periodic.hpp"

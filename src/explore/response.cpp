@@ -3,7 +3,6 @@
 #include "balance/bearing_problem.hpp"
 #include "explore/stability.hpp"
 #include "explore/tables.hpp"
-#include "figures/response.hpp"
 #include "io/errors.hpp"
 #include "io/whole_file.hpp"
 #include "motion/find_periodic.hpp"

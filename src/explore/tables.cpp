@@ -7,7 +7,6 @@
 
 #include "balance/fourier_transform.hpp"
 #include "explore/stability.hpp"
-#include "figures/response.hpp"
 #include "io/errors.hpp"
 #include "motion/adaptive.hpp"
 #include "motion/find_periodic.hpp"

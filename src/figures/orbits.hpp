@@ -1,10 +1,9 @@
 /**
-# Scene: orbits and displacements (Figs 4, 5, 6 and 8)
+# Panels, and the table of the orbits (Figs 4, 5, 6 and 8)
 
-At each speed the periodic solution with the asked number of harmonics, and the motion
-that time integration settles on, from rest. Whether that motion is periodic decides which
-of the two a panel may show as the truth. The speeds of the panels (D-17) and what Figs 4
-and 5 draw (D-19) are our choice. */
+A panel belongs to one speed and holds two motions: the periodic solution of harmonic balance,
+and the motion that time integration settles on. Where the second repeats with the period of
+rotation, the difference of the two is the error of the first. */
 #pragma once
 
 #include <optional>
@@ -17,47 +16,72 @@ and 5 draw (D-19) are our choice. */
 namespace rotor_stator::figures
 {
 
-/** One speed: both methods and their distance. */
-struct OrbitPanel {
-  double frequency;                  ///< [Hz]
-  motion::PeriodicSolution balance;  ///< may not have been found
-  SteadyState steady;
-  std::optional<motion::Motion> balance_motion;
-  motion::Motion steady_motion;
-  /** Of balance against time integration, over one period; -1 without balance. */
-  double difference;  ///< of displacement, over the largest displacement [-]
-  double
-      orbit_difference;  ///< of displacement, over each one's own half peak-to-peak [-]
-  double force_difference;  ///< of the bearing's force, over the largest force [-]
-
-  bool shows_balance() const { return balance.found() && steady.periodic; }
-};
-
-struct OrbitScene {
+/** What a figure with panels asks for. */
+struct PanelScene {
   std::string title;
-  Parameters parameters;
-  std::vector<double> frequencies;  ///< [Hz]
+  Parameters machine;
+  std::vector<double> frequencies;  ///< [Hz], one panel each: our choice (D-17)
   int harmonics;                    ///< m
   int samples;                      ///< N
   SteadySettings time_integration;
 };
 
-OrbitScene read_orbit_scene(const std::string& file, const std::string& reading);
+PanelScene read_panels(SceneFile& file);
 
-OrbitPanel compute_panel(const OrbitScene& scene, double frequency);
-std::vector<OrbitPanel> compute_panels(const OrbitScene& scene);
+/** One speed: both motions, and how far they are apart over one period; -1 without a solution of
+    harmonic balance. */
+struct Panel {
+  std::size_t number;  ///< 1, 2, … in the scene's order
+  double frequency;    ///< [Hz]
+  std::optional<motion::Motion> balance;
+  motion::Motion settled;
+  bool periodic;                 ///< the settled motion repeats after T
+  double spread;                 ///< of its Poincaré section [-]
+  double difference = -1;        ///< of displacement, over the largest displacement [-]
+  double orbit_difference = -1;  ///< the same, each over its own half peak-to-peak [-]
+  double force_difference = -1;  ///< of the bearing's force, over the largest force [-]
+  std::string ending;            ///< how both computations ended, in words
 
-struct ContactPanel {
-  OrbitPanel orbit;
-  motion::ContactEvolution evolution;
+  /** Whether the panel may show the solution of harmonic balance as what the machine does. */
+  bool shows_balance() const { return balance && periodic; }
+  const motion::Motion& shown() const { return shows_balance() ? *balance : settled; }
 };
 
-std::vector<ContactPanel> compute_contact(const OrbitScene& scene);
+Panel compare(const PanelScene& scene, double frequency,
+              const motion::PeriodicSolution& balance, const SteadyState& settled);
 
-/** Figs 4, 5, 6 and 8. */
-Table orbit_table(const OrbitScene& scene);
+/** The table of the orbits before its first panel. */
+Table orbit_table(const PanelScene& scene);
 
-/** Figs 7 and 9. */
-Table contact_table(const OrbitScene& scene);
+/** Both motions of a panel with the bearing's force, one row per instant. */
+void add_orbits(Table& table, const PanelScene& scene, const Panel& panel);
+
+/**
+## What the tables of panels share */
+
+/** What every row of a panel repeats. */
+struct PanelRow {
+  const Panel& panel;
+  int source;  ///< 1 harmonic balance, 2 time integration
+};
+
+std::vector<Field<PanelRow>> panel_fields();
+
+/** The panel's fields and then those of one table. */
+template <class Row>
+std::vector<Field<Row>> with_panel_fields(const std::vector<Field<Row>>& others)
+{
+  std::vector<Field<Row>> fields;
+  for (const Field<PanelRow>& field : panel_fields())
+    fields.push_back({field, field.value});
+  fields.insert(fields.end(), others.begin(), others.end());
+  return fields;
+}
+
+/** The `#` lines that say with what the panels were computed. */
+void describe(Table& table, const PanelScene& scene);
+
+/** The `#` line that says how the computations of a panel ended. */
+void describe(Table& table, const Panel& panel);
 
 }  // namespace rotor_stator::figures

@@ -1,14 +1,23 @@
 /**
-# The table that most claims are judged by */
+# The table of the regimes, by which most claims are judged */
 #pragma once
 
-#include "io/table.hpp"
 #include "motion/regime.hpp"
 
 namespace rotor_stator::figures
 {
 
-/** Regimes of the data sets of a scene, one row per set and speed. */
-Table regime_table(const std::string& scene_file, const std::string& reading);
+struct RegimeScene {
+  std::vector<Parameters> machines;
+  std::vector<double> frequencies;  ///< [Hz]
+  motion::RegimeSettings settings;
+};
+
+RegimeScene read_regimes(SceneFile& file);
+
+Table regime_table(const RegimeScene& scene);
+
+/** The row of data set `set` at one speed. */
+void add_regime(Table& table, int set, const motion::Regime& regime);
 
 }  // namespace rotor_stator::figures

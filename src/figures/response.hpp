@@ -1,49 +1,51 @@
 /**
-# Scene: frequency response (Fig. 3)
+# The table of the frequency response (Fig. 3)
 
-Amplitudes of both bodies against speed, for each data set: harmonic balance swept up and
-swept down with the paper's predictor, and time integration at fewer speeds to say where
-the branch is a motion. The amplitude is half the peak-to-peak value over the period (the
-paper does not say which it draws, D-10; nor the range, D-19). Only amplitudes and the
-share of contact are kept. */
+The amplitude is half the peak-to-peak value over the period; the paper does not say which it draws
+(D-10), nor over what range (D-19). */
 #pragma once
 
 #include "continuation/sweep.hpp"
-#include "io/scene.hpp"
-#include "io/table.hpp"
-#include "motion/motion.hpp"
+#include "integration/steady_state.hpp"
 
 namespace rotor_stator::figures
 {
 
+struct DataSet {
+  int number;  ///< 1, 2, … in the scene's order
+  Parameters machine;
+  int harmonics;  ///< m
+};
+
 struct ResponseScene {
-  std::vector<Parameters> sets;
-  std::vector<int> harmonics;          ///< m of each set
-  std::vector<double> balance_speeds;  ///< [Hz]
+  std::vector<DataSet> sets;
+  std::vector<double> balance_speeds;  ///< [Hz], upwards
   std::vector<double> time_speeds;     ///< [Hz]
   SteadySettings time_integration;
 };
 
-enum class Curve { speed_up = 1, speed_down = 2, time_integration = 3 };
+ResponseScene read_response(SceneFile& file);
 
-struct ResponsePoint {
-  int set;  ///< 1, 2, … in the scene's order
-  Curve curve;
-  int segment;                      ///< counts the gaps where no solution was found
-  double frequency;                 ///< [Hz]
-  std::array<double, 4> amplitude;  ///< of x_s, y_s, x_r, y_r: half peak-to-peak [m]
-  double contact_share;             ///< of the period, with at least one loaded ball [-]
-  int newton_iterations;            ///< 0 for time integration
-  double spread;                    ///< Poincaré spread [-]; 0 for harmonic balance
-  bool periodic;                    ///< true for harmonic balance by construction
+Table response_table(const ResponseScene& scene);
+
+/** A solution of a sweep, and the series of both bodies [m], 4 × (2m+1). */
+struct SweptSolution {
+  SweepPoint point;
+  Eigen::MatrixXd bodies;
 };
 
-ResponseScene read_response_scene(const std::string& file, const std::string& reading);
+/** Harmonic balance at each of `frequencies` [Hz] in order, by the paper's predictor. */
+std::vector<SweptSolution> sweep_speeds(const DataSet& set,
+                                        const std::vector<double>& frequencies);
 
-/** All curves of all sets, in order. */
-std::vector<ResponsePoint> compute_response(const ResponseScene& scene);
+enum class Curve { speed_up = 1, speed_down = 2, time_integration = 3 };
 
-/** Fig. 3. */
-Table response_table(const ResponseScene& scene);
+/** The amplitudes along a sweep, with a gap wherever no solution was found. */
+void add_curve(Table& table, const DataSet& set, Curve curve,
+               const std::vector<SweptSolution>& solutions);
+
+/** The amplitudes of an integrated motion with so many points per period. */
+void add_settled(Table& table, const DataSet& set, double frequency, int points,
+                 const SteadyState& settled);
 
 }  // namespace rotor_stator::figures

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <charconv>
 #include <cstdio>
+#include <filesystem>
 #include <new>
 
 #include "io/errors.hpp"
@@ -108,6 +109,15 @@ int run(int argc, char** argv, const Program& program,
     if (!parse(app, argc, argv)) return 0;
     write(compute(options).text());
     return 0;
+  });
+}
+
+int run_figure(int argc, char** argv, const std::function<Table(SceneFile&)>& compute)
+{
+  const std::string name = std::filesystem::path(argv[0]).filename();
+  return run(argc, argv, {"data/scenes/" + name + ".toml"}, [&](const Options& options) {
+    SceneFile scene(options.scene_file, options.reading);
+    return compute(scene);
   });
 }
 

@@ -8,6 +8,7 @@ A line on stderr that is rewritten in place, and only when a person is watching.
 #include <string>
 #include <vector>
 
+#include "io/scene.hpp"
 #include "io/table.hpp"
 
 namespace CLI
@@ -32,6 +33,37 @@ private:
   std::string what_;
   std::size_t done_ = 0, total_;
   bool watched_;
+};
+
+/** The items of a list one after the other, with their progress:
+    `for (double f : Watched("orbits", frequencies))`. */
+template <class Item>
+class Watched
+{
+public:
+  Watched(std::string what, const std::vector<Item>& list)
+      : list_(list), progress_(std::move(what), list.size())
+  {
+  }
+
+  struct Iterator {
+    const Item* at;
+    Progress* progress;
+
+    const Item& operator*() const { return *at; }
+    bool operator!=(const Iterator& other) const { return at != other.at; }
+    void operator++()
+    {
+      ++at;
+      progress->step();
+    }
+  };
+  Iterator begin() { return {list_.data(), &progress_}; }
+  Iterator end() { return {list_.data() + list_.size(), &progress_}; }
+
+private:
+  const std::vector<Item>& list_;
+  Progress progress_;
 };
 
 /**
@@ -65,6 +97,10 @@ struct Options {
 /** Runs a program: parses its options, computes its table, prints it. */
 int run(int argc, char** argv, const Program& program,
         const std::function<Table(const Options&)>& compute);
+
+/** Runs the program of a figure: `compute` makes the table that the scene asks for, which is the one
+    with the program's name, data/scenes/NAME.toml, unless another is given. */
+int run_figure(int argc, char** argv, const std::function<Table(SceneFile&)>& compute);
 
 /** The whole number that an option's value is. Throws BadInput unless `least` ≤ it ≤ `most`. */
 int whole_number(const std::string& option, const std::string& value, int least,

@@ -4,7 +4,6 @@
 #include <cmath>
 
 #include "balance/bearing_problem.hpp"
-#include "figures/response.hpp"
 #include "io/errors.hpp"
 #include "io/journal.hpp"
 #include "motion/find_periodic.hpp"

@@ -6,7 +6,6 @@
 #include <functional>
 
 #include "balance/bearing_problem.hpp"
-#include "figures/response.hpp"
 #include "io/errors.hpp"
 #include "io/program.hpp"
 

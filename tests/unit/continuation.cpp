@@ -4,14 +4,12 @@
 #include "balance/bearing_problem.hpp"
 #include "continuation/arc_length.hpp"
 #include "continuation/sweep.hpp"
-#include "figures/response.hpp"
 #include "io/errors.hpp"
 #include "motion/find_periodic.hpp"
 #include "support/cases.hpp"
 
 using namespace rotor_stator;
 using namespace rotor_stator::motion;
-using namespace rotor_stator::figures;
 using namespace rotor_stator::tests;
 
 namespace

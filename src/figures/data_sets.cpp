@@ -1,0 +1,64 @@
+#include "figures/data_sets.hpp"
+
+namespace rotor_stator::figures
+{
+
+namespace
+{
+
+struct DataSet {
+  int number;
+  const Parameters& machine;
+  double joint;
+};
+
+using Set = const DataSet&;
+const std::vector<Field<DataSet>> fields{
+    {"set", "-", "data set", &DataSet::number},
+    {"xi_r", "-", "damping ratio of the rotor",
+     [](Set s) { return s.machine.rotor.damping_ratio; }},
+    {"xi_s", "-", "damping ratio of the stator",
+     [](Set s) { return s.machine.stator.damping_ratio; }},
+    {"m_e_e", "kg m", "unbalance", [](Set s) { return s.machine.unbalance; }},
+    {"omega_0_s", "rad/s", "natural frequency of the stator",
+     [](Set s) { return s.machine.stator.natural_frequency; }},
+    {"omega_0_r", "rad/s", "natural frequency of the rotor",
+     [](Set s) { return s.machine.rotor.natural_frequency; }},
+    {"K_H", "N/m^1.5", "contact stiffness",
+     [](Set s) { return s.machine.bearing.contact_stiffness; }},
+    {"delta", "m", "radial clearance", [](Set s) { return s.machine.bearing.clearance; }},
+    {"m_s", "kg", "mass of the stator, not printed in the paper",
+     [](Set s) { return s.machine.stator.mass; }},
+    {"m_r", "kg", "mass of the rotor, not printed in the paper",
+     [](Set s) { return s.machine.rotor.mass; }},
+    {"n", "-", "balls", [](Set s) { return s.machine.bearing.balls; }},
+    {"cage_speed_ratio", "-", "omega_cage/omega, not printed in the paper",
+     [](Set s) { return s.machine.bearing.cage_speed_ratio; }},
+    {"g", "m/s^2", "gravity, not printed in the paper",
+     [](Set s) { return s.machine.gravity; }},
+    {"f_joint", "Hz", "resonance of both bodies moving as one", &DataSet::joint}};
+
+}  // namespace
+
+std::vector<Parameters> read_data_sets(SceneFile& file)
+{
+  auto machines = read_parameter_list(file, "parameters");
+  file.toml().refuse_unknown_keys();
+  return machines;
+}
+
+Table data_set_table(const std::vector<Parameters>& machines)
+{
+  Table table("Data sets (Table 1), with what the paper leaves out", fields);
+  for (const Parameters& machine : machines)
+    table.note("parameters: " + machine.file + " (" + machine.title + ")");
+  table.note("modelled: nothing; the values of the parameter files");
+  return table;
+}
+
+void add_data_set(Table& table, int set, const Parameters& machine, double joint)
+{
+  table.row(fields, {set, machine, joint});
+}
+
+}  // namespace rotor_stator::figures
