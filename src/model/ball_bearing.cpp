@@ -19,8 +19,12 @@ BallBearing::BallBearing(const Bearing& bearing)
       clearance_(bearing.clearance),
       clearance_squared_(bearing.clearance * bearing.clearance)
 {
-  for (int j = 0; j < bearing.balls; ++j)
+  fours_.resize((bearing.balls + 3) / 4);
+  for (int j = 0; j < bearing.balls; ++j) {
     balls_.push_back(Direction::of(2 * std::numbers::pi * j / bearing.balls));
+    fours_[j / 4].cos[j % 4] = balls_[j].cos;
+    fours_[j / 4].sin[j % 4] = balls_[j].sin;
+  }
 }
 
 BearingReaction BallBearing::reaction(Direction cage, Vec2 u) const
