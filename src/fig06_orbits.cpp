@@ -5,27 +5,30 @@ Paper: §3.3, Fig. 6.
 
     build/fig06_orbits > data/generated/fig06_orbits.tsv
 
-Nine speeds, three in each of the regimes that the paper describes. At low speed gravity presses
-the rotor on the balls below it, and the orbits are small: the sag of the balls as they pass, with
-the unbalance as a slow addition (claim C4). In the transition the unbalance force approaches the
-weight; the relative motion leaves the bottom of its clearance, and orbits have loops and corners
-(claim C5). Beyond it both bodies whirl together on circles that grow towards the resonance and
-shrink after it (claim C6).
+Orbits of rotor (solid) and stator (dashed) at nine speeds, three in each regime that the paper
+describes:
 
-The paper's figure draws the rotor solid and the stator dashed; so does this one. It does not name
-its speeds. Ours are in the scene file, among them the two speeds for which the paper shows
-displacements.
+- *Low speed.* Gravity keeps the rotor on the balls below it. The unbalance moves both bodies
+  on small orbits about their static positions. The passing balls add a ripple with eight periods
+  per turn, which six harmonics cannot contain (claim C4).
+- *Transition.* The unbalance force approaches the weight. The orbits have corners, and at the
+  middle one of these speeds rotor and stator separate from time to time (claim C5).
+- *High speed.* Both bodies whirl together on circles that grow up to the resonance and shrink
+  beyond it (claim C6).
 
-Each panel is drawn by the method that can be trusted there. Where the integrated motion repeats
-with the period of rotation, the panel is the harmonic-balance solution and says how far it is
-from the integrated one. Where it does not, the panel draws several turns of the integrated motion
-and says so: the closed curve that a balance would draw there is no motion that the machine
-settles on.
+The paper does not give its speeds (D-17). Ours are in the scene file and include those of
+Figs 4 and 5.
 
-Modelled: one solution with the paper's number of harmonics at each speed, searched from several
-starts, and the integrated motion from rest. Differences stand in the table, over the largest
-displacement and over each displacement's own size; the second is the one to read at low speed,
-where the static sag is much larger than the orbit. */
+At each speed two motions are computed: the periodic solution of harmonic balance with the
+paper's number of harmonics, and the motion that time integration from rest settles on. If that
+motion repeats with the period of rotation T, the difference of the two is the error of harmonic
+balance. It is printed above the panel: the largest difference of a displacement over one period,
+divided by half the peak-to-peak value of that displacement. The table also gives it divided by the
+largest displacement. At low speed this second number is small even for a poor solution, because
+the static sag is much larger than the orbit.
+
+If the integrated motion does not repeat with T, no solution with that period can represent it.
+The panel then shows several turns of the integrated motion, and no harmonic balance. */
 #include "figures/orbits.hpp"
 #include "io/program.hpp"
 
