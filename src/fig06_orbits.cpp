@@ -10,7 +10,7 @@ describes:
 
 - *Low speed.* Gravity keeps the rotor on the balls below it. The unbalance moves both bodies
   on small orbits about their static positions. Eight balls per turn pass under the load and add
-  a ripple. Its harmonics, 8 and 16 above all, are higher than those kept (claim C4).
+  a ripple. At the lowest speed it lies in harmonics 7 to 17, beyond those kept (claim C4).
 - *Transition.* The unbalance force approaches the weight. The orbits have corners, and at the
   middle one of these speeds rotor and stator separate from time to time (claim C5).
 - *High speed.* Both bodies whirl together on circles that grow up to the resonance and shrink
