@@ -1,28 +1,30 @@
 /**
 # Figure 1: the ball bearing
 
-Paper: §2.2, Fig. 1.
+Paper: §2.2, Fig. 1.   `build/fig01_bearing > data/generated/fig01_bearing.tsv`
 
-    build/fig01_bearing > data/generated/fig01_bearing.tsv
+The bearing joins two bodies. Its outer race belongs to the stator, its inner race to the rotor; n
+balls run between them, and a cage keeps the balls at equal angles. The figure draws this bearing,
+centred, from the parameter file that the other figures use too.
 
-The paper begins with a drawing of a bearing: an outer race carried by the stator, an inner race
-on the rotor, and n balls between them, held at equal angles by a cage. This is the same drawing
-made from numbers, so that it can be checked against the parameters that every other figure uses.
+Two properties decide what the bearing does. The first is its radial clearance δ. From the centred
+position the rotor can move by δ relative to the stator, in any direction, before it presses a
+ball; up to there the bearing transmits no force. The clearance is about five hundred times smaller
+than the radius of a drawn ball, so it is drawn enlarged; the title gives the factor.
 
-Two lengths decide everything that follows. The first is the radial clearance δ: as long as the
-two races are apart from their centred position by less than δ, no ball is pressed and the bodies
-do not feel each other. It is some hundred times smaller than a ball, so it is drawn enlarged, by
-the factor that the scene file names and the figure repeats. The second is the ratio of the ball's
-radius to the pitch radius. It fixes how fast the cage turns with respect to the rotor (Eq. 3),
-and it has an upper bound: n balls side by side must not overlap on the pitch circle.
+The second is the ratio of the radius of a ball, R_b, to the radius of the circle on which the
+centres of the balls run, R_b + R. The balls roll on both races without slip, so this ratio fixes
+how fast the cage turns compared with the rotor (Eq. 3). The smaller the balls, the closer the cage
+comes to half the rotor's speed.
 
-The paper gives neither radius (D-10, D-11). The drawing therefore has radii of its own, written
-in the scene file; the dynamics of the other figures never see them, because Eq. 3 needs the ratio
-of speeds alone. A reader who knows the bearing can give both radii in the parameter file, and the
-cage's speed follows.
+The paper gives neither radius (D-11). The data sets therefore state the speed of the cage itself,
+half that of the rotor. The radii of the drawing stand in its scene file and enter no other result.
+A parameter file may give both radii instead of the cage's speed; then Eq. 3 is used, and the
+drawing shows the ratio of these radii.
 
-Modelled: geometry alone. The table holds circles: centre, radius and what each one is. Nothing is
-computed about forces, and the balls stand where Eq. 3 puts them at the start of a turn. */
+The table has one row for each circle: its centre, its radius and, for a ball, its angle (Eq. 3)
+and its penetration Δ_j - δ (Eqs 4 and 5). Here the penetration of every ball is -δ: none is
+pressed. */
 #include "figures/bearing.hpp"
 #include "io/program.hpp"
 

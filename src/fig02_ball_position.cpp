@@ -1,30 +1,29 @@
 /**
-# Figure 2: position of ball j
+# Figure 2: position and penetration of ball j
 
-Paper: §2.2 and §2.3, Fig. 2 and Eqs 3, 4.
+Paper: §2.2 and §2.3, Fig. 2.   `build/fig02_ball_position >
+data/generated/fig02_ball_position.tsv`
 
-    build/fig02_ball_position > data/generated/fig02_ball_position.tsv
+The figure shows how a displacement of the rotor presses the balls, the only nonlinearity of the
+model. The inner race has moved by u relative to the outer race, towards the upper right. The balls
+on that side are pressed and drawn in colour; the others are free.
 
-The second drawing explains the only nonlinearity of the model. The inner race has moved by u, and
-one ball is marked. What presses the ball is the part of u along the ball's direction, Δ_j of Eq.
-4; of that the clearance δ is lost before anything is touched; the rest, Δ_j - δ, is the
-penetration that Hertz's law (Eq. 5) turns into a force. The figure draws each of these lengths
-where it is measured, enlarged by the factors of the scene file so that they can be seen beside
-the ball.
+Ball j stands at the angle θ_j, which grows as the cage turns (Eq. 3). The component of u in the
+direction of this ball is the approach Δ_j of Eq. 4. The clearance δ is used up first; what
+remains, the penetration Δ_j - δ, is the length by which the races squeeze the ball. Where it is
+negative the ball is free. Where it is positive the ball pushes back with a force that grows with
+the power 3/2 of the penetration (Hertz's law, Eq. 5). Clearance and displacement are drawn
+enlarged; the title gives the factors.
 
-Here the first departure from the printed paper becomes visible. Eq. 4 is printed as the outer
-ring's position minus the inner ring's. With the signs of Eq. 7 that would press a ball when the
-rotor moves away from it, and the bearing would push the rings further apart: a negative stiffness
-(D-01). The drawing shows the only order that makes sense, the approach of the inner race to the
-ball.
+Eq. 4 cannot be used as it is printed, with the outer race's position minus the inner one's. A ball
+would then be pressed when the rotor moves away from it, and with the signs of Eq. 7 the bearing
+would push the rotor further away. We use the opposite order (D-01).
 
-Two consequences are worth a look. The force depends on the relative position of the two races and
-on the cage's angle, on nothing else: this is what allows the unknowns of the balance to be
-condensed to two per harmonic. And a direction is either between two balls or on one; as the cage
-turns under a steady load, the load passes from ball to ball, which excites the machine at the
-rate of passages even without any unbalance.
-
-Modelled: geometry alone, at the one instant and the one displacement of the scene file. */
+Two consequences matter for the other figures. First, the forces depend only on the relative
+displacement of the races and on the angle of the cage. Harmonic balance therefore needs two
+unknown functions of time, u_x and u_y, although both bodies move. Second, as the cage turns under
+a constant load, balls enter and leave the loaded side one after the other. This changes the
+stiffness of the bearing periodically and excites the machine even without unbalance. */
 #include "figures/bearing.hpp"
 #include "io/program.hpp"
 

@@ -1,30 +1,31 @@
 /**
-# Figure 3: amplitudes of rotor and stator against speed
+# Figure 3: amplitudes of rotor and stator against the speed
 
-Paper: §3.3, Fig. 3; set 2 is drawn beside set 1.
+Paper: §3.3, Fig. 3; data set 2 is added.   `build/fig03_response >
+data/generated/fig03_response.tsv`
 
-    build/fig03_response > data/generated/fig03_response.tsv
+The figure shows how strongly rotor and stator vibrate at each speed of rotation, horizontally
+(above) and vertically (below), with the small clearance (left) and the large one (right). The
+amplitude of a displacement is half the difference between its largest and its smallest value in
+one turn; the paper does not define it (D-10).
 
-This is the figure that the others explain. At each speed of rotation the periodic motion is
-computed and reduced to four numbers, half the peak-to-peak of each displacement (D-19: the paper
-does not say what its amplitude is). The rotor is driven by its unbalance, so both bodies, locked
-together by the bearing, show the resonance of a single body on two suspensions; the peak of claim
-C1 is nothing else, and its speed follows in closed form from the masses and the natural
-frequencies.
+The peak is the resonance of both bodies moving as one: the unbalance presses them together, and
+they vibrate like a single mass on both suspensions. Its speed follows from their masses and
+natural frequencies alone (Table 1). With the small clearance the curves have kinks between 10 and
+19 Hz. There the force of the unbalance is about as large as the weight, and contact may be lost
+during a turn.
 
-Three curves are drawn for each data set. Harmonic balance swept up and harmonic balance swept
-down agree where the branch has no fold between them. Time integration, at fewer speeds and from
-rest, says where the solution is also what the machine does; its points are marked differently
-where the motion does not repeat with the period of rotation. There is then no periodic motion to
-compare with, and the distance between the curves is not an error.
+Each curve is computed in three ways. Harmonic balance assumes a motion that repeats after one turn
+and finds its Fourier coefficients; the solutions at the last speeds predict the one at the next
+(Eqs 19 to 21). This is done once with rising and once with falling speed. Where the two differ,
+several periodic solutions exist at one speed. A gap is a speed at which none was found.
 
-What to look at: the peak; the band of low speeds where contact is lost at times; and, with the
-larger clearance, how far up in speed the integrated motion stays irregular, although the balance
-draws a smooth line through it.
-
-Modelled: amplitudes of harmonic-balance solutions at all speeds, with as many harmonics as the
-paper asks for in each set; integrated motions at fewer speeds, several periods of each, with the
-share of time in contact. No waveform is kept, and nothing is said about stability here. */
+Time integration is the check, at fewer speeds, from rest until the motion has settled. A full
+point is a motion that repeats after one turn; its distance from the curve is the error of harmonic
+balance. An open point is a motion that does not, and there the curve does not describe what the
+machine does after a start from rest. With the large clearance most speeds below the resonance are
+of this kind, and at low speeds the curve has wide gaps. The figure says nothing about stability;
+the figure `stability` does. */
 #include "figures/response.hpp"
 #include "io/program.hpp"
 

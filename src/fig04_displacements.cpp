@@ -1,32 +1,34 @@
 /**
 # Figure 4: displacements at 13.4 Hz
 
-Paper: §3.3, Fig. 4, data set 1.
+Paper: §3.3, Fig. 4, data set 1.   `build/fig04_displacements >
+data/generated/fig04_displacements.tsv`
 
-    build/fig04_displacements > data/generated/fig04_displacements.tsv
+At 13.4 Hz harmonic balance and time integration lie close together, although harmonic balance
+assumes that the motion repeats after one turn of the rotor, and the integrated motion does not.
+The paper shows this speed to say that both methods agree where the motion is complicated.
 
-The paper picks this speed to show that harmonic balance "conforms" to time integration where the
-motion is complicated: in the transition, gravity still pulls the rotor down, the unbalance
-already lifts it, and contact is lost and found again in every turn (claim C5). Each time a ball
-is met anew it rings at the frequency of the contact, many times that of rotation, so the orbit
-has many harmonics.
+The force of the unbalance is about as large as the weight here. It nearly lifts the rotor off the
+balls below it once in every turn; contact is lost and met again several times (claim C5). After
+each impact the bodies vibrate against each other on the springs of the contact, many times faster
+than the rotor turns. These vibrations are the ripples of the thin lines; six harmonics of the
+speed of rotation are too slow to follow them.
 
-Under our reading this speed lies inside the narrow band where the integrated motion does not
-repeat with the period of rotation. The figure draws both: two periods of the integrated motion,
-and the periodic solution with the paper's number of harmonics. The header of the table gives the
-spread of the Poincaré section, which is the size of what does not repeat, beside the largest
-difference of the two curves. As long as the two are of one size, the difference says nothing
-about the accuracy of the balance: it approximates a motion that the machine does not perform. The
-curves nevertheless lie close together, which is why the paper could draw this figure and find
-agreement.
+The left panels show horizontal and vertical displacements over two periods of rotation T, the
+upper right panel the paths of both centres. The lower right panel shows the motion of the rotor
+relative to the stator, which decides on contact: inside the circle of radius δ no ball is pressed.
 
-Displacements are judged over the largest of all four, and then each over its own peak-to-peak:
-the first measure divides by the static sag and flatters the stator's small motion. The force is
-compared too, and is off by far more than any displacement, because a small penetration decides
-it.
+After its transient the integrated motion is observed once per turn. The scatter of these
+observations, over the largest displacement, is the spread; above a millionth the motion is called
+not T-periodic. Here the spread is a few per cent, and the difference of the two methods is of the
+same size. It does not measure the accuracy of harmonic balance: the periodic solution approximates
+a motion that does not occur.
 
-Modelled: one solution with the paper's number of harmonics, and the integrated motion over two
-periods. */
+The table has three measures of the difference: of the displacements, over the largest
+displacement; of each displacement, over its own half peak-to-peak; and of the bearing's force,
+over the largest force. The first divides by the static deflection under the weight and is the
+smallest. The third is the largest, because a small error of the penetration is a large error of
+the force. */
 #include "figures/orbits.hpp"
 #include "io/program.hpp"
 

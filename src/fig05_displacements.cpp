@@ -1,31 +1,30 @@
 /**
 # Figure 5: displacements at 45 Hz
 
-Paper: §3.3, Fig. 5, data set 1.
+Paper: §3.3, Fig. 5, data set 1.   `build/fig05_displacements >
+data/generated/fig05_displacements.tsv`
 
-    build/fig05_displacements > data/generated/fig05_displacements.tsv
+At 45 Hz, just below the resonance, six harmonics describe the displacements to two parts in ten
+thousand and the bearing's force to a few per cent. The motion is simple. The force of the
+unbalance is much larger than the weight and presses the rotor against one side of the bearing,
+which turns with the rotor (claim C6). Contact is never lost. Both bodies move together on circles
+around the points to which their weight deflects them, and a single harmonic describes almost all
+of the motion.
 
-The counterpart of the previous figure, beyond the transition and just below the resonance. The
-unbalance now dominates gravity: the rotor is thrown against the same side of its inner race all
-the time, contact never ceases, and the loaded side turns with the rotor (claim C6). Both orbits
-are nearly circles, displaced by the static sag, and a single harmonic describes most of the
-motion.
+The panels are those of Figure 4: displacements over two periods of rotation, the paths of both
+centres, and the motion of the rotor relative to the stator beside the circle of the clearance δ.
 
-This is the kind of motion for which harmonic balance was made, and the one where the comparison
-with time integration means something: the integrated motion repeats with the period of rotation
-to rounding, so the difference of the curves is the error of the balance. It is small for
-displacements. It is larger by two orders of magnitude for the bearing's force, since the loaded
-balls pass under the load one after the other, at a multiple of the rotation's frequency that lies
-beyond the harmonics kept.
+Here the comparison with time integration measures the accuracy of harmonic balance. The integrated
+motion repeats after one turn to ten digits, so both methods compute the same motion, and their
+difference is the error of the Fourier series that ends after six harmonics.
 
-What the figure does not show is worth a remark: the orbit of the relative motion, which is what
-the bearing sees, is about a thousand times smaller than the orbits drawn here. Both bodies whirl
-together, and only their difference, of the order of the clearance and of the penetration, matters
-for the contact. Displacements that agree to four digits may therefore hide a contact that is
-wrong.
-
-Modelled: one solution with the paper's number of harmonics, and the integrated motion over two
-periods; the force is Eq. 6 evaluated on either motion. */
+The force has a larger error than the displacements for two reasons. Eight balls in each turn pass
+through the loaded side, so the force has harmonics around the eighth, which the series leaves out.
+And the force depends on the penetration of the balls, a small difference of two large
+displacements: rotor and stator move by millimetres, but relative to each other by about a
+hundredth of that. Displacements that agree to four digits may therefore belong to contact forces
+that agree to two. The force in the table is Eq. 6 along either motion, not a Fourier series of its
+own. */
 #include "figures/orbits.hpp"
 #include "io/program.hpp"
 

@@ -1,34 +1,41 @@
 /**
-# Figure 6: evolution of the orbits, data set 1
+# Figure 6: orbits of rotor and stator from low to high speed, small clearance
 
-Paper: §3.3, Fig. 6.
+Paper: §3.3, Fig. 6, data set 1.   `build/fig06_orbits > data/generated/fig06_orbits.tsv`
 
-    build/fig06_orbits > data/generated/fig06_orbits.tsv
+The orbit of a body is the path of its centre in the plane across the shaft. The figure shows the
+orbits of rotor (solid) and stator (dashed) at nine speeds of rotation, three in each of the ranges
+that the paper describes. Two forces compete: the weight, which is constant, and the force of the
+rotor's unbalance, which turns with the rotor and grows with the square of the speed. Which of them
+is larger decides the shape of the orbits.
 
-Orbits of rotor (solid) and stator (dashed) at nine speeds, three in each regime that the paper
-describes:
+First row, 3 to 9 Hz: the weight is larger. It presses the rotor onto the lowest balls, and contact
+is never lost (claim C4). The unbalance moves both centres on small orbits around their static
+positions. Eight balls per turn pass under the load and add a ripple; at the lowest speed it lies
+in harmonics 7 to 17, beyond those that are kept.
 
-- *Low speed.* Gravity keeps the rotor on the balls below it. The unbalance moves both bodies
-  on small orbits about their static positions. Eight balls per turn pass under the load and add
-  a ripple. At the lowest speed it lies in harmonics 7 to 17, beyond those kept (claim C4).
-- *Transition.* The unbalance force approaches the weight. The orbits have corners, and at the
-  middle one of these speeds rotor and stator separate from time to time (claim C5).
-- *High speed.* Both bodies whirl together on circles that grow up to the resonance and shrink
-  beyond it (claim C6).
+Second row, 11.5 to 16 Hz: both forces are about equal. The unbalance nearly lifts the rotor off
+the balls once per turn, and the orbits have corners and dents. At 13.4 Hz contact is lost and met
+again several times in every turn (claim C5).
 
-The paper does not give its speeds (D-17). Ours are in the scene file and include those of
-Figs 4 and 5.
+Third row, 30 to 55 Hz: the unbalance is larger. It presses the rotor against one side of the
+bearing, and this side turns with the rotor. Both bodies move together on nearly equal circles
+(claim C6), which are largest near the resonance at 50 Hz.
 
-At each speed two motions are computed: the periodic solution of harmonic balance with the
-paper's number of harmonics, and the motion that time integration from rest settles on. If that
-motion repeats with the period of rotation T, the difference of the two is the error of harmonic
-balance. It is printed above the panel: the largest difference of a displacement over one period,
-divided by half the peak-to-peak value of that displacement. The table also gives it divided by the
-largest displacement. At low speed this second number is small even for a poor solution, because
-the static sag is much larger than the orbit.
+Each motion is computed by two methods. Harmonic balance assumes that the motion repeats after one
+turn, the period T. It writes the displacements as a Fourier series with six harmonics (Eq. 9) and
+solves for the coefficients. Time integration assumes no period: it starts from rest and continues
+until the transient has decayed. The motion is then observed once per turn; the scatter of these
+observations, over the largest displacement, is the spread. Below a millionth the motion counts as
+T-periodic.
 
-If the integrated motion does not repeat with T, no solution with that period can represent it.
-The panel then shows several turns of the integrated motion, and no harmonic balance. */
+Where it is T-periodic, the panel draws the solution of harmonic balance in colour over the
+integrated motion in grey. Their difference is the error of harmonic balance. "Off" is its largest
+value over the period and the four displacements, each divided by half its own peak-to-peak value.
+The table also gives it divided by the largest displacement; at low speed this number is small even
+for a poor solution, because the static deflection is much larger than the orbit. Where it is not,
+no T-periodic solution can represent the motion, and the panel draws five turns of the integrated
+motion alone. The paper does not give its speeds (D-17); ours include those of Figs 4 and 5. */
 #include "figures/orbits.hpp"
 #include "io/program.hpp"
 

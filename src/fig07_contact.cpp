@@ -1,30 +1,30 @@
 /**
-# Figure 7: evolution of the contact, data set 1
+# Figure 7: which balls carry load, small clearance
 
-Paper: §3.3, Fig. 7.
+Paper: §3.3, Fig. 7, data set 1.   `build/fig07_contact > data/generated/fig07_contact.tsv`
 
-    build/fig07_contact > data/generated/fig07_contact.tsv
+Each panel belongs to one speed. Time runs to the right, over two periods of rotation; the balls
+are counted upwards; black marks a ball in contact. The cage turns at half the rotor's speed, hence
+once in this time.
 
-The paper's most telling figure: time runs to the right over two periods of rotation, the balls
-are stacked upwards, and a mark stands where a ball carries load. With a cage that turns at half
-the rotor's speed two periods are just one turn of the cage, so every ball has been everywhere
-once and the picture closes on itself.
+A black line that falls to the right is a load with a fixed direction. At 3 Hz this is the weight:
+the ball at the bottom carries it, and as the cage turns the ball behind it comes to the bottom and
+takes over (claim C4). A line that rises is a load that turns with the rotor. It turns twice as
+fast as the cage, overtakes the balls one after the other, and meets each ball once in two periods
+(claim C10). At 45 Hz this is the force of the unbalance (claim C6). At the speeds between, both
+forces are about equal, and their sum changes its direction unevenly. It stays with two or three
+balls for almost a period, where the line is flat, and passes quickly over the others, where it is
+steep. At 13.4 Hz the line breaks into short contacts: the rotor bounces (claim C5). The height of
+the line is the number of balls that share the load at one instant.
 
-Read it as follows. A line that slopes down is a load that stays in one place while the balls
-travel through it: gravity, in the first panels; the ball below carries, and hands over to the
-next as the cage turns (claim C4). A line that slopes up is a load that turns with the rotor and
-overtakes the balls, each of which it meets once in two periods (claim C10, Fig. 7f). In between
-the line bends, breaks and doubles: the load swings about the bottom without making the turn, and
-contact is lost at times (claim C5). The width of the line is the loaded arc of the bearing, which
-claim C8 compares with that of the larger clearance.
+Below, the same panels show the force of each ball in colour. Each has a scale of its own, because
+the forces at 45 Hz are more than ten times those at 3 Hz (claim C7).
 
-Below each map the same panel is drawn with the force of every ball, on a scale of its own,
-because a map of contact alone makes a ball that carries thousands of newtons look like one that
-is barely touched; how forces rise towards the resonance is claim C7.
-
-Modelled: the force of each ball over two periods at six speeds, from the harmonic-balance
-solution where the motion is periodic and from time integration where it is not. The title of each
-panel says which, and how far off the force of the balance is. */
+A panel shows the solution of harmonic balance where the motion found by time integration repeats
+after one turn. Its title gives the error: the largest difference of the bearing's force between
+both methods, over the largest force. Where the motion does not repeat, the panel shows the
+integrated motion, and two other periods would give another picture. Both motions are computed as
+for Figure 6; the force of each ball is Eq. 5 along the motion that is shown. */
 #include "figures/contact.hpp"
 #include "io/program.hpp"
 

@@ -1,31 +1,31 @@
 /**
-# Figure 8: evolution of the orbits, data set 2
+# Figure 8: orbits of rotor and stator from low to high speed, large clearance
 
-Paper: §3.3, Fig. 8.
+Paper: §3.3, Fig. 8, data set 2.   `build/fig08_orbits > data/generated/fig08_orbits.tsv`
 
-    build/fig08_orbits > data/generated/fig08_orbits.tsv
+With ten times the clearance the motion does not repeat after one turn at five of the nine speeds,
+from 6 to 30 Hz. This is our largest difference from the paper, which describes the same three
+phases as for the small clearance (claim C13).
 
-The second data set differs from the first in one number, a clearance ten times as large. The
-paper says that its behaviour shows the same three phases (claim C13) and that more harmonics are
-needed to describe it (claim C3). The orbits here are computed with the number of harmonics that
-it names.
+Data set 2 differs from data set 1 in the clearance alone. A larger clearance gives the rotor more
+room to move before it meets a ball. Where weight and unbalance are comparable, it crosses this
+room, hits the other side and bounces. The next impact comes before the vibration after the last
+one has decayed, and no turn is like the one before. The panels show this as a band of lines
+instead of one closed curve. At the highest speeds the unbalance presses the rotor against the
+bearing all the time, and the orbits are circles as in Figure 6. The rotor's circle is larger than
+the stator's by about the clearance, which is now visible.
 
-A larger clearance gives the rotor more room to fall before it is caught. Between the speeds where
-gravity holds it down and those where the unbalance holds it out, the relative motion crosses the
-clearance and hits the other side; impacts follow one another before the ringing of the last one
-has died out. Time integration then shows motion that does not repeat with the period of rotation
-over most of the range below the resonance, and the panels draw several turns of it, which fill a
-band instead of a curve.
+The panels are those of Figure 6. Colour is the solution of harmonic balance, here with ten
+harmonics as in the paper (claim C3), drawn where the integrated motion repeats after one turn;
+grey is the integrated motion. "Off" is their difference over half the peak-to-peak value. At 3 Hz
+it is almost as large as the motion, because the rotor vibrates on the contact much faster than ten
+harmonics can follow.
 
-Harmonic balance finds a solution at every panel all the same, sometimes only at the end of a
-branch followed through hundreds of folds. That is worth knowing and is in the table; but a
-periodic solution that no motion settles on is not what a measurement would show, and drawing it
-in the place of the motion would mislead. This is the largest difference between this repository
-and the paper, whose Fig. 8 has closed orbits throughout.
-
-Modelled: one solution with the paper's number of harmonics at each speed, and the integrated
-motion from rest over several periods; the verdict on periodicity is that of the Poincaré section,
-with its spread in the table. */
+Harmonic balance finds a solution at all nine speeds, at some of them after a long search: from few
+harmonics to more, or along the curve of solutions from a lower speed. The header of the table says
+for each panel where the search started and how it ended. Where the integrated motion does not
+repeat, such a solution satisfies the truncated equations, but the machine does not settle on it
+after a start from rest. It is in the table and not in the drawing. */
 #include "figures/orbits.hpp"
 #include "io/program.hpp"
 

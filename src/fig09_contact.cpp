@@ -1,30 +1,30 @@
 /**
-# Figure 9: evolution of the contact, data set 2
+# Figure 9: which balls carry load, large clearance
 
-Paper: §3.3, Fig. 9.
+Paper: §3.3, Fig. 9, data set 2.   `build/fig09_contact > data/generated/fig09_contact.tsv`
 
-    build/fig09_contact > data/generated/fig09_contact.tsv
+With ten times the clearance fewer balls share the load (claim C8). The panels are read like those
+of Figure 7: time to the right over two periods of rotation, balls upwards, black where a ball is
+in contact, and below the force of each ball. The last panel shows the difference best. At 45 Hz,
+in Figure 7 as well as here, the load turns with the rotor and the black line rises steadily; here
+it is less than half as wide.
 
-The contact maps of the larger clearance, to be laid beside those of the smaller one. Axes and
-marks are the same: time over two periods to the right, balls upwards, black where a ball is
-loaded, and below it the force of each ball.
+The reason is geometrical. Let the ball in the direction of the load be pressed by p. A ball at the
+angle φ from it is pressed by (δ + p) cos φ - δ, which vanishes where cos φ = δ/(δ + p). The larger
+the clearance δ, the smaller this angle, and the fewer balls lie within it. Since fewer balls carry
+the load, the force on each of them is larger. The verdict on the claim uses the mean number of
+loaded balls in both tables, as an angle.
 
-The claim that belongs to this figure is C8. A bearing with clearance is loaded over an arc: with
-a small clearance the load is shared by neighbours on both sides, with a large one it rests on few
-balls, because the inner race then fits less closely into the ring of balls. Comparing the last
-panel here with the last panel of Fig. 7, both at one speed beyond the transition, the line of
-contact is visibly thinner. The verdict takes the mean over time of the number of loaded balls, as
-an angle, in both tables; no closed form is needed.
+At 3 Hz the line falls: the load is the weight and keeps its direction. At 9 and 20 Hz the line
+breaks into short contacts without a regular order. The rotor bounces in its clearance, and the
+motion does not repeat after one turn (Figure 8). These panels show the integrated motion, and two
+other periods would give another pattern. Averages do repeat, such as the share of time in contact
+in the table `regimes`.
 
-The panels in the transition show something that the paper's figure does not: scattered, short
-contacts without any order that would repeat after two periods. They are drawn from time
-integration, since the motion is not periodic there, and another pair of periods would give
-another pattern. What does repeat is their statistics: the share of time in contact and the size
-of the forces.
-
-Modelled: the force of each ball over two periods at four speeds. The forces of an impact last for
-a fraction of the period of the contact's own vibration, so the motion is recorded at many
-instants per period, as many as the scene file says. */
+At 3 and 45 Hz the panels show the solution of harmonic balance with ten harmonics. The titles give
+its error: the largest difference of the bearing's force from that of time integration, over the
+largest force. It is large, although the displacements differ by a few per cent of the largest at
+most, because the penetrations that decide the force are small against the displacements. */
 #include "figures/contact.hpp"
 #include "io/program.hpp"
 
