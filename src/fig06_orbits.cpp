@@ -33,9 +33,11 @@ Where it is T-periodic, the panel draws the solution of harmonic balance in colo
 integrated motion in grey. Their difference is the error of harmonic balance. "Off" is its largest
 value over the period and the four displacements, each divided by half its own peak-to-peak value.
 The table also gives it divided by the largest displacement; at low speed this number is small even
-for a poor solution, because the static deflection is much larger than the orbit. Where it is not,
-no T-periodic solution can represent the motion, and the panel draws five turns of the integrated
-motion alone. The paper does not give its speeds (D-17); ours include those of Figs 4 and 5. */
+for a poor solution, because the static deflection is much larger than the orbit.
+
+Where the motion is not T-periodic, no T-periodic solution can represent it, and the panel draws
+five turns of the integrated motion alone. The paper does not give its speeds (D-17); ours include
+those of Figs 4 and 5. */
 #include "figures/orbits.hpp"
 #include "io/program.hpp"
 
