@@ -48,8 +48,8 @@ def code_block(code):
     return f"````cpp\n{code}\n````" if code.strip() else ""
 
 
-def code_lines(file):
-    return sum(bool(line.strip()) for line in COMMENT.sub("", file.read_text()).split("\n"))
+def lines_of_code(text):
+    return sum(bool(line.strip()) for line in COMMENT.sub("", text).split("\n"))
 
 
 def with_names(deviations):

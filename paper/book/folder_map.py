@@ -1,8 +1,8 @@
-"""The folders of src/ as a drawing: a column each, in the order in which they may include, with an
-arrow wherever one includes another, as thick as the number of includes."""
+"""The folders of src/ as a drawing: one below the other, in the order in which they may include, with an
+arc wherever one includes another, as thick as the number of includes."""
 ORDER = ["io", "model", "balance", "continuation", "integration", "stability", "motion", "figures",
          "truth", "costs", "studies", "deviations", "hard", "explore", "programs"]
-WIDTH, STEP, TOP, HEIGHT = 98, 104, 196, 40
+WIDTH, HEIGHT, STEP, REACH = 190, 24, 30, 190
 
 
 def folder_of(page):
@@ -20,11 +20,11 @@ def include_counts(pages):
     return counts
 
 
-def arc(start, end, count):
-    """From the including folder back to the included one, above the row of boxes."""
-    x_1, x_2 = (STEP * ORDER.index(name) + WIDTH / 2 for name in (start, end))
-    lift = TOP - 16 * abs(ORDER.index(start) - ORDER.index(end)) - 8
-    return (f'<path d="M{x_1:g} {TOP} Q{(x_1 + x_2) / 2:g} {lift - 20:g} {x_2:g} {TOP}" '
+def arc(start, end, count, present):
+    """From the including folder back to the included one, right of the column of boxes."""
+    y_1, y_2 = (STEP * present.index(name) + HEIGHT / 2 for name in (start, end))
+    reach = WIDTH + REACH * (abs(y_1 - y_2) / (STEP * len(present))) ** 0.7 * 2
+    return (f'<path d="M{WIDTH} {y_1:g} Q{reach:g} {(y_1 + y_2) / 2:g} {WIDTH} {y_2:g}" '
             f'stroke-width="{0.5 + count / 12:.2f}"><title>{start} includes {end}: {count}'
             f"</title></path>")
 
@@ -34,15 +34,17 @@ def folder_map(pages):
     for page in pages:
         counts[folder_of(page)] = counts.get(folder_of(page), 0) + 1
     present = [name for name in ORDER if name in counts]
+    if set(counts) - set(ORDER):
+        raise SystemExit("no place in the map for: " + ", ".join(sorted(set(counts) - set(ORDER))))
     boxes = "".join(
-        f'<rect x="{STEP * ORDER.index(name)}" y="{TOP}" width="{WIDTH}" height="{HEIGHT}" rx="4"/>'
-        f'<text x="{STEP * ORDER.index(name) + WIDTH / 2:g}" y="{TOP + 18}" '
-        f'text-anchor="middle">{name}</text>'
-        f'<text x="{STEP * ORDER.index(name) + WIDTH / 2:g}" y="{TOP + 34}" '
-        f'text-anchor="middle" font-size="12">{counts[name]} pages</text>'
-        for name in present)
-    arcs = "".join(arc(*pair, count) for pair, count in sorted(include_counts(pages).items())
+        f'<rect x="0" y="{STEP * k}" width="{WIDTH}" height="{HEIGHT}" rx="4"/>'
+        f'<text x="10" y="{STEP * k + 17}">{name}</text>'
+        f'<text x="{WIDTH - 10}" y="{STEP * k + 17}" text-anchor="end" font-size="12">'
+        f"{counts[name]} pages</text>"
+        for k, name in enumerate(present))
+    arcs = "".join(arc(*pair, count, present)
+                   for pair, count in sorted(include_counts(pages).items())
                    if all(name in present for name in pair))
-    return (f'```{{=html}}\n<div class="map"><svg role="img" viewBox="-2 -2 {STEP * len(ORDER)} {TOP + HEIGHT + 6}" '
-            f'aria-label="Folders of the sources, from left to right: '
-            f'{", ".join(present)}; each includes only folders to its left">{arcs}{boxes}</svg></div>\n```')
+    return (f'```{{=html}}\n<div class="map"><svg role="img" viewBox="-2 -2 {WIDTH + REACH + 4} '
+            f'{STEP * len(present)}" aria-label="Folders of the sources, from top to bottom: '
+            f'{", ".join(present)}; each includes only folders above it">{arcs}{boxes}</svg></div>\n```')

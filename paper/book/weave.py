@@ -17,7 +17,7 @@ import tomllib
 from concurrent.futures import ThreadPoolExecutor
 from pathlib import Path
 
-from comments import COMMENT, code_lines, markdown_of, with_files, with_names
+from comments import COMMENT, lines_of_code, markdown_of, with_files, with_names
 from folder_map import folder_map
 from overview import claims_section, deviations_section, gallery
 
@@ -26,21 +26,24 @@ DRAWN, TABLES = Path("figures/generated"), (Path("data/generated"), Path("data/r
 SHOWN = tomllib.loads((HERE / "figures.toml").read_text())
 REPOSITORY_FILES = ("book.css", "book.js")
 MOST_CODE = 250  # lines on a page
+SECTION = re.compile(r"^/\*\*\s+## (.+?)(?: \*/)?$", re.MULTILINE)
 INCLUDE = re.compile(r'^#include "([^"]+)"', re.MULTILINE)
 
 
 class Page:
-    """One program or module: where it stands, what it says, what it makes."""
+    """One program or module, or a part of its implementation: where it stands, what it says, what it
+    makes."""
 
-    def __init__(self, files, part_of=None):
+    def __init__(self, files, part_of=None, number=1, text=None):
         self.files = files
         path = files[0].relative_to("src")
         self.is_program = len(path.parts) == 1
-        self.key = str(path if part_of else path.with_suffix(""))
+        self.key = str(path if part_of else path.with_suffix("")) + (f"-{number}" if number > 1 else "")
         self.file = self.key.replace("/", "-").replace(".", "-") + ".html"
-        self.text = {file: file.read_text() for file in files}
-        self.title = (f"{part_of.title}: implementation" if part_of
-                      else self.first_heading() or self.key)
+        self.text = {file: text or file.read_text() for file in files}
+        self.title = self.first_heading() or self.key
+        if part_of:
+            self.title = part_of.title + ": " + (SECTION.search(text)[1] if number > 1 else "implementation")
 
     def first_heading(self):
         for text in self.text.values():
@@ -68,17 +71,30 @@ def script_of(figure):
     return next(Path("figures").glob(f"{figure}.*"))
 
 
+def parts(file):
+    """The text of a file, cut at its headings where all of it is more than a sitting."""
+    found = []
+    for section in re.split(f"(?={SECTION.pattern})", file.read_text(), flags=re.MULTILINE)[::2]:
+        if found and lines_of_code(found[-1] + section) <= MOST_CODE:
+            found[-1] += section
+        else:
+            found.append(section)
+    return found
+
+
 def all_pages():
-    """A header and its implementation are one page, or two where that is more than a sitting."""
+    """A header and its implementation are one page, or several where that is more than a sitting."""
     groups, pages = {}, []
     for file in sorted(Path("src").rglob("*.?pp")):
         groups.setdefault(file.with_suffix(""), []).append(file)
     for group in groups.values():
         files = sorted(group, key=lambda f: f.suffix, reverse=True)
-        long = len(files) > 1 and sum(map(code_lines, files)) > MOST_CODE
+        long = len(files) > 1 and sum(lines_of_code(file.read_text()) for file in files) > MOST_CODE
         pages.append(Page(files[:1] if long else files))
         if long:
-            pages.append(Page(files[1:], part_of=pages[-1]))
+            header = pages[-1]
+            pages += [Page(files[1:], header, number, text)
+                      for number, text in enumerate(parts(files[1]), 1)]
     return pages
 
 
@@ -163,8 +179,9 @@ def chapters(pages):
     known = tomllib.loads((HERE / "chapters.toml").read_text())["chapter"]
     left = {page.key: page for page in pages}
     for chapter in known:
-        named = [key + part for key in chapter.get("pages", []) for part in ("", ".cpp")]
-        chapter["found"] = [left.pop(key) for key in named if key in left]
+        named = [key for first in chapter.get("pages", []) for key in sorted(left)
+                 if key == first or key.startswith(first + ".cpp")]
+        chapter["found"] = [left.pop(key) for key in named]
         for key in sorted(left):
             if any(key.startswith(prefix) for prefix in chapter.get("rest_of", [])):
                 chapter["found"].append(left.pop(key))
