@@ -6,7 +6,7 @@
 
 #include "balance/bearing_problem.hpp"
 #include "io/errors.hpp"
-#include "io/journal.hpp"
+#include "io/parallel.hpp"
 #include "stability/eigenvalues.hpp"
 #include "stability/shooting.hpp"
 
@@ -221,10 +221,12 @@ std::vector<Judgement> judge_all(const HardCases& hard, int every)
   const std::size_t methods = std::size(all_methods);
   std::vector<Judgement> judgements(hard.cases.size() * methods);
   const auto step = static_cast<std::size_t>(every);
-  on_two_threads((judgements.size() + step - 1) / step, [&](std::size_t piece) {
-    const std::size_t k = step * piece;
-    judgements[k] = judge(hard.cases[k / methods], all_methods[k % methods], hard.rule);
-  });
+  in_parallel("hard cases", (judgements.size() + step - 1) / step,
+              [&](std::size_t piece) {
+                const std::size_t k = step * piece;
+                judgements[k] =
+                    judge(hard.cases[k / methods], all_methods[k % methods], hard.rule);
+              });
   return judgements;
 }
 

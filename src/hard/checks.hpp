@@ -42,7 +42,7 @@ Judgement judge(const HardCase& hard, Method method, Answer answer, const HardRu
 /** Puts a case to a method, and its answer to the check. */
 Judgement judge(const HardCase& hard, Method method, const HardRule& rule);
 
-/** All methods on every case, two at a time: `every`-th piece only, for a quick look. */
+/** All methods on every case; `every`-th piece only, for a quick look. */
 std::vector<Judgement> judge_all(const HardCases& hard, int every);
 
 /**

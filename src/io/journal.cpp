@@ -1,46 +1,16 @@
 #include "io/journal.hpp"
 
-#include <algorithm>
-#include <atomic>
-#include <exception>
 #include <fstream>
 #include <mutex>
 #include <optional>
 #include <sstream>
-#include <thread>
 
 #include "io/errors.hpp"
-#include "io/program.hpp"
+#include "io/parallel.hpp"
 #include "io/table.hpp"
 
 namespace rotor_stator
 {
-
-void on_two_threads(std::size_t pieces,
-                    const std::function<void(std::size_t piece)>& work)
-{
-  std::atomic<std::size_t> next{0};
-  std::exception_ptr failure;
-  std::size_t failed = pieces;  // the first of the pieces that threw
-  std::mutex mutex;
-  const auto until_done = [&] {
-    for (std::size_t piece; (piece = next++) < pieces;) {
-      try {
-        work(piece);
-      } catch (...) {
-        const std::lock_guard lock(mutex);
-        if (piece < failed) failure = std::current_exception();
-        failed = std::min(failed, piece);
-        next = pieces;
-      }
-    }
-  };
-  {
-    std::jthread other(until_done);
-    until_done();
-  }
-  if (failure) std::rethrow_exception(failure);
-}
 
 namespace
 {
@@ -90,15 +60,13 @@ std::vector<Row> run_study(const Study& study)
 {
   Rows known = read_journal(study);
   std::ofstream journal = begin_journal(study, known);
-  Progress progress(study.name, study.pieces);
   std::mutex mutex;
-  on_two_threads(study.pieces, [&](std::size_t piece) {
+  in_parallel(study.name, study.pieces, [&](std::size_t piece) {
     if (known[piece]) return;
     Row row = study.work(piece);
     const std::lock_guard lock(mutex);
     journal << journal_line(piece, row) << std::flush;
     known[piece] = std::move(row);
-    progress.step();
   });
   std::vector<Row> rows;
   for (auto& row : known) rows.push_back(std::move(*row));

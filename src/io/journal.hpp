@@ -1,27 +1,17 @@
 /**
-# Independent pieces of work on two threads */
+# Long studies: in parallel, and not lost when interrupted
+
+A study is a numbered list of independent pieces of work, each giving a row of numbers.
+Finished rows are appended to a journal file at once; a run that finds the journal of the
+same study goes on from it. The rows do not depend on the number of threads. */
 #pragma once
 
-#include <cstddef>
 #include <functional>
 #include <string>
 #include <vector>
 
 namespace rotor_stator
 {
-
-/** Calls `work` for each of `pieces` numbers, in order but two at a time. After a piece that throws
-    none is begun; when both threads have ended the exception is thrown, of two that of the earlier piece. */
-void on_two_threads(std::size_t pieces,
-                    const std::function<void(std::size_t piece)>& work);
-
-/**
-## Long studies: in parallel, and not lost when interrupted
-
-A study is a numbered list of independent pieces of work, each giving a row of numbers.
-Finished rows are appended to a journal file at once; a run that finds the journal of the
-same study goes on from it. Two threads share the pieces, and the result does not depend
-on which thread did which. */
 
 using Row = std::vector<double>;
 

@@ -6,6 +6,7 @@
 #include <numbers>
 
 #include "io/journal.hpp"
+#include "io/parallel.hpp"
 #include "studies/clearance_stiffness.hpp"
 #include "studies/identification.hpp"
 #include "support/cases.hpp"
@@ -151,6 +152,23 @@ TEST_CASE("A study that fails says why, and keeps what it has")
                     }};
   CHECK_THROWS_WITH(run_study(study), "the fourth piece");
   CHECK(read_whole(study.journal).find("0 1\n") != std::string::npos);
+}
+
+/** Would catch an order or a result that depends on the threads, and an exception that stays in one. */
+TEST_CASE(
+    "Pieces are computed in order by any number of threads, and the first failure is told")
+{
+  const auto squares =
+      computed_in_parallel("squares", 100, [](std::size_t k) { return k * k; });
+  REQUIRE(squares.size() == 100);
+  for (std::size_t k = 0; k < 100; ++k) CHECK(squares[k] == k * k);
+  std::atomic<int> calls = 0;
+  const auto failing = [&](std::size_t piece) {
+    ++calls;
+    if (piece % 10 == 7) throw std::runtime_error("piece " + std::to_string(piece));
+  };
+  CHECK_THROWS_WITH(in_parallel("failing", 10000, failing), "piece 7");
+  CHECK(calls < 5000);
 }
 
 TEST_CASE("A point of the parametric study agrees with the paper's set 1")

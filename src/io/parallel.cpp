@@ -1,0 +1,38 @@
+#include "io/parallel.hpp"
+
+#include <atomic>
+#include <exception>
+#include <mutex>
+
+#include "io/program.hpp"
+
+namespace rotor_stator
+{
+
+void in_parallel(const std::string& name, std::size_t pieces,
+                 const std::function<void(std::size_t piece)>& work)
+{
+  Progress progress(name, pieces);
+  std::mutex mutex;
+  std::exception_ptr failure;
+  std::atomic<std::size_t> failed = pieces;  // the first of the pieces that threw
+#pragma omp parallel for schedule(monotonic : dynamic)
+  for (std::size_t piece = 0; piece < pieces; ++piece) {
+    if (piece > failed) continue;
+    std::exception_ptr thrown;
+    try {
+      work(piece);
+    } catch (...) {
+      thrown = std::current_exception();
+    }
+    const std::lock_guard lock(mutex);
+    if (thrown && piece < failed) {
+      failure = thrown;
+      failed = piece;
+    }
+    progress.step();
+  }
+  if (failure) std::rethrow_exception(failure);
+}
+
+}  // namespace rotor_stator
