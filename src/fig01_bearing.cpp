@@ -19,8 +19,7 @@ comes to half the rotor's speed.
 
 The paper gives neither radius (D-11). The data sets therefore state the speed of the cage itself,
 half that of the rotor. The radii of the drawing stand in its scene file and enter no other result.
-A parameter file may give both radii instead of the cage's speed; then Eq. 3 is used, and the
-drawing shows the ratio of these radii.
+A parameter file may give both radii instead; the cage's speed then follows from Eq. 3.
 
 The table has one row for each circle: its centre, its radius and, for a ball, its angle (Eq. 3)
 and its penetration Δ_j - δ (Eqs 4 and 5). Here the penetration of every ball is -δ: none is

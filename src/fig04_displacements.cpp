@@ -6,7 +6,7 @@ data/generated/fig04_displacements.tsv`
 
 At 13.4 Hz harmonic balance and time integration lie close together, although harmonic balance
 assumes that the motion repeats after one turn of the rotor, and the integrated motion does not.
-The paper shows this speed to say that both methods agree where the motion is complicated.
+The paper chose this speed to show that both methods agree on a complicated motion.
 
 The force of the unbalance is about as large as the weight here. It nearly lifts the rotor off the
 balls below it once in every turn; contact is lost and met again several times (claim C5). After
@@ -14,9 +14,9 @@ each impact the bodies vibrate against each other on the springs of the contact,
 than the rotor turns. These vibrations are the ripples of the thin lines; six harmonics of the
 speed of rotation are too slow to follow them.
 
-The left panels show horizontal and vertical displacements over two periods of rotation T, the
-upper right panel the paths of both centres. The lower right panel shows the motion of the rotor
-relative to the stator, which decides on contact: inside the circle of radius δ no ball is pressed.
+Left: displacements over two periods of rotation T. Upper right: the paths of both centres. Lower
+right: the motion of the rotor relative to the stator, which decides on contact; inside the circle
+of radius δ no ball is pressed.
 
 After its transient the integrated motion is observed once per turn. The scatter of these
 observations, over the largest displacement, is the spread; above a millionth the motion is called
@@ -24,11 +24,10 @@ not T-periodic. Here the spread is a few per cent, and the difference of the two
 same size. It does not measure the accuracy of harmonic balance: the periodic solution approximates
 a motion that does not occur.
 
-The table has three measures of the difference: of the displacements, over the largest
-displacement; of each displacement, over its own half peak-to-peak; and of the bearing's force,
-over the largest force. The first divides by the static deflection under the weight and is the
-smallest. The third is the largest, because a small error of the penetration is a large error of
-the force. */
+The table measures the difference in three ways: over the largest displacement, which contains the
+static deflection under the weight; over each displacement's own half peak-to-peak; and as the
+difference of the bearing's force, over the largest force. The last is by far the largest, because
+a small error of the penetration of a ball is a large error of its force. */
 #include "figures/orbits.hpp"
 #include "io/program.hpp"
 

@@ -11,12 +11,10 @@ which turns with the rotor (claim C6). Contact is never lost. Both bodies move t
 around the points to which their weight deflects them, and a single harmonic describes almost all
 of the motion.
 
-The panels are those of Figure 4: displacements over two periods of rotation, the paths of both
-centres, and the motion of the rotor relative to the stator beside the circle of the clearance δ.
-
-Here the comparison with time integration measures the accuracy of harmonic balance. The integrated
-motion repeats after one turn to ten digits, so both methods compute the same motion, and their
-difference is the error of the Fourier series that ends after six harmonics.
+The panels are those of Figure 4. Here the comparison with time integration measures the accuracy
+of harmonic balance. The integrated motion repeats after one turn to ten digits, so both methods
+compute the same motion, and their difference is the error of the Fourier series that ends after
+six harmonics.
 
 The force has a larger error than the displacements for two reasons. Eight balls in each turn pass
 through the loaded side, so the force has harmonics around the eighth, which the series leaves out.

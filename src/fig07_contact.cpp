@@ -24,7 +24,7 @@ A panel shows the solution of harmonic balance where the motion found by time in
 after one turn. Its title gives the error: the largest difference of the bearing's force between
 both methods, over the largest force. Where the motion does not repeat, the panel shows the
 integrated motion, and two other periods would give another picture. Both motions are computed as
-for Figure 6; the force of each ball is Eq. 5 along the motion that is shown. */
+for Figure 6; the force of each ball is Eq. 5. */
 #include "figures/contact.hpp"
 #include "io/program.hpp"
 

@@ -12,8 +12,7 @@ it is less than half as wide.
 The reason is geometrical. Let the ball in the direction of the load be pressed by p. A ball at the
 angle φ from it is pressed by (δ + p) cos φ - δ, which vanishes where cos φ = δ/(δ + p). The larger
 the clearance δ, the smaller this angle, and the fewer balls lie within it. Since fewer balls carry
-the load, the force on each of them is larger. The verdict on the claim uses the mean number of
-loaded balls in both tables, as an angle.
+the load, the force on each of them is larger.
 
 At 3 Hz the line falls: the load is the weight and keeps its direction. At 9 and 20 Hz the line
 breaks into short contacts without a regular order. The rotor bounces in its clearance, and the

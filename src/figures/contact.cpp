@@ -33,7 +33,7 @@ Table contact_table(const PanelScene& scene)
 void add_contact(Table& table, const Panel& panel,
                  const motion::ContactEvolution& evolution)
 {
-  describe(table, panel);
+  table.note(panel.ending);
   const PanelRow row{panel, panel.shows_balance() ? 1 : 2};
   for (std::size_t k = 0; k < evolution.t_over_period.size(); ++k)
     for (std::size_t j = 0; j < evolution.ball_force[k].size(); ++j)

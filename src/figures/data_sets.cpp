@@ -6,9 +6,8 @@ namespace rotor_stator::figures
 namespace
 {
 
-struct DataSet {
+struct DataSet : Parameters {
   int number;
-  const Parameters& machine;
   double joint;
 };
 
@@ -16,26 +15,25 @@ using Set = const DataSet&;
 const std::vector<Field<DataSet>> fields{
     {"set", "-", "data set", &DataSet::number},
     {"xi_r", "-", "damping ratio of the rotor",
-     [](Set s) { return s.machine.rotor.damping_ratio; }},
+     [](Set s) { return s.rotor.damping_ratio; }},
     {"xi_s", "-", "damping ratio of the stator",
-     [](Set s) { return s.machine.stator.damping_ratio; }},
-    {"m_e_e", "kg m", "unbalance", [](Set s) { return s.machine.unbalance; }},
+     [](Set s) { return s.stator.damping_ratio; }},
+    {"m_e_e", "kg m", "unbalance", &DataSet::unbalance},
     {"omega_0_s", "rad/s", "natural frequency of the stator",
-     [](Set s) { return s.machine.stator.natural_frequency; }},
+     [](Set s) { return s.stator.natural_frequency; }},
     {"omega_0_r", "rad/s", "natural frequency of the rotor",
-     [](Set s) { return s.machine.rotor.natural_frequency; }},
+     [](Set s) { return s.rotor.natural_frequency; }},
     {"K_H", "N/m^1.5", "contact stiffness",
-     [](Set s) { return s.machine.bearing.contact_stiffness; }},
-    {"delta", "m", "radial clearance", [](Set s) { return s.machine.bearing.clearance; }},
+     [](Set s) { return s.bearing.contact_stiffness; }},
+    {"delta", "m", "radial clearance", [](Set s) { return s.bearing.clearance; }},
     {"m_s", "kg", "mass of the stator, not printed in the paper",
-     [](Set s) { return s.machine.stator.mass; }},
+     [](Set s) { return s.stator.mass; }},
     {"m_r", "kg", "mass of the rotor, not printed in the paper",
-     [](Set s) { return s.machine.rotor.mass; }},
-    {"n", "-", "balls", [](Set s) { return s.machine.bearing.balls; }},
+     [](Set s) { return s.rotor.mass; }},
+    {"n", "-", "balls", [](Set s) { return s.bearing.balls; }},
     {"cage_speed_ratio", "-", "omega_cage/omega, not printed in the paper",
-     [](Set s) { return s.machine.bearing.cage_speed_ratio; }},
-    {"g", "m/s^2", "gravity, not printed in the paper",
-     [](Set s) { return s.machine.gravity; }},
+     [](Set s) { return s.bearing.cage_speed_ratio; }},
+    {"g", "m/s^2", "gravity, not printed in the paper", &DataSet::gravity},
     {"f_joint", "Hz", "resonance of both bodies moving as one", &DataSet::joint}};
 
 }  // namespace
@@ -58,7 +56,7 @@ Table data_set_table(const std::vector<Parameters>& machines)
 
 void add_data_set(Table& table, int set, const Parameters& machine, double joint)
 {
-  table.row(fields, {set, machine, joint});
+  table.row(fields, {machine, set, joint});
 }
 
 }  // namespace rotor_stator::figures

@@ -64,9 +64,10 @@ Panel compare(const PanelScene& scene, double frequency,
               .settled = motion::motion_of(settled, points),
               .periodic = settled.periodic,
               .spread = settled.spread,
-              .ending = format("harmonic balance from %s, %s; time integration %s, "
-                               "spread %.3g after %.3g s",
-                               balance.start.c_str(), balance.newton.reason().c_str(),
+              .ending = format("panel %td: %g Hz: harmonic balance from %s, %s; time "
+                               "integration %s, spread %.3g after %.3g s",
+                               place + 1, frequency, balance.start.c_str(),
+                               balance.newton.reason().c_str(),
                                settled.periodic ? "periodic" : "aperiodic",
                                settled.spread, settled.seconds)};
   if (balance.found()) {
@@ -89,7 +90,7 @@ void add_orbits(Table& table, const PanelScene& scene, const Panel& panel)
           {{panel, source}, motion.t_over_period(k), motion.positions[k], forces[k]});
     table.gap();
   };
-  describe(table, panel);
+  table.note(panel.ending);
   if (panel.balance) add(1, *panel.balance);
   add(2, panel.settled);
 }
@@ -132,11 +133,6 @@ void describe(Table& table, const PanelScene& scene)
              "for %g s; periodic below %g",
              integration.stepper.method.c_str(), integration.settled, integration.longest,
              integration.periodic));
-}
-
-void describe(Table& table, const Panel& panel)
-{
-  table.note(format("panel %zu: %g Hz: ", panel.number, panel.frequency) + panel.ending);
 }
 
 }  // namespace rotor_stator::figures

@@ -40,7 +40,7 @@ struct Panel {
   double difference = -1;        ///< of displacement, over the largest displacement [-]
   double orbit_difference = -1;  ///< the same, each over its own half peak-to-peak [-]
   double force_difference = -1;  ///< of the bearing's force, over the largest force [-]
-  std::string ending;            ///< how both computations ended, in words
+  std::string ending;            ///< the `#` line that says how both computations ended
 
   /** Whether the panel may show the solution of harmonic balance as what the machine does. */
   bool shows_balance() const { return balance && periodic; }
@@ -80,8 +80,5 @@ std::vector<Field<Row>> with_panel_fields(const std::vector<Field<Row>>& others)
 
 /** The `#` lines that say with what the panels were computed. */
 void describe(Table& table, const PanelScene& scene);
-
-/** The `#` line that says how the computations of a panel ended. */
-void describe(Table& table, const Panel& panel);
 
 }  // namespace rotor_stator::figures
