@@ -10,13 +10,10 @@ so every speed is begun five ways: carried on from the speed below, from the spe
 with few and with many harmonics, and, at some speeds, from random states. Two starts that end alike count
 as one attractor.
 
-The upper panels show the relative motion once per turn, at phase zero. One point per speed is a motion that
-repeats itself with the rotation, the only kind that harmonic balance with this period can find; several
-points are a motion of a longer period; a smear is one that never repeats. The lower panels show the largest
-Lyapunov exponent with its error: below zero neighbouring motions come together, at zero the motion is
-quasi-periodic, above zero they part and the motion is chaotic. A motion is called one or the other only if
-the exponent differs from zero by three of its standard errors; what cannot be decided is counted as
-undecided, not as the more interesting of the two.
+The figure `sections` draws the motions once per turn. A motion that does not close is judged by its largest
+Lyapunov exponent, the rate at which neighbouring motions separate, known to a standard error. It is chaotic
+if the exponent is positive by three of these errors, quasi-periodic if the exponent is zero within three
+small ones, and undecided otherwise.
 
 Modelled: the motion once per period, and the largest Lyapunov exponent, for both data sets. Finished pieces
 are kept in a journal. */

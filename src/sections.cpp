@@ -1,9 +1,30 @@
 /**
-# Sections: the attractors once per period, against speed
+# Sections: the motion once per turn, against the speed
 
-Run: build/sections > data/generated/sections.tsv
-Points of the Poincaré sections of both data sets, up and down in speed. Modelled: motions from the
-states of the table of attractors. */
+Beside the paper, which takes the periodic solution for the motion.   `build/sections >
+data/generated/sections.tsv`
+
+The figure shows at which speeds the motion of the machine repeats after one turn. With the small
+clearance it does, except in a narrow band around 13 Hz. With the large clearance it does not
+over most of the range below 38 Hz, and harmonic balance with this period cannot represent it
+there.
+
+Above, the horizontal motion of the rotor relative to the stator is observed once per turn, at
+phase zero, and divided by the clearance (a Poincaré section). A motion that repeats after one
+turn gives the same value every time: a single point at its speed. A motion with a longer period
+gives a few points. One that never repeats gives a vertical band of points. Each data set is
+followed with rising and with falling speed, the motion at one speed being the start at the next.
+Where the two colours differ, several motions exist at one speed, and the history decides which
+of them occurs.
+
+Below stands the largest Lyapunov exponent: the rate at which two neighbouring motions separate.
+If it is negative, disturbances decay and the motion is stable. If it is zero, the motion is
+quasi-periodic. If it is positive, neighbouring motions separate exponentially and the motion is
+chaotic. Bars show three standard errors, which an exponent must exceed to count as different
+from zero.
+
+The starting states come from the table of `attractors`, where the exponents and the searches
+from other starts are explained. */
 #include "io/program.hpp"
 #include "truth/validity.hpp"
 
