@@ -1,7 +1,7 @@
 /**
 # Figure 2: position and penetration of ball j
 
-Paper: §2.2 and §2.3, Fig. 2.   `build/fig02_ball_position >
+Paper: §2.2 and §2.3, Fig. 2.   Run: `build/fig02_ball_position >
 data/generated/fig02_ball_position.tsv`
 
 The figure shows how a displacement of the rotor presses the balls, the only nonlinearity of the

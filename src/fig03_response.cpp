@@ -1,7 +1,7 @@
 /**
 # Figure 3: amplitudes of rotor and stator against the speed
 
-Paper: §3.3, Fig. 3; data set 2 is added.   `build/fig03_response >
+Paper: §3.3, Fig. 3; data set 2 is added.   Run: `build/fig03_response >
 data/generated/fig03_response.tsv`
 
 The figure shows how strongly rotor and stator vibrate at each speed of rotation, horizontally

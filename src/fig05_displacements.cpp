@@ -1,7 +1,7 @@
 /**
 # Figure 5: displacements at 45 Hz
 
-Paper: §3.3, Fig. 5, data set 1.   `build/fig05_displacements >
+Paper: §3.3, Fig. 5, data set 1.   Run: `build/fig05_displacements >
 data/generated/fig05_displacements.tsv`
 
 At 45 Hz, just below the resonance, six harmonics describe the displacements to two parts in ten

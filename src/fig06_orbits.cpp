@@ -1,7 +1,7 @@
 /**
 # Figure 6: orbits of rotor and stator from low to high speed, small clearance
 
-Paper: §3.3, Fig. 6, data set 1.   `build/fig06_orbits > data/generated/fig06_orbits.tsv`
+Paper: §3.3, Fig. 6, data set 1.   Run: `build/fig06_orbits > data/generated/fig06_orbits.tsv`
 
 The orbit of a body is the path of its centre in the plane across the shaft. The figure shows the
 orbits of rotor (solid) and stator (dashed) at nine speeds of rotation, three in each of the ranges

@@ -1,7 +1,7 @@
 /**
 # Figure 7: which balls carry load, small clearance
 
-Paper: §3.3, Fig. 7, data set 1.   `build/fig07_contact > data/generated/fig07_contact.tsv`
+Paper: §3.3, Fig. 7, data set 1.   Run: `build/fig07_contact > data/generated/fig07_contact.tsv`
 
 Each panel belongs to one speed. Time runs to the right, over two periods of rotation; the balls
 are counted upwards; black marks a ball in contact. The cage turns at half the rotor's speed, hence

@@ -1,7 +1,7 @@
 /**
 # Figure 8: orbits of rotor and stator from low to high speed, large clearance
 
-Paper: §3.3, Fig. 8, data set 2.   `build/fig08_orbits > data/generated/fig08_orbits.tsv`
+Paper: §3.3, Fig. 8, data set 2.   Run: `build/fig08_orbits > data/generated/fig08_orbits.tsv`
 
 With ten times the clearance the motion does not repeat after one turn at five of the nine speeds,
 from 6 to 30 Hz. This is our largest difference from the paper, which describes the same three

@@ -1,7 +1,7 @@
 /**
 # Figure 9: which balls carry load, large clearance
 
-Paper: §3.3, Fig. 9, data set 2.   `build/fig09_contact > data/generated/fig09_contact.tsv`
+Paper: §3.3, Fig. 9, data set 2.   Run: `build/fig09_contact > data/generated/fig09_contact.tsv`
 
 With ten times the clearance fewer balls share the load (claim C8). The panels are read like those
 of Figure 7: time to the right over two periods of rotation, balls upwards, black where a ball is

@@ -1,7 +1,7 @@
 /**
 # Sections: the motion once per turn, against the speed
 
-Beside the paper, which takes the periodic solution for the motion.   `build/sections >
+Beside the paper, which takes the periodic solution for the motion.   Run: `build/sections >
 data/generated/sections.tsv`
 
 The figure shows at which speeds the motion of the machine repeats after one turn. With the small

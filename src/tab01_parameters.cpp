@@ -1,7 +1,7 @@
 /**
 # Table 1: the data sets
 
-Paper: §3.3, Table 1.   `build/tab01_parameters > data/generated/tab01_parameters.tsv`
+Paper: §3.3, Table 1.   Run: `build/tab01_parameters > data/generated/tab01_parameters.tsv`
 
 The table lists the values that all figures are computed with: those that the paper prints, and
 those that it leaves out and that we had to choose. It is read from the parameter files, so it
