@@ -447,8 +447,9 @@ sanitize: all  ## the same tests with address and undefined-behaviour sanitizers
 readme: all  ## refresh the README's pictures and its generated block
 	$(PYTHON) figures/readme.py --write
 
-golden:  ## rewrite the golden tables of the tests from data/generated; a commit that does says why
-	$(PYTHON) tests/make_golden.py
+golden:  ## renew the golden copy of one table, NAME=fig06_orbits; a commit that does says why
+	@[ -n "$(NAME)" ] || { echo "golden: say which, for example make golden NAME=fig06_orbits" >&2; exit 2; }
+	$(PYTHON) tests/golden.py renew $(NAME)
 
 format:  ## clang-format on all C++ sources
 	clang-format -i $$(find src tests -name '*.?pp')
