@@ -24,8 +24,21 @@ Modelled: one periodic motion, and sweeps above the transition. */
 int main(int argc, char** argv)
 {
   using namespace rotor_stator;
-  return run(argc, argv, {"data/scenes/cost_growth.toml"}, [](const Options& options) {
-    return costs::cost_growth_table(
-        costs::read_cost_growth_scene(options.scene_file, options.reading));
+  using namespace rotor_stator::costs;
+  return run_figure(argc, argv, [](SceneFile& file) {
+    const CostGrowthScene scene = read_cost_growth(file);
+    std::vector<Growth> harmonics, balls, speeds;
+    for (int m : Watched("harmonics", scene.harmonics))
+      harmonics.push_back(cost_of(scene, m, one_solution(scene), m));
+    for (int n : Watched("balls", scene.balls))
+      balls.push_back(cost_of(scene, n, sweep_with(scene, scene.sweep_speeds, n),
+                              scene.sweep_harmonics));
+    for (int count : Watched("speeds", scene.speeds))
+      speeds.push_back(cost_of(scene, count,
+                               sweep_with(scene, count, scene.parameters.bearing.balls),
+                               scene.sweep_harmonics));
+    return cost_growth_table(scene, {{"harmonics", scene.fitted_harmonics, harmonics},
+                                     {"balls", scene.fitted_balls, balls},
+                                     {"speeds", scene.fitted_speeds, speeds}});
   });
 }

@@ -25,8 +25,18 @@ Modelled: harmonic balance with many N for each m, and one solution with many ha
 int main(int argc, char** argv)
 {
   using namespace rotor_stator;
-  return run(argc, argv, {"data/scenes/sampling.toml"}, [](const Options& options) {
-    return costs::sampling_table(
-        costs::read_sampling_scene(options.scene_file, options.reading));
+  using namespace rotor_stator::costs;
+  return run_figure(argc, argv, [](SceneFile& file) {
+    const SamplingScene scene = read_sampling(file);
+    std::vector<SamplingPoint> points;
+    for (const SamplingCase& at : Watched("sampling", scene.cases)) {
+      const SampledSolution reference = reference_solution(at, scene.reference_harmonics);
+      for (int m : scene.harmonics) {
+        const SampledSolution fine = finely_sampled(at, m, scene.fine_over_m, reference);
+        for (int over : scene.samples_over_m)
+          points.push_back(sampling_errors(at, over, fine, reference));
+      }
+    }
+    return sampling_table(scene, points);
   });
 }

@@ -24,9 +24,18 @@ Modelled: the speeds with T-periodic motion, below and above 25 Hz. */
 int main(int argc, char** argv)
 {
   using namespace rotor_stator;
-  return run(argc, argv, {"data/scenes/tab02_equal_error.toml"},
-             [](const Options& options) {
-               return costs::equal_error_table(
-                   costs::read_equal_error_scene(options.scene_file, options.reading));
-             });
+  using namespace rotor_stator::costs;
+  return run_figure(argc, argv, [](SceneFile& file) {
+    const EqualErrorScene scene = read_equal_error(file);
+    const References references =
+        true_motions(scene.parameters, scene.frequencies, scene.truth);
+    std::vector<EqualErrorRow> rows;
+    for (const References& range : periodic_ranges(scene, references))
+      for (const Candidates& method : Watched("methods", scene.candidates)) {
+        const std::vector<Trial> trials = try_settings(scene, range, method);
+        for (double target : scene.targets)
+          rows.push_back(cheapest(scene, range, trials, target));
+      }
+    return equal_error_table(scene, references, rows);
+  });
 }

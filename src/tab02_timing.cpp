@@ -32,8 +32,16 @@ ball. */
 int main(int argc, char** argv)
 {
   using namespace rotor_stator;
-  return run(argc, argv, {"data/scenes/tab02_timing.toml"}, [](const Options& options) {
-    return costs::timing_table(
-        costs::read_timing_scene(options.scene_file, options.reading));
+  using namespace rotor_stator::costs;
+  return run_figure(argc, argv, [](SceneFile& file) {
+    const TimingScene scene = read_timing(file);
+    const References references =
+        true_motions(scene.parameters, scene.frequencies, scene.truth);
+    std::vector<TimedSweep> balances, rk4;
+    for (const Setting& harmonics : scene.balances)
+      balances.push_back(time_sweep(scene, references, harmonics));
+    for (const Setting& step : cheapest_rk4(scene, references, balances))
+      rk4.push_back(time_sweep(scene, references, step));
+    return timing_table(scene, references, balances, rk4);
   });
 }

@@ -26,8 +26,19 @@ Modelled: seven T-periodic motions of both data sets, four of which are drawn. *
 int main(int argc, char** argv)
 {
   using namespace rotor_stator;
-  return run(argc, argv, {"data/scenes/work_precision.toml"}, [](const Options& options) {
-    return costs::work_precision_table(
-        costs::read_work_precision_scene(options.scene_file, options.reading));
+  using namespace rotor_stator::costs;
+  return run_figure(argc, argv, [](SceneFile& file) {
+    const WorkPrecisionScene scene = read_work_precision(file);
+    std::vector<WorkCase> cases;
+    std::vector<WorkPoint> points;
+    for (std::size_t number = 1; number <= scene.frequencies.size(); ++number) {
+      cases.push_back(work_case(scene, number));
+      for (const Candidates& method : Watched("methods", scene.candidates))
+        for (bool continued : {false, true})
+          for (const SettingGroup& group : method.groups)
+            for (const Setting& setting : group)
+              points.push_back(work_point(scene, cases.back(), continued, setting));
+    }
+    return work_precision_table(scene, cases, points);
   });
 }

@@ -1,12 +1,11 @@
 /**
-# Work in a process of its own
+# How the cost grows
 
-Its peak of memory is that of the work alone: what was done before, and what is kept for
-later, does not count. */
+CPU time and memory of harmonic balance against the number of harmonics (one solution, from that at the
+speed below), of balls and of speeds (one sweep each), and the exponents of the power laws fitted to
+them. Each size runs in a process of its own, whose peak of memory is reported above that of one that
+solves one speed with one harmonic. */
 #pragma once
-
-#include <functional>
-#include <vector>
 
 #include "costs/timed_method.hpp"
 #include "io/scene.hpp"
@@ -14,24 +13,6 @@ later, does not count. */
 
 namespace rotor_stator::costs
 {
-
-struct InOwnProcess {
-  std::vector<double>
-      numbers;        ///< what the work returned; empty when it did not end well
-  double peak_bytes;  ///< resident
-};
-
-/** To be called before any thread is started. Throws NoSolution when there is no new process to be
-    had. */
-InOwnProcess in_own_process(const std::function<std::vector<double>()>& work);
-
-/**
-## Scene: how the cost grows
-
-CPU time and memory of harmonic balance against the number of harmonics (one solution,
-from that at the speed below), of balls and of speeds (one sweep each), and the exponents
-of the power laws fitted to them. Each size runs in a process of its own, whose peak of
-memory is reported above that of one that solves one speed with one harmonic. */
 
 struct CostGrowthScene {
   Parameters parameters;
@@ -48,26 +29,51 @@ struct CostGrowthScene {
   double least_memory;  ///< exponents of memory are fitted above it [byte]
 };
 
+CostGrowthScene read_cost_growth(SceneFile& file);
+
+/** One solution, from that at the speed below. */
+Task one_solution(const CostGrowthScene& scene);
+
+/** The sweep with that many speeds and balls. */
+Task sweep_with(const CostGrowthScene& scene, int speeds, int balls);
+
 /** What one size costs. */
 struct Growth {
-  std::string against;  ///< "harmonics", "balls" or "speeds"
   int size;
   CpuTime cpu;
-  double memory;      ///< peak above that of a process that solves next to nothing [byte]
-  int found, speeds;  ///< speeds with a solution, of how many
-  double exponent_cpu, exponent_memory;  ///< of all sizes of the kind; 0 when not fitted
+  double memory;  ///< peak above that of a process that solves next to nothing [byte]
+  std::size_t found, speeds;  ///< speeds with a solution, of how many
 };
 
-CostGrowthScene read_cost_growth_scene(const std::string& file,
-                                       const std::string& reading);
+/** Of a task with that many harmonics. Throws NoSolution when its process ends without a result. */
+Growth cost_of(const CostGrowthScene& scene, int size, const Task& task, int harmonics);
 
-/** Throws NoSolution when a child process ends without a result. */
-std::vector<Growth> compute_cost_growth(const CostGrowthScene& scene);
+/** The sizes of one kind. */
+struct GrowthSeries {
+  std::string against;  ///< "harmonics", "balls" or "speeds"
+  int fitted_from;      ///< the least size of the fit
+  std::vector<Growth> sizes;
+};
 
 /** p of y = a x^p by least squares of the logarithms; two points at least, all positive. */
 double fitted_exponent(const std::vector<double>& x, const std::vector<double>& y);
 
-/** The table of it. */
-Table cost_growth_table(const CostGrowthScene& scene);
+Table cost_growth_table(const CostGrowthScene& scene,
+                        const std::vector<GrowthSeries>& all);
+
+/**
+## Work in a process of its own
+
+Its peak of memory is that of the work alone: what was done before, and what is kept for later, does not
+count. */
+struct InOwnProcess {
+  std::vector<double>
+      numbers;        ///< what the work returned; empty when it did not end well
+  double peak_bytes;  ///< resident
+};
+
+/** To be called before any thread is started. Throws NoSolution when there is no new process to be
+    had. */
+InOwnProcess in_own_process(const std::function<std::vector<double>()>& work);
 
 }  // namespace rotor_stator::costs

@@ -1,19 +1,17 @@
 /**
-# Scene: what equal error costs (the CPU comparison of §3.3)
+# What equal error costs, every method at its best setting (the CPU comparison of §3.3)
 
-The speeds of a sweep at which the motion has the period T, in ranges; in each range every
-method solves them in order, at each target of error at its cheapest setting that reaches
-the target. All settings of the scene file are run once; within a group of equal accuracy,
-where the cheaper ones come first, the search stops when a run costs more than the
-cheapest that has reached every target, and the search ends once the method
-has used its time. The two cheapest that reach a target are then
-repeated, and the one with the least median is the row. */
+The speeds of a sweep at which the motion has the period T, in ranges; in each range every method solves
+them in order, at each target of error at its cheapest setting that reaches the target. All settings of
+the scene file are run once; within a group of equal accuracy, where the cheaper ones come first, the
+search stops when a run costs more than the cheapest that has reached every target, and the search ends
+once the method has used its time. The two cheapest that reach a target are then repeated, and the one
+with the least median is the row. */
 #pragma once
 
 #include "costs/timed_method.hpp"
 #include "costs/true_motion.hpp"
 #include "io/scene.hpp"
-#include "io/strict_toml.hpp"
 #include "io/table.hpp"
 
 namespace rotor_stator::costs
@@ -32,41 +30,46 @@ struct EqualErrorScene {
   TruthSettings truth;
 };
 
+EqualErrorScene read_equal_error(SceneFile& file);
+
+/** The T-periodic speeds of each range with their references; no empty range. */
+std::vector<References> periodic_ranges(const EqualErrorScene& scene,
+                                        const References& references);
+
+/** A setting that was run once. */
+struct Trial {
+  Setting setting;
+  double cpu;  ///< [s]
+  MotionError error;
+};
+
+/** The settings of one method, group by group. */
+std::vector<Trial> try_settings(const EqualErrorScene& scene, const References& range,
+                                const Candidates& candidates);
+
 /** One method in one range at one target. */
 struct EqualErrorRow {
-  double from, to;  ///< first and last speed of the range [Hz]
+  std::string range, method;  ///< first and last speed [Hz]
   std::size_t speeds;
   double target;
-  Setting setting;
-  CpuTime cpu;  ///< of the whole range [s]
+  bool reached;     ///< by one of the settings tried
+  Setting setting;  ///< the cheapest
+  CpuTime cpu;      ///< of the whole range [s]
   int repetitions;
-  MotionError error;
-  Counts counts;
-  double ratio;  ///< CPU over that of aft at the same range and target
-  int tried;     ///< settings run
+  MotionError
+      error;  ///< not reached: the least of all settings; infinite if none solves all
+  long evaluations;   ///< of the bearing's force, one instant each
+  std::size_t tried;  ///< settings run
+  double ratio = 0;   ///< in the table
 };
 
-/** A method of which no tried setting reaches a target. */
-struct NotReached {
-  double from, to, target;
-  std::string method;
-  double best;  ///< least error of its settings [-]
-};
+EqualErrorRow cheapest(const EqualErrorScene& scene, const References& range,
+                       const std::vector<Trial>& trials, double target);
 
-struct EqualErrorResult {
-  std::vector<EqualErrorRow> rows;
-  std::vector<NotReached> not_reached;
-  std::vector<double> aperiodic;  ///< left out [Hz]
-  double spread, closure;         ///< largest of the references [-]
-};
+/** CPU over that of aft at the same range and target; 0 where aft has none. */
+double ratio_to_aft(const EqualErrorRow& row, const std::vector<EqualErrorRow>& rows);
 
-EqualErrorScene read_equal_error_scene(const std::string& file,
-                                       const std::string& reading);
-
-/** Throws NoSolution when a reference cannot be had. */
-EqualErrorResult compute_equal_error(const EqualErrorScene& scene);
-
-/** The table of it. */
-Table equal_error_table(const EqualErrorScene& scene);
+Table equal_error_table(const EqualErrorScene& scene, const References& references,
+                        const std::vector<EqualErrorRow>& rows);
 
 }  // namespace rotor_stator::costs

@@ -1,29 +1,30 @@
 #include "costs/sampling.hpp"
-#include "motion/find_periodic.hpp"
 
 #include <optional>
 
 #include "balance/bearing_problem.hpp"
 #include "balance/fourier_transform.hpp"
 #include "io/errors.hpp"
-#include "io/program.hpp"
+#include "motion/find_periodic.hpp"
 
 namespace rotor_stator::costs
 {
 
-SamplingScene read_sampling_scene(const std::string& file, const std::string& reading)
+SamplingScene read_sampling(SceneFile& file)
 {
-  SceneFile scene_file(file, reading);
-  StrictToml& toml = scene_file.toml();
+  StrictToml& toml = file.toml();
+  const auto machines = read_parameter_list(file, "parameters");
+  const auto frequencies = toml.numbers("speeds_hz", Range::positive);
+  if (frequencies.size() != machines.size())
+    toml.fail("speeds_hz", "must have one value for each of parameters");
   SamplingScene scene{
-      .machines = read_parameter_list(scene_file, "parameters"),
-      .frequencies = toml.numbers("speeds_hz", Range::positive),
+      .cases = {},
       .harmonics = toml.integers("harmonics", 1, 256),
       .samples_over_m = toml.integers("samples_over_m", 2, 1024),
       .fine_over_m = toml.integer("fine_over_m", 2, 4096),
       .reference_harmonics = toml.integer("reference_harmonics", 1, 4096)};
-  if (scene.frequencies.size() != scene.machines.size())
-    toml.fail("speeds_hz", "must have one value for each of parameters");
+  for (std::size_t k = 0; k < machines.size(); ++k)
+    scene.cases.push_back({k + 1, machines[k], frequencies[k]});
   toml.refuse_unknown_keys();
   return scene;
 }
@@ -34,113 +35,109 @@ namespace
 /** Instants at which motions are compared. */
 constexpr int points = 1024;
 
-/** What one machine at one speed adds. */
-class Case
+[[noreturn]] void fail(const SamplingCase& at, int m, int samples)
 {
-public:
-  Case(const SamplingScene& scene, std::size_t machine)
-      : scene_(scene),
-        machine_(machine),
-        parameters_(scene.machines[machine]),
-        omega_(angular(scene.frequencies[machine]))
-  {
-    const int m = scene.reference_harmonics;
-    const auto found = motion::find_periodic(parameters_, omega_, m, default_samples(m));
-    if (!found.found()) fail(m, default_samples(m));
-    reference_x_ = found.x;
-    reference_ = motion::motion_of(found.bodies, points);
-  }
+  throw NoSolution(format("%s at %g Hz: no solution with m = %d, N = %d",
+                          at.machine.file.c_str(), at.frequency, m, samples));
+}
 
-  void add_points(int m, std::vector<SamplingPoint>& rows) const
-  {
-    const int fine_samples = fast_transform_size(scene_.fine_over_m * m + 1);
-    Eigen::VectorXd x = resize_harmonics(reference_x_, 2, m);
-    const auto fine = solution(m, fine_samples, x);
-    if (!fine) fail(m, fine_samples);
-    for (int over : scene_.samples_over_m) {
-      const int samples = fast_transform_size(over * m + 1);
-      Eigen::VectorXd start = x;
-      const auto coarse = solution(m, samples, start);
-      rows.push_back({machine_, m, over, samples, coarse.has_value(),
-                      coarse ? difference(*coarse, *fine) : SolutionError{0, 0},
-                      difference(*fine, reference_)});
-    }
-  }
+/** By Newton from `start`. */
+std::optional<SampledSolution> sampled(const SamplingCase& at, int m, int samples,
+                                       const SampledSolution& start)
+{
+  const double omega = angular(at.frequency);
+  Balance balance(bearing_problem(at.machine, samples), m);
+  Eigen::VectorXd x = resize_harmonics(start.x, 2, m);
+  if (!solve(balance, omega, x, {}).converged()) return {};
+  return SampledSolution{
+      m, samples, x,
+      motion::motion_of(body_series(at.machine, balance, omega, x), points)};
+}
 
-private:
-  [[noreturn]] void fail(int m, int samples) const
-  {
-    throw NoSolution(format("%s at %g Hz: no solution with m = %d, N = %d",
-                            parameters_.file.c_str(), scene_.frequencies[machine_], m,
-                            samples));
-  }
-
-  std::optional<motion::Motion> solution(int m, int samples, Eigen::VectorXd& x) const
-  {
-    Balance balance(bearing_problem(parameters_, samples), m);
-    if (!solve(balance, omega_, x, {}).converged()) return {};
-    return motion::motion_of(body_series(parameters_, balance, omega_, x), points);
-  }
-
-  SolutionError difference(const motion::Motion& motion,
-                           const motion::Motion& exact) const
-  {
-    return {motion::relative_difference(motion, exact),
-            motion::relative_force_difference(parameters_, motion, exact)};
-  }
-
-  const SamplingScene& scene_;
-  std::size_t machine_;
-  const Parameters& parameters_;
-  double omega_;
-  Eigen::VectorXd reference_x_;
-  motion::Motion reference_;
-};
+SolutionError difference(const SamplingCase& at, const SampledSolution& solution,
+                         const SampledSolution& exact)
+{
+  return {motion::relative_difference(solution.motion, exact.motion),
+          motion::relative_force_difference(at.machine, solution.motion, exact.motion)};
+}
 
 }  // namespace
 
-std::vector<SamplingPoint> compute_sampling(const SamplingScene& scene)
+SampledSolution reference_solution(const SamplingCase& at, int harmonics)
 {
-  std::vector<SamplingPoint> rows;
-  Progress progress("sampling", scene.machines.size());
-  for (std::size_t machine = 0; machine < scene.machines.size(); ++machine) {
-    const Case one(scene, machine);
-    for (int m : scene.harmonics) one.add_points(m, rows);
-    progress.step();
-  }
-  return rows;
+  const int samples = default_samples(harmonics);
+  const auto found =
+      motion::find_periodic(at.machine, angular(at.frequency), harmonics, samples);
+  if (!found.found()) fail(at, harmonics, samples);
+  return {harmonics, samples, found.x, motion::motion_of(found.bodies, points)};
 }
 
-Table sampling_table(const SamplingScene& scene)
+SampledSolution finely_sampled(const SamplingCase& at, int harmonics, int fine_over_m,
+                               const SampledSolution& reference)
 {
-  Table table(
-      "Error of sampling the force, against the error of truncating the series",
-      {{"panel", "-", "number of the machine and speed"},
-       {"f", "Hz", "speed of rotation"},
-       {"m", "-", "harmonics"},
-       {"samples_over_m", "-", "N is the next fast size from this times m, plus one"},
-       {"N", "-", "samples per period"},
-       {"default", "-", "1 if this is the default N of that m"},
-       {"found", "-", "1 if Newton converged with this N"},
-       {"sampling", "-",
-        "displacement error against the same m finely sampled; 0 if not found"},
-       {"sampling_force", "-", "the same of the bearing's force"},
-       {"truncation", "-",
-        "displacement error of that m, finely sampled, against the reference"},
-       {"truncation_force", "-", "the same of the bearing's force"}});
-  for (std::size_t k = 0; k < scene.machines.size(); ++k) {
-    describe(table, scene.machines[k]);
-    table.note(format("panel %zu: %s at %g Hz", k + 1, scene.machines[k].title.c_str(),
-                      scene.frequencies[k]));
+  const int samples = fast_transform_size(fine_over_m * harmonics + 1);
+  const auto fine = sampled(at, harmonics, samples, reference);
+  if (!fine) fail(at, harmonics, samples);
+  return *fine;
+}
+
+SamplingPoint sampling_errors(const SamplingCase& at, int samples_over_m,
+                              const SampledSolution& fine,
+                              const SampledSolution& reference)
+{
+  const int m = fine.harmonics, samples = fast_transform_size(samples_over_m * m + 1);
+  const auto coarse = sampled(at, m, samples, fine);
+  return {at.number,
+          at.frequency,
+          m,
+          samples_over_m,
+          samples,
+          coarse.has_value(),
+          coarse ? difference(at, *coarse, fine) : SolutionError{0, 0},
+          difference(at, fine, reference)};
+}
+
+namespace
+{
+
+using Row = const SamplingPoint&;
+
+const std::vector<Field<SamplingPoint>> sampling_fields{
+    {"panel", "-", "number of the machine and speed", &SamplingPoint::number},
+    {"f", "Hz", "speed of rotation", &SamplingPoint::frequency},
+    {"m", "-", "harmonics", &SamplingPoint::harmonics},
+    {"samples_over_m", "-", "N is the next fast size from this times m, plus one",
+     &SamplingPoint::samples_over_m},
+    {"N", "-", "samples per period", &SamplingPoint::samples},
+    {"default", "-", "1 if this is the default N of that m",
+     [](Row r) { return r.samples == default_samples(r.harmonics); }},
+    {"found", "-", "1 if Newton converged with this N", &SamplingPoint::found},
+    {"sampling", "-",
+     "displacement error against the same m finely sampled; 0 if not found",
+     [](Row r) { return r.sampling.displacement; }},
+    {"sampling_force", "-", "the same of the bearing's force",
+     [](Row r) { return r.sampling.force; }},
+    {"truncation", "-",
+     "displacement error of that m, finely sampled, against the reference",
+     [](Row r) { return r.truncation.displacement; }},
+    {"truncation_force", "-", "the same of the bearing's force",
+     [](Row r) { return r.truncation.force; }}};
+
+}  // namespace
+
+Table sampling_table(const SamplingScene& scene, const std::vector<SamplingPoint>& points)
+{
+  Table table("Error of sampling the force, against the error of truncating the series",
+              sampling_fields);
+  for (const SamplingCase& at : scene.cases) {
+    describe(table, at.machine);
+    table.note(format("panel %zu: %s at %g Hz", at.number, at.machine.title.c_str(),
+                      at.frequency));
   }
   table.note(
       format("modelled: harmonic balance; finely sampled: N = %d m; reference: m = %d",
              scene.fine_over_m, scene.reference_harmonics));
-  for (const SamplingPoint& p : compute_sampling(scene))
-    table.row({p.machine + 1, scene.frequencies[p.machine], p.harmonics, p.samples_over_m,
-               p.samples, p.samples == default_samples(p.harmonics), p.found,
-               p.sampling.displacement, p.sampling.force, p.truncation.displacement,
-               p.truncation.force});
+  for (const SamplingPoint& point : points) table.row(sampling_fields, point);
   return table;
 }
 

@@ -1,10 +1,10 @@
 /**
-# Scene: how many samples m harmonics need
+# How many samples m harmonics need
 
-The force is no polynomial, so N samples of it alias: the coefficients of the m harmonics take an
-error that falls with N. Beyond the point where it is smaller than the error of stopping at m, more
-samples buy nothing. Both are measured on the bearing: the sampling error of a solution against the
-same m at a very large N, and the truncation error of that one against many more harmonics. */
+The force is no polynomial, so N samples of it alias: the coefficients of the m harmonics take an error
+that falls with N. Beyond the point where it is smaller than the error of stopping at m, more samples
+buy nothing. Both are measured on the bearing: the sampling error of a solution against the same m at a
+very large N, and the truncation error of that one against many more harmonics. */
 #pragma once
 
 #include "io/scene.hpp"
@@ -14,38 +14,61 @@ same m at a very large N, and the truncation error of that one against many more
 namespace rotor_stator::costs
 {
 
+/** A machine at a speed. */
+struct SamplingCase {
+  std::size_t number;  ///< from 1
+  Parameters machine;
+  double frequency;  ///< [Hz]
+};
+
 struct SamplingScene {
-  std::vector<Parameters> machines;  ///< one for each speed
-  std::vector<double> frequencies;   ///< [Hz]
-  std::vector<int> harmonics;        ///< m
-  std::vector<int> samples_over_m;   ///< N ≥ this times m, plus one
-  int fine_over_m;                   ///< the N that stands for infinity
+  std::vector<SamplingCase> cases;
+  std::vector<int> harmonics;       ///< m
+  std::vector<int> samples_over_m;  ///< N ≥ this times m, plus one
+  int fine_over_m;                  ///< the N that stands for infinity
   int reference_harmonics;
 };
 
-SamplingScene read_sampling_scene(const std::string& file, const std::string& reading);
+SamplingScene read_sampling(SceneFile& file);
+
+/** A solution with m harmonics and N samples. */
+struct SampledSolution {
+  int harmonics, samples;
+  Eigen::VectorXd x;  ///< coefficients of u [m]
+  motion::Motion motion;
+};
+
+/** With many harmonics and their default N. Throws NoSolution when not found. */
+SampledSolution reference_solution(const SamplingCase& at, int harmonics);
+
+/** With m harmonics and N above `fine_over_m` times m, from the reference. Throws NoSolution when not
+    found. */
+SampledSolution finely_sampled(const SamplingCase& at, int harmonics, int fine_over_m,
+                               const SampledSolution& reference);
 
 /** Relative errors, largest over the period. */
 struct SolutionError {
   double displacement, force;
 };
 
-/** A solution with m harmonics and N samples. */
+/** A solution with m harmonics and N samples, the next fast size from `samples_over_m` times m, plus
+    one. */
 struct SamplingPoint {
-  std::size_t machine;  ///< index into the scene's list
+  std::size_t number;  ///< of the case
+  double frequency;    ///< [Hz]
   int harmonics, samples_over_m, samples;
   bool found;                ///< Newton converged from the finely sampled solution
   SolutionError sampling;    ///< against the same m, finely sampled; 0 when not found
   SolutionError truncation;  ///< of that m, finely sampled
 };
 
-/** Throws NoSolution when a finely sampled solution or the reference is not found. */
-std::vector<SamplingPoint> compute_sampling(const SamplingScene& scene);
-
-/**
-## The table of the sample rule */
+/** The errors of the finely sampled solution's m with fewer samples. */
+SamplingPoint sampling_errors(const SamplingCase& at, int samples_over_m,
+                              const SampledSolution& fine,
+                              const SampledSolution& reference);
 
 /** One row per machine and speed, number of harmonics and number of samples. */
-Table sampling_table(const SamplingScene& scene);
+Table sampling_table(const SamplingScene& scene,
+                     const std::vector<SamplingPoint>& points);
 
 }  // namespace rotor_stator::costs

@@ -1,8 +1,10 @@
 #include "costs/true_motion.hpp"
 
+#include <algorithm>
+
 #include "balance/bearing_problem.hpp"
 #include "io/errors.hpp"
-#include "io/scene.hpp"
+#include "io/parallel.hpp"
 #include "stability/shooting.hpp"
 
 namespace rotor_stator::costs
@@ -33,15 +35,15 @@ TrueMotion true_motion(const Parameters& parameters, double frequency,
                    .spread = steady.spread,
                    .state = steady.states.front(),
                    .motion = {},
-                   .closure = 0};
+                   .periodicity_residual = 0};
   if (!truth.periodic) return truth;
   const Shooting shooting =
       shoot(parameters, angular(frequency), truth.state,
-            {.tolerance = settings.tolerance, .closure = settings.closure});
+            {.tolerance = settings.tolerance, .closure = settings.periodicity_residual});
   if (!shooting.converged)
     throw NoSolution(
         format("no reference at %g Hz: %s", frequency, shooting.reason.c_str()));
-  truth.closure = shooting.closure;
+  truth.periodicity_residual = shooting.closure;
   truth.motion =
       one_period(parameters, frequency, truth.state,
                  settings.settling.stepper.intervals_per_period, settings.tolerance);
@@ -67,24 +69,65 @@ double agreement(const Parameters& parameters, const TrueMotion& truth, int harm
       truth.motion);
 }
 
-MotionError error_of(const Parameters& parameters, const std::vector<double>& frequencies,
-                     const motion::Motions& motions, const motion::Motions& references)
+References true_motions(const Parameters& parameters,
+                        const std::vector<double>& frequencies,
+                        const TruthSettings& settings)
+{
+  const auto truths = computed_in_parallel(
+      "references", frequencies.size(),
+      [&](std::size_t k) { return true_motion(parameters, frequencies[k], settings); });
+  References references{frequencies, {}, 0, 0};
+  for (const TrueMotion& truth : truths) {
+    references.motions.emplace_back();
+    if (!truth.periodic) continue;
+    references.motions.back() = truth.motion;
+    references.spread = std::max(references.spread, truth.spread);
+    references.periodicity_residual =
+        std::max(references.periodicity_residual, truth.periodicity_residual);
+  }
+  return references;
+}
+
+std::string References::text(const TruthSettings& settings) const
+{
+  return format(
+      "reference: shooting by rk8pd, tolerance %g, closure below %.2g, "
+      "from time integration with Poincare spread below %.2g",
+      settings.tolerance, periodicity_residual, spread);
+}
+
+std::string References::aperiodic() const
+{
+  std::string list;
+  for (std::size_t k = 0; k < frequencies.size(); ++k)
+    if (!motions[k]) list += format(" %g", frequencies[k]);
+  return "not T-periodic, no reference [Hz]:" + (list.empty() ? " none" : list);
+}
+
+void MotionError::add(const Parameters& parameters, double frequency,
+                      const std::optional<motion::Motion>& motion,
+                      const std::optional<motion::Motion>& reference)
+{
+  if (!reference) return;
+  if (!motion) {
+    missing.push_back(frequency);
+    return;
+  }
+  const double difference = motion::relative_difference(*motion, *reference);
+  if (difference > displacement) {
+    displacement = difference;
+    worst_frequency = frequency;
+  }
+  force =
+      std::max(force, motion::relative_force_difference(parameters, *motion, *reference));
+}
+
+MotionError error_of(const Parameters& parameters, const References& references,
+                     const motion::Motions& motions)
 {
   MotionError error;
-  for (std::size_t k = 0; k < frequencies.size(); ++k) {
-    if (!references[k]) continue;
-    if (!motions[k]) {
-      error.missing.push_back(frequencies[k]);
-      continue;
-    }
-    const double difference = motion::relative_difference(*motions[k], *references[k]);
-    if (difference > error.displacement) {
-      error.displacement = difference;
-      error.worst_frequency = frequencies[k];
-    }
-    error.force = std::max(error.force, motion::relative_force_difference(
-                                            parameters, *motions[k], *references[k]));
-  }
+  for (std::size_t k = 0; k < motions.size(); ++k)
+    error.add(parameters, references.frequencies[k], motions[k], references.motions[k]);
   return error;
 }
 

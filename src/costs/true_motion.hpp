@@ -13,18 +13,18 @@ namespace rotor_stator::costs
 {
 
 struct TruthSettings {
-  SteadySettings settling;   ///< its points per period are those of the motion
-  double tolerance = 1e-13;  ///< of shooting by rk8pd
-  double closure = 1e-11;
+  SteadySettings settling;              ///< its points per period are those of the motion
+  double tolerance = 1e-13;             ///< of shooting by rk8pd
+  double periodicity_residual = 1e-11;  ///< wanted of shooting [-]
 };
 
 struct TrueMotion {
-  double frequency;       ///< [Hz]
-  bool periodic;          ///< with period T; nothing else is known if not
-  double spread;          ///< Poincaré spread of the time integration [-]
-  State state;            ///< at phase 0
-  motion::Motion motion;  ///< one period
-  double closure;         ///< of shooting [-]
+  double frequency;             ///< [Hz]
+  bool periodic;                ///< with period T; nothing else is known if not
+  double spread;                ///< Poincaré spread of the time integration [-]
+  State state;                  ///< at phase 0
+  motion::Motion motion;        ///< one period
+  double periodicity_residual;  ///< of shooting [-]
 };
 
 /** Throws NoSolution when the integration breaks down or shooting does not close the motion. */
@@ -35,15 +35,38 @@ TrueMotion true_motion(const Parameters& parameters, double frequency,
     motion [-]. Throws NoSolution when that has no solution. */
 double agreement(const Parameters& parameters, const TrueMotion& truth, int harmonics);
 
+/** The true motions at the speeds of a sweep. */
+struct References {
+  std::vector<double> frequencies;      ///< [Hz]
+  motion::Motions motions;              ///< none where the motion has not the period T
+  double spread, periodicity_residual;  ///< largest of the others [-]
+
+  /** For headers: how the motions were found, and where there is none. */
+  std::string text(const TruthSettings& settings) const;
+  std::string aperiodic() const;
+};
+
+/** Throws NoSolution as `true_motion` does. */
+References true_motions(const Parameters& parameters,
+                        const std::vector<double>& frequencies,
+                        const TruthSettings& settings);
+
 /** The largest errors over some speeds [-]. */
 struct MotionError {
   double displacement = 0, force = 0;
   double worst_frequency = 0;   ///< where the displacement is worst [Hz]
   std::vector<double> missing;  ///< speeds with a reference but without a solution [Hz]
+
+  /** One more speed; nothing where there is no reference. */
+  void add(const Parameters& parameters, double frequency,
+           const std::optional<motion::Motion>& motion,
+           const std::optional<motion::Motion>& reference);
+
+  bool reaches(double target) const { return missing.empty() && displacement <= target; }
 };
 
 /** Over the speeds where `references` has a motion. */
-MotionError error_of(const Parameters& parameters, const std::vector<double>& frequencies,
-                     const motion::Motions& motions, const motion::Motions& references);
+MotionError error_of(const Parameters& parameters, const References& references,
+                     const motion::Motions& motions);
 
 }  // namespace rotor_stator::costs
