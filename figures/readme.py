@@ -204,8 +204,11 @@ PARTS = {part.__name__: part for part in (outcome, explore, response, panels, co
 
 
 def digests():
-    """One line per input of the figure: digest and file, as sha256sum writes them."""
-    return "".join(f"{hashlib.sha256(Path(f).read_bytes()).hexdigest()}  {f}\n" for f in INPUTS)
+    """One line per input of the figure: digest of its lines without comments, and file."""
+    def digest(file):
+        lines = Path(file).read_bytes().splitlines(keepends=True)
+        return hashlib.sha256(b"".join(line for line in lines if line[:1] != b"#")).hexdigest()
+    return "".join(f"{digest(file)}  {file}\n" for file in INPUTS)
 
 
 def refreshed(text):
