@@ -87,7 +87,7 @@ claims: $(claims)  ## the verdict on each claim, for both readings
 
 packages := cmake ninja-build g++ pkg-config libeigen3-dev libfftw3-dev libgsl-dev \
   libtomlplusplus-dev libcli11-dev catch2 gnuplot-nox python3-matplotlib librsvg2-bin git \
-  libbenchmark-dev pandoc chromium chromium-driver python3-selenium tidy
+  libbenchmark-dev pandoc chromium chromium-driver python3-selenium python3-hypothesis tidy
 
 # The packages of the list that dpkg does not have; nothing on systems without dpkg.
 missing_packages = command -v dpkg-query > /dev/null || exit 0; \

@@ -2,6 +2,7 @@
 
 #include <sys/wait.h>
 
+#include <algorithm>
 #include <cstdlib>
 #include <fstream>
 #include <sstream>
@@ -13,8 +14,11 @@ namespace rotor_stator::tests
 Outcome run_program(const std::string& arguments)
 {
   const Scratch scratch;
-  const std::string command = "cd " SOURCE_DIR " && " PROGRAM_DIR "/" + arguments +
-                              " > " + scratch.path("out") + " 2> " + scratch.path("err");
+  const auto end_of_name = std::min(arguments.find(' '), arguments.size());
+  const std::string command = "cd '" SOURCE_DIR "' && '" PROGRAM_DIR "/" +
+                              arguments.substr(0, end_of_name) + "'" +
+                              arguments.substr(end_of_name) + " > '" +
+                              scratch.path("out") + "' 2> '" + scratch.path("err") + "'";
   const int status = std::system(command.c_str());
   return {WIFEXITED(status) ? WEXITSTATUS(status) : -1, read_whole(scratch.path("out")),
           read_whole(scratch.path("err"))};

@@ -1,0 +1,495 @@
+"""Whatever explore is asked, it ends by itself with status 0, 2 or 3 and the output that belongs to it.
+
+    0   a table of finite numbers on stdout, nothing on stderr
+    2   bad input: one line on stderr, nothing on stdout
+    3   no solution: one line on stderr, at most a part of a table on stdout
+
+No run leaves a file behind that was not asked for, or half of one. The questions are drawn by hypothesis,
+the same in every run; what fails is shrunk to the simplest question that still fails. Other questions:
+EXAMPLES=10 (times as many) SEED=7.
+
+Usage: tests/hard/explore_input.py PROGRAM [TEST…]
+"""
+import os
+import re
+import shutil
+import subprocess
+import sys
+import tempfile
+import unittest
+from collections import Counter
+from functools import cache
+from pathlib import Path
+
+os.environ.setdefault("HYPOTHESIS_STORAGE_DIRECTORY", "build/hypothesis")
+from hypothesis import HealthCheck, given, seed, settings  # noqa: E402
+from hypothesis import strategies as st  # noqa: E402
+
+sys.path.insert(0, str(Path(__file__).parents[1]))
+from hard import odd  # noqa: E402
+from machines import SET_1, decade, entries, extreme_machine, written  # noqa: E402
+
+EXPLORE = Path("build/explore")
+SANITIZED = "SANITIZED" in os.environ
+# Evaluations of the force: a few milliseconds of work.
+LITTLE = "1e5"
+GOOD_FILE = written(entries(SET_1)).encode()
+
+# ----------------------------------------------------------------------------------------------------
+# What may come of a question
+
+NOT_FINITE = re.compile(r"(?<![^\W_])(nan|inf|infinity)(?![^\W_])", re.IGNORECASE)
+# The title is the reader's, the flags may name NaN.
+QUOTED = ("# parameters:", "# compiler:")
+
+
+def table_fault(text):
+    """What is wrong with a table; None when every row has as many finite numbers as there are names."""
+    lines = [line for line in text.splitlines() if not line.startswith(QUOTED)]
+    for line in lines:
+        if NOT_FINITE.search(line):
+            return f"not finite: {line}"
+    rows = [line.split("\t") for line in lines if line and not line.startswith("#")]
+    if len(rows) < 2:
+        return "no rows"
+    return next((f"cells of row {k}" for k, row in enumerate(rows) if len(row) != len(rows[0])), None)
+
+
+def fault(status, out, err):
+    """What is wrong with the end of a run, or None."""
+    one_line = len(err) > 1 and err.count("\n") == 1 and err.endswith("\n")
+    if status == 0:
+        if err:
+            return "status 0 with words on stderr"
+        words = out.startswith("Explores") or "Usage:" in out[:200] or re.match(r"explore \d", out)
+        return None if words else table_fault(out)
+    if status == 2:
+        if out:
+            return "status 2 with words on stdout"
+        return None if one_line else "status 2 without one line on stderr"
+    if status == 3:
+        if not one_line:
+            return "status 3 without one line on stderr"
+        if NOT_FINITE.search(err):
+            return "status 3 with a reason that is not a number"
+        return table_fault(out) if out else None
+    return f"status {status}"
+
+
+class Folder:
+    """Where explore runs: emptied before each question."""
+
+    def __init__(self):
+        self.path = Path(tempfile.mkdtemp(prefix="rotor_stator_"))
+
+    def ask(self, arguments, files):
+        """Runs explore; returns its status, after the check of all that it printed and left."""
+        for old in self.path.iterdir():
+            old.unlink()
+        for name, content in files.items():
+            (self.path / name).write_bytes(content)
+        words = [str(EXPLORE).encode(), *(word.encode("utf-8", "surrogateescape") for word in arguments)]
+        run = subprocess.run(words, cwd=self.path, stdin=subprocess.DEVNULL, capture_output=True)
+        out, err = (text.decode("utf-8", "surrogateescape") for text in (run.stdout, run.stderr))
+        wrong = fault(run.returncode, out, err) or self.left_behind(files, arguments, run.returncode)
+        assert not wrong, f"{wrong}\nexplore {arguments}\n{err[:2000]}\n" + "\n".join(
+            f"{name}: {content[:2000]!r}" for name, content in files.items())
+        return run.returncode
+
+    def left_behind(self, files, arguments, status):
+        """A file that was changed, not asked for, or not finished."""
+        for name, content in files.items():
+            if (self.path / name).read_bytes() != content:
+                return f"{name} was changed"
+        more = {file.name for file in self.path.iterdir()} - files.keys()
+        if more - ({"saved.tsv"} if "saved.tsv" in arguments else set()):
+            return f"left behind: {sorted(more)}"
+        if more and status == 2:
+            return "saved, although the input was bad"
+        if more and not (self.path / "saved.tsv").read_bytes().endswith(b"\n"):
+            return "saved in part"
+        return None
+
+
+# ----------------------------------------------------------------------------------------------------
+# Values. A strategy is made once: making one costs more than drawing from it.
+
+
+@cache
+def one(*values):
+    return st.sampled_from(values)
+
+
+@cache
+def upto(last):
+    return st.integers(0, last)
+
+
+@cache
+def one_in(count):
+    return upto(count - 1).map((count - 1).__eq__)
+
+
+@cache
+def real(low, high):
+    """10^low … 10^high as an option's value."""
+    return st.randoms().map(lambda dice: repr(decade(dice, low, high)))
+
+
+@cache
+def whole(low, high):
+    return st.randoms().map(lambda dice: f"{decade(dice, low, high):.0f}")
+
+
+# ----------------------------------------------------------------------------------------------------
+# Spoilt files
+
+
+@st.composite
+def entry_spoilt(draw, lines):
+    """One entry wrong: in value, in name or in place."""
+    at = draw(upto(len(lines) - 1))
+    table, key, value = lines[at]
+    which = draw(one("value", "swap", "missing", "twice", "longer", "shorter", "moved"))
+    lines = list(lines)
+    if which == "value":
+        lines[at] = [table, key, draw(one(*odd.VALUES))]
+    elif which == "swap":
+        other = draw(upto(len(lines) - 1))
+        lines[at], lines[other] = [table, key, lines[other][2]], [*lines[other][:2], value]
+    elif which == "missing":
+        del lines[at]
+    elif which == "twice":
+        lines.insert(at, lines[at])
+    elif which == "longer":
+        lines[at] = [table, key + draw(one("s", "_", " ", ".", "é", '"', "=", "-")), value]
+    elif which == "shorter":
+        out = draw(upto(len(key) - 1))
+        lines[at] = [table, key[:out] + key[out + 1:], value]
+    else:
+        lines[at] = [draw(one("", "stator", "rotor", "bearing", "x.y")), key, value]
+    return lines
+
+
+MUCH = st.integers(1, 50_000)
+FOREIGN = st.one_of(
+    st.sampled_from([f"\n{line}\n".encode() for line in odd.LINES]),
+    st.binary(min_size=1, max_size=8),
+    st.text(max_size=20).map(str.encode),
+    MUCH.map(lambda count: b"[" * count),
+    MUCH.map(lambda count: b"{a=" * count),
+    MUCH.map(lambda count: b"x = " + b"9" * count + b"\n"),
+    MUCH.map(lambda count: b'"' + b"k" * count + b'" = 1\n'),
+    MUCH.map(lambda count: b"a" + b".a" * count + b" = 1\n"),
+    st.integers(1, 4).map(lambda count: b"\0" * count))
+
+
+@st.composite
+def bytes_spoilt(draw, content):
+    """The bytes wrong: cut, replaced, other ends of lines, another encoding, or something foreign."""
+    which = draw(st.sampled_from(["foreign"] * 6 + ["cut", "noise", "lines", "encoding"]))
+    at = draw(upto(len(content)))
+    if which == "cut":
+        return content[:at]
+    if which == "noise":
+        return draw(st.binary(max_size=400))
+    if which == "lines":
+        return content.replace(b"\n", b"\r\n")
+    if which == "encoding":
+        return draw(one(b"\xef\xbb\xbf", b"\xff\xfe", b"\xc3")) + content
+    return content[:at] + draw(FOREIGN) + content[at:]
+
+
+@st.composite
+def spoilt_files(draw):
+    """The file of data set 1 with one to three things wrong."""
+    lines = entries(SET_1)
+    faults = draw(st.lists(st.sampled_from(["entry", "entry", "bytes"]), min_size=1, max_size=3))
+    for _ in range(faults.count("entry")):
+        lines = draw(entry_spoilt(lines))
+    content = written(lines).encode()
+    for _ in range(faults.count("bytes")):
+        content = draw(bytes_spoilt(content))
+    return content
+
+
+@st.composite
+def spoilt_branches(draw, saved):
+    """A saved branch with something wrong: bytes, a cell, a line twice, missing or in another place."""
+    if draw(st.booleans()):
+        return draw(bytes_spoilt(saved))
+    lines = saved.decode().split("\n")
+    at = draw(upto(len(lines) - 2))
+    which = draw(one("cell", "cell", "twice", "missing", "swap"))
+    if which == "cell":
+        cells = re.split("([\t ])", lines[at])
+        cells[2 * draw(upto(len(cells) // 2))] = draw(one(*odd.CELLS))
+        lines[at] = "".join(cells)
+    elif which == "twice":
+        lines.insert(at, lines[at])
+    elif which == "missing":
+        del lines[at]
+    else:
+        other = draw(upto(len(lines) - 2))
+        lines[at], lines[other] = lines[other], lines[at]
+    return "\n".join(lines).encode()
+
+
+# ----------------------------------------------------------------------------------------------------
+# Options
+
+
+@st.composite
+def chosen(draw, possible):
+    """Some of the options: {name: (one in so many, values)}."""
+    return [[name, draw(values)] for name, (count, values) in possible.items() if draw(one_in(count))]
+
+
+@st.composite
+def motion_options(draw, extreme):
+    """Options of orbit and contact, the `extreme` ones over their whole range."""
+    frequency = draw(real(-3, 5) if extreme else real(0, 2))
+    if extreme and draw(one_in(10)):
+        frequency = draw(real(-300, 300))
+    method = draw(one("aft", "aft", "aft", "rk4", "rk4", "rkf45", "rkck", "rk8pd", "msadams",
+                                   "msbdf", "bsimp"))
+    options = [["--frequency", frequency]]
+    if method != "aft" or draw(one_in(2)):
+        options.append(["--method", method])
+    options += draw(chosen({"--points": (2, whole(0, 3 if extreme else 2))}))
+    if method == "aft":
+        return options + draw(chosen({
+            "--harmonics": (2, whole(0, 3.6 if extreme else 1.5)),
+            "--samples": (4, whole(1, 6 if extreme else 3)),
+            "--tolerance": (4, real(-8, -1)), "--newton-tolerance": (4, real(-15, -3))}))
+    return options + draw(chosen({
+        "--longest": (4, real(-3, 5 if extreme else 0)),
+        **({"--step": (2, real(-12 if extreme else -6, -1))} if method == "rk4" else
+           {"--local-error": (2, real(-15, -2))})}))
+
+
+@st.composite
+def response_options(draw, extreme):
+    dice = draw(st.randoms())
+    start = decade(dice, -4 if extreme else 0, 4 if extreme else 1.5)
+    end = start * (1 + decade(dice, -3, 4 if extreme else 0.5))
+    options = draw(chosen({
+        "--harmonics": (2, whole(0, 2.5 if extreme else 1)), "--samples": (4, whole(1, 5 if extreme else 3)),
+        "--newton-tolerance": (4, real(-15, -3)), "--direction": (4, st.sampled_from(["up", "down"])),
+        "--isolated": (8, whole(0, 1)), "--save": (8, st.just("saved.tsv"))}))
+    return [["--from", repr(start)], ["--to", repr(end)], *options]
+
+
+@st.composite
+def questions(draw, extreme):
+    """A command and its options, as [name, value]."""
+    command = draw(one("orbit", "orbit", "contact", "response"))
+    return command, draw(response_options(extreme) if command == "response" else motion_options(extreme))
+
+
+WORDS = st.one_of(st.sampled_from(odd.WORDS), st.sampled_from(odd.WORDS),
+                  st.text(st.characters(blacklist_characters="\0", blacklist_categories=["Cs"]), max_size=9),
+                  st.integers(1, 5000).map(lambda count: "9" * count),
+                  st.integers(1, 5000).map(lambda count: "x" * count))
+
+
+@st.composite
+def options_spoilt(draw, options):
+    """One to three options wrong: in value, in name, missing, twice, or another method's."""
+    options = list(options)
+    for _ in range(draw(st.integers(1, 3))):
+        at = draw(upto(len(options) - 1))
+        name, value = options[at]
+        which = draw(st.sampled_from(["value"] * 4 + ["missing", "twice", "misspelt", "unknown", "foreign"]))
+        if which == "value":
+            options[at] = [name, draw(st.sampled_from(odd.SAVES) if name == "--save" else WORDS)]
+        elif which == "missing" and len(options) > 1:
+            del options[at]
+        elif which == "twice":
+            options.append(options[at])
+        elif which == "misspelt":
+            options[at] = [name + draw(one("s", "=", " ", "-", "é")), value]
+        elif which == "unknown":
+            options[at] = [draw(one("--colour", "-f", "--", "--from")), value]
+        elif which == "foreign":
+            options.append(draw(st.sampled_from([
+                ["--step", "1e-4"], ["--local-error", "1e-9"], ["--harmonics", "6"], ["--branch", "2"],
+                ["--tolerance", "1e-3"], ["--at", "30"], ["--seed", "3"], ["--longest", "1"]])))
+    return options
+
+
+@st.composite
+def spoilt_questions(draw):
+    """The arguments of a question that has one to three things wrong."""
+    command, options = draw(questions(extreme=False))
+    path = "machine.toml"
+    if draw(one_in(12)):
+        path = draw(st.one_of(st.sampled_from(odd.PATHS), st.integers(1, 9000).map(lambda k: "p" * k),
+                              st.integers(1, 9000).map(lambda k: "/" * k)))
+    if draw(one_in(20)):
+        command = draw(WORDS)
+    options = draw(options_spoilt(options))
+    extra = [draw(WORDS)] if draw(one_in(8)) else []
+    return [command, path, *(word for option in options for word in option), *extra]
+
+
+@st.composite
+def extreme_questions(draw, flags=True):
+    """A legal machine and legal options, both over their whole range."""
+    machine = extreme_machine(draw(st.randoms()))
+    command, options = draw(questions(extreme=True))
+    words = [command, "machine.toml", *(word for option in options for word in option)]
+    if flags and command == "response" and draw(one_in(4)):
+        words.append("--stability")
+    return written(entries(machine)).encode(), words
+
+
+# What was once counted too cheap, in order: integrations that break down; a large dense block; two branches
+# along one speed, whose every step met all earlier ones; a thousand balls in contact; N with a large prime
+# factor. [command and options, changes of data set 1]
+ONCE_TOO_CHEAP = [
+    ("response --from 468.4486 --to 198605.5 --newton-tolerance 5.932571e-06 --direction up --isolated 1",
+     {"stator": {"mass_kg": 22.16053, "damping_ratio": 0.01242356},
+      "rotor": {"damping_ratio": 8.973442e-06, "unbalance_kg_m": 1.630133e-56},
+      "bearing": {"balls": 2, "contact_stiffness_N_per_m1p5": 5.562692e12,
+                  "radial_clearance_m": 2.358925e-12}}),
+    ("contact --frequency 0.4341902 --tolerance 6.126324e-06",
+     {"rotor": {"unbalance_kg_m": 4.14203e-05},
+      "bearing": {"balls": 128, "contact_stiffness_N_per_m1p5": 2.36464e14,
+                  "radial_clearance_m": 1.552251e-06}}),
+    ("response --from 0.09015749 --to 852.3173 --harmonics 2",
+     {"stator": {"natural_frequency_rad_per_s": 33.98298},
+      "rotor": {"mass_kg": 0.01087106, "damping_ratio": 1.51218e-218, "unbalance_kg_m": 0.01518976},
+      "bearing": {"balls": 2, "contact_stiffness_N_per_m1p5": 5.910089e13, "radial_clearance_m": 0},
+      "gravity": {"acceleration_m_per_s2": 0}}),
+    ("response --from 0.005457668 --to 42.16881 --harmonics 1",
+     {"stator": {"mass_kg": 0.0129118, "natural_frequency_rad_per_s": 3.87691,
+                 "damping_ratio": 0.003339069},
+      "rotor": {"mass_kg": 448.9508, "damping_ratio": 0.1268511},
+      "bearing": {"balls": 2, "contact_stiffness_N_per_m1p5": 2.288292e11, "radial_clearance_m": 0},
+      "gravity": {"acceleration_m_per_s2": 18.66814}}),
+    ("orbit --frequency 0.01286894 --method rk4",
+     {"stator": {"mass_kg": 2.607913, "damping_ratio": 0.02082109},
+      "rotor": {"mass_kg": 49.74732, "natural_frequency_rad_per_s": 4.653972},
+      "bearing": {"balls": 1000, "contact_stiffness_N_per_m1p5": 9650875.0}}),
+    ("response --from 2.709041 --to 1237.528 --samples 29712", {"gravity": {"acceleration_m_per_s2": 0}}),
+    ("response --from 0.0179728 --to 3.873285 --harmonics 42 --samples 13331 --newton-tolerance 7.585461e-15",
+     {"stator": {"natural_frequency_rad_per_s": 10.18232, "damping_ratio": 0.05376779},
+      "rotor": {"mass_kg": 27.50684, "natural_frequency_rad_per_s": 1.340639, "damping_ratio": 0.03830562},
+      "bearing": {"balls": 4, "contact_stiffness_N_per_m1p5": 4704671.0}})]
+
+
+# ----------------------------------------------------------------------------------------------------
+# The tests
+
+
+def examples(count):
+    """Settings and seed of a test that draws `count` questions."""
+    drawn = settings(max_examples=count * int(os.environ.get("EXAMPLES", 1)), deadline=None, database=None,
+                     derandomize="SEED" not in os.environ, print_blob=False,
+                     suppress_health_check=list(HealthCheck))
+    return lambda test: drawn(seed(int(os.environ.get("SEED", 0)))(test))
+
+
+class Explore(unittest.TestCase):
+    @classmethod
+    def setUpClass(cls):
+        cls.folder = Folder()
+
+    @classmethod
+    def tearDownClass(cls):
+        shutil.rmtree(cls.folder.path)
+
+    def ask(self, tally, words, content=GOOD_FILE, budget=LITTLE, **files):
+        """Asks, and counts how it ended."""
+        bounded = [*words, "--budget", budget] if budget else words
+        tally[self.folder.ask(bounded, {"machine.toml": content, **files})] += 1
+
+    def test_a_good_question_is_answered(self):
+        tally = Counter()
+        self.ask(tally, ["orbit", "machine.toml", "--frequency", "45"], budget=None)
+        self.ask(tally, ["response", "machine.toml", "--from", "40", "--to", "41", "--save", "saved.tsv"])
+        self.assertEqual(tally, {0: 2})
+
+    def test_spoilt_parameter_files(self):
+        tally = Counter()
+
+        @examples(2000)
+        @given(spoilt_files(), questions(extreme=False))
+        def run(content, question):
+            command, options = question
+            self.ask(tally, [command, "machine.toml", *(word for option in options for word in option)],
+                     content)
+
+        run()
+        print(dict(tally))
+        self.assertGreater(tally[2], tally[0])
+
+    def test_spoilt_options(self):
+        tally = Counter()
+
+        @examples(1500)
+        @given(spoilt_questions())
+        def run(words):
+            self.ask(tally, words)
+
+        run()
+        print(dict(tally))
+        self.assertGreater(tally[2], tally[0])
+
+    def test_spoilt_branches_to_restart(self):
+        tally = Counter()
+        words = ["response", "machine.toml", "--from", "40", "--to", "41"]
+        self.ask(tally, [*words, "--save", "saved.tsv"])
+        saved = (self.folder.path / "saved.tsv").read_bytes()
+
+        @examples(400)
+        @given(spoilt_branches(saved), st.sampled_from([[], ["--at", "40.5"], ["--direction", "down"]]))
+        def run(content, more):
+            self.ask(tally, [*words, "--restart", "branch.tsv", *more], **{"branch.tsv": content})
+
+        run()
+        print(dict(tally))
+        self.assertGreater(tally[2], tally[0])
+
+    def test_legal_and_extreme_machines_and_options(self):
+        tally = Counter()
+
+        @examples(600)
+        @given(extreme_questions())
+        def run(question):
+            content, words = question
+            self.ask(tally, words, content)
+
+        run()
+        print(dict(tally))
+        self.assertGreater(tally[0] + tally[3], tally[2])
+
+    def test_legal_and_extreme_machines_with_the_budget_of_explore(self):
+        tally = Counter()
+
+        @examples(20)
+        @given(extreme_questions(flags=False))
+        def run(question):
+            content, words = question
+            self.ask(tally, words, content, "3e6" if SANITIZED else None)
+
+        run()
+        print(dict(tally))
+
+    def test_machines_whose_work_was_once_counted_too_cheap(self):
+        tally = Counter()
+        for words, changes in ONCE_TOO_CHEAP:
+            machine = {table: {**keys, **changes.get(table, {})} for table, keys in SET_1.items()}
+            command, *options = words.split()
+            with self.subTest(words=words):
+                self.ask(tally, [command, "machine.toml", *options], written(entries(machine)).encode(),
+                         "3e6" if SANITIZED else None)
+        self.assertEqual(tally[0] + tally[3], len(ONCE_TOO_CHEAP))
+
+
+if __name__ == "__main__":
+    if len(sys.argv) < 2:
+        sys.exit(__doc__)
+    EXPLORE = Path(sys.argv.pop(1)).resolve()
+    unittest.main()

@@ -1,0 +1,75 @@
+"""Random machines: one generator, for all tests that draw some.
+
+A machine is the tables of a parameter file, as a dictionary of dictionaries. `extreme_machine(random)` draws from a
+`random.Random`: one with a seed, or the one of hypothesis, whose choices shrink towards data set 1.
+
+Usage: tests/machines.py SEED > machine.toml
+"""
+import copy
+import random
+import sys
+
+SET_1 = {
+    "stator": {"mass_kg": 20.0, "natural_frequency_rad_per_s": 500.0, "damping_ratio": 0.05},
+    "rotor": {"mass_kg": 40.0, "natural_frequency_rad_per_s": 150.0, "damping_ratio": 0.02,
+              "unbalance_kg_m": 0.05},
+    "bearing": {"balls": 16, "contact_stiffness_N_per_m1p5": 1e11, "radial_clearance_m": 2e-5,
+                "cage_speed_ratio": 0.5},
+    "gravity": {"acceleration_m_per_s2": 9.81}}
+
+# Powers of ten that are likely, and what may be zero.
+DECADES = {
+    ("stator", "mass_kg"): (-3, 4), ("rotor", "mass_kg"): (-3, 4),
+    ("stator", "natural_frequency_rad_per_s"): (0, 4),
+    ("rotor", "natural_frequency_rad_per_s"): (0, 4),
+    ("stator", "damping_ratio"): (-6, 1), ("rotor", "damping_ratio"): (-6, 1),
+    ("rotor", "unbalance_kg_m"): (-6, 1), ("bearing", "contact_stiffness_N_per_m1p5"): (5, 16),
+    ("bearing", "radial_clearance_m"): (-12, -1), ("gravity", "acceleration_m_per_s2"): (-3, 3)}
+MAY_BE_ZERO = {"unbalance_kg_m", "radial_clearance_m", "acceleration_m_per_s2"}
+BALLS = [1, 2, 3, 4, 128, 1000, 1024]
+
+
+def decade(dice, low, high):
+    """10^low … 10^high, with seven digits."""
+    return float(f"{10 ** (low + (high - low) * dice.randrange(2**20) / 2**20):.6e}")
+
+
+def one_in(dice, count):
+    return dice.randrange(count) == count - 1
+
+
+def extreme_machine(dice):
+    """A legal machine: some values of data set 1 replaced by others, mostly of a likely size, sometimes of
+    any that a double holds."""
+    machine = copy.deepcopy(SET_1)
+    for (table, key), (low, high) in DECADES.items():
+        if one_in(dice, 2):
+            machine[table][key] = decade(dice, *((-320, 308) if one_in(dice, 8) else (low, high)))
+        if key in MAY_BE_ZERO and one_in(dice, 6):
+            machine[table][key] = 0
+    if one_in(dice, 2):
+        machine["bearing"]["balls"] = dice.choice(BALLS)
+    if one_in(dice, 8):
+        machine["bearing"]["cage_speed_ratio"] = 0.4321
+    return machine
+
+
+def entries(machine, title="random"):
+    """The lines of the parameter file: [table, key, value as text]."""
+    return [["", "title", f'"{title}"'],
+            *([table, key, repr(value)] for table, keys in machine.items() for key, value in keys.items())]
+
+
+def written(lines):
+    """The text of a parameter file; a table begins wherever its name changes."""
+    text, current = "", ""
+    for table, key, value in lines:
+        if table != current:
+            text += f"\n[{table}]\n"
+        current = table
+        text += f"{key} = {value}\n"
+    return text
+
+
+if __name__ == "__main__":
+    print(written(entries(extreme_machine(random.Random(int(sys.argv[1]))))), end="")
