@@ -11,7 +11,9 @@ or one of the time integrators. A table on stdout, errors on stderr. */
 #include <CLI/CLI.hpp>
 #include <cstdio>
 
-#include "explore/tables.hpp"
+#include "explore/orbit.hpp"
+#include "explore/response.hpp"
+#include "integration/time_stepper.hpp"
 #include "io/errors.hpp"
 #include "io/program.hpp"
 
@@ -21,82 +23,136 @@ namespace
 using namespace rotor_stator;
 using namespace rotor_stator::explore;
 
-void add_budget_option(CLI::App& command, std::optional<double>& budget)
+/** An option with a number in decimal notation, in its range; the help shows its default. */
+template <class Number, class Bound>
+CLI::Option* add_number(CLI::App& command, const std::string& name, Number& value,
+                        Bound least, Bound most, const std::string& meaning)
 {
-  command.add_option(
-      "--budget", budget,
-      "evaluations of the force at most, all else charged in as many as take "
-      "its time (default: 3 s, with --stability 30 s; 16 balls: 8e7 in 3 s)");
+  CLI::Option* option = command.add_option_function<std::string>(
+      name,
+      [&value, name, least, most](const std::string& word) {
+        if constexpr (std::is_same_v<Bound, int>)
+          value = whole_number(name, word, least, most);
+        else
+          value = real_number(name, word, least, most);
+      },
+      meaning);
+  option->type_name(std::is_same_v<Bound, int> ? "WHOLE" : "NUMBER");
+  if constexpr (std::is_arithmetic_v<Number>)
+    if (value != 0) option->default_str(format("%g", static_cast<double>(value)));
+  return option;
 }
 
-/** Options that orbit and contact share. */
-void add_motion_options(CLI::App& command, MotionRequest& request)
+constexpr int largest_seed = 1000000000, most_samples = 1 << 20, most_points = 1 << 16;
+constexpr double largest = 1e300;  // 2 pi times as much is still a number
+
+/** Options that all commands share. */
+template <class Request>
+void add_common_options(CLI::App& command, Request& request)
 {
   command.add_option("parameters", request.parameter_file, "TOML parameter file")
       ->required();
-  command.add_option("--frequency", request.frequency, "speed of rotation [Hz]")
-      ->required();
-  command.add_option("--method", request.method, "aft, rk4, rkf45, rk8pd, …")
-      ->capture_default_str();
-  command.add_option("--harmonics", request.harmonics,
-                     "m of harmonic balance (default: 6, or by --tolerance)");
-  command.add_option("--samples", request.samples,
-                     "N per period (default: 8m+1 rounded up)");
-  command.add_option("--tolerance", request.tolerance,
-                     "relative error of displacement; without --harmonics, m is chosen");
-  command.add_option("--points", request.points, "P, rows per period")
-      ->capture_default_str();
-  command
-      .add_option("--newton-tolerance", request.newton_tolerance,
-                  "relative tolerance of Newton")
-      ->capture_default_str();
-  command
-      .add_option("--local-error", request.local_error,
-                  "relative, per step, of GSL's methods")
-      ->capture_default_str();
-  command.add_option("--step", request.step,
-                     "longest step of rk4 [s] (default: from K_H)");
-  command.add_option("--longest", request.longest, "longest transient [s]")
-      ->capture_default_str();
-  command.add_flag("!--no-stability", request.stability,
-                   "leave out the Floquet multipliers of aft");
-  add_budget_option(command, request.budget);
+  add_number(
+      command, "--budget", request.budget, 1.0, 1e15,
+      "evaluations of the force at most; all else is charged as those that take its "
+      "time (default: 3 s, with --stability 30 s; with 16 balls 8.2e7 in 3 s)");
 }
+
+/** The options of orbit and contact, and for which methods each is. */
+class MotionOptions
+{
+public:
+  MotionOptions(CLI::App& command, MotionRequest& request) : request_(request)
+  {
+    std::string methods = "aft (harmonic balance)";
+    for (const std::string& name : time_methods()) methods += ", " + name;
+    add_common_options(command, request);
+    add_number(command, "--frequency", request.frequency, 0.0, largest,
+               "speed of rotation [Hz]")
+        ->required();
+    command.add_option("--method", request.method, methods)->capture_default_str();
+    add_number(command, "--points", request.points, 1, most_points, "P, rows per period");
+    aft_ = {
+        add_number(command, "--harmonics", request.harmonics, 1, 4096,
+                   "m of harmonic balance (default: 6, or by --tolerance)"),
+        add_number(command, "--samples", request.samples, 3, most_samples,
+                   "N per period (default: 8m+1 rounded up)"),
+        add_number(command, "--tolerance", request.tolerance, 1e-8, 0.1,
+                   "relative error of displacement; without --harmonics, m is chosen"),
+        add_number(command, "--newton-tolerance", request.newton_tolerance, 1e-15, 1e-3,
+                   "relative tolerance of Newton"),
+        command.add_flag("!--no-stability", request.stability,
+                         "leave out the Floquet multipliers of aft")};
+    rk4_ = {add_number(command, "--step", request.step, 0.0, largest,
+                       "longest step of rk4 [s] (default: from K_H)")};
+    gsl_ = {add_number(command, "--local-error", request.local_error, 1e-15, 1e-2,
+                       "relative, per step, of the time methods but rk4")};
+    time_ = {add_number(command, "--longest", request.longest, 1e-3, 1e5,
+                        "longest transient of the time methods [s]")};
+  }
+
+  /** Throws BadInput for an option that the method would ignore. */
+  void refuse_ignored() const
+  {
+    const bool aft = request_.method == "aft", rk4 = request_.method == "rk4";
+    refuse(aft_, aft, "for --method aft");
+    refuse(rk4_, rk4, "for --method rk4");
+    refuse(gsl_, !aft && !rk4, "for the time methods but rk4");
+    refuse(time_, !aft, "for the time methods");
+  }
+
+private:
+  using Options = std::vector<CLI::Option*>;
+
+  void refuse(const Options& options, bool used, const std::string& where) const
+  {
+    for (const CLI::Option* option : options)
+      if (!used && option->count() > 0)
+        throw BadInput(option->get_name() + ": is " + where + ", and --method is " +
+                       request_.method);
+  }
+
+  const MotionRequest& request_;
+  Options aft_, rk4_, gsl_, time_;
+};
 
 void add_response_options(CLI::App& command, ResponseRequest& request)
 {
-  command.add_option("parameters", request.parameter_file, "TOML parameter file")
+  add_common_options(command, request);
+  add_number(command, "--from", request.from, 0.0, largest, "first speed [Hz]")
       ->required();
-  command.add_option("--from", request.from, "first speed [Hz]")->required();
-  command.add_option("--to", request.to, "last speed [Hz]")->required();
-  command.add_option("--harmonics", request.harmonics,
-                     "m of harmonic balance (default: 6, or the saved branch's)");
-  command.add_option("--samples", request.samples,
-                     "N per period (default: 8m+1 rounded up)");
-  command
-      .add_option("--newton-tolerance", request.newton_tolerance,
-                  "relative tolerance of Newton")
-      ->capture_default_str();
+  add_number(command, "--to", request.to, 0.0, largest, "last speed [Hz]")->required();
+  add_number(command, "--harmonics", request.harmonics, 1, 4096,
+             "m of harmonic balance (default: 6, or the saved branch's)");
+  add_number(command, "--samples", request.samples, 3, most_samples,
+             "N per period (default: 8m+1 rounded up)");
+  add_number(command, "--newton-tolerance", request.newton_tolerance, 1e-15, 1e-3,
+             "relative tolerance of Newton");
   command.add_option("--direction", request.direction,
                      "up: from --from to --to; down: from --to to --from");
-  add_budget_option(command, request.budget);
-  command.add_option("--save", request.save, "file for the branch, all coefficients");
-  command.add_option("--restart", request.restart, "file of --save to go on from");
-  command.add_option("--at", request.at,
-                     "restart near this speed [Hz] (default: the end)");
-  command.add_option("--branch", request.branch, "number of the branch to restart")
-      ->capture_default_str();
-  command.add_option("--isolated", request.isolated,
-                     "look for isolated branches at so many speeds");
   command.add_flag("--stability", request.stability,
                    "Floquet multipliers of each point, and the bifurcations between");
-  command.add_option("--seed", request.seed, "of the random starts of --isolated")
-      ->capture_default_str();
+  command.add_option("--save", request.save, "file for the branch, all coefficients");
+  CLI::Option* restart =
+      command.add_option("--restart", request.restart, "file of --save to continue from");
+  add_number(command, "--at", request.at, 0.0, largest,
+             "restart near this speed [Hz] (default: the end)")
+      ->needs(restart);
+  add_number(command, "--branch", request.branch, 1, 1000000,
+             "number of the branch to restart")
+      ->needs(restart);
+  CLI::Option* isolated = add_number(command, "--isolated", request.isolated, 0, 10000,
+                                     "look for isolated branches at so many speeds");
+  add_number(command, "--seed", request.seed, 0, largest_seed,
+             "of the random starts of --isolated")
+      ->needs(isolated);
 }
 
 int finish(const Exploration& exploration)
 {
   write(exploration.table.text());
+  if (!exploration.warning.empty())
+    std::fprintf(stderr, "%s\n", exploration.warning.c_str());
   if (!exploration.unfinished.empty()) throw NoSolution(exploration.unfinished);
   return 0;
 }
@@ -115,13 +171,13 @@ int main(int argc, char** argv)
       app.add_subcommand("contact", "force of every ball over two periods");
   CLI::App* branch =
       app.add_subcommand("response", "amplitudes along the branch, arc length");
-  add_motion_options(*orbit, motion);
-  add_motion_options(*contact, motion);
+  const MotionOptions orbit_options(*orbit, motion), contact_options(*contact, motion);
   add_response_options(*branch, response);
   return guarded([&] {
     if (!parse(app, argc, argv)) return 0;
-    if (orbit->parsed()) return finish(explore_orbit(motion));
-    if (contact->parsed()) return finish(explore_contact(motion));
-    return finish(explore_response(response));
+    if (branch->parsed()) return finish(explore_response(response));
+    orbit_options.refuse_ignored();
+    contact_options.refuse_ignored();
+    return finish(orbit->parsed() ? explore_orbit(motion) : explore_contact(motion));
   });
 }

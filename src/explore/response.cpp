@@ -1,13 +1,17 @@
 #include "explore/response.hpp"
 
+#include <algorithm>
+#include <limits>
+
 #include "balance/bearing_problem.hpp"
-#include "explore/stability.hpp"
-#include "explore/tables.hpp"
+#include "continuation/arc_length.hpp"
+#include "explore/branch_file.hpp"
 #include "io/errors.hpp"
-#include "io/whole_file.hpp"
+#include "io/files.hpp"
 #include "motion/find_periodic.hpp"
 #include "motion/motion.hpp"
 #include "motion/other_starts.hpp"
+#include "stability/branch_stability.hpp"
 
 namespace rotor_stator::explore
 {
@@ -15,64 +19,77 @@ namespace rotor_stator::explore
 namespace
 {
 
+/** The request, checked, with the machine, the saved branch and the settings that belong to it. */
+struct Task {
+  const ResponseRequest& request;
+  Parameters parameters;
+  std::optional<SavedBranch> saved;
+  int harmonics, samples;
+  ArcLengthSettings settings;
+  bool upwards;
+  OperationBudget budget;
+
+  SpeedRange range() const
+  {
+    const double low = angular(request.from), high = angular(request.to);
+    return upwards ? SpeedRange{low, high} : SpeedRange{high, low};
+  }
+};
+
 void check(const ResponseRequest& request)
 {
-  require_positive("--from", request.from);
-  require_positive("--to", request.to);
   if (request.from >= request.to)
     throw BadInput(format("--from %g: must be below --to %g", request.from, request.to));
-  require_between("--newton-tolerance", request.newton_tolerance, 1e-15, 1e-3);
-  require_range("--isolated", request.isolated, 0, 10000);
-  require_range("--seed", request.seed, 0, 1000000000);
-  require_range("--branch", request.branch, 1, 1000000);
-  if (request.at) require_between("--at", *request.at, request.from, request.to);
+  if (request.at && (*request.at < request.from || *request.at > request.to))
+    throw BadInput(
+        format("--at %g: must be in %g...%g", *request.at, request.from, request.to));
   if (!request.direction.empty() && request.direction != "up" &&
       request.direction != "down")
     throw BadInput("--direction " + request.direction + ": must be up or down");
-  if (request.restart.empty() && (request.at || request.branch != 1))
-    throw BadInput("--at and --branch: only with --restart");
-  if (!request.save.empty()) require_writable(request.save);
+  std::vector<std::string> inputs{request.parameter_file};
+  if (request.restart) inputs.push_back(*request.restart);
+  if (request.save) require_writable("--save", *request.save, inputs);
 }
 
-}  // namespace
-
-ResponseTask task_of(const ResponseRequest& request)
+Task task_of(const ResponseRequest& request)
 {
   Parameters parameters = read_parameters(request.parameter_file);
   check(request);
   std::optional<SavedBranch> saved;
-  if (!request.restart.empty())
-    saved = read_branch(request.restart, parameters, request.branch);
+  if (request.restart) saved = read_branch(*request.restart, parameters, request.branch);
   const int harmonics = request.harmonics.value_or(saved ? saved->harmonics : 6);
   std::optional<int> samples = request.samples;
   if (!samples && saved && saved->harmonics == harmonics) samples = saved->samples;
-  const int checked = checked_samples(harmonics, samples);
   /** The starts beside the branch, nine at each speed, must fit into the memory. */
-  require_range("--isolated", request.isolated, 0, 500000 / harmonics);
+  const int most_isolated = 500000 / harmonics;
+  if (request.isolated > most_isolated)
+    throw BadInput(format("--isolated %d: must be in 0...%d with %d harmonics",
+                          request.isolated, most_isolated, harmonics));
   ArcLengthSettings settings =
       motion::arc_length_settings(parameters, {.tolerance = request.newton_tolerance});
   settings.most_evaluations =
       std::numeric_limits<long>::max();  // the budget is the bound
+  const OperationBudget budget =
+      budget_of(request.budget, request.stability ? 30 : 3, parameters);
   const bool upwards =
       request.direction.empty() ? !saved || saved->upwards : request.direction == "up";
-  const OperationBudget budget =
-      checked_budget(request.budget, request.stability ? 3e10 : 3e9, parameters);
-  return {request,          std::move(parameters),
-          std::move(saved), harmonics,
-          checked,          settings,
-          upwards,          budget};
+  return {request,
+          std::move(parameters),
+          std::move(saved),
+          harmonics,
+          checked_samples(harmonics, samples),
+          settings,
+          upwards,
+          budget};
 }
 
 /**
-## The branch of explore response
+## The branch
 
 Where it starts, what it meets, what is beside it. */
 
-namespace
-{
-
 /** A saved point, turned and with as many harmonics as are asked for. */
-BranchPoint saved_start(const ResponseTask& task, Table& table)
+BranchPoint saved_start(const Task& task, Table& table)
 {
   const ResponseRequest& request = task.request;
   const double at = angular(request.at.value_or(0));
@@ -81,7 +98,7 @@ BranchPoint saved_start(const ResponseTask& task, Table& table)
   const double frequency = point.omega / angular(1);
   if (point.omega < angular(request.from) || point.omega > angular(request.to))
     throw BadInput(format("%s: the point at %.9g Hz is outside --from %g --to %g",
-                          request.restart.c_str(), frequency, request.from, request.to));
+                          request.restart->c_str(), frequency, request.from, request.to));
   if (task.upwards != task.saved->upwards) point = reversed(std::move(point));
   if (task.harmonics != task.saved->harmonics) {
     const double speed = point.tangent[point.x.size()];
@@ -91,13 +108,13 @@ BranchPoint saved_start(const ResponseTask& task, Table& table)
     point.tangent.conservativeResize(point.x.size() + 1);
     point.tangent[point.x.size()] = speed;
   }
-  table.note(format("start: %s at %.12g Hz, %d harmonics", request.restart.c_str(),
+  table.note(format("start: %s at %.12g Hz, %d harmonics", request.restart->c_str(),
                     frequency, task.saved->harmonics));
   return point;
 }
 
 /** A solution at the edge of the range, by whatever start finds one. */
-BranchPoint found_start(const ResponseTask& task, Balance& balance, Table& table)
+BranchPoint found_start(const Task& task, Balance& balance, Table& table)
 {
   const double omega = task.range().from;
   const motion::PeriodicSolution start =
@@ -112,33 +129,65 @@ BranchPoint found_start(const ResponseTask& task, Balance& balance, Table& table
   return point_of(balance, omega, start.x, task.upwards, task.settings);
 }
 
-/** A branch, and on demand its multipliers. */
-struct Examined {
-  const Branch& branch;
-  std::optional<BranchStability> stability;
+/**
+## The table */
+
+/** A point of a branch with what is printed of it. */
+struct Row {
+  const BranchPoint& point;
+  Eigen::VectorXd amplitude;  ///< half peak-to-peak of x_s, y_s, x_r, y_r [m]
+  const StablePoint* stability;
+  std::size_t branch;
 };
 
-/** One row per point; with `number` at the end where there may be several branches. */
-void add_rows(Table& table, const ResponseTask& task, Balance& balance,
-              const Examined& examined, std::optional<std::size_t> number)
+using Fields = std::vector<Field<Row>>;
+
+const Fields branch_fields{{{"f", "Hz", "speed of rotation"},
+                            [](auto& r) { return r.point.omega / angular(1); }},
+                           {{"amp_x_s", "m", "half peak-to-peak of x_s"},
+                            [](auto& r) { return r.amplitude[0]; }},
+                           {{"amp_y_s", "m", "half peak-to-peak of y_s"},
+                            [](auto& r) { return r.amplitude[1]; }},
+                           {{"amp_x_r", "m", "half peak-to-peak of x_r"},
+                            [](auto& r) { return r.amplitude[2]; }},
+                           {{"amp_y_r", "m", "half peak-to-peak of y_r"},
+                            [](auto& r) { return r.amplitude[3]; }},
+                           {{"arc", "-", "scaled arc length from the first point"},
+                            [](auto& r) { return r.point.arc; }},
+                           {{"newton", "-", "Newton iterations of the corrector"},
+                            [](auto& r) { return r.point.newton.iterations; }}};
+
+const Fields stability_fields{
+    {{"multiplier", "-",
+      "largest modulus of the Floquet multipliers along the m harmonics; -1"},
+     [](auto& r) {
+       return r.stability->examined() ? r.stability->floquet.largest() : -1;
+     }},
+    {{"multiplier_change", "-", "uncertainty of it: change at the last refinement"},
+     [](auto& r) {
+       return r.stability->examined() ? r.stability->floquet.uncertainty() : -1;
+     }},
+    {{"verdict", "-", "stable, unstable, undecided within the uncertainty, unknown"},
+     [](auto& r) {
+       return std::string(r.stability->examined() ? r.stability->floquet.verdict()
+                                                  : "unknown");
+     }},
+    {{"bifurcation", "-",
+      "fold; plus-one, period-doubling: a multiplier passes 1, -1; "
+      "neimark-sacker: a pair passes the circle; - none"},
+     [](auto& r) { return std::string(name_of(r.stability->bifurcation)); }}};
+
+const Fields number_fields{
+    {{"branch", "-", "1 the branch followed, then those beside it"},
+     [](auto& r) { return r.branch; }}};
+
+Fields fields_of(const ResponseRequest& request)
 {
-  FourierTransform transform = amplitude_transform(task.harmonics);
-  const auto add = [&](const BranchPoint& point, std::vector<Cell> more) {
-    balance.residual(point.x, point.omega);
-    const Eigen::VectorXd a = half_peak_to_peak(
-        body_series(task.parameters, balance, point.omega, point.x), transform);
-    std::vector<Cell> row{point.omega / angular(1), a[0], a[1], a[2], a[3], point.arc,
-                          point.newton.iterations};
-    row.insert(row.end(), more.begin(), more.end());
-    if (number) row.emplace_back(*number);
-    table.row(std::move(row));
-  };
-  if (examined.stability)
-    for (const StablePoint& p : examined.stability->points)
-      add(p.point, stability_cells(p));
-  else
-    for (const BranchPoint& point : examined.branch.points) add(point, {});
-  if (number) table.gap();
+  Fields fields = branch_fields;
+  if (request.stability)
+    fields.insert(fields.end(), stability_fields.begin(), stability_fields.end());
+  if (request.isolated > 0) fields.push_back(number_fields[0]);
+  return fields;
 }
 
 std::string summary(const Branch& branch)
@@ -155,22 +204,6 @@ std::string summary(const Branch& branch)
       ((branch.covered ? "ended: " : "incomplete: ") + branch.end).c_str());
 }
 
-std::vector<Column> response_columns(bool stability, bool numbered)
-{
-  std::vector<Column> columns{{"f", "Hz", "speed of rotation"},
-                              {"amp_x_s", "m", "half peak-to-peak of x_s"},
-                              {"amp_y_s", "m", "half peak-to-peak of y_s"},
-                              {"amp_x_r", "m", "half peak-to-peak of x_r"},
-                              {"amp_y_r", "m", "half peak-to-peak of y_r"},
-                              {"arc", "-", "scaled arc length from the first point"},
-                              {"newton", "-", "Newton iterations of the corrector"}};
-  if (stability)
-    for (Column& column : stability_columns()) columns.push_back(std::move(column));
-  if (numbered)
-    columns.push_back({"branch", "-", "1 the branch followed, then those beside it"});
-  return columns;
-}
-
 /** The branches beside the followed one, and what was not looked at. */
 struct Others {
   std::vector<IsolatedBranch> found;
@@ -178,8 +211,7 @@ struct Others {
 };
 
 /** The branches beside `main`; what is said of each stands in the table's header. */
-Others others(const ResponseTask& task, Balance& balance, const Branch& main,
-              Table& table)
+Others others(const Task& task, Balance& balance, const Branch& main, Table& table)
 {
   const auto starts =
       motion::other_starts(task.parameters, task.range(), task.harmonics,
@@ -207,32 +239,105 @@ Others others(const ResponseTask& task, Balance& balance, const Branch& main,
   return others;
 }
 
-/** The rows of all branches, and what their header says of the multipliers: which are missing. */
-std::string add_branches(Table& table, const ResponseTask& task, Balance& balance,
-                         const std::vector<const Branch*>& all, bool numbered)
+/** One line in all, then one line per bifurcation. */
+std::vector<std::string> notes_of(const BranchStability& stability)
 {
-  /** The table is written, whatever work is left. */
-  Balance shown(bearing_problem(task.parameters, task.samples), task.harmonics);
-  std::string missing;
-  for (std::size_t k = 0; k < all.size(); ++k) {
-    Examined examined{*all[k], {}};
-    if (task.request.stability) {
-      examined.stability =
-          stability_within(task.budget, task.parameters, balance, *all[k], task.settings);
-      const std::string prefix = numbered ? format("branch %zu, ", k + 1) : "";
-      for (const std::string& note : stability_notes(*examined.stability))
-        table.note(prefix + note);
-      const std::string here = missing_stability(*examined.stability, task.budget);
-      if (!here.empty()) table.note("incomplete: " + prefix + here);
-      if (missing.empty()) missing = here;
-    }
-    add_rows(table, task, shown, examined,
-             numbered ? std::optional(k + 1) : std::nullopt);
+  const auto count = [&](Bifurcation kind) {
+    return std::count_if(stability.points.begin(), stability.points.end(),
+                         [&](const StablePoint& p) { return p.bifurcation == kind; });
+  };
+  std::vector<std::string> notes{format(
+      "stability: %td folds, %td plus-one, %td period doublings, %td Neimark-Sacker points, "
+      "speeds to %g, relative; %d not located",
+      count(Bifurcation::fold), count(Bifurcation::plus_one),
+      count(Bifurcation::period_doubling), count(Bifurcation::neimark_sacker),
+      BranchStabilitySettings{}.tolerance, stability.missed)};
+  for (const StablePoint& p : stability.points)
+    if (p.bifurcation != Bifurcation::none)
+      notes.push_back(
+          format("%s: %.9g Hz", name_of(p.bifurcation), p.point.omega / angular(1)));
+  return notes;
+}
+
+/** What was not computed and why; empty when nothing is missing. */
+std::string missing_in(const BranchStability& stability, const OperationBudget& budget)
+{
+  if (stability.failed == 0)
+    return budget.used_up()
+               ? format(
+                     "the budget is used up, more with --budget: bifurcations may be "
+                     "missing, %d were seen and not located",
+                     stability.missed)
+               : "";
+  const auto first = std::find_if(stability.points.begin(), stability.points.end(),
+                                  [](const StablePoint& p) { return !p.examined(); });
+  return format("no multipliers at %d of %zu points, the first at %.6g Hz: %s",
+                stability.failed, stability.points.size(),
+                first->point.omega / angular(1), stability.failure.c_str());
+}
+
+/** Writes the rows of all branches. */
+class Rows
+{
+public:
+  Rows(const Task& task, Table& table)
+      : task_(task),
+        table_(table),
+        fields_(fields_of(task.request)),
+        /** The table is written, whatever is left of the budget. */
+        balance_(bearing_problem(task.parameters, task.samples), task.harmonics),
+        transform_(amplitude_transform(task.harmonics))
+  {
   }
+
+  bool touches() const { return touches_; }
+
+  void add(const BranchPoint& point, const StablePoint* stability, std::size_t branch)
+  {
+    balance_.residual(point.x, point.omega);
+    touches_ = touches_ || !balance_.force_series().isZero(0);
+    table_.row(fields_, Row{point,
+                            half_peak_to_peak(body_series(task_.parameters, balance_,
+                                                          point.omega, point.x),
+                                              transform_),
+                            stability, branch});
+  }
+
+private:
+  const Task& task_;
+  Table& table_;
+  Fields fields_;
+  Balance balance_;
+  FourierTransform transform_;
+  bool touches_ = false;
+};
+
+/** Adds the rows of branch `number`, and what the header says of its multipliers; returns which are
+    missing. `balance` is the one that the branch was followed with. */
+std::string add_branch(Table& table, Rows& rows, const Task& task, Balance& balance,
+                       const Branch& branch, std::size_t number)
+{
+  std::string missing;
+  if (task.request.stability) {
+    const BranchStability stability =
+        stability_along(balance, branch, task.settings, [&](const BranchPoint& point) {
+          return paid_floquet(task.budget, task.parameters, point.omega, point.x);
+        });
+    const std::string prefix =
+        task.request.isolated > 0 ? format("branch %zu, ", number) : "";
+    for (const std::string& note : notes_of(stability)) table.note(prefix + note);
+    missing = missing_in(stability, task.budget);
+    if (!missing.empty()) table.note("incomplete: " + prefix + missing);
+    for (const StablePoint& point : stability.points)
+      rows.add(point.point, &point, number);
+  } else {
+    for (const BranchPoint& point : branch.points) rows.add(point, nullptr, number);
+  }
+  if (task.request.isolated > 0) table.gap();
   return missing;
 }
 
-void describe(Table& table, const ResponseTask& task, const Branch& branch)
+void describe(Table& table, const Task& task, const Branch& branch)
 {
   describe(table, task.parameters);
   table.note(
@@ -240,12 +345,13 @@ void describe(Table& table, const ResponseTask& task, const Branch& branch)
              task.harmonics, task.samples, task.request.newton_tolerance,
              task.upwards ? "up" : "down"));
   table.note(format("folds: %zu", branch.folds.size()));
-  table.note(format("work: %ld evaluations of the force", branch.evaluations));
+  table.note(format("work: %ld evaluations of the force at %d instants",
+                    branch.evaluations, task.samples));
   table.note((branch.covered ? "ended: " : "incomplete: ") + branch.end);
 }
 
 /** The first thing that is missing, in the order in which it was asked for. */
-std::string unfinished(const ResponseTask& task, const Branch& branch,
+std::string unfinished(const Task& task, const Branch& branch,
                        const std::string& isolated, const std::string& stability)
 {
   if (branch.covered && !isolated.empty())
@@ -262,10 +368,8 @@ std::string unfinished(const ResponseTask& task, const Branch& branch,
 
 Exploration explore_response(const ResponseRequest& request)
 {
-  const ResponseTask task = task_of(request);
-  const bool numbered = request.isolated > 0;
-  Table table("Frequency response along the branch",
-              response_columns(request.stability, numbered));
+  const Task task = task_of(request);
+  Table table("Frequency response along the branch", fields_of(request));
   Balance balance(bearing_problem(task.parameters, task.samples, task.budget),
                   task.harmonics);
   const BranchPoint start =
@@ -274,16 +378,23 @@ Exploration explore_response(const ResponseRequest& request)
   describe(table, task, main);
 
   Others beside;
-  if (numbered) beside = others(task, balance, main, table);
-
+  if (request.isolated > 0) beside = others(task, balance, main, table);
   std::vector<const Branch*> all{&main};
   for (const IsolatedBranch& other : beside.found) all.push_back(&other.branch);
-  const std::string without_multipliers =
-      add_branches(table, task, balance, all, numbered);
-  if (!request.save.empty())
-    write_file(request.save, branch_text(task.parameters, task.harmonics, task.samples,
-                                         task.upwards, all));
-  return {std::move(table), unfinished(task, main, beside.missing, without_multipliers)};
+
+  Rows rows(task, table);
+  std::string without_multipliers;
+  for (std::size_t k = 0; k < all.size(); ++k) {
+    const std::string missing = add_branch(table, rows, task, balance, *all[k], k + 1);
+    if (without_multipliers.empty()) without_multipliers = missing;
+  }
+  if (request.save)
+    write_file(*request.save, branch_text(task.parameters, task.harmonics, task.samples,
+                                          task.upwards, all));
+  Exploration exploration =
+      finished(std::move(table), task.parameters, rows.touches(), task.budget);
+  exploration.unfinished = unfinished(task, main, beside.missing, without_multipliers);
+  return exploration;
 }
 
 }  // namespace rotor_stator::explore

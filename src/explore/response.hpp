@@ -1,35 +1,33 @@
 /**
-# What explore response works with
+# explore response
 
-The request, checked, with the machine, the saved branch and the settings that belong to it. */
+The frequency response of one machine along its branch of periodic solutions, as a table: folds, on demand
+the branches beside it, the Floquet multipliers and the bifurcations. */
 #pragma once
 
-#include "continuation/arc_length.hpp"
-#include "explore/branch_file.hpp"
-#include "explore/tables.hpp"
-#include "io/budget.hpp"
-#include "io/scene.hpp"
+#include "explore/orbit.hpp"
 
 namespace rotor_stator::explore
 {
 
-struct ResponseTask {
-  const ResponseRequest& request;
-  Parameters parameters;
-  std::optional<SavedBranch> saved;
-  int harmonics, samples;
-  ArcLengthSettings settings;
-  bool upwards;
-  OperationBudget budget;
-
-  SpeedRange range() const
-  {
-    const double low = angular(request.from), high = angular(request.to);
-    return upwards ? SpeedRange{low, high} : SpeedRange{high, low};
-  }
+/** One branch over a range of speeds, and on demand others beside it. */
+struct ResponseRequest {
+  std::string parameter_file;
+  double from = 0, to = 0;       ///< [Hz]
+  std::optional<int> harmonics;  ///< of the saved branch, or 6
+  std::optional<int> samples;
+  double newton_tolerance = 1e-10;
+  std::string direction;         ///< "up", "down", or empty: the saved branch's, or up
+  std::optional<double> budget;  ///< evaluations of the force, for all of it
+  std::optional<std::string> save, restart;  ///< files
+  int branch = 1;                            ///< number in the file `restart`
+  std::optional<double> at;                  ///< speed to restart from [Hz]
+  int isolated = 0;  ///< speeds at which isolated branches are looked for
+  int seed = 1;
+  bool stability = false;  ///< multipliers at each point, and the bifurcations
 };
 
-/** Throws BadInput for options out of range and files that cannot be read. */
-ResponseTask task_of(const ResponseRequest& request);
+/** Throws BadInput for options that contradict each other, NoSolution when nothing was found. */
+Exploration explore_response(const ResponseRequest& request);
 
 }  // namespace rotor_stator::explore

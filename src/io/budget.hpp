@@ -38,6 +38,9 @@ public:
 
   bool bounded() const { return account_ != nullptr; }
 
+  /** "1.2e+06 of 8.2e+07 evaluations of the force", of a bounded account. */
+  std::string spent() const;
+
   /** What is left; infinite without a bound. */
   double left() const;
 

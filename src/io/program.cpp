@@ -4,6 +4,7 @@
 #include <CLI/CLI.hpp>
 #include <algorithm>
 #include <charconv>
+#include <csignal>
 #include <cstdio>
 #include <filesystem>
 #include <new>
@@ -33,18 +34,37 @@ namespace
 {
 
 /** One line on stderr, whatever the message holds. */
-int complain(std::string message, int status)
+int complain(const std::string& message, int status)
 {
-  for (char& c : message)
-    if (static_cast<unsigned char>(c) < ' ') c = ' ';
-  std::fprintf(stderr, "%s\n", message.c_str());
+  std::fprintf(stderr, "%s\n", printable(message).c_str());
   return status;
+}
+
+/** What is said of the first argument that nothing expects; empty when there is none. */
+std::string unexpected(const CLI::App& app)
+{
+  const auto left = app.remaining(true);
+  if (left.empty()) return "";
+  const std::string word = left.front().substr(0, left.front().find('='));
+  std::vector<std::string> known;
+  const auto chosen = app.get_subcommands();
+  for (const CLI::Option* option : (chosen.empty() ? app : *chosen.back()).get_options())
+    known.push_back(option->get_name());
+  std::string commands;
+  if (chosen.empty())
+    for (const CLI::App* command :
+         app.get_subcommands([](const CLI::App*) { return true; })) {
+      known.push_back(command->get_name());
+      commands += (commands.empty() ? "; subcommands: " : ", ") + command->get_name();
+    }
+  return word + ": not expected" + suggestion(word, known) + commands;
 }
 
 }  // namespace
 
 int guarded(const std::function<int()>& work)
 {
+  std::signal(SIGXFSZ, SIG_IGN);  // a file that may not grow fails to be written
   try {
     return work();
   } catch (const BadInput& error) {
@@ -58,21 +78,26 @@ int guarded(const std::function<int()>& work)
 
 bool parse(CLI::App& app, int argc, char** argv)
 {
+  app.set_version_flag("--version", source_revision(), "print the version and exit");
   try {
     app.parse(argc, argv);
     return true;
+  } catch (const CLI::CallForVersion& version) {
+    write(version.what() + std::string("\n"));
+  } catch (const CLI::Success&) {
+    write(app.help());
   } catch (const CLI::ParseError& error) {
-    if (error.get_exit_code() != 0) throw BadInput(error.what());
-    app.exit(error);
-    return false;
+    const std::string argument = unexpected(app);
+    throw BadInput(argument.empty() ? error.what() : argument);
   }
+  return false;
 }
 
 void write(const std::string& text)
 {
   const bool written = std::fwrite(text.data(), 1, text.size(), stdout) == text.size();
   if (!written || std::fflush(stdout) != 0)
-    throw NoSolution("the table could not be written to stdout");
+    throw NoSolution("the standard output cannot be written to");
 }
 
 const std::string& Options::operator[](const std::string& name) const
@@ -88,9 +113,21 @@ int whole_number(const std::string& option, const std::string& value, int least,
   const char* const end = value.data() + value.size();
   const auto [rest, error] = std::from_chars(value.data(), end, number);
   if (error != std::errc() || rest != end || number < least || number > most)
-    throw BadInput(format("%s %s: must be a whole number from %d to %d", option.c_str(),
+    throw BadInput(format("%s %s: must be in %d...%d, a whole number", option.c_str(),
                           value.c_str(), least, most));
   return number;
+}
+
+double real_number(const std::string& option, const std::string& value, double least,
+                   double most)
+{
+  const std::optional<double> number = decimal(value);
+  if (!number || *number < least || *number > most || (least == 0 && *number == 0))
+    throw BadInput(option + " " + value + ": must be " +
+                   (least == 0 ? format("> 0, at most %g", most)
+                               : format("in %g...%g", least, most)) +
+                   ", in decimal notation");
+  return *number;
 }
 
 int run(int argc, char** argv, const Program& program,

@@ -102,11 +102,14 @@ int run(int argc, char** argv, const Program& program,
     with the program's name, data/scenes/NAME.toml, unless another is given. */
 int run_figure(int argc, char** argv, const std::function<Table(SceneFile&)>& compute);
 
-/** The whole number that an option's value is. Throws BadInput unless `least` ≤ it ≤ `most`. */
+/** The number that an option's value is, in decimal notation. Throws BadInput unless
+    `least` ≤ it ≤ `most`; a real number with `least` = 0 must be above it. */
 int whole_number(const std::string& option, const std::string& value, int least,
                  int most);
+double real_number(const std::string& option, const std::string& value, double least,
+                   double most);
 
-/** Parses the options; false when the help was asked for and printed. Throws BadInput. */
+/** Parses the options; false when the help or the version was asked for and printed. Throws BadInput. */
 bool parse(CLI::App& app, int argc, char** argv);
 
 /** Runs `work` and turns its exceptions into the line on stderr and the exit status.

@@ -2,26 +2,14 @@
 
 #include <toml++/toml.h>
 #include <cmath>
-#include <filesystem>
-#include <fstream>
 #include <set>
 #include <sstream>
 
 #include "io/errors.hpp"
+#include "io/files.hpp"
 
 namespace rotor_stator
 {
-
-void require_plain_file(const std::string& file, const std::string& expected)
-{
-  std::error_code ignored;
-  const auto status = std::filesystem::status(file, ignored);
-  if (!std::filesystem::exists(status)) throw BadInput(file + ": no such file");
-  if (!std::filesystem::is_regular_file(status))
-    throw BadInput(file + ": is " +
-                   (is_directory(status) ? "a directory" : "no plain file") + "; " +
-                   expected + " is expected");
-}
 
 struct StrictToml::Content {
   std::string file;
@@ -34,7 +22,7 @@ struct StrictToml::Content {
   {
     read.insert(key);
     if (toml::node* node = table.get(key)) return *node;
-    reader.fail(key, "is missing");
+    reader.missing(key);
   }
 
   /** The table in a node of this one. */
@@ -56,23 +44,49 @@ struct StrictToml::Content {
 namespace
 {
 
-/** No parameter or scene file comes near this. */
+/** No parameter or scene file comes near these. */
 constexpr std::uintmax_t most_bytes = 1'000'000;
+constexpr int most_levels = 16;
 
-/** A whole file as text, or the reason why not. */
-std::string read_file(const std::string& file)
+/** Throws BadInput where arrays, tables or the parts of a key stand deeper in one another: toml++ takes
+    one more call for each level. */
+void refuse_deep_nesting(const std::string& file, const std::string& content)
 {
-  require_plain_file(file, "a TOML file");
-  std::error_code ignored;
-  if (std::filesystem::file_size(file, ignored) > most_bytes)
-    throw BadInput(file + format(": is longer than %d bytes; a TOML file is expected",
-                                 static_cast<int>(most_bytes)));
-  std::ifstream in(file);
-  if (!in) throw BadInput(file + ": cannot be read");
+  int open = 0, parts = 0, line = 1;
+  for (std::size_t k = 0; k < content.size(); ++k) {
+    const char c = content[k];
+    if (c == '#') k = std::min(content.find('\n', k), content.size()) - 1;
+    if (c == '"' || c == '\'') {
+      const bool many = content.compare(k, 3, std::string(3, c)) == 0;
+      const std::string end(many ? 3 : 1, c);
+      const auto goes_on = [&] {
+        return k < content.size() && content.compare(k, end.size(), end) != 0 &&
+               (many || content[k] != '\n');
+      };
+      for (k += end.size(); goes_on(); k += c == '"' && content[k] == '\\' ? 2 : 1)
+        line += content[k] == '\n';
+      k += end.size();
+      while (many && k < content.size() && content[k] == c) ++k;
+      --k;
+    }
+    open += (c == '[' || c == '{') - (c == ']' || c == '}');
+    parts = c == '.' ? parts + 1 : std::string_view("=,[]{}\n").find(c) < 7 ? 0 : parts;
+    if (open > most_levels || parts > most_levels)
+      throw BadInput(format("%s:%d: more than %d levels of keys, tables or arrays",
+                            file.c_str(), line, most_levels));
+    line += c == '\n';
+  }
+}
+
+/** A whole file as text. */
+std::string content_of(const std::string& file)
+{
+  std::ifstream in = open_file(file, "a TOML file", most_bytes);
   std::ostringstream content;
   content << in.rdbuf();
   if (content.str().find_first_not_of(" \t\r\n") == std::string::npos)
     throw BadInput(file + ": is empty; a TOML file is expected");
+  refuse_deep_nesting(file, content.str());
   return content.str();
 }
 
@@ -111,7 +125,10 @@ std::string checked_string(const toml::node& node, const StrictToml& reader,
                            const std::string& key)
 {
   if (!node.is_string()) reader.fail(key, "must be a string");
-  return *node.value<std::string>();
+  const auto value = *node.value<std::string>();
+  if (printable(value) != value)
+    reader.fail(key, "must be one line without control characters");
+  return value;
 }
 
 /** Applies `check` to each element of a non-empty array. */
@@ -132,7 +149,7 @@ StrictToml::StrictToml(const std::string& file) : content_(std::make_shared<Cont
 {
   content_->file = file;
   try {
-    content_->table = toml::parse(read_file(file), file);
+    content_->table = toml::parse(content_of(file), file);
   } catch (const toml::parse_error& error) {
     throw BadInput(file + ":" + std::to_string(error.source().begin.line) +
                    ": not TOML: " + first_line(error.description()));
@@ -230,14 +247,27 @@ void StrictToml::fail(const std::string& key, const std::string& problem) const
                  " " + problem);
 }
 
+void StrictToml::missing(const std::string& key, const std::string& advice) const
+{
+  for (const std::string& found : keys()) {
+    const std::string meant = suggestion(found, {key});
+    if (!content_->read.contains(found) && !meant.empty())
+      fail(found, "is not a known key here" + meant + " (" + content_->path + key +
+                      " is missing" + advice + ")");
+  }
+  fail(key, "is missing" + advice);
+}
+
 void StrictToml::refuse_unknown_keys() const
 {
-  std::string known;
-  for (const std::string& key : content_->read)
-    known += (known.empty() ? "" : ", ") + key;
-  for (const auto& [key, node] : content_->table)
-    if (!content_->read.contains(std::string(key.str())))
-      fail(std::string(key.str()), "is not a known key here (known: " + known + ")");
+  const std::vector<std::string> known(content_->read.begin(), content_->read.end());
+  for (const std::string& key : keys()) {
+    if (content_->read.contains(key)) continue;
+    std::string list;
+    for (const std::string& other : known) list += (list.empty() ? "" : ", ") + other;
+    fail(key,
+         "is not a known key here" + suggestion(key, known) + " (known: " + list + ")");
+  }
 }
 
 }  // namespace rotor_stator

@@ -1,5 +1,8 @@
 /**
-# Files that a user names for input */
+# TOML without surprises
+
+A thin layer over toml++ that remembers which keys were read. What is missing, of the
+wrong type, out of range or left over ends in BadInput with file, line and key. */
 #pragma once
 
 #include <memory>
@@ -9,16 +12,6 @@
 namespace rotor_stator
 {
 
-/** Throws BadInput, naming what is `expected`, unless `file` is a plain file: devices and pipes may never
-    end. */
-void require_plain_file(const std::string& file, const std::string& expected);
-
-/**
-## TOML without surprises
-
-A thin layer over toml++ that remembers which keys were read. What is missing, of the
-wrong type, out of range or left over ends in BadInput with file, line and key. */
-
 /** What a number must satisfy, beside being finite. */
 enum class Range { any, positive, not_negative };
 
@@ -26,7 +19,8 @@ enum class Range { any, positive, not_negative };
 class StrictToml
 {
 public:
-  /** Parses a file. Throws BadInput when it is missing, not a file, empty or not TOML. */
+  /** Parses a file. Throws BadInput when it is missing, not a file, too long, empty, nested too
+      deeply or not TOML. */
   explicit StrictToml(const std::string& file);
 
   bool has(const std::string& key) const;
@@ -47,6 +41,9 @@ public:
 
   /** Throws BadInput about `key`: file, line, key and `problem`. */
   [[noreturn]] void fail(const std::string& key, const std::string& problem) const;
+
+  /** Throws BadInput about a required key: names the key that it may have been misspelt as, if any. */
+  [[noreturn]] void missing(const std::string& key, const std::string& advice = "") const;
 
   /** Throws BadInput if a key of this table was never asked for. */
   void refuse_unknown_keys() const;

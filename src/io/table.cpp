@@ -1,13 +1,12 @@
 #include "io/table.hpp"
 
 #include <algorithm>
-#include <charconv>
 #include <cmath>
-#include <fstream>
 #include <sstream>
 #include <utility>
 
 #include "io/errors.hpp"
+#include "io/files.hpp"
 #include "source_revision.hpp"
 
 namespace rotor_stator
@@ -35,7 +34,7 @@ std::string joined(const std::vector<std::string>& words)
 
 }  // namespace
 
-bool Cell::is_printable() const
+bool Cell::is_finite() const
 {
   const auto* number = std::get_if<double>(&value_);
   return !number || std::isfinite(*number);
@@ -43,7 +42,7 @@ bool Cell::is_printable() const
 
 std::string Cell::text() const
 {
-  if (const auto* word = std::get_if<std::string>(&value_)) return *word;
+  if (const auto* word = std::get_if<std::string>(&value_)) return printable(*word);
   return format("%.15g", std::get<double>(value_));
 }
 
@@ -56,13 +55,13 @@ Table::Table(std::string what, std::vector<Column> columns) : columns_(std::move
 
 void Table::note(const std::string& line)
 {
-  header_.push_back("# " + line + "\n");
+  header_.push_back("# " + printable(line) + "\n");
 }
 
 void Table::row(std::vector<Cell> cells)
 {
   for (std::size_t k = 0; k < cells.size(); ++k)
-    if (!cells[k].is_printable())
+    if (!cells[k].is_finite())
       throw NoSolution("the result " + columns_.at(k).name + " is not finite");
   rows_.push_back(std::move(cells));
 }
@@ -101,45 +100,68 @@ std::vector<std::string> split(const std::string& line)
   return cells;
 }
 
+constexpr std::uintmax_t most_bytes = 1'000'000'000;
+
 }  // namespace
 
-NumberTable::NumberTable(const std::string& file) : file_(file)
+NumberTable::NumberTable(const std::string& file, const std::string& first_line)
+    : file_(file)
 {
-  std::ifstream in(file);
-  std::string line;
-  for (int number = 1; std::getline(in, line); ++number) {
+  std::ifstream in = open_file(file, "a table", most_bytes);
+  std::string line(first_line.empty() ? 0 : first_line.size() + 1, ' ');
+  in.read(line.data(), static_cast<std::streamsize>(line.size()));
+  if (!first_line.empty() && line != first_line + "\n")
+    throw BadInput(file + ":1: '" + first_line + "' is expected");
+  in.clear();
+  for (int number = first_line.empty() ? 1 : 2; std::getline(in, line); ++number) {
+    if (in.eof()) throw BadInput(format("%s:%d: the line is cut off", file.c_str(), number));
+    if (const auto colon = line.find(": "); line.starts_with("# ") && colon != std::string::npos)
+      header_[line.substr(2, colon - 2)] = line.substr(colon + 2);
     if (line.empty() || line.front() == '#') continue;
-    if (names_.empty())
+    if (names_.empty()) {
       names_ = split(line);
-    else
-      read_row(line, number);
+      continue;
+    }
+    lines_.push_back(number);
+    read_row(line);
   }
-  if (rows_.empty()) throw BadInput(file + ": not a table with rows of numbers");
+  if (rows_.empty()) fail("not a table with rows of numbers");
 }
 
-void NumberTable::read_row(const std::string& line, int number)
+void NumberTable::read_row(const std::string& line)
 {
-  std::vector<double> row;
+  rows_.emplace_back();
   for (const std::string& cell : split(line)) {
-    double value = 0;
-    const char* end = cell.data() + cell.size();
-    const auto [last, error] = std::from_chars(cell.data(), end, value);
-    if (error != std::errc() || last != end)
-      throw BadInput(
-          format("%s:%d: \"%s\" is not a number", file_.c_str(), number, cell.c_str()));
-    row.push_back(value);
+    const std::optional<double> value = decimal(cell);
+    if (!value) fail(rows() - 1, "'" + cell.substr(0, 40) + "' is not a finite number");
+    rows_.back().push_back(*value);
   }
-  if (row.size() != names_.size())
-    throw BadInput(format("%s:%d: %zu cells, must be %zu", file_.c_str(), number,
-                          row.size(), names_.size()));
-  rows_.push_back(std::move(row));
+  if (rows_.back().size() != names_.size())
+    fail(rows() - 1, format("%zu cells, must be %zu", rows_.back().size(), names_.size()));
 }
 
 double NumberTable::at(std::size_t row, const std::string& column) const
 {
   const auto found = std::find(names_.begin(), names_.end(), column);
-  if (found == names_.end()) throw BadInput(file_ + ": has no column " + column);
+  if (found == names_.end()) fail("has no column " + column);
   return rows_.at(row).at(static_cast<std::size_t>(found - names_.begin()));
+}
+
+const std::string& NumberTable::header(const std::string& key) const
+{
+  const auto found = header_.find(key);
+  if (found == header_.end()) fail("the line '# " + key + ": ' is missing");
+  return found->second;
+}
+
+void NumberTable::fail(const std::string& problem) const
+{
+  throw BadInput(file_ + ": " + problem);
+}
+
+void NumberTable::fail(std::size_t row, const std::string& problem) const
+{
+  throw BadInput(format("%s:%d: %s", file_.c_str(), lines_.at(row), problem.c_str()));
 }
 
 }  // namespace rotor_stator

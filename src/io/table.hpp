@@ -6,6 +6,7 @@ Stamped when the library is compiled. A new commit alone triggers no rebuild. */
 
 #include <concepts>
 #include <functional>
+#include <map>
 #include <string>
 #include <variant>
 #include <vector>
@@ -40,8 +41,8 @@ public:
   Cell(std::integral auto number) : value_(static_cast<double>(number)) {}
   Cell(std::string word) : value_(std::move(word)) {}
 
-  bool is_printable() const;  ///< not infinite and not a NaN
-  std::string text() const;   ///< 15 significant digits
+  bool is_finite() const;
+  std::string text() const;  ///< 15 significant digits
 
 private:
   std::variant<double, std::string> value_;
@@ -95,26 +96,38 @@ private:
 /**
 ## Tables of numbers, read back
 
-What a program wrote (output/table.hpp) and another goes on from: `#` lines, a row of names, rows of
-numbers, separated by tabs. */
+What a program wrote and another continues from: `#` lines, a row of names, rows of numbers, separated by
+tabs. */
 
 class NumberTable
 {
 public:
-  /** Throws BadInput with file and line when it is missing, empty or not such a table. */
-  explicit NumberTable(const std::string& file);
+  /** Throws BadInput with file and line when it is missing, empty, cut off, longer than 1 GB or not such a
+      table; with `first_line`, when it begins otherwise. */
+  explicit NumberTable(const std::string& file, const std::string& first_line = "");
 
+  const std::vector<std::string>& names() const { return names_; }
   std::size_t rows() const { return rows_.size(); }
+  const std::vector<double>& row(std::size_t k) const { return rows_.at(k); }
 
   /** Throws BadInput if there is no such column. */
   double at(std::size_t row, const std::string& column) const;
 
+  /** The value of the line `# key: value`. Throws BadInput when it is missing. */
+  const std::string& header(const std::string& key) const;
+
+  /** Throws BadInput about a row, or about the whole file. */
+  [[noreturn]] void fail(const std::string& problem) const;
+  [[noreturn]] void fail(std::size_t row, const std::string& problem) const;
+
 private:
-  void read_row(const std::string& line, int number);
+  void read_row(const std::string& line);
 
   std::string file_;
+  std::map<std::string, std::string> header_;
   std::vector<std::string> names_;
   std::vector<std::vector<double>> rows_;
+  std::vector<int> lines_;  ///< of the rows in the file
 };
 
 }  // namespace rotor_stator

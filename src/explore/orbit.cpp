@@ -1,12 +1,10 @@
-#include "explore/tables.hpp"
+#include "explore/orbit.hpp"
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 #include <numbers>
 
 #include "balance/fourier_transform.hpp"
-#include "explore/stability.hpp"
 #include "io/errors.hpp"
 #include "motion/adaptive.hpp"
 #include "motion/find_periodic.hpp"
@@ -15,43 +13,58 @@
 namespace rotor_stator::explore
 {
 
-void require_positive(const char* option, double value)
-{
-  constexpr double most = 1e300;  // 2 pi times as much is still a number
-  if (!(value > 0 && value <= most))
-    throw BadInput(
-        format("%s %g: must be a finite number > 0, at most %g", option, value, most));
-}
-
-void require_between(const char* option, double value, double least, double most)
-{
-  if (!(value >= least && value <= most))
-    throw BadInput(format("%s %g: must be in %g...%g", option, value, least, most));
-}
-
-void require_range(const char* option, int value, int least, int most)
-{
-  if (value < least || value > most)
-    throw BadInput(format("%s %d: must be in %d...%d", option, value, least, most));
-}
-
 int checked_samples(int harmonics, const std::optional<int>& samples)
 {
-  require_range("--harmonics", harmonics, 1, 4096);
-  if (samples) require_range("--samples", *samples, 2 * harmonics + 1, 1 << 20);
+  if (samples && *samples <= 2 * harmonics)
+    throw BadInput(
+        format("--samples %d: must be in %d...%d", *samples, 2 * harmonics + 1, 1 << 20));
   return samples.value_or(default_samples(harmonics));
 }
 
-OperationBudget checked_budget(const std::optional<double>& evaluations,
-                               double operations, const Parameters& parameters)
+OperationBudget budget_of(const std::optional<double>& evaluations, double seconds,
+                          const Parameters& parameters)
 {
-  if (evaluations) require_between("--budget", *evaluations, 1, 1e15);
   const double each = operations_per_evaluation(parameters.bearing.balls);
-  return OperationBudget(evaluations.value_or(operations / each), "--budget");
+  return OperationBudget(evaluations.value_or(1e9 * seconds / each), "--budget");
+}
+
+Floquet paid_floquet(const OperationBudget& budget, const Parameters& parameters,
+                     double omega, const Eigen::VectorXd& x)
+{
+  const double balls = parameters.bearing.balls;
+  const auto harmonics = static_cast<double>(x.size() / 4);
+  const double share = 1 / operations_per_evaluation(parameters.bearing.balls);
+  /** The phases where balls meet or leave their race; then the stiffness, value by value, each with its
+      step of the disturbances. */
+  budget.spend(share * std::max(512.0, 16 * harmonics) *
+               (50 + 5 * balls + 5 * harmonics));
+  PeriodicStiffness stiffness = stiffness_along(parameters, x);
+  stiffness.at = [at = std::move(stiffness.at), budget,
+                  value = share * (300 + 2 * balls + 5 * harmonics)](double phase,
+                                                                     double* k) {
+    budget.spend(value);
+    at(phase, k);
+  };
+  return floquet(vibration_of(parameters), stiffness, 2 * std::numbers::pi / omega);
+}
+
+Exploration finished(Table table, const Parameters& parameters, bool touches,
+                     const OperationBudget& budget)
+{
+  Exploration exploration{std::move(table)};
+  if (!touches)
+    exploration.warning =
+        format("warning: no ball touches its race: the clearance of %g m is never closed",
+               parameters.bearing.clearance);
+  if (!touches) exploration.table.note(exploration.warning);
+  exploration.table.note("budget: " + budget.spent());
+  return exploration;
 }
 
 namespace
 {
+
+constexpr int usual_harmonics = 6;
 
 SteadySettings steady_settings(const MotionRequest& request, int shown_periods,
                                const OperationBudget& budget)
@@ -59,7 +72,7 @@ SteadySettings steady_settings(const MotionRequest& request, int shown_periods,
   SteadySettings settings;
   settings.stepper = {.method = request.method,
                       .intervals_per_period = request.points,
-                      .step = request.step.value_or(0),
+                      .step = request.step,
                       .tolerance = request.local_error,
                       .budget = budget};
   settings.longest = request.longest;
@@ -67,24 +80,14 @@ SteadySettings steady_settings(const MotionRequest& request, int shown_periods,
   return settings;
 }
 
+/** Throws BadInput for options that contradict each other. */
 void check(const MotionRequest& request)
 {
-  require_positive("--frequency", request.frequency);
-  require_range("--points", request.points, 1, 1 << 16);
-  require_between("--newton-tolerance", request.newton_tolerance, 1e-15, 1e-3);
-  require_between("--local-error", request.local_error, 1e-15, 1e-2);
-  require_between("--longest", request.longest, 1e-3, 1e5);
-  if (request.step) require_positive("--step", *request.step);
   require_method(request.method);
-  if (!request.tolerance) return;
-  require_between("--tolerance", *request.tolerance, 1e-8, 0.1);
-  if (request.method != "aft")
-    throw BadInput("--tolerance: for --method aft; the others have --local-error");
-  if (request.samples && !request.harmonics)
+  checked_samples(request.harmonics.value_or(usual_harmonics), request.samples);
+  if (request.tolerance && request.samples && !request.harmonics)
     throw BadInput("--samples: chosen with m for --tolerance; give --harmonics too");
 }
-
-constexpr int usual_harmonics = 6;
 
 /** When the tolerance chooses m. */
 AdaptiveSettings settings_of(const MotionRequest& request)
@@ -175,63 +178,93 @@ motion::Motion integrated_motion(const Parameters& parameters,
   return motion::motion_of(steady, request.points);
 }
 
-motion::Motion requested_motion(const Parameters& parameters,
-                                const MotionRequest& request, int periods, Table& table)
+/** A motion, the bearing's force at its instants, and what it has cost. */
+struct Computed {
+  motion::Motion motion;
+  std::vector<Vec2> forces;
+  OperationBudget budget;
+
+  bool touches() const
+  {
+    return std::any_of(forces.begin(), forces.end(),
+                       [](const Vec2& f) { return f.x != 0 || f.y != 0; });
+  }
+};
+
+Computed computed(const Parameters& parameters, const MotionRequest& request, int periods,
+                  Table& table)
 {
   check(request);
-  checked_samples(request.harmonics.value_or(usual_harmonics), request.samples);
   describe(table, parameters);
   table.note(format("frequency: %.15g Hz", request.frequency));
-  const OperationBudget budget = checked_budget(request.budget, 3e9, parameters);
-  return request.method == "aft"
-             ? balance_motion(parameters, request, budget, table)
-             : integrated_motion(parameters, request, periods, budget, table);
+  const OperationBudget budget = budget_of(request.budget, 3, parameters);
+  motion::Motion motion =
+      request.method == "aft"
+          ? balance_motion(parameters, request, budget, table)
+          : integrated_motion(parameters, request, periods, budget, table);
+  auto forces = motion::bearing_forces(parameters, motion);
+  return {std::move(motion), std::move(forces), budget};
 }
 
 /** A table of this length takes about a second and 0.4 GB to write. */
 constexpr int most_contact_rows = 1 << 20;
 
+struct OrbitRow {
+  double phase;
+  Bodies position;
+  Vec2 force;
+};
+
+const std::vector<Field<OrbitRow>> orbit_fields{
+    {{"phase", "rad", "omega t, modulo 2 pi"}, [](auto& r) { return r.phase; }},
+    {{"x_s", "m", "stator"}, [](auto& r) { return r.position.stator.x; }},
+    {{"y_s", "m", "stator"}, [](auto& r) { return r.position.stator.y; }},
+    {{"x_r", "m", "rotor"}, [](auto& r) { return r.position.rotor.x; }},
+    {{"y_r", "m", "rotor"}, [](auto& r) { return r.position.rotor.y; }},
+    {{"F_x", "N", "Eq. 6, on the stator"}, [](auto& r) { return r.force.x; }},
+    {{"F_y", "N", "Eq. 6, on the stator"}, [](auto& r) { return r.force.y; }}};
+
+struct ContactRow {
+  double t_over_period;
+  std::size_t ball;
+  double force;
+};
+
+const std::vector<Field<ContactRow>> contact_fields{
+    {{"t_over_T", "-", "time over the period, 0 to 2"},
+     [](auto& r) { return r.t_over_period; }},
+    {{"ball", "-", "j of Eq. 3"}, [](auto& r) { return r.ball; }},
+    {{"Q", "N", "Eq. 5, force of the ball"}, [](auto& r) { return r.force; }}};
+
 }  // namespace
 
 Exploration explore_orbit(const MotionRequest& request)
 {
-  Table table("Orbit of rotor and stator over one period",
-              {{"phase", "rad", "omega t, modulo 2 pi"},
-               {"x_s", "m", "stator"},
-               {"y_s", "m", "stator"},
-               {"x_r", "m", "rotor"},
-               {"y_r", "m", "rotor"},
-               {"F_x", "N", "Eq. 6, on the stator"},
-               {"F_y", "N", "Eq. 6, on the stator"}});
+  Table table("Orbit of rotor and stator over one period", orbit_fields);
   const Parameters parameters = read_parameters(request.parameter_file);
-  const motion::Motion motion = requested_motion(parameters, request, 1, table);
-  const auto forces = motion::bearing_forces(parameters, motion);
-  for (std::size_t k = 0; k < motion.size(); ++k) {
-    const Bodies& q = motion.positions[k];
-    table.row({2 * std::numbers::pi * motion.t_over_period(k), q.stator.x, q.stator.y,
-               q.rotor.x, q.rotor.y, forces[k].x, forces[k].y});
-  }
-  return {std::move(table), ""};
+  const Computed at = computed(parameters, request, 1, table);
+  for (std::size_t k = 0; k < at.motion.size(); ++k)
+    table.row(orbit_fields, {2 * std::numbers::pi * at.motion.t_over_period(k),
+                             at.motion.positions[k], at.forces[k]});
+  return finished(std::move(table), parameters, at.touches(), at.budget);
 }
 
 Exploration explore_contact(const MotionRequest& request)
 {
-  Table table("Contact of every ball over two periods",
-              {{"t_over_T", "-", "time over the period, 0 to 2"},
-               {"ball", "-", "j of Eq. 3"},
-               {"Q", "N", "Eq. 5, force of the ball"}});
+  Table table("Contact of every ball over two periods", contact_fields);
   const Parameters parameters = read_parameters(request.parameter_file);
   const int most_points = most_contact_rows / (2 * parameters.bearing.balls);
   if (request.points > most_points)
     throw BadInput(format("--points %d: must be at most %d with %d balls", request.points,
                           most_points, parameters.bearing.balls));
-  const motion::Motion motion = requested_motion(parameters, request, 2, table);
+  const Computed at = computed(parameters, request, 2, table);
   const motion::ContactEvolution evolution =
-      motion::contact_evolution(parameters, motion);
+      motion::contact_evolution(parameters, at.motion);
   for (std::size_t k = 0; k < evolution.t_over_period.size(); ++k)
     for (std::size_t j = 0; j < evolution.ball_force[k].size(); ++j)
-      table.row({evolution.t_over_period[k], j + 1, evolution.ball_force[k][j]});
-  return {std::move(table), ""};
+      table.row(contact_fields,
+                {evolution.t_over_period[k], j + 1, evolution.ball_force[k][j]});
+  return finished(std::move(table), parameters, at.touches(), at.budget);
 }
 
 }  // namespace rotor_stator::explore

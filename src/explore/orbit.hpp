@@ -1,0 +1,66 @@
+/**
+# explore orbit, explore contact
+
+One motion of one machine at one speed, by harmonic balance or in time, as a table. */
+#pragma once
+
+#include <optional>
+#include <string>
+
+#include "io/budget.hpp"
+#include "io/table.hpp"
+#include "model/parameters.hpp"
+#include "stability/floquet.hpp"
+
+namespace rotor_stator::explore
+{
+
+/** What the options ask for, each in its range. */
+struct MotionRequest {
+  std::string parameter_file;
+  double frequency = 0;             ///< [Hz]
+  std::string method = "aft";       ///< or a time method
+  std::optional<int> harmonics;     ///< m; without it 6, or what the tolerance asks for
+  std::optional<int> samples;       ///< N
+  std::optional<double> tolerance;  ///< of displacement, relative
+  int points = 256;                 ///< P
+  double newton_tolerance = 1e-10;  ///< relative
+  double local_error = 1e-11;       ///< GSL's methods, relative
+  double step = 0;                  ///< rk4 [s]; 0: from K_H
+  double longest = 30;              ///< transient at most [s]
+  bool stability = true;            ///< Floquet multipliers in the header (aft)
+  std::optional<double> budget;     ///< evaluations of the force
+};
+
+/** A table with what has to be said about it. */
+struct Exploration {
+  Table table;
+  std::string unfinished = {};  ///< why a branch stopped early; empty when it did not
+  std::string warning =
+      {};  ///< what the reader may not expect; empty when there is nothing
+};
+
+/** Throw BadInput for options that contradict each other, NoSolution when nothing was found. */
+Exploration explore_orbit(const MotionRequest& request);
+Exploration explore_contact(const MotionRequest& request);
+
+/**
+## What explore response needs too */
+
+/** N as asked for, or the default for m. Throws BadInput when it is too small. */
+int checked_samples(int harmonics, const std::optional<int>& samples);
+
+/** A budget of so many evaluations, or of those that take `seconds`. */
+OperationBudget budget_of(const std::optional<double>& evaluations, double seconds,
+                          const Parameters& parameters);
+
+/** The multipliers along the coefficients `x`, paid for from `budget`. Throws NoSolution when it is used
+    up. */
+Floquet paid_floquet(const OperationBudget& budget, const Parameters& parameters,
+                     double omega, const Eigen::VectorXd& x);
+
+/** Says in the table that no ball touches, and what was spent. */
+Exploration finished(Table table, const Parameters& parameters, bool touches,
+                     const OperationBudget& budget);
+
+}  // namespace rotor_stator::explore
