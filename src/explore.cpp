@@ -54,8 +54,9 @@ void add_common_options(CLI::App& command, Request& request)
       ->required();
   add_number(
       command, "--budget", request.budget, 1.0, 1e15,
-      "evaluations of the force at most; all else is charged as those that take its "
-      "time (default: 3 s, with --stability 30 s; with 16 balls 8.2e7 in 3 s)");
+      "most evaluations of the force in the whole run, other work counted as the "
+      "evaluations that take as long (default: those of 3 s, 8.2e7 with 16 balls; of "
+      "30 s with --stability)");
 }
 
 /** The options of orbit and contact, and for which methods each is. */

@@ -179,7 +179,7 @@ TEST_CASE("A table of numbers is read back, and a damaged one refused with its l
   CHECK(table.at(1, "f") == 3);
   CHECK_THROWS_AS(table.at(0, "y"), BadInput);
   CHECK_THROWS_WITH(written("f\tx\n1\n"), Catch::Contains(":2: 1 cells, must be 2"));
-  CHECK_THROWS_WITH(written("f\tx\n1\ta\n"), Catch::Contains("\"a\" is not a number"));
+  CHECK_THROWS_WITH(written("f\tx\n1\ta\n"), Catch::Contains("'a' is not a finite number"));
   CHECK_THROWS_AS(written("f\tx\n"), BadInput);
   CHECK_THROWS_AS(NumberTable("no such file"), BadInput);
 }
