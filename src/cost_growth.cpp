@@ -27,18 +27,19 @@ int main(int argc, char** argv)
   using namespace rotor_stator::costs;
   return run_figure(argc, argv, [](SceneFile& file) {
     const CostGrowthScene scene = read_cost_growth(file);
-    std::vector<Growth> harmonics, balls, speeds;
+    std::vector<Growth> rows;
     for (int m : Watched("harmonics", scene.harmonics))
-      harmonics.push_back(cost_of(scene, m, one_solution(scene), m));
+      rows.push_back(cost_of(scene, "harmonics", m, one_solution(scene), m));
     for (int n : Watched("balls", scene.balls))
-      balls.push_back(cost_of(scene, n, sweep_with(scene, scene.sweep_speeds, n),
-                              scene.sweep_harmonics));
+      rows.push_back(cost_of(scene, "balls", n, sweep_with(scene, scene.sweep_speeds, n),
+                             scene.sweep_harmonics));
     for (int count : Watched("speeds", scene.speeds))
-      speeds.push_back(cost_of(scene, count,
-                               sweep_with(scene, count, scene.parameters.bearing.balls),
-                               scene.sweep_harmonics));
-    return cost_growth_table(scene, {{"harmonics", scene.fitted_harmonics, harmonics},
-                                     {"balls", scene.fitted_balls, balls},
-                                     {"speeds", scene.fitted_speeds, speeds}});
+      rows.push_back(cost_of(scene, "speeds", count,
+                             sweep_with(scene, count, scene.parameters.bearing.balls),
+                             scene.sweep_harmonics));
+    fit_exponents(rows, "harmonics", scene.fitted_harmonics, scene.least_memory);
+    fit_exponents(rows, "balls", scene.fitted_balls, scene.least_memory);
+    fit_exponents(rows, "speeds", scene.fitted_speeds, scene.least_memory);
+    return cost_growth_table(scene, rows);
   });
 }

@@ -32,9 +32,9 @@ int main(int argc, char** argv)
     std::vector<EqualErrorRow> rows;
     for (const References& range : periodic_ranges(scene, references))
       for (const Candidates& method : Watched("methods", scene.candidates)) {
-        const std::vector<Trial> trials = try_settings(scene, range, method);
+        const std::vector<Measurement> tried = try_settings(scene, range, method);
         for (double target : scene.targets)
-          rows.push_back(cheapest(scene, range, trials, target));
+          rows.push_back(cheapest(scene, range, tried, target, rows));
       }
     return equal_error_table(scene, references, rows);
   });

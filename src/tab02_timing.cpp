@@ -37,11 +37,11 @@ int main(int argc, char** argv)
     const TimingScene scene = read_timing(file);
     const References references =
         true_motions(scene.parameters, scene.frequencies, scene.truth);
-    std::vector<TimedSweep> balances, rk4;
+    std::vector<Measurement> balances, rk4;
     for (const Setting& harmonics : scene.balances)
-      balances.push_back(time_sweep(scene, references, harmonics));
+      balances.push_back(measure(references, harmonics, scene.repetitions));
     for (const Setting& step : cheapest_rk4(scene, references, balances))
-      rk4.push_back(time_sweep(scene, references, step));
+      rk4.push_back(measure(references, step, scene.repetitions));
     return timing_table(scene, references, balances, rk4);
   });
 }

@@ -1,5 +1,6 @@
 #include "costs/cost_growth.hpp"
 
+#include <gsl/gsl_fit.h>
 #include <sys/resource.h>
 #include <sys/wait.h>
 #include <unistd.h>
@@ -56,7 +57,8 @@ Task sweep_with(const CostGrowthScene& scene, int speeds, int balls)
   return task;
 }
 
-Growth cost_of(const CostGrowthScene& scene, int size, const Task& task, int harmonics)
+Growth cost_of(const CostGrowthScene& scene, const std::string& against, int size,
+               const Task& task, int harmonics)
 {
   const auto setting = [&](int m) {
     return Setting{.method = "aft",
@@ -69,7 +71,8 @@ Growth cost_of(const CostGrowthScene& scene, int size, const Task& task, int har
     method->run();
     const CpuTime cpu = time_of(scene.repetitions, [&] { method->run(); });
     double found = 0;
-    for (const auto& motion : method->motions(4)) found += motion.has_value();
+    for (std::size_t k = 0; k < task.frequencies.size(); ++k)
+      found += method->motion(k, 4).has_value();
     return std::vector<double>{cpu.median, cpu.least, cpu.most, found};
   });
   /** The smallest task shows what the program itself takes. */
@@ -79,10 +82,9 @@ Growth cost_of(const CostGrowthScene& scene, int size, const Task& task, int har
   });
   const auto& numbers = result.numbers;
   if (numbers.size() != 4)
-    throw NoSolution(format("m = %d, %zu speeds, %d balls: the process ended early",
-                            harmonics, task.frequencies.size(),
-                            task.parameters.bearing.balls));
-  return {.size = size,
+    throw NoSolution(format("%s = %d: the process ended early", against.c_str(), size));
+  return {.against = against,
+          .size = size,
           .cpu = {numbers[0], numbers[1], numbers[2]},
           .memory = std::max(0.0, result.peak_bytes - least.peak_bytes),
           .found = static_cast<std::size_t>(numbers[3]),
@@ -91,72 +93,59 @@ Growth cost_of(const CostGrowthScene& scene, int size, const Task& task, int har
 
 double fitted_exponent(const std::vector<double>& x, const std::vector<double>& y)
 {
-  const auto n = static_cast<double>(x.size());
-  double mean_x = 0, mean_y = 0, covariance = 0, variance = 0;
-  for (std::size_t k = 0; k < x.size(); ++k) {
-    mean_x += std::log(x[k]) / n;
-    mean_y += std::log(y[k]) / n;
+  std::vector<double> log_x, log_y;
+  for (double value : x) log_x.push_back(std::log(value));
+  for (double value : y) log_y.push_back(std::log(value));
+  double level, slope, var_level, covariance, var_slope, squares;
+  gsl_fit_linear(log_x.data(), 1, log_y.data(), 1, x.size(), &level, &slope, &var_level,
+                 &covariance, &var_slope, &squares);
+  return slope;
+}
+
+void fit_exponents(std::vector<Growth>& rows, const std::string& against, int first,
+                   double least_memory)
+{
+  std::vector<double> size, cpu, memory_size, memory;
+  for (const Growth& row : rows) {
+    if (row.against != against || row.size < first) continue;
+    size.push_back(row.size);
+    cpu.push_back(row.cpu.median);
+    if (row.memory < least_memory) continue;
+    memory_size.push_back(row.size);
+    memory.push_back(row.memory);
   }
-  for (std::size_t k = 0; k < x.size(); ++k) {
-    covariance += (std::log(x[k]) - mean_x) * (std::log(y[k]) - mean_y);
-    variance += (std::log(x[k]) - mean_x) * (std::log(x[k]) - mean_x);
+  for (Growth& row : rows) {
+    if (row.against != against) continue;
+    if (size.size() > 1) row.exponent_cpu = fitted_exponent(size, cpu);
+    if (memory.size() > 2) row.exponent_memory = fitted_exponent(memory_size, memory);
   }
-  return covariance / variance;
 }
 
 namespace
 {
 
-/** Exponents of the fitted power laws; 0 where there is too little to fit. */
-struct Exponents {
-  double cpu = 0, memory = 0;
-};
+using Row = const Growth&;
 
-Exponents fitted(const GrowthSeries& series, double least_memory)
-{
-  std::vector<double> size, cpu, memory_size, memory;
-  for (const Growth& growth : series.sizes) {
-    if (growth.size < series.fitted_from) continue;
-    size.push_back(growth.size);
-    cpu.push_back(growth.cpu.median);
-    if (growth.memory < least_memory) continue;
-    memory_size.push_back(growth.size);
-    memory.push_back(growth.memory);
-  }
-  Exponents exponents;
-  if (size.size() > 1) exponents.cpu = fitted_exponent(size, cpu);
-  if (memory.size() > 2) exponents.memory = fitted_exponent(memory_size, memory);
-  return exponents;
-}
-
-struct GrowthRow {
-  std::string against;
-  Exponents exponents;
-  Growth growth;
-};
-
-const std::vector<Field<GrowthRow>> growth_fields{
-    {"against", "-", "what grows: harmonics, balls or speeds", &GrowthRow::against},
-    {"size", "-", "how many of it", [](const GrowthRow& r) { return r.growth.size; }},
+const std::vector<Field<Growth>> growth_fields{
+    {"against", "-", "what grows: harmonics, balls or speeds", &Growth::against},
+    {"size", "-", "how many of it", &Growth::size},
     {"cpu_s", "s", "CPU of one thread, median of the repetitions",
-     [](const GrowthRow& r) { return r.growth.cpu.median; }},
-    {"cpu_min_s", "s", "least", [](const GrowthRow& r) { return r.growth.cpu.least; }},
-    {"cpu_max_s", "s", "most", [](const GrowthRow& r) { return r.growth.cpu.most; }},
+     [](Row r) { return r.cpu.median; }},
+    {"cpu_min_s", "s", "least", [](Row r) { return r.cpu.least; }},
+    {"cpu_max_s", "s", "most", [](Row r) { return r.cpu.most; }},
     {"memory", "byte",
      "peak of memory above that of a process with one speed and one harmonic",
-     [](const GrowthRow& r) { return r.growth.memory; }},
-    {"found", "-", "speeds with a solution",
-     [](const GrowthRow& r) { return r.growth.found; }},
-    {"of", "-", "speeds asked for", [](const GrowthRow& r) { return r.growth.speeds; }},
+     &Growth::memory},
+    {"found", "-", "speeds with a solution", &Growth::found},
+    {"of", "-", "speeds asked for", &Growth::speeds},
     {"exponent_cpu", "-", "of the fitted power law, the same for all sizes of the kind",
-     [](const GrowthRow& r) { return r.exponents.cpu; }},
+     &Growth::exponent_cpu},
     {"exponent_memory", "-", "the same for memory; 0 where there is too little to fit",
-     [](const GrowthRow& r) { return r.exponents.memory; }}};
+     &Growth::exponent_memory}};
 
 }  // namespace
 
-Table cost_growth_table(const CostGrowthScene& scene,
-                        const std::vector<GrowthSeries>& all)
+Table cost_growth_table(const CostGrowthScene& scene, const std::vector<Growth>& rows)
 {
   Table table("Growth of the cost of harmonic balance", growth_fields);
   describe(table, scene.parameters);
@@ -176,11 +165,7 @@ Table cost_growth_table(const CostGrowthScene& scene,
       format("exponents from harmonics = %d, balls = %d, speeds = %d, bytes = %g on",
              scene.fitted_harmonics, scene.fitted_balls, scene.fitted_speeds,
              scene.least_memory));
-  for (const GrowthSeries& series : all) {
-    const Exponents exponents = fitted(series, scene.least_memory);
-    for (const Growth& growth : series.sizes)
-      table.row(growth_fields, {series.against, exponents, growth});
-  }
+  for (const Growth& row : rows) table.row(growth_fields, row);
   return table;
 }
 

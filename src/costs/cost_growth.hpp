@@ -39,27 +39,27 @@ Task sweep_with(const CostGrowthScene& scene, int speeds, int balls);
 
 /** What one size costs. */
 struct Growth {
+  std::string against;  ///< "harmonics", "balls" or "speeds"
   int size;
   CpuTime cpu;
   double memory;  ///< peak above that of a process that solves next to nothing [byte]
   std::size_t found, speeds;  ///< speeds with a solution, of how many
+  double exponent_cpu = 0,
+         exponent_memory = 0;  ///< of all sizes of the kind; 0: not fitted
 };
 
 /** Of a task with that many harmonics. Throws NoSolution when its process ends without a result. */
-Growth cost_of(const CostGrowthScene& scene, int size, const Task& task, int harmonics);
+Growth cost_of(const CostGrowthScene& scene, const std::string& against, int size,
+               const Task& task, int harmonics);
 
-/** The sizes of one kind. */
-struct GrowthSeries {
-  std::string against;  ///< "harmonics", "balls" or "speeds"
-  int fitted_from;      ///< the least size of the fit
-  std::vector<Growth> sizes;
-};
+/** Fits the exponents of one kind to its sizes from `first` on. */
+void fit_exponents(std::vector<Growth>& rows, const std::string& against, int first,
+                   double least_memory);
 
 /** p of y = a x^p by least squares of the logarithms; two points at least, all positive. */
 double fitted_exponent(const std::vector<double>& x, const std::vector<double>& y);
 
-Table cost_growth_table(const CostGrowthScene& scene,
-                        const std::vector<GrowthSeries>& all);
+Table cost_growth_table(const CostGrowthScene& scene, const std::vector<Growth>& rows);
 
 /**
 ## Work in a process of its own

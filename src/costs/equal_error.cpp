@@ -1,6 +1,8 @@
 #include "costs/equal_error.hpp"
 
 #include <algorithm>
+#include <cmath>
+#include <iterator>
 #include <limits>
 
 #include "io/errors.hpp"
@@ -35,7 +37,7 @@ EqualErrorScene read_equal_error(SceneFile& file)
 std::vector<References> periodic_ranges(const EqualErrorScene& scene,
                                         const References& references)
 {
-  std::vector<References> ranges(scene.range_ends.size());
+  std::vector<References> ranges(scene.range_ends.size(), {scene.parameters, {}, {}});
   for (std::size_t k = 0; k < references.frequencies.size(); ++k) {
     if (!references.motions[k]) continue;
     const double frequency = references.frequencies[k];
@@ -49,101 +51,66 @@ std::vector<References> periodic_ranges(const EqualErrorScene& scene,
   return ranges;
 }
 
-namespace
-{
-
-constexpr double never = std::numeric_limits<double>::infinity();
-
-Trial run_once(const EqualErrorScene& scene, const References& range,
-               const Setting& setting)
-{
-  const auto method = timed_method({scene.parameters, range.frequencies}, setting);
-  const double start = thread_cpu_seconds();
-  method->run();
-  const double cpu = thread_cpu_seconds() - start;
-  return {setting, cpu,
-          error_of(scene.parameters, range,
-                   method->motions(scene.truth.settling.stepper.intervals_per_period))};
-}
-
-double least_cpu(const std::vector<Trial>& trials, double target)
-{
-  double least = never;
-  for (const Trial& trial : trials)
-    if (trial.error.reaches(target)) least = std::min(least, trial.cpu);
-  return least;
-}
-
-}  // namespace
-
-std::vector<Trial> try_settings(const EqualErrorScene& scene, const References& range,
-                                const Candidates& candidates)
+std::vector<Measurement> try_settings(const EqualErrorScene& scene,
+                                      const References& range,
+                                      const Candidates& candidates)
 {
   constexpr double clearly = 1.3;
-  std::vector<Trial> trials;
-  double used = 0;
-  Progress progress(candidates.method, candidates.groups.size());
-  for (const SettingGroup& group : candidates.groups) {
+  std::vector<Measurement> tried;
+  double used = 0, least = std::numeric_limits<double>::infinity();
+  for (const SettingGroup& group : Watched(candidates.method, candidates.groups))
     for (const Setting& setting : group) {
-      if (used > scene.search) return trials;
-      trials.push_back(run_once(scene, range, setting));
-      used += trials.back().cpu;
-      if (trials.back().cpu > clearly * least_cpu(trials, scene.targets.back())) break;
+      if (used > scene.search) return tried;
+      tried.push_back(measure(range, setting, 1));
+      const double cpu = tried.back().cpu.median;
+      used += cpu;
+      if (tried.back().error.displacement <= scene.targets.back())
+        least = std::min(least, cpu);
+      if (cpu > clearly * least) break;
     }
-    progress.step();
-  }
-  return trials;
+  return tried;
 }
 
 EqualErrorRow cheapest(const EqualErrorScene& scene, const References& range,
-                       const std::vector<Trial>& trials, double target)
+                       const std::vector<Measurement>& tried, double target,
+                       const std::vector<EqualErrorRow>& rows)
 {
-  EqualErrorRow best{
+  const auto reaches = [&](const Measurement& m) {
+    return m.error.displacement <= target;
+  };
+  EqualErrorRow row{
       .range = format("%g-%g", range.frequencies.front(), range.frequencies.back()),
-      .method = trials.front().setting.method,
+      .method = tried.front().setting.method,
       .speeds = range.frequencies.size(),
+      .tried = tried.size(),
       .target = target,
-      .reached = false,
-      .setting = {},
-      .cpu = {never, never, never},
-      .repetitions = 0,
-      .error = {},
-      .evaluations = 0,
-      .tried = trials.size()};
-  best.error.displacement = never;
-  std::vector<Trial> good;
-  for (const Trial& trial : trials) {
-    if (trial.error.reaches(target)) good.push_back(trial);
-    if (trial.error.reaches(best.error.displacement)) best.error = trial.error;
+      .reached = std::any_of(tried.begin(), tried.end(), reaches)};
+  if (!row.reached) {
+    row.best = *std::min_element(tried.begin(), tried.end(),
+                                 [](const Measurement& a, const Measurement& b) {
+                                   return a.error.displacement < b.error.displacement;
+                                 });
+    return row;
   }
-  std::sort(good.begin(), good.end(),
-            [](const Trial& a, const Trial& b) { return a.cpu < b.cpu; });
+  const auto cheaper = [](const Measurement& a, const Measurement& b) {
+    return a.cpu.median < b.cpu.median;
+  };
+  std::vector<Measurement> good;
+  std::copy_if(tried.begin(), tried.end(), std::back_inserter(good), reaches);
+  std::sort(good.begin(), good.end(), cheaper);
   constexpr std::size_t few = 2;
-  for (std::size_t k = 0; k < std::min(good.size(), few); ++k) {
-    const Trial& trial = good[k];
-    const int repetitions =
-        trial.cpu > scene.long_run ? std::min(3, scene.repetitions) : scene.repetitions;
-    const auto method =
-        timed_method({scene.parameters, range.frequencies}, trial.setting);
-    const CpuTime cpu = time_of(repetitions, [&] { method->run(); });
-    if (cpu.median >= best.cpu.median) continue;
-    best.reached = true;
-    best.setting = trial.setting;
-    best.cpu = cpu;
-    best.repetitions = repetitions;
-    best.error = trial.error;
-    best.evaluations = method->counts().force_instants;
-  }
-  return best;
-}
-
-double ratio_to_aft(const EqualErrorRow& row, const std::vector<EqualErrorRow>& rows)
-{
+  good.resize(std::min(good.size(), few));
+  for (Measurement& m : good)
+    m = measure(range, m.setting,
+                m.cpu.median > scene.long_run ? std::min(3, scene.repetitions)
+                                              : scene.repetitions);
+  row.best = *std::min_element(good.begin(), good.end(), cheaper);
+  row.ratio = row.method == "aft" ? 1 : 0;
   for (const EqualErrorRow& aft : rows)
     if (aft.method == "aft" && aft.reached && aft.range == row.range &&
-        aft.target == row.target)
-      return row.cpu.median / aft.cpu.median;
-  return 0;
+        aft.target == target)
+      row.ratio = row.best.cpu.median / aft.best.cpu.median;
+  return row;
 }
 
 namespace
@@ -158,23 +125,24 @@ const std::vector<Field<EqualErrorRow>> equal_error_fields{
     {"method", "-", "aft: harmonic balance; rk4; GSL's; shooting- with one of them",
      &EqualErrorRow::method},
     {"setting", "-", "the cheapest that reaches the target",
-     [](Row r) { return r.setting.text(); }},
+     [](Row r) { return r.best.setting.text(); }},
     {"cpu_s", "s", "CPU of one thread for the whole range, median of the repetitions",
-     [](Row r) { return r.cpu.median; }},
+     [](Row r) { return r.best.cpu.median; }},
     {"error", "-", "largest relative error of displacement over the speeds",
-     [](Row r) { return r.error.displacement; }},
+     [](Row r) { return r.best.error.displacement; }},
     {"error_force", "-", "largest relative error of force over the speeds",
-     [](Row r) { return r.error.force; }},
+     [](Row r) { return r.best.error.force; }},
     {"ratio", "-", "CPU over that of aft at the same target; 0 where aft has none",
      &EqualErrorRow::ratio},
-    {"cpu_min_s", "s", "least", [](Row r) { return r.cpu.least; }},
-    {"cpu_max_s", "s", "most", [](Row r) { return r.cpu.most; }},
-    {"repetitions", "-", "fewer for the long runs", &EqualErrorRow::repetitions},
+    {"cpu_min_s", "s", "least", [](Row r) { return r.best.cpu.least; }},
+    {"cpu_max_s", "s", "most", [](Row r) { return r.best.cpu.most; }},
+    {"repetitions", "-", "fewer for the long runs",
+     [](Row r) { return r.best.repetitions; }},
     {"worst_f", "Hz", "speed with the largest error of displacement",
-     [](Row r) { return r.error.worst_frequency; }},
+     [](Row r) { return r.best.error.worst_frequency; }},
     {"speeds", "-", "number of speeds", &EqualErrorRow::speeds},
     {"evaluations", "-", "evaluations of the bearing's force, one instant each",
-     &EqualErrorRow::evaluations},
+     [](Row r) { return r.best.evaluations; }},
     {"tried", "-", "settings tried", &EqualErrorRow::tried}};
 
 }  // namespace
@@ -198,17 +166,15 @@ Table equal_error_table(const EqualErrorScene& scene, const References& referenc
   for (double ratio : scene.paper_ratios) ratios += format(" %g", ratio);
   table.note("the paper's ratios of RK4 to harmonic balance with 6, 8 and 10 harmonics:" +
              ratios);
-  for (EqualErrorRow row : rows) {
-    row.ratio = ratio_to_aft(row, rows);
+  for (const EqualErrorRow& row : rows)
     if (row.reached)
       table.row(equal_error_fields, row);
     else
       table.note(format("not reached: %s, %s Hz, target %g; ", row.method.c_str(),
                         row.range.c_str(), row.target) +
-                 (row.error.displacement < never
-                      ? format("best %.2g", row.error.displacement)
+                 (std::isfinite(row.best.error.displacement)
+                      ? format("best %.2g", row.best.error.displacement)
                       : "no setting solves every speed"));
-  }
   return table;
 }
 

@@ -36,38 +36,27 @@ EqualErrorScene read_equal_error(SceneFile& file);
 std::vector<References> periodic_ranges(const EqualErrorScene& scene,
                                         const References& references);
 
-/** A setting that was run once. */
-struct Trial {
-  Setting setting;
-  double cpu;  ///< [s]
-  MotionError error;
-};
-
-/** The settings of one method, group by group. */
-std::vector<Trial> try_settings(const EqualErrorScene& scene, const References& range,
-                                const Candidates& candidates);
+/** The settings of one method in one range, each run once, group by group. */
+std::vector<Measurement> try_settings(const EqualErrorScene& scene,
+                                      const References& range,
+                                      const Candidates& candidates);
 
 /** One method in one range at one target. */
 struct EqualErrorRow {
   std::string range, method;  ///< first and last speed [Hz]
-  std::size_t speeds;
+  std::size_t speeds, tried;  ///< settings tried
   double target;
-  bool reached;     ///< by one of the settings tried
-  Setting setting;  ///< the cheapest
-  CpuTime cpu;      ///< of the whole range [s]
-  int repetitions;
-  MotionError
-      error;  ///< not reached: the least of all settings; infinite if none solves all
-  long evaluations;   ///< of the bearing's force, one instant each
-  std::size_t tried;  ///< settings run
-  double ratio = 0;   ///< in the table
+  bool reached;  ///< by one of the settings
+  Measurement best =
+      {};  ///< the cheapest that reaches it, or the one with the least error
+  double ratio =
+      0;  ///< CPU over that of aft at the same range and target; 0: aft has none
 };
 
+/** Of the settings tried. `rows` has that of aft, if it is to be compared with. */
 EqualErrorRow cheapest(const EqualErrorScene& scene, const References& range,
-                       const std::vector<Trial>& trials, double target);
-
-/** CPU over that of aft at the same range and target; 0 where aft has none. */
-double ratio_to_aft(const EqualErrorRow& row, const std::vector<EqualErrorRow>& rows);
+                       const std::vector<Measurement>& tried, double target,
+                       const std::vector<EqualErrorRow>& rows);
 
 Table equal_error_table(const EqualErrorScene& scene, const References& references,
                         const std::vector<EqualErrorRow>& rows);

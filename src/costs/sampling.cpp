@@ -50,15 +50,7 @@ std::optional<SampledSolution> sampled(const SamplingCase& at, int m, int sample
   Eigen::VectorXd x = resize_harmonics(start.x, 2, m);
   if (!solve(balance, omega, x, {}).converged()) return {};
   return SampledSolution{
-      m, samples, x,
-      motion::motion_of(body_series(at.machine, balance, omega, x), points)};
-}
-
-SolutionError difference(const SamplingCase& at, const SampledSolution& solution,
-                         const SampledSolution& exact)
-{
-  return {motion::relative_difference(solution.motion, exact.motion),
-          motion::relative_force_difference(at.machine, solution.motion, exact.motion)};
+      m, x, motion::motion_of(body_series(at.machine, balance, omega, x), points)};
 }
 
 }  // namespace
@@ -69,7 +61,7 @@ SampledSolution reference_solution(const SamplingCase& at, int harmonics)
   const auto found =
       motion::find_periodic(at.machine, angular(at.frequency), harmonics, samples);
   if (!found.found()) fail(at, harmonics, samples);
-  return {harmonics, samples, found.x, motion::motion_of(found.bodies, points)};
+  return {harmonics, found.x, motion::motion_of(found.bodies, points)};
 }
 
 SampledSolution finely_sampled(const SamplingCase& at, int harmonics, int fine_over_m,
@@ -87,14 +79,11 @@ SamplingPoint sampling_errors(const SamplingCase& at, int samples_over_m,
 {
   const int m = fine.harmonics, samples = fast_transform_size(samples_over_m * m + 1);
   const auto coarse = sampled(at, m, samples, fine);
-  return {at.number,
-          at.frequency,
-          m,
-          samples_over_m,
-          samples,
-          coarse.has_value(),
-          coarse ? difference(at, *coarse, fine) : SolutionError{0, 0},
-          difference(at, fine, reference)};
+  SamplingPoint point{at.number, at.frequency,       m,  samples_over_m,
+                      samples,   coarse.has_value(), {}, {}};
+  if (coarse) point.sampling.add(at.machine, at.frequency, coarse->motion, fine.motion);
+  point.truncation.add(at.machine, at.frequency, fine.motion, reference.motion);
+  return point;
 }
 
 namespace

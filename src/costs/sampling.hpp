@@ -7,9 +7,9 @@ buy nothing. Both are measured on the bearing: the sampling error of a solution 
 very large N, and the truncation error of that one against many more harmonics. */
 #pragma once
 
+#include "costs/true_motion.hpp"
 #include "io/scene.hpp"
 #include "io/table.hpp"
-#include "motion/motion.hpp"
 
 namespace rotor_stator::costs
 {
@@ -31,9 +31,9 @@ struct SamplingScene {
 
 SamplingScene read_sampling(SceneFile& file);
 
-/** A solution with m harmonics and N samples. */
+/** A solution with m harmonics. */
 struct SampledSolution {
-  int harmonics, samples;
+  int harmonics;
   Eigen::VectorXd x;  ///< coefficients of u [m]
   motion::Motion motion;
 };
@@ -41,25 +41,18 @@ struct SampledSolution {
 /** With many harmonics and their default N. Throws NoSolution when not found. */
 SampledSolution reference_solution(const SamplingCase& at, int harmonics);
 
-/** With m harmonics and N above `fine_over_m` times m, from the reference. Throws NoSolution when not
-    found. */
+/** With N above `fine_over_m` times m, from the reference. Throws NoSolution when not found. */
 SampledSolution finely_sampled(const SamplingCase& at, int harmonics, int fine_over_m,
                                const SampledSolution& reference);
 
-/** Relative errors, largest over the period. */
-struct SolutionError {
-  double displacement, force;
-};
-
-/** A solution with m harmonics and N samples, the next fast size from `samples_over_m` times m, plus
-    one. */
+/** A solution with N the next fast size from `samples_over_m` times m, plus one. */
 struct SamplingPoint {
   std::size_t number;  ///< of the case
   double frequency;    ///< [Hz]
   int harmonics, samples_over_m, samples;
-  bool found;                ///< Newton converged from the finely sampled solution
-  SolutionError sampling;    ///< against the same m, finely sampled; 0 when not found
-  SolutionError truncation;  ///< of that m, finely sampled
+  bool found;              ///< Newton converged from the finely sampled solution
+  MotionError sampling;    ///< against the same m, finely sampled; 0 when not found
+  MotionError truncation;  ///< of that m, finely sampled
 };
 
 /** The errors of the finely sampled solution's m with fewer samples. */

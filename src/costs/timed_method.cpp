@@ -47,14 +47,6 @@ void TimedMethod::run(const std::function<bool(std::size_t speed)>& goes_on)
   }
 }
 
-motion::Motions TimedMethod::motions(int points) const
-{
-  motion::Motions motions;
-  for (std::size_t k = 0; k < task_.frequencies.size(); ++k)
-    motions.push_back(motion(k, points));
-  return motions;
-}
-
 namespace
 {
 
@@ -122,68 +114,10 @@ int look_ahead(const Parameters& parameters, double omega, int harmonics)
 
 /**
 ## Harmonic balance */
-class HarmonicBalance : public TimedMethod
+class BalanceSweep : public TimedMethod
 {
 public:
-  using TimedMethod::TimedMethod;
-
-  std::optional<motion::Motion> motion(std::size_t speed, int points) const override
-  {
-    const auto bodies = bodies_.find(angular(task_.frequencies[speed]));
-    if (bodies == bodies_.end()) return {};
-    return motion::motion_of(bodies->second, points);
-  }
-
-protected:
-  /** Adds the operations of a balance. */
-  static void add(Balance& balance, Counts& counts)
-  {
-    const long samples = balance.problem().samples;
-    const long transforms =
-        4 * (balance.evaluations() + balance.steps().factorisations() +
-             balance.steps().linear_iterations());
-    counts.force_instants += balance.evaluations() * samples;
-    counts.transforms += transforms;
-    counts.transformed += transforms * samples;
-  }
-
-  /** Series of both bodies by speed [rad/s], where a solution was found. */
-  std::map<double, Eigen::MatrixXd> bodies_;
-};
-
-/** The paper's sweep, which goes over all speeds at once. */
-class PaperSweep : public HarmonicBalance
-{
-  using HarmonicBalance::HarmonicBalance;
-
-  void begin() override
-  {
-    std::vector<double> omegas;
-    for (double frequency : task_.frequencies) omegas.push_back(angular(frequency));
-    const int m = setting_.harmonics;
-    Balance balance(bearing_problem(task_.parameters, samples_for(setting_, m)), m);
-    bodies_.clear();
-    SweepSettings settings = motion::sweep_settings(task_.parameters);
-    settings.newton.tolerance = setting_.tolerance;
-    sweep(
-        balance, omegas,
-        [&](double omega) { return quasi_static_start(task_.parameters, omega, m); },
-        settings,
-        [&](const SweepPoint& point) {
-          bodies_[point.omega] =
-              body_series(task_.parameters, balance, point.omega, point.x);
-        });
-    add(balance, counts_);
-  }
-
-  void solve(std::size_t) override {}
-};
-
-/** From speed to speed by the predictor, with new starts and as many harmonics as the setting asks for. */
-class BalanceSweep : public HarmonicBalance
-{
-public:
-  BalanceSweep(const Task& task, const Setting& setting) : HarmonicBalance(task, setting)
+  BalanceSweep(const Task& task, const Setting& setting) : TimedMethod(task, setting)
   {
     newton_.tolerance = setting.tolerance;
     newton_.most_iterations = 12;  // a new start is cheaper than a long iteration
@@ -196,6 +130,13 @@ public:
     Eigen::VectorXd x;
     if (converges_from(angular(frequency), harmonics_at(setting, frequency), x))
       before_ = x;
+  }
+
+  std::optional<motion::Motion> motion(std::size_t speed, int points) const override
+  {
+    const auto bodies = bodies_.find(angular(task_.frequencies[speed]));
+    if (bodies == bodies_.end()) return {};
+    return motion::motion_of(bodies->second, points);
   }
 
   /** Of all balances, those freed included. */
@@ -219,10 +160,26 @@ private:
     const SweepSettings scaling = motion::sweep_settings(task_.parameters);
     predictor_ = {scaling.arc_unknown_scale, scaling.speed_scale};
     if (before_.size() > 0) learn(angular(task_.before->frequency), before_);
+    if (setting_.paper_sweep) sweep_all();
+  }
+
+  /** The paper's sweep goes over all speeds at once. */
+  void sweep_all()
+  {
+    std::vector<double> omegas;
+    for (double frequency : task_.frequencies) omegas.push_back(angular(frequency));
+    SweepSettings settings = motion::sweep_settings(task_.parameters);
+    settings.newton.tolerance = setting_.tolerance;
+    const int m = setting_.harmonics;
+    sweep(
+        balance(m), omegas,
+        [&](double omega) { return quasi_static_start(task_.parameters, omega, m); },
+        settings, [&](const SweepPoint& point) { keep(point.omega, m, point.x); });
   }
 
   void solve(std::size_t speed) override
   {
+    if (setting_.paper_sweep) return;
     const double frequency = task_.frequencies[speed], omega = angular(frequency);
     const int m = setting_.estimate > 0 ? adapted_ : harmonics_at(setting_, frequency);
     keep_only(m);
@@ -278,8 +235,13 @@ private:
   {
     x = resize_harmonics(x, 2, m);
     if (!rotor_stator::solve(balance(m), omega, x, newton_).converged()) return false;
-    bodies_[omega] = body_series(task_.parameters, balance(m), omega, x);
+    keep(omega, m, x);
     return true;
+  }
+
+  void keep(double omega, int m, const Eigen::VectorXd& x)
+  {
+    bodies_[omega] = body_series(task_.parameters, balance(m), omega, x);
   }
 
   /** Coefficients of the relative motion over one period after half a second of RK4. */
@@ -323,6 +285,17 @@ private:
     });
   }
 
+  static void add(Balance& balance, Counts& counts)
+  {
+    const long samples = balance.problem().samples;
+    const long transforms =
+        4 * (balance.evaluations() + balance.steps().factorisations() +
+             balance.steps().linear_iterations());
+    counts.force_instants += balance.evaluations() * samples;
+    counts.transforms += transforms;
+    counts.transformed += transforms * samples;
+  }
+
   Problem problem(int m) const
   {
     Problem problem = bearing_problem(task_.parameters, samples_for(setting_, m));
@@ -341,7 +314,9 @@ private:
   int longest_;             ///< harmonics of the predictor's vectors
   int adapted_ = 0;         ///< harmonics that the estimate asked for last
   LagrangePredictor predictor_{1, 1};
-  std::map<int, std::unique_ptr<Balance>> balances_;
+  std::map<int, std::unique_ptr<Balance>> balances_;  ///< by m
+  std::map<double, Eigen::MatrixXd>
+      bodies_;  ///< series of both by speed [rad/s], if found
   std::shared_ptr<double> force_seconds_ = std::make_shared<double>(0);
 };
 
@@ -506,8 +481,43 @@ std::unique_ptr<TimedMethod> timed_method(const Task& task, const Setting& setti
 {
   if (setting.is_shooting()) return std::make_unique<ShootingSweep>(task, setting);
   if (setting.method != "aft") return std::make_unique<TransientSweep>(task, setting);
-  if (setting.paper_sweep) return std::make_unique<PaperSweep>(task, setting);
   return std::make_unique<BalanceSweep>(task, setting);
+}
+
+namespace
+{
+
+/** Adds the error at one speed, if there is a motion to compare with. */
+void add(MotionError& error, const TimedMethod& method, const References& sweep,
+         std::size_t speed)
+{
+  const auto& truth = sweep.motions[speed];
+  if (truth)
+    error.add(sweep.parameters, sweep.frequencies[speed],
+              method.motion(speed, truth->points_per_period), *truth);
+}
+
+}  // namespace
+
+Measurement measure(const References& sweep, const Setting& setting, int repetitions)
+{
+  const auto method = timed_method({sweep.parameters, sweep.frequencies}, setting);
+  const CpuTime cpu = time_of(repetitions, [&] { method->run(); });
+  Measurement result{setting, repetitions, cpu, {}, method->counts().force_instants};
+  for (std::size_t speed = 0; speed < sweep.frequencies.size(); ++speed)
+    add(result.error, *method, sweep, speed);
+  return result;
+}
+
+MotionError error_up_to(double bound, const References& sweep, const Setting& setting)
+{
+  const auto method = timed_method({sweep.parameters, sweep.frequencies}, setting);
+  MotionError error;
+  method->run([&](std::size_t speed) {
+    add(error, *method, sweep, speed);
+    return error.displacement <= bound;
+  });
+  return error;
 }
 
 }  // namespace rotor_stator::costs

@@ -19,7 +19,7 @@ belongs to the comparison and is timed for none.
 #include <memory>
 
 #include "costs/setting.hpp"
-#include "motion/motion.hpp"
+#include "costs/true_motion.hpp"
 
 namespace rotor_stator::costs
 {
@@ -71,7 +71,6 @@ public:
 
   /** The motion at a speed of the task; none where it was not found. */
   virtual std::optional<motion::Motion> motion(std::size_t speed, int points) const = 0;
-  motion::Motions motions(int points) const;
 
   virtual Counts counts() const { return counts_; }
 
@@ -86,6 +85,21 @@ private:
 };
 
 std::unique_ptr<TimedMethod> timed_method(const Task& task, const Setting& setting);
+
+/** One method at one setting over all speeds of a sweep: what it costs, and how far off it is. */
+struct Measurement {
+  Setting setting;
+  int repetitions;
+  CpuTime cpu;
+  MotionError error;
+  long evaluations;  ///< of the bearing's force, one instant each
+};
+
+Measurement measure(const References& sweep, const Setting& setting, int repetitions);
+
+/** The largest error over the speeds, as far as it is not above `bound`: the run ends at the first speed
+    that is. */
+MotionError error_up_to(double bound, const References& sweep, const Setting& setting);
 
 /** For headers of tables: what is timed. */
 inline constexpr const char* what_is_timed =

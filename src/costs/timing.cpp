@@ -65,58 +65,39 @@ TimingScene read_timing(SceneFile& file)
   return scene;
 }
 
-TimedSweep time_sweep(const TimingScene& scene, const References& references,
-                      const Setting& setting)
-{
-  const auto method = timed_method({scene.parameters, scene.frequencies}, setting);
-  TimedSweep sweep{.setting = setting,
-                   .cpu = time_of(scene.repetitions, [&] { method->run(); }),
-                   .error = {},
-                   .evaluations = method->counts().force_instants};
-  sweep.error =
-      error_of(scene.parameters, references,
-               method->motions(scene.truth.settling.stepper.intervals_per_period));
-  if (!sweep.error.missing.empty())
-    throw NoSolution(format("no solution by %s at %g Hz", setting.method.c_str(),
-                            sweep.error.missing.front()));
-  return sweep;
-}
-
 std::vector<Setting> cheapest_rk4(const TimingScene& scene, const References& references,
-                                  const std::vector<TimedSweep>& balances)
+                                  const std::vector<Measurement>& balances)
 {
-  std::vector<std::optional<Setting>> chosen(balances.size());
+  std::vector<Setting> chosen(balances.size());
   for (const Setting& setting : Watched("RK4 settings", scene.rk4)) {
     double loosest = 0;
     for (std::size_t k = 0; k < balances.size(); ++k)
-      if (!chosen[k]) loosest = std::max(loosest, balances[k].error.displacement);
+      if (chosen[k].method.empty())
+        loosest = std::max(loosest, balances[k].error.displacement);
     if (loosest == 0) break;
-    const auto method = timed_method({scene.parameters, scene.frequencies}, setting);
-    MotionError error;
-    method->run([&](std::size_t speed) {
-      error.add(scene.parameters, scene.frequencies[speed],
-                method->motion(speed, setting.recorded), references.motions[speed]);
-      return error.reaches(loosest);
-    });
+    const MotionError error = error_up_to(loosest, references, setting);
     for (std::size_t k = 0; k < balances.size(); ++k)
-      if (!chosen[k] && error.reaches(balances[k].error.displacement))
+      if (chosen[k].method.empty() &&
+          error.displacement <= balances[k].error.displacement)
         chosen[k] = setting;
   }
-  std::vector<Setting> settings;
   for (std::size_t k = 0; k < balances.size(); ++k) {
-    if (!chosen[k])
-      throw NoSolution(format("no tried RK4 setting reaches the error %.2g",
-                              balances[k].error.displacement));
-    settings.push_back(*chosen[k]);
+    const MotionError& target = balances[k].error;
+    if (!std::isfinite(target.displacement))
+      throw NoSolution(
+          format("no harmonic-balance solution at %g Hz", target.worst_frequency));
+    if (chosen[k].method.empty())
+      throw NoSolution(
+          format("no tried RK4 setting reaches the error %.2g", target.displacement));
   }
-  return settings;
+  return chosen;
 }
 
 namespace
 {
 
 struct TimingRow {
-  TimedSweep sweep;
+  Measurement sweep;
   int harmonics;
   double ratio, paper_cpu;
 };
@@ -153,8 +134,8 @@ const std::vector<Field<TimingRow>> timing_fields{
 }  // namespace
 
 Table timing_table(const TimingScene& scene, const References& references,
-                   const std::vector<TimedSweep>& balances,
-                   const std::vector<TimedSweep>& rk4)
+                   const std::vector<Measurement>& balances,
+                   const std::vector<Measurement>& rk4)
 {
   Table table("CPU time of the same sweep at equal error (paper: section 3.3)",
               timing_fields);

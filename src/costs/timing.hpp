@@ -31,26 +31,14 @@ struct TimingScene {
 
 TimingScene read_timing(SceneFile& file);
 
-/** One method on the whole sweep. */
-struct TimedSweep {
-  Setting setting;
-  CpuTime cpu;
-  MotionError error;
-  long evaluations;  ///< of the bearing's force (aft: instants of all iterations)
-};
-
-/** Throws NoSolution when the method fails at a periodic speed. */
-TimedSweep time_sweep(const TimingScene& scene, const References& references,
-                      const Setting& setting);
-
-/** For each of `balances` the first RK4 setting of the scene that reaches its error. Nothing is timed: a
-    setting is left at the first speed with a larger error. Throws NoSolution when none reaches one. */
+/** For each of `balances` the first RK4 setting of the scene that reaches its error. Nothing is timed.
+    Throws NoSolution when harmonic balance fails at a periodic speed, or when none reaches its error. */
 std::vector<Setting> cheapest_rk4(const TimingScene& scene, const References& references,
-                                  const std::vector<TimedSweep>& balances);
+                                  const std::vector<Measurement>& balances);
 
 /** `rk4` at the errors of `balances`. */
 Table timing_table(const TimingScene& scene, const References& references,
-                   const std::vector<TimedSweep>& balances,
-                   const std::vector<TimedSweep>& rk4);
+                   const std::vector<Measurement>& balances,
+                   const std::vector<Measurement>& rk4);
 
 }  // namespace rotor_stator::costs

@@ -1,6 +1,7 @@
 #include "costs/true_motion.hpp"
 
 #include <algorithm>
+#include <limits>
 
 #include "balance/bearing_problem.hpp"
 #include "io/errors.hpp"
@@ -76,7 +77,7 @@ References true_motions(const Parameters& parameters,
   const auto truths = computed_in_parallel(
       "references", frequencies.size(),
       [&](std::size_t k) { return true_motion(parameters, frequencies[k], settings); });
-  References references{frequencies, {}, 0, 0};
+  References references{parameters, frequencies, {}};
   for (const TrueMotion& truth : truths) {
     references.motions.emplace_back();
     if (!truth.periodic) continue;
@@ -92,8 +93,9 @@ std::string References::text(const TruthSettings& settings) const
 {
   return format(
       "reference: shooting by rk8pd, tolerance %g, closure below %.2g, "
-      "from time integration with Poincare spread below %.2g",
-      settings.tolerance, periodicity_residual, spread);
+      "from time integration by %s with Poincare spread below %.2g",
+      settings.tolerance, periodicity_residual, settings.settling.stepper.method.c_str(),
+      spread);
 }
 
 std::string References::aperiodic() const
@@ -106,29 +108,18 @@ std::string References::aperiodic() const
 
 void MotionError::add(const Parameters& parameters, double frequency,
                       const std::optional<motion::Motion>& motion,
-                      const std::optional<motion::Motion>& reference)
+                      const motion::Motion& truth)
 {
-  if (!reference) return;
-  if (!motion) {
-    missing.push_back(frequency);
-    return;
-  }
-  const double difference = motion::relative_difference(*motion, *reference);
+  constexpr double infinity = std::numeric_limits<double>::infinity();
+  const double difference =
+      motion ? motion::relative_difference(*motion, truth) : infinity;
   if (difference > displacement) {
     displacement = difference;
     worst_frequency = frequency;
   }
-  force =
-      std::max(force, motion::relative_force_difference(parameters, *motion, *reference));
-}
-
-MotionError error_of(const Parameters& parameters, const References& references,
-                     const motion::Motions& motions)
-{
-  MotionError error;
-  for (std::size_t k = 0; k < motions.size(); ++k)
-    error.add(parameters, references.frequencies[k], motions[k], references.motions[k]);
-  return error;
+  force = std::max(
+      force,
+      motion ? motion::relative_force_difference(parameters, *motion, truth) : infinity);
 }
 
 }  // namespace rotor_stator::costs

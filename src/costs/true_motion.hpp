@@ -35,11 +35,12 @@ TrueMotion true_motion(const Parameters& parameters, double frequency,
     motion [-]. Throws NoSolution when that has no solution. */
 double agreement(const Parameters& parameters, const TrueMotion& truth, int harmonics);
 
-/** The true motions at the speeds of a sweep. */
+/** The speeds of a sweep with their true motions. */
 struct References {
-  std::vector<double> frequencies;      ///< [Hz]
-  motion::Motions motions;              ///< none where the motion has not the period T
-  double spread, periodicity_residual;  ///< largest of the others [-]
+  Parameters parameters;
+  std::vector<double> frequencies;  ///< [Hz]
+  motion::Motions motions;          ///< none where the motion has not the period T
+  double spread = 0, periodicity_residual = 0;  ///< largest of the others [-]
 
   /** For headers: how the motions were found, and where there is none. */
   std::string text(const TruthSettings& settings) const;
@@ -51,22 +52,13 @@ References true_motions(const Parameters& parameters,
                         const std::vector<double>& frequencies,
                         const TruthSettings& settings);
 
-/** The largest errors over some speeds [-]. */
+/** The largest errors over some speeds [-]; infinite where one has no solution. */
 struct MotionError {
   double displacement = 0, force = 0;
-  double worst_frequency = 0;   ///< where the displacement is worst [Hz]
-  std::vector<double> missing;  ///< speeds with a reference but without a solution [Hz]
+  double worst_frequency = 0;  ///< where the displacement is worst [Hz]
 
-  /** One more speed; nothing where there is no reference. */
   void add(const Parameters& parameters, double frequency,
-           const std::optional<motion::Motion>& motion,
-           const std::optional<motion::Motion>& reference);
-
-  bool reaches(double target) const { return missing.empty() && displacement <= target; }
+           const std::optional<motion::Motion>& motion, const motion::Motion& truth);
 };
-
-/** Over the speeds where `references` has a motion. */
-MotionError error_of(const Parameters& parameters, const References& references,
-                     const motion::Motions& motions);
 
 }  // namespace rotor_stator::costs

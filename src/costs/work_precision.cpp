@@ -131,19 +131,13 @@ WorkPoint work_point(const WorkPrecisionScene& scene, const WorkCase& reference,
                   .frequency = truth.frequency,
                   .continued = continued,
                   .setting = setting,
-                  .cpu = {},
                   .repetitions = is_long ? 2 : scene.repetitions,
-                  .found = false,
-                  .error = -1,
-                  .error_force = -1,
-                  .force_share = 0,
-                  .transform_share = 0,
                   .counts = method->counts()};
   MotionError error;
   error.add(reference.parameters, truth.frequency,
             method->motion(0, truth.motion.points_per_period), truth.motion);
   point.cpu = time_of(point.repetitions, [&] { method->run(); });
-  if (!error.missing.empty() || !std::isfinite(error.displacement)) return point;
+  if (!std::isfinite(error.displacement)) return point;
   point.found = true;
   point.error = error.displacement;
   point.error_force = error.force;

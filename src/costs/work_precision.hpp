@@ -47,12 +47,12 @@ struct WorkPoint {
   double frequency;    ///< [Hz]
   bool continued;      ///< from the motion below, else from nothing
   Setting setting;
-  CpuTime cpu;
   int repetitions;
-  bool found;
-  double error, error_force;            ///< [-]; -1 when not found
-  double force_share, transform_share;  ///< of the CPU time [-]
   Counts counts;
+  CpuTime cpu = {};
+  bool found = false;
+  double error = -1, error_force = -1;          ///< [-]; -1 when not found
+  double force_share = 0, transform_share = 0;  ///< of the CPU time [-]
 };
 
 /** One setting, measured. */

@@ -6,6 +6,7 @@
 
 #include "costs/cost_growth.hpp"
 #include "costs/equal_error.hpp"
+#include "costs/timing.hpp"
 #include "costs/work_precision.hpp"
 #include "integration/rk4.hpp"
 #include "io/errors.hpp"
@@ -107,13 +108,14 @@ TEST_CASE("Shooting with RK4 converges to the motion with the fourth power of th
   const Task task{.parameters = parameters, .frequencies = {45}};
   double coarse = 0;
   for (double step : {4e-5, 2e-5}) {
-    const auto shooting = timed_method(
-        task,
-        {.method = "shooting-rk4", .step = step, .transient = 0.3, .periodicity_residual = 1e-9});
+    const auto shooting = timed_method(task, {.method = "shooting-rk4",
+                                              .step = step,
+                                              .transient = 0.3,
+                                              .periodicity_residual = 1e-9});
     shooting->run();
-    const auto motion = shooting->motions(90).front();
-    REQUIRE(motion);
-    const double error = relative_difference(*motion, truth.motion);
+    const auto found = shooting->motion(0, 90);
+    REQUIRE(found);
+    const double error = relative_difference(*found, truth.motion);
     if (coarse > 0) CHECK(error < coarse / 6);
     coarse = error;
   }
@@ -132,8 +134,7 @@ TEST_CASE("Shooting and harmonic balance, which share nothing, agree on the refe
 TEST_CASE("A time method's count is that of its setting")
 {
   const Task task{.parameters = set_1(), .frequencies = {30, 31}};
-  const auto rk4 =
-      timed_method(task, {.method = "rk4", .step = 1e-4, .transient = 0.25});
+  const auto rk4 = timed_method(task, {.method = "rk4", .step = 1e-4, .transient = 0.25});
   rk4->run();
   const long steps =
       std::lround(8 * std::ceil(1 / (30 * 1e-4)) + 8 * std::ceil(1 / (31 * 1e-4)));
@@ -150,7 +151,7 @@ TEST_CASE("Harmonic balance: N of the setting, three transforms or more per eval
   const Task task{.parameters = set_1(), .frequencies = {45}};
   const auto aft = timed_method(task, setting);
   aft->run();
-  REQUIRE(aft->motions(8).front());
+  REQUIRE(aft->motion(0, 8));
   const Counts counts = aft->counts();
   CHECK(counts.force_instants % samples_for(setting, 6) == 0);
   const long evaluations = counts.force_instants / samples_for(setting, 6);
@@ -171,14 +172,14 @@ TEST_CASE("The estimate of what is left out raises the harmonics until the error
   double before = 1;
   for (double estimate : {1e-2, 1e-5, 1e-7}) {
     const auto aft = timed_method(task, {.method = "aft",
-                                                .harmonics = 2,
-                                                .estimate = estimate,
-                                                .samples_per_harmonic = 8,
-                                                .tolerance = 1e-9});
+                                         .harmonics = 2,
+                                         .estimate = estimate,
+                                         .samples_per_harmonic = 8,
+                                         .tolerance = 1e-9});
     aft->run();
-    const auto motion = aft->motions(90).front();
-    REQUIRE(motion);
-    const double error = relative_difference(*motion, truth.motion);
+    const auto found = aft->motion(0, 90);
+    REQUIRE(found);
+    const double error = relative_difference(*found, truth.motion);
     CHECK(error < before);
     before = error;
   }
@@ -206,19 +207,51 @@ TEST_CASE("Equal error: what the table calls reached is reached, and aft is its 
   REQUIRE(ranges.size() == 1);
   std::vector<EqualErrorRow> rows;
   for (const Candidates& method : scene.candidates) {
-    const auto trials = try_settings(scene, ranges.front(), method);
+    const auto tried = try_settings(scene, ranges.front(), method);
     for (double target : scene.targets)
-      rows.push_back(cheapest(scene, ranges.front(), trials, target));
+      rows.push_back(cheapest(scene, ranges.front(), tried, target, rows));
   }
   REQUIRE(rows.size() == 4);
-  CHECK(ratio_to_aft(rows[0], rows) == 1);
-  CHECK(rows[0].setting.text() == "m=8 N>4m tol=1e-06");
+  CHECK(rows[0].ratio == 1);
+  CHECK(rows[2].ratio == rows[2].best.cpu.median / rows[0].best.cpu.median);
+  CHECK(rows[0].best.setting.text() == "m=8 N>4m tol=1e-06");
   for (const EqualErrorRow& row : rows) {
+    const double error = row.best.error.displacement;
     CHECK(row.reached == (row.target == 1e-3));
     CHECK(row.speeds == 2);
-    CHECK((row.error.displacement <= row.target) == row.reached);
-    CHECK(row.error.displacement > 0);
+    CHECK((error <= row.target) == row.reached);
+    CHECK(error > 0);
   }
+}
+
+TEST_CASE("Table 2: the RK4 setting reaches the error, and no cheaper one does")
+{
+  TimingScene scene{.parameters = set_1(),
+                    .frequencies = {40, 41},
+                    .balances = {},
+                    .paper_cpu = {1, 1},
+                    .rk4 = {},
+                    .repetitions = 1,
+                    .truth = truth_settings()};
+  for (double step : {1e-3, 4e-4, 2e-4, 1e-4, 5e-5})
+    scene.rk4.push_back({.method = "rk4", .step = step, .transient = 2, .recorded = 90});
+  const References references =
+      true_motions(scene.parameters, scene.frequencies, scene.truth);
+  const Setting six{.method = "aft",
+                    .harmonics = 6,
+                    .samples = 32,
+                    .paper_sweep = true,
+                    .tolerance = 1e-10};
+  const Measurement balance = measure(references, six, 1);
+  CHECK(balance.error.displacement > 1e-6);
+  CHECK(balance.evaluations % 32 == 0);
+  const Setting chosen = cheapest_rk4(scene, references, {balance}).front();
+  for (const Setting& setting : scene.rk4) {
+    const double error = measure(references, setting, 1).error.displacement;
+    CHECK((error <= balance.error.displacement) == (setting.step <= chosen.step));
+  }
+  scene.rk4.resize(1);
+  CHECK_THROWS_AS(cheapest_rk4(scene, references, {balance}), NoSolution);
 }
 
 TEST_CASE("The exponent of a power law is found, through scatter too")

@@ -130,11 +130,13 @@ TEST_CASE("Up to 64 harmonics the default N samples finer than the series is tru
 {
   const Parameters set_2 = read_parameters(SOURCE_DIR "/data/set2.toml");
   std::vector<SamplingPoint> points;
-  for (const SamplingCase& at : {SamplingCase{1, set_1(), 6}, SamplingCase{2, set_2, 45}}) {
+  for (const SamplingCase& at :
+       {SamplingCase{1, set_1(), 6}, SamplingCase{2, set_2, 45}}) {
     const SampledSolution reference = reference_solution(at, 256);
     for (int m : {6, 64}) {
       const SampledSolution fine = finely_sampled(at, m, 128, reference);
-      for (int over : {3, 8}) points.push_back(sampling_errors(at, over, fine, reference));
+      for (int over : {3, 8})
+        points.push_back(sampling_errors(at, over, fine, reference));
     }
   }
   REQUIRE(points.size() == 8);
