@@ -9,7 +9,6 @@ Run: build/explore orbit data/set1.toml --frequency 45 > orbit.tsv
 The general program for follow-up studies: any parameter file, any speed, harmonic balance
 or one of the time integrators. A table on stdout, errors on stderr. */
 #include <CLI/CLI.hpp>
-#include <cstdio>
 
 #include "explore/orbit.hpp"
 #include "explore/response.hpp"
@@ -152,8 +151,6 @@ void add_response_options(CLI::App& command, ResponseRequest& request)
 int finish(const Exploration& exploration)
 {
   write(exploration.table.text());
-  if (!exploration.warning.empty())
-    std::fprintf(stderr, "%s\n", exploration.warning.c_str());
   if (!exploration.unfinished.empty()) throw NoSolution(exploration.unfinished);
   return 0;
 }

@@ -48,17 +48,14 @@ Floquet paid_floquet(const OperationBudget& budget, const Parameters& parameters
   return floquet(vibration_of(parameters), stiffness, 2 * std::numbers::pi / omega);
 }
 
-Exploration finished(Table table, const Parameters& parameters, bool touches,
-                     const OperationBudget& budget)
+void conclude(Table& table, const Parameters& parameters, bool touches,
+              const OperationBudget& budget)
 {
-  Exploration exploration{std::move(table)};
   if (!touches)
-    exploration.warning =
+    table.note(
         format("warning: no ball touches its race: the clearance of %g m is never closed",
-               parameters.bearing.clearance);
-  if (!touches) exploration.table.note(exploration.warning);
-  exploration.table.note("budget: " + budget.spent());
-  return exploration;
+               parameters.bearing.clearance));
+  table.note("budget: " + budget.spent());
 }
 
 namespace
@@ -246,7 +243,8 @@ Exploration explore_orbit(const MotionRequest& request)
   for (std::size_t k = 0; k < at.motion.size(); ++k)
     table.row(orbit_fields, {2 * std::numbers::pi * at.motion.t_over_period(k),
                              at.motion.positions[k], at.forces[k]});
-  return finished(std::move(table), parameters, at.touches(), at.budget);
+  conclude(table, parameters, at.touches(), at.budget);
+  return {std::move(table)};
 }
 
 Exploration explore_contact(const MotionRequest& request)
@@ -264,7 +262,8 @@ Exploration explore_contact(const MotionRequest& request)
     for (std::size_t j = 0; j < evolution.ball_force[k].size(); ++j)
       table.row(contact_fields,
                 {evolution.t_over_period[k], j + 1, evolution.ball_force[k][j]});
-  return finished(std::move(table), parameters, at.touches(), at.budget);
+  conclude(table, parameters, at.touches(), at.budget);
+  return {std::move(table)};
 }
 
 }  // namespace rotor_stator::explore

@@ -32,7 +32,6 @@ struct MotionRequest {
   std::optional<double> budget;     ///< evaluations of the force
 };
 
-/** A table with what has to be said about it. */
 struct Exploration {
   Table table;
   std::string unfinished = {};  ///< why a branch stopped early; empty when it did not
@@ -59,8 +58,8 @@ OperationBudget budget_of(const std::optional<double>& evaluations, double secon
 Floquet paid_floquet(const OperationBudget& budget, const Parameters& parameters,
                      double omega, const Eigen::VectorXd& x);
 
-/** Says in the table that no ball touches, and what was spent. */
-Exploration finished(Table table, const Parameters& parameters, bool touches,
-                     const OperationBudget& budget);
+/** Says in the table's header whether any ball touched, and what was spent. */
+void conclude(Table& table, const Parameters& parameters, bool touches,
+              const OperationBudget& budget);
 
 }  // namespace rotor_stator::explore

@@ -391,10 +391,8 @@ Exploration explore_response(const ResponseRequest& request)
   if (request.save)
     write_file(*request.save, branch_text(task.parameters, task.harmonics, task.samples,
                                           task.upwards, all));
-  Exploration exploration =
-      finished(std::move(table), task.parameters, rows.touches(), task.budget);
-  exploration.unfinished = unfinished(task, main, beside.missing, without_multipliers);
-  return exploration;
+  conclude(table, task.parameters, rows.touches(), task.budget);
+  return {std::move(table), unfinished(task, main, beside.missing, without_multipliers)};
 }
 
 }  // namespace rotor_stator::explore
