@@ -4,473 +4,276 @@
 #   make deps test    the same, then the tests
 #   make list         every target with one line
 #
-# Data flow, one way: parameters and scenes (data/) -> programs (build/) -> tables (data/generated/)
-# -> figures (figures/generated/). A target is written under another name and moved into place when
-# it is complete, so a killed make leaves nothing half done behind a final name.
+# One name from scene to figure: data/scenes/NAME.toml -> src/NAME.cpp -> data/generated/NAME.tsv ->
+# figures/NAME.gp or .py -> figures/generated/NAME.svg. `all` computes every scene that has a program, unless
+# its table is kept in data/reference: then it is a long study, and is drawn from the kept table. The printed
+# reading of Table 1 (D-09) stands in as-printed/ below data/generated, data/reference and figures/generated.
 
 SHELL := /bin/bash
 .SHELLFLAGS := -eu -o pipefail -c
 .DELETE_ON_ERROR:
-.SUFFIXES:
-MAKEFLAGS += --no-builtin-rules
+.SECONDEXPANSION:
 export LC_ALL := C
 export TZ := UTC
 export PYTHONDONTWRITEBYTECODE := 1
 
 PYTHON ?= /usr/bin/python3
-
-# `figures` draws one reading of Table 1's frequencies (deviation D-09), `all` both.
 READING ?= exchanged
 ifeq ($(filter $(READING),exchanged as-printed),)
 $(error READING=$(READING): must be exchanged or as-printed)
 endif
 
-comma := ,
+# Before anything else: the packages of the goals, and one make at a time in this folder. All that a make
+# starts inherits the open lock, so that the next make also waits for what outlives a killed one.
 
-# Where the tables and figures of a reading go, and which parameter files it takes.
-folder_exchanged :=
-folder_as-printed := /as-printed
-suffix_exchanged :=
-suffix_as-printed := -as-printed
+goals := $(or $(filter-out deps,$(MAKECMDGOALS)),all)
+with_pages := $(filter all book article pdf test sanitize readme dist,$(goals))
+packages := $(sort $(if $(filter-out list clean adopt format,$(goals)),cmake g++ git libcli11-dev libeigen3-dev \
+    libfftw3-dev libgsl-dev libtomlplusplus-dev ninja-build pkg-config) \
+  $(if $(filter-out list clean adopt format bench build/%,$(goals)),gnuplot-nox python3-matplotlib) \
+  $(if $(with_pages),pandoc) \
+  $(if $(filter test sanitize,$(goals)),catch2 chromium chromium-driver python3-hypothesis python3-selenium tidy) \
+  $(if $(filter pdf,$(goals)),librsvg2-bin lmodern texlive-fonts-recommended texlive-latex-recommended texlive-luatex) \
+  $(if $(filter peers,$(goals)),auto-07p gfortran libsundials-dev python3-scipy) \
+  $(if $(filter png,$(goals)),librsvg2-bin) $(if $(filter bench,$(goals)),libbenchmark-dev) \
+  $(if $(filter format,$(goals)),clang-format-14))
 
-figure_names := fig01_bearing fig02_ball_position fig03_response fig04_displacements fig05_displacements fig06_orbits fig07_contact fig08_orbits fig09_contact
-table_names := $(figure_names) tab01_parameters regimes sections truth_intervals multipliers
-drawn_names := $(figure_names) truncation sections validity
+# The packages that dpkg does not have; nothing on systems without dpkg.
+missing = command -v dpkg-query > /dev/null || exit 0; comm -13 \
+  <(dpkg-query -W -f '$${db:Status-Status} $${Package}\n' $(packages) 2> /dev/null | sed -n 's/^installed //p' | sort) \
+  <(printf '%s\n' $(packages)) | tr '\n' ' '
 
-tables_of = $(table_names:%=data/generated$(folder_$(1))/%.tsv)
-timing_of = data/generated$(folder_$(1))/tab02_timing.tsv
-claims_of = data/generated$(folder_$(1))/claims.tsv
-figures_of = $(drawn_names:%=figures/generated$(folder_$(1))/%.svg)
-results_of = $(tables_of) $(timing_of) $(figures_of)
+# make -n and make -q change nothing and need no lock.
+ifeq ($(findstring n,$(firstword -$(MAKEFLAGS)))$(findstring q,$(firstword -$(MAKEFLAGS))),)
+ifneq ($(ROTOR_STATOR_LOCKED),$(CURDIR))
+.PHONY: locked $(or $(MAKECMDGOALS),all)
+$(or $(MAKECMDGOALS),all): locked ; @:
 
-# What does not depend on the reading.
-studied := $(addprefix data/generated/,sensitivity.tsv sensitivity_derivatives.tsv sampling.tsv) \
-  $(addprefix figures/generated/,sensitivity.svg sampling.svg identification.svg clearance_stiffness.svg peers.svg adaptive.svg) \
-  $(addprefix figures/generated/,work_precision.svg cost_growth.svg hard_cases.svg)
+locked:
+	+@exec 99> .lock; flock -n 99 || { echo "another make works in this folder: waiting for its end" >&2; flock 99; }; \
+	missing="$(if $(packages),$$($(missing)))"; $(if $(filter deps,$(MAKECMDGOALS)), \
+	  if ! command -v apt-get > /dev/null; then \
+	    echo "no apt-get here: use the Containerfile or install what these Debian packages hold: $(packages)"; \
+	  elif [ -n "$$missing" ]; then \
+	    sudo=; if [ "$$(id -u)" != 0 ] && command -v sudo > /dev/null; then sudo=sudo; fi; \
+	    $$sudo apt-get update 99>&-; \
+	    $$sudo env DEBIAN_FRONTEND=noninteractive apt-get install -y --no-install-recommends $$missing 99>&-; fi, \
+	  if [ -n "$$missing" ]; then echo "missing: $$missing(make deps $(goals) installs them)" >&2; exit 1; fi); \
+	ROTOR_STATOR_LOCKED="$(CURDIR)" exec $(MAKE) --no-print-directory $(or $(MAKECMDGOALS),all)
 
-# The text whose numbers come from tables; the default reading's, since it compares both.
-pages := data/generated/deviations.md
+here := locked
+endif
+endif
+ifndef here
 
-readings := exchanged as-printed
-# Drawn for the readings whose table is kept.
-studied += $(foreach reading,$(readings),$(if \
-  $(wildcard data/reference$(folder_$(reading))/stability.tsv),figures/generated$(folder_$(reading))/stability.svg))
-timings := $(foreach reading,$(readings),$(call timing_of,$(reading)))
-claims := $(foreach reading,$(readings),$(call claims_of,$(reading)))
-untimed := $(foreach reading,$(readings),$(call tables_of,$(reading)) $(call figures_of,$(reading))) \
-  $(studied) $(pages)
-programs := $(patsubst src/%.cpp,build/%,$(wildcard src/*.cpp))
+# What there is
+MAKEFLAGS += --no-builtin-rules
+programs := $(basename $(notdir $(wildcard src/*.cpp)))
+scenes := $(basename $(notdir $(wildcard data/scenes/*.toml)))
+scripts := $(basename $(notdir $(wildcard figures/*.gp figures/*.py)))
+kept := $(filter-out claims,$(basename $(notdir $(wildcard data/reference/*.tsv))))
+kept_printed := $(filter-out claims,$(basename $(notdir $(wildcard data/reference/as-printed/*.tsv))))
+computed := $(filter-out $(kept),$(filter $(programs),$(scenes)))
 
-book := build/book/index.html
-article := build/paper/article.html
+# The paper's figures and tables, and what its claims are judged by: in the printed reading too, if all data
+# sets of the scene have one (data/NAME-as-printed.toml beside data/NAME.toml).
+paper := $(filter fig0% tab0% regimes sections multipliers,$(computed))
+sets := $(basename $(notdir $(wildcard data/*.toml)))
+unpaired := $(filter-out %-as-printed $(patsubst %-as-printed,%,$(filter %-as-printed,$(sets))),$(sets))
+paired := $(filter-out $(basename $(notdir $(shell grep -l $(unpaired:%=-e '"%"') data/scenes/*.toml))),$(paper))
 
-.PHONY: all figures timing claims book article pdf deps-pdf dist test sanitize deps list png readme golden format clean \
-  studies identification clearance_stiffness hard truth attractors validity stability adaptive adopt peers deps-peers bench
+tables := $(patsubst %,data/generated/%.tsv,$(computed) truth_intervals)
+tables_printed := $(patsubst %,data/generated/as-printed/%.tsv,$(paired) truth_intervals)
+figures := $(patsubst %,figures/generated/%.svg,$(filter $(computed) $(kept),$(scripts)) truncation)
+figures_printed := $(patsubst %,figures/generated/as-printed/%.svg,$(filter $(paired) $(kept_printed),$(scripts)) truncation)
+claims := data/generated/claims.tsv data/generated/as-printed/claims.tsv
+timings := $(filter %/tab02_timing.tsv,$(tables) $(tables_printed))
+untimed := $(filter-out $(timings),$(tables) $(tables_printed)) $(figures) $(figures_printed) data/generated/deviations.md
+studies := $(filter $(programs),$(kept))
+costs := $(filter tab02% work_precision cost_growth,$(studies))
+sources := $(shell find src -type f) CMakeLists.txt CMakePresets.json
 
-all: $(untimed) $(timings) $(claims) $(book) $(article)  ## figures, tables and claims of both readings, pages and article (the default)
+shown := $(tables_printed) $(figures_printed)
+ifeq ($(READING),exchanged)
+shown := $(patsubst %,data/generated/%.tsv,$(paper) truth_intervals) data/generated/deviations.md \
+  $(patsubst %,figures/generated/%.svg,$(filter $(paper) $(kept_printed),$(scripts)) truncation)
+endif
 
-figures: $(call results_of,$(READING)) $(if $(filter exchanged,$(READING)),$(pages))  ## the paper's figures and tables, of one READING
+.PHONY: deps all figures timing claims studies truth $(studies) adopt peers book article pdf png readme golden \
+  test sanitize bench format dist list clean
 
-# The programs of cost; their tables are kept, since their numbers are those of one machine.
-costs := work_precision tab02_equal_error cost_growth
+all: $(untimed) $(timings) $(claims) build/book/index.html build/paper/article.html  ## everything: figures, tables and claims of both readings, pages, article
 
-timing: $(call timing_of,$(READING)) $(costs:%=build/%)  ## all tables of cost, alone on the machine (under 10 minutes)
-	@mkdir -p data/generated
-	for name in $(costs); do new=data/generated/$$name.tsv; build/$$name > $$new.tmp; mv $$new.tmp $$new; \
-	  $(PYTHON) tests/compare_costs.py data/reference/$$name.tsv $$new; done
+deps:  ## install the Debian packages that the goals beside it need (goals=NAME: of a goal that is not made now)
+	@:
+
+figures: $(shown)  ## the paper's figures and tables, of one READING (exchanged or as-printed)
 
 claims: $(claims)  ## the verdict on each claim, for both readings
 	$(PYTHON) figures/claims.py --print $(claims)
 
-# ---------------------------------------------------------------------------------------------
-# Packages
-
-packages := cmake ninja-build g++ pkg-config libeigen3-dev libfftw3-dev libgsl-dev \
-  libtomlplusplus-dev libcli11-dev catch2 gnuplot-nox python3-matplotlib librsvg2-bin git \
-  libbenchmark-dev pandoc chromium chromium-driver python3-selenium python3-hypothesis tidy
-
-# The packages of the list that dpkg does not have; nothing on systems without dpkg.
-missing_packages = command -v dpkg-query > /dev/null || exit 0; \
-  for package in $(packages); do \
-    [ "$$(dpkg-query -W -f='$${db:Status-Status}' $$package 2> /dev/null)" = installed ] || \
-      printf '%s ' $$package; \
-  done
-
-define require_packages
-@missing="$$($(missing_packages))"; if [ -n "$$missing" ]; then \
-  echo "missing: $$missing(make deps installs them)" >&2; exit 1; fi
-endef
-
-deps:  ## install the Debian packages; elsewhere, list what to install
-	@if ! command -v apt-get > /dev/null; then \
-	  echo "no apt-get here; install what these Debian packages hold: $(packages)"; exit 0; fi; \
-	missing="$$($(missing_packages))"; \
-	if [ -z "$$missing" ]; then exit 0; fi; \
-	sudo=; if [ "$$(id -u)" != 0 ] && command -v sudo > /dev/null; then sudo=sudo; fi; \
-	$$sudo apt-get update && \
-	$$sudo env DEBIAN_FRONTEND=noninteractive apt-get install -y --no-install-recommends $$missing
-
-# What only `pdf` needs.
-packages_pdf := texlive-luatex texlive-latex-recommended texlive-fonts-recommended lmodern
-
-deps-pdf:  ## install the LaTeX packages of the PDF
-	$(MAKE) deps packages="$(packages_pdf)"
-
-# What only `peers` needs.
-packages_peers := libsundials-dev python3-scipy auto-07p gfortran
-
-deps-peers:
-	$(MAKE) deps packages="$(packages_peers)"
-
-# When deps is asked for, everything else waits for it, with -j too.
-build/.built $(untimed): | $(filter deps,$(MAKECMDGOALS))
-
-# ---------------------------------------------------------------------------------------------
-# Programs. CMake knows what each one needs: build/.built only says that it had nothing left to do,
-# and a program that it did not touch keeps its date. The lock waits for a build that outlived a
-# killed make.
-
-sources := $(shell find src tests -type f -not -name '*.tsv') CMakeLists.txt CMakePresets.json
-
+# Programs. CMake knows what each one needs: build/.built only says that it had nothing left to do, and a
+# program that it did not touch keeps its date. A clone that was moved or copied is configured anew.
 build/.built: $(sources)
-	$(require_packages)
-	@mkdir -p build
-	flock build/.lock bash -euc 'cmake --preset release > build/configure.log && \
-	  cmake --build --preset release && touch $@'
+	@mkdir -p build; [ "$$(sed -n 's/^CMAKE_HOME_DIRECTORY:INTERNAL=//p' build/CMakeCache.txt 2> /dev/null)" -ef . ] || \
+	  rm -rf build/CMakeCache.txt build/CMakeFiles
+	cmake --preset release > build/configure.log
+	cmake --build --preset release
+	@touch $@
 
-# A program older than build/.built was not touched. The + runs this nothing under make -q too, which
-# then looks at the program's real date.
-$(programs): build/.built
+# The + runs this nothing under make -q too, which then looks at the program's real date.
+$(programs:%=build/%): build/.built
 	+@:
 
-# ---------------------------------------------------------------------------------------------
-# Tables: $(call table,name,program,data sets[,scene, if it has another name])
+build/environment.txt: paper/environment.py build/.built
+	$(whole) $(PYTHON) $< > $$new; mv $$new $@
 
-# Writes the target under another name and moves it into place when the command has ended well.
-# $(call whole,command), where the command writes to "$$new".
-define whole
-@rm -f $@.*.tmp
-new=$@.$$$$.tmp; trap 'rm -f $$new' EXIT; $(1); mv $$new $@
-endef
+# Tables and figures. In the rules the stem is NAME or as-printed/NAME; what $$ begins is looked up when it is
+# known. What is written is moved into place when it is complete.
+whole = @echo $@; mkdir -p $(@D); new=$@.$$BASHPID.tmp; trap 'rm -f $$new' EXIT;
 
-# $(call table_of,name,program,data sets,scene,reading)
-define table_of
-data/generated$(folder_$(5))/$(1).tsv: build/$(2) data/scenes/$(4).toml $(3:%=data/%$(suffix_$(5)).toml)
-	@mkdir -p $$(@D)
-	$$(call whole,$$< data/scenes/$(4).toml --reading $(5) > $$$$new)
-endef
+# The data sets that a scene names, and the kept attractors for the programs that start from their states.
+parameters = $(patsubst %,data/%$(if $(filter as-printed,$(*D)),-as-printed).toml, \
+  $(shell sed -nE '/parameters = /s/[^"]*"([^"]*)"[^"]*/\1 /gp' data/scenes/$(*F).toml))
+attractors = $(if $(filter sections validity,$(*F)),$(subst generated,reference,$(@D))/attractors.tsv)
+journaled := $(basename $(notdir $(shell grep -l -e --journal src/*.cpp)))
 
-define table
-$(foreach reading,$(readings),$(eval $(call table_of,$(1),$(2),$(3),$(or $(4),$(1)),$(reading))))
-endef
-
-$(eval $(call table,fig01_bearing,fig01_bearing,set1))
-$(eval $(call table,fig02_ball_position,fig02_ball_position,set1))
-$(eval $(call table,fig03_response,fig03_response,set1 set2))
-$(eval $(call table,fig04_displacements,fig04_displacements,set1))
-$(eval $(call table,fig05_displacements,fig05_displacements,set1))
-$(eval $(call table,fig06_orbits,fig06_orbits,set1))
-$(eval $(call table,fig07_contact,fig07_contact,set1))
-$(eval $(call table,fig08_orbits,fig08_orbits,set2))
-$(eval $(call table,fig09_contact,fig09_contact,set2))
-$(eval $(call table,tab01_parameters,tab01_parameters,set1 set2))
-$(eval $(call table,tab02_timing,tab02_timing,set1))
-$(eval $(call table,regimes,regimes,set1 set2))
-$(eval $(call table,multipliers,multipliers,set1 set2))
-$(eval $(call table,sensitivity,sensitivity,set1))
-$(eval $(call table,sensitivity_derivatives,sensitivity_derivatives,set1,sensitivity))
-
-$(eval $(call table,sampling,sampling,set1 set2))
-
-$(eval $(call table_of,deviations,deviations,set1 set1-as-printed,deviations,exchanged))
+data/generated/%.tsv: build/$$(*F) data/scenes/$$(*F).toml $$(parameters) $$(attractors)
+	$(whole) $(alone) $< $(word 2,$^) $(if $(filter as-printed,$(*D)),--reading as-printed) $(attractors:%=--attractors %) \
+	  $(if $(filter $(*F),$(journaled)),--journal $(@:.tsv=.journal)) > $$new; mv $$new $@
 
 # Timings run alone: after all that is not timed, one after the other.
-$(foreach reading,$(readings),$(eval $(call timing_of,$(reading)): | \
-  $(call tables_of,$(reading)) $(call figures_of,$(reading))))
-ifneq ($(filter all test sanitize claims,$(or $(MAKECMDGOALS),all)),)
-$(timings): | $(untimed)
-$(call timing_of,as-printed): | $(call timing_of,exchanged)
-endif
+$(timings) $(costs:%=data/generated/%.tsv): private alone = flock build/.timing
+$(timings): | $(filter-out $(timings),$(if $(filter figures,$(goals)),$(shown)) $(if $(with_pages)$(filter claims,$(goals)),$(untimed)))
+$(costs:%=data/generated/%.tsv): | $(if $(filter studies,$(goals)),$(filter-out $(costs),$(studies)))
 
-# ---------------------------------------------------------------------------------------------
-# Figures: $(call curves,name,script,what it loads) with gnuplot, $(call map,…) with Matplotlib
+# Drawn from the kept table if there is one. truncation is a second drawing of validity.
+source = $(or $(wildcard data/reference/$(subst truncation,validity,$*).tsv),data/generated/$*.tsv)
 
-# $(call curves_of,name,script,what it loads,reading), $(call map_of,…)
-define curves_of
-figures/generated$(folder_$(4))/$(1).svg: figures/$(2).gp figures/style.gp $(3) data/generated$(folder_$(4))/$(1).tsv
-	@mkdir -p $$(@D)
-	$$(call whole,gnuplot -e "table='data/generated$(folder_$(4))/$(1).tsv'; output='$$$$new'" $$<)
-endef
+figures/generated/%.svg: figures/$$(*F).gp figures/style.gp figures/orbit_axes.gp figures/orbits.gp \
+  figures/displacements.gp data/claims.toml $$(source)
+	$(whole) gnuplot -e "table='$(source)'; output='$$new'" $<; mv $$new $@
 
-define map_of
-figures/generated$(folder_$(4))/$(1).svg: figures/$(2).py figures/rotor_stator.mplstyle figures/tables.py $(3) data/generated$(folder_$(4))/$(1).tsv
-	@mkdir -p $$(@D)
-	$$(call whole,$$(PYTHON) $$< data/generated$(folder_$(4))/$(1).tsv $$$$new)
-endef
+figures/generated/%.svg: figures/$$(*F).py figures/rotor_stator.mplstyle figures/tables.py figures/bearing_sketch.py \
+  figures/contact_map.py data/claims.toml $$(source)
+	$(whole) $(PYTHON) $< $(source) $$new; mv $$new $@
 
-curves = $(foreach reading,$(readings),$(eval $(call curves_of,$(1),$(2),$(3),$(reading))))
-map = $(foreach reading,$(readings),$(eval $(call map_of,$(1),$(2),$(3),$(reading))))
+# What else some of them read.
+figures/generated/identification.svg figures/generated/clearance_stiffness.svg: data/set1.toml data/set2.toml data/set1-as-printed.toml
+figures/generated/stability.svg figures/generated/as-printed/stability.svg: data/reference/attractors.tsv data/reference/as-printed/attractors.tsv
+figures/generated/work_precision.svg figures/generated/peers.svg: data/reference/peers.tsv data/reference/peers_auto.tsv data/generated/fig03_response.tsv
 
-$(eval $(call map,fig01_bearing,fig01_bearing,figures/bearing_sketch.py))
-$(eval $(call map,fig02_ball_position,fig02_ball_position,figures/bearing_sketch.py))
-$(eval $(call curves,fig03_response,fig03_response,))
-$(eval $(call curves,fig04_displacements,fig04_displacements,figures/displacements.gp figures/orbit_axes.gp))
-$(eval $(call curves,fig05_displacements,fig05_displacements,figures/displacements.gp figures/orbit_axes.gp))
-$(eval $(call curves,fig06_orbits,fig06_orbits,figures/orbits.gp figures/orbit_axes.gp))
-$(eval $(call map,fig07_contact,fig07_contact,figures/contact_map.py))
-$(eval $(call curves,fig08_orbits,fig08_orbits,figures/orbits.gp figures/orbit_axes.gp))
-$(eval $(call map,fig09_contact,fig09_contact,figures/contact_map.py))
-$(eval $(call curves,sensitivity,sensitivity,))
-$(eval $(call curves,sampling,sampling,))
-
-# The long studies are drawn from their kept tables.
-figures/generated/identification.svg figures/generated/clearance_stiffness.svg figures/generated/hard_cases.svg: \
-  figures/generated/%.svg: \
-  figures/%.py figures/rotor_stator.mplstyle figures/tables.py data/claims.toml \
-  data/set1.toml data/set2.toml data/reference/%.tsv
-	@mkdir -p $(@D)
-	$(call whole,$(PYTHON) $< data/reference/$*.tsv $$new)
-
-figures/generated/identification.svg: data/set1-as-printed.toml
-
-figures/generated/peers.svg: figures/peers.py figures/rotor_stator.mplstyle figures/tables.py \
-  data/reference/peers.tsv data/reference/peers_auto.tsv data/generated/fig03_response.tsv
-	@mkdir -p $(@D)
-	$(call whole,$(PYTHON) $< data/reference/peers.tsv $$new)
-
-figures/generated/work_precision.svg figures/generated/cost_growth.svg: figures/generated/%.svg: \
-  figures/%.py figures/rotor_stator.mplstyle figures/tables.py data/reference/%.tsv \
-  $(wildcard data/reference/peers.tsv)
-	@mkdir -p $(@D)
-	$(call whole,$(PYTHON) $< data/reference/$*.tsv $$new)
-
-# What is true is drawn from its kept tables too, of each reading; the sections are integrated anew from the
-# states of the attractors. $(call truth_of,folder,suffix,reading)
-define truth_of
-data/generated$(1)/sections.tsv: build/sections data/scenes/sections.toml \
-  data/set1$(2).toml data/set2$(2).toml data/reference$(1)/attractors.tsv
-	@mkdir -p $$(@D)
-	$$(call whole,$$< data/scenes/sections.toml --reading $(3) --attractors data/reference$(1)/attractors.tsv > $$$$new)
-
-data/generated$(1)/truth_intervals.tsv: figures/truth_intervals.py figures/tables.py figures/project.py CMakeLists.txt data/claims.toml \
-  data/reference$(1)/attractors.tsv data/reference$(1)/validity.tsv
-	@mkdir -p $$(@D)
-	$$(call whole,$$(PYTHON) $$< data/reference$(1)/attractors.tsv data/reference$(1)/validity.tsv > $$$$new)
-
-figures/generated$(1)/truncation.svg: figures/truncation.gp figures/style.gp data/claims.toml data/reference$(1)/validity.tsv
-	@mkdir -p $$(@D)
-	$$(call whole,gnuplot -e "table='data/reference$(1)/validity.tsv'; output='$$$$new'" $$<)
-
-figures/generated$(1)/validity.svg: figures/validity.py figures/rotor_stator.mplstyle figures/tables.py data/claims.toml \
-  data/reference$(1)/validity.tsv
-	@mkdir -p $$(@D)
-	$$(call whole,$$(PYTHON) $$< data/reference$(1)/validity.tsv $$$$new)
-
-figures/generated$(1)/sections.svg: figures/sections.py figures/rotor_stator.mplstyle figures/tables.py \
-  data/generated$(1)/sections.tsv
-	@mkdir -p $$(@D)
-	$$(call whole,$$(PYTHON) $$< data/generated$(1)/sections.tsv $$$$new)
-endef
-
-$(foreach reading,$(readings),$(eval $(call truth_of,$(folder_$(reading)),$(suffix_$(reading)),$(reading))))
-
-# So is the stability of the response curves.
-define stability_of
-figures/generated$(folder_$(1))/stability.svg: figures/stability.gp figures/style.gp \
-  data/reference$(folder_$(1))/stability.tsv data/reference$(folder_$(1))/attractors.tsv
-	@mkdir -p $$(@D)
-	$$(call whole,gnuplot -e "table='data/reference$(folder_$(1))/stability.tsv'; \
-	  attractors='data/reference$(folder_$(1))/attractors.tsv'; output='$$$$new'" $$<)
-endef
-
-$(foreach reading,$(readings),$(eval $(call stability_of,$(reading))))
-
-figures/generated/adaptive.svg: figures/adaptive.py figures/rotor_stator.mplstyle figures/tables.py \
-  data/reference/adaptive.tsv
-	@mkdir -p $(@D)
-	$(call whole,$(PYTHON) $< data/reference/adaptive.tsv $$new)
-
-png: $(patsubst %.svg,%.png,$(filter %.svg,$(untimed)))  ## the figures as PNG, for viewing
+png: $(patsubst %.svg,%.png,$(figures) $(figures_printed))  ## the figures as PNG, for viewing
 
 %.png: %.svg
-	$(call whole,rsvg-convert --zoom 1.5 --background-color white --output $$new $<)
+	$(whole) rsvg-convert --zoom 1.5 --background-color white --output $$new $<; mv $$new $@
 
-# ---------------------------------------------------------------------------------------------
-# Pages: text of paper/ with the numbers of a table of the same name
+# What follows from tables: intervals, claims, texts, pages. The stem is generated or generated/as-printed.
+python_tables := figures/tables.py figures/project.py CMakeLists.txt data/claims.toml
+intervals := data/generated/truth_intervals.tsv data/generated/as-printed/truth_intervals.tsv
 
-$(pages): data/generated/%.md: paper/include.py paper/%.md data/generated/%.tsv
-	$(call whole,$(PYTHON) $^ > $$new)
+$(intervals): data/%/truth_intervals.tsv: figures/truth_intervals.py $$(subst generated,reference,data/$$*/attractors.tsv) \
+  $$(subst generated,reference,data/$$*/validity.tsv) $(python_tables)
+	$(whole) $(PYTHON) $(wordlist 1,3,$^) > $$new; mv $$new $@
 
-# The sources as pages, with their figures and tables. A folder is complete when it has its index: it
-# is made under another name and moved into place.
-kept := $(wildcard data/reference/*.tsv)
+$(claims): data/%/claims.tsv: figures/claims.py $(python_tables) data/reference/clearance_stiffness.tsv \
+  $$(subst generated,reference,data/$$*/validity.tsv) data/%/fig03_response.tsv data/%/fig07_contact.tsv \
+  data/%/fig09_contact.tsv data/%/regimes.tsv data/%/tab02_timing.tsv | $(timings)
+	$(whole) $(PYTHON) $< $(@D) $$new; mv $$new $@
 
-book: $(book)  ## the sources as pages, in reading order: build/book/index.html
+data/generated/article.tsv: paper/article_values.py paper/article_results.py $(python_tables) data/scenes/validity.toml \
+  data/set1.toml data/set1-as-printed.toml paper/deviations.md $(tables) data/generated/claims.tsv build/environment.txt \
+  $(wildcard data/reference/*.tsv)
+	$(whole) $(PYTHON) $< > $$new; mv $$new $@
 
-$(book): $(wildcard paper/book/*) paper/guide.md paper/references.bib $(shell find src -type f) \
-  $(untimed) $(timings) $(claims) $(kept)
-	rm -rf build/book build/book.new
-	$(PYTHON) paper/book/weave.py build/book.new
-	mv build/book.new build/book
+# A text with the numbers of the table of the same name.
+data/generated/deviations.md data/generated/article.md: data/generated/%.md: paper/include.py paper/%.md data/generated/%.tsv
+	$(whole) $(PYTHON) $^ > $$new; mv $$new $@
 
-article: $(article)  ## the article: build/paper/article.html
+book: build/book/index.html  ## the sources as pages, in reading order: build/book/index.html
 
-data/generated/article.tsv: paper/article_values.py paper/article_results.py figures/tables.py figures/project.py \
-  data/claims.toml data/scenes/validity.toml data/set1.toml data/set1-as-printed.toml paper/deviations.md $(untimed) $(timings) $(claims) $(kept)
-	$(call whole,$(PYTHON) $< > $$new)
+# The index is written last; a page that would be the same is left as it is.
+build/book/index.html: $(wildcard paper/book/*) paper/guide.md paper/references.bib $(sources) $(untimed) $(timings) $(claims) \
+  $(wildcard data/reference/*.tsv)
+	$(PYTHON) paper/book/weave.py $(@D)
 
-data/generated/article.md: paper/include.py paper/article.md data/generated/article.tsv
-	$(call whole,$(PYTHON) $^ > $$new)
+article: build/paper/article.html  ## the article: build/paper/article.html
 
-$(article): data/generated/article.md paper/render_article.py paper/article.html \
-  paper/book/comments.py paper/book/book.css paper/book/figures.toml paper/references.bib
-	@mkdir -p $(@D)
+build/paper/article.html: data/generated/article.md paper/render_article.py paper/article.html paper/book/comments.py \
+  paper/book/book.css paper/book/figures.toml paper/references.bib \
+  $(shell sed -nE 's/^!\[.*\]\(figures\/(.*\.svg)\)$$/figures\/generated\/\1/p' paper/article.md)
 	$(PYTHON) paper/render_article.py $< $@
 
-pdf: build/paper/article.pdf  ## the article as PDF (its packages: make deps-pdf)
+pdf: build/paper/article.pdf  ## the article as PDF
 
-build/paper/article.pdf: data/generated/article.md paper/render_article.py paper/article.tex \
-  paper/book/comments.py paper/references.bib
-	@mkdir -p $(@D)
+build/paper/article.pdf: data/generated/article.md paper/article.tex build/paper/article.html
 	$(PYTHON) paper/render_article.py $< $@
 
-# ---------------------------------------------------------------------------------------------
-# Claims: $(call claims_rule,reading)
+# Long studies, computed anew and compared with the tables kept in data/reference.
+studies: $(studies) timing  ## the long studies and all timings (an hour)
 
-define claims_rule
-$(claims_of): figures/claims.py figures/tables.py figures/project.py data/claims.toml data/reference/clearance_stiffness.tsv \
-  data/reference$(folder_$(1))/validity.tsv \
-  $(tables_of) $(timing_of)
-	$$(call whole,$$(PYTHON) figures/claims.py $$(@D) $$$$new)
-endef
+truth: attractors validity stability adaptive  ## where the periodic solution is true (15 minutes)
 
-$(foreach reading,$(readings),$(eval $(call claims_rule,$(reading))))
+timing: $(timings) $(costs)  ## the tables of cost, alone on the machine (10 minutes)
 
-# ---------------------------------------------------------------------------------------------
-# Long studies. Finished pieces are kept in a journal, so an interrupted study goes on; the tables are
-# kept in data/reference, where `all` finds them, and compared with what is computed anew.
+$(studies): $$(subst reference,generated,$$(wildcard data/reference/$$@.tsv data/reference/as-printed/$$@.tsv))
+	$(PYTHON) tests/compare_kept.py $^
 
-studies: identification clearance_stiffness hard truth timing  ## run the long studies and compare them with their kept tables
+adopt:  ## keep the studies' tables and the verdicts of data/generated, also of NAME=new_study; a commit that does says why
+	@for name in $(kept) claims $(NAME); do for folder in . as-printed; do new=data/generated/$$folder/$$name.tsv; \
+	  if [ -e $$new ]; then mkdir -p data/reference/$$folder; cp -v $$new data/reference/$$folder/; fi; done; done
 
-ifneq ($(filter studies,$(MAKECMDGOALS)),)
-timing: | identification clearance_stiffness hard truth
-endif
+peers: data/generated/peers.tsv data/generated/peers_auto.tsv  ## other people's programs on the same equations (10 minutes)
 
-identification: build/identification  ## score the grid of unpublished parameters (under 10 minutes)
-	@mkdir -p data/generated
-	new=data/generated/identification.tsv; $< --journal data/generated/identification.journal > $$new.tmp; \
-	  mv $$new.tmp $$new; $(PYTHON) tests/compare_tables.py data/reference/identification.tsv $$new
+data/generated/peers.tsv data/generated/peers_auto.tsv: data/generated/%.tsv: peers/%.py data/scenes/%.toml build/peers/.built
+	$(whole) OMP_NUM_THREADS=1 OPENBLAS_NUM_THREADS=1 flock build/.timing $(PYTHON) $< $(word 2,$^) > $$new; mv $$new $@
 
-clearance_stiffness: build/clearance_stiffness  ## clearance against contact stiffness (under 5 minutes)
-	@mkdir -p data/generated
-	new=data/generated/clearance_stiffness.tsv; $< --journal data/generated/clearance_stiffness.journal > $$new.tmp; \
-	  mv $$new.tmp $$new; $(PYTHON) tests/compare_tables.py data/reference/clearance_stiffness.tsv $$new
+build/peers/.built: $(wildcard peers/*.*pp peers/*.py peers/CMake*) build/.built
+	cmake -S peers --preset release > build/configure-peers.log
+	cmake --build build/peers
+	$(PYTHON) peers/check.py data/scenes/peers.toml
+	@touch $@
 
-stability: build/stability  ## stability along the response curves, both readings (under 5 minutes)
-	@mkdir -p data/generated
-	for reading in exchanged as-printed; do suffix=; \
-	  if [ $$reading = as-printed ]; then suffix=-as-printed; fi; \
-	  new=data/generated/stability$$suffix.tsv; \
-	  $< --reading $$reading --journal data/generated/stability$$suffix.journal > $$new.tmp; mv $$new.tmp $$new; \
-	  if [ -e data/reference/stability$$suffix.tsv ]; then \
-	    $(PYTHON) tests/compare_tables.py data/reference/stability$$suffix.tsv $$new; fi; done
-
-adaptive: build/adaptive  ## estimate, true error and cost of adaptive harmonics (under 5 minutes)
-	@mkdir -p data/generated
-	new=data/generated/adaptive.tsv; $< --journal data/generated/adaptive.journal > $$new.tmp; \
-	  mv $$new.tmp $$new; $(PYTHON) tests/compare_tables.py data/reference/adaptive.tsv $$new
-
-hard: build/hard_cases  ## how each method ends on the hard cases (under 5 minutes)
-	@mkdir -p data/generated
-	new=data/generated/hard_cases.tsv; $< > $$new.tmp; \
-	  mv $$new.tmp $$new; $(PYTHON) tests/compare_tables.py \
-    --columns case,method,status,verdict,regime data/reference/hard_cases.tsv $$new
-
-# Other people's programs on the same equations; not part of `studies`, and installed by this alone.
-peers: build/explore | deps-peers  ## outside integrators and AUTO-07p, timed (under 10 minutes)
-	@mkdir -p data/generated
-	flock build/.lock bash -euc 'cmake -S peers --preset release > build/configure-peers.log && \
-	  cmake --build build/peers'
-	export OMP_NUM_THREADS=1 OPENBLAS_NUM_THREADS=1; \
-	$(PYTHON) peers/check.py data/scenes/peers.toml; \
-	for table in peers.py:peers auto_curve.py:peers_auto; do \
-	  new=data/generated/$${table#*:}.tsv; \
-	  $(PYTHON) peers/$${table%:*} data/scenes/$${table#*:}.toml > $$new.tmp; mv $$new.tmp $$new; done
-
-truth: attractors validity stability adaptive  ## where the periodic solution is true: attractors, validity map, stability
-
-# $(call of_readings,name,shell words of a run with $$r and $$s for reading and suffix,how to compare)
-define of_readings
-@mkdir -p data/generated/as-printed
-for r in $(readings); do s=-$$r; d=/$$r; if [ $$r = exchanged ]; then s=; d=; fi; \
-  new=data/generated$$d/$(1).tsv; \
-  build/$(1) data/scenes/$(1).toml --reading $$r --journal data/generated$$d/$(1).journal $(2) > $$new.tmp; \
-  mv $$new.tmp $$new; $(PYTHON) tests/compare_tables.py $(3) data/reference/$(1)$$s.tsv $$new; done
-endef
-
-attractors: build/attractors  ## where time integration settles, speed by speed (under 6 minutes)
-	$(call of_readings,attractors,,--key set$(comma)f$(comma)origin$(comma)verdict --columns set)
-
-validity: build/validity attractors  ## distance of the solutions to the attractors (under 3 minutes)
-	$(call of_readings,validity,--attractors data/generated$$d/attractors.tsv,--columns found$(comma)distance$(comma)periodic)
-
-adopt:  ## keep the tables of the studies just run, and the verdicts; a commit that does says why
-	@mkdir -p data/reference
-	for name in identification study hard_cases adaptive stability stability-as-printed peers peers_auto $(costs); do \
-	  if [ -e data/generated/$$name.tsv ]; then cp data/generated/$$name.tsv data/reference/; fi; done
-	for name in attractors validity; do for s in "" -as-printed; do \
-	  new=data/generated/$${s#-}/$$name.tsv; \
-	  if [ -e $$new ]; then cp $$new data/reference/$$name$$s.tsv; fi; done; done
-	cp data/generated/claims.tsv data/reference/claims.tsv
-	cp data/generated/as-printed/claims.tsv data/reference/claims-as-printed.tsv
-
-# ---------------------------------------------------------------------------------------------
 # Checks and the rest
-
-test: all  ## every test, after everything they read is there
+test: all  ## every test, after everything that they read is there
+	cmake --preset release > build/configure.log
+	cmake --build --preset release --target tests
 	ctest --preset release --no-tests=error
 
+sanitize: all  ## the same tests with address and undefined-behaviour sanitizers
+	cmake --preset debug > build/configure-debug.log
+	cmake --build --preset debug --target all tests
+	ctest --preset debug --no-tests=error
+
 bench: build/.built  ## time the parts of an iteration, alone on the machine (a minute)
+	cmake --preset release > build/configure.log
 	cmake --build --preset release --target bench
 	@mkdir -p data/generated
-	build/tests/bench --benchmark_repetitions=5 --benchmark_report_aggregates_only=true \
-	  --benchmark_out=data/generated/bench.json --benchmark_out_format=json
-	$(PYTHON) tests/bench/table.py < data/generated/bench.json > data/generated/bench.tsv
-	grep -v '^#' data/generated/bench.tsv
-
-sanitize: all  ## the same tests with address and undefined-behaviour sanitizers
-	$(require_packages)
-	cmake --preset debug > /dev/null
-	cmake --build --preset debug
-	ctest --preset debug --no-tests=error
+	$(PYTHON) tests/bench/table.py build/tests/bench | tee data/generated/bench.tsv | grep -v '^#'
 
 readme: all  ## refresh the README's pictures and its generated block
 	$(PYTHON) figures/readme.py --write
 
-golden:  ## renew the golden copy of one table, NAME=fig06_orbits; a commit that does says why
-	@[ -n "$(NAME)" ] || { echo "golden: say which, for example make golden NAME=fig06_orbits" >&2; exit 2; }
-	$(PYTHON) tests/golden.py renew $(NAME)
+golden: $(NAME:%=data/generated/%.tsv)  ## renew one golden table: NAME=fig06_orbits; a commit that does says why
+	@$(if $(NAME),$(PYTHON) tests/golden.py renew $(NAME),echo "nothing renewed: make golden NAME=fig06_orbits renews one table" >&2; exit 2)
 
 format:  ## clang-format on all C++ sources
-	clang-format -i $$(find src tests -name '*.?pp')
+	clang-format-14 -i $$(find src tests peers -name '*.?pp')
+
+archive := rotor-stator-$(shell sed -nE 's/^project.rotor_stator VERSION ([0-9.]+).*/\1/p' CMakeLists.txt)
 
 # Files in the order of their names, without dates or owners: the same commit gives the same archive.
-version = $(shell sed -nE 's/^project.rotor_stator VERSION ([0-9.]+).*/\1/p' CMakeLists.txt)
-archive = rotor-stator-$(version)
-
 dist: all  ## an archive of the commit with its tables, figures and pages: build/rotor-stator-VERSION.tar.gz
 	@git diff --quiet HEAD || { echo "dist: the work tree differs from the commit" >&2; exit 1; }
-	rm -rf build/$(archive)
-	mkdir -p build/$(archive)
-	git archive HEAD | tar -x -C build/$(archive)
-	cp -r --parents data/generated figures/generated build/book build/paper build/$(archive)
-	find build/$(archive) \( -name '*.journal' -o -name '*.tmp' \) -delete
-	tar --sort=name --mtime=@0 --owner=0 --group=0 --numeric-owner -C build -c $(archive) | \
+	{ git ls-files; find data/generated figures/generated build/book build/paper -type f ! -name '*.journal' ! -name '*.tmp*'; } | \
+	  sort | tar --mtime=@0 --owner=0 --group=0 --numeric-owner --mode=go+u,go-w --transform 's,^,$(archive)/,' -T - -c | \
 	  gzip -n > build/$(archive).tar.gz
-	rm -rf build/$(archive)
 
 list:  ## this list
-	@sed -nE 's/^([a-z-]+):.*##  ?(.*)/\1\t\2/p' $(MAKEFILE_LIST) | sort | column -t -s "$$(printf '\t')"
+	@sed -nE 's/^([a-z-]+):.*##  ?(.*)/\1\t\2/p' Makefile | sort | column -t -s "$$(printf '\t')"
+	@echo "One study: make NAME, of $(studies)"
 
 clean:  ## remove everything that was built, computed or drawn
 	rm -rf build build-debug data/generated figures/generated
+
+endif

@@ -1,13 +1,15 @@
 # Stability along the response curves of both data sets
 #
-# Paper: §3.3, Fig. 3.  Usage: gnuplot -e "table='data/reference/stability.tsv'; \
-#        attractors='data/reference/attractors.tsv'; output='stability.svg'" figures/stability.gp
+# Paper: §3.3, Fig. 3.
+# Usage: gnuplot -e "table='data/reference/stability.tsv'; output='stability.svg'" figures/stability.gp
 # Rows: numbers of harmonics; columns: data sets. Solid: stable, dashed: unstable, thin grey: multipliers
 # not computed. The multipliers are those of the linearisation along the truncated series. Behind: where
-# time integration settles, T-periodic (dots) and otherwise (bars over all such attractors at a speed).
+# time integration settles, T-periodic (dots) and otherwise (bars over all such attractors at a speed), from
+# the table of attractors beside that of stability.
 
 height = 1150
 load 'figures/style.gp'
+attractors = system("dirname '".table."'")."/attractors.tsv"
 
 mm(name) = 1e3 * column(name)
 stats table using "set":"f" name 'F' nooutput

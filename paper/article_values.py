@@ -108,6 +108,12 @@ def deviations():
         add(key, float(value), unit, meaning)
 
 
+def environment():
+    """What compiled, drew and wove, as a list in a sentence."""
+    *most, last = Path("build/environment.txt").read_text().splitlines()
+    add("environment.list", f"{', '.join(most)} and {last}", "-", "programs and libraries, with versions")
+
+
 def rows_of(path):
     """The cells of a table as words."""
     lines = [line for line in path.read_text().splitlines() if line and not line.startswith("#")]
@@ -115,7 +121,8 @@ def rows_of(path):
 
 
 def main():
-    for part in (paper_values, claim_counts, response, displacements, regimes, identification, deviations):
+    for part in (paper_values, claim_counts, response, displacements, regimes, identification, deviations,
+                 environment):
         part()
     add_all(add)
     print(f"# The numbers of the article\n{source_line()}\n# column: key [-] name\n# column: value [-] in its unit\n"

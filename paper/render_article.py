@@ -4,6 +4,7 @@ A line `<!-- table: FILE column column … -->` becomes those columns of a table
 
 Usage: paper/render_article.py ARTICLE.md OUTPUT.html|OUTPUT.pdf   (from the project's root)
 """
+import os
 import re
 import shutil
 import subprocess
@@ -67,9 +68,15 @@ def as_pdf(text, output):
 
 
 def main():
+    """Written beside its name, then moved into place."""
     source, output = Path(sys.argv[1]), Path(sys.argv[2])
     text = TABLE.sub(table_rows, source.read_text(encoding="utf-8"))
-    (as_pdf if output.suffix == ".pdf" else as_html)(text, output)
+    beside = output.with_name(f"{output.stem}.{os.getpid()}.tmp{output.suffix}")
+    try:
+        (as_pdf if output.suffix == ".pdf" else as_html)(text, beside)
+        beside.replace(output)
+    finally:
+        beside.unlink(missing_ok=True)
 
 
 if __name__ == "__main__":

@@ -5,12 +5,16 @@ Every program and every module (header and implementation together) of src/ beco
 gives the order in which they teach, figures.toml says what the figures show. pandoc converts; what is done
 here is to turn comments into Markdown and to link.
 
+A file is written beside its name and moved into place; a page whose text is that of the page there is left as
+it is, and pages that are no longer made are removed. The index comes last.
+
 Usage: weave.py OUTPUT_FOLDER   (from the project's root; reads figures/generated and data/generated)
 """
+import hashlib
 import html
 import json
+import os
 import re
-import shutil
 import subprocess
 import sys
 import tomllib
@@ -25,9 +29,36 @@ HERE = Path("paper/book")
 DRAWN, TABLES = Path("figures/generated"), (Path("data/generated"), Path("data/reference"))
 SHOWN = tomllib.loads((HERE / "figures.toml").read_text())
 REPOSITORY_FILES = ("book.css", "book.js")
+BIBLIOGRAPHY = "paper/references.bib"
 MOST_CODE = 250  # lines on a page
 SECTION = re.compile(r"^/\*\*\s+## (.+?)(?: \*/)?$", re.MULTILINE)
 INCLUDE = re.compile(r'^#include "([^"]+)"', re.MULTILINE)
+
+
+class Folder:
+    """The folder of the pages, and which of its files this run has made."""
+
+    def __init__(self, path):
+        self.path, self.made = path, set()
+
+    def write(self, name, content):
+        """A file with this content; one that has it already keeps its date."""
+        target = self.path / name
+        self.made.add(target)
+        if target.exists() and target.read_bytes() == content:
+            return
+        target.parent.mkdir(parents=True, exist_ok=True)
+        beside = target.with_name(f"{target.name}.{os.getpid()}.tmp")
+        beside.write_bytes(content)
+        beside.replace(target)
+
+    def copy(self, file, place="."):
+        self.write(f"{place}/{file.name}", file.read_bytes())
+
+    def remove_others(self):
+        for file in self.path.rglob("*"):
+            if file.is_file() and file.suffix != ".tmp" and file not in self.made:
+                file.unlink()
 
 
 class Page:
@@ -140,8 +171,8 @@ def shortened(cell):
 
 def figure_markdown(name, caption, output):
     script = script_of(name)
-    shutil.copy(DRAWN / f"{name}.svg", output / "figures")
-    shutil.copy(script, output / "scripts")
+    output.copy(DRAWN / f"{name}.svg", "figures")
+    output.copy(script, "scripts")
     return (f"![{caption}](figures/{name}.svg){{alt=\"{SHOWN[name]['alt']}\"}}\n\n"
             f"Drawn by [{script}](scripts/{script.name}).")
 
@@ -151,7 +182,7 @@ def results(page, output):
     parts = [figure_markdown(name, page.title, output) for name in page.figures()]
     table = page.table()
     if table:
-        shutil.copy(table, output / "tables")
+        output.copy(table, "tables")
         parts += [f"The first rows of [{table.name}](tables/{table.name}):", table_excerpt(table)]
     return "\n\n## What it makes\n\n" + "\n\n".join(parts) if parts else ""
 
@@ -165,13 +196,26 @@ def page_markdown(page, pages, output):
                         neighbours(page, pages)])
 
 
-def convert(markdown, title, target, navigation="", options=()):
-    subprocess.run(
-        ["pandoc", "--from", "markdown-markdown_in_html_blocks+tex_math_dollars", "--to", "html5",
-         "--mathml", "--standalone", "--template", str(HERE / "template.html"),
-         "--metadata", f"title={title}", "--variable", f"navigation={navigation}",
-         "--output", str(target), *options],
-        input=markdown, text=True, check=True)
+def convert(output, name, markdown, title, navigation="", cited=False):
+    """A page by pandoc, unless the one that is there was made from the same text."""
+    options = ["--from", "markdown-markdown_in_html_blocks+tex_math_dollars", "--to", "html5",
+               "--mathml", "--standalone", "--template", str(HERE / "template.html"),
+               "--metadata", f"title={title}", "--variable", f"navigation={navigation}"]
+    sources = [HERE / "template.html"]
+    if cited:
+        options += ["--citeproc", "--bibliography", BIBLIOGRAPHY, "--metadata", "link-citations=true"]
+        sources.append(Path(BIBLIOGRAPHY))
+    inputs = [markdown, *options, *(file.read_text() for file in sources)]
+    digest = hashlib.sha256("\0".join(inputs).encode()).hexdigest()
+    page = output.path / name
+    if page.exists() and digest in page.read_text():
+        output.made.add(page)
+        return
+    # pandoc reads its arguments in the encoding of the locale
+    html_page = subprocess.run(["pandoc", *options, "--variable", f"digest={digest}"], check=True,
+                               input=markdown.encode(), stdout=subprocess.PIPE,
+                               env={**os.environ, "LC_ALL": "C.UTF-8"}).stdout
+    output.write(name, html_page)
 
 
 def chapters(pages):
@@ -223,30 +267,28 @@ def navigation(order, k):
 
 
 def main(output):
-    for folder in ("figures", "tables", "scripts"):
-        (output / folder).mkdir(parents=True, exist_ok=True)
     pages = all_pages()
     found = chapters(pages)
     order = [page for chapter in found for page in chapter["found"]]
     for name in REPOSITORY_FILES:
-        shutil.copy(HERE / name, output)
-    (output / "pages.js").write_text(search_words(order))
+        output.copy(HERE / name)
+    output.write("pages.js", search_words(order).encode())
 
     def weave(k):
         page = order[k]
-        convert(page_markdown(page, pages, output), page.title, output / page.file,
-                navigation(order, k))
+        convert(output, page.file, page_markdown(page, pages, output), page.title, navigation(order, k))
 
-    with ThreadPoolExecutor(2) as pool:
+    with ThreadPoolExecutor() as pool:
         list(pool.map(weave, range(len(order))))
     back = '<a href="index.html">Index</a>'
-    cited = ("--citeproc", "--bibliography", "paper/references.bib", "--metadata", "link-citations=true")
-    convert(with_names(Path("data/generated/deviations.md").read_text()), "Deviations",
-            output / "deviations.html", back, cited)
-    convert(with_files(Path("paper/guide.md").read_text()), "A study of one's own",
-            output / "guide.html", back, cited)
-    convert(index_markdown(found, pages), "Contents", output / "index.html")
+    convert(output, "deviations.html", with_names(Path("data/generated/deviations.md").read_text()),
+            "Deviations", back, cited=True)
+    convert(output, "guide.html", with_files(Path("paper/guide.md").read_text()), "A study of one's own",
+            back, cited=True)
+    convert(output, "index.html", index_markdown(found, pages), "Contents")
+    output.remove_others()
+    (output.path / "index.html").touch()
 
 
 if __name__ == "__main__":
-    main(Path(sys.argv[1]))
+    main(Folder(Path(sys.argv[1])))

@@ -1,8 +1,9 @@
-"""The table of the benchmarks: python3 tests/bench/table.py < bench.json > bench.tsv
+"""Runs the benchmarks and prints their table: python3 tests/bench/table.py build/tests/bench > bench.tsv
 
 The benchmarks' medians of CPU time, and the ratios of one run that do not depend on the machine's
 speed alone. Dates and host names are left out."""
 import json
+import subprocess
 import sys
 from pathlib import Path
 
@@ -25,7 +26,10 @@ def medians(report):
 
 
 def main():
-    cpu = medians(json.load(sys.stdin))
+    report = subprocess.run(
+        [sys.argv[1], "--benchmark_repetitions=5", "--benchmark_report_aggregates_only=true",
+         "--benchmark_format=json"], check=True, stdout=subprocess.PIPE).stdout
+    cpu = medians(json.loads(report))
     print("# Benchmarks: medians of CPU time, data set 1 at its solution at 30 Hz")
     print(source_line())
     print("# column: what [-] benchmark; of a ratio: numerator/denominator")

@@ -1,6 +1,6 @@
 """AUTO-07p on the same equations: writes peers_auto.tsv.
 
-Usage: OMP_NUM_THREADS=1 /usr/bin/python3 peers/auto_curve.py data/scenes/peers_auto.toml > table
+Usage: OMP_NUM_THREADS=1 /usr/bin/python3 peers/peers_auto.py data/scenes/peers_auto.toml > table
 Compiles peers/auto/motion.f90 with the machine's numbers, links it with AUTO's objects as AUTO's
 own commands do, and runs it without its Python front end: the time is that of the computation.
 """

@@ -1,0 +1,59 @@
+"""Installs the project into an empty folder and builds a program there with find_package(RotorStator).
+
+It catches a header that is not installed or includes one that is not, a library that the package does not name,
+and an installed explore that needs the source folder.
+
+Usage: tests/install.py BUILD_FOLDER   (from the project's root)
+"""
+import re
+import subprocess
+import sys
+import tempfile
+from pathlib import Path
+
+PROJECT = """
+cmake_minimum_required(VERSION 3.25)
+project(outside LANGUAGES CXX)
+find_package(RotorStator {version} REQUIRED)
+add_executable(outside outside.cpp)
+target_link_libraries(outside PRIVATE RotorStator::rotor_stator)
+"""
+HEADERS = """#include <cstdio>
+{includes}
+int main(int, char** argv)
+{{
+  using namespace rotor_stator;
+  const Parameters machine = read_parameters(argv[1]);
+  const bool found = motion::find_periodic(machine, angular(45), 6, 50).found();
+  std::printf("%s: %s\\n", machine.title.c_str(), found ? "periodic" : "no solution");
+  return found ? 0 : 1;
+}}
+"""
+
+
+def run(*command, **options):
+    return subprocess.run([str(word) for word in command], check=True, text=True,
+                          stdout=subprocess.PIPE, **options).stdout
+
+
+def main(build):
+    version = re.search(r"^project\(\w+ VERSION (\S+)", Path("CMakeLists.txt").read_text(), re.MULTILINE)[1]
+    machine = Path("data/set1.toml").resolve()
+    headers = sorted(str(file.relative_to("src")) for file in Path("src").glob("*/*.hpp"))
+    with tempfile.TemporaryDirectory(prefix="with a blank ") as folder:
+        prefix, outside = Path(folder, "prefix"), Path(folder, "outside")
+        outside.mkdir()
+        run("cmake", "--install", Path(build).resolve(), "--prefix", prefix)
+        (outside / "CMakeLists.txt").write_text(PROJECT.format(version=version))
+        (outside / "outside.cpp").write_text(HEADERS.format(
+            includes="\n".join(f"#include <{name}>" for name in headers)))
+        run("cmake", "-S", outside, "-B", outside / "build", f"-DCMAKE_PREFIX_PATH={prefix}")
+        run("cmake", "--build", outside / "build")
+        print(run(outside / "build" / "outside", machine), end="")
+        table = run(prefix / "bin" / "explore", "orbit", machine, "--frequency", 45, cwd=folder)
+        if "\nphase\t" not in table:
+            sys.exit("the installed explore prints no orbit")
+
+
+if __name__ == "__main__":
+    main(*sys.argv[1:])
