@@ -236,7 +236,7 @@ build/peers/.built: $(wildcard peers/*.*pp peers/*.py peers/CMake*) build/.built
 
 # Checks and the rest
 test: all  ## every test, after everything that they read is there
-	cmake --preset release > build/configure.log
+	cmake --preset release -DPYTHON=$(PYTHON) > build/configure.log
 	cmake --build --preset release --target tests
 	ctest --preset release --no-tests=error
 

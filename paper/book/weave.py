@@ -28,6 +28,8 @@ from overview import claims_section, deviations_section, gallery
 HERE = Path("paper/book")
 DRAWN, TABLES = Path("figures/generated"), (Path("data/generated"), Path("data/reference"))
 SHOWN = tomllib.loads((HERE / "figures.toml").read_text())
+SHOWN |= {figure.stem: {"alt": f"Figure {figure.stem}"}
+          for figure in sorted(DRAWN.glob("*.svg")) if figure.stem not in SHOWN}
 REPOSITORY_FILES = ("book.css", "book.js")
 BIBLIOGRAPHY = "paper/references.bib"
 MOST_CODE = 250  # lines on a page
