@@ -5,17 +5,16 @@ Paper: §4, claim C12, the method extends to large problems.
 
     build/cost_growth > data/generated/cost_growth.tsv
 
-Whether a method extends to large problems is decided by how its cost grows, not by how much it is. Three
-sizes are let grow, one at a time: the number of harmonics in one solution, the number of balls in the
-bearing, and the number of speeds in a sweep. The upper panels show CPU time, the lower ones the peak of
-memory above that of a process that does next to nothing.
+Whether a method extends to large problems depends on how its cost grows. Three sizes grow here, one at a
+time: the number of harmonics in one solution, the number of balls in the bearing, and the number of
+speeds in a sweep. The upper panels show CPU time, the lower ones the peak of memory above that of a
+process that solves one speed with one harmonic.
 
-Both axes are logarithmic, so a power law is a straight line and its exponent the slope; it is fitted to the
-larger sizes only, since at the small ones the fixed cost of a solution hides the growth. An exponent of one
-means that twice the size costs twice as much. A dense factorisation would show an exponent of three against
-harmonics; that is what the iterative solver with its block per harmonic is there to avoid. Steps in the
-memory are the allocator's pages and not the method's. None of this is a test of claim C12 itself: there the
-number of degrees of freedom of rotor and stator would have to grow, and here it stays at four.
+Both axes are logarithmic, so the slope of a line is the exponent of a power law. It is fitted to the
+larger sizes only, where the fixed cost of a solution no longer counts. An exponent of one means that twice
+the size costs twice as much. A dense factorisation would have the exponent three against harmonics; the
+iterative solver with one block per harmonic avoids it. Steps in the memory are the allocator's pages.
+Claim C12 itself is not tested: the number of degrees of freedom stays at four.
 
 Modelled: one periodic motion, and sweeps above the transition. */
 #include "costs/cost_growth.hpp"

@@ -5,20 +5,18 @@ Paper: §3.1, where N = 2m+1 (D-05, D-14).
 
     build/sampling > data/generated/sampling.tsv
 
-A solution with m harmonics has two errors. One is that of truncation: the harmonics beyond m are missing.
-The other is that of sampling: the force is evaluated at N instants, and what it holds beyond N/2 harmonics
-is folded back onto those that are kept. The first cannot be avoided at a given m; the second can, by more
-samples, and should then be the smaller.
+Up to m = 64 the default number of samples is enough: the error of sampling is below the error of
+truncation. A solution with m harmonics has both errors. That of truncation comes from the harmonics above
+m, which are missing; at a given m it cannot be avoided. That of sampling comes from evaluating the force at
+N instants: its harmonics above N/2 are folded back onto those that are kept; more samples make it smaller.
 
-The panels show the second divided by the first, against the samples per harmonic, at four motions;
-displacement above, force below. Below the grey line sampling adds less than truncation already does, and
-further samples buy nothing; the dashed line is the default of all programs here. The paper's choice stands
-at the left end of each curve. With many harmonics truncation is small, so sampling has more to keep up with
-and the curves lie higher. The default therefore holds up to m = 64 only: there every curve has passed the
-grey line before the dashed one. With m = 128 the sampling error of the displacement is still above that of
-truncation at the default N at some of these motions, and who needs those digits asks for more samples.
+The panels show the error of sampling over that of truncation, against the samples per harmonic, at four
+motions; displacement above, force below. Below the grey line sampling adds less than truncation, and
+further samples gain nothing. The dashed line is the default of all programs here; the paper's choice is
+the left end of each curve. With m = 128 the error of sampling the displacement is still above that of
+truncation at some of these motions with the default N: who needs those digits asks for more samples.
 
-Modelled: harmonic balance with many N for each m, and one solution with many harmonics for the truth. */
+Modelled: harmonic balance with many N for each m, and one solution with many harmonics as the truth. */
 #include "costs/sampling.hpp"
 #include "io/program.hpp"
 

@@ -1,31 +1,27 @@
 /**
-# Timing: harmonic balance against Runge-Kutta
+# Table 2: harmonic balance against Runge-Kutta
 
 Paper: §3.3, 200, 220 and 240 CPU against 1800 (claim C9).
 
     build/tab02_timing > data/generated/tab02_timing.tsv
 
-The paper compares the cost of its method with that of the classical Runge-Kutta rule and finds it
-seven to nine times cheaper. It gives no unit, no step, no length of the transient and no error
-for either (D-18), so the comparison can be repeated only after it has been given a meaning. Ours
-is cost at equal error.
+At equal error, classical Runge-Kutta takes several times the CPU time of harmonic balance. The paper says
+seven to nine times, and gives no unit, step, transient or error for either method (D-18). A ratio of times
+means little without the errors; ours is therefore taken at equal error.
 
-Both methods do the same work: all speeds of the scene, one after the other, each starting from
-what the last one left. For each number of harmonics the sweep is run, and its largest error of
-displacement is measured over the speeds where the motion is periodic, against a reference by an
-adaptive method of high order. Then Runge-Kutta is given the cheapest step and the shortest
-transient, among those of the scene file, that reach the same error. Both are repeated on one
-thread and the median of the processor time is printed with its extremes; the ratio of medians is
-what is compared with the paper.
+Both methods solve all speeds of the scene in order, and each speed starts from the result of the last
+one. Harmonic balance runs with each number of harmonics of the paper. Its error is the largest error of
+displacement over the speeds where the motion has the period of rotation, against motions that are
+found by time integration and closed by shooting. Runge-Kutta then gets the cheapest step and transient of
+the scene file that reach the same error. Both are repeated on one thread; the table gives the median of
+the CPU time with its extremes, and the ratio of the medians.
 
-Two things make the ratio modest. Errors of a few per cent, which the worst speed near the
-transition dictates, are cheap for a time integrator as well. And our Runge-Kutta is written with
-the same care as the balance: tabulated angles, four evaluations of the force per step and nothing
-else. How the comparison changes with the error, and with the speed range, is the subject of the
-tables of cost against error.
+Two things keep the ratio small. Errors of a few per cent, which the worst speed near the transition
+decides, are cheap for a time integrator too. And Runge-Kutta is written with the same care as the
+balance: four evaluations of the force per step, tabulated angles, and nothing else. The equal-error
+table shows how the ratio changes with the error and the range of speeds.
 
-Modelled: the whole response, by each method; amplitudes of all four displacements and nothing per
-ball. */
+Modelled: the displacements of rotor and stator at each speed, by each method; nothing per ball. */
 #include "costs/timing.hpp"
 #include "io/program.hpp"
 

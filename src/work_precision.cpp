@@ -5,19 +5,17 @@ Paper: §3.3, claim C9.
 
     build/work_precision > data/generated/work_precision.tsv
 
-One periodic motion, computed by every method at many settings: harmonic balance, shooting, and time
-integration with all steppers. Each run is a point, error upwards and CPU time of one thread to the right, and
-the line joins the best points of a method. Further down and to the left is better; where two lines cross, the
-answer to which method is faster depends on the error one wants.
+Which method is faster depends on the error that is wanted. Each run of a method is a point, its error
+upwards and the CPU time of one thread to the right; the line joins the best points of the method. Where
+two lines cross, the order of the methods changes.
 
-The upper row takes the error of displacement, the row below it that of the force, which is the larger by far:
-forces feel the harmonics that displacements hide. The bars tell where the time goes at an error of a thousandth:
-in the bearing's force, in Fourier transforms, or in the algebra and the rest. A method whose time is all force
-cannot be made much faster than the force.
+The upper row shows the error of displacement, the lower row that of the force. The second is much larger:
+the force has higher harmonics that hardly move the bodies. The bars show where the time goes at an error
+of a thousandth: into the bearing's force, into Fourier transforms, or into linear algebra and the rest.
 
-Cost is counted with everything that a user has to pay: tables and plans, the start, the transient or the
-iterations. The reference is shooting at a far tighter tolerance, checked against harmonic balance with very many
-harmonics; the header says how well both agree.
+The CPU time includes all that a user has to pay: tables and plans, the start, the transient or the
+iterations. The reference is shooting with a far tighter tolerance, compared with harmonic balance with very
+many harmonics; the header says how well they agree.
 
 Modelled: seven T-periodic motions of both data sets, four of which are drawn. */
 #include "costs/work_precision.hpp"

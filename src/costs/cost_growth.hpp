@@ -1,10 +1,9 @@
 /**
-# How the cost grows
+# How the cost of harmonic balance grows
 
-CPU time and memory of harmonic balance against the number of harmonics (one solution, from that at the
-speed below), of balls and of speeds (one sweep each), and the exponents of the power laws fitted to
-them. Each size runs in a process of its own, whose peak of memory is reported above that of one that
-solves one speed with one harmonic. */
+With the number of harmonics (one solution, from that at the speed below), of balls and of speeds (one
+sweep each). Each size runs in a process of its own, whose peak of memory is reported above that of one
+that solves one speed with one harmonic. */
 #pragma once
 
 #include "costs/timed_method.hpp"
@@ -24,9 +23,8 @@ struct CostGrowthScene {
   int sweep_speeds, sweep_harmonics;
   int samples_per_harmonic, repetitions;
   double newton_tolerance;
-  int fitted_harmonics, fitted_balls,
-      fitted_speeds;    ///< exponents are fitted from these on
-  double least_memory;  ///< exponents of memory are fitted above it [byte]
+  int fitted_harmonics, fitted_balls, fitted_speeds;  ///< the least sizes that are fitted
+  double least_memory;                                ///< that is fitted [byte]
 };
 
 CostGrowthScene read_cost_growth(SceneFile& file);
@@ -43,9 +41,8 @@ struct Growth {
   int size;
   CpuTime cpu;
   double memory;  ///< peak above that of a process that solves next to nothing [byte]
-  std::size_t found, speeds;  ///< speeds with a solution, of how many
-  double exponent_cpu = 0,
-         exponent_memory = 0;  ///< of all sizes of the kind; 0: not fitted
+  std::size_t found, speeds;                     ///< speeds with a solution, of how many
+  double exponent_cpu = 0, exponent_memory = 0;  ///< of the kind; 0: not fitted
 };
 
 /** Of a task with that many harmonics. Throws NoSolution when its process ends without a result. */
@@ -68,7 +65,7 @@ Its peak of memory is that of the work alone: what was done before, and what is 
 count. */
 struct InOwnProcess {
   std::vector<double>
-      numbers;        ///< what the work returned; empty when it did not end well
+      numbers;        ///< that the work returned; empty when it did not end well
   double peak_bytes;  ///< resident
 };
 

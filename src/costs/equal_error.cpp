@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <iterator>
 #include <limits>
 
 #include "io/errors.hpp"
@@ -37,7 +36,7 @@ EqualErrorScene read_equal_error(SceneFile& file)
 std::vector<References> periodic_ranges(const EqualErrorScene& scene,
                                         const References& references)
 {
-  std::vector<References> ranges(scene.range_ends.size(), {scene.parameters, {}, {}});
+  std::vector<References> ranges(scene.range_ends.size(), {{scene.parameters, {}}, {}});
   for (std::size_t k = 0; k < references.frequencies.size(); ++k) {
     if (!references.motions[k]) continue;
     const double frequency = references.frequencies[k];
@@ -75,41 +74,34 @@ EqualErrorRow cheapest(const EqualErrorScene& scene, const References& range,
                        const std::vector<Measurement>& tried, double target,
                        const std::vector<EqualErrorRow>& rows)
 {
-  const auto reaches = [&](const Measurement& m) {
-    return m.error.displacement <= target;
-  };
-  EqualErrorRow row{
-      .range = format("%g-%g", range.frequencies.front(), range.frequencies.back()),
-      .method = tried.front().setting.method,
-      .speeds = range.frequencies.size(),
-      .tried = tried.size(),
-      .target = target,
-      .reached = std::any_of(tried.begin(), tried.end(), reaches)};
-  if (!row.reached) {
-    row.best = *std::min_element(tried.begin(), tried.end(),
-                                 [](const Measurement& a, const Measurement& b) {
-                                   return a.error.displacement < b.error.displacement;
-                                 });
-    return row;
-  }
   const auto cheaper = [](const Measurement& a, const Measurement& b) {
     return a.cpu.median < b.cpu.median;
   };
+  const auto nearer = [](const Measurement& a, const Measurement& b) {
+    return a.error.displacement < b.error.displacement;
+  };
   std::vector<Measurement> good;
-  std::copy_if(tried.begin(), tried.end(), std::back_inserter(good), reaches);
+  for (const Measurement& m : tried)
+    if (m.error.displacement <= target) good.push_back(m);
   std::sort(good.begin(), good.end(), cheaper);
   constexpr std::size_t few = 2;
   good.resize(std::min(good.size(), few));
-  for (Measurement& m : good)
-    m = measure(range, m.setting,
-                m.cpu.median > scene.long_run ? std::min(3, scene.repetitions)
-                                              : scene.repetitions);
-  row.best = *std::min_element(good.begin(), good.end(), cheaper);
-  row.ratio = row.method == "aft" ? 1 : 0;
+  for (Measurement& m : good) {
+    const int most = m.cpu.median > scene.long_run ? 3 : scene.repetitions;
+    m = measure(range, m.setting, std::min(most, scene.repetitions));
+  }
+  EqualErrorRow row{good.empty() ? *std::min_element(tried.begin(), tried.end(), nearer)
+                                 : *std::min_element(good.begin(), good.end(), cheaper),
+                    format("%g-%g", range.frequencies.front(), range.frequencies.back()),
+                    range.frequencies.size(),
+                    tried.size(),
+                    target,
+                    !good.empty()};
+  if (row.reached && row.setting.method == "aft") row.ratio = 1;
   for (const EqualErrorRow& aft : rows)
-    if (aft.method == "aft" && aft.reached && aft.range == row.range &&
+    if (aft.setting.method == "aft" && aft.reached && aft.range == row.range &&
         aft.target == target)
-      row.ratio = row.best.cpu.median / aft.best.cpu.median;
+      row.ratio = row.cpu.median / aft.cpu.median;
   return row;
 }
 
@@ -123,26 +115,25 @@ const std::vector<Field<EqualErrorRow>> equal_error_fields{
      &EqualErrorRow::range},
     {"target", "-", "largest error of displacement allowed", &EqualErrorRow::target},
     {"method", "-", "aft: harmonic balance; rk4; GSL's; shooting- with one of them",
-     &EqualErrorRow::method},
+     [](Row r) { return r.setting.method; }},
     {"setting", "-", "the cheapest that reaches the target",
-     [](Row r) { return r.best.setting.text(); }},
+     [](Row r) { return r.setting.text(); }},
     {"cpu_s", "s", "CPU of one thread for the whole range, median of the repetitions",
-     [](Row r) { return r.best.cpu.median; }},
+     [](Row r) { return r.cpu.median; }},
     {"error", "-", "largest relative error of displacement over the speeds",
-     [](Row r) { return r.best.error.displacement; }},
+     [](Row r) { return r.error.displacement; }},
     {"error_force", "-", "largest relative error of force over the speeds",
-     [](Row r) { return r.best.error.force; }},
+     [](Row r) { return r.error.force; }},
     {"ratio", "-", "CPU over that of aft at the same target; 0 where aft has none",
      &EqualErrorRow::ratio},
-    {"cpu_min_s", "s", "least", [](Row r) { return r.best.cpu.least; }},
-    {"cpu_max_s", "s", "most", [](Row r) { return r.best.cpu.most; }},
-    {"repetitions", "-", "fewer for the long runs",
-     [](Row r) { return r.best.repetitions; }},
+    {"cpu_min_s", "s", "least", [](Row r) { return r.cpu.least; }},
+    {"cpu_max_s", "s", "most", [](Row r) { return r.cpu.most; }},
+    {"repetitions", "-", "fewer for the long runs", &EqualErrorRow::repetitions},
     {"worst_f", "Hz", "speed with the largest error of displacement",
-     [](Row r) { return r.best.error.worst_frequency; }},
+     [](Row r) { return r.error.worst_frequency; }},
     {"speeds", "-", "number of speeds", &EqualErrorRow::speeds},
     {"evaluations", "-", "evaluations of the bearing's force, one instant each",
-     [](Row r) { return r.best.evaluations; }},
+     [](Row r) { return r.counts.force_instants; }},
     {"tried", "-", "settings tried", &EqualErrorRow::tried}};
 
 }  // namespace
@@ -170,10 +161,10 @@ Table equal_error_table(const EqualErrorScene& scene, const References& referenc
     if (row.reached)
       table.row(equal_error_fields, row);
     else
-      table.note(format("not reached: %s, %s Hz, target %g; ", row.method.c_str(),
+      table.note(format("not reached: %s, %s Hz, target %g; ", row.setting.method.c_str(),
                         row.range.c_str(), row.target) +
-                 (std::isfinite(row.best.error.displacement)
-                      ? format("best %.2g", row.best.error.displacement)
+                 (std::isfinite(row.error.displacement)
+                      ? format("best %.2g", row.error.displacement)
                       : "no setting solves every speed"));
   return table;
 }

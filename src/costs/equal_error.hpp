@@ -1,12 +1,10 @@
 /**
-# What equal error costs, every method at its best setting (the CPU comparison of §3.3)
+# What equal error costs, every method at its best setting (§3.3)
 
-The speeds of a sweep at which the motion has the period T, in ranges; in each range every method solves
-them in order, at each target of error at its cheapest setting that reaches the target. All settings of
-the scene file are run once; within a group of equal accuracy, where the cheaper ones come first, the
-search stops when a run costs more than the cheapest that has reached every target, and the search ends
-once the method has used its time. The two cheapest that reach a target are then repeated, and the one
-with the least median is the row. */
+All settings of the scene file are run once. Within a group of equal accuracy, where the cheaper ones
+come first, the search stops when a run costs clearly more than the cheapest that has reached every
+target; it ends once the method has used its time. The two cheapest that reach a target are then
+repeated, and the one with the least median is the row. */
 #pragma once
 
 #include "costs/timed_method.hpp"
@@ -41,16 +39,14 @@ std::vector<Measurement> try_settings(const EqualErrorScene& scene,
                                       const References& range,
                                       const Candidates& candidates);
 
-/** One method in one range at one target. */
-struct EqualErrorRow {
-  std::string range, method;  ///< first and last speed [Hz]
+/** One method in one range at one target: its cheapest setting that reaches the target, or the setting
+    with the least error where none does. */
+struct EqualErrorRow : Measurement {
+  std::string range;          ///< first and last speed [Hz]
   std::size_t speeds, tried;  ///< settings tried
   double target;
-  bool reached;  ///< by one of the settings
-  Measurement best =
-      {};  ///< the cheapest that reaches it, or the one with the least error
-  double ratio =
-      0;  ///< CPU over that of aft at the same range and target; 0: aft has none
+  bool reached;
+  double ratio = 0;  ///< CPU over that of aft; 0 where aft has not reached the target
 };
 
 /** Of the settings tried. `rows` has that of aft, if it is to be compared with. */

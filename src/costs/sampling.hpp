@@ -1,10 +1,8 @@
 /**
 # How many samples m harmonics need
 
-The force is no polynomial, so N samples of it alias: the coefficients of the m harmonics take an error
-that falls with N. Beyond the point where it is smaller than the error of stopping at m, more samples
-buy nothing. Both are measured on the bearing: the sampling error of a solution against the same m at a
-very large N, and the truncation error of that one against many more harmonics. */
+The error of sampling is that of a solution against the same m at a very large N; the error of truncation
+is that of this one against many more harmonics. */
 #pragma once
 
 #include "costs/true_motion.hpp"

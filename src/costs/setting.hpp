@@ -21,18 +21,16 @@ namespace rotor_stator::costs
 - *shooting-rk4*, *shooting-rk8pd*, …: Newton's method on the period map. */
 struct Setting {
   std::string method;
-  int harmonics = 0;    ///< aft: m, the least where `corner` asks for more
-  double corner = 0;    ///< aft: m f is at least this [Hz]
-  double estimate = 0;  ///< aft: bound on the estimated truncation error [-]
-  int samples_per_harmonic =
-      0;                     ///< aft: N is the fast size from this times m, plus 1, on
-  int samples = 0;           ///< aft: N itself, instead
+  int harmonics = 0;             ///< aft: m, the least where `corner` asks for more
+  double corner = 0;             ///< aft: m f is at least this [Hz]
+  double estimate = 0;           ///< aft: bound on the estimated truncation error [-]
+  int samples_per_harmonic = 0;  ///< aft: N is a fast size above this times m
+  int samples = 0;               ///< aft: N itself, instead
   bool paper_sweep = false;  ///< aft: the paper's continuation, continuation/sweep.hpp
   double tolerance = 0;      ///< aft: Newton's; GSL: local error
   double step = 0;           ///< rk4 [s]
   double transient = 0;      ///< time methods, at each speed [s]
-  int recorded =
-      0;  ///< time integration: instants of a period that follows the transient
+  int recorded = 0;          ///< time integration: intervals of a last period
   double periodicity_residual = 0;  ///< shooting; "closure" in files [-]
 
   bool is_shooting() const { return method.starts_with("shooting-"); }

@@ -501,9 +501,9 @@ void add(MotionError& error, const TimedMethod& method, const References& sweep,
 
 Measurement measure(const References& sweep, const Setting& setting, int repetitions)
 {
-  const auto method = timed_method({sweep.parameters, sweep.frequencies}, setting);
+  const auto method = timed_method(sweep, setting);
   const CpuTime cpu = time_of(repetitions, [&] { method->run(); });
-  Measurement result{setting, repetitions, cpu, {}, method->counts().force_instants};
+  Measurement result{setting, repetitions, cpu, method->counts(), {}};
   for (std::size_t speed = 0; speed < sweep.frequencies.size(); ++speed)
     add(result.error, *method, sweep, speed);
   return result;
@@ -511,7 +511,7 @@ Measurement measure(const References& sweep, const Setting& setting, int repetit
 
 MotionError error_up_to(double bound, const References& sweep, const Setting& setting)
 {
-  const auto method = timed_method({sweep.parameters, sweep.frequencies}, setting);
+  const auto method = timed_method(sweep, setting);
   MotionError error;
   method->run([&](std::size_t speed) {
     add(error, *method, sweep, speed);

@@ -34,20 +34,6 @@ double thread_cpu_seconds();
 
 CpuTime time_of(int repetitions, const std::function<void()>& work);
 
-struct Task {
-  Parameters parameters;
-  std::vector<double> frequencies;  ///< [Hz]
-
-  /** A speed [Hz] whose solution is known when the work begins, and the state there at phase 0. */
-  struct Known {
-    double frequency;
-    State state;
-  };
-  std::optional<Known> before = {};
-
-  bool profiled = false;  ///< time the force inside harmonic balance
-};
-
 /** Operations of the last run. */
 struct Counts {
   long force_instants = 0;   ///< evaluations of the bearing's force, one instant each
@@ -91,8 +77,8 @@ struct Measurement {
   Setting setting;
   int repetitions;
   CpuTime cpu;
+  Counts counts;
   MotionError error;
-  long evaluations;  ///< of the bearing's force, one instant each
 };
 
 Measurement measure(const References& sweep, const Setting& setting, int repetitions);

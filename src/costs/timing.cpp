@@ -96,8 +96,7 @@ std::vector<Setting> cheapest_rk4(const TimingScene& scene, const References& re
 namespace
 {
 
-struct TimingRow {
-  Measurement sweep;
+struct TimingRow : Measurement {
   int harmonics;
   double ratio, paper_cpu;
 };
@@ -106,29 +105,27 @@ using Row = const TimingRow&;
 
 const std::vector<Field<TimingRow>> timing_fields{
     {"method", "-", "aft: harmonic balance; rk4: classical Runge-Kutta with fixed step",
-     [](Row r) { return r.sweep.setting.method; }},
+     [](Row r) { return r.setting.method; }},
     {"harmonics", "-", "m; for rk4 that of the row whose error it reaches",
      &TimingRow::harmonics},
-    {"samples", "-", "N per period; 0 for rk4",
-     [](Row r) { return r.sweep.setting.samples; }},
+    {"samples", "-", "N per period; 0 for rk4", [](Row r) { return r.setting.samples; }},
     {"cpu_s", "s", "CPU of one thread for the whole sweep, median of the repetitions",
-     [](Row r) { return r.sweep.cpu.median; }},
-    {"cpu_min_s", "s", "least", [](Row r) { return r.sweep.cpu.least; }},
-    {"cpu_max_s", "s", "most", [](Row r) { return r.sweep.cpu.most; }},
+     [](Row r) { return r.cpu.median; }},
+    {"cpu_min_s", "s", "least", [](Row r) { return r.cpu.least; }},
+    {"cpu_max_s", "s", "most", [](Row r) { return r.cpu.most; }},
     {"error", "-", "largest relative error of displacement over the periodic speeds",
-     [](Row r) { return r.sweep.error.displacement; }},
+     [](Row r) { return r.error.displacement; }},
     {"error_force", "-", "largest relative error of force over the periodic speeds",
-     [](Row r) { return r.sweep.error.force; }},
+     [](Row r) { return r.error.force; }},
     {"ratio", "-", "CPU of the rk4 row with the same harmonics over this row's",
      &TimingRow::ratio},
-    {"step_s", "s", "rk4: longest step; 0 for aft",
-     [](Row r) { return r.sweep.setting.step; }},
+    {"step_s", "s", "rk4: longest step; 0 for aft", [](Row r) { return r.setting.step; }},
     {"transient_s", "s", "rk4: transient at each speed; 0 for aft",
-     [](Row r) { return r.sweep.setting.transient; }},
+     [](Row r) { return r.setting.transient; }},
     {"evaluations", "-", "evaluations of the bearing's force",
-     [](Row r) { return r.sweep.evaluations; }},
+     [](Row r) { return r.counts.force_instants; }},
     {"worst_f", "Hz", "speed with the largest error of displacement",
-     [](Row r) { return r.sweep.error.worst_frequency; }},
+     [](Row r) { return r.error.worst_frequency; }},
     {"paper_cpu", "-", "the paper's figure, unit not given", &TimingRow::paper_cpu}};
 
 }  // namespace

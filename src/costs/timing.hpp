@@ -1,14 +1,8 @@
 /**
-# Cost at equal error (the paper's CPU comparison, §3.3; its unit is not given, D-18)
+# Table 2: harmonic balance against classical RK4 at equal error (§3.3)
 
-The same sweep, at the same speeds, by harmonic balance with several m and by classical RK4. For each m
-RK4 runs at the cheapest step and transient whose largest displacement error over the sweep is not above
-that of harmonic balance: cheapest by its count of steps, among the steps and transients of the scene
-file. RK4 goes from each speed to the next with the state it has; its first speed starts from the static
-load. Both are written with the same bearing and the same care.
-
-Speeds at which the motion has not the period T are solved and timed like the others; about them there
-is nothing to be right, and they are listed. */
+Both go through the same speeds, T-periodic or not. RK4 takes the state from speed to speed, and the first
+from the static load; of its settings those with the fewest steps are the cheapest. */
 #pragma once
 
 #include "costs/timed_method.hpp"

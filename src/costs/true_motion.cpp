@@ -77,7 +77,7 @@ References true_motions(const Parameters& parameters,
   const auto truths = computed_in_parallel(
       "references", frequencies.size(),
       [&](std::size_t k) { return true_motion(parameters, frequencies[k], settings); });
-  References references{parameters, frequencies, {}};
+  References references{{parameters, frequencies}, {}};
   for (const TrueMotion& truth : truths) {
     references.motions.emplace_back();
     if (!truth.periodic) continue;

@@ -35,11 +35,24 @@ TrueMotion true_motion(const Parameters& parameters, double frequency,
     motion [-]. Throws NoSolution when that has no solution. */
 double agreement(const Parameters& parameters, const TrueMotion& truth, int harmonics);
 
-/** The speeds of a sweep with their true motions. */
-struct References {
+/** A row of speeds of one machine, to be solved in order. */
+struct Task {
   Parameters parameters;
   std::vector<double> frequencies;  ///< [Hz]
-  motion::Motions motions;          ///< none where the motion has not the period T
+
+  /** A speed [Hz] whose solution is known when the work begins, and the state there at phase 0. */
+  struct Known {
+    double frequency;
+    State state;
+  };
+  std::optional<Known> before = {};
+
+  bool profiled = false;  ///< time the force inside harmonic balance
+};
+
+/** The speeds of a sweep with their true motions. */
+struct References : Task {
+  motion::Motions motions;  ///< none where the motion has not the period T
   double spread = 0, periodicity_residual = 0;  ///< largest of the others [-]
 
   /** For headers: how the motions were found, and where there is none. */

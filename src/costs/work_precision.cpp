@@ -51,9 +51,8 @@ WorkCase work_case(const WorkPrecisionScene& scene, std::size_t number)
 namespace
 {
 
-/** Enough of it for the clock. */
+/** Evaluations that are timed together, enough for the clock. */
 constexpr int instants = 20000;
-constexpr int repetitions = 5;
 
 /** CPU seconds of one evaluation of the bearing's force by a time method, along a motion. */
 double seconds_of_force(const Parameters& parameters, const motion::Motion& motion)
@@ -63,7 +62,7 @@ double seconds_of_force(const Parameters& parameters, const motion::Motion& moti
   for (std::size_t k = 0; k < motion.size(); ++k)
     cage.push_back(Direction::of(parameters.bearing.cage_speed_ratio * motion.phase(k)));
   volatile double kept = 0;
-  const CpuTime time = time_of(repetitions, [&] {
+  const CpuTime time = time_of(5, [&] {
     double sum = 0;
     for (int k = 0; k < instants; ++k) {
       const std::size_t at = k % motion.size();
@@ -81,7 +80,7 @@ double seconds_of_transform(int samples)
   const int times = std::max(1, instants / samples);
   Eigen::MatrixXd values = Eigen::MatrixXd::Ones(samples, 1);
   Eigen::MatrixXd series = Eigen::MatrixXd::Zero(1, 2 * (samples / 4) + 1);
-  const CpuTime time = time_of(repetitions, [&] {
+  const CpuTime time = time_of(5, [&] {
     for (int k = 0; k < times; ++k) {
       transform.to_series(values, series);
       transform.to_samples(series, values);
@@ -91,15 +90,17 @@ double seconds_of_transform(int samples)
 }
 
 /** A run in which the force is timed, or the number of evaluations times what one takes. */
-void split_time(WorkPoint& point, Task task, const WorkCase& reference)
+void split_time(WorkPoint& point, const References& references)
 {
   const Counts& counts = point.counts;
   if (point.setting.method != "aft") {
-    const double force = static_cast<double>(counts.force_instants) *
-                         seconds_of_force(reference.parameters, reference.truth.motion);
+    const double force =
+        static_cast<double>(counts.force_instants) *
+        seconds_of_force(references.parameters, *references.motions.front());
     point.force_share = std::min(1.0, force / point.cpu.median);
     return;
   }
+  Task task = references;
   task.profiled = true;
   const auto method = timed_method(task, point.setting);
   double force = 0;
@@ -120,28 +121,14 @@ void split_time(WorkPoint& point, Task task, const WorkCase& reference)
 WorkPoint work_point(const WorkPrecisionScene& scene, const WorkCase& reference,
                      bool continued, const Setting& setting)
 {
-  const TrueMotion& truth = reference.truth;
-  Task task{.parameters = reference.parameters, .frequencies = {truth.frequency}};
-  if (continued) task.before = {reference.before.frequency, reference.before.state};
-  const auto method = timed_method(task, setting);
-  const double start = thread_cpu_seconds();
-  method->run();
-  const bool is_long = thread_cpu_seconds() - start > scene.long_run;
-  WorkPoint point{.number = reference.number,
-                  .frequency = truth.frequency,
-                  .continued = continued,
-                  .setting = setting,
-                  .repetitions = is_long ? 2 : scene.repetitions,
-                  .counts = method->counts()};
-  MotionError error;
-  error.add(reference.parameters, truth.frequency,
-            method->motion(0, truth.motion.points_per_period), truth.motion);
-  point.cpu = time_of(point.repetitions, [&] { method->run(); });
-  if (!std::isfinite(error.displacement)) return point;
-  point.found = true;
-  point.error = error.displacement;
-  point.error_force = error.force;
-  split_time(point, task, reference);
+  const auto& [number, parameters, truth, before, agreement] = reference;
+  References references{{parameters, {truth.frequency}}, {truth.motion}};
+  if (continued) references.before = {before.frequency, before.state};
+  const double once = measure(references, setting, 1).cpu.median;
+  const int repetitions = once > scene.long_run ? 2 : scene.repetitions;
+  WorkPoint point{measure(references, setting, repetitions), number, truth.frequency,
+                  continued};
+  if (point.found()) split_time(point, references);
   return point;
 }
 
@@ -160,16 +147,16 @@ const std::vector<Field<WorkPoint>> work_precision_fields{
      [](Row r) { return r.setting.method; }},
     {"setting", "-", "m, N, tolerance, step [s], transient [s], closure",
      [](Row r) { return r.setting.text(); }},
-    {"found", "-", "whether it gave a motion", &WorkPoint::found},
+    {"found", "-", "whether it gave a motion", [](Row r) { return r.found(); }},
     {"cpu_s", "s", "CPU of one thread, median of the repetitions",
      [](Row r) { return r.cpu.median; }},
     {"cpu_min_s", "s", "least", [](Row r) { return r.cpu.least; }},
     {"cpu_max_s", "s", "most", [](Row r) { return r.cpu.most; }},
     {"repetitions", "-", "fewer for the long runs", &WorkPoint::repetitions},
     {"error", "-", "largest relative error of displacement; -1 when not found",
-     &WorkPoint::error},
+     [](Row r) { return r.found() ? r.error.displacement : -1; }},
     {"error_force", "-", "largest relative error of force; -1 when not found",
-     &WorkPoint::error_force},
+     [](Row r) { return r.found() ? r.error.force : -1; }},
     {"force_share", "-", "of the CPU time in the bearing's force",
      &WorkPoint::force_share},
     {"transform_share", "-", "of the CPU time in Fourier transforms",

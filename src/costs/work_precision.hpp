@@ -1,13 +1,13 @@
 /**
 # Work against precision
 
-One periodic motion at each of a few speeds, by every method at many settings: the CPU time of one thread
-against the error of displacement and of force. Each is run from nothing (the static load, quasi-static
-contact) and from the known motion at a speed a little below. The time is also split: what the bearing's
-force takes, what the Fourier transforms take, and the rest, which is the linear algebra of harmonic
-balance and the steps of the time methods. The force inside harmonic balance is timed in a run of its
-own; all other parts are numbers of operations times what one takes in the same run. */
+One periodic motion at each of a few speeds, by every method at many settings, from nothing (the static
+load, quasi-static contact) and from the known motion at a speed a little below. The force inside harmonic
+balance is timed in a run of its own; all other shares of the time are numbers of operations times what
+one takes in the same run. */
 #pragma once
+
+#include <cmath>
 
 #include "costs/timed_method.hpp"
 #include "costs/true_motion.hpp"
@@ -42,17 +42,13 @@ struct WorkCase {
     T-periodic. */
 WorkCase work_case(const WorkPrecisionScene& scene, std::size_t number);
 
-struct WorkPoint {
+struct WorkPoint : Measurement {
   std::size_t number;  ///< of the case
   double frequency;    ///< [Hz]
   bool continued;      ///< from the motion below, else from nothing
-  Setting setting;
-  int repetitions;
-  Counts counts;
-  CpuTime cpu = {};
-  bool found = false;
-  double error = -1, error_force = -1;          ///< [-]; -1 when not found
   double force_share = 0, transform_share = 0;  ///< of the CPU time [-]
+
+  bool found() const { return std::isfinite(error.displacement); }
 };
 
 /** One setting, measured. */
