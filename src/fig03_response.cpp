@@ -39,9 +39,9 @@ int main(int argc, char** argv)
     const std::vector<double> downwards(upwards.rbegin(), upwards.rend());
     for (const figures::DataSet& set : scene.sets) {
       figures::add_curve(table, set, figures::Curve::speed_up,
-                         figures::sweep_speeds(set, upwards));
+                         sweep(set.machine, angular(upwards), set.harmonics));
       figures::add_curve(table, set, figures::Curve::speed_down,
-                         figures::sweep_speeds(set, downwards));
+                         sweep(set.machine, angular(downwards), set.harmonics));
       for (double frequency : Watched("time integration", scene.time_speeds)) {
         const SteadyState settled =
             steady_state(set.machine, angular(frequency), static_start(set.machine),

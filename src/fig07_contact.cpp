@@ -36,7 +36,7 @@ int main(int argc, char** argv)
     Table table = figures::contact_table(scene);
     for (double frequency : Watched(scene.title, scene.frequencies)) {
       const double omega = angular(frequency);
-      const motion::PeriodicSolution balance =
+      const PeriodicMotion balance =
           motion::find_periodic(scene.machine, omega, scene.harmonics, scene.samples);
       const SteadyState settled = steady_state(
           scene.machine, omega, static_start(scene.machine), scene.time_integration);

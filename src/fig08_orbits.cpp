@@ -28,6 +28,7 @@ repeat, such a solution satisfies the truncated equations, but the machine does 
 after a start from rest. It is in the table and not in the drawing. */
 #include "figures/orbits.hpp"
 #include "io/program.hpp"
+#include "motion/other_starts.hpp"
 
 int main(int argc, char** argv)
 {
@@ -37,8 +38,8 @@ int main(int argc, char** argv)
     Table table = figures::orbit_table(scene);
     for (double frequency : Watched(scene.title, scene.frequencies)) {
       const double omega = angular(frequency);
-      const motion::PeriodicSolution balance =
-          motion::find_periodic(scene.machine, omega, scene.harmonics, scene.samples);
+      const PeriodicMotion balance =
+          motion::search_periodic(scene.machine, omega, scene.harmonics, scene.samples);
       const SteadyState settled = steady_state(
           scene.machine, omega, static_start(scene.machine), scene.time_integration);
       const figures::Panel panel = figures::compare(scene, frequency, balance, settled);

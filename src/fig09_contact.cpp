@@ -26,6 +26,7 @@ largest force. It is large, although the displacements differ by a few per cent 
 most, because the penetrations that decide the force are small against the displacements. */
 #include "figures/contact.hpp"
 #include "io/program.hpp"
+#include "motion/other_starts.hpp"
 
 int main(int argc, char** argv)
 {
@@ -35,8 +36,8 @@ int main(int argc, char** argv)
     Table table = figures::contact_table(scene);
     for (double frequency : Watched(scene.title, scene.frequencies)) {
       const double omega = angular(frequency);
-      const motion::PeriodicSolution balance =
-          motion::find_periodic(scene.machine, omega, scene.harmonics, scene.samples);
+      const PeriodicMotion balance =
+          motion::search_periodic(scene.machine, omega, scene.harmonics, scene.samples);
       const SteadyState settled = steady_state(
           scene.machine, omega, static_start(scene.machine), scene.time_integration);
       const figures::Panel panel = figures::compare(scene, frequency, balance, settled);

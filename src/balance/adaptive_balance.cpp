@@ -3,7 +3,7 @@
 #include <cmath>
 #include <limits>
 
-#include "balance/bearing_problem.hpp"
+#include "balance/step_solver.hpp"
 #include "io/errors.hpp"
 
 namespace rotor_stator
@@ -39,8 +39,7 @@ public:
         omega_(omega),
         cold_solve_(cold_solve),
         settings_(settings),
-        estimate_tolerance_(settings.newton.tolerance),
-        result_{}
+        estimate_tolerance_(settings.newton.tolerance)
   {
     NewtonSettings& newton = settings_.newton;
     newton.tolerance = level_tolerance(settings);
@@ -48,7 +47,7 @@ public:
     newton.most_halvings = std::min(newton.most_halvings, few_halvings);
   }
 
-  AdaptiveBalance run()
+  AdaptiveMotion run()
   {
     int m = settings_.first_harmonics;
     while (!solve_level(m) || !estimate_level()) {
@@ -68,54 +67,43 @@ private:
   {
     constexpr int patience = 3;
     const int n = adaptive_samples(m);
-    result_.levels.push_back({m, n, 0, {infinite, false, 0, 0, 0, 0}});
     const bool thorough = failures_ == patience || m >= settings_.most_harmonics;
-    if (!warm(m, n) && !cold(m, n, thorough)) {
-      ++failures_;
-      return false;
-    }
-    failures_ = 0;
-    result_.levels.back().newton = result_.newton.iterations;
-    return true;
+    const bool solved = (start_.size() > 0 && keep(warm(m, n))) ||
+                        keep(cold_solve_(m, n, thorough, settings_.newton));
+    failures_ = solved ? 0 : failures_ + 1;
+    return solved;
   }
 
-  bool warm(int m, int n)
+  bool keep(PeriodicMotion motion)
   {
-    if (start_.size() == 0) return false;
+    result_.force_samples += motion.force_samples;
+    const bool found = motion.found();
+    if (found) result_.motion = std::move(motion);
+    return found;
+  }
+
+  PeriodicMotion warm(int m, int n) const
+  {
     NewtonSettings warmly = settings_.newton;
     warmly.most_iterations = std::min(warmly.most_iterations, few_warm_iterations);
     warmly.most_halvings = std::min(warmly.most_halvings, few_warm_halvings);
     Balance balance(observed_.problem(n), m);
-    Eigen::VectorXd x = resize_harmonics(start_, balance.problem().dofs, m);
-    const NewtonReport newton = solve(balance, omega_, x, warmly);
-    result_.force_samples += balance.evaluations() * n;
-    if (!newton.converged()) return false;
-    result_.newton = newton;
-    result_.solution = {m, n, x, observed_.series(balance, x)};
-    return true;
-  }
-
-  bool cold(int m, int n, bool thorough)
-  {
-    FirstSolution first = cold_solve_(m, n, thorough, settings_.newton);
-    result_.force_samples += first.force_samples;
-    if (!first.newton.converged()) return false;
-    result_.newton = first.newton;
-    result_.solution = std::move(first.solution);
-    return true;
+    PeriodicMotion motion = solve(
+        balance, omega_, resize_harmonics(start_, balance.problem().dofs, m), warmly);
+    motion.start = result_.motion.start;
+    if (motion.found()) motion.bodies = observed_.series(motion);
+    return motion;
   }
 
   /** Whether the estimate is good enough; otherwise it is what the next level starts from. */
   bool estimate_level()
   {
-    Refined refined =
-        estimate_error(observed_, omega_, result_.solution, estimate_tolerance_);
-    result_.estimate = result_.levels.back().estimate = refined.estimate;
-    result_.force_samples += refined.estimate.force_samples;
-    finer_ = refined.estimate.settled ? std::move(refined.finer) : Discretised{};
-    start_ = refined.estimate.settled ? finer_.x : result_.solution.x;
-    result_.reached =
-        refined.estimate.settled && refined.estimate.displacement <= settings_.tolerance;
+    Refined refined = estimate_error(observed_, result_.motion, estimate_tolerance_);
+    const ErrorEstimate& error = result_.motion.error.emplace(refined.estimate);
+    result_.force_samples += error.force_samples;
+    finer_ = error.settled ? std::move(refined.finer) : PeriodicMotion{};
+    start_ = error.settled ? finer_.x : result_.motion.x;
+    result_.reached = error.settled && error.displacement <= settings_.tolerance;
     if (result_.reached) result_.end = "the estimate is below the tolerance";
     return result_.reached;
   }
@@ -126,26 +114,26 @@ private:
   {
     const int a_little = std::max(m + 2, m + 2 * m / 5),
               half_as_many = m + std::max(1, m / 2);
-    if (finer_.harmonics == 0 || failures_ > 0) return half_as_many;
-    const double goal = 0.5 * settings_.tolerance / result_.estimate.displacement *
-                        tail(finer_.series, m);
+    if (finer_.x.size() == 0 || failures_ > 0) return half_as_many;
+    const double goal = 0.5 * settings_.tolerance / result_.motion.error->displacement *
+                        tail(finer_.bodies, m);
     int more = a_little;
-    while (more < finer_.harmonics && tail(finer_.series, more) > goal) ++more;
+    while (more < finer_.harmonics.highest() && tail(finer_.bodies, more) > goal) ++more;
     return more;
   }
 
   std::string end(int m) const
   {
-    if (result_.solution.x.size() == 0)
-      return format("no solution with up to %d harmonics", m);
-    const int solved = result_.solution.harmonics;
-    if (!result_.estimate.settled)
+    if (!result_.motion.found()) return format("no solution with up to %d harmonics", m);
+    const int solved = result_.motion.harmonics.highest();
+    const ErrorEstimate& error = *result_.motion.error;
+    if (!error.settled)
       return format(
           "the error with %d harmonics could not be estimated: no solution with %d "
           "was found from it",
-          solved, result_.estimate.harmonics);
+          solved, error.harmonics);
     const std::string reached = format("the error with %d harmonics is estimated as %.2g",
-                                       solved, result_.estimate.displacement);
+                                       solved, error.displacement);
     return solved == m ? reached : reached + format(", and none with %d was found", m);
   }
 
@@ -154,8 +142,8 @@ private:
   const ColdSolve& cold_solve_;
   AdaptiveSettings settings_;
   double estimate_tolerance_;
-  AdaptiveBalance result_;
-  Discretised finer_{};
+  AdaptiveMotion result_;
+  PeriodicMotion finer_;
   Eigen::VectorXd start_;
   int failures_ = 0;  ///< levels without a solution since the last one
 };
@@ -167,9 +155,9 @@ double level_tolerance(const AdaptiveSettings& settings)
   return std::max(settings.newton.tolerance, 1e-3 * settings.tolerance);
 }
 
-AdaptiveBalance solve_adaptively(const ObservedProblem& observed, double omega,
-                                 const ColdSolve& cold_solve,
-                                 const AdaptiveSettings& settings)
+AdaptiveMotion solve_adaptively(const ObservedProblem& observed, double omega,
+                                const ColdSolve& cold_solve,
+                                const AdaptiveSettings& settings)
 {
   return Search(observed, omega, cold_solve, settings).run();
 }
@@ -230,84 +218,85 @@ public:
   {
   }
 
-  /** Whether it came so far; `x` then is the last point that was evaluated. */
+  /** Whether it came so far; `next` then leads one step further. */
   bool arrives()
   {
-    while (balance_.evaluations() < most_evaluations) {
-      find_step();
-      if (!std::isfinite(step_size_)) return false;
-      if (!(residual_ <= residual_before_)) {
-        if (++halvings_ > most_halvings) return false;
-        last_ /= 2;
-        x_ -= last_;
+    double before = infinite, residual_before = infinite;
+    Eigen::VectorXd last;  // the step to x
+    for (int halvings = 0; balance_.evaluations() < most_evaluations;) {
+      const double residual = find_step(before), size = next.norm();
+      if (!std::isfinite(size)) return false;
+      if (!(residual <= residual_before)) {
+        if (++halvings > most_halvings) return false;
+        last /= 2;
+        x_ -= last;
         continue;
       }
-      if (is_small()) return true;
-      last_ = balance_.newton_vectors().step;
-      x_ += last_;
-      ++steps_;
-      halvings_ = 0;
-      residual_before_ = residual_;
-      before_ = step_size_;
+      if (is_small(size)) return true;
+      last = next;
+      x_ += last;
+      ++steps;
+      halvings = 0;
+      residual_before = residual;
+      before = size;
     }
     return false;
   }
 
-  int steps() const { return steps_; }
+  Eigen::VectorXd next;
+  int steps = 0;
 
 private:
   static constexpr double most_left = 0.2;
   static constexpr int most_evaluations = 12, most_halvings = 3;
 
-  /** Newton's step from x, or a chord step with the factors at hand. */
-  void find_step()
+  /** Newton's step from x, or a chord step with the factors at hand; returns the residual. */
+  double find_step(double size_before)
   {
-    const double scale = balance_.problem().residual_scale;
-    auto& [residual, step, start] = balance_.newton_vectors();
-    residual = balance_.residual(x_, omega_);
-    residual_ = residual.norm();
-    const double goal =
-        std::max(std::min(1e-2, residual_ / scale) * residual_, 0.1 * tolerance_ * scale);
-    balance_.steps().step(balance_, residual, goal, step);
-    step_size_ = step.norm();
-    balance_.steps().learn(step_size_ / before_);
+    const Eigen::VectorXd& residual = balance_.residual(x_, omega_);
+    StepSolver& solver = balance_.steps();
+    solver.step(balance_, x_, omega_, residual,
+                linear_goal(balance_, residual.norm(), tolerance_), next);
+    solver.learn(next.norm() / size_before);
+    return residual.norm();
   }
 
-  bool is_small() const
+  bool is_small(double size) const
   {
-    return step_size_ <= tolerance_ * balance_.problem().unknown_scale ||
-           step_size_ <= most_left * (x_ - start_).norm();
+    return size <= tolerance_ * balance_.problem().unknown_scale ||
+           size <= most_left * (x_ - start_).norm();
   }
 
   Balance& balance_;
   double omega_, tolerance_;
   Eigen::VectorXd& x_;
   const Eigen::VectorXd start_;
-  Eigen::VectorXd last_;  ///< the step to x
-  double step_size_ = 0, residual_ = 0, before_ = infinite, residual_before_ = infinite;
-  int steps_ = 0, halvings_ = 0;
 };
 
 }  // namespace
 
-Refined estimate_error(const ObservedProblem& observed, double omega,
-                       const Discretised& coarse, double newton_tolerance)
+Refined estimate_error(const ObservedProblem& observed, const PeriodicMotion& coarse,
+                       double newton_tolerance)
 {
-  const int m = 3 * coarse.harmonics;
-  const int n = fast_transform_size(std::max(8 * coarse.harmonics, 2 * coarse.samples));
+  const int m = 3 * coarse.harmonics.highest();
+  const int n =
+      fast_transform_size(std::max(8 * coarse.harmonics.highest(), 2 * coarse.samples));
   Balance balance(observed.problem(n), m);
-  Refined refined{{infinite, false, m, n, 0, 0}, {m, n, {}, {}}};
+  Refined refined{
+      {infinite, false, m, n, 0, 0},
+      {.omega = coarse.omega, .harmonics = balance.harmonics(), .samples = n}};
   auto& [estimate, finer] = refined;
   finer.x = resize_harmonics(coarse.x, balance.problem().dofs, m);
-  Approach approach(balance, omega, newton_tolerance, finer.x);
+  Approach approach(balance, coarse.omega, newton_tolerance, finer.x);
   estimate.settled = approach.arrives();
-  estimate.newton = approach.steps();
+  estimate.newton = approach.steps;
   estimate.force_samples = balance.evaluations() * n;
   if (!estimate.settled) return refined;
-  finer.series = observed.series(balance, finer.x);
-  estimate.displacement = series_difference(coarse.series, finer.series);
+  finer.force = balance.force(finer.x, coarse.omega);
+  finer.bodies = observed.series(finer);
+  estimate.displacement = series_difference(coarse.bodies, finer.bodies);
   /** The next solution starts from one step further, which costs nothing more. */
-  finer.x += balance.newton_vectors().step;
+  finer.x += approach.next;
   return refined;
 }
 

@@ -16,10 +16,6 @@ Three times m, because the coefficients do not fall monotonically: with two, a c
 2m is overlooked more often. */
 #pragma once
 
-#include <functional>
-#include <string>
-#include <vector>
-
 #include "balance/newton.hpp"
 
 namespace rotor_stator
@@ -29,33 +25,17 @@ namespace rotor_stator
 struct ObservedProblem {
   std::function<Problem(int samples)> problem;
 
-  /** The observed series, rows × (2m+1), at the balance's last point. */
-  std::function<Eigen::MatrixXd(const Balance& balance, const Eigen::VectorXd& x)> series;
-};
-
-/** A solution with m harmonics and N samples. */
-struct Discretised {
-  int harmonics, samples;
-  Eigen::VectorXd x;
-  Eigen::MatrixXd series;  ///< observed
-};
-
-struct ErrorEstimate {
-  double displacement;     ///< largest difference over the rows and the period, over the
-                           ///< largest value [-]; infinite when nothing was found
-  bool settled;            ///< the last step is small: the estimate can be relied on
-  int harmonics, samples;  ///< m' and N' of the finer discretisation
-  int newton;              ///< steps taken there
-  long force_samples;      ///< evaluations of the force times N'
+  /** The observed series of a solution, rows × (2m+1); a motion holds them as its `bodies`. */
+  std::function<Eigen::MatrixXd(const PeriodicMotion& motion)> series;
 };
 
 /** The error of `coarse`, and the finer solution it was measured with. */
 struct Refined {
   ErrorEstimate estimate;
-  Discretised finer;
+  PeriodicMotion finer;
 };
-Refined estimate_error(const ObservedProblem& observed, double omega,
-                       const Discretised& coarse, double newton_tolerance = 1e-10);
+Refined estimate_error(const ObservedProblem& observed, const PeriodicMotion& coarse,
+                       double newton_tolerance = 1e-10);
 
 /** Samples with m harmonics: half of `default_samples`, since here the error of sampling is estimated
     with the rest. */
@@ -73,37 +53,23 @@ struct AdaptiveSettings {
     its own, since the estimate covers it. */
 double level_tolerance(const AdaptiveSettings& settings);
 
-/** One number of harmonics that was tried. */
-struct AdaptiveLevel {
-  int harmonics, samples;
-  int newton;              ///< iterations
-  ErrorEstimate estimate;  ///< not settled when no solution was found
-};
-
-struct AdaptiveBalance {
-  Discretised solution;  ///< the last one; `x` is empty when none was found
-  NewtonReport newton;
-  ErrorEstimate estimate;
-  std::vector<AdaptiveLevel> levels;
-  long force_samples;  ///< evaluations of the force times samples, all levels
-  bool reached;        ///< the estimate is settled and below the tolerance
-  std::string end;     ///< why it stopped
+struct AdaptiveMotion {
+  PeriodicMotion motion;  ///< the last one, with its error; not found when there is none
+  long force_samples =
+      0;  ///< evaluations of the force times samples, all numbers of harmonics
+  bool reached = false;  ///< the estimate is settled and below the tolerance
+  std::string end = {};  ///< why it stopped
 };
 
 /** A solution from no other one, when it is found. What is cheap is tried first, for a few numbers of
     harmonics; a `thorough` search only when that fails. */
-struct FirstSolution {
-  Discretised solution;
-  NewtonReport newton;
-  long force_samples;
-};
-using ColdSolve = std::function<FirstSolution(int harmonics, int samples, bool thorough,
-                                              const NewtonSettings&)>;
+using ColdSolve = std::function<PeriodicMotion(int harmonics, int samples, bool thorough,
+                                               const NewtonSettings&)>;
 
 /** Raises m until the estimate is below the tolerance. */
-AdaptiveBalance solve_adaptively(const ObservedProblem& observed, double omega,
-                                 const ColdSolve& cold_solve,
-                                 const AdaptiveSettings& settings);
+AdaptiveMotion solve_adaptively(const ObservedProblem& observed, double omega,
+                                const ColdSolve& cold_solve,
+                                const AdaptiveSettings& settings);
 
 /** The largest difference of two observed series over rows and period, over the largest value of
     `reference` [-]; they may differ in their numbers of harmonics. */

@@ -1,13 +1,27 @@
 #include "balance/balance.hpp"
 
 #include <Eigen/LU>
+#include <cstring>
 #include <limits>
 
-#include "balance/problem.hpp"
+#include "balance/step_solver.hpp"
 #include "io/errors.hpp"
 
 namespace rotor_stator
 {
+
+SmallVector amplitude(const Eigen::Ref<const Eigen::MatrixXd>& series, int h)
+{
+  if (h == 0) return series.col(0).cast<std::complex<double>>();
+  return series.col(2 * h - 1) - std::complex(0.0, 1.0) * series.col(2 * h);
+}
+
+void put_amplitude(Eigen::Ref<Eigen::MatrixXd> series, int h,
+                   const SmallVector& amplitude)
+{
+  series.col(h == 0 ? 0 : 2 * h - 1) = amplitude.real();
+  if (h > 0) series.col(2 * h) = -amplitude.imag();
+}
 
 namespace
 {
@@ -22,25 +36,6 @@ void expand(const SmallMatrix& z, Block block)
   block.topRightCorner(d, d) = z.imag();
   block.bottomLeftCorner(d, d) = -z.imag();
   block.bottomRightCorner(d, d) = z.real();
-}
-
-/** Writes a complex amplitude into the rows of harmonic h of a real vector. */
-void put(Eigen::VectorXd& x, int h, const SmallVector& amplitude)
-{
-  const auto d = amplitude.size();
-  if (h == 0) {
-    x.head(d) = amplitude.real();
-    return;
-  }
-  x.segment((2 * h - 1) * d, d) = amplitude.real();
-  x.segment(2 * h * d, d) = -amplitude.imag();
-}
-
-/** Complex amplitude of harmonic h. */
-SmallVector amplitude(const Eigen::MatrixXd& series, int h)
-{
-  if (h == 0) return series.col(0).cast<std::complex<double>>();
-  return series.col(2 * h - 1) - std::complex(0.0, 1.0) * series.col(2 * h);
 }
 
 }  // namespace
@@ -65,26 +60,32 @@ LinearBlock second_order_block(const Eigen::MatrixXd& mass,
 Balance::Balance(Problem problem, int harmonics)
     : problem_(std::move(problem)),
       harmonics_(harmonics),
+      m_(harmonics),
       transform_(problem_.samples),
       omega_(std::numeric_limits<double>::quiet_NaN()),
-      a_(2 * problem_.dofs, 2 * problem_.dofs * (harmonics + 1)),
+      a_(2 * problem_.dofs, 2 * problem_.dofs * (m_ + 1)),
       b_(a_.rows(), a_.cols()),
-      c_(unknowns()),
-      force_series_(problem_.dofs, 2 * harmonics + 1),
-      product_series_(problem_.dofs, 2 * harmonics + 1),
-      residual_(unknowns())
+      c_(problem_.dofs, harmonics_.coefficients()),
+      series_(c_),
+      force_series_(c_),
+      product_series_(c_),
+      residual_(c_.size()),
+      speed_derivative_(c_.size()),
+      steps_(std::make_unique<StepSolver>())
 {
 }
+Balance::~Balance() = default;
+Balance::Balance(Balance&&) noexcept = default;
 
 void Balance::refresh_blocks(double omega)
 {
   if (omega == omega_) return;
   const auto size = a_.rows();
-  for (int h = 0; h <= harmonics_; ++h) {
+  for (int h = 0; h <= m_; ++h) {
     const LinearBlock block = problem_.linear(omega, h);
     expand(block.a, a_.middleCols(h * size, size));
     expand(block.b, b_.middleCols(h * size, size));
-    put(c_, h, block.c);
+    put_amplitude(c_, h, block.c);
   }
   omega_ = omega;
 }
@@ -101,7 +102,7 @@ void Balance::combine(const Eigen::Ref<const Eigen::MatrixXd>& series,
         a_.template topLeftCorner<d, d>() * Eigen::Map<const Mean>(series.data()) +
         b_.template topLeftCorner<d, d>() * Eigen::Map<const Mean>(force.data());
     using Block = Eigen::Map<const Eigen::Matrix<double, two, two>>;
-    for (Eigen::Index h = 1; h <= harmonics_; ++h) {
+    for (Eigen::Index h = 1; h <= m_; ++h) {
       const Eigen::Index first = (2 * h - 1) * d;
       const Eigen::Map<const Part> q(series.data() + first), f(force.data() + first);
       sum.template segment<two>(first) =
@@ -110,38 +111,53 @@ void Balance::combine(const Eigen::Ref<const Eigen::MatrixXd>& series,
   });
 }
 
-void Balance::evaluate_force(With with)
+/** Whether (X, ω) is the point that was evaluated last, bit by bit. */
+bool Balance::at(const Eigen::VectorXd& x, double omega) const
 {
-  ++evaluations_;
-  has_stiffness_ = with == With::stiffness;
-  has_spectra_ = false;
-  problem_.force(samples_, force_samples_,
-                 has_stiffness_ ? &stiffness_samples_ : nullptr);
+  return evaluated_ && omega == omega_ &&
+         std::memcmp(x.data(), series_.data(), x.size() * sizeof(double)) == 0;
 }
 
 const Eigen::VectorXd& Balance::residual(const Eigen::VectorXd& x, double omega,
                                          With with)
 {
-  spend(2 * problem_.dofs * transform_.operations());
-  refresh_blocks(omega);
-  series_ =
-      Eigen::Map<const Eigen::MatrixXd>(x.data(), problem_.dofs, 2 * harmonics_ + 1);
-  transform_.to_samples(series_, samples_);
-  evaluate_force(with);
+  const bool known = at(x, omega);
+  if (known && (has_stiffness_ || with == With::force)) return residual_;
+  evaluated_ = has_spectra_ = false;  // should the budget end here
+  if (!known) {
+    spend(2 * problem_.dofs * transform_.operations());
+    refresh_blocks(omega);
+    std::copy(x.begin(), x.end(), series_.data());
+    transform_.to_samples(series_, samples_);
+  }
+  spend(problem_.operations);
+  ++evaluations_;
+  has_stiffness_ = with == With::stiffness;
+  problem_.force(samples_, force_samples_,
+                 has_stiffness_ ? &stiffness_samples_ : nullptr);
+  evaluated_ = true;
+  if (known) return residual_;
   transform_.to_series(force_samples_, force_series_);
   combine(series_, force_series_, residual_);
-  residual_ -= c_;
+  residual_ -= c_.reshaped();
   return residual_;
 }
 
-const Eigen::VectorXd& Balance::speed_derivative()
+const Eigen::MatrixXd& Balance::force(const Eigen::VectorXd& x, double omega)
 {
-  speed_derivative_.resize(unknowns());
-  for (int h = 0; h <= harmonics_; ++h) {
+  residual(x, omega, With::force);
+  return force_series_;
+}
+
+const Eigen::VectorXd& Balance::speed_derivative(const Eigen::VectorXd& x, double omega)
+{
+  residual(x, omega, With::force);
+  Eigen::Map<Eigen::MatrixXd> slope(speed_derivative_.data(), c_.rows(), c_.cols());
+  for (int h = 0; h <= m_; ++h) {
     const LinearBlock block = problem_.linear(omega_, h);
-    put(speed_derivative_, h,
-        block.a_slope * amplitude(series_, h) +
-            block.b_slope * amplitude(force_series_, h) - block.c_slope);
+    put_amplitude(slope, h,
+                  block.a_slope * amplitude(series_, h) +
+                      block.b_slope * amplitude(force_series_, h) - block.c_slope);
   }
   return speed_derivative_;
 }
@@ -159,14 +175,9 @@ constexpr Eigen::Index most_unknowns = 4200;
 
 }  // namespace
 
-void Balance::need_stiffness()
+void Balance::need_spectra(const Eigen::VectorXd& x, double omega)
 {
-  if (!has_stiffness_) evaluate_force(With::stiffness);
-}
-
-void Balance::need_spectra()
-{
-  need_stiffness();
+  residual(x, omega);
   if (has_spectra_) return;
   spend(static_cast<double>(stiffness_samples_.cols()) * transform_.operations());
   spectra_.resize(problem_.samples / 2 + 1, stiffness_samples_.cols());
@@ -175,17 +186,21 @@ void Balance::need_spectra()
   has_spectra_ = true;
 }
 
-/** α_p + iβ_p = conj κ_p of one stiffness series for p = -`below` … `above`. The indices are
-    modulo N, which makes the derivative exact for any N ≥ 2m+1. */
-void Balance::extend_spectrum(Eigen::Index column, int below, int above)
+/** α_p + iβ_p = conj κ_p of one stiffness series, p ≥ 0. The indices are modulo N, which makes the
+    derivative exact for any N ≥ 2m+1. */
+std::complex<double> Balance::conjugate_kappa(int p, Eigen::Index column) const
 {
   const int n = problem_.samples;
-  const auto at = [&](int p) {
-    return 2 * p <= n ? std::conj(spectra_(p, column)) : spectra_(n - p, column);
-  };
+  return 2 * p <= n ? std::conj(spectra_(p, column)) : spectra_(n - p, column);
+}
+
+/** The same for p = -`below` … `above`. */
+void Balance::extend_spectrum(Eigen::Index column, int below, int above)
+{
   extended_.resize(below + above + 1);
-  for (int p = 0; p <= above; ++p) extended_[below + p] = at(p);
-  for (int p = 1; p <= below; ++p) extended_[below - p] = std::conj(at(p));
+  for (int p = 0; p <= above; ++p) extended_[below + p] = conjugate_kappa(p, column);
+  for (int p = 1; p <= below; ++p)
+    extended_[below - p] = std::conj(conjugate_kappa(p, column));
 }
 
 /** Entries ∂(coefficients of f_i)/∂(coefficients of q_j) before the blocks B_h multiply
@@ -213,11 +228,12 @@ void Balance::fill_force_jacobian(int i, int j, int harmonics, Eigen::MatrixXd& 
   }
 }
 
-void Balance::jacobian(int harmonics, Eigen::MatrixXd& jacobian)
+void Balance::jacobian(const Eigen::VectorXd& x, double omega, int harmonics,
+                       Eigen::MatrixXd& jacobian)
 {
   const double n = problem_.dofs * (2.0 * harmonics + 1);
   spend(1.5e4 + 10 * n * n + n * n * n / 18);  // with its factorisation
-  need_spectra();
+  need_spectra(x, omega);
   const int dofs = problem_.dofs;
   const Eigen::Index size = dofs * (2 * harmonics + 1);
   jacobian.resize(size, size);
@@ -244,22 +260,23 @@ void Balance::jacobian(int harmonics, Eigen::MatrixXd& jacobian)
   });
 }
 
-const Eigen::MatrixXd& Balance::jacobian()
+const Eigen::MatrixXd& Balance::jacobian(const Eigen::VectorXd& x, double omega)
 {
   if (unknowns() > most_unknowns)
-    throw NoSolution(format(
-        "%d harmonics give %ld unknowns; the dense Jacobian stops at %ld", harmonics_,
-        static_cast<long>(unknowns()), static_cast<long>(most_unknowns)));
-  jacobian(harmonics_, jacobian_);
+    throw NoSolution(
+        format("%d harmonics give %ld unknowns; the dense Jacobian stops at %ld", m_,
+               static_cast<long>(unknowns()), static_cast<long>(most_unknowns)));
+  jacobian(x, omega, m_, jacobian_);
   return jacobian_;
 }
 
-void Balance::apply_jacobian(const Eigen::VectorXd& v, Eigen::VectorXd& product)
+void Balance::apply_jacobian(const Eigen::VectorXd& x, double omega,
+                             const Eigen::VectorXd& v, Eigen::VectorXd& product)
 {
-  need_stiffness();
+  residual(x, omega);
   const int d = problem_.dofs;
   spend(2 * d * transform_.operations() + 2.0 * d * d * problem_.samples);
-  const Eigen::Map<const Eigen::MatrixXd> series(v.data(), d, 2 * harmonics_ + 1);
+  const Eigen::Map<const Eigen::MatrixXd> series(v.data(), d, c_.cols());
   transform_.to_samples(series, product_samples_);
   product_force_.resize(problem_.samples, d);
   for (int i = 0; i < d; ++i) {
@@ -273,17 +290,16 @@ void Balance::apply_jacobian(const Eigen::VectorXd& v, Eigen::VectorXd& product)
   combine(series, product_series_, product);
 }
 
-RealBlock Balance::diagonal_block(int h)
+RealBlock Balance::diagonal_block(const Eigen::VectorXd& x, double omega, int h)
 {
-  need_spectra();
-  const int d = problem_.dofs, two = 2 * d, n = problem_.samples;
+  need_spectra(x, omega);
+  const int d = problem_.dofs, two = 2 * d;
   RealBlock force(two, two);
   for (int j = 0; j < d; ++j)
     for (int i = 0; i < d; ++i) {
       const Eigen::Index column = i + d * j;
       const double mean = spectra_(0, column).real();
-      const auto twice =
-          4 * h <= n ? std::conj(spectra_(2 * h, column)) : spectra_(n - 2 * h, column);
+      const auto twice = conjugate_kappa(2 * h, column);
       force(i, j) = mean + twice.real();
       force(i, d + j) = twice.imag();
       force(d + i, j) = twice.imag();
@@ -292,12 +308,12 @@ RealBlock Balance::diagonal_block(int h)
   return a_.middleCols(h * two, two) + b_.middleCols(h * two, two) * force;
 }
 
-int Balance::highest_coupled(double coupling)
+int Balance::highest_coupled(const Eigen::VectorXd& x, double omega, double coupling)
 {
-  need_stiffness();
+  residual(x, omega);
   const double stiffness = stiffness_samples_.rowwise().norm().maxCoeff();
   const int two = 2 * problem_.dofs;
-  for (int h = harmonics_; h > 0; --h) {
+  for (int h = m_; h > 0; --h) {
     const RealBlock a = a_.middleCols(h * two, two), b = b_.middleCols(h * two, two);
     if (!(a.partialPivLu().solve(b).norm() * stiffness < coupling)) return h;
   }

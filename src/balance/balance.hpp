@@ -1,6 +1,23 @@
 /**
 # Harmonic balance by alternating frequency and time (Eqs 8 to 16)
 
+A system with d nonlinear unknowns q(t) gives, for each harmonic h, one linear block
+
+$$A_h(\omega)\, q_h + B_h(\omega)\, f_h(q) = c_h(\omega),$$
+
+in complex amplitudes, q(φ) = Re Σ q_h e^{ihφ}, where f_h is the harmonic of its nonlinear
+force f(q, φ). For the equations of motion
+
+$$M\ddot q + C\dot q + Kq + f(q, \varphi) = p(\varphi) \tag{8}$$
+
+that block is
+
+$$A_h = K - (h\omega)^2 M + i h\omega C, \tag{11}$$
+
+with B = 1 and c the harmonic of the load p (the paper forgets h in one of the two diagonal
+entries, D-12). A system with linear inner unknowns condenses them into A, B and c. The bearing is
+one such problem, the Duffing oscillator of the tests another.
+
 The unknown X holds the coefficients of Eq. 9, one block of d values per coefficient. Its
 residual
 
@@ -18,93 +35,172 @@ the samples. */
 #pragma once
 
 #include <Eigen/Core>
+#include <functional>
+#include <memory>
+#include <type_traits>
 
 #include "balance/fourier_transform.hpp"
-#include "balance/problem.hpp"
-#include "balance/step_solver.hpp"
+#include "balance/periodic_motion.hpp"
 
 namespace rotor_stator
 {
 
+/** Small complex matrices without heap memory: at most four nonlinear unknowns. */
+constexpr int most_dofs = 4;
+using SmallMatrix = Eigen::Matrix<std::complex<double>, Eigen::Dynamic, Eigen::Dynamic, 0,
+                                  most_dofs, most_dofs>;
+using SmallVector =
+    Eigen::Matrix<std::complex<double>, Eigen::Dynamic, 1, 0, most_dofs, 1>;
+
+/** A block of one harmonic acting on its cosine and sine coefficients. */
+using RealBlock = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, 0, 2 * most_dofs,
+                                2 * most_dofs>;
+
+/** A_h, B_h and c_h, and their derivatives with respect to ω. */
+struct LinearBlock {
+  SmallMatrix a, b;
+  SmallVector c;
+  SmallMatrix a_slope, b_slope;
+  SmallVector c_slope;
+};
+
+/** A nonlinear system under periodic load, sampled N times per period. */
+struct Problem {
+  int dofs;               ///< d ≤ 4
+  int samples;            ///< N
+  double residual_scale;  ///< size of c_h, for the relative tolerance
+  double unknown_scale;   ///< size of q [the unit of q]
+
+  /** The block of harmonic `h` ≥ 0 at speed `omega` [rad/s]. */
+  std::function<LinearBlock(double omega, int h)> linear;
+
+  /** The force at all N samples. `q`: N × d; `force`: N × d; `stiffness`, unless it is
+     null: N × d², column i + d j holding ∂f_i/∂q_j. */
+  std::function<void(const Eigen::MatrixXd& q, Eigen::MatrixXd& force,
+                     Eigen::MatrixXd* stiffness)>
+      force;
+
+  /** Elementary operations of one evaluation of the force. */
+  double operations = 0;
+
+  /** Takes operations from a budget, and throws when they are not there; empty without a bound. */
+  std::function<void(double operations)> spend = {};
+};
+
+/** The block of M q̈ + D q̇ + K q + f(q) = Re(F e^{iωt}) for real d × d matrices and a
+   complex load amplitude `load` on harmonic 1: Eq. 11 with jω in both diagonal entries
+   (D-12). */
+LinearBlock second_order_block(const Eigen::MatrixXd& mass,
+                               const Eigen::MatrixXd& damping,
+                               const Eigen::MatrixXd& stiffness,
+                               const Eigen::VectorXcd& load, double omega, int h);
+
+/** Complex amplitude of harmonic `h` of a series, and back. */
+SmallVector amplitude(const Eigen::Ref<const Eigen::MatrixXd>& series, int h);
+void put_amplitude(Eigen::Ref<Eigen::MatrixXd> series, int h,
+                   const SmallVector& amplitude);
+
+/** Calls `work` with `dofs` = 1 … 4 as a std::integral_constant: small matrices of a size that the
+    compiler knows are multiplied without loops. */
+template <class Work>
+void with_dofs(int dofs, Work work)
+{
+  switch (dofs) {
+    case 1:
+      return work(std::integral_constant<int, 1>{});
+    case 2:
+      return work(std::integral_constant<int, 2>{});
+    case 3:
+      return work(std::integral_constant<int, 3>{});
+    default:
+      return work(std::integral_constant<int, 4>{});
+  }
+}
+
+class StepSolver;
+
+/** The balance of a problem with m harmonics. Every quantity is one of the point (X, ω) that it is
+    asked for; what was computed at the last point is not computed again. */
 class Balance
 {
 public:
   /** N = problem.samples must be at least 2m+1. */
   Balance(Problem problem, int harmonics);
+  ~Balance();
+  Balance(Balance&&) noexcept;
 
   const Problem& problem() const { return problem_; }
-  int harmonics() const { return harmonics_; }
-  Eigen::Index unknowns() const { return problem_.dofs * (2 * harmonics_ + 1); }
+  const Harmonics& harmonics() const { return harmonics_; }
+  Eigen::Index unknowns() const { return residual_.size(); }
 
-  /** What `residual` evaluates at a point beside the force; the stiffness can follow later, at
-      the price of another evaluation. */
+  /** What `residual` evaluates beside the force; the stiffness can follow later, at the price of
+      another evaluation. */
   enum class With { force, stiffness };
 
-  /** Evaluates the force and the residual R (Eq. 16, real: cosine and sine rows) at (X,
-      ω). */
+  /** The residual R (Eq. 16, real: cosine and sine rows). */
   const Eigen::VectorXd& residual(const Eigen::VectorXd& x, double omega,
                                   With with = With::stiffness);
 
-  /** ∂R/∂X and ∂R/∂ω at the last point given to `residual`. Throws NoSolution when the dense
-      matrix would not fit. */
-  const Eigen::MatrixXd& jacobian();
-  const Eigen::VectorXd& speed_derivative();
+  /** Coefficients of the nonlinear force, d × (2m+1). */
+  const Eigen::MatrixXd& force(const Eigen::VectorXd& x, double omega);
+
+  /** ∂R/∂X and ∂R/∂ω. Throws NoSolution when the dense matrix would not fit. */
+  const Eigen::MatrixXd& jacobian(const Eigen::VectorXd& x, double omega);
+  const Eigen::VectorXd& speed_derivative(const Eigen::VectorXd& x, double omega);
 
   /** Rows and columns of ∂R/∂X of the harmonics up to `harmonics`. */
-  void jacobian(int harmonics, Eigen::MatrixXd& jacobian);
+  void jacobian(const Eigen::VectorXd& x, double omega, int harmonics,
+                Eigen::MatrixXd& jacobian);
 
   /** `product` = ∂R/∂X `v`, without the matrix. */
-  void apply_jacobian(const Eigen::VectorXd& v, Eigen::VectorXd& product);
+  void apply_jacobian(const Eigen::VectorXd& x, double omega, const Eigen::VectorXd& v,
+                      Eigen::VectorXd& product);
 
   /** The diagonal block of ∂R/∂X of harmonic `h` ≥ 1, 2d × 2d. */
-  RealBlock diagonal_block(int h);
+  RealBlock diagonal_block(const Eigen::VectorXd& x, double omega, int h);
 
   /** The highest harmonic h that the nonlinear force still decides on: ‖A_h⁻¹ B_h‖ times the
       largest stiffness over the period is at least `coupling` [-]. */
-  int highest_coupled(double coupling);
-
-  /** Coefficients of the nonlinear force at that point, d × (2m+1). */
-  const Eigen::MatrixXd& force_series() const { return force_series_; }
+  int highest_coupled(const Eigen::VectorXd& x, double omega, double coupling);
 
   /** Evaluations of the force at all N samples. */
   long evaluations() const { return evaluations_; }
 
-  /** Pays for work beside the force, where there is an account. Throws NoSolution when it is used up. */
+  /** Pays for work beside the force, where there is a budget. Throws NoSolution when it is used up. */
   void spend(double operations) const
   {
     if (problem_.spend) problem_.spend(operations);
   }
 
   /** What Newton keeps from one solution to the next. */
-  StepSolver& steps() { return steps_; }
-  NewtonVectors& newton_vectors() { return newton_vectors_; }
+  StepSolver& steps() { return *steps_; }
 
 private:
   void refresh_blocks(double omega);
-  void evaluate_force(With with);
-  void need_stiffness();
-  void need_spectra();
+  bool at(const Eigen::VectorXd& x, double omega) const;
+  void need_spectra(const Eigen::VectorXd& x, double omega);
   void combine(const Eigen::Ref<const Eigen::MatrixXd>& series,
                const Eigen::MatrixXd& force, Eigen::VectorXd& sum) const;
+  std::complex<double> conjugate_kappa(int p, Eigen::Index column) const;
   void extend_spectrum(Eigen::Index column, int below, int above);
   void fill_force_jacobian(int i, int j, int harmonics, Eigen::MatrixXd& jacobian);
 
   Problem problem_;
-  int harmonics_;
+  Harmonics harmonics_;
+  int m_;
   FourierTransform transform_;
   double omega_;
   Eigen::MatrixXd a_, b_;  ///< A_h and B_h as real 2d × 2d blocks side by side, h = 0 … m
-  Eigen::VectorXd c_;
+  Eigen::MatrixXd c_;      ///< d × (2m+1)
   Eigen::MatrixXd series_, samples_, force_samples_, stiffness_samples_, force_series_;
   Eigen::MatrixXd product_samples_, product_force_, product_series_;
   Eigen::MatrixXcd spectra_;   ///< κ_p of each stiffness series
   Eigen::VectorXcd extended_;  ///< conj κ_p of one of them, p from negative to 2m
   Eigen::VectorXd residual_, speed_derivative_;
   Eigen::MatrixXd jacobian_;
-  bool has_stiffness_ = false, has_spectra_ = false;
+  bool evaluated_ = false, has_stiffness_ = false, has_spectra_ = false;
   long evaluations_ = 0;
-  StepSolver steps_;
-  NewtonVectors newton_vectors_;
+  std::unique_ptr<StepSolver> steps_;
 };
 
 }  // namespace rotor_stator

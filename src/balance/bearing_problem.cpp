@@ -91,31 +91,20 @@ Problem bearing_problem(const Parameters& parameters, int samples,
                "force has not the period of rotation; use a time method",
                parameters.file.c_str(), passages_per_turn(parameters.bearing)));
   const Scales scale = scales(parameters);
-  Problem problem{
-      .dofs = 2,
-      .samples = samples,
-      .residual_scale = scale.penetration,
-      .unknown_scale = scale.penetration,
-      .linear =
-          [parameters, scale](double omega, int h) {
-            return condensed_block(parameters, scale.stiffness, omega, h);
-          },
-      .force = [bearing = SampledBearing(parameters.bearing, samples)](
-                   const Eigen::MatrixXd& u, Eigen::MatrixXd& force,
-                   Eigen::MatrixXd* stiffness) { bearing.force(u, force, stiffness); }};
-  if (!budget.bounded()) return problem;
-  const double share = 1 / operations_per_evaluation(parameters.bearing.balls);
-  const double evaluation =
-      share * (5e3 + samples * (8 + 1.5 * parameters.bearing.balls));
-  problem.force = [law = problem.force, budget, evaluation](const Eigen::MatrixXd& u,
-                                                            Eigen::MatrixXd& force,
-                                                            Eigen::MatrixXd* stiffness) {
-    budget.spend(evaluation);
-    law(u, force, stiffness);
-  };
-  problem.spend = [budget, share](double operations) {
-    budget.spend(share * operations);
-  };
+  Problem problem{.dofs = 2,
+                  .samples = samples,
+                  .residual_scale = scale.penetration,
+                  .unknown_scale = scale.penetration,
+                  .linear =
+                      [parameters, scale](double omega, int h) {
+                        return condensed_block(parameters, scale.stiffness, omega, h);
+                      },
+                  .force = SampledBearing(parameters.bearing, samples),
+                  .operations = 5e3 + samples * (8 + 1.5 * parameters.bearing.balls)};
+  if (budget.bounded())
+    problem.spend = [budget, balls = parameters.bearing.balls](double operations) {
+      budget.spend(operations / operations_per_evaluation(balls));
+    };
   return problem;
 }
 
@@ -154,55 +143,29 @@ Eigen::VectorXd quasi_static_start(const Parameters& parameters, double omega,
   return series.reshaped();
 }
 
-Eigen::VectorXd resize_harmonics(const Eigen::VectorXd& x, int dofs, int harmonics)
+Eigen::MatrixXd body_series(const Parameters& parameters, const PeriodicMotion& motion)
 {
-  Eigen::VectorXd resized = Eigen::VectorXd::Zero(dofs * (2 * harmonics + 1));
-  const auto common = std::min(x.size(), resized.size());
-  resized.head(common) = x.head(common);
-  return resized;
-}
-
-namespace
-{
-
-/** Complex amplitude of harmonic h in one row of a series, and back. */
-Complex amplitude(const Eigen::MatrixXd& series, int row, int h)
-{
-  if (h == 0) return series(row, 0);
-  return {series(row, 2 * h - 1), -series(row, 2 * h)};
-}
-
-void put(Eigen::MatrixXd& series, int row, int h, Complex value)
-{
-  series(row, h == 0 ? 0 : 2 * h - 1) = value.real();
-  if (h > 0) series(row, 2 * h) = -value.imag();
-}
-
-}  // namespace
-
-Eigen::MatrixXd body_series(const Parameters& parameters, const Balance& balance,
-                            double omega, const Eigen::VectorXd& x)
-{
-  const int m = balance.harmonics();
-  const Eigen::MatrixXd u = x.reshaped(2, 2 * m + 1);
-  Eigen::MatrixXd bodies(4, 2 * m + 1);
-  for (int h = 0; h <= m; ++h) {
-    const Complex z_s = impedance(parameters.stator, omega, h).value;
-    const Complex z_r = impedance(parameters.rotor, omega, h).value;
-    const auto f_s = load(parameters.stator.mass * parameters.gravity, 0, omega, h);
-    const auto f_r =
-        load(parameters.rotor.mass * parameters.gravity, parameters.unbalance, omega, h);
+  const auto columns = motion.harmonics.coefficients();
+  const Eigen::Map<const Eigen::MatrixXd> u(motion.x.data(), 2, columns);
+  Eigen::MatrixXd bodies(4, columns);
+  for (int h = 0; h <= motion.harmonics.highest(); ++h) {
+    const Complex z_s = impedance(parameters.stator, motion.omega, h).value;
+    const Complex z_r = impedance(parameters.rotor, motion.omega, h).value;
+    const auto f_s =
+        load(parameters.stator.mass * parameters.gravity, 0, motion.omega, h);
+    const auto f_r = load(parameters.rotor.mass * parameters.gravity,
+                          parameters.unbalance, motion.omega, h);
+    const SmallVector force = amplitude(motion.force, h), relative = amplitude(u, h);
+    SmallVector body(4);
     for (int axis = 0; axis < 2; ++axis) {
       /** The stiffer of the two bodies gives its displacement and u the other's: the
          resonance of an undamped body divides nothing by zero. */
-      const Complex force = amplitude(balance.force_series(), axis, h);
-      const Complex relative = amplitude(u, axis, h);
-      const Complex stator = std::abs(z_s) >= std::abs(z_r)
-                                 ? (f_s[axis].value + force) / z_s
-                                 : (f_r[axis].value - force) / z_r - relative;
-      put(bodies, axis, h, stator);
-      put(bodies, 2 + axis, h, stator + relative);
+      body[axis] = std::abs(z_s) >= std::abs(z_r)
+                       ? (f_s[axis].value + force[axis]) / z_s
+                       : (f_r[axis].value - force[axis]) / z_r - relative[axis];
+      body[2 + axis] = body[axis] + relative[axis];
     }
+    put_amplitude(bodies, h, body);
   }
   return bodies;
 }

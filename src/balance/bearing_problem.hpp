@@ -34,12 +34,8 @@ Problem bearing_problem(const Parameters& parameters, int samples,
 Eigen::VectorXd quasi_static_start(const Parameters& parameters, double omega,
                                    int harmonics);
 
-/** The coefficients x with `harmonics` harmonics: cut, or filled with zeros. */
-Eigen::VectorXd resize_harmonics(const Eigen::VectorXd& x, int dofs, int harmonics);
-
-/** Series of x_s, y_s, x_r, y_r [m], 4 × (2m+1), at the balance's last point (X, ω): the
-   bodies' linear responses to the bearing's force. */
-Eigen::MatrixXd body_series(const Parameters& parameters, const Balance& balance,
-                            double omega, const Eigen::VectorXd& x);
+/** Series of x_s, y_s, x_r, y_r [m], 4 × (2m+1): the bodies' linear responses to the bearing's force
+    along `motion`. */
+Eigen::MatrixXd body_series(const Parameters& parameters, const PeriodicMotion& motion);
 
 }  // namespace rotor_stator

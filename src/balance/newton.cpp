@@ -4,138 +4,98 @@
 #include <cmath>
 #include <limits>
 
-#include "io/errors.hpp"
+#include "balance/step_solver.hpp"
 
 namespace rotor_stator
 {
 
-std::string NewtonReport::reason() const
-{
-  const std::string numbers =
-      std::isfinite(delta_1) && std::isfinite(delta_2)
-          ? format(" after %d iterations (residual %.1e, step %.1e)", iterations, delta_1,
-                   delta_2)
-          : format(" after %d iterations (residual or step not finite)", iterations);
-  switch (end) {
-    case NewtonEnd::converged:
-      return "converged" + numbers;
-    case NewtonEnd::too_many_iterations:
-      return "iterations exhausted" + numbers;
-    case NewtonEnd::no_decrease:
-      return "no step decreases the residual" + numbers;
-    case NewtonEnd::singular:
-      return "singular Jacobian" + numbers;
-  }
-  return {};
-}
-
 namespace
 {
 
-/** Sizes that the tolerance is relative to. */
-struct NewtonScales {
-  double residual, unknown;
-};
-
-/** Newton's iteration on `Steps`: what evaluates the residual, solves the linear equations, hears
-    what became of its step, and says whether another step would be better than none. */
+/** Newton's iteration from `y`. `steps` evaluates the residual, solves the linear equations, hears
+    what became of its step, and says whether another step would be better than none; it has the
+    scales that the tolerance is relative to. */
 template <class Steps>
-class Iteration
+NewtonReport iterate(Steps steps, const NewtonSettings& settings, Eigen::VectorXd& y,
+                     NewtonVectors& vectors)
 {
-public:
-  Iteration(Steps& steps, NewtonScales scales, const NewtonSettings& settings,
-            Eigen::VectorXd& y, NewtonVectors& vectors)
-      : steps_(steps), scales_(scales), settings_(settings), y_(y), vectors_(vectors)
-  {
-  }
+  auto& [residual, step, start] = vectors;
+  const double tolerance = settings.tolerance;
+  NewtonReport report;
+  double norm = 0;
+  const auto evaluate = [&] {
+    steps.evaluate(y, residual);
+    norm = residual.norm();
+    report.delta_1 = norm / steps.residual_scale;
+  };
 
-  NewtonReport run()
-  {
-    evaluate();
-    while (report_.iterations < settings_.most_iterations) {
-      const StepKind kind = steps_.step(vectors_.residual, vectors_.step);
-      report_.delta_2 = vectors_.step.norm() / scales_.unknown;
-      ++report_.iterations;
-      const double before = norm_;
-      if (!move(kind)) {
-        if (steps_.retries()) continue;
-        report_.end =
-            std::isfinite(report_.delta_2) ? NewtonEnd::no_decrease : NewtonEnd::singular;
-        break;
-      }
-      if (has_converged(kind, norm_ / before)) {
-        report_.end = NewtonEnd::converged;
-        break;
-      }
-    }
-    return report_;
-  }
-
-private:
-  void evaluate()
-  {
-    steps_.evaluate(y_, vectors_.residual);
-    norm_ = vectors_.residual.norm();
-    report_.delta_1 = norm_ / scales_.residual;
-  }
-
-  /** Moves along the step, halved until the residual decreases; a frozen step is taken whole, and
+  /** Moves along the step, halved until the residual decreases; a chord step is taken whole, and
       must decrease it more. False, and back at the start, if it does not. */
-  bool move(StepKind kind)
-  {
-    if (!std::isfinite(report_.delta_2)) {
-      steps_.learn(std::numeric_limits<double>::infinity());
+  const auto moves = [&](StepKind kind) {
+    if (!std::isfinite(report.delta_2)) {
+      steps.learn(std::numeric_limits<double>::infinity());
       return false;
     }
-    const bool frozen = kind == StepKind::frozen;
-    const double slope = frozen ? 1 - settings_.frozen_contraction : 1e-4;
-    const int most_halvings = frozen ? 0 : settings_.most_halvings;
-    const double before = norm_, goal = settings_.tolerance * scales_.residual;
-    vectors_.start = y_;
+    const bool chord = kind == StepKind::chord;
+    const double slope = chord ? 1 - settings.chord_contraction : 1e-4;
+    const double before = norm, goal = tolerance * steps.residual_scale;
+    start = y;
     double length = 1;
-    for (int halvings = 0; halvings <= most_halvings; ++halvings, length /= 2) {
-      y_ = vectors_.start + length * vectors_.step;
+    for (int halvings = 0; halvings <= (chord ? 0 : settings.most_halvings);
+         ++halvings, length /= 2) {
+      y = start + length * step;
       evaluate();
-      if (halvings == 0) steps_.learn(norm_ / before);
-      if (norm_ <= goal || norm_ <= (1 - slope * length) * before) return true;
+      if (halvings == 0) steps.learn(norm / before);
+      if (norm <= goal || norm <= (1 - slope * length) * before) return true;
     }
-    y_ = vectors_.start;
+    y = start;
     evaluate();
     return false;
-  }
+  };
 
   /** After Newton's own step the error is of the order of δ₂²; after another step it is what its
       contraction leaves of δ₂, or what so small a residual allows. */
-  bool has_converged(StepKind kind, double contraction) const
-  {
-    const double tolerance = settings_.tolerance;
-    if (report_.delta_1 > tolerance || report_.delta_2 > std::sqrt(tolerance))
-      return false;
-    return kind == StepKind::fresh || report_.delta_1 <= 0.1 * tolerance ||
-           contraction * report_.delta_2 <= 0.1 * tolerance;
-  }
+  const auto converged = [&](StepKind kind, double contraction) {
+    if (report.delta_1 > tolerance || report.delta_2 > std::sqrt(tolerance)) return false;
+    return kind == StepKind::fresh || report.delta_1 <= 0.1 * tolerance ||
+           contraction * report.delta_2 <= 0.1 * tolerance;
+  };
 
-  Steps& steps_;
-  NewtonScales scales_;
-  const NewtonSettings& settings_;
-  Eigen::VectorXd& y_;
-  NewtonVectors& vectors_;
-  NewtonReport report_;
-  double norm_ = 0;
-};
+  evaluate();
+  while (report.iterations < settings.most_iterations) {
+    const StepKind kind = steps.step(y, residual, step);
+    report.delta_2 = step.norm() / steps.unknown_scale;
+    ++report.iterations;
+    const double before = norm;
+    if (!moves(kind)) {
+      if (steps.retries()) continue;
+      report.end =
+          std::isfinite(report.delta_2) ? NewtonEnd::no_decrease : NewtonEnd::singular;
+      break;
+    }
+    if (converged(kind, norm / before)) {
+      report.end = NewtonEnd::converged;
+      break;
+    }
+  }
+  return report;
+}
 
 /** Newton's own steps, from a dense matrix. */
 struct DenseSteps {
   const Equations& equations;
-  Eigen::PartialPivLU<Eigen::MatrixXd> factors;
+  double residual_scale = equations.residual_scale;
+  double unknown_scale = equations.unknown_scale;
+  Eigen::PartialPivLU<Eigen::MatrixXd> factors = {};
 
   void evaluate(const Eigen::VectorXd& y, Eigen::VectorXd& residual) const
   {
     equations.residual(y, residual);
   }
-  StepKind step(const Eigen::VectorXd& residual, Eigen::VectorXd& step)
+  StepKind step(const Eigen::VectorXd& y, const Eigen::VectorXd& residual,
+                Eigen::VectorXd& step)
   {
-    factors.compute(equations.jacobian());
+    factors.compute(equations.jacobian(y));
     step = -factors.solve(residual);
     return StepKind::fresh;
   }
@@ -147,47 +107,61 @@ struct DenseSteps {
 struct BalanceSteps {
   Balance& balance;
   double omega, tolerance;
+  double residual_scale = balance.problem().residual_scale;
+  double unknown_scale = balance.problem().unknown_scale;
+  StepSolver& steps = balance.steps();
 
   void evaluate(const Eigen::VectorXd& x, Eigen::VectorXd& residual) const
   {
     residual = balance.residual(
         x, omega,
-        balance.steps().will_freeze() ? Balance::With::force : Balance::With::stiffness);
+        steps.expects_chord() ? Balance::With::force : Balance::With::stiffness);
   }
-
-  /** The linear equations are solved so well that the iteration stays quadratic, and no better
-      than the tolerance asks. */
-  StepKind step(const Eigen::VectorXd& residual, Eigen::VectorXd& step) const
+  StepKind step(const Eigen::VectorXd& x, const Eigen::VectorXd& residual,
+                Eigen::VectorXd& step) const
   {
-    const double scale = balance.problem().residual_scale, norm = residual.norm();
-    const double goal =
-        std::max(std::min(1e-2, norm / scale) * norm, 0.1 * tolerance * scale);
-    return balance.steps().step(balance, residual, goal, step);
+    return steps.step(balance, x, omega, residual,
+                      linear_goal(balance, residual.norm(), tolerance), step);
   }
-  void learn(double contraction) const { balance.steps().learn(contraction); }
-  bool retries() const { return balance.steps().retries(); }
+  void learn(double contraction) const { steps.learn(contraction); }
+  bool retries() const { return steps.retries(); }
 };
 
 }  // namespace
+
+double linear_goal(const Balance& balance, double residual, double tolerance)
+{
+  const double scale = balance.problem().residual_scale;
+  return std::max(std::min(1e-2, residual / scale) * residual, 0.1 * tolerance * scale);
+}
 
 NewtonReport newton(const Equations& equations, Eigen::VectorXd& y,
                     const NewtonSettings& settings)
 {
   NewtonVectors vectors;
-  DenseSteps steps{equations, Eigen::PartialPivLU<Eigen::MatrixXd>(y.size())};
-  const NewtonScales scales{equations.residual_scale, equations.unknown_scale};
-  return Iteration<DenseSteps>(steps, scales, settings, y, vectors).run();
+  return iterate(DenseSteps{equations}, settings, y, vectors);
 }
 
-NewtonReport solve(Balance& balance, double omega, Eigen::VectorXd& x,
-                   const NewtonSettings& settings)
+bool solve(Balance& balance, PeriodicMotion& motion, const NewtonSettings& settings)
 {
-  const NewtonScales scales{balance.problem().residual_scale,
-                            balance.problem().unknown_scale};
-  balance.steps().begin(settings.frozen_contraction);
-  BalanceSteps steps{balance, omega, settings.tolerance};
-  return Iteration<BalanceSteps>(steps, scales, settings, x, balance.newton_vectors())
-      .run();
+  StepSolver& steps = balance.steps();
+  const long before = balance.evaluations();
+  steps.begin(settings.chord_contraction);
+  motion.newton = iterate(BalanceSteps{balance, motion.omega, settings.tolerance},
+                          settings, motion.x, steps.vectors);
+  motion.force = balance.force(motion.x, motion.omega);
+  motion.harmonics = balance.harmonics();
+  motion.samples = balance.problem().samples;
+  motion.force_samples = (balance.evaluations() - before) * motion.samples;
+  return motion.found();
+}
+
+PeriodicMotion solve(Balance& balance, double omega, Eigen::VectorXd x,
+                     const NewtonSettings& settings)
+{
+  PeriodicMotion motion{.omega = omega, .x = std::move(x)};
+  solve(balance, motion, settings);
+  return motion;
 }
 
 }  // namespace rotor_stator

@@ -20,10 +20,6 @@ is quadratic, so a last step of √tolerance leaves an error of the order of the
 */
 #pragma once
 
-#include <Eigen/Core>
-#include <functional>
-#include <string>
-
 #include "balance/balance.hpp"
 
 namespace rotor_stator
@@ -37,34 +33,31 @@ struct NewtonSettings {
 
   /** A chord step, with the Jacobian of an earlier point, is kept when it leaves at most this
      part of the residual; otherwise Newton's own step is taken. 0: always Newton's. */
-  double frozen_contraction = 0.1;
-};
-
-enum class NewtonEnd { converged, too_many_iterations, no_decrease, singular };
-
-struct NewtonReport {
-  NewtonEnd end = NewtonEnd::too_many_iterations;
-  int iterations = 0;
-  double delta_1 = 0;  ///< Eq. 17 [-], over the residual's scale
-  double delta_2 = 0;  ///< Eq. 18 [-], over the unknown's scale
-
-  bool converged() const { return end == NewtonEnd::converged; }
-  std::string reason() const;
+  double chord_contraction = 0.1;
 };
 
 /** n equations in n unknowns. */
 struct Equations {
   double residual_scale, unknown_scale;
   std::function<void(const Eigen::VectorXd& y, Eigen::VectorXd& residual)> residual;
-  std::function<const Eigen::MatrixXd&()> jacobian;  ///< at the last point of `residual`
+  std::function<const Eigen::MatrixXd&(const Eigen::VectorXd& y)> jacobian;
 };
 
 /** Iterates from `y`; on failure `y` is the best point reached. */
 NewtonReport newton(const Equations& equations, Eigen::VectorXd& y,
                     const NewtonSettings& settings);
 
-/** Newton on the balance at a fixed speed ω [rad/s], from `x`. */
-NewtonReport solve(Balance& balance, double omega, Eigen::VectorXd& x,
-                   const NewtonSettings& settings);
+/** Newton on the balance at the speed of `motion`, from its coefficients, which become the solution
+    or the best ones reached; the force there and the report are written beside them. True when it
+    has converged. */
+bool solve(Balance& balance, PeriodicMotion& motion, const NewtonSettings& settings = {});
+
+/** The same from `x` at speed `omega` [rad/s]. */
+PeriodicMotion solve(Balance& balance, double omega, Eigen::VectorXd x,
+                     const NewtonSettings& settings = {});
+
+/** The linear residual [-] that a step may leave: so small that the iteration stays quadratic, and no
+    smaller than the tolerance asks. */
+double linear_goal(const Balance& balance, double residual, double tolerance);
 
 }  // namespace rotor_stator

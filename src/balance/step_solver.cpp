@@ -3,9 +3,6 @@
 #include <cmath>
 #include <functional>
 
-#include "balance/balance.hpp"
-#include "balance/problem.hpp"
-
 namespace rotor_stator
 {
 
@@ -90,25 +87,25 @@ constexpr int many_linear_iterations = 25;
 
 int largest_low(const Balance& balance)
 {
-  return std::min(balance.harmonics(),
+  return std::min(balance.harmonics().highest(),
                   (most_low_unknowns / balance.problem().dofs - 1) / 2);
 }
 
 }  // namespace
 
-void StepSolver::factor(Balance& balance)
+void StepSolver::factor(Balance& balance, const Eigen::VectorXd& x, double omega)
 {
-  const int m = balance.harmonics(), two = 2 * balance.problem().dofs;
-  low_ =
-      std::max(least_low_, m > least_low_ ? balance.highest_coupled(weak_coupling) : m);
+  const int m = balance.harmonics().highest(), two = 2 * balance.problem().dofs;
+  low_ = std::max(least_low_,
+                  m > least_low_ ? balance.highest_coupled(x, omega, weak_coupling) : m);
   if (low_ >= most_low_share * m) low_ = m;
   low_ = std::min(low_, largest_low(balance));
   is_complete_ = low_ == m;
-  balance.jacobian(low_, low_jacobian_);
+  balance.jacobian(x, omega, low_, low_jacobian_);
   low_factors_.compute(low_jacobian_);
   high_inverses_.resize(two, two * (m - low_));
   for (int h = low_ + 1; h <= m; ++h) {
-    const RealBlock block = balance.diagonal_block(h);
+    const RealBlock block = balance.diagonal_block(x, omega, h);
     high_inverses_.middleCols((h - low_ - 1) * two, two) = block.inverse();
   }
   factored_ = true;
@@ -130,15 +127,16 @@ void StepSolver::precondition(const Eigen::VectorXd& r, Eigen::VectorXd& z) cons
   });
 }
 
-void StepSolver::iterate(Balance& balance, const Eigen::VectorXd& residual, double goal,
-                         bool are_new, Eigen::VectorXd& step)
+void StepSolver::iterate(Balance& balance, const Eigen::VectorXd& x, double omega,
+                         const Eigen::VectorXd& residual, double goal, bool are_new,
+                         Eigen::VectorXd& step)
 {
   const auto n = static_cast<double>(residual.size());
   const auto low = static_cast<double>(low_jacobian_.rows());
-  int vectors = 0;  // those that the next one is made orthogonal to, twice
+  int known = 0;  // those that the next one is made orthogonal to, twice
   const auto apply = [&](const Eigen::VectorXd& v, Eigen::VectorXd& product) {
-    balance.spend(1.5 * low * low + 5.0 * n * ++vectors);
-    balance.apply_jacobian(v, product);
+    balance.spend(1.5 * low * low + 5.0 * n * ++known);
+    balance.apply_jacobian(x, omega, v, product);
   };
   const auto report = gmres_.solve(
       std::ref(apply),  // a copy would be allocated
@@ -159,13 +157,13 @@ bool StepSolver::takes_chords() const
   return is_complete_ && low_jacobian_.rows() <= most_chord_unknowns;
 }
 
-/** Frozen steps cost an evaluation each, new factors about one for every eight unknowns: they
+/** Chord steps cost an evaluation each, new factors about one for every eight unknowns: they
     pay when the steps that are left, at the contraction of the last ones, cost more. A first
     step's contraction is trusted a little less each time it is not tried. */
-bool StepSolver::pays_to_freeze(double decrease) const
+bool StepSolver::chord_pays(double decrease) const
 {
   const double contraction = entering_ ? entering_contraction_ : contraction_;
-  if (contraction >= frozen_contraction_) return false;
+  if (contraction >= chord_contraction_) return false;
   const double worth = 2 + static_cast<double>(low_jacobian_.rows()) / 8;
   return std::log(decrease) >= worth * std::log(contraction);
 }
@@ -173,26 +171,27 @@ bool StepSolver::pays_to_freeze(double decrease) const
 void StepSolver::learn(double contraction)
 {
   contraction_ = contraction;
-  if (entering_ && last_ == StepKind::frozen) entering_contraction_ = contraction;
+  if (entering_ && last_ == StepKind::chord) entering_contraction_ = contraction;
   if (entering_ && last_ == StepKind::fresh) entering_contraction_ *= 0.9;
   entering_ = false;
-  if (last_ == StepKind::frozen && !(contraction <= frozen_contraction_))
-    factored_ = false;
+  if (last_ == StepKind::chord && !(contraction <= chord_contraction_)) factored_ = false;
 }
 
-StepKind StepSolver::step(Balance& balance, const Eigen::VectorXd& residual, double goal,
+StepKind StepSolver::step(Balance& balance, const Eigen::VectorXd& x, double omega,
+                          const Eigen::VectorXd& residual, double goal,
                           Eigen::VectorXd& step)
 {
-  if (factored_ && takes_chords() && !pays_to_freeze(goal / residual.norm())) forget();
+  if (factored_ && takes_chords() && !chord_pays(goal / residual.norm()))
+    factored_ = false;
   stalled_ = false;
   const bool are_new = !factored_;
-  if (are_new) factor(balance);
+  if (are_new) factor(balance, x, omega);
   if (is_complete_ && (are_new || takes_chords())) {
     precondition(residual, step);
     step = -step;
-    return last_ = are_new ? StepKind::fresh : StepKind::frozen;
+    return last_ = are_new ? StepKind::fresh : StepKind::chord;
   }
-  iterate(balance, residual, goal, are_new, step);
+  iterate(balance, x, omega, residual, goal, are_new, step);
   return last_ = StepKind::iterated;
 }
 

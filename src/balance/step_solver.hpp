@@ -10,7 +10,7 @@ tolerance only, allocates at each call and wants the operator dressed as a spars
 #include <Eigen/LU>
 #include <functional>
 
-#include "balance/problem.hpp"
+#include "balance/balance.hpp"
 
 namespace rotor_stator
 {
@@ -50,33 +50,31 @@ small inverse per harmonic, where the bodies' inertia decides. With few harmonic
 whole Jacobian. A step then is either
 
 - fresh: the factors are those of the present point and hold all harmonics;
-- frozen: older factors of all harmonics, a chord step, where there are few;
+- a chord: older factors of all harmonics, where there are few;
 - iterated: GMRES on the present Jacobian, preconditioned by the factors, old or new. Its cost
   per iteration is that of the transforms, m log m. */
 
-class Balance;
+enum class StepKind { fresh, chord, iterated };
 
 /** Vectors of Newton's iteration, kept so that they are allocated once. */
 struct NewtonVectors {
   Eigen::VectorXd residual, step, start;
 };
 
-enum class StepKind { fresh, frozen, iterated };
-
 class StepSolver
 {
 public:
-  /** Solves ∂R/∂X step = -`residual` at the balance's last point. `goal` is the linear residual
-     an iterated step may leave. */
-  StepKind step(Balance& balance, const Eigen::VectorXd& residual, double goal,
-                Eigen::VectorXd& step);
+  /** Solves ∂R/∂X step = -`residual` at (X, ω). `goal` is the linear residual an iterated step may
+     leave. */
+  StepKind step(Balance& balance, const Eigen::VectorXd& x, double omega,
+                const Eigen::VectorXd& residual, double goal, Eigen::VectorXd& step);
 
-  /** A new solution begins. A frozen step that leaves more than `frozen_contraction` of the
+  /** A new solution begins. A chord step that leaves more than `chord_contraction` of the
      residual ends the use of its factors. */
-  void begin(double frozen_contraction)
+  void begin(double chord_contraction)
   {
     entering_ = true;
-    frozen_contraction_ = frozen_contraction;
+    chord_contraction_ = chord_contraction;
   }
 
   /** What the last step, whole, left of the residual [-]. */
@@ -85,28 +83,31 @@ public:
   /** The next step factors the Jacobian anew. */
   void forget() { factored_ = false; }
 
-  /** Whether the next step from the same point would be a better one: the last was frozen, or GMRES
+  /** Whether the next step from the same point would be a better one: the last was a chord, or GMRES
      stalled and has a larger block to try. */
-  bool retries() const { return !factored_ && (last_ == StepKind::frozen || stalled_); }
+  bool retries() const { return !factored_ && (last_ == StepKind::chord || stalled_); }
 
-  /** Whether the next step is likely to be frozen: it needs no stiffness. */
-  bool will_freeze() const { return factored_ && takes_chords() && !entering_; }
+  /** Whether the next step is likely to be a chord: it needs no stiffness. */
+  bool expects_chord() const { return factored_ && takes_chords() && !entering_; }
 
   long factorisations() const { return factorisations_; }
   long linear_iterations() const { return linear_iterations_; }
 
+  NewtonVectors vectors;
+
 private:
   bool takes_chords() const;
-  bool pays_to_freeze(double decrease) const;
-  void factor(Balance& balance);
+  bool chord_pays(double decrease) const;
+  void factor(Balance& balance, const Eigen::VectorXd& x, double omega);
   void precondition(const Eigen::VectorXd& r, Eigen::VectorXd& z) const;
-  void iterate(Balance& balance, const Eigen::VectorXd& residual, double goal,
-               bool are_new, Eigen::VectorXd& step);
+  void iterate(Balance& balance, const Eigen::VectorXd& x, double omega,
+               const Eigen::VectorXd& residual, double goal, bool are_new,
+               Eigen::VectorXd& step);
 
   bool factored_ = false, is_complete_ = false, entering_ = true;
   StepKind last_ = StepKind::fresh;
   bool stalled_ = false;  ///< GMRES did not reach its goal
-  double frozen_contraction_ = 0;
+  double chord_contraction_ = 0;
   double contraction_ = 0;           ///< of the last step with these factors
   double entering_contraction_ = 0;  ///< of the last first step with older factors
   int low_ = 0;                      ///< harmonics in the dense block

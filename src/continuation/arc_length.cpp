@@ -14,13 +14,13 @@ StepOfBranch::StepOfBranch(ExtendedBalance& extended, const BranchPoint& a,
     : extended_(extended), a_(a), b_(b), settings_(settings)
 {
   const double room = 0.1 * (b.arc - a.arc) * settings.speed_scale;
-  low_ = std::min(a.omega, b.omega) - room;
-  high_ = std::max(a.omega, b.omega) + room;
+  low_ = std::min(a.motion.omega, b.motion.omega) - room;
+  high_ = std::max(a.motion.omega, b.motion.omega) + room;
 }
 
 bool StepOfBranch::holds(const BranchPoint& point)
 {
-  if (point.omega < low_ || point.omega > high_) return false;
+  if (point.motion.omega < low_ || point.motion.omega > high_) return false;
   if (chord_.size() == 0) {  // not before a point has the speed for it: most have not
     start_ = scaled(a_, settings_);
     chord_ = scaled(b_, settings_) - start_;
@@ -33,15 +33,15 @@ bool StepOfBranch::holds(const BranchPoint& point)
   Eigen::VectorXd predicted = between(a_, b_, share, settings_);
   if ((y - predicted).norm() > near * chord_.norm()) return false;
   predicted += point.tangent * point.tangent.dot(y - predicted);
-  Eigen::VectorXd corrected;
-  return extended_.correct(point.tangent, predicted, corrected).newton.converged() &&
-         (corrected - y).norm() <= extended_.last_correction();
+  const Correction corrected = extended_.correct(point.tangent, predicted);
+  return corrected.motion.found() &&
+         (corrected.y - y).norm() <= extended_.last_correction();
 }
 
-std::optional<Passed> Trail::passed(ExtendedBalance& extended,
-                                    const std::vector<BranchPoint>& points,
-                                    const BranchPoint& next,
-                                    const ArcLengthSettings& settings) const
+std::optional<Passed> BranchHistory::passed(ExtendedBalance& extended,
+                                            const std::vector<BranchPoint>& points,
+                                            const BranchPoint& next,
+                                            const ArcLengthSettings& settings) const
 {
   const BranchPoint& last = points.back();
   const double reach = 2 * (next.arc - last.arc);
@@ -65,11 +65,9 @@ namespace
 class Walk
 {
 public:
-  Walk(Balance& balance, SpeedRange range, const ArcLengthSettings& settings,
-       const Visit& visit)
+  Walk(Balance& balance, SpeedRange range, const ArcLengthSettings& settings)
       : balance_(balance),
         settings_(settings),
-        visit_(visit),
         range_(range),
         forward_(range.to > range.from ? 1 : -1),
         extended_(balance, settings),
@@ -93,35 +91,24 @@ public:
 private:
   void begin(const BranchPoint& start)
   {
-    Eigen::VectorXd y;
-    const Correction correction =
-        extended_.correct(start.tangent, scaled(start, settings_), y);
-    if (!correction.newton.converged())
-      throw NoSolution(format("no start at omega = %g rad/s: %s", start.omega,
-                              correction.newton.reason().c_str()));
-    const Tangent tangent = extended_.tangent(start.tangent);
+    PeriodicMotion motion =
+        extended_.correct(start.tangent, scaled(start, settings_)).motion;
+    if (!motion.found())
+      throw NoSolution(format("no start at omega = %g rad/s: %s", start.motion.omega,
+                              motion.newton.reason().c_str()));
+    Tangent tangent = extended_.tangent(motion, start.tangent);
     if (!tangent.direction.allFinite())
-      throw NoSolution(format("no tangent at omega = %g rad/s", start.omega));
+      throw NoSolution(format("no tangent at omega = %g rad/s", start.motion.omega));
     positive_ = tangent.positive;
-    BranchPoint first =
-        extended_.point(y, start.arc, correction.newton, tangent.direction);
-    if (start.newton.converged()) {
-      /** Solved already: kept to the last digit, the speed above all. */
-      first.x = start.x;
-      first.omega = start.omega;
-      first.newton = start.newton;
-    }
-    keep(std::move(first));
+    /** Solved already: kept to the last digit, the speed above all. */
+    if (start.motion.found()) motion = start.motion;
+    keep({std::move(motion), start.arc, std::move(tangent.direction)});
   }
 
   const BranchPoint& last() const { return branch_.points.back(); }
   void keep(BranchPoint point)
   {
-    if (visit_) {
-      balance_.residual(point.x, point.omega);
-      visit_(point);
-    }
-    trail_.add(point);
+    history_.add(point);
     branch_.points.push_back(std::move(point));
   }
 
@@ -177,10 +164,9 @@ private:
   std::optional<BranchPoint> corrected()
   {
     const Eigen::VectorXd &before = last().tangent, start = scaled(last(), settings_);
-    Eigen::VectorXd y;
-    const Correction correction = extended_.correct(before, start + step_ * before, y);
-    if (!correction.newton.converged()) return refused(correction.newton.reason());
-    const Tangent tangent = extended_.tangent(before);
+    auto [motion, y, contraction] = extended_.correct(before, start + step_ * before);
+    if (!motion.found()) return refused(motion.newton.reason());
+    const Tangent tangent = extended_.tangent(motion, before);
     const double length = (y - start).norm();
     const double turn = angle(before, tangent.direction);
     const double bend =
@@ -193,27 +179,28 @@ private:
     if (tangent.positive != positive_ && long_step()) return refused("another leg");
     next_positive_ = tangent.positive;
     factor_ =
-        std::max({std::sqrt(correction.contraction / settings_.wanted_contraction),
+        std::max({std::sqrt(contraction / settings_.wanted_contraction),
                   turn / settings_.wanted_turn, std::sqrt(bend / settings_.wanted_bend)});
-    return extended_.point(y, last().arc + length, correction.newton, tangent.direction);
+    return BranchPoint{std::move(motion), last().arc + length, tangent.direction};
   }
 
   /** Up to `next`: a fold on the way, the edge of the range, a point that was passed before. */
   void take(BranchPoint next)
   {
-    const auto passed = trail_.passed(extended_, branch_.points, next, settings_);
+    const auto passed = history_.passed(extended_, branch_.points, next, settings_);
     if (passed) {
       next = branch_.points[passed->index];
-      next.arc = last().arc + distance(last(), next, settings_);
+      next.arc = last().arc + chord_length(last(), next, settings_);
       if (!passed->same_direction) next = reversed(std::move(next));
     }
-    if (last().speed_direction * next.speed_direction < 0) {
+    if (last().speed_direction() * next.speed_direction() < 0) {
       BranchPoint fold = locate(
-          balance_, last(), next, [](const BranchPoint& p) { return p.speed_direction; },
+          balance_, last(), next,
+          [](const BranchPoint& p) { return p.speed_direction(); },
           settings_.fold_tolerance, settings_);
       refuse_hidden_folds(last(), fold);
       refuse_hidden_folds(fold, next);
-      const double omega = fold.omega;
+      const double omega = fold.motion.omega;
       go_to(std::move(fold));
       if (done_) return;
       branch_.folds.push_back(omega);
@@ -241,11 +228,11 @@ private:
 
   bool beyond(const BranchPoint& point) const
   {
-    return forward_ * (point.omega - range_.to) >= 0;
+    return forward_ * (point.motion.omega - range_.to) >= 0;
   }
   bool behind(const BranchPoint& point) const
   {
-    return forward_ * (point.omega - range_.from) < 0;
+    return forward_ * (point.motion.omega - range_.from) < 0;
   }
 
   void go_to(BranchPoint next)
@@ -258,7 +245,7 @@ private:
   /** The last point, at the edge of the range between the last kept point and `next`. */
   void finish(const BranchPoint& next, double edge)
   {
-    if (last().omega != edge)
+    if (last().motion.omega != edge)
       keep(point_between(balance_, last(), next, edge, settings_));
     if (edge == range_.to) return stop(BranchEnd::goal, "the end of the range");
     stop(BranchEnd::came_back, "the branch came back to where the range begins");
@@ -266,7 +253,6 @@ private:
 
   Balance& balance_;
   const ArcLengthSettings& settings_;
-  const Visit& visit_;
   SpeedRange range_;
   double forward_;
   ExtendedBalance extended_;
@@ -275,23 +261,23 @@ private:
   bool positive_ = true, next_positive_ = true;  ///< sign of the determinant
   std::string refusal_;                          ///< why the last step was shortened
   Branch branch_{};
-  Trail trail_;
+  BranchHistory history_;
   bool done_ = false;
 };
 
 }  // namespace
 
 Branch follow_branch(Balance& balance, const BranchPoint& start, SpeedRange range,
-                     const ArcLengthSettings& settings, const Visit& visit)
+                     const ArcLengthSettings& settings)
 {
-  return Walk(balance, range, settings, visit).run(start);
+  return Walk(balance, range, settings).run(start);
 }
 
 Branch follow_branch(Balance& balance, double from, double to, Eigen::VectorXd x,
-                     const ArcLengthSettings& settings, const Visit& visit)
+                     const ArcLengthSettings& settings)
 {
   const BranchPoint start = point_of(balance, from, std::move(x), to > from, settings);
-  return follow_branch(balance, start, {from, to}, settings, visit);
+  return follow_branch(balance, start, {from, to}, settings);
 }
 
 }  // namespace rotor_stator

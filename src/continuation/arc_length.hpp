@@ -48,10 +48,13 @@ struct Passed {
 };
 
 /** The points of a walk, found again by their speed. */
-class Trail
+class BranchHistory
 {
 public:
-  void add(const BranchPoint& point) { index_.emplace(point.omega, index_.size()); }
+  void add(const BranchPoint& point)
+  {
+    index_.emplace(point.motion.omega, index_.size());
+  }
 
   /** The first of `points`, all of which were added in order, that lies on the step from the last of
       them to `next`. */
@@ -86,16 +89,14 @@ struct SpeedRange {
   double from, to;
 };
 
-using Visit = std::function<void(const BranchPoint&)>;
-
 /** Follows the branch from `start`, along its tangent, until it leaves the range or ends as `BranchEnd` says. Folds are located to
     `fold_tolerance` and become points of the branch. Throws NoSolution when `start` cannot be corrected
-    onto a branch. `visit` is called at each point, while the balance holds its residual. */
+    onto a branch. */
 Branch follow_branch(Balance& balance, const BranchPoint& start, SpeedRange range,
-                     const ArcLengthSettings& settings, const Visit& visit = {});
+                     const ArcLengthSettings& settings);
 
 /** The same from the solution near `x` at ω = `from`, towards `to`. */
 Branch follow_branch(Balance& balance, double from, double to, Eigen::VectorXd x,
-                     const ArcLengthSettings& settings, const Visit& visit = {});
+                     const ArcLengthSettings& settings);
 
 }  // namespace rotor_stator

@@ -11,13 +11,14 @@ namespace rotor_stator
 
 Eigen::VectorXd scaled(const BranchPoint& point, const ArcLengthSettings& settings)
 {
-  Eigen::VectorXd y(point.x.size() + 1);
-  y << point.x / settings.arc_unknown_scale, point.omega / settings.speed_scale;
+  Eigen::VectorXd y(point.motion.x.size() + 1);
+  y << point.motion.x / settings.arc_unknown_scale,
+      point.motion.omega / settings.speed_scale;
   return y;
 }
 
-double distance(const BranchPoint& a, const BranchPoint& b,
-                const ArcLengthSettings& settings)
+double chord_length(const BranchPoint& a, const BranchPoint& b,
+                    const ArcLengthSettings& settings)
 {
   return (scaled(a, settings) - scaled(b, settings)).norm();
 }
@@ -39,7 +40,6 @@ Eigen::VectorXd between(const BranchPoint& a, const BranchPoint& b, double r,
 
 BranchPoint reversed(BranchPoint point)
 {
-  point.speed_direction = -point.speed_direction;
   point.tangent = -point.tangent;
   return point;
 }
@@ -60,87 +60,75 @@ ExtendedBalance::ExtendedBalance(Balance& balance, const ArcLengthSettings& sett
 {
 }
 
-double ExtendedBalance::omega(const Eigen::VectorXd& y) const
-{
-  return y[n_] * settings_.speed_scale;
-}
-
-Eigen::VectorXd ExtendedBalance::unknowns(const Eigen::VectorXd& y) const
-{
-  return y.head(n_) * settings_.arc_unknown_scale;
-}
-
-BranchPoint ExtendedBalance::point(const Eigen::VectorXd& y, double arc,
-                                   const NewtonReport& newton,
-                                   const Eigen::VectorXd& tangent) const
-{
-  return {omega(y), arc, tangent[n_], newton, unknowns(y), tangent};
-}
-
-const Eigen::VectorXd& ExtendedBalance::residual(const Eigen::VectorXd& y)
-{
-  return balance_.residual(unknowns(y), omega(y));
-}
-
 double ExtendedBalance::last_correction() const
 {
   return std::sqrt(settings_.newton.tolerance) * balance_.problem().unknown_scale /
          settings_.arc_unknown_scale;
 }
 
-const Eigen::MatrixXd& ExtendedBalance::bordered(const Eigen::VectorXd& last_row)
+const Eigen::MatrixXd& ExtendedBalance::bordered(const PeriodicMotion& motion,
+                                                 const Eigen::VectorXd& last_row)
 {
-  matrix_.topLeftCorner(n_, n_) = balance_.jacobian() * settings_.arc_unknown_scale;
-  matrix_.topRightCorner(n_, 1) = balance_.speed_derivative() * settings_.speed_scale;
+  matrix_.topLeftCorner(n_, n_) =
+      balance_.jacobian(motion.x, motion.omega) * settings_.arc_unknown_scale;
+  matrix_.topRightCorner(n_, 1) =
+      balance_.speed_derivative(motion.x, motion.omega) * settings_.speed_scale;
   matrix_.row(n_) = balance_.problem().residual_scale * last_row.transpose();
   return matrix_;
 }
 
 NewtonEnd ExtendedBalance::verdict(const Correction& correction, double length) const
 {
+  const double residual = correction.motion.newton.delta_1;
   if (!std::isfinite(length)) return NewtonEnd::singular;
-  if (!std::isfinite(correction.newton.delta_1) ||
-      correction.contraction > settings_.most_contraction)
+  if (!std::isfinite(residual) || correction.contraction > settings_.most_contraction)
     return NewtonEnd::no_decrease;
-  return correction.newton.delta_1 <= settings_.newton.tolerance &&
-                 length <= last_correction()
+  return residual <= settings_.newton.tolerance && length <= last_correction()
              ? NewtonEnd::converged
              : NewtonEnd::too_many_iterations;
 }
 
 Correction ExtendedBalance::correct(const Eigen::VectorXd& direction,
-                                    const Eigen::VectorXd& predicted, Eigen::VectorXd& y)
+                                    const Eigen::VectorXd& predicted)
 {
   const double unknown_scale =
       balance_.problem().unknown_scale / settings_.arc_unknown_scale;
-  Correction correction;
-  NewtonReport& report = correction.newton;
+  Correction correction{.y = predicted};
+  auto& [motion, y, contraction] = correction;
+  NewtonReport& report = motion.newton;
   Eigen::VectorXd right(n_ + 1);
-  double last = 0;
-  y = predicted;
   /** The condition is linear: after the first correction it holds to rounding. */
-  right << -residual(y), 0;
+  const auto evaluate = [&] {
+    motion.x = y.head(n_) * settings_.arc_unknown_scale;
+    motion.omega = y[n_] * settings_.speed_scale;
+    right << -balance_.residual(motion.x, motion.omega), 0;
+  };
+  double last = 0;
+  evaluate();
   do {
-    const Eigen::VectorXd step = bordered(direction).partialPivLu().solve(right);
+    const Eigen::VectorXd step = bordered(motion, direction).partialPivLu().solve(right);
     const double length = step.norm();
     y += step;
-    right << -residual(y), 0;
+    evaluate();
     ++report.iterations;
     report.delta_1 = right.norm() / balance_.problem().residual_scale;
     report.delta_2 = length / unknown_scale;
-    if (last > last_correction())
-      correction.contraction = std::max(correction.contraction, length / last);
+    if (last > last_correction()) contraction = std::max(contraction, length / last);
     report.end = verdict(correction, length);
     last = length;
   } while (report.end == NewtonEnd::too_many_iterations &&
            report.iterations < most_corrections);
+  motion.force = balance_.force(motion.x, motion.omega);
+  motion.harmonics = balance_.harmonics();
+  motion.samples = balance_.problem().samples;
   return correction;
 }
 
-Tangent ExtendedBalance::tangent(const Eigen::VectorXd& previous)
+Tangent ExtendedBalance::tangent(const PeriodicMotion& motion,
+                                 const Eigen::VectorXd& previous)
 {
   const Eigen::VectorXd right = Eigen::VectorXd::Unit(n_ + 1, n_);
-  const Eigen::PartialPivLU<Eigen::MatrixXd> factors(bordered(previous));
+  const Eigen::PartialPivLU<Eigen::MatrixXd> factors(bordered(motion, previous));
   const auto negative = (factors.matrixLU().diagonal().array() < 0).count();
   const bool even_permutation = factors.permutationP().determinant() > 0;
   return {factors.solve(right).normalized(), (negative % 2 == 0) == even_permutation};
@@ -149,15 +137,23 @@ Tangent ExtendedBalance::tangent(const Eigen::VectorXd& previous)
 BranchPoint point_of(Balance& balance, double omega, Eigen::VectorXd x, bool upwards,
                      const ArcLengthSettings& settings)
 {
-  const NewtonReport report = solve(balance, omega, x, settings.newton);
-  if (!report.converged())
-    throw NoSolution(
-        format("no start at omega = %g rad/s: %s", omega, report.reason().c_str()));
-  const auto n = x.size();
-  const Tangent tangent =
+  BranchPoint point{solve(balance, omega, std::move(x), settings.newton)};
+  if (!point.motion.found())
+    throw NoSolution(format("no start at omega = %g rad/s: %s", omega,
+                            point.motion.newton.reason().c_str()));
+  const auto n = point.motion.x.size();
+  point.tangent =
       ExtendedBalance(balance, settings)
-          .tangent((upwards ? 1 : -1) * Eigen::VectorXd::Unit(n + 1, n));
-  return {omega, 0, tangent.direction[n], report, std::move(x), tangent.direction};
+          .tangent(point.motion, (upwards ? 1 : -1) * Eigen::VectorXd::Unit(n + 1, n))
+          .direction;
+  return point;
+}
+
+ArcLengthSettings arc_length_settings(const Parameters& parameters,
+                                      const NewtonSettings& newton)
+{
+  const SweepSettings same = sweep_settings(parameters);
+  return {newton, same.speed_scale, same.arc_unknown_scale};
 }
 
 }  // namespace rotor_stator

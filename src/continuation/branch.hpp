@@ -6,10 +6,7 @@ measured. It is a row of solutions with the unit tangent at each; between two of
 cubic with both tangents stands for it. */
 #pragma once
 
-#include <string>
-#include <vector>
-
-#include "balance/newton.hpp"
+#include "continuation/sweep.hpp"
 
 namespace rotor_stator
 {
@@ -35,13 +32,17 @@ struct ArcLengthSettings {
 };
 
 struct BranchPoint {
-  double omega;            ///< [rad/s]
-  double arc;              ///< scaled arc length from the start [-]
-  double speed_direction;  ///< dω/ds over ω_ref; changes sign at a fold
-  NewtonReport newton;
-  Eigen::VectorXd x;
-  Eigen::VectorXd tangent = {};  ///< unit, scaled: of X/ℓ, then `speed_direction`
+  PeriodicMotion motion;
+  double arc = 0;                ///< scaled arc length from the start [-]
+  Eigen::VectorXd tangent = {};  ///< unit, scaled: of X/ℓ, then of ω/ω_ref
+
+  /** dω/ds over ω_ref [-]; changes sign at a fold. */
+  double speed_direction() const { return tangent[tangent.size() - 1]; }
 };
+
+/** The settings of arc length for one machine, scaled as its sweeps are. */
+ArcLengthSettings arc_length_settings(const Parameters& parameters,
+                                      const NewtonSettings& newton = {});
 
 /** How a branch ended. `goal`: at the end of the range. `came_back`: at the edge where it
     began. `closed`: at its first point, going the same way. `on_itself`: at another of its
@@ -60,9 +61,9 @@ struct Branch {
 /** y = (X/ℓ, ω/ω_ref), n+1 values. */
 Eigen::VectorXd scaled(const BranchPoint& point, const ArcLengthSettings& settings);
 
-/** Scaled distance of two points [-]. */
-double distance(const BranchPoint& a, const BranchPoint& b,
-                const ArcLengthSettings& settings);
+/** Length of the scaled chord between two points [-]. */
+double chord_length(const BranchPoint& a, const BranchPoint& b,
+                    const ArcLengthSettings& settings);
 
 /** Angle [rad] between two unit vectors, accurate when it is small. */
 double angle(const Eigen::VectorXd& a, const Eigen::VectorXd& b);
@@ -83,9 +84,10 @@ regular where the branch folds back in ω (Keller 1977). The corrector is Newton
 damping: where it does not contract, the step was too long, and a damped Newton would look for
 another solution far away. */
 
-/** How Newton ended, and how fast it was (Den Heijer and Rheinboldt 1981). */
+/** Where Newton ended, and how fast it was (Den Heijer and Rheinboldt 1981). */
 struct Correction {
-  NewtonReport newton;
+  PeriodicMotion motion = {};
+  Eigen::VectorXd y;       ///< scaled
   double contraction = 0;  ///< the largest ‖Δy_{k+1}‖/‖Δy_k‖ above rounding [-]
 };
 
@@ -101,29 +103,22 @@ class ExtendedBalance
 public:
   ExtendedBalance(Balance& balance, const ArcLengthSettings& settings);
 
-  /** The point of the branch at scaled `y`. */
-  BranchPoint point(const Eigen::VectorXd& y, double arc, const NewtonReport& newton,
-                    const Eigen::VectorXd& tangent) const;
-
   /** The longest last correction with which Newton may end [-]. */
   double last_correction() const;
 
   /** Pays for work beside the balance. */
   void spend(double operations) const { balance_.spend(operations); }
 
-  /** Newton on the balance and direction·(y - predicted) = 0, from `y` = `predicted`. */
-  Correction correct(const Eigen::VectorXd& direction, const Eigen::VectorXd& predicted,
-                     Eigen::VectorXd& y);
+  /** Newton on the balance and direction·(y - predicted) = 0, from `predicted`. */
+  Correction correct(const Eigen::VectorXd& direction, const Eigen::VectorXd& predicted);
 
-  /** At the last residual, on the side of `previous`. */
-  Tangent tangent(const Eigen::VectorXd& previous);
+  /** On the side of `previous`. */
+  Tangent tangent(const PeriodicMotion& motion, const Eigen::VectorXd& previous);
 
 private:
-  double omega(const Eigen::VectorXd& y) const;
-  Eigen::VectorXd unknowns(const Eigen::VectorXd& y) const;
   NewtonEnd verdict(const Correction& correction, double length) const;
-  const Eigen::MatrixXd& bordered(const Eigen::VectorXd& last_row);
-  const Eigen::VectorXd& residual(const Eigen::VectorXd& y);
+  const Eigen::MatrixXd& bordered(const PeriodicMotion& motion,
+                                  const Eigen::VectorXd& last_row);
 
   Balance& balance_;
   const ArcLengthSettings& settings_;

@@ -71,13 +71,12 @@ Branch follow_both_ways(Balance& balance, const BranchPoint& start, SpeedRange r
   }
 }
 
-std::vector<IsolatedBranch> isolated_branches(Balance& balance, const Branch& main,
-                                              const std::vector<Candidate>& candidates,
-                                              SpeedRange range,
-                                              const ArcLengthSettings& settings)
+std::vector<IsolatedBranch> isolated_branches(
+    Balance& balance, const Branch& main, const std::vector<PeriodicMotion>& candidates,
+    SpeedRange range, const ArcLengthSettings& settings)
 {
   std::vector<IsolatedBranch> found;
-  for (const Candidate& candidate : candidates) {
+  for (const PeriodicMotion& candidate : candidates) {
     try {
       const BranchPoint start =
           point_of(balance, candidate.omega, candidate.x, true, settings);
@@ -88,8 +87,7 @@ std::vector<IsolatedBranch> isolated_branches(Balance& balance, const Branch& ma
       if (std::any_of(found.begin(), found.end(),
                       [&](const IsolatedBranch& other) { return on(other.branch); }))
         continue;
-      found.push_back({follow_both_ways(balance, start, range, settings), candidate.omega,
-                       candidate.origin});
+      found.push_back({follow_both_ways(balance, start, range, settings), candidate});
     } catch (const NoSolution&) {
       // Newton found nothing from this candidate
     }

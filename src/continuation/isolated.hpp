@@ -11,17 +11,9 @@ it joins the first outside the range is not asked. */
 namespace rotor_stator
 {
 
-/** A start for Newton, and where it comes from. */
-struct Candidate {
-  double omega;  ///< [rad/s]
-  Eigen::VectorXd x;
-  std::string origin;
-};
-
 struct IsolatedBranch {
   Branch branch;
-  double omega;        ///< [rad/s] where it was found
-  std::string origin;  ///< the candidate's
+  PeriodicMotion candidate;  ///< what it was found from
 };
 
 /** Whether the solution `point` lies on `branch`. */
@@ -35,9 +27,8 @@ Branch follow_both_ways(Balance& balance, const BranchPoint& start, SpeedRange r
 
 /** The branches inside the range that pass through solutions near the candidates, and are not `main`. A
     candidate from which Newton finds nothing is passed over. */
-std::vector<IsolatedBranch> isolated_branches(Balance& balance, const Branch& main,
-                                              const std::vector<Candidate>& candidates,
-                                              SpeedRange range,
-                                              const ArcLengthSettings& settings);
+std::vector<IsolatedBranch> isolated_branches(
+    Balance& balance, const Branch& main, const std::vector<PeriodicMotion>& candidates,
+    SpeedRange range, const ArcLengthSettings& settings);
 
 }  // namespace rotor_stator

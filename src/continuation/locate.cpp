@@ -26,7 +26,7 @@ class Bracket
 public:
   Bracket(Balance& balance, const BranchPoint& a, const BranchPoint& b,
           const TestFunction& test, const ArcLengthSettings& settings)
-      : settings_(settings), test_(test), extended_(balance, settings), balance_(balance)
+      : settings_(settings), test_(test), extended_(balance, settings)
   {
     a_ = valued(a);
     b_ = valued(b);
@@ -39,8 +39,8 @@ public:
   double speed_width() const
   {
     return width() * settings_.speed_scale *
-           std::max(std::abs(a_.point.speed_direction),
-                    std::abs(b_.point.speed_direction));
+           std::max(std::abs(a_.point.speed_direction()),
+                    std::abs(b_.point.speed_direction()));
   }
 
   const BranchPoint& best() const
@@ -65,11 +65,11 @@ public:
 private:
   End valued(const BranchPoint& point)
   {
-    balance_.residual(point.x, point.omega);
     const double value = test_(point);
     if (!std::isfinite(value))
-      throw NoSolution(format(
-          "the quantity to locate is not a number at omega = %.6g rad/s", point.omega));
+      throw NoSolution(
+          format("the quantity to locate is not a number at omega = %.6g rad/s",
+                 point.motion.omega));
     return {point, value, value};
   }
 
@@ -77,22 +77,22 @@ private:
   {
     const Eigen::VectorXd start = scaled(a_.point, settings_);
     const Eigen::VectorXd chord = scaled(b_.point, settings_) - start;
-    Eigen::VectorXd y;
-    const Correction correction = extended_.correct(
-        chord.normalized(), between(a_.point, b_.point, r, settings_), y);
-    if (!correction.newton.converged())
+    Correction correction =
+        extended_.correct(chord.normalized(), between(a_.point, b_.point, r, settings_));
+    PeriodicMotion& motion = correction.motion;
+    if (!motion.found())
       throw NoSolution(format("no point between omega = %.9g and %.9g rad/s: %s",
-                              a_.point.omega, b_.point.omega,
-                              correction.newton.reason().c_str()));
-    const double share = (y - start).dot(chord) / chord.squaredNorm();
-    return extended_.point(y, a_.point.arc + share * width(), correction.newton,
-                           extended_.tangent(chord.normalized()).direction);
+                              a_.point.motion.omega, b_.point.motion.omega,
+                              motion.newton.reason().c_str()));
+    const double share = (correction.y - start).dot(chord) / chord.squaredNorm();
+    Tangent tangent = extended_.tangent(motion, chord.normalized());
+    return {std::move(motion), a_.point.arc + share * width(),
+            std::move(tangent.direction)};
   }
 
   const ArcLengthSettings& settings_;
   const TestFunction& test_;
   ExtendedBalance extended_;
-  Balance& balance_;
   End a_, b_;
   std::optional<bool> moved_first_;  ///< which end the last cut moved
 };
@@ -106,11 +106,11 @@ BranchPoint locate(Balance& balance, const BranchPoint& a, const BranchPoint& b,
   Bracket bracket(balance, a, b, test, settings);
   if (!bracket.has_zero())
     throw NoSolution(format("no change of sign between omega = %.9g and %.9g rad/s",
-                            a.omega, b.omega));
+                            a.motion.omega, b.motion.omega));
   const double least_width = 1e-14 * std::max(1.0, std::abs(b.arc));
   double before = bracket.width();
   for (int cuts = 1; !bracket.exact() && bracket.width() > least_width &&
-                     bracket.speed_width() > tolerance * std::abs(a.omega);
+                     bracket.speed_width() > tolerance * std::abs(a.motion.omega);
        ++cuts) {
     const bool slow = cuts % 3 == 0 && bracket.width() > 0.5 * before;
     if (cuts % 3 == 0) before = bracket.width();
@@ -124,14 +124,13 @@ BranchPoint point_between(Balance& balance, const BranchPoint& a, const BranchPo
 {
   constexpr double tolerance = 1e-10;
   BranchPoint point = locate(
-      balance, a, b, [omega](const BranchPoint& p) { return p.omega - omega; }, tolerance,
-      settings);
+      balance, a, b, [omega](const BranchPoint& p) { return p.motion.omega - omega; },
+      tolerance, settings);
   /** To the last digit of the speed, unless it is a fold's. */
-  Eigen::VectorXd x = point.x;
-  const NewtonReport report = solve(balance, omega, x, settings.newton);
-  if (report.converged()) {
-    point.x = std::move(x);
-    point.omega = omega;
+  PeriodicMotion exact = solve(balance, omega, point.motion.x, settings.newton);
+  if (exact.found()) {
+    exact.newton = point.motion.newton;
+    point.motion = std::move(exact);
   }
   return point;
 }
@@ -142,10 +141,10 @@ std::vector<BranchPoint> points_at(Balance& balance, const Branch& branch, doubl
   std::vector<BranchPoint> found;
   for (std::size_t k = 0; k < branch.points.size(); ++k) {
     const BranchPoint& a = branch.points[k];
-    if (a.omega == omega) found.push_back(a);
+    if (a.motion.omega == omega) found.push_back(a);
     if (k + 1 == branch.points.size()) break;
     const BranchPoint& b = branch.points[k + 1];
-    if ((a.omega - omega) * (b.omega - omega) < 0)
+    if ((a.motion.omega - omega) * (b.motion.omega - omega) < 0)
       found.push_back(point_between(balance, a, b, omega, settings));
   }
   return found;
@@ -157,9 +156,9 @@ namespace
 /** By the cubic of the speed: both its extrema are inside the step. */
 bool cubic_turns(const BranchPoint& a, const BranchPoint& b, double speed_scale)
 {
-  const double h = b.arc - a.arc, rise = b.omega - a.omega;
-  const double d_a = a.speed_direction * speed_scale * h;
-  const double d_b = b.speed_direction * speed_scale * h;
+  const double h = b.arc - a.arc, rise = b.motion.omega - a.motion.omega;
+  const double d_a = a.speed_direction() * speed_scale * h;
+  const double d_b = b.speed_direction() * speed_scale * h;
   if (d_a * d_b <= 0) return false;
   /** dω/dr = d_a + 2cr + 3er² has its extremum at r = -c/3e. */
   const double c = 3 * rise - 2 * d_a - d_b, e = d_a + d_b - 2 * rise;
@@ -173,16 +172,16 @@ bool turns_between(ExtendedBalance& extended, const BranchPoint& a, const Branch
                    const ArcLengthSettings& settings)
 {
   if (cubic_turns(a, b, settings.speed_scale)) return true;
-  const double steep = std::min(std::abs(a.speed_direction), std::abs(b.speed_direction));
+  const double steep =
+      std::min(std::abs(a.speed_direction()), std::abs(b.speed_direction()));
   if (steep > angle(a.tangent, b.tangent)) return false;
   const Eigen::VectorXd direction = (a.tangent + b.tangent).normalized();
-  Eigen::VectorXd y;
-  const Correction correction =
-      extended.correct(direction, between(a, b, 0.5, settings), y);
-  if (!correction.newton.converged()) return true;
-  const BranchPoint middle = extended.point(y, 0.5 * (a.arc + b.arc), correction.newton,
-                                            extended.tangent(direction).direction);
-  return middle.speed_direction * (a.speed_direction + b.speed_direction) < 0 ||
+  const PeriodicMotion motion =
+      extended.correct(direction, between(a, b, 0.5, settings)).motion;
+  if (!motion.found()) return true;
+  const BranchPoint middle{motion, 0.5 * (a.arc + b.arc),
+                           extended.tangent(motion, direction).direction};
+  return middle.speed_direction() * (a.speed_direction() + b.speed_direction()) < 0 ||
          cubic_turns(a, middle, settings.speed_scale) ||
          cubic_turns(middle, b, settings.speed_scale);
 }

@@ -15,7 +15,7 @@ each trial point being corrected onto the branch. */
 namespace rotor_stator
 {
 
-/** A quantity at a point of the branch; the balance holds the residual of that point. */
+/** A quantity at a point of the branch. */
 using TestFunction = std::function<double(const BranchPoint&)>;
 
 /** The point between `a` and `b` (successive points of one branch, with tangents) where `test`

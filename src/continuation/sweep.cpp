@@ -2,35 +2,33 @@
 
 #include <cmath>
 
+#include "balance/bearing_problem.hpp"
+
 namespace rotor_stator
 {
 
-double LagrangePredictor::chord(const Point& a, const Point& b) const
+void LagrangePredictor::add(Eigen::VectorXd x, double omega)
 {
-  return std::hypot((b.x - a.x).norm() / unknown_scale_,
-                    (b.omega - a.omega) / speed_scale_);
-}
-
-void LagrangePredictor::add(const Eigen::VectorXd& x, double omega)
-{
-  Point point{x, omega};
-  distance_.push_back(points_.empty() ? 0.0
-                                      : distance_.back() + chord(points_.back(), point));
-  points_.push_back(std::move(point));
+  const double chord = empty()
+                           ? 0
+                           : std::hypot((x - points_.back().x).norm() / unknown_scale_,
+                                        (omega - points_.back().omega) / speed_scale_);
+  arc_.push_back(empty() ? 0 : arc_.back() + chord);
+  points_.push_back({.omega = omega, .x = std::move(x)});
   if (points_.size() > 4) {
     points_.pop_front();
-    distance_.pop_front();
+    arc_.pop_front();
   }
 }
 
 /** Lagrange weights Π_{j≠i} (s - S_j)/(S_i - S_j). */
 Eigen::VectorXd LagrangePredictor::weights(double s) const
 {
-  const auto n = distance_.size();
+  const auto n = arc_.size();
   Eigen::VectorXd weight = Eigen::VectorXd::Ones(n);
   for (std::size_t i = 0; i < n; ++i)
     for (std::size_t j = 0; j < n; ++j)
-      if (i != j) weight[i] *= (s - distance_[j]) / (distance_[i] - distance_[j]);
+      if (i != j) weight[i] *= (s - arc_[j]) / (arc_[i] - arc_[j]);
   return weight;
 }
 
@@ -42,27 +40,28 @@ double LagrangePredictor::speed_at(double s) const
   return omega;
 }
 
-LagrangePredictor::Point LagrangePredictor::at_distance(double delta_s) const
+PeriodicMotion LagrangePredictor::at_arc(double delta_s) const
 {
-  const double s = distance_.back() + delta_s;
+  const double s = arc_.back() + delta_s;
   const Eigen::VectorXd weight = weights(s);
-  Point point{Eigen::VectorXd::Zero(points_.back().x.size()), speed_at(s)};
+  PeriodicMotion point{.omega = speed_at(s),
+                       .x = Eigen::VectorXd::Zero(points_.back().x.size())};
   for (std::size_t i = 0; i < points_.size(); ++i) point.x += weight[i] * points_[i].x;
   return point;
 }
 
 Eigen::VectorXd LagrangePredictor::at_speed(double omega) const
 {
-  const Point& last = points_.back();
+  const PeriodicMotion& last = points_.back();
   if (points_.size() < 2) return last.x;
 
   /** Secant iterations on ω(S) = ω, started by the last chord. When they leave the
      neighbourhood (the curve turns back) the last point is the best guess there is. */
-  const Point& before = points_[points_.size() - 2];
-  const double step = distance_.back() - distance_[distance_.size() - 2];
+  const PeriodicMotion& before = points_[points_.size() - 2];
+  const double step = arc_.back() - arc_[arc_.size() - 2];
   const double guess = step * (omega - last.omega) / (last.omega - before.omega);
   if (!std::isfinite(guess)) return last.x;
-  double s_0 = distance_.back(), f_0 = last.omega - omega;
+  double s_0 = arc_.back(), f_0 = last.omega - omega;
   double s_1 = s_0 + guess;
   for (int iteration = 0; iteration < 8; ++iteration) {
     const double f_1 = speed_at(s_1) - omega;
@@ -71,9 +70,9 @@ Eigen::VectorXd LagrangePredictor::at_speed(double omega) const
     s_0 = s_1;
     f_0 = f_1;
     s_1 = s_2;
-    if (!(std::abs(s_1 - distance_.back()) <= 4 * std::abs(guess))) return last.x;
+    if (!(std::abs(s_1 - arc_.back()) <= 4 * std::abs(guess))) return last.x;
   }
-  return at_distance(s_1 - distance_.back()).x;
+  return at_arc(s_1 - arc_.back()).x;
 }
 
 namespace
@@ -91,41 +90,46 @@ public:
   {
   }
 
-  SweepPoint solve_at(double omega)
+  PeriodicMotion solve_at(double omega)
   {
-    SweepPoint point{omega, {}, {}, false};
-    if (!predictor_.empty()) approach(point, omega, settings_.most_halvings);
-    if (!point.found()) {
+    PeriodicMotion motion{.omega = omega, .start = from_predictor};
+    if (!predictor_.empty()) approach(motion, omega, settings_.most_halvings);
+    if (!motion.found()) {
       predictor_.clear();
-      point.restarted = true;
-      attempt(point, omega, cold_start_(omega));
+      attempt(motion, omega, cold_start_(omega));
+      motion.start = "cold start";
     }
-    if (!point.found()) point.x.resize(0);
-    return point;
+    if (!motion.found()) motion.x.resize(0);
+    motion.omega = omega;
+    return motion;
   }
 
 private:
   /** One Newton solution at `omega`; on success the predictor learns it. */
-  bool attempt(SweepPoint& point, double omega, Eigen::VectorXd x)
+  bool attempt(PeriodicMotion& motion, double omega, Eigen::VectorXd x)
   {
-    const int before = point.newton.iterations;
-    point.newton = solve(balance_, omega, x, settings_.newton);
-    point.newton.iterations += before;
-    if (!point.found()) return false;
-    predictor_.add(x, omega);
+    const int iterations = motion.newton.iterations;
+    const long force_samples = motion.force_samples;
+    motion.omega = omega;
+    motion.x = std::move(x);
+    solve(balance_, motion, settings_.newton);
+    motion.newton.iterations += iterations;
+    motion.force_samples += force_samples;
+    if (!motion.found()) return false;
+    predictor_.add(motion.x, omega);
     last_omega_ = omega;
-    point.x = std::move(x);
     return true;
   }
 
-  /** From the last solution to the point's speed, through half-way speeds if it must be.
+  /** From the last solution to the motion's speed, through half-way speeds if it must be.
    */
-  bool approach(SweepPoint& point, double omega, int halvings)
+  bool approach(PeriodicMotion& motion, double omega, int halvings)
   {
-    if (attempt(point, omega, predictor_.at_speed(omega))) return true;
+    if (attempt(motion, omega, predictor_.at_speed(omega))) return true;
     if (halvings == 0) return false;
     const double middle = 0.5 * (last_omega_ + omega);
-    return approach(point, middle, halvings - 1) && approach(point, omega, halvings - 1);
+    return approach(motion, middle, halvings - 1) &&
+           approach(motion, omega, halvings - 1);
   }
 
   Balance& balance_;
@@ -137,17 +141,36 @@ private:
 
 }  // namespace
 
-std::vector<SweepPoint> sweep(Balance& balance, const std::vector<double>& omegas,
-                              const ColdStart& cold_start, const SweepSettings& settings,
-                              const std::function<void(const SweepPoint&)>& visit)
+SweepSettings sweep_settings(const Parameters& parameters)
+{
+  return {.newton = {},
+          .speed_scale = joint_resonance(parameters),
+          .arc_unknown_scale = scales(parameters).length};
+}
+
+std::vector<PeriodicMotion> sweep(Balance& balance, const std::vector<double>& omegas,
+                                  const ColdStart& cold_start,
+                                  const SweepSettings& settings)
 {
   Sweep state(balance, cold_start, settings);
-  std::vector<SweepPoint> points;
-  for (double omega : omegas) {
-    points.push_back(state.solve_at(omega));
-    if (visit && points.back().found()) visit(points.back());
-  }
-  return points;
+  std::vector<PeriodicMotion> motions;
+  for (double omega : omegas) motions.push_back(state.solve_at(omega));
+  return motions;
+}
+
+std::vector<PeriodicMotion> sweep(const Parameters& parameters,
+                                  const std::vector<double>& omegas, int harmonics,
+                                  int samples)
+{
+  if (samples == 0) samples = default_samples(harmonics);
+  Balance balance(bearing_problem(parameters, samples), harmonics);
+  auto motions = sweep(
+      balance, omegas,
+      [&](double omega) { return quasi_static_start(parameters, omega, harmonics); },
+      sweep_settings(parameters));
+  for (PeriodicMotion& motion : motions)
+    if (motion.found()) motion.bodies = body_series(parameters, motion);
+  return motions;
 }
 
 }  // namespace rotor_stator

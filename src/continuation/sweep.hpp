@@ -20,12 +20,10 @@ $$(X_4, \omega_4) = \sum_{i=0}^{3} \Big(\prod_{j \ne i} \frac{S_4 - S_j}{S_i - S
 As printed, with S_3 in the numerator, it returns the last point unchanged (D-02). With fewer points the polynomial has a lower degree. */
 #pragma once
 
-#include <Eigen/Core>
 #include <deque>
-#include <functional>
-#include <vector>
 
 #include "balance/newton.hpp"
+#include "model/parameters.hpp"
 
 namespace rotor_stator
 {
@@ -38,20 +36,12 @@ public:
   {
   }
 
-  void add(const Eigen::VectorXd& x, double omega);
-  void clear()
-  {
-    points_.clear();
-    distance_.clear();
-  }
+  void add(Eigen::VectorXd x, double omega);
+  void clear() { points_.clear(), arc_.clear(); }
   bool empty() const { return points_.empty(); }
 
   /** Eq. 20 at S_3 + Δs: the extrapolated (X, ω). */
-  struct Point {
-    Eigen::VectorXd x;
-    double omega;
-  };
-  Point at_distance(double delta_s) const;
+  PeriodicMotion at_arc(double delta_s) const;
 
   /** The extrapolated X at a prescribed speed: Δs is chosen so that ω(S_4) = ω. */
   Eigen::VectorXd at_speed(double omega) const;
@@ -59,11 +49,10 @@ public:
 private:
   Eigen::VectorXd weights(double s) const;
   double speed_at(double s) const;
-  double chord(const Point& a, const Point& b) const;
 
   double unknown_scale_, speed_scale_;
-  std::deque<Point> points_;     ///< at most four
-  std::deque<double> distance_;  ///< S_i (Eq. 21)
+  std::deque<PeriodicMotion> points_;  ///< at most four
+  std::deque<double> arc_;             ///< S_i (Eq. 21)
 };
 
 /**
@@ -81,24 +70,26 @@ struct SweepSettings {
   int most_halvings = 4;
 };
 
-struct SweepPoint {
-  double omega;       ///< [rad/s]
-  Eigen::VectorXd x;  ///< empty when no solution was found
-  NewtonReport
-      newton;  ///< of the last attempt; `iterations` counts all attempts at this speed
-  bool
-      restarted;  ///< from a cold start: it may lie on another branch than the last point
-
-  bool found() const { return newton.converged(); }
-};
+/** Those for one machine: Eq. 19 scaled by the bearing's length and by the joint resonance (D-03). */
+SweepSettings sweep_settings(const Parameters& parameters);
 
 /** A start for Newton where no previous solution is at hand. */
 using ColdStart = std::function<Eigen::VectorXd(double omega)>;
 
-/** Solves at each of `omegas` in order and calls `visit` at each found point, while the
-   balance still holds its residual. */
-std::vector<SweepPoint> sweep(Balance& balance, const std::vector<double>& omegas,
-                              const ColdStart& cold_start, const SweepSettings& settings,
-                              const std::function<void(const SweepPoint&)>& visit = {});
+/** The start of a motion that the predictor led to. All others of a sweep are cold: they may lie on
+    another branch than the one before. */
+inline constexpr const char* from_predictor = "predictor";
+
+/** Solves at each of `omegas` in order. Where no solution was found `x` is empty; `newton` is of the last
+    attempt, its `iterations` and `force_samples` of all attempts at this speed. */
+std::vector<PeriodicMotion> sweep(Balance& balance, const std::vector<double>& omegas,
+                                  const ColdStart& cold_start,
+                                  const SweepSettings& settings);
+
+/** The same for a machine, cold from quasi-static contact, with the series of both bodies; 0 samples are
+    `default_samples`. */
+std::vector<PeriodicMotion> sweep(const Parameters& parameters,
+                                  const std::vector<double>& omegas, int harmonics,
+                                  int samples = 0);
 
 }  // namespace rotor_stator

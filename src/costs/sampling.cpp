@@ -5,7 +5,7 @@
 #include "balance/bearing_problem.hpp"
 #include "balance/fourier_transform.hpp"
 #include "io/errors.hpp"
-#include "motion/find_periodic.hpp"
+#include "motion/other_starts.hpp"
 
 namespace rotor_stator::costs
 {
@@ -45,12 +45,12 @@ constexpr int points = 1024;
 std::optional<SampledSolution> sampled(const SamplingCase& at, int m, int samples,
                                        const SampledSolution& start)
 {
-  const double omega = angular(at.frequency);
   Balance balance(bearing_problem(at.machine, samples), m);
-  Eigen::VectorXd x = resize_harmonics(start.x, 2, m);
-  if (!solve(balance, omega, x, {}).converged()) return {};
-  return SampledSolution{
-      m, x, motion::motion_of(body_series(at.machine, balance, omega, x), points)};
+  const PeriodicMotion solution =
+      solve(balance, angular(at.frequency), resize_harmonics(start.x, 2, m));
+  if (!solution.found()) return {};
+  return SampledSolution{m, solution.x,
+                         motion::motion_of(body_series(at.machine, solution), points)};
 }
 
 }  // namespace
@@ -59,7 +59,7 @@ SampledSolution reference_solution(const SamplingCase& at, int harmonics)
 {
   const int samples = default_samples(harmonics);
   const auto found =
-      motion::find_periodic(at.machine, angular(at.frequency), harmonics, samples);
+      motion::search_periodic(at.machine, angular(at.frequency), harmonics, samples);
   if (!found.found()) fail(at, harmonics, samples);
   return {harmonics, found.x, motion::motion_of(found.bodies, points)};
 }

@@ -8,11 +8,11 @@
 #include <numbers>
 
 #include "balance/bearing_problem.hpp"
+#include "balance/step_solver.hpp"
 #include "continuation/sweep.hpp"
 #include "integration/time_stepper.hpp"
 #include "io/errors.hpp"
 #include "model/rotor_stator.hpp"
-#include "motion/find_periodic.hpp"
 #include "stability/shooting.hpp"
 
 namespace rotor_stator::costs
@@ -75,14 +75,18 @@ struct TruncationIndicator {
   }
 };
 
-/** Of `x`, 2 × (2m+1) coefficients as a vector; `balance` has more harmonics. */
-TruncationIndicator truncation_indicator(const Parameters& parameters, double omega,
-                                         const Eigen::VectorXd& x, Balance& balance)
+/** Of a solution; `balance` has more harmonics. */
+TruncationIndicator truncation_indicator(const Parameters& parameters,
+                                         const PeriodicMotion& solution, Balance& balance)
 {
-  const int m = static_cast<int>(x.size() / 4), far = balance.harmonics();
-  TruncationIndicator result{resize_harmonics(x, 2, far), Eigen::VectorXd::Zero(far + 1)};
-  const Eigen::VectorXd residual = balance.residual(result.x, omega);
-  const double size = body_series(parameters, balance, omega, result.x)
+  const int m = solution.harmonics.highest(), far = balance.harmonics().highest();
+  PeriodicMotion wide{.omega = solution.omega,
+                      .harmonics = balance.harmonics(),
+                      .x = resize_harmonics(solution.x, 2, far)};
+  const Eigen::VectorXd residual = balance.residual(wide.x, wide.omega);
+  wide.force = balance.force(wide.x, wide.omega);
+  TruncationIndicator result{wide.x, Eigen::VectorXd::Zero(far + 1)};
+  const double size = body_series(parameters, wide)
                           .leftCols(3)
                           .cwiseAbs()
                           .rowwise()
@@ -92,7 +96,7 @@ TruncationIndicator truncation_indicator(const Parameters& parameters, double om
   for (int h = far; h > 0; --h) {
     auto u = result.x.segment<4>((2 * h - 1) * 2);  // cosine, then sine coefficients
     if (h > m) {
-      const Eigen::Matrix4d block = balance.diagonal_block(h);
+      const Eigen::Matrix4d block = balance.diagonal_block(wide.x, wide.omega, h);
       u = -block.partialPivLu().solve(residual.segment<4>((2 * h - 1) * 2));
     }
     result.tail[h] = sum / size;
@@ -127,9 +131,8 @@ public:
       longest_ = std::max(longest_, 2 * harmonics_at(setting, frequency));
     if (!task.before) return;
     const double frequency = task.before->frequency;
-    Eigen::VectorXd x;
-    if (converges_from(angular(frequency), harmonics_at(setting, frequency), x))
-      before_ = x;
+    PeriodicMotion known{.omega = angular(frequency)};
+    if (converges_from(harmonics_at(setting, frequency), known)) before_ = known.x;
   }
 
   std::optional<motion::Motion> motion(std::size_t speed, int points) const override
@@ -157,7 +160,7 @@ private:
     bodies_.clear();
     *force_seconds_ = 0;
     adapted_ = setting_.harmonics;
-    const SweepSettings scaling = motion::sweep_settings(task_.parameters);
+    const SweepSettings scaling = sweep_settings(task_.parameters);
     predictor_ = {scaling.arc_unknown_scale, scaling.speed_scale};
     if (before_.size() > 0) learn(angular(task_.before->frequency), before_);
     if (setting_.paper_sweep) sweep_all();
@@ -166,26 +169,25 @@ private:
   /** The paper's sweep goes over all speeds at once. */
   void sweep_all()
   {
-    std::vector<double> omegas;
-    for (double frequency : task_.frequencies) omegas.push_back(angular(frequency));
-    SweepSettings settings = motion::sweep_settings(task_.parameters);
+    SweepSettings settings = sweep_settings(task_.parameters);
     settings.newton.tolerance = setting_.tolerance;
     const int m = setting_.harmonics;
-    sweep(
-        balance(m), omegas,
-        [&](double omega) { return quasi_static_start(task_.parameters, omega, m); },
-        settings, [&](const SweepPoint& point) { keep(point.omega, m, point.x); });
+    for (const PeriodicMotion& found : sweep(
+             balance(m), angular(task_.frequencies),
+             [&](double omega) { return quasi_static_start(task_.parameters, omega, m); },
+             settings))
+      if (found.found()) bodies_[found.omega] = body_series(task_.parameters, found);
   }
 
   void solve(std::size_t speed) override
   {
     if (setting_.paper_sweep) return;
-    const double frequency = task_.frequencies[speed], omega = angular(frequency);
+    const double frequency = task_.frequencies[speed];
     const int m = setting_.estimate > 0 ? adapted_ : harmonics_at(setting_, frequency);
     keep_only(m);
-    Eigen::VectorXd x;
-    if (!predictor_.empty()) x = predictor_.at_speed(omega);
-    if (solve_at(omega, m, x)) learn(omega, x);
+    PeriodicMotion found{.omega = angular(frequency)};
+    if (!predictor_.empty()) found.x = predictor_.at_speed(found.omega);
+    if (solve_at(m, found)) learn(found.omega, found.x);
   }
 
   /** The predictor's vectors all have one length. */
@@ -194,54 +196,49 @@ private:
     predictor_.add(resize_harmonics(x, 2, longest_), omega);
   }
 
-  /** From `x`, or cold if it is empty; with m harmonics, or half as many more where those have no
-      solution, and with more while the setting's estimate is not reached. */
-  bool solve_at(double omega, int m, Eigen::VectorXd& x)
+  /** From the coefficients of `found`, or cold if there are none; with m harmonics, or half as many
+      more where those have no solution, and with more while the setting's estimate is not reached. */
+  bool solve_at(int m, PeriodicMotion& found)
   {
-    if (!converges_from(omega, m, x)) {
+    if (!converges_from(m, found)) {
       m += (m + 1) / 2;
-      if (!converges_from(omega, m, x)) return false;
+      if (!converges_from(m, found)) return false;
     }
     while (setting_.estimate > 0) {
-      const int far = rounded_up(look_ahead(task_.parameters, omega, m));
+      const int far = rounded_up(look_ahead(task_.parameters, found.omega, m));
       const TruncationIndicator indicator =
-          truncation_indicator(task_.parameters, omega, x, balance(far));
+          truncation_indicator(task_.parameters, found, balance(far));
       const int wanted =
           std::min(most_harmonics, rounded_up(indicator.harmonics(setting_.estimate)));
       adapted_ = std::max(setting_.harmonics, wanted);
       if (wanted <= m) break;
       m = wanted;
-      x = indicator.x;
-      if (!converges_from(omega, m, x)) return false;
+      found.x = indicator.x;
+      if (!converges_from(m, found)) return false;
     }
     return true;
   }
 
-  /** From `x`; without it, or where that fails, from quasi-static contact, which is near with few
-      harmonics only, and then from time integration. */
-  bool converges_from(double omega, int m, Eigen::VectorXd& x)
+  /** From the coefficients; without them, or where that fails, from quasi-static contact, which is near
+      with few harmonics only, and then from time integration. */
+  bool converges_from(int m, PeriodicMotion& found)
   {
     constexpr int few = 12;
-    if (x.size() > 0 && converges(omega, m, x)) return true;
+    if (found.x.size() > 0 && converges(m, found)) return true;
     if (m <= few) {
-      x = quasi_static_start(task_.parameters, omega, m);
-      if (converges(omega, m, x)) return true;
+      found.x = quasi_static_start(task_.parameters, found.omega, m);
+      if (converges(m, found)) return true;
     }
-    x = start_after_transient(omega, m);
-    return converges(omega, m, x);
+    found.x = start_after_transient(found.omega, m);
+    return converges(m, found);
   }
 
-  bool converges(double omega, int m, Eigen::VectorXd& x)
+  bool converges(int m, PeriodicMotion& found)
   {
-    x = resize_harmonics(x, 2, m);
-    if (!rotor_stator::solve(balance(m), omega, x, newton_).converged()) return false;
-    keep(omega, m, x);
+    found.x = resize_harmonics(found.x, 2, m);
+    if (!rotor_stator::solve(balance(m), found, newton_)) return false;
+    bodies_[found.omega] = body_series(task_.parameters, found);
     return true;
-  }
-
-  void keep(double omega, int m, const Eigen::VectorXd& x)
-  {
-    bodies_[omega] = body_series(task_.parameters, balance(m), omega, x);
   }
 
   /** Coefficients of the relative motion over one period after half a second of RK4. */
@@ -415,7 +412,7 @@ private:
   void begin() override
   {
     Integration::begin();
-    predictor_ = {1, motion::sweep_settings(task_.parameters).speed_scale};
+    predictor_ = {1, sweep_settings(task_.parameters).speed_scale};
     jacobian_.reset();
     if (task_.before) learn(angular(task_.before->frequency), task_.before->state);
   }

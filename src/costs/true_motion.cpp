@@ -4,6 +4,7 @@
 #include <limits>
 
 #include "balance/bearing_problem.hpp"
+#include "balance/newton.hpp"
 #include "io/errors.hpp"
 #include "io/parallel.hpp"
 #include "stability/shooting.hpp"
@@ -58,16 +59,15 @@ double agreement(const Parameters& parameters, const TrueMotion& truth, int harm
   const double omega = angular(truth.frequency);
   const motion::Motion fine =
       one_period(parameters, truth.frequency, truth.state, 2 * harmonics + 2, tolerance);
-  Eigen::VectorXd x = motion::relative_series(fine, harmonics);
   Balance balance(bearing_problem(parameters, samples), harmonics);
-  const NewtonReport report = solve(balance, omega, x, {.tolerance = 1e-11});
-  if (!report.converged())
+  const PeriodicMotion solution = solve(
+      balance, omega, motion::relative_series(fine, harmonics), {.tolerance = 1e-11});
+  if (!solution.found())
     throw NoSolution(format("no balance of %d harmonics at %g Hz: %s", harmonics,
-                            truth.frequency, report.reason().c_str()));
-  return motion::relative_difference(
-      motion::motion_of(body_series(parameters, balance, omega, x),
-                        truth.motion.points_per_period),
-      truth.motion);
+                            truth.frequency, solution.newton.reason().c_str()));
+  return motion::relative_difference(motion::motion_of(body_series(parameters, solution),
+                                                       truth.motion.points_per_period),
+                                     truth.motion);
 }
 
 References true_motions(const Parameters& parameters,

@@ -12,8 +12,7 @@
 #include "deviations/printed_equations.hpp"
 #include "integration/time_stepper.hpp"
 #include "io/errors.hpp"
-#include "motion/find_periodic.hpp"
-#include "motion/motion.hpp"
+#include "motion/other_starts.hpp"
 
 namespace rotor_stator::deviations
 {
@@ -120,12 +119,12 @@ EvidenceList compute_deviations(const DeviationScene& scene)
   return all;
 }
 
-motion::PeriodicSolution require_periodic(const Parameters& parameters, double frequency,
-                                          int harmonics, int samples,
-                                          const NewtonSettings& settings)
+PeriodicMotion require_periodic(const Parameters& parameters, double frequency,
+                                int harmonics, int samples,
+                                const NewtonSettings& settings)
 {
-  motion::PeriodicSolution solution =
-      motion::find_periodic(parameters, angular(frequency), harmonics, samples, settings);
+  PeriodicMotion solution = motion::search_periodic(parameters, angular(frequency),
+                                                    harmonics, samples, settings);
   if (!solution.found())
     throw NoSolution(format("%s: %d harmonics at %g Hz: %s", parameters.file.c_str(),
                             harmonics, frequency, solution.newton.reason().c_str()));
@@ -322,7 +321,7 @@ namespace
 {
 
 /** The coefficients of all four displacements in the order of PlainBalance. */
-Eigen::VectorXd coefficients(const motion::PeriodicSolution& solution)
+Eigen::VectorXd coefficients(const PeriodicMotion& solution)
 {
   return solution.bodies.reshaped();
 }
@@ -332,7 +331,7 @@ motion::Motion plain_solution(const DeviationScene& scene, double frequency,
                               FirstEntry first)
 {
   const int m = scene.harmonics, n = default_samples(m);
-  motion::PeriodicSolution solution = require_periodic(scene.parameters, frequency, m, n);
+  PeriodicMotion solution = require_periodic(scene.parameters, frequency, m, n);
   PlainBalance balance(scene.parameters, angular(frequency), m, n, first);
   Eigen::VectorXd x = coefficients(solution);
   const Equations equations{
@@ -340,7 +339,9 @@ motion::Motion plain_solution(const DeviationScene& scene, double frequency,
       .unknown_scale = scales(scene.parameters).length,
       .residual = [&](const Eigen::VectorXd& y,
                       Eigen::VectorXd& residual) { residual = balance.residual(y); },
-      .jacobian = [&]() -> const Eigen::MatrixXd& { return balance.jacobian(); }};
+      .jacobian = [&](const Eigen::VectorXd& y) -> const Eigen::MatrixXd& {
+        return balance.jacobian(y);
+      }};
   const NewtonReport report = newton(equations, x, {});
   if (!report.converged())
     throw NoSolution(
@@ -442,7 +443,7 @@ Branch branch_over_range(const DeviationScene& scene, int harmonics, int samples
   const double from = angular(scene.range.front()), to = angular(scene.range.back());
   Balance balance(bearing_problem(parameters, samples), harmonics);
   return follow_branch(balance, from, to, quasi_static_start(parameters, from, harmonics),
-                       motion::arc_length_settings(parameters));
+                       arc_length_settings(parameters));
 }
 
 /** What m harmonics with N samples give: folds, and the distance to the true motion. */
@@ -455,8 +456,8 @@ void add_sampled(EvidenceList& list, const DeviationScene& scene, int m, int n,
   const auto solution = require_periodic(scene.parameters, scene.speed, m, n);
   list.push_back({"D-05.folds" + where, static_cast<double>(branch.folds.size()), "-",
                   "folds of the branch, " + with});
-  list.push_back({"D-05.end" + where, branch.points.back().omega / angular(1), "Hz",
-                  "speed where the branch ended, " + with + ": " + branch.end});
+  list.push_back({"D-05.end" + where, branch.points.back().motion.omega / angular(1),
+                  "Hz", "speed where the branch ended, " + with + ": " + branch.end});
   list.push_back({"D-05.error" + where,
                   motion::relative_difference(
                       motion::motion_of(solution.bodies, points(scene)), truth),
@@ -555,21 +556,16 @@ Balance balance_of(const DeviationScene& scene, int harmonics)
 }
 
 /** The sweep of Fig. 3 with `harmonics` harmonics, at every step [Hz]. */
-std::vector<SweepPoint> sweep_at(const DeviationScene& scene, Balance& balance,
-                                 double step)
+std::vector<PeriodicMotion> sweep_at(const DeviationScene& scene, int harmonics,
+                                     double step)
 {
   std::vector<double> omegas;
   for (double f = scene.range.front(); f <= scene.range.back() + 1e-9; f += step)
     omegas.push_back(angular(f));
-  return sweep(
-      balance, omegas,
-      [&](double omega) {
-        return quasi_static_start(scene.parameters, omega, balance.harmonics());
-      },
-      motion::sweep_settings(scene.parameters));
+  return sweep(scene.parameters, omegas, harmonics);
 }
 
-double distance(const KnownSolution& a, const KnownSolution& b)
+double unscaled_step(const PeriodicMotion& a, const PeriodicMotion& b)
 {
   return (a.x - b.x).norm() + std::abs(a.omega - b.omega);
 }
@@ -577,15 +573,15 @@ double distance(const KnownSolution& a, const KnownSolution& b)
 /** Newton iterations from `x` at speed ω. */
 int iterations_from(Balance& balance, double omega, Eigen::VectorXd x)
 {
-  const NewtonReport report = solve(balance, omega, x, {});
+  const NewtonReport report = solve(balance, omega, std::move(x)).newton;
   if (!report.converged()) throw NoSolution("prediction: " + report.reason());
   return report.iterations;
 }
 
-double mean_iterations(const std::vector<SweepPoint>& points)
+double mean_iterations(const std::vector<PeriodicMotion>& points)
 {
   double sum = 0;
-  for (const SweepPoint& point : points) sum += point.newton.iterations;
+  for (const PeriodicMotion& point : points) sum += point.newton.iterations;
   return sum / static_cast<double>(points.size());
 }
 
@@ -594,23 +590,21 @@ double mean_iterations(const std::vector<SweepPoint>& points)
 EvidenceList printed_predictor(const DeviationScene& scene)
 {
   Balance balance = balance_of(scene, scene.harmonics);
-  const SweepSettings scaling = motion::sweep_settings(scene.parameters);
+  const SweepSettings scaling = sweep_settings(scene.parameters);
   LagrangePredictor predictor(scaling.arc_unknown_scale, scaling.speed_scale);
-  std::vector<KnownSolution> known;
+  std::vector<PeriodicMotion> known;
   for (double frequency : scene.predictor_speeds)
-    known.push_back({require_periodic(scene.parameters, frequency, scene.harmonics,
-                                      default_samples(scene.harmonics))
-                         .x,
-                     angular(frequency)});
-  const KnownSolution next = known.back();
+    known.push_back(require_periodic(scene.parameters, frequency, scene.harmonics,
+                                     default_samples(scene.harmonics)));
+  const PeriodicMotion next = known.back();
   known.pop_back();
-  for (const KnownSolution& solution : known) predictor.add(solution.x, solution.omega);
-  const KnownSolution printed = printed_prediction(known);
+  for (const PeriodicMotion& solution : known) predictor.add(solution.x, solution.omega);
+  const PeriodicMotion printed = printed_prediction(known);
   const Eigen::VectorXd ours = predictor.at_speed(next.omega);
   return {
       {"D-02.last", scene.predictor_speeds[3], "Hz", "speed of the last known solution"},
       {"D-02.next", scene.predictor_speeds[4], "Hz", "speed of the next one"},
-      {"D-02.moved_printed", distance(printed, known.back()), "-",
+      {"D-02.moved_printed", unscaled_step(printed, known.back()), "-",
        "distance of the printed prediction from the last solution, speed included"},
       {"D-02.error_printed", (printed.x - next.x).norm() / next.x.norm(), "-",
        "relative distance of the printed prediction from the next solution"},
@@ -626,9 +620,8 @@ EvidenceList printed_predictor(const DeviationScene& scene)
 
 EvidenceList arc_length_scaling(const DeviationScene& scene)
 {
-  Balance balance = balance_of(scene, scene.harmonics);
-  const SweepSettings scaling = motion::sweep_settings(scene.parameters);
-  const auto points = sweep_at(scene, balance, scene.continuation_steps.front());
+  const SweepSettings scaling = sweep_settings(scene.parameters);
+  const auto points = sweep_at(scene, scene.harmonics, scene.continuation_steps.front());
   double plain = 0, scaled = 0, least_scaled = 1;
   int pairs = 0;
   for (std::size_t k = 1; k < points.size(); ++k) {
@@ -675,10 +668,9 @@ void add_steps(EvidenceList& list, const DeviationScene& scene)
 {
   int number = 0;
   for (double step : scene.continuation_steps) {
-    Balance balance = balance_of(scene, scene.harmonics);
-    const auto points = sweep_at(scene, balance, step);
+    const auto points = sweep_at(scene, scene.harmonics, step);
     double missed = 0;
-    for (const SweepPoint& point : points) missed += point.found() ? 0 : 1;
+    for (const PeriodicMotion& point : points) missed += point.found() ? 0 : 1;
     list.push_back({format("D-15.step_%d", ++number), step, "Hz", "of the sweep"});
     list.push_back({format("D-15.iterations_%d", number), mean_iterations(points), "-",
                     "Newton iterations per speed with that step"});
@@ -703,10 +695,10 @@ EvidenceList unit_of_cpu(const DeviationScene& scene)
   EvidenceList list;
   double first = 0;
   for (int m : scene.sampled_harmonics) {
-    Balance balance = balance_of(scene, m);
-    sweep_at(scene, balance, scene.continuation_steps.front());
-    const double instants =
-        static_cast<double>(balance.evaluations()) * default_samples(m);
+    double instants = 0;
+    for (const PeriodicMotion& point :
+         sweep_at(scene, m, scene.continuation_steps.front()))
+      instants += static_cast<double>(point.force_samples);
     if (first == 0) first = instants;
     list.push_back(
         {format("D-18.instants_m%d", m), instants, "-",

@@ -92,9 +92,9 @@ EvidenceList criteria_without_scale(const DeviationScene& scene);  // D-22
 ## What the evidence of several deviations is made from */
 
 /** The periodic solution at `frequency` [Hz]. Throws NoSolution if there is none. */
-motion::PeriodicSolution require_periodic(const Parameters& parameters, double frequency,
-                                          int harmonics, int samples,
-                                          const NewtonSettings& settings = {});
+PeriodicMotion require_periodic(const Parameters& parameters, double frequency,
+                                int harmonics, int samples,
+                                const NewtonSettings& settings = {});
 
 /** Points per period of every motion of the scene. */
 int points(const DeviationScene& scene);

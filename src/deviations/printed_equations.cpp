@@ -50,13 +50,13 @@ Eigen::MatrixXd gamma_inverse(int harmonics, int samples)
   return inverse;
 }
 
-KnownSolution printed_prediction(const std::vector<KnownSolution>& last_four)
+PeriodicMotion printed_prediction(const std::vector<PeriodicMotion>& last_four)
 {
   std::vector<double> s{0};
   for (int i = 0; i < 3; ++i)
     s.push_back(s.back() + std::hypot((last_four[i + 1].x - last_four[i].x).norm(),
                                       last_four[i + 1].omega - last_four[i].omega));
-  KnownSolution next{Eigen::VectorXd::Zero(last_four[0].x.size()), 0};
+  PeriodicMotion next{.x = Eigen::VectorXd::Zero(last_four[0].x.size())};
   for (int i = 0; i <= 3; ++i) {
     double weight = 1;
     for (int j = 0; j <= 3; ++j)
@@ -137,6 +137,12 @@ const Eigen::VectorXd& PlainBalance::residual(const Eigen::VectorXd& x)
   const Eigen::MatrixXd force_series = force * gamma_.transpose();
   residual_ = linear_ * x + force_series.reshaped() - load_;
   return residual_;
+}
+
+const Eigen::MatrixXd& PlainBalance::jacobian(const Eigen::VectorXd& x)
+{
+  residual(x);
+  return jacobian_;
 }
 
 Eigen::VectorXd PlainBalance::corrected_step(const Eigen::VectorXd& x)

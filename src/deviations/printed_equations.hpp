@@ -9,6 +9,7 @@ has its corrected one beside it. */
 #include <Eigen/Core>
 #include <vector>
 
+#include "balance/periodic_motion.hpp"
 #include "model/rotor_stator.hpp"
 
 namespace rotor_stator::deviations
@@ -27,15 +28,9 @@ Eigen::MatrixXd gamma_matrix(int harmonics, int samples, Argument argument);
 /** Γ⁻¹ for N samples, N × (2m+1): coefficients to samples. */
 Eigen::MatrixXd gamma_inverse(int harmonics, int samples);
 
-/** A solution (X_i, ω_i) as Eq. 20 meets it. */
-struct KnownSolution {
-  Eigen::VectorXd x;
-  double omega;
-};
-
 /** Eq. 20 as printed, read at S_3 (D-02), from the four last solutions, oldest first.
    Distances by Eq. 19 as printed, without scales (D-03). */
-KnownSolution printed_prediction(const std::vector<KnownSolution>& last_four);
+PeriodicMotion printed_prediction(const std::vector<PeriodicMotion>& last_four);
 
 /** The first diagonal entry of the blocks of Eq. 11 (D-12). */
 enum class FirstEntry {
@@ -51,11 +46,11 @@ public:
   PlainBalance(const Parameters& parameters, double omega, int harmonics, int samples,
                FirstEntry first = FirstEntry::corrected);
 
-  /** Eq. 16: R = AX + F_NL - F [N]; also evaluates J (Eq. 12) at X. */
+  /** Eq. 16: R = AX + F_NL - F [N]. */
   const Eigen::VectorXd& residual(const Eigen::VectorXd& x);
 
-  /** A + J at the last point given to `residual` [N/m]. */
-  const Eigen::MatrixXd& jacobian() const { return jacobian_; }
+  /** A + J [N/m]. */
+  const Eigen::MatrixXd& jacobian(const Eigen::VectorXd& x);
 
   /** ΔX [m] from X: Eq. 15 as printed, at Δω = 0, and as it follows from Eq. 10 (D-06).
    */

@@ -64,9 +64,9 @@ std::string branch_text(const Parameters& parameters, int harmonics, int samples
   table.note(std::string("direction: ") + (upwards ? "up" : "down"));
   for (std::size_t k = 0; k < branches.size(); ++k)
     for (const BranchPoint& point : branches[k]->points) {
-      std::vector<Cell> row{k + 1, exact(point.omega), exact(point.arc),
-                            exact(point.speed_direction)};
-      for (double value : point.x) row.emplace_back(exact(value));
+      std::vector<Cell> row{k + 1, exact(point.motion.omega), exact(point.arc),
+                            exact(point.speed_direction())};
+      for (double value : point.motion.x) row.emplace_back(exact(value));
       table.row(std::move(row));
     }
   return table.text();
@@ -104,12 +104,12 @@ SavedBranch read_branch(const std::string& file, const Parameters& parameters, i
     if (!(row[1] > 0)) table.fail(k, "omega must be > 0");
     if (!branch.points.empty() && row[2] <= branch.points.back().arc)
       table.fail(k, "arc must increase along a branch");
-    const auto unknowns = static_cast<Eigen::Index>(row.size()) - 4;
-    branch.points.push_back({row[1],
+    const auto n = static_cast<Eigen::Index>(row.size()) - 4;
+    branch.points.push_back({{.omega = row[1],
+                              .harmonics = harmonics,
+                              .x = Eigen::Map<const Eigen::VectorXd>(&row[4], n)},
                              row[2],
-                             row[3],
-                             {},
-                             Eigen::Map<const Eigen::VectorXd>(&row[4], unknowns)});
+                             row[3] * Eigen::VectorXd::Unit(n + 1, n)});
   }
   if (branch.points.empty()) table.fail(format("there is no branch %d", number));
   return branch;
@@ -122,14 +122,16 @@ BranchPoint restart_point(const SavedBranch& branch, const double* omega,
   std::size_t k = points.size() - 1;
   if (omega)
     for (std::size_t j = 0; j < points.size(); ++j)
-      if (std::abs(points[j].omega - *omega) < std::abs(points[k].omega - *omega)) k = j;
+      if (std::abs(points[j].motion.omega - *omega) <
+          std::abs(points[k].motion.omega - *omega))
+        k = j;
   BranchPoint point = points[k];
   const BranchPoint &before = points[k == 0 ? 0 : k - 1],
                     &after = points[std::min(k + 1, points.size() - 1)];
+  const double speed = point.speed_direction();
   point.tangent = scaled(after, settings) - scaled(before, settings);
   /** A branch of one point: its direction is that of the speed. */
-  if (points.size() == 1)
-    point.tangent[point.x.size()] = point.speed_direction < 0 ? -1 : 1;
+  if (points.size() == 1) point.tangent[point.motion.x.size()] = speed < 0 ? -1 : 1;
   point.tangent.normalize();
   point.arc = 0;
   return point;

@@ -16,9 +16,10 @@ namespace rotor_stator::explore
 {
 
 struct SavedBranch {
-  int harmonics, samples;           ///< m and N
-  bool upwards;                     ///< the walk led to higher speeds
-  std::vector<BranchPoint> points;  ///< without tangents, none of them corrected yet
+  int harmonics, samples;  ///< m and N
+  bool upwards;            ///< the walk led to higher speeds
+  std::vector<BranchPoint>
+      points;  ///< with the speed's part of the tangent alone, none corrected yet
 };
 
 /** The text of a file with the branches of one machine, numbered from 1. */

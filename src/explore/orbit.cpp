@@ -7,8 +7,7 @@
 #include "balance/fourier_transform.hpp"
 #include "io/errors.hpp"
 #include "motion/adaptive.hpp"
-#include "motion/find_periodic.hpp"
-#include "motion/motion.hpp"
+#include "motion/other_starts.hpp"
 
 namespace rotor_stator::explore
 {
@@ -29,23 +28,23 @@ OperationBudget budget_of(const std::optional<double>& evaluations, double secon
 }
 
 Floquet paid_floquet(const OperationBudget& budget, const Parameters& parameters,
-                     double omega, const Eigen::VectorXd& x)
+                     const PeriodicMotion& motion)
 {
   const double balls = parameters.bearing.balls;
-  const auto harmonics = static_cast<double>(x.size() / 4);
+  const auto harmonics = static_cast<double>(motion.harmonics.highest());
   const double share = 1 / operations_per_evaluation(parameters.bearing.balls);
   /** The phases where balls meet or leave their race; then the stiffness, value by value, each with its
       step of the disturbances. */
   budget.spend(share * std::max(512.0, 16 * harmonics) *
                (50 + 5 * balls + 5 * harmonics));
-  PeriodicStiffness stiffness = stiffness_along(parameters, x);
+  PeriodicStiffness stiffness = stiffness_along(parameters, motion);
   stiffness.at = [at = std::move(stiffness.at), budget,
                   value = share * (300 + 2 * balls + 5 * harmonics)](double phase,
                                                                      double* k) {
     budget.spend(value);
     at(phase, k);
   };
-  return floquet(vibration_of(parameters), stiffness, 2 * std::numbers::pi / omega);
+  return floquet(vibration_of(parameters), stiffness, 2 * std::numbers::pi / motion.omega);
 }
 
 void conclude(Table& table, const Parameters& parameters, bool touches,
@@ -94,19 +93,17 @@ AdaptiveSettings settings_of(const MotionRequest& request)
 }
 
 /** Without a tolerance any error is accepted, and none is estimated. */
-motion::AdaptiveSolution solved(const Parameters& parameters,
-                                const MotionRequest& request,
-                                const OperationBudget& budget)
+AdaptiveMotion solved(const Parameters& parameters, const MotionRequest& request,
+                      const OperationBudget& budget)
 {
   const double omega = angular(request.frequency);
   const NewtonSettings newton{.tolerance = request.newton_tolerance};
   const int m = request.harmonics.value_or(usual_harmonics);
   const int n = checked_samples(m, request.samples);
   if (!request.tolerance) {
-    motion::AdaptiveSolution at{};
-    at.solution = motion::find_periodic(parameters, omega, m, n, newton, budget);
-    at.reached = at.found();
-    at.end = at.solution.newton.reason();
+    AdaptiveMotion at{motion::search_periodic(parameters, omega, m, n, newton, budget)};
+    at.reached = at.motion.found();
+    at.end = at.motion.newton.reason();
     return at;
   }
   if (request.harmonics)
@@ -116,16 +113,16 @@ motion::AdaptiveSolution solved(const Parameters& parameters,
 }
 
 /** What the Floquet multipliers say of a solution. */
-std::string stability_note(const Parameters& parameters,
-                           const motion::PeriodicSolution& solution,
+std::string stability_note(const Parameters& parameters, const PeriodicMotion& solution,
                            const OperationBudget& budget)
 {
   try {
-    const Floquet motion = paid_floquet(budget, parameters, solution.omega, solution.x);
+    const Floquet motion = paid_floquet(budget, parameters, solution);
     return format(
         "stability: %s; largest Floquet multiplier %.9g +- %.2g, along the %d "
         "harmonics",
-        motion.verdict(), motion.largest(), motion.uncertainty(), solution.harmonics);
+        motion.verdict(), motion.largest(), motion.uncertainty(),
+        solution.harmonics.highest());
   } catch (const NoSolution& error) {
     return std::string("stability: not found; ") + error.what();
   }
@@ -134,31 +131,31 @@ std::string stability_note(const Parameters& parameters,
 motion::Motion balance_motion(const Parameters& parameters, const MotionRequest& request,
                               const OperationBudget& budget, Table& table)
 {
-  const motion::AdaptiveSolution at = solved(parameters, request, budget);
+  const AdaptiveMotion at = solved(parameters, request, budget);
   const std::string wanted =
       request.tolerance
           ? format("tolerance %g not reached", *request.tolerance)
-          : format("no solution found with %d harmonics", at.solution.harmonics);
+          : format("no solution found with %d harmonics", at.motion.harmonics.highest());
   if (!at.reached)
     throw NoSolution(format("%s: %s at %g Hz: %s", parameters.file.c_str(),
                             wanted.c_str(), request.frequency, at.end.c_str()));
   const bool is_chosen = request.tolerance && !request.harmonics;
   table.note(format(
       "method: aft, m = %d, N = %d, relative tolerance of Newton %g",
-      at.solution.harmonics, at.solution.samples,
+      at.motion.harmonics.highest(), at.motion.samples,
       is_chosen ? level_tolerance(settings_of(request)) : request.newton_tolerance));
-  table.note("newton: from " + at.solution.start + ", " + at.solution.newton.reason());
+  table.note("newton: from " + at.motion.start + ", " + at.motion.newton.reason());
   if (request.tolerance)
     table.note(
         format("error: %.2g of the largest displacement, estimated with m = %d, N = %d; "
                "tolerance %g",
-               at.estimate.displacement, at.estimate.harmonics, at.estimate.samples,
-               *request.tolerance));
+               at.motion.error->displacement, at.motion.error->harmonics,
+               at.motion.error->samples, *request.tolerance));
   table.note("the period is imposed by the method");
-  table.note(request.stability ? stability_note(parameters, at.solution, budget)
+  table.note(request.stability ? stability_note(parameters, at.motion, budget)
                                : "stability is not tested");
   table.note("regime: periodic");
-  return motion::motion_of(at.solution.bodies, request.points);
+  return motion::motion_of(at.motion.bodies, request.points);
 }
 
 motion::Motion integrated_motion(const Parameters& parameters,

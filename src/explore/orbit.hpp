@@ -56,7 +56,7 @@ OperationBudget budget_of(const std::optional<double>& evaluations, double secon
 /** The multipliers along the coefficients `x`, paid for from `budget`. Throws NoSolution when it is used
     up. */
 Floquet paid_floquet(const OperationBudget& budget, const Parameters& parameters,
-                     double omega, const Eigen::VectorXd& x);
+                     const PeriodicMotion& motion);
 
 /** Says in the table's header whether any ball touched, and what was spent. */
 void conclude(Table& table, const Parameters& parameters, bool touches,

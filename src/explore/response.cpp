@@ -8,7 +8,6 @@
 #include "explore/branch_file.hpp"
 #include "io/errors.hpp"
 #include "io/files.hpp"
-#include "motion/find_periodic.hpp"
 #include "motion/motion.hpp"
 #include "motion/other_starts.hpp"
 #include "stability/branch_stability.hpp"
@@ -66,7 +65,7 @@ Task task_of(const ResponseRequest& request)
     throw BadInput(format("--isolated %d: must be in 0...%d with %d harmonics",
                           request.isolated, most_isolated, harmonics));
   ArcLengthSettings settings =
-      motion::arc_length_settings(parameters, {.tolerance = request.newton_tolerance});
+      arc_length_settings(parameters, {.tolerance = request.newton_tolerance});
   settings.most_evaluations =
       std::numeric_limits<long>::max();  // the budget is the bound
   const OperationBudget budget =
@@ -95,18 +94,18 @@ BranchPoint saved_start(const Task& task, Table& table)
   const double at = angular(request.at.value_or(0));
   BranchPoint point =
       restart_point(*task.saved, request.at ? &at : nullptr, task.settings);
-  const double frequency = point.omega / angular(1);
-  if (point.omega < angular(request.from) || point.omega > angular(request.to))
+  const double omega = point.motion.omega, frequency = omega / angular(1);
+  if (omega < angular(request.from) || omega > angular(request.to))
     throw BadInput(format("%s: the point at %.9g Hz is outside --from %g --to %g",
                           request.restart->c_str(), frequency, request.from, request.to));
   if (task.upwards != task.saved->upwards) point = reversed(std::move(point));
   if (task.harmonics != task.saved->harmonics) {
-    const double speed = point.tangent[point.x.size()];
-    point.tangent =
-        resize_harmonics(point.tangent.head(point.x.size()), 2, task.harmonics);
-    point.x = resize_harmonics(point.x, 2, task.harmonics);
-    point.tangent.conservativeResize(point.x.size() + 1);
-    point.tangent[point.x.size()] = speed;
+    Eigen::VectorXd& x = point.motion.x;
+    const double speed = point.speed_direction();
+    point.tangent = resize_harmonics(point.tangent.head(x.size()), 2, task.harmonics);
+    x = resize_harmonics(x, 2, task.harmonics);
+    point.tangent.conservativeResize(x.size() + 1);
+    point.tangent[x.size()] = speed;
   }
   table.note(format("start: %s at %.12g Hz, %d harmonics", request.restart->c_str(),
                     frequency, task.saved->harmonics));
@@ -117,8 +116,8 @@ BranchPoint saved_start(const Task& task, Table& table)
 BranchPoint found_start(const Task& task, Balance& balance, Table& table)
 {
   const double omega = task.range().from;
-  const motion::PeriodicSolution start =
-      motion::find_periodic(task.parameters, omega, task.harmonics, task.samples,
+  const PeriodicMotion start =
+      motion::search_periodic(task.parameters, omega, task.harmonics, task.samples,
                             task.settings.newton, task.budget);
   if (!start.found())
     throw NoSolution(format("%s: no solution found with %d harmonics at --%s %g Hz: %s",
@@ -143,7 +142,7 @@ struct Row {
 using Fields = std::vector<Field<Row>>;
 
 const Fields branch_fields{{{"f", "Hz", "speed of rotation"},
-                            [](auto& r) { return r.point.omega / angular(1); }},
+                            [](auto& r) { return r.point.motion.omega / angular(1); }},
                            {{"amp_x_s", "m", "half peak-to-peak of x_s"},
                             [](auto& r) { return r.amplitude[0]; }},
                            {{"amp_y_s", "m", "half peak-to-peak of y_s"},
@@ -155,7 +154,7 @@ const Fields branch_fields{{{"f", "Hz", "speed of rotation"},
                            {{"arc", "-", "scaled arc length from the first point"},
                             [](auto& r) { return r.point.arc; }},
                            {{"newton", "-", "Newton iterations of the corrector"},
-                            [](auto& r) { return r.point.newton.iterations; }}};
+                            [](auto& r) { return r.point.motion.newton.iterations; }}};
 
 const Fields stability_fields{
     {{"multiplier", "-",
@@ -192,10 +191,10 @@ Fields fields_of(const ResponseRequest& request)
 
 std::string summary(const Branch& branch)
 {
-  double low = branch.points.front().omega, high = low;
+  double low = branch.points.front().motion.omega, high = low;
   for (const BranchPoint& point : branch.points) {
-    low = std::min(low, point.omega);
-    high = std::max(high, point.omega);
+    low = std::min(low, point.motion.omega);
+    high = std::max(high, point.motion.omega);
   }
   return format(
       "%.9g to %.9g Hz, %zu points, %zu folds, %ld evaluations of the force, %s",
@@ -224,7 +223,8 @@ Others others(const Task& task, Balance& balance, const Branch& main, Table& tab
   int number = 1;
   for (const IsolatedBranch& other : others.found)
     table.note(format("branch %d: off the branches before it, found at %g Hz from %s; %s",
-                      ++number, other.omega / angular(1), other.origin.c_str(),
+                      ++number, other.candidate.omega / angular(1),
+                      other.candidate.start.c_str(),
                       summary(other.branch).c_str()));
   if (task.budget.used_up())
     others.missing =
@@ -255,7 +255,7 @@ std::vector<std::string> notes_of(const BranchStability& stability)
   for (const StablePoint& p : stability.points)
     if (p.bifurcation != Bifurcation::none)
       notes.push_back(
-          format("%s: %.9g Hz", name_of(p.bifurcation), p.point.omega / angular(1)));
+          format("%s: %.9g Hz", name_of(p.bifurcation), p.point.motion.omega / angular(1)));
   return notes;
 }
 
@@ -273,7 +273,7 @@ std::string missing_in(const BranchStability& stability, const OperationBudget& 
                                   [](const StablePoint& p) { return !p.examined(); });
   return format("no multipliers at %d of %zu points, the first at %.6g Hz: %s",
                 stability.failed, stability.points.size(),
-                first->point.omega / angular(1), stability.failure.c_str());
+                first->point.motion.omega / angular(1), stability.failure.c_str());
 }
 
 /** Writes the rows of all branches. */
@@ -284,8 +284,6 @@ public:
       : task_(task),
         table_(table),
         fields_(fields_of(task.request)),
-        /** The table is written, whatever is left of the budget. */
-        balance_(bearing_problem(task.parameters, task.samples), task.harmonics),
         transform_(amplitude_transform(task.harmonics))
   {
   }
@@ -294,11 +292,10 @@ public:
 
   void add(const BranchPoint& point, const StablePoint* stability, std::size_t branch)
   {
-    balance_.residual(point.x, point.omega);
-    touches_ = touches_ || !balance_.force_series().isZero(0);
+    const PeriodicMotion& motion = point.motion;
+    touches_ = touches_ || !motion.force.isZero(0);
     table_.row(fields_, Row{point,
-                            half_peak_to_peak(body_series(task_.parameters, balance_,
-                                                          point.omega, point.x),
+                            half_peak_to_peak(body_series(task_.parameters, motion),
                                               transform_),
                             stability, branch});
   }
@@ -307,7 +304,6 @@ private:
   const Task& task_;
   Table& table_;
   Fields fields_;
-  Balance balance_;
   FourierTransform transform_;
   bool touches_ = false;
 };
@@ -321,7 +317,7 @@ std::string add_branch(Table& table, Rows& rows, const Task& task, Balance& bala
   if (task.request.stability) {
     const BranchStability stability =
         stability_along(balance, branch, task.settings, [&](const BranchPoint& point) {
-          return paid_floquet(task.budget, task.parameters, point.omega, point.x);
+          return paid_floquet(task.budget, task.parameters, point.motion);
         });
     const std::string prefix =
         task.request.isolated > 0 ? format("branch %zu, ", number) : "";
@@ -359,7 +355,7 @@ std::string unfinished(const Task& task, const Branch& branch,
   if (branch.covered)
     return stability.empty() ? "" : task.parameters.file + ": " + stability;
   return format("%s: the branch stopped at %g Hz, before --%s %g Hz: %s",
-                task.parameters.file.c_str(), branch.points.back().omega / angular(1),
+                task.parameters.file.c_str(), branch.points.back().motion.omega / angular(1),
                 task.upwards ? "to" : "from", task.range().to / angular(1),
                 branch.end.c_str());
 }

@@ -52,8 +52,8 @@ Table orbit_table(const PanelScene& scene)
   return table;
 }
 
-Panel compare(const PanelScene& scene, double frequency,
-              const motion::PeriodicSolution& balance, const SteadyState& settled)
+Panel compare(const PanelScene& scene, double frequency, const PeriodicMotion& balance,
+              const SteadyState& settled)
 {
   const int points = scene.time_integration.stepper.intervals_per_period;
   const auto& speeds = scene.frequencies;

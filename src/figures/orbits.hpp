@@ -47,8 +47,8 @@ struct Panel {
   const motion::Motion& shown() const { return shows_balance() ? *balance : settled; }
 };
 
-Panel compare(const PanelScene& scene, double frequency,
-              const motion::PeriodicSolution& balance, const SteadyState& settled);
+Panel compare(const PanelScene& scene, double frequency, const PeriodicMotion& balance,
+              const SteadyState& settled);
 
 /** The table of the orbits before its first panel. */
 Table orbit_table(const PanelScene& scene);

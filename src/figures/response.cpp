@@ -1,8 +1,8 @@
 #include "figures/response.hpp"
 
-#include "balance/bearing_problem.hpp"
+#include "balance/fourier_transform.hpp"
 #include "io/errors.hpp"
-#include "motion/find_periodic.hpp"
+#include "motion/motion.hpp"
 
 namespace rotor_stator::figures
 {
@@ -74,51 +74,29 @@ Table response_table(const ResponseScene& scene)
   return table;
 }
 
-std::vector<SweptSolution> sweep_speeds(const DataSet& set,
-                                        const std::vector<double>& frequencies)
-{
-  std::vector<double> omegas;
-  for (double frequency : frequencies) omegas.push_back(angular(frequency));
-  Balance balance(bearing_problem(set.machine, default_samples(set.harmonics)),
-                  set.harmonics);
-  std::vector<Eigen::MatrixXd> found;
-  const auto points = sweep(
-      balance, omegas,
-      [&](double omega) { return quasi_static_start(set.machine, omega, set.harmonics); },
-      motion::sweep_settings(set.machine),
-      [&](const SweepPoint& point) {
-        found.push_back(body_series(set.machine, balance, point.omega, point.x));
-      });
-  std::vector<SweptSolution> solutions;
-  auto bodies = found.begin();
-  for (const SweepPoint& point : points)
-    solutions.push_back({point, point.found() ? *bodies++ : Eigen::MatrixXd()});
-  return solutions;
-}
-
 void add_curve(Table& table, const DataSet& set, Curve curve,
-               const std::vector<SweptSolution>& solutions)
+               const std::vector<PeriodicMotion>& solutions)
 {
   int segment = 1;
   bool connected = false;
   table.gap();
-  for (const auto& [point, bodies] : solutions) {
-    /** A solution that was restarted may lie on another branch. */
-    if (connected && (!point.found() || point.restarted)) {
+  for (const PeriodicMotion& solution : solutions) {
+    /** After a cold start it may lie on another branch. */
+    if (connected && (!solution.found() || solution.start != from_predictor)) {
       ++segment;
       table.gap();
     }
-    connected = point.found();
-    if (!point.found()) continue;
-    const Eigen::Vector4d a = half_peak_to_peak(bodies);
+    connected = solution.found();
+    if (!solution.found()) continue;
+    const Eigen::Vector4d a = half_peak_to_peak(solution.bodies);
     table.row(fields, {.set = set.number,
                        .curve = curve,
                        .segment = segment,
-                       .frequency = point.omega / angular(1),
+                       .frequency = solution.omega / angular(1),
                        .amplitude = {a[0], a[1], a[2], a[3]},
-                       .contact = motion::contact_share(set.machine,
-                                                        motion::motion_of(bodies, 256)),
-                       .newton = point.newton.iterations});
+                       .contact = motion::contact_share(
+                           set.machine, motion::motion_of(solution.bodies, 256)),
+                       .newton = solution.newton.iterations});
   }
   table.gap();
 }

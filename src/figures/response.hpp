@@ -28,21 +28,11 @@ ResponseScene read_response(SceneFile& file);
 
 Table response_table(const ResponseScene& scene);
 
-/** A solution of a sweep, and the series of both bodies [m], 4 × (2m+1). */
-struct SweptSolution {
-  SweepPoint point;
-  Eigen::MatrixXd bodies;
-};
-
-/** Harmonic balance at each of `frequencies` [Hz] in order, by the paper's predictor. */
-std::vector<SweptSolution> sweep_speeds(const DataSet& set,
-                                        const std::vector<double>& frequencies);
-
 enum class Curve { speed_up = 1, speed_down = 2, time_integration = 3 };
 
 /** The amplitudes along a sweep, with a gap wherever no solution was found. */
 void add_curve(Table& table, const DataSet& set, Curve curve,
-               const std::vector<SweptSolution>& solutions);
+               const std::vector<PeriodicMotion>& solutions);
 
 /** The amplitudes of an integrated motion with so many points per period. */
 void add_settled(Table& table, const DataSet& set, double frequency, int points,

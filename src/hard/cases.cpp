@@ -69,7 +69,7 @@ double first_fold(const HardCase& hard, double from, double to)
 {
   const Parameters& p = hard.parameters;
   Balance balance(bearing_problem(p, hard.samples), hard.harmonics);
-  ArcLengthSettings settings = motion::arc_length_settings(p);
+  ArcLengthSettings settings = arc_length_settings(p);
   settings.most_points = 3000;
   const Branch branch =
       follow_branch(balance, angular(from), angular(to),

@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "balance/bearing_problem.hpp"
+#include "balance/newton.hpp"
 #include "io/errors.hpp"
 #include "io/parallel.hpp"
 #include "stability/eigenvalues.hpp"
@@ -68,27 +69,26 @@ void floquet_by_map(const HardCase& hard, const State& state, Check& check)
 void check_by_refinement(const HardCase& hard, const Answer& answer, Check& check)
 {
   const int m = 4 * answer.harmonics, samples = 4 * answer.samples;
-  const double omega = angular(hard.frequency);
   Balance balance(
       bearing_problem(hard.parameters, samples,
                       OperationBudget(15e9 / operations_per_evaluation(
                                                  hard.parameters.bearing.balls))),
       m);
-  Eigen::VectorXd x = resize_harmonics(answer.finer, 2, m);
-  if (!solve(balance, omega, x, {}).converged()) return;
+  const PeriodicMotion finest =
+      solve(balance, angular(hard.frequency), resize_harmonics(answer.finer.x, 2, m));
+  if (!finest.found()) return;
   check.by = "4m, 4N";
-  check.error = distance(
-      answer.motion, motion::motion_of(body_series(hard.parameters, balance, omega, x),
-                                       compared_points));
+  check.error =
+      distance(answer.motion,
+               motion::motion_of(body_series(hard.parameters, finest), compared_points));
 }
 
 /** The multipliers of the motion with 2m harmonics, and how far those with m are from them. */
 void check_balance(const HardCase& hard, const Answer& answer, Check& check)
 {
   const FloquetSettings settings{};
-  const double omega = angular(hard.frequency);
-  const Floquet fine = floquet(hard.parameters, omega, answer.finer, settings);
-  const Floquet coarse = floquet(hard.parameters, omega, answer.x, settings);
+  const Floquet fine = floquet(hard.parameters, answer.finer, settings);
+  const Floquet coarse = floquet(hard.parameters, answer.solution, settings);
   set_stability(fine.largest(), fine.change + std::abs(fine.largest() - coarse.largest()),
                 check);
   if (!check_by_shooting(hard, answer, check)) check_by_refinement(hard, answer, check);

@@ -255,53 +255,49 @@ std::vector<double> swept_speeds(const HardCase& hard)
 Eigen::VectorXd by_predictor(const HardCase& hard, Balance& balance)
 {
   const Parameters& p = hard.parameters;
+  const int m = balance.harmonics().highest();
   const auto points = sweep(
       balance, swept_speeds(hard),
-      [&](double omega) { return quasi_static_start(p, omega, balance.harmonics()); },
-      motion::sweep_settings(p));
+      [&](double omega) { return quasi_static_start(p, omega, m); }, sweep_settings(p));
   if (!points.back().found())
-    throw NoSolution(format("the sweep with m = %d found nothing at %g Hz: %s",
-                            balance.harmonics(), hard.frequency,
-                            points.back().newton.reason().c_str()));
+    throw NoSolution(format("the sweep with m = %d found nothing at %g Hz: %s", m,
+                            hard.frequency, points.back().newton.reason().c_str()));
   return points.back().x;
 }
 
 Eigen::VectorXd by_arc_length(const HardCase& hard, Balance& balance)
 {
   const Parameters& p = hard.parameters;
+  const int m = balance.harmonics().highest();
   const Branch branch =
       follow_branch(balance, angular(hard.from), angular(hard.frequency),
-                    quasi_static_start(p, angular(hard.from), balance.harmonics()),
-                    motion::arc_length_settings(p));
+                    quasi_static_start(p, angular(hard.from), m), arc_length_settings(p));
   if (!branch.covered)
-    throw NoSolution(format("the branch with m = %d ended before %g Hz: ",
-                            balance.harmonics(), hard.frequency) +
-                     branch.end);
-  return branch.points.back().x;
+    throw NoSolution(
+        format("the branch with m = %d ended before %g Hz: ", m, hard.frequency) +
+        branch.end);
+  return branch.points.back().motion.x;
 }
 
 /** Newton with these harmonics, from a solution with others. */
-motion::PeriodicSolution solved(const HardCase& hard, Resolution with,
-                                const Eigen::VectorXd& start,
-                                const OperationBudget& budget)
+PeriodicMotion solved(const HardCase& hard, Resolution with, const Eigen::VectorXd& start,
+                      const OperationBudget& budget)
 {
   const Parameters& p = hard.parameters;
-  const double omega = angular(hard.frequency);
   Balance balance(bearing_problem(p, with.samples, budget), with.harmonics);
-  motion::PeriodicSolution solution{omega, with.harmonics, with.samples, {}, {}, {}, {}};
-  solution.x = resize_harmonics(start, 2, with.harmonics);
-  solution.newton = solve(balance, omega, solution.x, {});
+  PeriodicMotion solution =
+      solve(balance, angular(hard.frequency), resize_harmonics(start, 2, with.harmonics));
   if (!solution.found())
     throw NoSolution(
         format("Newton with m = %d, N = %d: ", with.harmonics, with.samples) +
         solution.newton.reason());
-  solution.bodies = body_series(p, balance, omega, solution.x);
+  solution.bodies = body_series(p, solution);
   return solution;
 }
 
 /** The start along the branch, with its harmonics doubled until they are the case's. */
-motion::PeriodicSolution reached(const HardCase& hard, Approach approach,
-                                 const OperationBudget& budget)
+PeriodicMotion reached(const HardCase& hard, Approach approach,
+                       const OperationBudget& budget)
 {
   Resolution with = followed(hard);
   if (hard.from == hard.frequency)
@@ -319,16 +315,16 @@ motion::PeriodicSolution reached(const HardCase& hard, Approach approach,
 }
 
 /** The balance refined once: its distance is the error that is stated. */
-void refine(const HardCase& hard, const motion::PeriodicSolution& solution,
-            const HardRule& rule, const OperationBudget& budget, Answer& answer)
+void refine(const HardCase& hard, const PeriodicMotion& solution, const HardRule& rule,
+            const OperationBudget& budget, Answer& answer)
 {
-  const motion::PeriodicSolution finer =
+  const PeriodicMotion finer =
       solved(hard, {2 * hard.harmonics, 2 * hard.samples}, solution.x, budget);
   const int points =
       std::max(compared_points, fast_transform_size(4 * hard.harmonics + 2));
   const motion::Motion coarse = motion::motion_of(solution.bodies, points);
   const motion::Motion fine = motion::motion_of(finer.bodies, points);
-  answer.finer = finer.x;
+  answer.finer = finer;
   answer.stated = distance(coarse, fine);
   const double force = motion::relative_force_difference(hard.parameters, coarse, fine);
   answer.stated_force = std::isfinite(force) ? force : 0;
@@ -344,15 +340,15 @@ Answer by_balance(const HardCase& hard, const HardRule& rule, Approach approach)
   const double each = operations_per_evaluation(hard.parameters.bearing.balls);
   const OperationBudget budget(most_operations / each);
   try {
-    const motion::PeriodicSolution solution = reached(hard, approach, budget);
+    const PeriodicMotion solution = reached(hard, approach, budget);
     answer.reason =
         hard.from == hard.frequency ? "cold" : format("from %g Hz", hard.from);
     answer.residual = solution.newton.delta_1;
     answer.harmonics = hard.harmonics;
     answer.samples = hard.samples;
     answer.motion = motion::motion_of(solution.bodies, compared_points);
-    answer.state = state_of(solution);
-    answer.x = solution.x;
+    answer.state = motion::state_of(solution);
+    answer.solution = solution;
     refine(hard, solution, rule, OperationBudget(most_refining_operations / each),
            answer);
   } catch (const NoSolution& refusal) {

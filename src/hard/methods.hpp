@@ -34,7 +34,7 @@ struct Answer {
   int harmonics = -1, samples = -1;  ///< of harmonic balance
   motion::Motion motion{};           ///< claimed, from phase 0
   State state{};                     ///< its state at phase 0
-  Eigen::VectorXd x, finer;          ///< harmonic balance: u with m and with 2m harmonics
+  PeriodicMotion solution, finer;    ///< harmonic balance with m and with 2m harmonics
 };
 
 /** Instants per period at which motions are compared. */

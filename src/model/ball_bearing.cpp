@@ -201,8 +201,8 @@ SampledBearing::SampledBearing(const Bearing& bearing, int samples)
   for (int j = 0; j < bearing.balls; ++j) balls_.row(j) = row(plain.balls()[j]);
 }
 
-void SampledBearing::force(const Eigen::MatrixXd& u, Eigen::MatrixXd& force,
-                           Eigen::MatrixXd* stiffness) const
+void SampledBearing::operator()(const Eigen::MatrixXd& u, Eigen::MatrixXd& force,
+                                Eigen::MatrixXd* stiffness) const
 {
   if (samples_ < lanes) return force_of_few(u, force, stiffness);
   force.resize(samples_, 2);
@@ -228,7 +228,7 @@ void SampledBearing::force_of_few(const Eigen::MatrixXd& u, Eigen::MatrixXd& for
   filled.topRows(samples_) = u;
   SampledBearing wide = *this;
   wide.samples_ = lanes;
-  wide.force(filled, force, stiffness);
+  wide(filled, force, stiffness);
   force.conservativeResize(samples_, 2);
   if (stiffness) stiffness->conservativeResize(samples_, 4);
 }

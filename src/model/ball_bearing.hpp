@@ -137,8 +137,8 @@ public:
 
   /** Eq. 6: the force on the stator [N], N × 2, for the relative displacement `u` [m], N × 2.
      With `stiffness` also ∂F_i/∂u_j [N/m] in its column i + 2j, N × 4. */
-  void force(const Eigen::MatrixXd& u, Eigen::MatrixXd& force,
-             Eigen::MatrixXd* stiffness) const;
+  void operator()(const Eigen::MatrixXd& u, Eigen::MatrixXd& force,
+                  Eigen::MatrixXd* stiffness) const;
 
 private:
   void force_of_few(const Eigen::MatrixXd& u, Eigen::MatrixXd& force,

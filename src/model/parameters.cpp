@@ -139,4 +139,11 @@ double angular(double hertz)
   return 2 * std::numbers::pi * hertz;
 }
 
+std::vector<double> angular(const std::vector<double>& hertz)
+{
+  std::vector<double> omegas;
+  for (double frequency : hertz) omegas.push_back(angular(frequency));
+  return omegas;
+}
+
 }  // namespace rotor_stator

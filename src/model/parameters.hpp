@@ -57,6 +57,7 @@ void describe(Table& table, const Parameters& parameters);
 
 /** ω [rad/s] of a frequency [Hz]. */
 double angular(double hertz);
+std::vector<double> angular(const std::vector<double>& hertz);
 
 /** Eq. 3: c = ω_cage/ω = ½(1 - R_b/(R_b + R)) from the radii of ball and inner race
    (the paper's R; in its Eq. 2 R is the ball's, D-07). */

@@ -6,8 +6,7 @@
 #include <limits>
 #include <numbers>
 
-#include "balance/bearing_problem.hpp"
-#include "io/errors.hpp"
+#include "balance/fourier_transform.hpp"
 
 namespace rotor_stator::motion
 {
@@ -53,6 +52,15 @@ Motion motion_of(const Eigen::MatrixXd& bodies, int points)
     motion.positions.push_back(
         {{samples(k, 0), samples(k, 1)}, {samples(k, 2), samples(k, 3)}});
   return motion;
+}
+
+State state_of(const PeriodicMotion& motion)
+{
+  const Eigen::Vector4d q = sample_series(motion.bodies, 1).row(0);
+  const Eigen::Vector4d v =
+      motion.omega * sample_series(differentiate(motion.bodies), 1).row(0);
+  return {.position = {{q[0], q[1]}, {q[2], q[3]}},
+          .velocity = {{v[0], v[1]}, {v[2], v[3]}}};
 }
 
 Motion motion_of(const SteadyState& steady, int points_per_period)

@@ -9,10 +9,8 @@ so that the two methods meet in the same table. */
 #include <string>
 #include <vector>
 
-#include "continuation/arc_length.hpp"
-#include "continuation/sweep.hpp"
+#include "balance/periodic_motion.hpp"
 #include "integration/steady_state.hpp"
-#include "io/budget.hpp"
 
 namespace rotor_stator::motion
 {
@@ -54,6 +52,9 @@ Eigen::VectorXd relative_series(const Motion& motion, int harmonics);
 
 /** `points` instants of one period of a solution, from its series of both bodies. */
 Motion motion_of(const Eigen::MatrixXd& bodies, int points);
+
+/** The state [m, m/s] of a periodic motion at phase 0. */
+State state_of(const PeriodicMotion& motion);
 
 /** The periods kept by a time integration. */
 Motion motion_of(const SteadyState& steady, int points_per_period);

@@ -1,11 +1,10 @@
 #include "motion/other_starts.hpp"
 
+#include <numbers>
 #include <random>
 
+#include "balance/bearing_problem.hpp"
 #include "io/errors.hpp"
-#include "model/rotor_stator.hpp"
-#include "motion/find_periodic.hpp"
-#include "motion/motion.hpp"
 
 namespace rotor_stator::motion
 {
@@ -31,7 +30,36 @@ Eigen::VectorXd random_coefficients(double size, int harmonics,
   return x;
 }
 
+/** The solution at the end of the branch that starts at 1 Hz, or at half the speed, by arc length
+    through all its folds; few harmonics only, since many see a fold at every contact resonance. */
+Eigen::VectorXd along_the_branch(const Parameters& parameters, double omega,
+                                 int harmonics, int samples, const NewtonSettings& newton,
+                                 const OperationBudget& budget)
+{
+  constexpr int most_harmonics = 16;
+  if (harmonics > most_harmonics) return {};
+  const double from = std::min(2 * std::numbers::pi, omega / 2);
+  ArcLengthSettings settings = arc_length_settings(parameters, newton);
+  /** One start among others, not a study: as long for many harmonics as for few. */
+  settings.most_evaluations = std::min(150000, 15000000 / (harmonics * harmonics));
+  Balance balance(bearing_problem(parameters, samples, budget), harmonics);
+  const Branch branch = follow_branch(
+      balance, from, omega, quasi_static_start(parameters, from, harmonics), settings);
+  return branch.covered ? branch.points.back().motion.x : Eigen::VectorXd();
+}
+
 }  // namespace
+
+PeriodicMotion search_periodic(const Parameters& parameters, double omega, int harmonics,
+                               int samples, const NewtonSettings& settings,
+                               const OperationBudget& budget)
+{
+  return find_periodic(parameters, omega, harmonics, samples, settings, budget,
+                       {{"arc length from a lower speed", [&] {
+                           return along_the_branch(parameters, omega, harmonics, samples,
+                                                   settings, budget.part(0.3));
+                         }}});
+}
 
 FoundStarts other_starts(const Parameters& parameters, SpeedRange range, int harmonics,
                          const OtherStarts& wanted, const OperationBudget& budget)
@@ -45,17 +73,22 @@ FoundStarts other_starts(const Parameters& parameters, SpeedRange range, int har
     const double omega = range.from + (range.to - range.from) * k / (wanted.speeds + 1);
     const OperationBudget share = half.part(1.0 / (wanted.speeds - k + 1));
     try {
-      starts.candidates.push_back({omega,
-                                   integrated_start(parameters, omega, harmonics, share),
-                                   "time integration"});
+      starts.candidates.push_back(
+          {.omega = omega,
+           .harmonics = harmonics,
+           .x = integrated_start(parameters, omega, harmonics, share),
+           .start = "time integration"});
     } catch (const NoSolution&) {
       // cut off or broken down: only random starts here
       starts.cut_off += share.used_up();
     }
     for (int j = 1; j <= wanted.random; ++j)
-      starts.candidates.push_back({omega, random_coefficients(size, harmonics, generator),
-                                   format("random start %d of seed %llu", j,
-                                          static_cast<unsigned long long>(wanted.seed))});
+      starts.candidates.push_back(
+          {.omega = omega,
+           .harmonics = harmonics,
+           .x = random_coefficients(size, harmonics, generator),
+           .start = format("random start %d of seed %llu", j,
+                           static_cast<unsigned long long>(wanted.seed))});
   }
   return starts;
 }

@@ -1,20 +1,24 @@
 /**
-# Starts off the branch that is followed
+# Starts that are farther away
 
-Newton finds the solution that is near: other branches need other starts. At each speed one comes
-from time integration, the others are random: harmonics of the size of the clearance that fall like
-1/h², from a seeded generator. */
+Along a branch from a lower speed; and starts for branches beside the one that is followed. Newton finds
+the solution that is near: other branches need other starts. At each speed one comes from time
+integration, the others are random: harmonics of the size of the clearance that fall like 1/h², from a
+seeded generator. */
 #pragma once
 
 #include <cstdint>
-#include <vector>
 
 #include "continuation/isolated.hpp"
-#include "io/budget.hpp"
-#include "model/parameters.hpp"
+#include "motion/find_periodic.hpp"
 
 namespace rotor_stator::motion
 {
+
+/** As `find_periodic`, with the branch from a lower speed among its starts. */
+PeriodicMotion search_periodic(const Parameters& parameters, double omega, int harmonics,
+                               int samples, const NewtonSettings& settings = {},
+                               const OperationBudget& budget = {});
 
 struct OtherStarts {
   int speeds = 0;  ///< in the range, evenly spaced, the edges left out
@@ -23,7 +27,7 @@ struct OtherStarts {
 };
 
 struct FoundStarts {
-  std::vector<Candidate> candidates;
+  std::vector<PeriodicMotion> candidates;  ///< none of them solved
   int cut_off = 0;  ///< time integrations that used up their part of the work
 };
 

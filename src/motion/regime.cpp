@@ -4,21 +4,10 @@
 #include <cmath>
 #include <numbers>
 
-#include "balance/bearing_problem.hpp"
 #include "motion/find_periodic.hpp"
-#include "motion/motion.hpp"
 
 namespace rotor_stator::motion
 {
-
-State state_of(const PeriodicSolution& solution)
-{
-  const Eigen::Vector4d q = sample_series(solution.bodies, 1).row(0);
-  const Eigen::Vector4d v =
-      solution.omega * sample_series(differentiate(solution.bodies), 1).row(0);
-  return {.position = {{q[0], q[1]}, {q[2], q[3]}},
-          .velocity = {{v[0], v[1]}, {v[2], v[3]}}};
-}
 
 double higher_harmonics(const Motion& motion)
 {
@@ -58,14 +47,10 @@ namespace
 State start_of(const Parameters& parameters, double omega)
 {
   if (!has_rotation_period(parameters.bearing)) return static_start(parameters);
-  const int harmonics = 6, samples = default_samples(harmonics);
-  PeriodicSolution solution{omega, harmonics, samples, {}, {}, {}, {}};
-  Balance balance(bearing_problem(parameters, samples), harmonics);
-  solution.x = quasi_static_start(parameters, omega, harmonics);
-  solution.newton = solve(balance, omega, solution.x, {});
-  if (!solution.found()) return static_start(parameters);
-  solution.bodies = body_series(parameters, balance, omega, solution.x);
-  return state_of(solution);
+  constexpr int harmonics = 6;
+  const PeriodicMotion motion =
+      find_near_contact(parameters, omega, harmonics, default_samples(harmonics));
+  return motion.found() ? state_of(motion) : static_start(parameters);
 }
 
 /** What the ball forces over two periods say. */

@@ -9,7 +9,6 @@ decides nothing: the integrated motion is what is judged. */
 #pragma once
 
 #include "io/scene.hpp"
-#include "motion/find_periodic.hpp"
 #include "motion/motion.hpp"
 
 namespace rotor_stator::motion
@@ -45,9 +44,6 @@ struct Regime {
 /** Throws NoSolution when the integration breaks down. */
 Regime regime_at(const Parameters& parameters, double frequency,
                  const RegimeSettings& settings);
-
-/** The state [m, m/s] of a periodic solution at phase 0. */
-State state_of(const PeriodicSolution& solution);
 
 /** The rms of harmonics ≥ 2 over the amplitude of the first in the first period of a
    motion, for the body where it is larger [-]; 0 for a body at rest. */

@@ -128,7 +128,7 @@ private:
     std::size_t folds = 0;
     is_fold_.assign(branch.points.size(), false);
     for (std::size_t k = 0; k < branch.points.size() && folds < branch.folds.size(); ++k)
-      if (branch.points[k].omega == branch.folds[folds]) {
+      if (branch.points[k].motion.omega == branch.folds[folds]) {
         is_fold_[k] = true;
         ++folds;
       }
@@ -201,7 +201,7 @@ private:
   bool hides_something(const StablePoint& a, const StablePoint& b) const
   {
     const Multipliers &m_a = a.floquet.multipliers, &m_b = b.floquet.multipliers;
-    if (rotor_stator::distance(m_a, m_b) > settings_.most_move) return true;
+    if (largest_move(m_a, m_b) > settings_.most_move) return true;
     const auto happened =
         std::count_if(bifurcation_tests.begin(), bifurcation_tests.end(),
                       [&](const BifurcationTest& k) { return changes(k.test, a, b); });
@@ -217,8 +217,10 @@ private:
   /** The point at the mean speed; none at the end of what numbers resolve. */
   std::optional<StablePoint> between(const StablePoint& a, const StablePoint& b) const
   {
-    const double omega = 0.5 * (a.point.omega + b.point.omega);
-    if (std::abs(a.point.omega - b.point.omega) <= settings_.tolerance * omega) return {};
+    const double omega = 0.5 * (a.point.motion.omega + b.point.motion.omega);
+    if (std::abs(a.point.motion.omega - b.point.motion.omega) <=
+        settings_.tolerance * omega)
+      return {};
     try {
       return examined(point_between(balance_, a.point, b.point, omega, arc_length_));
     } catch (const NoSolution&) {
@@ -254,8 +256,8 @@ private:
   bool is_fold(const StablePoint& fold, const StablePoint& point) const
   {
     return fold.bifurcation == Bifurcation::fold &&
-           std::abs(fold.point.omega - point.point.omega) <=
-               10 * settings_.tolerance * fold.point.omega;
+           std::abs(fold.point.motion.omega - point.point.motion.omega) <=
+               10 * settings_.tolerance * fold.point.motion.omega;
   }
 
   Balance& balance_;
@@ -271,7 +273,7 @@ private:
 std::vector<bool> evenly_chosen(const Branch& branch, double width, int most)
 {
   const auto interval = [&](const BranchPoint& p) {
-    return static_cast<long>(std::floor(p.omega / width));
+    return static_cast<long>(std::floor(p.motion.omega / width));
   };
   std::map<long, int> count, met;
   for (const BranchPoint& p : branch.points) ++count[interval(p)];

@@ -43,7 +43,7 @@ Multipliers multipliers_of(const Eigen::MatrixXd& phi)
   return multipliers;
 }
 
-double distance(const Multipliers& a, Multipliers b)
+double largest_move(const Multipliers& a, Multipliers b)
 {
   double largest = 0;
   for (const auto& mu : a) {
@@ -74,7 +74,7 @@ Floquet floquet(const Vibration& vibration, const PeriodicStiffness& stiffness,
     finer.panel /= 1.5;
     along = monodromy(vibration, stiffness, period, finer);
     Multipliers fine = multipliers_of(along.phi);
-    result.change = distance(fine, result.multipliers);
+    result.change = largest_move(fine, result.multipliers);
     result.settled = result.change <= settings.tolerance;
     result.multipliers = std::move(fine);
     result.evaluations += along.evaluations;
@@ -186,18 +186,19 @@ private:
 
 }  // namespace
 
-PeriodicStiffness stiffness_along(const Parameters& parameters, const Eigen::VectorXd& x)
+PeriodicStiffness stiffness_along(const Parameters& parameters,
+                                  const PeriodicMotion& motion)
 {
-  const BearingAlong bearing(parameters.bearing, x);
+  const BearingAlong bearing(parameters.bearing, motion.x);
   return {.at = [bearing](double phase, double* k) { bearing.stiffness(phase, k); },
           .breaks = bearing.contact_changes()};
 }
 
-Floquet floquet(const Parameters& parameters, double omega, const Eigen::VectorXd& x,
+Floquet floquet(const Parameters& parameters, const PeriodicMotion& motion,
                 const FloquetSettings& settings)
 {
-  return floquet(vibration_of(parameters), stiffness_along(parameters, x),
-                 2 * std::numbers::pi / omega, settings);
+  return floquet(vibration_of(parameters), stiffness_along(parameters, motion),
+                 2 * std::numbers::pi / motion.omega, settings);
 }
 
 }  // namespace rotor_stator

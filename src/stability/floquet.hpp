@@ -19,6 +19,7 @@ them to the relative motion u: the multipliers belong to the full system of Eq. 
 #include <complex>
 #include <vector>
 
+#include "balance/periodic_motion.hpp"
 #include "model/parameters.hpp"
 #include "stability/monodromy.hpp"
 
@@ -63,15 +64,15 @@ struct Floquet {
 Floquet floquet(const Vibration& vibration, const PeriodicStiffness& stiffness,
                 double period, const FloquetSettings& settings = {});
 
-/** The bearing's machine along the relative motion u with the coefficients `x` (2 × (2m+1) as a
-    vector, [m]) at speed `omega` [rad/s]. */
-Floquet floquet(const Parameters& parameters, double omega, const Eigen::VectorXd& x,
+/** The machine along a motion of its bearing. */
+Floquet floquet(const Parameters& parameters, const PeriodicMotion& motion,
                 const FloquetSettings& settings = {});
 
 /** The parts of the previous one: the constant matrices of x_s, y_s, x_r, y_r, and ∂F/∂u along u
     as a 4 × 4 stiffness, with the phases where a ball meets or leaves its race. */
 Vibration vibration_of(const Parameters& parameters);
-PeriodicStiffness stiffness_along(const Parameters& parameters, const Eigen::VectorXd& x);
+PeriodicStiffness stiffness_along(const Parameters& parameters,
+                                  const PeriodicMotion& motion);
 
 /** Largest modulus first, of a conjugate pair the upper half first. */
 void sort_by_modulus(Multipliers& multipliers);
@@ -81,6 +82,6 @@ Multipliers multipliers_of(const Eigen::MatrixXd& phi);
 
 /** The largest distance |Δμ|/max(1, |μ|) of a multiplier to its nearest partner among as many
     others. */
-double distance(const Multipliers& a, Multipliers b);
+double largest_move(const Multipliers& a, Multipliers b);
 
 }  // namespace rotor_stator

@@ -3,10 +3,10 @@
 #include <algorithm>
 #include <cmath>
 
-#include "balance/bearing_problem.hpp"
+#include "balance/fourier_transform.hpp"
+#include "continuation/sweep.hpp"
 #include "io/errors.hpp"
 #include "io/journal.hpp"
-#include "motion/find_periodic.hpp"
 #include "motion/motion.hpp"
 
 namespace rotor_stator::studies
@@ -75,30 +75,20 @@ void add_solution(const Parameters& parameters, double frequency,
 
 StudyPoint sweep_machine(const Parameters& parameters, const ParametricStudy& study)
 {
-  std::vector<double> omegas;
-  for (double frequency : study.frequencies) omegas.push_back(angular(frequency));
-  Balance balance(bearing_problem(parameters, default_samples(study.harmonics)),
-                  study.harmonics);
   StudyPoint point{-1, -1, -1, -1, 0, 0};
   std::vector<motion::CurvePoint> curve;
-  const auto swept = sweep(
-      balance, omegas,
-      [&](double omega) {
-        return quasi_static_start(parameters, omega, study.harmonics);
-      },
-      motion::sweep_settings(parameters),
-      [&](const SweepPoint& found) {
-        add_solution(parameters, found.omega / angular(1),
-                     body_series(parameters, balance, found.omega, found.x), point,
-                     curve);
-      });
+  for (const PeriodicMotion& motion :
+       sweep(parameters, angular(study.frequencies), study.harmonics)) {
+    if (motion.found())
+      add_solution(parameters, motion.omega / angular(1), motion.bodies, point, curve);
+    else
+      ++point.missed;
+  }
   if (!curve.empty()) {
     const motion::CurvePoint peak = motion::refined_peak(curve);
     point.f_peak = peak.frequency;
     point.amp_peak = peak.amplitude;
   }
-  point.missed = static_cast<int>(std::count_if(
-      swept.begin(), swept.end(), [](const SweepPoint& p) { return !p.found(); }));
   return point;
 }
 

@@ -1,13 +1,13 @@
 #include "studies/sensitivity.hpp"
-#include "motion/find_periodic.hpp"
 
 #include <algorithm>
 #include <cmath>
 #include <functional>
 
-#include "balance/bearing_problem.hpp"
+#include "balance/fourier_transform.hpp"
 #include "io/errors.hpp"
 #include "io/program.hpp"
+#include "motion/other_starts.hpp"
 
 namespace rotor_stator::studies
 {
@@ -59,24 +59,13 @@ Peak highest(const Model& model, const std::vector<double>& frequencies,
 Peak balance_peak(const Model& model, const std::vector<double>& frequencies)
 {
   const Parameters& parameters = model.parameters;
-  Balance balance(bearing_problem(parameters, model.samples), model.harmonics);
   FourierTransform transform = amplitude_transform(model.harmonics);
-  const ColdStart start = [&](double omega) {
-    return quasi_static_start(parameters, omega, model.harmonics);
-  };
   return highest(model, frequencies, [&](const std::vector<double>& speeds) {
-    std::vector<double> omegas, amplitude;
-    for (double frequency : speeds) omegas.push_back(angular(frequency));
-    std::vector<double> found;
-    const auto points = sweep(
-        balance, omegas, start, motion::sweep_settings(parameters),
-        [&](const SweepPoint& point) {
-          found.push_back(half_peak_to_peak(
-              body_series(parameters, balance, point.omega, point.x), transform)[2]);
-        });
-    auto next = found.begin();
-    for (const SweepPoint& point : points)
-      amplitude.push_back(point.found() ? *next++ : 0);
+    std::vector<double> amplitude;
+    for (const PeriodicMotion& motion :
+         sweep(parameters, angular(speeds), model.harmonics, model.samples))
+      amplitude.push_back(motion.found() ? half_peak_to_peak(motion.bodies, transform)[2]
+                                         : 0);
     return amplitude;
   });
 }
@@ -148,8 +137,8 @@ std::optional<ContactLoss> contact_loss(const Model& model,
 std::optional<OrbitSize> balance_orbit_size(const Model& model, double frequency)
 {
   if (!has_rotation_period(model.parameters.bearing)) return {};
-  const auto solution = motion::find_periodic(model.parameters, angular(frequency),
-                                              model.harmonics, model.samples);
+  const auto solution = motion::search_periodic(model.parameters, angular(frequency),
+                                                model.harmonics, model.samples);
   if (!solution.found()) return {};
   const Eigen::VectorXd amplitude = half_peak_to_peak(solution.bodies);
   return OrbitSize{{amplitude[2]}, {amplitude[3]}};

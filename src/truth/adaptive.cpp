@@ -1,12 +1,10 @@
 #include "truth/adaptive.hpp"
-#include "motion/find_periodic.hpp"
 
 #include <algorithm>
 
 #include "io/errors.hpp"
 #include "io/journal.hpp"
 #include "io/table.hpp"
-#include "motion/regime.hpp"
 #include "stability/shooting.hpp"
 
 namespace rotor_stator::truth
@@ -35,11 +33,11 @@ AdaptiveStudy read_adaptive_study(const std::string& file, const std::string& re
   return study;
 }
 
-motion::Motion exact_motion(const Parameters& parameters,
-                            const motion::PeriodicSolution& solution, int points)
+motion::Motion exact_motion(const Parameters& parameters, const PeriodicMotion& solution,
+                            int points)
 {
   constexpr double tolerance = 1e-13;
-  State state = state_of(solution);
+  State state = motion::state_of(solution);
   const Shooting shooting = shoot(parameters, solution.omega, state,
                                   {.tolerance = tolerance, .closure = 1e-11});
   if (!shooting.converged) return {points, 0, {}};
@@ -61,7 +59,7 @@ double error_of(const Eigen::MatrixXd& bodies, const motion::Motion& exact)
 
 /** The error of one solution, against the exact motion of the speed or, where that is far away, of its
     own branch. */
-void judge(const Parameters& parameters, const motion::PeriodicSolution& solution,
+void judge(const Parameters& parameters, const PeriodicMotion& solution,
            const motion::Motion& exact, AdaptivePoint& point)
 {
   constexpr double far = 10;
@@ -86,11 +84,11 @@ std::vector<FixedSolution> ladder(const Parameters& parameters, double omega,
 {
   std::vector<FixedSolution> steps;
   for (int m = 4; m <= most; m += std::max(1, m / 7)) {
-    const FirstSolution fixed =
-        motion::quasi_static_solution(parameters, omega, m, default_samples(m));
-    if (!fixed.newton.converged()) continue;
-    steps.push_back({m, error_of(fixed.solution.series, exact),
-                     static_cast<double>(fixed.force_samples)});
+    const PeriodicMotion fixed =
+        motion::find_near_contact(parameters, omega, m, default_samples(m));
+    if (!fixed.found()) continue;
+    steps.push_back(
+        {m, error_of(fixed.bodies, exact), static_cast<double>(fixed.force_samples)});
     if (steps.back().error <= least_error) break;
   }
   return steps;
@@ -109,35 +107,40 @@ void choose_best(const std::vector<FixedSolution>& steps, AdaptivePoint& point)
 }
 
 AdaptivePoint point_of(int set, double frequency, double tolerance,
-                       const motion::AdaptiveSolution& at)
+                       const AdaptiveMotion& at)
 {
   return {set,
           frequency,
           tolerance,
           at.reached,
-          at.reached ? at.solution.harmonics : -1,
-          at.reached ? at.solution.samples : -1,
-          at.reached ? at.estimate.displacement : -1,
+          at.reached ? at.motion.harmonics.highest() : -1,
+          at.reached ? at.motion.samples : -1,
+          at.reached ? at.motion.error->displacement : -1,
           -1,
           false,
-          at.solution.start != motion::quasi_static_name,
+          at.motion.start != motion::quasi_static_name,
           static_cast<double>(at.force_samples),
           -1,
           -1,
           -1};
 }
 
+double error_estimate(const AdaptiveMotion& at)
+{
+  return at.motion.error ? at.motion.error->displacement : 0;
+}
+
 /** The exact motion from the most accurate of the solutions. */
 motion::Motion exact_motion(const Parameters& parameters,
-                            const std::vector<motion::AdaptiveSolution>& solutions)
+                            const std::vector<AdaptiveMotion>& solutions)
 {
-  const auto best = std::min_element(
-      solutions.begin(), solutions.end(), [](const auto& a, const auto& b) {
-        return std::pair(!a.reached, a.estimate.displacement) <
-               std::pair(!b.reached, b.estimate.displacement);
-      });
+  const auto best = std::min_element(solutions.begin(), solutions.end(),
+                                     [](const auto& a, const auto& b) {
+                                       return std::pair(!a.reached, error_estimate(a)) <
+                                              std::pair(!b.reached, error_estimate(b));
+                                     });
   if (!best->reached) return {points_per_period, 0, {}};
-  return truth::exact_motion(parameters, best->solution, points_per_period);
+  return truth::exact_motion(parameters, best->motion, points_per_period);
 }
 
 /** Which set and which speed number `index` is. */
@@ -157,7 +160,7 @@ std::vector<AdaptivePoint> adaptive_points(const AdaptiveStudy& study, std::size
   const Parameters& parameters = study.sets[set];
   const double omega = angular(frequency);
   std::vector<AdaptivePoint> points;
-  std::vector<motion::AdaptiveSolution> solutions;
+  std::vector<AdaptiveMotion> solutions;
   for (double tolerance : study.tolerances) {
     solutions.push_back(
         motion::solve_adaptively(parameters, omega, {.tolerance = tolerance}));
@@ -169,7 +172,7 @@ std::vector<AdaptivePoint> adaptive_points(const AdaptiveStudy& study, std::size
   double least_error = 1;
   for (std::size_t k = 0; k < points.size(); ++k) {
     if (!points[k].reached) continue;
-    judge(parameters, solutions[k].solution, exact, points[k]);
+    judge(parameters, solutions[k].motion, exact, points[k]);
     if (points[k].error > 0 && !points[k].own_branch)
       least_error = std::min(least_error, points[k].error);
   }

@@ -47,8 +47,8 @@ std::vector<AdaptivePoint> adaptive_points(const AdaptiveStudy& study, std::size
 
 /** One period of the exact motion that shooting finds from a solution; no positions when it finds
     none. */
-motion::Motion exact_motion(const Parameters& parameters,
-                            const motion::PeriodicSolution& solution, int points);
+motion::Motion exact_motion(const Parameters& parameters, const PeriodicMotion& solution,
+                            int points);
 
 /**
 ## The table of the error estimate */

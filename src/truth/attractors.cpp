@@ -6,12 +6,9 @@
 #include <numbers>
 #include <random>
 
-#include "balance/bearing_problem.hpp"
 #include "io/errors.hpp"
 #include "io/table.hpp"
-#include "motion/find_periodic.hpp"
-#include "motion/motion.hpp"
-#include "motion/regime.hpp"
+#include "motion/other_starts.hpp"
 
 namespace rotor_stator::truth
 {
@@ -92,29 +89,14 @@ Row follow(const Parameters& parameters, std::vector<double> frequencies, Origin
 /** Every speed from the solution with few harmonics, where a sweep up finds one. */
 Row from_sweep(const Parameters& parameters, const AttractorScene& scene)
 {
-  std::vector<double> omegas;
-  for (double frequency : scene.frequencies) omegas.push_back(angular(frequency));
-  const int m = scene.few_harmonics, samples = default_samples(m);
-  Balance balance(bearing_problem(parameters, samples), m);
   Row row;
-  sweep(
-      balance, omegas,
-      [&](double omega) { return quasi_static_start(parameters, omega, m); },
-      motion::sweep_settings(parameters),
-      [&](const SweepPoint& point) {
-        const motion::PeriodicSolution solution{
-            point.omega,
-            m,
-            samples,
-            point.newton,
-            {},
-            point.x,
-            body_series(parameters, balance, point.omega, point.x)};
-        append(
-            point.omega / angular(1),
-            attractor_from(parameters, point.omega, state_of(solution), scene.settings),
-            row);
-      });
+  for (const PeriodicMotion& motion :
+       sweep(parameters, angular(scene.frequencies), scene.few_harmonics))
+    if (motion.found())
+      append(motion.omega / angular(1),
+             attractor_from(parameters, motion.omega, motion::state_of(motion),
+                            scene.settings),
+             row);
   return row;
 }
 
@@ -125,10 +107,12 @@ Row from_solutions(const Parameters& parameters, const AttractorScene& scene)
   const int m = scene.many_harmonics;
   for (double frequency : scene.frequencies) {
     const double omega = angular(frequency);
-    const auto solution = motion::find_periodic(parameters, omega, m, default_samples(m));
+    const auto solution =
+        motion::search_periodic(parameters, omega, m, default_samples(m));
     if (!solution.found()) continue;
     append(frequency,
-           attractor_from(parameters, omega, state_of(solution), scene.settings), row);
+           attractor_from(parameters, omega, motion::state_of(solution), scene.settings),
+           row);
   }
   return row;
 }

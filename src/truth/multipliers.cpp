@@ -1,10 +1,10 @@
 #include "truth/multipliers.hpp"
-#include "motion/find_periodic.hpp"
 
 #include <algorithm>
 #include <cmath>
 
 #include "io/errors.hpp"
+#include "motion/other_starts.hpp"
 #include "stability/hill.hpp"
 
 namespace rotor_stator::truth
@@ -32,17 +32,17 @@ MultiplierPoint point_at(const MultiplierScene& scene, int set, double frequency
 {
   const Parameters& parameters = scene.sets[set - 1];
   MultiplierPoint point{set, frequency, harmonics, false, {}, {-1, -1}};
-  const motion::PeriodicSolution solution = motion::find_periodic(
+  const PeriodicMotion solution = motion::search_periodic(
       parameters, angular(frequency), harmonics, default_samples(harmonics));
   if (!solution.found()) return point;
   try {
-    point.floquet = floquet(parameters, solution.omega, solution.x);
+    point.floquet = floquet(parameters, solution);
   } catch (const NoSolution&) {
     return point;
   }
   point.found = true;
   if (frequency < scene.hill_from) return point;
-  const PeriodicStiffness along = stiffness_along(parameters, solution.x);
+  const PeriodicStiffness along = stiffness_along(parameters, solution);
   /** Without eigenvectors, which would double the work: the choice matters for small multipliers. */
   for (int k = 0; k < 2; ++k)
     point.hill[k] =

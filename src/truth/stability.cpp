@@ -1,5 +1,4 @@
 #include "truth/stability.hpp"
-#include "motion/find_periodic.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -8,6 +7,7 @@
 #include "continuation/arc_length.hpp"
 #include "io/errors.hpp"
 #include "io/table.hpp"
+#include "motion/other_starts.hpp"
 
 namespace rotor_stator::truth
 {
@@ -33,12 +33,12 @@ StabilityScene read_stability_scene(const std::string& file, const std::string& 
 namespace
 {
 
-StabilityPoint shown(const Parameters& parameters, Balance& balance, const StablePoint& p)
+StabilityPoint shown(const Parameters& parameters, FourierTransform& transform,
+                     const StablePoint& p)
 {
-  balance.residual(p.point.x, p.point.omega);
   const Eigen::VectorXd amplitude =
-      half_peak_to_peak(body_series(parameters, balance, p.point.omega, p.point.x));
-  StabilityPoint point{p.point.omega / angular(1),
+      half_peak_to_peak(body_series(parameters, p.point.motion), transform);
+  StabilityPoint point{p.point.motion.omega / angular(1),
                        {amplitude[0], amplitude[1], amplitude[2], amplitude[3]},
                        p.point.arc,
                        -1,
@@ -113,25 +113,26 @@ StabilityBranch follow(const StabilityScene& scene, const StabilityCurve& curve,
   const Parameters& parameters = scene.sets[curve.set - 1];
   const int samples = default_samples(curve.harmonics);
   StabilityBranch result{{}, from, BranchEnd::step, 0, 0, 0, from, from};
-  const motion::PeriodicSolution start =
-      motion::find_periodic(parameters, angular(from), curve.harmonics, samples);
+  const PeriodicMotion start =
+      motion::search_periodic(parameters, angular(from), curve.harmonics, samples);
   if (!start.found()) return result;
   Balance balance(bearing_problem(parameters, samples), curve.harmonics);
-  ArcLengthSettings settings = motion::arc_length_settings(parameters);
+  ArcLengthSettings settings = arc_length_settings(parameters);
   settings.most_evaluations = scene.most_evaluations;
   const Branch branch =
       follow_branch(balance, angular(from), angular(to), start.x, settings);
-  const BranchStability stability = stability_along(
-      balance, branch, settings,
-      [&](const BranchPoint& p) { return floquet(parameters, p.omega, p.x); },
-      {.chosen = evenly_chosen(branch, angular(1), scene.examined_per_hz),
-       .among_unstable = false});
+  const BranchStability stability =
+      stability_along(balance, branch, settings,
+                      [&](const BranchPoint& p) { return floquet(parameters, p.motion); },
+                      {.chosen = evenly_chosen(branch, angular(1), scene.examined_per_hz),
+                       .among_unstable = false});
   result.end = branch.kind;
   result.missed = stability.missed;
   result.failed = stability.failed;
   result.passed = static_cast<int>(branch.points.size());
+  FourierTransform transform = amplitude_transform(curve.harmonics);
   for (const StablePoint& point : stability.points) {
-    StabilityPoint next = shown(parameters, balance, point);
+    StabilityPoint next = shown(parameters, transform, point);
     result.low = std::min(result.low, next.frequency);
     result.high = std::max(result.high, next.frequency);
     if (result.points.empty() || !dispensable(next, result.points.back()))

@@ -1,10 +1,9 @@
 #include "truth/validity.hpp"
-#include "motion/find_periodic.hpp"
 
 #include <algorithm>
 #include <cmath>
 
-#include "balance/bearing_problem.hpp"
+#include "continuation/sweep.hpp"
 #include "io/errors.hpp"
 #include "io/program.hpp"
 #include "io/table.hpp"
@@ -49,21 +48,12 @@ Vec2 difference(Vec2 a, Vec2 b)
 }
 
 /** The solutions with m harmonics, by ω, where a sweep up finds them. */
-std::map<double, Solved> solutions(const Parameters& parameters, int harmonics,
-                                   const std::vector<double>& frequencies)
+std::map<double, PeriodicMotion> solutions(const Parameters& parameters, int harmonics,
+                                           const std::vector<double>& frequencies)
 {
-  std::vector<double> omegas;
-  for (double frequency : frequencies) omegas.push_back(angular(frequency));
-  Balance balance(bearing_problem(parameters, default_samples(harmonics)), harmonics);
-  std::map<double, Solved> found;
-  sweep(
-      balance, omegas,
-      [&](double omega) { return quasi_static_start(parameters, omega, harmonics); },
-      motion::sweep_settings(parameters),
-      [&](const SweepPoint& point) {
-        found[point.omega] = {point.x,
-                              body_series(parameters, balance, point.omega, point.x)};
-      });
+  std::map<double, PeriodicMotion> found;
+  for (PeriodicMotion& motion : sweep(parameters, angular(frequencies), harmonics))
+    if (motion.found()) found[motion.omega] = std::move(motion);
   return found;
 }
 
@@ -100,7 +90,7 @@ public:
   }
 
   /** `solved` is null where there is no solution. */
-  ValidityPoint fixed(int harmonics, const Solved* solved) const
+  ValidityPoint fixed(int harmonics, const PeriodicMotion* solved) const
   {
     ValidityPoint point = blank_;
     point.harmonics = harmonics;
@@ -108,7 +98,7 @@ public:
     measure(solved->bodies, point);
     const auto& examined = scene_.examined_harmonics;
     if (std::find(examined.begin(), examined.end(), harmonics) != examined.end())
-      examine(solved->x, point);
+      examine(*solved, point);
     return point;
   }
 
@@ -117,14 +107,14 @@ public:
     ValidityPoint point = blank_;
     point.adaptive = true;
     const int most = point.periodic ? scene_.most_adaptive : scene_.most_elsewhere;
-    const motion::AdaptiveSolution chosen =
+    const AdaptiveMotion chosen =
         motion::solve_adaptively(parameters_, angular(blank_.frequency),
                                  {.tolerance = scene_.tolerance, .most_harmonics = most});
-    if (!chosen.found()) return point;
-    point.harmonics = chosen.solution.harmonics;
-    if (chosen.estimate.settled) point.estimate = chosen.estimate.displacement;
-    measure(chosen.solution.bodies, point);
-    examine(chosen.solution.x, point);
+    if (!chosen.motion.found()) return point;
+    point.harmonics = chosen.motion.harmonics.highest();
+    if (chosen.motion.error->settled) point.estimate = chosen.motion.error->displacement;
+    measure(chosen.motion.bodies, point);
+    examine(chosen.motion, point);
     return point;
   }
 
@@ -144,9 +134,9 @@ private:
     }
   }
 
-  void examine(const Eigen::VectorXd& x, ValidityPoint& point) const
+  void examine(const PeriodicMotion& motion, ValidityPoint& point) const
   {
-    const Floquet f = floquet(parameters_, angular(blank_.frequency), x, scene_.floquet);
+    const Floquet f = floquet(parameters_, motion, scene_.floquet);
     point.multiplier = f.largest();
     point.change = f.change;
     if (f.stable()) point.stability = Stability::stable;

@@ -62,14 +62,8 @@ struct ValidityPoint {
   double nearest_verdict;  ///< of the nearest; -1 when not found
 };
 
-/** A solution at one speed: the coefficients of u, and the series of both bodies [m]. */
-struct Solved {
-  Eigen::VectorXd x;
-  Eigen::MatrixXd bodies;
-};
-
 /** The solutions of a data set, m = 1 first, by ω, where a sweep up finds them. */
-using Swept = std::vector<std::map<double, Solved>>;
+using Swept = std::vector<std::map<double, PeriodicMotion>>;
 Swept swept_solutions(const ValidityScene& scene, std::size_t set);
 
 /** One set at one speed: m = 1, 2, …, then the adaptive solution. */

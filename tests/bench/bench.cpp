@@ -10,7 +10,8 @@ the same matrix. Everything on data set 1, at its solution at 30 Hz, with the de
 #include <Eigen/LU>
 
 #include "balance/bearing_problem.hpp"
-#include "balance/newton.hpp"
+#include "balance/step_solver.hpp"
+#include "continuation/sweep.hpp"
 #include "io/scene.hpp"
 #include "motion/find_periodic.hpp"
 #include "motion/motion.hpp"
@@ -40,7 +41,6 @@ struct Solved {
         balance(bearing_problem(parameters(), default_samples(harmonics)), harmonics),
         x(find_periodic(parameters(), omega, harmonics, default_samples(harmonics)).x)
   {
-    balance.residual(x, omega);
   }
   Eigen::MatrixXd samples() const
   {
@@ -106,7 +106,7 @@ void transforms(benchmark::State& state)
 void factorisation(benchmark::State& state)
 {
   Solved solved(state);
-  const Eigen::MatrixXd jacobian = solved.balance.jacobian();
+  const Eigen::MatrixXd jacobian = solved.balance.jacobian(solved.x, omega);
   Eigen::PartialPivLU<Eigen::MatrixXd> factors(jacobian.rows());
   for (auto _ : state) {
     factors.compute(jacobian);
@@ -120,13 +120,15 @@ void iterate(benchmark::State& state, bool fresh)
   Solved solved(state);
   StepSolver& steps = solved.balance.steps();
   const double scale = solved.balance.problem().residual_scale;
-  solved.x *= 1 + 1e-6;
+  const Eigen::VectorXd points[] = {(1 + 1e-6) * solved.x, (1 + 2e-6) * solved.x};
   Eigen::VectorXd residual, step;
+  long k = 0;
   for (auto _ : state) {
+    const Eigen::VectorXd& x = points[++k % 2];
     if (fresh) steps.forget();
     steps.begin(1);
-    residual = solved.balance.residual(solved.x, omega);
-    steps.step(solved.balance, residual, 1e-4 * scale, step);
+    residual = solved.balance.residual(x, omega);
+    steps.step(solved.balance, x, omega, residual, 1e-4 * scale, step);
     benchmark::DoNotOptimize(step.data());
   }
 }
@@ -145,9 +147,9 @@ void solution(benchmark::State& state)
   Solved solved(state);
   const auto start = find_periodic(parameters(), omega, 6, default_samples(6)).x;
   for (auto _ : state) {
-    Eigen::VectorXd x = resize_harmonics(start, 2, solved.harmonics);
     solved.balance.steps().forget();
-    benchmark::DoNotOptimize(solve(solved.balance, omega, x, {}));
+    benchmark::DoNotOptimize(
+        solve(solved.balance, omega, resize_harmonics(start, 2, solved.harmonics)));
   }
 }
 
@@ -161,16 +163,8 @@ void sweep_of_speeds(benchmark::State& state)
     omegas.push_back(
         angular(1 + 59.0 * static_cast<double>(k) / static_cast<double>(speeds - 1)));
   for (auto _ : state) {
-    Balance balance(bearing_problem(parameters(), default_samples(harmonics)), harmonics);
-    std::vector<Eigen::MatrixXd> bodies;
-    sweep(
-        balance, omegas,
-        [&](double at) { return quasi_static_start(parameters(), at, harmonics); },
-        sweep_settings(parameters()),
-        [&](const SweepPoint& point) {
-          bodies.push_back(body_series(parameters(), balance, point.omega, point.x));
-        });
-    benchmark::DoNotOptimize(bodies.data());
+    const auto motions = sweep(parameters(), omegas, harmonics);
+    benchmark::DoNotOptimize(motions.data());
   }
 }
 

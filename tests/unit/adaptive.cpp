@@ -2,9 +2,8 @@
     against shooting; and the choice of m by it. */
 #include <catch2/catch.hpp>
 
-#include "balance/bearing_problem.hpp"
 #include "continuation/arc_length.hpp"
-#include "motion/find_periodic.hpp"
+#include "motion/other_starts.hpp"
 #include "support/cases.hpp"
 #include "support/command.hpp"
 #include "truth/adaptive.hpp"
@@ -23,39 +22,41 @@ constexpr double least_effectivity = 0.3, most_effectivity = 10;
 ObservedProblem observed(const Oscillator& oscillator)
 {
   return {[oscillator](int samples) { return oscillator.problem(samples); },
-          [](const Balance& balance, const Eigen::VectorXd& x) {
+          [](const PeriodicMotion& motion) {
             return Eigen::MatrixXd(
-                x.reshaped(balance.problem().dofs, x.size() / balance.problem().dofs));
+                motion.x.reshaped(motion.force.rows(), motion.force.cols()));
           }};
 }
 
-Discretised solved(const ObservedProblem& problem, double omega,
-                   const Eigen::VectorXd& start, int harmonics, int samples)
+PeriodicMotion solved(const ObservedProblem& problem, double omega,
+                      const Eigen::VectorXd& start, int harmonics, int samples)
 {
   Balance balance(problem.problem(samples), harmonics);
-  Eigen::VectorXd x = resize_harmonics(start, balance.problem().dofs, harmonics);
-  REQUIRE(solve(balance, omega, x, {}).converged());
-  return {harmonics, samples, x, problem.series(balance, x)};
+  PeriodicMotion motion =
+      solve(balance, omega, resize_harmonics(start, balance.problem().dofs, harmonics));
+  REQUIRE(motion.found());
+  motion.bodies = problem.series(motion);
+  return motion;
 }
 
-void check_estimate(const ObservedProblem& problem, double omega,
-                    const Discretised& coarse, const Discretised& fine)
+void check_estimate(const ObservedProblem& problem, const PeriodicMotion& coarse,
+                    const PeriodicMotion& fine)
 {
-  const ErrorEstimate estimate = estimate_error(problem, omega, coarse).estimate;
-  const double error = series_difference(coarse.series, fine.series);
-  INFO("m = " << coarse.harmonics << ", omega = " << omega << ": estimate "
-              << estimate.displacement << ", error " << error);
+  const ErrorEstimate estimate = estimate_error(problem, coarse).estimate;
+  const double error = series_difference(coarse.bodies, fine.bodies);
+  INFO("m = " << coarse.harmonics.highest() << ", omega = " << coarse.omega
+              << ": estimate " << estimate.displacement << ", error " << error);
   CHECK(estimate.settled);
   CHECK(estimate.displacement > least_effectivity * error);
   CHECK(estimate.displacement < most_effectivity * error);
 }
 
-AdaptiveSolution adapted(double frequency, const AdaptiveSettings& settings)
+AdaptiveMotion adapted(double frequency, const AdaptiveSettings& settings)
 {
   return solve_adaptively(set_1(), hertz(frequency), settings);
 }
 
-double true_error(const PeriodicSolution& solution)
+double true_error(const PeriodicMotion& solution)
 {
   constexpr int points = 1024;
   const Motion exact = exact_motion(set_1(), solution, points);
@@ -70,9 +71,9 @@ TEST_CASE("Duffing: the estimate is the error against 161 harmonics")
   const ObservedProblem problem = observed(duffing());
   for (double omega : {0.25, 0.6, 1.0}) {
     const Eigen::VectorXd rest = Eigen::VectorXd::Zero(1);
-    const Discretised fine = solved(problem, omega, rest, 161, 2048);
+    const PeriodicMotion fine = solved(problem, omega, rest, 161, 2048);
     for (int m : {1, 3, 5})
-      check_estimate(problem, omega, solved(problem, omega, rest, m, 64), fine);
+      check_estimate(problem, solved(problem, omega, rest, m, 64), fine);
   }
 }
 
@@ -84,19 +85,19 @@ TEST_CASE("Unilateral spring: the estimate is the error against 161 harmonics")
       coarse, 0.59, 0.7, Eigen::VectorXd::Zero(coarse.unknowns()),
       {.newton = {}, .speed_scale = 1, .arc_unknown_scale = 1, .most_step = 0.02});
   REQUIRE(branch.covered);
-  const Discretised start = solved(problem, 0.7, branch.points.back().x, 7, 64);
-  const Discretised fine = solved(problem, 0.7, start.x, 161, 4096);
+  const PeriodicMotion start = solved(problem, 0.7, branch.points.back().motion.x, 7, 64);
+  const PeriodicMotion fine = solved(problem, 0.7, start.x, 161, 4096);
   /** A spring that sets in with a step of stiffness asks for many samples. */
   for (int m : {7, 11, 21, 41})
-    check_estimate(problem, 0.7, solved(problem, 0.7, fine.x, m, 1024), fine);
+    check_estimate(problem, solved(problem, 0.7, fine.x, m, 1024), fine);
 }
 
 TEST_CASE("Bearing: the estimate is the distance to the motion that shooting finds")
 {
   for (double frequency : {6.0, 30.0, 45.0})
     for (int m : {6, 12, 24, 48}) {
-      const PeriodicSolution solution =
-          find_periodic(set_1(), hertz(frequency), m, default_samples(m));
+      const PeriodicMotion solution =
+          search_periodic(set_1(), hertz(frequency), m, default_samples(m));
       REQUIRE(solution.found());
       const ErrorEstimate estimate = estimate_error(set_1(), solution);
       const double error = true_error(solution);
@@ -113,13 +114,13 @@ TEST_CASE("The chosen number of harmonics keeps the tolerance, and not by far")
   for (double frequency : {6.0, 30.0, 45.0}) {
     int fewer = 0;
     for (double tolerance : {1e-3, 1e-5}) {
-      const AdaptiveSolution at = adapted(frequency, {.tolerance = tolerance});
+      const AdaptiveMotion at = adapted(frequency, {.tolerance = tolerance});
       INFO(frequency << " Hz, tolerance " << tolerance << ": " << at.end);
       REQUIRE(at.reached);
-      CHECK(at.estimate.displacement <= tolerance);
-      CHECK(true_error(at.solution) < tolerance / least_effectivity);
-      CHECK(at.solution.harmonics > fewer);
-      fewer = at.solution.harmonics;
+      CHECK(at.motion.error->displacement <= tolerance);
+      CHECK(true_error(at.motion) < tolerance / least_effectivity);
+      CHECK(at.motion.harmonics.highest() > fewer);
+      fewer = at.motion.harmonics.highest();
     }
     CHECK(fewer < 300);
   }
@@ -129,45 +130,44 @@ TEST_CASE("Without contact the first number of harmonics is kept")
 {
   Parameters parameters = set_1();
   parameters.bearing.clearance = 1;
-  const AdaptiveSolution at =
+  const AdaptiveMotion at =
       solve_adaptively(parameters, hertz(30), {.tolerance = 1e-8, .first_harmonics = 2});
   CHECK(at.reached);
-  CHECK(at.solution.harmonics == 2);
-  CHECK(at.estimate.displacement < 1e-12);
+  CHECK(at.motion.harmonics.highest() == 2);
+  CHECK(at.motion.error->displacement < 1e-12);
 }
 
 TEST_CASE("A tolerance out of reach ends with where and why")
 {
-  const AdaptiveSolution at = adapted(6, {.tolerance = 1e-8, .most_harmonics = 30});
-  CHECK(at.found());
+  const AdaptiveMotion at = adapted(6, {.tolerance = 1e-8, .most_harmonics = 30});
+  CHECK(at.motion.found());
   CHECK_FALSE(at.reached);
-  CHECK(at.estimate.displacement > 1e-8);
+  CHECK(at.motion.error->displacement > 1e-8);
   CHECK(at.end.find("with 30 harmonics is estimated as") != std::string::npos);
 }
 
 TEST_CASE("The choice is the same at every call")
 {
-  const AdaptiveSolution a = adapted(24, {.tolerance = 1e-4}),
-                         b = adapted(24, {.tolerance = 1e-4});
-  CHECK(a.solution.harmonics == b.solution.harmonics);
-  CHECK(a.solution.x == b.solution.x);
+  const AdaptiveMotion a = adapted(24, {.tolerance = 1e-4}),
+                       b = adapted(24, {.tolerance = 1e-4});
+  CHECK(a.motion.harmonics.highest() == b.motion.harmonics.highest());
+  CHECK(a.motion.x == b.motion.x);
   CHECK(a.force_samples == b.force_samples);
 }
 
 TEST_CASE("At most twice the work of the best fixed number of harmonics")
 {
   for (double frequency : {30.0, 45.0}) {
-    const AdaptiveSolution at = adapted(frequency, {.tolerance = 1e-5});
+    const AdaptiveMotion at = adapted(frequency, {.tolerance = 1e-5});
     REQUIRE(at.reached);
-    const double error = true_error(at.solution);
-    const Motion exact = exact_motion(set_1(), at.solution, 1024);
+    const double error = true_error(at.motion);
+    const Motion exact = exact_motion(set_1(), at.motion, 1024);
     long least = 0;
-    for (int m = 8; m < 2 * at.solution.harmonics; m += 2) {
-      const FirstSolution fixed =
-          quasi_static_solution(set_1(), hertz(frequency), m, default_samples(m));
-      if (!fixed.newton.converged()) continue;
-      if (relative_difference(motion_of(fixed.solution.series, 1024), exact) > error)
-        continue;
+    for (int m = 8; m < 2 * at.motion.harmonics.highest(); m += 2) {
+      const PeriodicMotion fixed =
+          find_near_contact(set_1(), hertz(frequency), m, default_samples(m));
+      if (!fixed.found()) continue;
+      if (relative_difference(motion_of(fixed.bodies, 1024), exact) > error) continue;
       if (least == 0 || fixed.force_samples < least) least = fixed.force_samples;
     }
     INFO(frequency << " Hz: " << at.force_samples << " against " << least);

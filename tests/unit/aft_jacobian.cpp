@@ -19,9 +19,8 @@ struct JacobianError {
 JacobianError jacobian_error(Balance& balance, const Eigen::VectorXd& x, double omega,
                              double h)
 {
-  balance.residual(x, omega);
-  const Eigen::MatrixXd jacobian = balance.jacobian();
-  const Eigen::VectorXd slope = balance.speed_derivative();
+  const Eigen::MatrixXd jacobian = balance.jacobian(x, omega);
+  const Eigen::VectorXd slope = balance.speed_derivative(x, omega);
   JacobianError error{0, 0};
   for (Eigen::Index k = 0; k < x.size(); ++k) {
     const Eigen::VectorXd shift = h * Eigen::VectorXd::Unit(x.size(), k);

@@ -8,8 +8,7 @@
 #include "continuation/isolated.hpp"
 #include "continuation/locate.hpp"
 #include "io/errors.hpp"
-#include "motion/find_periodic.hpp"
-#include "motion/motion.hpp"
+#include "motion/other_starts.hpp"
 #include "support/cases.hpp"
 
 using namespace rotor_stator;
@@ -93,7 +92,7 @@ Branch follow(const Parameters& parameters, int harmonics, int samples, double f
   ArcLengthSettings settings = arc_length_settings(parameters);
   settings.most_step = most_step;
   return follow_branch(balance, hertz(from), hertz(to),
-                       find_periodic(parameters, hertz(from), harmonics, samples).x,
+                       search_periodic(parameters, hertz(from), harmonics, samples).x,
                        settings);
 }
 
@@ -131,7 +130,7 @@ TEST_CASE("Folds of Duffing against the amplitude equation, up and down, at any 
     CHECK(up.folds[1] == Approx(lower).epsilon(1e-8));
     CHECK(down.folds[0] == Approx(lower).epsilon(1e-8));
     CHECK(down.folds[1] == Approx(upper).epsilon(1e-8));
-    CHECK(up.points.back().omega == 1.6);
+    CHECK(up.points.back().motion.omega == 1.6);
     CHECK(up.points.back().arc == Approx(down.points.back().arc).epsilon(1e-3));
   }
 }
@@ -143,11 +142,12 @@ TEST_CASE("A fold is a point of its branch, with a tangent across the speed")
       follow_branch(balance, 0.5, 1.6, Eigen::VectorXd::Zero(15), plain);
   REQUIRE(branch.folds.size() == 2);
   for (double fold : branch.folds) {
-    const auto point = std::find_if(branch.points.begin(), branch.points.end(),
-                                    [&](const auto& p) { return p.omega == fold; });
+    const auto point =
+        std::find_if(branch.points.begin(), branch.points.end(),
+                     [&](const auto& p) { return p.motion.omega == fold; });
     REQUIRE(point != branch.points.end());
-    CHECK(std::abs(point->speed_direction) < 1e-4);
-    CHECK(balance.residual(point->x, point->omega).norm() < 1e-9);
+    CHECK(std::abs(point->speed_direction()) < 1e-4);
+    CHECK(balance.residual(point->motion.x, point->motion.omega).norm() < 1e-9);
   }
 }
 
@@ -164,8 +164,8 @@ TEST_CASE("A circle is followed once round and recognised as closed, either way"
           Approx(1.3).epsilon(1e-8));
     CHECK(*std::max_element(branch.folds.begin(), branch.folds.end()) ==
           Approx(2.7).epsilon(1e-8));
-    CHECK(branch.points.back().omega == branch.points.front().omega);
-    CHECK(branch.points.back().x == branch.points.front().x);
+    CHECK(branch.points.back().motion.omega == branch.points.front().motion.omega);
+    CHECK(branch.points.back().motion.x == branch.points.front().motion.x);
     /** The chords of a circle are shorter than its arcs. */
     CHECK(branch.points.back().arc == Approx(2 * M_PI * 0.7).epsilon(1e-3));
     CHECK(follow_both_ways(balance, start, {0.5, 3.5}, plain).covered);
@@ -178,10 +178,10 @@ TEST_CASE("A closed branch that leaves the range is followed to both edges")
   const BranchPoint start = point_of(balance, 2.2, at(0.6), true, plain);
   const Branch branch = follow_both_ways(balance, start, {2.0, 3.5}, plain);
   CHECK(branch.covered);
-  CHECK(branch.points.front().omega == 2.0);
-  CHECK(branch.points.back().omega == 2.0);
-  CHECK(branch.points.front().x[0] == Approx(0.7));
-  CHECK(branch.points.back().x[0] == Approx(-0.7));
+  CHECK(branch.points.front().motion.omega == 2.0);
+  CHECK(branch.points.back().motion.omega == 2.0);
+  CHECK(branch.points.front().motion.x[0] == Approx(0.7));
+  CHECK(branch.points.back().motion.x[0] == Approx(-0.7));
   REQUIRE(branch.folds.size() == 1);
   CHECK(branch.folds[0] == Approx(2.7).epsilon(1e-8));
 }
@@ -192,11 +192,13 @@ TEST_CASE("An isolated branch is found from starts off the main one, once")
   const Branch main = follow_branch(balance, 0.5, 3.5, at(-2), plain);
   REQUIRE(main.covered);
   CHECK(main.folds.empty());
-  const std::vector<Candidate> candidates{
-      {1.5, at(-1.9), "main"}, {2.2, at(1.5), "first"}, {1.8, at(0.5), "second"}};
+  const std::vector<PeriodicMotion> candidates{
+      {.omega = 1.5, .x = at(-1.9), .start = "main"},
+      {.omega = 2.2, .x = at(1.5), .start = "first"},
+      {.omega = 1.8, .x = at(0.5), .start = "second"}};
   const auto found = isolated_branches(balance, main, candidates, {0.5, 3.5}, plain);
   REQUIRE(found.size() == 1);
-  CHECK(found[0].origin == "first");
+  CHECK(found[0].candidate.start == "first");
   CHECK(found[0].branch.kind == BranchEnd::closed);
   auto folds = found[0].branch.folds;
   std::sort(folds.begin(), folds.end());
@@ -214,7 +216,8 @@ TEST_CASE("An isolated branch is found from starts off the main one, once")
   CHECK(line.folds[1] == Approx(2 - outer).epsilon(1e-8));
   CHECK(line.folds[2] == Approx(2 + outer).epsilon(1e-8));
   CHECK(line.folds[3] == Approx(2 + inner).epsilon(1e-8));
-  CHECK(isolated_branches(joined, line, {{2.0, at(2), ""}}, {0.5, 3.5}, plain).empty());
+  CHECK(isolated_branches(joined, line, {{.omega = 2.0, .x = at(2)}}, {0.5, 3.5}, plain)
+            .empty());
 }
 
 TEST_CASE("locate finds where a quantity has a value, and refuses what has no zero")
@@ -222,7 +225,7 @@ TEST_CASE("locate finds where a quantity has a value, and refuses what has no ze
   Balance balance(circle(1), 0);
   const Branch branch =
       follow_branch(balance, point_of(balance, 2, at(1), true, plain), {0.5, 3.5}, plain);
-  const auto quantity = [](const BranchPoint& p) { return p.x[0] - 0.6; };
+  const auto quantity = [](const BranchPoint& p) { return p.motion.x[0] - 0.6; };
   int found = 0;
   for (std::size_t k = 1; k < branch.points.size(); ++k) {
     const BranchPoint &a = branch.points[k - 1], &b = branch.points[k];
@@ -231,7 +234,7 @@ TEST_CASE("locate finds where a quantity has a value, and refuses what has no ze
       continue;
     }
     const BranchPoint point = locate(balance, a, b, quantity, 1e-10, plain);
-    CHECK(std::abs(point.omega - 2) == Approx(0.8).epsilon(1e-9));
+    CHECK(std::abs(point.motion.omega - 2) == Approx(0.8).epsilon(1e-9));
     CHECK(point.arc > a.arc);
     CHECK(point.arc < b.arc);
     ++found;
@@ -239,7 +242,7 @@ TEST_CASE("locate finds where a quantity has a value, and refuses what has no ze
   CHECK(found == 2);
   CHECK(points_at(balance, branch, 2.3, plain).size() == 2);
   for (const BranchPoint& point : points_at(balance, branch, 2.3, plain))
-    CHECK(std::abs(point.x[0]) == Approx(std::sqrt(0.91)));
+    CHECK(std::abs(point.motion.x[0]) == Approx(std::sqrt(0.91)));
 }
 
 TEST_CASE("A step that passes an earlier point knows which way it goes")
@@ -250,9 +253,9 @@ TEST_CASE("A step that passes an earlier point knows which way it goes")
   ExtendedBalance extended(balance, plain);
   std::vector<BranchPoint> walked(branch.points.begin(), branch.points.begin() + 12);
   const auto passed_to = [&](const BranchPoint& next) {
-    Trail trail;
-    for (const BranchPoint& point : walked) trail.add(point);
-    return trail.passed(extended, walked, next, plain);
+    BranchHistory history;
+    for (const BranchPoint& point : walked) history.add(point);
+    return history.passed(extended, walked, next, plain);
   };
   CHECK_FALSE(passed_to(branch.points[12]));
 
@@ -274,7 +277,7 @@ TEST_CASE("The bound on work ends a branch, with what was found so far")
   Balance balance(bearing_problem(parameters, 50), 6);
   ArcLengthSettings settings = arc_length_settings(parameters);
   settings.most_evaluations = 200;
-  const Eigen::VectorXd x = find_periodic(parameters, hertz(1), 6, 50).x;
+  const Eigen::VectorXd x = search_periodic(parameters, hertz(1), 6, 50).x;
   const Branch branch = follow_branch(balance, hertz(1), hertz(60), x, settings);
   CHECK(branch.kind == BranchEnd::work);
   CHECK_FALSE(branch.covered);
@@ -298,7 +301,7 @@ TEST_CASE("A branch gone on with from any of its points, either way, is the same
   REQUIRE(ahead.covered);
   REQUIRE(back.covered);
   const auto close = [](const BranchPoint& a, const BranchPoint& b) {
-    return (a.x - b.x).norm() < 1e-8 * b.x.norm();
+    return (a.motion.x - b.motion.x).norm() < 1e-8 * b.motion.x.norm();
   };
   CHECK(close(ahead.points.back(), branch.points.back()));
   CHECK(close(back.points.back(), branch.points.front()));

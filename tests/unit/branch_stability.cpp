@@ -35,7 +35,7 @@ struct Followed {
   {
     std::vector<double> found;
     for (const StablePoint& p : stability.points)
-      if (p.bifurcation == kind) found.push_back(p.point.omega);
+      if (p.bifurcation == kind) found.push_back(p.point.motion.omega);
     return found;
   }
 };
@@ -51,8 +51,8 @@ Followed follow(const Oscillator& oscillator, int harmonics, int samples, double
   Followed followed{follow_branch(balance, from, to, x, settings), {}};
   const Vibration vibration{oscillator.mass, oscillator.damping, oscillator.stiffness};
   const auto floquet_at = [&](const BranchPoint& p) {
-    return floquet(vibration, stiffness_along(oscillator, p.x),
-                   2 * std::numbers::pi / p.omega, accuracy);
+    return floquet(vibration, stiffness_along(oscillator, p.motion.x),
+                   2 * std::numbers::pi / p.motion.omega, accuracy);
   };
   followed.stability =
       stability_along(balance, followed.branch, settings, floquet_at, marks);
@@ -83,8 +83,8 @@ TEST_CASE("Two masses, cubic springs: Neimark-Sacker points and folds as publish
       CHECK(std::abs(p.floquet.largest() - 1) < 1e-5);
       CHECK(std::abs(p.floquet.multipliers.front().imag()) > 1e-3);
       const auto hill =
-          hill_multipliers(vibration, stiffness_along(oscillator, p.point.x),
-                           2 * std::numbers::pi / p.point.omega, 24);
+          hill_multipliers(vibration, stiffness_along(oscillator, p.point.motion.x),
+                           2 * std::numbers::pi / p.point.motion.omega, 24);
       CHECK(std::abs(hill.front()) == Approx(1).margin(1e-5));
     }
 }
@@ -126,7 +126,7 @@ TEST_CASE(
     const Branch lead = follow_branch(
         coarse, 0.59, omega, Eigen::VectorXd::Zero(coarse.unknowns()), steps(0.02));
     REQUIRE(lead.covered);
-    return resize_harmonics(lead.points.back().x, 2, 41);
+    return resize_harmonics(lead.points.back().motion.x, 2, 41);
   };
   const BranchStabilitySettings rough{.tolerance = 1e-3, .most_halvings = 0};
   const FloquetSettings quick{
@@ -154,8 +154,8 @@ TEST_CASE("Where some points are skipped, a change of stability is found all the
   long asked = 0;
   const auto floquet_at = [&](const BranchPoint& p) {
     ++asked;
-    return floquet(vibration, stiffness_along(oscillator, p.x),
-                   2 * std::numbers::pi / p.omega);
+    return floquet(vibration, stiffness_along(oscillator, p.motion.x),
+                   2 * std::numbers::pi / p.motion.omega);
   };
   const auto all = stability_along(balance, branch, settings, floquet_at);
   const long asked_for_all = std::exchange(asked, 0);
@@ -169,7 +169,7 @@ TEST_CASE("Where some points are skipped, a change of stability is found all the
   const auto speeds = [](const BranchStability& stability) {
     std::vector<double> found;
     for (const StablePoint& p : stability.points)
-      if (p.bifurcation != Bifurcation::none) found.push_back(p.point.omega);
+      if (p.bifurcation != Bifurcation::none) found.push_back(p.point.motion.omega);
     return found;
   };
   const auto exact = speeds(all), found = speeds(some);
@@ -206,7 +206,7 @@ TEST_CASE("A point whose multipliers cannot be had is kept without them")
 TEST_CASE("Bifurcations are the same whichever way the branch is walked")
 {
   const auto up = follow(two_masses_cubic(), 5, 64, 1.1, 1.13, 0.02);
-  const Eigen::VectorXd start = up.branch.points.back().x;
+  const Eigen::VectorXd start = up.branch.points.back().motion.x;
   const auto down = follow(two_masses_cubic(), 5, 64, 1.13, 1.1, 0.03, &start);
   const auto a = up.speeds(Bifurcation::neimark_sacker);
   const auto b = down.speeds(Bifurcation::neimark_sacker);

@@ -2,14 +2,13 @@
 #include <catch2/catch.hpp>
 
 #include "balance/bearing_problem.hpp"
+#include "balance/step_solver.hpp"
 #include "continuation/arc_length.hpp"
 #include "continuation/sweep.hpp"
 #include "io/errors.hpp"
-#include "motion/find_periodic.hpp"
 #include "support/cases.hpp"
 
 using namespace rotor_stator;
-using namespace rotor_stator::motion;
 using namespace rotor_stator::tests;
 
 namespace
@@ -22,15 +21,14 @@ std::vector<double> speeds(double from, double to, double step)
   return omegas;
 }
 
-std::vector<SweepPoint> sweep_set_1(Balance& balance, const std::vector<double>& omegas)
+std::vector<PeriodicMotion> sweep_set_1(Balance& balance,
+                                        const std::vector<double>& omegas)
 {
-  const Parameters parameters = set_1();
+  const int m = balance.harmonics().highest();
   return sweep(
       balance, omegas,
-      [&](double omega) {
-        return quasi_static_start(parameters, omega, balance.harmonics());
-      },
-      sweep_settings(parameters));
+      [&](double omega) { return quasi_static_start(set_1(), omega, m); },
+      sweep_settings(set_1()));
 }
 
 /** The branch of set 1 with 6 harmonics and N samples, from 1 Hz to `to` [Hz]. */
@@ -53,7 +51,7 @@ TEST_CASE(
   for (int k = 0; k < 4; ++k)
     predictor.add(Eigen::Vector2d(1.0 * k, 3 - 2.0 * k), 10 + 5.0 * k);
   const double chord = std::hypot(std::sqrt(5.0) / 2, 1);
-  const auto point = predictor.at_distance(chord);
+  const auto point = predictor.at_arc(chord);
   CHECK(point.omega == Approx(30));
   CHECK(point.x[0] == Approx(4));
   CHECK(point.x[1] == Approx(-5));
@@ -87,7 +85,7 @@ TEST_CASE("The predictor has the order of its cubic")
     LagrangePredictor predictor(1, 1);
     for (int k = -3; k <= 0; ++k)
       predictor.add(Eigen::VectorXd::Constant(1, std::sin(k * h)), std::cos(k * h));
-    const auto point = predictor.at_distance(h);
+    const auto point = predictor.at_arc(h);
     return std::hypot(point.x[0] - std::sin(h), point.omega - std::cos(h));
   };
   const double ratio = error(0.1) / error(0.05);
@@ -119,7 +117,7 @@ TEST_CASE("Arc length follows set 1 over the whole range without folds at 6 harm
   CHECK(branch.covered);
   CHECK(branch.folds.empty());
   CHECK(branch.points.size() < 500);
-  CHECK(branch.points.back().omega == hertz(60));
+  CHECK(branch.points.back().motion.omega == hertz(60));
 }
 
 TEST_CASE("N = 2m+1 as printed creates folds that N = 64 does not have")

@@ -77,10 +77,11 @@ TEST_CASE("D-01: the printed sign is a negative stiffness that grows and has no 
 
 TEST_CASE("D-02: the printed predictor returns the last point exactly")
 {
-  std::vector<KnownSolution> known;
+  std::vector<PeriodicMotion> known;
   for (int k = 0; k < 4; ++k)
-    known.push_back({Eigen::Vector2d(std::sin(0.3 * k), 1e-5 * k * k), 100 + 1.7 * k});
-  const KnownSolution next = printed_prediction(known);
+    known.push_back(
+        {.omega = 100 + 1.7 * k, .x = Eigen::Vector2d(std::sin(0.3 * k), 1e-5 * k * k)});
+  const PeriodicMotion next = printed_prediction(known);
   CHECK(next.x == known.back().x);
   CHECK(next.omega == known.back().omega);
 
@@ -136,8 +137,7 @@ TEST_CASE("The plain Jacobian is the slope of the plain residual")
   const Parameters p = set_1();
   PlainBalance plain(p, hertz(12), 3, 32);
   const Eigen::VectorXd x = require_periodic(p, 12, 3, 32).bodies.reshaped();
-  plain.residual(x);
-  const Eigen::MatrixXd jacobian = plain.jacobian();
+  const Eigen::MatrixXd jacobian = plain.jacobian(x);
   const double h = 1e-10;
   for (Eigen::Index k = 0; k < x.size(); ++k) {
     const Eigen::VectorXd step = h * Eigen::VectorXd::Unit(x.size(), k);

@@ -1,8 +1,7 @@
 /** Hill's method against the monodromy matrix: where it converges, and where it misleads. */
 #include <catch2/catch.hpp>
 
-#include "motion/find_periodic.hpp"
-#include "motion/motion.hpp"
+#include "motion/other_starts.hpp"
 #include "stability/hill.hpp"
 #include "support/cases.hpp"
 
@@ -33,11 +32,11 @@ struct Linearised {
 Linearised linearised(const std::string& file, double frequency, int harmonics)
 {
   const Parameters parameters = read_parameters(SOURCE_DIR "/data/" + file);
-  const auto solution =
-      find_periodic(parameters, hertz(frequency), harmonics, default_samples(harmonics));
+  const auto solution = search_periodic(parameters, hertz(frequency), harmonics,
+                                        default_samples(harmonics));
   REQUIRE(solution.found());
-  return {vibration_of(parameters), stiffness_along(parameters, solution.x),
-          1 / frequency, floquet(parameters, solution.omega, solution.x)};
+  return {vibration_of(parameters), stiffness_along(parameters, solution), 1 / frequency,
+          floquet(parameters, solution)};
 }
 
 }  // namespace
@@ -62,8 +61,8 @@ TEST_CASE("Hill's method and the monodromy matrix agree on the largest multiplie
   const auto motion = linearised("set1.toml", 60, 10);
   for (HillChoice choice : {HillChoice::least_imaginary, HillChoice::most_symmetric})
     CHECK(motion.largest(24, choice) == Approx(motion.floquet.largest()).epsilon(1e-5));
-  CHECK(distance(motion.floquet.multipliers,
-                 motion.hill(32, HillChoice::most_symmetric)) < 1e-2);
+  CHECK(largest_move(motion.floquet.multipliers,
+                     motion.hill(32, HillChoice::most_symmetric)) < 1e-2);
 }
 
 TEST_CASE("Hill's method with few harmonics calls an unstable orbit stable")

@@ -4,7 +4,6 @@
 #include <Eigen/LU>
 #include <catch2/catch.hpp>
 
-#include "balance/bearing_problem.hpp"
 #include "continuation/arc_length.hpp"
 #include "support/cases.hpp"
 
@@ -24,7 +23,7 @@ Peak peak_of(const std::vector<BranchPoint>& points,
 {
   std::size_t top = 1;
   for (std::size_t k = 1; k + 1 < points.size(); ++k)
-    if (height(points[k].x) > height(points[top].x)) top = k;
+    if (height(points[k].motion.x) > height(points[top].motion.x)) top = k;
   /** Parabolas in the arc length, which stays regular at the peak. */
   Eigen::Matrix3d powers;
   Eigen::Matrix<double, 3, 2> values;
@@ -32,7 +31,7 @@ Peak peak_of(const std::vector<BranchPoint>& points,
     const BranchPoint& point = points[top - 1 + static_cast<std::size_t>(i)];
     const double s = point.arc - points[top].arc;
     powers.row(i) << 1, s, s * s;
-    values.row(i) << height(point.x), point.omega;
+    values.row(i) << height(point.motion.x), point.motion.omega;
   }
   const Eigen::Matrix<double, 3, 2> fit = powers.inverse() * values;
   const double s = -fit(1, 0) / (2 * fit(2, 0));
@@ -88,7 +87,7 @@ TEST_CASE("Two masses with cubic springs: peak and folds with 7 harmonics")
   CHECK(branch.folds[1] == Approx(1.206219).epsilon(2e-6));
   std::vector<BranchPoint> first_resonance;
   for (const BranchPoint& point : branch.points)
-    if (point.omega < 1.15) first_resonance.push_back(point);
+    if (point.motion.omega < 1.15) first_resonance.push_back(point);
   const Peak peak =
       peak_of(first_resonance, [](const Eigen::VectorXd& x) { return rms(x, 2, 0); });
   CHECK(peak.height == Approx(0.418505).epsilon(3e-6));
@@ -117,14 +116,16 @@ TEST_CASE("Unilateral spring: amplitudes converge with the harmonics as publishe
     const Branch branch =
         follow_branch(coarse, omega, expected.omega, x, fine_steps(0.02));
     REQUIRE(branch.covered);
-    x = branch.points.back().x;
+    x = branch.points.back().motion.x;
     omega = expected.omega;
     Eigen::VectorXd fine = x;
     for (int k = 0; k < 4; ++k) {
       Balance balance(two_masses_unilateral().problem(k == 0 ? 1024 : 16384),
                       harmonics[k]);
       fine = resize_harmonics(fine, 2, harmonics[k]);
-      REQUIRE(solve(balance, expected.omega, fine, {}).converged());
+      const auto solution = solve(balance, expected.omega, fine);
+      REQUIRE(solution.found());
+      fine = solution.x;
       CHECK(harmonic_amplitude(fine, 2, 1, 1) ==
             Approx(expected.amplitude[k]).epsilon(k == 0 ? 3e-6 : 1.5e-6));
     }

@@ -52,8 +52,8 @@ Errors errors(const Bearing& bearing, int samples, double size)
   Eigen::MatrixXd u(samples, 2), force, stiffness, alone;
   for (int k = 0; k < samples; ++k)
     u.row(k) << size * std::cos(0.3 + 1.7 * k), size * std::sin(0.3 + 1.7 * k);
-  sampled.force(u, force, &stiffness);
-  sampled.force(u, alone, nullptr);
+  sampled(u, force, &stiffness);
+  sampled(u, alone, nullptr);
   Errors e;
   e.without = (force - alone).cwiseAbs().maxCoeff();
   for (int k = 0; k < samples; ++k) {
@@ -91,7 +91,7 @@ TEST_CASE("Outside contact the force at all instants is nothing")
   const SampledBearing sampled(bearing_with(16, 2e-5), 50);
   Eigen::MatrixXd u = Eigen::MatrixXd::Zero(50, 2), force, stiffness;
   u.col(1).setConstant(-2e-5);
-  sampled.force(u, force, &stiffness);
+  sampled(u, force, &stiffness);
   CHECK(force.norm() == 0);
   CHECK(stiffness.norm() == 0);
 }

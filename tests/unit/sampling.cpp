@@ -104,9 +104,10 @@ TEST_CASE(
   const int m = 16;
   const auto solution = [&](int samples) {
     Balance balance(bearing_problem(parameters, samples), m);
-    Eigen::VectorXd x = quasi_static_start(parameters, hertz(30), m);
-    REQUIRE(solve(balance, hertz(30), x, {}).converged());
-    return x;
+    const auto motion =
+        solve(balance, hertz(30), quasi_static_start(parameters, hertz(30), m));
+    REQUIRE(motion.found());
+    return motion.x;
   };
   const Eigen::VectorXd exact = solution(4096);
   const auto error = [&](int samples) {
@@ -120,9 +121,10 @@ TEST_CASE(
 
   /** The truncation error, seen by doubling the harmonics. */
   Balance finer(bearing_problem(parameters, 4096), 64);
-  Eigen::VectorXd x = resize_harmonics(exact, 2, 64);
-  REQUIRE(solve(finer, hertz(30), x, {}).converged());
-  const double truncation = (resize_harmonics(x, 2, m) - exact).norm() / exact.norm();
+  const auto fine = solve(finer, hertz(30), resize_harmonics(exact, 2, 64));
+  REQUIRE(fine.found());
+  const double truncation =
+      (resize_harmonics(fine.x, 2, m) - exact).norm() / exact.norm();
   CHECK(error(default_samples(m)) < truncation);
 }
 

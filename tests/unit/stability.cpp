@@ -7,9 +7,7 @@
 #include "continuation/arc_length.hpp"
 #include "integration/time_stepper.hpp"
 #include "io/errors.hpp"
-#include "motion/find_periodic.hpp"
-#include "motion/motion.hpp"
-#include "motion/regime.hpp"
+#include "motion/other_starts.hpp"
 #include "stability/floquet.hpp"
 #include "stability/shooting.hpp"
 #include "support/cases.hpp"
@@ -21,11 +19,10 @@ using namespace rotor_stator::tests;
 namespace
 {
 
-PeriodicSolution solution_at(const Parameters& parameters, double frequency,
-                             int harmonics)
+PeriodicMotion solution_at(const Parameters& parameters, double frequency, int harmonics)
 {
-  const auto solution =
-      find_periodic(parameters, hertz(frequency), harmonics, default_samples(harmonics));
+  const auto solution = search_periodic(parameters, hertz(frequency), harmonics,
+                                        default_samples(harmonics));
   REQUIRE(solution.found());
   return solution;
 }
@@ -37,7 +34,8 @@ TEST_CASE("Multipliers without contact are those of two damped oscillators")
   Parameters parameters = set_1();
   parameters.bearing.clearance = 1;
   const double omega = hertz(30), period = 2 * std::numbers::pi / omega;
-  const auto motion = floquet(parameters, omega, Eigen::VectorXd::Zero(2));
+  const auto motion =
+      floquet(parameters, {.omega = omega, .x = Eigen::VectorXd::Zero(2)});
   std::vector<double> expected;
   for (const Body* body : {&parameters.rotor, &parameters.stator})
     expected.insert(expected.end(), 4,
@@ -57,7 +55,7 @@ TEST_CASE("The product of the multipliers is Liouville's, in contact, above 20 H
   for (double frequency : {20.5, 25.0, 30.0, 45.0, 55.0})
     for (int harmonics : {6, 32}) {
       const auto solution = solution_at(parameters, frequency, harmonics);
-      const auto motion = floquet(parameters, solution.omega, solution.x);
+      const auto motion = floquet(parameters, solution);
       std::complex<double> product = 1;
       for (const auto& mu : motion.multipliers) product *= mu;
       INFO(frequency);
@@ -71,7 +69,7 @@ TEST_CASE("Liouville's product as a sum of logarithms holds where it is below ro
 {
   for (double frequency : {1.0, 4.0}) {
     const auto solution = solution_at(set_1(), frequency, 10);
-    const auto motion = floquet(set_1(), solution.omega, solution.x);
+    const auto motion = floquet(set_1(), solution);
     CHECK(motion.liouville < 1e-6);
     CHECK(motion.stable());
   }
@@ -81,22 +79,21 @@ TEST_CASE("Multipliers do not depend on whether the changes of contact are known
 {
   const auto solution = solution_at(set_1(), 30, 10);
   const double period = 2 * std::numbers::pi / solution.omega;
-  PeriodicStiffness stiffness = stiffness_along(set_1(), solution.x);
+  PeriodicStiffness stiffness = stiffness_along(set_1(), solution);
   REQUIRE(stiffness.breaks.size() >= 8);
   const Vibration vibration = vibration_of(set_1());
   const auto known = monodromy(vibration, stiffness, period, {.tolerance = 1e-10});
   stiffness.breaks.clear();
   const auto unknown = monodromy(vibration, stiffness, period, {.tolerance = 1e-10});
-  CHECK(distance(multipliers_of(known.phi), multipliers_of(unknown.phi)) < 1e-6);
+  CHECK(largest_move(multipliers_of(known.phi), multipliers_of(unknown.phi)) < 1e-6);
   CHECK(known.evaluations < unknown.evaluations);
 }
 
 TEST_CASE("Multipliers report a bound on work instead of going on")
 {
   const auto solution = solution_at(set_1(), 30, 10);
-  CHECK_THROWS_AS(
-      floquet(set_1(), solution.omega, solution.x, {.first = {.most_evaluations = 100}}),
-      NoSolution);
+  CHECK_THROWS_AS(floquet(set_1(), solution, {.first = {.most_evaluations = 100}}),
+                  NoSolution);
 }
 
 TEST_CASE("The multipliers of Mathieu's equation: product and trace as tabulated")
@@ -146,7 +143,7 @@ TEST_CASE("Shooting and harmonic balance find the same motion and the same multi
     const Vector8 error = (vector_of(state) - vector_of(state_of(solution)))
                               .cwiseQuotient(state_scales(parameters));
     CHECK(error.head<4>().norm() < 1e-6);
-    const auto motion = floquet(parameters, solution.omega, solution.x);
+    const auto motion = floquet(parameters, solution);
     const Eigen::VectorXcd values = shooting.derivative.eigenvalues();
     CHECK(values.cwiseAbs().maxCoeff() == Approx(motion.largest()).epsilon(1e-4));
   }
@@ -173,12 +170,12 @@ TEST_CASE(
         coarse, omega, at, x,
         {.newton = {}, .speed_scale = 1, .arc_unknown_scale = 1, .most_step = 0.02});
     REQUIRE(branch.covered);
-    x = branch.points.back().x;
+    x = branch.points.back().motion.x;
     omega = at;
     Balance fine(oscillator.problem(16384), harmonics);
-    Eigen::VectorXd resized = resize_harmonics(x, 2, harmonics);
-    REQUIRE(solve(fine, at, resized, {}).converged());
-    const auto motion = floquet(vibration, stiffness_along(oscillator, resized),
+    const auto solution = solve(fine, at, resize_harmonics(x, 2, harmonics));
+    REQUIRE(solution.found());
+    const auto motion = floquet(vibration, stiffness_along(oscillator, solution.x),
                                 2 * std::numbers::pi / at);
     CHECK(motion.settled);
     return motion.multipliers.front();

@@ -7,13 +7,10 @@
 #include "balance/newton.hpp"
 #include "balance/step_solver.hpp"
 #include "continuation/sweep.hpp"
-#include "motion/find_periodic.hpp"
-#include "motion/motion.hpp"
 #include "support/allocations.hpp"
 #include "support/cases.hpp"
 
 using namespace rotor_stator;
-using namespace rotor_stator::motion;
 using namespace rotor_stator::tests;
 
 namespace
@@ -23,9 +20,10 @@ namespace
 Eigen::VectorXd start_with(int harmonics, double frequency)
 {
   Balance balance(bearing_problem(set_1(), 64), 6);
-  Eigen::VectorXd x = quasi_static_start(set_1(), hertz(frequency), 6);
-  REQUIRE(solve(balance, hertz(frequency), x, {}).converged());
-  return resize_harmonics(x, 2, harmonics);
+  const auto motion =
+      solve(balance, hertz(frequency), quasi_static_start(set_1(), hertz(frequency), 6));
+  REQUIRE(motion.found());
+  return resize_harmonics(motion.x, 2, harmonics);
 }
 
 Balance balance_with(int harmonics)
@@ -36,13 +34,14 @@ Balance balance_with(int harmonics)
 /** Newton with a dense matrix, factored at every point. */
 NewtonReport solve_densely(Balance& balance, double omega, Eigen::VectorXd& x)
 {
-  return newton(
-      {.residual_scale = balance.problem().residual_scale,
-       .unknown_scale = balance.problem().unknown_scale,
-       .residual = [&](const Eigen::VectorXd& y,
-                       Eigen::VectorXd& r) { r = balance.residual(y, omega); },
-       .jacobian = [&]() -> const Eigen::MatrixXd& { return balance.jacobian(); }},
-      x, {});
+  return newton({.residual_scale = balance.problem().residual_scale,
+                 .unknown_scale = balance.problem().unknown_scale,
+                 .residual = [&](const Eigen::VectorXd& y,
+                                 Eigen::VectorXd& r) { r = balance.residual(y, omega); },
+                 .jacobian = [&](const Eigen::VectorXd& y) -> const Eigen::MatrixXd& {
+                   return balance.jacobian(y, omega);
+                 }},
+                x, {});
 }
 
 Eigen::VectorXd waves(Eigen::Index size)
@@ -82,20 +81,25 @@ TEST_CASE("Product, leading part and diagonal blocks are those of the dense Jaco
   const Oscillator oscillator = two_masses_cubic();
   Balance cubic(oscillator.problem(48), 9);
   Balance bearing(bearing_problem(set_1(), 19), 9);
-  cubic.residual(waves(cubic.unknowns()), 1.1);
-  bearing.residual(0.98 * quasi_static_start(set_1(), hertz(16), 9), hertz(16));
-  for (Balance* balance : {&cubic, &bearing}) {
-    const Eigen::MatrixXd dense = balance->jacobian();
+  struct Case {
+    Balance& balance;
+    Eigen::VectorXd x;
+    double omega;
+  };
+  for (const auto& [balance, x, omega] :
+       {Case{cubic, waves(cubic.unknowns()), 1.1},
+        Case{bearing, 0.98 * quasi_static_start(set_1(), hertz(16), 9), hertz(16)}}) {
+    const Eigen::MatrixXd dense = balance.jacobian(x, omega);
     const double size = dense.norm();
     Eigen::VectorXd product(dense.rows());
-    balance->apply_jacobian(waves(dense.rows()), product);
+    balance.apply_jacobian(x, omega, waves(dense.rows()), product);
     CHECK((product - dense * waves(dense.rows())).norm() < 1e-13 * size);
     Eigen::MatrixXd low;
-    balance->jacobian(4, low);
+    balance.jacobian(x, omega, 4, low);
     CHECK((low - dense.topLeftCorner(18, 18)).norm() < 1e-14 * size);
     for (int h : {1, 5, 9}) {
       const auto block = dense.block(2 * (2 * h - 1), 2 * (2 * h - 1), 4, 4);
-      CHECK((balance->diagonal_block(h) - block).norm() < 1e-14 * size);
+      CHECK((balance.diagonal_block(x, omega, h) - block).norm() < 1e-14 * size);
     }
   }
 }
@@ -104,12 +108,13 @@ TEST_CASE("With many harmonics GMRES finds the solution of the dense Jacobian")
 {
   for (const auto& [harmonics, frequency] : {std::pair(64, 55.0), std::pair(256, 30.0)}) {
     INFO("m = " << harmonics);
-    Eigen::VectorXd x = start_with(harmonics, frequency), dense = x;
+    Eigen::VectorXd dense = start_with(harmonics, frequency);
     Balance balance = balance_with(harmonics), other = balance_with(harmonics);
-    REQUIRE(solve(balance, hertz(frequency), x, {}).converged());
+    const auto motion = solve(balance, hertz(frequency), dense);
+    REQUIRE(motion.found());
     REQUIRE(solve_densely(other, hertz(frequency), dense).converged());
     CHECK(balance.steps().linear_iterations() > 0);
-    CHECK((x - dense).norm() < 1e-9 * dense.norm());
+    CHECK((motion.x - dense).norm() < 1e-9 * dense.norm());
   }
 }
 
@@ -120,7 +125,7 @@ TEST_CASE("Chord steps lead where Newton's own steps lead")
   const auto solutions = [&](double contraction) {
     Balance balance = balance_with(6);
     SweepSettings settings = sweep_settings(set_1());
-    settings.newton.frozen_contraction = contraction;
+    settings.newton.chord_contraction = contraction;
     return sweep(
         balance, omegas,
         [](double omega) { return quasi_static_start(set_1(), omega, 6); }, settings);
@@ -141,8 +146,8 @@ TEST_CASE("What a solution costs, in iterations, evaluations and factorisations"
                              Bound{64, 7, 8, 1, 40}, Bound{1024, 7, 8, 1, 40}}) {
     INFO("m = " << bound.harmonics);
     Balance balance = balance_with(bound.harmonics);
-    Eigen::VectorXd x = start_with(bound.harmonics, 30);
-    const NewtonReport report = solve(balance, hertz(30), x, {});
+    const NewtonReport report =
+        solve(balance, hertz(30), start_with(bound.harmonics, 30)).newton;
     REQUIRE(report.converged());
     CHECK(report.iterations <= bound.iterations);
     CHECK(balance.evaluations() <= bound.evaluations);
@@ -157,12 +162,13 @@ TEST_CASE("A solution allocates nothing once its balance has solved another")
   for (int harmonics : {6, 10, 64, 256}) {
     INFO("m = " << harmonics);
     Balance balance = balance_with(harmonics);
-    Eigen::VectorXd x = start_with(harmonics, 30);
-    REQUIRE(solve(balance, hertz(30), x, {}).converged());
+    PeriodicMotion motion = solve(balance, hertz(30), start_with(harmonics, 30));
+    REQUIRE(motion.found());
+    motion.omega = hertz(30.5);
     const long before = allocations();
-    const NewtonReport report = solve(balance, hertz(30.5), x, {});
+    const bool found = solve(balance, motion);
     const long after = allocations();
-    REQUIRE(report.converged());
+    REQUIRE(found);
     CHECK(after - before == 0);
   }
 }

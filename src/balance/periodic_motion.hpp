@@ -1,0 +1,89 @@
+/**
+# A periodic motion
+
+What one method hands on to the next: a speed, the coefficients of the relative motion at a list
+of harmonics, and what is known of how they were found and how far they are from the exact motion. */
+#pragma once
+
+#include <Eigen/Core>
+#include <memory>
+#include <optional>
+#include <string>
+#include <vector>
+
+namespace rotor_stator
+{
+
+/** One frequency of a motion, k_1 ω + k_2 n ω_cage. */
+struct Harmonic {
+  int k_1, k_2;
+};
+
+/** The frequencies of a motion, the mean first. Motions with the same ones share the list. */
+class Harmonics
+{
+public:
+  Harmonics() = default;  ///< none
+
+  /** Those of Eq. 9: (0, 0), (1, 0), … (m, 0). */
+  Harmonics(int m);
+
+  const std::vector<Harmonic>& list() const { return *list_; }
+
+  /** m, the largest k_1. */
+  int highest() const { return list_ ? list_->back().k_1 : 0; }
+
+  /** Coefficients of one displacement: the mean, and a cosine and a sine of each other frequency. */
+  Eigen::Index coefficients() const
+  {
+    return list_ ? 2 * static_cast<Eigen::Index>(list_->size()) - 1 : 0;
+  }
+
+private:
+  std::shared_ptr<const std::vector<Harmonic>> list_;
+};
+
+/** How Newton's iteration ended. */
+enum class NewtonEnd { converged, too_many_iterations, no_decrease, singular };
+
+struct NewtonReport {
+  NewtonEnd end = NewtonEnd::too_many_iterations;
+  int iterations = 0;
+  double delta_1 = 0;  ///< Eq. 17 [-], over the residual's scale
+  double delta_2 = 0;  ///< Eq. 18 [-], over the unknown's scale
+
+  bool converged() const { return end == NewtonEnd::converged; }
+  std::string reason() const;
+};
+
+/** The error of a solution, measured in a finer discretisation (adaptive_balance.hpp). */
+struct ErrorEstimate {
+  double displacement;     ///< largest difference over the rows and the period, over the
+                           ///< largest value [-]; infinite when nothing was found
+  bool settled;            ///< the last step is small: the estimate can be relied on
+  int harmonics, samples;  ///< m' and N' of the finer discretisation
+  int newton;              ///< steps taken there
+  long force_samples;      ///< evaluations of the force times N'
+};
+
+/** A solution, or a start for one: then Newton has not converged and `x` is a guess. */
+struct PeriodicMotion {
+  double omega = 0;  ///< [rad/s]
+  Harmonics harmonics = {};
+  int samples = 0;             ///< N
+  Eigen::VectorXd x = {};      ///< coefficients of u [m], d for each one of Eq. 9
+  Eigen::MatrixXd force = {};  ///< those of the nonlinear force at u [N], d × (2m+1)
+  Eigen::MatrixXd bodies =
+      {};  ///< series of x_s, y_s, x_r, y_r [m], 4 × (2m+1), where asked for
+  NewtonReport newton = {};
+  long force_samples = 0;  ///< what Newton cost: evaluations of the force times N
+  std::string start = {};  ///< what Newton started from
+  std::optional<ErrorEstimate> error = {};  ///< where it was estimated
+
+  bool found() const { return newton.converged(); }
+};
+
+/** The coefficients x with m = `harmonics`: cut, or filled with zeros. */
+Eigen::VectorXd resize_harmonics(const Eigen::VectorXd& x, int dofs, int harmonics);
+
+}  // namespace rotor_stator
