@@ -21,15 +21,29 @@ at which the motion is not T-periodic have no exact solution to compare with and
 
 Modelled: harmonic balance, and shooting for the exact motion. Finished speeds are kept in a journal. */
 #include "truth/adaptive.hpp"
+#include "io/journal.hpp"
 #include "io/program.hpp"
 
 int main(int argc, char** argv)
 {
   using namespace rotor_stator;
-  const Program program{"data/scenes/adaptive.toml",
-                        {{"--journal", "adaptive.journal", "finished speeds"}},
-                        false};
-  return run(argc, argv, program, [](const Options& options) {
-    return truth::adaptive_table(options.scene_file, options["--journal"]);
+  const Program program{.options = {{"--journal", "adaptive.journal", "finished speeds"}},
+                        .has_readings = false};
+  return run_figure(argc, argv, program, [](SceneFile& file, const Options& options) {
+    const truth::AdaptiveScene scene = truth::read_adaptive_scene(file);
+    const auto points = run_study<truth::AdaptivePoint>(
+        {"speeds", options["--journal"], stamp_of(file.files()), scene.speeds.size()},
+        [&](std::size_t k) {
+          const auto& [set, frequency] = scene.speeds[k];
+          const Parameters& machine = scene.sets[set - 1];
+          std::vector<AdaptiveMotion> solutions;
+          for (double tolerance : scene.tolerances)
+            solutions.push_back(motion::solve_adaptively(machine, angular(frequency),
+                                                         {.tolerance = tolerance}));
+          const motion::Motion exact =
+              truth::exact_motion(machine, truth::most_accurate(solutions));
+          return truth::judged(scene, k, solutions, exact);
+        });
+    return truth::adaptive_table(scene, points);
   });
 }

@@ -18,15 +18,20 @@ small ones, and undecided otherwise.
 Modelled: the motion once per period, and the largest Lyapunov exponent, for both data sets. Finished pieces
 are kept in a journal. */
 #include "truth/attractors.hpp"
+#include "io/journal.hpp"
 #include "io/program.hpp"
 
 int main(int argc, char** argv)
 {
   using namespace rotor_stator;
-  const Program program{"data/scenes/attractors.toml",
-                        {{"--journal", "attractors.journal", "finished pieces"}}};
-  return run(argc, argv, program, [](const Options& options) {
-    return truth::attractor_table(options.scene_file, options.reading,
-                                  options["--journal"]);
+  const Program program{
+      .options = {{"--journal", "attractors.journal", "finished chains"}}};
+  return run_figure(argc, argv, program, [](SceneFile& file, const Options& options) {
+    const truth::AttractorScene scene = truth::read_attractor_scene(file);
+    const auto chains = truth::chains(scene);
+    const auto motions = run_study<truth::AttractorPoint>(
+        {"attractors", options["--journal"], stamp_of(file.files()), chains.size()},
+        [&](std::size_t k) { return truth::settled(scene, chains[k]); });
+    return truth::attractor_table(scene, truth::numbered(motions, scene.settings));
   });
 }

@@ -20,15 +20,25 @@ times of one sweep, under claim C11.
 Modelled: one sweep with 6 harmonics per point of the grid, by harmonic balance alone. Finished points are
 kept in a journal. */
 #include "studies/clearance_stiffness.hpp"
+#include "continuation/sweep.hpp"
+#include "io/journal.hpp"
 #include "io/program.hpp"
 
 int main(int argc, char** argv)
 {
   using namespace rotor_stator;
-  const Program program{"data/scenes/clearance_stiffness.toml",
-                        {{"--journal", "clearance_stiffness.journal", "finished points"}},
-                        false};
-  return run(argc, argv, program, [](const Options& options) {
-    return studies::study_table(options.scene_file, options["--journal"]);
+  const Program program{.options = {{"--journal", "clearance_stiffness.journal", "finished points"}},
+                        .has_readings = false};
+  return run_figure(argc, argv, program, [](SceneFile& file, const Options& options) {
+    const studies::GridScene scene = studies::read_grid_scene(file);
+    const std::vector<double> omegas = angular(scene.frequencies);
+    const auto points = run_study<studies::GridPoint>(
+        {"machines", options["--journal"], stamp_of(file.files()), scene.machines.size()},
+        [&](std::size_t k) {
+          const Parameters& machine = scene.machines[k];
+          return std::vector{
+              studies::summary(machine, sweep(machine, omegas, scene.harmonics))};
+        });
+    return studies::grid_table(scene, points);
   });
 }

@@ -4,14 +4,31 @@
 Paper: all equations, Table 1.  Run: build/deviations > data/generated/deviations.tsv
 What each printed form that we replaced would have done, and what our choices change.
 Modelled: data set 1, one small computation per entry D-nn. */
-#include "deviations/deviations.hpp"
+#include "deviations/balance.hpp"
+#include "deviations/continuation.hpp"
+#include "deviations/model.hpp"
+#include "deviations/motions.hpp"
 #include "io/program.hpp"
 
 int main(int argc, char** argv)
 {
   using namespace rotor_stator;
-  return run(argc, argv, {"data/scenes/deviations.toml"}, [](const Options& options) {
-    return deviations::deviation_table(
-        deviations::read_deviation_scene(options.scene_file, options.reading));
+  using namespace rotor_stator::deviations;
+  const std::vector<EvidenceList (*)(const DeviationScene&)> entries{
+      sign_of_approach,      printed_predictor,    arc_length_scaling,
+      names_of_gamma,        samples_as_printed,   printed_newton_step,
+      radius_of_hertz,       unit_of_stiffness,    two_readings,
+      amplitude_definitions, cage_and_period,      printed_block,
+      unprinted_masses,      default_sample_count, tolerance_and_step,
+      runge_kutta_settings,  speeds_of_panels,     unit_of_cpu,
+      kind_of_figures,       passages_over_2t,     parentheses_of_gamma,
+      criteria_without_scale};
+  return run_figure(argc, argv, [&](SceneFile& file) {
+    const DeviationScene scene = read_deviation_scene(file);
+    Table table = evidence_table(scene);
+    for (const auto entry : Watched("deviations", entries))
+      add_evidence(table, entry(scene));
+    file.toml().refuse_unknown_keys();
+    return table;
   });
 }

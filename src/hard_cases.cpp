@@ -19,17 +19,25 @@ be neither confirmed nor refuted is marked as such and not counted as solved.
 
 Modelled: all cases of data/scenes/hard_cases.toml by harmonic balance (the paper's predictor, arc length),
 shooting and RK4. */
-#include "hard/checks.hpp"
+#include "hard/verification.hpp"
+#include "io/parallel.hpp"
 #include "io/program.hpp"
 
 int main(int argc, char** argv)
 {
   using namespace rotor_stator;
-  const Program program{"data/scenes/hard_cases.toml",
-                        {{"--every", "1", "only each n-th of the rows"}},
-                        false};
-  return run(argc, argv, program, [](const Options& options) {
-    return hard::hard_table(options.scene_file,
-                            whole_number("--every", options["--every"], 1, 1000));
+  const Program program{.options = {{"--every", "1", "only each n-th of the rows"}},
+                        .has_readings = false};
+  return run_figure(argc, argv, program, [](SceneFile& file, const Options& options) {
+    const int every = whole_number("--every", options["--every"], 1, 1000);
+    const hard::HardCases hard = hard::read_hard_cases(file);
+    const std::size_t methods = hard::methods.size();
+    const std::size_t rows = (hard.cases.size() * methods + every - 1) / every;
+    const auto ends = computed_in_parallel("hard cases", rows, [&](std::size_t row) {
+      const hard::HardCase& machine = hard.cases[row * every / methods];
+      const hard::Method& method = hard::methods[row * every % methods];
+      return hard::verify(machine, method, method.answer(machine, hard.rule), hard.rule);
+    });
+    return hard::hard_table(hard, ends);
   });
 }

@@ -20,17 +20,29 @@ all. The score cannot prove a reading; it says how well the text describes each.
 Modelled: the integrated motion of every candidate at 60 speeds, judged by data/claims.toml. Finished candidates
 are kept in a journal: an interrupted run goes on where it was. */
 #include "studies/identification.hpp"
+#include "io/journal.hpp"
 #include "io/program.hpp"
 
 int main(int argc, char** argv)
 {
   using namespace rotor_stator;
-  const Program program{"data/scenes/identification.toml",
-                        {{"--claims", "data/claims.toml", "rule of the verdicts"},
-                         {"--journal", "identification.journal", "finished candidates"}},
-                        false};
+  const Program program{
+      .options = {{"--claims", "data/claims.toml", "rule of the verdicts"},
+                  {"--journal", "identification.journal", "finished candidates"}},
+      .has_readings = false};
   return run(argc, argv, program, [](const Options& options) {
-    return studies::identification_table(options.scene_file, options["--claims"],
-                                         options["--journal"]);
+    const auto scene =
+        studies::read_identification_scene(options.scene_file, options["--claims"]);
+    const auto scores = run_study<studies::ClaimScore>(
+        {"candidates", options["--journal"], stamp_of(scene.files),
+         scene.candidates.size()},
+        [&](std::size_t k) {
+          std::vector<motion::Regime> regimes;
+          for (double frequency : scene.frequencies)
+            regimes.push_back(
+                studies::regime_or_none(scene.candidates[k], frequency, scene.settings));
+          return std::vector{studies::score(regimes, scene.rule)};
+        });
+    return studies::identification_table(scene, options["--claims"], scores);
   });
 }

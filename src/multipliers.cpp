@@ -16,13 +16,23 @@ each is computed in ways that have nothing in common but the motion:
 
 Modelled: harmonic balance with the scene's harmonics; the disturbances of rotor and stator along it. */
 #include "truth/multipliers.hpp"
+#include "io/parallel.hpp"
 #include "io/program.hpp"
+#include "motion/other_starts.hpp"
 
 int main(int argc, char** argv)
 {
   using namespace rotor_stator;
-  return run(argc, argv, {"data/scenes/multipliers.toml"}, [](const Options& options) {
-    return truth::multiplier_table(
-        truth::read_multiplier_scene(options.scene_file, options.reading));
+  return run_figure(argc, argv, [](SceneFile& file) {
+    const truth::MultiplierScene scene = truth::read_multiplier_scene(file);
+    const auto points =
+        computed_in_parallel("multipliers", scene.points.size(), [&](std::size_t k) {
+          const auto& point = scene.points[k];
+          const PeriodicMotion solution =
+              motion::search_periodic(scene.sets[point.set - 1], angular(point.frequency),
+                                      point.harmonics, default_samples(point.harmonics));
+          return truth::checked(scene, point, solution);
+        });
+    return truth::multiplier_table(scene, points);
   });
 }

@@ -25,17 +25,22 @@ from zero.
 
 The starting states come from the table of `attractors`, where the exponents and the searches
 from other starts are explained. */
+#include "io/parallel.hpp"
 #include "io/program.hpp"
-#include "truth/validity.hpp"
+#include "truth/known_attractors.hpp"
 
 int main(int argc, char** argv)
 {
   using namespace rotor_stator;
   const Program program{
-      "data/scenes/sections.toml",
-      {{"--attractors", "data/reference/attractors.tsv", "their table"}}};
-  return run(argc, argv, program, [](const Options& options) {
-    return truth::section_table(options.scene_file, options.reading,
-                                options["--attractors"]);
+      .options = {{"--attractors", "data/reference/attractors.tsv", "their table"}}};
+  return run_figure(argc, argv, program, [](SceneFile& file, const Options& options) {
+    const auto scene = truth::read_section_scene(file, options["--attractors"]);
+    const auto sections =
+        computed_in_parallel("sections", scene.attractors.size(), [&](std::size_t k) {
+          const truth::AttractorPoint& point = scene.attractors[k];
+          return truth::section_of(point, scene.sets.at(point.set - 1), scene.points);
+        });
+    return truth::section_table(scene, sections);
   });
 }

@@ -18,13 +18,34 @@ with them would mean that they are too coarse. Where a method has no such parame
 
 Modelled: harmonic balance with 6 harmonics and RK4 from rest, each only where the parameter enters. */
 #include "studies/sensitivity.hpp"
+#include "io/parallel.hpp"
 #include "io/program.hpp"
 
 int main(int argc, char** argv)
 {
   using namespace rotor_stator;
-  return run(argc, argv, {"data/scenes/sensitivity.toml"}, [](const Options& options) {
-    return studies::sensitivity_table(
-        studies::read_sensitivity_scene(options.scene_file, options.reading));
+  using namespace rotor_stator::studies;
+  return run_figure(argc, argv, [](SceneFile& file) {
+    const SensitivityScene scene = read_sensitivity_scene(file);
+    const auto compute = [&](std::size_t k) {
+      SensitivityPoint point = scene.points[k];
+      const Model model = varied(scene.usual, point.parameter, point.value);
+      if (point.peak)
+        add_peak(point, peak_by_integration(point.parameter)
+                            ? integrated_peak(model, scene.time_peak_speeds)
+                            : balance_peak(model, scene.peak_speeds));
+      if (point.balance)
+        add_balance_orbit(point, balance_orbit_size(model, scene.orbit_frequency));
+      if (point.integration) {
+        add_loss(point, contact_loss(model, scene.loss_speeds));
+        const SteadyState steady =
+            settled(model, scene.orbit_frequency, scene.orbit_periods);
+        add_integrated_orbit(point, steady, orbit_size(motion_of(model, steady)));
+      }
+      return point;
+    };
+    auto points = computed_in_parallel("sensitivity", scene.points.size(), compute);
+    fill_from_defaults(points);
+    return sensitivity_table(scene, points);
   });
 }

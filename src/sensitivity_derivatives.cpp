@@ -11,8 +11,12 @@ alone. */
 int main(int argc, char** argv)
 {
   using namespace rotor_stator;
-  return run(argc, argv, {"data/scenes/sensitivity.toml"}, [](const Options& options) {
-    return studies::sensitivity_derivative_table(near_defaults(
-        studies::read_sensitivity_scene(options.scene_file, options.reading)));
+  const Program program{
+      .scene_file = "data/scenes/sensitivity.toml",
+      .options = {{"--sensitivity", "data/generated/sensitivity.tsv", "their table"}}};
+  return run_figure(argc, argv, program, [](SceneFile& file, const Options& options) {
+    const studies::SensitivityScene scene = studies::read_sensitivity_scene(file);
+    const auto points = studies::read_sensitivity(scene, options["--sensitivity"]);
+    return studies::derivative_table(scene, studies::normalised_derivatives(points));
   });
 }

@@ -26,16 +26,25 @@ at the last refinement, and is left undecided when that could change the answer.
 
 Modelled: harmonic balance by arc length; the Floquet multipliers of rotor and stator. Finished curves are kept
 in a journal. */
-#include "truth/stability.hpp"
+#include <algorithm>
+
+#include "io/journal.hpp"
 #include "io/program.hpp"
+#include "truth/stability.hpp"
 
 int main(int argc, char** argv)
 {
   using namespace rotor_stator;
-  const Program program{"data/scenes/stability.toml",
-                        {{"--journal", "stability.journal", "finished branches"}}};
-  return run(argc, argv, program, [](const Options& options) {
-    return truth::stability_table(options.scene_file, options.reading,
-                                  options["--journal"]);
+  const Program program{
+      .options = {{"--journal", "stability.journal", "finished curves"}}};
+  return run_figure(argc, argv, program, [](SceneFile& file, const Options& options) {
+    const truth::StabilityScene scene = truth::read_stability_scene(file);
+    auto longest_first = scene.curves;
+    std::reverse(longest_first.begin(), longest_first.end());
+    auto points = run_study<truth::StabilityPoint>(
+        {"curves", options["--journal"], stamp_of(file.files()), longest_first.size()},
+        [&](std::size_t k) { return truth::follow_stability(scene, longest_first[k]); });
+    std::reverse(points.begin(), points.end());
+    return truth::stability_table(scene, points);
   });
 }

@@ -20,16 +20,38 @@ more harmonics do not help.
 
 Modelled: harmonic-balance sweeps up, Floquet multipliers, and motions from the states of the attractors. */
 #include "truth/validity.hpp"
+#include "continuation/sweep.hpp"
+#include "io/journal.hpp"
 #include "io/program.hpp"
 
 int main(int argc, char** argv)
 {
   using namespace rotor_stator;
-  const Program program{"data/scenes/validity.toml",
-                        {{"--attractors", "data/reference/attractors.tsv", "their table"},
-                         {"--journal", "validity.journal", "finished speeds"}}};
-  return run(argc, argv, program, [](const Options& options) {
-    return truth::validity_table(options.scene_file, options.reading,
-                                 options["--attractors"], options["--journal"]);
+  const Program program{
+      .options = {{"--attractors", "data/reference/attractors.tsv", "their table"},
+                  {"--journal", "validity.journal", "finished speeds"}}};
+  return run_figure(argc, argv, program, [](SceneFile& file, const Options& options) {
+    const auto scene = truth::read_validity_scene(file, options["--attractors"]);
+    const std::size_t sets = scene.sets.size(), speeds = scene.frequencies.size();
+    const int most = scene.most_harmonics;
+    const auto swept = computed_in_parallel("sweeps", sets * most, [&](std::size_t k) {
+      const int m = 1 + static_cast<int>(k) % most;
+      return sweep(scene.sets[k / most], angular(scene.frequencies), m);
+    });
+    auto files = file.files();
+    files.push_back(options["--attractors"]);
+    const auto points = run_study<truth::ValidityPoint>(
+        {"validity", options["--journal"], stamp_of(files), sets * speeds},
+        [&](std::size_t k) {
+          const int set = static_cast<int>(k / speeds);
+          const std::size_t speed = k % speeds;
+          const truth::Truth truth(scene, set + 1, scene.frequencies[speed]);
+          std::vector<truth::ValidityPoint> found;
+          for (int m = 1; m <= most; ++m)
+            found.push_back(truth.compared(m, swept[set * most + m - 1][speed]));
+          found.push_back(truth.adaptive());
+          return found;
+        });
+    return truth::validity_table(scene, points);
   });
 }

@@ -30,7 +30,7 @@ struct Group {
 /** Sets the value of a machine or of the method by its name in the list. */
 void change(HardCase& hard, const std::string& key, double value, const StrictToml& toml)
 {
-  Parameters& p = hard.parameters;
+  Parameters& p = hard.machine;
   const std::map<std::string, double*> keys{
       {"stator_mass_kg", &p.stator.mass},
       {"stator_damping_ratio", &p.stator.damping_ratio},
@@ -67,7 +67,7 @@ double grazing_clearance(const Parameters& parameters, double frequency)
 /** The speed [Hz] of the first fold of the branch of a case between two speeds. */
 double first_fold(const HardCase& hard, double from, double to)
 {
-  const Parameters& p = hard.parameters;
+  const Parameters& p = hard.machine;
   Balance balance(bearing_problem(p, hard.samples), hard.harmonics);
   ArcLengthSettings settings = arc_length_settings(p);
   settings.most_points = 3000;
@@ -101,7 +101,7 @@ void add_speeds(Group& group, HardCase hard, std::vector<HardCase>& cases)
     frequencies = {first_fold(hard, frequencies.at(0), frequencies.at(1))};
   if (at == "contact resonance")
     for (int divisor : group.toml.integers("divisors", 1, 1000))
-      frequencies.push_back(1 / (40 * default_step(hard.parameters)) / divisor);
+      frequencies.push_back(1 / (40 * default_step(hard.machine)) / divisor);
   const bool cold = group.toml.has("cold") && group.toml.flag("cold");
   const bool graze = group.toml.has("graze") && group.toml.flag("graze");
   const std::string name = hard.name;
@@ -109,7 +109,7 @@ void add_speeds(Group& group, HardCase hard, std::vector<HardCase>& cases)
     hard.frequency = frequency;
     hard.from = cold ? frequency : branch_start(frequency);
     if (graze)
-      hard.parameters.bearing.clearance = grazing_clearance(hard.parameters, frequency);
+      hard.machine.bearing.clearance = grazing_clearance(hard.machine, frequency);
     hard.name = name + format(", %.6g Hz", frequency);
     cases.push_back(hard);
   }
@@ -120,7 +120,7 @@ void add_group(StrictToml toml, const Parameters& parameters,
 {
   Group group{toml, {}, {}, -1};
   group.base.name = toml.string("name");
-  group.base.parameters = parameters;
+  group.base.machine = parameters;
   group.base.harmonics = toml.integer("harmonics", 1, 4096);
   if (toml.has("frequencies_hz"))
     group.frequencies = toml.numbers("frequencies_hz", Range::positive);
@@ -142,11 +142,10 @@ void add_group(StrictToml toml, const Parameters& parameters,
 
 }  // namespace
 
-HardCases read_hard_cases(const std::string& file)
+HardCases read_hard_cases(SceneFile& file)
 {
-  SceneFile scene_file(file, "exchanged");
-  StrictToml& toml = scene_file.toml();
-  const Parameters parameters = read_parameters(scene_file, "parameters");
+  StrictToml& toml = file.toml();
+  const Parameters machine = read_parameters(file, "parameters");
   HardCases hard{
       .rule = {.accuracy = toml.number("accuracy", Range::positive),
                .most_error_ratio = toml.number("most_error_ratio", Range::positive),
@@ -155,7 +154,7 @@ HardCases read_hard_cases(const std::string& file)
                .most_change = toml.number("most_change", Range::positive)},
       .cases = {}};
   std::vector<StrictToml> groups = toml.tables("group");
-  for (const StrictToml& group : groups) add_group(group, parameters, hard.cases);
+  for (const StrictToml& group : groups) add_group(group, machine, hard.cases);
   for (const StrictToml& group : groups) group.refuse_unknown_keys();
   toml.refuse_unknown_keys();
   return hard;

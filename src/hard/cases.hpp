@@ -1,5 +1,5 @@
 /**
-# Scene: hard cases
+# Hard cases
 
 Machines and speeds where a solver may fail: no clearance, hardly any damping, one ball, grazing, the
 fold of a branch. The list is data/hard_cases.toml; a group there is one machine or several, at one
@@ -10,6 +10,7 @@ that stands in the same file. */
 #include <string>
 #include <vector>
 
+#include "io/scene.hpp"
 #include "model/parameters.hpp"
 
 namespace rotor_stator::hard
@@ -18,7 +19,7 @@ namespace rotor_stator::hard
 /** One machine at one speed. */
 struct HardCase {
   std::string name;
-  Parameters parameters;
+  Parameters machine;
   double frequency;  ///< [Hz]
   double
       from;  ///< where its branch is followed from [Hz]; the frequency itself: a cold start
@@ -42,6 +43,6 @@ struct HardCases {
 };
 
 /** Throws BadInput for a bad list, NoSolution when a fold that it asks for is not there. */
-HardCases read_hard_cases(const std::string& file);
+HardCases read_hard_cases(SceneFile& file);
 
 }  // namespace rotor_stator::hard

@@ -134,6 +134,10 @@ int run(int argc, char** argv, const Program& program,
         const std::function<Table(const Options&)>& compute)
 {
   Options options{program.scene_file, "exchanged", program.options};
+  if (options.scene_file.empty()) {
+    const std::string name = std::filesystem::path(argv[0]).filename();
+    options.scene_file = "data/scenes/" + name + ".toml";
+  }
   CLI::App app("Computes one table; TSV on stdout.");
   app.add_option("scene", options.scene_file, "scene file")->capture_default_str();
   if (program.has_readings)
@@ -151,10 +155,16 @@ int run(int argc, char** argv, const Program& program,
 
 int run_figure(int argc, char** argv, const std::function<Table(SceneFile&)>& compute)
 {
-  const std::string name = std::filesystem::path(argv[0]).filename();
-  return run(argc, argv, {"data/scenes/" + name + ".toml"}, [&](const Options& options) {
+  return run_figure(argc, argv, {},
+                    [&](SceneFile& scene, const Options&) { return compute(scene); });
+}
+
+int run_figure(int argc, char** argv, const Program& program,
+               const std::function<Table(SceneFile&, const Options&)>& compute)
+{
+  return run(argc, argv, program, [&](const Options& options) {
     SceneFile scene(options.scene_file, options.reading);
-    return compute(scene);
+    return compute(scene, options);
   });
 }
 

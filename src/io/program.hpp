@@ -81,7 +81,8 @@ struct ExtraOption {
 
 /** What a program reads. */
 struct Program {
-  std::string scene_file;
+  std::string scene_file =
+      {};  ///< empty: that with the program's name, data/scenes/NAME.toml
   std::vector<ExtraOption> options = {};
   bool has_readings = true;  ///< of Table 1 (D-09)
 };
@@ -98,9 +99,10 @@ struct Options {
 int run(int argc, char** argv, const Program& program,
         const std::function<Table(const Options&)>& compute);
 
-/** Runs the program of a figure: `compute` makes the table that the scene asks for, which is the one
-    with the program's name, data/scenes/NAME.toml, unless another is given. */
+/** Runs the program of a figure: `compute` makes the table that the scene asks for. */
 int run_figure(int argc, char** argv, const std::function<Table(SceneFile&)>& compute);
+int run_figure(int argc, char** argv, const Program& program,
+               const std::function<Table(SceneFile&, const Options&)>& compute);
 
 /** The number that an option's value is, in decimal notation. Throws BadInput unless
     `least` ≤ it ≤ `most`; a real number with `least` = 0 must be above it. */

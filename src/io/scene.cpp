@@ -9,17 +9,18 @@ namespace rotor_stator
 {
 
 SceneFile::SceneFile(const std::string& file, const std::string& reading)
-    : file_(file), reading_(reading), toml_(file)
+    : file_(file), reading_(reading), files_{file}, toml_(file)
 {
   if (reading != "exchanged" && reading != "as-printed")
     throw BadInput("--reading " + reading + ": must be exchanged or as-printed");
 }
 
-std::string SceneFile::file_of(const std::string& name) const
+std::string SceneFile::file_of(const std::string& name)
 {
   const std::string suffix = reading_ == "exchanged" ? "" : "-" + reading_;
   const auto data = std::filesystem::path(file_).parent_path().parent_path();
-  return (data / (name + suffix + ".toml")).string();
+  files_.push_back((data / (name + suffix + ".toml")).string());
+  return files_.back();
 }
 
 std::string SceneFile::data_set(const std::string& key)

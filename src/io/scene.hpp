@@ -22,19 +22,24 @@ public:
   SceneFile(const std::string& file, const std::string& reading);
 
   StrictToml& toml() { return toml_; }
+  const std::string& reading() const { return reading_; }
 
   /** The file of the data set named by a key: "set1" is data/set1.toml beside the scenes'
       folder, or data/set1-as-printed.toml under that reading. */
   std::string data_set(const std::string& key);
   std::vector<std::string> data_sets(const std::string& key);
 
+  /** The scene's file and those of the data sets that were asked for. */
+  const std::vector<std::string>& files() const { return files_; }
+
   /** `from`, `to` and `step` in hertz, both ends included. */
   std::vector<double> speed_range(const std::string& key);
 
 private:
-  std::string file_of(const std::string& name) const;
+  std::string file_of(const std::string& name);
 
   std::string file_, reading_;
+  std::vector<std::string> files_;
   StrictToml toml_;
 };
 

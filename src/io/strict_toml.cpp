@@ -16,6 +16,7 @@ struct StrictToml::Content {
   std::string path;  ///< dotted prefix of this table, "" at the root
   toml::table table;
   std::set<std::string> read;
+  std::vector<std::pair<std::string, std::shared_ptr<Content>>> inner_tables;
 
   /** The node of a required key. */
   toml::node& require(const std::string& key, const StrictToml& reader)
@@ -26,9 +27,10 @@ struct StrictToml::Content {
   }
 
   /** The table in a node of this one. */
-  StrictToml inner(toml::node& node, const std::string& key) const
+  StrictToml inner(toml::node& node, const std::string& key)
   {
     auto content = std::make_shared<Content>();
+    inner_tables.emplace_back(key, content);
     content->file = file;
     content->path = path + key + ".";
     content->table = std::move(*node.as_table());
@@ -219,6 +221,8 @@ StrictToml StrictToml::table(const std::string& key)
 {
   toml::node& node = content_->require(key, *this);
   if (!node.is_table()) fail(key, "must be a table");
+  for (const auto& [name, known] : content_->inner_tables)
+    if (name == key) return StrictToml(known);
   return content_->inner(node, key);
 }
 
@@ -268,6 +272,8 @@ void StrictToml::refuse_unknown_keys() const
     fail(key,
          "is not a known key here" + suggestion(key, known) + " (known: " + list + ")");
   }
+  for (const auto& [name, inner] : content_->inner_tables)
+    StrictToml(inner).refuse_unknown_keys();
 }
 
 }  // namespace rotor_stator

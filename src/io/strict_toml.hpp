@@ -45,7 +45,8 @@ public:
   /** Throws BadInput about a required key: names the key that it may have been misspelt as, if any. */
   [[noreturn]] void missing(const std::string& key, const std::string& advice = "") const;
 
-  /** Throws BadInput if a key of this table was never asked for. */
+  /** Throws BadInput if a key of this table, or of a table in it that was asked for, was never asked
+      for. */
   void refuse_unknown_keys() const;
 
 private:

@@ -114,9 +114,13 @@ NumberTable::NumberTable(const std::string& file, const std::string& first_line)
     throw BadInput(file + ":1: '" + first_line + "' is expected");
   in.clear();
   for (int number = first_line.empty() ? 1 : 2; std::getline(in, line); ++number) {
-    if (in.eof()) throw BadInput(format("%s:%d: the line is cut off", file.c_str(), number));
-    if (const auto colon = line.find(": "); line.starts_with("# ") && colon != std::string::npos)
+    if (in.eof())
+      throw BadInput(format("%s:%d: the line is cut off", file.c_str(), number));
+    if (const auto colon = line.find(": ");
+        line.starts_with("# ") && colon != std::string::npos)
       header_[line.substr(2, colon - 2)] = line.substr(colon + 2);
+    if (line.starts_with("# column: ") && line.find(" [word] ") != std::string::npos)
+      words_.insert(line.substr(10, line.find(' ', 10) - 10));
     if (line.empty() || line.front() == '#') continue;
     if (names_.empty()) {
       names_ = split(line);
@@ -132,18 +136,22 @@ void NumberTable::read_row(const std::string& line)
 {
   rows_.emplace_back();
   for (const std::string& cell : split(line)) {
-    const std::optional<double> value = decimal(cell);
+    const std::size_t column = rows_.back().size();
+    const bool word = column < names_.size() && words_.contains(names_[column]);
+    const std::optional<double> value = word ? 0 : decimal(cell);
     if (!value) fail(rows() - 1, "'" + cell.substr(0, 40) + "' is not a finite number");
     rows_.back().push_back(*value);
   }
   if (rows_.back().size() != names_.size())
-    fail(rows() - 1, format("%zu cells, must be %zu", rows_.back().size(), names_.size()));
+    fail(rows() - 1,
+         format("%zu cells, must be %zu", rows_.back().size(), names_.size()));
 }
 
 double NumberTable::at(std::size_t row, const std::string& column) const
 {
   const auto found = std::find(names_.begin(), names_.end(), column);
-  if (found == names_.end()) fail("has no column " + column);
+  if (found == names_.end() || words_.contains(column))
+    fail("has no column " + column + " of numbers");
   return rows_.at(row).at(static_cast<std::size_t>(found - names_.begin()));
 }
 

@@ -7,6 +7,7 @@ Stamped when the library is compiled. A new commit alone triggers no rebuild. */
 #include <concepts>
 #include <functional>
 #include <map>
+#include <set>
 #include <string>
 #include <variant>
 #include <vector>
@@ -110,7 +111,7 @@ public:
   std::size_t rows() const { return rows_.size(); }
   const std::vector<double>& row(std::size_t k) const { return rows_.at(k); }
 
-  /** Throws BadInput if there is no such column. */
+  /** Throws BadInput if there is no such column of numbers. */
   double at(std::size_t row, const std::string& column) const;
 
   /** The value of the line `# key: value`. Throws BadInput when it is missing. */
@@ -126,6 +127,7 @@ private:
   std::string file_;
   std::map<std::string, std::string> header_;
   std::vector<std::string> names_;
+  std::set<std::string> words_;  ///< columns of words: 0 in all rows
   std::vector<std::vector<double>> rows_;
   std::vector<int> lines_;  ///< of the rows in the file
 };

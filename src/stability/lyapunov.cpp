@@ -14,39 +14,31 @@ namespace
 /** Far above rounding, far below what bends the motion. */
 constexpr double first_distance = 1e-7;
 
-/** Few and long, so that neighbouring batches know little of each other. */
-constexpr std::size_t most_batches = 10;
-
-std::vector<double> batch_means(const std::vector<double>& rates)
-{
-  const std::size_t batches = std::min(most_batches, rates.size());
-  std::vector<double> means(batches, 0);
-  for (std::size_t batch = 0; batch < batches; ++batch) {
-    const std::size_t first = batch * rates.size() / batches;
-    const std::size_t last = (batch + 1) * rates.size() / batches;
-    for (std::size_t k = first; k < last; ++k)
-      means[batch] += rates[k] / static_cast<double>(last - first);
-  }
-  return means;
-}
-
 }  // namespace
 
-Exponent exponent_of(const std::vector<double>& rates)
+BatchMean batch_mean(const std::vector<double>& series)
 {
-  const auto count = static_cast<double>(rates.size());
-  double mean = 0;
-  for (double rate : rates) mean += rate / count;
-  const std::vector<double> batches = batch_means(rates);
-  const auto n = static_cast<double>(batches.size());
-  double squares = 0;
-  for (double batch : batches) squares += (batch - mean) * (batch - mean);
-  return {mean, std::sqrt(squares / (n * (n - 1)))};
+  /** Few and long, so that neighbouring batches know little of each other. */
+  constexpr std::size_t most_batches = 10;
+  const std::size_t batches = std::min(most_batches, series.size());
+  const auto count = static_cast<double>(series.size());
+  double mean = 0, squares = 0;
+  for (double value : series) mean += value / count;
+  for (std::size_t batch = 0; batch < batches; ++batch) {
+    const std::size_t first = batch * series.size() / batches;
+    const std::size_t last = (batch + 1) * series.size() / batches;
+    double part = 0;
+    for (std::size_t k = first; k < last; ++k)
+      part += series[k] / static_cast<double>(last - first);
+    squares += (part - mean) * (part - mean);
+  }
+  const auto n = static_cast<double>(batches * std::max<std::size_t>(1, batches - 1));
+  return {mean, std::sqrt(squares / n)};
 }
 
 /** The neighbour starts off in all directions, so that none is missed. */
-Neighbours::Neighbours(TimeStepper stepper, int intervals_per_period,
-                       const Vector8& scales, const State& start)
+TrajectoryPair::TrajectoryPair(TimeStepper stepper, int intervals_per_period,
+                               const Vector8& scales, const State& start)
     : stepper_(std::move(stepper)),
       intervals_(intervals_per_period),
       scales_(scales),
@@ -56,7 +48,7 @@ Neighbours::Neighbours(TimeStepper stepper, int intervals_per_period,
   neighbour_ = state_of(vector_of(start) + share * scales);
 }
 
-double Neighbours::advance_one_period(const std::function<void(const State&)>& visit)
+double TrajectoryPair::advance_one_period(const std::function<void(const State&)>& visit)
 {
   double growth = 0;
   for (long k = 0; k < intervals_; ++k) {
@@ -70,7 +62,7 @@ double Neighbours::advance_one_period(const std::function<void(const State&)>& v
   return growth;
 }
 
-double Neighbours::pull_back()
+double TrajectoryPair::pull_back()
 {
   const Vector8 y = vector_of(state_);
   const Vector8 apart = vector_of(neighbour_) - y;

@@ -22,23 +22,25 @@ of ten batches of them gives the standard error. */
 namespace rotor_stator
 {
 
-/** λ [1/s] and its standard error [1/s]. */
-struct Exponent {
+/** The mean of a series and its standard error. */
+struct BatchMean {
   double value, error;
 };
 
-/** Mean of the growth rates [1/s] of equal blocks in order, at least two, and its standard error from
-    the means of at most ten batches. */
-Exponent exponent_of(const std::vector<double>& rates);
+/** The error is that of the means of at most ten batches of neighbours. */
+BatchMean batch_mean(const std::vector<double>& series);
+
+/** λ [1/s] and its standard error [1/s]: `batch_mean` of the growth rates of equal blocks in order. */
+using Exponent = BatchMean;
 
 /** A motion with a neighbour. */
-class Neighbours
+class TrajectoryPair
 {
 public:
   /** `stepper`: of fixed step, since an adaptive one takes other steps for the neighbour and its
       error would pass for growth. `scales`: sizes of the eight components, which make the distance a number. */
-  Neighbours(TimeStepper stepper, int intervals_per_period, const Vector8& scales,
-             const State& start);
+  TrajectoryPair(TimeStepper stepper, int intervals_per_period, const Vector8& scales,
+                 const State& start);
 
   /** Advances by one period; `visit`, if any, sees the state at the start of each interval.
       Returns ln of the growth of the distance [-]. Throws NoSolution when the motion diverges. */

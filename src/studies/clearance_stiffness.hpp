@@ -1,42 +1,42 @@
 /**
-# Scene: clearance against contact stiffness (claim C11)
+# Clearance against contact stiffness (claim C11)
 
 Every point of the grid is one machine, swept up in speed by harmonic balance. Speeds
 without a solution are counted. */
 #pragma once
 
+#include "balance/periodic_motion.hpp"
 #include "io/scene.hpp"
-#include "motion/motion.hpp"
+#include "io/table.hpp"
+#include "model/parameters.hpp"
 
 namespace rotor_stator::studies
 {
 
-struct ParametricStudy {
+struct GridScene {
   Parameters base;
+  std::vector<Parameters> machines;  ///< clearance varies fastest
   int harmonics;
-  std::vector<double> frequencies;          ///< [Hz]
-  std::vector<double> clearances;           ///< [m]
-  std::vector<double> contact_stiffnesses;  ///< [N/m^{3/2}]
-
-  std::size_t points() const { return clearances.size() * contact_stiffnesses.size(); }
-
-  /** The machine of point `index`: clearance varies fastest. */
-  Parameters machine(std::size_t index) const;
+  std::vector<double> frequencies;  ///< [Hz]
 };
 
-ParametricStudy read_parametric_study(const std::string& file);
+GridScene read_grid_scene(SceneFile& file);
 
-/** What one sweep comes to. */
-struct StudyPoint {
-  double f_peak, amp_peak;           ///< of x_r [Hz, m]; -1 when no speed has a solution
-  double f_loss_first, f_loss_last;  ///< speeds losing contact [Hz]; -1 when none does
-  double largest_force;              ///< on one ball, over all speeds [N]
-  int missed;                        ///< speeds without a solution
+/** What the sweep of one machine comes to. */
+struct GridPoint {
+  double clearance;          ///< δ [m]
+  double contact_stiffness;  ///< K_H [N/m^{3/2}]
+  double f_peak = -1;        ///< of x_r [Hz]; -1 when no speed has a solution
+  double amp_peak = -1;      ///< [m]
+  double f_loss_first = -1;  ///< speeds losing contact [Hz]; -1 when none does
+  double f_loss_last = -1;
+  double largest_force = 0;  ///< on one ball, over all speeds [N]
+  int missed = 0;            ///< speeds without a solution
 };
 
-StudyPoint sweep_machine(const Parameters& parameters, const ParametricStudy& study);
+GridPoint summary(const Parameters& machine, const std::vector<PeriodicMotion>& sweep);
 
-/** The grid of clearance and contact stiffness. */
-Table study_table(const std::string& scene_file, const std::string& journal);
+Table grid_table(const GridScene& scene,
+                 const std::vector<std::vector<GridPoint>>& points);
 
 }  // namespace rotor_stator::studies

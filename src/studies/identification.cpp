@@ -4,8 +4,6 @@
 #include <cmath>
 
 #include "io/errors.hpp"
-#include "io/table.hpp"
-#include "studies/clearance_stiffness.hpp"
 
 namespace rotor_stator::studies
 {
@@ -58,10 +56,13 @@ void add_candidates(StrictToml& grid, int reading, const Parameters& base,
 }  // namespace
 
 IdentificationScene read_identification_scene(const std::string& file,
-                                              const std::string& claims_file)
+                                              const std::string& claims)
 {
-  IdentificationScene scene;
-  scene.rule = read_claim_rule(claims_file);
+  IdentificationScene scene{.candidates = {},
+                            .frequencies = {},
+                            .settings = {},
+                            .rule = read_claim_rule(claims),
+                            .files = {claims}};
   int reading = 0;
   for (const char* name : {"exchanged", "as-printed"}) {
     SceneFile scene_file(file, name);
@@ -73,8 +74,21 @@ IdentificationScene read_identification_scene(const std::string& file,
                    scene.candidates);
     grid.refuse_unknown_keys();
     scene_file.toml().refuse_unknown_keys();
+    for (const std::string& read : scene_file.files()) scene.files.push_back(read);
   }
   return scene;
+}
+
+motion::Regime regime_or_none(const Candidate& candidate, double frequency,
+                              const motion::RegimeSettings& settings)
+{
+  try {
+    return motion::regime_at(candidate.machine, frequency, settings);
+  } catch (const NoSolution&) {
+    motion::Regime broken{};
+    broken.frequency = frequency;
+    return broken;
+  }
 }
 
 namespace
@@ -124,7 +138,7 @@ double middle_complex(const std::vector<motion::Regime>& all,
 
 }  // namespace
 
-Judgement judge(const std::vector<motion::Regime>& regimes, const ClaimRule& rule)
+ClaimScore score(const std::vector<motion::Regime>& regimes, const ClaimRule& rule)
 {
   std::vector<motion::Regime> low, middle, high;
   for (const motion::Regime& r : regimes)
@@ -132,7 +146,7 @@ Judgement judge(const std::vector<motion::Regime>& regimes, const ClaimRule& rul
      : r.frequency <= rule.middle_to ? middle
                                      : high)
         .push_back(r);
-  Judgement j{};
+  ClaimScore j{};
   j.f_peak = peak_frequency(regimes);
   j.f_loss_first = j.f_loss_last = -1;
   for (const motion::Regime& r : regimes) {
@@ -156,88 +170,64 @@ Judgement judge(const std::vector<motion::Regime>& regimes, const ClaimRule& rul
   return j;
 }
 
-std::vector<motion::Regime> regimes_of(const Candidate& candidate,
-                                       const IdentificationScene& scene)
-{
-  std::vector<motion::Regime> regimes;
-  for (double frequency : scene.frequencies) {
-    try {
-      regimes.push_back(
-          motion::regime_at(candidate.parameters, frequency, scene.settings));
-    } catch (const NoSolution&) {
-      motion::Regime broken{};
-      broken.frequency = frequency;
-      regimes.push_back(broken);
-    }
-  }
-  return regimes;
-}
-
 namespace
 {
 
-const std::vector<Column> identification_columns{
-    {"reading", "-", "of Table 1: 0 exchanged, 1 as printed"},
-    {"m_s", "kg", "mass of the stator"},
-    {"m_r", "kg", "mass of the rotor"},
-    {"ratio_factor", "-",
-     "m_r/m_s over the ratio that puts the joint resonance at the paper's peak"},
-    {"cage_speed_ratio", "-", "omega_cage/omega"},
-    {"f_peak", "Hz", "speed of the largest x_r"},
-    {"f_loss_first", "Hz", "first speed at which contact is lost; -1 when never"},
-    {"f_loss_last", "Hz", "last such speed; -1 when never"},
-    {"low_contact", "-", "share of the low speeds with permanent contact"},
-    {"low_periodic", "-", "share with T-periodic motion"},
-    {"low_simple", "-", "share with higher harmonics below the limit"},
-    {"middle_contact", "-", "the same of the middle speeds"},
-    {"middle_periodic", "-", ""},
-    {"middle_simple", "-", ""},
-    {"high_contact", "-", "the same of the high speeds"},
-    {"high_periodic", "-", ""},
-    {"high_simple", "-", ""},
-    {"passages", "-", "times a ball is loaded in 2T, mean over balls and high speeds"},
-    {"c1", "-", "quantity of C1 for the score"},
-    {"c4", "-", "quantity of C4"},
-    {"c5", "-", "quantity of C5"},
-    {"c6", "-", "quantity of C6"},
-    {"c10", "-", "quantity of C10"},
-    {"score", "-", "mean of the five"}};
+struct Row {
+  const Candidate& candidate;
+  const ClaimScore& score;
+};
 
-Row numbers(const Judgement& j)
-{
-  Row row{j.f_peak, j.f_loss_first, j.f_loss_last};
-  for (const RangeShares& s : {j.low, j.middle, j.high})
-    row.insert(row.end(), {s.permanent_contact, s.periodic, s.simple});
-  row.insert(row.end(), {j.passages, j.c1, j.c4, j.c5, j.c6, j.c10, j.score});
-  return row;
-}
+const std::vector<Field<Row>> fields{
+    {"reading", "-", "of Table 1: 0 exchanged, 1 as printed",
+     [](auto& r) { return r.candidate.reading; }},
+    {"m_s", "kg", "mass of the stator",
+     [](auto& r) { return r.candidate.machine.stator.mass; }},
+    {"m_r", "kg", "mass of the rotor",
+     [](auto& r) { return r.candidate.machine.rotor.mass; }},
+    {"ratio_factor", "-",
+     "m_r/m_s over the ratio that puts the joint resonance at the paper's peak",
+     [](auto& r) { return r.candidate.ratio_factor; }},
+    {"cage_speed_ratio", "-", "omega_cage/omega",
+     [](auto& r) { return r.candidate.machine.bearing.cage_speed_ratio; }},
+    {"f_peak", "Hz", "speed of the largest x_r", [](auto& r) { return r.score.f_peak; }},
+    {"f_loss_first", "Hz", "first speed at which contact is lost; -1 when never",
+     [](auto& r) { return r.score.f_loss_first; }},
+    {"f_loss_last", "Hz", "last such speed; -1 when never",
+     [](auto& r) { return r.score.f_loss_last; }},
+    {"low_contact", "-", "share of the low speeds with permanent contact",
+     [](auto& r) { return r.score.low.permanent_contact; }},
+    {"low_periodic", "-", "share with T-periodic motion",
+     [](auto& r) { return r.score.low.periodic; }},
+    {"low_simple", "-", "share with higher harmonics below the limit",
+     [](auto& r) { return r.score.low.simple; }},
+    {"middle_contact", "-", "the same of the middle speeds",
+     [](auto& r) { return r.score.middle.permanent_contact; }},
+    {"middle_periodic", "-", "", [](auto& r) { return r.score.middle.periodic; }},
+    {"middle_simple", "-", "", [](auto& r) { return r.score.middle.simple; }},
+    {"high_contact", "-", "the same of the high speeds",
+     [](auto& r) { return r.score.high.permanent_contact; }},
+    {"high_periodic", "-", "", [](auto& r) { return r.score.high.periodic; }},
+    {"high_simple", "-", "", [](auto& r) { return r.score.high.simple; }},
+    {"passages", "-", "times a ball is loaded in 2T, mean over balls and high speeds",
+     [](auto& r) { return r.score.passages; }},
+    {"c1", "-", "quantity of C1 for the score", [](auto& r) { return r.score.c1; }},
+    {"c4", "-", "quantity of C4", [](auto& r) { return r.score.c4; }},
+    {"c5", "-", "quantity of C5", [](auto& r) { return r.score.c5; }},
+    {"c6", "-", "quantity of C6", [](auto& r) { return r.score.c6; }},
+    {"c10", "-", "quantity of C10", [](auto& r) { return r.score.c10; }},
+    {"score", "-", "mean of the five", [](auto& r) { return r.score.score; }}};
 
 }  // namespace
 
-Table identification_table(const std::string& scene_file, const std::string& claims_file,
-                           const std::string& journal)
+Table identification_table(const IdentificationScene& scene, const std::string& claims,
+                           const std::vector<std::vector<ClaimScore>>& scores)
 {
-  const IdentificationScene scene = read_identification_scene(scene_file, claims_file);
-  Table table("Score of the candidates for what the paper leaves out",
-              identification_columns);
+  Table table("Score of the candidates for what the paper leaves out", fields);
   table.note(format("modelled: rk4 at %zu speeds, at most %g s each; rule of %s",
-                    scene.frequencies.size(), scene.settings.longest,
-                    claims_file.c_str()));
-  const auto rows = run_study(
-      {.name = "candidates",
-       .journal = journal,
-       .stamp = stamp_of({scene_file, claims_file}),
-       .pieces = scene.candidates.size(),
-       .work = [&](std::size_t k) {
-         return numbers(judge(regimes_of(scene.candidates[k], scene), scene.rule));
-       }});
-  for (std::size_t k = 0; k < rows.size(); ++k) {
-    const Candidate& c = scene.candidates[k];
-    std::vector<Cell> cells{c.reading, c.parameters.stator.mass, c.parameters.rotor.mass,
-                            c.ratio_factor, c.parameters.bearing.cage_speed_ratio};
-    cells.insert(cells.end(), rows[k].begin(), rows[k].end());
-    table.row(std::move(cells));
-  }
+                    scene.frequencies.size(), scene.settings.longest, claims.c_str()));
+  for (std::size_t k = 0; k < scores.size(); ++k)
+    table.row(fields, {scene.candidates[k], scores[k].front()});
   return table;
 }
 

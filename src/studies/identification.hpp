@@ -1,13 +1,11 @@
 /**
-# Scene: identifying what the paper leaves out
+# Identifying what the paper leaves out
 
 Masses, mass ratio and cage are not printed. A grid of candidates is judged by the rule of
 data/claims.toml: each candidate's motions at 60 speeds, integrated in time, give the
 quantities of claims C1, C4, C5, C6 and C10, and their mean is its score. */
 #pragma once
 
-#include "io/journal.hpp"
-#include "io/scene.hpp"
 #include "io/table.hpp"
 #include "motion/regime.hpp"
 
@@ -28,7 +26,7 @@ struct Candidate {
   int reading;          ///< 0 exchanged, 1 as printed
   double ratio_factor;  ///< mass ratio over the one that puts the joint resonance at the
                         ///< peak
-  Parameters parameters;
+  Parameters machine;
 };
 
 struct IdentificationScene {
@@ -36,10 +34,17 @@ struct IdentificationScene {
   std::vector<double> frequencies;  ///< [Hz]
   motion::RegimeSettings settings;
   ClaimRule rule;
+  std::vector<std::string> files;  ///< that were read
 };
 
+/** Both readings of a scene. */
 IdentificationScene read_identification_scene(const std::string& file,
-                                              const std::string& claims_file);
+                                              const std::string& claims);
+
+/** The regime of a candidate at one speed; where integration breaks down aperiodic, without
+    contact. */
+motion::Regime regime_or_none(const Candidate& candidate, double frequency,
+                              const motion::RegimeSettings& settings);
 
 /** Shares of the speeds of one range [-]. */
 struct RangeShares {
@@ -47,7 +52,7 @@ struct RangeShares {
 };
 
 /** What a candidate's regimes come to. */
-struct Judgement {
+struct ClaimScore {
   double f_peak;                     ///< [Hz], by the parabola through the highest points
   double f_loss_first, f_loss_last;  ///< [Hz]; -1 where contact is never lost
   RangeShares low, middle, high;
@@ -56,18 +61,10 @@ struct Judgement {
   double score;                ///< their mean
 };
 
-Judgement judge(const std::vector<motion::Regime>& regimes, const ClaimRule& rule);
+ClaimScore score(const std::vector<motion::Regime>& regimes, const ClaimRule& rule);
 
-/** The regimes of a candidate at all speeds; a speed at which integration breaks down
-   counts as aperiodic without contact. */
-std::vector<motion::Regime> regimes_of(const Candidate& candidate,
-                                       const IdentificationScene& scene);
-
-/**
-## The tables of the long studies */
-
-/** The score of every candidate; `journal` keeps the finished ones. */
-Table identification_table(const std::string& scene_file, const std::string& claims_file,
-                           const std::string& journal);
+/** `scores` in the order of the candidates. */
+Table identification_table(const IdentificationScene& scene, const std::string& claims,
+                           const std::vector<std::vector<ClaimScore>>& scores);
 
 }  // namespace rotor_stator::studies

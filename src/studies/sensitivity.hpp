@@ -1,79 +1,5 @@
 /**
-# Features of a response: a peak, the loss of contact, the size of an orbit
-
-What a whole response curve is reduced to when many machines are compared. Each feature is
-found by the method that is asked for and nothing else is kept. */
-#pragma once
-
-#include <optional>
-
-#include "io/scene.hpp"
-#include "io/table.hpp"
-#include "motion/motion.hpp"
-
-namespace rotor_stator::studies
-{
-
-/** A machine and how it is computed. */
-struct Model {
-  Parameters parameters;
-  int harmonics;                    ///< m
-  int samples;                      ///< N
-  SteadySettings time_integration;  ///< with RK4's step
-};
-
-/** A number, and how far off it may be: half the distance of two speeds, or the standard
-   error of a mean. */
-struct Measured {
-  double value;
-  double uncertainty = 0;
-};
-using MaybeMeasured = std::optional<Measured>;
-
-/** The largest amplitude of x_r [m] and its speed [Hz]. */
-struct Peak {
-  double frequency, amplitude;
-};
-
-/** By harmonic balance swept up over `frequencies` [Hz], equally spaced; then on a finer
-   grid about the largest, whose vertex is that of a parabola. Throws NoSolution when the
-   largest is at an end. */
-Peak balance_peak(const Model& model, const std::vector<double>& frequencies);
-
-/** The same by time integration from rest at each speed. */
-Peak integrated_peak(const Model& model, const std::vector<double>& frequencies);
-
-/** The first and the last speed [Hz] at which the bearing is unloaded for some time. */
-struct ContactLoss {
-  Measured first, last;
-};
-
-/** By time integration from rest at each of `frequencies` [Hz], then by bisection between
-   neighbours with and without loss. Near both ends loss comes and goes within hundredths
-   of a hertz (set 1: at 12.05 Hz, not at 12.1 to 12.2), so that windows between two
-   neighbours can be missed; half the neighbours' distance is the uncertainty. Empty when
-   contact is permanent at all of them. */
-std::optional<ContactLoss> contact_loss(const Model& model,
-                                        const std::vector<double>& frequencies);
-
-/** Half peak-to-peak of x_r and y_r [m]. */
-struct OrbitSize {
-  Measured x, y;
-};
-
-/** Of the m-harmonic solution; empty where there is none, also when the cage has not the
-   period of rotation (D-11). */
-std::optional<OrbitSize> balance_orbit_size(const Model& model, double frequency);
-
-/** Of the integrated motion: the mean over its periods, of each period's half
-   peak-to-peak; the standard error is that of ten blocks of consecutive periods. */
-OrbitSize orbit_size(const motion::Motion& motion);
-
-/** The motion that time integration settles on from rest at a speed [Hz]. */
-SteadyState steady_state_at(const Model& model, double frequency);
-
-/**
-## Scene: sensitivity to what the paper leaves out
+# Sensitivity to what the paper leaves out
 
 Masses, cage and the two discretisations are not printed. Each is varied alone about its
 default: the total mass m_s + m_r at fixed ratio, the ratio m_r/m_s at fixed total, the
@@ -85,23 +11,17 @@ orbit at one speed. The peak is found by harmonic balance, except against the ca
 (where most values have no period of rotation, D-11) and against h (which only time
 integration has): there by RK4. An output is computed anew only where the parameter enters
 it; N leaves time integration alone, h leaves harmonic balance alone. */
+#pragma once
+
+#include "balance/newton.hpp"
+#include "io/scene.hpp"
+#include "io/table.hpp"
+#include "studies/features.hpp"
+
+namespace rotor_stator::studies
+{
 
 enum class Unpublished { mass, mass_ratio, cage_ratio, samples, step };
-
-/** The values of one parameter, rising; one of them is its default. */
-struct Variation {
-  Unpublished parameter;
-  std::vector<double> values;
-  std::size_t usual;  ///< index of the default
-};
-
-struct SensitivityScene {
-  Model usual;  ///< all parameters at their defaults
-  std::vector<Variation> variations;
-  std::vector<double> peak_speeds, time_peak_speeds, loss_speeds;  ///< [Hz]
-  double orbit_frequency;                                          ///< [Hz]
-  int orbit_periods;
-};
 
 /** The outputs, in the order of SensitivityPoint::outputs. */
 enum Output {
@@ -119,18 +39,25 @@ enum Output {
 struct SensitivityPoint {
   Unpublished parameter;
   double value;
-  bool usual;                                       ///< at the default
-  std::array<MaybeMeasured, output_count> outputs;  ///< [Hz] or [m]
-  double spread;  ///< Poincaré spread of the integrated orbit [-]
-  bool periodic;
+  bool usual;  ///< at the default
+  /** What is computed for this point: what its parameter enters, of several equal ones the
+      first. The rest is that of the defaults. */
+  bool peak = false, balance = false, integration = false;
+  std::array<std::optional<Measured>, output_count> outputs = {};  ///< [Hz] or [m]
+  double spread = 0;  ///< Poincaré spread of the integrated orbit [-]
+  bool periodic = false;
 };
 
-SensitivityScene read_sensitivity_scene(const std::string& file,
-                                        const std::string& reading);
+struct SensitivityScene {
+  Model usual;  ///< all parameters at their defaults
+  std::vector<SensitivityPoint>
+      points;  ///< to be computed: by parameter and rising value
+  std::vector<double> peak_speeds, time_peak_speeds, loss_speeds;  ///< [Hz]
+  double orbit_frequency;                                          ///< [Hz]
+  int orbit_periods;
+};
 
-/** Only what derivatives at the defaults need: the default and its neighbours, and the
-   cage ratios with a period of rotation. */
-SensitivityScene near_defaults(SensitivityScene scene);
+SensitivityScene read_sensitivity_scene(SceneFile& file);
 
 /** `usual` with one parameter changed. */
 Model varied(Model usual, Unpublished parameter, double value);
@@ -138,8 +65,22 @@ Model varied(Model usual, Unpublished parameter, double value);
 /** Whether the peak against this parameter is found by time integration. */
 bool peak_by_integration(Unpublished parameter);
 
-/** All values of all parameters, in order. */
-std::vector<SensitivityPoint> compute_sensitivity(const SensitivityScene& scene);
+/** The outputs of a point. */
+void add_peak(SensitivityPoint& point, const motion::CurvePoint& peak);
+void add_loss(SensitivityPoint& point, const std::optional<ContactLoss>& loss);
+void add_balance_orbit(SensitivityPoint& point, const std::optional<OrbitSize>& size);
+void add_integrated_orbit(SensitivityPoint& point, const SteadyState& steady,
+                          const OrbitSize& size);
+
+/** Outputs that were not computed, from the points at the defaults where they were. */
+void fill_from_defaults(std::vector<SensitivityPoint>& points);
+
+/** One row per parameter and value. */
+Table sensitivity_table(const SensitivityScene& scene,
+                        const std::vector<SensitivityPoint>& points);
+
+/**
+## Normalised derivatives */
 
 /** d ln(output)/d ln(parameter) between two values of the parameter. */
 struct NormalisedDerivative {
@@ -149,19 +90,19 @@ struct NormalisedDerivative {
   Measured slope;    ///< [-]
 };
 
+/** The points of a scene as `sensitivity_table` has written them. Throws BadInput when it is the table
+    of another scene. */
+std::vector<SensitivityPoint> read_sensitivity(const SensitivityScene& scene,
+                                               const std::string& table);
+
 /** Per parameter and output the difference between the nearest values on both sides of
    the default where the output exists; on one side only, the default itself stands for
    the other. Left out where there is no such pair. */
 std::vector<NormalisedDerivative> normalised_derivatives(
     const std::vector<SensitivityPoint>& points);
 
-/**
-## The tables of the sensitivity to unpublished parameters */
-
-/** One row per parameter and value. */
-Table sensitivity_table(const SensitivityScene& scene);
-
 /** One row per parameter and output: the normalised derivative at the default. */
-Table sensitivity_derivative_table(const SensitivityScene& scene);
+Table derivative_table(const SensitivityScene& scene,
+                       const std::vector<NormalisedDerivative>& derivatives);
 
 }  // namespace rotor_stator::studies

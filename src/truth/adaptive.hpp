@@ -1,5 +1,5 @@
 /**
-# Scene: what the error estimate is worth
+# What the error estimate is worth
 
 Per speed and tolerance, the number of harmonics chosen, the estimate, and the true error: the distance
 to the exact periodic motion, found by shooting from the most accurate solution of the speed. Beside the cost,
@@ -10,21 +10,19 @@ cheapest of a ladder, solved from quasi-static contact, whose true error is not 
 #include "io/scene.hpp"
 #include "io/table.hpp"
 #include "motion/adaptive.hpp"
-#include "motion/find_periodic.hpp"
+#include "motion/motion.hpp"
 
 namespace rotor_stator::truth
 {
 
-struct AdaptiveStudy {
+struct AdaptiveScene {
   std::vector<Parameters> sets;
-  std::vector<std::vector<double>> frequencies;  ///< of each set [Hz]
+  std::vector<std::pair<int, double>> speeds;  ///< set, counted from 1, and speed [Hz]
   std::vector<double> tolerances;
   int most_fixed_harmonics;  ///< end of the ladder
-
-  std::size_t speeds() const;
 };
 
-AdaptiveStudy read_adaptive_study(const std::string& file, const std::string& reading);
+AdaptiveScene read_adaptive_scene(SceneFile& file);
 
 /** One speed and tolerance; -1 for what was not found. */
 struct AdaptivePoint {
@@ -33,28 +31,31 @@ struct AdaptivePoint {
   double tolerance;  ///< of displacement [-]
   bool reached;
   int harmonics, samples;
-  double estimate, error;  ///< of displacement [-]
-  bool own_branch;         ///< the error is against another exact motion than the speed's
-  bool started_otherwise;  ///< a start than quasi-static contact was needed
-  double force_samples;
-  int fixed_harmonics;  ///< best fixed m
-  double fixed_error;   ///< its error [-]
-  double fixed_force_samples;
+  double estimate;    ///< of displacement [-]
+  bool searched;      ///< a start than quasi-static contact was needed
+  double cost;        ///< evaluations of the force times samples
+  double error = -1;  ///< of displacement [-]
+  bool own_branch =
+      false;  ///< the error is against another exact motion than the speed's
+  int fixed_harmonics = -1;  ///< best fixed m
+  double fixed_error = -1;   ///< its error [-]
+  double fixed_cost = -1;
 };
-
-/** All tolerances at speed number `index`, set after set. */
-std::vector<AdaptivePoint> adaptive_points(const AdaptiveStudy& study, std::size_t index);
 
 /** One period of the exact motion that shooting finds from a solution; no positions when it finds
     none. */
-motion::Motion exact_motion(const Parameters& parameters, const PeriodicMotion& solution,
-                            int points);
+motion::Motion exact_motion(const Parameters& machine, const PeriodicMotion& solution,
+                            int points = 2048);
 
-/**
-## The table of the error estimate */
+/** The one with the least estimate of those that reached their tolerance; not found if none did. */
+PeriodicMotion most_accurate(const std::vector<AdaptiveMotion>& solutions);
 
-/** Estimate, true error and cost at every speed and tolerance; `journal` keeps the finished
-    speeds. */
-Table adaptive_table(const std::string& scene_file, const std::string& journal);
+/** The solutions for the tolerances of a speed beside the exact motion and the ladder of fixed m. */
+std::vector<AdaptivePoint> judged(const AdaptiveScene& scene, std::size_t speed,
+                                  const std::vector<AdaptiveMotion>& solutions,
+                                  const motion::Motion& exact);
+
+Table adaptive_table(const AdaptiveScene& scene,
+                     const std::vector<std::vector<AdaptivePoint>>& points);
 
 }  // namespace rotor_stator::truth

@@ -1,5 +1,5 @@
 /**
-# Scene: Floquet multipliers by two methods
+# Floquet multipliers by two methods
 
 At some speeds the multipliers of each solution by integration of its disturbances, with what checks
 them: their change at the last refinement, Liouville's product, and the largest one by Hill's method with
@@ -9,39 +9,36 @@ at low speeds these are too many. */
 
 #include "io/scene.hpp"
 #include "io/table.hpp"
-#include "motion/motion.hpp"
 #include "stability/floquet.hpp"
 
 namespace rotor_stator::truth
 {
 
+/** One solution; -1 for what is not known. */
+struct MultiplierPoint {
+  int set;             ///< 1, 2, … in the scene's order
+  double frequency;    ///< [Hz]
+  int harmonics;       ///< m
+  bool found = false;  ///< a solution and its multipliers
+  double largest = -1, change = -1, liouville = -1;
+  int stable = -1;
+  double hill[2] = {-1, -1};  ///< largest modulus by Hill's method
+};
+
 struct MultiplierScene {
   std::vector<Parameters> sets;
-  std::vector<double> speeds;       ///< [Hz]
-  std::vector<int> harmonics;       ///< m
-  std::vector<int> hill_harmonics;  ///< H, two of them, ascending
-  double hill_from;                 ///< lowest speed for Hill's method [Hz]
+  std::vector<MultiplierPoint> points;  ///< every set, speed and m, to be filled
+  std::vector<int> hill_harmonics;      ///< H, two of them, ascending
+  double hill_from;                     ///< lowest speed for Hill's method [Hz]
 };
 
-struct MultiplierPoint {
-  int set;           ///< 1, 2, … in the scene's order
-  double frequency;  ///< [Hz]
-  int harmonics;     ///< m
-  bool found;        ///< a solution and its multipliers
-  Floquet floquet;
-  double hill[2];  ///< largest modulus by Hill's method; -1 when it was not asked
-};
+MultiplierScene read_multiplier_scene(SceneFile& file);
 
-MultiplierScene read_multiplier_scene(const std::string& file,
-                                      const std::string& reading);
+/** `point` with the multipliers of its solution and what checks them. */
+MultiplierPoint checked(const MultiplierScene& scene, MultiplierPoint point,
+                        const PeriodicMotion& solution);
 
-/** Every set, speed and m, in order. */
-std::vector<MultiplierPoint> compute_multipliers(const MultiplierScene& scene);
-
-/**
-## The table of checked multipliers */
-
-/** One row per set, speed and number of harmonics. */
-Table multiplier_table(const MultiplierScene& scene);
+Table multiplier_table(const MultiplierScene& scene,
+                       const std::vector<MultiplierPoint>& points);
 
 }  // namespace rotor_stator::truth

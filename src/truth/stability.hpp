@@ -1,5 +1,5 @@
 /**
-# Scene: stability of the response curves
+# Stability of the response curves
 
 The branches of Fig. 3 by arc length, for several numbers of harmonics, with the Floquet
 multipliers of the full system at every point and the bifurcations between them. The multipliers
@@ -12,17 +12,15 @@ is gained or lost, not between two unstable solutions; folds are all marked. Poi
 left out where the curve does not need them. */
 #pragma once
 
-#include "io/journal.hpp"
 #include "io/scene.hpp"
 #include "io/table.hpp"
-#include "motion/motion.hpp"
+#include "model/parameters.hpp"
 #include "stability/branch_stability.hpp"
 
 namespace rotor_stator::truth
 {
 
-/** A response curve to follow: from the lower end of the range and, when that does not reach the upper
-    end, from there back. */
+/** A response curve to follow. */
 struct StabilityCurve {
   int set;        ///< 1, 2, … in the scene's order
   int harmonics;  ///< m
@@ -36,43 +34,41 @@ struct StabilityScene {
   int examined_per_hz;    ///< points with multipliers at most
 };
 
-StabilityScene read_stability_scene(const std::string& file, const std::string& reading);
+StabilityScene read_stability_scene(SceneFile& file);
+
+/** How a branch of a curve was followed. */
+struct StabilityBranch {
+  StabilityCurve curve;
+  double from;         ///< [Hz]
+  bool found = false;  ///< a solution to begin with
+  BranchEnd end = BranchEnd::step;
+  int missed = 0;                  ///< bifurcations that could not be located
+  int failed = 0;                  ///< points whose multipliers could not be computed
+  int passed = 0;                  ///< points of the branch, examined or not
+  double low = from, high = from;  ///< the speeds between which it was followed [Hz]
+};
 
 struct StabilityPoint {
-  double frequency;                 ///< [Hz]
-  std::array<double, 4> amplitude;  ///< of x_s, y_s, x_r, y_r: half peak-to-peak [m]
-  double arc;                       ///< scaled arc length [-]
-  double largest;                   ///< modulus of the largest multiplier [-]
-  double uncertainty;               ///< of it [-]
-  bool settled;
-  int stable;  ///< 1 stable, 0 unstable, -1 within the uncertainty, -2 not examined
-  Bifurcation bifurcation;
+  StabilityBranch branch;
+  double frequency = 0;                  ///< [Hz]
+  std::array<double, 4> amplitude = {};  ///< of x_s, y_s, x_r, y_r: half peak-to-peak [m]
+  double arc = 0;                        ///< scaled arc length [-]
+  double largest = -1;                   ///< modulus of the largest multiplier [-]
+  double uncertainty = -1;               ///< of it [-]
+  bool settled = false;
+  int stable = -2;  ///< 1 stable, 0 unstable, -1 within the uncertainty, -2 not examined
+  Bifurcation bifurcation = Bifurcation::none;
+
+  bool examined() const { return stable != -2; }
 };
 
-struct StabilityBranch {
-  std::vector<StabilityPoint> points;  ///< none when no solution was found at `from`
-  double from;                         ///< [Hz]
-  BranchEnd end;
-  int missed;        ///< bifurcations that could not be located
-  int failed;        ///< points whose multipliers could not be computed
-  int passed;        ///< points of the branch, examined or not
-  double low, high;  ///< the speeds between which it was followed [Hz]
-};
+/** The points of a curve: from the lower end of the range and, when that branch does not reach the
+    upper end, from there back. A branch without a solution to begin with has one point, of none. */
+std::vector<StabilityPoint> follow_stability(const StabilityScene& scene,
+                                             const StabilityCurve& curve);
 
-/** The one or two branches of a curve. */
-std::vector<StabilityBranch> follow_stability(const StabilityScene& scene,
-                                              const StabilityCurve& curve);
-
-/** Those of each curve, by two threads, finished ones kept in a journal. */
-std::vector<std::vector<StabilityBranch>> compute_stability(const StabilityScene& scene,
-                                                            const std::string& journal,
-                                                            const std::string& stamp);
-
-/**
-## The table of the stability-marked response */
-
-/** Every point of every branch of the scene; `journal` keeps the finished branches. */
-Table stability_table(const std::string& scene_file, const std::string& reading,
-                      const std::string& journal);
+/** `points` in the order of the scene's curves. */
+Table stability_table(const StabilityScene& scene,
+                      const std::vector<std::vector<StabilityPoint>>& points);
 
 }  // namespace rotor_stator::truth

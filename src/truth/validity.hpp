@@ -1,29 +1,25 @@
 /**
-# Scene: where a harmonic-balance solution is true (claims C2, C3 and C14)
+# Where a harmonic-balance solution is true (claims C2, C3 and C14)
 
-Per speed, the distance of the solutions with m = 1, 2, … harmonics, and of the one with as many as a
-tolerance asks for, to the nearest attractor's motion: rms over the instants of the difference, over
-the rms of the motion, for the four displacements and for the bearing's force. Beside it, whether the
+Per speed, how far the solutions with m = 1, 2, … harmonics, and the one with as many as a
+tolerance asks for, are from the nearest attractor's motion. Beside it, whether the
 solution is stable, and whether there is an attractor with the period of rotation at all. A sweep up
 finds the solutions with fixed m; the attractors are read from their table. */
 #pragma once
 
-#include <map>
-
-#include "io/table.hpp"
 #include "stability/floquet.hpp"
-#include "truth/attractors.hpp"
+#include "truth/known_attractors.hpp"
 
 namespace rotor_stator::truth
 {
 
-/** Distances of a periodic motion, repeated, to a reference: rms of the difference over the rms of the
+/** How far a periodic motion, repeated, is from a reference: rms of the difference over the rms of the
     reference [-]. */
-struct Distance {
+struct RmsDifference {
   double displacement, force;
 };
-Distance distance(const Parameters& parameters, const motion::Motion& motion,
-                  const motion::Motion& reference);
+RmsDifference rms_difference(const Parameters& machine, const motion::Motion& motion,
+                             const motion::Motion& reference);
 
 struct ValidityScene {
   std::vector<Parameters> sets;
@@ -35,51 +31,54 @@ struct ValidityScene {
   int most_elsewhere;  ///< its m at most, where no m can be true
   FloquetSettings floquet;
   int points_per_period, periods;  ///< of the reference motion
-  std::vector<KnownAttractor> attractors;
+  std::vector<AttractorPoint> attractors;
 };
 
 /** Reads the scene and the table of attractors. Throws BadInput. */
-ValidityScene read_validity_scene(const std::string& file, const std::string& reading,
-                                  const std::string& attractors);
-
-enum class Stability { unknown = -1, unstable = 0, stable = 1 };
+ValidityScene read_validity_scene(SceneFile& file, const std::string& attractors);
 
 struct ValidityPoint {
   int set;
-  double frequency;  ///< [Hz]
-  bool adaptive;     ///< m was chosen for the tolerance
-  int harmonics;     ///< m; 0 if adaptive and not found
-  bool found;
-  double distance;         ///< of displacement [-]; -1 when not found
-  double distance_force;   ///< [-]; -1 when not found
-  int attractor;           ///< number of the nearest; 0 when not found
-  double multiplier;       ///< largest modulus; -1 when not asked for or not found
-  double change;           ///< its uncertainty; -1 likewise
-  Stability stability;     ///< unknown too when the multipliers did not settle
-  double estimate;         ///< of the adaptive solution's error [-]; -1 otherwise
-  int attractors;          ///< at this speed
-  bool periodic;           ///< one of them has the period of rotation
-  double nearest_verdict;  ///< of the nearest; -1 when not found
+  double frequency;       ///< [Hz]
+  int attractors = 0;     ///< at this speed
+  bool periodic = false;  ///< one of them has the period of rotation
+  bool adaptive = false;  ///< m was chosen for the tolerance
+  int harmonics = 0;      ///< m; 0 if adaptive and not found
+  bool found = false;
+  double displacement = -1;     ///< from the nearest attractor [-]; -1 when not found
+  double force = -1;            ///< the same of the bearing's force
+  int attractor = 0;            ///< number of the nearest; 0 when not found
+  double nearest_verdict = -1;  ///< of the nearest; -1 when not found
+  double multiplier = -1;       ///< largest modulus; -1 when not asked for or not found
+  double change = -1;           ///< its uncertainty; -1 likewise
+  int stable = -1;              ///< 1, 0; -1 not asked for, or within the uncertainty
+  double estimate = -1;         ///< of the adaptive solution's error [-]; -1 otherwise
 };
 
-/** The solutions of a data set, m = 1 first, by ω, where a sweep up finds them. */
-using Swept = std::vector<std::map<double, PeriodicMotion>>;
-Swept swept_solutions(const ValidityScene& scene, std::size_t set);
+/** What one machine does at one speed, and how near solutions come to it. */
+class Truth
+{
+public:
+  Truth(const ValidityScene& scene, int set, double frequency);
 
-/** One set at one speed: m = 1, 2, …, then the adaptive solution. */
-std::vector<ValidityPoint> validity_at(const ValidityScene& scene, std::size_t set,
-                                       double frequency, const Swept& swept);
+  /** A solution of a sweep with m harmonics, found or not. */
+  ValidityPoint compared(int harmonics, const PeriodicMotion& solution) const;
 
-/**
-## The tables that start from the attractors: validity and sections */
+  /** The solution with as many harmonics as the tolerance asks for. */
+  ValidityPoint adaptive() const;
 
-/** Distance of the solutions to the nearest attractor; `attractors` is the table of attractor_table.hpp,
-    `journal` keeps the finished speeds. */
-Table validity_table(const std::string& scene_file, const std::string& reading,
-                     const std::string& attractors, const std::string& journal);
+private:
+  void measure(const PeriodicMotion& solution, ValidityPoint& point) const;
+  void examine(const PeriodicMotion& solution, ValidityPoint& point) const;
 
-/** Points of the attractors' Poincaré sections, up and down in speed. */
-Table section_table(const std::string& scene_file, const std::string& reading,
-                    const std::string& attractors);
+  const ValidityScene& scene_;
+  const Parameters& machine_;
+  ValidityPoint blank_;
+  std::vector<AttractorPoint> known_;
+  std::vector<motion::Motion> motions_;  ///< on them
+};
+
+Table validity_table(const ValidityScene& scene,
+                     const std::vector<std::vector<ValidityPoint>>& points);
 
 }  // namespace rotor_stator::truth

@@ -23,8 +23,8 @@ namespace
 
 AttractorSettings settings()
 {
-  return read_attractor_scene(SOURCE_DIR "/data/scenes/attractors.toml", "exchanged")
-      .settings;
+  SceneFile file(SOURCE_DIR "/data/scenes/attractors.toml", "exchanged");
+  return read_attractor_scene(file).settings;
 }
 
 }  // namespace
@@ -160,10 +160,10 @@ TEST_CASE("The distance of a motion to itself is zero, to rest one")
   Motion motion{8, 0, {}}, rest{8, 0, std::vector<Bodies>(8)};
   for (int k = 0; k < 8; ++k)
     motion.positions.push_back({{1e-5 * k, -1e-5}, {2e-5, 4e-5 * (k % 3)}});
-  CHECK(distance(parameters, motion, motion).displacement == 0);
-  CHECK(distance(parameters, motion, motion).force == 0);
-  CHECK(distance(parameters, rest, motion).displacement == Approx(1));
-  CHECK(distance(parameters, rest, motion).force == Approx(1));
+  CHECK(rms_difference(parameters, motion, motion).displacement == 0);
+  CHECK(rms_difference(parameters, motion, motion).force == 0);
+  CHECK(rms_difference(parameters, rest, motion).displacement == Approx(1));
+  CHECK(rms_difference(parameters, rest, motion).force == Approx(1));
 }
 
 TEST_CASE("A table of numbers is read back, and a damaged one refused with its line")

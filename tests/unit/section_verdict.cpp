@@ -53,7 +53,7 @@ TimeStepper oscillator(const std::function<double(double, double, double)>& a,
 SectionJudgement observed(TimeStepper stepper, double omega, int steps, int skipped,
                           int periods, const VerdictRule& rule)
 {
-  Neighbours motion(std::move(stepper), steps, Vector8::Ones(),
+  TrajectoryPair motion(std::move(stepper), steps, Vector8::Ones(),
                     {.position = {{0.1, 0}, {0, 0}}, .velocity = {}});
   std::vector<Displacements> section;
   std::vector<double> rates;
@@ -62,7 +62,7 @@ SectionJudgement observed(TimeStepper stepper, double omega, int steps, int skip
     const double growth = motion.advance_one_period();
     if (k >= skipped) rates.push_back(growth * omega / (2 * std::numbers::pi));
   }
-  return judge_section(section, 1, exponent_of(rates), rule);
+  return judge_section(section, 1, batch_mean(rates), rule);
 }
 
 }  // namespace
@@ -101,10 +101,10 @@ TEST_CASE("The standard error of alternating rates shrinks with batches")
 {
   std::vector<double> rates;
   for (int k = 0; k < 80; ++k) rates.push_back(k % 2);
-  const Exponent exponent = exponent_of(rates);
+  const Exponent exponent = batch_mean(rates);
   CHECK(exponent.value == Approx(0.5));
   CHECK(exponent.error == Approx(0).margin(1e-12));
-  const Exponent three = exponent_of({1, 2, 3});
+  const Exponent three = batch_mean({1, 2, 3});
   CHECK(three.value == Approx(2));
   CHECK(three.error == Approx(1 / std::sqrt(3.0)));
 }

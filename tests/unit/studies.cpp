@@ -5,6 +5,7 @@
 #include <fstream>
 #include <numbers>
 
+#include "continuation/sweep.hpp"
 #include "io/journal.hpp"
 #include "io/parallel.hpp"
 #include "studies/clearance_stiffness.hpp"
@@ -53,7 +54,7 @@ std::vector<Regime> sixty_speeds()
 
 TEST_CASE("A candidate that is as the paper says scores 1")
 {
-  const Judgement j = judge(sixty_speeds(), rule);
+  const ClaimScore j = score(sixty_speeds(), rule);
   CHECK(j.f_peak == Approx(50));
   CHECK(j.f_loss_first == 11);
   CHECK(j.f_loss_last == 19);
@@ -67,7 +68,7 @@ TEST_CASE("Loss of contact elsewhere, a shifted peak and a second passage cost s
   regimes[24].contact = 0.9;        // 25 Hz
   regimes[39].passed_once = false;  // 40 Hz
   for (Regime& r : regimes) r.amp_x_r = 1 / (1 + std::pow(r.frequency - 45, 2));
-  const Judgement j = judge(regimes, rule);
+  const ClaimScore j = score(regimes, rule);
   CHECK(j.c1 == Approx(0.5));
   CHECK(j.c4 == 1);
   CHECK(j.c5 == Approx(9.0 / 10));
@@ -110,32 +111,40 @@ TEST_CASE("At 45 Hz each ball of set 1 is passed once per 2T, at 13.4 Hz not")
 TEST_CASE("An interrupted study goes on where it was, and a changed one starts anew")
 {
   const Scratch scratch;
+  struct Square {
+    int number;
+    double square;
+    bool operator==(const Square&) const = default;
+  };
   std::atomic<int> calls = 0;
+  const auto squares = [&](std::size_t piece) {
+    ++calls;
+    const int k = static_cast<int>(piece);
+    return std::vector<Square>(piece % 3, {k, 0.1 * k * k});
+  };
   Study study{.name = "squares",
               .journal = scratch.path("journal"),
               .stamp = "squares of small numbers",
-              .pieces = 20,
-              .work = [&](std::size_t piece) {
-                ++calls;
-                return Row{static_cast<double>(piece * piece), 0.1};
-              }};
-  const auto rows = run_study(study);
+              .pieces = 20};
+  const auto records = run_study<Square>(study, squares);
   CHECK(calls == 20);
-  CHECK(rows[7] == Row{49, 0.1});
+  CHECK(records[6].empty());
+  CHECK(records[7] == std::vector<Square>{{7, 0.1 * 49}});
+  CHECK(records[8].size() == 2);
 
-  /** Five rows are lost, and the last kept line is cut off in the middle. */
+  /** Five pieces are lost, and the last kept line is cut off in the middle. */
   std::string journal = read_whole(study.journal);
   for (int lines = 0; lines < 5; ++lines)
     journal.erase(journal.rfind('\n', journal.size() - 2) + 1);
   journal.pop_back();
   std::ofstream(study.journal) << journal;
   calls = 0;
-  CHECK(run_study(study) == rows);
+  CHECK(run_study<Square>(study, squares) == records);
   CHECK(calls == 6);
 
   study.stamp = "other numbers";
   calls = 0;
-  run_study(study);
+  run_study<Square>(study, squares);
   CHECK(calls == 20);
 }
 
@@ -145,13 +154,13 @@ TEST_CASE("A study that fails says why, and keeps what it has")
   const Study study{.name = "failing",
                     .journal = scratch.path("journal"),
                     .stamp = "stamp",
-                    .pieces = 4,
-                    .work = [](std::size_t piece) -> Row {
-                      if (piece == 3) throw std::runtime_error("the fourth piece");
-                      return {1.0};
-                    }};
-  CHECK_THROWS_WITH(run_study(study), "the fourth piece");
-  CHECK(read_whole(study.journal).find("0 1\n") != std::string::npos);
+                    .pieces = 4};
+  const auto fourth = [](std::size_t piece) {
+    if (piece == 3) throw std::runtime_error("the fourth piece");
+    return std::vector<char>{'a'};
+  };
+  CHECK_THROWS_WITH(run_study<char>(study, fourth), "the fourth piece");
+  CHECK(read_whole(study.journal).find("0 61\n") != std::string::npos);
 }
 
 /** Would catch an order or a result that depends on the threads, and an exception that stays in one. */
@@ -173,12 +182,8 @@ TEST_CASE(
 
 TEST_CASE("A point of the parametric study agrees with the paper's set 1")
 {
-  const ParametricStudy study{.base = set_1(),
-                              .harmonics = 6,
-                              .frequencies = {45, 48, 50, 52},
-                              .clearances = {2e-5},
-                              .contact_stiffnesses = {1e11}};
-  const StudyPoint point = sweep_machine(study.machine(0), study);
+  const GridPoint point =
+      summary(set_1(), sweep(set_1(), angular(std::vector{45.0, 48.0, 50.0, 52.0}), 6));
   CHECK(point.missed == 0);
   CHECK(point.f_peak == Approx(50).margin(0.5));
   CHECK(point.amp_peak == Approx(12.7e-3).epsilon(0.01));

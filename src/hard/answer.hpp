@@ -1,29 +1,17 @@
 /**
-# Hard cases: what the methods answer
+# What a method says of a hard case
 
-Harmonic balance, found by the paper's predictor or by arc length, shooting, and RK4. Each either claims
-an answer, with the error that it states itself, or refuses with a reason:
-
-- harmonic balance solves its m harmonics with N samples and again 2m with 2N from there; the distance of
-  both is its stated error;
-- shooting closes the period with one tolerance and again with a hundredth of it;
-- RK4 settles with one step and again with half of it; a transient that cannot have decayed yet is
-  neither periodic nor aperiodic, but refused.
-
-An answer whose stated error exceeds the accuracy of the rule is refused too. */
+It either claims an answer, with the error that it states itself, or refuses with a reason. An answer
+whose stated error exceeds the accuracy of the rule is refused too. */
 #pragma once
 
-#include <optional>
-
+#include "balance/periodic_motion.hpp"
 #include "hard/cases.hpp"
-#include "io/scene.hpp"
 #include "motion/motion.hpp"
-#include "stability/floquet.hpp"
 
 namespace rotor_stator::hard
 {
 
-/** What a method says of a case. */
 struct Answer {
   bool claimed = false;
   std::string reason;    ///< of a refusal; of a claim, where it started
@@ -37,34 +25,31 @@ struct Answer {
   PeriodicMotion solution, finer;    ///< harmonic balance with m and with 2m harmonics
 };
 
+/** Claims an answer; throws NoSolution with what was `refined` when that moved it too much. */
+void claim(const HardRule& rule, const std::string& refined, Answer& answer);
+
 /** Instants per period at which motions are compared. */
 constexpr int compared_points = 512;
 
 /** A budget of so many evaluations of Eq. 7 by a time method. */
-OperationBudget budget_of(const Parameters& parameters, const std::string& method,
+OperationBudget budget_of(const HardCase& hard, const std::string& method,
                           double evaluations);
 
 /** About three seconds of shooting by rk8pd. */
-OperationBudget shooting_budget(const Parameters& parameters);
-
-Answer answer_by_predictor(const HardCase& hard, const HardRule& rule);
-Answer answer_by_arc_length(const HardCase& hard, const HardRule& rule);
-Answer answer_by_shooting(const HardCase& hard, const HardRule& rule);
-Answer answer_by_rk4(const HardCase& hard, const HardRule& rule);
+OperationBudget shooting_budget(const HardCase& hard);
 
 /** What RK4 settles on, or another method from where `start` says: shared with the checks. */
-SteadySettings hard_settings(const Parameters& parameters, const std::string& method,
+SteadySettings hard_settings(const HardCase& hard, const std::string& method,
                              double step);
 
 /** About a second, for the amplitudes of an aperiodic motion. */
 int shown_periods(const HardCase& hard);
 
 /** One period of Eq. 7 from a state at phase 0, by rk8pd. */
-motion::Motion period_from(const Parameters& parameters, double omega,
-                           const State& start);
+motion::Motion period_from(const HardCase& hard, const State& start);
 
 /** `relative_difference`, and 0 between two motions that are both at rest. */
-double distance(const motion::Motion& motion, const motion::Motion& reference);
+double motion_difference(const motion::Motion& motion, const motion::Motion& reference);
 
 /** The relative change of the four half peak-to-peaks, over the largest [-]. */
 double amplitude_change(const motion::Motion& motion, const motion::Motion& reference);

@@ -8,7 +8,7 @@ harmonic-balance solution, the balance with 4m harmonics decides; where that fai
 unconfirmed, which is no success. */
 #pragma once
 
-#include "hard/methods.hpp"
+#include "hard/answer.hpp"
 #include "io/table.hpp"
 
 namespace rotor_stator::hard
@@ -24,31 +24,30 @@ struct Check {
   std::string stability = "-";   ///< by the method's own multiplier and its change
 };
 
-enum class Method { predictor, arc_length, shooting, rk4 };
-constexpr Method all_methods[] = {Method::predictor, Method::arc_length, Method::shooting,
-                                  Method::rk4};
-std::string name_of(Method method);
+/** How a case is answered, and what checks the answer. */
+struct Method {
+  std::string name;
+  Answer (*answer)(const HardCase& hard, const HardRule& rule);
+  void (*check)(const HardCase& hard, const Answer& answer, Check& check);
+};
+
+/** The paper's predictor, arc length, shooting, RK4. */
+extern const std::vector<Method> methods;
 
 /** One method's end on one case. */
-struct Judgement {
+struct Verification {
+  const HardCase* hard;
+  const Method* method;
   Answer answer;
   Check check;
   std::string verdict;  ///< solved, refused, silent error or unconfirmed
 };
 
 /** Puts an answer to the check that belongs to its method. */
-Judgement judge(const HardCase& hard, Method method, Answer answer, const HardRule& rule);
+Verification verify(const HardCase& hard, const Method& method, Answer answer,
+                    const HardRule& rule);
 
-/** Puts a case to a method, and its answer to the check. */
-Judgement judge(const HardCase& hard, Method method, const HardRule& rule);
-
-/** All methods on every case; `every`-th piece only, for a quick look. */
-std::vector<Judgement> judge_all(const HardCases& hard, int every);
-
-/**
-## The table of the hard cases */
-
-/** How every method ends on every case of a list; of `every` = n only each n-th row. */
-Table hard_table(const std::string& list, int every);
+/** How the methods end on the cases of a list. */
+Table hard_table(const HardCases& hard, const std::vector<Verification>& ends);
 
 }  // namespace rotor_stator::hard

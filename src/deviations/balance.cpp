@@ -1,0 +1,239 @@
+#include "deviations/balance.hpp"
+
+#include <cmath>
+
+#include "balance/bearing_problem.hpp"
+#include "balance/fourier_transform.hpp"
+#include "continuation/arc_length.hpp"
+#include "deviations/printed_equations.hpp"
+#include "io/errors.hpp"
+
+namespace rotor_stator::deviations
+{
+
+namespace
+{
+
+/** The coefficients of all four displacements in the order of PlainBalance. */
+Eigen::VectorXd coefficients(const PeriodicMotion& solution)
+{
+  return solution.bodies.reshaped();
+}
+
+/** The solution of the plain equations, from the library's. */
+motion::Motion plain_solution(const DeviationScene& scene, double frequency,
+                              FirstEntry first)
+{
+  const int m = scene.harmonics, n = default_samples(m);
+  PeriodicMotion solution = require_periodic(scene.machine, frequency, m);
+  PlainBalance balance(scene.machine, angular(frequency), m, n, first);
+  Eigen::VectorXd x = coefficients(solution);
+  const Equations equations{
+      .residual_scale = balance.load().norm(),
+      .unknown_scale = scales(scene.machine).length,
+      .residual = [&](const Eigen::VectorXd& y,
+                      Eigen::VectorXd& residual) { residual = balance.residual(y); },
+      .jacobian = [&](const Eigen::VectorXd& y) -> const Eigen::MatrixXd& {
+        return balance.jacobian(y);
+      }};
+  const NewtonReport report = newton(equations, x, {});
+  if (!report.converged())
+    throw NoSolution(
+        format("plain balance at %g Hz: %s", frequency, report.reason().c_str()));
+  solution.bodies = x.reshaped(4, 2 * m + 1);
+  return motion::motion_of(solution.bodies, points(scene));
+}
+
+}  // namespace
+
+EvidenceList printed_newton_step(const DeviationScene& scene)
+{
+  StrictToml table = scene.table("newton");
+  const double start_speed = table.number("start_speed_hz", Range::positive);
+  const Eigen::VectorXd truth =
+      coefficients(require_periodic(scene.machine, scene.speed, scene.harmonics));
+  const Eigen::VectorXd start =
+      coefficients(require_periodic(scene.machine, start_speed, scene.harmonics));
+  PlainBalance balance(scene.machine, angular(scene.speed), scene.harmonics,
+                       default_samples(scene.harmonics));
+  const auto residual = [&](const Eigen::VectorXd& x) {
+    return balance.residual(x).norm() / balance.load().norm();
+  };
+  EvidenceList list{
+      {"D-06.speed", scene.speed, "Hz", "speed of the iterations"},
+      {"D-06.start_speed", start_speed, "Hz", "speed of the solution they start from"},
+      {"D-06.start", residual(start), "-", "residual of the start over the load"}};
+  Eigen::VectorXd printed = start, ours = start;
+  int done = 0;
+  for (int iterations : table.integers("iterations", 1, 100)) {
+    for (; done < iterations; ++done) {
+      printed += balance.printed_step(printed);
+      ours += balance.corrected_step(ours);
+    }
+    list.push_back({format("D-06.printed_%d", iterations), residual(printed), "-",
+                    format("residual over the load after %d printed steps", iterations)});
+    list.push_back({format("D-06.ours_%d", iterations), residual(ours), "-",
+                    format("the same after %d corrected steps", iterations)});
+  }
+  for (const auto& [name, x] : {std::pair{"printed", &printed}, std::pair{"ours", &ours}})
+    list.push_back({format("D-06.distance_%s", name), (*x - truth).norm() / truth.norm(),
+                    "-",
+                    format("distance to the solution after the last step, %s", name)});
+  return list;
+}
+
+EvidenceList printed_block(const DeviationScene& scene)
+{
+  const Parameters& machine = scene.machine;
+  EvidenceList list;
+  for (double frequency : scene.table("block").numbers("speeds_hz", Range::positive)) {
+    const motion::Motion truth = integrated(scene, frequency);
+    const motion::Motion printed = plain_solution(scene, frequency, FirstEntry::printed);
+    const motion::Motion ours = plain_solution(scene, frequency, FirstEntry::corrected);
+    const std::string at = format("_%gHz", frequency);
+    list.push_back({"D-12.printed" + at, motion::relative_difference(printed, truth), "-",
+                    "distance to time integration with the printed block"});
+    list.push_back({"D-12.ours" + at, motion::relative_difference(ours, truth), "-",
+                    "the same with the corrected block"});
+    list.push_back({"D-12.force_printed" + at,
+                    motion::relative_force_difference(machine, printed, truth), "-",
+                    "distance of the bearing's force, printed block"});
+    list.push_back({"D-12.force_ours" + at,
+                    motion::relative_force_difference(machine, ours, truth), "-",
+                    "the same with the corrected block"});
+  }
+  return list;
+}
+
+EvidenceList criteria_without_scale(const DeviationScene& scene)
+{
+  const double start_speed =
+      scene.table("newton").number("start_speed_hz", Range::positive);
+  const Eigen::VectorXd truth =
+      coefficients(require_periodic(scene.machine, scene.speed, scene.harmonics));
+  Eigen::VectorXd x =
+      coefficients(require_periodic(scene.machine, start_speed, scene.harmonics));
+  PlainBalance balance(scene.machine, angular(scene.speed), scene.harmonics,
+                       default_samples(scene.harmonics));
+  const Eigen::VectorXd step = balance.corrected_step(x);
+  x += step;
+  const double penetration = scales(scene.machine).penetration;
+  return {{"D-22.delta_1", balance.residual(x).norm(), "N", "Eq. 17 after one iteration"},
+          {"D-22.delta_2", step.norm(), "m", "Eq. 18 after one iteration"},
+          {"D-22.penetration", penetration, "m",
+           "penetration of one ball under the whole load"},
+          {"D-22.distance", (x - truth).norm() / penetration, "-",
+           "distance to the solution over that penetration"}};
+}
+
+namespace
+{
+
+Branch branch_over_range(const DeviationScene& scene, int harmonics, int samples)
+{
+  const Parameters& parameters = scene.machine;
+  const double from = angular(scene.range.front()), to = angular(scene.range.back());
+  Balance balance(bearing_problem(parameters, samples), harmonics);
+  return follow_branch(balance, from, to, quasi_static_start(parameters, from, harmonics),
+                       arc_length_settings(parameters));
+}
+
+/** What m harmonics with N samples give: folds, and the distance to the true motion. */
+void add_sampled(EvidenceList& list, const DeviationScene& scene, int m, int n,
+                 const motion::Motion& truth)
+{
+  const Branch branch = branch_over_range(scene, m, n);
+  const std::string where = format("_m%d_N%d", m, n),
+                    with = format("m = %d, N = %d", m, n);
+  const auto solution = require_periodic(scene.machine, scene.speed, m, n);
+  list.push_back({"D-05.folds" + where, static_cast<double>(branch.folds.size()), "-",
+                  "folds of the branch, " + with});
+  list.push_back({"D-05.end" + where, branch.points.back().motion.omega / angular(1),
+                  "Hz", "speed where the branch ended, " + with + ": " + branch.end});
+  list.push_back({"D-05.error" + where,
+                  motion::relative_difference(
+                      motion::motion_of(solution.bodies, points(scene)), truth),
+                  "-", "distance to time integration, " + with});
+}
+
+}  // namespace
+
+EvidenceList names_of_gamma(const DeviationScene& scene)
+{
+  const int m = scene.harmonics, n = 2 * m + 1;
+  const Eigen::MatrixXd series = require_periodic(scene.machine, scene.speed, m).bodies;
+  const Eigen::MatrixXd gamma = gamma_matrix(m, n, Argument::parenthesised);
+  const Eigen::MatrixXd truth = gamma_inverse(m, n) * series.transpose();
+  const Eigen::MatrixXd as_text = gamma * series.transpose();
+  return {{"D-04.speed", scene.speed, "Hz", "speed of the solution"},
+          {"D-04.error_text", (as_text - truth).norm() / truth.norm(), "-",
+           "samples with gamma taken as frequency to time, over the true ones: distance"},
+          {"D-04.error_ours", (sample_series(series, n) - truth).norm() / truth.norm(),
+           "-", "the same with our transforms"},
+          {"D-04.size_text", as_text.cwiseAbs().maxCoeff() / truth.cwiseAbs().maxCoeff(),
+           "-", "largest displacement of the text's samples over the true one"}};
+}
+
+EvidenceList samples_as_printed(const DeviationScene& scene)
+{
+  StrictToml table = scene.table("sampling");
+  const auto common = table.integers("common_samples", 3, 1 << 20);
+  const motion::Motion truth = integrated(scene, scene.speed);
+  EvidenceList list{
+      {"D-05.speed", scene.speed, "Hz", "speed of the errors"},
+      {"D-05.from", scene.range.front(), "Hz", "first speed of the branches"},
+      {"D-05.to", scene.range.back(), "Hz", "last speed of the branches"}};
+  for (int m : scene.sampled_harmonics()) {
+    std::vector<int> counts{2 * m + 1, 4 * m + 1};
+    counts.insert(counts.end(), common.begin(), common.end());
+    for (int n : counts) {
+      if (n < 2 * m + 1) table.fail("common_samples", "must be at least 2m+1 each");
+      add_sampled(list, scene, m, n, truth);
+    }
+  }
+  return list;
+}
+
+EvidenceList default_sample_count(const DeviationScene& scene)
+{
+  const int m = scene.harmonics;
+  const int samples = scene.table("fine").integer("samples", 2 * m + 1, 1 << 20);
+  const auto motion = [&](int n) {
+    return motion::motion_of(require_periodic(scene.machine, scene.speed, m, n).bodies,
+                             points(scene));
+  };
+  const motion::Motion fine = motion(samples), truth = integrated(scene, scene.speed);
+  const int n = default_samples(m);
+  return {{"D-14.speed", scene.speed, "Hz", "speed of the errors"},
+          {"D-14.samples", static_cast<double>(n), "-", format("our N for m = %d", m)},
+          {"D-14.samples_printed", 2.0 * m + 1, "-", "the printed N"},
+          {"D-14.samples_fine", static_cast<double>(samples), "-",
+           "the N that stands for exact"},
+          {"D-14.sampling_ours", motion::relative_difference(motion(n), fine), "-",
+           "error of sampling with our N"},
+          {"D-14.sampling_printed", motion::relative_difference(motion(2 * m + 1), fine),
+           "-", "error of sampling with the printed N"},
+          {"D-14.truncation", motion::relative_difference(fine, truth), "-",
+           "error of the truncated series, sampled finely"}};
+}
+
+EvidenceList parentheses_of_gamma(const DeviationScene& scene)
+{
+  const int m = scene.harmonics, n = 2 * m + 1;
+  const Eigen::MatrixXd inverse = gamma_inverse(m, n);
+  const auto defect = [&](Argument argument) {
+    const Eigen::MatrixXd product = gamma_matrix(m, n, argument) * inverse;
+    return (product - Eigen::MatrixXd::Identity(n, n)).cwiseAbs().maxCoeff();
+  };
+  const Eigen::MatrixXd series = require_periodic(scene.machine, scene.speed, m).bodies;
+  const Eigen::MatrixXd back =
+      gamma_matrix(m, n, Argument::printed) * inverse * series.transpose();
+  return {
+      {"D-21.printed", defect(Argument::printed), "-",
+       "largest entry of gamma times its inverse minus one, arguments as printed"},
+      {"D-21.ours", defect(Argument::parenthesised), "-", "the same with parentheses"},
+      {"D-21.back_printed", (back - series.transpose()).norm() / series.norm(), "-",
+       "coefficients after one return trip to samples, as printed: relative distance"}};
+}
+
+}  // namespace rotor_stator::deviations

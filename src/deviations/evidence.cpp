@@ -1,0 +1,95 @@
+#include "deviations/evidence.hpp"
+
+#include "io/errors.hpp"
+#include "motion/other_starts.hpp"
+
+namespace rotor_stator::deviations
+{
+
+DeviationScene read_deviation_scene(SceneFile& file)
+{
+  if (file.reading() != "exchanged")
+    throw BadInput("--reading " + file.reading() +
+                   ": must be exchanged; the deviations compare both readings (D-09)");
+  StrictToml& toml = file.toml();
+  return {.toml = toml,
+          .machine = read_parameters(file, "parameters"),
+          .printed = read_parameters(file, "printed_parameters"),
+          .harmonics = toml.integer("harmonics", 1, 64),
+          .speed = toml.number("speed_hz", Range::positive),
+          .gravity_speed = toml.number("gravity_speed_hz", Range::positive),
+          .transition_speed = toml.number("transition_speed_hz", Range::positive),
+          .range = file.speed_range("range_hz"),
+          .time_integration = read_steady_settings(file)};
+}
+
+std::vector<int> DeviationScene::sampled_harmonics() const
+{
+  return table("sampling").integers("harmonics", 1, 64);
+}
+
+double DeviationScene::finest_step() const
+{
+  return table("fine").numbers("steps_hz", Range::positive).front();
+}
+
+PeriodicMotion require_periodic(const Parameters& machine, double frequency,
+                                int harmonics, int samples,
+                                const NewtonSettings& settings)
+{
+  const PeriodicMotion solution = motion::search_periodic(
+      machine, angular(frequency), harmonics,
+      samples > 0 ? samples : default_samples(harmonics), settings);
+  if (!solution.found())
+    throw NoSolution(format("%s: %d harmonics at %g Hz: %s", machine.file.c_str(),
+                            harmonics, frequency, solution.newton.reason().c_str()));
+  return solution;
+}
+
+int points(const DeviationScene& scene)
+{
+  return scene.time_integration.stepper.intervals_per_period;
+}
+
+SteadyState settled(const DeviationScene& scene, const Parameters& machine,
+                    double frequency)
+{
+  return steady_state(machine, angular(frequency), static_start(machine),
+                      scene.time_integration);
+}
+
+motion::Motion integrated(const DeviationScene& scene, double frequency)
+{
+  const SteadyState steady = settled(scene, scene.machine, frequency);
+  if (!steady.periodic)
+    throw NoSolution(format("the motion at %g Hz is not T-periodic (spread %.2g)",
+                            frequency, steady.spread));
+  return motion::motion_of(steady, points(scene));
+}
+
+namespace
+{
+
+const std::vector<Field<Evidence>> fields{
+    {"key", "-", "entry and name", &Evidence::key},
+    {"value", "-", "in the unit of its row", &Evidence::value},
+    {"unit", "-", "of the value", &Evidence::unit},
+    {"meaning", "-", "what the value is", &Evidence::meaning}};
+
+}  // namespace
+
+Table evidence_table(const DeviationScene& scene)
+{
+  Table table("Evidence for the deviations from the printed paper (paper/deviations.md)",
+              fields);
+  describe(table, scene.machine);
+  describe(table, scene.printed);
+  return table;
+}
+
+void add_evidence(Table& table, const EvidenceList& list)
+{
+  for (const Evidence& evidence : list) table.row(fields, evidence);
+}
+
+}  // namespace rotor_stator::deviations

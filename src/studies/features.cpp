@@ -1,0 +1,170 @@
+#include "studies/features.hpp"
+
+#include <algorithm>
+#include <functional>
+
+#include "continuation/sweep.hpp"
+#include "io/errors.hpp"
+#include "motion/other_starts.hpp"
+#include "stability/lyapunov.hpp"
+
+namespace rotor_stator::studies
+{
+
+using motion::CurvePoint;
+
+SteadyState settled(Model model, double frequency, int shown_periods)
+{
+  if (shown_periods > 0) model.time_integration.shown_periods = shown_periods;
+  return steady_state(model.machine, angular(frequency), static_start(model.machine),
+                      model.time_integration);
+}
+
+motion::Motion motion_of(const Model& model, const SteadyState& steady)
+{
+  return motion::motion_of(steady, model.time_integration.stepper.intervals_per_period);
+}
+
+namespace
+{
+
+/** The amplitude of x_r [m] at each speed [Hz]; 0 where there is no solution. */
+using Amplitudes = std::function<std::vector<double>(const std::vector<double>&)>;
+
+CurvePoint highest(const Model& model, std::vector<double> frequencies,
+                   const Amplitudes& amplitudes)
+{
+  constexpr int finer = 4;
+  const auto curve = [&] {
+    std::vector<CurvePoint> points;
+    const std::vector<double> heights = amplitudes(frequencies);
+    for (std::size_t k = 0; k < heights.size(); ++k)
+      points.push_back({frequencies[k], heights[k]});
+    const auto top = std::max_element(heights.begin(), heights.end());
+    if (top == heights.begin() || top + 1 == heights.end())
+      throw NoSolution(model.machine.file +
+                       ": the largest amplitude is at an end of the speeds looked at");
+    return std::pair(points, points[top - heights.begin()].frequency);
+  };
+  const double step = (frequencies[1] - frequencies[0]) / finer;
+  const double centre = curve().second;
+  frequencies.clear();
+  for (int k = -finer; k <= finer; ++k) frequencies.push_back(centre + k * step);
+  return motion::refined_peak(curve().first);
+}
+
+}  // namespace
+
+CurvePoint balance_peak(const Model& model, const std::vector<double>& frequencies)
+{
+  FourierTransform transform = amplitude_transform(model.harmonics);
+  return highest(model, frequencies, [&](const std::vector<double>& speeds) {
+    std::vector<double> amplitudes;
+    for (const PeriodicMotion& solution :
+         sweep(model.machine, angular(speeds), model.harmonics, model.samples))
+      amplitudes.push_back(
+          solution.found() ? half_peak_to_peak(solution.bodies, transform)[2] : 0);
+    return amplitudes;
+  });
+}
+
+CurvePoint integrated_peak(const Model& model, const std::vector<double>& frequencies)
+{
+  return highest(model, frequencies, [&](const std::vector<double>& speeds) {
+    std::vector<double> amplitudes;
+    for (double frequency : speeds)
+      amplitudes.push_back(
+          orbit_size(motion_of(model, settled(model, frequency))).x.value);
+    return amplitudes;
+  });
+}
+
+namespace
+{
+
+bool loses_contact(const Model& model, double frequency)
+{
+  return motion::contact_share(model.machine,
+                               motion_of(model, settled(model, frequency))) < 1;
+}
+
+/** The first of the speeds that loses contact, refined between it and the one before. The band has
+   ragged ends, so another change may lie between the two: half their distance stays unknown. */
+std::optional<Measured> onset(const Model& model, const std::vector<double>& frequencies)
+{
+  const auto first =
+      std::find_if(frequencies.begin(), frequencies.end(),
+                   [&](double frequency) { return loses_contact(model, frequency); });
+  if (first == frequencies.end()) return {};
+  if (first == frequencies.begin()) return Measured{*first};
+  double loses = *first, keeps = *(first - 1);
+  const double uncertainty = 0.5 * std::abs(keeps - loses);
+  for (int halving = 0; halving < 5; ++halving) {
+    const double middle = 0.5 * (keeps + loses);
+    (loses_contact(model, middle) ? loses : keeps) = middle;
+  }
+  return Measured{0.5 * (keeps + loses), uncertainty};
+}
+
+}  // namespace
+
+std::optional<ContactLoss> contact_loss(const Model& model,
+                                        const std::vector<double>& frequencies)
+{
+  const auto first = onset(model, frequencies);
+  if (!first) return {};
+  return ContactLoss{*first, *onset(model, {frequencies.rbegin(), frequencies.rend()})};
+}
+
+std::optional<OrbitSize> balance_orbit_size(const Model& model, double frequency)
+{
+  if (!has_rotation_period(model.machine.bearing)) return {};
+  const PeriodicMotion solution = motion::search_periodic(
+      model.machine, angular(frequency), model.harmonics, model.samples);
+  if (!solution.found()) return {};
+  const Eigen::VectorXd amplitude = half_peak_to_peak(solution.bodies);
+  return OrbitSize{{amplitude[2]}, {amplitude[3]}};
+}
+
+namespace
+{
+
+/** The largest value of the period from `begin` on, refined by a parabola where it is a
+   crest. Beyond both ends of the motion stands the sample one period further in. */
+double crest(const std::vector<double>& values, std::size_t begin, std::size_t period)
+{
+  const auto first = values.begin() + static_cast<std::ptrdiff_t>(begin);
+  const auto largest =
+      std::max_element(first, first + static_cast<std::ptrdiff_t>(period));
+  const auto at = static_cast<std::size_t>(largest - values.begin());
+  const double before = values[at > 0 ? at - 1 : period - 1];
+  const double after = values[at + 1 < values.size() ? at + 1 : at + 1 - period];
+  if (before > *largest || after > *largest) return *largest;
+  return motion::refined_peak({{-1, before}, {0, *largest}, {1, after}}).amplitude;
+}
+
+/** Mean half peak-to-peak of one displacement. */
+Measured mean_size(const std::vector<double>& values, int points_per_period)
+{
+  std::vector<double> mirrored, sizes;
+  for (double value : values) mirrored.push_back(-value);
+  const auto period = static_cast<std::size_t>(points_per_period);
+  for (std::size_t k = 0; k < values.size(); k += period)
+    sizes.push_back(0.5 * (crest(values, k, period) + crest(mirrored, k, period)));
+  const auto [mean, error] = batch_mean(sizes);
+  return {mean, error};
+}
+
+}  // namespace
+
+OrbitSize orbit_size(const motion::Motion& motion)
+{
+  std::vector<double> x, y;
+  for (const Bodies& bodies : motion.positions) {
+    x.push_back(bodies.rotor.x);
+    y.push_back(bodies.rotor.y);
+  }
+  return {mean_size(x, motion.points_per_period), mean_size(y, motion.points_per_period)};
+}
+
+}  // namespace rotor_stator::studies
