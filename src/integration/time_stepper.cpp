@@ -151,17 +151,28 @@ void state_slopes(const Parameters& parameters, const Stiffness2& s, double* dfd
     }
 }
 
-/** Also ∂(Eq. 7)/∂t: the unbalance turns with the rotor, and the bearing's force with the
-   cage, dF/dθ = F⊥ - S u⊥ at constant u. */
 int jacobian(double t, const double y[], double* dfdy, double dfdt[], void* data)
 {
   auto& equation = *static_cast<Equation7*>(data);
   if (!equation.pay_for_one()) return GSL_EBADFUNC;
-  const Parameters& p = equation.parameters;
-  const double omega = equation.system.omega(), phase = omega * t;
+  equation_7_slopes(equation.parameters, equation.system, t, y, dfdy, dfdt);
+  return GSL_SUCCESS;
+}
+
+struct FreeDriver {
+  void operator()(gsl_odeiv2_driver* driver) const { gsl_odeiv2_driver_free(driver); }
+};
+
+}  // namespace
+
+/** The unbalance turns with the rotor, and the bearing's force with the cage, dF/dθ = F⊥ - S u⊥ at
+    constant u. */
+void equation_7_slopes(const Parameters& p, const RotorStator& system, double t,
+                       const double y[], double* dfdy, double* dfdt)
+{
+  const double omega = system.omega(), phase = omega * t;
   const Vec2 u{y[2] - y[0], y[3] - y[1]};
-  const auto [f, s] =
-      equation.system.bearing().reaction(equation.system.cage_direction(phase), u);
+  const auto [f, s] = system.bearing().reaction(system.cage_direction(phase), u);
   state_slopes(p, s, dfdy);
 
   const double cage_speed = p.bearing.cage_speed_ratio * omega;
@@ -173,14 +184,7 @@ int jacobian(double t, const double y[], double* dfdy, double dfdt[], void* data
   dfdt[5] = turning.y / p.stator.mass;
   dfdt[6] = (-turning.x - unbalance * std::sin(phase)) / p.rotor.mass;
   dfdt[7] = (-turning.y + unbalance * std::cos(phase)) / p.rotor.mass;
-  return GSL_SUCCESS;
 }
-
-struct FreeDriver {
-  void operator()(gsl_odeiv2_driver* driver) const { gsl_odeiv2_driver_free(driver); }
-};
-
-}  // namespace
 
 void keep_gsl_from_aborting()
 {

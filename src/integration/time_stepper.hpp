@@ -82,6 +82,11 @@ private:
   long next_ = 0;           ///< the interval that would continue the motion
 };
 
+/** ∂(Eq. 7)/∂y, 8 × 8 by rows, and ∂(Eq. 7)/∂t at y = (x_s, y_s, x_r, y_r, and their speeds): what
+    the implicit methods ask for. */
+void equation_7_slopes(const Parameters& parameters, const RotorStator& system, double t,
+                       const double y[], double* dfdy, double* dfdt);
+
 const std::vector<std::string>& gsl_methods();
 
 /** GSL's own type of a method of the list above. */
