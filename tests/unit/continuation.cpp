@@ -132,8 +132,8 @@ TEST_CASE("N = 2m+1 as printed creates folds that N = 64 does not have")
     int changes = 0;
     double before = 0;
     for (const BranchPoint& point : branch.points) {
-      balance.residual(point.x, point.omega);
-      const double determinant = balance.jacobian().partialPivLu().determinant();
+      const double determinant =
+          balance.jacobian(point.motion.x, point.motion.omega).partialPivLu().determinant();
       changes += determinant * before < 0;
       before = determinant;
     }
