@@ -25,7 +25,7 @@ BOOK, ARTICLE = Path("build/book"), Path("build/paper/article.html")
 SHOTS = Path("build/screenshots")
 OPENED = [BOOK / "index.html", BOOK / "model-ball_bearing.html", BOOK / "fig07_contact.html",
           ARTICLE]
-COLLECTIONS = {"index.html", "deviations.html", "article.html"}
+COLLECTIONS = {"index.html", "list_of_deviations.html", "article.html"}
 WITH_EQUATIONS = {"model-ball_bearing.html", "article.html"}
 WIDTHS = (1280, 400)
 # A file is cut at its headings from 250 lines of code on; one idea may be longer than that.

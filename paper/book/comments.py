@@ -35,7 +35,7 @@ def prose(comment):
     indent = min((len(line) - len(line.lstrip()) for line in lines[1:] if line.strip()), default=0)
     text = "\n".join([lines[0].strip()] + [line[indent:].rstrip() for line in lines[1:]])
     text = EQUATION.sub(numbered, SYMBOL.sub(subscripted, text))
-    return DEVIATION.sub(r"[D-\1](deviations.html#d-\1)", text)
+    return DEVIATION.sub(r"[D-\1](list_of_deviations.html#d-\1)", text)
 
 
 def subscripted(match):

@@ -45,4 +45,4 @@ def deviations_section():
     entries = re.findall(r"^## (D-\d\d) (.*)$", DEVIATIONS.read_text(encoding="utf-8"), re.MULTILINE)
     return ("## Deviations\n\nWhere the paper cannot be followed as printed, or leaves something out; each "
             "entry has what is printed, what is done here, the evidence and the effect.\n\n"
-            + "\n".join(f"- [{key}](deviations.html#{key.lower()}) {title}" for key, title in entries))
+            + "\n".join(f"- [{key}](list_of_deviations.html#{key.lower()}) {title}" for key, title in entries))

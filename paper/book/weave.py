@@ -283,7 +283,7 @@ def main(output):
     with ThreadPoolExecutor() as pool:
         list(pool.map(weave, range(len(order))))
     back = '<a href="index.html">Index</a>'
-    convert(output, "deviations.html", with_names(Path("data/generated/deviations.md").read_text()),
+    convert(output, "list_of_deviations.html", with_names(Path("data/generated/deviations.md").read_text()),
             "Deviations", back, cited=True)
     convert(output, "guide.html", with_files(Path("paper/guide.md").read_text()), "A study of one's own",
             back, cited=True)
