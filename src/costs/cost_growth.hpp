@@ -7,8 +7,8 @@ that solves one speed with one harmonic. */
 #pragma once
 
 #include "costs/timed_method.hpp"
-#include "io/scene.hpp"
 #include "io/table.hpp"
+#include "io/toml_file.hpp"
 
 namespace rotor_stator::costs
 {

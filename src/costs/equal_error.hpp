@@ -9,8 +9,8 @@ repeated, and the one with the least median is the row. */
 
 #include "costs/timed_method.hpp"
 #include "costs/true_motion.hpp"
-#include "io/scene.hpp"
 #include "io/table.hpp"
+#include "io/toml_file.hpp"
 
 namespace rotor_stator::costs
 {

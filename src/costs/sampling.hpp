@@ -6,8 +6,8 @@ is that of this one against many more harmonics. */
 #pragma once
 
 #include "costs/true_motion.hpp"
-#include "io/scene.hpp"
 #include "io/table.hpp"
+#include "io/toml_file.hpp"
 
 namespace rotor_stator::costs
 {

@@ -8,7 +8,7 @@ accuracy each, within it the cheaper ones first, so that a search can stop early
 #include <string>
 #include <vector>
 
-#include "io/strict_toml.hpp"
+#include "io/toml_file.hpp"
 
 namespace rotor_stator::costs
 {

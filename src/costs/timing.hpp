@@ -7,8 +7,8 @@ from the static load; of its settings those with the fewest steps are the cheape
 
 #include "costs/timed_method.hpp"
 #include "costs/true_motion.hpp"
-#include "io/scene.hpp"
 #include "io/table.hpp"
+#include "io/toml_file.hpp"
 
 namespace rotor_stator::costs
 {

@@ -11,8 +11,8 @@ one takes in the same run. */
 
 #include "costs/timed_method.hpp"
 #include "costs/true_motion.hpp"
-#include "io/scene.hpp"
 #include "io/table.hpp"
+#include "io/toml_file.hpp"
 
 namespace rotor_stator::costs
 {

@@ -7,8 +7,8 @@ each. What only one entry asks for is read where it is used. */
 #pragma once
 
 #include "balance/newton.hpp"
-#include "io/scene.hpp"
 #include "io/table.hpp"
+#include "io/toml_file.hpp"
 #include "motion/motion.hpp"
 
 namespace rotor_stator::deviations

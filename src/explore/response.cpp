@@ -7,7 +7,7 @@
 #include "continuation/arc_length.hpp"
 #include "explore/branch_file.hpp"
 #include "io/errors.hpp"
-#include "io/files.hpp"
+#include "io/output_file.hpp"
 #include "motion/motion.hpp"
 #include "motion/other_starts.hpp"
 #include "stability/branch_stability.hpp"
@@ -118,7 +118,7 @@ BranchPoint found_start(const Task& task, Balance& balance, Table& table)
   const double omega = task.range().from;
   const PeriodicMotion start =
       motion::search_periodic(task.parameters, omega, task.harmonics, task.samples,
-                            task.settings.newton, task.budget);
+                              task.settings.newton, task.budget);
   if (!start.found())
     throw NoSolution(format("%s: no solution found with %d harmonics at --%s %g Hz: %s",
                             task.parameters.file.c_str(), task.harmonics,
@@ -224,8 +224,7 @@ Others others(const Task& task, Balance& balance, const Branch& main, Table& tab
   for (const IsolatedBranch& other : others.found)
     table.note(format("branch %d: off the branches before it, found at %g Hz from %s; %s",
                       ++number, other.candidate.omega / angular(1),
-                      other.candidate.start.c_str(),
-                      summary(other.branch).c_str()));
+                      other.candidate.start.c_str(), summary(other.branch).c_str()));
   if (task.budget.used_up())
     others.missing =
         "the budget is used up, more with --budget: not every start was followed";
@@ -254,8 +253,8 @@ std::vector<std::string> notes_of(const BranchStability& stability)
       BranchStabilitySettings{}.tolerance, stability.missed)};
   for (const StablePoint& p : stability.points)
     if (p.bifurcation != Bifurcation::none)
-      notes.push_back(
-          format("%s: %.9g Hz", name_of(p.bifurcation), p.point.motion.omega / angular(1)));
+      notes.push_back(format("%s: %.9g Hz", name_of(p.bifurcation),
+                             p.point.motion.omega / angular(1)));
   return notes;
 }
 
@@ -294,10 +293,10 @@ public:
   {
     const PeriodicMotion& motion = point.motion;
     touches_ = touches_ || !motion.force.isZero(0);
-    table_.row(fields_, Row{point,
-                            half_peak_to_peak(body_series(task_.parameters, motion),
-                                              transform_),
-                            stability, branch});
+    table_.row(
+        fields_,
+        Row{point, half_peak_to_peak(body_series(task_.parameters, motion), transform_),
+            stability, branch});
   }
 
 private:
@@ -354,10 +353,10 @@ std::string unfinished(const Task& task, const Branch& branch,
     return task.parameters.file + ": isolated branches: " + isolated;
   if (branch.covered)
     return stability.empty() ? "" : task.parameters.file + ": " + stability;
-  return format("%s: the branch stopped at %g Hz, before --%s %g Hz: %s",
-                task.parameters.file.c_str(), branch.points.back().motion.omega / angular(1),
-                task.upwards ? "to" : "from", task.range().to / angular(1),
-                branch.end.c_str());
+  return format(
+      "%s: the branch stopped at %g Hz, before --%s %g Hz: %s",
+      task.parameters.file.c_str(), branch.points.back().motion.omega / angular(1),
+      task.upwards ? "to" : "from", task.range().to / angular(1), branch.end.c_str());
 }
 
 }  // namespace

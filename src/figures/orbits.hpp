@@ -8,8 +8,8 @@ rotation, the difference of the two is the error of the first. */
 
 #include <optional>
 
-#include "io/scene.hpp"
 #include "io/table.hpp"
+#include "io/toml_file.hpp"
 #include "motion/find_periodic.hpp"
 #include "motion/motion.hpp"
 

@@ -10,7 +10,7 @@
 #include "continuation/arc_length.hpp"
 #include "integration/time_stepper.hpp"
 #include "io/errors.hpp"
-#include "io/scene.hpp"
+#include "io/toml_file.hpp"
 #include "motion/find_periodic.hpp"
 
 namespace rotor_stator::hard

@@ -10,7 +10,7 @@ that stands in the same file. */
 #include <string>
 #include <vector>
 
-#include "io/scene.hpp"
+#include "io/toml_file.hpp"
 #include "model/parameters.hpp"
 
 namespace rotor_stator::hard

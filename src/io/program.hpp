@@ -8,8 +8,8 @@ A line on stderr that is rewritten in place, and only when a person is watching.
 #include <string>
 #include <vector>
 
-#include "io/scene.hpp"
 #include "io/table.hpp"
+#include "io/toml_file.hpp"
 
 namespace CLI
 {

@@ -4,7 +4,7 @@
 #include <numbers>
 
 #include "io/errors.hpp"
-#include "io/strict_toml.hpp"
+#include "io/toml_file.hpp"
 
 namespace rotor_stator
 {

@@ -9,8 +9,8 @@ read, so that the programs below never meet a machine that cannot exist. */
 #include <string>
 #include <vector>
 
-#include "io/scene.hpp"
 #include "io/table.hpp"
+#include "io/toml_file.hpp"
 
 namespace rotor_stator
 {

@@ -6,8 +6,8 @@ without a solution are counted. */
 #pragma once
 
 #include "balance/periodic_motion.hpp"
-#include "io/scene.hpp"
 #include "io/table.hpp"
+#include "io/toml_file.hpp"
 #include "model/parameters.hpp"
 
 namespace rotor_stator::studies

@@ -5,6 +5,7 @@
 #include <functional>
 
 #include "io/errors.hpp"
+#include "io/number_table.hpp"
 
 namespace rotor_stator::studies
 {

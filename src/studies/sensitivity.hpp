@@ -14,8 +14,8 @@ it; N leaves time integration alone, h leaves harmonic balance alone. */
 #pragma once
 
 #include "balance/newton.hpp"
-#include "io/scene.hpp"
 #include "io/table.hpp"
+#include "io/toml_file.hpp"
 #include "studies/features.hpp"
 
 namespace rotor_stator::studies

@@ -7,8 +7,8 @@ evaluations of the force times samples, stands that of the best fixed number of 
 cheapest of a ladder, solved from quasi-static contact, whose true error is not larger. */
 #pragma once
 
-#include "io/scene.hpp"
 #include "io/table.hpp"
+#include "io/toml_file.hpp"
 #include "motion/adaptive.hpp"
 #include "motion/motion.hpp"
 

@@ -8,7 +8,7 @@ that gives the largest Lyapunov exponent, until there is enough to judge by. */
 #include <cstdint>
 
 #include "integration/steady_state.hpp"
-#include "io/strict_toml.hpp"
+#include "io/toml_file.hpp"
 #include "stability/lyapunov.hpp"
 
 namespace rotor_stator::truth

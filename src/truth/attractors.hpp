@@ -7,8 +7,8 @@ is started from random states too. Motions that differ in mean or in scatter are
 where there are several, the motion depends on how it was begun. */
 #pragma once
 
-#include "io/scene.hpp"
 #include "io/table.hpp"
+#include "io/toml_file.hpp"
 #include "truth/attractor.hpp"
 
 namespace rotor_stator::truth

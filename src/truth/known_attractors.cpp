@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "io/errors.hpp"
+#include "io/number_table.hpp"
 
 namespace rotor_stator::truth
 {

@@ -7,8 +7,8 @@ few and with many harmonics of the disturbance. Hill's method needs harmonics up
 at low speeds these are too many. */
 #pragma once
 
-#include "io/scene.hpp"
 #include "io/table.hpp"
+#include "io/toml_file.hpp"
 #include "stability/floquet.hpp"
 
 namespace rotor_stator::truth

@@ -12,8 +12,8 @@ is gained or lost, not between two unstable solutions; folds are all marked. Poi
 left out where the curve does not need them. */
 #pragma once
 
-#include "io/scene.hpp"
 #include "io/table.hpp"
+#include "io/toml_file.hpp"
 #include "model/parameters.hpp"
 #include "stability/branch_stability.hpp"
 

@@ -7,6 +7,7 @@
 #include <numbers>
 
 #include "io/errors.hpp"
+#include "io/number_table.hpp"
 #include "io/table.hpp"
 #include "stability/period_map.hpp"
 #include "support/cases.hpp"

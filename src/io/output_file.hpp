@@ -1,18 +1,11 @@
-/** # Files that a user names */
+/** # Files that a user names for output */
 #pragma once
 
-#include <cstdint>
-#include <fstream>
 #include <string>
 #include <vector>
 
 namespace rotor_stator
 {
-
-/** Opens a file to be read. Throws BadInput, naming what is `expected`, when it is missing, longer than
-    `most_bytes`, or no regular file: devices and pipes may never end. */
-std::ifstream open_file(const std::string& file, const std::string& expected,
-                        std::uintmax_t most_bytes);
 
 /** Throws BadInput unless `file`, the value of `option`, can be written to: a regular file or none yet, in
     a folder that is there, and neither one of `inputs` nor the standard output. Asked before the work. */

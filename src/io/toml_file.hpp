@@ -1,16 +1,23 @@
 /**
-# TOML without surprises
+# Files that a user names for input
 
-A thin layer over toml++ that remembers which keys were read. What is missing, of the
-wrong type, out of range or left over ends in BadInput with file, line and key. */
+Parameter files and scenes are TOML, read by a thin layer over toml++ that remembers which keys were read.
+What is missing, of the wrong type, out of range or left over ends in BadInput with file, line and key. */
 #pragma once
 
+#include <cstdint>
+#include <fstream>
 #include <memory>
 #include <string>
 #include <vector>
 
 namespace rotor_stator
 {
+
+/** Opens a file to be read. Throws BadInput, naming what is `expected`, when it is missing, longer than
+    `most_bytes`, or no regular file: devices and pipes may never end. */
+std::ifstream open_file(const std::string& file, const std::string& expected,
+                        std::uintmax_t most_bytes);
 
 /** What a number must satisfy, beside being finite. */
 enum class Range { any, positive, not_negative };
@@ -53,6 +60,42 @@ private:
   struct Content;
   StrictToml(std::shared_ptr<Content> content) : content_(std::move(content)) {}
   std::shared_ptr<Content> content_;
+};
+
+/**
+## Scene files
+
+A scene is what one figure asks to be modelled: which data sets, which speeds, how many
+harmonics and samples, how the time integration is set. It is a TOML file in data/scenes/,
+checked like the parameters. */
+
+/** A scene file being read, with the reading of Table 1 (D-09): "exchanged" or
+    "as-printed". */
+class SceneFile
+{
+public:
+  SceneFile(const std::string& file, const std::string& reading);
+
+  StrictToml& toml() { return toml_; }
+  const std::string& reading() const { return reading_; }
+
+  /** The file of the data set named by a key: "set1" is data/set1.toml beside the scenes'
+      folder, or data/set1-as-printed.toml under that reading. */
+  std::string data_set(const std::string& key);
+  std::vector<std::string> data_sets(const std::string& key);
+
+  /** The scene's file and those of the data sets that were asked for. */
+  const std::vector<std::string>& files() const { return files_; }
+
+  /** `from`, `to` and `step` in hertz, both ends included. */
+  std::vector<double> speed_range(const std::string& key);
+
+private:
+  std::string file_of(const std::string& name);
+
+  std::string file_, reading_;
+  std::vector<std::string> files_;
+  StrictToml toml_;
 };
 
 }  // namespace rotor_stator

@@ -1,4 +1,4 @@
-#include "io/files.hpp"
+#include "io/output_file.hpp"
 
 #include <fcntl.h>
 #include <sys/stat.h>
@@ -11,24 +11,6 @@
 
 namespace rotor_stator
 {
-
-std::ifstream open_file(const std::string& file, const std::string& expected,
-                        std::uintmax_t most_bytes)
-{
-  std::error_code error;
-  const auto status = std::filesystem::status(file, error);
-  if (!std::filesystem::exists(status)) throw BadInput("'" + file + "': no such file");
-  if (!std::filesystem::is_regular_file(status))
-    throw BadInput(file + ": is " +
-                   (is_directory(status) ? "a directory" : "no regular file") + "; " +
-                   expected + " is expected");
-  if (std::filesystem::file_size(file, error) > most_bytes)
-    throw BadInput(format("%s: is longer than %ju bytes; %s is expected", file.c_str(),
-                          most_bytes, expected.c_str()));
-  std::ifstream in(file, std::ios::binary);
-  if (!in) throw BadInput(file + ": cannot be read");
-  return in;
-}
 
 void require_writable(const std::string& option, const std::string& file,
                       const std::vector<std::string>& inputs)

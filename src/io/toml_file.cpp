@@ -1,0 +1,334 @@
+#include "io/toml_file.hpp"
+
+#include <toml++/toml.h>
+#include <cmath>
+#include <filesystem>
+#include <set>
+#include <sstream>
+
+#include "io/errors.hpp"
+
+namespace rotor_stator
+{
+
+std::ifstream open_file(const std::string& file, const std::string& expected,
+                        std::uintmax_t most_bytes)
+{
+  std::error_code error;
+  const auto status = std::filesystem::status(file, error);
+  if (!std::filesystem::exists(status)) throw BadInput("'" + file + "': no such file");
+  if (!std::filesystem::is_regular_file(status))
+    throw BadInput(file + ": is " +
+                   (is_directory(status) ? "a directory" : "no regular file") + "; " +
+                   expected + " is expected");
+  if (std::filesystem::file_size(file, error) > most_bytes)
+    throw BadInput(format("%s: is longer than %ju bytes; %s is expected", file.c_str(),
+                          most_bytes, expected.c_str()));
+  std::ifstream in(file, std::ios::binary);
+  if (!in) throw BadInput(file + ": cannot be read");
+  return in;
+}
+
+namespace
+{
+
+/** No parameter or scene file comes near these. */
+constexpr std::uintmax_t most_bytes = 1'000'000;
+constexpr int most_levels = 16;
+
+/** Throws BadInput where arrays, tables or the parts of a key stand deeper in one another: toml++ takes
+    one more call for each level. */
+void refuse_deep_nesting(const std::string& file, const std::string& content)
+{
+  int open = 0, parts = 0, line = 1;
+  for (std::size_t k = 0; k < content.size(); ++k) {
+    const char c = content[k];
+    if (c == '#') k = std::min(content.find('\n', k), content.size()) - 1;
+    if (c == '"' || c == '\'') {
+      const bool many = content.compare(k, 3, std::string(3, c)) == 0;
+      const std::string end(many ? 3 : 1, c);
+      const auto goes_on = [&] {
+        return k < content.size() && content.compare(k, end.size(), end) != 0 &&
+               (many || content[k] != '\n');
+      };
+      for (k += end.size(); goes_on(); k += c == '"' && content[k] == '\\' ? 2 : 1)
+        line += content[k] == '\n';
+      k += end.size();
+      while (many && k < content.size() && content[k] == c) ++k;
+      --k;
+    }
+    open += (c == '[' || c == '{') - (c == ']' || c == '}');
+    parts = c == '.' ? parts + 1 : std::string_view("=,[]{}\n").find(c) < 7 ? 0 : parts;
+    if (open > most_levels || parts > most_levels)
+      throw BadInput(format("%s:%d: more than %d levels of keys, tables or arrays",
+                            file.c_str(), line, most_levels));
+    line += c == '\n';
+  }
+}
+
+/** A whole file as text. */
+std::string content_of(const std::string& file)
+{
+  std::ifstream in = open_file(file, "a TOML file", most_bytes);
+  std::ostringstream content;
+  content << in.rdbuf();
+  if (content.str().find_first_not_of(" \t\r\n") == std::string::npos)
+    throw BadInput(file + ": is empty; a TOML file is expected");
+  refuse_deep_nesting(file, content.str());
+  return content.str();
+}
+
+/** Why a node is not what was asked for. */
+struct Refused {
+  std::string why;
+};
+
+double as_number(const toml::node& node, Range range)
+{
+  if (!node.is_number()) throw Refused{"must be a number"};
+  const double value = *node.value<double>();
+  if (!std::isfinite(value)) throw Refused{"must be finite"};
+  if (range == Range::positive && value <= 0)
+    throw Refused{format("must be > 0, got %g", value)};
+  if (range == Range::not_negative && value < 0)
+    throw Refused{format("must be >= 0, got %g", value)};
+  return value;
+}
+
+int as_integer(const toml::node& node, int least, int most)
+{
+  if (!node.is_integer()) throw Refused{"must be a whole number"};
+  const auto value = *node.value<std::int64_t>();
+  if (value < least || value > most)
+    throw Refused{format("must be in %d...%d, got %lld", least, most,
+                         static_cast<long long>(value))};
+  return static_cast<int>(value);
+}
+
+std::string as_string(const toml::node& node)
+{
+  if (!node.is_string()) throw Refused{"must be a string"};
+  const auto value = *node.value<std::string>();
+  if (printable(value) != value)
+    throw Refused{"must be one line without control characters"};
+  return value;
+}
+
+}  // namespace
+
+struct StrictToml::Content {
+  std::string file;
+  std::string path;  ///< dotted prefix of this table, "" at the root
+  toml::table table;
+  std::set<std::string> read;
+  std::vector<std::pair<std::string, std::shared_ptr<Content>>> inner_tables;
+
+  /** What `take` makes of the node of a required key. */
+  template <class Take>
+  auto one(const StrictToml& reader, const std::string& key, Take take)
+  {
+    read.insert(key);
+    toml::node* node = table.get(key);
+    if (!node) reader.missing(key);
+    try {
+      return take(*node);
+    } catch (const Refused& refused) {
+      reader.fail(key, refused.why);
+    }
+  }
+
+  /** What `take` makes of each element of a non-empty array. */
+  template <class Take>
+  auto all(const StrictToml& reader, const std::string& key, Take take)
+  {
+    return one(reader, key, [&](toml::node& node) {
+      if (!node.is_array() || node.as_array()->empty())
+        throw Refused{"must be a non-empty array"};
+      std::vector<decltype(take(node))> values;
+      for (toml::node& element : *node.as_array()) values.push_back(take(element));
+      return values;
+    });
+  }
+
+  /** The table in a node of this one. */
+  StrictToml inner(toml::node& node, const std::string& key)
+  {
+    inner_tables.emplace_back(
+        key, std::make_shared<Content>(
+                 Content{file, path + key + ".", std::move(*node.as_table()), {}, {}}));
+    return StrictToml(inner_tables.back().second);
+  }
+};
+
+StrictToml::StrictToml(const std::string& file) : content_(std::make_shared<Content>())
+{
+  content_->file = file;
+  try {
+    content_->table = toml::parse(content_of(file), file);
+  } catch (const toml::parse_error& error) {
+    const std::string message(error.description());
+    throw BadInput(file + ":" + std::to_string(error.source().begin.line) +
+                   ": not TOML: " + message.substr(0, message.find('\n')));
+  }
+}
+
+bool StrictToml::has(const std::string& key) const
+{
+  return content_->table.contains(key);
+}
+
+double StrictToml::number(const std::string& key, Range range)
+{
+  return content_->one(*this, key, [&](auto& node) { return as_number(node, range); });
+}
+
+double StrictToml::number_or(const std::string& key, Range range, double otherwise)
+{
+  return has(key) ? number(key, range) : otherwise;
+}
+
+int StrictToml::integer(const std::string& key, int least, int most)
+{
+  return content_->one(*this, key,
+                       [&](auto& node) { return as_integer(node, least, most); });
+}
+
+int StrictToml::integer_or(const std::string& key, int least, int most, int otherwise)
+{
+  return has(key) ? integer(key, least, most) : otherwise;
+}
+
+std::string StrictToml::string(const std::string& key)
+{
+  return content_->one(*this, key, as_string);
+}
+
+std::vector<double> StrictToml::numbers(const std::string& key, Range range)
+{
+  return content_->all(*this, key, [&](auto& node) { return as_number(node, range); });
+}
+
+std::vector<int> StrictToml::integers(const std::string& key, int least, int most)
+{
+  return content_->all(*this, key,
+                       [&](auto& node) { return as_integer(node, least, most); });
+}
+
+std::vector<std::string> StrictToml::strings(const std::string& key)
+{
+  return content_->all(*this, key, as_string);
+}
+
+bool StrictToml::flag(const std::string& key)
+{
+  return content_->one(*this, key, [](auto& node) {
+    if (!node.is_boolean()) throw Refused{"must be true or false"};
+    return *node.template value<bool>();
+  });
+}
+
+StrictToml StrictToml::table(const std::string& key)
+{
+  for (const auto& [name, known] : content_->inner_tables)
+    if (name == key) return StrictToml(known);
+  return content_->one(*this, key, [&](auto& node) {
+    if (!node.is_table()) throw Refused{"must be a table"};
+    return content_->inner(node, key);
+  });
+}
+
+std::vector<StrictToml> StrictToml::tables(const std::string& key)
+{
+  return content_->all(*this, key, [&](auto& node) {
+    if (!node.is_table()) throw Refused{"must be [[" + key + "]] tables"};
+    return content_->inner(node, key);
+  });
+}
+
+std::vector<std::string> StrictToml::keys() const
+{
+  std::vector<std::string> list;
+  for (const auto& [key, node] : content_->table) list.emplace_back(key.str());
+  return list;
+}
+
+void StrictToml::fail(const std::string& key, const std::string& problem) const
+{
+  const toml::node* node = content_->table.get(key);
+  const toml::node& place = node ? *node : content_->table;
+  throw BadInput(format("%s:%d: ", content_->file.c_str(),
+                        static_cast<int>(place.source().begin.line)) +
+                 content_->path + key + " " + problem);
+}
+
+void StrictToml::missing(const std::string& key, const std::string& advice) const
+{
+  for (const std::string& found : keys()) {
+    const std::string meant = suggestion(found, {key});
+    if (!content_->read.contains(found) && !meant.empty())
+      fail(found, "is not a known key here" + meant + " (" + content_->path + key +
+                      " is missing" + advice + ")");
+  }
+  fail(key, "is missing" + advice);
+}
+
+void StrictToml::refuse_unknown_keys() const
+{
+  const std::vector<std::string> known(content_->read.begin(), content_->read.end());
+  for (const std::string& key : keys()) {
+    if (content_->read.contains(key)) continue;
+    std::string list;
+    for (const std::string& other : known) list += (list.empty() ? "" : ", ") + other;
+    fail(key,
+         "is not a known key here" + suggestion(key, known) + " (known: " + list + ")");
+  }
+  for (const auto& [name, inner] : content_->inner_tables)
+    StrictToml(inner).refuse_unknown_keys();
+}
+
+SceneFile::SceneFile(const std::string& file, const std::string& reading)
+    : file_(file), reading_(reading), files_{file}, toml_(file)
+{
+  if (reading != "exchanged" && reading != "as-printed")
+    throw BadInput("--reading " + reading + ": must be exchanged or as-printed");
+}
+
+std::string SceneFile::file_of(const std::string& name)
+{
+  const std::string suffix = reading_ == "exchanged" ? "" : "-" + reading_;
+  const auto data = std::filesystem::path(file_).parent_path().parent_path();
+  files_.push_back((data / (name + suffix + ".toml")).string());
+  return files_.back();
+}
+
+std::string SceneFile::data_set(const std::string& key)
+{
+  return file_of(toml_.string(key));
+}
+
+std::vector<std::string> SceneFile::data_sets(const std::string& key)
+{
+  std::vector<std::string> files;
+  for (const std::string& name : toml_.strings(key)) files.push_back(file_of(name));
+  return files;
+}
+
+std::vector<double> SceneFile::speed_range(const std::string& key)
+{
+  StrictToml table = toml_.table(key);
+  const double from = table.number("from", Range::positive);
+  const double to = table.number("to", Range::positive);
+  const double step = table.number("step", Range::positive);
+  table.refuse_unknown_keys();
+  if (to <= from) table.fail("to", "must be above from");
+  const long count = std::lround((to - from) / step);
+  if (std::abs(from + static_cast<double>(count) * step - to) > 1e-9 * to)
+    table.fail("step", "must divide the range");
+  std::vector<double> speeds;
+  for (long k = 0; k <= count; ++k)
+    speeds.push_back(from +
+                     (to - from) * static_cast<double>(k) / static_cast<double>(count));
+  return speeds;
+}
+
+}  // namespace rotor_stator
