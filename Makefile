@@ -15,6 +15,7 @@ SHELL := /bin/bash
 .SECONDEXPANSION:
 export LC_ALL := C
 export TZ := UTC
+export OMP_WAIT_POLICY := passive
 export PYTHONDONTWRITEBYTECODE := 1
 
 PYTHON ?= /usr/bin/python3
@@ -82,7 +83,7 @@ sets := $(basename $(notdir $(wildcard data/*.toml)))
 unpaired := $(filter-out %-as-printed $(patsubst %-as-printed,%,$(filter %-as-printed,$(sets))),$(sets))
 paired := $(filter-out $(basename $(notdir $(shell grep -l $(unpaired:%=-e '"%"') data/scenes/*.toml))),$(paper))
 
-tables := $(patsubst %,data/generated/%.tsv,$(computed) truth_intervals)
+tables := $(patsubst %,data/generated/%.tsv,$(computed) sensitivity_derivatives truth_intervals)
 tables_printed := $(patsubst %,data/generated/as-printed/%.tsv,$(paired) truth_intervals)
 figures := $(patsubst %,figures/generated/%.svg,$(filter $(computed) $(kept),$(scripts)) truncation)
 figures_printed := $(patsubst %,figures/generated/as-printed/%.svg,$(filter $(paired) $(kept_printed),$(scripts)) truncation)
@@ -141,6 +142,9 @@ journaled := $(basename $(notdir $(shell grep -l -e --journal src/*.cpp)))
 data/generated/%.tsv: build/$$(*F) data/scenes/$$(*F).toml $$(parameters) $$(attractors)
 	$(whole) $(alone) $< $(word 2,$^) $(if $(filter as-printed,$(*D)),--reading as-printed) $(attractors:%=--attractors %) \
 	  $(if $(filter $(*F),$(journaled)),--journal $(@:.tsv=.journal)) > $$new; mv $$new $@
+
+data/generated/sensitivity_derivatives.tsv: build/sensitivity_derivatives data/scenes/sensitivity.toml data/generated/sensitivity.tsv
+	$(whole) $< $(word 2,$^) --sensitivity $(word 3,$^) > $$new; mv $$new $@
 
 # Timings run alone: after all that is not timed, one after the other.
 $(timings) $(costs:%=data/generated/%.tsv): private alone = flock build/.timing
