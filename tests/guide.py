@@ -1,9 +1,9 @@
-"""Runs the follow-up guide as a reader would: its files written and its commands run, in order, in a
-copy of the repository that is kept between runs so that little is built anew.
+"""Runs the follow-up guide as a reader would: its files written and its commands run, in order, in a copy of
+the project. The copy's compiler takes every object whose source is the same from the project's own build, so
+that only what the guide adds is compiled.
 
-Usage: tests/guide.py   (from the project's root)
+Usage: tests/guide.py   (from the project's root, after `make all`)
 """
-import filecmp
 import os
 import re
 import shutil
@@ -15,48 +15,57 @@ COPY = Path("build/guide")
 BLOCK = re.compile(r"^```(?:(?P<plain>\w+)|\{\.\w+ (?P<kind>file|append)=\"(?P<file>[^\"]+)\"\})\n"
                    r"(?P<text>.*?)^```$", re.DOTALL | re.MULTILINE)
 
-
-def copy_repository():
-    """The tracked files, each copied only if it differs; what an earlier run added is removed."""
-    tracked = subprocess.run(["git", "ls-files", "--cached", "--others", "--exclude-standard"],
-                             text=True, check=True, capture_output=True).stdout.split("\n")
-    files = {Path(name) for name in tracked if name and Path(name).is_file()}
-    for folder in ("src", "data", "figures"):
-        for old in (COPY / folder).rglob("*"):
-            name = old.relative_to(COPY)
-            if old.is_file() and name not in files and "generated" not in name.parts:
-                old.unlink()
-    for file in files:
-        target = COPY / file
-        if not target.exists() or not filecmp.cmp(file, target, shallow=False):
-            target.parent.mkdir(parents=True, exist_ok=True)
-            shutil.copy(file, target)
+# CMake starts this with the compiler's command line, in the build folder of the copy.
+LAUNCHER = """#!/bin/sh
+for word; do
+  case $before in -o) object=$word;; -c) source=$word;; esac
+  before=$word
+done
+built=$PROJECT/build/$object
+if [ -f "$built" ] && cmp -s "$source" "$PROJECT/${source#"$COPY/"}"; then
+  exec cp "$built" "$object"
+fi
+echo "$source" >> "$COPY/build/compiled"
+exec "$@"
+"""
 
 
-def run(block):
+def copy_project():
+    shutil.rmtree(COPY, ignore_errors=True)
+    shutil.copytree(".", COPY, ignore=shutil.ignore_patterns(".git", "build", "build-*", "generated"))
+    (COPY / "build").mkdir()
+    launcher = COPY / "build" / "launcher"
+    launcher.write_text(LAUNCHER, encoding="utf-8")
+    launcher.chmod(0o755)
+    return {**{name: value for name, value in os.environ.items() if not name.startswith("MAKE")},
+            "CMAKE_CXX_COMPILER_LAUNCHER": str(launcher.resolve()),
+            "PROJECT": str(Path.cwd()), "COPY": str(COPY.resolve())}
+
+
+def run(block, environment):
     """One block; false if its command failed."""
-    if block["kind"] == "file":
-        (COPY / block["file"]).write_text(block["text"])
-    elif block["kind"] == "append":
-        with (COPY / block["file"]).open("a") as file:
+    if block["kind"]:
+        if block["file"].endswith(".hpp"):
+            sys.exit(f"the guide changes {block['file']}: objects of the project cannot be taken")
+        with (COPY / block["file"]).open("a" if block["kind"] == "append" else "w", encoding="utf-8") as file:
             file.write(block["text"])
     elif block["plain"] == "sh":
-        environment = {k: v for k, v in os.environ.items() if not k.startswith("MAKE")}
         return subprocess.run(["bash", "-euo", "pipefail", "-c", block["text"]], cwd=COPY,
                               env=environment).returncode == 0
     return True
 
 
 def main():
-    copy_repository()
-    subprocess.run(["make", "build/explore"], cwd=COPY, check=True)
-    blocks = list(BLOCK.finditer(Path("paper/guide.md").read_text()))
+    environment = copy_project()
+    subprocess.run(["make", "build/explore"], cwd=COPY, check=True, env=environment)
+    blocks = list(BLOCK.finditer(Path("paper/guide.md").read_text(encoding="utf-8")))
     commands = sum(block["plain"] == "sh" for block in blocks)
     for block in blocks:
-        if not run(block):
+        if not run(block, environment):
             print(f"the guide fails at:\n{block['text']}", file=sys.stderr)
             return 1
-    print(f"{len(blocks)} blocks, {commands} of them commands")
+    compiled = (COPY / "build" / "compiled").read_text(encoding="utf-8").splitlines()
+    print(f"{len(blocks)} blocks, {commands} of them commands; compiled: {len(compiled)}")
     return 0 if commands >= 4 else 1
 
 
