@@ -45,8 +45,8 @@ missing = command -v dpkg-query > /dev/null || exit 0; comm -13 \
   <(printf '%s\n' $(packages)) | tr '\n' ' '
 
 # make -n and make -q change nothing and need no lock.
-ifeq ($(findstring n,$(firstword -$(MAKEFLAGS)))$(findstring q,$(firstword -$(MAKEFLAGS))),)
-ifneq ($(ROTOR_STATOR_LOCKED),$(CURDIR))
+only_looks := $(findstring n,$(firstword -$(MAKEFLAGS)))$(findstring q,$(firstword -$(MAKEFLAGS)))
+ifneq ($(if $(only_looks),$(CURDIR),$(ROTOR_STATOR_LOCKED)),$(CURDIR))
 .PHONY: locked $(or $(MAKECMDGOALS),all)
 $(or $(MAKECMDGOALS),all): locked ; @:
 
@@ -61,11 +61,7 @@ locked:
 	    $$sudo env DEBIAN_FRONTEND=noninteractive apt-get install -y --no-install-recommends $$missing 99>&-; fi, \
 	  if [ -n "$$missing" ]; then echo "missing: $$missing(make deps $(goals) installs them)" >&2; exit 1; fi); \
 	ROTOR_STATOR_LOCKED="$(CURDIR)" exec $(MAKE) --no-print-directory $(or $(MAKECMDGOALS),all)
-
-here := locked
-endif
-endif
-ifndef here
+else
 
 # What there is
 MAKEFLAGS += --no-builtin-rules
@@ -88,6 +84,7 @@ tables_printed := $(patsubst %,data/generated/as-printed/%.tsv,$(paired) truth_i
 figures := $(patsubst %,figures/generated/%.svg,$(filter $(computed) $(kept),$(scripts)) truncation)
 figures_printed := $(patsubst %,figures/generated/as-printed/%.svg,$(filter $(paired) $(kept_printed),$(scripts)) truncation)
 claims := data/generated/claims.tsv data/generated/as-printed/claims.tsv
+intervals := $(claims:claims.tsv=truth_intervals.tsv)
 timings := $(filter %/tab02_timing.tsv,$(tables) $(tables_printed))
 untimed := $(filter-out $(timings),$(tables) $(tables_printed)) $(figures) $(figures_printed) data/generated/deviations.md
 studies := $(filter $(programs),$(kept))
@@ -99,17 +96,13 @@ ifeq ($(READING),exchanged)
 shown := $(patsubst %,data/generated/%.tsv,$(paper) truth_intervals) data/generated/deviations.md \
   $(patsubst %,figures/generated/%.svg,$(filter $(paper) $(kept_printed),$(scripts)) truncation)
 endif
-
 .PHONY: deps all figures timing claims studies truth $(studies) adopt peers book article pdf png readme golden \
   test sanitize bench format dist list clean
 
-all: $(untimed) $(timings) $(claims) build/book/index.html build/paper/article.html  ## everything: figures, tables and claims of both readings, pages, article
-
+all: $(untimed) $(timings) $(claims) build/book/index.html build/paper/article.html  ## figures, tables and claims of both readings, pages, article
 deps:  ## install the Debian packages that the goals beside it need (goals=NAME: of a goal that is not made now)
 	@:
-
 figures: $(shown)  ## the paper's figures and tables, of one READING (exchanged or as-printed)
-
 claims: $(claims)  ## the verdict on each claim, for both readings
 	$(PYTHON) figures/claims.py --print $(claims)
 
@@ -121,7 +114,6 @@ build/.built: $(sources)
 	cmake --preset release > build/configure.log
 	cmake --build --preset release
 	@touch $@
-
 # The + runs this nothing under make -q too, which then looks at the program's real date.
 $(programs:%=build/%): build/.built
 	+@:
@@ -168,14 +160,11 @@ figures/generated/stability.svg figures/generated/as-printed/stability.svg: data
 figures/generated/work_precision.svg figures/generated/peers.svg: data/reference/peers.tsv data/reference/peers_auto.tsv data/generated/fig03_response.tsv
 
 png: $(patsubst %.svg,%.png,$(figures) $(figures_printed))  ## the figures as PNG, for viewing
-
 %.png: %.svg
 	$(whole) rsvg-convert --zoom 1.5 --background-color white --output $$new $<; mv $$new $@
 
 # What follows from tables: intervals, claims, texts, pages. The stem is generated or generated/as-printed.
 python_tables := figures/tables.py figures/project.py CMakeLists.txt data/claims.toml
-intervals := data/generated/truth_intervals.tsv data/generated/as-printed/truth_intervals.tsv
-
 $(intervals): data/%/truth_intervals.tsv: figures/truth_intervals.py $$(subst generated,reference,data/$$*/attractors.tsv) \
   $$(subst generated,reference,data/$$*/validity.tsv) $(python_tables)
 	$(whole) $(PYTHON) $(wordlist 1,3,$^) > $$new; mv $$new $@
@@ -200,26 +189,19 @@ book: build/book/index.html  ## the sources as pages, in reading order: build/bo
 build/book/index.html: $(wildcard paper/book/*) paper/guide.md paper/references.bib $(sources) $(untimed) $(timings) $(claims) \
   $(wildcard data/reference/*.tsv)
 	$(PYTHON) paper/book/weave.py $(@D)
-
 article: build/paper/article.html  ## the article: build/paper/article.html
-
 build/paper/article.html: data/generated/article.md paper/render_article.py paper/article.html paper/book/comments.py \
   paper/book/book.css paper/book/figures.toml paper/references.bib \
   $(shell sed -nE 's/^!\[.*\]\(figures\/(.*\.svg)\)$$/figures\/generated\/\1/p' paper/article.md)
 	$(PYTHON) paper/render_article.py $< $@
-
 pdf: build/paper/article.pdf  ## the article as PDF
-
 build/paper/article.pdf: data/generated/article.md paper/article.tex build/paper/article.html
 	$(PYTHON) paper/render_article.py $< $@
 
 # Long studies, computed anew and compared with the tables kept in data/reference.
 studies: $(studies) timing  ## the long studies and all timings (an hour)
-
 truth: attractors validity stability adaptive  ## where the periodic solution is true (15 minutes)
-
 timing: $(timings) $(costs)  ## the tables of cost, alone on the machine (10 minutes)
-
 $(studies): $$(subst reference,generated,$$(wildcard data/reference/$$@.tsv data/reference/as-printed/$$@.tsv))
 	$(PYTHON) tests/compare_kept.py $^
 
@@ -228,7 +210,6 @@ adopt:  ## keep the studies' tables and the verdicts of data/generated, also of 
 	  if [ -e $$new ]; then mkdir -p data/reference/$$folder; cp -v $$new data/reference/$$folder/; fi; done; done
 
 peers: data/generated/peers.tsv data/generated/peers_auto.tsv  ## other people's programs on the same equations (10 minutes)
-
 data/generated/peers.tsv data/generated/peers_auto.tsv: data/generated/%.tsv: peers/%.py data/scenes/%.toml build/peers/.built
 	$(whole) OMP_NUM_THREADS=1 OPENBLAS_NUM_THREADS=1 flock build/.timing $(PYTHON) $< $(word 2,$^) > $$new; mv $$new $@
 
@@ -257,16 +238,13 @@ bench: build/.built  ## time the parts of an iteration, alone on the machine (a 
 
 readme: all  ## refresh the README's pictures and its generated block
 	$(PYTHON) figures/readme.py --write
-
 golden: $(NAME:%=data/generated/%.tsv)  ## renew one golden table: NAME=fig06_orbits; a commit that does says why
 	@$(if $(NAME),$(PYTHON) tests/golden.py renew $(NAME),echo "nothing renewed: make golden NAME=fig06_orbits renews one table" >&2; exit 2)
-
 format:  ## clang-format on all C++ sources
 	clang-format-14 -i $$(find src tests peers -name '*.?pp')
 
-archive := rotor-stator-$(shell sed -nE 's/^project.rotor_stator VERSION ([0-9.]+).*/\1/p' CMakeLists.txt)
-
 # Files in the order of their names, without dates or owners: the same commit gives the same archive.
+archive := rotor-stator-$(shell sed -nE 's/^project.rotor_stator VERSION ([0-9.]+).*/\1/p' CMakeLists.txt)
 dist: all  ## an archive of the commit with its tables, figures and pages: build/rotor-stator-VERSION.tar.gz
 	@git diff --quiet HEAD || { echo "dist: the work tree differs from the commit" >&2; exit 1; }
 	{ git ls-files; find data/generated figures/generated build/book build/paper -type f ! -name '*.journal' ! -name '*.tmp*'; } | \
@@ -276,8 +254,6 @@ dist: all  ## an archive of the commit with its tables, figures and pages: build
 list:  ## this list
 	@sed -nE 's/^([a-z-]+):.*##  ?(.*)/\1\t\2/p' Makefile | sort | column -t -s "$$(printf '\t')"
 	@echo "One study: make NAME, of $(studies)"
-
 clean:  ## remove everything that was built, computed or drawn
 	rm -rf build build-debug data/generated figures/generated
-
 endif

@@ -116,28 +116,6 @@ struct Group {
 #define IN_PLACE \
   [[gnu::always_inline]] inline  // else compiled once, for the narrowest registers
 
-template <bool with_stiffness>
-IN_PLACE void sum_balls(const Balls& balls, Group& g)
-{
-  const Rectangle rectangle(g.x, g.y);
-  for (Eigen::Index j = 0; j < balls.count; ++j) {
-    const double c = balls.cos[j], s = balls.sin[j];
-    if (rectangle.is_clear_of(c, s, balls.clearance)) continue;
-    for (int l = 0; l < lanes; ++l) {
-      const double p = c * g.x[l] + s * g.y[l] - balls.clearance;
-      const double pressed = p > 0 ? p : 0.0;
-      const double root = std::sqrt(pressed), q = pressed * root;
-      g.f_x[l] += q * c;
-      g.f_y[l] += q * s;
-      if constexpr (with_stiffness) {
-        g.xx[l] += root * (c * c);
-        g.xy[l] += root * (c * s);
-        g.yy[l] += root * (s * s);
-      }
-    }
-  }
-}
-
 /** R S Rᵀ. */
 IN_PLACE void put_stiffness(const Group& g, double hertz, const Columns& at,
                             Eigen::Index k)
@@ -161,7 +139,23 @@ IN_PLACE void evaluate_group(const Balls& balls, const Columns& at, Eigen::Index
     g.x[l] = c[l] * at.x[k + l] + s[l] * at.y[k + l];
     g.y[l] = c[l] * at.y[k + l] - s[l] * at.x[k + l];
   }
-  sum_balls<with_stiffness>(balls, g);
+  const Rectangle rectangle(g.x, g.y);
+  for (Eigen::Index j = 0; j < balls.count; ++j) {
+    const double cos = balls.cos[j], sin = balls.sin[j];
+    if (rectangle.is_clear_of(cos, sin, balls.clearance)) continue;
+    for (int l = 0; l < lanes; ++l) {
+      const double p = cos * g.x[l] + sin * g.y[l] - balls.clearance;  // Eq. 4
+      const double pressed = p > 0 ? p : 0.0;
+      const double root = std::sqrt(pressed), q = pressed * root;  // Eq. 5 over K_H
+      g.f_x[l] += q * cos;
+      g.f_y[l] += q * sin;
+      if constexpr (with_stiffness) {
+        g.xx[l] += root * (cos * cos);
+        g.xy[l] += root * (cos * sin);
+        g.yy[l] += root * (sin * sin);
+      }
+    }
+  }
   const double hertz = balls.contact_stiffness;
   for (int l = 0; l < lanes; ++l) {
     at.f_x[k + l] = hertz * (c[l] * g.f_x[l] - s[l] * g.f_y[l]);

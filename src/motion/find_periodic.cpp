@@ -81,11 +81,10 @@ PeriodicMotion find_periodic(const Parameters& parameters, double omega, int har
   Balance balance(bearing_problem(parameters, samples, budget), harmonics);
   PeriodicMotion motion{.omega = omega, .harmonics = harmonics, .samples = samples};
   for (const Start& start : starts) {
-    Eigen::VectorXd x = coefficients_or_none(start);
-    if (x.size() == 0) continue;
-    motion = solve(balance, omega, std::move(x), settings);
+    motion.x = coefficients_or_none(start);
+    if (motion.x.size() == 0) continue;
     motion.start = start.name;
-    if (!motion.found()) continue;
+    if (!solve(balance, motion, settings)) continue;
     motion.bodies = body_series(parameters, motion);
     break;
   }

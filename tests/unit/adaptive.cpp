@@ -1,6 +1,6 @@
 /** The error estimate against true errors: of small oscillators against many harmonics, of the bearing
     against shooting; and the choice of m by it. */
-#include <catch2/catch.hpp>
+#include "support/catch.hpp"
 
 #include "continuation/arc_length.hpp"
 #include "motion/other_starts.hpp"

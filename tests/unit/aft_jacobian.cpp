@@ -1,6 +1,6 @@
 /** The analytic Jacobian against central differences, for the bearing and through the
     seam. */
-#include <catch2/catch.hpp>
+#include "support/catch.hpp"
 
 #include "balance/bearing_problem.hpp"
 #include "support/cases.hpp"

@@ -1,5 +1,5 @@
 /** Harmonic balance against rk8pd on set 1: two methods that share nothing but Eq. 7. */
-#include <catch2/catch.hpp>
+#include "support/catch.hpp"
 
 #include "motion/find_periodic.hpp"
 #include "motion/motion.hpp"

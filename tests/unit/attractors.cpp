@@ -1,10 +1,10 @@
 /** Attractors of the machine: exponents against closed form and multipliers, verdicts against other steps
    and methods, coexistence, and what is read back from tables. */
 #include <Eigen/Eigenvalues>
-#include <catch2/catch.hpp>
 #include <cmath>
 #include <fstream>
 #include <numbers>
+#include "support/catch.hpp"
 
 #include "io/errors.hpp"
 #include "io/number_table.hpp"

@@ -1,7 +1,7 @@
 /** Every kind of bad input ends with status 2, one line on stderr that says what is
    wrong, and nothing on stdout; no solution ends with status 3 in the same way. */
 #include <algorithm>
-#include <catch2/catch.hpp>
+#include "support/catch.hpp"
 
 #include "support/command.hpp"
 #include "support/tsv.hpp"
@@ -186,8 +186,9 @@ TEST_CASE("Figure programs refuse bad scenes and readings")
 {
   check_refused(run_program("fig05_displacements no/such/scene.toml"), 2, "no such file");
   check_refused(
-      run_program("fig05_displacements data/scenes/fig05_displacements.toml --reading upside-down"), 2,
-      "must be exchanged or as-printed");
+      run_program(
+          "fig05_displacements data/scenes/fig05_displacements.toml --reading upside-down"),
+      2, "must be exchanged or as-printed");
   check_refused(run_program("fig05_displacements data/scenes/tab01_parameters.toml"), 2,
                 "title is missing");
 }

@@ -1,7 +1,7 @@
 /** Branches against closed forms: folds, closed and isolated branches, restarts, bounds. The branches of
    set 1 followed both ways and with half the step must have the same folds. */
 #include <algorithm>
-#include <catch2/catch.hpp>
+#include "support/catch.hpp"
 
 #include "balance/bearing_problem.hpp"
 #include "continuation/arc_length.hpp"

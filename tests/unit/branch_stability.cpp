@@ -1,8 +1,8 @@
 /** Stability along branches and the bifurcations on them, against published cases. */
 #include <algorithm>
-#include <catch2/catch.hpp>
 #include <numbers>
 #include <utility>
+#include "support/catch.hpp"
 
 #include "balance/bearing_problem.hpp"
 #include "continuation/arc_length.hpp"

@@ -1,5 +1,5 @@
 /** The account that bounds what a run may cost. */
-#include <catch2/catch.hpp>
+#include "support/catch.hpp"
 
 #include "io/budget.hpp"
 #include "io/errors.hpp"

@@ -5,10 +5,10 @@
    ω². */
 #include <gsl/gsl_integration.h>
 
-#include <catch2/catch.hpp>
 #include <cmath>
 #include <complex>
 #include <numbers>
+#include "support/catch.hpp"
 
 #include "motion/find_periodic.hpp"
 #include "motion/motion.hpp"

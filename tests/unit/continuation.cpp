@@ -1,6 +1,6 @@
 /** Predictor, sweep and arc length, and how much work they are allowed. */
 #include <Eigen/LU>
-#include <catch2/catch.hpp>
+#include "support/catch.hpp"
 
 #include "balance/bearing_problem.hpp"
 #include "balance/step_solver.hpp"
@@ -132,8 +132,9 @@ TEST_CASE("N = 2m+1 as printed creates folds that N = 64 does not have")
     int changes = 0;
     double before = 0;
     for (const BranchPoint& point : branch.points) {
-      const double determinant =
-          balance.jacobian(point.motion.x, point.motion.omega).partialPivLu().determinant();
+      const double determinant = balance.jacobian(point.motion.x, point.motion.omega)
+                                     .partialPivLu()
+                                     .determinant();
       changes += determinant * before < 0;
       before = determinant;
     }

@@ -1,8 +1,8 @@
 /** What the tables of cost rest on: references, counted operations, fits, and the rivals themselves. No
     time is asserted. */
-#include <catch2/catch.hpp>
 #include <cmath>
 #include <filesystem>
+#include "support/catch.hpp"
 
 #include "costs/cost_growth.hpp"
 #include "costs/equal_error.hpp"

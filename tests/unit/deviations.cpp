@@ -1,7 +1,7 @@
 /** What the printed equations do, against closed forms and bounds: the numbers that
  * paper/deviations.md quotes. */
-#include <catch2/catch.hpp>
 #include <cmath>
+#include "support/catch.hpp"
 
 #include "deviations/balance.hpp"
 #include "deviations/continuation.hpp"

@@ -1,8 +1,8 @@
 /** explore: its fixed columns, and another bearing than the paper's. */
 #include <algorithm>
-#include <catch2/catch.hpp>
 #include <cmath>
 #include <numbers>
+#include "support/catch.hpp"
 
 #include "support/command.hpp"
 #include "support/tsv.hpp"

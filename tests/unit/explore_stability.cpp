@@ -1,7 +1,7 @@
 /** explore response --stability: verdicts against those of single orbits, and its bound on work. */
 #include <algorithm>
-#include <catch2/catch.hpp>
 #include <cmath>
+#include "support/catch.hpp"
 
 #include "io/errors.hpp"
 #include "support/command.hpp"

@@ -1,7 +1,7 @@
 /** Eqs 1 to 6 against closed forms. */
-#include <catch2/catch.hpp>
 #include <cmath>
 #include <numbers>
+#include "support/catch.hpp"
 
 #include "model/ball_bearing.hpp"
 #include "support/cases.hpp"

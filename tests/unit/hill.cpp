@@ -1,5 +1,5 @@
 /** Hill's method against the monodromy matrix: where it converges, and where it misleads. */
-#include <catch2/catch.hpp>
+#include "support/catch.hpp"
 
 #include "motion/other_starts.hpp"
 #include "stability/hill.hpp"

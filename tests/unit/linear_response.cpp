@@ -1,6 +1,6 @@
 /** Without contact each body answers its own load: closed forms. */
-#include <catch2/catch.hpp>
 #include <complex>
+#include "support/catch.hpp"
 
 #include "motion/find_periodic.hpp"
 #include "motion/motion.hpp"

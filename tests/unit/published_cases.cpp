@@ -2,7 +2,7 @@
    numbers of the public examples NLvib 01 to 03 (Krack and Gross, Harmonic Balance for
    Nonlinear Vibration Problems, 2019), recomputed with that tool or independently. */
 #include <Eigen/LU>
-#include <catch2/catch.hpp>
+#include "support/catch.hpp"
 
 #include "continuation/arc_length.hpp"
 #include "support/cases.hpp"

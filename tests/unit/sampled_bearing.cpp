@@ -1,6 +1,6 @@
 /** The force at all instants at once against the plain formula, ball by ball. */
-#include <catch2/catch.hpp>
 #include <numbers>
+#include "support/catch.hpp"
 
 #include "model/ball_bearing.hpp"
 #include "model/hertz.hpp"

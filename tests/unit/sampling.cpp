@@ -1,6 +1,6 @@
 /** Transforms, and how the error falls with the sample count N. */
-#include <catch2/catch.hpp>
 #include <numbers>
+#include "support/catch.hpp"
 
 #include "balance/bearing_problem.hpp"
 #include "balance/newton.hpp"

@@ -1,9 +1,9 @@
 /** The verdict on a section, against sections and oscillators whose kind is known. */
-#include <catch2/catch.hpp>
 #include <cmath>
 #include <complex>
 #include <functional>
 #include <numbers>
+#include "support/catch.hpp"
 
 #include "stability/lyapunov.hpp"
 
@@ -54,7 +54,7 @@ SectionJudgement observed(TimeStepper stepper, double omega, int steps, int skip
                           int periods, const VerdictRule& rule)
 {
   TrajectoryPair motion(std::move(stepper), steps, Vector8::Ones(),
-                    {.position = {{0.1, 0}, {0, 0}}, .velocity = {}});
+                        {.position = {{0.1, 0}, {0, 0}}, .velocity = {}});
   std::vector<Displacements> section;
   std::vector<double> rates;
   for (int k = 0; k < skipped + periods; ++k) {

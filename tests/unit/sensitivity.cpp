@@ -1,7 +1,7 @@
 /** Sensitivity: the features against closed forms of rotor and stator moving as one body,
    against each other, and against the solver called for one speed. */
-#include <catch2/catch.hpp>
 #include <cmath>
+#include "support/catch.hpp"
 
 #include "io/errors.hpp"
 #include "studies/sensitivity.hpp"

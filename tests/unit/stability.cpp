@@ -1,7 +1,7 @@
 /** Monodromy, Floquet multipliers and shooting, against closed forms, differences, a published
    case and each other. */
 #include <Eigen/Eigenvalues>
-#include <catch2/catch.hpp>
+#include "support/catch.hpp"
 
 #include "balance/bearing_problem.hpp"
 #include "continuation/arc_length.hpp"

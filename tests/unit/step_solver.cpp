@@ -1,7 +1,7 @@
 /** Factors that are kept, GMRES and chord steps, against dense Newton at every point; and what a
     solution costs, in counts. */
 #include <Eigen/LU>
-#include <catch2/catch.hpp>
+#include "support/catch.hpp"
 
 #include "balance/bearing_problem.hpp"
 #include "balance/newton.hpp"

@@ -1,9 +1,9 @@
 /** Regimes, the judgement of a candidate, and studies that go on where they were interrupted. */
 #include <atomic>
-#include <catch2/catch.hpp>
 #include <cmath>
 #include <fstream>
 #include <numbers>
+#include "support/catch.hpp"
 
 #include "continuation/sweep.hpp"
 #include "io/journal.hpp"

@@ -1,6 +1,6 @@
 /** Steppers: order, agreement, energy, and the verdict on the steady state. */
-#include <catch2/catch.hpp>
 #include <cmath>
+#include "support/catch.hpp"
 
 #include "integration/steady_state.hpp"
 #include "integration/time_stepper.hpp"
