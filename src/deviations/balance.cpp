@@ -25,7 +25,7 @@ motion::Motion plain_solution(const DeviationScene& scene, double frequency,
                               FirstEntry first)
 {
   const int m = scene.harmonics, n = default_samples(m);
-  PeriodicMotion solution = require_periodic(scene.machine, frequency, m);
+  PeriodicMotion solution = scene.solution(frequency);
   PlainBalance balance(scene.machine, angular(frequency), m, n, first);
   Eigen::VectorXd x = coefficients(solution);
   const Equations equations{
@@ -41,7 +41,7 @@ motion::Motion plain_solution(const DeviationScene& scene, double frequency,
     throw NoSolution(
         format("plain balance at %g Hz: %s", frequency, report.reason().c_str()));
   solution.bodies = x.reshaped(4, 2 * m + 1);
-  return motion::motion_of(solution.bodies, points(scene));
+  return scene.motion_of(solution);
 }
 
 }  // namespace
@@ -50,10 +50,8 @@ EvidenceList printed_newton_step(const DeviationScene& scene)
 {
   StrictToml table = scene.table("newton");
   const double start_speed = table.number("start_speed_hz", Range::positive);
-  const Eigen::VectorXd truth =
-      coefficients(require_periodic(scene.machine, scene.speed, scene.harmonics));
-  const Eigen::VectorXd start =
-      coefficients(require_periodic(scene.machine, start_speed, scene.harmonics));
+  const Eigen::VectorXd truth = coefficients(scene.solution(scene.speed));
+  const Eigen::VectorXd start = coefficients(scene.solution(start_speed));
   PlainBalance balance(scene.machine, angular(scene.speed), scene.harmonics,
                        default_samples(scene.harmonics));
   const auto residual = [&](const Eigen::VectorXd& x) {
@@ -87,20 +85,21 @@ EvidenceList printed_block(const DeviationScene& scene)
   const Parameters& machine = scene.machine;
   EvidenceList list;
   for (double frequency : scene.table("block").numbers("speeds_hz", Range::positive)) {
-    const motion::Motion truth = integrated(scene, frequency);
+    const motion::Motion truth = scene.integrated(frequency);
     const motion::Motion printed = plain_solution(scene, frequency, FirstEntry::printed);
     const motion::Motion ours = plain_solution(scene, frequency, FirstEntry::corrected);
     const std::string at = format("_%gHz", frequency);
-    list.push_back({"D-12.printed" + at, motion::relative_difference(printed, truth), "-",
-                    "distance to time integration with the printed block"});
-    list.push_back({"D-12.ours" + at, motion::relative_difference(ours, truth), "-",
-                    "the same with the corrected block"});
-    list.push_back({"D-12.force_printed" + at,
-                    motion::relative_force_difference(machine, printed, truth), "-",
-                    "distance of the bearing's force, printed block"});
-    list.push_back({"D-12.force_ours" + at,
-                    motion::relative_force_difference(machine, ours, truth), "-",
-                    "the same with the corrected block"});
+    list.insert(
+        list.end(),
+        {{"D-12.printed" + at, motion::relative_difference(printed, truth), "-",
+          "distance to time integration with the printed block"},
+         {"D-12.ours" + at, motion::relative_difference(ours, truth), "-",
+          "the same with the corrected block"},
+         {"D-12.force_printed" + at,
+          motion::relative_force_difference(machine, printed, truth), "-",
+          "distance of the bearing's force, printed block"},
+         {"D-12.force_ours" + at, motion::relative_force_difference(machine, ours, truth),
+          "-", "the same with the corrected block"}});
   }
   return list;
 }
@@ -109,10 +108,8 @@ EvidenceList criteria_without_scale(const DeviationScene& scene)
 {
   const double start_speed =
       scene.table("newton").number("start_speed_hz", Range::positive);
-  const Eigen::VectorXd truth =
-      coefficients(require_periodic(scene.machine, scene.speed, scene.harmonics));
-  Eigen::VectorXd x =
-      coefficients(require_periodic(scene.machine, start_speed, scene.harmonics));
+  const Eigen::VectorXd truth = coefficients(scene.solution(scene.speed));
+  Eigen::VectorXd x = coefficients(scene.solution(start_speed));
   PlainBalance balance(scene.machine, angular(scene.speed), scene.harmonics,
                        default_samples(scene.harmonics));
   const Eigen::VectorXd step = balance.corrected_step(x);
@@ -126,42 +123,10 @@ EvidenceList criteria_without_scale(const DeviationScene& scene)
            "distance to the solution over that penetration"}};
 }
 
-namespace
-{
-
-Branch branch_over_range(const DeviationScene& scene, int harmonics, int samples)
-{
-  const Parameters& parameters = scene.machine;
-  const double from = angular(scene.range.front()), to = angular(scene.range.back());
-  Balance balance(bearing_problem(parameters, samples), harmonics);
-  return follow_branch(balance, from, to, quasi_static_start(parameters, from, harmonics),
-                       arc_length_settings(parameters));
-}
-
-/** What m harmonics with N samples give: folds, and the distance to the true motion. */
-void add_sampled(EvidenceList& list, const DeviationScene& scene, int m, int n,
-                 const motion::Motion& truth)
-{
-  const Branch branch = branch_over_range(scene, m, n);
-  const std::string where = format("_m%d_N%d", m, n),
-                    with = format("m = %d, N = %d", m, n);
-  const auto solution = require_periodic(scene.machine, scene.speed, m, n);
-  list.push_back({"D-05.folds" + where, static_cast<double>(branch.folds.size()), "-",
-                  "folds of the branch, " + with});
-  list.push_back({"D-05.end" + where, branch.points.back().motion.omega / angular(1),
-                  "Hz", "speed where the branch ended, " + with + ": " + branch.end});
-  list.push_back({"D-05.error" + where,
-                  motion::relative_difference(
-                      motion::motion_of(solution.bodies, points(scene)), truth),
-                  "-", "distance to time integration, " + with});
-}
-
-}  // namespace
-
 EvidenceList names_of_gamma(const DeviationScene& scene)
 {
   const int m = scene.harmonics, n = 2 * m + 1;
-  const Eigen::MatrixXd series = require_periodic(scene.machine, scene.speed, m).bodies;
+  const Eigen::MatrixXd series = scene.solution(scene.speed).bodies;
   const Eigen::MatrixXd gamma = gamma_matrix(m, n, Argument::parenthesised);
   const Eigen::MatrixXd truth = gamma_inverse(m, n) * series.transpose();
   const Eigen::MatrixXd as_text = gamma * series.transpose();
@@ -178,7 +143,9 @@ EvidenceList samples_as_printed(const DeviationScene& scene)
 {
   StrictToml table = scene.table("sampling");
   const auto common = table.integers("common_samples", 3, 1 << 20);
-  const motion::Motion truth = integrated(scene, scene.speed);
+  const ArcLengthSettings settings = arc_length_settings(scene.machine);
+  const double from = angular(scene.range.front());
+  const motion::Motion truth = scene.integrated(scene.speed);
   EvidenceList list{
       {"D-05.speed", scene.speed, "Hz", "speed of the errors"},
       {"D-05.from", scene.range.front(), "Hz", "first speed of the branches"},
@@ -188,7 +155,21 @@ EvidenceList samples_as_printed(const DeviationScene& scene)
     counts.insert(counts.end(), common.begin(), common.end());
     for (int n : counts) {
       if (n < 2 * m + 1) table.fail("common_samples", "must be at least 2m+1 each");
-      add_sampled(list, scene, m, n, truth);
+      const std::string where = format("_m%d_N%d", m, n);
+      const std::string with = format("m = %d, N = %d", m, n);
+      Balance balance(bearing_problem(scene.machine, n), m);
+      const Branch branch =
+          follow_branch(balance, from, angular(scene.range.back()),
+                        quasi_static_start(scene.machine, from, m), settings);
+      const motion::Motion motion =
+          scene.motion_of(require_periodic(scene.machine, scene.speed, m, n));
+      list.insert(list.end(),
+                  {{"D-05.folds" + where, static_cast<double>(branch.folds.size()), "-",
+                    "folds of the branch, " + with},
+                   {"D-05.end" + where, branch.points.back().motion.omega / angular(1),
+                    "Hz", "speed where the branch ended, " + with + ": " + branch.end},
+                   {"D-05.error" + where, motion::relative_difference(motion, truth), "-",
+                    "distance to time integration, " + with}});
     }
   }
   return list;
@@ -199,10 +180,9 @@ EvidenceList default_sample_count(const DeviationScene& scene)
   const int m = scene.harmonics;
   const int samples = scene.table("fine").integer("samples", 2 * m + 1, 1 << 20);
   const auto motion = [&](int n) {
-    return motion::motion_of(require_periodic(scene.machine, scene.speed, m, n).bodies,
-                             points(scene));
+    return scene.motion_of(require_periodic(scene.machine, scene.speed, m, n));
   };
-  const motion::Motion fine = motion(samples), truth = integrated(scene, scene.speed);
+  const motion::Motion fine = motion(samples), truth = scene.integrated(scene.speed);
   const int n = default_samples(m);
   return {{"D-14.speed", scene.speed, "Hz", "speed of the errors"},
           {"D-14.samples", static_cast<double>(n), "-", format("our N for m = %d", m)},
@@ -225,7 +205,7 @@ EvidenceList parentheses_of_gamma(const DeviationScene& scene)
     const Eigen::MatrixXd product = gamma_matrix(m, n, argument) * inverse;
     return (product - Eigen::MatrixXd::Identity(n, n)).cwiseAbs().maxCoeff();
   };
-  const Eigen::MatrixXd series = require_periodic(scene.machine, scene.speed, m).bodies;
+  const Eigen::MatrixXd series = scene.solution(scene.speed).bodies;
   const Eigen::MatrixXd back =
       gamma_matrix(m, n, Argument::printed) * inverse * series.transpose();
   return {

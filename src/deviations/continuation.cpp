@@ -33,15 +33,13 @@ EvidenceList printed_predictor(const DeviationScene& scene)
   const SweepSettings scaling = sweep_settings(scene.machine);
   LagrangePredictor predictor(scaling.arc_unknown_scale, scaling.speed_scale);
   std::vector<PeriodicMotion> known;
-  for (double frequency : speeds)
-    known.push_back(require_periodic(scene.machine, frequency, scene.harmonics));
+  for (double frequency : speeds) known.push_back(scene.solution(frequency));
   const PeriodicMotion next = known.back();
   known.pop_back();
   for (const PeriodicMotion& solution : known) predictor.add(solution.x, solution.omega);
-  /** Newton iterations at the next speed. */
+  Balance balance(bearing_problem(scene.machine, default_samples(scene.harmonics)),
+                  scene.harmonics);
   const auto iterations = [&](const Eigen::VectorXd& x) -> double {
-    Balance balance(bearing_problem(scene.machine, default_samples(scene.harmonics)),
-                    scene.harmonics);
     const NewtonReport report = solve(balance, next.omega, x).newton;
     if (!report.converged()) throw NoSolution("prediction: " + report.reason());
     return report.iterations;

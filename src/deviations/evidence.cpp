@@ -46,25 +46,34 @@ PeriodicMotion require_periodic(const Parameters& machine, double frequency,
   return solution;
 }
 
-int points(const DeviationScene& scene)
+PeriodicMotion DeviationScene::solution(double frequency) const
 {
-  return scene.time_integration.stepper.intervals_per_period;
+  return require_periodic(machine, frequency, harmonics);
 }
 
-SteadyState settled(const DeviationScene& scene, const Parameters& machine,
-                    double frequency)
+motion::Motion DeviationScene::motion_of(const PeriodicMotion& solution) const
 {
-  return steady_state(machine, angular(frequency), static_start(machine),
-                      scene.time_integration);
+  return motion::motion_of(solution.bodies,
+                           time_integration.stepper.intervals_per_period);
 }
 
-motion::Motion integrated(const DeviationScene& scene, double frequency)
+motion::Motion DeviationScene::motion_of(const SteadyState& steady) const
 {
-  const SteadyState steady = settled(scene, scene.machine, frequency);
+  return motion::motion_of(steady, time_integration.stepper.intervals_per_period);
+}
+
+SteadyState DeviationScene::settled(const Parameters& of, double frequency) const
+{
+  return steady_state(of, angular(frequency), static_start(of), time_integration);
+}
+
+motion::Motion DeviationScene::integrated(double frequency) const
+{
+  const SteadyState steady = settled(machine, frequency);
   if (!steady.periodic)
     throw NoSolution(format("the motion at %g Hz is not T-periodic (spread %.2g)",
                             frequency, steady.spread));
-  return motion::motion_of(steady, points(scene));
+  return motion_of(steady);
 }
 
 namespace

@@ -39,6 +39,18 @@ struct DeviationScene {
 
   std::vector<int> sampled_harmonics() const;  ///< m of D-05 and D-18
   double finest_step() const;                  ///< of the sweeps of Fig. 3 [Hz]
+
+  /** The periodic solution of the exchanged reading with m harmonics. */
+  PeriodicMotion solution(double frequency) const;
+
+  /** One period of a solution, and the periods that an integration shows. */
+  motion::Motion motion_of(const PeriodicMotion& solution) const;
+  motion::Motion motion_of(const SteadyState& steady) const;
+
+  /** The steady state of a machine, and the motion on which the exchanged reading settles. The latter
+      throws NoSolution if it is not T-periodic. */
+  SteadyState settled(const Parameters& of, double frequency) const;
+  motion::Motion integrated(double frequency) const;
 };
 
 DeviationScene read_deviation_scene(SceneFile& file);
@@ -48,17 +60,6 @@ DeviationScene read_deviation_scene(SceneFile& file);
 PeriodicMotion require_periodic(const Parameters& machine, double frequency,
                                 int harmonics, int samples = 0,
                                 const NewtonSettings& settings = {});
-
-/** Points per period of every motion of the scene. */
-int points(const DeviationScene& scene);
-
-/** The steady state of a machine at `frequency` [Hz], with the scene's time integration. */
-SteadyState settled(const DeviationScene& scene, const Parameters& machine,
-                    double frequency);
-
-/** The motion that time integration settles on. Throws NoSolution if it is not
-   T-periodic. */
-motion::Motion integrated(const DeviationScene& scene, double frequency);
 
 /** The table that paper/deviations.md quotes: one row per number. */
 Table evidence_table(const DeviationScene& scene);

@@ -127,11 +127,10 @@ EvidenceList two_readings(const DeviationScene& scene)
       {"D-09.speed", speed, "Hz", "speed of the following"}};
   for (const auto& [name, machine] :
        {std::pair{"exchanged", &ours}, std::pair{"printed", &printed}}) {
-    const SteadyState steady = settled(scene, *machine, speed);
-    list.push_back(
-        {format("D-09.contact_%s", name),
-         motion::contact_share(*machine, motion::motion_of(steady, points(scene))), "-",
-         "share of the time with a loaded ball"});
+    const SteadyState steady = scene.settled(*machine, speed);
+    list.push_back({format("D-09.contact_%s", name),
+                    motion::contact_share(*machine, scene.motion_of(steady)), "-",
+                    "share of the time with a loaded ball"});
     list.push_back(
         {format("D-09.spread_%s", name), steady.spread, "-", "Poincare spread"});
   }
@@ -153,8 +152,8 @@ EvidenceList unprinted_masses(const DeviationScene& scene)
     Parameters machine = scene.machine;
     machine.stator.mass *= factor;
     machine.rotor.mass *= factor;
-    const SteadyState steady = settled(scene, machine, scene.transition_speed);
-    const motion::Motion motion = motion::motion_of(steady, points(scene));
+    const SteadyState steady = scene.settled(machine, scene.transition_speed);
+    const motion::Motion motion = scene.motion_of(steady);
     list.push_back(
         {format("D-13.contact_%d", number), motion::contact_share(machine, motion), "-",
          format("share of the time in contact with both masses times %g", factor)});

@@ -19,14 +19,6 @@ namespace rotor_stator::hard
 namespace
 {
 
-/** One group of the list, and what a case of it starts from. */
-struct Group {
-  StrictToml toml;
-  HardCase base;
-  std::vector<double> frequencies;
-  int per_harmonic;  ///< N over m; 0: 2m+1; -1: the default
-};
-
 /** Sets the value of a machine or of the method by its name in the list. */
 void change(HardCase& hard, const std::string& key, double value, const StrictToml& toml)
 {
@@ -79,35 +71,29 @@ double first_fold(const HardCase& hard, double from, double to)
   return branch.folds.front() / angular(1);
 }
 
-int samples_of(int harmonics, int per_harmonic)
+/** The cases of one machine of a group: at each of its speeds. */
+void add_speeds(StrictToml& group, HardCase hard, std::vector<HardCase>& cases)
 {
-  if (per_harmonic < 0) return default_samples(harmonics);
-  return per_harmonic == 0 ? 2 * harmonics + 1 : per_harmonic * harmonics;
-}
-
-/** Where the branch of a speed begins [Hz]. */
-double branch_start(double frequency)
-{
-  return std::min(1.0, frequency / 2);
-}
-
-/** The cases of one machine. */
-void add_speeds(Group& group, HardCase hard, std::vector<HardCase>& cases)
-{
-  hard.samples = samples_of(hard.harmonics, group.per_harmonic);
-  std::vector<double> frequencies = group.frequencies;
-  const std::string at = group.toml.has("at") ? group.toml.string("at") : "";
+  const int m = hard.harmonics;
+  const int per_harmonic = group.integer_or("samples_per_harmonic", 0, 1000, -1);
+  hard.samples = per_harmonic < 0    ? default_samples(m)
+                 : per_harmonic == 0 ? 2 * m + 1
+                                     : per_harmonic * m;
+  std::vector<double> frequencies;
+  if (group.has("frequencies_hz"))
+    frequencies = group.numbers("frequencies_hz", Range::positive);
+  const std::string at = group.has("at") ? group.string("at") : "";
   if (at == "fold")
     frequencies = {first_fold(hard, frequencies.at(0), frequencies.at(1))};
   if (at == "contact resonance")
-    for (int divisor : group.toml.integers("divisors", 1, 1000))
+    for (int divisor : group.integers("divisors", 1, 1000))
       frequencies.push_back(1 / (40 * default_step(hard.machine)) / divisor);
-  const bool cold = group.toml.has("cold") && group.toml.flag("cold");
-  const bool graze = group.toml.has("graze") && group.toml.flag("graze");
+  const bool cold = group.has("cold") && group.flag("cold");
+  const bool graze = group.has("graze") && group.flag("graze");
   const std::string name = hard.name;
   for (double frequency : frequencies) {
     hard.frequency = frequency;
-    hard.from = cold ? frequency : branch_start(frequency);
+    hard.from = cold ? frequency : std::min(1.0, frequency / 2);
     if (graze)
       hard.machine.bearing.clearance = grazing_clearance(hard.machine, frequency);
     hard.name = name + format(", %.6g Hz", frequency);
@@ -115,26 +101,24 @@ void add_speeds(Group& group, HardCase hard, std::vector<HardCase>& cases)
   }
 }
 
-void add_group(StrictToml toml, const Parameters& parameters,
-               std::vector<HardCase>& cases)
+void add_group(StrictToml group, const Parameters& machine, std::vector<HardCase>& cases)
 {
-  Group group{toml, {}, {}, -1};
-  group.base.name = toml.string("name");
-  group.base.machine = parameters;
-  group.base.harmonics = toml.integer("harmonics", 1, 4096);
-  if (toml.has("frequencies_hz"))
-    group.frequencies = toml.numbers("frequencies_hz", Range::positive);
-  group.per_harmonic = toml.integer_or("samples_per_harmonic", 0, 1000, -1);
-  if (toml.has("machine")) {
-    StrictToml machine = toml.table("machine");
-    for (const std::string& key : machine.keys())
-      change(group.base, key, machine.number(key, Range::any), machine);
+  HardCase base{.name = group.string("name"),
+                .machine = machine,
+                .frequency = 0,
+                .from = 0,
+                .harmonics = group.integer("harmonics", 1, 4096),
+                .samples = 0};
+  if (group.has("machine")) {
+    StrictToml changes = group.table("machine");
+    for (const std::string& key : changes.keys())
+      change(base, key, changes.number(key, Range::any), changes);
   }
-  if (!toml.has("vary")) return add_speeds(group, group.base, cases);
-  const std::string key = toml.string("vary");
-  for (double value : toml.numbers("values", Range::any)) {
-    HardCase hard = group.base;
-    change(hard, key, value, toml);
+  if (!group.has("vary")) return add_speeds(group, base, cases);
+  const std::string key = group.string("vary");
+  for (double value : group.numbers("values", Range::any)) {
+    HardCase hard = base;
+    change(hard, key, value, group);
     hard.name += format(": %g", value);
     add_speeds(group, hard, cases);
   }
@@ -153,9 +137,8 @@ HardCases read_hard_cases(SceneFile& file)
                .most_error = toml.number("most_error", Range::positive),
                .most_change = toml.number("most_change", Range::positive)},
       .cases = {}};
-  std::vector<StrictToml> groups = toml.tables("group");
-  for (const StrictToml& group : groups) add_group(group, machine, hard.cases);
-  for (const StrictToml& group : groups) group.refuse_unknown_keys();
+  for (const StrictToml& group : toml.tables("group"))
+    add_group(group, machine, hard.cases);
   toml.refuse_unknown_keys();
   return hard;
 }

@@ -39,6 +39,8 @@ public:
   Cell(double number) : value_(number) {}
   Cell(std::integral auto number) : value_(static_cast<double>(number)) {}
   Cell(std::string word) : value_(std::move(word)) {}
+  template <class Enum>
+  requires std::is_enum_v<Enum> Cell(Enum number) : value_(static_cast<double>(number)) {}
 
   bool is_finite() const;
   std::string text() const;  ///< 15 significant digits

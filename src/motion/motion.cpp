@@ -33,6 +33,17 @@ double Motion::phase(std::size_t k) const
   return 2 * std::numbers::pi * (static_cast<double>(first_period) + t_over_period(k));
 }
 
+Eigen::MatrixXd series_of(const Motion& motion, int harmonics)
+{
+  Eigen::MatrixXd samples(motion.points_per_period, 4), series(4, 2 * harmonics + 1);
+  for (int k = 0; k < motion.points_per_period; ++k) {
+    const Bodies& q = motion.positions[k];
+    samples.row(k) << q.stator.x, q.stator.y, q.rotor.x, q.rotor.y;
+  }
+  FourierTransform(motion.points_per_period).to_series(samples, series);
+  return series;
+}
+
 Eigen::VectorXd relative_series(const Motion& motion, int harmonics)
 {
   Eigen::MatrixXd u(motion.size(), 2), series(2, 2 * harmonics + 1);

@@ -46,6 +46,9 @@ Motion recorded(Stepper& stepper, int points_per_period, State& state,
   return motion;
 }
 
+/** The series of x_s, y_s, x_r, y_r [m] over the first period of a motion, 4 × (2m+1). */
+Eigen::MatrixXd series_of(const Motion& motion, int harmonics);
+
 /** The relative motion u of one period as the unknowns of a balance: 2 × (2m+1) coefficients as a
     vector [m]. */
 Eigen::VectorXd relative_series(const Motion& motion, int harmonics);

@@ -11,13 +11,7 @@ namespace rotor_stator::motion
 
 double higher_harmonics(const Motion& motion)
 {
-  const int points = motion.points_per_period;
-  Eigen::MatrixXd samples(points, 4), series(4, 2 * ((points - 1) / 2) + 1);
-  for (int k = 0; k < points; ++k) {
-    const Bodies& q = motion.positions[static_cast<std::size_t>(k)];
-    samples.row(k) << q.stator.x, q.stator.y, q.rotor.x, q.rotor.y;
-  }
-  FourierTransform(points).to_series(samples, series);
+  const Eigen::MatrixXd series = series_of(motion, (motion.points_per_period - 1) / 2);
   const auto size = [&](int body, Eigen::Index first, Eigen::Index count) {
     return series.block(2 * body, first, 2, count).norm();
   };
@@ -117,7 +111,6 @@ RegimeSettings read_regime_settings(SceneFile& scene)
       .longest = table.number("longest_s", Range::positive),
       .window = table.number("window_s", Range::positive),
       .points_per_period = table.integer("points_per_period", 4, 4096)};
-  table.refuse_unknown_keys();
   return settings;
 }
 

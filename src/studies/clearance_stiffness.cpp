@@ -22,7 +22,6 @@ GridScene read_grid_scene(SceneFile& file)
   const int stiffnesses = grid.integer("stiffnesses", 2, 1000);
   const double low = grid.number("least_stiffness_N_per_m1p5", Range::positive);
   const double high = grid.number("largest_stiffness_N_per_m1p5", Range::positive);
-  grid.refuse_unknown_keys();
   toml.refuse_unknown_keys();
   for (int j = 0; j < stiffnesses; ++j)
     for (int k = 0; k < clearances; ++k) {

@@ -72,7 +72,6 @@ IdentificationScene read_identification_scene(const std::string& file,
     StrictToml grid = scene_file.toml().table("grid");
     add_candidates(grid, reading++, base, angular(scene.rule.paper_peak),
                    scene.candidates);
-    grid.refuse_unknown_keys();
     scene_file.toml().refuse_unknown_keys();
     for (const std::string& read : scene_file.files()) scene.files.push_back(read);
   }
@@ -173,9 +172,8 @@ ClaimScore score(const std::vector<motion::Regime>& regimes, const ClaimRule& ru
 namespace
 {
 
-struct Row {
+struct Row : ClaimScore {
   const Candidate& candidate;
-  const ClaimScore& score;
 };
 
 const std::vector<Field<Row>> fields{
@@ -190,33 +188,32 @@ const std::vector<Field<Row>> fields{
      [](auto& r) { return r.candidate.ratio_factor; }},
     {"cage_speed_ratio", "-", "omega_cage/omega",
      [](auto& r) { return r.candidate.machine.bearing.cage_speed_ratio; }},
-    {"f_peak", "Hz", "speed of the largest x_r", [](auto& r) { return r.score.f_peak; }},
+    {"f_peak", "Hz", "speed of the largest x_r", &Row::f_peak},
     {"f_loss_first", "Hz", "first speed at which contact is lost; -1 when never",
-     [](auto& r) { return r.score.f_loss_first; }},
-    {"f_loss_last", "Hz", "last such speed; -1 when never",
-     [](auto& r) { return r.score.f_loss_last; }},
+     &Row::f_loss_first},
+    {"f_loss_last", "Hz", "last such speed; -1 when never", &Row::f_loss_last},
     {"low_contact", "-", "share of the low speeds with permanent contact",
-     [](auto& r) { return r.score.low.permanent_contact; }},
+     [](auto& r) { return r.low.permanent_contact; }},
     {"low_periodic", "-", "share with T-periodic motion",
-     [](auto& r) { return r.score.low.periodic; }},
+     [](auto& r) { return r.low.periodic; }},
     {"low_simple", "-", "share with higher harmonics below the limit",
-     [](auto& r) { return r.score.low.simple; }},
+     [](auto& r) { return r.low.simple; }},
     {"middle_contact", "-", "the same of the middle speeds",
-     [](auto& r) { return r.score.middle.permanent_contact; }},
-    {"middle_periodic", "-", "", [](auto& r) { return r.score.middle.periodic; }},
-    {"middle_simple", "-", "", [](auto& r) { return r.score.middle.simple; }},
+     [](auto& r) { return r.middle.permanent_contact; }},
+    {"middle_periodic", "-", "", [](auto& r) { return r.middle.periodic; }},
+    {"middle_simple", "-", "", [](auto& r) { return r.middle.simple; }},
     {"high_contact", "-", "the same of the high speeds",
-     [](auto& r) { return r.score.high.permanent_contact; }},
-    {"high_periodic", "-", "", [](auto& r) { return r.score.high.periodic; }},
-    {"high_simple", "-", "", [](auto& r) { return r.score.high.simple; }},
+     [](auto& r) { return r.high.permanent_contact; }},
+    {"high_periodic", "-", "", [](auto& r) { return r.high.periodic; }},
+    {"high_simple", "-", "", [](auto& r) { return r.high.simple; }},
     {"passages", "-", "times a ball is loaded in 2T, mean over balls and high speeds",
-     [](auto& r) { return r.score.passages; }},
-    {"c1", "-", "quantity of C1 for the score", [](auto& r) { return r.score.c1; }},
-    {"c4", "-", "quantity of C4", [](auto& r) { return r.score.c4; }},
-    {"c5", "-", "quantity of C5", [](auto& r) { return r.score.c5; }},
-    {"c6", "-", "quantity of C6", [](auto& r) { return r.score.c6; }},
-    {"c10", "-", "quantity of C10", [](auto& r) { return r.score.c10; }},
-    {"score", "-", "mean of the five", [](auto& r) { return r.score.score; }}};
+     &Row::passages},
+    {"c1", "-", "quantity of C1 for the score", &Row::c1},
+    {"c4", "-", "quantity of C4", &Row::c4},
+    {"c5", "-", "quantity of C5", &Row::c5},
+    {"c6", "-", "quantity of C6", &Row::c6},
+    {"c10", "-", "quantity of C10", &Row::c10},
+    {"score", "-", "mean of the five", &Row::score}};
 
 }  // namespace
 
@@ -227,7 +224,7 @@ Table identification_table(const IdentificationScene& scene, const std::string& 
   table.note(format("modelled: rk4 at %zu speeds, at most %g s each; rule of %s",
                     scene.frequencies.size(), scene.settings.longest, claims.c_str()));
   for (std::size_t k = 0; k < scores.size(); ++k)
-    table.row(fields, {scene.candidates[k], scores[k].front()});
+    table.row(fields, {scores[k].front(), scene.candidates[k]});
   return table;
 }
 

@@ -125,7 +125,6 @@ SensitivityScene read_sensitivity_scene(SceneFile& file)
   for (double ratio : values.numbers("cage_ratio", Range::positive))
     if (ratio > 0.5) values.fail("cage_ratio", "must be in 0 < c <= 0.5");
   values.integers("samples", 2 * harmonics + 1, 1 << 20);
-  values.refuse_unknown_keys();
   toml.refuse_unknown_keys();
   return scene;
 }

@@ -28,7 +28,6 @@ AttractorSettings read_attractor_settings(StrictToml table)
   settings.transient.periodic = settings.rule.periodic;
   settings.same_periodic = table.number("same_periodic", Range::positive);
   settings.same_aperiodic = table.number("same_aperiodic", Range::positive);
-  table.refuse_unknown_keys();
   return settings;
 }
 

@@ -103,23 +103,21 @@ std::vector<Vec2> section_of(const AttractorPoint& point, const Parameters& mach
 namespace
 {
 
-/** A point of a section. */
-struct SectionPoint {
-  const AttractorPoint& motion;
+struct SectionPoint : AttractorPoint {
   Vec2 u;
 };
 
-const std::vector<Field<SectionPoint>> fields{
-    {"set", "-", "data set", [](auto& p) { return p.motion.set; }},
-    {"f", "Hz", "speed of rotation", [](auto& p) { return p.motion.frequency; }},
-    {"origin", "-", "1 up in speed, 2 down",
-     [](auto& p) { return static_cast<int>(p.motion.origin); }},
+using Point = SectionPoint;
+const std::vector<Field<Point>> fields{
+    {"set", "-", "data set", &Point::set},
+    {"f", "Hz", "speed of rotation", &Point::frequency},
+    {"origin", "-", "1 up in speed, 2 down", &Point::origin},
     {"verdict", "-", "of the motion, as in the table of attractors",
-     [](auto& p) { return static_cast<int>(p.motion.attractor.judgement.verdict); }},
+     [](auto& p) { return p.attractor.judgement.verdict; }},
     {"exponent", "1/s", "largest Lyapunov exponent of the motion",
-     [](auto& p) { return p.motion.attractor.judgement.exponent.value; }},
+     [](auto& p) { return p.attractor.judgement.exponent.value; }},
     {"exponent_error", "1/s", "its standard error",
-     [](auto& p) { return p.motion.attractor.judgement.exponent.error; }},
+     [](auto& p) { return p.attractor.judgement.exponent.error; }},
     {"u_x", "m", "x_r - x_s at phase 0", [](auto& p) { return p.u.x; }},
     {"u_y", "m", "y_r - y_s at phase 0", [](auto& p) { return p.u.y; }}};
 

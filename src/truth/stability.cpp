@@ -113,25 +113,12 @@ std::vector<StabilityPoint> follow_stability(const StabilityScene& scene,
 namespace
 {
 
-const char* word(BranchEnd end)
-{
-  switch (end) {
-    case BranchEnd::goal:
-      return "the end of the range";
-    case BranchEnd::came_back:
-      return "it came back to where the range begins";
-    case BranchEnd::closed:
-      return "it is closed";
-    case BranchEnd::on_itself:
-      return "it met itself";
-    case BranchEnd::points:
-      return "the bound on points";
-    case BranchEnd::work:
-      return "the bound on work";
-    default:
-      return "the bound on the step";
-  }
-}
+/** In the order of BranchEnd. */
+const char* const ends[] = {
+    "the end of the range", "it came back to where the range begins",
+    "it is closed",         "it met itself",
+    "the bound on work",    "the bound on points",
+    "the bound on the step"};
 
 /** What the branch of these points came to, in a line of the header. */
 std::string summary(int number, const std::vector<StabilityPoint>& points)
@@ -155,7 +142,7 @@ std::string summary(int number, const std::vector<StabilityPoint>& points)
                     count(Bifurcation::fold), count(Bifurcation::plus_one),
                     count(Bifurcation::period_doubling),
                     count(Bifurcation::neimark_sacker), branch.missed,
-                    points.back().frequency, word(branch.end));
+                    points.back().frequency, ends[static_cast<int>(branch.end)]);
 }
 
 /** With so many digits: tens of thousands of rows are kept. */

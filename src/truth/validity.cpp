@@ -115,7 +115,7 @@ void Truth::measure(const PeriodicMotion& solution, ValidityPoint& point) const
     point.displacement = off.displacement;
     point.force = off.force;
     point.attractor = known_[k].number;
-    point.nearest_verdict = static_cast<double>(known_[k].attractor.judgement.verdict);
+    point.nearest_verdict = static_cast<int>(known_[k].attractor.judgement.verdict);
   }
 }
 

@@ -45,14 +45,14 @@ struct ValidityPoint {
   bool adaptive = false;  ///< m was chosen for the tolerance
   int harmonics = 0;      ///< m; 0 if adaptive and not found
   bool found = false;
-  double displacement = -1;     ///< from the nearest attractor [-]; -1 when not found
-  double force = -1;            ///< the same of the bearing's force
-  int attractor = 0;            ///< number of the nearest; 0 when not found
-  double nearest_verdict = -1;  ///< of the nearest; -1 when not found
-  double multiplier = -1;       ///< largest modulus; -1 when not asked for or not found
-  double change = -1;           ///< its uncertainty; -1 likewise
-  int stable = -1;              ///< 1, 0; -1 not asked for, or within the uncertainty
-  double estimate = -1;         ///< of the adaptive solution's error [-]; -1 otherwise
+  double displacement = -1;  ///< from the nearest attractor [-]; -1 when not found
+  double force = -1;         ///< the same of the bearing's force
+  int attractor = 0;         ///< number of the nearest; 0 when not found
+  int nearest_verdict = -1;  ///< of the nearest; -1 when not found
+  double multiplier = -1;    ///< largest modulus; -1 when not asked for or not found
+  double change = -1;        ///< its uncertainty; -1 likewise
+  int stable = -1;           ///< 1, 0; -1 not asked for, or within the uncertainty
+  double estimate = -1;      ///< of the adaptive solution's error [-]; -1 otherwise
 };
 
 /** What one machine does at one speed, and how near solutions come to it. */
