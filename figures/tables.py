@@ -21,7 +21,16 @@ class Table:
     """The columns of a tab-separated table by name, and its `#` lines."""
 
     def __init__(self, path):
-        lines = Path(path).read_text(encoding="utf-8").splitlines()
+        self._read(Path(path).read_text(encoding="utf-8").splitlines())
+
+    @classmethod
+    def of(cls, text):
+        """The table that a program printed."""
+        table = object.__new__(cls)
+        table._read(text.splitlines())
+        return table
+
+    def _read(self, lines):
         self.header = "\n".join(line for line in lines if line.startswith("#"))
         rows = [line for line in lines if line.strip() and not line.startswith("#")]
         cells = np.array([row.split("\t") for row in rows[1:]])

@@ -8,7 +8,7 @@ No run leaves a file behind that was not asked for, or half of one. The question
 the same in every run; what fails is shrunk to the simplest question that still fails. Other questions:
 EXAMPLES=10 (times as many) SEED=7.
 
-Usage: tests/hard/explore_input.py PROGRAM [TEST…]
+Usage: tests/hard/explore_input.py [TEST…]   (from the project's root)
 """
 import os
 import re
@@ -29,7 +29,7 @@ sys.path.insert(0, str(Path(__file__).parents[1]))
 from hard import odd  # noqa: E402
 from machines import SET_1, decade, entries, extreme_machine, written  # noqa: E402
 
-EXPLORE = Path("build/explore")
+EXPLORE = Path(os.environ.get("BUILD", "build"), "explore").resolve()
 SANITIZED = "SANITIZED" in os.environ
 # Evaluations of the force: a few milliseconds of work.
 LITTLE = "1e5"
@@ -489,7 +489,4 @@ class Explore(unittest.TestCase):
 
 
 if __name__ == "__main__":
-    if len(sys.argv) < 2:
-        sys.exit(__doc__)
-    EXPLORE = Path(sys.argv.pop(1)).resolve()
     unittest.main()

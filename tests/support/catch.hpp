@@ -1,18 +1,22 @@
-/** Catch2, version 2 or 3. */
+/**
+# Catch2, version 2 or 3 */
 #pragma once
+
+#include <string>
 
 #if __has_include(<catch2/catch_all.hpp>)
 #include <catch2/catch_all.hpp>
 
 using Catch::Approx;
-namespace Catch
+inline auto contains(const std::string& part)
 {
-/** As version 2 calls it. */
-inline auto Contains(const std::string& text)
-{
-  return Matchers::ContainsSubstring(text);
+  return Catch::Matchers::ContainsSubstring(part);
 }
-}  // namespace Catch
 #else
 #include <catch2/catch.hpp>
+
+inline auto contains(const std::string& part)
+{
+  return Catch::Contains(part);
+}
 #endif

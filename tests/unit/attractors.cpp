@@ -1,6 +1,5 @@
 /** Attractors of the machine: exponents against closed form and multipliers, verdicts against other steps
    and methods, coexistence, and what is read back from tables. */
-#include <Eigen/Eigenvalues>
 #include <cmath>
 #include <fstream>
 #include <numbers>
@@ -9,6 +8,7 @@
 #include "io/errors.hpp"
 #include "io/number_table.hpp"
 #include "io/table.hpp"
+#include "stability/eigenvalues.hpp"
 #include "stability/period_map.hpp"
 #include "support/cases.hpp"
 #include "truth/attractors.hpp"
@@ -51,8 +51,7 @@ TEST_CASE("On a T-periodic motion the exponent is that of the largest multiplier
       attractor_from(parameters, hertz(frequency), static_start(parameters), settings());
   REQUIRE(attractor.periodic());
   const auto map = period_map(parameters, hertz(frequency), attractor.state, 1e-10);
-  const double modulus =
-      Eigen::MatrixXd(map.derivative).eigenvalues().cwiseAbs().maxCoeff();
+  const double modulus = eigenvalues(map.derivative).cwiseAbs().maxCoeff();
   CHECK(attractor.judgement.exponent.value ==
         Approx(std::log(modulus) * frequency).margin(0.1));
 }
@@ -193,9 +192,8 @@ TEST_CASE("A table of numbers is read back, and a damaged one refused with its l
   CHECK(table.at(0, "x") == -2.5e-3);
   CHECK(table.at(1, "f") == 3);
   CHECK_THROWS_AS(table.at(0, "y"), BadInput);
-  CHECK_THROWS_WITH(written("f\tx\n1\n"), Catch::Contains(":2: 1 cells, must be 2"));
-  CHECK_THROWS_WITH(written("f\tx\n1\ta\n"),
-                    Catch::Contains("'a' is not a finite number"));
+  CHECK_THROWS_WITH(written("f\tx\n1\n"), contains(":2: 1 cells, must be 2"));
+  CHECK_THROWS_WITH(written("f\tx\n1\ta\n"), contains("'a' is not a finite number"));
   CHECK_THROWS_AS(written("f\tx\n"), BadInput);
   CHECK_THROWS_AS(NumberTable("no such file"), BadInput);
 }

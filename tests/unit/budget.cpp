@@ -1,10 +1,14 @@
 /** The account that bounds what a run may cost. */
 #include "support/catch.hpp"
 
+#include "balance/bearing_problem.hpp"
+#include "integration/steady_state.hpp"
 #include "io/budget.hpp"
 #include "io/errors.hpp"
+#include "support/cases.hpp"
 
 using namespace rotor_stator;
+using namespace rotor_stator::tests;
 
 TEST_CASE("Copies of an account spend the same money")
 {
@@ -45,6 +49,36 @@ TEST_CASE("Callbacks are told what cannot be paid for")
   CHECK(budget.pay(80));
   CHECK_FALSE(budget.pay(40));
   CHECK(budget.used_up());
-  CHECK_THROWS_WITH(budget.spend(1),
-                    Catch::Contains("100 evaluations") && Catch::Contains("--budget"));
+  CHECK_THROWS_WITH(budget.spend(1), contains("100 evaluations") && contains("--budget"));
+}
+
+/** What was once counted too cheap, in counts: no seconds are needed to see it. */
+TEST_CASE("What grows faster than the force is paid for as it grows")
+{
+  const auto paid_for_factors = [](int harmonics) {
+    const OperationBudget budget(1e12);
+    Balance balance(bearing_problem(set_1(), default_samples(harmonics), budget),
+                    harmonics);
+    const Eigen::VectorXd x = quasi_static_start(set_1(), hertz(30), harmonics);
+    balance.jacobian(x, hertz(30));
+    return 1e12 - budget.left();
+  };
+  CHECK(paid_for_factors(400) > 6 * paid_for_factors(200));
+  /** N with a large prime factor, next to one without. */
+  CHECK(FourierTransform(20011).operations() > 2 * FourierTransform(20160).operations());
+  Parameters crowded = set_1();
+  crowded.bearing.balls = 1000;
+  CHECK(bearing_problem(crowded, 64, {}).operations >
+        10 * bearing_problem(set_1(), 64, {}).operations);
+}
+
+TEST_CASE("An integration that breaks down is paid for up to there")
+{
+  const OperationBudget budget(1e9);
+  SteadySettings settings;
+  settings.stepper = {
+      .method = "rk4", .intervals_per_period = 4, .step = 1e-2, .budget = budget};
+  CHECK_THROWS_AS(steady_state(set_1(), hertz(10), static_start(set_1()), settings),
+                  NoSolution);
+  CHECK(budget.left() <= 1e9 - 4 * 4);
 }

@@ -1,6 +1,5 @@
 /** Monodromy, Floquet multipliers and shooting, against closed forms, differences, a published
    case and each other. */
-#include <Eigen/Eigenvalues>
 #include "support/catch.hpp"
 
 #include "balance/bearing_problem.hpp"
@@ -8,6 +7,7 @@
 #include "integration/time_stepper.hpp"
 #include "io/errors.hpp"
 #include "motion/other_starts.hpp"
+#include "stability/eigenvalues.hpp"
 #include "stability/floquet.hpp"
 #include "stability/shooting.hpp"
 #include "support/cases.hpp"
@@ -144,7 +144,7 @@ TEST_CASE("Shooting and harmonic balance find the same motion and the same multi
                               .cwiseQuotient(state_scales(parameters));
     CHECK(error.head<4>().norm() < 1e-6);
     const auto motion = floquet(parameters, solution);
-    const Eigen::VectorXcd values = shooting.derivative.eigenvalues();
+    const Eigen::VectorXcd values = eigenvalues(shooting.derivative);
     CHECK(values.cwiseAbs().maxCoeff() == Approx(motion.largest()).epsilon(1e-4));
   }
 }

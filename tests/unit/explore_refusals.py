@@ -1,58 +1,119 @@
-"""explore with files and options that could surprise: each is refused with status 2 and one line, before
-anything is computed, or does what it says.
+"""explore with files and options that are wrong or could surprise: each is refused with status 2 and one
+line that says what is wrong, before anything is computed, or does what it says.
 
-Usage: tests/explore_files.py EXPLORE   (from the project's root)
+Usage: tests/unit/explore_refusals.py   (from the project's root)
 """
 import os
 import re
 import resource
 import signal
-import subprocess
 import sys
-import tempfile
 import unittest
 from pathlib import Path
 
-EXPLORE = str(Path(sys.argv.pop(1) if len(sys.argv) > 1 else "build/explore").resolve())
-MACHINE = Path("data/set1.toml").read_text()
-RESPONSE = ["--from", "20", "--to", "21"]
-ORBIT = ["--frequency", "45", "--points", "4"]
+sys.path.insert(0, str(Path(__file__).parents[1]))
+from support.explore import EXPLORE, MACHINE, ORBIT, RESPONSE, Case  # noqa: E402
 
 
-class Case(unittest.TestCase):
-    def setUp(self):
-        self.scratch = tempfile.TemporaryDirectory()
-        self.addCleanup(self.scratch.cleanup)
-        self.folder = Path(self.scratch.name)
-        self.machine = self.file("machine.toml", MACHINE)
+class Values(Case):
+    """Parameter files and options whose values are wrong."""
 
-    def file(self, name, text):
-        path = self.folder / name
-        path.write_text(text)
-        return path
+    def test_parameters(self):
+        line = MACHINE.split("mass_kg")[0].count("\n") + 1
+        cage = "cage_speed_ratio = 0.5"
+        for old, new, words in [
+                ("mass_kg = 20.0", "mass_kg = 0.0", f":{line}: stator.mass_kg must be > 0"),
+                ("mass_kg = 20.0", "mass_kg = -1", "stator.mass_kg must be > 0"),
+                ("mass_kg = 20.0", "mass_kg = nan", "stator.mass_kg must be finite"),
+                ("mass_kg = 20.0", "mass_kg = inf", "stator.mass_kg must be finite"),
+                ("mass_kg = 20.0", 'mass_kg = "heavy"', "stator.mass_kg must be a number"),
+                ("mass_kg = 20.0", "mass_kg = 20.0\ncolour = 1",
+                 f":{line + 1}: stator.colour is not a known key"),
+                ("mass_kg = 20.0", "", "stator.mass_kg is missing"),
+                ("rad_per_s = 500.0", "rad_per_s = 0", "natural_frequency_rad_per_s must be > 0"),
+                ("damping_ratio = 0.05", "damping_ratio = -0.1", "damping_ratio must be >= 0"),
+                ("unbalance_kg_m = 0.05", "unbalance_kg_m = -1", "rotor.unbalance_kg_m"),
+                ("balls = 16", "balls = 0", "bearing.balls must be in 1...1024"),
+                ("balls = 16", "balls = 1025", "bearing.balls must be in 1...1024"),
+                ("balls = 16", "balls = 16.5", "bearing.balls must be a whole number"),
+                ("m1p5 = 1e11", "m1p5 = 0", "contact_stiffness_N_per_m1p5 must be > 0"),
+                ("clearance_m = 2e-5", "clearance_m = -1e-9", "radial_clearance_m"),
+                (cage, "cage_speed_ratio = 0.6", "0 < c <= 0.5"),
+                (cage, "cage_speed_ratio = 0.0", "cage_speed_ratio"),
+                (cage, "", "cage_speed_ratio is missing"),
+                (cage, cage + "\nball_radius_m = 0.01\ninner_race_radius_m = 0.07", "both given"),
+                (cage, "ball_radius_m = 0.01", "inner_race_radius_m is missing"),
+                (cage, "ball_radius_m = 0.03\ninner_race_radius_m = 0.07", "overlap"),
+                ("[gravity]", "[wind]", "gravity is missing"),
+                ("s2 = 9.81", "s2 = -9.81", "gravity.acceleration"),
+                ("title = ", "title = 3 #", "title must be a string"),
+                ("[stator]", "stator = 1\n[other]", "stator must be a table"),
+                ("[stator]", "[stator", "not TOML")]:
+            self.refused_change(old, new, words)
 
-    def run_explore(self, *arguments, **how):
-        how.setdefault("stdout", subprocess.PIPE)
-        result = subprocess.run([EXPLORE, *map(str, arguments)], stderr=subprocess.PIPE, text=True,
-                                timeout=120, cwd=self.folder, **how)
-        self.assertGreaterEqual(result.returncode, 0, result.stderr)
-        return result
+    def test_files_that_are_no_parameter_files(self):
+        self.refused_machine("is empty", "")
+        self.refused_machine("not TOML", "just some words")
+        self.refused("no such file", "orbit", "no/such/file.toml", *ORBIT)
+        self.refused("is a directory", "orbit", self.folder, *ORBIT)
 
-    def refused(self, words, *arguments, status=2, **how):
-        result = self.run_explore(*arguments, **how)
-        self.assertEqual(result.returncode, status, (arguments, result.stderr))
-        self.assertEqual(result.stderr.count("\n"), 1, result.stderr)
-        self.assertIn(words, result.stderr)
-        self.assertFalse(result.stdout)
-        return result
+    def test_zero_is_legal(self):
+        for key in ["radial_clearance_m", "acceleration_m_per_s2", "unbalance_kg_m", "damping_ratio"]:
+            with self.subTest(key):
+                zero = re.sub(f"{key} = .*", f"{key} = 0", MACHINE, count=1)
+                self.lines("orbit", self.file("zero.toml", zero), *ORBIT)
 
-    def refused_machine(self, words, text):
-        self.refused(words, "orbit", self.file("bad.toml", text), *ORBIT)
+    def test_options(self):
+        for options, words in [
+                ("--frequency 0", "--frequency"), ("--frequency -3", "--frequency"),
+                ("--frequency nan", "--frequency"), ("--frequency fast", "--frequency"),
+                ("", "--frequency"),
+                ("--frequency 30 --harmonics 0", "--harmonics 0: must be in 1...4096"),
+                ("--frequency 30 --harmonics 4097", "1...4096"),
+                ("--frequency 30 --harmonics 10 --samples 20", "--samples 20: must be in 21"),
+                ("--frequency 30 --method euler", "rk8pd"), ("--frequency 30 --points 0", "--points"),
+                ("--frequency 30 --colour red", "--colour"),
+                ("--frequency 30 --tolerance 0", "--tolerance"),
+                ("--frequency 30 --tolerance 1e6", "must be in 1e-08...0.1"),
+                ("--frequency 30 --tolerance nan", "--tolerance nan"),
+                ("--frequency 30 --tolerance 1e-4 --samples 64", "--harmonics"),
+                ("--frequency 30 --newton-tolerance 0", "--newton-tolerance"),
+                ("--frequency 30 --newton-tolerance 1e6", "must be in 1e-15...0.001"),
+                ("--frequency 30 --method rk8pd --local-error 1e10", "--local-error"),
+                ("--frequency 30 --method rk4 --step 0", "--step")]:
+            with self.subTest(options):
+                self.refused(words, "orbit", self.machine, *options.split())
+        for options, words in [
+                ("--from 10 --to 10", "--from 10: must be below --to 10"), ("--from 20 --to 10", "--from"),
+                ("--from 0 --to 10", "--from"), ("--from 1 --to inf", "--to"),
+                ("--from 1 --to 10 --newton-tolerance 1", "--newton-tolerance 1"),
+                ("--from 1 --to 2 --direction left", "must be up or down"),
+                ("--from 1 --to 2 --isolated -1", "--isolated -1: must be in 0"),
+                ("--from 1 --to 2 --restart no/such/file", "no such file"),
+                ("--from 1 --to 2 --restart .", "is a directory"),
+                ("--from 1 --to 2 --restart /dev/zero", "is no regular file"),
+                ("--from 1 --to 2 --restart " + "x" * 300, "no such file"),
+                ("--from 1 --to 2 --restart machine.toml", "machine.toml:1: '# format")]:
+            with self.subTest(options):
+                self.refused(words, "response", self.machine, *options.split())
+        self.refused("subcommand")
+        self.refused("subcommand", "dance")
 
-    def table(self, *arguments):
-        result = self.run_explore(*arguments)
-        self.assertEqual(result.returncode, 0, result.stderr)
-        return result.stdout.splitlines()
+    def test_no_solution(self):
+        self.refused_change("cage_speed_ratio = 0.5", "cage_speed_ratio = 0.4321", "not a whole number",
+                            status=3)
+        self.refused("no solution found with 24 harmonics at 13.4 Hz", "orbit",
+                     Path("data/set2.toml").resolve(), "--frequency", "13.4", "--harmonics", "24", status=3)
+
+    def test_scenes_and_readings(self):
+        program, scenes = Path(EXPLORE).with_name("fig05_displacements"), Path("data/scenes").resolve()
+        for arguments, words in [
+                (["no/such/scene.toml"], "no such file"),
+                ([scenes / "fig05_displacements.toml", "--reading", "upside-down"],
+                 "must be exchanged or as-printed"),
+                ([scenes / "tab01_parameters.toml"], "title is missing")]:
+            with self.subTest(arguments):
+                self.refused(words, *arguments, program=program)
 
 
 class Save(Case):
@@ -127,7 +188,7 @@ class Files(Case):
                 self.refused_machine("levels", MACHINE + text)
 
     def test_dots_that_nest_nothing(self):
-        self.table("orbit", self.file("dots.toml", "# " + "." * 99 + "\n" + MACHINE.replace(
+        self.lines("orbit", self.file("dots.toml", "# " + "." * 99 + "\n" + MACHINE.replace(
             'title = "', 'title = "' + "." * 99)), *ORBIT)
 
     def test_too_long(self):
@@ -145,7 +206,7 @@ class Files(Case):
                                      MACHINE.replace('title = "', 'title = "' + character))
 
     def test_no_line_from_a_file_name(self):
-        lines = self.table("orbit", self.file("a\n# regime: none\nb.toml", MACHINE), *ORBIT)
+        lines = self.lines("orbit", self.file("a\n# regime: none\nb.toml", MACHINE), *ORBIT)
         self.assertEqual([line for line in lines if line.startswith("# regime")],
                          ["# regime: periodic"])
         self.assertEqual(len([line for line in lines if not line.startswith("#")]), 5)
@@ -165,14 +226,14 @@ class Files(Case):
         for command, options in [("orbit", ORBIT), ("contact", ORBIT), ("response", RESPONSE)]:
             with self.subTest(command):
                 self.assertIn("# warning: no ball touches its race: the clearance of 20 m is never closed",
-                              self.table(command, wide, *options))
-                self.assertFalse([line for line in self.table(command, self.machine, *options)
+                              self.lines(command, wide, *options))
+                self.assertFalse([line for line in self.lines(command, self.machine, *options)
                                   if line.startswith("# warning")])
 
 
 class Options(Case):
     def test_decimal_numbers_only(self):
-        lines = self.table("orbit", self.machine, *ORBIT, "--harmonics", "010")
+        lines = self.lines("orbit", self.machine, *ORBIT, "--harmonics", "010")
         self.assertTrue(any("m = 10, N = 84" in line for line in lines))
         for option, values in {"--harmonics": ["0x10", "6.5", "1e1", "", "six", "99999999999", "-1"],
                                "--frequency": ["0x1p3", "inf", "nan", "1e400", "1e-400", "", "0", "-3"],
@@ -204,11 +265,11 @@ class Options(Case):
             self.refused(f"{option} requires {needed}", "response", self.machine, *RESPONSE, option, "20")
 
     def test_help_and_version(self):
-        help_of_orbit = "\n".join(self.table("orbit", "--help"))
+        help_of_orbit = "\n".join(self.lines("orbit", "--help"))
         for name in ["aft", "rk4", "rkf45", "rkck", "rk8pd", "msadams", "msbdf", "bsimp"]:
             self.assertIn(name, help_of_orbit)
         version = re.search("project.*VERSION ([0-9.]+)", Path("CMakeLists.txt").read_text())[1]
-        self.assertIn(version, self.table("--version")[0])
+        self.assertIn(version, self.lines("--version")[0])
         for arguments in [["--help"], ["orbit", "--help"], ["--version"], ["orbit", self.machine, *ORBIT]]:
             with self.subTest(arguments), open("/dev/full", "w") as full:
                 self.refused("standard output", *arguments, status=3, stdout=full)
@@ -217,7 +278,7 @@ class Options(Case):
         """It bounds all commands, and is named with what was reached."""
         self.refused("the budget of 1e+04 evaluations of the force is used up; more with --budget",
                      "orbit", self.machine, *ORBIT, "--method", "rk4", "--budget", "1e4", status=3)
-        lines = self.table("orbit", self.machine, *ORBIT, "--method", "rk4", "--budget", "1e7")
+        lines = self.lines("orbit", self.machine, *ORBIT, "--method", "rk4", "--budget", "1e7")
         counted = next(int(m[1]) for line in lines if (m := re.search("rest, ([0-9]+) evaluations", line)))
         self.assertIn(f"# budget: {counted:.3g} of 1e+07",
                       next(line for line in lines if line.startswith("# budget")))

@@ -1,0 +1,64 @@
+"""Running explore, for the tests; BUILD in the environment names another build folder than build."""
+import os
+import subprocess
+import sys
+import tempfile
+import unittest
+from pathlib import Path
+
+sys.path.insert(0, str(Path(__file__).parents[2] / "figures"))
+from tables import Table  # noqa: E402
+
+EXPLORE = Path(os.environ.get("BUILD", "build"), "explore").resolve()
+MACHINE = Path("data/set1.toml").read_text(encoding="utf-8")
+RESPONSE = ["--from", "20", "--to", "21"]
+ORBIT = ["--frequency", "45", "--points", "4"]
+
+
+class Case(unittest.TestCase):
+    """A folder of its own with data set 1 in machine.toml, where explore runs."""
+
+    def setUp(self):
+        self.scratch = tempfile.TemporaryDirectory()
+        self.addCleanup(self.scratch.cleanup)
+        self.folder = Path(self.scratch.name)
+        self.machine = self.file("machine.toml", MACHINE)
+
+    def file(self, name, text):
+        path = self.folder / name
+        path.write_text(text, encoding="utf-8")
+        return path
+
+    def run_explore(self, *arguments, program=EXPLORE, **how):
+        how.setdefault("stdout", subprocess.PIPE)
+        result = subprocess.run([program, *map(str, arguments)], stderr=subprocess.PIPE, cwd=self.folder,
+                                encoding="utf-8", errors="surrogateescape", **how)
+        self.assertGreaterEqual(result.returncode, 0, result.stderr)
+        return result
+
+    def refused(self, words, *arguments, status=2, **how):
+        result = self.run_explore(*arguments, **how)
+        self.assertEqual(result.returncode, status, (arguments, result.stderr))
+        self.assertEqual(result.stderr.count("\n"), 1, result.stderr)
+        self.assertIn(words, result.stderr)
+        self.assertFalse(result.stdout)
+        return result
+
+    def refused_machine(self, words, text):
+        self.refused(words, "orbit", self.file("bad.toml", text), *ORBIT)
+
+    def refused_change(self, old, new, words, status=2):
+        """The machine with one piece of text replaced."""
+        self.assertIn(old, MACHINE)
+        with self.subTest(f"{old} -> {new}"):
+            self.refused(words, "orbit", self.file("bad.toml", MACHINE.replace(old, new, 1)), *ORBIT,
+                         status=status)
+
+    def lines(self, *arguments):
+        """All that is printed where all goes well."""
+        result = self.run_explore(*arguments)
+        self.assertEqual((result.returncode, result.stderr), (0, ""), arguments)
+        return result.stdout.splitlines()
+
+    def table(self, *arguments):
+        return Table.of("\n".join(self.lines(*arguments)))

@@ -1,0 +1,221 @@
+"""What explore prints: its fixed columns, one method against another, branches that are saved, interrupted or
+isolated, and stability along a branch against that of single orbits.
+
+Usage: tests/unit/explore_tables.py   (from the project's root)
+"""
+import math
+import re
+import sys
+import unittest
+from pathlib import Path
+
+import numpy as np
+
+sys.path.insert(0, str(Path(__file__).parents[1]))
+from machines import entries, written  # noqa: E402
+from support.explore import Case, Table  # noqa: E402
+
+SET_2 = Path("data/set2.toml").resolve()
+WHOLE = ["--from", "1", "--to", "60"]
+AMPLITUDES = ["amp_x_s", "amp_y_s", "amp_x_r", "amp_y_r"]
+
+# Fourteen balls of finite size (14 c = 6) between other masses.
+ANOTHER = written(entries({
+    "stator": {"mass_kg": 30.0, "natural_frequency_rad_per_s": 420.0, "damping_ratio": 0.05},
+    "rotor": {"mass_kg": 25.0, "natural_frequency_rad_per_s": 180.0, "damping_ratio": 0.03,
+              "unbalance_kg_m": 0.02},
+    "bearing": {"balls": 14, "contact_stiffness_N_per_m1p5": 2e10, "radial_clearance_m": 1e-5,
+                "ball_radius_m": 0.01, "inner_race_radius_m": 0.06},
+    "gravity": {"acceleration_m_per_s2": 9.81}}))
+
+
+def difference(a, b):
+    """Largest difference over the four displacements, over the largest displacement."""
+    names = ["x_s", "y_s", "x_r", "y_r"]
+    return max(abs(a[n] - b[n]).max() for n in names) / max(abs(b[n]).max() for n in names)
+
+
+def row_difference(a, i, b, j):
+    """Largest relative difference of speed and amplitudes in one row of each table."""
+    return max(abs(a[n][i] / b[n][j] - 1) for n in ["f", *AMPLITUDES])
+
+
+class Motion(Case):
+    def orbit(self, file, frequency, *options):
+        return self.table("orbit", file, "--points", 64, "--frequency", frequency, *options)
+
+    def test_orbit_columns_phases_and_regime(self):
+        table = self.orbit(self.machine, 45)
+        self.assertEqual(list(table.columns), ["phase", "x_s", "y_s", "x_r", "y_r", "F_x", "F_y"])
+        np.testing.assert_allclose(table["phase"], 2 * math.pi * np.arange(64) / 64, rtol=1e-12)
+        self.assertIn("# regime: periodic\n", table.header)
+        aperiodic = self.orbit(self.machine, 13.4, "--method", "rk4", "--longest", 5)
+        self.assertIn("# regime: aperiodic\n", aperiodic.header)
+
+    def test_contact_of_every_ball_over_two_periods(self):
+        table = self.table("contact", self.machine, "--frequency", 45, "--points", 32)
+        self.assertEqual(list(table.columns), ["t_over_T", "ball", "Q"])
+        self.assertEqual(len(table), 2 * 32 * 16)
+        self.assertAlmostEqual(table["t_over_T"][-1], 2 - 1 / 32)
+        self.assertEqual(table["Q"].min(), 0)
+        self.assertGreater(table["Q"].max(), 100)
+
+    def test_integration_and_balance_give_each_ball_the_same_force(self):
+        balance, integrated = (
+            self.table("contact", self.machine, "--frequency", 45, "--points", 16, *method)["Q"]
+            for method in (["--harmonics", 64], ["--method", "rk8pd"]))
+        self.assertLess(abs(balance - integrated).max(), 1e-3 * integrated.max())
+
+    def test_another_bearing_harmonic_balance_approaches_rk8pd_as_harmonics_are_added(self):
+        file = self.file("another.toml", ANOTHER)
+        for frequency in (12, 45):
+            exact = self.orbit(file, frequency, "--method", "rk8pd")
+            self.assertIn("# regime: periodic\n", exact.header)
+            for harmonics, bound in ((10, 4e-3), (64, 5e-4), (256, 3e-6)):
+                with self.subTest(frequency=frequency, harmonics=harmonics):
+                    balance = self.orbit(file, frequency, "--harmonics", harmonics)
+                    self.assertLess(difference(balance, exact), bound)
+
+
+class Branch(Case):
+    def response(self, *options):
+        return self.table("response", self.machine, *WHOLE, *options)
+
+    def cut_off(self, *options):
+        """A table that ends before its end, and why."""
+        result = self.run_explore("response", *options)
+        self.assertEqual(result.returncode, 3, result.stderr)
+        return Table.of(result.stdout), result.stderr
+
+    def test_from_end_to_end_with_the_peak_near_50_hz(self):
+        table = self.response()
+        self.assertEqual(list(table.columns), ["f", *AMPLITUDES, "arc", "newton"])
+        self.assertAlmostEqual(table["f"][0], 1)
+        self.assertAlmostEqual(table["f"][-1], 60)
+        self.assertAlmostEqual(table["f"][table["amp_x_r"].argmax()], 50, delta=1)
+
+    def test_a_branch_that_is_not_covered_is_printed_and_said_to_be(self):
+        table, reason = self.cut_off(SET_2, *WHOLE, "--harmonics", 16, "--budget", "2e5")
+        self.assertGreater(len(table), 10)
+        why = "the budget of 2e+05 evaluations of the force is used up; more with --budget"
+        self.assertIn("# incomplete: " + why, table.header)
+        self.assertIn("the branch stopped at", reason)
+        self.assertIn("before --to 60 Hz: " + why, reason)
+
+    def test_downwards_it_ends_where_upwards_it_begins(self):
+        up, down = self.response(), self.response("--direction", "down")
+        self.assertAlmostEqual(down["f"][0], 60, places=10)
+        self.assertLess(row_difference(down, -1, up, 0), 1e-9)
+        self.assertLess(row_difference(down, 0, up, -1), 1e-9)
+
+    def test_a_saved_branch_is_continued_either_way(self):
+        table = self.response("--save", "branch.tsv")
+        for options, row in ((["--at", 30], -1), (["--at", 30, "--direction", "down"], 0),
+                             (["--direction", "down"], 0)):
+            with self.subTest(options):
+                part = self.response("--restart", "branch.tsv", *options)
+                self.assertLess(row_difference(part, -1, table, row), 1e-9)
+        with self.subTest("with more harmonics the saved points are starts"):
+            warm = self.response("--restart", "branch.tsv", "--at", 30, "--harmonics", 12)
+            self.assertLess(row_difference(warm, -1, self.response("--harmonics", 12), -1), 1e-9)
+
+    def test_a_branch_is_continued_from_the_very_end_of_its_range(self):
+        for first, then in (("--from 29 --to 30 --direction up", "--from 30 --to 31"),
+                            ("--from 26 --to 27 --direction down", "--from 25 --to 26")):
+            with self.subTest(first):
+                self.table("response", self.machine, *first.split(), "--save", "branch.tsv")
+                self.table("response", self.machine, *then.split(), "--restart", "branch.tsv")
+
+    def test_what_is_no_saved_branch_of_this_machine_is_refused_by_line(self):
+        self.response("--save", "branch.tsv")
+        saved = (self.folder / "branch.tsv").read_text(encoding="utf-8")
+        last = saved.rstrip("\n").rindex("\n") + 1
+        form = "changed.tsv:1: '# format: branch of harmonic balance"
+        for content, words in [
+                ("", form), ("f\tamp\n1\t2\n", form), ("# a table\n", form),
+                (saved.replace("# machine: 20 ", "# machine: 21 "), "another machine"),
+                (saved.replace("# harmonics: 6", "# harmonics: 7"), "the names of the columns"),
+                (saved.replace("# harmonics: 6", "# harmonics: many"),
+                 "# harmonics: many: must be in 1...4096"),
+                (saved.replace("# direction: up", "# direction: left"), "must be up or down"),
+                (saved[:-20], "the line is cut off"),
+                (saved + "1\tnan\n", "is not a finite number"),
+                (saved + saved[last:], "arc must increase"),
+                (saved[:last] + re.sub(r"^1\t[^\t]*", "1\tinf", saved[last:]),
+                 "'inf' is not a finite number")]:
+            with self.subTest(words):
+                self.assertNotEqual(content, saved)
+                self.file("changed.tsv", content)
+                result = self.refused(words, "response", self.machine, *WHOLE, "--restart", "changed.tsv")
+                self.assertIn("changed.tsv:", result.stderr)
+        self.refused("there is no branch 2", "response", self.machine, *WHOLE, "--restart", "branch.tsv",
+                     "--branch", 2)
+        self.refused("another machine", "response", SET_2, *WHOLE, "--restart", "branch.tsv")
+
+    def test_a_search_for_isolated_branches_that_was_cut_off_says_so(self):
+        table, reason = self.cut_off(SET_2, *WHOLE, "--isolated", 10, "--budget", "5.5e7")
+        self.assertIn("cut off", reason)
+        self.assertIn("# incomplete: the budget cut off", table.header)
+
+    def test_a_branch_beside_the_followed_one_is_reported_and_printed(self):
+        table = self.table("response", SET_2, *WHOLE, "--isolated", 10)
+        self.assertIn("# branch 2: off the branches before it", table.header)
+        self.assertIn("the branch is closed", table.header)
+        self.assertEqual(list(np.unique(table["branch"])), [1, 2])
+        main, other = table.where("branch", 1), table.where("branch", 2)
+        # It begins and ends at the same point, and that is no row of the first branch.
+        self.assertLess(row_difference(other, 0, other, -1), 1e-12)
+        self.assertGreater(min(row_difference(other, 0, main, k) for k in range(len(main))), 1e-6)
+
+
+class Stability(Case):
+    def along(self, *range_and_budget):
+        return self.table("response", self.machine, *range_and_budget, "--harmonics", 6, "--stability")
+
+    def orbit_at(self, frequency):
+        """Verdict and largest multiplier, from a start of its own."""
+        header = self.table("orbit", self.machine, "--points", 1, "--frequency", repr(float(frequency))).header
+        found = re.search(r"^# stability: (\w+); largest Floquet multiplier ([\d.e+-]+)", header, re.MULTILINE)
+        self.assertIsNotNone(found, header)
+        return found[1], float(found[2])
+
+    def test_each_verdict_is_that_of_the_orbit_there(self):
+        table = self.along("--from", 12, "--to", 12.7)
+        self.assertEqual(len(table.columns), 11)
+        examined = np.flatnonzero(table["bifurcation"] == "-")
+        for k in examined[::max(1, len(examined) // 6)]:
+            verdict, multiplier = self.orbit_at(table["f"][k])
+            with self.subTest(frequency=table["f"][k]):
+                self.assertEqual(table["verdict"][k], verdict)
+                self.assertAlmostEqual(table["multiplier"][k] / multiplier, 1, delta=1e-5)
+                self.assertLess(table["multiplier_change"][k], 1e-6 * max(1, multiplier))
+
+    def test_a_period_doubling_is_right_to_1e_6_in_speed(self):
+        table = self.along("--from", 12, "--to", 12.7)
+        doublings = table["f"][table["bifurcation"] == "period-doubling"]
+        for frequency in doublings:
+            self.assertIn(f"# period-doubling: {frequency:.9g} Hz\n", table.header + "\n")
+        # The first opens a stretch of unstable orbits, the second closes it.
+        self.assertGreaterEqual(len(doublings), 2)
+        for frequency, before in zip(doublings, (-1, 1)):
+            for side in (-1, 1):
+                with self.subTest(frequency=frequency, side=side):
+                    _, multiplier = self.orbit_at(frequency * (1 + side * 1e-6))
+                    self.assertGreater((multiplier - 1) * side * -before, 0)
+
+    def test_what_the_budget_does_not_allow_is_said(self):
+        result = self.run_explore("response", self.machine, *WHOLE, "--stability", "--budget", "2.7e7")
+        self.assertEqual(result.returncode, 3)
+        self.assertIn("no multipliers at", result.stderr)
+        self.assertIn("used up", result.stderr)
+        self.assertNotIn("nan", result.stdout)
+        table = Table.of(result.stdout)
+        known = (table["verdict"] != "unknown").sum()
+        self.assertGreater(known, 0)
+        self.assertLess(known, len(table))
+        self.assertAlmostEqual(table["f"][-1], 60)
+        self.assertEqual(table["multiplier"][-1], -1)
+
+
+if __name__ == "__main__":
+    unittest.main()
