@@ -14,8 +14,7 @@ highest order as an argument: order 2, A-stable, is the cheaper one where large 
 
 #include "equation7.hpp"
 
-namespace
-{
+namespace {
 
 int derivative(double t, N_Vector y, N_Vector dydt, void* data)
 {
@@ -32,8 +31,7 @@ int jacobian(double t, N_Vector y, N_Vector, SUNMatrix dfdy, void* data, N_Vecto
 }
 
 /** CVODE's objects for one integration. */
-class Cvode
-{
+class Cvode {
 public:
   Cvode(Equation7& equation, int bdf_order, double tolerance, const double* start)
   {

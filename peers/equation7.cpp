@@ -8,8 +8,7 @@
 #include <exception>
 #include <numbers>
 
-namespace rotor_stator
-{
+namespace rotor_stator {
 
 using Flat = std::array<double, Equation7::size>;
 

@@ -8,8 +8,7 @@ same for a force. The C functions below are what SciPy calls through ctypes. */
 
 #include "model/rotor_stator.hpp"
 
-namespace rotor_stator
-{
+namespace rotor_stator {
 
 /** One machine at one speed, with the counts of what was asked of it. */
 struct Equation7 {

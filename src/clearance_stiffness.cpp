@@ -27,8 +27,9 @@ kept in a journal. */
 int main(int argc, char** argv)
 {
   using namespace rotor_stator;
-  const Program program{.options = {{"--journal", "clearance_stiffness.journal", "finished points"}},
-                        .has_readings = false};
+  const Program program{
+      .options = {{"--journal", "clearance_stiffness.journal", "finished points"}},
+      .has_readings = false};
   return run_figure(argc, argv, program, [](SceneFile& file, const Options& options) {
     const studies::GridScene scene = studies::read_grid_scene(file);
     const std::vector<double> omegas = angular(scene.frequencies);

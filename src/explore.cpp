@@ -16,8 +16,7 @@ or one of the time integrators. A table on stdout, errors on stderr. */
 #include "io/errors.hpp"
 #include "io/program.hpp"
 
-namespace
-{
+namespace {
 
 using namespace rotor_stator;
 using namespace rotor_stator::explore;
@@ -59,8 +58,7 @@ void add_common_options(CLI::App& command, Request& request)
 }
 
 /** The options of orbit and contact, and for which methods each is. */
-class MotionOptions
-{
+class MotionOptions {
 public:
   MotionOptions(CLI::App& command, MotionRequest& request) : request_(request)
   {

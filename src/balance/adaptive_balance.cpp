@@ -6,11 +6,9 @@
 #include "balance/step_solver.hpp"
 #include "io/errors.hpp"
 
-namespace rotor_stator
-{
+namespace rotor_stator {
 
-namespace
-{
+namespace {
 
 /** A Newton iteration that takes many steps, or halves them again and again, seldom ends well here,
     where another start follows; the less so from a good one. */
@@ -30,8 +28,7 @@ double tail(const Eigen::MatrixXd& series, int m)
 }
 
 /** The search for m, level by level. */
-class Search
-{
+class Search {
 public:
   Search(const ObservedProblem& observed, double omega, const ColdSolve& cold_solve,
          const AdaptiveSettings& settings)
@@ -167,8 +164,7 @@ AdaptiveMotion solve_adaptively(const ObservedProblem& observed, double omega,
 
 Estimated by Newton's first steps in a finer discretisation (adaptive_balance.hpp). */
 
-namespace
-{
+namespace {
 
 /** A series with `columns` columns, filled with zeros. */
 Eigen::MatrixXd widened(const Eigen::MatrixXd& series, Eigen::Index columns)
@@ -204,14 +200,12 @@ int adaptive_samples(int harmonics)
   return fast_transform_size(std::max(32, 4 * harmonics + 1));
 }
 
-namespace
-{
+namespace {
 
 /** Newton's iteration from the coarse solution, until what the next step would add is small against
     the steps taken. That is measured on displacements, where the residual would have to be known
     with the factor, often above a hundred, by which a resonance of the contact magnifies it. */
-class Approach
-{
+class Approach {
 public:
   Approach(Balance& balance, double omega, double tolerance, Eigen::VectorXd& x)
       : balance_(balance), omega_(omega), tolerance_(tolerance), x_(x), start_(x)

@@ -18,8 +18,7 @@ Three times m, because the coefficients do not fall monotonically: with two, a c
 
 #include "balance/newton.hpp"
 
-namespace rotor_stator
-{
+namespace rotor_stator {
 
 /** What is solved, and what its error is measured on. */
 struct ObservedProblem {

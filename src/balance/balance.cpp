@@ -7,8 +7,7 @@
 #include "balance/step_solver.hpp"
 #include "io/errors.hpp"
 
-namespace rotor_stator
-{
+namespace rotor_stator {
 
 SmallVector amplitude(const Eigen::Ref<const Eigen::MatrixXd>& series, int h)
 {
@@ -23,8 +22,7 @@ void put_amplitude(Eigen::Ref<Eigen::MatrixXd> series, int h,
   if (h > 0) series.col(2 * h) = -amplitude.imag();
 }
 
-namespace
-{
+namespace {
 
 /** A complex matrix z as it acts on (cosine, sine) coefficients, q = a - ib: ((Re z, Im z),
     (-Im z, Re z)). */
@@ -39,23 +37,6 @@ void expand(const SmallMatrix& z, Block block)
 }
 
 }  // namespace
-
-LinearBlock second_order_block(const Eigen::MatrixXd& mass,
-                               const Eigen::MatrixXd& damping,
-                               const Eigen::MatrixXd& stiffness,
-                               const Eigen::VectorXcd& load, double omega, int h)
-{
-  const std::complex<double> i(0, 1);
-  const auto d = mass.rows();
-  LinearBlock block;
-  block.a = stiffness - (h * omega) * (h * omega) * mass + i * (h * omega) * damping;
-  block.a_slope = -2.0 * h * h * omega * mass + i * static_cast<double>(h) * damping;
-  block.b = SmallMatrix::Identity(d, d);
-  block.b_slope = SmallMatrix::Zero(d, d);
-  block.c = h == 1 ? SmallVector(load) : SmallVector::Zero(d);
-  block.c_slope = SmallVector::Zero(d);
-  return block;
-}
 
 Balance::Balance(Problem problem, int harmonics)
     : problem_(std::move(problem)),
@@ -167,8 +148,7 @@ const Eigen::VectorXd& Balance::speed_derivative(const Eigen::VectorXd& x, doubl
 
 As a matrix, as a product, and the block of one harmonic. */
 
-namespace
-{
+namespace {
 
 /** Three dense matrices of this size, as the arc length needs, stay below 0.5 GB. */
 constexpr Eigen::Index most_unknowns = 4200;

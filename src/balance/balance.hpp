@@ -42,8 +42,7 @@ the samples. */
 #include "balance/fourier_transform.hpp"
 #include "balance/periodic_motion.hpp"
 
-namespace rotor_stator
-{
+namespace rotor_stator {
 
 /** Small complex matrices without heap memory: at most four nonlinear unknowns. */
 constexpr int most_dofs = 4;
@@ -87,14 +86,6 @@ struct Problem {
   std::function<void(double operations)> spend = {};
 };
 
-/** The block of M q̈ + D q̇ + K q + f(q) = Re(F e^{iωt}) for real d × d matrices and a
-   complex load amplitude `load` on harmonic 1: Eq. 11 with jω in both diagonal entries
-   (D-12). */
-LinearBlock second_order_block(const Eigen::MatrixXd& mass,
-                               const Eigen::MatrixXd& damping,
-                               const Eigen::MatrixXd& stiffness,
-                               const Eigen::VectorXcd& load, double omega, int h);
-
 /** Complex amplitude of harmonic `h` of a series, and back. */
 SmallVector amplitude(const Eigen::Ref<const Eigen::MatrixXd>& series, int h);
 void put_amplitude(Eigen::Ref<Eigen::MatrixXd> series, int h,
@@ -121,8 +112,7 @@ class StepSolver;
 
 /** The balance of a problem with m harmonics. Every quantity is one of the point (X, ω) that it is
     asked for; what was computed at the last point is not computed again. */
-class Balance
-{
+class Balance {
 public:
   /** N = problem.samples must be at least 2m+1. */
   Balance(Problem problem, int harmonics);

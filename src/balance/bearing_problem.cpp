@@ -6,11 +6,9 @@
 #include "io/errors.hpp"
 #include "model/ball_bearing.hpp"
 
-namespace rotor_stator
-{
+namespace rotor_stator {
 
-namespace
-{
+namespace {
 
 using Complex = std::complex<double>;
 
@@ -108,8 +106,7 @@ Problem bearing_problem(const Parameters& parameters, int samples,
   return problem;
 }
 
-namespace
-{
+namespace {
 
 /** N samples of a relative displacement that depends on the rotor's angle. */
 template <class Displacement>

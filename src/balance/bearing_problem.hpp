@@ -18,8 +18,7 @@ high harmonics alike. */
 #include "io/budget.hpp"
 #include "model/rotor_stator.hpp"
 
-namespace rotor_stator
-{
+namespace rotor_stator {
 
 /** The bearing's problem: d = 2 unknowns u_x, u_y [m], N samples. Throws NoSolution when
    the force has not the period of rotation (n ω_cage/ω not whole, D-11): no series in ω

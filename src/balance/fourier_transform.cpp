@@ -4,11 +4,9 @@
 #include <algorithm>
 #include <mutex>
 
-namespace rotor_stator
-{
+namespace rotor_stator {
 
-namespace
-{
+namespace {
 
 struct FftwFree {
   void operator()(void* memory) const { fftw_free(memory); }
@@ -150,8 +148,7 @@ Eigen::MatrixXd differentiate(const Eigen::MatrixXd& series)
   return slope;
 }
 
-namespace
-{
+namespace {
 
 /** The largest value of a periodic sequence, refined by the parabola through its
     neighbours. */
@@ -160,13 +157,18 @@ double refined_maximum(const Eigen::VectorXd& samples)
   Eigen::Index k;
   const double top = samples.maxCoeff(&k);
   const auto n = samples.size();
-  const double before = samples[(k + n - 1) % n], after = samples[(k + 1) % n];
-  const double curvature = before - 2 * top + after;
-  const double slope = 0.5 * (after - before);
-  return curvature < 0 ? top - 0.5 * slope * slope / curvature : top;
+  return vertex(samples[(k + n - 1) % n], top, samples[(k + 1) % n]).height;
 }
 
 }  // namespace
+
+Vertex vertex(double before, double top, double after)
+{
+  const double curvature = before - 2 * top + after;
+  const double slope = 0.5 * (after - before);
+  if (curvature == 0) return {0, top};
+  return {-slope / curvature, top - 0.5 * slope * slope / curvature};
+}
 
 FourierTransform amplitude_transform(int harmonics)
 {

@@ -20,8 +20,7 @@ parentheses (D-21). */
 #include <complex>
 #include <memory>
 
-namespace rotor_stator
-{
+namespace rotor_stator {
 
 /** The smallest even number ≥ `at_least` with no prime factor above 7: a fast FFTW size. */
 int fast_transform_size(int at_least);
@@ -34,8 +33,7 @@ int fast_transform_size(int at_least);
 int default_samples(int harmonics);
 
 /** Real transforms of one length N, with their buffers. */
-class FourierTransform
-{
+class FourierTransform {
 public:
   explicit FourierTransform(int samples);
   ~FourierTransform();
@@ -71,6 +69,12 @@ Eigen::MatrixXd sample_series(const Eigen::MatrixXd& series, int points);
 
 /** The series of the derivative with respect to φ. */
 Eigen::MatrixXd differentiate(const Eigen::MatrixXd& series);
+
+/** The extreme of the parabola through three values at -1, 0 and 1. */
+struct Vertex {
+  double at, height;
+};
+Vertex vertex(double before, double top, double after);
 
 /** The transform of the next function for m harmonics, planned once for many series. */
 FourierTransform amplitude_transform(int harmonics);

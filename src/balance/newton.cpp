@@ -1,133 +1,11 @@
 #include "balance/newton.hpp"
 
-#include <Eigen/LU>
 #include <cmath>
 #include <limits>
 
 #include "balance/step_solver.hpp"
 
-namespace rotor_stator
-{
-
-namespace
-{
-
-/** Newton's iteration from `y`. `steps` evaluates the residual, solves the linear equations, hears
-    what became of its step, and says whether another step would be better than none; it has the
-    scales that the tolerance is relative to. */
-template <class Steps>
-NewtonReport iterate(Steps steps, const NewtonSettings& settings, Eigen::VectorXd& y,
-                     NewtonVectors& vectors)
-{
-  auto& [residual, step, start] = vectors;
-  const double tolerance = settings.tolerance;
-  NewtonReport report;
-  double norm = 0;
-  const auto evaluate = [&] {
-    steps.evaluate(y, residual);
-    norm = residual.norm();
-    report.delta_1 = norm / steps.residual_scale;
-  };
-
-  /** Moves along the step, halved until the residual decreases; a chord step is taken whole, and
-      must decrease it more. False, and back at the start, if it does not. */
-  const auto moves = [&](StepKind kind) {
-    if (!std::isfinite(report.delta_2)) {
-      steps.learn(std::numeric_limits<double>::infinity());
-      return false;
-    }
-    const bool chord = kind == StepKind::chord;
-    const double slope = chord ? 1 - settings.chord_contraction : 1e-4;
-    const double before = norm, goal = tolerance * steps.residual_scale;
-    start = y;
-    double length = 1;
-    for (int halvings = 0; halvings <= (chord ? 0 : settings.most_halvings);
-         ++halvings, length /= 2) {
-      y = start + length * step;
-      evaluate();
-      if (halvings == 0) steps.learn(norm / before);
-      if (norm <= goal || norm <= (1 - slope * length) * before) return true;
-    }
-    y = start;
-    evaluate();
-    return false;
-  };
-
-  /** After Newton's own step the error is of the order of δ₂²; after another step it is what its
-      contraction leaves of δ₂, or what so small a residual allows. */
-  const auto converged = [&](StepKind kind, double contraction) {
-    if (report.delta_1 > tolerance || report.delta_2 > std::sqrt(tolerance)) return false;
-    return kind == StepKind::fresh || report.delta_1 <= 0.1 * tolerance ||
-           contraction * report.delta_2 <= 0.1 * tolerance;
-  };
-
-  evaluate();
-  while (report.iterations < settings.most_iterations) {
-    const StepKind kind = steps.step(y, residual, step);
-    report.delta_2 = step.norm() / steps.unknown_scale;
-    ++report.iterations;
-    const double before = norm;
-    if (!moves(kind)) {
-      if (steps.retries()) continue;
-      report.end =
-          std::isfinite(report.delta_2) ? NewtonEnd::no_decrease : NewtonEnd::singular;
-      break;
-    }
-    if (converged(kind, norm / before)) {
-      report.end = NewtonEnd::converged;
-      break;
-    }
-  }
-  return report;
-}
-
-/** Newton's own steps, from a dense matrix. */
-struct DenseSteps {
-  const Equations& equations;
-  double residual_scale = equations.residual_scale;
-  double unknown_scale = equations.unknown_scale;
-  Eigen::PartialPivLU<Eigen::MatrixXd> factors = {};
-
-  void evaluate(const Eigen::VectorXd& y, Eigen::VectorXd& residual) const
-  {
-    equations.residual(y, residual);
-  }
-  StepKind step(const Eigen::VectorXd& y, const Eigen::VectorXd& residual,
-                Eigen::VectorXd& step)
-  {
-    factors.compute(equations.jacobian(y));
-    step = -factors.solve(residual);
-    return StepKind::fresh;
-  }
-  void learn(double) const {}
-  bool retries() const { return false; }
-};
-
-/** The steps that a balance keeps the factors for. */
-struct BalanceSteps {
-  Balance& balance;
-  double omega, tolerance;
-  double residual_scale = balance.problem().residual_scale;
-  double unknown_scale = balance.problem().unknown_scale;
-  StepSolver& steps = balance.steps();
-
-  void evaluate(const Eigen::VectorXd& x, Eigen::VectorXd& residual) const
-  {
-    residual = balance.residual(
-        x, omega,
-        steps.expects_chord() ? Balance::With::force : Balance::With::stiffness);
-  }
-  StepKind step(const Eigen::VectorXd& x, const Eigen::VectorXd& residual,
-                Eigen::VectorXd& step) const
-  {
-    return steps.step(balance, x, omega, residual,
-                      linear_goal(balance, residual.norm(), tolerance), step);
-  }
-  void learn(double contraction) const { steps.learn(contraction); }
-  bool retries() const { return steps.retries(); }
-};
-
-}  // namespace
+namespace rotor_stator {
 
 double linear_goal(const Balance& balance, double residual, double tolerance)
 {
@@ -135,20 +13,110 @@ double linear_goal(const Balance& balance, double residual, double tolerance)
   return std::max(std::min(1e-2, residual / scale) * residual, 0.1 * tolerance * scale);
 }
 
-NewtonReport newton(const Equations& equations, Eigen::VectorXd& y,
-                    const NewtonSettings& settings)
-{
-  NewtonVectors vectors;
-  return iterate(DenseSteps{equations}, settings, y, vectors);
-}
+namespace {
+
+/** The iteration for one solution. Everything that it needs is kept by the balance's step solver. */
+class Iteration {
+public:
+  Iteration(Balance& balance, PeriodicMotion& motion, const NewtonSettings& settings)
+      : balance_(balance),
+        steps_(balance.steps()),
+        residual_(steps_.vectors.residual),
+        step_(steps_.vectors.step),
+        start_(steps_.vectors.start),
+        x_(motion.x),
+        omega_(motion.omega),
+        settings_(settings),
+        report_(motion.newton)
+  {
+    report_ = {};
+    steps_.begin(settings.chord_contraction);
+  }
+
+  void run()
+  {
+    evaluate();
+    while (report_.iterations < settings_.most_iterations) {
+      const double before = norm_;
+      const double goal = linear_goal(balance_, norm_, settings_.tolerance);
+      const StepKind kind = steps_.step(balance_, x_, omega_, residual_, goal, step_);
+      report_.delta_2 = step_.norm() / balance_.problem().unknown_scale;
+      ++report_.iterations;
+      if (!move(kind)) {
+        if (steps_.retries()) continue;
+        report_.end =
+            std::isfinite(report_.delta_2) ? NewtonEnd::no_decrease : NewtonEnd::singular;
+        return;
+      }
+      if (has_converged(kind, norm_ / before)) {
+        report_.end = NewtonEnd::converged;
+        return;
+      }
+    }
+  }
+
+private:
+  void evaluate()
+  {
+    using With = Balance::With;
+    residual_ = balance_.residual(x_, omega_,
+                                  steps_.expects_chord() ? With::force : With::stiffness);
+    norm_ = residual_.norm();
+    report_.delta_1 = norm_ / balance_.problem().residual_scale;
+  }
+
+  /** Moves along the step, halved until the residual decreases; a chord step is taken whole, and
+      must decrease it more. False, and back at the start, if it does not. */
+  bool move(StepKind kind)
+  {
+    if (!std::isfinite(report_.delta_2)) {
+      steps_.learn(std::numeric_limits<double>::infinity());
+      return false;
+    }
+    const bool chord = kind == StepKind::chord;
+    const double slope = chord ? 1 - settings_.chord_contraction : 1e-4;
+    const int most_halvings = chord ? 0 : settings_.most_halvings;
+    const double before = norm_;
+    const double goal = settings_.tolerance * balance_.problem().residual_scale;
+    start_ = x_;
+    double length = 1;
+    for (int halvings = 0; halvings <= most_halvings; ++halvings, length /= 2) {
+      x_ = start_ + length * step_;
+      evaluate();
+      if (halvings == 0) steps_.learn(norm_ / before);
+      if (norm_ <= goal || norm_ <= (1 - slope * length) * before) return true;
+    }
+    x_ = start_;
+    evaluate();
+    return false;
+  }
+
+  /** After Newton's own step the error is of the order of δ₂²; after another step it is what its
+      contraction leaves of δ₂, or what so small a residual allows. */
+  bool has_converged(StepKind kind, double contraction) const
+  {
+    const double tolerance = settings_.tolerance;
+    if (report_.delta_1 > tolerance || report_.delta_2 > std::sqrt(tolerance))
+      return false;
+    return kind == StepKind::fresh || report_.delta_1 <= 0.1 * tolerance ||
+           contraction * report_.delta_2 <= 0.1 * tolerance;
+  }
+
+  Balance& balance_;
+  StepSolver& steps_;
+  Eigen::VectorXd &residual_, &step_, &start_, &x_;
+  double omega_;
+  const NewtonSettings& settings_;
+  NewtonReport& report_;
+  double norm_ = 0;
+};
+
+}  // namespace
 
 bool solve(Balance& balance, PeriodicMotion& motion, const NewtonSettings& settings)
 {
-  StepSolver& steps = balance.steps();
   const long before = balance.evaluations();
-  steps.begin(settings.chord_contraction);
-  motion.newton = iterate(BalanceSteps{balance, motion.omega, settings.tolerance},
-                          settings, motion.x, steps.vectors);
+  Iteration(balance, motion, settings).run();
   motion.force = balance.force(motion.x, motion.omega);
   motion.harmonics = balance.harmonics();
   motion.samples = balance.problem().samples;

@@ -22,8 +22,7 @@ is quadratic, so a last step of √tolerance leaves an error of the order of the
 
 #include "balance/balance.hpp"
 
-namespace rotor_stator
-{
+namespace rotor_stator {
 
 /** The paper names no tolerance (D-15). */
 struct NewtonSettings {
@@ -35,17 +34,6 @@ struct NewtonSettings {
      part of the residual; otherwise Newton's own step is taken. 0: always Newton's. */
   double chord_contraction = 0.1;
 };
-
-/** n equations in n unknowns. */
-struct Equations {
-  double residual_scale, unknown_scale;
-  std::function<void(const Eigen::VectorXd& y, Eigen::VectorXd& residual)> residual;
-  std::function<const Eigen::MatrixXd&(const Eigen::VectorXd& y)> jacobian;
-};
-
-/** Iterates from `y`; on failure `y` is the best point reached. */
-NewtonReport newton(const Equations& equations, Eigen::VectorXd& y,
-                    const NewtonSettings& settings);
 
 /** Newton on the balance at the speed of `motion`, from its coefficients, which become the solution
     or the best ones reached; the force there and the report are written beside them. True when it

@@ -5,8 +5,7 @@
 
 #include "io/errors.hpp"
 
-namespace rotor_stator
-{
+namespace rotor_stator {
 
 Harmonics::Harmonics(int m)
 {

@@ -11,8 +11,7 @@ of harmonics, and what is known of how they were found and how far they are from
 #include <string>
 #include <vector>
 
-namespace rotor_stator
-{
+namespace rotor_stator {
 
 /** One frequency of a motion, k_1 ω + k_2 n ω_cage. */
 struct Harmonic {
@@ -20,8 +19,7 @@ struct Harmonic {
 };
 
 /** The frequencies of a motion, the mean first. Motions with the same ones share the list. */
-class Harmonics
-{
+class Harmonics {
 public:
   Harmonics() = default;  ///< none
 

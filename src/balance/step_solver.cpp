@@ -3,8 +3,7 @@
 #include <cmath>
 #include <functional>
 
-namespace rotor_stator
-{
+namespace rotor_stator {
 
 /** Gram-Schmidt, twice: the product loses its parts along the basis and becomes its column
     k+1. */
@@ -65,8 +64,7 @@ Gmres::Report Gmres::solve(const Operator& apply, const Operator& precondition,
   return {k, residual};
 }
 
-namespace
-{
+namespace {
 
 /** Harmonics whose coupling through the contact is weaker than this leave the dense block. */
 constexpr double weak_coupling = 1;

@@ -12,11 +12,9 @@ tolerance only, allocates at each call and wants the operator dressed as a spars
 
 #include "balance/balance.hpp"
 
-namespace rotor_stator
-{
+namespace rotor_stator {
 
-class Gmres
-{
+class Gmres {
 public:
   using Operator =
       std::function<void(const Eigen::VectorXd& v, Eigen::VectorXd& product)>;
@@ -61,8 +59,7 @@ struct NewtonVectors {
   Eigen::VectorXd residual, step, start;
 };
 
-class StepSolver
-{
+class StepSolver {
 public:
   /** Solves ∂R/∂X step = -`residual` at (X, ω). `goal` is the linear residual an iterated step may
      leave. */

@@ -6,8 +6,7 @@
 #include "continuation/locate.hpp"
 #include "io/errors.hpp"
 
-namespace rotor_stator
-{
+namespace rotor_stator {
 
 StepOfBranch::StepOfBranch(ExtendedBalance& extended, const BranchPoint& a,
                            const BranchPoint& b, const ArcLengthSettings& settings)
@@ -58,12 +57,10 @@ std::optional<Passed> BranchHistory::passed(ExtendedBalance& extended,
   return first;
 }
 
-namespace
-{
+namespace {
 
 /** The walk along the branch, one accepted point after the other. */
-class Walk
-{
+class Walk {
 public:
   Walk(Balance& balance, SpeedRange range, const ArcLengthSettings& settings)
       : balance_(balance),

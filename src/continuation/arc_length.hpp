@@ -12,13 +12,11 @@ the point's own tangent: the same solution comes out, or another. */
 
 #include "continuation/branch.hpp"
 
-namespace rotor_stator
-{
+namespace rotor_stator {
 
 /** The step from one point of a branch to the next, in whose way others may lie. Points, settings and
     balance must outlive it. */
-class StepOfBranch
-{
+class StepOfBranch {
 public:
   StepOfBranch(ExtendedBalance& extended, const BranchPoint& a, const BranchPoint& b,
                const ArcLengthSettings& settings);
@@ -48,8 +46,7 @@ struct Passed {
 };
 
 /** The points of a walk, found again by their speed. */
-class BranchHistory
-{
+class BranchHistory {
 public:
   void add(const BranchPoint& point)
   {

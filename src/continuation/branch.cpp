@@ -6,8 +6,7 @@
 
 #include "io/errors.hpp"
 
-namespace rotor_stator
-{
+namespace rotor_stator {
 
 Eigen::VectorXd scaled(const BranchPoint& point, const ArcLengthSettings& settings)
 {
@@ -44,8 +43,7 @@ BranchPoint reversed(BranchPoint point)
   return point;
 }
 
-namespace
-{
+namespace {
 
 /** Contracting by a half each time, Newton needs fewer. */
 constexpr int most_corrections = 20;

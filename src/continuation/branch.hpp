@@ -8,8 +8,7 @@ cubic with both tangents stands for it. */
 
 #include "continuation/sweep.hpp"
 
-namespace rotor_stator
-{
+namespace rotor_stator {
 
 /** The first three have no default: two scales of the problem and Newton's settings. Lengths are
     scaled arc lengths [-]. */
@@ -98,8 +97,7 @@ struct Tangent {
   bool positive;
 };
 
-class ExtendedBalance
-{
+class ExtendedBalance {
 public:
   ExtendedBalance(Balance& balance, const ArcLengthSettings& settings);
 

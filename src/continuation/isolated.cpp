@@ -5,8 +5,7 @@
 #include "continuation/arc_length.hpp"
 #include "io/errors.hpp"
 
-namespace rotor_stator
-{
+namespace rotor_stator {
 
 bool lies_on(Balance& balance, const Branch& branch, const BranchPoint& point,
              const ArcLengthSettings& settings)
@@ -19,8 +18,7 @@ bool lies_on(Balance& balance, const Branch& branch, const BranchPoint& point,
   return false;
 }
 
-namespace
-{
+namespace {
 
 bool at_an_edge(const Branch& branch)
 {

@@ -8,8 +8,7 @@ it joins the first outside the range is not asked. */
 
 #include "continuation/arc_length.hpp"
 
-namespace rotor_stator
-{
+namespace rotor_stator {
 
 struct IsolatedBranch {
   Branch branch;

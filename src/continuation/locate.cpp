@@ -7,11 +7,9 @@
 #include "continuation/branch.hpp"
 #include "io/errors.hpp"
 
-namespace rotor_stator
-{
+namespace rotor_stator {
 
-namespace
-{
+namespace {
 
 /** An end of the bracket: a point and the quantity there, the latter as the Illinois method
     weighs it. */
@@ -21,8 +19,7 @@ struct End {
 };
 
 /** The bracket with the zero, and its narrowing. */
-class Bracket
-{
+class Bracket {
 public:
   Bracket(Balance& balance, const BranchPoint& a, const BranchPoint& b,
           const TestFunction& test, const ArcLengthSettings& settings)
@@ -150,8 +147,7 @@ std::vector<BranchPoint> points_at(Balance& balance, const Branch& branch, doubl
   return found;
 }
 
-namespace
-{
+namespace {
 
 /** By the cubic of the speed: both its extrema are inside the step. */
 bool cubic_turns(const BranchPoint& a, const BranchPoint& b, double speed_scale)

@@ -12,8 +12,7 @@ each trial point being corrected onto the branch. */
 
 #include "continuation/branch.hpp"
 
-namespace rotor_stator
-{
+namespace rotor_stator {
 
 /** A quantity at a point of the branch. */
 using TestFunction = std::function<double(const BranchPoint&)>;

@@ -1,11 +1,11 @@
 #include "continuation/sweep.hpp"
 
+#include <algorithm>
 #include <cmath>
 
 #include "balance/bearing_problem.hpp"
 
-namespace rotor_stator
-{
+namespace rotor_stator {
 
 void LagrangePredictor::add(Eigen::VectorXd x, double omega)
 {
@@ -75,12 +75,10 @@ Eigen::VectorXd LagrangePredictor::at_speed(double omega) const
   return at_arc(s_1 - arc_.back()).x;
 }
 
-namespace
-{
+namespace {
 
 /** The state of a sweep between two speeds. */
-class Sweep
-{
+class Sweep {
 public:
   Sweep(Balance& balance, const ColdStart& cold_start, const SweepSettings& settings)
       : balance_(balance),
@@ -171,6 +169,23 @@ std::vector<PeriodicMotion> sweep(const Parameters& parameters,
   for (PeriodicMotion& motion : motions)
     if (motion.found()) motion.bodies = body_series(parameters, motion);
   return motions;
+}
+
+CurvePoint refined_peak(const std::vector<CurvePoint>& curve)
+{
+  const auto top = std::max_element(
+      curve.begin(), curve.end(),
+      [](const CurvePoint& a, const CurvePoint& b) { return a.amplitude < b.amplitude; });
+  if (top == curve.begin() || top + 1 == curve.end()) return *top;
+  /** Newton's form of the parabola, for neighbours at any distance. */
+  const CurvePoint &a = *(top - 1), &b = *top, &c = *(top + 1);
+  const double left = (b.amplitude - a.amplitude) / (b.frequency - a.frequency);
+  const double right = (c.amplitude - b.amplitude) / (c.frequency - b.frequency);
+  const double bend = (right - left) / (c.frequency - a.frequency);
+  if (!(bend < 0)) return b;
+  const double slope = left + bend * (b.frequency - a.frequency);  // at b
+  const double shift = -slope / (2 * bend);
+  return {b.frequency + shift, b.amplitude + shift * (slope + bend * shift)};
 }
 
 }  // namespace rotor_stator

@@ -25,11 +25,9 @@ As printed, with S_3 in the numerator, it returns the last point unchanged (D-02
 #include "balance/newton.hpp"
 #include "model/parameters.hpp"
 
-namespace rotor_stator
-{
+namespace rotor_stator {
 
-class LagrangePredictor
-{
+class LagrangePredictor {
 public:
   LagrangePredictor(double unknown_scale, double speed_scale)
       : unknown_scale_(unknown_scale), speed_scale_(speed_scale)
@@ -91,5 +89,17 @@ std::vector<PeriodicMotion> sweep(Balance& balance, const std::vector<double>& o
 std::vector<PeriodicMotion> sweep(const Parameters& parameters,
                                   const std::vector<double>& omegas, int harmonics,
                                   int samples = 0);
+
+/**
+## The peak of a response curve */
+
+/** A point of a response curve: speed [Hz] and amplitude [m]. */
+struct CurvePoint {
+  double frequency, amplitude;
+};
+
+/** The highest point of a curve, refined by the parabola through it and its neighbours; the point
+    itself at an end of the curve. */
+CurvePoint refined_peak(const std::vector<CurvePoint>& curve);
 
 }  // namespace rotor_stator

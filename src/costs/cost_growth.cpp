@@ -9,8 +9,7 @@
 
 #include "io/errors.hpp"
 
-namespace rotor_stator::costs
-{
+namespace rotor_stator::costs {
 
 CostGrowthScene read_cost_growth(SceneFile& file)
 {
@@ -121,8 +120,7 @@ void fit_exponents(std::vector<Growth>& rows, const std::string& against, int fi
   }
 }
 
-namespace
-{
+namespace {
 
 using Row = const Growth&;
 
@@ -169,8 +167,7 @@ Table cost_growth_table(const CostGrowthScene& scene, const std::vector<Growth>&
   return table;
 }
 
-namespace
-{
+namespace {
 
 /** In the child: work, write the numbers, leave without tidying up what is the parent's. */
 [[noreturn]] void work_and_exit(const std::function<std::vector<double>()>& work, int out)

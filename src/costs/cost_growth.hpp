@@ -10,8 +10,7 @@ that solves one speed with one harmonic. */
 #include "io/table.hpp"
 #include "io/toml_file.hpp"
 
-namespace rotor_stator::costs
-{
+namespace rotor_stator::costs {
 
 struct CostGrowthScene {
   Parameters parameters;

@@ -7,8 +7,7 @@
 #include "io/errors.hpp"
 #include "io/program.hpp"
 
-namespace rotor_stator::costs
-{
+namespace rotor_stator::costs {
 
 EqualErrorScene read_equal_error(SceneFile& file)
 {
@@ -105,8 +104,7 @@ EqualErrorRow cheapest(const EqualErrorScene& scene, const References& range,
   return row;
 }
 
-namespace
-{
+namespace {
 
 using Row = const EqualErrorRow&;
 

@@ -12,8 +12,7 @@ repeated, and the one with the least median is the row. */
 #include "io/table.hpp"
 #include "io/toml_file.hpp"
 
-namespace rotor_stator::costs
-{
+namespace rotor_stator::costs {
 
 struct EqualErrorScene {
   Parameters parameters;

@@ -7,8 +7,7 @@
 #include "io/errors.hpp"
 #include "motion/other_starts.hpp"
 
-namespace rotor_stator::costs
-{
+namespace rotor_stator::costs {
 
 SamplingScene read_sampling(SceneFile& file)
 {
@@ -29,8 +28,7 @@ SamplingScene read_sampling(SceneFile& file)
   return scene;
 }
 
-namespace
-{
+namespace {
 
 /** Instants at which motions are compared. */
 constexpr int points = 1024;
@@ -86,8 +84,7 @@ SamplingPoint sampling_errors(const SamplingCase& at, int samples_over_m,
   return point;
 }
 
-namespace
-{
+namespace {
 
 using Row = const SamplingPoint&;
 

@@ -9,8 +9,7 @@ is that of this one against many more harmonics. */
 #include "io/table.hpp"
 #include "io/toml_file.hpp"
 
-namespace rotor_stator::costs
-{
+namespace rotor_stator::costs {
 
 /** A machine at a speed. */
 struct SamplingCase {

@@ -7,8 +7,7 @@
 #include "integration/time_stepper.hpp"
 #include "io/errors.hpp"
 
-namespace rotor_stator::costs
-{
+namespace rotor_stator::costs {
 
 std::string Setting::text() const
 {
@@ -48,8 +47,7 @@ int samples_for(const Setting& setting, int harmonics)
       std::max(2 * harmonics + 2, setting.samples_per_harmonic * harmonics + 1));
 }
 
-namespace
-{
+namespace {
 
 /** Every setting of `group` with each of `values` in one of its fields. */
 template <class Value>

@@ -10,8 +10,7 @@ accuracy each, within it the cheaper ones first, so that a search can stop early
 
 #include "io/toml_file.hpp"
 
-namespace rotor_stator::costs
-{
+namespace rotor_stator::costs {
 
 /** One method at one setting; zero where the method has no such setting.
 

@@ -15,8 +15,7 @@
 #include "model/rotor_stator.hpp"
 #include "stability/shooting.hpp"
 
-namespace rotor_stator::costs
-{
+namespace rotor_stator::costs {
 
 double thread_cpu_seconds()
 {
@@ -47,8 +46,7 @@ void TimedMethod::run(const std::function<bool(std::size_t speed)>& goes_on)
   }
 }
 
-namespace
-{
+namespace {
 
 /**
 ## The truncation indicator
@@ -86,12 +84,8 @@ TruncationIndicator truncation_indicator(const Parameters& parameters,
   const Eigen::VectorXd residual = balance.residual(wide.x, wide.omega);
   wide.force = balance.force(wide.x, wide.omega);
   TruncationIndicator result{wide.x, Eigen::VectorXd::Zero(far + 1)};
-  const double size = body_series(parameters, wide)
-                          .leftCols(3)
-                          .cwiseAbs()
-                          .rowwise()
-                          .sum()
-                          .maxCoeff();
+  const double size =
+      body_series(parameters, wide).leftCols(3).cwiseAbs().rowwise().sum().maxCoeff();
   double sum = 0;
   for (int h = far; h > 0; --h) {
     auto u = result.x.segment<4>((2 * h - 1) * 2);  // cosine, then sine coefficients
@@ -110,16 +104,13 @@ TruncationIndicator truncation_indicator(const Parameters& parameters,
     least. */
 int look_ahead(const Parameters& parameters, double omega, int harmonics)
 {
-  const double contact_mode =
-      std::sqrt(scales(parameters).stiffness *
-                (1 / parameters.stator.mass + 1 / parameters.rotor.mass));
-  return std::max(2 * harmonics, static_cast<int>(std::ceil(contact_mode / omega)));
+  return std::max(2 * harmonics,
+                  static_cast<int>(std::ceil(contact_frequency(parameters) / omega)));
 }
 
 /**
 ## Harmonic balance */
-class BalanceSweep : public TimedMethod
-{
+class BalanceSweep : public TimedMethod {
 public:
   BalanceSweep(const Task& task, const Setting& setting) : TimedMethod(task, setting)
   {
@@ -322,8 +313,7 @@ private:
 
 Both end in a state of the motion at each speed; one period from it, by the same method at the same
 setting, is the motion. */
-class Integration : public TimedMethod
-{
+class Integration : public TimedMethod {
 public:
   using TimedMethod::TimedMethod;
 
@@ -367,8 +357,7 @@ protected:
 };
 
 /** A transient of whole periods at each speed. */
-class TransientSweep : public Integration
-{
+class TransientSweep : public Integration {
   using Integration::Integration;
 
   void begin() override
@@ -400,8 +389,7 @@ class TransientSweep : public Integration
 };
 
 /** Newton on the period map at each speed. */
-class ShootingSweep : public Integration
-{
+class ShootingSweep : public Integration {
 public:
   ShootingSweep(const Task& task, const Setting& setting)
       : Integration(task, setting), scales_(state_scales(task.parameters))
@@ -448,7 +436,7 @@ private:
                                   {.method = stepper_method(),
                                    .tolerance = setting_.tolerance,
                                    .step = setting_.step,
-                                   .closure = setting_.periodicity_residual,
+                                   .periodicity_residual = setting_.periodicity_residual,
                                    .final_derivative = false},
                                   &jacobian_);
     counts_.force_instants += result.evaluations;
@@ -469,7 +457,7 @@ private:
 
   Vector8 scales_;
   LagrangePredictor predictor_{1, 1};
-  ClosureJacobian jacobian_;
+  PeriodicityJacobian jacobian_;
 };
 
 }  // namespace
@@ -481,8 +469,7 @@ std::unique_ptr<TimedMethod> timed_method(const Task& task, const Setting& setti
   return std::make_unique<BalanceSweep>(task, setting);
 }
 
-namespace
-{
+namespace {
 
 /** Adds the error at one speed, if there is a motion to compare with. */
 void add(MotionError& error, const TimedMethod& method, const References& sweep,

@@ -21,8 +21,7 @@ belongs to the comparison and is timed for none.
 #include "costs/setting.hpp"
 #include "costs/true_motion.hpp"
 
-namespace rotor_stator::costs
-{
+namespace rotor_stator::costs {
 
 /** CPU seconds of one thread: median, least and most of the repetitions. */
 struct CpuTime {
@@ -44,8 +43,7 @@ struct Counts {
   double force_seconds = 0;  ///< in the bearing's force, of a profiled aft run [s]
 };
 
-class TimedMethod
-{
+class TimedMethod {
 public:
   TimedMethod(const Task& task, const Setting& setting) : task_(task), setting_(setting)
   {

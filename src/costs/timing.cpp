@@ -7,11 +7,9 @@
 #include "io/errors.hpp"
 #include "io/program.hpp"
 
-namespace rotor_stator::costs
-{
+namespace rotor_stator::costs {
 
-namespace
-{
+namespace {
 
 /** Steps of RK4 on the whole sweep. */
 double steps_of(const Setting& rk4, const std::vector<double>& frequencies)
@@ -93,8 +91,7 @@ std::vector<Setting> cheapest_rk4(const TimingScene& scene, const References& re
   return chosen;
 }
 
-namespace
-{
+namespace {
 
 struct TimingRow : Measurement {
   int harmonics;

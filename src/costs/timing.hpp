@@ -10,8 +10,7 @@ from the static load; of its settings those with the fewest steps are the cheape
 #include "io/table.hpp"
 #include "io/toml_file.hpp"
 
-namespace rotor_stator::costs
-{
+namespace rotor_stator::costs {
 
 struct TimingScene {
   Parameters parameters;

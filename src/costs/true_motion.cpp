@@ -9,11 +9,9 @@
 #include "io/parallel.hpp"
 #include "stability/shooting.hpp"
 
-namespace rotor_stator::costs
-{
+namespace rotor_stator::costs {
 
-namespace
-{
+namespace {
 
 /** One period from `state` by rk8pd. */
 motion::Motion one_period(const Parameters& parameters, double frequency, State state,
@@ -41,11 +39,12 @@ TrueMotion true_motion(const Parameters& parameters, double frequency,
   if (!truth.periodic) return truth;
   const Shooting shooting =
       shoot(parameters, angular(frequency), truth.state,
-            {.tolerance = settings.tolerance, .closure = settings.periodicity_residual});
+            {.tolerance = settings.tolerance,
+             .periodicity_residual = settings.periodicity_residual});
   if (!shooting.converged)
     throw NoSolution(
         format("no reference at %g Hz: %s", frequency, shooting.reason.c_str()));
-  truth.periodicity_residual = shooting.closure;
+  truth.periodicity_residual = shooting.periodicity_residual;
   truth.motion =
       one_period(parameters, frequency, truth.state,
                  settings.settling.stepper.intervals_per_period, settings.tolerance);

@@ -9,8 +9,7 @@ shooting, says how far both can be trusted. */
 
 #include "motion/motion.hpp"
 
-namespace rotor_stator::costs
-{
+namespace rotor_stator::costs {
 
 struct TruthSettings {
   SteadySettings settling;              ///< its points per period are those of the motion

@@ -7,8 +7,7 @@
 #include "io/errors.hpp"
 #include "model/ball_bearing.hpp"
 
-namespace rotor_stator::costs
-{
+namespace rotor_stator::costs {
 
 WorkPrecisionScene read_work_precision(SceneFile& file)
 {
@@ -48,8 +47,7 @@ WorkCase work_case(const WorkPrecisionScene& scene, std::size_t number)
   return reference;
 }
 
-namespace
-{
+namespace {
 
 /** Evaluations that are timed together, enough for the clock. */
 constexpr int instants = 20000;
@@ -132,8 +130,7 @@ WorkPoint work_point(const WorkPrecisionScene& scene, const WorkCase& reference,
   return point;
 }
 
-namespace
-{
+namespace {
 
 using Row = const WorkPoint&;
 

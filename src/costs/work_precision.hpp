@@ -14,8 +14,7 @@ one takes in the same run. */
 #include "io/table.hpp"
 #include "io/toml_file.hpp"
 
-namespace rotor_stator::costs
-{
+namespace rotor_stator::costs {
 
 struct WorkPrecisionScene {
   std::vector<Parameters> sets;     ///< one for each speed

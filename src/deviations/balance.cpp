@@ -8,11 +8,9 @@
 #include "deviations/printed_equations.hpp"
 #include "io/errors.hpp"
 
-namespace rotor_stator::deviations
-{
+namespace rotor_stator::deviations {
 
-namespace
-{
+namespace {
 
 /** The coefficients of all four displacements in the order of PlainBalance. */
 Eigen::VectorXd coefficients(const PeriodicMotion& solution)
@@ -24,22 +22,15 @@ Eigen::VectorXd coefficients(const PeriodicMotion& solution)
 motion::Motion plain_solution(const DeviationScene& scene, double frequency,
                               FirstEntry first)
 {
-  const int m = scene.harmonics, n = default_samples(m);
+  const int m = scene.harmonics;
   PeriodicMotion solution = scene.solution(frequency);
-  PlainBalance balance(scene.machine, angular(frequency), m, n, first);
+  PlainBalance balance(scene.machine, angular(frequency), m, default_samples(m), first);
   Eigen::VectorXd x = coefficients(solution);
-  const Equations equations{
-      .residual_scale = balance.load().norm(),
-      .unknown_scale = scales(scene.machine).length,
-      .residual = [&](const Eigen::VectorXd& y,
-                      Eigen::VectorXd& residual) { residual = balance.residual(y); },
-      .jacobian = [&](const Eigen::VectorXd& y) -> const Eigen::MatrixXd& {
-        return balance.jacobian(y);
-      }};
-  const NewtonReport report = newton(equations, x, {});
-  if (!report.converged())
-    throw NoSolution(
-        format("plain balance at %g Hz: %s", frequency, report.reason().c_str()));
+  for (int k = 0; balance.residual(x).norm() > 1e-10 * balance.load().norm(); ++k) {
+    if (k == 40)
+      throw NoSolution(format("plain balance at %g Hz: no convergence", frequency));
+    x += balance.corrected_step(x);
+  }
   solution.bodies = x.reshaped(4, 2 * m + 1);
   return scene.motion_of(solution);
 }

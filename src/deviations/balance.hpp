@@ -7,8 +7,7 @@ samples fold onto them. */
 
 #include "deviations/evidence.hpp"
 
-namespace rotor_stator::deviations
-{
+namespace rotor_stator::deviations {
 
 EvidenceList printed_newton_step(const DeviationScene& scene);     // D-06
 EvidenceList printed_block(const DeviationScene& scene);           // D-12

@@ -7,11 +7,9 @@
 #include "deviations/printed_equations.hpp"
 #include "io/errors.hpp"
 
-namespace rotor_stator::deviations
-{
+namespace rotor_stator::deviations {
 
-namespace
-{
+namespace {
 
 /** The sweep of Fig. 3 with `harmonics` harmonics, at every step [Hz]. */
 std::vector<PeriodicMotion> sweep_at(const DeviationScene& scene, int harmonics,

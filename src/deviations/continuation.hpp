@@ -6,8 +6,7 @@ Predictor, arc length, tolerance, step, cost. */
 
 #include "deviations/evidence.hpp"
 
-namespace rotor_stator::deviations
-{
+namespace rotor_stator::deviations {
 
 EvidenceList printed_predictor(const DeviationScene& scene);   // D-02
 EvidenceList arc_length_scaling(const DeviationScene& scene);  // D-03

@@ -3,8 +3,7 @@
 #include "io/errors.hpp"
 #include "motion/other_starts.hpp"
 
-namespace rotor_stator::deviations
-{
+namespace rotor_stator::deviations {
 
 DeviationScene read_deviation_scene(SceneFile& file)
 {
@@ -76,8 +75,7 @@ motion::Motion DeviationScene::integrated(double frequency) const
   return motion_of(steady);
 }
 
-namespace
-{
+namespace {
 
 const std::vector<Field<Evidence>> fields{
     {"key", "-", "entry and name", &Evidence::key},

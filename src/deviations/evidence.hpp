@@ -11,8 +11,7 @@ each. What only one entry asks for is read where it is used. */
 #include "io/toml_file.hpp"
 #include "motion/motion.hpp"
 
-namespace rotor_stator::deviations
-{
+namespace rotor_stator::deviations {
 
 /** One number that the text quotes. */
 struct Evidence {

@@ -5,12 +5,11 @@
 
 #include "deviations/printed_equations.hpp"
 #include "io/errors.hpp"
+#include "motion/contact.hpp"
 
-namespace rotor_stator::deviations
-{
+namespace rotor_stator::deviations {
 
-namespace
-{
+namespace {
 
 double in_hertz(double omega)
 {

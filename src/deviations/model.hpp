@@ -6,8 +6,7 @@ Contact, readings, masses. */
 
 #include "deviations/evidence.hpp"
 
-namespace rotor_stator::deviations
-{
+namespace rotor_stator::deviations {
 
 EvidenceList sign_of_approach(const DeviationScene& scene);   // D-01
 EvidenceList radius_of_hertz(const DeviationScene& scene);    // D-07

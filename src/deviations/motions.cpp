@@ -6,16 +6,16 @@
 #include <numeric>
 
 #include "balance/fourier_transform.hpp"
+#include "continuation/sweep.hpp"
 #include "deviations/printed_equations.hpp"
 #include "integration/time_stepper.hpp"
 #include "io/errors.hpp"
+#include "motion/contact.hpp"
 #include "motion/regime.hpp"
 
-namespace rotor_stator::deviations
-{
+namespace rotor_stator::deviations {
 
-namespace
-{
+namespace {
 
 double harmonic(const Eigen::MatrixXd& series, int row, int h)
 {
@@ -134,7 +134,7 @@ EvidenceList kind_of_figures(const DeviationScene& scene)
   const auto amplitude = [&](double frequency) {
     return half_peak_to_peak(scene.solution(frequency).bodies)[2];
   };
-  motion::CurvePoint peak{0, 0};
+  CurvePoint peak{0, 0};
   for (double frequency : scene.range)
     if (const double a = amplitude(frequency); a > peak.amplitude) peak = {frequency, a};
   return {

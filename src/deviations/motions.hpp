@@ -6,8 +6,7 @@ Amplitudes, cage, time integration, figures. */
 
 #include "deviations/evidence.hpp"
 
-namespace rotor_stator::deviations
-{
+namespace rotor_stator::deviations {
 
 EvidenceList amplitude_definitions(const DeviationScene& scene);  // D-10
 EvidenceList cage_and_period(const DeviationScene& scene);        // D-11

@@ -8,11 +8,9 @@
 #include "io/errors.hpp"
 #include "stability/eigenvalues.hpp"
 
-namespace rotor_stator::deviations
-{
+namespace rotor_stator::deviations {
 
-namespace
-{
+namespace {
 
 constexpr int dofs = 4;  ///< x_s, y_s, x_r, y_r
 

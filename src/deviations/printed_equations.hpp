@@ -12,8 +12,7 @@ has its corrected one beside it. */
 #include "balance/periodic_motion.hpp"
 #include "model/rotor_stator.hpp"
 
-namespace rotor_stator::deviations
-{
+namespace rotor_stator::deviations {
 
 /** How the arguments of Eq. 13 are read (D-21). */
 enum class Argument {
@@ -40,8 +39,7 @@ enum class FirstEntry {
 
 /** Eqs 8 to 16 at one speed in x_s, y_s, x_r, y_r: 4(2m+1) unknowns, one block of four
    values per coefficient. */
-class PlainBalance
-{
+class PlainBalance {
 public:
   PlainBalance(const Parameters& parameters, double omega, int harmonics, int samples,
                FirstEntry first = FirstEntry::corrected);

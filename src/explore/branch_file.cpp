@@ -7,11 +7,9 @@
 #include "io/number_table.hpp"
 #include "io/table.hpp"
 
-namespace rotor_stator::explore
-{
+namespace rotor_stator::explore {
 
-namespace
-{
+namespace {
 
 const std::string format_line = "format: branch of harmonic balance, version 1";
 

@@ -12,8 +12,7 @@ the walk. */
 #include "continuation/branch.hpp"
 #include "model/parameters.hpp"
 
-namespace rotor_stator::explore
-{
+namespace rotor_stator::explore {
 
 struct SavedBranch {
   int harmonics, samples;  ///< m and N

@@ -7,10 +7,10 @@
 #include "balance/fourier_transform.hpp"
 #include "io/errors.hpp"
 #include "motion/adaptive.hpp"
+#include "motion/contact.hpp"
 #include "motion/other_starts.hpp"
 
-namespace rotor_stator::explore
-{
+namespace rotor_stator::explore {
 
 int checked_samples(int harmonics, const std::optional<int>& samples)
 {
@@ -44,7 +44,8 @@ Floquet paid_floquet(const OperationBudget& budget, const Parameters& parameters
     budget.spend(value);
     at(phase, k);
   };
-  return floquet(vibration_of(parameters), stiffness, 2 * std::numbers::pi / motion.omega);
+  return floquet(vibration_of(parameters), stiffness,
+                 2 * std::numbers::pi / motion.omega);
 }
 
 void conclude(Table& table, const Parameters& parameters, bool touches,
@@ -57,8 +58,7 @@ void conclude(Table& table, const Parameters& parameters, bool touches,
   table.note("budget: " + budget.spent());
 }
 
-namespace
-{
+namespace {
 
 constexpr int usual_harmonics = 6;
 

@@ -12,8 +12,7 @@ One motion of one machine at one speed, by harmonic balance or in time, as a tab
 #include "model/parameters.hpp"
 #include "stability/floquet.hpp"
 
-namespace rotor_stator::explore
-{
+namespace rotor_stator::explore {
 
 /** What the options ask for, each in its range. */
 struct MotionRequest {

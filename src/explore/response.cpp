@@ -12,11 +12,9 @@
 #include "motion/other_starts.hpp"
 #include "stability/branch_stability.hpp"
 
-namespace rotor_stator::explore
-{
+namespace rotor_stator::explore {
 
-namespace
-{
+namespace {
 
 /** The request, checked, with the machine, the saved branch and the settings that belong to it. */
 struct Task {
@@ -276,8 +274,7 @@ std::string missing_in(const BranchStability& stability, const OperationBudget& 
 }
 
 /** Writes the rows of all branches. */
-class Rows
-{
+class Rows {
 public:
   Rows(const Task& task, Table& table)
       : task_(task),

@@ -7,8 +7,7 @@ the branches beside it, the Floquet multipliers and the bifurcations. */
 
 #include "explore/orbit.hpp"
 
-namespace rotor_stator::explore
-{
+namespace rotor_stator::explore {
 
 /** One branch over a range of speeds, and on demand others beside it. */
 struct ResponseRequest {

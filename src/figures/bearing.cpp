@@ -5,11 +5,9 @@
 
 #include "io/errors.hpp"
 
-namespace rotor_stator::figures
-{
+namespace rotor_stator::figures {
 
-namespace
-{
+namespace {
 
 /** What a drawn circle stands for. */
 enum class Part { outer_race = 0, inner_race = 1, ball = 2, marked_ball = 3 };

@@ -9,8 +9,7 @@ alone has no radii (D-11); the scene file then says which to draw. */
 #include "io/table.hpp"
 #include "model/ball_bearing.hpp"
 
-namespace rotor_stator::figures
-{
+namespace rotor_stator::figures {
 
 struct BearingScene {
   Parameters machine;

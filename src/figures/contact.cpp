@@ -1,10 +1,8 @@
 #include "figures/contact.hpp"
 
-namespace rotor_stator::figures
-{
+namespace rotor_stator::figures {
 
-namespace
-{
+namespace {
 
 struct ContactRow : PanelRow {
   double t_over_period;

@@ -6,9 +6,9 @@ this time, and each ball meets a load that turns with the rotor once (D-11, D-20
 #pragma once
 
 #include "figures/orbits.hpp"
+#include "motion/contact.hpp"
 
-namespace rotor_stator::figures
-{
+namespace rotor_stator::figures {
 
 /** The table of the contact before its first panel. */
 Table contact_table(const PanelScene& scene);

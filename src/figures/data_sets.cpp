@@ -1,10 +1,8 @@
 #include "figures/data_sets.hpp"
 
-namespace rotor_stator::figures
-{
+namespace rotor_stator::figures {
 
-namespace
-{
+namespace {
 
 struct DataSet : Parameters {
   int number;

@@ -4,8 +4,7 @@
 
 #include "model/parameters.hpp"
 
-namespace rotor_stator::figures
-{
+namespace rotor_stator::figures {
 
 /** The data sets that a scene names. */
 std::vector<Parameters> read_data_sets(SceneFile& file);

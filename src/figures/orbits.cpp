@@ -5,11 +5,9 @@
 #include "balance/fourier_transform.hpp"
 #include "io/errors.hpp"
 
-namespace rotor_stator::figures
-{
+namespace rotor_stator::figures {
 
-namespace
-{
+namespace {
 
 struct OrbitRow : PanelRow {
   double t_over_period;

@@ -13,8 +13,7 @@ rotation, the difference of the two is the error of the first. */
 #include "motion/find_periodic.hpp"
 #include "motion/motion.hpp"
 
-namespace rotor_stator::figures
-{
+namespace rotor_stator::figures {
 
 /** What a figure with panels asks for. */
 struct PanelScene {

@@ -2,11 +2,9 @@
 
 #include "io/errors.hpp"
 
-namespace rotor_stator::figures
-{
+namespace rotor_stator::figures {
 
-namespace
-{
+namespace {
 
 struct Row : motion::Regime {
   int set;

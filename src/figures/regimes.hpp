@@ -4,8 +4,7 @@
 
 #include "motion/regime.hpp"
 
-namespace rotor_stator::figures
-{
+namespace rotor_stator::figures {
 
 struct RegimeScene {
   std::vector<Parameters> machines;

@@ -2,13 +2,11 @@
 
 #include "balance/fourier_transform.hpp"
 #include "io/errors.hpp"
-#include "motion/motion.hpp"
+#include "motion/contact.hpp"
 
-namespace rotor_stator::figures
-{
+namespace rotor_stator::figures {
 
-namespace
-{
+namespace {
 
 struct Row {
   int set;

@@ -8,8 +8,7 @@ The amplitude is half the peak-to-peak value over the period; the paper does not
 #include "continuation/sweep.hpp"
 #include "integration/steady_state.hpp"
 
-namespace rotor_stator::figures
-{
+namespace rotor_stator::figures {
 
 struct DataSet {
   int number;  ///< 1, 2, … in the scene's order

@@ -5,8 +5,7 @@
 
 #include "io/errors.hpp"
 
-namespace rotor_stator::hard
-{
+namespace rotor_stator::hard {
 
 void claim(const HardRule& rule, const std::string& refined, Answer& answer)
 {

@@ -9,8 +9,7 @@ whose stated error exceeds the accuracy of the rule is refused too. */
 #include "hard/cases.hpp"
 #include "motion/motion.hpp"
 
-namespace rotor_stator::hard
-{
+namespace rotor_stator::hard {
 
 struct Answer {
   bool claimed = false;

@@ -8,11 +8,9 @@
 #include "continuation/sweep.hpp"
 #include "io/errors.hpp"
 
-namespace rotor_stator::hard
-{
+namespace rotor_stator::hard {
 
-namespace
-{
+namespace {
 
 /** The branch is followed with no more than the paper's harmonics; the rest is added at the speed
     itself. */

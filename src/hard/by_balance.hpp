@@ -8,8 +8,7 @@ error that is stated. */
 
 #include "hard/answer.hpp"
 
-namespace rotor_stator::hard
-{
+namespace rotor_stator::hard {
 
 Answer answer_by_predictor(const HardCase& hard, const HardRule& rule);
 Answer answer_by_arc_length(const HardCase& hard, const HardRule& rule);

@@ -6,18 +6,16 @@
 #include "io/errors.hpp"
 #include "stability/shooting.hpp"
 
-namespace rotor_stator::hard
-{
+namespace rotor_stator::hard {
 
-namespace
-{
+namespace {
 
 /** A fixed point of the period map near `state`. */
 Shooting closed(const HardCase& hard, double tolerance, State& state)
 {
   return shoot(hard.machine, angular(hard.frequency), state,
                {.tolerance = tolerance,
-                .closure = 100 * tolerance,
+                .periodicity_residual = 100 * tolerance,
                 .most_maps = 40,
                 .budget = shooting_budget(hard)});
 }
@@ -39,7 +37,7 @@ Shooting closed_from_rest(const HardCase& hard, Answer& answer)
     shooting = closed(hard, tolerance, state);
   }
   answer.state = state;
-  answer.residual = shooting.closure;
+  answer.residual = shooting.periodicity_residual;
   return shooting;
 }
 
@@ -68,8 +66,7 @@ Answer answer_by_shooting(const HardCase& hard, const HardRule& rule)
   return answer;
 }
 
-namespace
-{
+namespace {
 
 /** The slowest decay of a disturbance [1/s]: the contact has no damping of its own. */
 double slowest_decay(const Parameters& p)

@@ -8,8 +8,7 @@
 
 #include "hard/answer.hpp"
 
-namespace rotor_stator::hard
-{
+namespace rotor_stator::hard {
 
 Answer answer_by_shooting(const HardCase& hard, const HardRule& rule);
 Answer answer_by_rk4(const HardCase& hard, const HardRule& rule);

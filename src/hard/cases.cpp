@@ -13,11 +13,9 @@
 #include "io/toml_file.hpp"
 #include "motion/find_periodic.hpp"
 
-namespace rotor_stator::hard
-{
+namespace rotor_stator::hard {
 
-namespace
-{
+namespace {
 
 /** Sets the value of a machine or of the method by its name in the list. */
 void change(HardCase& hard, const std::string& key, double value, const StrictToml& toml)

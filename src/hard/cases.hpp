@@ -13,8 +13,7 @@ that stands in the same file. */
 #include "io/toml_file.hpp"
 #include "model/parameters.hpp"
 
-namespace rotor_stator::hard
-{
+namespace rotor_stator::hard {
 
 /** One machine at one speed. */
 struct HardCase {

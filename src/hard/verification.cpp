@@ -13,11 +13,9 @@
 #include "stability/floquet.hpp"
 #include "stability/shooting.hpp"
 
-namespace rotor_stator::hard
-{
+namespace rotor_stator::hard {
 
-namespace
-{
+namespace {
 
 double largest_modulus(const Matrix8& phi)
 {
@@ -49,7 +47,7 @@ bool check_by_shooting(const HardCase& hard, const Answer& answer, Check& check)
   const double omega = angular(hard.frequency);
   const Shooting shooting = shoot(hard.machine, omega, state,
                                   {.tolerance = 1e-11,
-                                   .closure = 1e-9,
+                                   .periodicity_residual = 1e-9,
                                    .most_maps = 30,
                                    .budget = shooting_budget(hard)});
   if (!shooting.converged) return false;
@@ -181,8 +179,7 @@ Verification verify(const HardCase& hard, const Method& method, Answer answer,
   return end;
 }
 
-namespace
-{
+namespace {
 
 const std::vector<Field<Verification>> fields{
     {"case", "-", "group of the list, varied value, speed",

@@ -11,8 +11,7 @@ unconfirmed, which is no success. */
 #include "hard/answer.hpp"
 #include "io/table.hpp"
 
-namespace rotor_stator::hard
-{
+namespace rotor_stator::hard {
 
 struct Check {
   std::string by = "none";

@@ -7,11 +7,9 @@
 #include "io/errors.hpp"
 #include "model/rotor_stator.hpp"
 
-namespace rotor_stator
-{
+namespace rotor_stator {
 
-namespace
-{
+namespace {
 
 /** The direction turned further by another. */
 Direction turned(Direction a, Direction b)
@@ -58,27 +56,12 @@ void Rk4::advance(long interval, State& state)
   evaluations_ += evaluations;
   const Direction turns =
       Direction::of(cage_turn_ * static_cast<double>(interval / intervals_));
-  const Angles* angles = &angles_[2 * steps_ * (interval % intervals_)];
-  for (int k = 0; k < steps_; ++k, angles += 2) step(angles, turns, state);
-}
-
-/** Nyström's form of the classical rule for q̈ = a(q, q̇, t): the four slopes of q are
-   speeds that the slopes of q̇ already hold. */
-void Rk4::step(const Angles* angles, Direction turns, State& state) const
-{
   const auto acceleration = [&](const Bodies& q, const Bodies& v, const Angles& at) {
     return system_.acceleration({q, v}, at.rotor, turned(at.cage, turns));
   };
-  const Bodies &q = state.position, &v = state.velocity;
-  const Bodies a_1 = acceleration(q, v, angles[0]);
-  const Bodies v_2 = v + 0.5 * h_ * a_1;
-  const Bodies a_2 = acceleration(q + 0.5 * h_ * v, v_2, angles[1]);
-  const Bodies v_3 = v + 0.5 * h_ * a_2;
-  const Bodies a_3 = acceleration(q + 0.5 * h_ * v_2, v_3, angles[1]);
-  const Bodies v_4 = v + h_ * a_3;
-  const Bodies a_4 = acceleration(q + h_ * v_3, v_4, angles[2]);
-  state = {q + h_ / 6 * (v + 2 * v_2 + 2 * v_3 + v_4),
-           v + h_ / 6 * (a_1 + 2 * a_2 + 2 * a_3 + a_4)};
+  const Angles* angles = &angles_[2 * steps_ * (interval % intervals_)];
+  for (int k = 0; k < steps_; ++k, angles += 2)
+    nystrom_step(h_, angles, state.position, state.velocity, acceleration);
 }
 
 }  // namespace rotor_stator

@@ -11,11 +11,25 @@ Eq. 7 and no sine or cosine. The step divides the output interval. */
 #include "io/budget.hpp"
 #include "model/rotor_stator.hpp"
 
-namespace rotor_stator
-{
+namespace rotor_stator {
 
-class Rk4
+/** One step of length `h` of q̈ = a(q, q̇, t) in Nyström's form of the classical rule: the four slopes of q
+    are speeds that the slopes of q̇ already hold. `at`: begin, middle and end of the step. */
+template <class Q, class At, class Acceleration>
+void nystrom_step(double h, const At* at, Q& q, Q& v, const Acceleration& acceleration)
 {
+  const Q a_1 = acceleration(q, v, at[0]);
+  const Q v_2 = v + 0.5 * h * a_1;
+  const Q a_2 = acceleration(q + 0.5 * h * v, v_2, at[1]);
+  const Q v_3 = v + 0.5 * h * a_2;
+  const Q a_3 = acceleration(q + 0.5 * h * v_2, v_3, at[1]);
+  const Q v_4 = v + h * a_3;
+  const Q a_4 = acceleration(q + h * v_3, v_4, at[2]);
+  q = q + h / 6 * (v + 2 * v_2 + 2 * v_3 + v_4);
+  v = v + h / 6 * (a_1 + 2 * a_2 + 2 * a_3 + a_4);
+}
+
+class Rk4 {
 public:
   /** P = `intervals` per period, each cut into the fewest steps not longer than
       `longest_step` [s]. */
@@ -36,8 +50,6 @@ public:
   const std::vector<Angles>& angles() const { return angles_; }
 
 private:
-  void step(const Angles* angles, Direction turns, State& state) const;
-
   RotorStator system_;
   double cage_turn_;  ///< the cage's angle after one period [rad]
   int intervals_, steps_;

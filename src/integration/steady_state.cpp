@@ -1,46 +1,15 @@
 #include "integration/steady_state.hpp"
 
 #include <algorithm>
-#include <array>
-#include <bit>
 #include <cmath>
 #include <deque>
 #include <numbers>
 
 #include "io/errors.hpp"
 
-namespace rotor_stator
-{
+namespace rotor_stator {
 
-namespace
-{
-
-using Displacements = std::array<double, 4>;
-
-Displacements displacements(const State& state)
-{
-  return std::bit_cast<Displacements>(state.position);
-}
-
-double largest(const Displacements& x)
-{
-  double size = 0;
-  for (double value : x) size = std::max(size, std::abs(value));
-  return size;
-}
-
-/** The largest extent, over the four displacements, of the last points of a section. */
-double extent(const std::deque<Displacements>& section)
-{
-  double widest = 0;
-  for (int i = 0; i < 4; ++i) {
-    const auto [low, high] = std::minmax_element(
-        section.begin(), section.end(),
-        [i](const Displacements& a, const Displacements& b) { return a[i] < b[i]; });
-    widest = std::max(widest, (*high)[i] - (*low)[i]);
-  }
-  return widest;
-}
+namespace {
 
 /** Beyond this the section alone fills the memory. */
 constexpr double most_periods = 1e7;
@@ -58,8 +27,7 @@ double checked_period(double omega, double seconds)
 }
 
 /** A motion in progress, with the last points of its Poincaré section. */
-class Settling
-{
+class Settling {
 public:
   Settling(const Parameters& parameters, double omega, const State& start,
            const SteadySettings& settings)
@@ -80,18 +48,18 @@ public:
   /** One period; its states are added to `record` if there is one. */
   void advance_one_period(std::size_t window, std::vector<State>* record = nullptr)
   {
-    section_.push_back(displacements(state_));
+    section_.push_back(displacements(state_.position));
     if (section_.size() > window) section_.pop_front();
     size_ = 0;
     for (int k = 0; k < intervals_; ++k) {
       if (record) record->push_back(state_);
-      size_ = std::max(size_, largest(displacements(state_)));
+      for (double x : displacements(state_.position))
+        size_ = std::max(size_, std::abs(x));
       stepper_.advance(periods_ * intervals_ + k, state_);
     }
     ++periods_;
-    for (double x : std::bit_cast<std::array<double, 8>>(state_))
-      if (!std::isfinite(x))
-        throw NoSolution(format("time integration diverged after %ld periods", periods_));
+    if (!vector_of(state_).allFinite())
+      throw NoSolution(format("time integration diverged after %ld periods", periods_));
   }
 
   double spread() const { return size_ > 0 ? extent(section_) / size_ : 0; }

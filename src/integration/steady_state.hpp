@@ -10,12 +10,12 @@ seconds; the motion is then called periodic if the spread is below `periodic`, a
 */
 #pragma once
 
+#include <algorithm>
 #include <vector>
 
 #include "integration/time_stepper.hpp"
 
-namespace rotor_stator
-{
+namespace rotor_stator {
 
 struct SteadySettings {
   StepperSettings stepper;
@@ -37,6 +37,20 @@ struct SteadyState {
   double seconds;    ///< integrated time [s]
   long evaluations;  ///< of Eq. 7
 };
+
+/** The largest distance of two points of a Poincaré section in one displacement [m]. */
+template <class Section>
+double extent(const Section& section)
+{
+  double widest = 0;
+  for (std::size_t i = 0; i < 4; ++i) {
+    const auto [low, high] = std::minmax_element(
+        section.begin(), section.end(),
+        [i](const Displacements& a, const Displacements& b) { return a[i] < b[i]; });
+    widest = std::max(widest, (*high)[i] - (*low)[i]);
+  }
+  return widest;
+}
 
 /** Integrates from `start` at t = 0. Throws NoSolution when the integration breaks down.
  */

@@ -14,8 +14,7 @@ stepper advances a state over whole intervals, in as many steps of its own as it
 #include "io/budget.hpp"
 #include "model/rotor_stator.hpp"
 
-namespace rotor_stator
-{
+namespace rotor_stator {
 
 struct StepperSettings {
   std::string method = "rk8pd";   ///< "rk4" (fixed step) or one of GSL's
@@ -61,39 +60,43 @@ double default_step(const Parameters& parameters);
 Adaptive explicit Runge-Kutta (rkf45, rkck, rk8pd), variable-order multistep (msadams,
 msbdf) and the implicit Bulirsch-Stoer method (bsimp); the last two use the analytic
 Jacobian of Eq. 7. The step size keeps the local error of each component below the
-tolerance times its size: the bearing's length scale for displacements, that length times
-the contact mode's frequency for speeds. */
-
-class GslStepper
-{
-public:
-  GslStepper(const Parameters& parameters, double omega, const StepperSettings& settings);
-  ~GslStepper();
-
-  /** A jump to another interval than the next one forgets the history of multistep methods; the step
-      size is kept. */
-  void advance(long interval, State& state);
-  long evaluations() const;
-
-private:
-  struct Driver;
-  std::unique_ptr<Driver> driver_;
-  double interval_length_;  ///< T/P [s]
-  long next_ = 0;           ///< the interval that would continue the motion
-};
+tolerance times its size. */
 
 /** ∂(Eq. 7)/∂y, 8 × 8 by rows, and ∂(Eq. 7)/∂t at y = (x_s, y_s, x_r, y_r, and their speeds): what
     the implicit methods ask for. */
 void equation_7_slopes(const Parameters& parameters, const RotorStator& system, double t,
                        const double y[], double* dfdy, double* dfdt);
 
-const std::vector<std::string>& gsl_methods();
+/** The evaluations that GSL's callbacks make. */
+struct PaidEvaluations {
+  OperationBudget budget;
+  double price;  ///< of one evaluation
+  long count = 0;
 
-/** GSL's own type of a method of the list above. */
-const gsl_odeiv2_step_type* gsl_step_type(const std::string& method);
+  /** False when the budget does not pay for one more. */
+  bool pay()
+  {
+    ++count;
+    return budget.pay(price);
+  }
+};
 
-/** GSL calls abort() on errors unless told otherwise; whoever calls this checks every return value.
- */
-void keep_gsl_from_aborting();
+/** One of GSL's adaptive steppers on a system of equations, which must outlive it. */
+class GslDriver {
+public:
+  /** `scales`: the size of each component. */
+  GslDriver(gsl_odeiv2_system& system, const std::string& method, double first_step,
+            double tolerance, const double* scales);
+
+  /** Advances `y` from `from` to `to` [s]. Throws NoSolution when the steps become too small or
+      `evaluations` are not paid for. */
+  void advance(double from, double to, double* y, const PaidEvaluations& evaluations);
+
+  /** Forgets the history of multistep methods; the step size is kept. */
+  void reset();
+
+private:
+  std::unique_ptr<gsl_odeiv2_driver, void (*)(gsl_odeiv2_driver*)> driver_;
+};
 
 }  // namespace rotor_stator

@@ -4,8 +4,7 @@
 
 #include "io/errors.hpp"
 
-namespace rotor_stator
-{
+namespace rotor_stator {
 
 double OperationBudget::left() const
 {

@@ -13,8 +13,7 @@ does about one per nanosecond; one evaluation is 15 + 1.35 n of them. */
 #include <memory>
 #include <string>
 
-namespace rotor_stator
-{
+namespace rotor_stator {
 
 /** Elementary operations of one evaluation of the force of n balls. */
 constexpr double operations_per_evaluation(int balls)
@@ -23,8 +22,7 @@ constexpr double operations_per_evaluation(int balls)
 }
 
 /** A shared account of evaluations of the force: copies spend from the same account. */
-class OperationBudget
-{
+class OperationBudget {
 public:
   /** Without a bound. */
   OperationBudget() = default;

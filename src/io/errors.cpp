@@ -7,8 +7,7 @@
 #include <cstdio>
 #include <numeric>
 
-namespace rotor_stator
-{
+namespace rotor_stator {
 
 std::string format(const char* pattern, ...)
 {
@@ -39,8 +38,7 @@ std::string printable(const std::string& text)
   return out;
 }
 
-namespace
-{
+namespace {
 
 /** How many characters have to be put in, left out or changed to make one word of the other. */
 std::size_t edits(const std::string& a, const std::string& b)

@@ -11,8 +11,7 @@ that the question was well put and no answer was found. Each carries one line fo
 #include <string>
 #include <vector>
 
-namespace rotor_stator
-{
+namespace rotor_stator {
 
 /** Bad input: the message names the file, line and key, or the option, and what is
     accepted. */

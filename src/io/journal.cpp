@@ -10,11 +10,9 @@
 #include "io/errors.hpp"
 #include "io/table.hpp"
 
-namespace rotor_stator
-{
+namespace rotor_stator {
 
-namespace
-{
+namespace {
 
 using Pieces = std::vector<std::optional<std::string>>;
 

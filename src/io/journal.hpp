@@ -13,8 +13,7 @@ same study goes on from it. The result does not depend on the number of threads.
 
 #include "io/parallel.hpp"
 
-namespace rotor_stator
-{
+namespace rotor_stator {
 
 struct Study {
   std::string name;     ///< for the line of progress

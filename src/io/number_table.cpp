@@ -7,11 +7,9 @@
 #include "io/errors.hpp"
 #include "io/toml_file.hpp"
 
-namespace rotor_stator
-{
+namespace rotor_stator {
 
-namespace
-{
+namespace {
 
 std::vector<std::string> split(const std::string& line)
 {

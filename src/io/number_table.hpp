@@ -10,11 +10,9 @@ tabs. */
 #include <string>
 #include <vector>
 
-namespace rotor_stator
-{
+namespace rotor_stator {
 
-class NumberTable
-{
+class NumberTable {
 public:
   /** Throws BadInput with file and line when it is missing, empty, cut off, longer than 1 GB or not such a
       table; with `first_line`, when it begins otherwise. */

@@ -9,8 +9,7 @@
 
 #include "io/errors.hpp"
 
-namespace rotor_stator
-{
+namespace rotor_stator {
 
 void require_writable(const std::string& option, const std::string& file,
                       const std::vector<std::string>& inputs)

@@ -4,8 +4,7 @@
 #include <string>
 #include <vector>
 
-namespace rotor_stator
-{
+namespace rotor_stator {
 
 /** Throws BadInput unless `file`, the value of `option`, can be written to: a regular file or none yet, in
     a folder that is there, and neither one of `inputs` nor the standard output. Asked before the work. */

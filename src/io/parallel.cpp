@@ -6,8 +6,7 @@
 
 #include "io/program.hpp"
 
-namespace rotor_stator
-{
+namespace rotor_stator {
 
 void in_parallel(const std::string& name, std::size_t pieces,
                  const std::function<void(std::size_t piece)>& work)

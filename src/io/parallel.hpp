@@ -7,8 +7,7 @@
 #include <string>
 #include <vector>
 
-namespace rotor_stator
-{
+namespace rotor_stator {
 
 /** Calls `work` for each of `pieces` numbers, begun in order, on as many threads as OpenMP has
     (OMP_NUM_THREADS). After a piece that throws none is begun, and when all have ended its

@@ -11,8 +11,7 @@
 
 #include "io/errors.hpp"
 
-namespace rotor_stator
-{
+namespace rotor_stator {
 
 Progress::Progress(std::string what, std::size_t total)
     : what_(std::move(what)), total_(total), watched_(isatty(STDERR_FILENO) == 1)
@@ -30,8 +29,7 @@ void Progress::step()
   if (watched_) std::fprintf(stderr, "\r%s: %zu of %zu", what_.c_str(), done_, total_);
 }
 
-namespace
-{
+namespace {
 
 /** One line on stderr, whatever the message holds. */
 int complain(const std::string& message, int status)

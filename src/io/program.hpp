@@ -11,16 +11,13 @@ A line on stderr that is rewritten in place, and only when a person is watching.
 #include "io/table.hpp"
 #include "io/toml_file.hpp"
 
-namespace CLI
-{
+namespace CLI {
 class App;
 }
 
-namespace rotor_stator
-{
+namespace rotor_stator {
 
-class Progress
-{
+class Progress {
 public:
   Progress(std::string what, std::size_t total);
   ~Progress();
@@ -38,8 +35,7 @@ private:
 /** The items of a list one after the other, with their progress:
     `for (double f : Watched("orbits", frequencies))`. */
 template <class Item>
-class Watched
-{
+class Watched {
 public:
   Watched(std::string what, const std::vector<Item>& list)
       : list_(list), progress_(std::move(what), list.size())

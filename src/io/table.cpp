@@ -6,8 +6,7 @@
 #include "io/errors.hpp"
 #include "source_revision.hpp"
 
-namespace rotor_stator
-{
+namespace rotor_stator {
 
 std::string source_revision()
 {
@@ -19,8 +18,7 @@ std::string compiler()
   return "g++ " __VERSION__ " " ROTOR_STATOR_FLAGS;
 }
 
-namespace
-{
+namespace {
 
 std::string joined(const std::vector<std::string>& words)
 {

@@ -10,8 +10,7 @@ Stamped when the library is compiled. A new commit alone triggers no rebuild. */
 #include <variant>
 #include <vector>
 
-namespace rotor_stator
-{
+namespace rotor_stator {
 
 /** Name and version of the project and the revision of its source, with "-dirty" after
     uncommitted changes; "unknown" outside git. */
@@ -33,8 +32,7 @@ struct Column {
 };
 
 /** A number or a word. */
-class Cell
-{
+class Cell {
 public:
   Cell(double number) : value_(number) {}
   Cell(std::integral auto number) : value_(static_cast<double>(number)) {}
@@ -55,8 +53,7 @@ struct Field : Column {
   std::function<Cell(const Row&)> value;
 };
 
-class Table
-{
+class Table {
 public:
   /** `what` is the first line of the header. */
   Table(std::string what, std::vector<Column> columns);

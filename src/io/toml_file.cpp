@@ -8,8 +8,7 @@
 
 #include "io/errors.hpp"
 
-namespace rotor_stator
-{
+namespace rotor_stator {
 
 std::ifstream open_file(const std::string& file, const std::string& expected,
                         std::uintmax_t most_bytes)
@@ -29,8 +28,7 @@ std::ifstream open_file(const std::string& file, const std::string& expected,
   return in;
 }
 
-namespace
-{
+namespace {
 
 /** No parameter or scene file comes near these. */
 constexpr std::uintmax_t most_bytes = 1'000'000;

@@ -11,8 +11,7 @@ What is missing, of the wrong type, out of range or left over ends in BadInput w
 #include <string>
 #include <vector>
 
-namespace rotor_stator
-{
+namespace rotor_stator {
 
 /** Opens a file to be read. Throws BadInput, naming what is `expected`, when it is missing, longer than
     `most_bytes`, or no regular file: devices and pipes may never end. */
@@ -23,8 +22,7 @@ std::ifstream open_file(const std::string& file, const std::string& expected,
 enum class Range { any, positive, not_negative };
 
 /** One table of a TOML file. Copies share the record of the keys that were read. */
-class StrictToml
-{
+class StrictToml {
 public:
   /** Parses a file. Throws BadInput when it is missing, not a file, too long, empty, nested too
       deeply or not TOML. */
@@ -71,8 +69,7 @@ checked like the parameters. */
 
 /** A scene file being read, with the reading of Table 1 (D-09): "exchanged" or
     "as-printed". */
-class SceneFile
-{
+class SceneFile {
 public:
   SceneFile(const std::string& file, const std::string& reading);
 

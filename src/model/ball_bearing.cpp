@@ -11,8 +11,7 @@
 #define WIDEST_REGISTERS
 #endif
 
-namespace rotor_stator
-{
+namespace rotor_stator {
 
 BallBearing::BallBearing(const Bearing& bearing)
     : contact_stiffness_(bearing.contact_stiffness),
@@ -64,8 +63,7 @@ void BallBearing::ball_forces(Direction cage, Vec2 u, std::vector<double>& q) co
                        balls_[j].cos * v.x + balls_[j].sin * v.y - clearance_);
 }
 
-namespace
-{
+namespace {
 
 /** Instants of a group, one per lane: loops of this fixed length become vector instructions. */
 constexpr int lanes = 8;

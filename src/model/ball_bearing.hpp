@@ -32,8 +32,7 @@ back: one sine and one cosine of the cage angle serve all balls. */
 #include "model/hertz.hpp"
 #include "model/parameters.hpp"
 
-namespace rotor_stator
-{
+namespace rotor_stator {
 
 /** A vector of the x-y plane. */
 struct Vec2 {
@@ -70,8 +69,7 @@ struct BearingReaction {
 };
 
 /** The bearing with its constant ball directions in the cage frame. */
-class BallBearing
-{
+class BallBearing {
 public:
   explicit BallBearing(const Bearing& bearing);
 
@@ -129,8 +127,7 @@ whatever the width of the machine's registers. In the cage frame the relative mo
 group lie in a rectangle; a ball that touches nowhere in it is skipped: of 16 balls three or
 four remain. */
 
-class SampledBearing
-{
+class SampledBearing {
 public:
   /** N = `samples` instants ωt = 2πk/N of one turn of the rotor. */
   SampledBearing(const Bearing& bearing, int samples);

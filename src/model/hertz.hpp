@@ -10,8 +10,7 @@ and with nothing when it is not pressed. */
 
 #include <cmath>
 
-namespace rotor_stator
-{
+namespace rotor_stator {
 
 /** Contact force Q [N] (Eqs 1 and 5) of a ball with the penetration `p` [m]; K_H in
    N/m^{3/2} (D-08: the paper prints N/m). */

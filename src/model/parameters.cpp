@@ -6,11 +6,9 @@
 #include "io/errors.hpp"
 #include "io/toml_file.hpp"
 
-namespace rotor_stator
-{
+namespace rotor_stator {
 
-namespace
-{
+namespace {
 
 constexpr int most_balls = 1024;
 

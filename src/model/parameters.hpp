@@ -12,8 +12,7 @@ read, so that the programs below never meet a machine that cannot exist. */
 #include "io/table.hpp"
 #include "io/toml_file.hpp"
 
-namespace rotor_stator
-{
+namespace rotor_stator {
 
 /** A body on its own suspension, the same in x and y. */
 struct Body {

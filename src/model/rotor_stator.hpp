@@ -13,13 +13,13 @@ them. */
 #pragma once
 
 #include <array>
+#include <bit>
 #include <complex>
 
 #include "model/ball_bearing.hpp"
 #include "model/parameters.hpp"
 
-namespace rotor_stator
-{
+namespace rotor_stator {
 
 /** Displacements of both bodies [m], or their speeds [m/s]. */
 struct Bodies {
@@ -28,14 +28,33 @@ struct Bodies {
   Vec2 relative() const { return {rotor.x - stator.x, rotor.y - stator.y}; }
 };
 
+/** x_s, y_s, x_r, y_r. */
+using Displacements = std::array<double, 4>;
+inline Displacements displacements(const Bodies& bodies)
+{
+  return std::bit_cast<Displacements>(bodies);
+}
+
 /** Displacements [m] and speeds [m/s]. */
 struct State {
   Bodies position, velocity;
 };
 
-/** Eq. 7 at one rotor speed: everything that does not change along a motion. */
-class RotorStator
+/** The same as a vector: the displacements, then the speeds. */
+using Vector8 = Eigen::Matrix<double, 8, 1>;
+inline Vector8 vector_of(const State& state)
 {
+  return Vector8(std::bit_cast<std::array<double, 8>>(state).data());
+}
+inline State state_of(const Vector8& y)
+{
+  std::array<double, 8> values;
+  std::copy(y.begin(), y.end(), values.begin());
+  return std::bit_cast<State>(values);
+}
+
+/** Eq. 7 at one rotor speed: everything that does not change along a motion. */
+class RotorStator {
 public:
   /** `omega` is the rotor's speed ω [rad/s]. */
   RotorStator(const Parameters& parameters, double omega);
@@ -90,6 +109,12 @@ struct Scales {
 };
 Scales scales(const Parameters& parameters);
 
+/** The vibration [rad/s] of both bodies against one ball that is pressed by that load. */
+double contact_frequency(const Parameters& parameters);
+
+/** Sizes of the eight components of a state, for tolerances and norms. */
+Vector8 state_scales(const Parameters& parameters);
+
 /** Resonance [rad/s] of rotor and stator moving as one body on both suspensions. */
 double joint_resonance(const Parameters& parameters);
 
@@ -133,12 +158,5 @@ inline Bodies operator*(double s, const Bodies& a)
 {
   return {s * a.stator, s * a.rotor};
 }
-
-/**
-## Where an iteration for a periodic motion starts */
-
-/** The state at phase 0 of the motion in which the bearing answers the force of the rigid
-    joint at every instant and the stator follows its harmonic response. */
-State quasi_static_state(const Parameters& parameters, double omega);
 
 }  // namespace rotor_stator

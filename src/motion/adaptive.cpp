@@ -4,11 +4,9 @@
 #include "io/errors.hpp"
 #include "motion/other_starts.hpp"
 
-namespace rotor_stator::motion
-{
+namespace rotor_stator::motion {
 
-namespace
-{
+namespace {
 
 /** The bearing's problem, observed in its four displacements. */
 ObservedProblem observed_bearing(const Parameters& parameters,

@@ -9,8 +9,7 @@ the largest difference over the period over the largest displacement. */
 #include "io/budget.hpp"
 #include "model/parameters.hpp"
 
-namespace rotor_stator::motion
-{
+namespace rotor_stator::motion {
 
 /** Chooses m and N for the tolerance at speed `omega` [rad/s]. Newton starts from quasi-static contact;
     when that fails with several m, from whatever `search_periodic` finds, whose evaluations are not

@@ -3,11 +3,9 @@
 #include "balance/bearing_problem.hpp"
 #include "io/errors.hpp"
 
-namespace rotor_stator::motion
-{
+namespace rotor_stator::motion {
 
-namespace
-{
+namespace {
 
 /** The coefficients of a start, or none where they cannot be had. */
 Eigen::VectorXd coefficients_or_none(const Start& start)

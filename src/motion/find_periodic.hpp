@@ -7,8 +7,7 @@ Found by harmonic balance, from several starts. */
 #include "balance/newton.hpp"
 #include "motion/motion.hpp"
 
-namespace rotor_stator::motion
-{
+namespace rotor_stator::motion {
 
 /** The name of the first start. */
 inline constexpr const char* quasi_static_name = "quasi-static contact";

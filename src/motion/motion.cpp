@@ -1,23 +1,15 @@
 #include "motion/motion.hpp"
 
 #include <algorithm>
-#include <bit>
 #include <cmath>
 #include <limits>
 #include <numbers>
 
 #include "balance/fourier_transform.hpp"
 
-namespace rotor_stator::motion
-{
+namespace rotor_stator::motion {
 
-namespace
-{
-
-std::array<double, 4> displacements(const Bodies& bodies)
-{
-  return std::bit_cast<std::array<double, 4>>(bodies);
-}
+namespace {
 
 /** The larger of two sizes, where what is not a number counts as infinite: a diverged
    motion is infinitely wrong, not right. */
@@ -35,24 +27,20 @@ double Motion::phase(std::size_t k) const
 
 Eigen::MatrixXd series_of(const Motion& motion, int harmonics)
 {
-  Eigen::MatrixXd samples(motion.points_per_period, 4), series(4, 2 * harmonics + 1);
-  for (int k = 0; k < motion.points_per_period; ++k) {
-    const Bodies& q = motion.positions[k];
+  const int points = motion.points_per_period;
+  Eigen::MatrixXd samples(points, 4), series(4, 2 * harmonics + 1);
+  for (int k = 0; k < points; ++k) {
+    const Bodies& q = motion.positions[static_cast<std::size_t>(k)];
     samples.row(k) << q.stator.x, q.stator.y, q.rotor.x, q.rotor.y;
   }
-  FourierTransform(motion.points_per_period).to_series(samples, series);
+  FourierTransform(points).to_series(samples, series);
   return series;
 }
 
 Eigen::VectorXd relative_series(const Motion& motion, int harmonics)
 {
-  Eigen::MatrixXd u(motion.size(), 2), series(2, 2 * harmonics + 1);
-  for (std::size_t k = 0; k < motion.size(); ++k) {
-    const Vec2 relative = motion.positions[k].relative();
-    u.row(static_cast<Eigen::Index>(k)) << relative.x, relative.y;
-  }
-  FourierTransform(static_cast<int>(u.rows())).to_series(u, series);
-  return series.reshaped();
+  const Eigen::MatrixXd bodies = series_of(motion, harmonics);
+  return (bodies.bottomRows(2) - bodies.topRows(2)).reshaped();
 }
 
 Motion motion_of(const Eigen::MatrixXd& bodies, int points)
@@ -92,9 +80,9 @@ std::vector<Vec2> bearing_forces(const Parameters& parameters, const Motion& mot
   return forces;
 }
 
-std::array<double, 4> half_peak_to_peak(const Motion& motion)
+Displacements half_peak_to_peak(const Motion& motion)
 {
-  std::array<double, 4> amplitude;
+  Displacements amplitude;
   for (int i = 0; i < 4; ++i) {
     const auto [low, high] =
         std::minmax_element(motion.positions.begin(), motion.positions.end(),
@@ -104,31 +92,6 @@ std::array<double, 4> half_peak_to_peak(const Motion& motion)
     amplitude[i] = 0.5 * (displacements(*high)[i] - displacements(*low)[i]);
   }
   return amplitude;
-}
-
-CurvePoint refined_peak(const std::vector<CurvePoint>& curve)
-{
-  const auto top = std::max_element(
-      curve.begin(), curve.end(),
-      [](const CurvePoint& a, const CurvePoint& b) { return a.amplitude < b.amplitude; });
-  if (top == curve.begin() || top + 1 == curve.end()) return *top;
-  /** Newton's form of the parabola, for neighbours at any distance. */
-  const CurvePoint &a = *(top - 1), &b = *top, &c = *(top + 1);
-  const double left = (b.amplitude - a.amplitude) / (b.frequency - a.frequency);
-  const double right = (c.amplitude - b.amplitude) / (c.frequency - b.frequency);
-  const double bend = (right - left) / (c.frequency - a.frequency);
-  if (!(bend < 0)) return b;
-  const double slope = left + bend * (b.frequency - a.frequency);  // at b
-  const double shift = -slope / (2 * bend);
-  return {b.frequency + shift, b.amplitude + shift * (slope + bend * shift)};
-}
-
-double contact_share(const Parameters& parameters, const Motion& motion)
-{
-  const auto forces = bearing_forces(parameters, motion);
-  const auto loaded = std::count_if(forces.begin(), forces.end(),
-                                    [](Vec2 f) { return f.x != 0 || f.y != 0; });
-  return static_cast<double>(loaded) / static_cast<double>(forces.size());
 }
 
 double relative_difference(const Motion& motion, const Motion& reference)
@@ -169,22 +132,6 @@ double relative_force_difference(const Parameters& parameters, const Motion& mot
     size = std::max(size, std::hypot(b[k].x, b[k].y));
   }
   return difference / size;
-}
-
-ContactEvolution contact_evolution(const Parameters& parameters, const Motion& motion)
-{
-  const BallBearing bearing(parameters.bearing);
-  ContactEvolution evolution;
-  for (std::size_t k = 0; k < 2 * static_cast<std::size_t>(motion.points_per_period);
-       ++k) {
-    const Direction cage =
-        Direction::of(parameters.bearing.cage_speed_ratio * motion.phase(k));
-    std::vector<double> q;
-    bearing.ball_forces(cage, motion.positions[k % motion.size()].relative(), q);
-    evolution.t_over_period.push_back(motion.t_over_period(k));
-    evolution.ball_force.push_back(std::move(q));
-  }
-  return evolution;
 }
 
 }  // namespace rotor_stator::motion

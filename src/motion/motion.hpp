@@ -12,8 +12,7 @@ so that the two methods meet in the same table. */
 #include "balance/periodic_motion.hpp"
 #include "integration/steady_state.hpp"
 
-namespace rotor_stator::motion
-{
+namespace rotor_stator::motion {
 
 /** P instants per period, over one or more periods, from phase 0. */
 struct Motion {
@@ -46,11 +45,9 @@ Motion recorded(Stepper& stepper, int points_per_period, State& state,
   return motion;
 }
 
-/** The series of x_s, y_s, x_r, y_r [m] over the first period of a motion, 4 × (2m+1). */
+/** The series of x_s, y_s, x_r, y_r over the first period of a motion [m], 4 × (2m+1); and that of the
+    relative motion u as the unknowns of a balance. */
 Eigen::MatrixXd series_of(const Motion& motion, int harmonics);
-
-/** The relative motion u of one period as the unknowns of a balance: 2 × (2m+1) coefficients as a
-    vector [m]. */
 Eigen::VectorXd relative_series(const Motion& motion, int harmonics);
 
 /** `points` instants of one period of a solution, from its series of both bodies. */
@@ -66,19 +63,7 @@ Motion motion_of(const SteadyState& steady, int points_per_period);
 std::vector<Vec2> bearing_forces(const Parameters& parameters, const Motion& motion);
 
 /** Half peak-to-peak of x_s, y_s, x_r, y_r [m] over the instants of a motion. */
-std::array<double, 4> half_peak_to_peak(const Motion& motion);
-
-/** A point of a response curve: speed [Hz] and amplitude [m]. */
-struct CurvePoint {
-  double frequency, amplitude;
-};
-
-/** The highest point of a curve, refined by the parabola through it and its neighbours; the point
-    itself at an end of the curve. */
-CurvePoint refined_peak(const std::vector<CurvePoint>& curve);
-
-/** Share of the instants with at least one loaded ball [-]. */
-double contact_share(const Parameters& parameters, const Motion& motion);
+Displacements half_peak_to_peak(const Motion& motion);
 
 /** The largest difference over the four displacements, over the largest displacement of
     `reference`, on the first period of both [-]; both have the same points per period. */
@@ -97,22 +82,5 @@ double relative_force_difference(const Parameters& parameters, const Motion& mot
 
 /** The motion at each speed of a sweep; none where no solution was found. */
 using Motions = std::vector<std::optional<Motion>>;
-
-/**
-## Scene: contact evolution (Figs 7 and 9)
-
-The force Q_j of every ball over two periods, 2T, because with ω_cage = ω/2 each ball is
-passed by the rotating contact once per 2T (D-11, D-20). The motion is the periodic solution
-where time integration confirms one, and the integrated motion elsewhere. */
-
-/** Ball forces at P instants per period over two periods. */
-struct ContactEvolution {
-  std::vector<double> t_over_period;            ///< 0 ≤ t/T < 2
-  std::vector<std::vector<double>> ball_force;  ///< [instant][ball] Q_j [N]
-};
-
-/** Ball j stands where Eq. 3 puts it, with t counted as the motion counts it. A motion of
-   one period is repeated. */
-ContactEvolution contact_evolution(const Parameters& parameters, const Motion& motion);
 
 }  // namespace rotor_stator::motion

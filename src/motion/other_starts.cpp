@@ -1,23 +1,18 @@
 #include "motion/other_starts.hpp"
 
 #include <numbers>
-#include <random>
 
 #include "balance/bearing_problem.hpp"
 #include "io/errors.hpp"
 
-namespace rotor_stator::motion
-{
+namespace rotor_stator::motion {
 
-namespace
-{
-
-/** Uniform in -1 … 1 from the generator's bits: the standard's distributions differ between
-    libraries. */
 double uniform(std::mt19937_64& generator)
 {
   return 2 * static_cast<double>(generator() >> 11) * 0x1p-53 - 1;
 }
+
+namespace {
 
 Eigen::VectorXd random_coefficients(double size, int harmonics,
                                     std::mt19937_64& generator)

@@ -8,17 +8,21 @@ seeded generator. */
 #pragma once
 
 #include <cstdint>
+#include <random>
 
 #include "continuation/isolated.hpp"
 #include "motion/find_periodic.hpp"
 
-namespace rotor_stator::motion
-{
+namespace rotor_stator::motion {
 
 /** As `find_periodic`, with the branch from a lower speed among its starts. */
 PeriodicMotion search_periodic(const Parameters& parameters, double omega, int harmonics,
                                int samples, const NewtonSettings& settings = {},
                                const OperationBudget& budget = {});
+
+/** Uniform in -1 … 1 from the generator's bits: the standard's distributions differ between
+    libraries. */
+double uniform(std::mt19937_64& generator);
 
 struct OtherStarts {
   int speeds = 0;  ///< in the range, evenly spaced, the edges left out

@@ -4,10 +4,10 @@
 #include <cmath>
 #include <numbers>
 
+#include "motion/contact.hpp"
 #include "motion/find_periodic.hpp"
 
-namespace rotor_stator::motion
-{
+namespace rotor_stator::motion {
 
 double higher_harmonics(const Motion& motion)
 {
@@ -22,19 +22,7 @@ double higher_harmonics(const Motion& motion)
   return share;
 }
 
-std::vector<int> passages_per_ball(const std::vector<std::vector<double>>& ball_force)
-{
-  std::vector<int> passages(ball_force.front().size(), 0);
-  for (std::size_t k = 0; k < ball_force.size(); ++k) {
-    const auto& before = ball_force[(k + ball_force.size() - 1) % ball_force.size()];
-    for (std::size_t j = 0; j < passages.size(); ++j)
-      if (before[j] == 0 && ball_force[k][j] > 0) ++passages[j];
-  }
-  return passages;
-}
-
-namespace
-{
+namespace {
 
 /** Where integration starts: on the periodic solution if Newton finds one from the
    quasi-static contact, else at the static load. */

@@ -11,8 +11,7 @@ decides nothing: the integrated motion is what is judged. */
 #include "io/toml_file.hpp"
 #include "motion/motion.hpp"
 
-namespace rotor_stator::motion
-{
+namespace rotor_stator::motion {
 
 /** How the motion of a regime is integrated, by rk4. */
 struct RegimeSettings {
@@ -48,8 +47,5 @@ Regime regime_at(const Parameters& parameters, double frequency,
 /** The rms of harmonics ≥ 2 over the amplitude of the first in the first period of a
    motion, for the body where it is larger [-]; 0 for a body at rest. */
 double higher_harmonics(const Motion& motion);
-
-/** Times that each ball is loaded anew in two periods, counted around the end. */
-std::vector<int> passages_per_ball(const std::vector<std::vector<double>>& ball_force);
 
 }  // namespace rotor_stator::motion

@@ -10,11 +10,9 @@
 #include "continuation/locate.hpp"
 #include "io/errors.hpp"
 
-namespace rotor_stator
-{
+namespace rotor_stator {
 
-namespace
-{
+namespace {
 
 using Complex = std::complex<double>;
 
@@ -83,16 +81,14 @@ int unstable_count(const Multipliers& multipliers)
                                         [](Complex mu) { return std::abs(mu) > 1; }));
 }
 
-namespace
-{
+namespace {
 
 bool changes(BifurcationTest::Value test, const StablePoint& a, const StablePoint& b)
 {
   return test(a.floquet.multipliers) * test(b.floquet.multipliers) < 0;
 }
 
-class Walk
-{
+class Walk {
 public:
   Walk(Balance& balance, const ArcLengthSettings& arc_length, const FloquetAt& floquet_at,
        const BranchStabilitySettings& settings)

@@ -20,8 +20,7 @@ Kuznetsov (2004), sections 10.2 and 10.3. */
 #include "continuation/branch.hpp"
 #include "stability/floquet.hpp"
 
-namespace rotor_stator
-{
+namespace rotor_stator {
 
 enum class Bifurcation { none, fold, plus_one, period_doubling, neimark_sacker };
 

@@ -4,11 +4,9 @@
 
 #include "io/errors.hpp"
 
-namespace rotor_stator
-{
+namespace rotor_stator {
 
-namespace
-{
+namespace {
 
 Eigen::EigenSolver<Eigen::MatrixXd> solved(const Eigen::MatrixXd& matrix, bool vectors)
 {

@@ -6,8 +6,7 @@ Eigen's solver, compiled once: it takes ten seconds in every source that asks fo
 
 #include <Eigen/Core>
 
-namespace rotor_stator
-{
+namespace rotor_stator {
 
 /** Throws NoSolution when the matrix is not finite or the iteration does not converge. */
 Eigen::VectorXcd eigenvalues(const Eigen::MatrixXd& matrix);

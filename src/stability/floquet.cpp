@@ -10,8 +10,7 @@
 #include "model/rotor_stator.hpp"
 #include "stability/eigenvalues.hpp"
 
-namespace rotor_stator
-{
+namespace rotor_stator {
 
 void sort_by_modulus(Multipliers& multipliers)
 {
@@ -94,12 +93,10 @@ Vibration vibration_of(const Parameters& parameters)
           .stiffness = diagonal(s.stiffness(), r.stiffness())};
 }
 
-namespace
-{
+namespace {
 
 /** The bearing along a series of u. */
-class BearingAlong
-{
+class BearingAlong {
 public:
   BearingAlong(const Bearing& bearing, const Eigen::VectorXd& x)
       : bearing_(bearing),

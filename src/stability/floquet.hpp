@@ -23,8 +23,7 @@ them to the relative motion u: the multipliers belong to the full system of Eq. 
 #include "model/parameters.hpp"
 #include "stability/monodromy.hpp"
 
-namespace rotor_stator
-{
+namespace rotor_stator {
 
 using Multipliers = std::vector<std::complex<double>>;
 

@@ -7,11 +7,9 @@
 #include "balance/fourier_transform.hpp"
 #include "stability/eigenvalues.hpp"
 
-namespace rotor_stator
-{
+namespace rotor_stator {
 
-namespace
-{
+namespace {
 
 using Complex = std::complex<double>;
 

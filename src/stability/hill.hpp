@@ -24,8 +24,7 @@ displacement. Here the method checks the monodromy matrix, it does not replace i
 
 #include "stability/floquet.hpp"
 
-namespace rotor_stator
-{
+namespace rotor_stator {
 
 enum class HillChoice { least_imaginary, most_symmetric };
 

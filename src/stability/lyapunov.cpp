@@ -5,11 +5,9 @@
 
 #include "io/errors.hpp"
 
-namespace rotor_stator
-{
+namespace rotor_stator {
 
-namespace
-{
+namespace {
 
 /** Far above rounding, far below what bends the motion. */
 constexpr double first_distance = 1e-7;
@@ -96,8 +94,7 @@ double spread_of_order(int k, const std::vector<Displacements>& section, double 
   return widest / size;
 }
 
-namespace
-{
+namespace {
 
 Verdict verdict_of(const SectionJudgement& j, const VerdictRule& rule)
 {

@@ -19,8 +19,7 @@ of ten batches of them gives the standard error. */
 #include "integration/time_stepper.hpp"
 #include "stability/period_map.hpp"
 
-namespace rotor_stator
-{
+namespace rotor_stator {
 
 /** The mean of a series and its standard error. */
 struct BatchMean {
@@ -34,8 +33,7 @@ BatchMean batch_mean(const std::vector<double>& series);
 using Exponent = BatchMean;
 
 /** A motion with a neighbour. */
-class TrajectoryPair
-{
+class TrajectoryPair {
 public:
   /** `stepper`: of fixed step, since an adaptive one takes other steps for the neighbour and its
       error would pass for growth. `scales`: sizes of the eight components, which make the distance a number. */

@@ -7,11 +7,9 @@
 
 #include "io/errors.hpp"
 
-namespace rotor_stator
-{
+namespace rotor_stator {
 
-namespace
-{
+namespace {
 
 /** A stretch of the period, and whether k may be rough at its ends. */
 struct Panel {
@@ -41,8 +39,7 @@ private:
 
 /** The equation with d = D known to the compiler, in the scaled velocity w = dq̃/dt / r. */
 template <int D>
-class Disturbances
-{
+class Disturbances {
 public:
   using Square = Eigen::Matrix<double, D, D>;
   using Columns = Eigen::Matrix<double, D, 2 * D>;

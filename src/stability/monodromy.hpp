@@ -20,8 +20,7 @@ not accuracy. */
 #include <functional>
 #include <vector>
 
-namespace rotor_stator
-{
+namespace rotor_stator {
 
 /** The constant part: d × d matrices, d = 1, 2 or 4. */
 struct Vibration {

@@ -1,45 +1,13 @@
 #include "stability/period_map.hpp"
 
 #include <gsl/gsl_errno.h>
-#include <gsl/gsl_odeiv2.h>
 #include <algorithm>
-#include <bit>
-#include <cmath>
-#include <memory>
 
 #include "integration/time_stepper.hpp"
-#include "io/errors.hpp"
-#include "model/rotor_stator.hpp"
 
-namespace rotor_stator
-{
+namespace rotor_stator {
 
-Vector8 vector_of(const State& state)
-{
-  const auto flat = std::bit_cast<std::array<double, 8>>(state);
-  return Eigen::Map<const Vector8>(flat.data());
-}
-
-State state_of(const Vector8& y)
-{
-  std::array<double, 8> flat;
-  Eigen::Map<Vector8>(flat.data()) = y;
-  return std::bit_cast<State>(flat);
-}
-
-Vector8 state_scales(const Parameters& parameters)
-{
-  const Scales scale = scales(parameters);
-  const double contact_frequency = std::sqrt(
-      scale.stiffness * (1 / parameters.stator.mass + 1 / parameters.rotor.mass));
-  Vector8 sizes;
-  sizes.head<4>().setConstant(scale.length);
-  sizes.tail<4>().setConstant(scale.length * contact_frequency);
-  return sizes;
-}
-
-namespace
-{
+namespace {
 
 constexpr int equations = 8 + 8 * 8;
 
@@ -47,9 +15,7 @@ constexpr int equations = 8 + 8 * 8;
 struct Variation {
   RotorStator system;
   DisturbanceRates rates;
-  OperationBudget budget;
-  double price;  ///< of one evaluation
-  long evaluations = 0;
+  PaidEvaluations evaluations;
 };
 
 /** State first, then the displacements and the speeds of the disturbances. */
@@ -57,8 +23,7 @@ int derivative(double t, const double y[], double dydt[], void* data)
 {
   auto& variation = *static_cast<Variation*>(data);
   const RotorStator& system = variation.system;
-  ++variation.evaluations;
-  if (!variation.budget.pay(variation.price)) return GSL_EBADFUNC;
+  if (!variation.evaluations.pay()) return GSL_EBADFUNC;
   const double phase = system.omega() * t;
   const State state = state_of(Eigen::Map<const Vector8>(y));
   const Direction cage = system.cage_direction(phase);
@@ -90,43 +55,27 @@ std::array<double, equations> error_scales(const Parameters& parameters)
   return scale;
 }
 
-struct FreeDriver {
-  void operator()(gsl_odeiv2_driver* driver) const { gsl_odeiv2_driver_free(driver); }
-};
-
 }  // namespace
 
 PeriodMap period_map(const Parameters& parameters, double omega, const State& start,
                      double tolerance, const std::string& method,
                      const OperationBudget& budget)
 {
-  keep_gsl_from_aborting();
   Variation variation{{parameters, omega},
                       DisturbanceRates(parameters),
-                      budget,
-                      evaluation_price(parameters, method)};
+                      {budget, evaluation_price(parameters, method)}};
   gsl_odeiv2_system system{derivative, nullptr, equations, &variation};
   const double period = variation.system.period();
-  const auto scale = error_scales(parameters);
-  const std::unique_ptr<gsl_odeiv2_driver, FreeDriver> driver(
-      gsl_odeiv2_driver_alloc_scaled_new(&system, gsl_step_type(method),
-                                         std::min(period, default_step(parameters)),
-                                         tolerance, 0, 1, 0, scale.data()));
-  if (!driver) throw NoSolution(format("%s cannot start a period", method.c_str()));
+  GslDriver driver(system, method, std::min(period, default_step(parameters)), tolerance,
+                   error_scales(parameters).data());
   std::array<double, equations> y{};
   Eigen::Map<Vector8>(y.data()) = vector_of(start);
   Eigen::Map<Matrix8> disturbances(y.data() + 8);  // the transpose of Φ
   disturbances.setIdentity();
-  double t = 0;
-  const int status = gsl_odeiv2_driver_apply(driver.get(), &t, period, y.data());
-  if (status != GSL_SUCCESS) {
-    variation.budget.spend(variation.price);  // throws where that was the reason
-    throw NoSolution(
-        format("time integration stopped at t = %.9g s: %s", t, gsl_strerror(status)));
-  }
+  driver.advance(0, period, y.data(), variation.evaluations);
   return {.end = state_of(Eigen::Map<const Vector8>(y.data())),
           .derivative = disturbances.transpose(),
-          .evaluations = variation.evaluations};
+          .evaluations = variation.evaluations.count};
 }
 
 Rk4PeriodMap::Rk4PeriodMap(const Parameters& parameters, double omega,
@@ -144,59 +93,46 @@ State Rk4PeriodMap::end(const State& start)
   return state;
 }
 
-Rk4PeriodMap::Slopes Rk4PeriodMap::acceleration(const State& state,
-                                                const Variation& variation,
-                                                const Rk4::Angles& at) const
+namespace {
+
+/** Displacements, or their speeds, with those of the disturbances. */
+struct Varied {
+  Bodies bodies;
+  Disturbances disturbances;
+};
+
+Varied operator+(const Varied& a, const Varied& b)
 {
-  const BearingReaction bearing =
-      system_.bearing().reaction(at.cage, state.position.relative());
-  return {system_.acceleration(state, at.rotor, bearing.force),
-          rates_.acceleration(bearing.stiffness, variation.q, variation.v)};
+  return {a.bodies + b.bodies, a.disturbances + b.disturbances};
+}
+Varied operator*(double s, const Varied& a)
+{
+  return {s * a.bodies, s * a.disturbances};
 }
 
-/** Nyström's form, as in Rk4, for the state and its disturbances. */
-void Rk4PeriodMap::step(const Rk4::Angles* angles, State& state,
-                        Variation& variation) const
-{
-  const double h = rk4_.step();
-  const Bodies q = state.position, v = state.velocity;
-  const Disturbances dq = variation.q, dv = variation.v;
-
-  const Slopes a_1 = acceleration(state, variation, angles[0]);
-  const Bodies v_2 = v + 0.5 * h * a_1.state;
-  const Disturbances dv_2 = dv + 0.5 * h * a_1.disturbances;
-  const Slopes a_2 =
-      acceleration({q + 0.5 * h * v, v_2}, {dq + 0.5 * h * dv, dv_2}, angles[1]);
-  const Bodies v_3 = v + 0.5 * h * a_2.state;
-  const Disturbances dv_3 = dv + 0.5 * h * a_2.disturbances;
-  const Slopes a_3 =
-      acceleration({q + 0.5 * h * v_2, v_3}, {dq + 0.5 * h * dv_2, dv_3}, angles[1]);
-  const Bodies v_4 = v + h * a_3.state;
-  const Disturbances dv_4 = dv + h * a_3.disturbances;
-  const Slopes a_4 = acceleration({q + h * v_3, v_4}, {dq + h * dv_3, dv_4}, angles[2]);
-
-  state = {q + h / 6 * (v + 2 * v_2 + 2 * v_3 + v_4),
-           v + h / 6 * (a_1.state + 2 * a_2.state + 2 * a_3.state + a_4.state)};
-  variation.q += h / 6 * (dv + 2 * dv_2 + 2 * dv_3 + dv_4);
-  variation.v +=
-      h / 6 *
-      (a_1.disturbances + 2 * a_2.disturbances + 2 * a_3.disturbances + a_4.disturbances);
-}
+}  // namespace
 
 PeriodMap Rk4PeriodMap::map(const State& start)
 {
-  State state = start;
-  Variation variation{Disturbances::Zero(), Disturbances::Zero()};
-  variation.q.topRows<4>().setIdentity();
-  variation.v.bottomRows<4>().setIdentity();
+  const auto acceleration = [&](const Varied& q, const Varied& v,
+                                const Rk4::Angles& at) -> Varied {
+    const BearingReaction bearing =
+        system_.bearing().reaction(at.cage, q.bodies.relative());
+    return {system_.acceleration({q.bodies, v.bodies}, at.rotor, bearing.force),
+            rates_.acceleration(bearing.stiffness, q.disturbances, v.disturbances)};
+  };
+  Varied q{start.position, Disturbances::Zero()}, v{start.velocity, Disturbances::Zero()};
+  q.disturbances.topRows<4>().setIdentity();
+  v.disturbances.bottomRows<4>().setIdentity();
   const auto& angles = rk4_.angles();
-  const std::size_t steps = (angles.size() - 1) / 2;
-  for (std::size_t k = 0; k < steps; ++k) step(&angles[2 * k], state, variation);
-  const long evaluations = 4 * static_cast<long>(steps);
+  for (std::size_t k = 0; k + 2 < angles.size(); k += 2)
+    nystrom_step(rk4_.step(), &angles[k], q, v, acceleration);
+  const long evaluations = 2 * (static_cast<long>(angles.size()) - 1);
   evaluations_ += evaluations;
   Matrix8 derivative;
-  derivative << variation.q.transpose(), variation.v.transpose();
-  return {.end = state, .derivative = derivative, .evaluations = evaluations};
+  derivative << q.disturbances.transpose(), v.disturbances.transpose();
+  return {
+      .end = {q.bodies, v.bodies}, .derivative = derivative, .evaluations = evaluations};
 }
 
 }  // namespace rotor_stator

@@ -18,18 +18,9 @@ answer depends on. */
 #include "integration/rk4.hpp"
 #include "model/rotor_stator.hpp"
 
-namespace rotor_stator
-{
+namespace rotor_stator {
 
 using Matrix8 = Eigen::Matrix<double, 8, 8>;
-using Vector8 = Eigen::Matrix<double, 8, 1>;
-
-/** State and vector: x_s, y_s, x_r, y_r [m], then their speeds [m/s]. */
-Vector8 vector_of(const State& state);
-State state_of(const Vector8& y);
-
-/** Sizes of the eight components, for tolerances and norms. */
-Vector8 state_scales(const Parameters& parameters);
 
 struct PeriodMap {
   State end;
@@ -52,8 +43,7 @@ memory, where the compiler's vectors share them. */
 
 using Disturbances = Eigen::Matrix<double, 8, 4>;
 
-class DisturbanceRates
-{
+class DisturbanceRates {
 public:
   explicit DisturbanceRates(const Parameters& parameters)
   {
@@ -96,8 +86,7 @@ One period in S equal steps: 4S evaluations of Eq. 7 and no sine or cosine. The 
 is that of the map as it is computed: each stage of the variational equations takes the
 bearing's stiffness at the same stage of the state. */
 
-class Rk4PeriodMap
-{
+class Rk4PeriodMap {
 public:
   /** The fewest steps per period not longer than `longest_step` [s]. */
   Rk4PeriodMap(const Parameters& parameters, double omega, double longest_step);
@@ -112,18 +101,6 @@ public:
   long evaluations() const { return rk4_.evaluations() + evaluations_; }
 
 private:
-  struct Variation {
-    Disturbances q, v;
-  };
-  struct Slopes {
-    Bodies state;
-    Disturbances disturbances;
-  };
-
-  Slopes acceleration(const State& state, const Variation& variation,
-                      const Rk4::Angles& at) const;
-  void step(const Rk4::Angles* angles, State& state, Variation& variation) const;
-
   Rk4 rk4_;
   RotorStator system_;
   DisturbanceRates rates_;

@@ -9,11 +9,9 @@
 #include "io/errors.hpp"
 #include "stability/period_map.hpp"
 
-namespace rotor_stator
-{
+namespace rotor_stator {
 
-namespace
-{
+namespace {
 
 /** P with and without its derivative. */
 struct Maps {
@@ -35,17 +33,16 @@ Maps rk4_maps(const Parameters& parameters, double omega,
 Maps gsl_maps(const Parameters& parameters, double omega,
               const ShootingSettings& settings)
 {
-  const auto stepper =
-      std::make_shared<GslStepper>(parameters, omega,
-                                   StepperSettings{.method = settings.method,
-                                                   .intervals_per_period = 1,
-                                                   .tolerance = settings.tolerance,
-                                                   .budget = settings.budget});
+  const TimeStepper stepper = make_stepper(parameters, omega,
+                                           {.method = settings.method,
+                                            .intervals_per_period = 1,
+                                            .tolerance = settings.tolerance,
+                                            .budget = settings.budget});
   const auto varied = std::make_shared<long>(0);
   return {.end =
               [stepper](const State& start) {
                 State state = start;
-                stepper->advance(0, state);
+                stepper.advance(0, state);
                 return state;
               },
           .map =
@@ -56,12 +53,11 @@ Maps gsl_maps(const Parameters& parameters, double omega,
                 *varied += map.evaluations;
                 return map;
               },
-          .evaluations = [=] { return stepper->evaluations() + *varied; }};
+          .evaluations = [=] { return stepper.evaluations() + *varied; }};
 }
 
 /** Newton in the scaled state y = s/sizes. */
-class Iteration
-{
+class Iteration {
 public:
   Iteration(const Parameters& parameters, double omega, const State& start,
             const ShootingSettings& settings)
@@ -71,7 +67,7 @@ public:
         sizes_(state_scales(parameters)),
         y_(vector_of(start).cwiseQuotient(sizes_)),
         report_{.converged = false,
-                .closure = 0,
+                .periodicity_residual = 0,
                 .maps = 0,
                 .derivatives = 0,
                 .evaluations = 0,
@@ -80,7 +76,7 @@ public:
   {
   }
 
-  Shooting run(State& state, ClosureJacobian& jacobian)
+  Shooting run(State& state, PeriodicityJacobian& jacobian)
   {
     try {
       if (jacobian) start_with(*jacobian);
@@ -101,16 +97,16 @@ private:
   {
     jacobian_ = jacobian;
     open_ = mapped(y_) - y_;
-    report_.closure = open_.norm();
+    report_.periodicity_residual = open_.norm();
     if (!finished()) quasi_newton_steps();
   }
 
-  /** Φ at y, one step with it, and further ones while they reduce the closure well. */
+  /** Φ at y, one step with it, and further ones while they reduce the residual well. */
   void newton_step()
   {
     const PeriodMap map = integrate_derivative();
     open_ = vector_of(map.end).cwiseQuotient(sizes_) - y_;
-    report_.closure = open_.norm();
+    report_.periodicity_residual = open_.norm();
     jacobian_ = sizes_.cwiseInverse().asDiagonal() * map.derivative * sizes_.asDiagonal();
     jacobian_ -= Matrix8::Identity();
     if (finished()) return;
@@ -118,7 +114,7 @@ private:
       stop("no step closes the motion better");
   }
 
-  /** False when not even the first step reduces the closure. */
+  /** False when not even the first step reduces the residual. */
   bool quasi_newton_steps()
   {
     constexpr double well = 0.3;  ///< a reduction that earns another step without Φ
@@ -130,7 +126,7 @@ private:
     return true;
   }
 
-  /** One step, halved until the closure decreases; Broyden's rule learns from it. */
+  /** One step, halved until the residual decreases; Broyden's rule learns from it. */
   bool damped_step()
   {
     const Vector8 step = -jacobian_.partialPivLu().solve(open_);
@@ -138,14 +134,14 @@ private:
     for (int halvings = 0; halvings < 8 && !out_of_maps(); ++halvings, length /= 2) {
       const Vector8 y = y_ + length * step;
       const Vector8 open = mapped(y) - y;
-      const double reduction = open.norm() / report_.closure;
+      const double reduction = open.norm() / report_.periodicity_residual;
       if (!(reduction < 1)) continue;
       jacobian_ += (open - (1 - length) * open_) * step.transpose() /
                    (length * step.squaredNorm());
       y_ = y;
       open_ = open;
       reduction_ = reduction;
-      report_.closure = open.norm();
+      report_.periodicity_residual = open.norm();
       return true;
     }
     return false;
@@ -182,7 +178,7 @@ private:
 
   bool finished()
   {
-    report_.converged = report_.closure <= settings_.closure;
+    report_.converged = report_.periodicity_residual <= settings_.periodicity_residual;
     if (report_.converged)
       stop("converged");
     else if (out_of_maps())
@@ -192,7 +188,7 @@ private:
 
   void stop(const std::string& why)
   {
-    report_.reason = why + format(" (closure %.1e)", report_.closure);
+    report_.reason = why + format(" (closure %.1e)", report_.periodicity_residual);
   }
 
   const ShootingSettings& settings_;
@@ -207,11 +203,39 @@ private:
 }  // namespace
 
 Shooting shoot(const Parameters& parameters, double omega, State& state,
-               const ShootingSettings& settings, ClosureJacobian* jacobian)
+               const ShootingSettings& settings, PeriodicityJacobian* jacobian)
 {
-  ClosureJacobian none;
+  PeriodicityJacobian none;
   return Iteration(parameters, omega, state, settings)
       .run(state, jacobian ? *jacobian : none);
+}
+
+State quasi_static_state(const Parameters& parameters, double omega)
+{
+  /** F = gravity + Re(whirl (1, -i) e^{iφ}); the stator answers with its receptance, the rotor stands
+      off by u, which follows the force. */
+  const Vec2 at_0 = rigid_joint_force(parameters, omega, 0);
+  const Vec2 at_90 = rigid_joint_force(parameters, omega, std::numbers::pi / 2);
+  const double gravity = at_90.y - at_0.x;
+  const std::complex<double> whirl(at_0.x, at_0.y - gravity);
+  const auto response = whirl / dynamic_stiffness(parameters.stator, omega).value;
+  const double sag = (gravity - parameters.stator.mass * parameters.gravity) /
+                     parameters.stator.stiffness();
+  const auto stator = [&](double phase) -> Vec2 {
+    const auto turned = response * std::polar(1.0, phase);
+    return {turned.real(), sag + turned.imag()};
+  };
+  const auto relative = [&](double phase) {
+    return quasi_static_contact(parameters, rigid_joint_force(parameters, omega, phase));
+  };
+  constexpr double little = 1e-4;
+  const auto speed = [&](const auto& path) -> Vec2 {
+    const Vec2 a = path(-little), b = path(little);
+    return {omega * (b.x - a.x) / (2 * little), omega * (b.y - a.y) / (2 * little)};
+  };
+  const Vec2 s = stator(0), u = relative(0), v_s = speed(stator), v_u = speed(relative);
+  return {.position = {.stator = s, .rotor = {s.x + u.x, s.y + u.y}},
+          .velocity = {.stator = v_s, .rotor = {v_s.x + v_u.x, v_s.y + v_u.y}}};
 }
 
 }  // namespace rotor_stator

@@ -3,7 +3,7 @@
 
 P(s) = s is solved by Newton, (Φ - 1) Δs = s - P(s), with Φ from the variational
 equations. After Newton's step Broyden's rule corrects Φ from what each further map shows,
-so that the state alone is integrated while that reduces the closure well; a step that
+so that the state alone is integrated while that reduces the residual well; a step that
 does not is halved, and then Φ is computed anew. A sweep hands Φ on from speed to speed.
 When the motion is closed as well as asked, the step that is then known takes the state
 closer yet, for no further map.
@@ -16,22 +16,21 @@ of harmonic balance, and an independent check of it. */
 
 #include "stability/period_map.hpp"
 
-namespace rotor_stator
-{
+namespace rotor_stator {
 
 struct ShootingSettings {
   std::string method = "rk8pd";  ///< "rk4" with a fixed step, or one of GSL's
   double tolerance = 1e-12;  ///< GSL: local error per step, over each component's size
   double step = 0;           ///< rk4: longest step [s]; 0 chooses `default_step`
-  double closure = 1e-10;    ///< wanted ‖P(s) - s‖ over the sizes [-]
-  int most_maps = 60;        ///< periods integrated
-  bool final_derivative = true;  ///< integrate Φ at the motion that was found
-  OperationBudget budget = {};   ///< for the evaluations of Eq. 7, by GSL's methods
+  double periodicity_residual = 1e-10;  ///< wanted ‖P(s) - s‖ over the sizes [-]
+  int most_maps = 60;                   ///< periods integrated
+  bool final_derivative = true;         ///< integrate Φ at the motion that was found
+  OperationBudget budget = {};  ///< for the evaluations of Eq. 7, by GSL's methods
 };
 
 struct Shooting {
   bool converged;
-  double closure;      ///< reached before the last step [-]
+  double periodicity_residual;  ///< reached before the last step [-]
   int maps;            ///< periods integrated, those with the derivative included
   int derivatives;     ///< of them with the variational equations
   long evaluations;    ///< of Eq. 7, with or without its derivative
@@ -40,12 +39,16 @@ struct Shooting {
 };
 
 /** Φ - 1 in units of the sizes, as the last iteration left it. */
-using ClosureJacobian = std::optional<Matrix8>;
+using PeriodicityJacobian = std::optional<Matrix8>;
 
 /** Iterates from `state` (at phase 0), which becomes the fixed point or the best state reached. With
     `jacobian`, the iteration starts from what it holds, if anything, and leaves its own there. */
 Shooting shoot(const Parameters& parameters, double omega, State& state,
                const ShootingSettings& settings = {},
-               ClosureJacobian* jacobian = nullptr);
+               PeriodicityJacobian* jacobian = nullptr);
+
+/** A start: the state at phase 0 of the motion in which the bearing answers the force of the rigid
+    joint at every instant and the stator follows its harmonic response. */
+State quasi_static_state(const Parameters& parameters, double omega);
 
 }  // namespace rotor_stator

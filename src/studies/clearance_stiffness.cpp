@@ -3,11 +3,11 @@
 #include <algorithm>
 #include <cmath>
 
+#include "continuation/sweep.hpp"
 #include "io/errors.hpp"
-#include "motion/motion.hpp"
+#include "motion/contact.hpp"
 
-namespace rotor_stator::studies
-{
+namespace rotor_stator::studies {
 
 GridScene read_grid_scene(SceneFile& file)
 {
@@ -37,7 +37,7 @@ GridPoint summary(const Parameters& machine, const std::vector<PeriodicMotion>& 
 {
   GridPoint point{.clearance = machine.bearing.clearance,
                   .contact_stiffness = machine.bearing.contact_stiffness};
-  std::vector<motion::CurvePoint> curve;
+  std::vector<CurvePoint> curve;
   for (const PeriodicMotion& solution : sweep) {
     if (!solution.found()) {
       ++point.missed;
@@ -55,15 +55,14 @@ GridPoint summary(const Parameters& machine, const std::vector<PeriodicMotion>& 
     }
   }
   if (!curve.empty()) {
-    const motion::CurvePoint peak = motion::refined_peak(curve);
+    const CurvePoint peak = refined_peak(curve);
     point.f_peak = peak.frequency;
     point.amp_peak = peak.amplitude;
   }
   return point;
 }
 
-namespace
-{
+namespace {
 
 using Point = GridPoint;
 const std::vector<Field<Point>> fields{

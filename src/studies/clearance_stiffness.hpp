@@ -10,8 +10,7 @@ without a solution are counted. */
 #include "io/toml_file.hpp"
 #include "model/parameters.hpp"
 
-namespace rotor_stator::studies
-{
+namespace rotor_stator::studies {
 
 struct GridScene {
   Parameters base;

@@ -3,15 +3,13 @@
 #include <algorithm>
 #include <functional>
 
-#include "continuation/sweep.hpp"
 #include "io/errors.hpp"
+#include "motion/contact.hpp"
 #include "motion/other_starts.hpp"
 #include "stability/lyapunov.hpp"
 
-namespace rotor_stator::studies
-{
+namespace rotor_stator::studies {
 
-using motion::CurvePoint;
 
 SteadyState settled(Model model, double frequency, int shown_periods)
 {
@@ -25,8 +23,7 @@ motion::Motion motion_of(const Model& model, const SteadyState& steady)
   return motion::motion_of(steady, model.time_integration.stepper.intervals_per_period);
 }
 
-namespace
-{
+namespace {
 
 /** The amplitude of x_r [m] at each speed [Hz]; 0 where there is no solution. */
 using Amplitudes = std::function<std::vector<double>(const std::vector<double>&)>;
@@ -50,7 +47,7 @@ CurvePoint highest(const Model& model, std::vector<double> frequencies,
   const double centre = curve().second;
   frequencies.clear();
   for (int k = -finer; k <= finer; ++k) frequencies.push_back(centre + k * step);
-  return motion::refined_peak(curve().first);
+  return refined_peak(curve().first);
 }
 
 }  // namespace
@@ -79,8 +76,7 @@ CurvePoint integrated_peak(const Model& model, const std::vector<double>& freque
   });
 }
 
-namespace
-{
+namespace {
 
 bool loses_contact(const Model& model, double frequency)
 {
@@ -126,8 +122,7 @@ std::optional<OrbitSize> balance_orbit_size(const Model& model, double frequency
   return OrbitSize{{amplitude[2]}, {amplitude[3]}};
 }
 
-namespace
-{
+namespace {
 
 /** The largest value of the period from `begin` on, refined by a parabola where it is a
    crest. Beyond both ends of the motion stands the sample one period further in. */
@@ -140,7 +135,7 @@ double crest(const std::vector<double>& values, std::size_t begin, std::size_t p
   const double before = values[at > 0 ? at - 1 : period - 1];
   const double after = values[at + 1 < values.size() ? at + 1 : at + 1 - period];
   if (before > *largest || after > *largest) return *largest;
-  return motion::refined_peak({{-1, before}, {0, *largest}, {1, after}}).amplitude;
+  return refined_peak({{-1, before}, {0, *largest}, {1, after}}).amplitude;
 }
 
 /** Mean half peak-to-peak of one displacement. */

@@ -7,10 +7,10 @@ found by the method that is asked for and nothing else is kept. */
 
 #include <optional>
 
+#include "continuation/sweep.hpp"
 #include "motion/motion.hpp"
 
-namespace rotor_stator::studies
-{
+namespace rotor_stator::studies {
 
 /** A machine and how it is computed. */
 struct Model {
@@ -30,11 +30,11 @@ struct Measured {
 /** The largest amplitude of x_r by harmonic balance swept up over `frequencies` [Hz], equally
    spaced; then on a finer grid about it, whose vertex is that of a parabola. Throws NoSolution
    when the largest is at an end. */
-motion::CurvePoint balance_peak(const Model& model,
+CurvePoint balance_peak(const Model& model,
                                 const std::vector<double>& frequencies);
 
 /** The same by time integration from rest at each speed. */
-motion::CurvePoint integrated_peak(const Model& model,
+CurvePoint integrated_peak(const Model& model,
                                    const std::vector<double>& frequencies);
 
 /** The first and the last speed [Hz] at which the bearing is unloaded for some time. */

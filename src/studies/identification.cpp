@@ -3,10 +3,10 @@
 #include <algorithm>
 #include <cmath>
 
+#include "continuation/sweep.hpp"
 #include "io/errors.hpp"
 
-namespace rotor_stator::studies
-{
+namespace rotor_stator::studies {
 
 ClaimRule read_claim_rule(const std::string& file)
 {
@@ -20,8 +20,7 @@ ClaimRule read_claim_rule(const std::string& file)
           .within = score.number("within", Range::positive)};
 }
 
-namespace
-{
+namespace {
 
 /** The mass ratio m_r/m_s that puts the resonance of both bodies together at `resonance`
     [rad/s]. */
@@ -90,8 +89,7 @@ motion::Regime regime_or_none(const Candidate& candidate, double frequency,
   }
 }
 
-namespace
-{
+namespace {
 
 bool is_simple(const motion::Regime& r, const ClaimRule& rule)
 {
@@ -110,9 +108,9 @@ double share(const std::vector<motion::Regime>& regimes, Condition condition)
 /** Speed of the largest amplitude of x_r. */
 double peak_frequency(const std::vector<motion::Regime>& regimes)
 {
-  std::vector<motion::CurvePoint> curve;
+  std::vector<CurvePoint> curve;
   for (const motion::Regime& r : regimes) curve.push_back({r.frequency, r.amp_x_r});
-  return motion::refined_peak(curve).frequency;
+  return refined_peak(curve).frequency;
 }
 
 RangeShares shares_of(const std::vector<motion::Regime>& regimes, const ClaimRule& rule)
@@ -169,8 +167,7 @@ ClaimScore score(const std::vector<motion::Regime>& regimes, const ClaimRule& ru
   return j;
 }
 
-namespace
-{
+namespace {
 
 struct Row : ClaimScore {
   const Candidate& candidate;

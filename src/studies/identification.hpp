@@ -9,8 +9,7 @@ quantities of claims C1, C4, C5, C6 and C10, and their mean is its score. */
 #include "io/table.hpp"
 #include "motion/regime.hpp"
 
-namespace rotor_stator::studies
-{
+namespace rotor_stator::studies {
 
 /** The rule of the verdicts, from data/claims.toml. */
 struct ClaimRule {

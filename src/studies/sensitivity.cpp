@@ -7,11 +7,9 @@
 #include "io/errors.hpp"
 #include "io/number_table.hpp"
 
-namespace rotor_stator::studies
-{
+namespace rotor_stator::studies {
 
-namespace
-{
+namespace {
 
 struct Parameter {
   Unpublished which;
@@ -152,7 +150,7 @@ Model varied(Model usual, Unpublished parameter, double value)
   return usual;
 }
 
-void add_peak(SensitivityPoint& point, const motion::CurvePoint& peak)
+void add_peak(SensitivityPoint& point, const CurvePoint& peak)
 {
   point.outputs[f_peak] = Measured{peak.frequency};
   point.outputs[amp_peak] = Measured{peak.amplitude};
@@ -206,8 +204,7 @@ void fill_from_defaults(std::vector<SensitivityPoint>& points)
   }
 }
 
-namespace
-{
+namespace {
 
 const char* const parameter_meaning =
     "mass: m_s + m_r; mass_ratio: m_r/m_s at the default m_s + m_r; cage_ratio: "
@@ -325,8 +322,7 @@ std::vector<Point> read_sensitivity(const SensitivityScene& scene,
   return points;
 }
 
-namespace
-{
+namespace {
 
 /** The nearest point from `at` on in one direction, of the same parameter, that has the
    output; `at` itself when there is none. */

@@ -18,8 +18,7 @@ it; N leaves time integration alone, h leaves harmonic balance alone. */
 #include "io/toml_file.hpp"
 #include "studies/features.hpp"
 
-namespace rotor_stator::studies
-{
+namespace rotor_stator::studies {
 
 enum class Unpublished { mass, mass_ratio, cage_ratio, samples, step };
 
@@ -66,7 +65,7 @@ Model varied(Model usual, Unpublished parameter, double value);
 bool peak_by_integration(Unpublished parameter);
 
 /** The outputs of a point. */
-void add_peak(SensitivityPoint& point, const motion::CurvePoint& peak);
+void add_peak(SensitivityPoint& point, const CurvePoint& peak);
 void add_loss(SensitivityPoint& point, const std::optional<ContactLoss>& loss);
 void add_balance_orbit(SensitivityPoint& point, const std::optional<OrbitSize>& size);
 void add_integrated_orbit(SensitivityPoint& point, const SteadyState& steady,

@@ -6,8 +6,7 @@
 #include "motion/find_periodic.hpp"
 #include "stability/shooting.hpp"
 
-namespace rotor_stator::truth
-{
+namespace rotor_stator::truth {
 
 AdaptiveScene read_adaptive_scene(SceneFile& file)
 {
@@ -32,7 +31,8 @@ motion::Motion exact_motion(const Parameters& machine, const PeriodicMotion& sol
   if (!solution.found()) return {points, 0, {}};
   State state = motion::state_of(solution);
   const Shooting shooting =
-      shoot(machine, solution.omega, state, {.tolerance = tolerance, .closure = 1e-11});
+      shoot(machine, solution.omega, state,
+            {.tolerance = tolerance, .periodicity_residual = 1e-11});
   if (!shooting.converged) return {points, 0, {}};
   const TimeStepper stepper = make_stepper(
       machine, solution.omega, {.intervals_per_period = points, .tolerance = tolerance});
@@ -49,8 +49,7 @@ PeriodicMotion most_accurate(const std::vector<AdaptiveMotion>& solutions)
   return best->reached ? best->motion : PeriodicMotion{};
 }
 
-namespace
-{
+namespace {
 
 double error_of(const PeriodicMotion& solution, const motion::Motion& exact)
 {
@@ -129,8 +128,7 @@ std::vector<AdaptivePoint> judged(const AdaptiveScene& scene, std::size_t speed,
   return points;
 }
 
-namespace
-{
+namespace {
 
 double over(double a, double b)
 {

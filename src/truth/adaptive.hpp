@@ -12,8 +12,7 @@ cheapest of a ladder, solved from quasi-static contact, whose true error is not 
 #include "motion/adaptive.hpp"
 #include "motion/motion.hpp"
 
-namespace rotor_stator::truth
-{
+namespace rotor_stator::truth {
 
 struct AdaptiveScene {
   std::vector<Parameters> sets;

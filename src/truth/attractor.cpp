@@ -7,8 +7,7 @@
 
 #include "io/errors.hpp"
 
-namespace rotor_stator::truth
-{
+namespace rotor_stator::truth {
 
 AttractorSettings read_attractor_settings(StrictToml table)
 {
@@ -31,8 +30,7 @@ AttractorSettings read_attractor_settings(StrictToml table)
   return settings;
 }
 
-namespace
-{
+namespace {
 
 /** Sums and extremes of the displacements over instants. */
 struct Statistics {
@@ -57,8 +55,7 @@ struct Statistics {
 };
 
 /** A motion observed after its transient. */
-class Observation
-{
+class Observation {
 public:
   Observation(const Parameters& machine, double omega, const State& start,
               const AttractorSettings& settings)

@@ -11,8 +11,7 @@ that gives the largest Lyapunov exponent, until there is enough to judge by. */
 #include "io/toml_file.hpp"
 #include "stability/lyapunov.hpp"
 
-namespace rotor_stator::truth
-{
+namespace rotor_stator::truth {
 
 struct AttractorSettings {
   SteadySettings transient;  ///< its longest is the longest transient

@@ -7,8 +7,7 @@
 #include "motion/find_periodic.hpp"
 #include "motion/regime.hpp"
 
-namespace rotor_stator::truth
-{
+namespace rotor_stator::truth {
 
 AttractorScene read_attractor_scene(SceneFile& file)
 {
@@ -86,8 +85,7 @@ std::vector<AttractorPoint> settled(const AttractorScene& scene, const Chain& ch
   return points;
 }
 
-namespace
-{
+namespace {
 
 bool same_speed(const AttractorPoint& a, const AttractorPoint& b)
 {
@@ -135,8 +133,7 @@ std::vector<AttractorPoint> numbered(
   return kept;
 }
 
-namespace
-{
+namespace {
 
 using Point = AttractorPoint;
 using Get = Cell (*)(const Point&);

@@ -11,8 +11,7 @@ where there are several, the motion depends on how it was begun. */
 #include "io/toml_file.hpp"
 #include "truth/attractor.hpp"
 
-namespace rotor_stator::truth
-{
+namespace rotor_stator::truth {
 
 struct AttractorScene {
   std::vector<Parameters> sets;

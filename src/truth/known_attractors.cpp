@@ -6,8 +6,7 @@
 #include "io/errors.hpp"
 #include "io/number_table.hpp"
 
-namespace rotor_stator::truth
-{
+namespace rotor_stator::truth {
 
 std::vector<AttractorPoint> read_attractors(const std::string& file)
 {
@@ -100,8 +99,7 @@ std::vector<Vec2> section_of(const AttractorPoint& point, const Parameters& mach
   return section;
 }
 
-namespace
-{
+namespace {
 
 struct SectionPoint : AttractorPoint {
   Vec2 u;

@@ -8,8 +8,7 @@ state on each attractor, from which the motion is integrated again. */
 #include "motion/motion.hpp"
 #include "truth/attractors.hpp"
 
-namespace rotor_stator::truth
-{
+namespace rotor_stator::truth {
 
 /** All rows of the table of attractors, but for means and scatters. Throws BadInput. */
 std::vector<AttractorPoint> read_attractors(const std::string& file);

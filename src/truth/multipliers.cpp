@@ -5,8 +5,7 @@
 #include "io/errors.hpp"
 #include "stability/hill.hpp"
 
-namespace rotor_stator::truth
-{
+namespace rotor_stator::truth {
 
 MultiplierScene read_multiplier_scene(SceneFile& file)
 {
@@ -52,8 +51,7 @@ MultiplierPoint checked(const MultiplierScene& scene, MultiplierPoint point,
   return point;
 }
 
-namespace
-{
+namespace {
 
 using Point = MultiplierPoint;
 const std::vector<Field<Point>> fields{

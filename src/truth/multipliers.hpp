@@ -11,8 +11,7 @@ at low speeds these are too many. */
 #include "io/toml_file.hpp"
 #include "stability/floquet.hpp"
 
-namespace rotor_stator::truth
-{
+namespace rotor_stator::truth {
 
 /** One solution; -1 for what is not known. */
 struct MultiplierPoint {

@@ -8,8 +8,7 @@
 #include "io/errors.hpp"
 #include "motion/other_starts.hpp"
 
-namespace rotor_stator::truth
-{
+namespace rotor_stator::truth {
 
 StabilityScene read_stability_scene(SceneFile& file)
 {
@@ -28,8 +27,7 @@ StabilityScene read_stability_scene(SceneFile& file)
   return scene;
 }
 
-namespace
-{
+namespace {
 
 StabilityPoint shown(const Parameters& machine, FourierTransform& transform,
                      const StablePoint& p)
@@ -110,8 +108,7 @@ std::vector<StabilityPoint> follow_stability(const StabilityScene& scene,
   return points;
 }
 
-namespace
-{
+namespace {
 
 /** In the order of BranchEnd. */
 const char* const ends[] = {

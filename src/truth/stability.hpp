@@ -17,8 +17,7 @@ left out where the curve does not need them. */
 #include "model/parameters.hpp"
 #include "stability/branch_stability.hpp"
 
-namespace rotor_stator::truth
-{
+namespace rotor_stator::truth {
 
 /** A response curve to follow. */
 struct StabilityCurve {

@@ -6,11 +6,9 @@
 #include "io/errors.hpp"
 #include "motion/adaptive.hpp"
 
-namespace rotor_stator::truth
-{
+namespace rotor_stator::truth {
 
-namespace
-{
+namespace {
 
 double squared(Vec2 v)
 {
@@ -127,8 +125,7 @@ void Truth::examine(const PeriodicMotion& solution, ValidityPoint& point) const
   point.stable = f.stable_number();
 }
 
-namespace
-{
+namespace {
 
 using Point = ValidityPoint;
 const std::vector<Field<Point>> fields{

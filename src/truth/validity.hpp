@@ -10,8 +10,7 @@ finds the solutions with fixed m; the attractors are read from their table. */
 #include "stability/floquet.hpp"
 #include "truth/known_attractors.hpp"
 
-namespace rotor_stator::truth
-{
+namespace rotor_stator::truth {
 
 /** How far a periodic motion, repeated, is from a reference: rms of the difference over the rms of the
     reference [-]. */
@@ -56,8 +55,7 @@ struct ValidityPoint {
 };
 
 /** What one machine does at one speed, and how near solutions come to it. */
-class Truth
-{
+class Truth {
 public:
   Truth(const ValidityScene& scene, int set, double frequency);
 

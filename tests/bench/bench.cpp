@@ -19,8 +19,7 @@ the same matrix. Everything on data set 1, at its solution at 30 Hz, with the de
 using namespace rotor_stator;
 using namespace rotor_stator::motion;
 
-namespace
-{
+namespace {
 
 const Parameters& parameters()
 {

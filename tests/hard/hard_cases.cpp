@@ -14,8 +14,7 @@ using namespace rotor_stator::hard;
 using namespace rotor_stator::motion;
 using namespace rotor_stator::tests;
 
-namespace
-{
+namespace {
 
 #ifdef __SANITIZE_ADDRESS__
 constexpr bool sanitized = true;

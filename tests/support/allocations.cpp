@@ -8,8 +8,7 @@
 #define COUNTS_ALLOCATIONS 0
 #endif
 
-namespace
-{
+namespace {
 
 thread_local long count = 0;
 
@@ -52,8 +51,7 @@ void* aligned_alloc(std::size_t alignment, std::size_t size)
 }
 #endif
 
-namespace rotor_stator::tests
-{
+namespace rotor_stator::tests {
 
 bool counts_allocations()
 {

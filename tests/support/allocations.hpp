@@ -5,8 +5,7 @@ The counter replaces malloc and its kin in a test program: operator new, Eigen a
 there. Under the address sanitizer, which has its own, nothing is counted. */
 #pragma once
 
-namespace rotor_stator::tests
-{
+namespace rotor_stator::tests {
 
 /** Whether allocations are counted at all. */
 bool counts_allocations();

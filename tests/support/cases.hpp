@@ -2,15 +2,14 @@
 # Cases that others defined
 
 Small oscillators of public harmonic-balance tools (NLvib examples 01 to 03), set up
-through the seam of balance/problem.hpp. M q̈ + D q̇ + K q + f(q) = F cos Ωt. */
+through the seam of balance/balance.hpp. M q̈ + D q̇ + K q + f(q) = F cos Ωt. */
 #pragma once
 
 #include "balance/balance.hpp"
 #include "model/parameters.hpp"
 #include "stability/monodromy.hpp"
 
-namespace rotor_stator::tests
-{
+namespace rotor_stator::tests {
 
 /** A force on each mass from the masses' displacements, with its derivative (row i,
     column j). */

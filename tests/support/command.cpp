@@ -8,8 +8,7 @@
 #include <sstream>
 #include <stdexcept>
 
-namespace rotor_stator::tests
-{
+namespace rotor_stator::tests {
 
 Outcome run_program(const std::string& arguments)
 {

@@ -5,8 +5,7 @@
 #include <filesystem>
 #include <string>
 
-namespace rotor_stator::tests
-{
+namespace rotor_stator::tests {
 
 struct Outcome {
   int status;
@@ -18,8 +17,7 @@ struct Outcome {
 Outcome run_program(const std::string& arguments);
 
 /** A folder of its own for each use, removed at the end. */
-class Scratch
-{
+class Scratch {
 public:
   Scratch();
   ~Scratch();

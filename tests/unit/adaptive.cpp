@@ -13,8 +13,7 @@ using namespace rotor_stator::motion;
 using namespace rotor_stator::truth;
 using namespace rotor_stator::tests;
 
-namespace
-{
+namespace {
 
 constexpr double least_effectivity = 0.3, most_effectivity = 10;
 

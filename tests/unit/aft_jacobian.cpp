@@ -8,8 +8,7 @@
 using namespace rotor_stator;
 using namespace rotor_stator::tests;
 
-namespace
-{
+namespace {
 
 /** Largest relative error of a column of ∂R/∂X, and of ∂R/∂ω. */
 struct JacobianError {

@@ -9,8 +9,7 @@ using namespace rotor_stator;
 using namespace rotor_stator::motion;
 using namespace rotor_stator::tests;
 
-namespace
-{
+namespace {
 
 SteadyState accurate_steady_state(const Parameters& parameters, double frequency)
 {

@@ -19,8 +19,7 @@ using namespace rotor_stator::truth;
 using namespace rotor_stator::motion;
 using namespace rotor_stator::tests;
 
-namespace
-{
+namespace {
 
 AttractorSettings settings()
 {
@@ -56,8 +55,7 @@ TEST_CASE("On a T-periodic motion the exponent is that of the largest multiplier
         Approx(std::log(modulus) * frequency).margin(0.1));
 }
 
-namespace
-{
+namespace {
 
 struct KnownMotion {
   const char* set;

@@ -15,8 +15,7 @@ using namespace rotor_stator;
 using namespace rotor_stator::motion;
 using namespace rotor_stator::tests;
 
-namespace
-{
+namespace {
 
 /** f(x) = c(ω) for one constant unknown: solution sets that are known curves. */
 Problem curve(double (*f)(double), double (*slope)(double),

@@ -14,8 +14,7 @@
 using namespace rotor_stator;
 using namespace rotor_stator::tests;
 
-namespace
-{
+namespace {
 
 ArcLengthSettings steps(double most_step)
 {

@@ -18,8 +18,7 @@ using namespace rotor_stator;
 using namespace rotor_stator::motion;
 using namespace rotor_stator::tests;
 
-namespace
-{
+namespace {
 
 struct Whirl {
   Parameters parameters;

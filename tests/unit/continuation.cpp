@@ -12,8 +12,7 @@
 using namespace rotor_stator;
 using namespace rotor_stator::tests;
 
-namespace
-{
+namespace {
 
 std::vector<double> speeds(double from, double to, double step)
 {

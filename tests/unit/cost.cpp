@@ -22,8 +22,7 @@ using namespace rotor_stator::costs;
 using namespace rotor_stator::motion;
 using namespace rotor_stator::tests;
 
-namespace
-{
+namespace {
 
 TruthSettings truth_settings()
 {
@@ -187,8 +186,7 @@ TEST_CASE("The estimate of what is left out raises the harmonics until the error
   CHECK(before < 1e-5);
 }
 
-namespace
-{
+namespace {
 
 /** The largest error of a setting over the speeds, apart from the study: the method is run anew and its
     motions are compared with harmonic balance of 256 harmonics. */

@@ -17,8 +17,7 @@ using namespace rotor_stator::deviations;
 using namespace rotor_stator::motion;
 using namespace rotor_stator::tests;
 
-namespace
-{
+namespace {
 
 DeviationScene scene()
 {

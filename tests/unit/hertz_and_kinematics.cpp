@@ -8,8 +8,7 @@
 
 using namespace rotor_stator;
 
-namespace
-{
+namespace {
 
 Bearing bearing_with(int balls, double clearance)
 {

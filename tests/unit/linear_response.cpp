@@ -10,8 +10,7 @@ using namespace rotor_stator;
 using namespace rotor_stator::motion;
 using namespace rotor_stator::tests;
 
-namespace
-{
+namespace {
 
 /** Largest relative error of the four displacements against the closed form without
     contact. */

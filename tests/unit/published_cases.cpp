@@ -10,8 +10,7 @@
 using namespace rotor_stator;
 using namespace rotor_stator::tests;
 
-namespace
-{
+namespace {
 
 /** The highest point of a curve given at three points, by the parabola through them. */
 struct Peak {

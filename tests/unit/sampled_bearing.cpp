@@ -7,8 +7,7 @@
 
 using namespace rotor_stator;
 
-namespace
-{
+namespace {
 
 struct Reaction {
   Eigen::Vector2d force = Eigen::Vector2d::Zero();

@@ -12,8 +12,7 @@ using namespace rotor_stator::costs;
 using namespace rotor_stator::motion;
 using namespace rotor_stator::tests;
 
-namespace
-{
+namespace {
 
 /** Coefficients of harmonics ≤ 10 of a function of the phase, from N samples. */
 template <class Function>

@@ -9,8 +9,7 @@
 
 using namespace rotor_stator;
 
-namespace
-{
+namespace {
 
 /** A section of the points f(n) in one displacement, n = 0…99. */
 std::vector<Displacements> section_of(const std::function<double(int)>& f)

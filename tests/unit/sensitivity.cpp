@@ -13,8 +13,7 @@ using namespace rotor_stator::studies;
 using namespace rotor_stator::motion;
 using namespace rotor_stator::tests;
 
-namespace
-{
+namespace {
 
 SensitivityScene scene()
 {

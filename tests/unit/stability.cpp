@@ -16,8 +16,7 @@ using namespace rotor_stator;
 using namespace rotor_stator::motion;
 using namespace rotor_stator::tests;
 
-namespace
-{
+namespace {
 
 PeriodicMotion solution_at(const Parameters& parameters, double frequency, int harmonics)
 {
@@ -136,8 +135,8 @@ TEST_CASE("Shooting and harmonic balance find the same motion and the same multi
   for (double frequency : {30.0, 45.0}) {
     const auto solution = solution_at(parameters, frequency, 256);
     State state = state_of(solution_at(parameters, frequency, 6));
-    const Shooting shooting =
-        shoot(parameters, solution.omega, state, {.tolerance = 1e-13, .closure = 1e-11});
+    const Shooting shooting = shoot(parameters, solution.omega, state,
+                                    {.tolerance = 1e-13, .periodicity_residual = 1e-11});
     INFO(frequency << " Hz: " << shooting.reason);
     REQUIRE(shooting.converged);
     const Vector8 error = (vector_of(state) - vector_of(state_of(solution)))

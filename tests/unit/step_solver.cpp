@@ -13,8 +13,7 @@
 using namespace rotor_stator;
 using namespace rotor_stator::tests;
 
-namespace
-{
+namespace {
 
 /** A start for m harmonics: the solution with 6. */
 Eigen::VectorXd start_with(int harmonics, double frequency)
@@ -32,16 +31,12 @@ Balance balance_with(int harmonics)
 }
 
 /** Newton with a dense matrix, factored at every point. */
-NewtonReport solve_densely(Balance& balance, double omega, Eigen::VectorXd& x)
+Eigen::VectorXd solve_densely(Balance& balance, double omega, Eigen::VectorXd x)
 {
-  return newton({.residual_scale = balance.problem().residual_scale,
-                 .unknown_scale = balance.problem().unknown_scale,
-                 .residual = [&](const Eigen::VectorXd& y,
-                                 Eigen::VectorXd& r) { r = balance.residual(y, omega); },
-                 .jacobian = [&](const Eigen::VectorXd& y) -> const Eigen::MatrixXd& {
-                   return balance.jacobian(y, omega);
-                 }},
-                x, {});
+  for (int k = 0; k < 20; ++k)
+    x -= balance.jacobian(x, omega).partialPivLu().solve(balance.residual(x, omega));
+  REQUIRE(balance.residual(x, omega).norm() < 1e-10 * balance.problem().residual_scale);
+  return x;
 }
 
 Eigen::VectorXd waves(Eigen::Index size)
@@ -108,11 +103,11 @@ TEST_CASE("With many harmonics GMRES finds the solution of the dense Jacobian")
 {
   for (const auto& [harmonics, frequency] : {std::pair(64, 55.0), std::pair(256, 30.0)}) {
     INFO("m = " << harmonics);
-    Eigen::VectorXd dense = start_with(harmonics, frequency);
+    const Eigen::VectorXd start = start_with(harmonics, frequency);
     Balance balance = balance_with(harmonics), other = balance_with(harmonics);
-    const auto motion = solve(balance, hertz(frequency), dense);
+    const auto motion = solve(balance, hertz(frequency), start);
     REQUIRE(motion.found());
-    REQUIRE(solve_densely(other, hertz(frequency), dense).converged());
+    const Eigen::VectorXd dense = solve_densely(other, hertz(frequency), start);
     CHECK(balance.steps().linear_iterations() > 0);
     CHECK((motion.x - dense).norm() < 1e-9 * dense.norm());
   }

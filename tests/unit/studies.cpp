@@ -8,6 +8,7 @@
 #include "continuation/sweep.hpp"
 #include "io/journal.hpp"
 #include "io/parallel.hpp"
+#include "motion/contact.hpp"
 #include "studies/clearance_stiffness.hpp"
 #include "studies/identification.hpp"
 #include "support/cases.hpp"
@@ -18,8 +19,7 @@ using namespace rotor_stator::studies;
 using namespace rotor_stator::motion;
 using namespace rotor_stator::tests;
 
-namespace
-{
+namespace {
 
 const ClaimRule rule{.low_to = 10,
                      .middle_to = 19,

@@ -6,13 +6,13 @@
 #include "integration/time_stepper.hpp"
 #include "io/errors.hpp"
 #include "stability/period_map.hpp"
+#include "stability/shooting.hpp"
 #include "support/cases.hpp"
 
 using namespace rotor_stator;
 using namespace rotor_stator::tests;
 
-namespace
-{
+namespace {
 
 /** x_r after one second at 7 Hz, from the static start. */
 double after_one_second(const Parameters& parameters, const StepperSettings& settings)

@@ -1,0 +1,42 @@
+#include "motion/contact.hpp"
+
+#include <algorithm>
+
+namespace rotor_stator::motion {
+
+double contact_share(const Parameters& parameters, const Motion& motion)
+{
+  const auto forces = bearing_forces(parameters, motion);
+  const auto loaded = std::count_if(forces.begin(), forces.end(),
+                                    [](Vec2 f) { return f.x != 0 || f.y != 0; });
+  return static_cast<double>(loaded) / static_cast<double>(forces.size());
+}
+
+ContactEvolution contact_evolution(const Parameters& parameters, const Motion& motion)
+{
+  const BallBearing bearing(parameters.bearing);
+  ContactEvolution evolution;
+  for (std::size_t k = 0; k < 2 * static_cast<std::size_t>(motion.points_per_period);
+       ++k) {
+    const Direction cage =
+        Direction::of(parameters.bearing.cage_speed_ratio * motion.phase(k));
+    std::vector<double> q;
+    bearing.ball_forces(cage, motion.positions[k % motion.size()].relative(), q);
+    evolution.t_over_period.push_back(motion.t_over_period(k));
+    evolution.ball_force.push_back(std::move(q));
+  }
+  return evolution;
+}
+
+std::vector<int> passages_per_ball(const std::vector<std::vector<double>>& ball_force)
+{
+  std::vector<int> passages(ball_force.front().size(), 0);
+  for (std::size_t k = 0; k < ball_force.size(); ++k) {
+    const auto& before = ball_force[(k + ball_force.size() - 1) % ball_force.size()];
+    for (std::size_t j = 0; j < passages.size(); ++j)
+      if (before[j] == 0 && ball_force[k][j] > 0) ++passages[j];
+  }
+  return passages;
+}
+
+}  // namespace rotor_stator::motion

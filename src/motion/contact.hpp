@@ -1,0 +1,28 @@
+/**
+# The contact of the balls along a motion
+
+The force Q_j of every ball over two periods, 2T, because with ω_cage = ω/2 each ball is
+passed by the rotating contact once per 2T (D-11, D-20). */
+#pragma once
+
+#include "motion/motion.hpp"
+
+namespace rotor_stator::motion {
+
+/** Share of the instants with at least one loaded ball [-]. */
+double contact_share(const Parameters& parameters, const Motion& motion);
+
+/** Ball forces at P instants per period over two periods. */
+struct ContactEvolution {
+  std::vector<double> t_over_period;            ///< 0 ≤ t/T < 2
+  std::vector<std::vector<double>> ball_force;  ///< [instant][ball] Q_j [N]
+};
+
+/** Ball j stands where Eq. 3 puts it, with t counted as the motion counts it. A motion of
+   one period is repeated. */
+ContactEvolution contact_evolution(const Parameters& parameters, const Motion& motion);
+
+/** Times that each ball is loaded anew in two periods, counted around the end. */
+std::vector<int> passages_per_ball(const std::vector<std::vector<double>>& ball_force);
+
+}  // namespace rotor_stator::motion
