@@ -27,12 +27,12 @@ int main(int argc, char** argv)
   return run_figure(argc, argv, [](SceneFile& file) {
     const CostGrowthScene scene = read_cost_growth(file);
     std::vector<Growth> rows;
-    for (int m : Watched("harmonics", scene.harmonics))
+    for (int m : watched("harmonics", scene.harmonics))
       rows.push_back(cost_of(scene, "harmonics", m, one_solution(scene), m));
-    for (int n : Watched("balls", scene.balls))
+    for (int n : watched("balls", scene.balls))
       rows.push_back(cost_of(scene, "balls", n, sweep_with(scene, scene.sweep_speeds, n),
                              scene.sweep_harmonics));
-    for (int count : Watched("speeds", scene.speeds))
+    for (int count : watched("speeds", scene.speeds))
       rows.push_back(cost_of(scene, "speeds", count,
                              sweep_with(scene, count, scene.parameters.bearing.balls),
                              scene.sweep_harmonics));

@@ -26,7 +26,7 @@ int main(int argc, char** argv)
   return run_figure(argc, argv, [&](SceneFile& file) {
     const DeviationScene scene = read_deviation_scene(file);
     Table table = evidence_table(scene);
-    for (const auto entry : Watched("deviations", entries))
+    for (const auto entry : watched("deviations", entries))
       add_evidence(table, entry(scene));
     file.toml().refuse_unknown_keys();
     return table;

@@ -42,7 +42,7 @@ int main(int argc, char** argv)
                          sweep(set.machine, angular(upwards), set.harmonics));
       figures::add_curve(table, set, figures::Curve::speed_down,
                          sweep(set.machine, angular(downwards), set.harmonics));
-      for (double frequency : Watched("time integration", scene.time_speeds)) {
+      for (double frequency : watched("time integration", scene.time_speeds)) {
         const SteadyState settled =
             steady_state(set.machine, angular(frequency), static_start(set.machine),
                          scene.time_integration);

@@ -34,7 +34,7 @@ int main(int argc, char** argv)
   return run_figure(argc, argv, [](SceneFile& file) {
     const figures::PanelScene scene = figures::read_panels(file);
     Table table = figures::contact_table(scene);
-    for (double frequency : Watched(scene.title, scene.frequencies)) {
+    for (double frequency : watched(scene.title, scene.frequencies)) {
       const double omega = angular(frequency);
       const PeriodicMotion balance =
           motion::find_periodic(scene.machine, omega, scene.harmonics, scene.samples);

@@ -19,7 +19,7 @@ int main(int argc, char** argv)
     Table table = figures::regime_table(scene);
     for (int set = 0; const Parameters& machine : scene.machines) {
       ++set;
-      for (double frequency : Watched("regimes", scene.frequencies))
+      for (double frequency : watched("regimes", scene.frequencies))
         figures::add_regime(table, set,
                             motion::regime_at(machine, frequency, scene.settings));
     }

@@ -27,7 +27,7 @@ int main(int argc, char** argv)
   return run_figure(argc, argv, [](SceneFile& file) {
     const SamplingScene scene = read_sampling(file);
     std::vector<SamplingPoint> points;
-    for (const SamplingCase& at : Watched("sampling", scene.cases)) {
+    for (const SamplingCase& at : watched("sampling", scene.cases)) {
       const SampledSolution reference = reference_solution(at, scene.reference_harmonics);
       for (int m : scene.harmonics) {
         const SampledSolution fine = finely_sampled(at, m, scene.fine_over_m, reference);

@@ -30,7 +30,7 @@ int main(int argc, char** argv)
         true_motions(scene.parameters, scene.frequencies, scene.truth);
     std::vector<EqualErrorRow> rows;
     for (const References& range : periodic_ranges(scene, references))
-      for (const Candidates& method : Watched("methods", scene.candidates)) {
+      for (const Candidates& method : watched("methods", scene.candidates)) {
         const std::vector<Measurement> tried = try_settings(scene, range, method);
         for (double target : scene.targets)
           rows.push_back(cheapest(scene, range, tried, target, rows));

@@ -31,7 +31,7 @@ int main(int argc, char** argv)
     std::vector<WorkPoint> points;
     for (std::size_t number = 1; number <= scene.frequencies.size(); ++number) {
       cases.push_back(work_case(scene, number));
-      for (const Candidates& method : Watched("methods", scene.candidates))
+      for (const Candidates& method : watched("methods", scene.candidates))
         for (bool continued : {false, true})
           for (const SettingGroup& group : method.groups)
             for (const Setting& setting : group)

@@ -97,14 +97,10 @@ template <class Work>
 void with_dofs(int dofs, Work work)
 {
   switch (dofs) {
-    case 1:
-      return work(std::integral_constant<int, 1>{});
-    case 2:
-      return work(std::integral_constant<int, 2>{});
-    case 3:
-      return work(std::integral_constant<int, 3>{});
-    default:
-      return work(std::integral_constant<int, 4>{});
+    case 1: return work(std::integral_constant<int, 1>{});
+    case 2: return work(std::integral_constant<int, 2>{});
+    case 3: return work(std::integral_constant<int, 3>{});
+    default: return work(std::integral_constant<int, 4>{});
   }
 }
 

@@ -22,14 +22,10 @@ std::string NewtonReport::reason() const
                    delta_2)
           : format(" after %d iterations (residual or step not finite)", iterations);
   switch (end) {
-    case NewtonEnd::converged:
-      return "converged" + numbers;
-    case NewtonEnd::too_many_iterations:
-      return "iterations exhausted" + numbers;
-    case NewtonEnd::no_decrease:
-      return "no step decreases the residual" + numbers;
-    case NewtonEnd::singular:
-      return "singular Jacobian" + numbers;
+    case NewtonEnd::converged: return "converged" + numbers;
+    case NewtonEnd::too_many_iterations: return "iterations exhausted" + numbers;
+    case NewtonEnd::no_decrease: return "no step decreases the residual" + numbers;
+    case NewtonEnd::singular: return "singular Jacobian" + numbers;
   }
   return {};
 }

@@ -56,7 +56,7 @@ std::vector<Measurement> try_settings(const EqualErrorScene& scene,
   constexpr double clearly = 1.3;
   std::vector<Measurement> tried;
   double used = 0, least = std::numeric_limits<double>::infinity();
-  for (const SettingGroup& group : Watched(candidates.method, candidates.groups))
+  for (const SettingGroup& group : watched(candidates.method, candidates.groups))
     for (const Setting& setting : group) {
       if (used > scene.search) return tried;
       tried.push_back(measure(range, setting, 1));

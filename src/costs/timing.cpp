@@ -67,7 +67,7 @@ std::vector<Setting> cheapest_rk4(const TimingScene& scene, const References& re
                                   const std::vector<Measurement>& balances)
 {
   std::vector<Setting> chosen(balances.size());
-  for (const Setting& setting : Watched("RK4 settings", scene.rk4)) {
+  for (const Setting& setting : watched("RK4 settings", scene.rk4)) {
     double loosest = 0;
     for (std::size_t k = 0; k < balances.size(); ++k)
       if (chosen[k].method.empty())

@@ -5,6 +5,8 @@ A line on stderr that is rewritten in place, and only when a person is watching.
 #pragma once
 
 #include <functional>
+#include <memory>
+#include <ranges>
 #include <string>
 #include <vector>
 
@@ -33,34 +35,16 @@ private:
 };
 
 /** The items of a list one after the other, with their progress:
-    `for (double f : Watched("orbits", frequencies))`. */
+    `for (double f : watched("orbits", frequencies))`. */
 template <class Item>
-class Watched {
-public:
-  Watched(std::string what, const std::vector<Item>& list)
-      : list_(list), progress_(std::move(what), list.size())
-  {
-  }
-
-  struct Iterator {
-    const Item* at;
-    Progress* progress;
-
-    const Item& operator*() const { return *at; }
-    bool operator!=(const Iterator& other) const { return at != other.at; }
-    void operator++()
-    {
-      ++at;
-      progress->step();
-    }
-  };
-  Iterator begin() { return {list_.data(), &progress_}; }
-  Iterator end() { return {list_.data() + list_.size(), &progress_}; }
-
-private:
-  const std::vector<Item>& list_;
-  Progress progress_;
-};
+auto watched(std::string what, const std::vector<Item>& list)
+{
+  const auto progress = std::make_shared<Progress>(std::move(what), list.size());
+  return std::views::transform(list, [progress](const Item& item) -> const Item& {
+    progress->step();
+    return item;
+  });
+}
 
 /**
 ## The frame of every figure's program

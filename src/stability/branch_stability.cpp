@@ -61,18 +61,9 @@ bool is_complex_pair(const Multipliers& multipliers)
 
 const char* name_of(Bifurcation bifurcation)
 {
-  switch (bifurcation) {
-    case Bifurcation::fold:
-      return "fold";
-    case Bifurcation::plus_one:
-      return "plus-one";
-    case Bifurcation::period_doubling:
-      return "period-doubling";
-    case Bifurcation::neimark_sacker:
-      return "neimark-sacker";
-    default:
-      return "-";
-  }
+  constexpr const char* names[] = {"-", "fold", "plus-one", "period-doubling",
+                                   "neimark-sacker"};
+  return names[static_cast<int>(bifurcation)];
 }
 
 int unstable_count(const Multipliers& multipliers)

@@ -189,8 +189,7 @@ Monodromy monodromy(const Vibration& vibration, const PeriodicStiffness& stiffne
       return Disturbances<2>(vibration, stiffness, period, settings).over_the_period();
     case 4:
       return Disturbances<4>(vibration, stiffness, period, settings).over_the_period();
-    default:
-      throw BadInput("a monodromy matrix is computed for 1, 2 or 4 displacements");
+    default: throw BadInput("a monodromy matrix is computed for 1, 2 or 4 displacements");
   }
 }
 

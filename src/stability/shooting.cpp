@@ -65,14 +65,7 @@ public:
         maps_(settings.method == "rk4" ? rk4_maps(parameters, omega, settings)
                                        : gsl_maps(parameters, omega, settings)),
         sizes_(state_scales(parameters)),
-        y_(vector_of(start).cwiseQuotient(sizes_)),
-        report_{.converged = false,
-                .periodicity_residual = 0,
-                .maps = 0,
-                .derivatives = 0,
-                .evaluations = 0,
-                .derivative = Matrix8::Identity(),
-                .reason = {}}
+        y_(vector_of(start).cwiseQuotient(sizes_))
   {
   }
 

@@ -29,13 +29,13 @@ struct ShootingSettings {
 };
 
 struct Shooting {
-  bool converged;
-  double periodicity_residual;  ///< reached before the last step [-]
-  int maps;            ///< periods integrated, those with the derivative included
-  int derivatives;     ///< of them with the variational equations
-  long evaluations;    ///< of Eq. 7, with or without its derivative
-  Matrix8 derivative;  ///< Φ at the motion found; otherwise the last one integrated
-  std::string reason;  ///< why it stopped
+  bool converged = false;
+  double periodicity_residual = 0;  ///< reached before the last step [-]
+  int maps = 0;                     ///< periods integrated, those with the derivative too
+  int derivatives = 0;              ///< of them with the variational equations
+  long evaluations = 0;             ///< of Eq. 7, with or without its derivative
+  Matrix8 derivative = Matrix8::Identity();  ///< Φ at the motion found, or the last one
+  std::string reason = {};                   ///< why it stopped
 };
 
 /** Φ - 1 in units of the sizes, as the last iteration left it. */

@@ -10,7 +10,6 @@
 
 namespace rotor_stator::studies {
 
-
 SteadyState settled(Model model, double frequency, int shown_periods)
 {
   if (shown_periods > 0) model.time_integration.shown_periods = shown_periods;

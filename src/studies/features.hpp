@@ -30,12 +30,10 @@ struct Measured {
 /** The largest amplitude of x_r by harmonic balance swept up over `frequencies` [Hz], equally
    spaced; then on a finer grid about it, whose vertex is that of a parabola. Throws NoSolution
    when the largest is at an end. */
-CurvePoint balance_peak(const Model& model,
-                                const std::vector<double>& frequencies);
+CurvePoint balance_peak(const Model& model, const std::vector<double>& frequencies);
 
 /** The same by time integration from rest at each speed. */
-CurvePoint integrated_peak(const Model& model,
-                                   const std::vector<double>& frequencies);
+CurvePoint integrated_peak(const Model& model, const std::vector<double>& frequencies);
 
 /** The first and the last speed [Hz] at which the bearing is unloaded for some time. */
 struct ContactLoss {

@@ -47,16 +47,11 @@ void set_masses(Parameters& machine, double total, double ratio)
 double value_of(const Model& model, Unpublished parameter)
 {
   switch (parameter) {
-    case Unpublished::mass:
-      return total_mass(model.machine);
-    case Unpublished::mass_ratio:
-      return mass_ratio(model.machine);
-    case Unpublished::cage_ratio:
-      return model.machine.bearing.cage_speed_ratio;
-    case Unpublished::samples:
-      return model.samples;
-    default:
-      return model.time_integration.stepper.step;
+    case Unpublished::mass: return total_mass(model.machine);
+    case Unpublished::mass_ratio: return mass_ratio(model.machine);
+    case Unpublished::cage_ratio: return model.machine.bearing.cage_speed_ratio;
+    case Unpublished::samples: return model.samples;
+    default: return model.time_integration.stepper.step;
   }
 }
 
@@ -131,21 +126,11 @@ Model varied(Model usual, Unpublished parameter, double value)
 {
   Parameters& machine = usual.machine;
   switch (parameter) {
-    case Unpublished::mass:
-      set_masses(machine, value, mass_ratio(machine));
-      break;
-    case Unpublished::mass_ratio:
-      set_masses(machine, total_mass(machine), value);
-      break;
-    case Unpublished::cage_ratio:
-      machine.bearing.cage_speed_ratio = value;
-      break;
-    case Unpublished::samples:
-      usual.samples = static_cast<int>(value);
-      break;
-    case Unpublished::step:
-      usual.time_integration.stepper.step = value;
-      break;
+    case Unpublished::mass: set_masses(machine, value, mass_ratio(machine)); break;
+    case Unpublished::mass_ratio: set_masses(machine, total_mass(machine), value); break;
+    case Unpublished::cage_ratio: machine.bearing.cage_speed_ratio = value; break;
+    case Unpublished::samples: usual.samples = static_cast<int>(value); break;
+    case Unpublished::step: usual.time_integration.stepper.step = value; break;
   }
   return usual;
 }
