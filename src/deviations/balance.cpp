@@ -1,4 +1,4 @@
-#include "deviations/balance.hpp"
+#include "deviations/evidence.hpp"
 
 #include <cmath>
 
@@ -12,12 +12,6 @@ namespace rotor_stator::deviations {
 
 namespace {
 
-/** The coefficients of all four displacements in the order of PlainBalance. */
-Eigen::VectorXd coefficients(const PeriodicMotion& solution)
-{
-  return solution.bodies.reshaped();
-}
-
 /** The solution of the plain equations, from the library's. */
 motion::Motion plain_solution(const DeviationScene& scene, double frequency,
                               FirstEntry first)
@@ -25,7 +19,7 @@ motion::Motion plain_solution(const DeviationScene& scene, double frequency,
   const int m = scene.harmonics;
   PeriodicMotion solution = scene.solution(frequency);
   PlainBalance balance(scene.machine, angular(frequency), m, default_samples(m), first);
-  Eigen::VectorXd x = coefficients(solution);
+  Eigen::VectorXd x = solution.bodies.reshaped();  // in the order of PlainBalance
   for (int k = 0; balance.residual(x).norm() > 1e-10 * balance.load().norm(); ++k) {
     if (k == 40)
       throw NoSolution(format("plain balance at %g Hz: no convergence", frequency));
@@ -41,8 +35,8 @@ EvidenceList printed_newton_step(const DeviationScene& scene)
 {
   StrictToml table = scene.table("newton");
   const double start_speed = table.number("start_speed_hz", Range::positive);
-  const Eigen::VectorXd truth = coefficients(scene.solution(scene.speed));
-  const Eigen::VectorXd start = coefficients(scene.solution(start_speed));
+  const Eigen::VectorXd truth = scene.solution(scene.speed).bodies.reshaped();
+  const Eigen::VectorXd start = scene.solution(start_speed).bodies.reshaped();
   PlainBalance balance(scene.machine, angular(scene.speed), scene.harmonics,
                        default_samples(scene.harmonics));
   const auto residual = [&](const Eigen::VectorXd& x) {
@@ -99,8 +93,8 @@ EvidenceList criteria_without_scale(const DeviationScene& scene)
 {
   const double start_speed =
       scene.table("newton").number("start_speed_hz", Range::positive);
-  const Eigen::VectorXd truth = coefficients(scene.solution(scene.speed));
-  Eigen::VectorXd x = coefficients(scene.solution(start_speed));
+  const Eigen::VectorXd truth = scene.solution(scene.speed).bodies.reshaped();
+  Eigen::VectorXd x = scene.solution(start_speed).bodies.reshaped();
   PlainBalance balance(scene.machine, angular(scene.speed), scene.harmonics,
                        default_samples(scene.harmonics));
   const Eigen::VectorXd step = balance.corrected_step(x);

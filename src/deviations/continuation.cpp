@@ -1,4 +1,4 @@
-#include "deviations/continuation.hpp"
+#include "deviations/evidence.hpp"
 
 #include <cmath>
 

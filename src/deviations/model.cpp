@@ -1,4 +1,4 @@
-#include "deviations/model.hpp"
+#include "deviations/evidence.hpp"
 
 #include <cmath>
 #include <numbers>

@@ -1,4 +1,4 @@
-#include "deviations/motions.hpp"
+#include "deviations/evidence.hpp"
 
 #include <algorithm>
 #include <cmath>

@@ -10,28 +10,19 @@
 
 namespace rotor_stator::deviations {
 
-namespace {
+static constexpr int dofs = 4;  ///< x_s, y_s, x_r, y_r
 
-constexpr int dofs = 4;  ///< x_s, y_s, x_r, y_r
-
-/** The argument of row i ≥ 2 and column j, both counted from 1 as in Eq. 13. For the
-   parenthesised one 2m+1 is the number of samples. */
-double argument_of(int i, int j, int harmonics, int samples, Argument argument)
-{
-  const double turns = (j - 1) * (i - i % 2) * std::numbers::pi;
-  if (argument == Argument::printed) return turns / (2 * harmonics) + 1;
-  return turns / samples;
-}
-
-}  // namespace
-
+/** Row i and column j are counted from 1 as in Eq. 13. For the parenthesised argument
+    2m+1 is the number of samples. */
 Eigen::MatrixXd gamma_matrix(int harmonics, int samples, Argument argument)
 {
   Eigen::MatrixXd gamma(2 * harmonics + 1, samples);
   for (int j = 1; j <= samples; ++j) {
     gamma(0, j - 1) = 1.0 / samples;
     for (int i = 2; i <= 2 * harmonics + 1; ++i) {
-      const double angle = argument_of(i, j, harmonics, samples, argument);
+      const double turns = (j - 1) * (i - i % 2) * std::numbers::pi;
+      const double angle =
+          argument == Argument::printed ? turns / (2 * harmonics) + 1 : turns / samples;
       gamma(i - 1, j - 1) =
           2.0 / samples * (i % 2 == 0 ? std::cos(angle) : std::sin(angle));
     }
@@ -76,13 +67,6 @@ PlainBalance::PlainBalance(const Parameters& parameters, double omega, int harmo
   for (int k = 0; k < samples; ++k)
     cage_.push_back(Direction::of(parameters.bearing.cage_speed_ratio * 2 *
                                   std::numbers::pi * k / samples));
-  fill_linear(parameters, omega, first);
-  fill_load(parameters, omega);
-}
-
-void PlainBalance::fill_linear(const Parameters& parameters, double omega,
-                               FirstEntry first)
-{
   const Body &s = parameters.stator, &r = parameters.rotor;
   const auto diagonal = [](double stator, double rotor) {
     return Eigen::Vector4d(stator, stator, rotor, rotor).asDiagonal().toDenseMatrix();
@@ -102,12 +86,8 @@ void PlainBalance::fill_linear(const Parameters& parameters, double omega,
     linear_.block<dofs, dofs>(sine, cosine) = -frequency * damping;
     linear_.block<dofs, dofs>(sine, sine) = stiffness - frequency * frequency * mass;
   }
-}
-
-void PlainBalance::fill_load(const Parameters& parameters, double omega)
-{
   const double unbalance = parameters.unbalance * omega * omega;
-  load_ = Eigen::VectorXd::Zero(linear_.rows());
+  load_ = Eigen::VectorXd::Zero(size);
   load_[1] = -parameters.stator.mass * parameters.gravity;
   load_[3] = -parameters.rotor.mass * parameters.gravity;
   load_[dofs + 2] = unbalance;      // x_r, cosine

@@ -58,9 +58,6 @@ public:
   const Eigen::VectorXd& load() const { return load_; }  ///< F [N]
 
 private:
-  void fill_linear(const Parameters& parameters, double omega, FirstEntry first);
-  void fill_load(const Parameters& parameters, double omega);
-
   int harmonics_, samples_;
   BallBearing bearing_;
   std::vector<Direction> cage_;  ///< at each sample

@@ -62,29 +62,6 @@ namespace {
 
 constexpr int usual_harmonics = 6;
 
-SteadySettings steady_settings(const MotionRequest& request, int shown_periods,
-                               const OperationBudget& budget)
-{
-  SteadySettings settings;
-  settings.stepper = {.method = request.method,
-                      .intervals_per_period = request.points,
-                      .step = request.step,
-                      .tolerance = request.local_error,
-                      .budget = budget};
-  settings.longest = request.longest;
-  settings.shown_periods = shown_periods;
-  return settings;
-}
-
-/** Throws BadInput for options that contradict each other. */
-void check(const MotionRequest& request)
-{
-  require_method(request.method);
-  checked_samples(request.harmonics.value_or(usual_harmonics), request.samples);
-  if (request.tolerance && request.samples && !request.harmonics)
-    throw BadInput("--samples: chosen with m for --tolerance; give --harmonics too");
-}
-
 /** When the tolerance chooses m. */
 AdaptiveSettings settings_of(const MotionRequest& request)
 {
@@ -162,9 +139,15 @@ motion::Motion integrated_motion(const Parameters& parameters,
                                  const MotionRequest& request, int periods,
                                  const OperationBudget& budget, Table& table)
 {
-  const SteadyState steady =
-      steady_state(parameters, angular(request.frequency), static_start(parameters),
-                   steady_settings(request, periods, budget));
+  const SteadySettings settings{.stepper = {.method = request.method,
+                                            .intervals_per_period = request.points,
+                                            .step = request.step,
+                                            .tolerance = request.local_error,
+                                            .budget = budget},
+                                .longest = request.longest,
+                                .shown_periods = periods};
+  const SteadyState steady = steady_state(parameters, angular(request.frequency),
+                                          static_start(parameters), settings);
   table.note(format("method: %s, %g s from rest, %ld evaluations of Eq. 7",
                     request.method.c_str(), steady.seconds, steady.evaluations));
   table.note(format("Poincare spread: %.3g", steady.spread));
@@ -174,30 +157,32 @@ motion::Motion integrated_motion(const Parameters& parameters,
 
 /** A motion, the bearing's force at its instants, and what it has cost. */
 struct Computed {
-  motion::Motion motion;
-  std::vector<Vec2> forces;
+  motion::Motion motion = {};
+  std::vector<Vec2> forces = {};
   OperationBudget budget;
 
   bool touches() const
   {
     return std::any_of(forces.begin(), forces.end(),
-                       [](const Vec2& f) { return f.x != 0 || f.y != 0; });
+                       [](Vec2 f) { return f.x != 0 || f.y != 0; });
   }
 };
 
 Computed computed(const Parameters& parameters, const MotionRequest& request, int periods,
                   Table& table)
 {
-  check(request);
+  require_method(request.method);
+  checked_samples(request.harmonics.value_or(usual_harmonics), request.samples);
+  if (request.tolerance && request.samples && !request.harmonics)
+    throw BadInput("--samples: chosen with m for --tolerance; give --harmonics too");
   describe(table, parameters);
   table.note(format("frequency: %.15g Hz", request.frequency));
-  const OperationBudget budget = budget_of(request.budget, 3, parameters);
-  motion::Motion motion =
-      request.method == "aft"
-          ? balance_motion(parameters, request, budget, table)
-          : integrated_motion(parameters, request, periods, budget, table);
-  auto forces = motion::bearing_forces(parameters, motion);
-  return {std::move(motion), std::move(forces), budget};
+  Computed at{.budget = budget_of(request.budget, 3, parameters)};
+  at.motion = request.method == "aft"
+                  ? balance_motion(parameters, request, at.budget, table)
+                  : integrated_motion(parameters, request, periods, at.budget, table);
+  at.forces = motion::bearing_forces(parameters, at.motion);
+  return at;
 }
 
 /** A table of this length takes about a second and 0.4 GB to write. */
@@ -210,13 +195,13 @@ struct OrbitRow {
 };
 
 const std::vector<Field<OrbitRow>> orbit_fields{
-    {{"phase", "rad", "omega t, modulo 2 pi"}, [](auto& r) { return r.phase; }},
-    {{"x_s", "m", "stator"}, [](auto& r) { return r.position.stator.x; }},
-    {{"y_s", "m", "stator"}, [](auto& r) { return r.position.stator.y; }},
-    {{"x_r", "m", "rotor"}, [](auto& r) { return r.position.rotor.x; }},
-    {{"y_r", "m", "rotor"}, [](auto& r) { return r.position.rotor.y; }},
-    {{"F_x", "N", "Eq. 6, on the stator"}, [](auto& r) { return r.force.x; }},
-    {{"F_y", "N", "Eq. 6, on the stator"}, [](auto& r) { return r.force.y; }}};
+    {"phase", "rad", "omega t, modulo 2 pi", &OrbitRow::phase},
+    {"x_s", "m", "stator", [](auto& r) { return r.position.stator.x; }},
+    {"y_s", "m", "stator", [](auto& r) { return r.position.stator.y; }},
+    {"x_r", "m", "rotor", [](auto& r) { return r.position.rotor.x; }},
+    {"y_r", "m", "rotor", [](auto& r) { return r.position.rotor.y; }},
+    {"F_x", "N", "Eq. 6, on the stator", [](auto& r) { return r.force.x; }},
+    {"F_y", "N", "Eq. 6, on the stator", [](auto& r) { return r.force.y; }}};
 
 struct ContactRow {
   double t_over_period;
@@ -225,10 +210,9 @@ struct ContactRow {
 };
 
 const std::vector<Field<ContactRow>> contact_fields{
-    {{"t_over_T", "-", "time over the period, 0 to 2"},
-     [](auto& r) { return r.t_over_period; }},
-    {{"ball", "-", "j of Eq. 3"}, [](auto& r) { return r.ball; }},
-    {{"Q", "N", "Eq. 5, force of the ball"}, [](auto& r) { return r.force; }}};
+    {"t_over_T", "-", "time over the period, 0 to 2", &ContactRow::t_over_period},
+    {"ball", "-", "j of Eq. 3", &ContactRow::ball},
+    {"Q", "N", "Eq. 5, force of the ball", &ContactRow::force}};
 
 }  // namespace
 
@@ -253,8 +237,7 @@ Exploration explore_contact(const MotionRequest& request)
     throw BadInput(format("--points %d: must be at most %d with %d balls", request.points,
                           most_points, parameters.bearing.balls));
   const Computed at = computed(parameters, request, 2, table);
-  const motion::ContactEvolution evolution =
-      motion::contact_evolution(parameters, at.motion);
+  const auto evolution = motion::contact_evolution(parameters, at.motion);
   for (std::size_t k = 0; k < evolution.t_over_period.size(); ++k)
     for (std::size_t j = 0; j < evolution.ball_force[k].size(); ++j)
       table.row(contact_fields,

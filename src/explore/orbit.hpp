@@ -34,8 +34,6 @@ struct MotionRequest {
 struct Exploration {
   Table table;
   std::string unfinished = {};  ///< why a branch stopped early; empty when it did not
-  std::string warning =
-      {};  ///< what the reader may not expect; empty when there is nothing
 };
 
 /** Throw BadInput for options that contradict each other, NoSolution when nothing was found. */
@@ -52,8 +50,7 @@ int checked_samples(int harmonics, const std::optional<int>& samples);
 OperationBudget budget_of(const std::optional<double>& evaluations, double seconds,
                           const Parameters& parameters);
 
-/** The multipliers along the coefficients `x`, paid for from `budget`. Throws NoSolution when it is used
-    up. */
+/** The multipliers along a motion, paid for from `budget`. Throws NoSolution when it is used up. */
 Floquet paid_floquet(const OperationBudget& budget, const Parameters& parameters,
                      const PeriodicMotion& motion);
 

@@ -131,59 +131,48 @@ BranchPoint found_start(const Task& task, Balance& balance, Table& table)
 
 /** A point of a branch with what is printed of it. */
 struct Row {
-  const BranchPoint& point;
+  const StablePoint& at;
   Eigen::VectorXd amplitude;  ///< half peak-to-peak of x_s, y_s, x_r, y_r [m]
-  const StablePoint* stability;
   std::size_t branch;
 };
 
 using Fields = std::vector<Field<Row>>;
 
-const Fields branch_fields{{{"f", "Hz", "speed of rotation"},
-                            [](auto& r) { return r.point.motion.omega / angular(1); }},
-                           {{"amp_x_s", "m", "half peak-to-peak of x_s"},
-                            [](auto& r) { return r.amplitude[0]; }},
-                           {{"amp_y_s", "m", "half peak-to-peak of y_s"},
-                            [](auto& r) { return r.amplitude[1]; }},
-                           {{"amp_x_r", "m", "half peak-to-peak of x_r"},
-                            [](auto& r) { return r.amplitude[2]; }},
-                           {{"amp_y_r", "m", "half peak-to-peak of y_r"},
-                            [](auto& r) { return r.amplitude[3]; }},
-                           {{"arc", "-", "scaled arc length from the first point"},
-                            [](auto& r) { return r.point.arc; }},
-                           {{"newton", "-", "Newton iterations of the corrector"},
-                            [](auto& r) { return r.point.motion.newton.iterations; }}};
+const Fields branch_fields{
+    {"f", "Hz", "speed of rotation",
+     [](auto& r) { return r.at.point.motion.omega / angular(1); }},
+    {"amp_x_s", "m", "half peak-to-peak of x_s", [](auto& r) { return r.amplitude[0]; }},
+    {"amp_y_s", "m", "half peak-to-peak of y_s", [](auto& r) { return r.amplitude[1]; }},
+    {"amp_x_r", "m", "half peak-to-peak of x_r", [](auto& r) { return r.amplitude[2]; }},
+    {"amp_y_r", "m", "half peak-to-peak of y_r", [](auto& r) { return r.amplitude[3]; }},
+    {"arc", "-", "scaled arc length from the first point",
+     [](auto& r) { return r.at.point.arc; }},
+    {"newton", "-", "Newton iterations of the corrector",
+     [](auto& r) { return r.at.point.motion.newton.iterations; }}};
 
 const Fields stability_fields{
-    {{"multiplier", "-",
-      "largest modulus of the Floquet multipliers along the m harmonics; -1"},
+    {"multiplier", "-",
+     "largest modulus of the Floquet multipliers along the m harmonics; -1",
+     [](auto& r) { return r.at.examined() ? r.at.floquet.largest() : -1; }},
+    {"multiplier_change", "-", "uncertainty of it: change at the last refinement",
+     [](auto& r) { return r.at.examined() ? r.at.floquet.uncertainty() : -1; }},
+    {"verdict", "-", "stable, unstable, undecided within the uncertainty, unknown",
      [](auto& r) {
-       return r.stability->examined() ? r.stability->floquet.largest() : -1;
+       return std::string(r.at.examined() ? r.at.floquet.verdict() : "unknown");
      }},
-    {{"multiplier_change", "-", "uncertainty of it: change at the last refinement"},
-     [](auto& r) {
-       return r.stability->examined() ? r.stability->floquet.uncertainty() : -1;
-     }},
-    {{"verdict", "-", "stable, unstable, undecided within the uncertainty, unknown"},
-     [](auto& r) {
-       return std::string(r.stability->examined() ? r.stability->floquet.verdict()
-                                                  : "unknown");
-     }},
-    {{"bifurcation", "-",
-      "fold; plus-one, period-doubling: a multiplier passes 1, -1; "
-      "neimark-sacker: a pair passes the circle; - none"},
-     [](auto& r) { return std::string(name_of(r.stability->bifurcation)); }}};
-
-const Fields number_fields{
-    {{"branch", "-", "1 the branch followed, then those beside it"},
-     [](auto& r) { return r.branch; }}};
+    {"bifurcation", "-",
+     "fold; plus-one, period-doubling: a multiplier passes 1, -1; "
+     "neimark-sacker: a pair passes the circle; - none",
+     [](auto& r) { return std::string(name_of(r.at.bifurcation)); }}};
 
 Fields fields_of(const ResponseRequest& request)
 {
   Fields fields = branch_fields;
   if (request.stability)
     fields.insert(fields.end(), stability_fields.begin(), stability_fields.end());
-  if (request.isolated > 0) fields.push_back(number_fields[0]);
+  if (request.isolated > 0)
+    fields.push_back(
+        {"branch", "-", "1 the branch followed, then those beside it", &Row::branch});
   return fields;
 }
 
@@ -273,60 +262,43 @@ std::string missing_in(const BranchStability& stability, const OperationBudget& 
                 first->point.motion.omega / angular(1), stability.failure.c_str());
 }
 
-/** Writes the rows of all branches. */
-class Rows {
-public:
-  Rows(const Task& task, Table& table)
-      : task_(task),
-        table_(table),
-        fields_(fields_of(task.request)),
-        transform_(amplitude_transform(task.harmonics))
-  {
-  }
-
-  bool touches() const { return touches_; }
-
-  void add(const BranchPoint& point, const StablePoint* stability, std::size_t branch)
-  {
-    const PeriodicMotion& motion = point.motion;
-    touches_ = touches_ || !motion.force.isZero(0);
-    table_.row(
-        fields_,
-        Row{point, half_peak_to_peak(body_series(task_.parameters, motion), transform_),
-            stability, branch});
-  }
-
-private:
-  const Task& task_;
-  Table& table_;
-  Fields fields_;
-  FourierTransform transform_;
-  bool touches_ = false;
+/** What was added to the table. */
+struct Added {
+  bool touches = false;
+  std::string missing = {};  ///< of the multipliers: the first that could not be had
 };
 
-/** Adds the rows of branch `number`, and what the header says of its multipliers; returns which are
-    missing. `balance` is the one that the branch was followed with. */
-std::string add_branch(Table& table, Rows& rows, const Task& task, Balance& balance,
-                       const Branch& branch, std::size_t number)
+/** Adds the rows of branch `number`, and what the header says of its multipliers. `balance` is the one
+    that the branch was followed with. */
+void add_branch(Table& table, const Task& task, Balance& balance, const Branch& branch,
+                std::size_t number, Added& added)
 {
-  std::string missing;
+  BranchStability stability;
   if (task.request.stability) {
-    const BranchStability stability =
+    stability =
         stability_along(balance, branch, task.settings, [&](const BranchPoint& point) {
           return paid_floquet(task.budget, task.parameters, point.motion);
         });
     const std::string prefix =
         task.request.isolated > 0 ? format("branch %zu, ", number) : "";
     for (const std::string& note : notes_of(stability)) table.note(prefix + note);
-    missing = missing_in(stability, task.budget);
+    const std::string missing = missing_in(stability, task.budget);
     if (!missing.empty()) table.note("incomplete: " + prefix + missing);
-    for (const StablePoint& point : stability.points)
-      rows.add(point.point, &point, number);
+    if (added.missing.empty()) added.missing = missing;
   } else {
-    for (const BranchPoint& point : branch.points) rows.add(point, nullptr, number);
+    for (const BranchPoint& point : branch.points)
+      stability.points.push_back({.point = point, .floquet = {}});
+  }
+  const Fields fields = fields_of(task.request);
+  FourierTransform transform = amplitude_transform(task.harmonics);
+  for (const StablePoint& at : stability.points) {
+    const PeriodicMotion& motion = at.point.motion;
+    added.touches = added.touches || !motion.force.isZero(0);
+    table.row(
+        fields,
+        {at, half_peak_to_peak(body_series(task.parameters, motion), transform), number});
   }
   if (task.request.isolated > 0) table.gap();
-  return missing;
 }
 
 void describe(Table& table, const Task& task, const Branch& branch)
@@ -374,17 +346,14 @@ Exploration explore_response(const ResponseRequest& request)
   std::vector<const Branch*> all{&main};
   for (const IsolatedBranch& other : beside.found) all.push_back(&other.branch);
 
-  Rows rows(task, table);
-  std::string without_multipliers;
-  for (std::size_t k = 0; k < all.size(); ++k) {
-    const std::string missing = add_branch(table, rows, task, balance, *all[k], k + 1);
-    if (without_multipliers.empty()) without_multipliers = missing;
-  }
+  Added added;
+  for (std::size_t k = 0; k < all.size(); ++k)
+    add_branch(table, task, balance, *all[k], k + 1, added);
   if (request.save)
     write_file(*request.save, branch_text(task.parameters, task.harmonics, task.samples,
                                           task.upwards, all));
-  conclude(table, task.parameters, rows.touches(), task.budget);
-  return {std::move(table), unfinished(task, main, beside.missing, without_multipliers)};
+  conclude(table, task.parameters, added.touches, task.budget);
+  return {std::move(table), unfinished(task, main, beside.missing, added.missing)};
 }
 
 }  // namespace rotor_stator::explore
