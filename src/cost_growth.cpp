@@ -27,18 +27,11 @@ int main(int argc, char** argv)
   return run_figure(argc, argv, [](SceneFile& file) {
     const CostGrowthScene scene = read_cost_growth(file);
     std::vector<Growth> rows;
-    for (int m : watched("harmonics", scene.harmonics))
-      rows.push_back(cost_of(scene, "harmonics", m, one_solution(scene), m));
-    for (int n : watched("balls", scene.balls))
-      rows.push_back(cost_of(scene, "balls", n, sweep_with(scene, scene.sweep_speeds, n),
-                             scene.sweep_harmonics));
-    for (int count : watched("speeds", scene.speeds))
-      rows.push_back(cost_of(scene, "speeds", count,
-                             sweep_with(scene, count, scene.parameters.bearing.balls),
-                             scene.sweep_harmonics));
-    fit_exponents(rows, "harmonics", scene.fitted_harmonics, scene.least_memory);
-    fit_exponents(rows, "balls", scene.fitted_balls, scene.least_memory);
-    fit_exponents(rows, "speeds", scene.fitted_speeds, scene.least_memory);
+    for (const GrowthKind& kind : scene.kinds) {
+      for (int size : watched(kind.against, kind.sizes))
+        rows.push_back(cost_of(scene, kind, size));
+      fit_exponents(rows, kind, scene.least_memory);
+    }
     return cost_growth_table(scene, rows);
   });
 }

@@ -36,7 +36,8 @@ int main(int argc, char** argv)
     const auto ends = computed_in_parallel("hard cases", rows, [&](std::size_t row) {
       const hard::HardCase& machine = hard.cases[row * every / methods];
       const hard::Method& method = hard::methods[row * every % methods];
-      return hard::verify(machine, method, method.answer(machine, hard.rule), hard.rule);
+      return hard::verify(machine, method, answer_by(method, machine, hard.rule),
+                          hard.rule);
     });
     return hard::hard_table(hard, ends);
   });

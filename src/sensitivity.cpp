@@ -30,17 +30,24 @@ int main(int argc, char** argv)
     const auto compute = [&](std::size_t k) {
       SensitivityPoint point = scene.points[k];
       const Model model = varied(scene.usual, point.parameter, point.value);
-      if (point.peak)
-        add_peak(point, peak_by_integration(point.parameter)
-                            ? integrated_peak(model, scene.time_peak_speeds)
-                            : balance_peak(model, scene.peak_speeds));
+      if (point.peak) {
+        const CurvePoint peak = peak_by_integration(point.parameter)
+                                    ? integrated_peak(model, scene.time_peak_speeds)
+                                    : balance_peak(model, scene.peak_speeds);
+        point.set(f_peak, {peak.frequency}, {peak.amplitude});
+      }
       if (point.balance)
-        add_balance_orbit(point, balance_orbit_size(model, scene.orbit_frequency));
+        if (const auto size = balance_orbit_size(model, scene.orbit_frequency))
+          point.set(amp_x_aft, size->x, size->y);
       if (point.integration) {
-        add_loss(point, contact_loss(model, scene.loss_speeds));
+        if (const auto loss = contact_loss(model, scene.loss_speeds))
+          point.set(f_loss_first, loss->first, loss->last);
         const SteadyState steady =
             settled(model, scene.orbit_frequency, scene.orbit_periods);
-        add_integrated_orbit(point, steady, orbit_size(motion_of(model, steady)));
+        const OrbitSize size = orbit_size(motion_of(model, steady));
+        point.set(amp_x, size.x, size.y);
+        point.spread = steady.spread;
+        point.periodic = steady.periodic;
       }
       return point;
     };

@@ -6,6 +6,7 @@
 #include <unistd.h>
 #include <algorithm>
 #include <cmath>
+#include <tuple>
 
 #include "io/errors.hpp"
 
@@ -18,9 +19,7 @@ CostGrowthScene read_cost_growth(SceneFile& file)
       .parameters = read_parameters(file, "parameters"),
       .frequency = toml.number("speed_hz", Range::positive),
       .below = toml.number("below_hz", Range::positive),
-      .harmonics = toml.integers("harmonics", 1, 1024),
-      .balls = toml.integers("balls", 2, 1024),
-      .speeds = toml.integers("speeds", 2, 1 << 20),
+      .kinds = {},
       .sweep_from = toml.number("sweep_from_hz", Range::positive),
       .sweep_to = toml.number("sweep_to_hz", Range::positive),
       .sweep_speeds = toml.integer("sweep_speeds", 2, 1 << 20),
@@ -28,10 +27,11 @@ CostGrowthScene read_cost_growth(SceneFile& file)
       .samples_per_harmonic = toml.integer("samples_per_harmonic", 2, 64),
       .repetitions = toml.integer("repetitions", 1, 1000),
       .newton_tolerance = toml.number("newton_tolerance", Range::positive),
-      .fitted_harmonics = toml.integer("fitted_from_harmonics", 1, 1024),
-      .fitted_balls = toml.integer("fitted_from_balls", 1, 1024),
-      .fitted_speeds = toml.integer("fitted_from_speeds", 1, 1 << 20),
       .least_memory = toml.number("fitted_from_bytes", Range::positive)};
+  for (const auto& [kind, least, most] :
+       {std::tuple{"harmonics", 1, 1024}, {"balls", 2, 1024}, {"speeds", 2, 1 << 20}})
+    scene.kinds.push_back({kind, toml.integers(kind, least, most),
+                           toml.integer("fitted_from_" + std::string(kind), 1, most)});
   if (scene.below >= scene.frequency) toml.fail("below_hz", "must be below speed_hz");
   if (scene.sweep_to <= scene.sweep_from)
     toml.fail("sweep_to_hz", "must be above sweep_from_hz");
@@ -39,26 +39,20 @@ CostGrowthScene read_cost_growth(SceneFile& file)
   return scene;
 }
 
-Task one_solution(const CostGrowthScene& scene)
+Growth cost_of(const CostGrowthScene& scene, const GrowthKind& kind, int size)
 {
-  return {.parameters = scene.parameters,
-          .frequencies = {scene.frequency},
-          .before = Task::Known{scene.below, {}}};
-}
-
-Task sweep_with(const CostGrowthScene& scene, int speeds, int balls)
-{
-  Task task{.parameters = scene.parameters, .frequencies = {}};
-  task.parameters.bearing.balls = balls;
-  for (int k = 0; k < speeds; ++k)
-    task.frequencies.push_back(scene.sweep_from +
-                               (scene.sweep_to - scene.sweep_from) * k / (speeds - 1));
-  return task;
-}
-
-Growth cost_of(const CostGrowthScene& scene, const std::string& against, int size,
-               const Task& task, int harmonics)
-{
+  const bool one_solution = kind.against == "harmonics";
+  Task task{.parameters = scene.parameters, .frequencies = {scene.frequency}};
+  if (one_solution)
+    task.before = Task::Known{scene.below, {}};
+  else {
+    if (kind.against == "balls") task.parameters.bearing.balls = size;
+    const int speeds = kind.against == "speeds" ? size : scene.sweep_speeds;
+    task.frequencies.clear();
+    for (int k = 0; k < speeds; ++k)
+      task.frequencies.push_back(scene.sweep_from +
+                                 (scene.sweep_to - scene.sweep_from) * k / (speeds - 1));
+  }
   const auto setting = [&](int m) {
     return Setting{.method = "aft",
                    .harmonics = m,
@@ -66,7 +60,8 @@ Growth cost_of(const CostGrowthScene& scene, const std::string& against, int siz
                    .tolerance = scene.newton_tolerance};
   };
   const InOwnProcess result = in_own_process([&] {
-    const auto method = timed_method(task, setting(harmonics));
+    const auto method =
+        timed_method(task, setting(one_solution ? size : scene.sweep_harmonics));
     method->run();
     const CpuTime cpu = time_of(scene.repetitions, [&] { method->run(); });
     double found = 0;
@@ -81,13 +76,13 @@ Growth cost_of(const CostGrowthScene& scene, const std::string& against, int siz
   });
   const auto& numbers = result.numbers;
   if (numbers.size() != 4)
-    throw NoSolution(format("%s = %d: the process ended early", against.c_str(), size));
-  return {.against = against,
-          .size = size,
-          .cpu = {numbers[0], numbers[1], numbers[2]},
-          .memory = std::max(0.0, result.peak_bytes - least.peak_bytes),
-          .found = static_cast<std::size_t>(numbers[3]),
-          .speeds = task.frequencies.size()};
+    throw NoSolution(kind.against + format(" = %d: the process ended early", size));
+  return {{numbers[0], numbers[1], numbers[2]},
+          kind.against,
+          size,
+          std::max(0.0, result.peak_bytes - least.peak_bytes),
+          static_cast<std::size_t>(numbers[3]),
+          task.frequencies.size()};
 }
 
 double fitted_exponent(const std::vector<double>& x, const std::vector<double>& y)
@@ -101,20 +96,19 @@ double fitted_exponent(const std::vector<double>& x, const std::vector<double>& 
   return slope;
 }
 
-void fit_exponents(std::vector<Growth>& rows, const std::string& against, int first,
-                   double least_memory)
+void fit_exponents(std::vector<Growth>& rows, const GrowthKind& kind, double least_memory)
 {
   std::vector<double> size, cpu, memory_size, memory;
   for (const Growth& row : rows) {
-    if (row.against != against || row.size < first) continue;
+    if (row.against != kind.against || row.size < kind.fitted_from) continue;
     size.push_back(row.size);
-    cpu.push_back(row.cpu.median);
+    cpu.push_back(row.median);
     if (row.memory < least_memory) continue;
     memory_size.push_back(row.size);
     memory.push_back(row.memory);
   }
   for (Growth& row : rows) {
-    if (row.against != against) continue;
+    if (row.against != kind.against) continue;
     if (size.size() > 1) row.exponent_cpu = fitted_exponent(size, cpu);
     if (memory.size() > 2) row.exponent_memory = fitted_exponent(memory_size, memory);
   }
@@ -122,15 +116,12 @@ void fit_exponents(std::vector<Growth>& rows, const std::string& against, int fi
 
 namespace {
 
-using Row = const Growth&;
-
 const std::vector<Field<Growth>> growth_fields{
     {"against", "-", "what grows: harmonics, balls or speeds", &Growth::against},
     {"size", "-", "how many of it", &Growth::size},
-    {"cpu_s", "s", "CPU of one thread, median of the repetitions",
-     [](Row r) { return r.cpu.median; }},
-    {"cpu_min_s", "s", "least", [](Row r) { return r.cpu.least; }},
-    {"cpu_max_s", "s", "most", [](Row r) { return r.cpu.most; }},
+    {"cpu_s", "s", "CPU of one thread, median of the repetitions", &Growth::median},
+    {"cpu_min_s", "s", "least", &Growth::least},
+    {"cpu_max_s", "s", "most", &Growth::most},
     {"memory", "byte",
      "peak of memory above that of a process with one speed and one harmonic",
      &Growth::memory},
@@ -161,29 +152,11 @@ Table cost_growth_table(const CostGrowthScene& scene, const std::vector<Growth>&
                     scene.repetitions));
   table.note(
       format("exponents from harmonics = %d, balls = %d, speeds = %d, bytes = %g on",
-             scene.fitted_harmonics, scene.fitted_balls, scene.fitted_speeds,
-             scene.least_memory));
+             scene.kinds[0].fitted_from, scene.kinds[1].fitted_from,
+             scene.kinds[2].fitted_from, scene.least_memory));
   for (const Growth& row : rows) table.row(growth_fields, row);
   return table;
 }
-
-namespace {
-
-/** In the child: work, write the numbers, leave without tidying up what is the parent's. */
-[[noreturn]] void work_and_exit(const std::function<std::vector<double>()>& work, int out)
-{
-  int status = 1;
-  try {
-    const std::vector<double> numbers = work();
-    const auto bytes = static_cast<ssize_t>(numbers.size() * sizeof(double));
-    if (::write(out, numbers.data(), bytes) == bytes) status = 0;
-  } catch (...) {
-    // the empty pipe says it
-  }
-  _exit(status);
-}
-
-}  // namespace
 
 InOwnProcess in_own_process(const std::function<std::vector<double>()>& work)
 {
@@ -191,7 +164,17 @@ InOwnProcess in_own_process(const std::function<std::vector<double>()>& work)
   if (pipe(ends) != 0) throw NoSolution("no pipe to a process of its own");
   const pid_t child = fork();
   if (child < 0) throw NoSolution("no process of its own");
-  if (child == 0) work_and_exit(work, ends[1]);
+  if (child == 0) {  // writes the numbers, and leaves what is the parent's untidied
+    bool written = false;
+    try {
+      const std::vector<double> numbers = work();
+      const auto bytes = static_cast<ssize_t>(numbers.size() * sizeof(double));
+      written = write(ends[1], numbers.data(), bytes) == bytes;
+    } catch (...) {
+      // the empty pipe says it
+    }
+    _exit(written ? 0 : 1);
+  }
   close(ends[1]);
   InOwnProcess result;
   double number;

@@ -12,44 +12,41 @@ that solves one speed with one harmonic. */
 
 namespace rotor_stator::costs {
 
+/** What grows, and the sizes that it takes. */
+struct GrowthKind {
+  std::string against;  ///< "harmonics", "balls" or "speeds"
+  std::vector<int> sizes;
+  int fitted_from;  ///< the least size that is fitted
+};
+
 struct CostGrowthScene {
   Parameters parameters;
-  double frequency, below;      ///< of the one solution, and of what it starts from [Hz]
-  std::vector<int> harmonics;   ///< m of the one solution
-  std::vector<int> balls;       ///< of the sweeps over range
-  std::vector<int> speeds;      ///< of the sweeps over the same range
-  double sweep_from, sweep_to;  ///< [Hz]
+  double frequency, below;  ///< of the one solution, and of what it starts from [Hz]
+  std::vector<GrowthKind> kinds;
+  double sweep_from, sweep_to;  ///< of the sweeps [Hz]
   int sweep_speeds, sweep_harmonics;
   int samples_per_harmonic, repetitions;
   double newton_tolerance;
-  int fitted_harmonics, fitted_balls, fitted_speeds;  ///< the least sizes that are fitted
-  double least_memory;                                ///< that is fitted [byte]
+  double least_memory;  ///< that is fitted [byte]
 };
 
 CostGrowthScene read_cost_growth(SceneFile& file);
 
-/** One solution, from that at the speed below. */
-Task one_solution(const CostGrowthScene& scene);
-
-/** The sweep with that many speeds and balls. */
-Task sweep_with(const CostGrowthScene& scene, int speeds, int balls);
-
 /** What one size costs. */
-struct Growth {
-  std::string against;  ///< "harmonics", "balls" or "speeds"
+struct Growth : CpuTime {
+  std::string against;
   int size;
-  CpuTime cpu;
   double memory;  ///< peak above that of a process that solves next to nothing [byte]
   std::size_t found, speeds;                     ///< speeds with a solution, of how many
   double exponent_cpu = 0, exponent_memory = 0;  ///< of the kind; 0: not fitted
 };
 
-/** Of a task with that many harmonics. Throws NoSolution when its process ends without a result. */
-Growth cost_of(const CostGrowthScene& scene, const std::string& against, int size,
-               const Task& task, int harmonics);
+/** One solution with `size` harmonics from that at the speed below, or the sweep with so many balls or
+    speeds. Throws NoSolution when its process ends without a result. */
+Growth cost_of(const CostGrowthScene& scene, const GrowthKind& kind, int size);
 
-/** Fits the exponents of one kind to its sizes from `first` on. */
-void fit_exponents(std::vector<Growth>& rows, const std::string& against, int first,
+/** Fits the exponents of one kind to its sizes. */
+void fit_exponents(std::vector<Growth>& rows, const GrowthKind& kind,
                    double least_memory);
 
 /** p of y = a x^p by least squares of the logarithms; two points at least, all positive. */

@@ -48,64 +48,16 @@ void TimedMethod::run(const std::function<bool(std::size_t speed)>& goes_on)
 
 namespace {
 
-/**
-## The truncation indicator
-
-The force of a solution with m harmonics has harmonics above m too, which leave a residual R_h there.
-Newton's step with the diagonal blocks of the Jacobian alone,
-
-$$u_h \approx -(A + J)_{hh}^{-1} R_h, \qquad h > m,$$
-
-answers it with the inertia of the bodies and the mean stiffness of the contact: right above the contact
-mode and of the right size around it. It costs one evaluation of the force and no large linear system:
-an indicator, not a bound. */
-struct TruncationIndicator {
-  Eigen::VectorXd x;  ///< the solution with those harmonics added
-  Eigen::VectorXd
-      tail;  ///< sum of their amplitudes above m, over the motion's size [-]; m = 0, 1, …
-
-  /** The least number of harmonics above which not more than `part` is left. */
-  int harmonics(double part) const
-  {
-    int m = 1;
-    while (m < tail.size() && tail[m] > part) ++m;
-    return m;
-  }
-};
-
-/** Of a solution; `balance` has more harmonics. */
-TruncationIndicator truncation_indicator(const Parameters& parameters,
-                                         const PeriodicMotion& solution, Balance& balance)
+/** Whole periods that last so many seconds at least. */
+long periods_in(double seconds, double omega)
 {
-  const int m = solution.harmonics.highest(), far = balance.harmonics().highest();
-  PeriodicMotion wide{.omega = solution.omega,
-                      .harmonics = balance.harmonics(),
-                      .x = resize_harmonics(solution.x, 2, far)};
-  const Eigen::VectorXd residual = balance.residual(wide.x, wide.omega);
-  wide.force = balance.force(wide.x, wide.omega);
-  TruncationIndicator result{wide.x, Eigen::VectorXd::Zero(far + 1)};
-  const double size =
-      body_series(parameters, wide).leftCols(3).cwiseAbs().rowwise().sum().maxCoeff();
-  double sum = 0;
-  for (int h = far; h > 0; --h) {
-    auto u = result.x.segment<4>((2 * h - 1) * 2);  // cosine, then sine coefficients
-    if (h > m) {
-      const Eigen::Matrix4d block = balance.diagonal_block(wide.x, wide.omega, h);
-      u = -block.partialPivLu().solve(residual.segment<4>((2 * h - 1) * 2));
-    }
-    result.tail[h] = sum / size;
-    sum += std::max(std::hypot(u[0], u[2]), std::hypot(u[1], u[3]));
-  }
-  result.tail[0] = sum / size;
-  return result;
+  return std::lround(std::ceil(seconds * omega / (2 * std::numbers::pi)));
 }
 
-/** Harmonics to look at from a solution with `harmonics`: to the contact mode, and twice as many at
-    least. */
-int look_ahead(const Parameters& parameters, double omega, int harmonics)
+/** From phase 0 by a stepper with one interval per period. */
+void advance_periods(const TimeStepper& whole, long periods, State& state)
 {
-  return std::max(2 * harmonics,
-                  static_cast<int>(std::ceil(contact_frequency(parameters) / omega)));
+  for (long k = 0; k < periods; ++k) whole.advance(k, state);
 }
 
 /**
@@ -114,9 +66,6 @@ class BalanceSweep : public TimedMethod {
 public:
   BalanceSweep(const Task& task, const Setting& setting) : TimedMethod(task, setting)
   {
-    newton_.tolerance = setting.tolerance;
-    newton_.most_iterations = 12;  // a new start is cheaper than a long iteration
-    newton_.most_halvings = 4;
     longest_ = setting.estimate > 0 ? most_harmonics : 0;
     for (double frequency : task.frequencies)
       longest_ = std::max(longest_, 2 * harmonics_at(setting, frequency));
@@ -151,16 +100,11 @@ private:
     bodies_.clear();
     *force_seconds_ = 0;
     adapted_ = setting_.harmonics;
-    const SweepSettings scaling = sweep_settings(task_.parameters);
-    predictor_ = {scaling.arc_unknown_scale, scaling.speed_scale};
-    if (before_.size() > 0) learn(angular(task_.before->frequency), before_);
-    if (setting_.paper_sweep) sweep_all();
-  }
-
-  /** The paper's sweep goes over all speeds at once. */
-  void sweep_all()
-  {
     SweepSettings settings = sweep_settings(task_.parameters);
+    predictor_ = {settings.arc_unknown_scale, settings.speed_scale};
+    if (before_.size() > 0) learn(angular(task_.before->frequency), before_);
+    if (!setting_.paper_sweep) return;
+    /** The paper's sweep goes over all speeds at once. */
     settings.newton.tolerance = setting_.tolerance;
     const int m = setting_.harmonics;
     for (const PeriodicMotion& found : sweep(
@@ -196,18 +140,54 @@ private:
       if (!converges_from(m, found)) return false;
     }
     while (setting_.estimate > 0) {
-      const int far = rounded_up(look_ahead(task_.parameters, found.omega, m));
-      const TruncationIndicator indicator =
-          truncation_indicator(task_.parameters, found, balance(far));
-      const int wanted =
-          std::min(most_harmonics, rounded_up(indicator.harmonics(setting_.estimate)));
+      PeriodicMotion wider = found;
+      const int wanted = std::min(most_harmonics, rounded_up(harmonics_wanted(wider)));
       adapted_ = std::max(setting_.harmonics, wanted);
       if (wanted <= m) break;
       m = wanted;
-      found.x = indicator.x;
+      found.x = wider.x;
       if (!converges_from(m, found)) return false;
     }
     return true;
+  }
+
+  /** The least number of harmonics above which the amplitudes are estimated to add up to no more than
+      the setting's part of the motion's size; the estimated ones are added to `motion`.
+
+      The force of a solution with m harmonics has harmonics above m too, which leave a residual R_h
+      there. Newton's step with the diagonal blocks of the Jacobian alone,
+
+      $$u_h \approx -(A + J)_{hh}^{-1} R_h, \qquad h > m,$$
+
+      answers it with the inertia of the bodies and the mean stiffness of the contact: right above the
+      contact mode and of the right size around it. It costs one evaluation of the force and no large
+      linear system: an indicator, not a bound. It looks up to the contact mode, and to 2m at least. */
+  int harmonics_wanted(PeriodicMotion& motion)
+  {
+    const int m = motion.harmonics.highest();
+    const int mode =
+        static_cast<int>(std::ceil(contact_frequency(task_.parameters) / motion.omega));
+    const int far = rounded_up(std::max(2 * m, mode));
+    Balance& fine = balance(far);
+    motion.harmonics = fine.harmonics();
+    motion.x = resize_harmonics(motion.x, 2, far);
+    const Eigen::VectorXd residual = fine.residual(motion.x, motion.omega);
+    motion.force = fine.force(motion.x, motion.omega);
+    const Eigen::MatrixXd bodies = body_series(task_.parameters, motion);
+    const double size = bodies.leftCols(3).cwiseAbs().rowwise().sum().maxCoeff();
+    const Eigen::VectorXd x = motion.x;
+    double sum = 0;
+    int wanted = far;
+    for (int h = far; h > 0; --h) {
+      auto u = motion.x.segment<4>((2 * h - 1) * 2);  // cosine, then sine coefficients
+      if (h > m) {
+        const Eigen::Matrix4d block = fine.diagonal_block(x, motion.omega, h);
+        u = -block.partialPivLu().solve(residual.segment<4>((2 * h - 1) * 2));
+      }
+      if (!(sum / size > setting_.estimate)) wanted = h;
+      sum += std::max(std::hypot(u[0], u[2]), std::hypot(u[1], u[3]));
+    }
+    return wanted;
   }
 
   /** From the coefficients; without them, or where that fails, from quasi-static contact, which is near
@@ -235,19 +215,16 @@ private:
   /** Coefficients of the relative motion over one period after half a second of RK4. */
   Eigen::VectorXd start_after_transient(double omega, int harmonics) const
   {
-    constexpr double transient = 0.5;
-    const double coarse = 4 * default_step(task_.parameters);  ///< a start needs no more
+    const double coarse = 4 * default_step(task_.parameters);  // a start needs no more
     const auto stepper = [&](int intervals) {
       return make_stepper(
           task_.parameters, omega,
           {.method = "rk4", .intervals_per_period = intervals, .step = coarse});
     };
     const int points = 2 * harmonics + 2;
-    const long periods =
-        std::lround(std::ceil(transient * omega / (2 * std::numbers::pi)));
     State state = quasi_static_state(task_.parameters, omega);
-    const TimeStepper whole = stepper(1), parts = stepper(points);
-    for (long k = 0; k < periods; ++k) whole.advance(k, state);
+    advance_periods(stepper(1), periods_in(0.5, omega), state);
+    const TimeStepper parts = stepper(points);
     Eigen::VectorXd x =
         motion::relative_series(motion::recorded(parts, points, state), harmonics);
     if (!x.allFinite()) x.setZero();
@@ -297,14 +274,15 @@ private:
     return problem;
   }
 
-  NewtonSettings newton_;
+  /** A new start is cheaper than a long iteration. */
+  const NewtonSettings newton_{
+      .tolerance = setting_.tolerance, .most_iterations = 12, .most_halvings = 4};
   Eigen::VectorXd before_;  ///< the solution that is known, if any
   int longest_;             ///< harmonics of the predictor's vectors
   int adapted_ = 0;         ///< harmonics that the estimate asked for last
   LagrangePredictor predictor_{1, 1};
   std::map<int, std::unique_ptr<Balance>> balances_;  ///< by m
-  std::map<double, Eigen::MatrixXd>
-      bodies_;  ///< series of both by speed [rad/s], if found
+  std::map<double, Eigen::MatrixXd> bodies_;          ///< series found, by speed [rad/s]
   std::shared_ptr<double> force_seconds_ = std::make_shared<double>(0);
 };
 
@@ -336,17 +314,14 @@ protected:
   TimeStepper stepper(double omega, int intervals) const
   {
     return make_stepper(task_.parameters, omega,
-                        {.method = stepper_method(),
+                        {.method = stepper_method_,
                          .intervals_per_period = intervals,
                          .step = setting_.step,
                          .tolerance = setting_.tolerance});
   }
 
-  std::string stepper_method() const
-  {
-    return setting_.method.substr(setting_.is_shooting() ? std::string("shooting-").size()
-                                                         : 0);
-  }
+  const std::string stepper_method_ = setting_.method.substr(
+      setting_.is_shooting() ? std::string("shooting-").size() : 0);
 
   /** A state of the motion at phase 0, `periods` after t = 0. */
   struct Reached {
@@ -372,7 +347,7 @@ class TransientSweep : public Integration {
     const TimeStepper whole = stepper(angular(frequency), 1);
     const long periods = std::lround(std::ceil(setting_.transient * frequency - 1e-9));
     try {
-      for (long k = 0; k < periods; ++k) whole.advance(k, state_);
+      advance_periods(whole, periods, state_);
       reached_[speed] = {periods, state_};
       if (setting_.recorded > 0) {
         const TimeStepper parts = stepper(angular(frequency), setting_.recorded);
@@ -390,13 +365,8 @@ class TransientSweep : public Integration {
 
 /** Newton on the period map at each speed. */
 class ShootingSweep : public Integration {
-public:
-  ShootingSweep(const Task& task, const Setting& setting)
-      : Integration(task, setting), scales_(state_scales(task.parameters))
-  {
-  }
+  using Integration::Integration;
 
-private:
   void begin() override
   {
     Integration::begin();
@@ -424,8 +394,7 @@ private:
   {
     State state = quasi_static_state(task_.parameters, omega);
     const TimeStepper whole = stepper(omega, 1);
-    const double periods = std::ceil(setting_.transient * omega / (2 * std::numbers::pi));
-    for (long k = 0; k < std::lround(periods); ++k) whole.advance(k, state);
+    advance_periods(whole, periods_in(setting_.transient, omega), state);
     counts_.force_instants += whole.evaluations();
     return state;
   }
@@ -433,7 +402,7 @@ private:
   bool shot(double omega, State& state)
   {
     const Shooting result = shoot(task_.parameters, omega, state,
-                                  {.method = stepper_method(),
+                                  {.method = stepper_method_,
                                    .tolerance = setting_.tolerance,
                                    .step = setting_.step,
                                    .periodicity_residual = setting_.periodicity_residual,
@@ -455,21 +424,10 @@ private:
     return state_of(Vector8(predictor_.at_speed(omega).cwiseProduct(scales_)));
   }
 
-  Vector8 scales_;
+  const Vector8 scales_ = state_scales(task_.parameters);
   LagrangePredictor predictor_{1, 1};
   PeriodicityJacobian jacobian_;
 };
-
-}  // namespace
-
-std::unique_ptr<TimedMethod> timed_method(const Task& task, const Setting& setting)
-{
-  if (setting.is_shooting()) return std::make_unique<ShootingSweep>(task, setting);
-  if (setting.method != "aft") return std::make_unique<TransientSweep>(task, setting);
-  return std::make_unique<BalanceSweep>(task, setting);
-}
-
-namespace {
 
 /** Adds the error at one speed, if there is a motion to compare with. */
 void add(MotionError& error, const TimedMethod& method, const References& sweep,
@@ -482,6 +440,13 @@ void add(MotionError& error, const TimedMethod& method, const References& sweep,
 }
 
 }  // namespace
+
+std::unique_ptr<TimedMethod> timed_method(const Task& task, const Setting& setting)
+{
+  if (setting.is_shooting()) return std::make_unique<ShootingSweep>(task, setting);
+  if (setting.method != "aft") return std::make_unique<TransientSweep>(task, setting);
+  return std::make_unique<BalanceSweep>(task, setting);
+}
 
 Measurement measure(const References& sweep, const Setting& setting, int repetitions)
 {

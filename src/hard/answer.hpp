@@ -2,7 +2,14 @@
 # What a method says of a hard case
 
 It either claims an answer, with the error that it states itself, or refuses with a reason. An answer
-whose stated error exceeds the accuracy of the rule is refused too. */
+whose stated error exceeds the accuracy of the rule is refused too. Each method solves twice, and the
+difference is the error that it states:
+
+- harmonic balance, which starts along the branch, by the paper's predictor or by arc length, with m
+  harmonics and N samples, and again from there with 2m and 2N;
+- shooting with one tolerance and again with a hundredth of it;
+- RK4 with one step and again with half of it; a transient that cannot have decayed yet is neither
+  periodic nor aperiodic, but refused. */
 #pragma once
 
 #include "balance/periodic_motion.hpp"
@@ -24,8 +31,11 @@ struct Answer {
   PeriodicMotion solution, finer;    ///< harmonic balance with m and with 2m harmonics
 };
 
-/** Claims an answer; throws NoSolution with what was `refined` when that moved it too much. */
-void claim(const HardRule& rule, const std::string& refined, Answer& answer);
+/** They fill in the answer; throw NoSolution with the reason of a refusal. */
+void answer_by_predictor(const HardCase& hard, const HardRule& rule, Answer& answer);
+void answer_by_arc_length(const HardCase& hard, const HardRule& rule, Answer& answer);
+void answer_by_shooting(const HardCase& hard, const HardRule& rule, Answer& answer);
+void answer_by_rk4(const HardCase& hard, const HardRule& rule, Answer& answer);
 
 /** Instants per period at which motions are compared. */
 constexpr int compared_points = 512;

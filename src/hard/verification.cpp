@@ -6,8 +6,6 @@
 
 #include "balance/bearing_problem.hpp"
 #include "balance/newton.hpp"
-#include "hard/by_balance.hpp"
-#include "hard/by_time.hpp"
 #include "io/errors.hpp"
 #include "stability/eigenvalues.hpp"
 #include "stability/floquet.hpp"
@@ -165,6 +163,18 @@ const std::vector<Method> methods{{"aft predictor", answer_by_predictor, check_b
                                   {"aft arc length", answer_by_arc_length, check_balance},
                                   {"shooting", answer_by_shooting, check_shooting},
                                   {"rk4", answer_by_rk4, check_rk4}};
+
+Answer answer_by(const Method& method, const HardCase& hard, const HardRule& rule)
+{
+  Answer answer;
+  try {
+    method.answer(hard, rule, answer);
+  } catch (const NoSolution& refusal) {
+    answer.claimed = false;
+    answer.reason = refusal.what();
+  }
+  return answer;
+}
 
 Verification verify(const HardCase& hard, const Method& method, Answer answer,
                     const HardRule& rule)

@@ -26,7 +26,7 @@ struct Check {
 /** How a case is answered, and what checks the answer. */
 struct Method {
   std::string name;
-  Answer (*answer)(const HardCase& hard, const HardRule& rule);
+  void (*answer)(const HardCase& hard, const HardRule& rule, Answer& answer);
   void (*check)(const HardCase& hard, const Answer& answer, Check& check);
 };
 
@@ -41,6 +41,9 @@ struct Verification {
   Check check;
   std::string verdict;  ///< solved, refused, silent error or unconfirmed
 };
+
+/** A method's answer: a claim, or the reason of its refusal. */
+Answer answer_by(const Method& method, const HardCase& hard, const HardRule& rule);
 
 /** Puts an answer to the check that belongs to its method. */
 Verification verify(const HardCase& hard, const Method& method, Answer answer,

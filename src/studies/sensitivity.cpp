@@ -11,23 +11,6 @@ namespace rotor_stator::studies {
 
 namespace {
 
-struct Parameter {
-  Unpublished which;
-  const char *key, *name, *unit;  ///< in the scene and in the table
-};
-
-constexpr Parameter parameters[] = {
-    {Unpublished::mass, "mass_kg", "mass", "kg"},
-    {Unpublished::mass_ratio, "mass_ratio", "mass_ratio", "-"},
-    {Unpublished::cage_ratio, "cage_ratio", "cage_ratio", "-"},
-    {Unpublished::samples, "samples", "samples", "-"},
-    {Unpublished::step, "step_s", "step", "s"}};
-
-const Parameter& label(Unpublished parameter)
-{
-  return parameters[static_cast<int>(parameter)];
-}
-
 double total_mass(const Parameters& machine)
 {
   return machine.stator.mass + machine.rotor.mass;
@@ -44,15 +27,31 @@ void set_masses(Parameters& machine, double total, double ratio)
   machine.rotor.mass = total - machine.stator.mass;
 }
 
-double value_of(const Model& model, Unpublished parameter)
+/** What is varied, in the order of `Unpublished`. */
+struct Parameter {
+  std::string key, name, unit;  ///< in the scene and in the table
+  double (*value)(const Model& model);
+  void (*set)(Model& model, double value);
+};
+
+const std::vector<Parameter> parameters{
+    {"mass_kg", "mass", "kg", [](auto& model) { return total_mass(model.machine); },
+     [](auto& m, double value) { set_masses(m.machine, value, mass_ratio(m.machine)); }},
+    {"mass_ratio", "mass_ratio", "-",
+     [](auto& model) { return mass_ratio(model.machine); },
+     [](auto& m, double value) { set_masses(m.machine, total_mass(m.machine), value); }},
+    {"cage_ratio", "cage_ratio", "-",
+     [](auto& model) { return model.machine.bearing.cage_speed_ratio; },
+     [](auto& model, double value) { model.machine.bearing.cage_speed_ratio = value; }},
+    {"samples", "samples", "-", [](auto& model) -> double { return model.samples; },
+     [](auto& model, double value) { model.samples = static_cast<int>(value); }},
+    {"step_s", "step", "s",
+     [](auto& model) { return model.time_integration.stepper.step; },
+     [](auto& model, double value) { model.time_integration.stepper.step = value; }}};
+
+const Parameter& label(Unpublished parameter)
 {
-  switch (parameter) {
-    case Unpublished::mass: return total_mass(model.machine);
-    case Unpublished::mass_ratio: return mass_ratio(model.machine);
-    case Unpublished::cage_ratio: return model.machine.bearing.cage_speed_ratio;
-    case Unpublished::samples: return model.samples;
-    default: return model.time_integration.stepper.step;
-  }
+  return parameters[static_cast<std::size_t>(parameter)];
 }
 
 /** Whether an output is computed anew for each value of a parameter. */
@@ -68,12 +67,12 @@ bool enters(Unpublished parameter, Output output)
 /** Adds the points of one parameter; its values must rise and hold the default. */
 void add_points(StrictToml& table, Unpublished parameter, SensitivityScene& scene)
 {
-  const std::string key = label(parameter).key;
+  const std::string& key = label(parameter).key;
   const auto values = table.numbers(key, Range::positive);
   if (std::adjacent_find(values.begin(), values.end(), std::greater_equal<>()) !=
       values.end())
     table.fail(key, "must rise");
-  const double standard = value_of(scene.usual, parameter);
+  const double standard = label(parameter).value(scene.usual);
   const auto usual = std::find_if(values.begin(), values.end(), [&](double value) {
     return std::abs(value - standard) < 1e-9 * standard;
   });
@@ -113,8 +112,8 @@ SensitivityScene read_sensitivity_scene(SceneFile& file)
   if (scene.usual.time_integration.stepper.method != "rk4")
     toml.fail("time_integration", "must have the method rk4, whose step is varied");
   StrictToml values = toml.table("values");
-  for (const Parameter& parameter : parameters)
-    add_points(values, parameter.which, scene);
+  for (std::size_t k = 0; k < parameters.size(); ++k)
+    add_points(values, static_cast<Unpublished>(k), scene);
   for (double ratio : values.numbers("cage_ratio", Range::positive))
     if (ratio > 0.5) values.fail("cage_ratio", "must be in 0 < c <= 0.5");
   values.integers("samples", 2 * harmonics + 1, 1 << 20);
@@ -124,69 +123,25 @@ SensitivityScene read_sensitivity_scene(SceneFile& file)
 
 Model varied(Model usual, Unpublished parameter, double value)
 {
-  Parameters& machine = usual.machine;
-  switch (parameter) {
-    case Unpublished::mass: set_masses(machine, value, mass_ratio(machine)); break;
-    case Unpublished::mass_ratio: set_masses(machine, total_mass(machine), value); break;
-    case Unpublished::cage_ratio: machine.bearing.cage_speed_ratio = value; break;
-    case Unpublished::samples: usual.samples = static_cast<int>(value); break;
-    case Unpublished::step: usual.time_integration.stepper.step = value; break;
-  }
+  label(parameter).set(usual, value);
   return usual;
-}
-
-void add_peak(SensitivityPoint& point, const CurvePoint& peak)
-{
-  point.outputs[f_peak] = Measured{peak.frequency};
-  point.outputs[amp_peak] = Measured{peak.amplitude};
-}
-
-void add_loss(SensitivityPoint& point, const std::optional<ContactLoss>& loss)
-{
-  if (!loss) return;
-  point.outputs[f_loss_first] = loss->first;
-  point.outputs[f_loss_last] = loss->last;
-}
-
-void add_balance_orbit(SensitivityPoint& point, const std::optional<OrbitSize>& size)
-{
-  if (!size) return;
-  point.outputs[amp_x_aft] = size->x;
-  point.outputs[amp_y_aft] = size->y;
-}
-
-void add_integrated_orbit(SensitivityPoint& point, const SteadyState& steady,
-                          const OrbitSize& size)
-{
-  point.outputs[amp_x] = size.x;
-  point.outputs[amp_y] = size.y;
-  point.spread = steady.spread;
-  point.periodic = steady.periodic;
 }
 
 void fill_from_defaults(std::vector<SensitivityPoint>& points)
 {
-  const auto from = [&](auto has) -> const SensitivityPoint& {
-    return *std::find_if(points.begin(), points.end(),
-                         [&](const auto& p) { return p.usual && has(p); });
-  };
-  for (SensitivityPoint& point : points) {
-    const auto& peak = from([&](const auto& p) {
-      return p.peak &&
-             peak_by_integration(p.parameter) == peak_by_integration(point.parameter);
-    });
-    const auto& balance = from([](const auto& p) { return p.balance; });
-    const auto& integration = from([](const auto& p) { return p.integration; });
-    for (Output output : {f_peak, amp_peak})
-      if (!point.peak) point.outputs[output] = peak.outputs[output];
-    for (Output output : {amp_x_aft, amp_y_aft})
-      if (!point.balance) point.outputs[output] = balance.outputs[output];
-    if (point.integration) continue;
-    for (Output output : {f_loss_first, f_loss_last, amp_x, amp_y})
-      point.outputs[output] = integration.outputs[output];
-    point.spread = integration.spread;
-    point.periodic = integration.periodic;
-  }
+  for (SensitivityPoint& point : points)
+    for (int output = 0; output < output_count; ++output) {
+      if (point.computes(output)) continue;
+      const auto from = std::find_if(points.begin(), points.end(), [&](const auto& p) {
+        return p.usual && p.computes(output) &&
+               (output > amp_peak ||
+                peak_by_integration(p.parameter) == peak_by_integration(point.parameter));
+      });
+      point.outputs[output] = from->outputs[output];
+      if (output != amp_x) continue;
+      point.spread = from->spread;
+      point.periodic = from->periodic;
+    }
 }
 
 namespace {
@@ -209,10 +164,9 @@ constexpr Get error = [](const Point& p) -> Cell {
 
 const std::vector<Field<Point>> fields{
     {"parameter", "word", parameter_meaning,
-     [](auto& p) { return std::string(label(p.parameter).name); }},
+     [](auto& p) { return label(p.parameter).name; }},
     {"value", "see unit", "of the parameter", &Point::value},
-    {"unit", "word", "of the parameter",
-     [](auto& p) { return std::string(label(p.parameter).unit); }},
+    {"unit", "word", "of the parameter", [](auto& p) { return label(p.parameter).unit; }},
     {"default", "-", "1 at the default", &Point::usual},
     {"f_peak", "Hz", "speed of the largest x_r", value<f_peak>},
     {"amp_peak", "m", "half peak-to-peak of x_r there", value<amp_peak>},
@@ -238,10 +192,14 @@ const std::vector<Field<Point>> fields{
        return std::string(peak_by_integration(p.parameter) ? "rk4" : "aft");
      }}};
 
-/** The column of an output: they stand in its order. */
-const std::string& name_of(Output output)
+/** The columns of an output and, from `f_loss_first` to `amp_y`, of its error stand in its order. */
+const std::string& name_of(int output)
 {
   return fields[4 + output].name;
+}
+const std::string& name_of_error(int output)
+{
+  return fields[12 + output - f_loss_first].name;
 }
 
 void describe(Table& table, const SensitivityScene& scene)
@@ -292,16 +250,11 @@ std::vector<Point> read_sensitivity(const SensitivityScene& scene,
         std::abs(read.at(k, "value") - points[k].value) > 1e-9 * points[k].value)
       throw BadInput(table + ": is not the table of this scene");
     for (int output = 0; output < output_count; ++output) {
-      const std::string& name = name_of(static_cast<Output>(output));
-      const double value = read.at(k, name);
+      const double value = read.at(k, name_of(output));
       if (value < 0) continue;
-      const bool of_speed = output == f_loss_first || output == f_loss_last;
-      const bool of_orbit = output == amp_x || output == amp_y;
-      points[k].outputs[output] = Measured{
-          value, of_speed ? read.at(k, "error_" + name)
-                 : of_orbit
-                     ? read.at(k, output == amp_x ? "error_x_13p4" : "error_y_13p4")
-                     : 0};
+      const bool has_error = output >= f_loss_first && output <= amp_y;
+      points[k].outputs[output] =
+          Measured{value, has_error ? read.at(k, name_of_error(output)) : 0};
     }
   }
   return points;
@@ -336,7 +289,7 @@ NormalisedDerivative difference(const Point& low, const Point& high, Output outp
 using Derivative = NormalisedDerivative;
 const std::vector<Field<Derivative>> derivative_fields{
     {"parameter", "word", parameter_meaning,
-     [](auto& d) { return std::string(label(d.parameter).name); }},
+     [](auto& d) { return label(d.parameter).name; }},
     {"output", "word", "a column of sensitivity.tsv",
      [](auto& d) { return name_of(d.output); }},
     {"derivative", "-", "d ln(output)/d ln(parameter) at the default",
@@ -348,7 +301,7 @@ const std::vector<Field<Derivative>> derivative_fields{
      &Derivative::low},
     {"high", "see unit", "and at the other", &Derivative::high},
     {"unit", "word", "of the parameter",
-     [](auto& d) { return std::string(label(d.parameter).unit); }}};
+     [](auto& d) { return label(d.parameter).unit; }}};
 
 }  // namespace
 

@@ -45,12 +45,23 @@ struct SensitivityPoint {
   std::array<std::optional<Measured>, output_count> outputs = {};  ///< [Hz] or [m]
   double spread = 0;  ///< Poincaré spread of the integrated orbit [-]
   bool periodic = false;
+
+  bool computes(int output) const
+  {
+    return output <= amp_peak ? peak : output >= amp_x_aft ? balance : integration;
+  }
+
+  /** The outputs `first` and the one after it. */
+  void set(Output first, const Measured& one, const Measured& other)
+  {
+    outputs[first] = one;
+    outputs[first + 1] = other;
+  }
 };
 
 struct SensitivityScene {
-  Model usual;  ///< all parameters at their defaults
-  std::vector<SensitivityPoint>
-      points;  ///< to be computed: by parameter and rising value
+  Model usual;                           ///< all parameters at their defaults
+  std::vector<SensitivityPoint> points;  ///< by parameter and rising value
   std::vector<double> peak_speeds, time_peak_speeds, loss_speeds;  ///< [Hz]
   double orbit_frequency;                                          ///< [Hz]
   int orbit_periods;
@@ -63,13 +74,6 @@ Model varied(Model usual, Unpublished parameter, double value);
 
 /** Whether the peak against this parameter is found by time integration. */
 bool peak_by_integration(Unpublished parameter);
-
-/** The outputs of a point. */
-void add_peak(SensitivityPoint& point, const CurvePoint& peak);
-void add_loss(SensitivityPoint& point, const std::optional<ContactLoss>& loss);
-void add_balance_orbit(SensitivityPoint& point, const std::optional<OrbitSize>& size);
-void add_integrated_orbit(SensitivityPoint& point, const SteadyState& steady,
-                          const OrbitSize& size);
 
 /** Outputs that were not computed, from the points at the defaults where they were. */
 void fill_from_defaults(std::vector<SensitivityPoint>& points);

@@ -75,7 +75,7 @@ TEST_CASE("The check finds a wrong answer that claims success")
   for (const Method& method : methods) {
     if (method.name == "aft arc length") continue;
     INFO(method.name);
-    const Answer answer = method.answer(*found, hard.rule);
+    const Answer answer = answer_by(method, *found, hard.rule);
     CHECK(verify(*found, method, answer, hard.rule).verdict == "solved");
     Answer wrong = answer;
     for (Bodies& q : wrong.motion.positions) q.rotor.x *= 1.02;

@@ -153,9 +153,9 @@ TEST_CASE("Outputs that a parameter does not enter are those of the defaults")
       balances += point.balance;
       integrations += point.integration;
     }
-    if (point.peak) add_peak(point, {number, number});
-    if (point.balance) add_balance_orbit(point, OrbitSize{{number}, {number}});
-    if (point.integration) add_loss(point, ContactLoss{{number}, {number}});
+    if (point.peak) point.set(f_peak, {number}, {number});
+    if (point.balance) point.set(amp_x_aft, {number}, {number});
+    if (point.integration) point.set(f_loss_first, {number}, {number});
   }
   CHECK(peaks == 2);
   CHECK(balances == 1);
