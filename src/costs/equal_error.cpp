@@ -60,10 +60,9 @@ std::vector<Measurement> try_settings(const EqualErrorScene& scene,
     for (const Setting& setting : group) {
       if (used > scene.search) return tried;
       tried.push_back(measure(range, setting, 1));
-      const double cpu = tried.back().cpu.median;
+      const double cpu = tried.back().median;
       used += cpu;
-      if (tried.back().error.displacement <= scene.targets.back())
-        least = std::min(least, cpu);
+      if (tried.back().displacement <= scene.targets.back()) least = std::min(least, cpu);
       if (cpu > clearly * least) break;
     }
   return tried;
@@ -74,19 +73,19 @@ EqualErrorRow cheapest(const EqualErrorScene& scene, const References& range,
                        const std::vector<EqualErrorRow>& rows)
 {
   const auto cheaper = [](const Measurement& a, const Measurement& b) {
-    return a.cpu.median < b.cpu.median;
+    return a.median < b.median;
   };
   const auto nearer = [](const Measurement& a, const Measurement& b) {
-    return a.error.displacement < b.error.displacement;
+    return a.displacement < b.displacement;
   };
   std::vector<Measurement> good;
   for (const Measurement& m : tried)
-    if (m.error.displacement <= target) good.push_back(m);
+    if (m.displacement <= target) good.push_back(m);
   std::sort(good.begin(), good.end(), cheaper);
   constexpr std::size_t few = 2;
   good.resize(std::min(good.size(), few));
   for (Measurement& m : good) {
-    const int most = m.cpu.median > scene.long_run ? 3 : scene.repetitions;
+    const int most = m.median > scene.long_run ? 3 : scene.repetitions;
     m = measure(range, m.setting, std::min(most, scene.repetitions));
   }
   EqualErrorRow row{good.empty() ? *std::min_element(tried.begin(), tried.end(), nearer)
@@ -100,39 +99,37 @@ EqualErrorRow cheapest(const EqualErrorScene& scene, const References& range,
   for (const EqualErrorRow& aft : rows)
     if (aft.setting.method == "aft" && aft.reached && aft.range == row.range &&
         aft.target == target)
-      row.ratio = row.cpu.median / aft.cpu.median;
+      row.ratio = row.median / aft.median;
   return row;
 }
 
 namespace {
 
-using Row = const EqualErrorRow&;
+using Row = EqualErrorRow;
 
-const std::vector<Field<EqualErrorRow>> equal_error_fields{
-    {"range", "Hz", "first and last T-periodic speed of the sweep",
-     &EqualErrorRow::range},
-    {"target", "-", "largest error of displacement allowed", &EqualErrorRow::target},
+const std::vector<Field<Row>> equal_error_fields{
+    {"range", "Hz", "first and last T-periodic speed of the sweep", &Row::range},
+    {"target", "-", "largest error of displacement allowed", &Row::target},
     {"method", "-", "aft: harmonic balance; rk4; GSL's; shooting- with one of them",
-     [](Row r) { return r.setting.method; }},
+     [](auto& r) { return r.setting.method; }},
     {"setting", "-", "the cheapest that reaches the target",
-     [](Row r) { return r.setting.text(); }},
+     [](auto& r) { return r.setting.text(); }},
     {"cpu_s", "s", "CPU of one thread for the whole range, median of the repetitions",
-     [](Row r) { return r.cpu.median; }},
+     &Row::median},
     {"error", "-", "largest relative error of displacement over the speeds",
-     [](Row r) { return r.error.displacement; }},
-    {"error_force", "-", "largest relative error of force over the speeds",
-     [](Row r) { return r.error.force; }},
+     &Row::displacement},
+    {"error_force", "-", "largest relative error of force over the speeds", &Row::force},
     {"ratio", "-", "CPU over that of aft at the same target; 0 where aft has none",
-     &EqualErrorRow::ratio},
-    {"cpu_min_s", "s", "least", [](Row r) { return r.cpu.least; }},
-    {"cpu_max_s", "s", "most", [](Row r) { return r.cpu.most; }},
-    {"repetitions", "-", "fewer for the long runs", &EqualErrorRow::repetitions},
+     &Row::ratio},
+    {"cpu_min_s", "s", "least", &Row::least},
+    {"cpu_max_s", "s", "most", &Row::most},
+    {"repetitions", "-", "fewer for the long runs", &Row::repetitions},
     {"worst_f", "Hz", "speed with the largest error of displacement",
-     [](Row r) { return r.error.worst_frequency; }},
-    {"speeds", "-", "number of speeds", &EqualErrorRow::speeds},
+     &Row::worst_frequency},
+    {"speeds", "-", "number of speeds", &Row::speeds},
     {"evaluations", "-", "evaluations of the bearing's force, one instant each",
-     [](Row r) { return r.counts.force_instants; }},
-    {"tried", "-", "settings tried", &EqualErrorRow::tried}};
+     &Row::force_instants},
+    {"tried", "-", "settings tried", &Row::tried}};
 
 }  // namespace
 
@@ -161,9 +158,8 @@ Table equal_error_table(const EqualErrorScene& scene, const References& referenc
     else
       table.note(format("not reached: %s, %s Hz, target %g; ", row.setting.method.c_str(),
                         row.range.c_str(), row.target) +
-                 (std::isfinite(row.error.displacement)
-                      ? format("best %.2g", row.error.displacement)
-                      : "no setting solves every speed"));
+                 (std::isfinite(row.displacement) ? format("best %.2g", row.displacement)
+                                                  : "no setting solves every speed"));
   return table;
 }
 

@@ -86,28 +86,28 @@ SamplingPoint sampling_errors(const SamplingCase& at, int samples_over_m,
 
 namespace {
 
-using Row = const SamplingPoint&;
+using Row = SamplingPoint;
 
-const std::vector<Field<SamplingPoint>> sampling_fields{
-    {"panel", "-", "number of the machine and speed", &SamplingPoint::number},
-    {"f", "Hz", "speed of rotation", &SamplingPoint::frequency},
-    {"m", "-", "harmonics", &SamplingPoint::harmonics},
+const std::vector<Field<Row>> sampling_fields{
+    {"panel", "-", "number of the machine and speed", &Row::number},
+    {"f", "Hz", "speed of rotation", &Row::frequency},
+    {"m", "-", "harmonics", &Row::harmonics},
     {"samples_over_m", "-", "N is the next fast size from this times m, plus one",
-     &SamplingPoint::samples_over_m},
-    {"N", "-", "samples per period", &SamplingPoint::samples},
+     &Row::samples_over_m},
+    {"N", "-", "samples per period", &Row::samples},
     {"default", "-", "1 if this is the default N of that m",
-     [](Row r) { return r.samples == default_samples(r.harmonics); }},
-    {"found", "-", "1 if Newton converged with this N", &SamplingPoint::found},
+     [](auto& r) { return r.samples == default_samples(r.harmonics); }},
+    {"found", "-", "1 if Newton converged with this N", &Row::found},
     {"sampling", "-",
      "displacement error against the same m finely sampled; 0 if not found",
-     [](Row r) { return r.sampling.displacement; }},
+     [](auto& r) { return r.sampling.displacement; }},
     {"sampling_force", "-", "the same of the bearing's force",
-     [](Row r) { return r.sampling.force; }},
+     [](auto& r) { return r.sampling.force; }},
     {"truncation", "-",
      "displacement error of that m, finely sampled, against the reference",
-     [](Row r) { return r.truncation.displacement; }},
+     [](auto& r) { return r.truncation.displacement; }},
     {"truncation_force", "-", "the same of the bearing's force",
-     [](Row r) { return r.truncation.force; }}};
+     [](auto& r) { return r.truncation.force; }}};
 
 }  // namespace
 

@@ -452,9 +452,9 @@ Measurement measure(const References& sweep, const Setting& setting, int repetit
 {
   const auto method = timed_method(sweep, setting);
   const CpuTime cpu = time_of(repetitions, [&] { method->run(); });
-  Measurement result{setting, repetitions, cpu, method->counts(), {}};
+  Measurement result{cpu, method->counts(), {}, setting, repetitions};
   for (std::size_t speed = 0; speed < sweep.frequencies.size(); ++speed)
-    add(result.error, *method, sweep, speed);
+    add(result, *method, sweep, speed);
   return result;
 }
 

@@ -71,12 +71,9 @@ private:
 std::unique_ptr<TimedMethod> timed_method(const Task& task, const Setting& setting);
 
 /** One method at one setting over all speeds of a sweep: what it costs, and how far off it is. */
-struct Measurement {
+struct Measurement : CpuTime, Counts, MotionError {
   Setting setting;
   int repetitions;
-  CpuTime cpu;
-  Counts counts;
-  MotionError error;
 };
 
 Measurement measure(const References& sweep, const Setting& setting, int repetitions);

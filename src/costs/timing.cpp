@@ -70,17 +70,15 @@ std::vector<Setting> cheapest_rk4(const TimingScene& scene, const References& re
   for (const Setting& setting : watched("RK4 settings", scene.rk4)) {
     double loosest = 0;
     for (std::size_t k = 0; k < balances.size(); ++k)
-      if (chosen[k].method.empty())
-        loosest = std::max(loosest, balances[k].error.displacement);
+      if (chosen[k].method.empty()) loosest = std::max(loosest, balances[k].displacement);
     if (loosest == 0) break;
     const MotionError error = error_up_to(loosest, references, setting);
     for (std::size_t k = 0; k < balances.size(); ++k)
-      if (chosen[k].method.empty() &&
-          error.displacement <= balances[k].error.displacement)
+      if (chosen[k].method.empty() && error.displacement <= balances[k].displacement)
         chosen[k] = setting;
   }
   for (std::size_t k = 0; k < balances.size(); ++k) {
-    const MotionError& target = balances[k].error;
+    const MotionError& target = balances[k];
     if (!std::isfinite(target.displacement))
       throw NoSolution(
           format("no harmonic-balance solution at %g Hz", target.worst_frequency));
@@ -98,32 +96,33 @@ struct TimingRow : Measurement {
   double ratio, paper_cpu;
 };
 
-using Row = const TimingRow&;
+using Row = TimingRow;
 
-const std::vector<Field<TimingRow>> timing_fields{
+const std::vector<Field<Row>> timing_fields{
     {"method", "-", "aft: harmonic balance; rk4: classical Runge-Kutta with fixed step",
-     [](Row r) { return r.setting.method; }},
+     [](auto& r) { return r.setting.method; }},
     {"harmonics", "-", "m; for rk4 that of the row whose error it reaches",
-     &TimingRow::harmonics},
-    {"samples", "-", "N per period; 0 for rk4", [](Row r) { return r.setting.samples; }},
+     &Row::harmonics},
+    {"samples", "-", "N per period; 0 for rk4",
+     [](auto& r) { return r.setting.samples; }},
     {"cpu_s", "s", "CPU of one thread for the whole sweep, median of the repetitions",
-     [](Row r) { return r.cpu.median; }},
-    {"cpu_min_s", "s", "least", [](Row r) { return r.cpu.least; }},
-    {"cpu_max_s", "s", "most", [](Row r) { return r.cpu.most; }},
+     &Row::median},
+    {"cpu_min_s", "s", "least", &Row::least},
+    {"cpu_max_s", "s", "most", &Row::most},
     {"error", "-", "largest relative error of displacement over the periodic speeds",
-     [](Row r) { return r.error.displacement; }},
+     &Row::displacement},
     {"error_force", "-", "largest relative error of force over the periodic speeds",
-     [](Row r) { return r.error.force; }},
+     &Row::force},
     {"ratio", "-", "CPU of the rk4 row with the same harmonics over this row's",
-     &TimingRow::ratio},
-    {"step_s", "s", "rk4: longest step; 0 for aft", [](Row r) { return r.setting.step; }},
+     &Row::ratio},
+    {"step_s", "s", "rk4: longest step; 0 for aft",
+     [](auto& r) { return r.setting.step; }},
     {"transient_s", "s", "rk4: transient at each speed; 0 for aft",
-     [](Row r) { return r.setting.transient; }},
-    {"evaluations", "-", "evaluations of the bearing's force",
-     [](Row r) { return r.counts.force_instants; }},
+     [](auto& r) { return r.setting.transient; }},
+    {"evaluations", "-", "evaluations of the bearing's force", &Row::force_instants},
     {"worst_f", "Hz", "speed with the largest error of displacement",
-     [](Row r) { return r.error.worst_frequency; }},
-    {"paper_cpu", "-", "the paper's figure, unit not given", &TimingRow::paper_cpu}};
+     &Row::worst_frequency},
+    {"paper_cpu", "-", "the paper's figure, unit not given", &Row::paper_cpu}};
 
 }  // namespace
 
@@ -141,7 +140,7 @@ Table timing_table(const TimingScene& scene, const References& references,
   table.note(references.aperiodic());
   for (std::size_t k = 0; k < balances.size(); ++k) {
     const int m = balances[k].setting.harmonics;
-    const double ratio = rk4[k].cpu.median / balances[k].cpu.median;
+    const double ratio = rk4[k].median / balances[k].median;
     table.row(timing_fields, {balances[k], m, ratio, scene.paper_cpu[k]});
     table.row(timing_fields, {rk4[k], m, 1, scene.paper_cpu.back()});
   }

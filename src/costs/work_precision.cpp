@@ -90,12 +90,11 @@ double seconds_of_transform(int samples)
 /** A run in which the force is timed, or the number of evaluations times what one takes. */
 void split_time(WorkPoint& point, const References& references)
 {
-  const Counts& counts = point.counts;
   if (point.setting.method != "aft") {
     const double force =
-        static_cast<double>(counts.force_instants) *
+        static_cast<double>(point.force_instants) *
         seconds_of_force(references.parameters, *references.motions.front());
-    point.force_share = std::min(1.0, force / point.cpu.median);
+    point.force_share = std::min(1.0, force / point.median);
     return;
   }
   Task task = references;
@@ -107,11 +106,11 @@ void split_time(WorkPoint& point, const References& references)
     force += method->counts().force_seconds / point.repetitions;
   });
   point.force_share = std::min(1.0, force / profiled.median);
-  if (counts.transforms == 0) return;
-  const auto samples = static_cast<int>(counts.transformed / counts.transforms);
+  if (point.transforms == 0) return;
+  const auto samples = static_cast<int>(point.transformed / point.transforms);
   const double transforms =
-      static_cast<double>(counts.transforms) * seconds_of_transform(samples);
-  point.transform_share = std::min(1 - point.force_share, transforms / point.cpu.median);
+      static_cast<double>(point.transforms) * seconds_of_transform(samples);
+  point.transform_share = std::min(1 - point.force_share, transforms / point.median);
 }
 
 }  // namespace
@@ -122,7 +121,7 @@ WorkPoint work_point(const WorkPrecisionScene& scene, const WorkCase& reference,
   const auto& [number, parameters, truth, before, agreement] = reference;
   References references{{parameters, {truth.frequency}}, {truth.motion}};
   if (continued) references.before = {before.frequency, before.state};
-  const double once = measure(references, setting, 1).cpu.median;
+  const double once = measure(references, setting, 1).median;
   const int repetitions = once > scene.long_run ? 2 : scene.repetitions;
   WorkPoint point{measure(references, setting, repetitions), number, truth.frequency,
                   continued};
@@ -132,39 +131,35 @@ WorkPoint work_point(const WorkPrecisionScene& scene, const WorkCase& reference,
 
 namespace {
 
-using Row = const WorkPoint&;
+using Row = WorkPoint;
 
-const std::vector<Field<WorkPoint>> work_precision_fields{
-    {"case", "-", "number of the case in the header", &WorkPoint::number},
-    {"f", "Hz", "speed", &WorkPoint::frequency},
+const std::vector<Field<Row>> work_precision_fields{
+    {"case", "-", "number of the case in the header", &Row::number},
+    {"f", "Hz", "speed", &Row::frequency},
     {"start", "-",
      "nothing: static load or quasi-static contact; below: the motion below",
-     [](Row r) { return std::string(r.continued ? "below" : "nothing"); }},
+     [](auto& r) { return std::string(r.continued ? "below" : "nothing"); }},
     {"method", "-", "aft: harmonic balance; rk4; GSL's; shooting- with one of them",
-     [](Row r) { return r.setting.method; }},
+     [](auto& r) { return r.setting.method; }},
     {"setting", "-", "m, N, tolerance, step [s], transient [s], closure",
-     [](Row r) { return r.setting.text(); }},
-    {"found", "-", "whether it gave a motion", [](Row r) { return r.found(); }},
-    {"cpu_s", "s", "CPU of one thread, median of the repetitions",
-     [](Row r) { return r.cpu.median; }},
-    {"cpu_min_s", "s", "least", [](Row r) { return r.cpu.least; }},
-    {"cpu_max_s", "s", "most", [](Row r) { return r.cpu.most; }},
-    {"repetitions", "-", "fewer for the long runs", &WorkPoint::repetitions},
+     [](auto& r) { return r.setting.text(); }},
+    {"found", "-", "whether it gave a motion", [](auto& r) { return r.found(); }},
+    {"cpu_s", "s", "CPU of one thread, median of the repetitions", &Row::median},
+    {"cpu_min_s", "s", "least", &Row::least},
+    {"cpu_max_s", "s", "most", &Row::most},
+    {"repetitions", "-", "fewer for the long runs", &Row::repetitions},
     {"error", "-", "largest relative error of displacement; -1 when not found",
-     [](Row r) { return r.found() ? r.error.displacement : -1; }},
+     [](auto& r) { return r.found() ? r.displacement : -1; }},
     {"error_force", "-", "largest relative error of force; -1 when not found",
-     [](Row r) { return r.found() ? r.error.force : -1; }},
-    {"force_share", "-", "of the CPU time in the bearing's force",
-     &WorkPoint::force_share},
+     [](auto& r) { return r.found() ? r.force : -1; }},
+    {"force_share", "-", "of the CPU time in the bearing's force", &Row::force_share},
     {"transform_share", "-", "of the CPU time in Fourier transforms",
-     &WorkPoint::transform_share},
+     &Row::transform_share},
     {"evaluations", "-", "evaluations of the bearing's force, one instant each",
-     [](Row r) { return r.counts.force_instants; }},
-    {"transforms", "-", "Fourier transforms of one series",
-     [](Row r) { return r.counts.transforms; }},
-    {"maps", "-", "periods integrated by shooting", [](Row r) { return r.counts.maps; }},
-    {"derivatives", "-", "of them with the variational equations",
-     [](Row r) { return r.counts.derivatives; }}};
+     &Row::force_instants},
+    {"transforms", "-", "Fourier transforms of one series", &Row::transforms},
+    {"maps", "-", "periods integrated by shooting", &Row::maps},
+    {"derivatives", "-", "of them with the variational equations", &Row::derivatives}};
 
 }  // namespace
 

@@ -47,7 +47,7 @@ struct WorkPoint : Measurement {
   bool continued;      ///< from the motion below, else from nothing
   double force_share = 0, transform_share = 0;  ///< of the CPU time [-]
 
-  bool found() const { return std::isfinite(error.displacement); }
+  bool found() const { return std::isfinite(displacement); }
 };
 
 /** One setting, measured. */
