@@ -137,28 +137,23 @@ double crest(const std::vector<double>& values, std::size_t begin, std::size_t p
   return refined_peak({{-1, before}, {0, *largest}, {1, after}}).amplitude;
 }
 
-/** Mean half peak-to-peak of one displacement. */
-Measured mean_size(const std::vector<double>& values, int points_per_period)
-{
-  std::vector<double> mirrored, sizes;
-  for (double value : values) mirrored.push_back(-value);
-  const auto period = static_cast<std::size_t>(points_per_period);
-  for (std::size_t k = 0; k < values.size(); k += period)
-    sizes.push_back(0.5 * (crest(values, k, period) + crest(mirrored, k, period)));
-  const auto [mean, error] = batch_mean(sizes);
-  return {mean, error};
-}
-
 }  // namespace
 
 OrbitSize orbit_size(const motion::Motion& motion)
 {
-  std::vector<double> x, y;
-  for (const Bodies& bodies : motion.positions) {
-    x.push_back(bodies.rotor.x);
-    y.push_back(bodies.rotor.y);
-  }
-  return {mean_size(x, motion.points_per_period), mean_size(y, motion.points_per_period)};
+  const auto period = static_cast<std::size_t>(motion.points_per_period);
+  const auto mean_size = [&](double Vec2::*displacement) -> Measured {
+    std::vector<double> values, mirrored, sizes;
+    for (const Bodies& bodies : motion.positions) {
+      values.push_back(bodies.rotor.*displacement);
+      mirrored.push_back(-values.back());
+    }
+    for (std::size_t k = 0; k < values.size(); k += period)
+      sizes.push_back(0.5 * (crest(values, k, period) + crest(mirrored, k, period)));
+    const auto [mean, error] = batch_mean(sizes);
+    return {mean, error};
+  };
+  return {mean_size(&Vec2::x), mean_size(&Vec2::y)};
 }
 
 }  // namespace rotor_stator::studies

@@ -57,11 +57,7 @@ void add_candidates(StrictToml& grid, int reading, const Parameters& base,
 IdentificationScene read_identification_scene(const std::string& file,
                                               const std::string& claims)
 {
-  IdentificationScene scene{.candidates = {},
-                            .frequencies = {},
-                            .settings = {},
-                            .rule = read_claim_rule(claims),
-                            .files = {claims}};
+  IdentificationScene scene{{}, {}, {}, read_claim_rule(claims), {claims}};
   int reading = 0;
   for (const char* name : {"exchanged", "as-printed"}) {
     SceneFile scene_file(file, name);
@@ -89,102 +85,70 @@ motion::Regime regime_or_none(const Candidate& candidate, double frequency,
   }
 }
 
-namespace {
-
-bool is_simple(const motion::Regime& r, const ClaimRule& rule)
-{
-  return r.higher_harmonics < rule.multi_harmonic;
-}
-
-/** Share of `regimes` for which `condition` holds; 0 of none. */
-template <class Condition>
-double share(const std::vector<motion::Regime>& regimes, Condition condition)
-{
-  if (regimes.empty()) return 0;
-  return static_cast<double>(std::count_if(regimes.begin(), regimes.end(), condition)) /
-         static_cast<double>(regimes.size());
-}
-
-/** Speed of the largest amplitude of x_r. */
-double peak_frequency(const std::vector<motion::Regime>& regimes)
-{
-  std::vector<CurvePoint> curve;
-  for (const motion::Regime& r : regimes) curve.push_back({r.frequency, r.amp_x_r});
-  return refined_peak(curve).frequency;
-}
-
-RangeShares shares_of(const std::vector<motion::Regime>& regimes, const ClaimRule& rule)
-{
-  return {share(regimes, [](const motion::Regime& r) { return r.permanent_contact(); }),
-          share(regimes, [](const motion::Regime& r) { return r.periodic; }),
-          share(regimes, [&](const motion::Regime& r) { return is_simple(r, rule); })};
-}
-
-/** The quantity of C5: complex middle speeds, and loss of contact nowhere else. */
-double middle_complex(const std::vector<motion::Regime>& all,
-                      const std::vector<motion::Regime>& middle, const ClaimRule& rule)
-{
-  const auto lost = [](const motion::Regime& r) { return !r.permanent_contact(); };
-  const double lost_anywhere = share(all, lost) * static_cast<double>(all.size());
-  if (lost_anywhere == 0) return 0;
-  const double lost_here = share(middle, lost) * static_cast<double>(middle.size());
-  const double is_complex = share(
-      middle, [&](const motion::Regime& r) { return lost(r) || !is_simple(r, rule); });
-  return is_complex * lost_here / lost_anywhere;
-}
-
-}  // namespace
-
 ClaimScore score(const std::vector<motion::Regime>& regimes, const ClaimRule& rule)
 {
-  std::vector<motion::Regime> low, middle, high;
-  for (const motion::Regime& r : regimes)
+  using motion::Regime;
+  using Regimes = std::vector<Regime>;
+  const auto permanent = [](const Regime& r) { return r.permanent_contact(); };
+  const auto lost = [](const Regime& r) { return !r.permanent_contact(); };
+  const auto simple = [&](auto& r) { return r.higher_harmonics < rule.multi_harmonic; };
+  const auto count = [](const Regimes& some, auto condition) {
+    return static_cast<double>(std::count_if(some.begin(), some.end(), condition));
+  };
+  /** Of the regimes for which a condition holds; 0 of none. */
+  const auto share = [&](const Regimes& some, auto condition) {
+    return some.empty() ? 0 : count(some, condition) / static_cast<double>(some.size());
+  };
+  const auto shares = [&](const Regimes& some) -> RangeShares {
+    return {share(some, permanent), share(some, [](auto& r) { return r.periodic; }),
+            share(some, simple)};
+  };
+
+  Regimes low, middle, high;
+  std::vector<CurvePoint> curve;
+  ClaimScore j{};
+  j.f_loss_first = j.f_loss_last = -1;
+  for (const Regime& r : regimes) {
     (r.frequency <= rule.low_to      ? low
      : r.frequency <= rule.middle_to ? middle
                                      : high)
         .push_back(r);
-  ClaimScore j{};
-  j.f_peak = peak_frequency(regimes);
-  j.f_loss_first = j.f_loss_last = -1;
-  for (const motion::Regime& r : regimes) {
-    if (r.permanent_contact()) continue;
+    curve.push_back({r.frequency, r.amp_x_r});
+    if (permanent(r)) continue;
     if (j.f_loss_first < 0) j.f_loss_first = r.frequency;
     j.f_loss_last = r.frequency;
   }
-  j.low = shares_of(low, rule);
-  j.middle = shares_of(middle, rule);
-  j.high = shares_of(high, rule);
-  for (const motion::Regime& r : high)
+  j.f_peak = refined_peak(curve).frequency;
+  j.low = shares(low);
+  j.middle = shares(middle);
+  j.high = shares(high);
+  for (const Regime& r : high)
     j.passages += r.passages / static_cast<double>(high.size());
   j.c1 = std::max(0.0, 1 - std::abs(j.f_peak - rule.paper_peak) / rule.peak_width);
   j.c4 = j.low.permanent_contact;
-  j.c5 = middle_complex(regimes, middle, rule);
-  j.c6 = share(high, [&](const motion::Regime& r) {
-    return r.permanent_contact() && is_simple(r, rule);
-  });
-  j.c10 = share(high, [](const motion::Regime& r) { return r.passed_once; });
+  /** C5: complex middle speeds, and loss of contact nowhere else. */
+  if (j.f_loss_first >= 0)
+    j.c5 = share(middle, [&](auto& r) { return lost(r) || !simple(r); }) *
+           count(middle, lost) / count(regimes, lost);
+  j.c6 = share(high, [&](auto& r) { return permanent(r) && simple(r); });
+  j.c10 = share(high, [](auto& r) { return r.passed_once; });
   j.score = (j.c1 + j.c4 + j.c5 + j.c6 + j.c10) / 5;
   return j;
 }
 
 namespace {
 
-struct Row : ClaimScore {
-  const Candidate& candidate;
-};
+struct Row : ClaimScore, Candidate {};
 
 const std::vector<Field<Row>> fields{
-    {"reading", "-", "of Table 1: 0 exchanged, 1 as printed",
-     [](auto& r) { return r.candidate.reading; }},
-    {"m_s", "kg", "mass of the stator",
-     [](auto& r) { return r.candidate.machine.stator.mass; }},
-    {"m_r", "kg", "mass of the rotor",
-     [](auto& r) { return r.candidate.machine.rotor.mass; }},
+    {"reading", "-", "of Table 1: 0 exchanged, 1 as printed", &Row::reading},
+    {"m_s", "kg", "mass of the stator", [](auto& r) { return r.machine.stator.mass; }},
+    {"m_r", "kg", "mass of the rotor", [](auto& r) { return r.machine.rotor.mass; }},
     {"ratio_factor", "-",
      "m_r/m_s over the ratio that puts the joint resonance at the paper's peak",
-     [](auto& r) { return r.candidate.ratio_factor; }},
+     &Row::ratio_factor},
     {"cage_speed_ratio", "-", "omega_cage/omega",
-     [](auto& r) { return r.candidate.machine.bearing.cage_speed_ratio; }},
+     [](auto& r) { return r.machine.bearing.cage_speed_ratio; }},
     {"f_peak", "Hz", "speed of the largest x_r", &Row::f_peak},
     {"f_loss_first", "Hz", "first speed at which contact is lost; -1 when never",
      &Row::f_loss_first},

@@ -23,8 +23,7 @@ ClaimRule read_claim_rule(const std::string& file);
 
 struct Candidate {
   int reading;          ///< 0 exchanged, 1 as printed
-  double ratio_factor;  ///< mass ratio over the one that puts the joint resonance at the
-                        ///< peak
+  double ratio_factor;  ///< mass ratio over that of the joint resonance at the peak
   Parameters machine;
 };
 
