@@ -1,7 +1,5 @@
 #include "costs/sampling.hpp"
 
-#include <optional>
-
 #include "balance/bearing_problem.hpp"
 #include "balance/fourier_transform.hpp"
 #include "io/errors.hpp"
@@ -33,22 +31,22 @@ namespace {
 /** Instants at which motions are compared. */
 constexpr int points = 1024;
 
-[[noreturn]] void fail(const SamplingCase& at, int m, int samples)
+SampledSolution of_found(const SamplingCase& at, int m, int samples,
+                         const PeriodicMotion& solution)
 {
-  throw NoSolution(format("%s at %g Hz: no solution with m = %d, N = %d",
-                          at.machine.file.c_str(), at.frequency, m, samples));
+  if (!solution.found())
+    throw NoSolution(format("%s at %g Hz: no solution with m = %d, N = %d",
+                            at.machine.file.c_str(), at.frequency, m, samples));
+  return {m, solution.x, motion::motion_of(body_series(at.machine, solution), points)};
 }
 
 /** By Newton from `start`. */
-std::optional<SampledSolution> sampled(const SamplingCase& at, int m, int samples,
-                                       const SampledSolution& start)
+SampledSolution sampled(const SamplingCase& at, int m, int samples,
+                        const SampledSolution& start)
 {
   Balance balance(bearing_problem(at.machine, samples), m);
-  const PeriodicMotion solution =
-      solve(balance, angular(at.frequency), resize_harmonics(start.x, 2, m));
-  if (!solution.found()) return {};
-  return SampledSolution{m, solution.x,
-                         motion::motion_of(body_series(at.machine, solution), points)};
+  return of_found(at, m, samples,
+                  solve(balance, angular(at.frequency), resize_harmonics(start.x, 2, m)));
 }
 
 }  // namespace
@@ -56,19 +54,16 @@ std::optional<SampledSolution> sampled(const SamplingCase& at, int m, int sample
 SampledSolution reference_solution(const SamplingCase& at, int harmonics)
 {
   const int samples = default_samples(harmonics);
-  const auto found =
-      motion::search_periodic(at.machine, angular(at.frequency), harmonics, samples);
-  if (!found.found()) fail(at, harmonics, samples);
-  return {harmonics, found.x, motion::motion_of(found.bodies, points)};
+  return of_found(
+      at, harmonics, samples,
+      motion::search_periodic(at.machine, angular(at.frequency), harmonics, samples));
 }
 
 SampledSolution finely_sampled(const SamplingCase& at, int harmonics, int fine_over_m,
                                const SampledSolution& reference)
 {
-  const int samples = fast_transform_size(fine_over_m * harmonics + 1);
-  const auto fine = sampled(at, harmonics, samples, reference);
-  if (!fine) fail(at, harmonics, samples);
-  return *fine;
+  return sampled(at, harmonics, fast_transform_size(fine_over_m * harmonics + 1),
+                 reference);
 }
 
 SamplingPoint sampling_errors(const SamplingCase& at, int samples_over_m,
@@ -76,11 +71,15 @@ SamplingPoint sampling_errors(const SamplingCase& at, int samples_over_m,
                               const SampledSolution& reference)
 {
   const int m = fine.harmonics, samples = fast_transform_size(samples_over_m * m + 1);
-  const auto coarse = sampled(at, m, samples, fine);
-  SamplingPoint point{at.number, at.frequency,       m,  samples_over_m,
-                      samples,   coarse.has_value(), {}, {}};
-  if (coarse) point.sampling.add(at.machine, at.frequency, coarse->motion, fine.motion);
+  SamplingPoint point{at, m, samples_over_m, samples};
   point.truncation.add(at.machine, at.frequency, fine.motion, reference.motion);
+  try {
+    const SampledSolution coarse = sampled(at, m, samples, fine);
+    point.sampling.add(at.machine, at.frequency, coarse.motion, fine.motion);
+    point.found = true;
+  } catch (const NoSolution&) {
+    // too few samples
+  }
   return point;
 }
 

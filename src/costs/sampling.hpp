@@ -43,13 +43,11 @@ SampledSolution finely_sampled(const SamplingCase& at, int harmonics, int fine_o
                                const SampledSolution& reference);
 
 /** A solution with N the next fast size from `samples_over_m` times m, plus one. */
-struct SamplingPoint {
-  std::size_t number;  ///< of the case
-  double frequency;    ///< [Hz]
+struct SamplingPoint : SamplingCase {
   int harmonics, samples_over_m, samples;
-  bool found;              ///< Newton converged from the finely sampled solution
-  MotionError sampling;    ///< against the same m, finely sampled; 0 when not found
-  MotionError truncation;  ///< of that m, finely sampled
+  bool found = false;           ///< Newton converged from the finely sampled solution
+  MotionError sampling = {};    ///< against the same m, finely sampled; 0 when not found
+  MotionError truncation = {};  ///< of that m, finely sampled
 };
 
 /** The errors of the finely sampled solution's m with fewer samples. */

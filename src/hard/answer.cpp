@@ -31,6 +31,7 @@ SteadySettings hard_settings(const HardCase& hard, const std::string& method, do
                       .budget = budget_of(hard, method, 1e8)};
   settings.settled = 1e-8;
   settings.longest = 20;
+  settings.shown_periods = static_cast<int>(std::clamp(hard.frequency, 1.0, 100.0));
   return settings;
 }
 
@@ -61,11 +62,6 @@ double amplitude_change(const motion::Motion& motion, const motion::Motion& refe
   return size > 0 ? largest / size : 0;
 }
 
-int shown_periods(const HardCase& hard)
-{
-  return static_cast<int>(std::clamp(hard.frequency, 1.0, 100.0));
-}
-
 namespace {
 
 /** Claims an answer; throws NoSolution with what was `refined` when that moved it too much. */
@@ -79,48 +75,26 @@ void claim(const HardRule& rule, const std::string& refined, Answer& answer)
 /**
 ## Harmonic balance */
 
-/** The branch is followed with no more than the paper's harmonics; the rest is added at the speed
-    itself. */
-constexpr int most_followed = 10;
-
-/** A few seconds to the speed, and ten for the refinement there: two dense solutions with
-    1024 harmonics. */
-constexpr double most_operations = 6e9, most_refining_operations = 20e9;
-
 struct Resolution {
   int harmonics, samples;
 };
 
-Resolution followed(const HardCase& hard)
-{
-  const int m = std::min(hard.harmonics, most_followed);
-  const bool printed = hard.samples == 2 * hard.harmonics + 1;
-  return {m, m == hard.harmonics ? hard.samples
-             : printed           ? 2 * m + 1
-                                 : default_samples(m)};
-}
-
 /** A start for Newton at the case's speed; throws NoSolution when it was not reached. */
 using Approach = Eigen::VectorXd (*)(const HardCase& hard, Balance& balance);
 
-/** Equal steps of at most half a hertz, at least 20 and at most 400. */
-std::vector<double> swept_speeds(const HardCase& hard)
+/** In equal steps of at most half a hertz, at least 20 and at most 400. */
+Eigen::VectorXd by_predictor(const HardCase& hard, Balance& balance)
 {
+  const Parameters& p = hard.machine;
+  const int m = balance.harmonics().highest();
   const int steps =
       static_cast<int>(std::clamp((hard.frequency - hard.from) / 0.5, 20.0, 400.0));
   std::vector<double> omegas;
   for (int k = 0; k <= steps; ++k)
     omegas.push_back(angular(hard.from + (hard.frequency - hard.from) * k / steps));
-  return omegas;
-}
-
-Eigen::VectorXd by_predictor(const HardCase& hard, Balance& balance)
-{
-  const Parameters& p = hard.machine;
-  const int m = balance.harmonics().highest();
   const auto points = sweep(
-      balance, swept_speeds(hard),
-      [&](double omega) { return quasi_static_start(p, omega, m); }, sweep_settings(p));
+      balance, omegas, [&](double omega) { return quasi_static_start(p, omega, m); },
+      sweep_settings(p));
   if (!points.back().found())
     throw NoSolution(format("the sweep with m = %d found nothing at %g Hz: %s", m,
                             hard.frequency, points.back().newton.reason().c_str()));
@@ -157,29 +131,40 @@ PeriodicMotion solved(const HardCase& hard, Resolution with, const Eigen::Vector
   return solution;
 }
 
-/** The start along the branch, with its harmonics doubled until they are the case's. */
+/** The start along the branch, which is followed with no more than the paper's harmonics; they are doubled
+    until they are the case's. */
 PeriodicMotion reached(const HardCase& hard, Approach approach,
                        const OperationBudget& budget)
 {
-  Resolution with = followed(hard);
+  constexpr int most_followed = 10;
+  const Resolution wanted{hard.harmonics, hard.samples};
   if (hard.from == hard.frequency)
     return solved(
-        hard, {hard.harmonics, hard.samples},
+        hard, wanted,
         quasi_static_start(hard.machine, angular(hard.frequency), hard.harmonics),
         budget);
+  Resolution with = wanted;
+  if (hard.harmonics > most_followed) {
+    const bool printed = hard.samples == 2 * hard.harmonics + 1;
+    with = {most_followed,
+            printed ? 2 * most_followed + 1 : default_samples(most_followed)};
+  }
   Balance balance(bearing_problem(hard.machine, with.samples, budget), with.harmonics);
   Eigen::VectorXd x = approach(hard, balance);
   while (2 * with.harmonics < hard.harmonics) {
     with = {2 * with.harmonics, default_samples(2 * with.harmonics)};
     x = solved(hard, with, x, budget).x;
   }
-  return solved(hard, {hard.harmonics, hard.samples}, x, budget);
+  return solved(hard, wanted, x, budget);
 }
 
 /** Refined once: the distance is the error that is stated. */
 void by_balance(const HardCase& hard, const HardRule& rule, Approach approach,
                 Answer& answer)
 {
+  /** A few seconds to the speed, and ten for the refinement there: two dense solutions with 1024
+      harmonics. */
+  constexpr double most_operations = 6e9, most_refining_operations = 20e9;
   const double each = operations_per_evaluation(hard.machine.bearing.balls);
   const PeriodicMotion solution =
       reached(hard, approach, OperationBudget(most_operations / each));
@@ -226,6 +211,7 @@ Shooting closed_from_rest(const HardCase& hard, Answer& answer)
   if (!shooting.converged && hard.from != hard.frequency) {
     SteadySettings settings = hard_settings(hard, "rk4", 0);
     settings.longest = 2;
+    settings.shown_periods = 1;
     state = steady_state(p, angular(hard.frequency), static_start(p), settings)
                 .states.front();
     answer.reason = "from 2 s of integration";
@@ -234,24 +220,6 @@ Shooting closed_from_rest(const HardCase& hard, Answer& answer)
   answer.state = state;
   answer.residual = shooting.periodicity_residual;
   return shooting;
-}
-
-/** The slowest decay of a disturbance [1/s]: the contact has no damping of its own. */
-double slowest_decay(const Parameters& p)
-{
-  return std::min(p.stator.damping_ratio * p.stator.natural_frequency,
-                  p.rotor.damping_ratio * p.rotor.natural_frequency);
-}
-
-/** Refuses a motion that has not repeated itself after less than the time in which every transient
-    decays to a millionth. */
-void require_waited(const HardCase& hard, const SteadyState& steady)
-{
-  const double wait = std::log(1e6) / slowest_decay(hard.machine);
-  if (!steady.periodic && steady.seconds < wait)
-    throw NoSolution(
-        format("not settled after %.3g s, where a transient may last %s", steady.seconds,
-               std::isfinite(wait) ? format("%.3g s", wait).c_str() : "for ever"));
 }
 
 }  // namespace
@@ -285,14 +253,20 @@ void answer_by_shooting(const HardCase& hard, const HardRule& rule, Answer& answ
 void answer_by_rk4(const HardCase& hard, const HardRule& rule, Answer& answer)
 {
   const double step = default_step(hard.machine);
-  /** Shown long enough for the amplitudes of an aperiodic motion. */
   const auto settled = [&](double h, const State& start) {
-    SteadySettings settings = hard_settings(hard, "rk4", h);
-    settings.shown_periods = shown_periods(hard);
-    return steady_state(hard.machine, angular(hard.frequency), start, settings);
+    return steady_state(hard.machine, angular(hard.frequency), start,
+                        hard_settings(hard, "rk4", h));
   };
   const SteadyState steady = settled(step, static_start(hard.machine));
-  require_waited(hard, steady);
+  /** The slowest decay of a disturbance [1/s]: the contact has no damping of its own. */
+  const Body &stator = hard.machine.stator, &rotor = hard.machine.rotor;
+  const double decay = std::min(stator.damping_ratio * stator.natural_frequency,
+                                rotor.damping_ratio * rotor.natural_frequency);
+  const double wait = std::log(1e6) / decay;  // until every transient is a millionth
+  if (!steady.periodic && steady.seconds < wait)
+    throw NoSolution(
+        format("not settled after %.3g s, where a transient may last %s", steady.seconds,
+               std::isfinite(wait) ? format("%.3g s", wait).c_str() : "for ever"));
   answer.reason = format("%.3g s from rest", steady.seconds);
   answer.residual = steady.spread;
   answer.periodic = steady.periodic;
@@ -304,7 +278,7 @@ void answer_by_rk4(const HardCase& hard, const HardRule& rule, Answer& answer)
   const motion::Motion fine = motion::motion_of(finer, compared_points);
   if (steady.periodic) {
     /** What is left of a transient whose section moves by the spread in a window of 1 s. */
-    const double transient = steady.spread / std::min(1.0, slowest_decay(hard.machine));
+    const double transient = steady.spread / std::min(1.0, decay);
     answer.stated = motion_difference(answer.motion, fine) + transient;
     return claim(rule, "half the step", answer);
   }

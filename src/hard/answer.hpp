@@ -47,12 +47,10 @@ OperationBudget budget_of(const HardCase& hard, const std::string& method,
 /** About three seconds of shooting by rk8pd. */
 OperationBudget shooting_budget(const HardCase& hard);
 
-/** What RK4 settles on, or another method from where `start` says: shared with the checks. */
+/** What RK4 settles on, or another method from where `start` says: shared with the checks. About a second
+    is shown, for the amplitudes of an aperiodic motion. */
 SteadySettings hard_settings(const HardCase& hard, const std::string& method,
                              double step);
-
-/** About a second, for the amplitudes of an aperiodic motion. */
-int shown_periods(const HardCase& hard);
 
 /** One period of Eq. 7 from a state at phase 0, by rk8pd. */
 motion::Motion period_from(const HardCase& hard, const State& start);

@@ -24,58 +24,30 @@ motion::Motion motion_of(const Model& model, const SteadyState& steady)
 
 namespace {
 
-/** The amplitude of x_r [m] at each speed [Hz]; 0 where there is no solution. */
-using Amplitudes = std::function<std::vector<double>(const std::vector<double>&)>;
+/** The response curve x_r at speeds [Hz]: amplitude 0 where there is no solution. */
+using Response = std::function<std::vector<CurvePoint>(const std::vector<double>&)>;
 
 CurvePoint highest(const Model& model, std::vector<double> frequencies,
-                   const Amplitudes& amplitudes)
+                   const Response& response)
 {
   constexpr int finer = 4;
-  const auto curve = [&] {
-    std::vector<CurvePoint> points;
-    const std::vector<double> heights = amplitudes(frequencies);
-    for (std::size_t k = 0; k < heights.size(); ++k)
-      points.push_back({frequencies[k], heights[k]});
-    const auto top = std::max_element(heights.begin(), heights.end());
-    if (top == heights.begin() || top + 1 == heights.end())
+  const auto inner_top = [&](const std::vector<CurvePoint>& curve) {
+    const auto top = std::max_element(
+        curve.begin(), curve.end(),
+        [](const auto& a, const auto& b) { return a.amplitude < b.amplitude; });
+    if (top == curve.begin() || top + 1 == curve.end())
       throw NoSolution(model.machine.file +
                        ": the largest amplitude is at an end of the speeds looked at");
-    return std::pair(points, points[top - heights.begin()].frequency);
+    return top->frequency;
   };
   const double step = (frequencies[1] - frequencies[0]) / finer;
-  const double centre = curve().second;
+  const double centre = inner_top(response(frequencies));
   frequencies.clear();
   for (int k = -finer; k <= finer; ++k) frequencies.push_back(centre + k * step);
-  return refined_peak(curve().first);
+  const std::vector<CurvePoint> curve = response(frequencies);
+  inner_top(curve);
+  return refined_peak(curve);
 }
-
-}  // namespace
-
-CurvePoint balance_peak(const Model& model, const std::vector<double>& frequencies)
-{
-  FourierTransform transform = amplitude_transform(model.harmonics);
-  return highest(model, frequencies, [&](const std::vector<double>& speeds) {
-    std::vector<double> amplitudes;
-    for (const PeriodicMotion& solution :
-         sweep(model.machine, angular(speeds), model.harmonics, model.samples))
-      amplitudes.push_back(
-          solution.found() ? half_peak_to_peak(solution.bodies, transform)[2] : 0);
-    return amplitudes;
-  });
-}
-
-CurvePoint integrated_peak(const Model& model, const std::vector<double>& frequencies)
-{
-  return highest(model, frequencies, [&](const std::vector<double>& speeds) {
-    std::vector<double> amplitudes;
-    for (double frequency : speeds)
-      amplitudes.push_back(
-          orbit_size(motion_of(model, settled(model, frequency))).x.value);
-    return amplitudes;
-  });
-}
-
-namespace {
 
 bool loses_contact(const Model& model, double frequency)
 {
@@ -102,6 +74,31 @@ std::optional<Measured> onset(const Model& model, const std::vector<double>& fre
 }
 
 }  // namespace
+
+CurvePoint balance_peak(const Model& model, const std::vector<double>& frequencies)
+{
+  FourierTransform transform = amplitude_transform(model.harmonics);
+  return highest(model, frequencies, [&](const std::vector<double>& speeds) {
+    std::vector<CurvePoint> curve;
+    for (const PeriodicMotion& solution :
+         sweep(model.machine, angular(speeds), model.harmonics, model.samples))
+      curve.push_back(
+          {speeds[curve.size()],
+           solution.found() ? half_peak_to_peak(solution.bodies, transform)[2] : 0});
+    return curve;
+  });
+}
+
+CurvePoint integrated_peak(const Model& model, const std::vector<double>& frequencies)
+{
+  return highest(model, frequencies, [&](const std::vector<double>& speeds) {
+    std::vector<CurvePoint> curve;
+    for (double frequency : speeds)
+      curve.push_back(
+          {frequency, orbit_size(motion_of(model, settled(model, frequency))).x.value});
+    return curve;
+  });
+}
 
 std::optional<ContactLoss> contact_loss(const Model& model,
                                         const std::vector<double>& frequencies)
