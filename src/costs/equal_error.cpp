@@ -78,9 +78,8 @@ EqualErrorRow cheapest(const EqualErrorScene& scene, const References& range,
   const auto nearer = [](const Measurement& a, const Measurement& b) {
     return a.displacement < b.displacement;
   };
-  std::vector<Measurement> good;
-  for (const Measurement& m : tried)
-    if (m.displacement <= target) good.push_back(m);
+  std::vector<Measurement> good = tried;
+  std::erase_if(good, [&](auto& m) { return !(m.displacement <= target); });
   std::sort(good.begin(), good.end(), cheaper);
   constexpr std::size_t few = 2;
   good.resize(std::min(good.size(), few));

@@ -49,6 +49,29 @@ SampledSolution sampled(const SamplingCase& at, int m, int samples,
                   solve(balance, angular(at.frequency), resize_harmonics(start.x, 2, m)));
 }
 
+using Row = SamplingPoint;
+
+const std::vector<Field<Row>> sampling_fields{
+    {"panel", "-", "number of the machine and speed", &Row::number},
+    {"f", "Hz", "speed of rotation", &Row::frequency},
+    {"m", "-", "harmonics", &Row::harmonics},
+    {"samples_over_m", "-", "N is the next fast size from this times m, plus one",
+     &Row::samples_over_m},
+    {"N", "-", "samples per period", &Row::samples},
+    {"default", "-", "1 if this is the default N of that m",
+     [](auto& r) { return r.samples == default_samples(r.harmonics); }},
+    {"found", "-", "1 if Newton converged with this N", &Row::found},
+    {"sampling", "-",
+     "displacement error against the same m finely sampled; 0 if not found",
+     [](auto& r) { return r.sampling.displacement; }},
+    {"sampling_force", "-", "the same of the bearing's force",
+     [](auto& r) { return r.sampling.force; }},
+    {"truncation", "-",
+     "displacement error of that m, finely sampled, against the reference",
+     [](auto& r) { return r.truncation.displacement; }},
+    {"truncation_force", "-", "the same of the bearing's force",
+     [](auto& r) { return r.truncation.force; }}};
+
 }  // namespace
 
 SampledSolution reference_solution(const SamplingCase& at, int harmonics)
@@ -82,33 +105,6 @@ SamplingPoint sampling_errors(const SamplingCase& at, int samples_over_m,
   }
   return point;
 }
-
-namespace {
-
-using Row = SamplingPoint;
-
-const std::vector<Field<Row>> sampling_fields{
-    {"panel", "-", "number of the machine and speed", &Row::number},
-    {"f", "Hz", "speed of rotation", &Row::frequency},
-    {"m", "-", "harmonics", &Row::harmonics},
-    {"samples_over_m", "-", "N is the next fast size from this times m, plus one",
-     &Row::samples_over_m},
-    {"N", "-", "samples per period", &Row::samples},
-    {"default", "-", "1 if this is the default N of that m",
-     [](auto& r) { return r.samples == default_samples(r.harmonics); }},
-    {"found", "-", "1 if Newton converged with this N", &Row::found},
-    {"sampling", "-",
-     "displacement error against the same m finely sampled; 0 if not found",
-     [](auto& r) { return r.sampling.displacement; }},
-    {"sampling_force", "-", "the same of the bearing's force",
-     [](auto& r) { return r.sampling.force; }},
-    {"truncation", "-",
-     "displacement error of that m, finely sampled, against the reference",
-     [](auto& r) { return r.truncation.displacement; }},
-    {"truncation_force", "-", "the same of the bearing's force",
-     [](auto& r) { return r.truncation.force; }}};
-
-}  // namespace
 
 Table sampling_table(const SamplingScene& scene, const std::vector<SamplingPoint>& points)
 {

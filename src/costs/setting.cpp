@@ -102,25 +102,21 @@ std::vector<SettingGroup> time_groups(StrictToml& table, const std::string& meth
   return groups;
 }
 
-void require_known(const StrictToml& toml, const std::string& method)
-{
-  std::vector<std::string> known{"aft"};
-  for (const std::string& name : time_methods()) known.push_back(name);
-  for (const char* stepper : {"rk4", "rkf45", "rkck", "rk8pd"})
-    known.push_back(std::string("shooting-") + stepper);
-  if (std::find(known.begin(), known.end(), method) != known.end()) return;
-  std::string list;
-  for (const std::string& name : known) list += (list.empty() ? "" : ", ") + name;
-  toml.fail("methods", "must be some of " + list);
-}
-
 }  // namespace
 
 std::vector<Candidates> read_candidates(StrictToml& toml)
 {
+  std::vector<std::string> known{"aft"};
+  known.insert(known.end(), time_methods().begin(), time_methods().end());
+  for (const char* stepper : {"rk4", "rkf45", "rkck", "rk8pd"})
+    known.push_back(std::string("shooting-") + stepper);
   std::vector<Candidates> all;
   for (const std::string& method : toml.strings("methods")) {
-    require_known(toml, method);
+    if (std::find(known.begin(), known.end(), method) == known.end()) {
+      std::string list;
+      for (const std::string& name : known) list += (list.empty() ? "" : ", ") + name;
+      toml.fail("methods", "must be some of " + list);
+    }
     StrictToml table = toml.table(method);
     all.push_back(
         {method, method == "aft" ? aft_groups(table) : time_groups(table, method)});

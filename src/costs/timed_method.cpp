@@ -119,7 +119,13 @@ private:
     if (setting_.paper_sweep) return;
     const double frequency = task_.frequencies[speed];
     const int m = setting_.estimate > 0 ? adapted_ : harmonics_at(setting_, frequency);
-    keep_only(m);
+    /** Frees the large balances but one, whose factors this speed can use. */
+    constexpr int large = 128;
+    std::erase_if(balances_, [&](const auto& entry) {
+      const bool freed = entry.first > large && entry.first != m;
+      if (freed) add(*entry.second, counts_);
+      return freed;
+    });
     PeriodicMotion found{.omega = angular(frequency)};
     if (!predictor_.empty()) found.x = predictor_.at_speed(found.omega);
     if (solve_at(m, found)) learn(found.omega, found.x);
@@ -231,23 +237,21 @@ private:
     return x;
   }
 
-  /** One balance for each number of harmonics. */
+  /** One balance for each number of harmonics; of a profiled task the force is timed. */
   Balance& balance(int m)
   {
     auto& balance = balances_[m];
-    if (!balance) balance = std::make_unique<Balance>(problem(m), m);
+    if (balance) return *balance;
+    Problem problem = bearing_problem(task_.parameters, samples_for(setting_, m));
+    if (task_.profiled)
+      problem.force = [inner = problem.force, seconds = force_seconds_](
+                          const auto& q, auto&&... results) {
+        const double start = thread_cpu_seconds();
+        inner(q, results...);
+        *seconds += thread_cpu_seconds() - start;
+      };
+    balance = std::make_unique<Balance>(problem, m);
     return *balance;
-  }
-
-  /** Frees the large balances but one, whose factors the next speed can use. */
-  void keep_only(int m)
-  {
-    constexpr int large = 128;
-    std::erase_if(balances_, [&](const auto& entry) {
-      const bool freed = entry.first > large && entry.first != m;
-      if (freed) add(*entry.second, counts_);
-      return freed;
-    });
   }
 
   static void add(Balance& balance, Counts& counts)
@@ -259,19 +263,6 @@ private:
     counts.force_instants += balance.evaluations() * samples;
     counts.transforms += transforms;
     counts.transformed += transforms * samples;
-  }
-
-  Problem problem(int m) const
-  {
-    Problem problem = bearing_problem(task_.parameters, samples_for(setting_, m));
-    if (!task_.profiled) return problem;
-    problem.force = [inner = problem.force, seconds = force_seconds_](const auto& q,
-                                                                      auto&&... results) {
-      const double start = thread_cpu_seconds();
-      inner(q, results...);
-      *seconds += thread_cpu_seconds() - start;
-    };
-    return problem;
   }
 
   /** A new start is cheaper than a long iteration. */
@@ -378,7 +369,10 @@ class ShootingSweep : public Integration {
   void solve(std::size_t speed) override
   {
     const double omega = angular(task_.frequencies[speed]);
-    State state = predictor_.empty() ? cold_start(omega) : predicted(omega);
+    State state =
+        predictor_.empty()
+            ? cold_start(omega)
+            : state_of(Vector8(predictor_.at_speed(omega).cwiseProduct(scales_)));
     if (!shot(omega, state)) {
       predictor_.clear();
       jacobian_.reset();
@@ -417,11 +411,6 @@ class ShootingSweep : public Integration {
   void learn(double omega, const State& state)
   {
     predictor_.add(vector_of(state).cwiseQuotient(scales_), omega);
-  }
-
-  State predicted(double omega) const
-  {
-    return state_of(Vector8(predictor_.at_speed(omega).cwiseProduct(scales_)));
   }
 
   const Vector8 scales_ = state_scales(task_.parameters);

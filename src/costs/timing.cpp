@@ -9,20 +9,6 @@
 
 namespace rotor_stator::costs {
 
-namespace {
-
-/** Steps of RK4 on the whole sweep. */
-double steps_of(const Setting& rk4, const std::vector<double>& frequencies)
-{
-  double steps = 0;
-  for (double f : frequencies)
-    steps += std::ceil(rk4.transient * f) * std::ceil(1 / (f * rk4.step)) +
-             rk4.recorded * std::ceil(1 / (f * rk4.step * rk4.recorded));
-  return steps;
-}
-
-}  // namespace
-
 TimingScene read_timing(SceneFile& file)
 {
   StrictToml& toml = file.toml();
@@ -56,8 +42,15 @@ TimingScene read_timing(SceneFile& file)
     for (double transient : transients)
       scene.rk4.push_back(
           {.method = "rk4", .step = step, .transient = transient, .recorded = recorded});
+  const auto steps_on_sweep = [&](const Setting& rk4) {
+    double steps = 0;
+    for (double f : scene.frequencies)
+      steps += std::ceil(rk4.transient * f) * std::ceil(1 / (f * rk4.step)) +
+               rk4.recorded * std::ceil(1 / (f * rk4.step * rk4.recorded));
+    return steps;
+  };
   std::sort(scene.rk4.begin(), scene.rk4.end(), [&](const Setting& a, const Setting& b) {
-    return steps_of(a, scene.frequencies) < steps_of(b, scene.frequencies);
+    return steps_on_sweep(a) < steps_on_sweep(b);
   });
   toml.refuse_unknown_keys();
   return scene;

@@ -30,12 +30,7 @@ TrueMotion true_motion(const Parameters& parameters, double frequency,
 {
   const SteadyState steady = steady_state(parameters, angular(frequency),
                                           static_start(parameters), settings.settling);
-  TrueMotion truth{.frequency = frequency,
-                   .periodic = steady.periodic,
-                   .spread = steady.spread,
-                   .state = steady.states.front(),
-                   .motion = {},
-                   .periodicity_residual = 0};
+  TrueMotion truth{frequency, steady.periodic, steady.spread, steady.states.front()};
   if (!truth.periodic) return truth;
   const Shooting shooting =
       shoot(parameters, angular(frequency), truth.state,

@@ -18,12 +18,12 @@ struct TruthSettings {
 };
 
 struct TrueMotion {
-  double frequency;             ///< [Hz]
-  bool periodic;                ///< with period T; nothing else is known if not
-  double spread;                ///< Poincaré spread of the time integration [-]
-  State state;                  ///< at phase 0
-  motion::Motion motion;        ///< one period
-  double periodicity_residual;  ///< of shooting [-]
+  double frequency;                 ///< [Hz]
+  bool periodic;                    ///< with period T; nothing else is known if not
+  double spread;                    ///< Poincaré spread of the time integration [-]
+  State state;                      ///< at phase 0
+  motion::Motion motion = {};       ///< one period
+  double periodicity_residual = 0;  ///< of shooting [-]
 };
 
 /** Throws NoSolution when the integration breaks down or shooting does not close the motion. */

@@ -113,24 +113,6 @@ void split_time(WorkPoint& point, const References& references)
   point.transform_share = std::min(1 - point.force_share, transforms / point.median);
 }
 
-}  // namespace
-
-WorkPoint work_point(const WorkPrecisionScene& scene, const WorkCase& reference,
-                     bool continued, const Setting& setting)
-{
-  const auto& [number, parameters, truth, before, agreement] = reference;
-  References references{{parameters, {truth.frequency}}, {truth.motion}};
-  if (continued) references.before = {before.frequency, before.state};
-  const double once = measure(references, setting, 1).median;
-  const int repetitions = once > scene.long_run ? 2 : scene.repetitions;
-  WorkPoint point{measure(references, setting, repetitions), number, truth.frequency,
-                  continued};
-  if (point.found()) split_time(point, references);
-  return point;
-}
-
-namespace {
-
 using Row = WorkPoint;
 
 const std::vector<Field<Row>> work_precision_fields{
@@ -162,6 +144,20 @@ const std::vector<Field<Row>> work_precision_fields{
     {"derivatives", "-", "of them with the variational equations", &Row::derivatives}};
 
 }  // namespace
+
+WorkPoint work_point(const WorkPrecisionScene& scene, const WorkCase& reference,
+                     bool continued, const Setting& setting)
+{
+  const auto& [number, parameters, truth, before, agreement] = reference;
+  References references{{parameters, {truth.frequency}}, {truth.motion}};
+  if (continued) references.before = {before.frequency, before.state};
+  const double once = measure(references, setting, 1).median;
+  const int repetitions = once > scene.long_run ? 2 : scene.repetitions;
+  WorkPoint point{measure(references, setting, repetitions), number, truth.frequency,
+                  continued};
+  if (point.found()) split_time(point, references);
+  return point;
+}
 
 Table work_precision_table(const WorkPrecisionScene& scene,
                            const std::vector<WorkCase>& cases,

@@ -8,28 +8,7 @@
 
 namespace rotor_stator::studies {
 
-ClaimRule read_claim_rule(const std::string& file)
-{
-  StrictToml toml(file);
-  StrictToml regimes = toml.table("regimes"), score = toml.table("score");
-  return {.low_to = regimes.number("low_to_hz", Range::positive),
-          .middle_to = regimes.number("middle_to_hz", Range::positive),
-          .multi_harmonic = regimes.number("multi_harmonic", Range::positive),
-          .paper_peak = score.number("paper_peak_hz", Range::positive),
-          .peak_width = score.number("peak_width_hz", Range::positive),
-          .within = score.number("within", Range::positive)};
-}
-
 namespace {
-
-/** The mass ratio m_r/m_s that puts the resonance of both bodies together at `resonance`
-    [rad/s]. */
-double joint_mass_ratio(const Parameters& parameters, double resonance)
-{
-  const auto squared = [](double x) { return x * x; };
-  return (squared(parameters.stator.natural_frequency) - squared(resonance)) /
-         (squared(resonance) - squared(parameters.rotor.natural_frequency));
-}
 
 /** The grid of one reading: masses × mass ratios × cages around its working mass. */
 void add_candidates(StrictToml& grid, int reading, const Parameters& base,
@@ -39,7 +18,10 @@ void add_candidates(StrictToml& grid, int reading, const Parameters& base,
   if (working.size() != 2) grid.fail("working_stator_masses_kg", "must have two values");
   const int masses = grid.integer("masses", 1, 1000);
   const double decades = grid.number("decades_each_way", Range::positive);
-  const double ratio = joint_mass_ratio(base, resonance);
+  /** m_r/m_s that puts the resonance of both bodies together there. */
+  const auto squared = [](double x) { return x * x; };
+  const double ratio = (squared(base.stator.natural_frequency) - squared(resonance)) /
+                       (squared(resonance) - squared(base.rotor.natural_frequency));
   for (double cage : grid.numbers("cage_speed_ratios", Range::positive))
     for (double factor : grid.numbers("mass_ratio_factors", Range::positive))
       for (int k = 0; k < masses; ++k) {
@@ -57,7 +39,19 @@ void add_candidates(StrictToml& grid, int reading, const Parameters& base,
 IdentificationScene read_identification_scene(const std::string& file,
                                               const std::string& claims)
 {
-  IdentificationScene scene{{}, {}, {}, read_claim_rule(claims), {claims}};
+  StrictToml toml(claims);
+  StrictToml regimes = toml.table("regimes"), score = toml.table("score");
+  IdentificationScene scene{
+      .candidates = {},
+      .frequencies = {},
+      .settings = {},
+      .rule = {.low_to = regimes.number("low_to_hz", Range::positive),
+               .middle_to = regimes.number("middle_to_hz", Range::positive),
+               .multi_harmonic = regimes.number("multi_harmonic", Range::positive),
+               .paper_peak = score.number("paper_peak_hz", Range::positive),
+               .peak_width = score.number("peak_width_hz", Range::positive),
+               .within = score.number("within", Range::positive)},
+      .files = {claims}};
   int reading = 0;
   for (const char* name : {"exchanged", "as-printed"}) {
     SceneFile scene_file(file, name);

@@ -19,8 +19,6 @@ struct ClaimRule {
   double within;  ///< candidates within this share of the best score are accepted [-]
 };
 
-ClaimRule read_claim_rule(const std::string& file);
-
 struct Candidate {
   int reading;          ///< 0 exchanged, 1 as printed
   double ratio_factor;  ///< mass ratio over that of the joint resonance at the peak
