@@ -43,9 +43,8 @@ int main(int argc, char** argv)
       figures::add_curve(table, set, figures::Curve::speed_down,
                          sweep(set.machine, angular(downwards), set.harmonics));
       for (double frequency : watched("time integration", scene.time_speeds)) {
-        const SteadyState settled =
-            steady_state(set.machine, angular(frequency), static_start(set.machine),
-                         scene.time_integration);
+        const auto settled =
+            steady_state(set.machine, angular(frequency), scene.time_integration);
         figures::add_settled(table, set, frequency,
                              scene.time_integration.stepper.intervals_per_period,
                              settled);

@@ -38,11 +38,9 @@ int main(int argc, char** argv)
       const double omega = angular(frequency);
       const PeriodicMotion balance =
           motion::find_periodic(scene.machine, omega, scene.harmonics, scene.samples);
-      const SteadyState settled = steady_state(
-          scene.machine, omega, static_start(scene.machine), scene.time_integration);
+      const auto settled = steady_state(scene.machine, omega, scene.time_integration);
       const figures::Panel panel = figures::compare(scene, frequency, balance, settled);
-      const auto contact = motion::contact_evolution(scene.machine, panel.shown());
-      figures::add_contact(table, panel, contact);
+      add_contact(table, panel, motion::contact_evolution(scene.machine, panel.shown()));
     }
     return table;
   });

@@ -40,10 +40,8 @@ int main(int argc, char** argv)
       const double omega = angular(frequency);
       const PeriodicMotion balance =
           motion::search_periodic(scene.machine, omega, scene.harmonics, scene.samples);
-      const SteadyState settled = steady_state(
-          scene.machine, omega, static_start(scene.machine), scene.time_integration);
-      const figures::Panel panel = figures::compare(scene, frequency, balance, settled);
-      figures::add_orbits(table, scene, panel);
+      const auto settled = steady_state(scene.machine, omega, scene.time_integration);
+      add_orbits(table, scene, figures::compare(scene, frequency, balance, settled));
     }
     return table;
   });

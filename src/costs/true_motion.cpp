@@ -28,8 +28,8 @@ motion::Motion one_period(const Parameters& parameters, double frequency, State 
 TrueMotion true_motion(const Parameters& parameters, double frequency,
                        const TruthSettings& settings)
 {
-  const SteadyState steady = steady_state(parameters, angular(frequency),
-                                          static_start(parameters), settings.settling);
+  const SteadyState steady =
+      steady_state(parameters, angular(frequency), settings.settling);
   TrueMotion truth{frequency, steady.periodic, steady.spread, steady.states.front()};
   if (!truth.periodic) return truth;
   const Shooting shooting =

@@ -51,7 +51,8 @@ struct Task {
 
 /** The speeds of a sweep with their true motions. */
 struct References : Task {
-  motion::Motions motions;  ///< none where the motion has not the period T
+  std::vector<std::optional<motion::Motion>>
+      motions;  ///< none where the motion has not the period T
   double spread = 0, periodicity_residual = 0;  ///< largest of the others [-]
 
   /** For headers: how the motions were found, and where there is none. */

@@ -63,7 +63,7 @@ motion::Motion DeviationScene::motion_of(const SteadyState& steady) const
 
 SteadyState DeviationScene::settled(const Parameters& of, double frequency) const
 {
-  return steady_state(of, angular(frequency), static_start(of), time_integration);
+  return steady_state(of, angular(frequency), time_integration);
 }
 
 motion::Motion DeviationScene::integrated(double frequency) const

@@ -94,8 +94,8 @@ EvidenceList runge_kutta_settings(const DeviationScene& scene)
   std::vector<double> evaluations;  // of Eq. 7 per second
   for (int number = 0; double step : steps) {
     settings.stepper.step = step;
-    const SteadyState steady = steady_state(scene.machine, angular(scene.speed),
-                                            static_start(scene.machine), settings);
+    const SteadyState steady =
+        steady_state(scene.machine, angular(scene.speed), settings);
     const double error = motion::relative_difference(scene.motion_of(steady), truth);
     evaluations.push_back(static_cast<double>(steady.evaluations) / steady.seconds);
     list.push_back({format("D-16.step_%d", ++number), step, "s", "longest step of rk4"});

@@ -146,8 +146,8 @@ motion::Motion integrated_motion(const Parameters& parameters,
                                             .budget = budget},
                                 .longest = request.longest,
                                 .shown_periods = periods};
-  const SteadyState steady = steady_state(parameters, angular(request.frequency),
-                                          static_start(parameters), settings);
+  const SteadyState steady =
+      steady_state(parameters, angular(request.frequency), settings);
   table.note(format("method: %s, %g s from rest, %ld evaluations of Eq. 7",
                     request.method.c_str(), steady.seconds, steady.evaluations));
   table.note(format("Poincare spread: %.3g", steady.spread));

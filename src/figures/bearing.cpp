@@ -20,8 +20,7 @@ struct Circle {
 };
 
 const std::vector<Field<Circle>> fields{
-    {"part", "-", "0 outer race, 1 inner race, 2 ball, 3 marked ball",
-     [](const Circle& c) { return static_cast<int>(c.part); }},
+    {"part", "-", "0 outer race, 1 inner race, 2 ball, 3 marked ball", &Circle::part},
     {"ball", "-", "j of Eq. 3, 0 for a race", &Circle::ball},
     {"x", "m", "centre, drawn", [](const Circle& c) { return c.centre.x; }},
     {"y", "m", "centre, drawn", [](const Circle& c) { return c.centre.y; }},

@@ -126,4 +126,10 @@ SteadySettings read_steady_settings(SceneFile& scene)
   return settings;
 }
 
+SteadyState steady_state(const Parameters& parameters, double omega,
+                         const SteadySettings& settings)
+{
+  return steady_state(parameters, omega, static_start(parameters), settings);
+}
+
 }  // namespace rotor_stator

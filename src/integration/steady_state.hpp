@@ -57,4 +57,8 @@ double extent(const Section& section)
 SteadyState steady_state(const Parameters& parameters, double omega, const State& start,
                          const SteadySettings& settings);
 
+/** From rest under the static load. */
+SteadyState steady_state(const Parameters& parameters, double omega,
+                         const SteadySettings& settings);
+
 }  // namespace rotor_stator

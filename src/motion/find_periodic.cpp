@@ -7,16 +7,6 @@ namespace rotor_stator::motion {
 
 namespace {
 
-/** The coefficients of a start, or none where they cannot be had. */
-Eigen::VectorXd coefficients_or_none(const Start& start)
-{
-  try {
-    return start.coefficients();
-  } catch (const NoSolution&) {
-    return {};
-  }
-}
-
 /** The solution with half as many harmonics, found in the same way from quasi-static
     contact. */
 Eigen::VectorXd fewer_harmonics(const Parameters& parameters, double omega, int harmonics,
@@ -44,8 +34,7 @@ Eigen::VectorXd integrated_start(const Parameters& parameters, double omega,
   const int points = default_samples(harmonics);
   settings.stepper = {.method = "rk4", .intervals_per_period = points, .budget = budget};
   settings.longest = 10;
-  const SteadyState steady =
-      steady_state(parameters, omega, static_start(parameters), settings);
+  const SteadyState steady = steady_state(parameters, omega, settings);
   return relative_series(motion_of(steady, points), harmonics);
 }
 
@@ -79,7 +68,11 @@ PeriodicMotion find_periodic(const Parameters& parameters, double omega, int har
   Balance balance(bearing_problem(parameters, samples, budget), harmonics);
   PeriodicMotion motion{.omega = omega, .harmonics = harmonics, .samples = samples};
   for (const Start& start : starts) {
-    motion.x = coefficients_or_none(start);
+    try {
+      motion.x = start.coefficients();
+    } catch (const NoSolution&) {
+      motion.x.resize(0);
+    }
     if (motion.x.size() == 0) continue;
     motion.start = start.name;
     if (!solve(balance, motion, settings)) continue;

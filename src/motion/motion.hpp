@@ -5,8 +5,6 @@ A motion is a row of bearing states at equal phases. Scenes draw from it and not
 so that the two methods meet in the same table. */
 #pragma once
 
-#include <optional>
-#include <string>
 #include <vector>
 
 #include "balance/periodic_motion.hpp"
@@ -76,11 +74,5 @@ double orbit_difference(const Motion& motion, const Motion& reference);
 /** For the bearing's force: largest |F - F_ref| over the largest |F_ref| [-]. */
 double relative_force_difference(const Parameters& parameters, const Motion& motion,
                                  const Motion& reference);
-
-/**
-## The motions of a sweep */
-
-/** The motion at each speed of a sweep; none where no solution was found. */
-using Motions = std::vector<std::optional<Motion>>;
 
 }  // namespace rotor_stator::motion

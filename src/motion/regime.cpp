@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <numbers>
+#include <numeric>
 
 #include "motion/contact.hpp"
 #include "motion/find_periodic.hpp"
@@ -35,25 +36,6 @@ State start_of(const Parameters& parameters, double omega)
   return motion.found() ? state_of(motion) : static_start(parameters);
 }
 
-/** What the ball forces over two periods say. */
-void judge_contact(const ContactEvolution& evolution, Regime& regime)
-{
-  const auto passages = passages_per_ball(evolution.ball_force);
-  regime.passed_once =
-      std::all_of(passages.begin(), passages.end(), [](int count) { return count == 1; });
-  double loaded = 0, total = 0;
-  for (int count : passages) total += count;
-  for (const auto& forces : evolution.ball_force)
-    for (double q : forces) {
-      loaded += q > 0;
-      regime.largest_force = std::max(regime.largest_force, q);
-    }
-  const auto balls = static_cast<double>(passages.size());
-  regime.passages = total / balls;
-  regime.loaded_arc = loaded / static_cast<double>(evolution.ball_force.size()) * 2 *
-                      std::numbers::pi / balls;
-}
-
 }  // namespace
 
 Regime regime_at(const Parameters& parameters, double frequency,
@@ -77,29 +59,36 @@ Regime regime_at(const Parameters& parameters, double frequency,
   const double contact = contact_share(parameters, motion);
   motion.positions.resize(2 * static_cast<std::size_t>(settings.points_per_period));
 
-  Regime regime{.frequency = frequency,
-                .periodic = steady.periodic,
-                .spread = steady.spread,
-                .contact = contact,
-                .higher_harmonics = higher_harmonics(motion),
-                .passed_once = false,
-                .passages = 0,
-                .loaded_arc = 0,
-                .largest_force = 0,
-                .amp_x_r = half_peak_to_peak(motion)[2]};
-  judge_contact(contact_evolution(parameters, motion), regime);
-  return regime;
+  const auto ball_force = contact_evolution(parameters, motion).ball_force;
+  const auto passages = passages_per_ball(ball_force);
+  const auto balls = static_cast<double>(passages.size());
+  double loaded = 0, largest = 0;
+  for (const auto& forces : ball_force)
+    for (double q : forces) {
+      loaded += q > 0;
+      largest = std::max(largest, q);
+    }
+  return {.frequency = frequency,
+          .periodic = steady.periodic,
+          .spread = steady.spread,
+          .contact = contact,
+          .higher_harmonics = higher_harmonics(motion),
+          .passed_once = std::all_of(passages.begin(), passages.end(),
+                                     [](int count) { return count == 1; }),
+          .passages = std::accumulate(passages.begin(), passages.end(), 0.0) / balls,
+          .loaded_arc = loaded / static_cast<double>(ball_force.size()) * 2 *
+                        std::numbers::pi / balls,
+          .largest_force = largest,
+          .amp_x_r = half_peak_to_peak(motion)[2]};
 }
 
 RegimeSettings read_regime_settings(SceneFile& scene)
 {
   StrictToml table = scene.toml().table("regime");
-  const RegimeSettings settings{
-      .step_over_default = table.number("step_over_default", Range::positive),
-      .longest = table.number("longest_s", Range::positive),
-      .window = table.number("window_s", Range::positive),
-      .points_per_period = table.integer("points_per_period", 4, 4096)};
-  return settings;
+  return {.step_over_default = table.number("step_over_default", Range::positive),
+          .longest = table.number("longest_s", Range::positive),
+          .window = table.number("window_s", Range::positive),
+          .points_per_period = table.integer("points_per_period", 4, 4096)};
 }
 
 }  // namespace rotor_stator::motion

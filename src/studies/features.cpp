@@ -13,8 +13,7 @@ namespace rotor_stator::studies {
 SteadyState settled(Model model, double frequency, int shown_periods)
 {
   if (shown_periods > 0) model.time_integration.shown_periods = shown_periods;
-  return steady_state(model.machine, angular(frequency), static_start(model.machine),
-                      model.time_integration);
+  return steady_state(model.machine, angular(frequency), model.time_integration);
 }
 
 motion::Motion motion_of(const Model& model, const SteadyState& steady)

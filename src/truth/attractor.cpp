@@ -1,33 +1,30 @@
 #include "truth/attractor.hpp"
 
-#include <bit>
 #include <cmath>
 #include <numbers>
-#include <random>
 
 #include "io/errors.hpp"
+#include "motion/other_starts.hpp"
 
 namespace rotor_stator::truth {
 
 AttractorSettings read_attractor_settings(StrictToml table)
 {
-  AttractorSettings settings{};
-  settings.transient.stepper.method = "rk4";
-  settings.transient.stepper.intervals_per_period =
-      table.integer("points_per_period", 4, 4096);
-  settings.transient.settled = table.number("settled", Range::positive);
-  settings.transient.longest = table.number("longest_transient_s", Range::positive);
-  settings.block = table.number("block_s", Range::positive);
-  settings.least = table.number("least_s", Range::positive);
-  settings.chaotic = table.number("chaotic_s", Range::positive);
-  settings.most = table.number("most_s", Range::positive);
-  settings.rule = {.periodic = table.number("periodic", Range::positive),
-                   .most_period = table.integer("most_period", 1, 1000),
-                   .zero_rate = table.number("zero_rate_per_s", Range::positive)};
-  settings.transient.periodic = settings.rule.periodic;
-  settings.same_periodic = table.number("same_periodic", Range::positive);
-  settings.same_aperiodic = table.number("same_aperiodic", Range::positive);
-  return settings;
+  const VerdictRule rule{.periodic = table.number("periodic", Range::positive),
+                         .most_period = table.integer("most_period", 1, 1000),
+                         .zero_rate = table.number("zero_rate_per_s", Range::positive)};
+  const int points = table.integer("points_per_period", 4, 4096);
+  return {.transient = {.stepper = {.method = "rk4", .intervals_per_period = points},
+                        .settled = table.number("settled", Range::positive),
+                        .periodic = rule.periodic,
+                        .longest = table.number("longest_transient_s", Range::positive)},
+          .block = table.number("block_s", Range::positive),
+          .least = table.number("least_s", Range::positive),
+          .chaotic = table.number("chaotic_s", Range::positive),
+          .most = table.number("most_s", Range::positive),
+          .rule = rule,
+          .same_periodic = table.number("same_periodic", Range::positive),
+          .same_aperiodic = table.number("same_aperiodic", Range::positive)};
 }
 
 namespace {
@@ -37,12 +34,6 @@ struct Statistics {
   double count = 0;
   Eigen::Array4d sum = Eigen::Array4d::Zero(), squares = sum;
   Eigen::Array4d low = Eigen::Array4d::Constant(1e300), high = -low;
-
-  void add(const Displacements& displacements)
-  {
-    const Eigen::Array4d q(displacements.data());
-    add({1, q, q * q, q, q});
-  }
 
   void add(const Statistics& other)
   {
@@ -87,10 +78,11 @@ private:
     const int count = static_cast<int>(std::ceil(settings_.block / period_));
     double growth = 0;
     for (int k = 0; k < count; ++k) {
-      section_.push_back(std::bit_cast<Displacements>(motion_.state().position));
+      section_.push_back(displacements(motion_.state().position));
       Statistics statistics;
       growth += motion_.advance_one_period([&](const State& state) {
-        statistics.add(std::bit_cast<Displacements>(state.position));
+        const Eigen::Array4d q(displacements(state.position).data());
+        statistics.add({1, q, q * q, q, q});
       });
       periods_.push_back(statistics);
     }
@@ -183,10 +175,7 @@ bool same_attractor(const Attractor& a, const Attractor& b,
 State random_state(const Parameters& machine, double omega, std::uint64_t seed)
 {
   std::mt19937_64 generator(seed);
-  /** In [-2, 2], the same with every library. */
-  const auto random = [&] {
-    return 4 * (static_cast<double>(generator() >> 11) * 0x1p-53 - 0.5);
-  };
+  const auto random = [&] { return 2 * motion::uniform(generator); };
   const double joined = std::abs(dynamic_stiffness(machine.stator, omega).value +
                                  dynamic_stiffness(machine.rotor, omega).value);
   const double amplitude = machine.unbalance * omega * omega / joined;

@@ -58,14 +58,12 @@ std::vector<AttractorPoint> settled(const AttractorScene& scene, const Chain& ch
       for (double frequency : frequencies) state = settle(frequency, state);
       break;
     }
-    case Origin::few_harmonics: {
-      std::vector<double> omegas;
-      for (double frequency : frequencies) omegas.push_back(angular(frequency));
-      for (const PeriodicMotion& solution : sweep(machine, omegas, scene.few_harmonics))
+    case Origin::few_harmonics:
+      for (const PeriodicMotion& solution :
+           sweep(machine, angular(frequencies), scene.few_harmonics))
         if (solution.found())
           settle(solution.omega / angular(1), motion::state_of(solution));
       break;
-    }
     case Origin::many_harmonics:
       for (double frequency : frequencies) {
         const PeriodicMotion solution =

@@ -10,14 +10,9 @@ namespace rotor_stator::truth {
 
 namespace {
 
-double squared(Vec2 v)
+double squared_distance(Vec2 a, Vec2 b = {0, 0})
 {
-  return v.x * v.x + v.y * v.y;
-}
-
-double squared_difference(Vec2 a, Vec2 b)
-{
-  return squared({a.x - b.x, a.y - b.y});
+  return (a.x - b.x) * (a.x - b.x) + (a.y - b.y) * (a.y - b.y);
 }
 
 }  // namespace
@@ -31,10 +26,10 @@ RmsDifference rms_difference(const Parameters& machine, const motion::Motion& mo
   for (std::size_t k = 0; k < reference.size(); ++k) {
     const std::size_t j = k % motion.size();
     const Bodies &a = motion.positions[j], &b = reference.positions[k];
-    off += squared_difference(a.stator, b.stator) + squared_difference(a.rotor, b.rotor);
-    size += squared(b.stator) + squared(b.rotor);
-    off_force += squared_difference(forces[j], true_forces[k]);
-    size_force += squared(true_forces[k]);
+    off += squared_distance(a.stator, b.stator) + squared_distance(a.rotor, b.rotor);
+    size += squared_distance(b.stator) + squared_distance(b.rotor);
+    off_force += squared_distance(forces[j], true_forces[k]);
+    size_force += squared_distance(true_forces[k]);
   }
   return {std::sqrt(off / size), std::sqrt(off_force / size_force)};
 }
