@@ -28,7 +28,7 @@ The table measures the difference in three ways: over the largest displacement, 
 static deflection under the weight; over each displacement's own half peak-to-peak; and as the
 difference of the bearing's force, over the largest force. The last is by far the largest, because
 a small error of the penetration of a ball is a large error of its force. */
-#include "figures/orbits.hpp"
+#include "figures/panels.hpp"
 #include "io/program.hpp"
 
 int main(int argc, char** argv)

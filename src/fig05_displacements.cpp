@@ -23,7 +23,7 @@ displacements: rotor and stator move by millimetres, but relative to each other 
 hundredth of that. Displacements that agree to four digits may therefore belong to contact forces
 that agree to two. The force in the table is Eq. 6 along either motion, not a Fourier series of its
 own. */
-#include "figures/orbits.hpp"
+#include "figures/panels.hpp"
 #include "io/program.hpp"
 
 int main(int argc, char** argv)

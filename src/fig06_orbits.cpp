@@ -38,7 +38,7 @@ for a poor solution, because the static deflection is much larger than the orbit
 Where the motion is not T-periodic, no T-periodic solution can represent it, and the panel draws
 five turns of the integrated motion alone. The paper does not give its speeds (D-17); ours include
 those of Figs 4 and 5. */
-#include "figures/orbits.hpp"
+#include "figures/panels.hpp"
 #include "io/program.hpp"
 
 int main(int argc, char** argv)

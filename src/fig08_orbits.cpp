@@ -26,7 +26,7 @@ harmonics to more, or along the curve of solutions from a lower speed. The heade
 for each panel where the search started and how it ended. Where the integrated motion does not
 repeat, such a solution satisfies the truncated equations, but the machine does not settle on it
 after a start from rest. It is in the table and not in the drawing. */
-#include "figures/orbits.hpp"
+#include "figures/panels.hpp"
 #include "io/program.hpp"
 #include "motion/other_starts.hpp"
 

@@ -1,3 +1,7 @@
+/**
+# Evidence on the model (§2 and Table 1)
+
+Contact, readings, masses. */
 #include "deviations/evidence.hpp"
 
 #include <cmath>
@@ -10,11 +14,6 @@
 namespace rotor_stator::deviations {
 
 namespace {
-
-double in_hertz(double omega)
-{
-  return omega / (2 * std::numbers::pi);
-}
 
 /** The largest sag v [m] of the rotor below the stator, without contact, that both
    bodies can carry with Eq. 4 as printed: the greatest value of v - F(v)(1/k_s + 1/k_r),
@@ -36,7 +35,7 @@ double joint_resonance_hz(Parameters machine, double stator_mass, double rotor_m
 {
   machine.stator.mass = stator_mass;
   machine.rotor.mass = rotor_mass;
-  return in_hertz(joint_resonance(machine));
+  return joint_resonance(machine) / angular(1);
 }
 
 }  // namespace
@@ -109,9 +108,9 @@ EvidenceList two_readings(const DeviationScene& scene)
   const double speed = scene.table("readings").number("speed_hz", Range::positive);
   const Parameters &ours = scene.machine, &printed = scene.printed;
   EvidenceList list{
-      {"D-09.joint_exchanged", in_hertz(joint_resonance(ours)), "Hz",
+      {"D-09.joint_exchanged", joint_resonance(ours) / angular(1), "Hz",
        "joint resonance, exchanged frequencies with their working masses"},
-      {"D-09.joint_printed", in_hertz(joint_resonance(printed)), "Hz",
+      {"D-09.joint_printed", joint_resonance(printed) / angular(1), "Hz",
        "joint resonance, printed frequencies with their working masses"},
       {"D-09.joint_printed_masses_exchanged",
        joint_resonance_hz(printed, ours.stator.mass, ours.rotor.mass), "Hz",
@@ -119,9 +118,9 @@ EvidenceList two_readings(const DeviationScene& scene)
       {"D-09.joint_exchanged_masses_printed",
        joint_resonance_hz(ours, printed.stator.mass, printed.rotor.mass), "Hz",
        "joint resonance, exchanged frequencies with the masses of the printed reading"},
-      {"D-09.stator_alone_exchanged", in_hertz(ours.stator.natural_frequency), "Hz",
+      {"D-09.stator_alone_exchanged", ours.stator.natural_frequency / angular(1), "Hz",
        "resonance of the stator alone, exchanged"},
-      {"D-09.stator_alone_printed", in_hertz(printed.stator.natural_frequency), "Hz",
+      {"D-09.stator_alone_printed", printed.stator.natural_frequency / angular(1), "Hz",
        "resonance of the stator alone, printed: inside the range of Fig. 3"},
       {"D-09.speed", speed, "Hz", "speed of the following"}};
   for (const auto& [name, machine] :
@@ -143,7 +142,8 @@ EvidenceList unprinted_masses(const DeviationScene& scene)
       {"D-13.m_r", scene.machine.rotor.mass, "kg", "rotor, exchanged reading"},
       {"D-13.m_s_printed", scene.printed.stator.mass, "kg", "stator, printed reading"},
       {"D-13.m_r_printed", scene.printed.rotor.mass, "kg", "rotor, printed reading"},
-      {"D-13.joint", in_hertz(joint_resonance(scene.machine)), "Hz", "joint resonance"},
+      {"D-13.joint", joint_resonance(scene.machine) / angular(1), "Hz",
+       "joint resonance"},
       {"D-13.speed", scene.transition_speed, "Hz", "speed of the following"}};
   int number = 0;
   for (double factor : scene.table("masses").numbers("factors", Range::positive)) {

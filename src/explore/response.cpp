@@ -33,8 +33,9 @@ struct Task {
   }
 };
 
-void check(const ResponseRequest& request)
+Task task_of(const ResponseRequest& request)
 {
+  Parameters parameters = read_parameters(request.parameter_file);
   if (request.from >= request.to)
     throw BadInput(format("--from %g: must be below --to %g", request.from, request.to));
   if (request.at && (*request.at < request.from || *request.at > request.to))
@@ -46,12 +47,6 @@ void check(const ResponseRequest& request)
   std::vector<std::string> inputs{request.parameter_file};
   if (request.restart) inputs.push_back(*request.restart);
   if (request.save) require_writable("--save", *request.save, inputs);
-}
-
-Task task_of(const ResponseRequest& request)
-{
-  Parameters parameters = read_parameters(request.parameter_file);
-  check(request);
   std::optional<SavedBranch> saved;
   if (request.restart) saved = read_branch(*request.restart, parameters, request.branch);
   const int harmonics = request.harmonics.value_or(saved ? saved->harmonics : 6);
@@ -226,23 +221,24 @@ Others others(const Task& task, Balance& balance, const Branch& main, Table& tab
 }
 
 /** One line in all, then one line per bifurcation. */
-std::vector<std::string> notes_of(const BranchStability& stability)
+void note(Table& table, const std::string& prefix, const BranchStability& stability)
 {
   const auto count = [&](Bifurcation kind) {
     return std::count_if(stability.points.begin(), stability.points.end(),
                          [&](const StablePoint& p) { return p.bifurcation == kind; });
   };
-  std::vector<std::string> notes{format(
-      "stability: %td folds, %td plus-one, %td period doublings, %td Neimark-Sacker points, "
-      "speeds to %g, relative; %d not located",
-      count(Bifurcation::fold), count(Bifurcation::plus_one),
-      count(Bifurcation::period_doubling), count(Bifurcation::neimark_sacker),
-      BranchStabilitySettings{}.tolerance, stability.missed)};
+  table.note(
+      prefix +
+      format(
+          "stability: %td folds, %td plus-one, %td period doublings, %td Neimark-Sacker points, "
+          "speeds to %g, relative; %d not located",
+          count(Bifurcation::fold), count(Bifurcation::plus_one),
+          count(Bifurcation::period_doubling), count(Bifurcation::neimark_sacker),
+          BranchStabilitySettings{}.tolerance, stability.missed));
   for (const StablePoint& p : stability.points)
     if (p.bifurcation != Bifurcation::none)
-      notes.push_back(format("%s: %.9g Hz", name_of(p.bifurcation),
-                             p.point.motion.omega / angular(1)));
-  return notes;
+      table.note(prefix + format("%s: %.9g Hz", name_of(p.bifurcation),
+                                 p.point.motion.omega / angular(1)));
 }
 
 /** What was not computed and why; empty when nothing is missing. */
@@ -281,7 +277,7 @@ void add_branch(Table& table, const Task& task, Balance& balance, const Branch& 
         });
     const std::string prefix =
         task.request.isolated > 0 ? format("branch %zu, ", number) : "";
-    for (const std::string& note : notes_of(stability)) table.note(prefix + note);
+    note(table, prefix, stability);
     const std::string missing = missing_in(stability, task.budget);
     if (!missing.empty()) table.note("incomplete: " + prefix + missing);
     if (added.missing.empty()) added.missing = missing;
@@ -299,19 +295,6 @@ void add_branch(Table& table, const Task& task, Balance& balance, const Branch& 
         {at, half_peak_to_peak(body_series(task.parameters, motion), transform), number});
   }
   if (task.request.isolated > 0) table.gap();
-}
-
-void describe(Table& table, const Task& task, const Branch& branch)
-{
-  describe(table, task.parameters);
-  table.note(
-      format("method: aft, m = %d, N = %d, relative tolerance %g, pseudo-arc-length %s",
-             task.harmonics, task.samples, task.request.newton_tolerance,
-             task.upwards ? "up" : "down"));
-  table.note(format("folds: %zu", branch.folds.size()));
-  table.note(format("work: %ld evaluations of the force at %d instants",
-                    branch.evaluations, task.samples));
-  table.note((branch.covered ? "ended: " : "incomplete: ") + branch.end);
 }
 
 /** The first thing that is missing, in the order in which it was asked for. */
@@ -339,7 +322,15 @@ Exploration explore_response(const ResponseRequest& request)
   const BranchPoint start =
       task.saved ? saved_start(task, table) : found_start(task, balance, table);
   const Branch main = follow_branch(balance, start, task.range(), task.settings);
-  describe(table, task, main);
+  describe(table, task.parameters);
+  table.note(
+      format("method: aft, m = %d, N = %d, relative tolerance %g, pseudo-arc-length %s",
+             task.harmonics, task.samples, task.request.newton_tolerance,
+             task.upwards ? "up" : "down"));
+  table.note(format("folds: %zu", main.folds.size()));
+  table.note(format("work: %ld evaluations of the force at %d instants", main.evaluations,
+                    task.samples));
+  table.note((main.covered ? "ended: " : "incomplete: ") + main.end);
 
   Others beside;
   if (request.isolated > 0) beside = others(task, balance, main, table);

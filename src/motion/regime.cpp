@@ -23,21 +23,6 @@ double higher_harmonics(const Motion& motion)
   return share;
 }
 
-namespace {
-
-/** Where integration starts: on the periodic solution if Newton finds one from the
-   quasi-static contact, else at the static load. */
-State start_of(const Parameters& parameters, double omega)
-{
-  if (!has_rotation_period(parameters.bearing)) return static_start(parameters);
-  constexpr int harmonics = 6;
-  const PeriodicMotion motion =
-      find_near_contact(parameters, omega, harmonics, default_samples(harmonics));
-  return motion.found() ? state_of(motion) : static_start(parameters);
-}
-
-}  // namespace
-
 Regime regime_at(const Parameters& parameters, double frequency,
                  const RegimeSettings& settings)
 {
@@ -53,8 +38,13 @@ Regime regime_at(const Parameters& parameters, double frequency,
   /** Contact that is lost now and then takes more than two periods to be seen. */
   steady_settings.shown_periods =
       std::max(2, static_cast<int>(std::ceil(settings.window * frequency)));
-  const SteadyState steady =
-      steady_state(parameters, omega, start_of(parameters, omega), steady_settings);
+  /** On the periodic solution if Newton finds one from the quasi-static contact, else at the static load. */
+  PeriodicMotion solution;
+  if (has_rotation_period(parameters.bearing))
+    solution = find_near_contact(parameters, omega, 6, default_samples(6));
+  const SteadyState steady = steady_state(
+      parameters, omega, solution.found() ? state_of(solution) : static_start(parameters),
+      steady_settings);
   Motion motion = motion_of(steady, settings.points_per_period);
   const double contact = contact_share(parameters, motion);
   motion.positions.resize(2 * static_cast<std::size_t>(settings.points_per_period));
