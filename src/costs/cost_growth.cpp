@@ -19,7 +19,6 @@ CostGrowthScene read_cost_growth(SceneFile& file)
       .parameters = read_parameters(file, "parameters"),
       .frequency = toml.number("speed_hz", Range::positive),
       .below = toml.number("below_hz", Range::positive),
-      .kinds = {},
       .sweep_from = toml.number("sweep_from_hz", Range::positive),
       .sweep_to = toml.number("sweep_to_hz", Range::positive),
       .sweep_speeds = toml.integer("sweep_speeds", 2, 1 << 20),

@@ -8,7 +8,6 @@ that solves one speed with one harmonic. */
 
 #include "costs/timed_method.hpp"
 #include "io/table.hpp"
-#include "io/toml_file.hpp"
 
 namespace rotor_stator::costs {
 
@@ -22,7 +21,7 @@ struct GrowthKind {
 struct CostGrowthScene {
   Parameters parameters;
   double frequency, below;  ///< of the one solution, and of what it starts from [Hz]
-  std::vector<GrowthKind> kinds;
+  std::vector<GrowthKind> kinds = {};
   double sweep_from, sweep_to;  ///< of the sweeps [Hz]
   int sweep_speeds, sweep_harmonics;
   int samples_per_harmonic, repetitions;

@@ -8,9 +8,7 @@ repeated, and the one with the least median is the row. */
 #pragma once
 
 #include "costs/timed_method.hpp"
-#include "costs/true_motion.hpp"
 #include "io/table.hpp"
-#include "io/toml_file.hpp"
 
 namespace rotor_stator::costs {
 

@@ -15,7 +15,6 @@ SamplingScene read_sampling(SceneFile& file)
   if (frequencies.size() != machines.size())
     toml.fail("speeds_hz", "must have one value for each of parameters");
   SamplingScene scene{
-      .cases = {},
       .harmonics = toml.integers("harmonics", 1, 256),
       .samples_over_m = toml.integers("samples_over_m", 2, 1024),
       .fine_over_m = toml.integer("fine_over_m", 2, 4096),

@@ -19,7 +19,7 @@ struct SamplingCase {
 };
 
 struct SamplingScene {
-  std::vector<SamplingCase> cases;
+  std::vector<SamplingCase> cases = {};
   std::vector<int> harmonics;       ///< m
   std::vector<int> samples_over_m;  ///< N ≥ this times m, plus one
   int fine_over_m;                  ///< the N that stands for infinity

@@ -14,9 +14,7 @@ TimingScene read_timing(SceneFile& file)
   StrictToml& toml = file.toml();
   TimingScene scene{.parameters = read_parameters(file, "parameters"),
                     .frequencies = file.speed_range("speeds_hz"),
-                    .balances = {},
                     .paper_cpu = toml.numbers("paper_cpu", Range::positive),
-                    .rk4 = {},
                     .repetitions = toml.integer("repetitions", 1, 1000),
                     .truth = {.settling = read_steady_settings(file),
                               .tolerance = 1e-12,

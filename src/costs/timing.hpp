@@ -6,18 +6,16 @@ from the static load; of its settings those with the fewest steps are the cheape
 #pragma once
 
 #include "costs/timed_method.hpp"
-#include "costs/true_motion.hpp"
 #include "io/table.hpp"
-#include "io/toml_file.hpp"
 
 namespace rotor_stator::costs {
 
 struct TimingScene {
   Parameters parameters;
-  std::vector<double> frequencies;  ///< [Hz]
-  std::vector<Setting> balances;    ///< m and N of harmonic balance
+  std::vector<double> frequencies;     ///< [Hz]
+  std::vector<Setting> balances = {};  ///< m and N of harmonic balance
   std::vector<double> paper_cpu;  ///< printed for each, and for RK4 last; unit not given
-  std::vector<Setting> rk4;       ///< tried, cheapest first
+  std::vector<Setting> rk4 = {};  ///< tried, cheapest first
   int repetitions;
   TruthSettings truth;
 };

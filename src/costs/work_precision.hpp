@@ -10,9 +10,7 @@ one takes in the same run. */
 #include <cmath>
 
 #include "costs/timed_method.hpp"
-#include "costs/true_motion.hpp"
 #include "io/table.hpp"
-#include "io/toml_file.hpp"
 
 namespace rotor_stator::costs {
 

@@ -17,11 +17,6 @@ OperationBudget budget_of(const HardCase& hard, const std::string& method,
   return OperationBudget(evaluations * evaluation_price(hard.machine, method));
 }
 
-OperationBudget shooting_budget(const HardCase& hard)
-{
-  return budget_of(hard, "rk8pd", 1.5e7);
-}
-
 SteadySettings hard_settings(const HardCase& hard, const std::string& method, double step)
 {
   SteadySettings settings;
@@ -197,7 +192,7 @@ Shooting closed(const HardCase& hard, double tolerance, State& state)
                {.tolerance = tolerance,
                 .periodicity_residual = 100 * tolerance,
                 .most_maps = 40,
-                .budget = shooting_budget(hard)});
+                .budget = budget_of(hard, "rk8pd", shooting_evaluations)});
 }
 
 /** Shooting from the static state, then from two seconds of integration. */

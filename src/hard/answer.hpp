@@ -45,7 +45,7 @@ OperationBudget budget_of(const HardCase& hard, const std::string& method,
                           double evaluations);
 
 /** About three seconds of shooting by rk8pd. */
-OperationBudget shooting_budget(const HardCase& hard);
+constexpr double shooting_evaluations = 1.5e7;
 
 /** What RK4 settles on, or another method from where `start` says: shared with the checks. About a second
     is shown, for the amplitudes of an aperiodic motion. */

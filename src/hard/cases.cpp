@@ -10,7 +10,6 @@
 #include "continuation/arc_length.hpp"
 #include "integration/time_stepper.hpp"
 #include "io/errors.hpp"
-#include "io/toml_file.hpp"
 #include "motion/find_periodic.hpp"
 
 namespace rotor_stator::hard {
@@ -103,10 +102,7 @@ void add_group(StrictToml group, const Parameters& machine, std::vector<HardCase
 {
   HardCase base{.name = group.string("name"),
                 .machine = machine,
-                .frequency = 0,
-                .from = 0,
-                .harmonics = group.integer("harmonics", 1, 4096),
-                .samples = 0};
+                .harmonics = group.integer("harmonics", 1, 4096)};
   if (group.has("machine")) {
     StrictToml changes = group.table("machine");
     for (const std::string& key : changes.keys())
@@ -133,8 +129,7 @@ HardCases read_hard_cases(SceneFile& file)
                .most_error_ratio = toml.number("most_error_ratio", Range::positive),
                .least_error = toml.number("least_error", Range::positive),
                .most_error = toml.number("most_error", Range::positive),
-               .most_change = toml.number("most_change", Range::positive)},
-      .cases = {}};
+               .most_change = toml.number("most_change", Range::positive)}};
   for (const StrictToml& group : toml.tables("group"))
     add_group(group, machine, hard.cases);
   toml.refuse_unknown_keys();

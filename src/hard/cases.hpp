@@ -19,11 +19,10 @@ namespace rotor_stator::hard {
 struct HardCase {
   std::string name;
   Parameters machine;
-  double frequency;  ///< [Hz]
-  double
-      from;  ///< where its branch is followed from [Hz]; the frequency itself: a cold start
-  int harmonics;  ///< m
-  int samples;    ///< N
+  double frequency = 0;  ///< [Hz]
+  double from = 0;       ///< start of its branch [Hz]; the frequency itself: a cold start
+  int harmonics = 0;     ///< m
+  int samples = 0;       ///< N
 };
 
 /** When an answer may be claimed, and when a claim is false. Relative errors of displacement. */
@@ -38,7 +37,7 @@ struct HardRule {
 
 struct HardCases {
   HardRule rule;
-  std::vector<HardCase> cases;
+  std::vector<HardCase> cases = {};
 };
 
 /** Throws BadInput for a bad list, NoSolution when a fold that it asks for is not there. */

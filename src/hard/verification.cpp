@@ -32,10 +32,12 @@ void set_stability(double multiplier, double change, Check& check)
                                                            : "unknown";
 }
 
-PeriodMap bounded_map(const HardCase& hard, const State& state, double tolerance)
+/** Φ at a state. */
+Matrix8 map_derivative(const HardCase& hard, const State& state, double tolerance)
 {
   return period_map(hard.machine, angular(hard.frequency), state, tolerance, "rk8pd",
-                    shooting_budget(hard));
+                    budget_of(hard, "rk8pd", shooting_evaluations))
+      .derivative;
 }
 
 /** Shooting from the answer's state; false when it does not close. */
@@ -43,23 +45,24 @@ bool check_by_shooting(const HardCase& hard, const Answer& answer, Check& check)
 {
   State state = answer.state;
   const double omega = angular(hard.frequency);
-  const Shooting shooting = shoot(hard.machine, omega, state,
-                                  {.tolerance = 1e-11,
-                                   .periodicity_residual = 1e-9,
-                                   .most_maps = 30,
-                                   .budget = shooting_budget(hard)});
+  const Shooting shooting =
+      shoot(hard.machine, omega, state,
+            {.tolerance = 1e-11,
+             .periodicity_residual = 1e-9,
+             .most_maps = 30,
+             .budget = budget_of(hard, "rk8pd", shooting_evaluations)});
   if (!shooting.converged) return false;
   check.by = "shooting";
   check.error = motion_difference(answer.motion, period_from(hard, state));
-  check.found_multiplier = largest_modulus(bounded_map(hard, state, 1e-10).derivative);
+  check.found_multiplier = largest_modulus(map_derivative(hard, state, 1e-10));
   return true;
 }
 
 /** Multipliers of the period map at two tolerances. */
 void floquet_by_map(const HardCase& hard, const State& state, Check& check)
 {
-  const double coarse = largest_modulus(bounded_map(hard, state, 1e-9).derivative);
-  const double fine = largest_modulus(bounded_map(hard, state, 1e-11).derivative);
+  const double coarse = largest_modulus(map_derivative(hard, state, 1e-9));
+  const double fine = largest_modulus(map_derivative(hard, state, 1e-11));
   set_stability(fine, std::abs(fine - coarse), check);
 }
 
@@ -107,8 +110,7 @@ void check_shooting(const HardCase& hard, const Answer& answer, Check& check)
   const Vector8 start = vector_of(answer.state), sizes = state_scales(hard.machine);
   const Vector8 open = vector_of(state) - start;
   const Matrix8 scaled = sizes.cwiseInverse().asDiagonal() *
-                         bounded_map(hard, answer.state, 1e-11).derivative *
-                         sizes.asDiagonal();
+                         map_derivative(hard, answer.state, 1e-11) * sizes.asDiagonal();
   const Vector8 correction = sizes.cwiseProduct(
       (scaled - Matrix8::Identity()).partialPivLu().solve(open.cwiseQuotient(sizes)));
   check.by = "rk4, a quarter of the step";
@@ -153,40 +155,6 @@ std::string verdict(const Answer& answer, const Check& check, const HardRule& ru
   return check.error <= allowed ? "solved" : "silent error";
 }
 
-}  // namespace
-
-const std::vector<Method> methods{{"aft predictor", answer_by_predictor, check_balance},
-                                  {"aft arc length", answer_by_arc_length, check_balance},
-                                  {"shooting", answer_by_shooting, check_shooting},
-                                  {"rk4", answer_by_rk4, check_rk4}};
-
-Answer answer_by(const Method& method, const HardCase& hard, const HardRule& rule)
-{
-  Answer answer;
-  try {
-    method.answer(hard, rule, answer);
-  } catch (const NoSolution& refusal) {
-    answer.claimed = false;
-    answer.reason = refusal.what();
-  }
-  return answer;
-}
-
-Verification verify(const HardCase& hard, const Method& method, Answer answer,
-                    const HardRule& rule)
-{
-  Verification end{&hard, &method, std::move(answer), {}, {}};
-  try {
-    if (end.answer.claimed) method.check(hard, end.answer, end.check);
-  } catch (const NoSolution&) {
-    // the check itself broke down: the claim stays as far as it was confirmed
-  }
-  end.verdict = verdict(end.answer, end.check, rule);
-  return end;
-}
-
-namespace {
-
 const std::vector<Field<Verification>> fields{
     {"case", "-", "group of the list, varied value, speed",
      [](auto& v) { return v.hard->name; }},
@@ -229,6 +197,36 @@ const std::vector<Field<Verification>> fields{
      [](auto& v) { return v.answer.reason; }}};
 
 }  // namespace
+
+const std::vector<Method> methods{{"aft predictor", answer_by_predictor, check_balance},
+                                  {"aft arc length", answer_by_arc_length, check_balance},
+                                  {"shooting", answer_by_shooting, check_shooting},
+                                  {"rk4", answer_by_rk4, check_rk4}};
+
+Answer answer_by(const Method& method, const HardCase& hard, const HardRule& rule)
+{
+  Answer answer;
+  try {
+    method.answer(hard, rule, answer);
+  } catch (const NoSolution& refusal) {
+    answer.claimed = false;
+    answer.reason = refusal.what();
+  }
+  return answer;
+}
+
+Verification verify(const HardCase& hard, const Method& method, Answer answer,
+                    const HardRule& rule)
+{
+  Verification end{&hard, &method, std::move(answer), {}, {}};
+  try {
+    if (end.answer.claimed) method.check(hard, end.answer, end.check);
+  } catch (const NoSolution&) {
+    // the check itself broke down: the claim stays as far as it was confirmed
+  }
+  end.verdict = verdict(end.answer, end.check, rule);
+  return end;
+}
 
 Table hard_table(const HardCases& hard, const std::vector<Verification>& ends)
 {

@@ -13,7 +13,6 @@ GridScene read_grid_scene(SceneFile& file)
 {
   StrictToml& toml = file.toml();
   GridScene scene{.base = read_parameters(file, "parameters"),
-                  .machines = {},
                   .harmonics = toml.integer("harmonics", 1, 256),
                   .frequencies = file.speed_range("speeds_hz")};
   StrictToml grid = toml.table("grid");

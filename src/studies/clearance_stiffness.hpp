@@ -14,7 +14,7 @@ namespace rotor_stator::studies {
 
 struct GridScene {
   Parameters base;
-  std::vector<Parameters> machines;  ///< clearance varies fastest
+  std::vector<Parameters> machines = {};  ///< clearance varies fastest
   int harmonics;
   std::vector<double> frequencies;  ///< [Hz]
 };

@@ -72,6 +72,20 @@ std::optional<Measured> onset(const Model& model, const std::vector<double>& fre
   return Measured{0.5 * (keeps + loses), uncertainty};
 }
 
+/** The largest value of the period from `begin` on, refined by a parabola where it is a
+   crest. Beyond both ends of the motion stands the sample one period further in. */
+double crest(const std::vector<double>& values, std::size_t begin, std::size_t period)
+{
+  const auto first = values.begin() + static_cast<std::ptrdiff_t>(begin);
+  const auto largest =
+      std::max_element(first, first + static_cast<std::ptrdiff_t>(period));
+  const auto at = static_cast<std::size_t>(largest - values.begin());
+  const double before = values[at > 0 ? at - 1 : period - 1];
+  const double after = values[at + 1 < values.size() ? at + 1 : at + 1 - period];
+  if (before > *largest || after > *largest) return *largest;
+  return refined_peak({{-1, before}, {0, *largest}, {1, after}}).amplitude;
+}
+
 }  // namespace
 
 CurvePoint balance_peak(const Model& model, const std::vector<double>& frequencies)
@@ -116,24 +130,6 @@ std::optional<OrbitSize> balance_orbit_size(const Model& model, double frequency
   const Eigen::VectorXd amplitude = half_peak_to_peak(solution.bodies);
   return OrbitSize{{amplitude[2]}, {amplitude[3]}};
 }
-
-namespace {
-
-/** The largest value of the period from `begin` on, refined by a parabola where it is a
-   crest. Beyond both ends of the motion stands the sample one period further in. */
-double crest(const std::vector<double>& values, std::size_t begin, std::size_t period)
-{
-  const auto first = values.begin() + static_cast<std::ptrdiff_t>(begin);
-  const auto largest =
-      std::max_element(first, first + static_cast<std::ptrdiff_t>(period));
-  const auto at = static_cast<std::size_t>(largest - values.begin());
-  const double before = values[at > 0 ? at - 1 : period - 1];
-  const double after = values[at + 1 < values.size() ? at + 1 : at + 1 - period];
-  if (before > *largest || after > *largest) return *largest;
-  return refined_peak({{-1, before}, {0, *largest}, {1, after}}).amplitude;
-}
-
-}  // namespace
 
 OrbitSize orbit_size(const motion::Motion& motion)
 {

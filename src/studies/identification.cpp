@@ -42,9 +42,6 @@ IdentificationScene read_identification_scene(const std::string& file,
   StrictToml toml(claims);
   StrictToml regimes = toml.table("regimes"), score = toml.table("score");
   IdentificationScene scene{
-      .candidates = {},
-      .frequencies = {},
-      .settings = {},
       .rule = {.low_to = regimes.number("low_to_hz", Range::positive),
                .middle_to = regimes.number("middle_to_hz", Range::positive),
                .multi_harmonic = regimes.number("multi_harmonic", Range::positive),

@@ -26,9 +26,9 @@ struct Candidate {
 };
 
 struct IdentificationScene {
-  std::vector<Candidate> candidates;
-  std::vector<double> frequencies;  ///< [Hz]
-  motion::RegimeSettings settings;
+  std::vector<Candidate> candidates = {};
+  std::vector<double> frequencies = {};  ///< [Hz]
+  motion::RegimeSettings settings = {};
   ClaimRule rule;
   std::vector<std::string> files;  ///< that were read
 };

@@ -103,7 +103,6 @@ SensitivityScene read_sensitivity_scene(SceneFile& file)
                                    .harmonics = harmonics,
                                    .samples = default_samples(harmonics),
                                    .time_integration = read_steady_settings(file)},
-                         .points = {},
                          .peak_speeds = file.speed_range("peak_hz"),
                          .time_peak_speeds = file.speed_range("time_peak_hz"),
                          .loss_speeds = file.speed_range("contact_loss_hz"),
@@ -222,46 +221,6 @@ void describe(Table& table, const SensitivityScene& scene)
       scene.loss_speeds.back(), scene.orbit_frequency));
 }
 
-}  // namespace
-
-Table sensitivity_table(const SensitivityScene& scene, const std::vector<Point>& points)
-{
-  Table table("Sensitivity to the parameters that the paper leaves out", fields);
-  describe(table, scene);
-  table.note(
-      "modelled: one parameter at a time, the others at their defaults; N does not enter "
-      "time integration, nor h harmonic balance: there the default's numbers stand");
-  for (const Point& point : points) table.row(fields, point);
-  return table;
-}
-
-/**
-## Normalised derivatives
-
-From the table of the sensitivity: nothing is computed again. */
-
-std::vector<Point> read_sensitivity(const SensitivityScene& scene,
-                                    const std::string& table)
-{
-  const NumberTable read(table);
-  std::vector<Point> points = scene.points;
-  for (std::size_t k = 0; k < points.size(); ++k) {
-    if (read.rows() != points.size() ||
-        std::abs(read.at(k, "value") - points[k].value) > 1e-9 * points[k].value)
-      throw BadInput(table + ": is not the table of this scene");
-    for (int output = 0; output < output_count; ++output) {
-      const double value = read.at(k, name_of(output));
-      if (value < 0) continue;
-      const bool has_error = output >= f_loss_first && output <= amp_y;
-      points[k].outputs[output] =
-          Measured{value, has_error ? read.at(k, name_of_error(output)) : 0};
-    }
-  }
-  return points;
-}
-
-namespace {
-
 /** The nearest point from `at` on in one direction, of the same parameter, that has the
    output; `at` itself when there is none. */
 const Point& nearest(const std::vector<Point>& points, std::size_t at, int direction,
@@ -304,6 +263,42 @@ const std::vector<Field<Derivative>> derivative_fields{
      [](auto& d) { return label(d.parameter).unit; }}};
 
 }  // namespace
+
+Table sensitivity_table(const SensitivityScene& scene, const std::vector<Point>& points)
+{
+  Table table("Sensitivity to the parameters that the paper leaves out", fields);
+  describe(table, scene);
+  table.note(
+      "modelled: one parameter at a time, the others at their defaults; N does not enter "
+      "time integration, nor h harmonic balance: there the default's numbers stand");
+  for (const Point& point : points) table.row(fields, point);
+  return table;
+}
+
+/**
+## Normalised derivatives
+
+From the table of the sensitivity: nothing is computed again. */
+
+std::vector<Point> read_sensitivity(const SensitivityScene& scene,
+                                    const std::string& table)
+{
+  const NumberTable read(table);
+  std::vector<Point> points = scene.points;
+  for (std::size_t k = 0; k < points.size(); ++k) {
+    if (read.rows() != points.size() ||
+        std::abs(read.at(k, "value") - points[k].value) > 1e-9 * points[k].value)
+      throw BadInput(table + ": is not the table of this scene");
+    for (int output = 0; output < output_count; ++output) {
+      const double value = read.at(k, name_of(output));
+      if (value < 0) continue;
+      const bool has_error = output >= f_loss_first && output <= amp_y;
+      points[k].outputs[output] =
+          Measured{value, has_error ? read.at(k, name_of_error(output)) : 0};
+    }
+  }
+  return points;
+}
 
 std::vector<Derivative> normalised_derivatives(const std::vector<Point>& points)
 {

@@ -60,8 +60,8 @@ struct SensitivityPoint {
 };
 
 struct SensitivityScene {
-  Model usual;                           ///< all parameters at their defaults
-  std::vector<SensitivityPoint> points;  ///< by parameter and rising value
+  Model usual;                                ///< all parameters at their defaults
+  std::vector<SensitivityPoint> points = {};  ///< by parameter and rising value
   std::vector<double> peak_speeds, time_peak_speeds, loss_speeds;  ///< [Hz]
   double orbit_frequency;                                          ///< [Hz]
   int orbit_periods;
