@@ -27,7 +27,8 @@ int main(int argc, char** argv)
 {
   using namespace rotor_stator;
   return run_figure(argc, argv, [](SceneFile& file) {
-    const std::vector<Parameters> machines = figures::read_data_sets(file);
+    const auto machines = read_parameter_list(file, "parameters");
+    file.toml().refuse_unknown_keys();
     Table table = figures::data_set_table(machines);
     for (int set = 0; const Parameters& machine : machines) {
       const double joint = joint_resonance(machine) / angular(1);  // [Hz]

@@ -22,16 +22,6 @@ DeviationScene read_deviation_scene(SceneFile& file)
           .time_integration = read_steady_settings(file)};
 }
 
-std::vector<int> DeviationScene::sampled_harmonics() const
-{
-  return table("sampling").integers("harmonics", 1, 64);
-}
-
-double DeviationScene::finest_step() const
-{
-  return table("fine").numbers("steps_hz", Range::positive).front();
-}
-
 PeriodicMotion require_periodic(const Parameters& machine, double frequency,
                                 int harmonics, int samples,
                                 const NewtonSettings& settings)
@@ -59,11 +49,6 @@ motion::Motion DeviationScene::motion_of(const PeriodicMotion& solution) const
 motion::Motion DeviationScene::motion_of(const SteadyState& steady) const
 {
   return motion::motion_of(steady, time_integration.stepper.intervals_per_period);
-}
-
-SteadyState DeviationScene::settled(const Parameters& of, double frequency) const
-{
-  return steady_state(of, angular(frequency), time_integration);
 }
 
 motion::Motion DeviationScene::integrated(double frequency) const

@@ -36,8 +36,17 @@ struct DeviationScene {
   /** A table of the scene file, which the entries share. */
   StrictToml table(const std::string& key) const { return StrictToml(toml).table(key); }
 
-  std::vector<int> sampled_harmonics() const;  ///< m of D-05 and D-18
-  double finest_step() const;                  ///< of the sweeps of Fig. 3 [Hz]
+  /** m of D-05 and D-18. */
+  std::vector<int> sampled_harmonics() const
+  {
+    return table("sampling").integers("harmonics", 1, 64);
+  }
+
+  /** Of the sweeps of Fig. 3 [Hz]. */
+  double finest_step() const
+  {
+    return table("fine").numbers("steps_hz", Range::positive).front();
+  }
 
   /** The periodic solution of the exchanged reading with m harmonics. */
   PeriodicMotion solution(double frequency) const;
@@ -48,7 +57,10 @@ struct DeviationScene {
 
   /** The steady state of a machine, and the motion on which the exchanged reading settles. The latter
       throws NoSolution if it is not T-periodic. */
-  SteadyState settled(const Parameters& of, double frequency) const;
+  SteadyState settled(const Parameters& of, double frequency) const
+  {
+    return steady_state(of, angular(frequency), time_integration);
+  }
   motion::Motion integrated(double frequency) const;
 };
 

@@ -36,13 +36,6 @@ const std::vector<Field<DataSet>> fields{
 
 }  // namespace
 
-std::vector<Parameters> read_data_sets(SceneFile& file)
-{
-  auto machines = read_parameter_list(file, "parameters");
-  file.toml().refuse_unknown_keys();
-  return machines;
-}
-
 Table data_set_table(const std::vector<Parameters>& machines)
 {
   Table table("Data sets (Table 1), with what the paper leaves out", fields);

@@ -6,9 +6,6 @@
 
 namespace rotor_stator::figures {
 
-/** The data sets that a scene names. */
-std::vector<Parameters> read_data_sets(SceneFile& file);
-
 Table data_set_table(const std::vector<Parameters>& machines);
 
 /** The row of data set `set`; its bodies moving as one resonate at `joint` [Hz]. */
