@@ -223,12 +223,12 @@ build/peers/.built: $(wildcard peers/*.*pp peers/*.py peers/CMake*) build/.built
 test: all  ## every test, after everything that they read is there
 	cmake --preset release -DPYTHON=$(PYTHON) > build/configure.log
 	cmake --build --preset release --target tests
-	ctest --preset release --no-tests=error
+	ctest --preset release --no-tests=error -j $$(nproc)
 
 sanitize: all  ## the same tests with address and undefined-behaviour sanitizers
 	cmake --preset debug > build/configure-debug.log
 	cmake --build --preset debug --target all tests
-	ctest --preset debug --no-tests=error
+	ctest --preset debug --no-tests=error -j $$(nproc)
 
 bench: build/.built  ## time the parts of an iteration, alone on the machine (a minute)
 	cmake --preset release > build/configure.log

@@ -16,6 +16,9 @@ the size costs twice as much. A dense factorisation would have the exponent thre
 iterative solver with one block per harmonic avoids it. Steps in the memory are the allocator's pages.
 Claim C12 itself is not tested: the number of degrees of freedom stays at four.
 
+Each size runs in a process of its own, so that the memory of one does not count for the next. The CPU time
+is the median of several repetitions by one thread.
+
 Modelled: one periodic motion, and sweeps above the transition. */
 #include "costs/cost_growth.hpp"
 #include "io/program.hpp"

@@ -16,6 +16,9 @@ force, and AUTO-07p, which follows the response by collocation. SciPy's are call
 them more per evaluation than the C++ programs; the header of their table has both numbers. AUTO's curve
 agrees with ours to drawing accuracy, and has folds that few harmonics do not show.
 
+The CPU time is that of one thread for the whole sweep, the median of several repetitions. The table has the
+least and the largest of them, the setting, and the error that was reached.
+
 Modelled: the speeds with T-periodic motion, below and above 25 Hz. */
 #include "costs/equal_error.hpp"
 #include "io/program.hpp"

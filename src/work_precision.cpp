@@ -17,6 +17,9 @@ The CPU time includes all that a user has to pay: tables and plans, the start, t
 iterations. The reference is shooting with a far tighter tolerance, compared with harmonic balance with very
 many harmonics; the header says how well they agree.
 
+Each motion is computed twice: from nothing, and from the known motion at a speed a little below. The second
+is what a sweep over the speeds costs at each of its steps. Repetitions are timed one after the other.
+
 Modelled: seven T-periodic motions of both data sets, four of which are drawn. */
 #include "costs/work_precision.hpp"
 #include "io/program.hpp"

@@ -86,6 +86,14 @@ struct Problem {
   std::function<void(double operations)> spend = {};
 };
 
+/** The block of M q̈ + D q̇ + K q + f(q) = Re(F e^{iωt}) for real d × d matrices and a
+   complex load amplitude `load` on harmonic 1: Eq. 11 with jω in both diagonal entries
+   (D-12). */
+LinearBlock second_order_block(const Eigen::MatrixXd& mass,
+                               const Eigen::MatrixXd& damping,
+                               const Eigen::MatrixXd& stiffness,
+                               const Eigen::VectorXcd& load, double omega, int h);
+
 /** Complex amplitude of harmonic `h` of a series, and back. */
 SmallVector amplitude(const Eigen::Ref<const Eigen::MatrixXd>& series, int h);
 void put_amplitude(Eigen::Ref<Eigen::MatrixXd> series, int h,

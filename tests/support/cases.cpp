@@ -6,27 +6,6 @@
 
 namespace rotor_stator::tests {
 
-namespace {
-
-/** The block of M q̈ + D q̇ + K q + f(q) = Re(F e^{iωt}) for a load F on harmonic 1: Eq. 11 with jω in both
-    diagonal entries (D-12). */
-LinearBlock second_order_block(const Oscillator& o, double omega, int h)
-{
-  const std::complex<double> i(0, 1);
-  const auto d = o.mass.rows();
-  LinearBlock block;
-  block.a =
-      o.stiffness - (h * omega) * (h * omega) * o.mass + i * (h * omega) * o.damping;
-  block.a_slope = -2.0 * h * h * omega * o.mass + i * static_cast<double>(h) * o.damping;
-  block.b = SmallMatrix::Identity(d, d);
-  block.b_slope = SmallMatrix::Zero(d, d);
-  block.c = h == 1 ? SmallVector(o.load) : SmallVector::Zero(d);
-  block.c_slope = SmallVector::Zero(d);
-  return block;
-}
-
-}  // namespace
-
 Problem Oscillator::problem(int samples) const
 {
   const auto all_samples = [law = law](const Eigen::MatrixXd& q, Eigen::MatrixXd& force,
@@ -43,8 +22,11 @@ Problem Oscillator::problem(int samples) const
           .samples = samples,
           .residual_scale = 1,
           .unknown_scale = 1,
-          .linear = [o = *this](double omega,
-                                int h) { return second_order_block(o, omega, h); },
+          .linear =
+              [o = *this](double omega, int h) {
+                return second_order_block(o.mass, o.damping, o.stiffness, o.load, omega,
+                                          h);
+              },
           .force = all_samples};
 }
 
