@@ -1,9 +1,4 @@
-/**
-# Evidence on the balance (§3.1)
-
-The blocks of Eq. 11, Newton's step and its criteria; what Γ takes to harmonics, and what too few
-samples fold onto them. */
-#include "deviations/evidence.hpp"
+#include "deviations/balance.hpp"
 
 #include <cmath>
 

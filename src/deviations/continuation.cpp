@@ -1,8 +1,4 @@
-/**
-# Evidence on continuation (§3.2)
-
-Predictor, arc length, tolerance, step, cost. */
-#include "deviations/evidence.hpp"
+#include "deviations/continuation.hpp"
 
 #include <cmath>
 

@@ -1,8 +1,4 @@
-/**
-# Evidence on the model (§2 and Table 1)
-
-Contact, readings, masses. */
-#include "deviations/evidence.hpp"
+#include "deviations/model.hpp"
 
 #include <cmath>
 #include <numbers>

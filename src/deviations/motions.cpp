@@ -1,8 +1,4 @@
-/**
-# Evidence on the motions (§3.3)
-
-Amplitudes, cage, time integration, figures. */
-#include "deviations/evidence.hpp"
+#include "deviations/motions.hpp"
 
 #include <algorithm>
 #include <cmath>

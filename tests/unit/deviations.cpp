@@ -3,7 +3,10 @@
 #include <cmath>
 #include "support/catch.hpp"
 
-#include "deviations/evidence.hpp"
+#include "deviations/balance.hpp"
+#include "deviations/continuation.hpp"
+#include "deviations/model.hpp"
+#include "deviations/motions.hpp"
 #include "deviations/printed_equations.hpp"
 #include "io/errors.hpp"
 #include "support/cases.hpp"
