@@ -25,7 +25,7 @@ after one turn. Its title gives the error: the largest difference of the bearing
 both methods, over the largest force. Where the motion does not repeat, the panel shows the
 integrated motion, and two other periods would give another picture. Both motions are computed as
 for Figure 6; the force of each ball is Eq. 5. */
-#include "figures/panels.hpp"
+#include "figures/contact.hpp"
 #include "io/program.hpp"
 
 int main(int argc, char** argv)

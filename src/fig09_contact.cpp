@@ -24,7 +24,7 @@ At 3 and 45 Hz the panels show the solution of harmonic balance with ten harmoni
 its error: the largest difference of the bearing's force from that of time integration, over the
 largest force. It is large, although the displacements differ by a few per cent of the largest at
 most, because the penetrations that decide the force are small against the displacements. */
-#include "figures/panels.hpp"
+#include "figures/contact.hpp"
 #include "io/program.hpp"
 #include "motion/other_starts.hpp"
 

@@ -7,44 +7,31 @@
 
 namespace rotor_stator::figures {
 
-namespace {
-
-/** What every row of a panel repeats. */
-struct PanelRow {
-  const Panel& panel;
-  int source;  ///< 1 harmonic balance, 2 time integration
-};
-
-const std::vector<Field<PanelRow>> panel_fields{
-    {"panel", "-", "panel of the figure", [](auto& r) { return r.panel.number; }},
-    {"f", "Hz", "speed of rotation", [](auto& r) { return r.panel.frequency; }},
-    {"source", "-", "1 harmonic balance, 2 time integration", &PanelRow::source},
-    {"found", "-", "1 if harmonic balance found a solution at this speed",
-     [](auto& r) { return r.panel.balance.has_value(); }},
-    {"periodic", "-", "1 if the integrated motion has the period of rotation",
-     [](auto& r) { return r.panel.periodic; }},
-    {"spread", "-", "Poincare spread of the integrated motion",
-     [](auto& r) { return r.panel.spread; }},
-    {"difference", "-",
-     "largest difference of harmonic balance and time integration over one period, "
-     "over the largest displacement; -1 without solution",
-     [](auto& r) { return r.panel.difference; }},
-    {"difference_orbit", "-",
-     "the same with each displacement over its own half peak-to-peak",
-     [](auto& r) { return r.panel.orbit_difference; }},
-    {"difference_force", "-", "the same of the bearing's force, over the largest force",
-     [](auto& r) { return r.panel.force_difference; }}};
-
-/** The panel's fields and then those of one table. */
-template <class Row>
-std::vector<Field<Row>> with_panel_fields(const std::vector<Field<Row>>& others)
+const std::vector<Field<PanelRow>>& panel_fields()
 {
-  std::vector<Field<Row>> fields;
-  for (const Field<PanelRow>& field : panel_fields)
-    fields.push_back({field, field.value});
-  fields.insert(fields.end(), others.begin(), others.end());
+  static const std::vector<Field<PanelRow>> fields{
+      {"panel", "-", "panel of the figure", [](auto& r) { return r.panel.number; }},
+      {"f", "Hz", "speed of rotation", [](auto& r) { return r.panel.frequency; }},
+      {"source", "-", "1 harmonic balance, 2 time integration", &PanelRow::source},
+      {"found", "-", "1 if harmonic balance found a solution at this speed",
+       [](auto& r) { return r.panel.balance.has_value(); }},
+      {"periodic", "-", "1 if the integrated motion has the period of rotation",
+       [](auto& r) { return r.panel.periodic; }},
+      {"spread", "-", "Poincare spread of the integrated motion",
+       [](auto& r) { return r.panel.spread; }},
+      {"difference", "-",
+       "largest difference of harmonic balance and time integration over one period, "
+       "over the largest displacement; -1 without solution",
+       [](auto& r) { return r.panel.difference; }},
+      {"difference_orbit", "-",
+       "the same with each displacement over its own half peak-to-peak",
+       [](auto& r) { return r.panel.orbit_difference; }},
+      {"difference_force", "-", "the same of the bearing's force, over the largest force",
+       [](auto& r) { return r.panel.force_difference; }}};
   return fields;
 }
+
+namespace {
 
 struct OrbitRow : PanelRow {
   double t_over_period;
@@ -62,32 +49,6 @@ const auto orbit_fields = with_panel_fields<OrbitRow>({
     {"F_y", "N", "Eq. 6, on the stator", [](const OrbitRow& r) { return r.force.y; }},
 });
 
-struct ContactRow : PanelRow {
-  double t_over_period;
-  std::size_t ball;
-  double force;
-};
-
-const auto contact_fields = with_panel_fields<ContactRow>({
-    {"t_over_T", "-", "time over the period, 0 to 2", &ContactRow::t_over_period},
-    {"ball", "-", "j of Eq. 3", &ContactRow::ball},
-    {"Q", "N", "Eq. 5, force of the ball", &ContactRow::force},
-});
-
-/** The `#` lines that say with what the panels were computed. */
-void describe(Table& table, const PanelScene& scene)
-{
-  const SteadySettings& integration = scene.time_integration;
-  describe(table, scene.machine);
-  table.note(format("harmonic balance: m = %d, N = %d, relative tolerance %g",
-                    scene.harmonics, scene.samples, NewtonSettings{}.tolerance));
-  table.note(
-      format("time integration: %s from rest until the Poincare spread is below %g or "
-             "for %g s; periodic below %g",
-             integration.stepper.method.c_str(), integration.settled, integration.longest,
-             integration.periodic));
-}
-
 }  // namespace
 
 PanelScene read_panels(SceneFile& file)
@@ -103,6 +64,19 @@ PanelScene read_panels(SceneFile& file)
                                   default_samples(scene.harmonics));
   toml.refuse_unknown_keys();
   return scene;
+}
+
+void describe(Table& table, const PanelScene& scene)
+{
+  const SteadySettings& integration = scene.time_integration;
+  describe(table, scene.machine);
+  table.note(format("harmonic balance: m = %d, N = %d, relative tolerance %g",
+                    scene.harmonics, scene.samples, NewtonSettings{}.tolerance));
+  table.note(
+      format("time integration: %s from rest until the Poincare spread is below %g or "
+             "for %g s; periodic below %g",
+             integration.stepper.method.c_str(), integration.settled, integration.longest,
+             integration.periodic));
 }
 
 Table orbit_table(const PanelScene& scene)
@@ -154,27 +128,6 @@ void add_orbits(Table& table, const PanelScene& scene, const Panel& panel)
   table.note(panel.ending);
   if (panel.balance) add(1, *panel.balance);
   add(2, panel.settled);
-}
-
-Table contact_table(const PanelScene& scene)
-{
-  Table table(scene.title, contact_fields);
-  describe(table, scene);
-  table.note(
-      "modelled: the force of every ball over two periods, of the harmonic-balance "
-      "solution where the integrated motion is periodic, of that motion elsewhere");
-  return table;
-}
-
-void add_contact(Table& table, const Panel& panel,
-                 const motion::ContactEvolution& evolution)
-{
-  table.note(panel.ending);
-  const PanelRow row{panel, panel.shows_balance() ? 1 : 2};
-  for (std::size_t k = 0; k < evolution.t_over_period.size(); ++k)
-    for (std::size_t j = 0; j < evolution.ball_force[k].size(); ++j)
-      table.row(contact_fields,
-                {row, evolution.t_over_period[k], j + 1, evolution.ball_force[k][j]});
 }
 
 }  // namespace rotor_stator::figures

@@ -1,19 +1,15 @@
 /**
-# Panels, with the tables of the orbits (Figs 4, 5, 6 and 8) and of the contact (Figs 7 and 9)
+# Panels, with the table of the orbits (Figs 4, 5, 6 and 8)
 
 A panel belongs to one speed and holds two motions: the periodic solution of harmonic balance,
 and the motion that time integration settles on. Where the second repeats with the period of
-rotation, the difference of the two is the error of the first.
-
-The contact is the force of every ball over two periods of rotation: a cage at half the rotor's speed
-turns once in this time, and each ball meets a load that turns with the rotor once (D-11, D-20). */
+rotation, the difference of the two is the error of the first. */
 #pragma once
 
 #include <optional>
 
 #include "io/table.hpp"
 #include "io/toml_file.hpp"
-#include "motion/contact.hpp"
 #include "motion/find_periodic.hpp"
 
 namespace rotor_stator::figures {
@@ -58,11 +54,26 @@ Table orbit_table(const PanelScene& scene);
 /** Both motions of a panel with the bearing's force, one row per instant. */
 void add_orbits(Table& table, const PanelScene& scene, const Panel& panel);
 
-/** The table of the contact before its first panel. */
-Table contact_table(const PanelScene& scene);
+/** What every row of a panel repeats. */
+struct PanelRow {
+  const Panel& panel;
+  int source;  ///< 1 harmonic balance, 2 time integration
+};
 
-/** The ball forces of the motion that a panel shows, one row per instant and ball. */
-void add_contact(Table& table, const Panel& panel,
-                 const motion::ContactEvolution& evolution);
+const std::vector<Field<PanelRow>>& panel_fields();
+
+/** The panel's fields and then those of one table. */
+template <class Row>
+std::vector<Field<Row>> with_panel_fields(const std::vector<Field<Row>>& others)
+{
+  std::vector<Field<Row>> fields;
+  for (const Field<PanelRow>& field : panel_fields())
+    fields.push_back({field, field.value});
+  fields.insert(fields.end(), others.begin(), others.end());
+  return fields;
+}
+
+/** The `#` lines that say with what the panels were computed. */
+void describe(Table& table, const PanelScene& scene);
 
 }  // namespace rotor_stator::figures
