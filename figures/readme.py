@@ -45,21 +45,22 @@ OUTCOME = """\
 **Resonance.** Rotor peak: {{peak.mm_set_1:.1f}} mm at {{peak.f_set_1:.1f}} Hz (set 1),
 {{peak.mm_set_2:.1f}} mm at {{peak.f_set_2:.1f}} Hz (set 2). Paper: about {{paper.peak:.0f}} Hz.
 
-**Contact.** Rotor and stator separate at times, at speeds of {{loss.first_set_1:.1f}}-{{loss.last_set_1:.1f}} Hz
+**Contact.** At times no ball carries a load, at speeds of {{loss.first_set_1:.1f}}-{{loss.last_set_1:.1f}} Hz
 (set 1) and {{loss.first_set_2:.1f}}-{{loss.last_set_2:.1f}} Hz (set 2).
 
-**Period.** The motion found by time integration repeats with every turn at {{periodic_1:.0%}} of the speeds (set 1)
-and {{periodic_2:.0%}} (set 2). At the other speeds no solution with the period of rotation can represent it.
+**Period.** The motion that time integration reaches from rest repeats with every turn at {{periodic_1:.0%}} of the
+speeds (set 1) and {{periodic_2:.0%}} (set 2). At the others no solution with the period of rotation can represent it.
 
-**Accuracy.** Against time integration, six harmonics (set 1) are wrong by {{high.orbit:.2%}} of the amplitude and
-{{high.force:.1%}} of the largest force at {{high.f:.0f}} Hz, and by {{low.orbit:.0%}} and {{low.force:.0%}} at
+**Accuracy.** Against time integration, six harmonics (set 1) miss displacements by {{high.orbit:.2%}} of their
+amplitude and the bearing's force by {{high.force:.1%}} of its largest value at {{high.f:.0f}} Hz, and by {{low.orbit:.0%}} and {{low.force:.0%}} at
 {{low.f:.0f}} Hz.
 
-**Time.** At equal errors of 1 % and 0.1 % (set 1), harmonic balance is {{above}} than Runge-Kutta above
-{{cost.high_from:.0f}} Hz, but {{below}} below {{cost.low_to:.1f}} Hz. Paper: {{paper.ratio:.1f}} times faster.
+**Time.** For displacements within 1 % and 0.1 % of the largest one (set 1), harmonic balance with as many harmonics
+as that takes is {{above}} than Runge-Kutta above {{cost.high_from:.0f}} Hz, but {{below}} below {{cost.low_to:.1f}} Hz.
+Paper, error not stated: {{paper.ratio:.1f}} times faster.
 
-**Misprints and gaps.** In {{deviations.count:.0f}} places the paper cannot be followed as printed; the evidence is
-given.
+**Misprints and gaps.** In {{deviations.count:.0f}} places the paper cannot be followed as printed;
+[paper/deviations.md](paper/deviations.md) has the evidence.
 """
 
 

@@ -3,41 +3,44 @@
 
 Paper: §3.3, Fig. 6, data set 1.   Run: `build/fig06_orbits > data/generated/fig06_orbits.tsv`
 
-The orbit of a body is the path of its centre in the plane across the shaft. The figure shows the
-orbits of rotor (solid) and stator (dashed) at nine speeds of rotation, three in each of the ranges
-that the paper describes. Two forces compete: the weight, which is constant, and the force of the
-rotor's unbalance, which turns with the rotor and grows with the square of the speed. Which of them
-is larger decides the shape of the orbits.
+The orbit of a body is the path of its centre in the plane perpendicular to the shaft. The figure
+shows the orbits of rotor (solid) and stator (dashed) at nine speeds of rotation, three in each of the
+ranges that the paper describes. The bearing transmits two forces: a constant one from the weight, and
+one that turns with the rotor, from the unbalance and from the inertia of the whirling bodies. Which of
+them is larger decides the shape of the orbits. Contact is lost where no ball carries a load.
 
 First row, 3 to 9 Hz: the weight is larger. It presses the rotor onto the lowest balls, and contact
-is never lost (claim C4). The unbalance moves both centres on small orbits around their static
-positions. Eight balls per turn pass under the load and add a ripple; at the lowest speed it lies
-in harmonics 7 to 17, beyond those that are kept.
+is never lost, as claim C4 of the paper says. The unbalance moves both centres on small orbits around
+their static positions. Of the 16 balls, whose cage turns at half the speed of the rotor, eight pass
+under the load in each turn. They add a ripple, the harmonics 8 and 16 with their neighbours, that six
+harmonics cannot show; it is strongest at the lowest speed.
 
-Second row, 11.5 to 16 Hz: both forces are about equal. The unbalance nearly lifts the rotor off
-the balls once per turn, and the orbits have corners and dents. At 13.4 Hz contact is lost and met
-again several times in every turn (claim C5).
+Second row, 11.5 to 16 Hz: both forces are about equal. At 11.5 and 16 Hz the bearing's force falls
+nearly to zero once per turn, and the orbits have corners and dents. At 13.4 Hz it does reach zero:
+contact is lost and met again several times in a turn (claim C5).
 
-Third row, 30 to 55 Hz: the unbalance is larger. It presses the rotor against one side of the
+Third row, 30 to 55 Hz: the turning force is larger. It presses the rotor against one side of the
 bearing, and this side turns with the rotor. Both bodies move together on nearly equal circles
 (claim C6), which are largest near the resonance at 50 Hz.
 
 Each motion is computed by two methods. Harmonic balance assumes that the motion repeats after one
 turn, the period T. It writes the displacements as a Fourier series with six harmonics (Eq. 9) and
-solves for the coefficients. Time integration assumes no period: it starts from rest and continues
-until the transient has decayed. The motion is then observed once per turn; the scatter of these
-observations, over the largest displacement, is the spread. Below a millionth the motion counts as
-T-periodic.
+solves for the coefficients. Time integration assumes no period: it starts from rest at the static
+deflection and continues until the transient has decayed. The motion is then observed once per turn.
+The widest range of these observations in one displacement, divided by the largest displacement, is
+the spread. A motion with a spread below one millionth counts as T-periodic.
 
-Where it is T-periodic, the panel draws the solution of harmonic balance in colour over the
-integrated motion in grey. Their difference is the error of harmonic balance. "Off" is its largest
-value over the period and the four displacements, each divided by half its own peak-to-peak value.
-The table also gives it divided by the largest displacement; at low speed this number is small even
-for a poor solution, because the static deflection is much larger than the orbit.
+Where the motion is T-periodic, the panel draws the solution of harmonic balance in colour over the
+integrated motion in grey. The integration is far more accurate than six harmonics, so that the
+difference of the two is the error of harmonic balance. The panel prints it as "off": for each of the
+four displacements the largest difference over the period, divided by half the peak-to-peak value of
+that displacement; then the largest of the four. The table also gives the difference divided by the
+largest displacement; at low speed this number is small even for a poor solution, because the static
+deflection is much larger than the orbit.
 
 Where the motion is not T-periodic, no T-periodic solution can represent it, and the panel draws
-five turns of the integrated motion alone. The paper does not give its speeds (D-17); ours include
-those of Figs 4 and 5. */
+five turns of the integrated motion alone. The paper names the three ranges but not the speeds of its
+panels (entry D-17 of the list of deviations); ours include those of Figs 4 and 5. */
 #include "figures/panels.hpp"
 #include "io/program.hpp"
 
