@@ -13,7 +13,6 @@
 Kuznetsov (2004), sections 10.2 and 10.3. */
 #pragma once
 
-#include <array>
 #include <functional>
 #include <string>
 
@@ -27,28 +26,12 @@ enum class Bifurcation { none, fold, plus_one, period_doubling, neimark_sacker }
 /** "fold", "plus-one", "period-doubling", "neimark-sacker", "-". */
 const char* name_of(Bifurcation bifurcation);
 
-/** The quantity that changes its sign at a bifurcation. */
-struct BifurcationTest {
-  using Value = double (*)(const Multipliers&);
-  Bifurcation bifurcation;
-  Value test;
-};
-extern const std::array<BifurcationTest, 3> bifurcation_tests;
-
-/** Whether the two multipliers with the product nearest to 1 are a complex pair. */
-bool is_complex_pair(const Multipliers& multipliers);
-
-/** Multipliers outside the unit circle. */
-int unstable_count(const Multipliers& multipliers);
-
 /**
 ## Stability along a branch
 
-At every point of a branch its Floquet multipliers, and between two points what happens to them: the
-bifurcations of `bifurcation.hpp`, located on the branch.
-
-Where multipliers move far between two points, or more than one thing happens, points are added until
-each step shows at most one. Kuznetsov (2004), sections 10.2 and 10.3.
+At every point of a branch its Floquet multipliers, and between two points the bifurcations, located on
+the branch. Where multipliers move far between two points, or more than one thing happens, points are
+added until each step shows at most one.
 
 Multipliers cost more than the branch. Where a branch has thousands of points within a hertz they are
 computed at some of its points only; between two of these that are both stable or both unstable nothing is

@@ -8,14 +8,13 @@ Eigen's solver, compiled once: it takes ten seconds in every source that asks fo
 
 namespace rotor_stator {
 
-/** Throws NoSolution when the matrix is not finite or the iteration does not converge. */
-Eigen::VectorXcd eigenvalues(const Eigen::MatrixXd& matrix);
-
-/** The same with the right eigenvectors, column by column. */
+/** Eigenvalues and right eigenvectors, column by column; without `vectors` these are empty. Throws
+    NoSolution when the matrix is not finite or the iteration does not converge. */
 struct Eigensystem {
   Eigen::VectorXcd values;
   Eigen::MatrixXcd vectors;
 };
-Eigensystem eigensystem(const Eigen::MatrixXd& matrix);
+Eigensystem eigensystem(const Eigen::MatrixXd& matrix, bool vectors);
+Eigen::VectorXcd eigenvalues(const Eigen::MatrixXd& matrix);
 
 }  // namespace rotor_stator

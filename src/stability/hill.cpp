@@ -101,8 +101,7 @@ std::vector<Candidate> candidates(const Quadratic& q, const Eigen::MatrixXcd& t,
   standard << Eigen::MatrixXd::Zero(n, n), rate * Eigen::MatrixXd::Identity(n, n),
       -q.constant / rate, -q.linear;
   const bool symmetric = choice == HillChoice::most_symmetric;
-  const Eigensystem system =
-      symmetric ? eigensystem(standard) : Eigensystem{eigenvalues(standard), {}};
+  const Eigensystem system = eigensystem(standard, symmetric);
   std::vector<Candidate> all;
   for (Eigen::Index j = 0; j < 2 * n; ++j) {
     const Complex exponent = system.values[j];

@@ -7,12 +7,8 @@
 
 namespace rotor_stator {
 
-namespace {
-
 /** Far above rounding, far below what bends the motion. */
-constexpr double first_distance = 1e-7;
-
-}  // namespace
+static constexpr double first_distance = 1e-7;
 
 BatchMean batch_mean(const std::vector<double>& series)
 {
@@ -72,18 +68,9 @@ double TrajectoryPair::pull_back()
   return std::log(growth);
 }
 
-double extent(const std::vector<Displacements>& section, double size)
-{
-  double widest = 0;
-  for (std::size_t i = 0; i < 4; ++i) {
-    const auto [low, high] = std::minmax_element(
-        section.begin(), section.end(),
-        [i](const Displacements& a, const Displacements& b) { return a[i] < b[i]; });
-    widest = std::max(widest, (*high)[i] - (*low)[i]);
-  }
-  return widest / size;
-}
+namespace {
 
+/** The largest distance of two points k periods apart, over `size` [m]; at least k+1 points. */
 double spread_of_order(int k, const std::vector<Displacements>& section, double size)
 {
   double widest = 0;
@@ -93,8 +80,6 @@ double spread_of_order(int k, const std::vector<Displacements>& section, double 
       widest = std::max(widest, std::abs(section[n][i] - section[n - apart][i]));
   return widest / size;
 }
-
-namespace {
 
 Verdict verdict_of(const SectionJudgement& j, const VerdictRule& rule)
 {
@@ -113,7 +98,7 @@ Verdict verdict_of(const SectionJudgement& j, const VerdictRule& rule)
 SectionJudgement judge_section(const std::vector<Displacements>& section, double size,
                                const Exponent& exponent, const VerdictRule& rule)
 {
-  const double whole = extent(section, size);
+  const double whole = extent(section) / size;
   SectionJudgement judgement{Verdict::undecided, 1, whole, whole, exponent};
   const int most = std::min(rule.most_period, static_cast<int>(section.size()) / 3);
   for (int k = 2; k <= most && !(judgement.spread_k < rule.periodic); ++k) {

@@ -12,11 +12,10 @@ ln|μ|/T of the largest Floquet multiplier. The growth is added up over blocks; 
 of ten batches of them gives the standard error. */
 #pragma once
 
-#include <array>
 #include <functional>
 #include <vector>
 
-#include "integration/time_stepper.hpp"
+#include "integration/steady_state.hpp"
 #include "stability/period_map.hpp"
 
 namespace rotor_stator {
@@ -69,8 +68,6 @@ Lyapunov exponent λ, known to a standard error s:
   scatters, a tenth of the small rate stands for 3s;
 - undecided otherwise, for instance a transient that has not ended (λ < 0, no period). */
 
-using Displacements = std::array<double, 4>;  ///< x_s, y_s, x_r, y_r [m]
-
 enum class Verdict {
   undecided = 0,
   periodic = 1,     ///< with period T
@@ -92,12 +89,6 @@ struct SectionJudgement {
   double spread_k;    ///< of order k [-]
   Exponent exponent;  ///< [1/s]
 };
-
-/** The largest distance of any two points in one displacement, over `size` [m]. */
-double extent(const std::vector<Displacements>& section, double size);
-
-/** The largest distance of two points k periods apart, over `size` [m]; at least k+1 points. */
-double spread_of_order(int k, const std::vector<Displacements>& section, double size);
 
 /** Judges a section of at least three points; only orders that it holds three times are tried. */
 SectionJudgement judge_section(const std::vector<Displacements>& section, double size,
