@@ -45,12 +45,10 @@ int main(int argc, char** argv)
         [&](std::size_t k) {
           const int set = static_cast<int>(k / speeds);
           const std::size_t speed = k % speeds;
-          const truth::Truth truth(scene, set + 1, scene.frequencies[speed]);
-          std::vector<truth::ValidityPoint> found;
+          std::vector<PeriodicMotion> solutions;
           for (int m = 1; m <= most; ++m)
-            found.push_back(truth.compared(m, swept[set * most + m - 1][speed]));
-          found.push_back(truth.adaptive());
-          return found;
+            solutions.push_back(swept[set * most + m - 1][speed]);
+          return truth::compared(scene, set + 1, scene.frequencies[speed], solutions);
         });
     return truth::validity_table(scene, points);
   });

@@ -46,102 +46,68 @@ struct Statistics {
 };
 
 /** A motion observed after its transient. */
-class Observation {
-public:
-  Observation(const Parameters& machine, double omega, const State& start,
-              const AttractorSettings& settings)
-      : settings_(settings),
-        period_(2 * std::numbers::pi / omega),
-        motion_(make_stepper(machine, omega, settings.transient.stepper),
-                settings.transient.stepper.intervals_per_period, state_scales(machine),
-                start)
-  {
-  }
+struct Observation {
+  const AttractorSettings& settings;
+  double period;  ///< of rotation [s]
+  TrajectoryPair motion;
+  std::vector<Displacements> section = {};
+  std::vector<Statistics> periods = {};
+  std::vector<double> rates = {};
 
-  /** Blocks until there is enough to judge by. The first block turns the neighbour into the
-      direction of fastest growth, and its rate is not used. */
-  Attractor run()
-  {
-    add_block();
-    rates_.clear();
-    SectionJudgement judgement;
-    do {
-      add_block();
-      judgement = judged();
-    } while (!enough(judgement));
-    return summary(judgement);
-  }
+  double seconds() const { return static_cast<double>(periods.size()) * period; }
 
-private:
   void add_block()
   {
-    const int count = static_cast<int>(std::ceil(settings_.block / period_));
+    const int count = static_cast<int>(std::ceil(settings.block / period));
     double growth = 0;
     for (int k = 0; k < count; ++k) {
-      section_.push_back(displacements(motion_.state().position));
-      Statistics statistics;
-      growth += motion_.advance_one_period([&](const State& state) {
+      section.push_back(displacements(motion.state().position));
+      Statistics& statistics = periods.emplace_back();
+      growth += motion.advance_one_period([&](const State& state) {
         const Eigen::Array4d q(displacements(state.position).data());
         statistics.add({1, q, q * q, q, q});
       });
-      periods_.push_back(statistics);
     }
-    rates_.push_back(growth / (count * period_));
+    rates.push_back(growth / (count * period));
   }
-
-  double seconds() const { return static_cast<double>(periods_.size()) * period_; }
 
   /** The last points decide whether the section closes, the whole observation what the exponent is. */
   SectionJudgement judged() const
   {
-    const auto window =
-        static_cast<std::size_t>(std::max(std::ceil(settings_.transient.window / period_),
-                                          3.0 * settings_.rule.most_period));
-    const auto last = section_.size() - std::min(section_.size(), window);
-    const std::vector<Displacements> section(section_.begin() + static_cast<long>(last),
-                                             section_.end());
+    const auto window = static_cast<std::size_t>(std::max(
+        std::ceil(settings.transient.window / period), 3.0 * settings.rule.most_period));
+    const auto last = section.size() - std::min(section.size(), window);
     const double size =
-        std::max(-periods_.back().low.minCoeff(), periods_.back().high.maxCoeff());
-    const Exponent exponent = rates_.size() < 2
-                                  ? Exponent{0, std::numeric_limits<double>::infinity()}
-                                  : batch_mean(rates_);
-    return judge_section(section, size, exponent, settings_.rule);
+        std::max(-periods.back().low.minCoeff(), periods.back().high.maxCoeff());
+    return judge_section({section.begin() + static_cast<long>(last), section.end()}, size,
+                         rates.size() < 2
+                             ? Exponent{0, std::numeric_limits<double>::infinity()}
+                             : batch_mean(rates),
+                         settings.rule);
   }
 
-  bool enough(const SectionJudgement& judgement) const
+  bool enough(const Attractor& attractor) const
   {
-    if (rates_.size() < 2 || section_.size() < 4) return false;
-    const Verdict verdict = judgement.verdict;
-    const bool closed = verdict == Verdict::periodic || verdict == Verdict::subharmonic;
-    const double needed = closed                        ? settings_.least
-                          : verdict == Verdict::chaotic ? settings_.chaotic
-                                                        : settings_.most;
+    if (rates.size() < 2 || section.size() < 4) return false;
+    const double needed = attractor.closed()                      ? settings.least
+                          : attractor.verdict == Verdict::chaotic ? settings.chaotic
+                                                                  : settings.most;
     return seconds() >= needed * (1 - 1e-9);
   }
 
   /** Over the period of a closed motion, over all periods of another. */
-  Attractor summary(const SectionJudgement& judgement) const
+  void summarise(Attractor& attractor) const
   {
-    Attractor attractor{judgement, {}, {}, {}, motion_.state(), seconds()};
-    const auto count = attractor.closed() ? judgement.period : std::ssize(periods_);
+    const auto count = attractor.closed() ? attractor.period : std::ssize(periods);
     Statistics all;
-    for (auto period = periods_.end() - count; period != periods_.end(); ++period)
-      all.add(*period);
+    for (auto one = periods.end() - count; one != periods.end(); ++one) all.add(*one);
     for (int i = 0; i < 4; ++i) {
       attractor.mean[i] = all.sum[i] / all.count;
       attractor.rms[i] = std::sqrt(std::max(
           0.0, all.squares[i] / all.count - attractor.mean[i] * attractor.mean[i]));
       attractor.amplitude[i] = 0.5 * (all.high[i] - all.low[i]);
     }
-    return attractor;
   }
-
-  const AttractorSettings& settings_;
-  double period_;
-  TrajectoryPair motion_;
-  std::vector<Displacements> section_;
-  std::vector<Statistics> periods_;
-  std::vector<double> rates_;
 };
 
 }  // namespace
@@ -152,9 +118,23 @@ Attractor attractor_from(const Parameters& machine, double omega, const State& s
   if (!has_rotation_period(machine.bearing))
     throw NoSolution("attractors: the bearing's force has not the period of rotation");
   const SteadyState steady = steady_state(machine, omega, start, settings.transient);
-  Attractor attractor =
-      Observation(machine, omega, steady.states.front(), settings).run();
-  attractor.seconds += steady.seconds;
+  const auto& stepper = settings.transient.stepper;
+  Observation seen{settings,
+                   2 * std::numbers::pi / omega,
+                   {make_stepper(machine, omega, stepper), stepper.intervals_per_period,
+                    state_scales(machine), steady.states.front()}};
+  /** The first block turns the neighbour into the direction of fastest growth, and its rate is not
+      used; then blocks until there is enough to judge by. */
+  seen.add_block();
+  seen.rates.clear();
+  Attractor attractor{};
+  do {
+    seen.add_block();
+    static_cast<SectionJudgement&>(attractor) = seen.judged();
+  } while (!seen.enough(attractor));
+  seen.summarise(attractor);
+  attractor.state = seen.motion.state();
+  attractor.seconds = seen.seconds() + steady.seconds;
   return attractor;
 }
 
@@ -162,7 +142,7 @@ bool same_attractor(const Attractor& a, const Attractor& b,
                     const AttractorSettings& settings)
 {
   if (a.closed() != b.closed()) return false;
-  if (a.closed() && a.judgement.period != b.judgement.period) return false;
+  if (a.closed() && a.period != b.period) return false;
   double apart = 0, size = 0;
   for (std::size_t i = 0; i < 4; ++i) {
     apart =

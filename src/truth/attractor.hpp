@@ -27,16 +27,15 @@ struct AttractorSettings {
 AttractorSettings read_attractor_settings(StrictToml table);
 
 /** A motion on an attractor. Arrays: x_s, y_s, x_r, y_r. */
-struct Attractor {
-  SectionJudgement judgement;
+struct Attractor : SectionJudgement {
   std::array<double, 4> mean;       ///< over time [m]
   std::array<double, 4> rms;        ///< about the mean [m]
   std::array<double, 4> amplitude;  ///< half peak-to-peak [m]
   State state;                      ///< at phase 0 [m, m/s]
   double seconds;                   ///< integrated in all [s]
 
-  bool periodic() const { return judgement.verdict == Verdict::periodic; }
-  bool closed() const { return periodic() || judgement.verdict == Verdict::subharmonic; }
+  bool periodic() const { return verdict == Verdict::periodic; }
+  bool closed() const { return periodic() || verdict == Verdict::subharmonic; }
 };
 
 /** Integrates from `start` at phase 0. Throws NoSolution when the integration breaks down or the

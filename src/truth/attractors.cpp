@@ -45,7 +45,7 @@ std::vector<AttractorPoint> settled(const AttractorScene& scene, const Chain& ch
   const auto settle = [&](double frequency, const State& start) {
     const Attractor attractor =
         attractor_from(machine, angular(frequency), start, scene.settings);
-    points.push_back({chain.set, frequency, chain.origin, 1, 0, attractor});
+    points.push_back({attractor, chain.set, frequency, chain.origin});
     return attractor.state;
   };
   std::vector<double> frequencies = scene.frequencies;
@@ -117,7 +117,7 @@ std::vector<AttractorPoint> numbered(
     }
     const auto here = kept.begin() + static_cast<long>(first);
     const auto known = std::find_if(here, kept.end(), [&](const auto& other) {
-      return same_attractor(point.attractor, other.attractor, settings);
+      return same_attractor(point, other, settings);
     });
     point.number = known == kept.end() ? ++attractors : known->number;
     const auto same = std::find_if(here, kept.end(), [&](const auto& other) {
@@ -138,10 +138,9 @@ using Get = Cell (*)(const Point&);
 
 /** One of the four amplitudes, one of the eight components of the state. */
 template <int k>
-constexpr Get amplitude = [](const Point& p) -> Cell { return p.attractor.amplitude[k]; };
+constexpr Get amplitude = [](const Point& p) -> Cell { return p.amplitude[k]; };
 template <int k>
-constexpr Get state =
-    [](const Point& p) -> Cell { return vector_of(p.attractor.state)[k]; };
+constexpr Get state = [](const Point& p) -> Cell { return vector_of(p.state)[k]; };
 
 const std::vector<Field<Point>> fields{
     {"set", "-", "data set", &Point::set},
@@ -153,18 +152,17 @@ const std::vector<Field<Point>> fields{
     {"attractor", "-", "number of the attractor at this set and speed", &Point::number},
     {"verdict", "-",
      "1 T-periodic, 2 kT-periodic, 3 quasi-periodic, 4 chaotic, 0 undecided",
-     [](auto& p) { return p.attractor.judgement.verdict; }},
-    {"period", "-", "k of the least spread",
-     [](auto& p) { return p.attractor.judgement.period; }},
+     &Point::verdict},
+    {"period", "-", "k of the least spread", &Point::period},
     {"spread", "-", "extent of the Poincare section over the largest displacement",
-     [](auto& p) { return p.attractor.judgement.spread; }},
+     &Point::spread},
     {"spread_k", "-", "largest distance of points kT apart over the largest displacement",
-     [](auto& p) { return p.attractor.judgement.spread_k; }},
+     &Point::spread_k},
     {"exponent", "1/s", "largest Lyapunov exponent",
-     [](auto& p) { return p.attractor.judgement.exponent.value; }},
+     [](auto& p) { return p.exponent.value; }},
     {"exponent_error", "1/s", "its standard error",
-     [](auto& p) { return p.attractor.judgement.exponent.error; }},
-    {"seconds", "s", "integrated", [](auto& p) { return p.attractor.seconds; }},
+     [](auto& p) { return p.exponent.error; }},
+    {"seconds", "s", "integrated", &Point::seconds},
     {"amp_x_s", "m", "half peak-to-peak of x_s", amplitude<0>},
     {"amp_y_s", "m", "", amplitude<1>},
     {"amp_x_r", "m", "", amplitude<2>},

@@ -39,13 +39,12 @@ struct Chain {
 std::vector<Chain> chains(const AttractorScene& scene);
 
 /** Motions of one set at one speed that were begun in one way and ended on one attractor. */
-struct AttractorPoint {
+struct AttractorPoint : Attractor {
   int set;
   double frequency;  ///< [Hz]
   Origin origin;
-  int starts;  ///< that ended here
-  int number;  ///< of the attractor, counted at this set and speed; 0: not yet
-  Attractor attractor;
+  int starts = 1;  ///< that ended here
+  int number = 0;  ///< of the attractor, counted at this set and speed; 0: not yet
 };
 
 /** Where the motions of a chain settle. */

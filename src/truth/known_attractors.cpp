@@ -22,18 +22,13 @@ std::vector<AttractorPoint> read_attractors(const std::string& file)
                                      {at("exponent"), at("exponent_error")}};
     const State state{{{at("x_s"), at("y_s")}, {at("x_r"), at("y_r")}},
                       {{at("vx_s"), at("vy_s")}, {at("vx_r"), at("vy_r")}}};
-    points.push_back({.set = integer("set"),
-                      .frequency = at("f"),
-                      .origin = static_cast<Origin>(integer("origin")),
-                      .starts = integer("starts"),
-                      .number = integer("attractor"),
-                      .attractor = {.judgement = judgement,
-                                    .mean = {},
-                                    .rms = {},
-                                    .amplitude = {at("amp_x_s"), at("amp_y_s"),
-                                                  at("amp_x_r"), at("amp_y_r")},
-                                    .state = state,
-                                    .seconds = at("seconds")}});
+    const Attractor attractor{
+        judgement, {},
+        {},        {at("amp_x_s"), at("amp_y_s"), at("amp_x_r"), at("amp_y_r")},
+        state,     at("seconds")};
+    points.push_back({attractor, integer("set"), at("f"),
+                      static_cast<Origin>(integer("origin")), integer("starts"),
+                      integer("attractor")});
   }
   return points;
 }
@@ -54,16 +49,26 @@ std::vector<AttractorPoint> attractors_at(const std::vector<AttractorPoint>& all
   return here;
 }
 
-motion::Motion motion_on(const AttractorPoint& point, const Parameters& machine,
-                         int points_per_period, int periods)
+namespace {
+
+/** As `motion_on`, a closed motion not repeated. */
+motion::Motion once_on(const AttractorPoint& point, const Parameters& machine,
+                       int points_per_period, int periods)
 {
   const TimeStepper stepper =
       make_stepper(machine, angular(point.frequency),
                    {.method = "rk4", .intervals_per_period = points_per_period});
-  const Attractor& attractor = point.attractor;
-  const long own = attractor.closed() ? attractor.judgement.period : periods;
-  State state = attractor.state;
-  motion::Motion motion = motion::recorded(stepper, points_per_period, state, 0, own);
+  State state = point.state;
+  return motion::recorded(stepper, points_per_period, state, 0,
+                          point.closed() ? point.period : periods);
+}
+
+}  // namespace
+
+motion::Motion motion_on(const AttractorPoint& point, const Parameters& machine,
+                         int points_per_period, int periods)
+{
+  motion::Motion motion = once_on(point, machine, points_per_period, periods);
   const std::size_t once = motion.size();
   const auto whole = static_cast<std::size_t>(periods) * points_per_period;
   for (std::size_t k = once; k < whole; ++k)
@@ -86,16 +91,10 @@ SectionScene read_section_scene(SceneFile& file, const std::string& attractors)
 std::vector<Vec2> section_of(const AttractorPoint& point, const Parameters& machine,
                              int points)
 {
-  const Attractor& attractor = point.attractor;
-  const int own = attractor.closed() ? attractor.judgement.period : points;
-  const TimeStepper stepper = make_stepper(machine, angular(point.frequency),
-                                           {.method = "rk4", .intervals_per_period = 4});
-  State state = attractor.state;
-  std::vector<Vec2> section{state.position.relative()};
-  for (long interval = 0; std::ssize(section) < own; ++interval) {
-    stepper.advance(interval, state);
-    if (interval % 4 == 3) section.push_back(state.position.relative());
-  }
+  const motion::Motion motion = once_on(point, machine, 4, points);
+  std::vector<Vec2> section;
+  for (std::size_t k = 0; k < motion.size(); k += 4)
+    section.push_back(motion.positions[k].relative());
   return section;
 }
 
@@ -110,12 +109,11 @@ const std::vector<Field<Point>> fields{
     {"set", "-", "data set", &Point::set},
     {"f", "Hz", "speed of rotation", &Point::frequency},
     {"origin", "-", "1 up in speed, 2 down", &Point::origin},
-    {"verdict", "-", "of the motion, as in the table of attractors",
-     [](auto& p) { return p.attractor.judgement.verdict; }},
+    {"verdict", "-", "of the motion, as in the table of attractors", &Point::verdict},
     {"exponent", "1/s", "largest Lyapunov exponent of the motion",
-     [](auto& p) { return p.attractor.judgement.exponent.value; }},
+     [](auto& p) { return p.exponent.value; }},
     {"exponent_error", "1/s", "its standard error",
-     [](auto& p) { return p.attractor.judgement.exponent.error; }},
+     [](auto& p) { return p.exponent.error; }},
     {"u_x", "m", "x_r - x_s at phase 0", [](auto& p) { return p.u.x; }},
     {"u_y", "m", "y_r - y_s at phase 0", [](auto& p) { return p.u.y; }}};
 

@@ -54,70 +54,60 @@ ValidityScene read_validity_scene(SceneFile& file, const std::string& attractors
   return scene;
 }
 
-Truth::Truth(const ValidityScene& scene, int set, double frequency)
-    : scene_(scene),
-      machine_(scene.sets[set - 1]),
-      blank_{.set = set, .frequency = frequency},
-      known_(attractors_at(scene.attractors, set, frequency))
+std::vector<ValidityPoint> compared(const ValidityScene& scene, int set, double frequency,
+                                    const std::vector<PeriodicMotion>& solutions)
 {
-  for (const AttractorPoint& one : known_) {
-    motions_.push_back(motion_on(one, machine_, scene.points_per_period, scene.periods));
-    blank_.periodic |= one.attractor.periodic();
+  const Parameters& machine = scene.sets[set - 1];
+  const auto known = attractors_at(scene.attractors, set, frequency);
+  ValidityPoint blank{
+      .set = set, .frequency = frequency, .attractors = static_cast<int>(known.size())};
+  std::vector<motion::Motion> motions;
+  for (const AttractorPoint& one : known) {
+    motions.push_back(motion_on(one, machine, scene.points_per_period, scene.periods));
+    blank.periodic |= one.periodic();
   }
-  blank_.attractors = static_cast<int>(known_.size());
-}
-
-ValidityPoint Truth::compared(int harmonics, const PeriodicMotion& solution) const
-{
-  ValidityPoint point = blank_;
-  point.harmonics = harmonics;
-  if (!solution.found()) return point;
-  measure(solution, point);
-  const auto& examined = scene_.examined_harmonics;
-  if (std::find(examined.begin(), examined.end(), harmonics) != examined.end())
-    examine(solution, point);
-  return point;
-}
-
-ValidityPoint Truth::adaptive() const
-{
-  ValidityPoint point = blank_;
-  point.adaptive = true;
-  const int most = point.periodic ? scene_.most_adaptive : scene_.most_elsewhere;
+  /** From the nearest attractor. */
+  const auto measure = [&](const PeriodicMotion& solution, ValidityPoint& point) {
+    const motion::Motion motion =
+        motion::motion_of(solution.bodies, scene.points_per_period);
+    for (std::size_t k = 0; k < known.size(); ++k) {
+      const RmsDifference off = rms_difference(machine, motion, motions[k]);
+      if (point.found && off.displacement >= point.distance.displacement) continue;
+      point.found = true;
+      point.distance = off;
+      point.attractor = known[k].number;
+      point.nearest_verdict = static_cast<int>(known[k].verdict);
+    }
+  };
+  const auto examine = [&](const PeriodicMotion& solution, ValidityPoint& point) {
+    const Floquet f = floquet(machine, solution, scene.floquet);
+    point.multiplier = f.largest();
+    point.change = f.change;
+    point.stable = f.stable_number();
+  };
+  const auto& examined = scene.examined_harmonics;
+  std::vector<ValidityPoint> points;
+  for (const PeriodicMotion& solution : solutions) {
+    ValidityPoint& point = points.emplace_back(blank);
+    point.harmonics = static_cast<int>(points.size());
+    if (!solution.found()) continue;
+    measure(solution, point);
+    if (std::find(examined.begin(), examined.end(), point.harmonics) != examined.end())
+      examine(solution, point);
+  }
+  ValidityPoint& adaptive = points.emplace_back(blank);
+  adaptive.adaptive = true;
+  const int most = blank.periodic ? scene.most_adaptive : scene.most_elsewhere;
   const PeriodicMotion solution =
-      motion::solve_adaptively(machine_, angular(point.frequency),
-                               {.tolerance = scene_.tolerance, .most_harmonics = most})
+      motion::solve_adaptively(machine, angular(frequency),
+                               {.tolerance = scene.tolerance, .most_harmonics = most})
           .motion;
-  if (!solution.found()) return point;
-  point.harmonics = solution.harmonics.highest();
-  if (solution.error->settled) point.estimate = solution.error->displacement;
-  measure(solution, point);
-  examine(solution, point);
-  return point;
-}
-
-/** From the nearest attractor. */
-void Truth::measure(const PeriodicMotion& solution, ValidityPoint& point) const
-{
-  const motion::Motion motion =
-      motion::motion_of(solution.bodies, scene_.points_per_period);
-  for (std::size_t k = 0; k < known_.size(); ++k) {
-    const RmsDifference off = rms_difference(machine_, motion, motions_[k]);
-    if (point.found && off.displacement >= point.displacement) continue;
-    point.found = true;
-    point.displacement = off.displacement;
-    point.force = off.force;
-    point.attractor = known_[k].number;
-    point.nearest_verdict = static_cast<int>(known_[k].attractor.judgement.verdict);
-  }
-}
-
-void Truth::examine(const PeriodicMotion& solution, ValidityPoint& point) const
-{
-  const Floquet f = floquet(machine_, solution, scene_.floquet);
-  point.multiplier = f.largest();
-  point.change = f.change;
-  point.stable = f.stable_number();
+  if (!solution.found()) return points;
+  adaptive.harmonics = solution.harmonics.highest();
+  if (solution.error->settled) adaptive.estimate = solution.error->displacement;
+  measure(solution, adaptive);
+  examine(solution, adaptive);
+  return points;
 }
 
 namespace {
@@ -133,9 +123,9 @@ const std::vector<Field<Point>> fields{
     {"found", "-", "1 if there is a solution: fixed m by a sweep up", &Point::found},
     {"distance", "-",
      "rms of the displacements' difference to the nearest attractor's motion over that motion's rms; -1",
-     &Point::displacement},
+     [](auto& p) { return p.distance.displacement; }},
     {"distance_force", "-", "the same of the bearing's force; -1 when not found",
-     &Point::force},
+     [](auto& p) { return p.distance.force; }},
     {"attractor", "-", "number of the nearest attractor; 0 when not found",
      &Point::attractor},
     {"nearest_verdict", "-",

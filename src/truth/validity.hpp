@@ -44,37 +44,19 @@ struct ValidityPoint {
   bool adaptive = false;  ///< m was chosen for the tolerance
   int harmonics = 0;      ///< m; 0 if adaptive and not found
   bool found = false;
-  double displacement = -1;  ///< from the nearest attractor [-]; -1 when not found
-  double force = -1;         ///< the same of the bearing's force
-  int attractor = 0;         ///< number of the nearest; 0 when not found
-  int nearest_verdict = -1;  ///< of the nearest; -1 when not found
-  double multiplier = -1;    ///< largest modulus; -1 when not asked for or not found
-  double change = -1;        ///< its uncertainty; -1 likewise
-  int stable = -1;           ///< 1, 0; -1 not asked for, or within the uncertainty
-  double estimate = -1;      ///< of the adaptive solution's error [-]; -1 otherwise
+  RmsDifference distance = {-1, -1};  ///< from the nearest attractor; -1 when not found
+  int attractor = 0;                  ///< number of the nearest; 0 when not found
+  int nearest_verdict = -1;           ///< of the nearest; -1 when not found
+  double multiplier = -1;  ///< largest modulus; -1 when not asked for or not found
+  double change = -1;      ///< its uncertainty; -1 likewise
+  int stable = -1;         ///< 1, 0; -1 not asked for, or within the uncertainty
+  double estimate = -1;    ///< of the adaptive solution's error [-]; -1 otherwise
 };
 
-/** What one machine does at one speed, and how near solutions come to it. */
-class Truth {
-public:
-  Truth(const ValidityScene& scene, int set, double frequency);
-
-  /** A solution of a sweep with m harmonics, found or not. */
-  ValidityPoint compared(int harmonics, const PeriodicMotion& solution) const;
-
-  /** The solution with as many harmonics as the tolerance asks for. */
-  ValidityPoint adaptive() const;
-
-private:
-  void measure(const PeriodicMotion& solution, ValidityPoint& point) const;
-  void examine(const PeriodicMotion& solution, ValidityPoint& point) const;
-
-  const ValidityScene& scene_;
-  const Parameters& machine_;
-  ValidityPoint blank_;
-  std::vector<AttractorPoint> known_;
-  std::vector<motion::Motion> motions_;  ///< on them
-};
+/** One machine at one speed: how near the solutions of a sweep, with m = 1, 2, … harmonics, come to what
+    it does, and last the solution with as many as the tolerance asks for. */
+std::vector<ValidityPoint> compared(const ValidityScene& scene, int set, double frequency,
+                                    const std::vector<PeriodicMotion>& solutions);
 
 Table validity_table(const ValidityScene& scene,
                      const std::vector<std::vector<ValidityPoint>>& points);

@@ -39,7 +39,7 @@ TEST_CASE("Without contact the exponent is the slower body's damping")
   const double slowest =
       std::min(parameters.rotor.damping_ratio * parameters.rotor.natural_frequency,
                parameters.stator.damping_ratio * parameters.stator.natural_frequency);
-  CHECK(attractor.judgement.exponent.value == Approx(-slowest).epsilon(0.02));
+  CHECK(attractor.exponent.value == Approx(-slowest).epsilon(0.02));
 }
 
 TEST_CASE("On a T-periodic motion the exponent is that of the largest multiplier")
@@ -51,8 +51,7 @@ TEST_CASE("On a T-periodic motion the exponent is that of the largest multiplier
   REQUIRE(attractor.periodic());
   const auto map = period_map(parameters, hertz(frequency), attractor.state, 1e-10);
   const double modulus = eigenvalues(map.derivative).cwiseAbs().maxCoeff();
-  CHECK(attractor.judgement.exponent.value ==
-        Approx(std::log(modulus) * frequency).margin(0.1));
+  CHECK(attractor.exponent.value == Approx(std::log(modulus) * frequency).margin(0.1));
 }
 
 namespace {
@@ -75,9 +74,9 @@ Attractor from_rest(const KnownMotion& motion, const AttractorSettings& settings
   const Attractor attractor = attractor_from(parameters, hertz(motion.frequency),
                                              static_start(parameters), settings);
   INFO(motion.set << " " << motion.frequency << " Hz, exponent "
-                  << attractor.judgement.exponent.value);
-  CHECK(attractor.judgement.verdict == motion.verdict);
-  if (attractor.closed()) CHECK(attractor.judgement.period == motion.period);
+                  << attractor.exponent.value);
+  CHECK(attractor.verdict == motion.verdict);
+  if (attractor.closed()) CHECK(attractor.period == motion.period);
   return attractor;
 }
 
@@ -92,8 +91,8 @@ TEST_CASE("Half the step gives the same verdicts and exponents")
         default_step(
             read_parameters(std::string(SOURCE_DIR "/data/") + motion.set + ".toml")) /
         2;
-    const Exponent a = from_rest(motion, usual).judgement.exponent;
-    const Exponent b = from_rest(motion, half).judgement.exponent;
+    const Exponent a = from_rest(motion, usual).exponent;
+    const Exponent b = from_rest(motion, half).exponent;
     CHECK(a.value == Approx(b.value).margin(5 * std::hypot(a.error, b.error)));
   }
 }
