@@ -44,9 +44,10 @@ CLI::Option* add_number(CLI::App& command, const std::string& name, Number& valu
 constexpr int largest_seed = 1000000000, most_samples = 1 << 20, most_points = 1 << 16;
 constexpr double largest = 1e300;  // 2 pi times as much is still a number
 
-/** Options that all commands share. */
-template <class Request>
-void add_common_options(CLI::App& command, Request& request)
+/** Options that all commands share; returned are those of harmonic balance. `or_m`: what may stand for
+    the default m. */
+std::vector<CLI::Option*> add_common_options(CLI::App& command, Request& request,
+                                             const std::string& or_m)
 {
   command.add_option("parameters", request.parameter_file, "TOML parameter file")
       ->required();
@@ -55,77 +56,58 @@ void add_common_options(CLI::App& command, Request& request)
       "most evaluations of the force in the whole run, other work counted as the "
       "evaluations that take as long (default: those of 3 s, 8.2e7 with 16 balls; of "
       "30 s with --stability)");
+  return {add_number(command, "--harmonics", request.harmonics, 1, 4096,
+                     "m of harmonic balance (default: 6, or " + or_m + ")"),
+          add_number(command, "--samples", request.samples, 3, most_samples,
+                     "N per period (default: 8m+1 rounded up)"),
+          add_number(command, "--newton-tolerance", request.newton_tolerance, 1e-15, 1e-3,
+                     "relative tolerance of Newton")};
 }
 
-/** The options of orbit and contact, and for which methods each is. */
-class MotionOptions {
-public:
-  MotionOptions(CLI::App& command, MotionRequest& request) : request_(request)
-  {
-    std::string methods = "aft (harmonic balance)";
-    for (const std::string& name : time_methods()) methods += ", " + name;
-    add_common_options(command, request);
-    add_number(command, "--frequency", request.frequency, 0.0, largest,
-               "speed of rotation [Hz]")
-        ->required();
-    command.add_option("--method", request.method, methods)->capture_default_str();
-    add_number(command, "--points", request.points, 1, most_points, "P, rows per period");
-    aft_ = {
-        add_number(command, "--harmonics", request.harmonics, 1, 4096,
-                   "m of harmonic balance (default: 6, or by --tolerance)"),
-        add_number(command, "--samples", request.samples, 3, most_samples,
-                   "N per period (default: 8m+1 rounded up)"),
-        add_number(command, "--tolerance", request.tolerance, 1e-8, 0.1,
-                   "relative error of displacement; without --harmonics, m is chosen"),
-        add_number(command, "--newton-tolerance", request.newton_tolerance, 1e-15, 1e-3,
-                   "relative tolerance of Newton"),
-        command.add_flag("!--no-stability", request.stability,
-                         "leave out the Floquet multipliers of aft")};
-    rk4_ = {add_number(command, "--step", request.step, 0.0, largest,
-                       "longest step of rk4 [s] (default: from K_H)")};
-    gsl_ = {add_number(command, "--local-error", request.local_error, 1e-15, 1e-2,
-                       "relative, per step, of the time methods but rk4")};
-    time_ = {add_number(command, "--longest", request.longest, 1e-3, 1e5,
-                        "longest transient of the time methods [s]")};
-  }
-
-  /** Throws BadInput for an option that the method would ignore. */
-  void refuse_ignored() const
-  {
-    const bool aft = request_.method == "aft", rk4 = request_.method == "rk4";
-    refuse(aft_, aft, "for --method aft");
-    refuse(rk4_, rk4, "for --method rk4");
-    refuse(gsl_, !aft && !rk4, "for the time methods but rk4");
-    refuse(time_, !aft, "for the time methods");
-  }
-
-private:
-  using Options = std::vector<CLI::Option*>;
-
-  void refuse(const Options& options, bool used, const std::string& where) const
-  {
-    for (const CLI::Option* option : options)
+/** The options of orbit and contact. What is returned throws BadInput for an option that the method
+    would ignore. */
+std::function<void()> add_motion_options(CLI::App& command, MotionRequest& request)
+{
+  std::string methods = "aft (harmonic balance)";
+  for (const std::string& name : time_methods()) methods += ", " + name;
+  auto aft = add_common_options(command, request, "by --tolerance");
+  add_number(command, "--frequency", request.frequency, 0.0, largest,
+             "speed of rotation [Hz]")
+      ->required();
+  command.add_option("--method", request.method, methods)->capture_default_str();
+  add_number(command, "--points", request.points, 1, most_points, "P, rows per period");
+  aft.push_back(
+      add_number(command, "--tolerance", request.tolerance, 1e-8, 0.1,
+                 "relative error of displacement; without --harmonics, m is chosen"));
+  aft.push_back(command.add_flag("!--no-stability", request.stability,
+                                 "leave out the Floquet multipliers of aft"));
+  const auto step = add_number(command, "--step", request.step, 0.0, largest,
+                               "longest step of rk4 [s] (default: from K_H)");
+  const auto local_error =
+      add_number(command, "--local-error", request.local_error, 1e-15, 1e-2,
+                 "relative, per step, of the time methods but rk4");
+  const auto longest = add_number(command, "--longest", request.longest, 1e-3, 1e5,
+                                  "longest transient of the time methods [s]");
+  return [=, &request] {
+    const auto refuse = [&](const CLI::Option* option, bool used, const char* where) {
       if (!used && option->count() > 0)
         throw BadInput(option->get_name() + ": is " + where + ", and --method is " +
-                       request_.method);
-  }
-
-  const MotionRequest& request_;
-  Options aft_, rk4_, gsl_, time_;
-};
+                       request.method);
+    };
+    const bool is_aft = request.method == "aft", is_rk4 = request.method == "rk4";
+    for (const CLI::Option* option : aft) refuse(option, is_aft, "for --method aft");
+    refuse(step, is_rk4, "for --method rk4");
+    refuse(local_error, !is_aft && !is_rk4, "for the time methods but rk4");
+    refuse(longest, !is_aft, "for the time methods");
+  };
+}
 
 void add_response_options(CLI::App& command, ResponseRequest& request)
 {
-  add_common_options(command, request);
+  add_common_options(command, request, "the saved branch's");
   add_number(command, "--from", request.from, 0.0, largest, "first speed [Hz]")
       ->required();
   add_number(command, "--to", request.to, 0.0, largest, "last speed [Hz]")->required();
-  add_number(command, "--harmonics", request.harmonics, 1, 4096,
-             "m of harmonic balance (default: 6, or the saved branch's)");
-  add_number(command, "--samples", request.samples, 3, most_samples,
-             "N per period (default: 8m+1 rounded up)");
-  add_number(command, "--newton-tolerance", request.newton_tolerance, 1e-15, 1e-3,
-             "relative tolerance of Newton");
   command.add_option("--direction", request.direction,
                      "up: from --from to --to; down: from --to to --from");
   command.add_flag("--stability", request.stability,
@@ -167,13 +149,14 @@ int main(int argc, char** argv)
       app.add_subcommand("contact", "force of every ball over two periods");
   CLI::App* branch =
       app.add_subcommand("response", "amplitudes along the branch, arc length");
-  const MotionOptions orbit_options(*orbit, motion), contact_options(*contact, motion);
+  const auto refuse_of_orbit = add_motion_options(*orbit, motion);
+  const auto refuse_of_contact = add_motion_options(*contact, motion);
   add_response_options(*branch, response);
   return guarded([&] {
     if (!parse(app, argc, argv)) return 0;
     if (branch->parsed()) return finish(explore_response(response));
-    orbit_options.refuse_ignored();
-    contact_options.refuse_ignored();
+    refuse_of_orbit();
+    refuse_of_contact();
     return finish(orbit->parsed() ? explore_orbit(motion) : explore_contact(motion));
   });
 }

@@ -14,21 +14,24 @@ One motion of one machine at one speed, by harmonic balance or in time, as a tab
 
 namespace rotor_stator::explore {
 
-/** What the options ask for, each in its range. */
-struct MotionRequest {
+/** What the options of all commands ask for, each in its range. */
+struct Request {
   std::string parameter_file;
+  std::optional<int> harmonics;     ///< m; without it 6, or what the command knows better
+  std::optional<int> samples;       ///< N
+  double newton_tolerance = 1e-10;  ///< relative
+  std::optional<double> budget;     ///< evaluations of the force, for all of it
+};
+
+struct MotionRequest : Request {
   double frequency = 0;             ///< [Hz]
   std::string method = "aft";       ///< or a time method
-  std::optional<int> harmonics;     ///< m; without it 6, or what the tolerance asks for
-  std::optional<int> samples;       ///< N
   std::optional<double> tolerance;  ///< of displacement, relative
   int points = 256;                 ///< P
-  double newton_tolerance = 1e-10;  ///< relative
   double local_error = 1e-11;       ///< GSL's methods, relative
   double step = 0;                  ///< rk4 [s]; 0: from K_H
   double longest = 30;              ///< transient at most [s]
   bool stability = true;            ///< Floquet multipliers in the header (aft)
-  std::optional<double> budget;     ///< evaluations of the force
 };
 
 struct Exploration {

@@ -10,14 +10,9 @@ the branches beside it, the Floquet multipliers and the bifurcations. */
 namespace rotor_stator::explore {
 
 /** One branch over a range of speeds, and on demand others beside it. */
-struct ResponseRequest {
-  std::string parameter_file;
-  double from = 0, to = 0;       ///< [Hz]
-  std::optional<int> harmonics;  ///< of the saved branch, or 6
-  std::optional<int> samples;
-  double newton_tolerance = 1e-10;
-  std::string direction;         ///< "up", "down", or empty: the saved branch's, or up
-  std::optional<double> budget;  ///< evaluations of the force, for all of it
+struct ResponseRequest : Request {
+  double from = 0, to = 0;  ///< [Hz]
+  std::string direction;    ///< "up", "down", or empty: the saved branch's, or up
   std::optional<std::string> save, restart;  ///< files
   int branch = 1;                            ///< number in the file `restart`
   std::optional<double> at;                  ///< speed to restart from [Hz]
