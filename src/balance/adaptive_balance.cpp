@@ -17,6 +17,12 @@ constexpr int few_warm_iterations = 8, few_warm_halvings = 2;
 
 constexpr double infinite = std::numeric_limits<double>::infinity();
 
+/** Half of `default_samples`, since here the error of sampling is estimated with the rest. */
+int adaptive_samples(int harmonics)
+{
+  return fast_transform_size(std::max(32, 4 * harmonics + 1));
+}
+
 /** Sum of the amplitudes of the harmonics above m, of the row where it is largest. */
 double tail(const Eigen::MatrixXd& series, int m)
 {
@@ -27,82 +33,81 @@ double tail(const Eigen::MatrixXd& series, int m)
   return sum.maxCoeff();
 }
 
+NewtonSettings limited(NewtonSettings newton, int most_iterations, int most_halvings)
+{
+  newton.most_iterations = std::min(newton.most_iterations, most_iterations);
+  newton.most_halvings = std::min(newton.most_halvings, most_halvings);
+  return newton;
+}
+
 /** The search for m, level by level. */
-class Search {
-public:
-  Search(const ObservedProblem& observed, double omega, const ColdSolve& cold_solve,
-         const AdaptiveSettings& settings)
-      : observed_(observed),
-        omega_(omega),
-        cold_solve_(cold_solve),
-        settings_(settings),
-        estimate_tolerance_(settings.newton.tolerance)
-  {
-    NewtonSettings& newton = settings_.newton;
-    newton.tolerance = level_tolerance(settings);
-    newton.most_iterations = std::min(newton.most_iterations, few_iterations);
-    newton.most_halvings = std::min(newton.most_halvings, few_halvings);
-  }
+struct Search {
+  const ObservedProblem& observed;
+  double omega;
+  const ColdSolve& cold_solve;
+  const AdaptiveSettings& settings;
+  NewtonSettings newton;  ///< of each level
+  AdaptiveMotion result = {};
+  PeriodicMotion finer = {};
+  Eigen::VectorXd start = {};
+  int failures = 0;  ///< levels without a solution since the last one
 
   AdaptiveMotion run()
   {
-    int m = settings_.first_harmonics;
+    int m = settings.first_harmonics;
     while (!solve_level(m) || !estimate_level()) {
-      if (m >= settings_.most_harmonics) {
-        result_.end = end(m);
+      if (m >= settings.most_harmonics) {
+        result.end = end(m);
         break;
       }
-      m = std::min(settings_.most_harmonics, next(m));
+      m = std::min(settings.most_harmonics, next(m));
     }
-    return std::move(result_);
+    return std::move(result);
   }
 
-private:
   /** Newton with m harmonics from the finer solution at hand; cold when that fails, and thoroughly
      so when several m have failed. */
   bool solve_level(int m)
   {
     constexpr int patience = 3;
     const int n = adaptive_samples(m);
-    const bool thorough = failures_ == patience || m >= settings_.most_harmonics;
-    const bool solved = (start_.size() > 0 && keep(warm(m, n))) ||
-                        keep(cold_solve_(m, n, thorough, settings_.newton));
-    failures_ = solved ? 0 : failures_ + 1;
+    const bool thorough = failures == patience || m >= settings.most_harmonics;
+    const bool solved = (start.size() > 0 && keep(warm(m, n))) ||
+                        keep(cold_solve(m, n, thorough, newton));
+    failures = solved ? 0 : failures + 1;
     return solved;
   }
 
   bool keep(PeriodicMotion motion)
   {
-    result_.force_samples += motion.force_samples;
+    result.force_samples += motion.force_samples;
     const bool found = motion.found();
-    if (found) result_.motion = std::move(motion);
+    if (found) result.motion = std::move(motion);
     return found;
   }
 
   PeriodicMotion warm(int m, int n) const
   {
-    NewtonSettings warmly = settings_.newton;
-    warmly.most_iterations = std::min(warmly.most_iterations, few_warm_iterations);
-    warmly.most_halvings = std::min(warmly.most_halvings, few_warm_halvings);
-    Balance balance(observed_.problem(n), m);
-    PeriodicMotion motion = solve(
-        balance, omega_, resize_harmonics(start_, balance.problem().dofs, m), warmly);
-    motion.start = result_.motion.start;
-    if (motion.found()) motion.bodies = observed_.series(motion);
+    Balance balance(observed.problem(n), m);
+    PeriodicMotion motion =
+        solve(balance, omega, resize_harmonics(start, balance.problem().dofs, m),
+              limited(newton, few_warm_iterations, few_warm_halvings));
+    motion.start = result.motion.start;
+    if (motion.found()) motion.bodies = observed.series(motion);
     return motion;
   }
 
   /** Whether the estimate is good enough; otherwise it is what the next level starts from. */
   bool estimate_level()
   {
-    Refined refined = estimate_error(observed_, result_.motion, estimate_tolerance_);
-    const ErrorEstimate& error = result_.motion.error.emplace(refined.estimate);
-    result_.force_samples += error.force_samples;
-    finer_ = error.settled ? std::move(refined.finer) : PeriodicMotion{};
-    start_ = error.settled ? finer_.x : result_.motion.x;
-    result_.reached = error.settled && error.displacement <= settings_.tolerance;
-    if (result_.reached) result_.end = "the estimate is below the tolerance";
-    return result_.reached;
+    Refined refined = estimate_error(observed, result.motion, settings.newton.tolerance);
+    const ErrorEstimate& error = result.motion.error.emplace(refined.estimate);
+    result.force_samples += error.force_samples;
+    finer = error.settled ? std::move(refined.finer) : PeriodicMotion{};
+    start = error.settled ? finer.x : result.motion.x;
+    result.reached = error.settled && error.displacement <= settings.tolerance;
+    if (result.reached) result.end = "the estimate is below the tolerance";
+    return result.reached;
   }
 
   /** The next m: the least for which the amplitudes of the finer solution beyond it promise half the
@@ -111,19 +116,19 @@ private:
   {
     const int a_little = std::max(m + 2, m + 2 * m / 5),
               half_as_many = m + std::max(1, m / 2);
-    if (finer_.x.size() == 0 || failures_ > 0) return half_as_many;
-    const double goal = 0.5 * settings_.tolerance / result_.motion.error->displacement *
-                        tail(finer_.bodies, m);
+    if (finer.x.size() == 0 || failures > 0) return half_as_many;
+    const double goal = 0.5 * settings.tolerance / result.motion.error->displacement *
+                        tail(finer.bodies, m);
     int more = a_little;
-    while (more < finer_.harmonics.highest() && tail(finer_.bodies, more) > goal) ++more;
+    while (more < finer.harmonics.highest() && tail(finer.bodies, more) > goal) ++more;
     return more;
   }
 
   std::string end(int m) const
   {
-    if (!result_.motion.found()) return format("no solution with up to %d harmonics", m);
-    const int solved = result_.motion.harmonics.highest();
-    const ErrorEstimate& error = *result_.motion.error;
+    if (!result.motion.found()) return format("no solution with up to %d harmonics", m);
+    const int solved = result.motion.harmonics.highest();
+    const ErrorEstimate& error = *result.motion.error;
     if (!error.settled)
       return format(
           "the error with %d harmonics could not be estimated: no solution with %d "
@@ -133,16 +138,6 @@ private:
                                        solved, error.displacement);
     return solved == m ? reached : reached + format(", and none with %d was found", m);
   }
-
-  const ObservedProblem& observed_;
-  double omega_;
-  const ColdSolve& cold_solve_;
-  AdaptiveSettings settings_;
-  double estimate_tolerance_;
-  AdaptiveMotion result_;
-  PeriodicMotion finer_;
-  Eigen::VectorXd start_;
-  int failures_ = 0;  ///< levels without a solution since the last one
 };
 
 }  // namespace
@@ -156,7 +151,9 @@ AdaptiveMotion solve_adaptively(const ObservedProblem& observed, double omega,
                                 const ColdSolve& cold_solve,
                                 const AdaptiveSettings& settings)
 {
-  return Search(observed, omega, cold_solve, settings).run();
+  NewtonSettings newton = limited(settings.newton, few_iterations, few_halvings);
+  newton.tolerance = level_tolerance(settings);
+  return Search{observed, omega, cold_solve, settings, newton}.run();
 }
 
 /**
@@ -166,22 +163,10 @@ Estimated by Newton's first steps in a finer discretisation (adaptive_balance.hp
 
 namespace {
 
-/** A series with `columns` columns, filled with zeros. */
-Eigen::MatrixXd widened(const Eigen::MatrixXd& series, Eigen::Index columns)
-{
-  Eigen::MatrixXd wide = Eigen::MatrixXd::Zero(series.rows(), columns);
-  wide.leftCols(series.cols()) = series;
-  return wide;
-}
-
-int harmonics_of(const Eigen::MatrixXd& series)
-{
-  return static_cast<int>(series.cols() / 2);
-}
-
 double largest(const Eigen::MatrixXd& series)
 {
-  const int points = fast_transform_size(std::max(64, 4 * harmonics_of(series) + 1));
+  const int harmonics = static_cast<int>(series.cols() / 2);
+  const int points = fast_transform_size(std::max(64, 4 * harmonics + 1));
   return sample_series(series, points).cwiseAbs().maxCoeff();
 }
 
@@ -189,15 +174,12 @@ double largest(const Eigen::MatrixXd& series)
 
 double series_difference(const Eigen::MatrixXd& series, const Eigen::MatrixXd& reference)
 {
-  const auto columns = std::max(series.cols(), reference.cols());
-  const double size = largest(reference);
-  const double off = largest(widened(series, columns) - widened(reference, columns));
+  Eigen::MatrixXd difference =
+      Eigen::MatrixXd::Zero(series.rows(), std::max(series.cols(), reference.cols()));
+  difference.leftCols(series.cols()) = series;
+  difference.leftCols(reference.cols()) -= reference;
+  const double size = largest(reference), off = largest(difference);
   return size > 0 ? off / size : off > 0 ? infinite : 0;
-}
-
-int adaptive_samples(int harmonics)
-{
-  return fast_transform_size(std::max(32, 4 * harmonics + 1));
 }
 
 namespace {
@@ -205,30 +187,35 @@ namespace {
 /** Newton's iteration from the coarse solution, until what the next step would add is small against
     the steps taken. That is measured on displacements, where the residual would have to be known
     with the factor, often above a hundred, by which a resonance of the contact magnifies it. */
-class Approach {
-public:
-  Approach(Balance& balance, double omega, double tolerance, Eigen::VectorXd& x)
-      : balance_(balance), omega_(omega), tolerance_(tolerance), x_(x), start_(x)
-  {
-  }
+struct Approach {
+  Balance& balance;
+  double omega, tolerance;
+  Eigen::VectorXd& x;
+  Eigen::VectorXd start = x, next = {};
+  int steps = 0;
+
+  static constexpr double most_left = 0.2;
+  static constexpr int most_evaluations = 12, most_halvings = 3;
 
   /** Whether it came so far; `next` then leads one step further. */
   bool arrives()
   {
     double before = infinite, residual_before = infinite;
     Eigen::VectorXd last;  // the step to x
-    for (int halvings = 0; balance_.evaluations() < most_evaluations;) {
+    for (int halvings = 0; balance.evaluations() < most_evaluations;) {
       const double residual = find_step(before), size = next.norm();
       if (!std::isfinite(size)) return false;
       if (!(residual <= residual_before)) {
         if (++halvings > most_halvings) return false;
         last /= 2;
-        x_ -= last;
+        x -= last;
         continue;
       }
-      if (is_small(size)) return true;
+      if (size <= tolerance * balance.problem().unknown_scale ||
+          size <= most_left * (x - start).norm())
+        return true;
       last = next;
-      x_ += last;
+      x += last;
       ++steps;
       halvings = 0;
       residual_before = residual;
@@ -237,34 +224,16 @@ public:
     return false;
   }
 
-  Eigen::VectorXd next;
-  int steps = 0;
-
-private:
-  static constexpr double most_left = 0.2;
-  static constexpr int most_evaluations = 12, most_halvings = 3;
-
   /** Newton's step from x, or a chord step with the factors at hand; returns the residual. */
   double find_step(double size_before)
   {
-    const Eigen::VectorXd& residual = balance_.residual(x_, omega_);
-    StepSolver& solver = balance_.steps();
-    solver.step(balance_, x_, omega_, residual,
-                linear_goal(balance_, residual.norm(), tolerance_), next);
+    const Eigen::VectorXd& residual = balance.residual(x, omega);
+    StepSolver& solver = balance.steps();
+    solver.step(balance, x, omega, residual,
+                linear_goal(balance, residual.norm(), tolerance), next);
     solver.learn(next.norm() / size_before);
     return residual.norm();
   }
-
-  bool is_small(double size) const
-  {
-    return size <= tolerance_ * balance_.problem().unknown_scale ||
-           size <= most_left * (x_ - start_).norm();
-  }
-
-  Balance& balance_;
-  double omega_, tolerance_;
-  Eigen::VectorXd& x_;
-  const Eigen::VectorXd start_;
 };
 
 }  // namespace
@@ -281,7 +250,7 @@ Refined estimate_error(const ObservedProblem& observed, const PeriodicMotion& co
       {.omega = coarse.omega, .harmonics = balance.harmonics(), .samples = n}};
   auto& [estimate, finer] = refined;
   finer.x = resize_harmonics(coarse.x, balance.problem().dofs, m);
-  Approach approach(balance, coarse.omega, newton_tolerance, finer.x);
+  Approach approach{balance, coarse.omega, newton_tolerance, finer.x};
   estimate.settled = approach.arrives();
   estimate.newton = approach.steps;
   estimate.force_samples = balance.evaluations() * n;

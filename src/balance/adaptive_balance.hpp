@@ -36,10 +36,6 @@ struct Refined {
 Refined estimate_error(const ObservedProblem& observed, const PeriodicMotion& coarse,
                        double newton_tolerance = 1e-10);
 
-/** Samples with m harmonics: half of `default_samples`, since here the error of sampling is estimated
-    with the rest. */
-int adaptive_samples(int harmonics);
-
 /** How far to go. */
 struct AdaptiveSettings {
   double tolerance = 1e-4;   ///< wanted estimate [-]
@@ -53,11 +49,10 @@ struct AdaptiveSettings {
 double level_tolerance(const AdaptiveSettings& settings);
 
 struct AdaptiveMotion {
-  PeriodicMotion motion;  ///< the last one, with its error; not found when there is none
-  long force_samples =
-      0;  ///< evaluations of the force times samples, all numbers of harmonics
-  bool reached = false;  ///< the estimate is settled and below the tolerance
-  std::string end = {};  ///< why it stopped
+  PeriodicMotion motion;   ///< the last one, with its error; not found when there is none
+  long force_samples = 0;  ///< evaluations of the force times samples, at all m
+  bool reached = false;    ///< the estimate is settled and below the tolerance
+  std::string end = {};    ///< why it stopped
 };
 
 /** A solution from no other one, when it is found. What is cheap is tried first, for a few numbers of

@@ -45,14 +45,12 @@ LinearBlock second_order_block(const Eigen::MatrixXd& mass,
 {
   const std::complex<double> i(0, 1);
   const auto d = mass.rows();
-  LinearBlock block;
-  block.a = stiffness - (h * omega) * (h * omega) * mass + i * (h * omega) * damping;
-  block.a_slope = -2.0 * h * h * omega * mass + i * static_cast<double>(h) * damping;
-  block.b = SmallMatrix::Identity(d, d);
-  block.b_slope = SmallMatrix::Zero(d, d);
-  block.c = h == 1 ? SmallVector(load) : SmallVector::Zero(d);
-  block.c_slope = SmallVector::Zero(d);
-  return block;
+  return {.a = stiffness - (h * omega) * (h * omega) * mass + i * (h * omega) * damping,
+          .b = SmallMatrix::Identity(d, d),
+          .c = h == 1 ? SmallVector(load) : SmallVector::Zero(d),
+          .a_slope = -2.0 * h * h * omega * mass + i * static_cast<double>(h) * damping,
+          .b_slope = SmallMatrix::Zero(d, d),
+          .c_slope = SmallVector::Zero(d)};
 }
 
 Balance::Balance(Problem problem, int harmonics)

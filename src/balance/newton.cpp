@@ -16,77 +16,71 @@ double linear_goal(const Balance& balance, double residual, double tolerance)
 namespace {
 
 /** The iteration for one solution. Everything that it needs is kept by the balance's step solver. */
-class Iteration {
-public:
-  Iteration(Balance& balance, PeriodicMotion& motion, const NewtonSettings& settings)
-      : balance_(balance),
-        steps_(balance.steps()),
-        residual_(steps_.vectors.residual),
-        step_(steps_.vectors.step),
-        start_(steps_.vectors.start),
-        x_(motion.x),
-        omega_(motion.omega),
-        settings_(settings),
-        report_(motion.newton)
-  {
-    report_ = {};
-    steps_.begin(settings.chord_contraction);
-  }
+struct Iteration {
+  Balance& balance;
+  PeriodicMotion& motion;
+  const NewtonSettings& settings;
+  StepSolver& steps = balance.steps();
+  Eigen::VectorXd &residual = steps.vectors.residual, &step = steps.vectors.step;
+  Eigen::VectorXd &start = steps.vectors.start, &x = motion.x;
+  NewtonReport& report = motion.newton;
+  double norm = 0;
 
   void run()
   {
+    report = {};
+    steps.begin(settings.chord_contraction);
     evaluate();
-    while (report_.iterations < settings_.most_iterations) {
-      const double before = norm_;
-      const double goal = linear_goal(balance_, norm_, settings_.tolerance);
-      const StepKind kind = steps_.step(balance_, x_, omega_, residual_, goal, step_);
-      report_.delta_2 = step_.norm() / balance_.problem().unknown_scale;
-      ++report_.iterations;
+    while (report.iterations < settings.most_iterations) {
+      const double before = norm;
+      const double goal = linear_goal(balance, norm, settings.tolerance);
+      const StepKind kind = steps.step(balance, x, motion.omega, residual, goal, step);
+      report.delta_2 = step.norm() / balance.problem().unknown_scale;
+      ++report.iterations;
       if (!move(kind)) {
-        if (steps_.retries()) continue;
-        report_.end =
-            std::isfinite(report_.delta_2) ? NewtonEnd::no_decrease : NewtonEnd::singular;
+        if (steps.retries()) continue;
+        report.end =
+            std::isfinite(report.delta_2) ? NewtonEnd::no_decrease : NewtonEnd::singular;
         return;
       }
-      if (has_converged(kind, norm_ / before)) {
-        report_.end = NewtonEnd::converged;
+      if (has_converged(kind, norm / before)) {
+        report.end = NewtonEnd::converged;
         return;
       }
     }
   }
 
-private:
   void evaluate()
   {
     using With = Balance::With;
-    residual_ = balance_.residual(x_, omega_,
-                                  steps_.expects_chord() ? With::force : With::stiffness);
-    norm_ = residual_.norm();
-    report_.delta_1 = norm_ / balance_.problem().residual_scale;
+    residual = balance.residual(x, motion.omega,
+                                steps.expects_chord() ? With::force : With::stiffness);
+    norm = residual.norm();
+    report.delta_1 = norm / balance.problem().residual_scale;
   }
 
   /** Moves along the step, halved until the residual decreases; a chord step is taken whole, and
       must decrease it more. False, and back at the start, if it does not. */
   bool move(StepKind kind)
   {
-    if (!std::isfinite(report_.delta_2)) {
-      steps_.learn(std::numeric_limits<double>::infinity());
+    if (!std::isfinite(report.delta_2)) {
+      steps.learn(std::numeric_limits<double>::infinity());
       return false;
     }
     const bool chord = kind == StepKind::chord;
-    const double slope = chord ? 1 - settings_.chord_contraction : 1e-4;
-    const int most_halvings = chord ? 0 : settings_.most_halvings;
-    const double before = norm_;
-    const double goal = settings_.tolerance * balance_.problem().residual_scale;
-    start_ = x_;
+    const double slope = chord ? 1 - settings.chord_contraction : 1e-4;
+    const int most_halvings = chord ? 0 : settings.most_halvings;
+    const double before = norm;
+    const double goal = settings.tolerance * balance.problem().residual_scale;
+    start = x;
     double length = 1;
     for (int halvings = 0; halvings <= most_halvings; ++halvings, length /= 2) {
-      x_ = start_ + length * step_;
+      x = start + length * step;
       evaluate();
-      if (halvings == 0) steps_.learn(norm_ / before);
-      if (norm_ <= goal || norm_ <= (1 - slope * length) * before) return true;
+      if (halvings == 0) steps.learn(norm / before);
+      if (norm <= goal || norm <= (1 - slope * length) * before) return true;
     }
-    x_ = start_;
+    x = start;
     evaluate();
     return false;
   }
@@ -95,20 +89,11 @@ private:
       contraction leaves of δ₂, or what so small a residual allows. */
   bool has_converged(StepKind kind, double contraction) const
   {
-    const double tolerance = settings_.tolerance;
-    if (report_.delta_1 > tolerance || report_.delta_2 > std::sqrt(tolerance))
-      return false;
-    return kind == StepKind::fresh || report_.delta_1 <= 0.1 * tolerance ||
-           contraction * report_.delta_2 <= 0.1 * tolerance;
+    const double tolerance = settings.tolerance;
+    if (report.delta_1 > tolerance || report.delta_2 > std::sqrt(tolerance)) return false;
+    return kind == StepKind::fresh || report.delta_1 <= 0.1 * tolerance ||
+           contraction * report.delta_2 <= 0.1 * tolerance;
   }
-
-  Balance& balance_;
-  StepSolver& steps_;
-  Eigen::VectorXd &residual_, &step_, &start_, &x_;
-  double omega_;
-  const NewtonSettings& settings_;
-  NewtonReport& report_;
-  double norm_ = 0;
 };
 
 }  // namespace
@@ -116,7 +101,7 @@ private:
 bool solve(Balance& balance, PeriodicMotion& motion, const NewtonSettings& settings)
 {
   const long before = balance.evaluations();
-  Iteration(balance, motion, settings).run();
+  Iteration{balance, motion, settings}.run();
   motion.force = balance.force(motion.x, motion.omega);
   motion.harmonics = balance.harmonics();
   motion.samples = balance.problem().samples;

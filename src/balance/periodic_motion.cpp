@@ -16,18 +16,14 @@ Harmonics::Harmonics(int m)
 
 std::string NewtonReport::reason() const
 {
+  constexpr const char* ends[] = {"converged", "iterations exhausted",
+                                  "no step decreases the residual", "singular Jacobian"};
   const std::string numbers =
       std::isfinite(delta_1) && std::isfinite(delta_2)
           ? format(" after %d iterations (residual %.1e, step %.1e)", iterations, delta_1,
                    delta_2)
           : format(" after %d iterations (residual or step not finite)", iterations);
-  switch (end) {
-    case NewtonEnd::converged: return "converged" + numbers;
-    case NewtonEnd::too_many_iterations: return "iterations exhausted" + numbers;
-    case NewtonEnd::no_decrease: return "no step decreases the residual" + numbers;
-    case NewtonEnd::singular: return "singular Jacobian" + numbers;
-  }
-  return {};
+  return ends[static_cast<int>(end)] + numbers;
 }
 
 Eigen::VectorXd resize_harmonics(const Eigen::VectorXd& x, int dofs, int harmonics)

@@ -68,11 +68,10 @@ struct ErrorEstimate {
 struct PeriodicMotion {
   double omega = 0;  ///< [rad/s]
   Harmonics harmonics = {};
-  int samples = 0;             ///< N
-  Eigen::VectorXd x = {};      ///< coefficients of u [m], d for each one of Eq. 9
-  Eigen::MatrixXd force = {};  ///< those of the nonlinear force at u [N], d × (2m+1)
-  Eigen::MatrixXd bodies =
-      {};  ///< series of x_s, y_s, x_r, y_r [m], 4 × (2m+1), where asked for
+  int samples = 0;              ///< N
+  Eigen::VectorXd x = {};       ///< coefficients of u [m], d for each one of Eq. 9
+  Eigen::MatrixXd force = {};   ///< those of the nonlinear force at u [N], d × (2m+1)
+  Eigen::MatrixXd bodies = {};  ///< series of x_s, y_s, x_r, y_r [m], where asked for
   NewtonReport newton = {};
   long force_samples = 0;  ///< what Newton cost: evaluations of the force times N
   std::string start = {};  ///< what Newton started from

@@ -60,79 +60,78 @@ std::optional<Passed> BranchHistory::passed(ExtendedBalance& extended,
 namespace {
 
 /** The walk along the branch, one accepted point after the other. */
-class Walk {
-public:
-  Walk(Balance& balance, SpeedRange range, const ArcLengthSettings& settings)
-      : balance_(balance),
-        settings_(settings),
-        range_(range),
-        forward_(range.to > range.from ? 1 : -1),
-        extended_(balance, settings),
-        step_(settings.first_step),
-        evaluations_before_(balance.evaluations())
-  {
-  }
+struct Walk {
+  Balance& balance;
+  const ArcLengthSettings& settings;
+  SpeedRange range;
+  ExtendedBalance extended{balance, settings};
+  double step = settings.first_step, factor = 1;
+  long evaluations_before = balance.evaluations();
+  bool positive = true, next_positive = true;  ///< sign of the determinant
+  std::string refusal = {};                    ///< why the last step was shortened
+  Branch branch = {};
+  BranchHistory history = {};
+  bool done = false;
 
   Branch run(const BranchPoint& start)
   {
     begin(start);
     try {
-      while (!done_) advance();
+      while (!done) advance();
     } catch (const NoSolution& out_of_work) {
       stop(BranchEnd::work, out_of_work.what());
     }
-    branch_.evaluations = balance_.evaluations() - evaluations_before_;
-    return std::move(branch_);
+    branch.evaluations = balance.evaluations() - evaluations_before;
+    return std::move(branch);
   }
 
-private:
   void begin(const BranchPoint& start)
   {
     PeriodicMotion motion =
-        extended_.correct(start.tangent, scaled(start, settings_)).motion;
+        extended.correct(start.tangent, scaled(start, settings)).motion;
     if (!motion.found())
       throw NoSolution(format("no start at omega = %g rad/s: %s", start.motion.omega,
                               motion.newton.reason().c_str()));
-    Tangent tangent = extended_.tangent(motion, start.tangent);
+    Tangent tangent = extended.tangent(motion, start.tangent);
     if (!tangent.direction.allFinite())
       throw NoSolution(format("no tangent at omega = %g rad/s", start.motion.omega));
-    positive_ = tangent.positive;
+    positive = tangent.positive;
     /** Solved already: kept to the last digit, the speed above all. */
     if (start.motion.found()) motion = start.motion;
     keep({std::move(motion), start.arc, std::move(tangent.direction)});
   }
 
-  const BranchPoint& last() const { return branch_.points.back(); }
+  const BranchPoint& last() const { return branch.points.back(); }
   void keep(BranchPoint point)
   {
-    history_.add(point);
-    branch_.points.push_back(std::move(point));
+    history.add(point);
+    branch.points.push_back(std::move(point));
   }
 
   void stop(BranchEnd kind, const std::string& why)
   {
-    branch_.covered = kind == BranchEnd::goal;
-    branch_.kind = kind;
-    branch_.end = why;
-    done_ = true;
+    branch.covered = kind == BranchEnd::goal;
+    branch.kind = kind;
+    branch.end = why;
+    done = true;
   }
 
-  void shorten() { step_ /= 2; }
+  void shorten() { step /= 2; }
 
   /** At the shortest steps no sign can be had from a nearby leg: the walk goes on. */
-  bool long_step() const { return step_ > 100 * settings_.least_step; }
+  bool long_step() const { return step > 100 * settings.least_step; }
 
   bool out_of_bounds()
   {
-    if (static_cast<int>(branch_.points.size()) >= settings_.most_points)
-      stop(BranchEnd::points, format("the bound of %d points", settings_.most_points));
-    else if (balance_.evaluations() - evaluations_before_ >= settings_.most_evaluations)
+    if (static_cast<int>(branch.points.size()) >= settings.most_points)
+      stop(BranchEnd::points, format("the bound of %d points", settings.most_points));
+    else if (balance.evaluations() - evaluations_before >= settings.most_evaluations)
       stop(BranchEnd::work, format("the bound on work, %ld evaluations of the force",
-                                   settings_.most_evaluations));
-    else if (step_ < settings_.least_step)
+                                   settings.most_evaluations));
+    else if (step < settings.least_step)
       stop(BranchEnd::step,
-           format("the step fell below %g (%s)", settings_.least_step, refusal_.c_str()));
-    return done_;
+           format("the step fell below %g (%s)", settings.least_step, refusal.c_str()));
+    return done;
   }
 
   /** One step: predict, correct, and keep it unless it failed or may have hopped. */
@@ -144,73 +143,72 @@ private:
     try {
       take(std::move(*point));
     } catch (const NoSolution& error) {
-      refusal_ = error.what();
+      refusal = error.what();
       return shorten();
     }
-    positive_ = next_positive_;
-    step_ = std::min(settings_.most_step, step_ / std::clamp(factor_, 0.5, 2.0));
+    positive = next_positive;
+    step = std::min(settings.most_step, step / std::clamp(factor, 0.5, 2.0));
   }
 
   std::optional<BranchPoint> refused(const std::string& why)
   {
-    refusal_ = why;
+    refusal = why;
     return {};
   }
 
-  /** The corrected point one step ahead, if nothing speaks against it; `factor_` is then f. */
+  /** The corrected point one step ahead, if nothing speaks against it; `factor` is then f. */
   std::optional<BranchPoint> corrected()
   {
-    const Eigen::VectorXd &before = last().tangent, start = scaled(last(), settings_);
-    auto [motion, y, contraction] = extended_.correct(before, start + step_ * before);
+    const Eigen::VectorXd &before = last().tangent, start = scaled(last(), settings);
+    auto [motion, y, contraction] = extended.correct(before, start + step * before);
     if (!motion.found()) return refused(motion.newton.reason());
-    const Tangent tangent = extended_.tangent(motion, before);
+    const Tangent tangent = extended.tangent(motion, before);
     const double length = (y - start).norm();
     const double turn = angle(before, tangent.direction);
     const double bend =
         angle((y - start) / length, (before + tangent.direction).normalized());
     /** Where two branches nearly meet, the corner is sharper than the shortest steps. */
     const double ease = long_step() ? 1 : 2.5;
-    if (!(turn <= ease * settings_.most_turn && bend <= ease * settings_.most_bend))
+    if (!(turn <= ease * settings.most_turn && bend <= ease * settings.most_bend))
       return refused(
           format("the tangent turns by %.2g rad, the chord by %.2g", turn, bend));
-    if (tangent.positive != positive_ && long_step()) return refused("another leg");
-    next_positive_ = tangent.positive;
-    factor_ =
-        std::max({std::sqrt(contraction / settings_.wanted_contraction),
-                  turn / settings_.wanted_turn, std::sqrt(bend / settings_.wanted_bend)});
+    if (tangent.positive != positive && long_step()) return refused("another leg");
+    next_positive = tangent.positive;
+    factor =
+        std::max({std::sqrt(contraction / settings.wanted_contraction),
+                  turn / settings.wanted_turn, std::sqrt(bend / settings.wanted_bend)});
     return BranchPoint{std::move(motion), last().arc + length, tangent.direction};
   }
 
   /** Up to `next`: a fold on the way, the edge of the range, a point that was passed before. */
   void take(BranchPoint next)
   {
-    const auto passed = history_.passed(extended_, branch_.points, next, settings_);
+    const auto passed = history.passed(extended, branch.points, next, settings);
     if (passed) {
-      next = branch_.points[passed->index];
-      next.arc = last().arc + chord_length(last(), next, settings_);
+      next = branch.points[passed->index];
+      next.arc = last().arc + (scaled(last(), settings) - scaled(next, settings)).norm();
       if (!passed->same_direction) next = reversed(std::move(next));
     }
     if (last().speed_direction() * next.speed_direction() < 0) {
       BranchPoint fold = locate(
-          balance_, last(), next,
-          [](const BranchPoint& p) { return p.speed_direction(); },
-          settings_.fold_tolerance, settings_);
+          balance, last(), next, [](const BranchPoint& p) { return p.speed_direction(); },
+          settings.fold_tolerance, settings);
       refuse_hidden_folds(last(), fold);
       refuse_hidden_folds(fold, next);
       const double omega = fold.motion.omega;
       go_to(std::move(fold));
-      if (done_) return;
-      branch_.folds.push_back(omega);
+      if (done) return;
+      branch.folds.push_back(omega);
     } else {
       refuse_hidden_folds(last(), next);
     }
     go_to(std::move(next));
-    if (!done_ && passed) end_on_itself(*passed);
+    if (!done && passed) end_on_itself(*passed);
   }
 
   void refuse_hidden_folds(const BranchPoint& a, const BranchPoint& b)
   {
-    if (long_step() && turns_between(extended_, a, b, settings_))
+    if (long_step() && turns_between(extended, a, b, settings))
       throw NoSolution("more folds in one step than its ends show");
   }
 
@@ -223,19 +221,11 @@ private:
                                    : "the branch turned round onto itself");
   }
 
-  bool beyond(const BranchPoint& point) const
-  {
-    return forward_ * (point.motion.omega - range_.to) >= 0;
-  }
-  bool behind(const BranchPoint& point) const
-  {
-    return forward_ * (point.motion.omega - range_.from) < 0;
-  }
-
   void go_to(BranchPoint next)
   {
-    if (beyond(next)) return finish(next, range_.to);
-    if (behind(next)) return finish(next, range_.from);
+    const double forward = range.to > range.from ? 1 : -1, omega = next.motion.omega;
+    if (forward * (omega - range.to) >= 0) return finish(next, range.to);
+    if (forward * (omega - range.from) < 0) return finish(next, range.from);
     keep(std::move(next));
   }
 
@@ -243,23 +233,10 @@ private:
   void finish(const BranchPoint& next, double edge)
   {
     if (last().motion.omega != edge)
-      keep(point_between(balance_, last(), next, edge, settings_));
-    if (edge == range_.to) return stop(BranchEnd::goal, "the end of the range");
+      keep(point_between(balance, last(), next, edge, settings));
+    if (edge == range.to) return stop(BranchEnd::goal, "the end of the range");
     stop(BranchEnd::came_back, "the branch came back to where the range begins");
   }
-
-  Balance& balance_;
-  const ArcLengthSettings& settings_;
-  SpeedRange range_;
-  double forward_;
-  ExtendedBalance extended_;
-  double step_, factor_ = 1;
-  long evaluations_before_;
-  bool positive_ = true, next_positive_ = true;  ///< sign of the determinant
-  std::string refusal_;                          ///< why the last step was shortened
-  Branch branch_{};
-  BranchHistory history_;
-  bool done_ = false;
 };
 
 }  // namespace
@@ -267,7 +244,7 @@ private:
 Branch follow_branch(Balance& balance, const BranchPoint& start, SpeedRange range,
                      const ArcLengthSettings& settings)
 {
-  return Walk(balance, range, settings).run(start);
+  return Walk{balance, settings, range}.run(start);
 }
 
 Branch follow_branch(Balance& balance, double from, double to, Eigen::VectorXd x,

@@ -16,12 +16,6 @@ Eigen::VectorXd scaled(const BranchPoint& point, const ArcLengthSettings& settin
   return y;
 }
 
-double chord_length(const BranchPoint& a, const BranchPoint& b,
-                    const ArcLengthSettings& settings)
-{
-  return (scaled(a, settings) - scaled(b, settings)).norm();
-}
-
 double angle(const Eigen::VectorXd& a, const Eigen::VectorXd& b)
 {
   return 2 * std::asin(std::min(1.0, 0.5 * (a - b).norm()));
@@ -42,13 +36,6 @@ BranchPoint reversed(BranchPoint point)
   point.tangent = -point.tangent;
   return point;
 }
-
-namespace {
-
-/** Contracting by a half each time, Newton needs fewer. */
-constexpr int most_corrections = 20;
-
-}  // namespace
 
 ExtendedBalance::ExtendedBalance(Balance& balance, const ArcLengthSettings& settings)
     : balance_(balance),
@@ -89,6 +76,7 @@ NewtonEnd ExtendedBalance::verdict(const Correction& correction, double length) 
 Correction ExtendedBalance::correct(const Eigen::VectorXd& direction,
                                     const Eigen::VectorXd& predicted)
 {
+  constexpr int most_corrections = 20;  // contracting by a half each time, fewer
   const double unknown_scale =
       balance_.problem().unknown_scale / settings_.arc_unknown_scale;
   Correction correction{.y = predicted};

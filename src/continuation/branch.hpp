@@ -60,10 +60,6 @@ struct Branch {
 /** y = (X/ℓ, ω/ω_ref), n+1 values. */
 Eigen::VectorXd scaled(const BranchPoint& point, const ArcLengthSettings& settings);
 
-/** Length of the scaled chord between two points [-]. */
-double chord_length(const BranchPoint& a, const BranchPoint& b,
-                    const ArcLengthSettings& settings);
-
 /** Angle [rad] between two unit vectors, accurate when it is small. */
 double angle(const Eigen::VectorXd& a, const Eigen::VectorXd& b);
 

@@ -7,6 +7,9 @@
 
 namespace rotor_stator {
 
+namespace {
+
+/** Whether the solution `point` lies on `branch`. */
 bool lies_on(Balance& balance, const Branch& branch, const BranchPoint& point,
              const ArcLengthSettings& settings)
 {
@@ -17,8 +20,6 @@ bool lies_on(Balance& balance, const Branch& branch, const BranchPoint& point,
       return true;
   return false;
 }
-
-namespace {
 
 bool at_an_edge(const Branch& branch)
 {

@@ -15,10 +15,6 @@ struct IsolatedBranch {
   PeriodicMotion candidate;  ///< what it was found from
 };
 
-/** Whether the solution `point` lies on `branch`. */
-bool lies_on(Balance& balance, const Branch& branch, const BranchPoint& point,
-             const ArcLengthSettings& settings);
-
 /** The branch through `start` on both sides, each until it leaves the range: covered when it is closed,
     or ends at an edge of the range on both. */
 Branch follow_both_ways(Balance& balance, const BranchPoint& start, SpeedRange range,

@@ -19,50 +19,47 @@ struct End {
 };
 
 /** The bracket with the zero, and its narrowing. */
-class Bracket {
-public:
-  Bracket(Balance& balance, const BranchPoint& a, const BranchPoint& b,
-          const TestFunction& test, const ArcLengthSettings& settings)
-      : settings_(settings), test_(test), extended_(balance, settings)
-  {
-    a_ = valued(a);
-    b_ = valued(b);
-  }
+struct Bracket {
+  const TestFunction& test;
+  const ArcLengthSettings& settings;
+  ExtendedBalance extended;
+  const BranchPoint &from, &to;
+  End a = valued(from), b = valued(to);
+  std::optional<bool> moved_first = {};  ///< which end the last cut moved
 
-  bool has_zero() const { return a_.value * b_.value <= 0; }
-  double width() const { return b_.point.arc - a_.point.arc; }
+  bool has_zero() const { return a.value * b.value <= 0; }
+  double width() const { return b.point.arc - a.point.arc; }
 
   /** Bound on the difference of speed between any two points of the bracket [rad/s]. */
   double speed_width() const
   {
-    return width() * settings_.speed_scale *
-           std::max(std::abs(a_.point.speed_direction()),
-                    std::abs(b_.point.speed_direction()));
+    return width() * settings.speed_scale *
+           std::max(std::abs(a.point.speed_direction()),
+                    std::abs(b.point.speed_direction()));
   }
 
   const BranchPoint& best() const
   {
-    return std::abs(a_.value) <= std::abs(b_.value) ? a_.point : b_.point;
+    return std::abs(a.value) <= std::abs(b.value) ? a.point : b.point;
   }
-  bool exact() const { return a_.value == 0 || b_.value == 0; }
+  bool exact() const { return a.value == 0 || b.value == 0; }
 
-  double secant() const { return a_.weighed / (a_.weighed - b_.weighed); }
+  double secant() const { return a.weighed / (a.weighed - b.weighed); }
 
   /** Replaces one end by the point at 0 < r < 1. */
   void cut(double r)
   {
     End end = valued(corrected(r));
-    const bool first = end.value * a_.value > 0;
-    End &moved = first ? a_ : b_, &stays = first ? b_ : a_;
-    if (moved_first_ == first) stays.weighed /= 2;
-    moved_first_ = first;
+    const bool first = end.value * a.value > 0;
+    End &moved = first ? a : b, &stays = first ? b : a;
+    if (moved_first == first) stays.weighed /= 2;
+    moved_first = first;
     moved = std::move(end);
   }
 
-private:
   End valued(const BranchPoint& point)
   {
-    const double value = test_(point);
+    const double value = test(point);
     if (!std::isfinite(value))
       throw NoSolution(
           format("the quantity to locate is not a number at omega = %.6g rad/s",
@@ -72,26 +69,20 @@ private:
 
   BranchPoint corrected(double r)
   {
-    const Eigen::VectorXd start = scaled(a_.point, settings_);
-    const Eigen::VectorXd chord = scaled(b_.point, settings_) - start;
+    const Eigen::VectorXd start = scaled(a.point, settings);
+    const Eigen::VectorXd chord = scaled(b.point, settings) - start;
     Correction correction =
-        extended_.correct(chord.normalized(), between(a_.point, b_.point, r, settings_));
+        extended.correct(chord.normalized(), between(a.point, b.point, r, settings));
     PeriodicMotion& motion = correction.motion;
     if (!motion.found())
       throw NoSolution(format("no point between omega = %.9g and %.9g rad/s: %s",
-                              a_.point.motion.omega, b_.point.motion.omega,
+                              a.point.motion.omega, b.point.motion.omega,
                               motion.newton.reason().c_str()));
     const double share = (correction.y - start).dot(chord) / chord.squaredNorm();
-    Tangent tangent = extended_.tangent(motion, chord.normalized());
-    return {std::move(motion), a_.point.arc + share * width(),
+    Tangent tangent = extended.tangent(motion, chord.normalized());
+    return {std::move(motion), a.point.arc + share * width(),
             std::move(tangent.direction)};
   }
-
-  const ArcLengthSettings& settings_;
-  const TestFunction& test_;
-  ExtendedBalance extended_;
-  End a_, b_;
-  std::optional<bool> moved_first_;  ///< which end the last cut moved
 };
 
 }  // namespace
@@ -100,7 +91,7 @@ BranchPoint locate(Balance& balance, const BranchPoint& a, const BranchPoint& b,
                    const TestFunction& test, double tolerance,
                    const ArcLengthSettings& settings)
 {
-  Bracket bracket(balance, a, b, test, settings);
+  Bracket bracket{test, settings, {balance, settings}, a, b};
   if (!bracket.has_zero())
     throw NoSolution(format("no change of sign between omega = %.9g and %.9g rad/s",
                             a.motion.omega, b.motion.omega));

@@ -9,11 +9,10 @@ namespace rotor_stator {
 
 void LagrangePredictor::add(Eigen::VectorXd x, double omega)
 {
-  const double chord = empty()
-                           ? 0
-                           : std::hypot((x - points_.back().x).norm() / unknown_scale_,
-                                        (omega - points_.back().omega) / speed_scale_);
-  arc_.push_back(empty() ? 0 : arc_.back() + chord);
+  arc_.push_back(empty() ? 0
+                         : arc_.back() +
+                               std::hypot((x - points_.back().x).norm() / unknown_scale_,
+                                          (omega - points_.back().omega) / speed_scale_));
   points_.push_back({.omega = omega, .x = std::move(x)});
   if (points_.size() > 4) {
     points_.pop_front();
@@ -78,23 +77,20 @@ Eigen::VectorXd LagrangePredictor::at_speed(double omega) const
 namespace {
 
 /** The state of a sweep between two speeds. */
-class Sweep {
-public:
-  Sweep(Balance& balance, const ColdStart& cold_start, const SweepSettings& settings)
-      : balance_(balance),
-        cold_start_(cold_start),
-        settings_(settings),
-        predictor_(settings.arc_unknown_scale, settings.speed_scale)
-  {
-  }
+struct Sweep {
+  Balance& balance;
+  const ColdStart& cold_start;
+  const SweepSettings& settings;
+  LagrangePredictor predictor{settings.arc_unknown_scale, settings.speed_scale};
+  double last_omega = 0;
 
   PeriodicMotion solve_at(double omega)
   {
     PeriodicMotion motion{.omega = omega, .start = from_predictor};
-    if (!predictor_.empty()) approach(motion, omega, settings_.most_halvings);
+    if (!predictor.empty()) approach(motion, omega, settings.most_halvings);
     if (!motion.found()) {
-      predictor_.clear();
-      attempt(motion, omega, cold_start_(omega));
+      predictor.clear();
+      attempt(motion, omega, cold_start(omega));
       motion.start = "cold start";
     }
     if (!motion.found()) motion.x.resize(0);
@@ -102,7 +98,6 @@ public:
     return motion;
   }
 
-private:
   /** One Newton solution at `omega`; on success the predictor learns it. */
   bool attempt(PeriodicMotion& motion, double omega, Eigen::VectorXd x)
   {
@@ -110,31 +105,24 @@ private:
     const long force_samples = motion.force_samples;
     motion.omega = omega;
     motion.x = std::move(x);
-    solve(balance_, motion, settings_.newton);
+    solve(balance, motion, settings.newton);
     motion.newton.iterations += iterations;
     motion.force_samples += force_samples;
     if (!motion.found()) return false;
-    predictor_.add(motion.x, omega);
-    last_omega_ = omega;
+    predictor.add(motion.x, omega);
+    last_omega = omega;
     return true;
   }
 
-  /** From the last solution to the motion's speed, through half-way speeds if it must be.
-   */
+  /** From the last solution to the motion's speed, through half-way speeds if it must be. */
   bool approach(PeriodicMotion& motion, double omega, int halvings)
   {
-    if (attempt(motion, omega, predictor_.at_speed(omega))) return true;
+    if (attempt(motion, omega, predictor.at_speed(omega))) return true;
     if (halvings == 0) return false;
-    const double middle = 0.5 * (last_omega_ + omega);
+    const double middle = 0.5 * (last_omega + omega);
     return approach(motion, middle, halvings - 1) &&
            approach(motion, omega, halvings - 1);
   }
-
-  Balance& balance_;
-  const ColdStart& cold_start_;
-  const SweepSettings& settings_;
-  LagrangePredictor predictor_;
-  double last_omega_ = 0;
 };
 
 }  // namespace
@@ -150,7 +138,7 @@ std::vector<PeriodicMotion> sweep(Balance& balance, const std::vector<double>& o
                                   const ColdStart& cold_start,
                                   const SweepSettings& settings)
 {
-  Sweep state(balance, cold_start, settings);
+  Sweep state{balance, cold_start, settings};
   std::vector<PeriodicMotion> motions;
   for (double omega : omegas) motions.push_back(state.solve_at(omega));
   return motions;
