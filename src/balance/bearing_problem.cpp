@@ -35,33 +35,37 @@ struct Varying {
   }
 };
 
-Varying impedance(const Body& body, double omega, int h)
+/** A body's impedance and the amplitudes of its load in x and y: weight on harmonic 0, unbalance on
+    harmonic 1 (cos φ in x and sin φ = Re(-i e^{iφ}) in y). */
+struct LoadedBody {
+  Varying z;
+  std::array<Varying, 2> load;
+};
+
+LoadedBody loaded(const Body& body, double gravity, double unbalance, double omega, int h)
 {
   const auto z = dynamic_stiffness(body, h * omega);
-  return {z.value, static_cast<double>(h) * z.slope};
+  LoadedBody loaded{{z.value, static_cast<double>(h) * z.slope}, {}};
+  const Varying force{unbalance * omega * omega, 2 * unbalance * omega};
+  if (h == 0) loaded.load[1] = {-body.mass * gravity, 0};
+  if (h == 1) loaded.load = {force, force * Varying{{0, -1}, 0}};
+  return loaded;
 }
 
-/** Load amplitudes on one body in x and y: weight on harmonic 0, unbalance on harmonic 1
-    (cos φ in x and sin φ = Re(-i e^{iφ}) in y). */
-std::array<Varying, 2> load(double weight, double unbalance, double omega, int h)
+std::array<LoadedBody, 2> stator_and_rotor(const Parameters& p, double omega, int h)
 {
-  if (h == 0) return {{{0, 0}, {-weight, 0}}};
-  if (h > 1) return {};
-  const Varying force{unbalance * omega * omega, 2 * unbalance * omega};
-  return {force, force * Varying{{0, -1}, 0}};
+  return {loaded(p.stator, p.gravity, 0, omega, h),
+          loaded(p.rotor, p.gravity, p.unbalance, omega, h)};
 }
 
 LinearBlock condensed_block(const Parameters& parameters, double ball_stiffness,
                             double omega, int h)
 {
-  const Varying z_s = impedance(parameters.stator, omega, h);
-  const Varying z_r = impedance(parameters.rotor, omega, h);
+  const auto [stator, rotor] = stator_and_rotor(parameters, omega, h);
+  const auto& [z_s, f_s] = stator;
+  const auto& [z_r, f_r] = rotor;
   const Varying product = z_s * z_r, sum = z_s + z_r;
   const Varying sigma = product.modulus() + Varying{ball_stiffness, 0} * sum.modulus();
-  const auto f_s = load(parameters.stator.mass * parameters.gravity, 0, omega, h);
-  const auto f_r =
-      load(parameters.rotor.mass * parameters.gravity, parameters.unbalance, omega, h);
-
   const Varying a = product.over(sigma), b = sum.over(sigma);
   const SmallMatrix unit = SmallMatrix::Identity(2, 2);
   LinearBlock block{.a = a.value * unit,
@@ -146,20 +150,16 @@ Eigen::MatrixXd body_series(const Parameters& parameters, const PeriodicMotion& 
   const Eigen::Map<const Eigen::MatrixXd> u(motion.x.data(), 2, columns);
   Eigen::MatrixXd bodies(4, columns);
   for (int h = 0; h <= motion.harmonics.highest(); ++h) {
-    const Complex z_s = impedance(parameters.stator, motion.omega, h).value;
-    const Complex z_r = impedance(parameters.rotor, motion.omega, h).value;
-    const auto f_s =
-        load(parameters.stator.mass * parameters.gravity, 0, motion.omega, h);
-    const auto f_r = load(parameters.rotor.mass * parameters.gravity,
-                          parameters.unbalance, motion.omega, h);
+    const auto [stator, rotor] = stator_and_rotor(parameters, motion.omega, h);
+    const Complex z_s = stator.z.value, z_r = rotor.z.value;
     const SmallVector force = amplitude(motion.force, h), relative = amplitude(u, h);
     SmallVector body(4);
     for (int axis = 0; axis < 2; ++axis) {
       /** The stiffer of the two bodies gives its displacement and u the other's: the
          resonance of an undamped body divides nothing by zero. */
       body[axis] = std::abs(z_s) >= std::abs(z_r)
-                       ? (f_s[axis].value + force[axis]) / z_s
-                       : (f_r[axis].value - force[axis]) / z_r - relative[axis];
+                       ? (stator.load[axis].value + force[axis]) / z_s
+                       : (rotor.load[axis].value - force[axis]) / z_r - relative[axis];
       body[2 + axis] = body[axis] + relative[axis];
     }
     put_amplitude(bodies, h, body);

@@ -96,25 +96,20 @@ Vibration vibration_of(const Parameters& parameters)
 namespace {
 
 /** The bearing along a series of u. */
-class BearingAlong {
-public:
-  BearingAlong(const Bearing& bearing, const Eigen::VectorXd& x)
-      : bearing_(bearing),
-        clearance_(bearing.clearance),
-        cage_ratio_(bearing.cage_speed_ratio),
-        series_(x.reshaped(2, x.size() / 2))
-  {
-  }
+struct BearingAlong {
+  BallBearing bearing;
+  double clearance, cage_ratio;
+  Eigen::MatrixXd series;
 
   Vec2 at(double phase) const
   {
     const std::complex<double> turn = std::polar(1.0, phase);
     std::complex<double> power = 1;
-    double u_x = series_(0, 0), u_y = series_(1, 0);
-    for (Eigen::Index h = 1; h < series_.cols(); h += 2) {
+    double u_x = series(0, 0), u_y = series(1, 0);
+    for (Eigen::Index h = 1; h < series.cols(); h += 2) {
       power *= turn;
-      u_x += power.real() * series_(0, h) + power.imag() * series_(0, h + 1);
-      u_y += power.real() * series_(1, h) + power.imag() * series_(1, h + 1);
+      u_x += power.real() * series(0, h) + power.imag() * series(0, h + 1);
+      u_y += power.real() * series(1, h) + power.imag() * series(1, h + 1);
     }
     return {u_x, u_y};
   }
@@ -123,7 +118,7 @@ public:
   void stiffness(double phase, double* k) const
   {
     const Stiffness2 s =
-        bearing_.reaction(Direction::of(cage_ratio_ * phase), at(phase)).stiffness;
+        bearing.reaction(Direction::of(cage_ratio * phase), at(phase)).stiffness;
     Eigen::Matrix2d joint;
     joint << s.xx, s.xy, s.xy, s.yy;
     Eigen::Map<Eigen::Matrix4d>(k) << joint, -joint, -joint, joint;
@@ -132,7 +127,7 @@ public:
   /** The phases where a ball's penetration changes its sign, ascending. */
   std::vector<double> contact_changes() const
   {
-    const int points = static_cast<int>(std::max<Eigen::Index>(512, 8 * series_.cols()));
+    const int points = static_cast<int>(std::max<Eigen::Index>(512, 8 * series.cols()));
     std::vector<double> before = penetrations(0), found;
     for (int k = 1; k <= points; ++k) {
       const double step = 2 * std::numbers::pi / points;
@@ -146,22 +141,21 @@ public:
     return found;
   }
 
-private:
   double penetration(std::size_t ball, Vec2 in_cage) const
   {
-    const Direction& d = bearing_.balls()[ball];
-    return d.cos * in_cage.x + d.sin * in_cage.y - clearance_;
+    const Direction& d = bearing.balls()[ball];
+    return d.cos * in_cage.x + d.sin * in_cage.y - clearance;
   }
 
   Vec2 in_cage(double phase) const
   {
-    return into_frame(Direction::of(cage_ratio_ * phase), at(phase));
+    return into_frame(Direction::of(cage_ratio * phase), at(phase));
   }
 
   std::vector<double> penetrations(double phase) const
   {
     const Vec2 u = in_cage(phase);
-    std::vector<double> values(bearing_.balls().size());
+    std::vector<double> values(bearing.balls().size());
     for (std::size_t ball = 0; ball < values.size(); ++ball)
       values[ball] = penetration(ball, u);
     return values;
@@ -175,10 +169,6 @@ private:
       ((penetration(ball, in_cage(middle)) > 0) == before ? a : b) = middle;
     return b;
   }
-
-  BallBearing bearing_;
-  double clearance_, cage_ratio_;
-  Eigen::MatrixXd series_;
 };
 
 }  // namespace
@@ -186,9 +176,12 @@ private:
 PeriodicStiffness stiffness_along(const Parameters& parameters,
                                   const PeriodicMotion& motion)
 {
-  const BearingAlong bearing(parameters.bearing, motion.x);
-  return {.at = [bearing](double phase, double* k) { bearing.stiffness(phase, k); },
-          .breaks = bearing.contact_changes()};
+  const Bearing& bearing = parameters.bearing;
+  const BearingAlong along{BallBearing(bearing), bearing.clearance,
+                           bearing.cage_speed_ratio,
+                           motion.x.reshaped(2, motion.x.size() / 2)};
+  return {.at = [along](double phase, double* k) { along.stiffness(phase, k); },
+          .breaks = along.contact_changes()};
 }
 
 Floquet floquet(const Parameters& parameters, const PeriodicMotion& motion,

@@ -30,8 +30,7 @@ struct Vibration {
 struct PeriodicStiffness {
   /** Writes k at a phase, column by column, d² values. */
   std::function<void(double phase, double* k)> at;
-  std::vector<double> breaks =
-      {};  ///< phases in [0, 2π] where k is not smooth, ascending
+  std::vector<double> breaks = {};  ///< phases in [0, 2π] where k is rough, ascending
 };
 
 struct MonodromySettings {

@@ -29,11 +29,10 @@ int derivative(double t, const double y[], double dydt[], void* data)
   const Direction cage = system.cage_direction(phase);
   const BearingReaction bearing =
       system.bearing().reaction(cage, state.position.relative());
-  const State slope{
-      state.velocity,
-      system.acceleration(state, system.rotor_direction(phase), bearing.force)};
   Eigen::Map<Vector8> slopes(dydt);
-  slopes = vector_of(slope);
+  slopes =
+      vector_of({state.velocity, system.acceleration(state, system.rotor_direction(phase),
+                                                     bearing.force)});
 
   const Eigen::Map<const Disturbances> q(y + 8), v(y + 40);
   Eigen::Map<Disturbances>(dydt + 8) = v;
@@ -49,9 +48,10 @@ std::array<double, equations> error_scales(const Parameters& parameters)
   constexpr double room = 1e6;
   const Vector8 sizes = state_scales(parameters);
   std::array<double, equations> scale;
-  for (int i = 0; i < 8; ++i) scale[i] = sizes[i];
-  for (int i = 0; i < 8; ++i)
+  for (int i = 0; i < 8; ++i) {
+    scale[i] = sizes[i];
     for (int j = 0; j < 8; ++j) scale[8 + 8 * i + j] = room * sizes[i] / sizes[j];
+  }
   return scale;
 }
 

@@ -45,16 +45,7 @@ using Disturbances = Eigen::Matrix<double, 8, 4>;
 
 class DisturbanceRates {
 public:
-  explicit DisturbanceRates(const Parameters& parameters)
-  {
-    int k = 0;
-    for (const Body* body : {&parameters.stator, &parameters.rotor}) {
-      per_mass_[k] = 1 / body->mass;
-      damping_[k] = body->damping() / body->mass;
-      stiffness_[k] = body->stiffness() / body->mass;
-      ++k;
-    }
-  }
+  explicit DisturbanceRates(const Parameters& p) : bodies_{of(p.stator), of(p.rotor)} {}
 
   /** Accelerations of the disturbances `q` and their speeds `v`, with the bearing's stiffness `s`
       [N/m] at that instant of the motion. */
@@ -66,17 +57,24 @@ public:
     const Eight force[2] = {s.xx * u_x + s.xy * u_y, s.xy * u_x + s.yy * u_y};
     Disturbances a;
     for (int i = 0; i < 4; ++i) {
-      const int body = i / 2;
-      const double per_mass = body == 0 ? per_mass_[0] : -per_mass_[1];
-      a.col(i) = per_mass * force[i % 2] - damping_[body] * v.col(i) -
-                 stiffness_[body] * q.col(i);
+      const Rates& body = bodies_[i / 2];
+      const double per_mass = i < 2 ? body.per_mass : -body.per_mass;
+      a.col(i) =
+          per_mass * force[i % 2] - body.damping * v.col(i) - body.stiffness * q.col(i);
     }
     return a;
   }
 
 private:
-  std::array<double, 2> per_mass_, damping_,
-      stiffness_;  ///< 1/m, c/m, k/m of both bodies
+  struct Rates {
+    double per_mass, damping, stiffness;  ///< 1/m, c/m, k/m
+  };
+  static Rates of(const Body& b)
+  {
+    return {1 / b.mass, b.damping() / b.mass, b.stiffness() / b.mass};
+  }
+
+  Rates bodies_[2];
 };
 
 /**

@@ -57,53 +57,46 @@ Maps gsl_maps(const Parameters& parameters, double omega,
 }
 
 /** Newton in the scaled state y = s/sizes. */
-class Iteration {
-public:
-  Iteration(const Parameters& parameters, double omega, const State& start,
-            const ShootingSettings& settings)
-      : settings_(settings),
-        maps_(settings.method == "rk4" ? rk4_maps(parameters, omega, settings)
-                                       : gsl_maps(parameters, omega, settings)),
-        sizes_(state_scales(parameters)),
-        y_(vector_of(start).cwiseQuotient(sizes_))
-  {
-  }
+struct Iteration {
+  const ShootingSettings& settings;
+  Maps maps;
+  Vector8 sizes, y;
+  Vector8 open = {};      ///< P(y) - y
+  Matrix8 jacobian = {};  ///< its derivative
+  double reduction = 1;
+  Shooting report = {};
 
-  Shooting run(State& state, PeriodicityJacobian& jacobian)
+  Shooting run(State& state, PeriodicityJacobian& kept)
   {
     try {
-      if (jacobian) start_with(*jacobian);
-      while (report_.reason.empty()) newton_step();
-      if (report_.converged) take_known_step();
+      if (kept) {
+        jacobian = *kept;
+        open = mapped(y) - y;
+        report.periodicity_residual = open.norm();
+        if (!finished()) quasi_newton_steps();
+      }
+      while (report.reason.empty()) newton_step();
+      if (report.converged) take_known_step();
     } catch (const NoSolution& broken) {
-      report_.converged = false;
-      report_.reason = broken.what();
+      report.converged = false;
+      report.reason = broken.what();
     }
-    if (report_.derivatives > 0 || jacobian) jacobian = jacobian_;
-    report_.evaluations = maps_.evaluations();
-    state = state_of(Vector8(y_.cwiseProduct(sizes_)));
-    return report_;
-  }
-
-private:
-  void start_with(const Matrix8& jacobian)
-  {
-    jacobian_ = jacobian;
-    open_ = mapped(y_) - y_;
-    report_.periodicity_residual = open_.norm();
-    if (!finished()) quasi_newton_steps();
+    if (report.derivatives > 0 || kept) kept = jacobian;
+    report.evaluations = maps.evaluations();
+    state = unscaled(y);
+    return report;
   }
 
   /** Φ at y, one step with it, and further ones while they reduce the residual well. */
   void newton_step()
   {
     const PeriodMap map = integrate_derivative();
-    open_ = vector_of(map.end).cwiseQuotient(sizes_) - y_;
-    report_.periodicity_residual = open_.norm();
-    jacobian_ = sizes_.cwiseInverse().asDiagonal() * map.derivative * sizes_.asDiagonal();
-    jacobian_ -= Matrix8::Identity();
+    open = vector_of(map.end).cwiseQuotient(sizes) - y;
+    report.periodicity_residual = open.norm();
+    jacobian = sizes.cwiseInverse().asDiagonal() * map.derivative * sizes.asDiagonal();
+    jacobian -= Matrix8::Identity();
     if (finished()) return;
-    if (!quasi_newton_steps() && report_.reason.empty())
+    if (!quasi_newton_steps() && report.reason.empty())
       stop("no step closes the motion better");
   }
 
@@ -115,26 +108,26 @@ private:
     do {
       if (!damped_step()) return reduced;
       reduced = true;
-    } while (!finished() && reduction_ < well);
+    } while (!finished() && reduction < well);
     return true;
   }
 
   /** One step, halved until the residual decreases; Broyden's rule learns from it. */
   bool damped_step()
   {
-    const Vector8 step = -jacobian_.partialPivLu().solve(open_);
+    const Vector8 step = -jacobian.partialPivLu().solve(open);
     double length = 1;
     for (int halvings = 0; halvings < 8 && !out_of_maps(); ++halvings, length /= 2) {
-      const Vector8 y = y_ + length * step;
-      const Vector8 open = mapped(y) - y;
-      const double reduction = open.norm() / report_.periodicity_residual;
+      const Vector8 next = y + length * step;
+      const Vector8 open_next = mapped(next) - next;
+      const double residual = open_next.norm();
+      reduction = residual / report.periodicity_residual;
       if (!(reduction < 1)) continue;
-      jacobian_ += (open - (1 - length) * open_) * step.transpose() /
-                   (length * step.squaredNorm());
-      y_ = y;
-      open_ = open;
-      reduction_ = reduction;
-      report_.periodicity_residual = open.norm();
+      jacobian += (open_next - (1 - length) * open) * step.transpose() /
+                  (length * step.squaredNorm());
+      y = next;
+      open = open_next;
+      report.periodicity_residual = residual;
       return true;
     }
     return false;
@@ -142,55 +135,46 @@ private:
 
   void take_known_step()
   {
-    const Vector8 step = jacobian_.partialPivLu().solve(open_);
-    if (step.allFinite()) y_ -= step;
-    if (settings_.final_derivative) integrate_derivative();
+    const Vector8 step = jacobian.partialPivLu().solve(open);
+    if (step.allFinite()) y -= step;
+    if (settings.final_derivative) integrate_derivative();
   }
 
   PeriodMap integrate_derivative()
   {
-    const PeriodMap map = maps_.map(unscaled(y_));
-    ++report_.maps;
-    ++report_.derivatives;
-    report_.derivative = map.derivative;
+    const PeriodMap map = maps.map(unscaled(y));
+    ++report.maps;
+    ++report.derivatives;
+    report.derivative = map.derivative;
     return map;
   }
 
-  Vector8 mapped(const Vector8& y)
+  Vector8 mapped(const Vector8& at)
   {
-    ++report_.maps;
-    const Vector8 end = vector_of(maps_.end(unscaled(y)));
-    return end.cwiseQuotient(sizes_);
+    ++report.maps;
+    return vector_of(maps.end(unscaled(at))).cwiseQuotient(sizes);
   }
 
-  State unscaled(const Vector8& y) const
+  State unscaled(const Vector8& at) const
   {
-    return state_of(Vector8(y.cwiseProduct(sizes_)));
+    return state_of(Vector8(at.cwiseProduct(sizes)));
   }
-  bool out_of_maps() const { return report_.maps >= settings_.most_maps; }
+  bool out_of_maps() const { return report.maps >= settings.most_maps; }
 
   bool finished()
   {
-    report_.converged = report_.periodicity_residual <= settings_.periodicity_residual;
-    if (report_.converged)
+    report.converged = report.periodicity_residual <= settings.periodicity_residual;
+    if (report.converged)
       stop("converged");
     else if (out_of_maps())
-      stop(format("%d periods were integrated", report_.maps));
-    return !report_.reason.empty();
+      stop(format("%d periods were integrated", report.maps));
+    return !report.reason.empty();
   }
 
   void stop(const std::string& why)
   {
-    report_.reason = why + format(" (closure %.1e)", report_.periodicity_residual);
+    report.reason = why + format(" (closure %.1e)", report.periodicity_residual);
   }
-
-  const ShootingSettings& settings_;
-  Maps maps_;
-  Vector8 sizes_, y_;
-  Vector8 open_;      ///< P(y) - y
-  Matrix8 jacobian_;  ///< its derivative
-  double reduction_ = 1;
-  Shooting report_;
 };
 
 }  // namespace
@@ -199,7 +183,10 @@ Shooting shoot(const Parameters& parameters, double omega, State& state,
                const ShootingSettings& settings, PeriodicityJacobian* jacobian)
 {
   PeriodicityJacobian none;
-  return Iteration(parameters, omega, state, settings)
+  const Vector8 sizes = state_scales(parameters);
+  const auto maps = settings.method == "rk4" ? rk4_maps : gsl_maps;
+  return Iteration{settings, maps(parameters, omega, settings), sizes,
+                   vector_of(state).cwiseQuotient(sizes)}
       .run(state, jacobian ? *jacobian : none);
 }
 
