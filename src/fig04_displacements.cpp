@@ -40,7 +40,7 @@ int main(int argc, char** argv)
     for (double frequency : watched(scene.title, scene.frequencies)) {
       const double omega = angular(frequency);
       const PeriodicMotion balance =
-          motion::find_periodic(scene.machine, omega, scene.harmonics, scene.samples);
+          motion::find_periodic({scene.machine, omega, scene.harmonics, scene.samples});
       const auto settled = steady_state(scene.machine, omega, scene.time_integration);
       add_orbits(table, scene, figures::compare(scene, frequency, balance, settled));
     }

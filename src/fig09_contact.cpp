@@ -37,7 +37,7 @@ int main(int argc, char** argv)
     for (double frequency : watched(scene.title, scene.frequencies)) {
       const double omega = angular(frequency);
       const PeriodicMotion balance =
-          motion::search_periodic(scene.machine, omega, scene.harmonics, scene.samples);
+          motion::search_periodic({scene.machine, omega, scene.harmonics, scene.samples});
       const auto settled = steady_state(scene.machine, omega, scene.time_integration);
       const figures::Panel panel = figures::compare(scene, frequency, balance, settled);
       add_contact(table, panel, motion::contact_evolution(scene.machine, panel.shown()));

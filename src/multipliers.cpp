@@ -28,9 +28,8 @@ int main(int argc, char** argv)
     const auto points =
         computed_in_parallel("multipliers", scene.points.size(), [&](std::size_t k) {
           const auto& point = scene.points[k];
-          const PeriodicMotion solution =
-              motion::search_periodic(scene.sets[point.set - 1], angular(point.frequency),
-                                      point.harmonics, default_samples(point.harmonics));
+          const PeriodicMotion solution = motion::search_periodic(
+              {scene.sets[point.set - 1], angular(point.frequency), point.harmonics});
           return truth::checked(scene, point, solution);
         });
     return truth::multiplier_table(scene, points);

@@ -78,7 +78,7 @@ SampledSolution reference_solution(const SamplingCase& at, int harmonics)
   const int samples = default_samples(harmonics);
   return of_found(
       at, harmonics, samples,
-      motion::search_periodic(at.machine, angular(at.frequency), harmonics, samples));
+      motion::search_periodic({at.machine, angular(at.frequency), harmonics, samples}));
 }
 
 SampledSolution finely_sampled(const SamplingCase& at, int harmonics, int fine_over_m,

@@ -27,8 +27,8 @@ PeriodicMotion require_periodic(const Parameters& machine, double frequency,
                                 const NewtonSettings& settings)
 {
   const PeriodicMotion solution = motion::search_periodic(
-      machine, angular(frequency), harmonics,
-      samples > 0 ? samples : default_samples(harmonics), settings);
+      {machine, angular(frequency), harmonics,
+       samples > 0 ? samples : default_samples(harmonics), settings});
   if (!solution.found())
     throw NoSolution(format("%s: %d harmonics at %g Hz: %s", machine.file.c_str(),
                             harmonics, frequency, solution.newton.reason().c_str()));

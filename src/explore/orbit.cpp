@@ -78,14 +78,14 @@ AdaptiveMotion solved(const Parameters& parameters, const MotionRequest& request
   const int m = request.harmonics.value_or(usual_harmonics);
   const int n = checked_samples(m, request.samples);
   if (!request.tolerance) {
-    AdaptiveMotion at{motion::search_periodic(parameters, omega, m, n, newton, budget)};
+    AdaptiveMotion at{motion::search_periodic({parameters, omega, m, n, newton, budget})};
     at.reached = at.motion.found();
     at.end = at.motion.newton.reason();
     return at;
   }
   if (request.harmonics)
-    return motion::find_with_error(parameters, omega, m, n, *request.tolerance, newton,
-                                   budget);
+    return motion::find_with_error({parameters, omega, m, n, newton, budget},
+                                   *request.tolerance);
   return motion::solve_adaptively(parameters, omega, settings_of(request), budget);
 }
 

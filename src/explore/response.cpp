@@ -110,8 +110,8 @@ BranchPoint found_start(const Task& task, Balance& balance, Table& table)
 {
   const double omega = task.range().from;
   const PeriodicMotion start =
-      motion::search_periodic(task.parameters, omega, task.harmonics, task.samples,
-                              task.settings.newton, task.budget);
+      motion::search_periodic({task.parameters, omega, task.harmonics, task.samples,
+                               task.settings.newton, task.budget});
   if (!start.found())
     throw NoSolution(format("%s: no solution found with %d harmonics at --%s %g Hz: %s",
                             task.parameters.file.c_str(), task.harmonics,

@@ -27,10 +27,10 @@ AdaptiveMotion solve_adaptively(const Parameters& parameters, double omega,
                                 const OperationBudget& budget)
 {
   const auto cold = [&](int m, int n, bool thorough, const NewtonSettings& newton) {
-    PeriodicMotion motion = find_near_contact(parameters, omega, m, n, newton, budget);
+    PeriodicMotion motion = find_near_contact({parameters, omega, m, n, newton, budget});
     if (motion.found() || !thorough) return motion;
     const long cost = motion.force_samples;
-    motion = search_periodic(parameters, omega, m, n, settings.newton, budget);
+    motion = search_periodic({parameters, omega, m, n, settings.newton, budget});
     motion.force_samples = cost;
     return motion;
   };
@@ -43,25 +43,21 @@ ErrorEstimate estimate_error(const Parameters& parameters, const PeriodicMotion&
   return estimate_error(observed_bearing(parameters, budget), motion).estimate;
 }
 
-AdaptiveMotion find_with_error(const Parameters& parameters, double omega, int harmonics,
-                               int samples, double tolerance,
-                               const NewtonSettings& newton,
-                               const OperationBudget& budget)
+AdaptiveMotion find_with_error(const Search& search, double tolerance)
 {
-  AdaptiveMotion at{
-      search_periodic(parameters, omega, harmonics, samples, newton, budget)};
+  AdaptiveMotion at{search_periodic(search)};
   if (!at.motion.found()) {
-    at.end = format("no solution found with %d harmonics: %s", harmonics,
+    at.end = format("no solution found with %d harmonics: %s", search.harmonics,
                     at.motion.newton.reason().c_str());
     return at;
   }
-  const ErrorEstimate& error =
-      at.motion.error.emplace(estimate_error(parameters, at.motion, budget));
+  const ErrorEstimate& error = at.motion.error.emplace(
+      estimate_error(search.parameters, at.motion, search.budget));
   at.reached = error.settled && error.displacement <= tolerance;
-  at.end = error.settled
-               ? format("the error with %d harmonics is estimated as %.2g", harmonics,
-                        error.displacement)
-               : format("the error with %d harmonics cannot be estimated", harmonics);
+  at.end = error.settled ? format("the error with %d harmonics is estimated as %.2g",
+                                  search.harmonics, error.displacement)
+                         : format("the error with %d harmonics cannot be estimated",
+                                  search.harmonics);
   return at;
 }
 

@@ -6,8 +6,7 @@ the largest difference over the period over the largest displacement. */
 #pragma once
 
 #include "balance/adaptive_balance.hpp"
-#include "io/budget.hpp"
-#include "model/parameters.hpp"
+#include "motion/find_periodic.hpp"
 
 namespace rotor_stator::motion {
 
@@ -18,12 +17,8 @@ AdaptiveMotion solve_adaptively(const Parameters& parameters, double omega,
                                 const AdaptiveSettings& settings,
                                 const OperationBudget& budget = {});
 
-/** The solution with m harmonics and N samples; `reached` when its error is estimated below the
-    tolerance. */
-AdaptiveMotion find_with_error(const Parameters& parameters, double omega, int harmonics,
-                               int samples, double tolerance,
-                               const NewtonSettings& newton = {},
-                               const OperationBudget& budget = {});
+/** The solution of a search; `reached` when its error is estimated below the tolerance. */
+AdaptiveMotion find_with_error(const Search& search, double tolerance);
 
 /** The error of a solution that is at hand. */
 ErrorEstimate estimate_error(const Parameters& parameters, const PeriodicMotion& motion,

@@ -1,5 +1,7 @@
 #include "motion/find_periodic.hpp"
 
+#include <utility>
+
 #include "balance/bearing_problem.hpp"
 #include "io/errors.hpp"
 
@@ -7,20 +9,30 @@ namespace rotor_stator::motion {
 
 namespace {
 
+Eigen::VectorXd near_contact(const Search& search)
+{
+  return quasi_static_start(search.parameters, search.omega, search.harmonics);
+}
+
+Balance balance_of(const Search& search)
+{
+  return {bearing_problem(search.parameters, search.samples, search.budget),
+          search.harmonics};
+}
+
 /** The solution with half as many harmonics, found in the same way from quasi-static
     contact. */
-Eigen::VectorXd fewer_harmonics(const Parameters& parameters, double omega, int harmonics,
-                                const NewtonSettings& settings,
-                                const OperationBudget& budget)
+Eigen::VectorXd fewer_harmonics(Search search)
 {
-  const int fewer = harmonics / 2;
-  if (fewer < 3) return {};
-  Balance balance(bearing_problem(parameters, default_samples(fewer), budget), fewer);
+  const int harmonics = std::exchange(search.harmonics, search.harmonics / 2);
+  if (search.harmonics < 3) return {};
+  search.samples = default_samples(search.harmonics);
+  Balance balance = balance_of(search);
   PeriodicMotion motion =
-      solve(balance, omega, quasi_static_start(parameters, omega, fewer), settings);
+      solve(balance, search.omega, near_contact(search), search.newton);
   if (!motion.found()) {
-    motion.x = fewer_harmonics(parameters, omega, fewer, settings, budget);
-    if (motion.x.size() == 0 || !solve(balance, motion, settings)) return {};
+    motion.x = fewer_harmonics(search);
+    if (motion.x.size() == 0 || !solve(balance, motion, search.newton)) return {};
   }
   return resize_harmonics(motion.x, 2, harmonics);
 }
@@ -38,35 +50,28 @@ Eigen::VectorXd integrated_start(const Parameters& parameters, double omega,
   return relative_series(motion_of(steady, points), harmonics);
 }
 
-PeriodicMotion find_near_contact(const Parameters& parameters, double omega,
-                                 int harmonics, int samples,
-                                 const NewtonSettings& settings,
-                                 const OperationBudget& budget)
+PeriodicMotion find_near_contact(const Search& search)
 {
-  Balance balance(bearing_problem(parameters, samples, budget), harmonics);
+  Balance balance = balance_of(search);
   PeriodicMotion motion =
-      solve(balance, omega, quasi_static_start(parameters, omega, harmonics), settings);
+      solve(balance, search.omega, near_contact(search), search.newton);
   motion.start = quasi_static_name;
-  if (motion.found()) motion.bodies = body_series(parameters, motion);
+  if (motion.found()) motion.bodies = body_series(search.parameters, motion);
   return motion;
 }
 
-PeriodicMotion find_periodic(const Parameters& parameters, double omega, int harmonics,
-                             int samples, const NewtonSettings& settings,
-                             const OperationBudget& budget,
-                             const std::vector<Start>& further)
+PeriodicMotion find_periodic(const Search& search, const std::vector<Start>& further)
 {
-  std::vector<Start> starts{
-      {quasi_static_name,
-       [&] { return quasi_static_start(parameters, omega, harmonics); }},
-      {"fewer harmonics",
-       [&] { return fewer_harmonics(parameters, omega, harmonics, settings, budget); }}};
+  std::vector<Start> starts{{quasi_static_name, [&] { return near_contact(search); }},
+                            {"fewer harmonics", [&] { return fewer_harmonics(search); }}};
   starts.insert(starts.end(), further.begin(), further.end());
   starts.push_back({"time integration", [&] {
-                      return integrated_start(parameters, omega, harmonics, budget);
+                      return integrated_start(search.parameters, search.omega,
+                                              search.harmonics, search.budget);
                     }});
-  Balance balance(bearing_problem(parameters, samples, budget), harmonics);
-  PeriodicMotion motion{.omega = omega, .harmonics = harmonics, .samples = samples};
+  Balance balance = balance_of(search);
+  PeriodicMotion motion{
+      .omega = search.omega, .harmonics = search.harmonics, .samples = search.samples};
   for (const Start& start : starts) {
     try {
       motion.x = start.coefficients();
@@ -75,8 +80,8 @@ PeriodicMotion find_periodic(const Parameters& parameters, double omega, int har
     }
     if (motion.x.size() == 0) continue;
     motion.start = start.name;
-    if (!solve(balance, motion, settings)) continue;
-    motion.bodies = body_series(parameters, motion);
+    if (!solve(balance, motion, search.newton)) continue;
+    motion.bodies = body_series(search.parameters, motion);
     break;
   }
   return motion;

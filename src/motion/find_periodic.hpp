@@ -18,20 +18,24 @@ struct Start {
   std::function<Eigen::VectorXd()> coefficients;
 };
 
-/** Looks for the periodic motion at ω [rad/s] with m harmonics and N samples, and with the series of both
-    bodies. Newton starts from quasi-static contact, then from a solution with fewer harmonics, then
+/** What is looked for, and how. */
+struct Search {
+  const Parameters& parameters;
+  double omega;                              ///< [rad/s]
+  int harmonics;                             ///< m
+  int samples = default_samples(harmonics);  ///< N
+  NewtonSettings newton = {};
+  OperationBudget budget = {};
+};
+
+/** Looks for the periodic motion, and for the series of both bodies. Newton starts from quasi-static contact, then from a solution with fewer harmonics, then
     from `further` ones, then from one period of time integration; the first that converges is kept.
-    Not found means that none of these found one. Throws NoSolution when `budget` is used up. */
-PeriodicMotion find_periodic(const Parameters& parameters, double omega, int harmonics,
-                             int samples, const NewtonSettings& settings = {},
-                             const OperationBudget& budget = {},
+    Not found means that none of these found one. Throws NoSolution when the budget is used up. */
+PeriodicMotion find_periodic(const Search& search,
                              const std::vector<Start>& further = {});
 
 /** From quasi-static contact alone. */
-PeriodicMotion find_near_contact(const Parameters& parameters, double omega,
-                                 int harmonics, int samples,
-                                 const NewtonSettings& settings = {},
-                                 const OperationBudget& budget = {});
+PeriodicMotion find_near_contact(const Search& search);
 
 /** A start for Newton: the relative motion [m] of one period after ten seconds of RK4 from rest, as
     coefficients. Throws NoSolution when the integration breaks down. */

@@ -27,33 +27,30 @@ Eigen::VectorXd random_coefficients(double size, int harmonics,
 
 /** The solution at the end of the branch that starts at 1 Hz, or at half the speed, by arc length
     through all its folds; few harmonics only, since many see a fold at every contact resonance. */
-Eigen::VectorXd along_the_branch(const Parameters& parameters, double omega,
-                                 int harmonics, int samples, const NewtonSettings& newton,
-                                 const OperationBudget& budget)
+Eigen::VectorXd along_the_branch(const Search& search)
 {
   constexpr int most_harmonics = 16;
+  const int harmonics = search.harmonics;
   if (harmonics > most_harmonics) return {};
-  const double from = std::min(2 * std::numbers::pi, omega / 2);
-  ArcLengthSettings settings = arc_length_settings(parameters, newton);
+  const double from = std::min(2 * std::numbers::pi, search.omega / 2);
+  ArcLengthSettings settings = arc_length_settings(search.parameters, search.newton);
   /** One start among others, not a study: as long for many harmonics as for few. */
   settings.most_evaluations = std::min(150000, 15000000 / (harmonics * harmonics));
-  Balance balance(bearing_problem(parameters, samples, budget), harmonics);
-  const Branch branch = follow_branch(
-      balance, from, omega, quasi_static_start(parameters, from, harmonics), settings);
+  Balance balance(
+      bearing_problem(search.parameters, search.samples, search.budget.part(0.3)),
+      harmonics);
+  const Branch branch =
+      follow_branch(balance, from, search.omega,
+                    quasi_static_start(search.parameters, from, harmonics), settings);
   return branch.covered ? branch.points.back().motion.x : Eigen::VectorXd();
 }
 
 }  // namespace
 
-PeriodicMotion search_periodic(const Parameters& parameters, double omega, int harmonics,
-                               int samples, const NewtonSettings& settings,
-                               const OperationBudget& budget)
+PeriodicMotion search_periodic(const Search& search)
 {
-  return find_periodic(parameters, omega, harmonics, samples, settings, budget,
-                       {{"arc length from a lower speed", [&] {
-                           return along_the_branch(parameters, omega, harmonics, samples,
-                                                   settings, budget.part(0.3));
-                         }}});
+  return find_periodic(search, {{"arc length from a lower speed",
+                                 [&] { return along_the_branch(search); }}});
 }
 
 FoundStarts other_starts(const Parameters& parameters, SpeedRange range, int harmonics,

@@ -16,9 +16,7 @@ seeded generator. */
 namespace rotor_stator::motion {
 
 /** As `find_periodic`, with the branch from a lower speed among its starts. */
-PeriodicMotion search_periodic(const Parameters& parameters, double omega, int harmonics,
-                               int samples, const NewtonSettings& settings = {},
-                               const OperationBudget& budget = {});
+PeriodicMotion search_periodic(const Search& search);
 
 /** Uniform in -1 … 1 from the generator's bits: the standard's distributions differ between
     libraries. */

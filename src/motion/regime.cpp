@@ -41,7 +41,7 @@ Regime regime_at(const Parameters& parameters, double frequency,
   /** On the periodic solution if Newton finds one from the quasi-static contact, else at the static load. */
   PeriodicMotion solution;
   if (has_rotation_period(parameters.bearing))
-    solution = find_near_contact(parameters, omega, 6, default_samples(6));
+    solution = find_near_contact({parameters, omega, 6});
   const SteadyState steady = steady_state(
       parameters, omega, solution.found() ? state_of(solution) : static_start(parameters),
       steady_settings);

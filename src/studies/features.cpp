@@ -125,7 +125,7 @@ std::optional<OrbitSize> balance_orbit_size(const Model& model, double frequency
 {
   if (!has_rotation_period(model.machine.bearing)) return {};
   const PeriodicMotion solution = motion::search_periodic(
-      model.machine, angular(frequency), model.harmonics, model.samples);
+      {model.machine, angular(frequency), model.harmonics, model.samples});
   if (!solution.found()) return {};
   const Eigen::VectorXd amplitude = half_peak_to_peak(solution.bodies);
   return OrbitSize{{amplitude[2]}, {amplitude[3]}};

@@ -85,8 +85,7 @@ void add_best_fixed(const Parameters& machine, double omega, const motion::Motio
     if (compared(point)) least_error = std::min(least_error, point.error);
   double error = 2;
   for (int m = 4; m <= most && !(error <= least_error); m += std::max(1, m / 7)) {
-    const PeriodicMotion fixed =
-        motion::find_near_contact(machine, omega, m, default_samples(m));
+    const PeriodicMotion fixed = motion::find_near_contact({machine, omega, m});
     if (!fixed.found()) continue;
     error = error_of(fixed, exact);
     const auto cost = static_cast<double>(fixed.force_samples);

@@ -67,8 +67,7 @@ std::vector<AttractorPoint> settled(const AttractorScene& scene, const Chain& ch
     case Origin::many_harmonics:
       for (double frequency : frequencies) {
         const PeriodicMotion solution =
-            motion::find_periodic(machine, angular(frequency), scene.many_harmonics,
-                                  default_samples(scene.many_harmonics));
+            motion::find_periodic({machine, angular(frequency), scene.many_harmonics});
         if (solution.found()) settle(frequency, motion::state_of(solution));
       }
       break;

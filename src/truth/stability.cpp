@@ -67,7 +67,7 @@ std::vector<StabilityPoint> follow(const StabilityScene& scene,
   const int samples = default_samples(curve.harmonics);
   StabilityBranch summary{.curve = curve, .from = from};
   const PeriodicMotion start =
-      motion::search_periodic(machine, angular(from), curve.harmonics, samples);
+      motion::search_periodic({machine, angular(from), curve.harmonics, samples});
   if (!start.found()) return {{.branch = summary}};
   Balance balance(bearing_problem(machine, samples), curve.harmonics);
   ArcLengthSettings settings = arc_length_settings(machine);

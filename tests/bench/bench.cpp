@@ -38,7 +38,7 @@ struct Solved {
   explicit Solved(benchmark::State& state)
       : harmonics(static_cast<int>(state.range(0))),
         balance(bearing_problem(parameters(), default_samples(harmonics)), harmonics),
-        x(find_periodic(parameters(), omega, harmonics, default_samples(harmonics)).x)
+        x(find_periodic({parameters(), omega, harmonics}).x)
   {
   }
   Eigen::MatrixXd samples() const
@@ -144,7 +144,7 @@ void kept_factors_iteration(benchmark::State& state)
 void solution(benchmark::State& state)
 {
   Solved solved(state);
-  const auto start = find_periodic(parameters(), omega, 6, default_samples(6)).x;
+  const auto start = find_periodic({parameters(), omega, 6}).x;
   for (auto _ : state) {
     solved.balance.steps().forget();
     benchmark::DoNotOptimize(

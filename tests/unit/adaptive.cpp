@@ -95,8 +95,7 @@ TEST_CASE("Bearing: the estimate is the distance to the motion that shooting fin
 {
   for (double frequency : {6.0, 30.0, 45.0})
     for (int m : {6, 12, 24, 48}) {
-      const PeriodicMotion solution =
-          search_periodic(set_1(), hertz(frequency), m, default_samples(m));
+      const PeriodicMotion solution = search_periodic({set_1(), hertz(frequency), m});
       REQUIRE(solution.found());
       const ErrorEstimate estimate = estimate_error(set_1(), solution);
       const double error = true_error(solution);
@@ -163,8 +162,7 @@ TEST_CASE("At most twice the work of the best fixed number of harmonics")
     const Motion exact = exact_motion(set_1(), at.motion, 1024);
     long least = 0;
     for (int m = 8; m < 2 * at.motion.harmonics.highest(); m += 2) {
-      const PeriodicMotion fixed =
-          find_near_contact(set_1(), hertz(frequency), m, default_samples(m));
+      const PeriodicMotion fixed = find_near_contact({set_1(), hertz(frequency), m});
       if (!fixed.found()) continue;
       if (relative_difference(motion_of(fixed.bodies, 1024), exact) > error) continue;
       if (least == 0 || fixed.force_samples < least) least = fixed.force_samples;

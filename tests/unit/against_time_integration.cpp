@@ -27,8 +27,7 @@ SteadyState accurate_steady_state(const Parameters& parameters, double frequency
 double difference(double frequency, int harmonics)
 {
   const Parameters parameters = set_1();
-  const auto solution =
-      find_periodic(parameters, hertz(frequency), harmonics, default_samples(harmonics));
+  const auto solution = find_periodic({parameters, hertz(frequency), harmonics});
   REQUIRE(solution.found());
   return relative_difference(motion_of(solution.bodies, 64),
                              motion_of(accurate_steady_state(parameters, frequency), 64));

@@ -78,7 +78,7 @@ TEST_CASE("Circular whirl of 512 balls without gravity agrees with its integral 
     const Whirl whirl{parameters, hertz(frequency), 0};
     const double radius = whirl.radius();
     REQUIRE(radius / parameters.bearing.clearance >= 1.5);
-    const auto solution = find_periodic(parameters, hertz(frequency), 4, 32);
+    const auto solution = find_periodic({parameters, hertz(frequency), 4, 32});
     REQUIRE(solution.found());
     CHECK(harmonic_amplitude(solution.x, 2, 0, 1) == Approx(radius).epsilon(1e-5));
     CHECK(harmonic_amplitude(solution.x, 2, 1, 1) == Approx(radius).epsilon(1e-5));

@@ -197,8 +197,7 @@ double error_apart(const Parameters& parameters, const std::vector<double>& freq
   method->run();
   double error = 0;
   for (std::size_t k = 0; k < frequencies.size(); ++k) {
-    const auto exact =
-        find_periodic(parameters, hertz(frequencies[k]), 256, default_samples(256));
+    const auto exact = find_periodic({parameters, hertz(frequencies[k]), 256});
     REQUIRE(exact.found());
     REQUIRE(method->motion(k, 90));
     error = std::max(

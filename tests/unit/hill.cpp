@@ -31,8 +31,7 @@ struct Linearised {
 Linearised linearised(const std::string& file, double frequency, int harmonics)
 {
   const Parameters parameters = read_parameters(SOURCE_DIR "/data/" + file);
-  const auto solution = search_periodic(parameters, hertz(frequency), harmonics,
-                                        default_samples(harmonics));
+  const auto solution = search_periodic({parameters, hertz(frequency), harmonics});
   REQUIRE(solution.found());
   return {vibration_of(parameters), stiffness_along(parameters, solution), 1 / frequency,
           floquet(parameters, solution)};

@@ -18,8 +18,7 @@ double error_without_contact(const Parameters& parameters, double frequency,
                              int harmonics)
 {
   const double omega = hertz(frequency);
-  const auto solution =
-      find_periodic(parameters, omega, harmonics, default_samples(harmonics));
+  const auto solution = find_periodic({parameters, omega, harmonics});
   REQUIRE(solution.found());
   const std::complex<double> z{
       parameters.rotor.stiffness() - parameters.rotor.mass * omega * omega,
@@ -57,7 +56,7 @@ TEST_CASE("Without gravity and unbalance nothing moves")
   Parameters parameters = set_1();
   parameters.gravity = 0;
   parameters.unbalance = 0;
-  const auto solution = find_periodic(parameters, hertz(20), 6, 64);
+  const auto solution = find_periodic({parameters, hertz(20), 6, 64});
   REQUIRE(solution.found());
   CHECK(solution.bodies.norm() == 0);
 }
@@ -67,7 +66,7 @@ TEST_CASE("An undamped stator at its own resonance divides nothing by zero")
   Parameters parameters = set_1();
   parameters.stator.damping_ratio = 0;
   const auto solution =
-      find_periodic(parameters, parameters.stator.natural_frequency, 6, 64);
+      find_periodic({parameters, parameters.stator.natural_frequency, 6, 64});
   REQUIRE(solution.found());
   CHECK(solution.bodies.allFinite());
 }

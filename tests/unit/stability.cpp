@@ -20,8 +20,7 @@ namespace {
 
 PeriodicMotion solution_at(const Parameters& parameters, double frequency, int harmonics)
 {
-  const auto solution = search_periodic(parameters, hertz(frequency), harmonics,
-                                        default_samples(harmonics));
+  const auto solution = search_periodic({parameters, hertz(frequency), harmonics});
   REQUIRE(solution.found());
   return solution;
 }
