@@ -27,14 +27,9 @@ int main(int argc, char** argv)
   return run_figure(argc, argv, [](SceneFile& file) {
     const SamplingScene scene = read_sampling(file);
     std::vector<SamplingPoint> points;
-    for (const SamplingCase& at : watched("sampling", scene.cases)) {
-      const SampledSolution reference = reference_solution(at, scene.reference_harmonics);
-      for (int m : scene.harmonics) {
-        const SampledSolution fine = finely_sampled(at, m, scene.fine_over_m, reference);
-        for (int over : scene.samples_over_m)
-          points.push_back(sampling_errors(at, over, fine, reference));
-      }
-    }
+    for (const SamplingCase& at : watched("sampling", scene.cases))
+      for (const SamplingPoint& point : sampling_errors(scene, at))
+        points.push_back(point);
     return sampling_table(scene, points);
   });
 }

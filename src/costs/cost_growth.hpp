@@ -7,7 +7,6 @@ that solves one speed with one harmonic. */
 #pragma once
 
 #include "costs/timed_method.hpp"
-#include "io/table.hpp"
 
 namespace rotor_stator::costs {
 

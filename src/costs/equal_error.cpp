@@ -145,8 +145,7 @@ Table equal_error_table(const EqualErrorScene& scene, const References& referenc
   table.note(
       format("the search of a method in a range ends after %g s of CPU", scene.search));
   table.note(what_is_timed);
-  table.note(references.text(scene.truth));
-  table.note(references.aperiodic());
+  references.describe(table, scene.truth);
   std::string ratios;
   for (double ratio : scene.paper_ratios) ratios += format(" %g", ratio);
   table.note("the paper's ratios of RK4 to harmonic balance with 6, 8 and 10 harmonics:" +

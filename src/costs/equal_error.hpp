@@ -8,7 +8,6 @@ repeated, and the one with the least median is the row. */
 #pragma once
 
 #include "costs/timed_method.hpp"
-#include "io/table.hpp"
 
 namespace rotor_stator::costs {
 

@@ -30,13 +30,19 @@ namespace {
 /** Instants at which motions are compared. */
 constexpr int points = 1024;
 
+/** A solution with m harmonics. */
+struct SampledSolution {
+  Eigen::VectorXd x;  ///< coefficients of u [m]
+  motion::Motion motion;
+};
+
 SampledSolution of_found(const SamplingCase& at, int m, int samples,
                          const PeriodicMotion& solution)
 {
   if (!solution.found())
     throw NoSolution(format("%s at %g Hz: no solution with m = %d, N = %d",
                             at.machine.file.c_str(), at.frequency, m, samples));
-  return {m, solution.x, motion::motion_of(body_series(at.machine, solution), points)};
+  return {solution.x, motion::motion_of(body_series(at.machine, solution), points)};
 }
 
 /** By Newton from `start`. */
@@ -73,36 +79,31 @@ const std::vector<Field<Row>> sampling_fields{
 
 }  // namespace
 
-SampledSolution reference_solution(const SamplingCase& at, int harmonics)
+std::vector<SamplingPoint> sampling_errors(const SamplingScene& scene,
+                                           const SamplingCase& at)
 {
-  const int samples = default_samples(harmonics);
-  return of_found(
-      at, harmonics, samples,
-      motion::search_periodic({at.machine, angular(at.frequency), harmonics, samples}));
-}
-
-SampledSolution finely_sampled(const SamplingCase& at, int harmonics, int fine_over_m,
-                               const SampledSolution& reference)
-{
-  return sampled(at, harmonics, fast_transform_size(fine_over_m * harmonics + 1),
-                 reference);
-}
-
-SamplingPoint sampling_errors(const SamplingCase& at, int samples_over_m,
-                              const SampledSolution& fine,
-                              const SampledSolution& reference)
-{
-  const int m = fine.harmonics, samples = fast_transform_size(samples_over_m * m + 1);
-  SamplingPoint point{at, m, samples_over_m, samples};
-  point.truncation.add(at.machine, at.frequency, fine.motion, reference.motion);
-  try {
-    const SampledSolution coarse = sampled(at, m, samples, fine);
-    point.sampling.add(at.machine, at.frequency, coarse.motion, fine.motion);
-    point.found = true;
-  } catch (const NoSolution&) {
-    // too few samples
+  const motion::Search search{at.machine, angular(at.frequency),
+                              scene.reference_harmonics};
+  const SampledSolution reference =
+      of_found(at, search.harmonics, search.samples, motion::search_periodic(search));
+  std::vector<SamplingPoint> points;
+  for (int m : scene.harmonics) {
+    const SampledSolution fine =
+        sampled(at, m, fast_transform_size(scene.fine_over_m * m + 1), reference);
+    for (int over : scene.samples_over_m) {
+      SamplingPoint& point = points.emplace_back(
+          SamplingPoint{at, m, over, fast_transform_size(over * m + 1)});
+      point.truncation.add(at.machine, at.frequency, fine.motion, reference.motion);
+      try {
+        const SampledSolution coarse = sampled(at, m, point.samples, fine);
+        point.sampling.add(at.machine, at.frequency, coarse.motion, fine.motion);
+        point.found = true;
+      } catch (const NoSolution&) {
+        // too few samples
+      }
+    }
   }
-  return point;
+  return points;
 }
 
 Table sampling_table(const SamplingScene& scene, const std::vector<SamplingPoint>& points)

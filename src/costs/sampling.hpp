@@ -6,7 +6,6 @@ is that of this one against many more harmonics. */
 #pragma once
 
 #include "costs/true_motion.hpp"
-#include "io/table.hpp"
 #include "io/toml_file.hpp"
 
 namespace rotor_stator::costs {
@@ -28,20 +27,6 @@ struct SamplingScene {
 
 SamplingScene read_sampling(SceneFile& file);
 
-/** A solution with m harmonics. */
-struct SampledSolution {
-  int harmonics;
-  Eigen::VectorXd x;  ///< coefficients of u [m]
-  motion::Motion motion;
-};
-
-/** With many harmonics and their default N. Throws NoSolution when not found. */
-SampledSolution reference_solution(const SamplingCase& at, int harmonics);
-
-/** With N above `fine_over_m` times m, from the reference. Throws NoSolution when not found. */
-SampledSolution finely_sampled(const SamplingCase& at, int harmonics, int fine_over_m,
-                               const SampledSolution& reference);
-
 /** A solution with N the next fast size from `samples_over_m` times m, plus one. */
 struct SamplingPoint : SamplingCase {
   int harmonics, samples_over_m, samples;
@@ -50,10 +35,10 @@ struct SamplingPoint : SamplingCase {
   MotionError truncation = {};  ///< of that m, finely sampled
 };
 
-/** The errors of the finely sampled solution's m with fewer samples. */
-SamplingPoint sampling_errors(const SamplingCase& at, int samples_over_m,
-                              const SampledSolution& fine,
-                              const SampledSolution& reference);
+/** The errors of one case, with every m and N of the scene. Throws NoSolution when the reference or a finely
+    sampled solution is not found. */
+std::vector<SamplingPoint> sampling_errors(const SamplingScene& scene,
+                                           const SamplingCase& at);
 
 /** One row per machine and speed, number of harmonics and number of samples. */
 Table sampling_table(const SamplingScene& scene,

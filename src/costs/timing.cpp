@@ -127,8 +127,7 @@ Table timing_table(const TimingScene& scene, const References& references,
   table.note(format("modelled: %zu speeds from %g to %g Hz; %d repetitions",
                     scene.frequencies.size(), scene.frequencies.front(),
                     scene.frequencies.back(), scene.repetitions));
-  table.note(references.text(scene.truth));
-  table.note(references.aperiodic());
+  references.describe(table, scene.truth);
   for (std::size_t k = 0; k < balances.size(); ++k) {
     const int m = balances[k].setting.harmonics;
     const double ratio = rk4[k].median / balances[k].median;

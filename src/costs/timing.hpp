@@ -6,7 +6,6 @@ from the static load; of its settings those with the fewest steps are the cheape
 #pragma once
 
 #include "costs/timed_method.hpp"
-#include "io/table.hpp"
 
 namespace rotor_stator::costs {
 

@@ -83,21 +83,17 @@ References true_motions(const Parameters& parameters,
   return references;
 }
 
-std::string References::text(const TruthSettings& settings) const
+void References::describe(Table& table, const TruthSettings& settings) const
 {
-  return format(
-      "reference: shooting by rk8pd, tolerance %g, closure below %.2g, "
-      "from time integration by %s with Poincare spread below %.2g",
-      settings.tolerance, periodicity_residual, settings.settling.stepper.method.c_str(),
-      spread);
-}
-
-std::string References::aperiodic() const
-{
+  table.note(
+      format("reference: shooting by rk8pd, tolerance %g, closure below %.2g, "
+             "from time integration by %s with Poincare spread below %.2g",
+             settings.tolerance, periodicity_residual,
+             settings.settling.stepper.method.c_str(), spread));
   std::string list;
   for (std::size_t k = 0; k < frequencies.size(); ++k)
     if (!motions[k]) list += format(" %g", frequencies[k]);
-  return "not T-periodic, no reference [Hz]:" + (list.empty() ? " none" : list);
+  table.note("not T-periodic, no reference [Hz]:" + (list.empty() ? " none" : list));
 }
 
 void MotionError::add(const Parameters& parameters, double frequency,

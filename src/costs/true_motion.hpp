@@ -7,6 +7,7 @@ with many harmonics, which shares neither the discretisation nor the iteration w
 shooting, says how far both can be trusted. */
 #pragma once
 
+#include "io/table.hpp"
 #include "motion/motion.hpp"
 
 namespace rotor_stator::costs {
@@ -55,9 +56,8 @@ struct References : Task {
       motions;  ///< none where the motion has not the period T
   double spread = 0, periodicity_residual = 0;  ///< largest of the others [-]
 
-  /** For headers: how the motions were found, and where there is none. */
-  std::string text(const TruthSettings& settings) const;
-  std::string aperiodic() const;
+  /** In a header: how the motions were found, and where there is none. */
+  void describe(Table& table, const TruthSettings& settings) const;
 };
 
 /** Throws NoSolution as `true_motion` does. */

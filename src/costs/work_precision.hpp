@@ -10,7 +10,6 @@ one takes in the same run. */
 #include <cmath>
 
 #include "costs/timed_method.hpp"
-#include "io/table.hpp"
 
 namespace rotor_stator::costs {
 

@@ -22,7 +22,7 @@ namespace rotor_stator {
 
 /** The mean of a series and its standard error. */
 struct BatchMean {
-  double value, error;
+  double value, error = 0;
 };
 
 /** The error is that of the means of at most ten batches of neighbours. */

@@ -6,7 +6,6 @@
 #include "io/errors.hpp"
 #include "motion/contact.hpp"
 #include "motion/other_starts.hpp"
-#include "stability/lyapunov.hpp"
 
 namespace rotor_stator::studies {
 
@@ -142,8 +141,7 @@ OrbitSize orbit_size(const motion::Motion& motion)
     }
     for (std::size_t k = 0; k < values.size(); k += period)
       sizes.push_back(0.5 * (crest(values, k, period) + crest(mirrored, k, period)));
-    const auto [mean, error] = batch_mean(sizes);
-    return {mean, error};
+    return batch_mean(sizes);
   };
   return {mean_size(&Vec2::x), mean_size(&Vec2::y)};
 }

@@ -9,6 +9,7 @@ found by the method that is asked for and nothing else is kept. */
 
 #include "continuation/sweep.hpp"
 #include "motion/motion.hpp"
+#include "stability/lyapunov.hpp"
 
 namespace rotor_stator::studies {
 
@@ -22,10 +23,7 @@ struct Model {
 
 /** A number, and how far off it may be: half the distance of two speeds, or the standard
    error of a mean. */
-struct Measured {
-  double value;
-  double uncertainty = 0;
-};
+using Measured = BatchMean;
 
 /** The largest amplitude of x_r by harmonic balance swept up over `frequencies` [Hz], equally
    spaced; then on a finer grid about it, whose vertex is that of a parabola. Throws NoSolution

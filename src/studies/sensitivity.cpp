@@ -158,7 +158,7 @@ constexpr Get value = [](const Point& p) -> Cell {
 };
 template <Output output>
 constexpr Get error = [](const Point& p) -> Cell {
-  return p.outputs[output] ? p.outputs[output]->uncertainty : 0;
+  return p.outputs[output] ? p.outputs[output]->error : 0;
 };
 
 const std::vector<Field<Point>> fields{
@@ -240,8 +240,7 @@ NormalisedDerivative difference(const Point& low, const Point& high, Output outp
   const Measured &a = *low.outputs[output], &b = *high.outputs[output];
   const double span = std::log(high.value / low.value);
   derivative.slope.value = std::log(b.value / a.value) / span;
-  derivative.slope.uncertainty =
-      (a.uncertainty / a.value + b.uncertainty / b.value) / span;
+  derivative.slope.error = (a.error / a.value + b.error / b.value) / span;
   return derivative;
 }
 
@@ -255,7 +254,7 @@ const std::vector<Field<Derivative>> derivative_fields{
      [](auto& d) { return d.slope.value; }},
     {"uncertainty", "-",
      "from the errors of loss of contact and of the mean over periods",
-     [](auto& d) { return d.slope.uncertainty; }},
+     [](auto& d) { return d.slope.error; }},
     {"low", "see unit", "value of the parameter at one end of the difference",
      &Derivative::low},
     {"high", "see unit", "and at the other", &Derivative::high},

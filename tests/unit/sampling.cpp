@@ -130,16 +130,13 @@ TEST_CASE(
 TEST_CASE("Up to 64 harmonics the default N samples finer than the series is truncated")
 {
   const Parameters set_2 = read_parameters(SOURCE_DIR "/data/set2.toml");
+  const SamplingScene scene{.harmonics = {6, 64},
+                            .samples_over_m = {3, 8},
+                            .fine_over_m = 128,
+                            .reference_harmonics = 256};
   std::vector<SamplingPoint> points;
-  for (const SamplingCase& at :
-       {SamplingCase{1, set_1(), 6}, SamplingCase{2, set_2, 45}}) {
-    const SampledSolution reference = reference_solution(at, 256);
-    for (int m : {6, 64}) {
-      const SampledSolution fine = finely_sampled(at, m, 128, reference);
-      for (int over : {3, 8})
-        points.push_back(sampling_errors(at, over, fine, reference));
-    }
-  }
+  for (const SamplingCase& at : {SamplingCase{1, set_1(), 6}, SamplingCase{2, set_2, 45}})
+    for (const SamplingPoint& point : sampling_errors(scene, at)) points.push_back(point);
   REQUIRE(points.size() == 8);
   for (const SamplingPoint& p : points) {
     INFO("m = " << p.harmonics << ", N = " << p.samples);

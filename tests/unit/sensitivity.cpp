@@ -91,7 +91,7 @@ TEST_CASE("Contact is lost in the band of Fig. 3, and never where gravity holds 
   CHECK(loss->first.value < 13);
   CHECK(loss->last.value > 14);
   CHECK(loss->last.value < 15);
-  CHECK(loss->first.uncertainty == Approx(0.5));
+  CHECK(loss->first.error == Approx(0.5));
 
   Model quiet = s.usual;
   quiet.machine.unbalance /= 10;
@@ -108,7 +108,7 @@ TEST_CASE(
   const OrbitSize size = orbit_size(motion);
   CHECK(size.x.value == Approx(3).epsilon(1e-5));
   CHECK(size.y.value == Approx(1).epsilon(1e-5));
-  CHECK(size.x.uncertainty < 1e-12);
+  CHECK(size.x.error < 1e-12);
 }
 
 TEST_CASE("Masses are varied as said: the total at fixed ratio, the ratio at fixed total")
@@ -137,7 +137,7 @@ TEST_CASE("Normalised derivatives of a power law are its exponents")
   CHECK(derivatives[1].slope.value == Approx(-0.5));
   CHECK(derivatives[1].low == 1);
   CHECK(derivatives[1].high == 2);
-  CHECK(derivatives[1].slope.uncertainty > 1e-3);
+  CHECK(derivatives[1].slope.error > 1e-3);
 }
 
 /** Would catch a number that is computed for another point, or at two. */
