@@ -188,49 +188,38 @@ Computed computed(const Parameters& parameters, const MotionRequest& request, in
 /** A table of this length takes about a second and 0.4 GB to write. */
 constexpr int most_contact_rows = 1 << 20;
 
-struct OrbitRow {
-  double phase;
-  Bodies position;
-  Vec2 force;
-};
+const std::vector<Column> orbit_columns{{"phase", "rad", "omega t, modulo 2 pi"},
+                                        {"x_s", "m", "stator"},
+                                        {"y_s", "m", "stator"},
+                                        {"x_r", "m", "rotor"},
+                                        {"y_r", "m", "rotor"},
+                                        {"F_x", "N", "Eq. 6, on the stator"},
+                                        {"F_y", "N", "Eq. 6, on the stator"}};
 
-const std::vector<Field<OrbitRow>> orbit_fields{
-    {"phase", "rad", "omega t, modulo 2 pi", &OrbitRow::phase},
-    {"x_s", "m", "stator", [](auto& r) { return r.position.stator.x; }},
-    {"y_s", "m", "stator", [](auto& r) { return r.position.stator.y; }},
-    {"x_r", "m", "rotor", [](auto& r) { return r.position.rotor.x; }},
-    {"y_r", "m", "rotor", [](auto& r) { return r.position.rotor.y; }},
-    {"F_x", "N", "Eq. 6, on the stator", [](auto& r) { return r.force.x; }},
-    {"F_y", "N", "Eq. 6, on the stator", [](auto& r) { return r.force.y; }}};
-
-struct ContactRow {
-  double t_over_period;
-  std::size_t ball;
-  double force;
-};
-
-const std::vector<Field<ContactRow>> contact_fields{
-    {"t_over_T", "-", "time over the period, 0 to 2", &ContactRow::t_over_period},
-    {"ball", "-", "j of Eq. 3", &ContactRow::ball},
-    {"Q", "N", "Eq. 5, force of the ball", &ContactRow::force}};
+const std::vector<Column> contact_columns{
+    {"t_over_T", "-", "time over the period, 0 to 2"},
+    {"ball", "-", "j of Eq. 3"},
+    {"Q", "N", "Eq. 5, force of the ball"}};
 
 }  // namespace
 
 Exploration explore_orbit(const MotionRequest& request)
 {
-  Table table("Orbit of rotor and stator over one period", orbit_fields);
+  Table table("Orbit of rotor and stator over one period", orbit_columns);
   const Parameters parameters = read_parameters(request.parameter_file);
   const Computed at = computed(parameters, request, 1, table);
-  for (std::size_t k = 0; k < at.motion.size(); ++k)
-    table.row(orbit_fields, {2 * std::numbers::pi * at.motion.t_over_period(k),
-                             at.motion.positions[k], at.forces[k]});
+  for (std::size_t k = 0; k < at.motion.size(); ++k) {
+    const auto& [stator, rotor] = at.motion.positions[k];
+    table.row({2 * std::numbers::pi * at.motion.t_over_period(k), stator.x, stator.y,
+               rotor.x, rotor.y, at.forces[k].x, at.forces[k].y});
+  }
   conclude(table, parameters, at.touches(), at.budget);
   return {std::move(table)};
 }
 
 Exploration explore_contact(const MotionRequest& request)
 {
-  Table table("Contact of every ball over two periods", contact_fields);
+  Table table("Contact of every ball over two periods", contact_columns);
   const Parameters parameters = read_parameters(request.parameter_file);
   const int most_points = most_contact_rows / (2 * parameters.bearing.balls);
   if (request.points > most_points)
@@ -240,8 +229,7 @@ Exploration explore_contact(const MotionRequest& request)
   const auto evolution = motion::contact_evolution(parameters, at.motion);
   for (std::size_t k = 0; k < evolution.t_over_period.size(); ++k)
     for (std::size_t j = 0; j < evolution.ball_force[k].size(); ++j)
-      table.row(contact_fields,
-                {evolution.t_over_period[k], j + 1, evolution.ball_force[k][j]});
+      table.row({evolution.t_over_period[k], j + 1, evolution.ball_force[k][j]});
   conclude(table, parameters, at.touches(), at.budget);
   return {std::move(table)};
 }

@@ -191,15 +191,8 @@ const std::vector<Field<Point>> fields{
        return std::string(peak_by_integration(p.parameter) ? "rk4" : "aft");
      }}};
 
-/** The columns of an output and, from `f_loss_first` to `amp_y`, of its error stand in its order. */
-const std::string& name_of(int output)
-{
-  return fields[4 + output].name;
-}
-const std::string& name_of_error(int output)
-{
-  return fields[12 + output - f_loss_first].name;
-}
+/** The columns of the outputs and, from `f_loss_first` to `amp_y`, of their errors stand in their order. */
+constexpr int first_output = 4, first_error = 12;
 
 void describe(Table& table, const SensitivityScene& scene)
 {
@@ -249,7 +242,7 @@ const std::vector<Field<Derivative>> derivative_fields{
     {"parameter", "word", parameter_meaning,
      [](auto& d) { return label(d.parameter).name; }},
     {"output", "word", "a column of sensitivity.tsv",
-     [](auto& d) { return name_of(d.output); }},
+     [](auto& d) { return fields[first_output + d.output].name; }},
     {"derivative", "-", "d ln(output)/d ln(parameter) at the default",
      [](auto& d) { return d.slope.value; }},
     {"uncertainty", "-",
@@ -289,11 +282,12 @@ std::vector<Point> read_sensitivity(const SensitivityScene& scene,
         std::abs(read.at(k, "value") - points[k].value) > 1e-9 * points[k].value)
       throw BadInput(table + ": is not the table of this scene");
     for (int output = 0; output < output_count; ++output) {
-      const double value = read.at(k, name_of(output));
+      const double value = read.at(k, fields[first_output + output].name);
       if (value < 0) continue;
       const bool has_error = output >= f_loss_first && output <= amp_y;
-      points[k].outputs[output] =
-          Measured{value, has_error ? read.at(k, name_of_error(output)) : 0};
+      points[k].outputs[output] = Measured{
+          value,
+          has_error ? read.at(k, fields[first_error + output - f_loss_first].name) : 0};
     }
   }
   return points;

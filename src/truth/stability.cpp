@@ -29,24 +29,6 @@ StabilityScene read_stability_scene(SceneFile& file)
 
 namespace {
 
-StabilityPoint shown(const Parameters& machine, FourierTransform& transform,
-                     const StablePoint& p)
-{
-  const PeriodicMotion& solution = p.point.motion;
-  StabilityPoint point{.branch = {},
-                       .frequency = solution.omega / angular(1),
-                       .arc = p.point.arc,
-                       .bifurcation = p.bifurcation};
-  Eigen::Map<Eigen::Vector4d>(point.amplitude.data()) =
-      half_peak_to_peak(body_series(machine, solution), transform);
-  if (!p.examined()) return point;
-  point.largest = p.floquet.largest();
-  point.uncertainty = p.floquet.uncertainty();
-  point.settled = p.floquet.settled;
-  point.stable = p.floquet.stable_number();
-  return point;
-}
-
 /** Whether a point without multipliers can be left out after `before`: no eye would miss it. */
 bool dispensable(const StabilityPoint& point, const StabilityPoint& before)
 {
@@ -65,10 +47,10 @@ std::vector<StabilityPoint> follow(const StabilityScene& scene,
 {
   const Parameters& machine = scene.sets[curve.set - 1];
   const int samples = default_samples(curve.harmonics);
-  StabilityBranch summary{.curve = curve, .from = from};
+  StabilityBranch summary{curve, from};
   const PeriodicMotion start =
       motion::search_periodic({machine, angular(from), curve.harmonics, samples});
-  if (!start.found()) return {{.branch = summary}};
+  if (!start.found()) return {{summary}};
   Balance balance(bearing_problem(machine, samples), curve.harmonics);
   ArcLengthSettings settings = arc_length_settings(machine);
   settings.most_evaluations = scene.most_evaluations;
@@ -86,13 +68,24 @@ std::vector<StabilityPoint> follow(const StabilityScene& scene,
   summary.passed = static_cast<int>(branch.points.size());
   FourierTransform transform = amplitude_transform(curve.harmonics);
   std::vector<StabilityPoint> points;
-  for (const StablePoint& point : stability.points) {
-    const StabilityPoint next = shown(machine, transform, point);
+  for (const StablePoint& at : stability.points) {
+    StabilityPoint next{summary};
+    next.frequency = at.point.motion.omega / angular(1);
+    next.arc = at.point.arc;
+    next.bifurcation = at.bifurcation;
+    Eigen::Map<Eigen::Vector4d>(next.amplitude.data()) =
+        half_peak_to_peak(body_series(machine, at.point.motion), transform);
+    if (at.examined()) {
+      next.largest = at.floquet.largest();
+      next.uncertainty = at.floquet.uncertainty();
+      next.settled = at.floquet.settled;
+      next.stable = at.floquet.stable_number();
+    }
     summary.low = std::min(summary.low, next.frequency);
     summary.high = std::max(summary.high, next.frequency);
     if (points.empty() || !dispensable(next, points.back())) points.push_back(next);
   }
-  for (StabilityPoint& point : points) point.branch = summary;
+  for (StabilityPoint& point : points) static_cast<StabilityBranch&>(point) = summary;
   return points;
 }
 
@@ -102,7 +95,7 @@ std::vector<StabilityPoint> follow_stability(const StabilityScene& scene,
                                              const StabilityCurve& curve)
 {
   std::vector<StabilityPoint> points = follow(scene, curve, scene.from, scene.to);
-  if (points.front().branch.end != BranchEnd::goal)
+  if (points.front().end != BranchEnd::goal)
     for (const StabilityPoint& point : follow(scene, curve, scene.to, scene.from))
       points.push_back(point);
   return points;
@@ -120,10 +113,10 @@ const char* const ends[] = {
 /** What the branch of these points came to, in a line of the header. */
 std::string summary(int number, const std::vector<StabilityPoint>& points)
 {
-  const StabilityBranch& branch = points.front().branch;
-  const int m = branch.curve.harmonics;
+  const StabilityBranch& branch = points.front();
+  const int m = branch.harmonics;
   const std::string name = format("curve %d: set %d, m = %d, N = %d, from %g Hz", number,
-                                  branch.curve.set, m, default_samples(m), branch.from);
+                                  branch.set, m, default_samples(m), branch.from);
   if (!branch.found) return name + ": no solution found there";
   const auto count = [&](Bifurcation kind) {
     return std::count_if(points.begin(), points.end(),
@@ -153,9 +146,9 @@ struct Row : StabilityPoint {
 };
 
 const std::vector<Field<Row>> fields{
-    {"set", "-", "data set", [](auto& p) { return p.branch.curve.set; }},
+    {"set", "-", "data set", &Row::set},
     {"curve", "-", "counts the branches, in the order of the scene", &Row::number},
-    {"harmonics", "-", "m", [](auto& p) { return p.branch.curve.harmonics; }},
+    {"harmonics", "-", "m", &Row::harmonics},
     {"f", "Hz", "speed of rotation", [](auto& p) { return rounded(p.frequency, 12); }},
     {"amp_x_s", "m", "half peak-to-peak of x_s",
      [](auto& p) { return rounded(p.amplitude[0], 7); }},
@@ -197,12 +190,11 @@ Table stability_table(const StabilityScene& scene,
   int number = 0;
   for (const auto& of_curve : points)
     for (auto first = of_curve.begin(); first != of_curve.end();) {
-      const auto last = std::find_if(first, of_curve.end(), [&](auto& p) {
-        return p.branch.from != first->branch.from;
-      });
+      const auto last = std::find_if(first, of_curve.end(),
+                                     [&](auto& p) { return p.from != first->from; });
       table.note(summary(++number, {first, last}));
       for (; first != last; ++first)
-        if (first->branch.found) table.row(fields, {*first, number});
+        if (first->found) table.row(fields, {*first, number});
       table.gap();
     }
   return table;

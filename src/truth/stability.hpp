@@ -36,8 +36,7 @@ struct StabilityScene {
 StabilityScene read_stability_scene(SceneFile& file);
 
 /** How a branch of a curve was followed. */
-struct StabilityBranch {
-  StabilityCurve curve;
+struct StabilityBranch : StabilityCurve {
   double from;         ///< [Hz]
   bool found = false;  ///< a solution to begin with
   BranchEnd end = BranchEnd::step;
@@ -47,8 +46,7 @@ struct StabilityBranch {
   double low = from, high = from;  ///< the speeds between which it was followed [Hz]
 };
 
-struct StabilityPoint {
-  StabilityBranch branch;
+struct StabilityPoint : StabilityBranch {
   double frequency = 0;                  ///< [Hz]
   std::array<double, 4> amplitude = {};  ///< of x_s, y_s, x_r, y_r: half peak-to-peak [m]
   double arc = 0;                        ///< scaled arc length [-]
