@@ -33,17 +33,7 @@ int main(int argc, char** argv)
     const truth::AdaptiveScene scene = truth::read_adaptive_scene(file);
     const auto points = run_study<truth::AdaptivePoint>(
         {"speeds", options["--journal"], stamp_of(file.files()), scene.speeds.size()},
-        [&](std::size_t k) {
-          const auto& [set, frequency] = scene.speeds[k];
-          const Parameters& machine = scene.sets[set - 1];
-          std::vector<AdaptiveMotion> solutions;
-          for (double tolerance : scene.tolerances)
-            solutions.push_back(motion::solve_adaptively(machine, angular(frequency),
-                                                         {.tolerance = tolerance}));
-          const motion::Motion exact =
-              truth::exact_motion(machine, truth::most_accurate(solutions));
-          return truth::judged(scene, k, solutions, exact);
-        });
+        [&](std::size_t k) { return truth::judged(scene, k); });
     return truth::adaptive_table(scene, points);
   });
 }

@@ -20,6 +20,7 @@ all. The score cannot prove a reading; it says how well the text describes each.
 Modelled: the integrated motion of every candidate at 60 speeds, judged by data/claims.toml. Finished candidates
 are kept in a journal: an interrupted run goes on where it was. */
 #include "studies/identification.hpp"
+#include "io/errors.hpp"
 #include "io/journal.hpp"
 #include "io/program.hpp"
 
@@ -38,9 +39,16 @@ int main(int argc, char** argv)
          scene.candidates.size()},
         [&](std::size_t k) {
           std::vector<motion::Regime> regimes;
-          for (double frequency : scene.frequencies)
-            regimes.push_back(
-                studies::regime_or_none(scene.candidates[k], frequency, scene.settings));
+          for (double frequency : scene.frequencies) {
+            motion::Regime& regime = regimes.emplace_back();
+            regime.frequency = frequency;
+            try {
+              regime = motion::regime_at(scene.candidates[k].machine, frequency,
+                                         scene.settings);
+            } catch (const NoSolution&) {
+              // where integration breaks down aperiodic, without contact
+            }
+          }
           return std::vector{studies::score(regimes, scene.rule)};
         });
     return studies::identification_table(scene, options["--claims"], scores);

@@ -72,23 +72,18 @@ EqualErrorRow cheapest(const EqualErrorScene& scene, const References& range,
                        const std::vector<Measurement>& tried, double target,
                        const std::vector<EqualErrorRow>& rows)
 {
-  const auto cheaper = [](const Measurement& a, const Measurement& b) {
-    return a.median < b.median;
-  };
-  const auto nearer = [](const Measurement& a, const Measurement& b) {
-    return a.displacement < b.displacement;
-  };
   std::vector<Measurement> good = tried;
   std::erase_if(good, [&](auto& m) { return !(m.displacement <= target); });
-  std::sort(good.begin(), good.end(), cheaper);
+  std::ranges::sort(good, {}, &Measurement::median);
   constexpr std::size_t few = 2;
   good.resize(std::min(good.size(), few));
   for (Measurement& m : good) {
     const int most = m.median > scene.long_run ? 3 : scene.repetitions;
     m = measure(range, m.setting, std::min(most, scene.repetitions));
   }
-  EqualErrorRow row{good.empty() ? *std::min_element(tried.begin(), tried.end(), nearer)
-                                 : *std::min_element(good.begin(), good.end(), cheaper),
+  EqualErrorRow row{good.empty()
+                        ? *std::ranges::min_element(tried, {}, &Measurement::displacement)
+                        : *std::ranges::min_element(good, {}, &Measurement::median),
                     format("%g-%g", range.frequencies.front(), range.frequencies.back()),
                     range.frequencies.size(),
                     tried.size(),

@@ -47,9 +47,7 @@ TimingScene read_timing(SceneFile& file)
                rk4.recorded * std::ceil(1 / (f * rk4.step * rk4.recorded));
     return steps;
   };
-  std::sort(scene.rk4.begin(), scene.rk4.end(), [&](const Setting& a, const Setting& b) {
-    return steps_on_sweep(a) < steps_on_sweep(b);
-  });
+  std::ranges::sort(scene.rk4, {}, steps_on_sweep);
   toml.refuse_unknown_keys();
   return scene;
 }

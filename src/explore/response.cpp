@@ -224,8 +224,7 @@ Others others(const Task& task, Balance& balance, const Branch& main, Table& tab
 void note(Table& table, const std::string& prefix, const BranchStability& stability)
 {
   const auto count = [&](Bifurcation kind) {
-    return std::count_if(stability.points.begin(), stability.points.end(),
-                         [&](const StablePoint& p) { return p.bifurcation == kind; });
+    return std::ranges::count(stability.points, kind, &StablePoint::bifurcation);
   };
   table.note(
       prefix +
@@ -251,8 +250,7 @@ std::string missing_in(const BranchStability& stability, const OperationBudget& 
                      "missing, %d were seen and not located",
                      stability.missed)
                : "";
-  const auto first = std::find_if(stability.points.begin(), stability.points.end(),
-                                  [](const StablePoint& p) { return !p.examined(); });
+  const auto first = std::ranges::find(stability.points, false, &StablePoint::examined);
   return format("no multipliers at %d of %zu points, the first at %.6g Hz: %s",
                 stability.failed, stability.points.size(),
                 first->point.motion.omega / angular(1), stability.failure.c_str());

@@ -30,9 +30,7 @@ CurvePoint highest(const Model& model, std::vector<double> frequencies,
 {
   constexpr int finer = 4;
   const auto inner_top = [&](const std::vector<CurvePoint>& curve) {
-    const auto top = std::max_element(
-        curve.begin(), curve.end(),
-        [](const auto& a, const auto& b) { return a.amplitude < b.amplitude; });
+    const auto top = std::ranges::max_element(curve, {}, &CurvePoint::amplitude);
     if (top == curve.begin() || top + 1 == curve.end())
       throw NoSolution(model.machine.file +
                        ": the largest amplitude is at an end of the speeds looked at");

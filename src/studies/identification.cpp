@@ -64,18 +64,6 @@ IdentificationScene read_identification_scene(const std::string& file,
   return scene;
 }
 
-motion::Regime regime_or_none(const Candidate& candidate, double frequency,
-                              const motion::RegimeSettings& settings)
-{
-  try {
-    return motion::regime_at(candidate.machine, frequency, settings);
-  } catch (const NoSolution&) {
-    motion::Regime broken{};
-    broken.frequency = frequency;
-    return broken;
-  }
-}
-
 ClaimScore score(const std::vector<motion::Regime>& regimes, const ClaimRule& rule)
 {
   using motion::Regime;

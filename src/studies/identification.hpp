@@ -37,11 +37,6 @@ struct IdentificationScene {
 IdentificationScene read_identification_scene(const std::string& file,
                                               const std::string& claims);
 
-/** The regime of a candidate at one speed; where integration breaks down aperiodic, without
-    contact. */
-motion::Regime regime_or_none(const Candidate& candidate, double frequency,
-                              const motion::RegimeSettings& settings);
-
 /** Shares of the speeds of one range [-]. */
 struct RangeShares {
   double permanent_contact, periodic, simple;

@@ -1,6 +1,7 @@
 #include "truth/adaptive.hpp"
 
 #include <algorithm>
+#include <limits>
 
 #include "io/errors.hpp"
 #include "motion/find_periodic.hpp"
@@ -37,16 +38,6 @@ motion::Motion exact_motion(const Parameters& machine, const PeriodicMotion& sol
   const TimeStepper stepper = make_stepper(
       machine, solution.omega, {.intervals_per_period = points, .tolerance = tolerance});
   return motion::recorded(stepper, points, state);
-}
-
-PeriodicMotion most_accurate(const std::vector<AdaptiveMotion>& solutions)
-{
-  const auto best = std::min_element(
-      solutions.begin(), solutions.end(), [](const auto& a, const auto& b) {
-        return a.reached && (!b.reached ||
-                             a.motion.error->displacement < b.motion.error->displacement);
-      });
-  return best->reached ? best->motion : PeriodicMotion{};
 }
 
 namespace {
@@ -101,12 +92,21 @@ void add_best_fixed(const Parameters& machine, double omega, const motion::Motio
 
 }  // namespace
 
-std::vector<AdaptivePoint> judged(const AdaptiveScene& scene, std::size_t speed,
-                                  const std::vector<AdaptiveMotion>& solutions,
-                                  const motion::Motion& exact)
+std::vector<AdaptivePoint> judged(const AdaptiveScene& scene, std::size_t speed)
 {
   const auto [set, frequency] = scene.speeds[speed];
   const Parameters& machine = scene.sets[set - 1];
+  std::vector<AdaptiveMotion> solutions;
+  for (double tolerance : scene.tolerances)
+    solutions.push_back(
+        motion::solve_adaptively(machine, angular(frequency), {.tolerance = tolerance}));
+  /** The one with the least estimate of those that reached their tolerance. */
+  const auto best = std::ranges::min_element(solutions, {}, [](const auto& solution) {
+    return solution.reached ? solution.motion.error->displacement
+                            : std::numeric_limits<double>::infinity();
+  });
+  const motion::Motion exact =
+      exact_motion(machine, best->reached ? best->motion : PeriodicMotion{});
   std::vector<AdaptivePoint> points;
   for (std::size_t k = 0; k < solutions.size(); ++k) {
     const auto& [solution, cost, reached, end] = solutions[k];

@@ -46,13 +46,8 @@ struct AdaptivePoint {
 motion::Motion exact_motion(const Parameters& machine, const PeriodicMotion& solution,
                             int points = 2048);
 
-/** The one with the least estimate of those that reached their tolerance; not found if none did. */
-PeriodicMotion most_accurate(const std::vector<AdaptiveMotion>& solutions);
-
 /** The solutions for the tolerances of a speed beside the exact motion and the ladder of fixed m. */
-std::vector<AdaptivePoint> judged(const AdaptiveScene& scene, std::size_t speed,
-                                  const std::vector<AdaptiveMotion>& solutions,
-                                  const motion::Motion& exact);
+std::vector<AdaptivePoint> judged(const AdaptiveScene& scene, std::size_t speed);
 
 Table adaptive_table(const AdaptiveScene& scene,
                      const std::vector<std::vector<AdaptivePoint>>& points);

@@ -119,11 +119,9 @@ std::string summary(int number, const std::vector<StabilityPoint>& points)
                                   branch.set, m, default_samples(m), branch.from);
   if (!branch.found) return name + ": no solution found there";
   const auto count = [&](Bifurcation kind) {
-    return std::count_if(points.begin(), points.end(),
-                         [&](auto& p) { return p.bifurcation == kind; });
+    return std::ranges::count(points, kind, &StabilityPoint::bifurcation);
   };
-  const auto examined =
-      std::count_if(points.begin(), points.end(), [](auto& p) { return p.examined(); });
+  const auto examined = std::ranges::count_if(points, &StabilityPoint::examined);
   return name + format(
                     ": followed between %.6g and %.6g Hz, %d points, multipliers at %zd, "
                     "not had at %d; %zd folds, %zd plus-one, %zd period doublings, %zd "
