@@ -163,8 +163,7 @@ struct Computed {
 
   bool touches() const
   {
-    return std::any_of(forces.begin(), forces.end(),
-                       [](Vec2 f) { return f.x != 0 || f.y != 0; });
+    return std::ranges::any_of(forces, [](Vec2 f) { return f.x != 0 || f.y != 0; });
   }
 };
 

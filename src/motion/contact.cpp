@@ -7,8 +7,8 @@ namespace rotor_stator::motion {
 double contact_share(const Parameters& parameters, const Motion& motion)
 {
   const auto forces = bearing_forces(parameters, motion);
-  const auto loaded = std::count_if(forces.begin(), forces.end(),
-                                    [](Vec2 f) { return f.x != 0 || f.y != 0; });
+  const auto loaded =
+      std::ranges::count_if(forces, [](Vec2 f) { return f.x != 0 || f.y != 0; });
   return static_cast<double>(loaded) / static_cast<double>(forces.size());
 }
 

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <limits>
 #include <numbers>
+#include <ranges>
 
 #include "balance/fourier_transform.hpp"
 
@@ -84,12 +85,10 @@ Displacements half_peak_to_peak(const Motion& motion)
 {
   Displacements amplitude;
   for (int i = 0; i < 4; ++i) {
-    const auto [low, high] =
-        std::minmax_element(motion.positions.begin(), motion.positions.end(),
-                            [i](const Bodies& a, const Bodies& b) {
-                              return displacements(a)[i] < displacements(b)[i];
-                            });
-    amplitude[i] = 0.5 * (displacements(*high)[i] - displacements(*low)[i]);
+    const auto [low, high] = std::ranges::minmax(
+        motion.positions |
+        std::views::transform([i](const Bodies& q) { return displacements(q)[i]; }));
+    amplitude[i] = 0.5 * (high - low);
   }
   return amplitude;
 }

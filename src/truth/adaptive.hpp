@@ -30,12 +30,11 @@ struct AdaptivePoint {
   double tolerance;  ///< of displacement [-]
   bool reached;
   int harmonics, samples;
-  double estimate;    ///< of displacement [-]
-  bool searched;      ///< a start than quasi-static contact was needed
-  double cost;        ///< evaluations of the force times samples
-  double error = -1;  ///< of displacement [-]
-  bool own_branch =
-      false;  ///< the error is against another exact motion than the speed's
+  double estimate;           ///< of displacement [-]
+  bool searched;             ///< a start than quasi-static contact was needed
+  double cost;               ///< evaluations of the force times samples
+  double error = -1;         ///< of displacement [-]
+  bool own_branch = false;   ///< the error is against another motion than the speed's
   int fixed_harmonics = -1;  ///< best fixed m
   double fixed_error = -1;   ///< its error [-]
   double fixed_cost = -1;

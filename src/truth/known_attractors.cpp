@@ -39,8 +39,7 @@ std::vector<AttractorPoint> attractors_at(const std::vector<AttractorPoint>& all
   std::vector<AttractorPoint> here;
   for (const AttractorPoint& one : all) {
     if (one.set != set || std::abs(one.frequency - frequency) > 1e-6) continue;
-    if (std::none_of(here.begin(), here.end(),
-                     [&](const auto& other) { return other.number == one.number; }))
+    if (std::ranges::find(here, one.number, &AttractorPoint::number) == here.end())
       here.push_back(one);
   }
   if (here.empty())

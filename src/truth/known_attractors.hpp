@@ -27,9 +27,8 @@ motion::Motion motion_on(const AttractorPoint& point, const Parameters& machine,
 
 struct SectionScene {
   std::vector<Parameters> sets;
-  int points;  ///< of a motion that does not close
-  std::vector<AttractorPoint>
-      attractors;  ///< that the motions followed up and down end on
+  int points;                              ///< of a motion that does not close
+  std::vector<AttractorPoint> attractors;  ///< of the motions followed up and down
 };
 
 SectionScene read_section_scene(SceneFile& file, const std::string& attractors);

@@ -3,6 +3,7 @@
 #include <cmath>
 
 #include "io/errors.hpp"
+#include "motion/other_starts.hpp"
 #include "stability/hill.hpp"
 
 namespace rotor_stator::truth {
@@ -25,10 +26,11 @@ MultiplierScene read_multiplier_scene(SceneFile& file)
   return scene;
 }
 
-MultiplierPoint checked(const MultiplierScene& scene, MultiplierPoint point,
-                        const PeriodicMotion& solution)
+MultiplierPoint checked(const MultiplierScene& scene, MultiplierPoint point)
 {
   const Parameters& machine = scene.sets[point.set - 1];
+  const PeriodicMotion solution =
+      motion::search_periodic({machine, angular(point.frequency), point.harmonics});
   if (!solution.found()) return point;
   try {
     const Floquet f = floquet(machine, solution);

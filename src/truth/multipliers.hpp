@@ -33,9 +33,8 @@ struct MultiplierScene {
 
 MultiplierScene read_multiplier_scene(SceneFile& file);
 
-/** `point` with the multipliers of its solution and what checks them. */
-MultiplierPoint checked(const MultiplierScene& scene, MultiplierPoint point,
-                        const PeriodicMotion& solution);
+/** `point` with the multipliers of its solution, if one is found, and what checks them. */
+MultiplierPoint checked(const MultiplierScene& scene, MultiplierPoint point);
 
 Table multiplier_table(const MultiplierScene& scene,
                        const std::vector<MultiplierPoint>& points);

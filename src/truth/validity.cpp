@@ -92,7 +92,7 @@ std::vector<ValidityPoint> compared(const ValidityScene& scene, int set, double 
     point.harmonics = static_cast<int>(points.size());
     if (!solution.found()) continue;
     measure(solution, point);
-    if (std::find(examined.begin(), examined.end(), point.harmonics) != examined.end())
+    if (std::ranges::find(examined, point.harmonics) != examined.end())
       examine(solution, point);
   }
   ValidityPoint& adaptive = points.emplace_back(blank);
