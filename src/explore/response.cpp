@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <limits>
+#include <ranges>
 
 #include "balance/bearing_problem.hpp"
 #include "continuation/arc_length.hpp"
@@ -173,11 +174,8 @@ Fields fields_of(const ResponseRequest& request)
 
 std::string summary(const Branch& branch)
 {
-  double low = branch.points.front().motion.omega, high = low;
-  for (const BranchPoint& point : branch.points) {
-    low = std::min(low, point.motion.omega);
-    high = std::max(high, point.motion.omega);
-  }
+  const auto [low, high] = std::ranges::minmax(
+      branch.points | std::views::transform([](auto& p) { return p.motion.omega; }));
   return format(
       "%.9g to %.9g Hz, %zu points, %zu folds, %ld evaluations of the force, %s",
       low / angular(1), high / angular(1), branch.points.size(), branch.folds.size(),

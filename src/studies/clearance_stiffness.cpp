@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <cmath>
 
-#include "continuation/sweep.hpp"
 #include "io/errors.hpp"
 #include "motion/contact.hpp"
 
@@ -53,11 +52,7 @@ GridPoint summary(const Parameters& machine, const std::vector<PeriodicMotion>& 
       point.f_loss_last = frequency;
     }
   }
-  if (!curve.empty()) {
-    const CurvePoint peak = refined_peak(curve);
-    point.f_peak = peak.frequency;
-    point.amp_peak = peak.amplitude;
-  }
+  if (!curve.empty()) point.peak = refined_peak(curve);
   return point;
 }
 
@@ -67,8 +62,10 @@ using Point = GridPoint;
 const std::vector<Field<Point>> fields{
     {"delta", "m", "radial clearance", &Point::clearance},
     {"K_H", "N/m^1.5", "contact stiffness", &Point::contact_stiffness},
-    {"f_peak", "Hz", "speed of the largest x_r; -1 without any solution", &Point::f_peak},
-    {"amp_peak", "m", "half peak-to-peak of x_r there", &Point::amp_peak},
+    {"f_peak", "Hz", "speed of the largest x_r; -1 without any solution",
+     [](auto& p) { return p.peak.frequency; }},
+    {"amp_peak", "m", "half peak-to-peak of x_r there",
+     [](auto& p) { return p.peak.amplitude; }},
     {"f_loss_first", "Hz", "first speed at which contact is lost; -1 when never",
      &Point::f_loss_first},
     {"f_loss_last", "Hz", "last such speed; -1 when never", &Point::f_loss_last},

@@ -5,7 +5,7 @@ Every point of the grid is one machine, swept up in speed by harmonic balance. S
 without a solution are counted. */
 #pragma once
 
-#include "balance/periodic_motion.hpp"
+#include "continuation/sweep.hpp"
 #include "io/table.hpp"
 #include "io/toml_file.hpp"
 #include "model/parameters.hpp"
@@ -23,11 +23,10 @@ GridScene read_grid_scene(SceneFile& file);
 
 /** What the sweep of one machine comes to. */
 struct GridPoint {
-  double clearance;          ///< δ [m]
-  double contact_stiffness;  ///< K_H [N/m^{3/2}]
-  double f_peak = -1;        ///< of x_r [Hz]; -1 when no speed has a solution
-  double amp_peak = -1;      ///< [m]
-  double f_loss_first = -1;  ///< speeds losing contact [Hz]; -1 when none does
+  double clearance;            ///< δ [m]
+  double contact_stiffness;    ///< K_H [N/m^{3/2}]
+  CurvePoint peak = {-1, -1};  ///< of x_r [Hz, m]; -1 when no speed has a solution
+  double f_loss_first = -1;    ///< speeds losing contact [Hz]; -1 when none does
   double f_loss_last = -1;
   double largest_force = 0;  ///< on one ball, over all speeds [N]
   int missed = 0;            ///< speeds without a solution

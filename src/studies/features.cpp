@@ -55,9 +55,8 @@ bool loses_contact(const Model& model, double frequency)
    ragged ends, so another change may lie between the two: half their distance stays unknown. */
 std::optional<Measured> onset(const Model& model, const std::vector<double>& frequencies)
 {
-  const auto first =
-      std::find_if(frequencies.begin(), frequencies.end(),
-                   [&](double frequency) { return loses_contact(model, frequency); });
+  const auto first = std::ranges::find_if(
+      frequencies, [&](double frequency) { return loses_contact(model, frequency); });
   if (first == frequencies.end()) return {};
   if (first == frequencies.begin()) return Measured{*first};
   double loses = *first, keeps = *(first - 1);

@@ -69,13 +69,11 @@ void add_points(StrictToml& table, Unpublished parameter, SensitivityScene& scen
 {
   const std::string& key = label(parameter).key;
   const auto values = table.numbers(key, Range::positive);
-  if (std::adjacent_find(values.begin(), values.end(), std::greater_equal<>()) !=
-      values.end())
+  if (std::ranges::adjacent_find(values, std::greater_equal<>()) != values.end())
     table.fail(key, "must rise");
   const double standard = label(parameter).value(scene.usual);
-  const auto usual = std::find_if(values.begin(), values.end(), [&](double value) {
-    return std::abs(value - standard) < 1e-9 * standard;
-  });
+  const auto usual = std::ranges::find_if(
+      values, [&](double value) { return std::abs(value - standard) < 1e-9 * standard; });
   if (usual == values.end())
     table.fail(key, format("must hold the default, %.9g", standard));
   for (const double& value : values) {
