@@ -185,7 +185,7 @@ TEST_CASE("A point of the parametric study agrees with the paper's set 1")
   const GridPoint point =
       summary(set_1(), sweep(set_1(), angular(std::vector{45.0, 48.0, 50.0, 52.0}), 6));
   CHECK(point.missed == 0);
-  CHECK(point.f_peak == Approx(50).margin(0.5));
-  CHECK(point.amp_peak == Approx(12.7e-3).epsilon(0.01));
+  CHECK(point.peak.frequency == Approx(50).margin(0.5));
+  CHECK(point.peak.amplitude == Approx(12.7e-3).epsilon(0.01));
   CHECK(point.f_loss_first == -1);
 }
