@@ -54,19 +54,11 @@ LinearBlock second_order_block(const Eigen::MatrixXd& mass,
 }
 
 Balance::Balance(Problem problem, int harmonics)
-    : problem_(std::move(problem)),
-      harmonics_(harmonics),
-      m_(harmonics),
-      transform_(problem_.samples),
-      omega_(std::numeric_limits<double>::quiet_NaN()),
-      a_(2 * problem_.dofs, 2 * problem_.dofs * (m_ + 1)),
-      b_(a_.rows(), a_.cols()),
-      c_(problem_.dofs, harmonics_.coefficients()),
-      series_(c_),
-      force_series_(c_),
-      product_series_(c_),
-      residual_(c_.size()),
-      speed_derivative_(c_.size()),
+    : problem_(std::move(problem)), harmonics_(harmonics), m_(harmonics),
+      transform_(problem_.samples), omega_(std::numeric_limits<double>::quiet_NaN()),
+      a_(2 * problem_.dofs, 2 * problem_.dofs * (m_ + 1)), b_(a_.rows(), a_.cols()),
+      c_(problem_.dofs, harmonics_.coefficients()), series_(c_), force_series_(c_),
+      product_series_(c_), residual_(c_.size()), speed_derivative_(c_.size()),
       steps_(std::make_unique<StepSolver>())
 {
 }

@@ -40,8 +40,7 @@ struct FourierTransform::Plans {
   double operations;
 
   explicit Plans(int n)
-      : samples(n),
-        time(fftw_alloc_real(n)),
+      : samples(n), time(fftw_alloc_real(n)),
         frequency(reinterpret_cast<std::complex<double>*>(fftw_alloc_complex(n / 2 + 1)))
   {
     auto* spectrum = reinterpret_cast<fftw_complex*>(frequency.get());

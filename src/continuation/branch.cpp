@@ -38,9 +38,7 @@ BranchPoint reversed(BranchPoint point)
 }
 
 ExtendedBalance::ExtendedBalance(Balance& balance, const ArcLengthSettings& settings)
-    : balance_(balance),
-      settings_(settings),
-      n_(balance.unknowns()),
+    : balance_(balance), settings_(settings), n_(balance.unknowns()),
       matrix_(n_ + 1, n_ + 1)
 {
 }

@@ -58,9 +58,7 @@ PeriodicMotion printed_prediction(const std::vector<PeriodicMotion>& last_four)
 
 PlainBalance::PlainBalance(const Parameters& parameters, double omega, int harmonics,
                            int samples, FirstEntry first)
-    : harmonics_(harmonics),
-      samples_(samples),
-      bearing_(parameters.bearing),
+    : harmonics_(harmonics), samples_(samples), bearing_(parameters.bearing),
       gamma_(gamma_matrix(harmonics, samples, Argument::parenthesised)),
       inverse_(gamma_inverse(harmonics, samples))
 {

@@ -33,8 +33,7 @@ public:
            const SteadySettings& settings)
       : stepper_(make_stepper(parameters, omega, settings.stepper)),
         intervals_(settings.stepper.intervals_per_period),
-        cage_ratio_(parameters.bearing.cage_speed_ratio),
-        state_(start)
+        cage_ratio_(parameters.bearing.cage_speed_ratio), state_(start)
   {
   }
 

@@ -14,8 +14,7 @@
 namespace rotor_stator {
 
 BallBearing::BallBearing(const Bearing& bearing)
-    : contact_stiffness_(bearing.contact_stiffness),
-      clearance_(bearing.clearance),
+    : contact_stiffness_(bearing.contact_stiffness), clearance_(bearing.clearance),
       clearance_squared_(bearing.clearance * bearing.clearance)
 {
   fours_.resize((bearing.balls + 3) / 4);
@@ -179,11 +178,8 @@ WIDEST_REGISTERS void evaluate_both(const Balls& balls, const Columns& at, Eigen
 }  // namespace
 
 SampledBearing::SampledBearing(const Bearing& bearing, int samples)
-    : samples_(samples),
-      cage_(std::max(samples, lanes), 2),
-      balls_(bearing.balls, 2),
-      contact_stiffness_(bearing.contact_stiffness),
-      clearance_(bearing.clearance)
+    : samples_(samples), cage_(std::max(samples, lanes), 2), balls_(bearing.balls, 2),
+      contact_stiffness_(bearing.contact_stiffness), clearance_(bearing.clearance)
 {
   const auto row = [](Direction d) { return Eigen::RowVector2d(d.cos, d.sin); };
   for (Eigen::Index k = 0; k < cage_.rows(); ++k)

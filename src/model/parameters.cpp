@@ -80,8 +80,7 @@ Parameters read_parameters(const std::string& file)
   StrictToml gravity = root.table("gravity");
   parameters.gravity = gravity.number("acceleration_m_per_s2", Range::not_negative);
 
-  for (const StrictToml& table : {root, stator, rotor, bearing, gravity})
-    table.refuse_unknown_keys();
+  root.refuse_unknown_keys();
   return parameters;
 }
 

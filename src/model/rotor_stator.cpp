@@ -6,17 +6,12 @@
 namespace rotor_stator {
 
 RotorStator::RotorStator(const Parameters& parameters, double omega)
-    : bearing_(parameters.bearing),
-      omega_(omega),
+    : bearing_(parameters.bearing), omega_(omega),
       cage_ratio_(parameters.bearing.cage_speed_ratio),
-      unbalance_(parameters.unbalance * omega * omega),
-      gravity_(parameters.gravity),
-      k_s_(parameters.stator.stiffness()),
-      c_s_(parameters.stator.damping()),
-      per_m_s_(1 / parameters.stator.mass),
-      k_r_(parameters.rotor.stiffness()),
-      c_r_(parameters.rotor.damping()),
-      per_m_r_(1 / parameters.rotor.mass)
+      unbalance_(parameters.unbalance * omega * omega), gravity_(parameters.gravity),
+      k_s_(parameters.stator.stiffness()), c_s_(parameters.stator.damping()),
+      per_m_s_(1 / parameters.stator.mass), k_r_(parameters.rotor.stiffness()),
+      c_r_(parameters.rotor.damping()), per_m_r_(1 / parameters.rotor.mass)
 {
 }
 

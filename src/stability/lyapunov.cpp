@@ -33,9 +33,7 @@ BatchMean batch_mean(const std::vector<double>& series)
 /** The neighbour starts off in all directions, so that none is missed. */
 TrajectoryPair::TrajectoryPair(TimeStepper stepper, int intervals_per_period,
                                const Vector8& scales, const State& start)
-    : stepper_(std::move(stepper)),
-      intervals_(intervals_per_period),
-      scales_(scales),
+    : stepper_(std::move(stepper)), intervals_(intervals_per_period), scales_(scales),
       state_(start)
 {
   const double share = first_distance / std::sqrt(8.0);

@@ -47,12 +47,9 @@ public:
 
   Disturbances(const Vibration& vibration, const PeriodicStiffness& stiffness,
                double period, const MonodromySettings& settings)
-      : per_mass_(vibration.mass.inverse()),
-        damping_(per_mass_ * vibration.damping),
-        constant_(per_mass_ * vibration.stiffness),
-        stiffness_(stiffness),
-        seconds_(period / (2 * std::numbers::pi)),
-        settings_(settings)
+      : per_mass_(vibration.mass.inverse()), damping_(per_mass_ * vibration.damping),
+        constant_(per_mass_ * vibration.stiffness), stiffness_(stiffness),
+        seconds_(period / (2 * std::numbers::pi)), settings_(settings)
   {
     for (int k = 0; k < 16; ++k)
       rate_ = std::max(rate_, squared_rate(2 * std::numbers::pi * (k + 0.5) / 16));

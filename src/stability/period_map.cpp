@@ -80,8 +80,7 @@ PeriodMap period_map(const Parameters& parameters, double omega, const State& st
 
 Rk4PeriodMap::Rk4PeriodMap(const Parameters& parameters, double omega,
                            double longest_step)
-    : rk4_(parameters, omega, 1, longest_step),
-      system_(parameters, omega),
+    : rk4_(parameters, omega, 1, longest_step), system_(parameters, omega),
       rates_(parameters)
 {
 }
