@@ -135,7 +135,7 @@ data/generated/%.tsv: build/$$(*F) data/scenes/$$(*F).toml $$(parameters) $$(att
 	$(whole) $(alone) $< $(word 2,$^) $(if $(filter as-printed,$(*D)),--reading as-printed) $(attractors:%=--attractors %) \
 	  $(if $(filter $(*F),$(journaled)),--journal $(@:.tsv=.journal)) > $$new; mv $$new $@
 
-data/generated/sensitivity_derivatives.tsv: build/sensitivity_derivatives data/scenes/sensitivity.toml data/generated/sensitivity.tsv
+data/generated/sensitivity_derivatives.tsv: build/sensitivity_derivatives data/scenes/sensitivity.toml data/reference/sensitivity.tsv
 	$(whole) $< $(word 2,$^) --sensitivity $(word 3,$^) > $$new; mv $$new $@
 
 # Timings run alone: after all that is not timed, one after the other.

@@ -1,6 +1,6 @@
 # Sensitivity to what the paper leaves out: five outputs against five parameters
 #
-# Usage: gnuplot -e "table='data/generated/sensitivity.tsv'; output='sensitivity.svg'" \
+# Usage: gnuplot -e "table='data/reference/sensitivity.tsv'; output='sensitivity.svg'" \
 #        figures/sensitivity.gp
 # The panels of a row share their range, so that what matters is seen at a glance. A bar
 # is half a step of the search for loss of contact, or the standard error of the mean over the periods.

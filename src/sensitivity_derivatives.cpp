@@ -13,7 +13,7 @@ int main(int argc, char** argv)
   using namespace rotor_stator;
   const Program program{
       .scene_file = "data/scenes/sensitivity.toml",
-      .options = {{"--sensitivity", "data/generated/sensitivity.tsv", "their table"}}};
+      .options = {{"--sensitivity", "data/reference/sensitivity.tsv", "their table"}}};
   return run_figure(argc, argv, program, [](SceneFile& file, const Options& options) {
     const studies::SensitivityScene scene = studies::read_sensitivity_scene(file);
     const auto points = studies::read_sensitivity(scene, options["--sensitivity"]);
