@@ -5,6 +5,7 @@
 
 #include "deviations/printed_equations.hpp"
 #include "io/errors.hpp"
+#include "model/hertz.hpp"
 #include "motion/contact.hpp"
 
 namespace rotor_stator::deviations {

@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <numbers>
 
+#include "model/hertz.hpp"
+
 /** The same operations for wider registers, chosen when the program starts. No sum is reordered
     and none fused, so the bits do not depend on the choice. */
 #if defined(__x86_64__) && defined(__GLIBC__) && defined(__GNUC__) && !defined(__clang__)

@@ -29,7 +29,6 @@ back: one sine and one cosine of the cage angle serve all balls. */
 #include <cmath>
 #include <vector>
 
-#include "model/hertz.hpp"
 #include "model/parameters.hpp"
 
 namespace rotor_stator {

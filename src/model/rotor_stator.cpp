@@ -3,6 +3,8 @@
 #include <cmath>
 #include <numbers>
 
+#include "model/hertz.hpp"
+
 namespace rotor_stator {
 
 RotorStator::RotorStator(const Parameters& parameters, double omega)

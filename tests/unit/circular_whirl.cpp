@@ -8,6 +8,7 @@
 #include <cmath>
 #include <complex>
 #include <numbers>
+#include "model/hertz.hpp"
 #include "support/catch.hpp"
 
 #include "motion/find_periodic.hpp"

@@ -1,6 +1,7 @@
 /** What the printed equations do, against closed forms and bounds: the numbers that
  * paper/deviations.md quotes. */
 #include <cmath>
+#include "model/hertz.hpp"
 #include "support/catch.hpp"
 
 #include "deviations/balance.hpp"

@@ -1,6 +1,7 @@
 /** Eqs 1 to 6 against closed forms. */
 #include <cmath>
 #include <numbers>
+#include "model/hertz.hpp"
 #include "support/catch.hpp"
 
 #include "model/ball_bearing.hpp"
