@@ -24,7 +24,7 @@ int main(int, char** argv)
 {{
   using namespace rotor_stator;
   const Parameters machine = read_parameters(argv[1]);
-  const bool found = motion::find_periodic({machine, angular(45), 6, 50}).found();
+  const bool found = motion::find_periodic({{machine, angular(45), 6, 50}}).found();
   std::printf("%s: %s\\n", machine.title.c_str(), found ? "periodic" : "no solution");
   return found ? 0 : 1;
 }}
