@@ -5,10 +5,12 @@
 #include <numbers>
 
 #include "balance/fourier_transform.hpp"
+#include "integration/time_stepper.hpp"
 #include "io/errors.hpp"
 #include "motion/adaptive.hpp"
 #include "motion/contact.hpp"
 #include "motion/other_starts.hpp"
+#include "motion/verdict.hpp"
 
 namespace rotor_stator::explore {
 
@@ -25,27 +27,6 @@ OperationBudget budget_of(const std::optional<double>& evaluations, double secon
 {
   const double each = operations_per_evaluation(parameters.bearing.balls);
   return OperationBudget(evaluations.value_or(1e9 * seconds / each), "--budget");
-}
-
-Floquet paid_floquet(const OperationBudget& budget, const Parameters& parameters,
-                     const PeriodicMotion& motion)
-{
-  const double balls = parameters.bearing.balls;
-  const auto harmonics = static_cast<double>(motion.harmonics.highest());
-  const double share = 1 / operations_per_evaluation(parameters.bearing.balls);
-  /** The phases where balls meet or leave their race; then the stiffness, value by value, each with its
-      step of the disturbances. */
-  budget.spend(share * std::max(512.0, 16 * harmonics) *
-               (50 + 5 * balls + 5 * harmonics));
-  PeriodicStiffness stiffness = stiffness_along(parameters, motion);
-  stiffness.at = [at = std::move(stiffness.at), budget,
-                  value = share * (300 + 2 * balls + 5 * harmonics)](double phase,
-                                                                     double* k) {
-    budget.spend(value);
-    at(phase, k);
-  };
-  return floquet(vibration_of(parameters), stiffness,
-                 2 * std::numbers::pi / motion.omega);
 }
 
 void conclude(Table& table, const Parameters& parameters, bool touches,
@@ -89,20 +70,37 @@ AdaptiveMotion solved(const Parameters& parameters, const MotionRequest& request
   return motion::solve_adaptively(parameters, omega, settings_of(request), budget);
 }
 
-/** What the Floquet multipliers say of a solution. */
-std::string stability_note(const Parameters& parameters, const PeriodicMotion& solution,
-                           const OperationBudget& budget)
+/** What stands behind the verdict on a solution, in the header's lines. */
+void note_verdict(Table& table, const Parameters& parameters,
+                  const PeriodicMotion& solution, const OperationBudget& budget)
 {
-  try {
-    const Floquet motion = paid_floquet(budget, parameters, solution);
-    return format(
-        "stability: %s; largest Floquet multiplier %.9g +- %.2g, along the %d "
-        "harmonics",
-        motion.verdict(), motion.largest(), motion.uncertainty(),
-        solution.harmonics.highest());
-  } catch (const NoSolution& error) {
-    return std::string("stability: not found; ") + error.what();
-  }
+  const motion::Verdict verdict = motion::verdict_on(parameters, solution, budget);
+  const Floquet& motion = verdict.floquet;
+  if (verdict.found())
+    table.note(format(
+        "stability: %s; largest Floquet multiplier %.9g +- %.2g, of the motion of Eq. 7 "
+        "found from the solution",
+        verdict.word(), motion.largest(), motion.uncertainty()));
+  else
+    table.note("stability: undecided; " + verdict.reason);
+  if (verdict.distance > 0)
+    table.note(
+        format("distance: %.2g of the largest displacement, %.2g rms about the mean",
+               verdict.distance, verdict.distance_rms));
+  if (verdict.distance_rms > 0.1)
+    table.note(
+        format("warning: the solution is not accurate, its rms error about the mean "
+               "is %.2g %%; more harmonics or --tolerance help",
+               100 * verdict.distance_rms));
+  table.note("regime: " + verdict.regime());
+  const motion::Settled& there = verdict.from_there;
+  if (there.periods > 0)
+    table.note(
+        format("from the solution, disturbed by 1e-6: %s after %ld periods, "
+               "spread %.2g",
+               there.regime().c_str(), there.periods, there.spread));
+  if (!verdict.lost.empty()) table.note("from the solution: " + verdict.lost);
+  table.note(format("verdict: %.3g evaluations of the force", verdict.evaluations));
 }
 
 motion::Motion balance_motion(const Parameters& parameters, const MotionRequest& request,
@@ -128,11 +126,42 @@ motion::Motion balance_motion(const Parameters& parameters, const MotionRequest&
                "tolerance %g",
                at.motion.error->displacement, at.motion.error->harmonics,
                at.motion.error->samples, *request.tolerance));
-  table.note("the period is imposed by the method");
-  table.note(request.stability ? stability_note(parameters, at.motion, budget)
-                               : "stability is not tested");
-  table.note("regime: periodic");
+  if (std::isfinite(1 / request.frequency))
+    table.note(format("base period: %.15g s", 1 / request.frequency));
+  if (request.stability) {
+    note_verdict(table, parameters, at.motion, budget);
+  } else {
+    table.note("stability is not tested");
+    table.note("regime: undecided");
+  }
   return motion::motion_of(at.motion.bodies, request.points);
+}
+
+/** What a time method settled on: T-periodic, kT-periodic or not, and the same with finer steps where those that
+    were asked for are coarse, which damps what a machine does. */
+std::string measured_regime(const Parameters& parameters, const MotionRequest& request,
+                            SteadySettings settings, const SteadyState& steady)
+{
+  const double omega = angular(request.frequency), step = default_step(parameters);
+  const State& state = steady.states.front();
+  StepperSettings& stepper = settings.stepper;
+  constexpr double coarse = 1e-8;
+  if (stepper.method == "rk4" ? stepper.step > step : stepper.tolerance > coarse) {
+    stepper.step = std::min(stepper.step / 2, step);
+    stepper.tolerance = 0.01 * coarse;
+    const SteadyState fine = steady_state(parameters, omega, state, settings);
+    const double off =
+        motion::relative_difference(motion::motion_of(steady, request.points),
+                                    motion::motion_of(fine, request.points));
+    if (fine.periodic != steady.periodic)
+      return format("undecided; %s with finer steps, spread %.2g",
+                    fine.periodic ? "periodic" : "aperiodic", fine.spread);
+    if (fine.periodic && off > 0.05)
+      return format("undecided; finer steps give another motion, %.2g away", off);
+  }
+  if (steady.periodic) return "periodic";
+  if (!has_rotation_period(parameters.bearing)) return "aperiodic";
+  return motion::settle(parameters, omega, state, stepper.budget).regime();
 }
 
 motion::Motion integrated_motion(const Parameters& parameters,
@@ -151,7 +180,7 @@ motion::Motion integrated_motion(const Parameters& parameters,
   table.note(format("method: %s, %g s from rest, %ld evaluations of Eq. 7",
                     request.method.c_str(), steady.seconds, steady.evaluations));
   table.note(format("Poincare spread: %.3g", steady.spread));
-  table.note(steady.periodic ? "regime: periodic" : "regime: aperiodic");
+  table.note("regime: " + measured_regime(parameters, request, settings, steady));
   return motion::motion_of(steady, request.points);
 }
 

@@ -10,7 +10,6 @@ One motion of one machine at one speed, by harmonic balance or in time, as a tab
 #include "io/budget.hpp"
 #include "io/table.hpp"
 #include "model/parameters.hpp"
-#include "stability/floquet.hpp"
 
 namespace rotor_stator::explore {
 
@@ -52,10 +51,6 @@ int checked_samples(int harmonics, const std::optional<int>& samples);
 /** A budget of so many evaluations, or of those that take `seconds`. */
 OperationBudget budget_of(const std::optional<double>& evaluations, double seconds,
                           const Parameters& parameters);
-
-/** The multipliers along a motion, paid for from `budget`. Throws NoSolution when it is used up. */
-Floquet paid_floquet(const OperationBudget& budget, const Parameters& parameters,
-                     const PeriodicMotion& motion);
 
 /** Says in the table's header whether any ball touched, and what was spent. */
 void conclude(Table& table, const Parameters& parameters, bool touches,

@@ -11,6 +11,7 @@
 #include "io/output_file.hpp"
 #include "motion/motion.hpp"
 #include "motion/other_starts.hpp"
+#include "motion/verdict.hpp"
 #include "stability/branch_stability.hpp"
 
 namespace rotor_stator::explore {
@@ -148,13 +149,13 @@ const Fields branch_fields{
 
 const Fields stability_fields{
     {"multiplier", "-",
-     "largest modulus of the Floquet multipliers along the m harmonics; -1",
+     "largest modulus of the Floquet multipliers of the motion of Eq. 7 found there; -1",
      [](auto& r) { return r.at.examined() ? r.at.floquet.largest() : -1; }},
     {"multiplier_change", "-", "uncertainty of it: change at the last refinement",
      [](auto& r) { return r.at.examined() ? r.at.floquet.uncertainty() : -1; }},
-    {"verdict", "-", "stable, unstable, undecided within the uncertainty, unknown",
+    {"verdict", "-", "of the machine: stable, unstable, undecided",
      [](auto& r) {
-       return std::string(r.at.examined() ? r.at.floquet.verdict() : "unknown");
+       return std::string(r.at.examined() ? r.at.floquet.verdict() : "undecided");
      }},
     {"bifurcation", "-",
      "fold; plus-one, period-doubling: a multiplier passes 1, -1; "
@@ -232,6 +233,14 @@ void note(Table& table, const std::string& prefix, const BranchStability& stabil
           count(Bifurcation::fold), count(Bifurcation::plus_one),
           count(Bifurcation::period_doubling), count(Bifurcation::neimark_sacker),
           BranchStabilitySettings{}.tolerance, stability.missed));
+  if (stability.failed > 0) {
+    const auto first = std::find_if(stability.points.begin(), stability.points.end(),
+                                    [](const StablePoint& p) { return !p.examined(); });
+    table.note(prefix + format("undecided: %d of %zu points, the first at %.6g Hz: %s",
+                               stability.failed, stability.points.size(),
+                               first->point.motion.omega / angular(1),
+                               stability.failure.c_str()));
+  }
   for (const StablePoint& p : stability.points)
     if (p.bifurcation != Bifurcation::none)
       table.note(prefix + format("%s: %.9g Hz", name_of(p.bifurcation),
@@ -241,17 +250,12 @@ void note(Table& table, const std::string& prefix, const BranchStability& stabil
 /** What was not computed and why; empty when nothing is missing. */
 std::string missing_in(const BranchStability& stability, const OperationBudget& budget)
 {
-  if (stability.failed == 0)
-    return budget.used_up()
-               ? format(
-                     "the budget is used up, more with --budget: bifurcations may be "
-                     "missing, %d were seen and not located",
-                     stability.missed)
-               : "";
-  const auto first = std::ranges::find(stability.points, false, &StablePoint::examined);
-  return format("no multipliers at %d of %zu points, the first at %.6g Hz: %s",
-                stability.failed, stability.points.size(),
-                first->point.motion.omega / angular(1), stability.failure.c_str());
+  return budget.used_up()
+             ? format(
+                   "the budget is used up, more with --budget: %d of %zu points are "
+                   "undecided, %d bifurcations were seen and not located",
+                   stability.failed, stability.points.size(), stability.missed)
+             : "";
 }
 
 /** What was added to the table. */
@@ -267,10 +271,20 @@ void add_branch(Table& table, const Task& task, Balance& balance, const Branch& 
 {
   BranchStability stability;
   if (task.request.stability) {
-    stability =
-        stability_along(balance, branch, task.settings, [&](const BranchPoint& point) {
-          return paid_floquet(task.budget, task.parameters, point.motion);
-        });
+    /** The machine's multipliers change over less speed than the curve of few harmonics does. */
+    const double width = 0.004 * joint_resonance(task.parameters);
+    const double share = 0.02 * task.budget.left();  // of a point that cannot be decided
+    std::optional<State> last;
+    stability = stability_along(
+        balance, branch, task.settings,
+        [&](const BranchPoint& point) {
+          PeriodicMotion motion = point.motion;
+          motion.bodies = body_series(task.parameters, motion);
+          return motion::floquet_of_machine(
+              task.parameters, motion,
+              task.budget.part(std::min(1.0, share / task.budget.left())), last);
+        },
+        {.chosen = evenly_chosen(branch, width, 2), .widest = width});
     const std::string prefix =
         task.request.isolated > 0 ? format("branch %zu, ", number) : "";
     note(table, prefix, stability);

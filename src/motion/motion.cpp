@@ -107,6 +107,20 @@ double relative_difference(const Motion& motion, const Motion& reference)
   return difference / size;
 }
 
+double rms_difference(const Motion& motion, const Motion& reference)
+{
+  const int points = reference.points_per_period;
+  const auto about_the_mean = [points](const Motion& m) -> Eigen::MatrixXd {
+    Eigen::MatrixXd q(points, 4);
+    for (int k = 0; k < points; ++k)
+      for (int i = 0; i < 4; ++i) q(k, i) = displacements(m.positions[k])[i];
+    return q.rowwise() - q.colwise().mean();
+  };
+  const Eigen::MatrixXd exact = about_the_mean(reference);
+  const double size = exact.norm(), off = (about_the_mean(motion) - exact).norm();
+  return size > 0 ? off / size : off > 0 ? std::numeric_limits<double>::infinity() : 0;
+}
+
 double orbit_difference(const Motion& motion, const Motion& reference)
 {
   const auto size = half_peak_to_peak(reference);

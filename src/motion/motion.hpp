@@ -67,6 +67,10 @@ Displacements half_peak_to_peak(const Motion& motion);
     `reference`, on the first period of both [-]; both have the same points per period. */
 double relative_difference(const Motion& motion, const Motion& reference);
 
+/** The rms difference of the two motions about their means, over that of `reference` about its mean, all
+    four displacements together: blind to the static sag [-]. */
+double rms_difference(const Motion& motion, const Motion& reference);
+
 /** The largest difference of each displacement over that displacement's own half peak-to-peak: blind
     to the static sag that the other measure divides by [-]. */
 double orbit_difference(const Motion& motion, const Motion& reference);

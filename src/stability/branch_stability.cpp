@@ -121,7 +121,8 @@ struct Walk {
   {
     const StablePoint& last = result.points.back();
     if (b == a + 1) return go_to(std::move(next), settings.most_halvings);
-    if (last.examined() && next.examined() && is_stable(last) != is_stable(next)) {
+    if (last.examined() && next.examined() &&
+        (is_stable(last) != is_stable(next) || is_wide(last, next))) {
       const std::size_t middle = a + (b - a) / 2;
       pass(branch, a, middle, known(branch, middle));
       return pass(branch, middle, b, std::move(next));
@@ -158,9 +159,15 @@ struct Walk {
     result.points.push_back(std::move(next));
   }
 
+  bool is_wide(const StablePoint& a, const StablePoint& b) const
+  {
+    return std::abs(a.point.motion.omega - b.point.motion.omega) > settings.widest;
+  }
+
   bool hides_something(const StablePoint& a, const StablePoint& b) const
   {
-    if (largest_move(a.floquet.multipliers, b.floquet.multipliers) > settings.most_move)
+    if (largest_move(a.floquet.multipliers, b.floquet.multipliers) > settings.most_move ||
+        is_wide(a, b))
       return true;
     const auto happened =
         std::count_if(std::begin(located_kinds), std::end(located_kinds),

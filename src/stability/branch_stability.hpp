@@ -14,6 +14,7 @@ Kuznetsov (2004), sections 10.2 and 10.3. */
 #pragma once
 
 #include <functional>
+#include <limits>
 #include <string>
 
 #include "continuation/branch.hpp"
@@ -53,6 +54,8 @@ struct BranchStabilitySettings {
   int most_halvings = 6;          ///< of a step of the branch
   std::vector<bool> chosen = {};  ///< points of the branch to examine; empty: all
   bool among_unstable = true;     ///< look between two unstable points too
+  double widest =
+      std::numeric_limits<double>::infinity();  ///< most speed between points [rad/s]
 };
 
 struct BranchStability {

@@ -35,10 +35,10 @@ struct FloquetSettings {
 
 struct Floquet {
   Multipliers multipliers;  ///< 2d, largest modulus first
-  double change;            ///< largest |Δμ|/max(1, |μ|) at the last refinement [-]
-  double liouville;         ///< relative error of the product [-]
-  long evaluations;         ///< of the stiffness, in all integrations
-  bool settled;             ///< `change` is below the tolerance
+  double change = 0;        ///< largest |Δμ|/max(1, |μ|) at the last refinement [-]
+  double liouville = 0;     ///< relative error of the product [-]
+  long evaluations = 0;     ///< of the stiffness, in all integrations
+  bool settled = false;     ///< `change` is below the tolerance
 
   double largest() const { return std::abs(multipliers.front()); }
 

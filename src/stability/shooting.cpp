@@ -108,7 +108,7 @@ struct Iteration {
     do {
       if (!damped_step()) return reduced;
       reduced = true;
-    } while (!finished() && reduction < well);
+    } while (!finished() && settings.quasi_newton && reduction < well);
     return true;
   }
 
@@ -116,8 +116,10 @@ struct Iteration {
   bool damped_step()
   {
     const Vector8 step = -jacobian.partialPivLu().solve(open);
+    const int most_halvings = settings.quasi_newton ? 8 : 12;
     double length = 1;
-    for (int halvings = 0; halvings < 8 && !out_of_maps(); ++halvings, length /= 2) {
+    for (int halvings = 0; halvings < most_halvings && !out_of_maps();
+         ++halvings, length /= 2) {
       const Vector8 next = y + length * step;
       const Vector8 open_next = mapped(next) - next;
       const double residual = open_next.norm();
@@ -183,7 +185,8 @@ Shooting shoot(const Parameters& parameters, double omega, State& state,
                const ShootingSettings& settings, PeriodicityJacobian* jacobian)
 {
   PeriodicityJacobian none;
-  const Vector8 sizes = state_scales(parameters);
+  Vector8 sizes = state_scales(parameters);
+  sizes.tail<4>() /= settings.speed_weight;
   const auto maps = settings.method == "rk4" ? rk4_maps : gsl_maps;
   return Iteration{settings, maps(parameters, omega, settings), sizes,
                    vector_of(state).cwiseQuotient(sizes)}

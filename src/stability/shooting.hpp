@@ -24,8 +24,11 @@ struct ShootingSettings {
   double step = 0;           ///< rk4: longest step [s]; 0 chooses `default_step`
   double periodicity_residual = 1e-10;  ///< wanted ‖P(s) - s‖ over the sizes [-]
   int most_maps = 60;                   ///< periods integrated
-  bool final_derivative = true;         ///< integrate Φ at the motion that was found
-  OperationBudget budget = {};  ///< for the evaluations of Eq. 7, by GSL's methods
+  double speed_weight =
+      1;  ///< of the speeds in the norm of ‖P(s) - s‖, against their sizes
+  bool quasi_newton = true;      ///< Broyden's steps too; without: Φ anew at each step
+  bool final_derivative = true;  ///< integrate Φ at the motion that was found
+  OperationBudget budget = {};   ///< for the evaluations of Eq. 7, by GSL's methods
 };
 
 struct Shooting {

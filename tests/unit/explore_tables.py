@@ -180,37 +180,37 @@ class Stability(Case):
         return found[1], float(found[2])
 
     def test_each_verdict_is_that_of_the_orbit_there(self):
-        table = self.along("--from", 12, "--to", 12.7)
+        table = self.along("--from", 19.9, "--to", 20.6)
         self.assertEqual(len(table.columns), 11)
         examined = np.flatnonzero(table["bifurcation"] == "-")
         for k in examined[::max(1, len(examined) // 6)]:
             verdict, multiplier = self.orbit_at(table["f"][k])
             with self.subTest(frequency=table["f"][k]):
                 self.assertEqual(table["verdict"][k], verdict)
-                self.assertAlmostEqual(table["multiplier"][k] / multiplier, 1, delta=1e-5)
-                self.assertLess(table["multiplier_change"][k], 1e-6 * max(1, multiplier))
+                self.assertAlmostEqual(table["multiplier"][k] / multiplier, 1, delta=1e-3)
+                self.assertLess(table["multiplier_change"][k], 1e-3 * max(1, multiplier))
 
-    def test_a_period_doubling_is_right_to_1e_6_in_speed(self):
-        table = self.along("--from", 12, "--to", 12.7)
+    def test_a_period_doubling_is_right_to_1e_3_in_speed(self):
+        table = self.along("--from", 19.9, "--to", 20.6)
         doublings = table["f"][table["bifurcation"] == "period-doubling"]
         for frequency in doublings:
             self.assertIn(f"# period-doubling: {frequency:.9g} Hz\n", table.header + "\n")
-        # The first opens a stretch of unstable orbits, the second closes it.
-        self.assertGreaterEqual(len(doublings), 2)
-        for frequency, before in zip(doublings, (-1, 1)):
+        # It ends a stretch of unstable motions, which the series of six harmonics does not show.
+        self.assertEqual(len(doublings), 1)
+        for frequency in doublings:
             for side in (-1, 1):
                 with self.subTest(frequency=frequency, side=side):
-                    _, multiplier = self.orbit_at(frequency * (1 + side * 1e-6))
-                    self.assertGreater((multiplier - 1) * side * -before, 0)
+                    _, multiplier = self.orbit_at(frequency * (1 + side * 1e-3))
+                    self.assertLess((multiplier - 1) * side, 0)
 
     def test_what_the_budget_does_not_allow_is_said(self):
         result = self.run_explore("response", self.machine, *WHOLE, "--stability", "--budget", "2.7e7")
         self.assertEqual(result.returncode, 3)
-        self.assertIn("no multipliers at", result.stderr)
+        self.assertIn("points are undecided", result.stderr)
         self.assertIn("used up", result.stderr)
         self.assertNotIn("nan", result.stdout)
         table = Table.of(result.stdout)
-        known = (table["verdict"] != "unknown").sum()
+        known = (table["verdict"] != "undecided").sum()
         self.assertGreater(known, 0)
         self.assertLess(known, len(table))
         self.assertAlmostEqual(table["f"][-1], 60)

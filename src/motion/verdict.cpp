@@ -1,0 +1,251 @@
+#include "motion/verdict.hpp"
+
+#include <algorithm>
+
+#include "balance/bearing_problem.hpp"
+#include "balance/newton.hpp"
+#include "integration/time_stepper.hpp"
+#include "io/errors.hpp"
+#include "stability/lyapunov.hpp"
+#include "stability/shooting.hpp"
+
+namespace rotor_stator::motion {
+
+namespace {
+
+constexpr double same_motion = 0.05;  ///< of the largest displacement
+constexpr double local_error = 1e-11, finer = 1e-13;
+constexpr int most_harmonics = 192, points = 256;
+
+/** The largest difference of two states, over the sizes of their components. */
+double apart(const Parameters& parameters, const State& a, const State& b)
+{
+  return (vector_of(a) - vector_of(b))
+      .cwiseQuotient(state_scales(parameters))
+      .cwiseAbs()
+      .maxCoeff();
+}
+
+}  // namespace
+
+std::string Settled::regime() const
+{
+  if (period > 1) return format("periodic %d", period);
+  return period == 1 ? "periodic" : aperiodic ? "aperiodic" : "undecided";
+}
+
+std::string Verdict::regime() const
+{
+  return floquet.stable() ? "periodic" : from_there.regime();
+}
+
+Settled settle(const Parameters& parameters, double omega, const State& state,
+               const OperationBudget& budget, const State* away_from)
+{
+  constexpr int block = 200, most_blocks = 6, most_order = 8;
+  constexpr double closed = 1e-6, open = 1e-4, left = 1e-3;
+  const TimeStepper stepper = make_stepper(parameters, omega,
+                                           {.method = "rk4",
+                                            .intervals_per_period = 1,
+                                            .step = 0.5 * default_step(parameters),
+                                            .budget = budget});
+  const double size = state_scales(parameters)[0];
+  Settled settled{.state = state};
+  std::vector<double> least;
+  while (settled.periods < block * most_blocks) {
+    std::vector<Displacements> section;
+    for (int k = 0; k < block; ++k) {
+      stepper.advance(settled.periods++, settled.state);
+      if (k >= block - 3 * most_order)
+        section.push_back(displacements(settled.state.position));
+    }
+    const SectionJudgement judged =
+        judge_section(section, size, {}, {.periodic = closed, .most_period = most_order});
+    settled.spread = judged.spread_k;
+    const bool has_left =
+        !away_from || apart(parameters, settled.state, *away_from) > left;
+    if (settled.spread <= closed && has_left) {
+      settled.period = judged.period;
+      return settled;
+    }
+    least.push_back(settled.spread);
+    if (least.size() < 4) continue;
+    /** Neither closed nor on the way to it over the last three blocks. */
+    const auto [low, high] = std::minmax_element(least.end() - 3, least.end());
+    settled.aperiodic =
+        *low > open && *low > 0.3 * *high && least.back() > 0.7 * *(least.end() - 3);
+    if (settled.aperiodic) break;
+  }
+  return settled;
+}
+
+namespace {
+
+/** The shootings behind one verdict, one after the other until one closes a motion. */
+class Shootings {
+public:
+  Shootings(const Parameters& parameters, const PeriodicMotion& solution,
+            const OperationBudget& budget)
+      : parameters_(parameters), solution_(solution), budget_(budget)
+  {
+  }
+
+  /** Why no motion was found; empty when one was, whose state is then in `state`. From the solution, from a motion
+      nearby, from the same solution with more harmonics; then from all of them by other steps: where the contact
+      opens and closes, those of one kind are often refused. */
+  std::string run(State& state, const std::optional<State>& near = {})
+  {
+    std::vector<State> starts{state_of(solution_)};
+    if (near) starts.push_back(*near);
+    for (const State& start : starts)
+      if (closes(start, state)) return {};
+    PeriodicMotion more = solution_;
+    while (raise(more)) {
+      starts.push_back(state_of(more));
+      if (closes(starts.back(), state)) return {};
+    }
+    for (bool quasi_newton : {false, true})
+      for (const State& start : starts)
+        if (closes(start, state, 1, quasi_newton)) return {};
+    return "no T-periodic motion was found from it: " + shooting_.reason;
+  }
+
+  /** From where Eq. 7 settles, if that has the period T. */
+  bool from(const Settled& settled, State& state)
+  {
+    return settled.period == 1 && closes(settled.state, state);
+  }
+
+  double evaluations() const { return evaluations_; }
+
+private:
+  bool closes(const State& start, State& state, double speed_weight = 5,
+              bool quasi_newton = false)
+  {
+    state = start;
+    shooting_ = shoot(parameters_, solution_.omega, state,
+                      {.tolerance = local_error,
+                       .periodicity_residual = 1e-9,
+                       .most_maps = 60,
+                       .speed_weight = speed_weight,
+                       .quasi_newton = quasi_newton,
+                       .final_derivative = false,
+                       .budget = budget_});
+    evaluations_ += static_cast<double>(shooting_.evaluations);
+    return shooting_.converged;
+  }
+
+  /** Four times as many harmonics, or more where Newton finds none with so many; false at the end of them. */
+  bool raise(PeriodicMotion& solution)
+  {
+    int m = solution.harmonics.highest();
+    for (int doublings = 1; m < most_harmonics && !budget_.used_up(); ++doublings) {
+      m = std::min(2 * m, most_harmonics);
+      Balance balance(bearing_problem(parameters_, default_samples(m), budget_), m);
+      PeriodicMotion more =
+          solve(balance, solution.omega, resize_harmonics(solution.x, 2, m));
+      evaluations_ += static_cast<double>(more.force_samples);
+      if (!more.found()) continue;
+      solution = std::move(more);
+      if (doublings == 1 && m < most_harmonics) continue;
+      solution.bodies = body_series(parameters_, solution);
+      return true;
+    }
+    return false;
+  }
+
+  const Parameters& parameters_;
+  const PeriodicMotion& solution_;
+  const OperationBudget& budget_;
+  Shooting shooting_;
+  double evaluations_ = 0;
+};
+
+/** The distance of the solution from the motion through `state`, which goes on to `next`, and the motion's
+    multipliers. */
+void measure(const Parameters& parameters, const PeriodicMotion& solution,
+             const OperationBudget& budget, Verdict& verdict)
+{
+  const TimeStepper stepper = make_stepper(
+      parameters, solution.omega,
+      {.intervals_per_period = points, .tolerance = local_error, .budget = budget});
+  State next = verdict.state;
+  const Motion exact = recorded(stepper, points, next);
+  const Motion judged = motion_of(solution.bodies, points);
+  verdict.distance = relative_difference(judged, exact);
+  verdict.distance_rms = rms_difference(judged, exact);
+  verdict.evaluations += static_cast<double>(stepper.evaluations());
+  if (!(verdict.distance <= same_motion)) {
+    verdict.reason = format(
+        "the T-periodic motion found from it is another one, %.2g of the largest "
+        "displacement away",
+        verdict.distance);
+    return;
+  }
+  const auto map = [&](const State& state, double error) {
+    const PeriodMap period =
+        period_map(parameters, solution.omega, state, error, "rk8pd", budget);
+    verdict.evaluations += static_cast<double>(period.evaluations);
+    return multipliers_of(period.derivative);
+  };
+  Floquet& floquet = verdict.floquet;
+  floquet.multipliers = map(next, finer);
+  floquet.change = largest_move(floquet.multipliers, map(verdict.state, local_error));
+  floquet.settled = true;
+}
+
+/** All components by 1e-6 of their size. */
+State disturbed(const Parameters& parameters, const State& state)
+{
+  return rotor_stator::state_of(vector_of(state) + 1e-6 * state_scales(parameters));
+}
+
+}  // namespace
+
+Floquet floquet_of_machine(const Parameters& parameters, const PeriodicMotion& solution,
+                           const OperationBudget& budget, std::optional<State>& near)
+{
+  Verdict verdict;
+  Shootings shootings(parameters, solution, budget);
+  verdict.reason = shootings.run(verdict.state, near);
+  if (verdict.found()) measure(parameters, solution, budget, verdict);
+  if (!verdict.found()) throw NoSolution(verdict.reason);
+  near = verdict.state;
+  return verdict.floquet;
+}
+
+Verdict verdict_on(const Parameters& parameters, const PeriodicMotion& solution,
+                   const OperationBudget& budget)
+{
+  Verdict verdict;
+  /** The other half is for the integration from there. */
+  const OperationBudget half = budget.part(0.5);
+  Shootings shootings(parameters, solution, half);
+  const auto integrate = [&](const State& from, const State* away_from) {
+    verdict.from_there = settle(parameters, solution.omega, disturbed(parameters, from),
+                                budget, away_from);
+  };
+  try {
+    verdict.reason = shootings.run(verdict.state);
+    if (verdict.found()) measure(parameters, solution, budget, verdict);
+  } catch (const NoSolution& error) {
+    verdict.reason = error.what();
+  }
+  try {
+    if (!verdict.found()) {
+      integrate(state_of(solution), nullptr);
+      if (shootings.from(verdict.from_there, verdict.state)) {
+        verdict.reason.clear();
+        measure(parameters, solution, budget, verdict);
+      }
+    } else if (!verdict.floquet.stable()) {
+      integrate(verdict.state, verdict.floquet.unstable() ? &verdict.state : nullptr);
+    }
+  } catch (const NoSolution& error) {
+    verdict.lost = error.what();
+  }
+  verdict.evaluations += shootings.evaluations();
+  return verdict;
+}
+
+}  // namespace rotor_stator::motion

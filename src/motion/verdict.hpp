@@ -1,0 +1,73 @@
+/**
+# The verdict on a solution
+
+Few harmonics give displacements that look right and multipliers that are wrong: at 20 Hz of set 1 the
+series of six harmonics is stable, the machine is not. A verdict therefore speaks of a motion of Eq. 7
+itself, with nothing truncated. Shooting, begun at the solution's state, closes a T-periodic motion. Where it
+fails, the same solution is given more harmonics and shooting begins again; then Eq. 7 is integrated from the
+solution, and shooting begins where that settles. The motion must lie within 5 % of the largest displacement of
+the solution, otherwise it is another one.
+
+Its multipliers are the eigenvalues of the period map's derivative. They are computed twice: at the state found,
+and one period later with a local error a hundred times smaller. The two maps differ by the error of the
+steps, by the contacts that these steps straddle, and by what the shooting left open, so that the largest change
+of a multiplier is the uncertainty of all three together. `stable` means that all multipliers are inside the
+unit circle by more than it, `unstable` that one is outside by more; everything else is `undecided`. */
+#pragma once
+
+#include "motion/motion.hpp"
+#include "stability/floquet.hpp"
+
+namespace rotor_stator::motion {
+
+/** What Eq. 7 makes of a state, period after period. */
+struct Settled {
+  int period =
+      0;  ///< K where the section closes after K ≤ 8 periods; 0 where it does not
+  bool aperiodic = false;  ///< it goes on without closing, and comes no closer to it
+  double spread = 0;       ///< of the section, of the least order [-]
+  long periods = 0;        ///< integrated
+  State state = {};        ///< at their end
+
+  /** "periodic", "periodic K", "aperiodic" or "undecided". */
+  std::string regime() const;
+};
+
+/** Integrates from `state` at phase 0 for 200 to 1200 periods of rotation, by rk4 with half its
+    default step. Near `away_from`, if given, a
+    section that closes says nothing: the motion has not left it yet. Throws NoSolution when it diverges or
+    `budget` is used up. */
+Settled settle(const Parameters& parameters, double omega, const State& state,
+               const OperationBudget& budget = {}, const State* away_from = nullptr);
+
+struct Verdict {
+  std::string reason = {};  ///< why nothing is known; empty when a motion was found
+  Floquet floquet = {};     ///< of the motion found
+  State state = {};         ///< of the motion found, at phase 0
+  double distance = 0;  ///< of the solution from it, over the largest displacement [-]
+  double distance_rms = 0;  ///< the same, rms about the mean [-]
+  Settled from_there = {};  ///< beside an unstable motion, or none: what the machine does
+  std::string lost = {};    ///< why that could not be integrated
+  double evaluations = 0;   ///< of the force, what the verdict cost
+
+  bool found() const { return reason.empty(); }
+
+  /** "stable", "unstable" or "undecided". */
+  const char* word() const { return found() ? floquet.verdict() : "undecided"; }
+
+  /** As `Settled::regime`: "periodic" of a stable motion, else what the machine does from there. */
+  std::string regime() const;
+};
+
+/** Judges a solution of harmonic balance that has the series of both bodies. What `budget` does not pay for
+    makes it undecided. */
+Verdict verdict_on(const Parameters& parameters, const PeriodicMotion& solution,
+                   const OperationBudget& budget = {});
+
+/** The multipliers behind the verdict, of the motion that shooting finds. `near`, if not empty, is such a motion at a
+    speed nearby, and another start; it becomes the motion found. Throws NoSolution with the reason where none is
+    found. */
+Floquet floquet_of_machine(const Parameters& parameters, const PeriodicMotion& solution,
+                           const OperationBudget& budget, std::optional<State>& near);
+
+}  // namespace rotor_stator::motion
