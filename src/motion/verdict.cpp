@@ -1,6 +1,7 @@
 #include "motion/verdict.hpp"
 
 #include <algorithm>
+#include <cmath>
 
 #include "balance/bearing_problem.hpp"
 #include "balance/newton.hpp"
@@ -218,6 +219,10 @@ Verdict verdict_on(const Parameters& parameters, const PeriodicMotion& solution,
                    const OperationBudget& budget)
 {
   Verdict verdict;
+  if (!std::isfinite(1 / solution.omega)) {
+    verdict.reason = "the period of rotation is too long to be integrated";
+    return verdict;
+  }
   /** The other half is for the integration from there. */
   const OperationBudget half = budget.part(0.5);
   Shootings shootings(parameters, solution, half);
