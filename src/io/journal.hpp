@@ -42,7 +42,7 @@ std::vector<std::vector<Record>> run_study(
                             records.size() * sizeof(Record));
        })) {
     all.emplace_back(bytes.size() / sizeof(Record));
-    std::memcpy(all.back().data(), bytes.data(), bytes.size());
+    if (!bytes.empty()) std::memcpy(all.back().data(), bytes.data(), bytes.size());
   }
   return all;
 }
