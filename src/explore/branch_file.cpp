@@ -27,7 +27,7 @@ std::string machine(const Parameters& p)
         p.rotor.natural_frequency, p.rotor.damping_ratio, p.unbalance, p.gravity,
         static_cast<double>(p.bearing.balls), p.bearing.contact_stiffness,
         p.bearing.clearance, p.bearing.cage_speed_ratio})
-    line += format(line.empty() ? "%.17g" : " %.17g", value);
+    line.append(line.empty() ? "" : " ").append(exact(value));
   return line;
 }
 

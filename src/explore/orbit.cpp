@@ -156,7 +156,7 @@ std::string measured_regime(const Parameters& parameters, const MotionRequest& r
     if (fine.periodic != steady.periodic)
       return format("undecided; %s with finer steps, spread %.2g",
                     fine.periodic ? "periodic" : "aperiodic", fine.spread);
-    if (fine.periodic && off > 0.05)
+    if (fine.periodic && off > motion::same_motion)
       return format("undecided; finer steps give another motion, %.2g away", off);
   }
   if (steady.periodic) return "periodic";

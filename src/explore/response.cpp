@@ -234,8 +234,7 @@ void note(Table& table, const std::string& prefix, const BranchStability& stabil
           count(Bifurcation::period_doubling), count(Bifurcation::neimark_sacker),
           BranchStabilitySettings{}.tolerance, stability.missed));
   if (stability.failed > 0) {
-    const auto first = std::find_if(stability.points.begin(), stability.points.end(),
-                                    [](const StablePoint& p) { return !p.examined(); });
+    const auto first = std::ranges::find(stability.points, false, &StablePoint::examined);
     table.note(prefix + format("undecided: %d of %zu points, the first at %.6g Hz: %s",
                                stability.failed, stability.points.size(),
                                first->point.motion.omega / angular(1),

@@ -19,6 +19,17 @@ double larger(double a, double b)
   return std::isfinite(b) ? std::max(a, b) : std::numeric_limits<double>::infinity();
 }
 
+/** x_s, y_s, x_r, y_r [m] at the instants of the first period, P × 4. */
+Eigen::MatrixXd displacement_samples(const Motion& motion)
+{
+  Eigen::MatrixXd samples(motion.points_per_period, 4);
+  for (int k = 0; k < motion.points_per_period; ++k) {
+    const Bodies& q = motion.positions[static_cast<std::size_t>(k)];
+    samples.row(k) << q.stator.x, q.stator.y, q.rotor.x, q.rotor.y;
+  }
+  return samples;
+}
+
 }  // namespace
 
 double Motion::phase(std::size_t k) const
@@ -28,13 +39,9 @@ double Motion::phase(std::size_t k) const
 
 Eigen::MatrixXd series_of(const Motion& motion, int harmonics)
 {
-  const int points = motion.points_per_period;
-  Eigen::MatrixXd samples(points, 4), series(4, 2 * harmonics + 1);
-  for (int k = 0; k < points; ++k) {
-    const Bodies& q = motion.positions[static_cast<std::size_t>(k)];
-    samples.row(k) << q.stator.x, q.stator.y, q.rotor.x, q.rotor.y;
-  }
-  FourierTransform(points).to_series(samples, series);
+  Eigen::MatrixXd series(4, 2 * harmonics + 1);
+  FourierTransform(motion.points_per_period)
+      .to_series(displacement_samples(motion), series);
   return series;
 }
 
@@ -109,11 +116,8 @@ double relative_difference(const Motion& motion, const Motion& reference)
 
 double rms_difference(const Motion& motion, const Motion& reference)
 {
-  const int points = reference.points_per_period;
-  const auto about_the_mean = [points](const Motion& m) -> Eigen::MatrixXd {
-    Eigen::MatrixXd q(points, 4);
-    for (int k = 0; k < points; ++k)
-      for (int i = 0; i < 4; ++i) q(k, i) = displacements(m.positions[k])[i];
+  const auto about_the_mean = [](const Motion& m) -> Eigen::MatrixXd {
+    const Eigen::MatrixXd q = displacement_samples(m);
     return q.rowwise() - q.colwise().mean();
   };
   const Eigen::MatrixXd exact = about_the_mean(reference);

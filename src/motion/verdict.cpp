@@ -14,7 +14,6 @@ namespace rotor_stator::motion {
 
 namespace {
 
-constexpr double same_motion = 0.05;  ///< of the largest displacement
 constexpr double local_error = 1e-11, finer = 1e-13;
 constexpr int most_harmonics = 192, points = 256;
 

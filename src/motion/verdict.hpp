@@ -20,6 +20,9 @@ unit circle by more than it, `unstable` that one is outside by more; everything 
 
 namespace rotor_stator::motion {
 
+/** Motions that are no further apart count as one [of the largest displacement]. */
+inline constexpr double same_motion = 0.05;
+
 /** What Eq. 7 makes of a state, period after period. */
 struct Settled {
   int period =
