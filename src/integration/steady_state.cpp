@@ -9,12 +9,9 @@
 
 namespace rotor_stator {
 
-namespace {
-
 /** Beyond this the section alone fills the memory. */
-constexpr double most_periods = 1e7;
+static constexpr double most_periods = 1e7;
 
-/** The period T [s], when `seconds` of it can be integrated. */
 double checked_period(double omega, double seconds)
 {
   const double period = 2 * std::numbers::pi / omega;
@@ -25,6 +22,8 @@ double checked_period(double omega, double seconds)
         format("%g s are more than %g periods of rotation", seconds, most_periods));
   return period;
 }
+
+namespace {
 
 /** A motion in progress, with the last points of its Poincaré section. */
 class Settling {

@@ -38,6 +38,9 @@ struct SteadyState {
   long evaluations;  ///< of Eq. 7
 };
 
+/** The period T [s]. Throws NoSolution unless `seconds` of it can be integrated. */
+double checked_period(double omega, double seconds);
+
 /** The largest distance of two points of a Poincaré section in one displacement [m]. */
 template <class Section>
 double extent(const Section& section)

@@ -17,66 +17,11 @@ namespace {
 constexpr double local_error = 1e-11, finer = 1e-13;
 constexpr int most_harmonics = 192, points = 256;
 
-/** The largest difference of two states, over the sizes of their components. */
-double apart(const Parameters& parameters, const State& a, const State& b)
-{
-  return (vector_of(a) - vector_of(b))
-      .cwiseQuotient(state_scales(parameters))
-      .cwiseAbs()
-      .maxCoeff();
-}
-
 }  // namespace
-
-std::string Settled::regime() const
-{
-  if (period > 1) return format("periodic %d", period);
-  return period == 1 ? "periodic" : aperiodic ? "aperiodic" : "undecided";
-}
 
 std::string Verdict::regime() const
 {
   return floquet.stable() ? "periodic" : from_there.regime();
-}
-
-Settled settle(const Parameters& parameters, double omega, const State& state,
-               const OperationBudget& budget, const State* away_from)
-{
-  constexpr int block = 200, most_blocks = 6, most_order = 8;
-  constexpr double closed = 1e-6, open = 1e-4, left = 1e-3;
-  const TimeStepper stepper = make_stepper(parameters, omega,
-                                           {.method = "rk4",
-                                            .intervals_per_period = 1,
-                                            .step = 0.5 * default_step(parameters),
-                                            .budget = budget});
-  const double size = state_scales(parameters)[0];
-  Settled settled{.state = state};
-  std::vector<double> least;
-  while (settled.periods < block * most_blocks) {
-    std::vector<Displacements> section;
-    for (int k = 0; k < block; ++k) {
-      stepper.advance(settled.periods++, settled.state);
-      if (k >= block - 3 * most_order)
-        section.push_back(displacements(settled.state.position));
-    }
-    const SectionJudgement judged =
-        judge_section(section, size, {}, {.periodic = closed, .most_period = most_order});
-    settled.spread = judged.spread_k;
-    const bool has_left =
-        !away_from || apart(parameters, settled.state, *away_from) > left;
-    if (settled.spread <= closed && has_left) {
-      settled.period = judged.period;
-      return settled;
-    }
-    least.push_back(settled.spread);
-    if (least.size() < 4) continue;
-    /** Neither closed nor on the way to it over the last three blocks. */
-    const auto [low, high] = std::minmax_element(least.end() - 3, least.end());
-    settled.aperiodic =
-        *low > open && *low > 0.3 * *high && least.back() > 0.7 * *(least.end() - 3);
-    if (settled.aperiodic) break;
-  }
-  return settled;
 }
 
 namespace {

@@ -15,33 +15,13 @@ of a multiplier is the uncertainty of all three together. `stable` means that al
 unit circle by more than it, `unstable` that one is outside by more; everything else is `undecided`. */
 #pragma once
 
-#include "motion/motion.hpp"
+#include "motion/attractor.hpp"
 #include "stability/floquet.hpp"
 
 namespace rotor_stator::motion {
 
 /** Motions that are no further apart count as one [of the largest displacement]. */
 inline constexpr double same_motion = 0.05;
-
-/** What Eq. 7 makes of a state, period after period. */
-struct Settled {
-  int period =
-      0;  ///< K where the section closes after K ≤ 8 periods; 0 where it does not
-  bool aperiodic = false;  ///< it goes on without closing, and comes no closer to it
-  double spread = 0;       ///< of the section, of the least order [-]
-  long periods = 0;        ///< integrated
-  State state = {};        ///< at their end
-
-  /** "periodic", "periodic K", "aperiodic" or "undecided". */
-  std::string regime() const;
-};
-
-/** Integrates from `state` at phase 0 for 200 to 1200 periods of rotation, by rk4 with half its
-    default step. Near `away_from`, if given, a
-    section that closes says nothing: the motion has not left it yet. Throws NoSolution when it diverges or
-    `budget` is used up. */
-Settled settle(const Parameters& parameters, double omega, const State& state,
-               const OperationBudget& budget = {}, const State* away_from = nullptr);
 
 struct Verdict {
   std::string reason = {};  ///< why nothing is known; empty when a motion was found

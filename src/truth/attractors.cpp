@@ -9,6 +9,28 @@
 
 namespace rotor_stator::truth {
 
+namespace {
+
+AttractorSettings read_attractor_settings(StrictToml table)
+{
+  const VerdictRule rule{.periodic = table.number("periodic", Range::positive),
+                         .most_period = table.integer("most_period", 1, 1000),
+                         .zero_rate = table.number("zero_rate_per_s", Range::positive)};
+  const int points = table.integer("points_per_period", 4, 4096);
+  return {.stepper = {.method = "rk4", .intervals_per_period = points},
+          .settled = table.number("settled", Range::positive),
+          .longest = table.number("longest_transient_s", Range::positive),
+          .block = table.number("block_s", Range::positive),
+          .least = table.number("least_s", Range::positive),
+          .chaotic = table.number("chaotic_s", Range::positive),
+          .most = table.number("most_s", Range::positive),
+          .rule = rule,
+          .same_periodic = table.number("same_periodic", Range::positive),
+          .same_aperiodic = table.number("same_aperiodic", Range::positive)};
+}
+
+}  // namespace
+
 AttractorScene read_attractor_scene(SceneFile& file)
 {
   StrictToml& toml = file.toml();
@@ -44,7 +66,7 @@ std::vector<AttractorPoint> settled(const AttractorScene& scene, const Chain& ch
   std::vector<AttractorPoint> points;
   const auto settle = [&](double frequency, const State& start) {
     const Attractor attractor =
-        attractor_from(machine, angular(frequency), start, scene.settings);
+        motion::attractor_from(machine, angular(frequency), start, scene.settings);
     points.push_back({attractor, chain.set, frequency, chain.origin});
     return attractor.state;
   };
@@ -76,7 +98,7 @@ std::vector<AttractorPoint> settled(const AttractorScene& scene, const Chain& ch
       const std::uint64_t first =
           ((scene.seed * 64ull + (chain.set - 1)) * 4096 + chain.speed) * 64;
       for (int k = 0; k < scene.random_starts; ++k)
-        settle(frequency, random_state(machine, angular(frequency), first + k));
+        settle(frequency, motion::random_state(machine, angular(frequency), first + k));
     }
   }
   return points;
@@ -188,7 +210,7 @@ Table attractor_table(const AttractorScene& scene, const std::vector<Point>& poi
       scene.random_starts, scene.random_frequencies.size(), scene.seed));
   table.note(format(
       "transient: until the section's spread is below %g, at most %g s; then %g s if the section closes, %g s if chaotic, at most %g s else",
-      s.transient.settled, s.transient.longest, s.least, s.chaotic, s.most));
+      s.settled, s.longest, s.least, s.chaotic, s.most));
   table.note(format(
       "verdict: closed below a spread of %g, k up to %d; chaotic if the exponent less 3 errors is above %g 1/s; quasi-periodic if it is within 3 errors of 0",
       s.rule.periodic, s.rule.most_period, s.rule.zero_rate));

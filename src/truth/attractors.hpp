@@ -9,9 +9,12 @@ where there are several, the motion depends on how it was begun. */
 
 #include "io/table.hpp"
 #include "io/toml_file.hpp"
-#include "truth/attractor.hpp"
+#include "motion/attractor.hpp"
 
 namespace rotor_stator::truth {
+
+using motion::Attractor;
+using motion::AttractorSettings;
 
 struct AttractorScene {
   std::vector<Parameters> sets;

@@ -48,26 +48,11 @@ std::vector<AttractorPoint> attractors_at(const std::vector<AttractorPoint>& all
   return here;
 }
 
-namespace {
-
-/** As `motion_on`, a closed motion not repeated. */
-motion::Motion once_on(const AttractorPoint& point, const Parameters& machine,
-                       int points_per_period, int periods)
-{
-  const TimeStepper stepper =
-      make_stepper(machine, angular(point.frequency),
-                   {.method = "rk4", .intervals_per_period = points_per_period});
-  State state = point.state;
-  return motion::recorded(stepper, points_per_period, state, 0,
-                          point.closed() ? point.period : periods);
-}
-
-}  // namespace
-
 motion::Motion motion_on(const AttractorPoint& point, const Parameters& machine,
                          int points_per_period, int periods)
 {
-  motion::Motion motion = once_on(point, machine, points_per_period, periods);
+  motion::Motion motion = motion::motion_along(point, machine, angular(point.frequency),
+                                               points_per_period, periods);
   const std::size_t once = motion.size();
   const auto whole = static_cast<std::size_t>(periods) * points_per_period;
   for (std::size_t k = once; k < whole; ++k)
@@ -90,7 +75,8 @@ SectionScene read_section_scene(SceneFile& file, const std::string& attractors)
 std::vector<Vec2> section_of(const AttractorPoint& point, const Parameters& machine,
                              int points)
 {
-  const motion::Motion motion = once_on(point, machine, 4, points);
+  const motion::Motion motion =
+      motion::motion_along(point, machine, angular(point.frequency), 4, points);
   std::vector<Vec2> section;
   for (std::size_t k = 0; k < motion.size(); k += 4)
     section.push_back(motion.positions[k].relative());

@@ -87,7 +87,7 @@ TEST_CASE("Half the step gives the same verdicts and exponents")
 {
   for (const KnownMotion& motion : known_motions) {
     AttractorSettings usual = settings(), half = usual;
-    half.transient.stepper.step =
+    half.stepper.step =
         default_step(
             read_parameters(std::string(SOURCE_DIR "/data/") + motion.set + ".toml")) /
         2;

@@ -1,33 +1,78 @@
-#include "truth/attractor.hpp"
+#include "motion/attractor.hpp"
 
+#include <algorithm>
 #include <cmath>
-#include <numbers>
 
 #include "io/errors.hpp"
 #include "motion/other_starts.hpp"
 
-namespace rotor_stator::truth {
+namespace rotor_stator::motion {
 
-AttractorSettings read_attractor_settings(StrictToml table)
+namespace {
+
+/** The largest difference of two states, over the sizes of their components. */
+double apart(const Parameters& parameters, const State& a, const State& b)
 {
-  const VerdictRule rule{.periodic = table.number("periodic", Range::positive),
-                         .most_period = table.integer("most_period", 1, 1000),
-                         .zero_rate = table.number("zero_rate_per_s", Range::positive)};
-  const int points = table.integer("points_per_period", 4, 4096);
-  return {.transient = {.stepper = {.method = "rk4", .intervals_per_period = points},
-                        .settled = table.number("settled", Range::positive),
-                        .periodic = rule.periodic,
-                        .longest = table.number("longest_transient_s", Range::positive)},
-          .block = table.number("block_s", Range::positive),
-          .least = table.number("least_s", Range::positive),
-          .chaotic = table.number("chaotic_s", Range::positive),
-          .most = table.number("most_s", Range::positive),
-          .rule = rule,
-          .same_periodic = table.number("same_periodic", Range::positive),
-          .same_aperiodic = table.number("same_aperiodic", Range::positive)};
+  return (vector_of(a) - vector_of(b))
+      .cwiseQuotient(state_scales(parameters))
+      .cwiseAbs()
+      .maxCoeff();
+}
+
+}  // namespace
+
+std::string Settled::regime() const
+{
+  if (period > 1) return format("periodic %d", period);
+  return period == 1 ? "periodic" : aperiodic ? "aperiodic" : "undecided";
+}
+
+Settled settle(const Parameters& parameters, double omega, const State& state,
+               const OperationBudget& budget, const State* away_from,
+               const SettleRule& rule)
+{
+  constexpr double open = 1e-4, left = 1e-3;
+  const double step = rule.step > 0 ? rule.step : 0.5 * default_step(parameters);
+  const TimeStepper stepper = make_stepper(
+      parameters, omega,
+      {.method = "rk4", .intervals_per_period = 1, .step = step, .budget = budget});
+  const double size = state_scales(parameters)[0];
+  Settled settled{.state = state};
+  std::vector<double> least;
+  for (int blocks = 0; blocks < rule.most_blocks; ++blocks) {
+    std::vector<Displacements> section;
+    for (long k = 0; k < rule.block; ++k) {
+      stepper.advance(settled.periods++, settled.state);
+      if (k >= rule.block - 3 * rule.most_period)
+        section.push_back(displacements(settled.state.position));
+    }
+    const SectionJudgement judged = judge_section(
+        section, size, {}, {.periodic = rule.closed, .most_period = rule.most_period});
+    settled.spread = judged.spread_k;
+    const bool has_left =
+        !away_from || apart(parameters, settled.state, *away_from) > left;
+    if (settled.spread <= rule.closed && has_left) {
+      settled.period = judged.period;
+      return settled;
+    }
+    least.push_back(settled.spread);
+    if (least.size() < 4) continue;
+    /** Neither closed nor on the way to it over the last three blocks. */
+    const auto [low, high] = std::minmax_element(least.end() - 3, least.end());
+    settled.aperiodic =
+        *low > open && *low > 0.3 * *high && least.back() > 0.7 * *(least.end() - 3);
+    if (settled.aperiodic) break;
+  }
+  return settled;
 }
 
 namespace {
+
+/** The fewest periods [s] that are not shorter than `seconds`. */
+long periods_in(double seconds, double period)
+{
+  return std::lround(std::ceil(seconds / period));
+}
 
 /** Sums and extremes of the displacements over instants. */
 struct Statistics {
@@ -58,9 +103,9 @@ struct Observation {
 
   void add_block()
   {
-    const int count = static_cast<int>(std::ceil(settings.block / period));
+    const long count = periods_in(settings.block, period);
     double growth = 0;
-    for (int k = 0; k < count; ++k) {
+    for (long k = 0; k < count; ++k) {
       section.push_back(displacements(motion.state().position));
       Statistics& statistics = periods.emplace_back();
       growth += motion.advance_one_period([&](const State& state) {
@@ -68,14 +113,14 @@ struct Observation {
         statistics.add({1, q, q * q, q, q});
       });
     }
-    rates.push_back(growth / (count * period));
+    rates.push_back(growth / (static_cast<double>(count) * period));
   }
 
   /** The last points decide whether the section closes, the whole observation what the exponent is. */
   SectionJudgement judged() const
   {
-    const auto window = static_cast<std::size_t>(std::max(
-        std::ceil(settings.transient.window / period), 3.0 * settings.rule.most_period));
+    const auto window = static_cast<std::size_t>(
+        std::max(periods_in(settings.block, period), 3L * settings.rule.most_period));
     const auto last = section.size() - std::min(section.size(), window);
     const double size =
         std::max(-periods.back().low.minCoeff(), periods.back().high.maxCoeff());
@@ -117,25 +162,48 @@ Attractor attractor_from(const Parameters& machine, double omega, const State& s
 {
   if (!has_rotation_period(machine.bearing))
     throw NoSolution("attractors: the bearing's force has not the period of rotation");
-  const SteadyState steady = steady_state(machine, omega, start, settings.transient);
-  const auto& stepper = settings.transient.stepper;
+  const StepperSettings& stepper = settings.stepper;
+  const double period = checked_period(omega, settings.longest + settings.most);
+  const long block =
+      std::max(periods_in(settings.block, period), 3L * settings.rule.most_period);
+  const Settled settled =
+      settle(machine, omega, start, stepper.budget, nullptr,
+             {.closed = settings.settled,
+              .most_period = settings.rule.most_period,
+              .block = block,
+              .most_blocks = static_cast<int>(
+                  periods_in(settings.longest / static_cast<double>(block), period)),
+              .step = stepper.step > 0 ? stepper.step : default_step(machine)});
   Observation seen{settings,
-                   2 * std::numbers::pi / omega,
+                   period,
                    {make_stepper(machine, omega, stepper), stepper.intervals_per_period,
-                    state_scales(machine), steady.states.front()}};
+                    state_scales(machine), settled.state}};
   /** The first block turns the neighbour into the direction of fastest growth, and its rate is not
       used; then blocks until there is enough to judge by. */
   seen.add_block();
   seen.rates.clear();
   Attractor attractor{};
   do {
+    const bool was_closed = attractor.closed();
     seen.add_block();
     static_cast<SectionJudgement&>(attractor) = seen.judged();
+    /** What came before belongs to the transient. */
+    if (attractor.closed() && !was_closed && seen.rates.size() > 1) seen.rates.clear();
   } while (!seen.enough(attractor));
   seen.summarise(attractor);
   attractor.state = seen.motion.state();
-  attractor.seconds = seen.seconds() + steady.seconds;
+  attractor.seconds = seen.seconds() + static_cast<double>(settled.periods) * period;
   return attractor;
+}
+
+Motion motion_along(const Attractor& attractor, const Parameters& machine, double omega,
+                    int points_per_period, int periods)
+{
+  const TimeStepper stepper = make_stepper(
+      machine, omega, {.method = "rk4", .intervals_per_period = points_per_period});
+  State state = attractor.state;
+  return recorded(stepper, points_per_period, state, 0,
+                  attractor.closed() ? attractor.period : periods);
 }
 
 bool same_attractor(const Attractor& a, const Attractor& b,
@@ -155,7 +223,7 @@ bool same_attractor(const Attractor& a, const Attractor& b,
 State random_state(const Parameters& machine, double omega, std::uint64_t seed)
 {
   std::mt19937_64 generator(seed);
-  const auto random = [&] { return 2 * motion::uniform(generator); };
+  const auto random = [&] { return 2 * uniform(generator); };
   const double joined = std::abs(dynamic_stiffness(machine.stator, omega).value +
                                  dynamic_stiffness(machine.rotor, omega).value);
   const double amplitude = machine.unbalance * omega * omega / joined;
@@ -170,7 +238,7 @@ State random_state(const Parameters& machine, double omega, std::uint64_t seed)
     y[2 + i] += random() * scales[2 + i];
     y[6 + i] += random() * scales[6 + i];
   }
-  return state_of(y);
+  return rotor_stator::state_of(y);
 }
 
-}  // namespace rotor_stator::truth
+}  // namespace rotor_stator::motion

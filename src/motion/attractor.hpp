@@ -1,0 +1,88 @@
+/**
+# One attractor: where time integration settles, and what kind of motion it is
+
+A motion of Eq. 7 is followed until its Poincaré section (one point per period) closes after K periods, or is
+seen not to. Then it is observed beside a neighbour, whose distance gives the largest Lyapunov exponent, until
+there is enough to judge by. Verdicts, the study of the attractors and `explore attractors` all ask here. */
+#pragma once
+
+#include <cstdint>
+
+#include "motion/motion.hpp"
+#include "stability/lyapunov.hpp"
+
+namespace rotor_stator::motion {
+
+/** What Eq. 7 makes of a state, period after period. */
+struct Settled {
+  int period = 0;  ///< K where the section closes after K periods; 0 where it does not
+  bool aperiodic = false;  ///< it goes on without closing, and comes no closer to it
+  double spread = 0;       ///< of the section, of the least order [-]
+  long periods = 0;        ///< integrated
+  State state = {};        ///< at their end
+
+  /** "periodic", "periodic K", "aperiodic" or "undecided". */
+  std::string regime() const;
+};
+
+/** When a motion has settled. */
+struct SettleRule {
+  double closed = 1e-6;  ///< largest spread of a closed section [-]
+  int most_period = 8;   ///< K
+  long block = 200;      ///< periods between two looks at the section, at least 3 K
+  int most_blocks = 6;
+  double step = 0;  ///< longest of rk4 [s]; 0: half its default
+};
+
+/** Integrates from `state` at phase 0 by rk4 until the section closes, stays open, or the rule's blocks are over.
+    Near `away_from`, if given, a section that closes says nothing: the motion has not left it yet. Throws
+    NoSolution when it diverges or `budget` is used up. */
+Settled settle(const Parameters& parameters, double omega, const State& state,
+               const OperationBudget& budget = {}, const State* away_from = nullptr,
+               const SettleRule& rule = {});
+
+struct AttractorSettings {
+  StepperSettings stepper;  ///< of fixed step
+  double settled = 1e-9;    ///< spread at which the transient is over [-]
+  double longest = 20;      ///< transient at most [s]
+  double block = 1;         ///< over which a growth rate is taken [s]
+  double least = 2;         ///< observed after the transient if the section closes [s]
+  double chaotic = 10;      ///< if it does not and λ > 0 is beyond doubt [s]
+  double most = 60;         ///< otherwise [s]
+  VerdictRule rule = {};
+  double same_periodic = 1e-5;  ///< largest distance of equal closed motions [-]
+  double same_aperiodic = 0.1;  ///< of equal motions that do not close [-]
+};
+
+/** A motion on an attractor. Arrays: x_s, y_s, x_r, y_r. */
+struct Attractor : SectionJudgement {
+  std::array<double, 4> mean;       ///< over time [m]
+  std::array<double, 4> rms;        ///< about the mean [m]
+  std::array<double, 4> amplitude;  ///< half peak-to-peak [m]
+  State state;                      ///< at phase 0 [m, m/s]
+  double seconds;                   ///< integrated in all [s]
+
+  bool periodic() const { return verdict == Verdict::periodic; }
+  bool closed() const { return periodic() || verdict == Verdict::subharmonic; }
+};
+
+/** Integrates from `start` at phase 0. Throws NoSolution when the integration breaks down or the
+    bearing's force has not the period of rotation. */
+Attractor attractor_from(const Parameters& machine, double omega, const State& start,
+                         const AttractorSettings& settings);
+
+/** The motion on an attractor by RK4 with its default step: a closed one over its own period, another over
+    `periods`. */
+Motion motion_along(const Attractor& attractor, const Parameters& machine, double omega,
+                    int points_per_period, int periods);
+
+/** Whether two motions of one machine and speed are on one attractor: both close or neither does,
+    and means and scatters agree within the tolerance, over the largest scatter. */
+bool same_attractor(const Attractor& a, const Attractor& b,
+                    const AttractorSettings& settings);
+
+/** A random state of the size of the motion: both bodies together within twice the unbalance
+    response of the joined bodies, the relative motion within twice the bearing's size. */
+State random_state(const Parameters& machine, double omega, std::uint64_t seed);
+
+}  // namespace rotor_stator::motion
