@@ -35,27 +35,29 @@ struct Varying {
   }
 };
 
-/** A body's impedance and the amplitudes of its load in x and y: weight on harmonic 0, unbalance on
-    harmonic 1 (cos φ in x and sin φ = Re(-i e^{iφ}) in y). */
+/** A body's impedance and the amplitudes of its load in x and y: weight on harmonic 0, unbalance on that
+    of the rotor's turning (cos φ in x and sin φ = Re(-i e^{iφ}) in y). */
 struct LoadedBody {
   Varying z;
   std::array<Varying, 2> load;
 };
 
-LoadedBody loaded(const Body& body, double gravity, double unbalance, double omega, int h)
+LoadedBody loaded(const Body& body, double gravity, double unbalance, double omega,
+                  int turns, int h)
 {
   const auto z = dynamic_stiffness(body, h * omega);
   LoadedBody loaded{{z.value, static_cast<double>(h) * z.slope}, {}};
-  const Varying force{unbalance * omega * omega, 2 * unbalance * omega};
+  const double moment = unbalance * turns * turns;
+  const Varying force{moment * omega * omega, 2 * moment * omega};
   if (h == 0) loaded.load[1] = {-body.mass * gravity, 0};
-  if (h == 1) loaded.load = {force, force * Varying{{0, -1}, 0}};
+  if (h == turns) loaded.load = {force, force * Varying{{0, -1}, 0}};
   return loaded;
 }
 
 std::array<LoadedBody, 2> stator_and_rotor(const Parameters& p, double omega, int h)
 {
-  return {loaded(p.stator, p.gravity, 0, omega, h),
-          loaded(p.rotor, p.gravity, p.unbalance, omega, h)};
+  return {loaded(p.stator, p.gravity, 0, omega, p.turns, h),
+          loaded(p.rotor, p.gravity, p.unbalance, omega, p.turns, h)};
 }
 
 LinearBlock condensed_block(const Parameters& parameters, double ball_stiffness,

@@ -115,12 +115,14 @@ void equation_7_slopes(const Parameters& p, const RotorStator& system, double t,
   const double cage_speed = p.bearing.cage_speed_ratio * omega;
   const Vec2 turning{cage_speed * (-f.y + s.xx * u.y - s.xy * u.x),
                      cage_speed * (f.x + s.xy * u.y - s.yy * u.x)};
-  const double unbalance = p.unbalance * omega * omega * omega;
+  const Direction rotor = system.rotor_direction(phase);
+  const double speed = p.turns * omega;
+  const double unbalance = p.unbalance * speed * speed * speed;
   std::fill_n(dfdt, 4, 0.0);
   dfdt[4] = turning.x / p.stator.mass;
   dfdt[5] = turning.y / p.stator.mass;
-  dfdt[6] = (-turning.x - unbalance * std::sin(phase)) / p.rotor.mass;
-  dfdt[7] = (-turning.y + unbalance * std::cos(phase)) / p.rotor.mass;
+  dfdt[6] = (-turning.x - unbalance * rotor.sin) / p.rotor.mass;
+  dfdt[7] = (-turning.y + unbalance * rotor.cos) / p.rotor.mass;
 }
 
 namespace {

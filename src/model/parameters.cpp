@@ -89,6 +89,13 @@ double cage_speed_ratio(double ball_radius, double inner_race_radius)
   return 0.5 * (1 - ball_radius / (ball_radius + inner_race_radius));
 }
 
+Parameters over_turns(Parameters parameters, int turns)
+{
+  parameters.turns *= turns;
+  parameters.bearing.cage_speed_ratio *= turns;
+  return parameters;
+}
+
 double passages_per_turn(const Bearing& bearing)
 {
   return bearing.balls * bearing.cage_speed_ratio;

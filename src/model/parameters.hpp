@@ -42,6 +42,7 @@ struct Parameters {
   double unbalance;  ///< m_e e [kg m], on the rotor
   Bearing bearing;
   double gravity;  ///< g [m/s²], along -y
+  int turns = 1;   ///< of the rotor in one base period, whose frequency ω is
 };
 
 /** Reads and checks a parameter file. Throws BadInput with file, line and key. */
@@ -61,6 +62,10 @@ std::vector<double> angular(const std::vector<double>& hertz);
 /** Eq. 3: c = ω_cage/ω = ½(1 - R_b/(R_b + R)) from the radii of ball and inner race
    (the paper's R; in its Eq. 2 R is the ball's, D-07). */
 double cage_speed_ratio(double ball_radius, double inner_race_radius);
+
+/** The same machine, its base period K turns of the rotor: ω is then a K-th of the speed, and the cage ratio
+    counts the cage's turns per base period. */
+Parameters over_turns(Parameters parameters, int turns);
 
 /** Ball passages through a fixed direction per turn, n·c. The bearing's force has the
    period T = 2π/ω only when this is a whole number (D-11). */

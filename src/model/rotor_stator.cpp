@@ -8,12 +8,13 @@
 namespace rotor_stator {
 
 RotorStator::RotorStator(const Parameters& parameters, double omega)
-    : bearing_(parameters.bearing), omega_(omega),
+    : bearing_(parameters.bearing), omega_(omega), turns_(parameters.turns),
       cage_ratio_(parameters.bearing.cage_speed_ratio),
-      unbalance_(parameters.unbalance * omega * omega), gravity_(parameters.gravity),
-      k_s_(parameters.stator.stiffness()), c_s_(parameters.stator.damping()),
-      per_m_s_(1 / parameters.stator.mass), k_r_(parameters.rotor.stiffness()),
-      c_r_(parameters.rotor.damping()), per_m_r_(1 / parameters.rotor.mass)
+      unbalance_(parameters.unbalance * (turns_ * omega) * (turns_ * omega)),
+      gravity_(parameters.gravity), k_s_(parameters.stator.stiffness()),
+      c_s_(parameters.stator.damping()), per_m_s_(1 / parameters.stator.mass),
+      k_r_(parameters.rotor.stiffness()), c_r_(parameters.rotor.damping()),
+      per_m_r_(1 / parameters.rotor.mass)
 {
 }
 
@@ -75,10 +76,11 @@ Vec2 rigid_joint_force(const Parameters& parameters, double omega, double phase)
   const double weight_r = parameters.rotor.mass * parameters.gravity;
   const double gravity = (k_r * weight_s - k_s * weight_r) / (k_s + k_r);
 
-  const auto z_s = dynamic_stiffness(parameters.stator, omega).value;
-  const auto z_r = dynamic_stiffness(parameters.rotor, omega).value;
-  const auto whirl =
-      z_s * parameters.unbalance * omega * omega / (z_s + z_r) * std::polar(1.0, phase);
+  const double speed = parameters.turns * omega;
+  const auto z_s = dynamic_stiffness(parameters.stator, speed).value;
+  const auto z_r = dynamic_stiffness(parameters.rotor, speed).value;
+  const auto whirl = z_s * parameters.unbalance * speed * speed / (z_s + z_r) *
+                     std::polar(1.0, parameters.turns * phase);
   return {whirl.real(), gravity + whirl.imag()};
 }
 
@@ -87,9 +89,10 @@ Vec2 free_displacement(const Parameters& parameters, double omega, double phase)
   const auto sag = [&](const Body& body) {
     return parameters.gravity / (body.natural_frequency * body.natural_frequency);
   };
-  const auto whirl = parameters.unbalance * omega * omega /
-                     dynamic_stiffness(parameters.rotor, omega).value *
-                     std::polar(1.0, phase);
+  const double speed = parameters.turns * omega;
+  const auto whirl = parameters.unbalance * speed * speed /
+                     dynamic_stiffness(parameters.rotor, speed).value *
+                     std::polar(1.0, parameters.turns * phase);
   return {whirl.real(), sag(parameters.stator) - sag(parameters.rotor) + whirl.imag()};
 }
 

@@ -56,7 +56,7 @@ inline State state_of(const Vector8& y)
 /** Eq. 7 at one rotor speed: everything that does not change along a motion. */
 class RotorStator {
 public:
-  /** `omega` is the rotor's speed ω [rad/s]. */
+  /** `omega` is the base frequency [rad/s], the rotor's speed where that turns once per period. */
   RotorStator(const Parameters& parameters, double omega);
 
   /** Accelerations [m/s²] for the rotor's angle ωt = `rotor` and the cage's angle `cage`.
@@ -81,7 +81,7 @@ public:
 
   double omega() const { return omega_; }
   double period() const;
-  Direction rotor_direction(double phase) const { return Direction::of(phase); }
+  Direction rotor_direction(double phase) const { return Direction::of(turns_ * phase); }
   Direction cage_direction(double phase) const
   {
     return Direction::of(cage_ratio_ * phase);
@@ -90,7 +90,7 @@ public:
 
 private:
   BallBearing bearing_;
-  double omega_, cage_ratio_, unbalance_, gravity_;
+  double omega_, turns_, cage_ratio_, unbalance_, gravity_;
   double k_s_, c_s_, per_m_s_, k_r_, c_r_, per_m_r_;
 };
 
@@ -118,13 +118,13 @@ Vector8 state_scales(const Parameters& parameters);
 /** Resonance [rad/s] of rotor and stator moving as one body on both suspensions. */
 double joint_resonance(const Parameters& parameters);
 
-/** The bearing's force [N] that would keep u = 0 at the rotor's angle `phase` [rad] in
-   the steady state at speed ω: F = (Z_s f_r - Z_r f_s)/(Z_s + Z_r) for gravity and for
+/** The bearing's force [N] that would keep u = 0 at `phase` ωt [rad] in the steady
+   state: F = (Z_s f_r - Z_r f_s)/(Z_s + Z_r) for gravity and for
    the unbalance. */
 Vec2 rigid_joint_force(const Parameters& parameters, double omega, double phase);
 
 /** The relative displacement [m] of both bodies without any contact, u = G_r f_r - G_s
-   f_s, at the rotor's angle `phase` [rad]; infinite where the undamped rotor resonates.
+   f_s, at `phase` ωt [rad]; infinite where the undamped rotor resonates.
  */
 Vec2 free_displacement(const Parameters& parameters, double omega, double phase);
 

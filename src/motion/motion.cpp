@@ -100,6 +100,11 @@ Displacements half_peak_to_peak(const Motion& motion)
   return amplitude;
 }
 
+double largest_displacement(const Motion& motion)
+{
+  return displacement_samples(motion).cwiseAbs().maxCoeff();
+}
+
 double relative_difference(const Motion& motion, const Motion& reference)
 {
   double difference = 0, size = 0;

@@ -63,6 +63,9 @@ std::vector<Vec2> bearing_forces(const Parameters& parameters, const Motion& mot
 /** Half peak-to-peak of x_s, y_s, x_r, y_r [m] over the instants of a motion. */
 Displacements half_peak_to_peak(const Motion& motion);
 
+/** The largest displacement of either body [m]. */
+double largest_displacement(const Motion& motion);
+
 /** The largest difference over the four displacements, over the largest displacement of
     `reference`, on the first period of both [-]; both have the same points per period. */
 double relative_difference(const Motion& motion, const Motion& reference);

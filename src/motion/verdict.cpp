@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 #include "balance/bearing_problem.hpp"
 #include "balance/newton.hpp"
@@ -15,7 +16,7 @@ namespace rotor_stator::motion {
 namespace {
 
 constexpr double local_error = 1e-11, finer = 1e-13;
-constexpr int most_harmonics = 192, points = 256;
+constexpr int most_harmonics = 192, points = 256;  // of each turn
 
 }  // namespace
 
@@ -26,12 +27,15 @@ std::string Verdict::regime() const
 
 namespace {
 
-/** The shootings behind one verdict, one after the other until one closes a motion. */
+/** The shootings behind one verdict, one after the other until one closes a motion near the solution. */
 class Shootings {
 public:
   Shootings(const Parameters& parameters, const PeriodicMotion& solution,
             const OperationBudget& budget)
-      : parameters_(parameters), solution_(solution), budget_(budget)
+      : parameters_(parameters), solution_(solution), start_(state_of(solution)),
+        size_(
+            largest_displacement(motion_of(solution.bodies, points * parameters.turns))),
+        budget_(budget)
   {
   }
 
@@ -40,7 +44,7 @@ public:
       opens and closes, those of one kind are often refused. */
   std::string run(State& state, const std::optional<State>& near = {})
   {
-    std::vector<State> starts{state_of(solution_)};
+    std::vector<State> starts{start_};
     if (near) starts.push_back(*near);
     for (const State& start : starts)
       if (closes(start, state)) return {};
@@ -52,7 +56,7 @@ public:
     for (bool quasi_newton : {false, true})
       for (const State& start : starts)
         if (closes(start, state, 1, quasi_newton)) return {};
-    return "no T-periodic motion was found from it: " + shooting_.reason;
+    return reason();
   }
 
   /** From where Eq. 7 settles, if that has the period T. */
@@ -64,6 +68,16 @@ public:
   double evaluations() const { return evaluations_; }
 
 private:
+  std::string reason() const
+  {
+    return std::isfinite(nearest_)
+               ? format(
+                     "the T-periodic motion found from it is another one, at phase 0 "
+                     "%.2g of the largest displacement away",
+                     nearest_)
+               : "no T-periodic motion was found from it: " + shooting_.reason;
+  }
+
   bool closes(const State& start, State& state, double speed_weight = 5,
               bool quasi_newton = false)
   {
@@ -77,22 +91,27 @@ private:
                        .final_derivative = false,
                        .budget = budget_});
     evaluations_ += static_cast<double>(shooting_.evaluations);
-    return shooting_.converged;
+    if (!shooting_.converged) return false;
+    const double away =
+        (vector_of(state) - vector_of(start_)).head<4>().cwiseAbs().maxCoeff() / size_;
+    nearest_ = std::min(nearest_, away);
+    return away <= same_motion;
   }
 
   /** Four times as many harmonics, or more where Newton finds none with so many; false at the end of them. */
   bool raise(PeriodicMotion& solution)
   {
     int m = solution.harmonics.highest();
-    for (int doublings = 1; m < most_harmonics && !budget_.used_up(); ++doublings) {
-      m = std::min(2 * m, most_harmonics);
+    const int most = most_harmonics * parameters_.turns;
+    for (int doublings = 1; m < most && !budget_.used_up(); ++doublings) {
+      m = std::min(2 * m, most);
       Balance balance(bearing_problem(parameters_, default_samples(m), budget_), m);
       PeriodicMotion more =
           solve(balance, solution.omega, resize_harmonics(solution.x, 2, m));
       evaluations_ += static_cast<double>(more.force_samples);
       if (!more.found()) continue;
       solution = std::move(more);
-      if (doublings == 1 && m < most_harmonics) continue;
+      if (doublings == 1 && m < most) continue;
       solution.bodies = body_series(parameters_, solution);
       return true;
     }
@@ -101,9 +120,13 @@ private:
 
   const Parameters& parameters_;
   const PeriodicMotion& solution_;
+  State start_;
+  double size_;  ///< the largest displacement of the solution [m]
   const OperationBudget& budget_;
   Shooting shooting_;
   double evaluations_ = 0;
+  double nearest_ =
+      std::numeric_limits<double>::infinity();  ///< motion found, at phase 0
 };
 
 /** The distance of the solution from the motion through `state`, which goes on to `next`, and the motion's
@@ -111,22 +134,16 @@ private:
 void measure(const Parameters& parameters, const PeriodicMotion& solution,
              const OperationBudget& budget, Verdict& verdict)
 {
+  const int instants = points * parameters.turns;
   const TimeStepper stepper = make_stepper(
       parameters, solution.omega,
-      {.intervals_per_period = points, .tolerance = local_error, .budget = budget});
+      {.intervals_per_period = instants, .tolerance = local_error, .budget = budget});
   State next = verdict.state;
-  const Motion exact = recorded(stepper, points, next);
-  const Motion judged = motion_of(solution.bodies, points);
+  const Motion exact = recorded(stepper, instants, next);
+  const Motion judged = motion_of(solution.bodies, instants);
   verdict.distance = relative_difference(judged, exact);
   verdict.distance_rms = rms_difference(judged, exact);
   verdict.evaluations += static_cast<double>(stepper.evaluations());
-  if (!(verdict.distance <= same_motion)) {
-    verdict.reason = format(
-        "the T-periodic motion found from it is another one, %.2g of the largest "
-        "displacement away",
-        verdict.distance);
-    return;
-  }
   const auto map = [&](const State& state, double error) {
     const PeriodMap period =
         period_map(parameters, solution.omega, state, error, "rk8pd", budget);

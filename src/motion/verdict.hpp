@@ -5,8 +5,10 @@ Few harmonics give displacements that look right and multipliers that are wrong:
 series of six harmonics is stable, the machine is not. A verdict therefore speaks of a motion of Eq. 7
 itself, with nothing truncated. Shooting, begun at the solution's state, closes a T-periodic motion. Where it
 fails, the same solution is given more harmonics and shooting begins again; then Eq. 7 is integrated from the
-solution, and shooting begins where that settles. The motion must lie within 5 % of the largest displacement of
-the solution, otherwise it is another one.
+solution, and shooting begins where that settles. At phase 0, where shooting begins, the motion must lie within 5 %
+of the largest displacement of the solution, otherwise it is another one. Over the period it may be further away:
+six harmonics cannot follow the passing balls, which are harmonic n ω_cage/ω. The distance is printed beside
+the verdict.
 
 Its multipliers are the eigenvalues of the period map's derivative. They are computed twice: at the state found,
 and one period later with a local error a hundred times smaller. The two maps differ by the error of the
@@ -20,14 +22,15 @@ unit circle by more than it, `unstable` that one is outside by more; everything 
 
 namespace rotor_stator::motion {
 
-/** Motions that are no further apart count as one [of the largest displacement]. */
+/** Motions that are no further apart at phase 0 count as one [of the largest displacement]. */
 inline constexpr double same_motion = 0.05;
 
 struct Verdict {
   std::string reason = {};  ///< why nothing is known; empty when a motion was found
   Floquet floquet = {};     ///< of the motion found
   State state = {};         ///< of the motion found, at phase 0
-  double distance = 0;  ///< of the solution from it, over the largest displacement [-]
+  double distance =
+      0;  ///< of the solution from it over the period, over the largest displacement [-]
   double distance_rms = 0;  ///< the same, rms about the mean [-]
   Settled from_there = {};  ///< beside an unstable motion, or none: what the machine does
   std::string lost = {};    ///< why that could not be integrated
