@@ -3,7 +3,7 @@
 # Paper: §3.1, where N = 2m+1 (D-05, D-14).
 # Usage: gnuplot -e "table='data/generated/sampling.tsv'; output='sampling.svg'" figures/sampling.gp
 # One column for each machine and speed; above the displacements, below the force. Under the line at
-# one, more samples buy less than more harmonics would.
+# one, more samples buy less than more harmonics would. Rings mark the default N.
 
 height = 640
 load 'figures/style.gp'
@@ -11,15 +11,13 @@ load 'figures/style.gp'
 stats table using "panel" name 'P' nooutput
 panels = int(P_max)
 counts = system(sprintf("awk -F'\\t' '/^[0-9]/ && !seen[$3]++ { print $3 }' '%s'", table))
-rule = real(system(sprintf( \
-  "awk -F'\\t' '/^[0-9]/ && $6 == 1 { if ($4 < least || !least) least = $4 } END { print least }' '%s'", table)))
 
 # Light to dark with m (viridis).
 array colour[6] = ['#FDE725', '#7AD151', '#22A884', '#2A788E', '#414487', '#440154']
 shade(i) = colour[words(counts) + 1 - i < 1 ? 1 : 7 - (words(counts) + 1 - i)]
 limit = 1; usual = 2
 set style line limit lc rgb '#404040' lw 1.2 dt (2,3)
-set style line usual lc rgb '#CC79A7' lw 2
+set style line usual lc rgb '#CC79A7' lw 2 pt 6 ps 1.1
 
 set datafile missing "0"
 set logscale xy
@@ -50,17 +48,17 @@ do for [row = 1 : 2] {
     set xtics (row == 2 ? "2" : "" 2, row == 2 ? "4" : "" 4, row == 2 ? "8" : "" 8, \
       row == 2 ? "16" : "" 16, row == 2 ? "32" : "" 32, row == 2 ? "64" : "" 64)
     name(text) = row == 1 && k == 1 ? text : ""
-    set arrow 1 from rule, graph 0 rto 0, graph 1 nohead back ls usual
+    error(of_what) = column(of_what.(row == 1 ? "_rms" : "_force"))
+    of(i, wanted) = column("panel") == k && column("m") == word(counts, i) + 0 && wanted ? \
+      column("N") / column("m") : NaN
     plot \
       1 with lines ls limit title name("errors equal"), \
-      keyentry with lines ls usual title name("default N"), \
-      for [i = 1 : words(counts)] table using \
-        (column("panel") == k && column("m") == word(counts, i) + 0 && column("found") == 1 ? \
-          column("N") / column("m") : NaN): \
-        (row == 1 ? column("sampling") / column("truncation") : \
-                    column("sampling_force") / column("truncation_force")) \
+      keyentry with points ls usual title name("default N"), \
+      for [i = 1 : words(counts)] table using (of(i, column("found") == 1)):(error("sampling") / error("truncation")) \
         with linespoints lc rgb shade(i) lw 1.8 pt 3 + 2 * i ps 0.35 \
-        title name(sprintf("m = %s", word(counts, i)))
+        title name(sprintf("m = %s", word(counts, i))), \
+      for [i = 1 : words(counts)] table using (of(i, column("default") == 1)):(error("sampling") / error("truncation")) \
+        with points ls usual notitle
     unset label
   }
 }

@@ -58,8 +58,9 @@ std::vector<CLI::Option*> add_common_options(CLI::App& command, Request& request
       "30 s with --stability)");
   return {add_number(command, "--harmonics", request.harmonics, 1, 4096,
                      "m of harmonic balance (default: 6, or " + or_m + ")"),
-          add_number(command, "--samples", request.samples, 3, most_samples,
-                     "N per period (default: 8m+1 rounded up)"),
+          add_number(
+              command, "--samples", request.samples, 3, most_samples,
+              "N per period (default: the larger of 8m+1 and 2/3 m^(8/5), rounded up)"),
           add_number(command, "--newton-tolerance", request.newton_tolerance, 1e-15, 1e-3,
                      "relative tolerance of Newton")};
 }

@@ -17,7 +17,8 @@ constexpr int few_warm_iterations = 8, few_warm_halvings = 2;
 
 constexpr double infinite = std::numeric_limits<double>::infinity();
 
-/** Half of `default_samples`, since here the error of sampling is estimated with the rest. */
+/** About half of `default_samples` up to m = 64, since here the error of sampling is estimated with the
+    rest. */
 int adaptive_samples(int harmonics)
 {
   return fast_transform_size(std::max(32, 4 * harmonics + 1));

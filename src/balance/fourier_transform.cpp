@@ -2,6 +2,7 @@
 
 #include <fftw3.h>
 #include <algorithm>
+#include <cmath>
 #include <mutex>
 
 namespace rotor_stator {
@@ -67,7 +68,10 @@ int fast_transform_size(int at_least)
 
 int default_samples(int harmonics)
 {
-  return fast_transform_size(std::max(32, 8 * harmonics + 1));
+  constexpr double coefficient = 2.0 / 3, order = 8.0 / 5, most = 1 << 17;
+  const double as_truncation = coefficient * std::pow(harmonics, order);
+  return fast_transform_size(
+      std::max({32, 8 * harmonics + 1, static_cast<int>(std::min(as_truncation, most))}));
 }
 
 FourierTransform::FourierTransform(int samples) : plans_(std::make_unique<Plans>(samples))

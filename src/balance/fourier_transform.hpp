@@ -25,11 +25,11 @@ namespace rotor_stator {
 /** The smallest even number ≥ `at_least` with no prime factor above 7: a fast FFTW size. */
 int fast_transform_size(int at_least);
 
-/** Samples per period for m harmonics when nothing else is asked (D-14): ≥ 8m+1, and at
-    least 32. The sample rule (figure `sampling`) follows: this is where the error of sampling falls
-    below that of truncation for all of m = 6 … 64. With more harmonics the displacement's truncation
-    error falls faster with m than the sampling error does with N, and N decides: who needs those
-    digits asks for more samples. */
+/** Samples per period for m harmonics when nothing else is asked (D-14): at least 8m+1, 2/3 m^{8/5} and 32.
+    Sampling folds a spectrum that falls as k^{-5/2}, so its error falls as N^{-5/2}; that of truncation
+    as m^{-7/2} in the largest norm and as m^{-4} in the rms about the mean. A fixed N/m loses an order or
+    more; N ∝ m^{8/5} keeps both. Up to m = 64, 8m+1 is larger and sampling adds less than truncation
+    (figure `sampling`). Beyond 2^17 the error of sampling is that of rounding. */
 int default_samples(int harmonics);
 
 /** Real transforms of one length N, with their buffers. */

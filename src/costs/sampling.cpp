@@ -1,5 +1,7 @@
 #include "costs/sampling.hpp"
 
+#include <set>
+
 #include "balance/bearing_problem.hpp"
 #include "balance/fourier_transform.hpp"
 #include "io/errors.hpp"
@@ -15,7 +17,7 @@ SamplingScene read_sampling(SceneFile& file)
   if (frequencies.size() != machines.size())
     toml.fail("speeds_hz", "must have one value for each of parameters");
   SamplingScene scene{
-      .harmonics = toml.integers("harmonics", 1, 256),
+      .harmonics = toml.integers("harmonics", 1, 1024),
       .samples_over_m = toml.integers("samples_over_m", 2, 1024),
       .fine_over_m = toml.integer("fine_over_m", 2, 4096),
       .reference_harmonics = toml.integer("reference_harmonics", 1, 4096)};
@@ -60,22 +62,34 @@ const std::vector<Field<Row>> sampling_fields{
     {"panel", "-", "number of the machine and speed", &Row::number},
     {"f", "Hz", "speed of rotation", &Row::frequency},
     {"m", "-", "harmonics", &Row::harmonics},
-    {"samples_over_m", "-", "N is the next fast size from this times m, plus one",
-     &Row::samples_over_m},
     {"N", "-", "samples per period", &Row::samples},
     {"default", "-", "1 if this is the default N of that m",
      [](auto& r) { return r.samples == default_samples(r.harmonics); }},
     {"found", "-", "1 if Newton converged with this N", &Row::found},
-    {"sampling", "-",
-     "displacement error against the same m finely sampled; 0 if not found",
+    {"sampling_rms", "-",
+     "rms error of displacement about the mean against the same m finely sampled; 0 if "
+     "not found",
+     &Row::sampling_rms},
+    {"sampling", "-", "the same, largest difference over largest displacement",
      [](auto& r) { return r.sampling.displacement; }},
     {"sampling_force", "-", "the same of the bearing's force",
      [](auto& r) { return r.sampling.force; }},
-    {"truncation", "-",
-     "displacement error of that m, finely sampled, against the reference",
+    {"truncation_rms", "-",
+     "rms error of displacement about the mean of that m, finely sampled, against the "
+     "reference",
+     &Row::truncation_rms},
+    {"truncation", "-", "the same, largest difference over largest displacement",
      [](auto& r) { return r.truncation.displacement; }},
     {"truncation_force", "-", "the same of the bearing's force",
      [](auto& r) { return r.truncation.force; }}};
+
+/** The samples per period of the rows with m harmonics, the default among them. */
+std::set<int> sample_counts(const SamplingScene& scene, int m)
+{
+  std::set<int> counts{default_samples(m)};
+  for (int over : scene.samples_over_m) counts.insert(fast_transform_size(over * m + 1));
+  return counts;
+}
 
 }  // namespace
 
@@ -90,13 +104,14 @@ std::vector<SamplingPoint> sampling_errors(const SamplingScene& scene,
   for (int m : scene.harmonics) {
     const SampledSolution fine =
         sampled(at, m, fast_transform_size(scene.fine_over_m * m + 1), reference);
-    for (int over : scene.samples_over_m) {
-      SamplingPoint& point = points.emplace_back(
-          SamplingPoint{at, m, over, fast_transform_size(over * m + 1)});
+    for (int samples : sample_counts(scene, m)) {
+      SamplingPoint& point = points.emplace_back(SamplingPoint{at, m, samples});
       point.truncation.add(at.machine, at.frequency, fine.motion, reference.motion);
+      point.truncation_rms = motion::rms_difference(fine.motion, reference.motion);
       try {
         const SampledSolution coarse = sampled(at, m, point.samples, fine);
         point.sampling.add(at.machine, at.frequency, coarse.motion, fine.motion);
+        point.sampling_rms = motion::rms_difference(coarse.motion, fine.motion);
         point.found = true;
       } catch (const NoSolution&) {
         // too few samples

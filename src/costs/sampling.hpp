@@ -19,20 +19,22 @@ struct SamplingCase {
 
 struct SamplingScene {
   std::vector<SamplingCase> cases = {};
-  std::vector<int> harmonics;       ///< m
-  std::vector<int> samples_over_m;  ///< N ≥ this times m, plus one
-  int fine_over_m;                  ///< the N that stands for infinity
+  std::vector<int> harmonics;  ///< m
+  std::vector<int>
+      samples_over_m;  ///< N ≥ this times m, plus one; the default N comes besides
+  int fine_over_m;     ///< the N that stands for infinity
   int reference_harmonics;
 };
 
 SamplingScene read_sampling(SceneFile& file);
 
-/** A solution with N the next fast size from `samples_over_m` times m, plus one. */
+/** A solution with m harmonics and N samples. */
 struct SamplingPoint : SamplingCase {
-  int harmonics, samples_over_m, samples;
+  int harmonics, samples;
   bool found = false;           ///< Newton converged from the finely sampled solution
   MotionError sampling = {};    ///< against the same m, finely sampled; 0 when not found
   MotionError truncation = {};  ///< of that m, finely sampled
+  double sampling_rms = 0, truncation_rms = 0;  ///< the same, rms about the mean [-]
 };
 
 /** The errors of one case, with every m and N of the scene. Throws NoSolution when the reference or a finely

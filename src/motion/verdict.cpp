@@ -105,7 +105,8 @@ private:
     const int most = most_harmonics * parameters_.turns;
     for (int doublings = 1; m < most && !budget_.used_up(); ++doublings) {
       m = std::min(2 * m, most);
-      Balance balance(bearing_problem(parameters_, default_samples(m), budget_), m);
+      Balance balance(
+          bearing_problem(parameters_, fast_transform_size(8 * m + 1), budget_), m);
       PeriodicMotion more =
           solve(balance, solution.omega, resize_harmonics(solution.x, 2, m));
       evaluations_ += static_cast<double>(more.force_samples);

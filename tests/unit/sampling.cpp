@@ -4,7 +4,9 @@
 
 #include "balance/bearing_problem.hpp"
 #include "balance/newton.hpp"
+#include "costs/cost_growth.hpp"
 #include "costs/sampling.hpp"
+#include "motion/find_periodic.hpp"
 #include "support/cases.hpp"
 
 using namespace rotor_stator;
@@ -127,11 +129,60 @@ TEST_CASE(
   CHECK(error(default_samples(m)) < truncation);
 }
 
+namespace {
+
+/** The order p of an error that falls as m^-p. */
+double order(const std::vector<double>& m, const std::vector<double>& errors)
+{
+  return -fitted_exponent(m, errors);
+}
+
+}  // namespace
+
+/** Catches a default N that grows more slowly than m^{7/5} (largest error) or m^{8/5} (rms): with 8m+1 the
+    orders are 2.7 and 2.5. The orders 7/2 and 4 are those of a force that begins as d^{3/2}. */
+TEST_CASE("With the default N the error falls with m in the order of truncation")
+{
+  const Parameters machine = set_1();
+  const auto motion_with = [&](int m, int samples) {
+    const PeriodicMotion motion = find_near_contact(
+        {machine, hertz(30), m, samples, NewtonSettings{.tolerance = 1e-12}});
+    REQUIRE(motion.found());
+    return motion_of(motion.bodies, 2048);
+  };
+  const Motion truth = motion_with(1024, 1 << 16);
+  std::vector<double> sizes, largest, rms, coarse_largest, coarse_rms;
+  for (int m : {32, 64, 96, 128, 192, 256, 384, 512}) {
+    const Motion motion = motion_with(m, default_samples(m));
+    /** At m = 32 a resonance of the contact adds a hundred times as much. */
+    CHECK(relative_difference(motion, truth) < 50 * std::pow(m, -3.5));
+    if (m < 64) continue;
+    const Motion coarse = motion_with(m, fast_transform_size(8 * m + 1));
+    sizes.push_back(m);
+    largest.push_back(relative_difference(motion, truth));
+    rms.push_back(rms_difference(motion, truth));
+    coarse_largest.push_back(relative_difference(coarse, truth));
+    coarse_rms.push_back(rms_difference(coarse, truth));
+  }
+  CHECK(order(sizes, largest) > 3.5);
+  CHECK(order(sizes, rms) > 3.9);
+  CHECK(order(sizes, coarse_largest) < 3);
+  CHECK(order(sizes, coarse_rms) < 3);
+}
+
+TEST_CASE("Up to 64 harmonics the default N is 8m+1, and at least 32")
+{
+  for (int m = 1; m <= 64; ++m)
+    CHECK(default_samples(m) == fast_transform_size(std::max(32, 8 * m + 1)));
+  CHECK(default_samples(512) == 14580);
+  CHECK(default_samples(4096) < (1 << 17) + (1 << 12));
+}
+
 TEST_CASE("Up to 64 harmonics the default N samples finer than the series is truncated")
 {
   const Parameters set_2 = read_parameters(SOURCE_DIR "/data/set2.toml");
   const SamplingScene scene{.harmonics = {6, 64},
-                            .samples_over_m = {3, 8},
+                            .samples_over_m = {3},
                             .fine_over_m = 128,
                             .reference_harmonics = 256};
   std::vector<SamplingPoint> points;
@@ -141,8 +192,7 @@ TEST_CASE("Up to 64 harmonics the default N samples finer than the series is tru
   for (const SamplingPoint& p : points) {
     INFO("m = " << p.harmonics << ", N = " << p.samples);
     REQUIRE(p.found);
-    if (p.samples_over_m < 8) continue;
-    CHECK(p.samples == default_samples(p.harmonics));
+    if (p.samples != default_samples(p.harmonics)) continue;
     CHECK(p.sampling.displacement < p.truncation.displacement);
     CHECK(p.sampling.force < p.truncation.force);
   }
