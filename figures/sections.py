@@ -1,11 +1,14 @@
 """Poincaré sections of the attractors against speed, and the largest Lyapunov exponent below.
 
-One point per period: the relative displacement at phase 0 over the clearance. A single point at a speed
-is a T-periodic motion. Up and down in speed differ where attractors coexist.
-Usage: /usr/bin/python3 figures/sections.py data/generated/sections.tsv sections.svg
+One point per period of rotation: the relative displacement at phase 0 over the clearance. A single point at a
+speed is a T-periodic motion, K points a KT-periodic one, a band of dots one that does not repeat. The table of
+`sections` has one colour for each direction in speed: they differ where attractors coexist. The table of
+`explore attractors --section` has one for each period.
+Usage: /usr/bin/python3 figures/sections.py TABLE.tsv OUTPUT.svg
 """
 
 import re
+from dataclasses import dataclass
 
 import matplotlib.pyplot as plt
 import numpy as np
@@ -13,32 +16,88 @@ from tables import run
 
 UP, DOWN = 1, 2
 CLOSED = (1, 2)  # T-periodic, kT-periodic
-STYLE = {UP: ("C0", "up in speed"), DOWN: ("C1", "down in speed")}
 
 
-def draw_sections(axes, rows, clearance):
-    """All points of both directions; down shifted a little to the right, so that neither hides the other."""
-    for origin, (colour, label) in STYLE.items():
+@dataclass
+class Group:
+    """Points that are drawn alike."""
+    label: str
+    rows: object  # with the columns f, exponent, exponent_error
+    u: np.ndarray  # of the section, one for each row
+    style: dict
+    shift: float = 0  # in speed, so that neither of two groups hides the other
+    closed: np.ndarray | bool = False  # rows whose exponent is drawn without error bars
+
+
+def draw_groups(above, below, groups):
+    """Sections above, exponents below, these once for each speed and motion with three standard errors."""
+    for group in groups:
+        rows, style = group.rows, {"mew": 0, "ls": "", **group.style}
+        above.plot(rows["f"] + group.shift, group.u, label=group.label, **style)
+        keys = np.stack([rows["f"], rows["exponent"]])
+        _, first = np.unique(keys, axis=1, return_index=True)
+        part = rows.rows(first)
+        closed = np.broadcast_to(group.closed, rows["f"].shape)[first]
+        below.errorbar(part["f"], part["exponent"], yerr=np.where(closed, 0, 3 * part["exponent_error"]),
+                       elinewidth=0.7, **{**style, "ms": max(4, style["ms"]), "alpha": 0.8})
+    below.axhline(0, color="#404040", lw=0.75)
+
+
+def by_direction(rows, clearance):
+    """The groups of the table of `sections`."""
+    for origin, colour, label, shift in ((UP, "C0", "up in speed", -0.06), (DOWN, "C1", "down in speed", 0.06)):
         part = rows.where("origin", origin)
-        shift = 0.06 if origin == DOWN else -0.06
-        axes.plot(part["f"] + shift, part["u_x"] / clearance, ".", ms=2.4, mew=0, color=colour,
-                  label=label)
+        yield Group(label, part, part["u_x"] / clearance, {"marker": ".", "ms": 2.4, "color": colour}, shift,
+                    np.isin(part["verdict"], CLOSED))
 
 
-def draw_exponents(axes, rows):
-    """One point per speed and direction, with three standard errors where the section does not close."""
-    for origin, (colour, _) in STYLE.items():
-        part = rows.where("origin", origin)
-        _, first = np.unique(part["f"], return_index=True)
-        part = part.rows(first)
-        error = np.where(np.isin(part["verdict"], CLOSED), 0, 3 * part["exponent_error"])
-        axes.errorbar(part["f"], part["exponent"], yerr=error, fmt=".", ms=4, mew=0,
-                      elinewidth=0.7, color=colour, alpha=0.8)
-    axes.axhline(0, color="#404040", lw=0.75)
-    axes.set_xlim(0, rows["f"].max() + 1)
+# The periods of explore's table: label, chosen rows, marker, its size, colour.
+KINDS = (("aperiodic", lambda k: k == 0, ".", 2.4, "#404040"),
+         ("quasi-periodic", lambda k: k == -1, ".", 3, "C3"),
+         ("period 1", lambda k: k == 1, "o", 4, "C0"),
+         ("period 2", lambda k: k == 2, "^", 5, "C1"),
+         ("period 3", lambda k: k == 3, "s", 4.5, "C2"),
+         ("period 4", lambda k: k == 4, "D", 4, "C4"),
+         ("period 5 and more", lambda k: k > 4, "v", 4.5, "C5"),
+         ("undecided", lambda k: k == -2, "x", 4, "#909090"))
 
 
-def draw(table):
+def by_period(rows, clearance):
+    """The groups of explore's table."""
+    rows.columns["exponent"] = rows["lyapunov"]
+    rows.columns["exponent_error"] = rows["lyapunov_uncertainty"]
+    for label, is_kind, marker, size, colour in KINDS:
+        part = rows.rows(is_kind(rows["period"]))
+        if len(part) > 0:
+            yield Group(label, part, (part["x_r"] - part["x_s"]) / clearance,
+                        {"marker": marker, "ms": size, "color": colour,
+                         "mew": 1 if marker == "x" else 0})
+
+
+def legend_above(axes, groups):
+    """With markers of one size, the small dots too."""
+    shown = axes.legend(loc="lower left", bbox_to_anchor=(0, 1), ncols=len(groups) if len(groups) < 6 else 4,
+                        frameon=False, borderaxespad=0.2, handletextpad=0.2, columnspacing=1.2)
+    for handle, group in zip(shown.get_lines(), groups):
+        handle.set_markersize(10 if group.style["marker"] == "." else 7)
+
+
+def draw_machine(table):
+    """What explore found: one machine."""
+    clearance = table.number("delta")
+    figure, (above, below) = plt.subplots(2, 1, figsize=(10, 7.5), sharex=True, layout="constrained",
+                                          height_ratios=(3, 2))
+    unit, size = ("δ", clearance) if clearance > 0 else ("1 µm", 1e-6)
+    groups = list(by_period(table, size))
+    draw_groups(above, below, groups)
+    legend_above(above, groups)
+    above.set_ylabel(f"section: $(x_r - x_s)$/{unit} at phase 0 [-]")
+    below.set_ylabel("largest Lyapunov exponent\n[1/period]")
+    below.set_xlabel("speed of rotation [Hz]")
+    return figure
+
+
+def draw_sets(table):
     """One column per data set: section above, exponent below."""
     clearances = [float(x) for x in re.findall(r"delta = (\S+) m", table.header)]
     figure, grid = plt.subplots(2, len(clearances), figsize=(10, 7.5), sharex=True, sharey="row",
@@ -46,14 +105,18 @@ def draw(table):
     for number, clearance in enumerate(clearances, 1):
         rows = table.where("set", number)
         above, below = grid[:, number - 1]
-        draw_sections(above, rows, clearance)
-        draw_exponents(below, rows)
+        draw_groups(above, below, by_direction(rows, clearance))
+        below.set_xlim(0, rows["f"].max() + 1)
         above.set_title(f"data set {number}, δ = {1e6 * clearance:g} µm")
         below.set_xlabel("speed of rotation [Hz]")
     grid[0, 0].set_ylabel("section: $(x_r - x_s)/δ$ at phase 0 [-]")
     grid[1, 0].set_ylabel("largest Lyapunov exponent [1/s]")
     grid[0, 0].legend(loc="upper left", markerscale=5, handletextpad=0.2)
     return figure
+
+
+def draw(table):
+    return draw_sets(table) if "set" in table.columns else draw_machine(table)
 
 
 run(draw)

@@ -67,7 +67,8 @@ class Table:
 
 
 def run(draw):
-    """Call draw(table) with the style of the project; save the figure that it returns."""
+    """Call draw(table) with the style of the project; save the figure that it returns as SVG, or as the PNG or
+    PDF that the name of the output says. No dates: the same table gives the same bytes."""
     import matplotlib.pyplot as plt  # here, since tests read tables and draw nothing
 
     if len(sys.argv) != 3:
@@ -75,4 +76,7 @@ def run(draw):
     plt.switch_backend("svg")
     plt.style.use(Path(__file__).with_name("rotor_stator.mplstyle"))
     figure = draw(Table(sys.argv[1]))
-    figure.savefig(sys.argv[2], format="svg", metadata={"Date": None})
+    suffix = Path(sys.argv[2]).suffix[1:]
+    form = suffix if suffix in ("png", "pdf") else "svg"
+    figure.savefig(sys.argv[2], format=form, metadata={"svg": {"Date": None}, "png": {},
+                                                       "pdf": {"CreationDate": None}}[form])

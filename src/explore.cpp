@@ -5,11 +5,13 @@ Run: build/explore orbit data/set1.toml --frequency 45 > orbit.tsv
      build/explore orbit data/set1.toml --frequency 45 --tolerance 1e-4 > orbit.tsv
      build/explore contact data/set1.toml --frequency 45 --method rk8pd > contact.tsv
      build/explore response data/set1.toml --from 1 --to 60 --harmonics 10 > response.tsv
+     build/explore attractors data/set1.toml --from 18 --to 22 --count 17 > attractors.tsv
 
 The general program for follow-up studies: any parameter file, any speed, harmonic balance
 or one of the time integrators. A table on stdout, errors on stderr. */
 #include <CLI/CLI.hpp>
 
+#include "explore/attractors.hpp"
 #include "explore/orbit.hpp"
 #include "explore/response.hpp"
 #include "integration/time_stepper.hpp"
@@ -44,18 +46,25 @@ CLI::Option* add_number(CLI::App& command, const std::string& name, Number& valu
 constexpr int largest_seed = 1000000000, most_samples = 1 << 20, most_points = 1 << 16;
 constexpr double largest = 1e300;  // 2 pi times as much is still a number
 
-/** Options that all commands share; returned are those of harmonic balance. `or_m`: what may stand for
-    the default m. */
-std::vector<CLI::Option*> add_common_options(CLI::App& command, Request& request,
-                                             const std::string& or_m)
+/** The machine and what its run may cost. */
+void add_common_options(CLI::App& command, Request& request,
+                        const std::string& usual_budget)
 {
   command.add_option("parameters", request.parameter_file, "TOML parameter file")
       ->required();
-  add_number(
-      command, "--budget", request.budget, 1.0, 1e15,
-      "most evaluations of the force in the whole run, other work counted as the "
-      "evaluations that take as long (default: those of 3 s, 8.2e7 with 16 balls; of "
-      "30 s with --stability)");
+  add_number(command, "--budget", request.budget, 1.0, 1e15,
+             "most evaluations of the force in the whole run, other work counted as the "
+             "evaluations that take as long (default: those of " +
+                 usual_budget + ")");
+}
+
+/** Those of the commands that know harmonic balance; its own are returned. `or_m`: what may stand for the
+    default m. */
+std::vector<CLI::Option*> add_balance_options(CLI::App& command, Request& request,
+                                              const std::string& or_m)
+{
+  add_common_options(command, request,
+                     "3 s, 8.2e7 with 16 balls; of 30 s with --stability");
   return {add_number(command, "--harmonics", request.harmonics, 1, 4096,
                      "m of harmonic balance (default: 6, or " + or_m + ")"),
           add_number(
@@ -71,7 +80,7 @@ std::function<void()> add_motion_options(CLI::App& command, MotionRequest& reque
 {
   std::string methods = "aft (harmonic balance)";
   for (const std::string& name : time_methods()) methods += ", " + name;
-  auto aft = add_common_options(command, request, "by --tolerance");
+  auto aft = add_balance_options(command, request, "by --tolerance");
   add_number(command, "--frequency", request.frequency, 0.0, largest,
              "speed of rotation [Hz]")
       ->required();
@@ -103,12 +112,18 @@ std::function<void()> add_motion_options(CLI::App& command, MotionRequest& reque
   };
 }
 
-void add_response_options(CLI::App& command, ResponseRequest& request)
+template <class Ranged>
+void add_range_options(CLI::App& command, Ranged& request)
 {
-  add_common_options(command, request, "the saved branch's");
   add_number(command, "--from", request.from, 0.0, largest, "first speed [Hz]")
       ->required();
   add_number(command, "--to", request.to, 0.0, largest, "last speed [Hz]")->required();
+}
+
+void add_response_options(CLI::App& command, ResponseRequest& request)
+{
+  add_balance_options(command, request, "the saved branch's");
+  add_range_options(command, request);
   command.add_option("--direction", request.direction,
                      "up: from --from to --to; down: from --to to --from");
   command.add_flag("--stability", request.stability,
@@ -127,6 +142,22 @@ void add_response_options(CLI::App& command, ResponseRequest& request)
   add_number(command, "--seed", request.seed, 0, largest_seed,
              "of the random starts of --isolated")
       ->needs(isolated);
+}
+
+void add_attractors_options(CLI::App& command, AttractorsRequest& request)
+{
+  add_common_options(command, request, "1 s for each start");
+  add_range_options(command, request);
+  add_number(command, "--count", request.count, 1, 10000,
+             "speeds from --from to --to, evenly spaced")
+      ->required();
+  add_number(command, "--starts", request.starts, 0, 1000,
+             "random states to start from at each speed");
+  add_number(command, "--seed", request.seed, 0, largest_seed, "of the random states");
+  command.add_option("--section", request.section,
+                     "file for the points of the Poincare sections");
+  command.add_option("--plot", request.plot,
+                     "figure of the sections against speed: .svg, .png or .pdf");
 }
 
 int finish(const Exploration& exploration)
@@ -150,11 +181,16 @@ int main(int argc, char** argv)
       app.add_subcommand("contact", "force of every ball over two periods");
   CLI::App* branch =
       app.add_subcommand("response", "amplitudes along the branch, arc length");
+  AttractorsRequest attractors;
+  CLI::App* settled = app.add_subcommand(
+      "attractors", "what the machine settles on, speed by speed, from many starts");
   const auto refuse_of_orbit = add_motion_options(*orbit, motion);
   const auto refuse_of_contact = add_motion_options(*contact, motion);
   add_response_options(*branch, response);
+  add_attractors_options(*settled, attractors);
   return guarded([&] {
     if (!parse(app, argc, argv)) return 0;
+    if (settled->parsed()) return finish(explore_attractors(attractors));
     if (branch->parsed()) return finish(explore_response(response));
     refuse_of_orbit();
     refuse_of_contact();

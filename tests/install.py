@@ -1,7 +1,7 @@
 """Installs the project into an empty folder and builds a program there with find_package(RotorStator).
 
 It catches a header that is not installed or includes one that is not, a library that the package does not name,
-and an installed explore that needs the source folder.
+and an installed explore that needs the source folder, for its figures too.
 
 Usage: tests/install.py BUILD_FOLDER   (from the project's root)
 """
@@ -53,6 +53,10 @@ def main(build):
         table = run(prefix / "bin" / "explore", "orbit", machine, "--frequency", 45, cwd=folder)
         if "\nphase\t" not in table:
             sys.exit("the installed explore prints no orbit")
+        run(prefix / "bin" / "explore", "attractors", machine, "--from", 45, "--to", 46, "--count", 1,
+            "--starts", 0, "--plot", "figure.svg", cwd=folder)
+        if "</svg>" not in Path(folder, "figure.svg").read_text(encoding="utf-8"):
+            sys.exit("the installed explore draws no figure")
 
 
 if __name__ == "__main__":

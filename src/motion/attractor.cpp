@@ -2,9 +2,12 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
+#include <numbers>
 
 #include "io/errors.hpp"
 #include "motion/other_starts.hpp"
+#include "stability/floquet.hpp"
 
 namespace rotor_stator::motion {
 
@@ -46,6 +49,9 @@ Settled settle(const Parameters& parameters, double omega, const State& state,
       if (k >= rule.block - 3 * rule.most_period)
         section.push_back(displacements(settled.state.position));
     }
+    if (!vector_of(settled.state).allFinite())
+      throw NoSolution(
+          format("time integration diverged after %ld periods", settled.periods));
     const SectionJudgement judged = judge_section(
         section, size, {}, {.periodic = rule.closed, .most_period = rule.most_period});
     settled.spread = judged.spread_k;
@@ -68,10 +74,10 @@ Settled settle(const Parameters& parameters, double omega, const State& state,
 
 namespace {
 
-/** The fewest periods [s] that are not shorter than `seconds`. */
+/** The fewest periods [s] that are not shorter than `seconds`, at least one. */
 long periods_in(double seconds, double period)
 {
-  return std::lround(std::ceil(seconds / period));
+  return std::max(1L, std::lround(std::ceil(seconds / period)));
 }
 
 /** Sums and extremes of the displacements over instants. */
@@ -93,7 +99,8 @@ struct Statistics {
 /** A motion observed after its transient. */
 struct Observation {
   const AttractorSettings& settings;
-  double period;  ///< of rotation [s]
+  double period;    ///< of rotation [s]
+  double smallest;  ///< size of a displacement that counts [m]
   TrajectoryPair motion;
   std::vector<Displacements> section = {};
   std::vector<Statistics> periods = {};
@@ -122,8 +129,8 @@ struct Observation {
     const auto window = static_cast<std::size_t>(
         std::max(periods_in(settings.block, period), 3L * settings.rule.most_period));
     const auto last = section.size() - std::min(section.size(), window);
-    const double size =
-        std::max(-periods.back().low.minCoeff(), periods.back().high.maxCoeff());
+    const double size = std::max(
+        {smallest, -periods.back().low.minCoeff(), periods.back().high.maxCoeff()});
     return judge_section({section.begin() + static_cast<long>(last), section.end()}, size,
                          rates.size() < 2
                              ? Exponent{0, std::numeric_limits<double>::infinity()}
@@ -174,10 +181,12 @@ Attractor attractor_from(const Parameters& machine, double omega, const State& s
               .most_blocks = static_cast<int>(
                   periods_in(settings.longest / static_cast<double>(block), period)),
               .step = stepper.step > 0 ? stepper.step : default_step(machine)});
+  const Vector8 sizes = state_scales(machine);
   Observation seen{settings,
                    period,
+                   1e-6 * sizes[0],
                    {make_stepper(machine, omega, stepper), stepper.intervals_per_period,
-                    state_scales(machine), settled.state}};
+                    sizes, settled.state}};
   /** The first block turns the neighbour into the direction of fastest growth, and its rate is not
       used; then blocks until there is enough to judge by. */
   seen.add_block();
@@ -197,19 +206,55 @@ Attractor attractor_from(const Parameters& machine, double omega, const State& s
 }
 
 Motion motion_along(const Attractor& attractor, const Parameters& machine, double omega,
-                    int points_per_period, int periods)
+                    int points_per_period, int periods, const OperationBudget& budget)
 {
   const TimeStepper stepper = make_stepper(
-      machine, omega, {.method = "rk4", .intervals_per_period = points_per_period});
+      machine, omega,
+      {.method = "rk4", .intervals_per_period = points_per_period, .budget = budget});
   State state = attractor.state;
   return recorded(stepper, points_per_period, state, 0,
                   attractor.closed() ? attractor.period : periods);
+}
+
+namespace {
+
+/** The multipliers over `periods` periods of rotation from `state`, which is left at their end. */
+Multipliers multipliers_over(int periods, const Parameters& machine, double omega,
+                             double local_error, const OperationBudget& budget,
+                             State& state)
+{
+  Matrix8 derivative = Matrix8::Identity();
+  for (int k = 0; k < periods; ++k) {
+    const PeriodMap map = period_map(machine, omega, state, local_error, "rk8pd", budget);
+    derivative = map.derivative * derivative;
+    state = map.end;
+  }
+  return multipliers_of(derivative);
+}
+
+}  // namespace
+
+Exponent closed_exponent(const Attractor& attractor, const Parameters& machine,
+                         double omega, const OperationBudget& budget)
+{
+  const int k = attractor.period;
+  State state = attractor.state;
+  const double first =
+      std::abs(multipliers_over(k, machine, omega, 1e-11, budget, state).front());
+  const double second =
+      std::abs(multipliers_over(k, machine, omega, 1e-13, budget, state).front());
+  const double change = std::abs(second - first);
+  if (!(second > 10 * (change + std::numeric_limits<double>::epsilon())))
+    throw NoSolution(format("the multiplier %g is known to %g only", second, change));
+  const double period = k * 2 * std::numbers::pi / omega;
+  return {std::log(second) / period, std::abs(std::log(second / first)) / period};
 }
 
 bool same_attractor(const Attractor& a, const Attractor& b,
                     const AttractorSettings& settings)
 {
   if (a.closed() != b.closed()) return false;
+  if (a.decided() && b.decided() && a.verdict != b.verdict) return false;
   if (a.closed() && a.period != b.period) return false;
   double apart = 0, size = 0;
   for (std::size_t i = 0; i < 4; ++i) {

@@ -47,7 +47,7 @@ struct AttractorSettings {
   double longest = 20;      ///< transient at most [s]
   double block = 1;         ///< over which a growth rate is taken [s]
   double least = 2;         ///< observed after the transient if the section closes [s]
-  double chaotic = 10;      ///< if it does not and λ > 0 is beyond doubt [s]
+  double chaotic = 20;      ///< if it does not and λ > 0 is beyond doubt [s]
   double most = 60;         ///< otherwise [s]
   VerdictRule rule = {};
   double same_periodic = 1e-5;  ///< largest distance of equal closed motions [-]
@@ -63,6 +63,7 @@ struct Attractor : SectionJudgement {
   double seconds;                   ///< integrated in all [s]
 
   bool periodic() const { return verdict == Verdict::periodic; }
+  bool decided() const { return verdict != Verdict::undecided; }
   bool closed() const { return periodic() || verdict == Verdict::subharmonic; }
 };
 
@@ -74,10 +75,17 @@ Attractor attractor_from(const Parameters& machine, double omega, const State& s
 /** The motion on an attractor by RK4 with its default step: a closed one over its own period, another over
     `periods`. */
 Motion motion_along(const Attractor& attractor, const Parameters& machine, double omega,
-                    int points_per_period, int periods);
+                    int points_per_period, int periods,
+                    const OperationBudget& budget = {});
 
-/** Whether two motions of one machine and speed are on one attractor: both close or neither does,
-    and means and scatters agree within the tolerance, over the largest scatter. */
+/** λ [1/s] of a closed motion from the multipliers of its own period, ln|μ|/(K T); its error is the change over
+    another K periods with a local error a hundred times smaller. Throws NoSolution when these say nothing:
+    `budget` is used up, or |μ| is within its error of zero. */
+Exponent closed_exponent(const Attractor& attractor, const Parameters& machine,
+                         double omega, const OperationBudget& budget);
+
+/** Whether two motions of one machine and speed are on one attractor: both close or neither does, two verdicts
+    of motions that do not close do not contradict each other, and means and scatters agree within the tolerance, over the largest scatter. */
 bool same_attractor(const Attractor& a, const Attractor& b,
                     const AttractorSettings& settings);
 

@@ -60,8 +60,9 @@ double TrajectoryPair::pull_back()
   const Vector8 apart = vector_of(neighbour_) - y;
   const double growth = apart.cwiseQuotient(scales_).norm() / first_distance;
   if (!std::isfinite(growth) || !(growth > 0))
-    throw NoSolution(format("neighbouring motions after %ld periods: distance %g",
-                            periods_, growth * first_distance));
+    throw NoSolution(format(growth == 0 ? "neighbouring motions met after %ld periods"
+                                        : "time integration diverged after %ld periods",
+                            periods_));
   neighbour_ = state_of(y + apart / growth);
   return std::log(growth);
 }

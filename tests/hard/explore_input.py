@@ -281,10 +281,24 @@ def response_options(draw, extreme):
 
 
 @st.composite
+def attractors_options(draw, extreme):
+    dice = draw(st.randoms())
+    start = decade(dice, -4 if extreme else 0, 4 if extreme else 1.5)
+    end = start * (1 + decade(dice, -3, 4 if extreme else 0.5))
+    options = draw(chosen({"--starts": (2, whole(0, 1)), "--seed": (4, whole(0, 9)),
+                           "--section": (4, st.just("saved.tsv"))}))
+    return [["--from", repr(start)], ["--to", repr(end)], ["--count", draw(whole(0, 1))], *options]
+
+
+OPTIONS_OF = {"orbit": motion_options, "contact": motion_options, "response": response_options,
+              "attractors": attractors_options}
+
+
+@st.composite
 def questions(draw, extreme):
     """A command and its options, as [name, value]."""
-    command = draw(one("orbit", "orbit", "contact", "response"))
-    return command, draw(response_options(extreme) if command == "response" else motion_options(extreme))
+    command = draw(one("orbit", "orbit", "contact", "response", "attractors"))
+    return command, draw(OPTIONS_OF[command](extreme))
 
 
 WORDS = st.one_of(st.sampled_from(odd.WORDS), st.sampled_from(odd.WORDS),
@@ -302,7 +316,7 @@ def options_spoilt(draw, options):
         name, value = options[at]
         which = draw(st.sampled_from(["value"] * 4 + ["missing", "twice", "misspelt", "unknown", "foreign"]))
         if which == "value":
-            options[at] = [name, draw(st.sampled_from(odd.SAVES) if name == "--save" else WORDS)]
+            options[at] = [name, draw(st.sampled_from(odd.SAVES) if name in ("--save", "--section") else WORDS)]
         elif which == "missing" and len(options) > 1:
             del options[at]
         elif which == "twice":
@@ -314,7 +328,8 @@ def options_spoilt(draw, options):
         elif which == "foreign":
             options.append(draw(st.sampled_from([
                 ["--step", "1e-4"], ["--local-error", "1e-9"], ["--harmonics", "6"], ["--branch", "2"],
-                ["--tolerance", "1e-3"], ["--at", "30"], ["--seed", "3"], ["--longest", "1"]])))
+                ["--tolerance", "1e-3"], ["--at", "30"], ["--seed", "3"], ["--longest", "1"],
+                ["--count", "2"], ["--starts", "1"], ["--plot", "figure.gif"]])))
     return options
 
 

@@ -54,6 +54,35 @@ TEST_CASE("On a T-periodic motion the exponent is that of the largest multiplier
   CHECK(attractor.exponent.value == Approx(std::log(modulus) * frequency).margin(0.1));
 }
 
+/** Would catch a sum over the wrong number of periods. */
+TEST_CASE("The exponent from the multipliers of 2T is that of a neighbour")
+{
+  const Parameters parameters = set_1();
+  AttractorSettings longer = settings();
+  longer.least = 40;
+  for (double frequency : {20.0, 20.25}) {
+    const Attractor doubled =
+        attractor_from(parameters, hertz(frequency), static_start(parameters), longer);
+    REQUIRE(doubled.period == 2);
+    const Exponent sharp = closed_exponent(doubled, parameters, hertz(frequency), {});
+    INFO(sharp.value << " +- " << sharp.error << ", neighbour " << doubled.exponent.value
+                     << " +- " << doubled.exponent.error);
+    CHECK(sharp.error < 0.01);
+    CHECK(std::abs(sharp.value - doubled.exponent.value) <
+          0.1 + 3 * doubled.exponent.error);
+  }
+}
+
+TEST_CASE("A machine without loads rests, and that is a motion of period T")
+{
+  Parameters parameters = set_1();
+  parameters.gravity = parameters.unbalance = 0;
+  const auto attractor = attractor_from(
+      parameters, hertz(30), random_state(parameters, hertz(30), 1), settings());
+  CHECK(attractor.periodic());
+  CHECK(attractor.amplitude[2] < 1e-9);
+}
+
 namespace {
 
 struct KnownMotion {
@@ -87,10 +116,9 @@ TEST_CASE("Half the step gives the same verdicts and exponents")
 {
   for (const KnownMotion& motion : known_motions) {
     AttractorSettings usual = settings(), half = usual;
-    half.stepper.step =
-        default_step(
-            read_parameters(std::string(SOURCE_DIR "/data/") + motion.set + ".toml")) /
-        2;
+    half.stepper.step = default_step(read_parameters(std::string(SOURCE_DIR "/data/") +
+                                                     motion.set + ".toml")) /
+                        2;
     const Exponent a = from_rest(motion, usual).exponent;
     const Exponent b = from_rest(motion, half).exponent;
     CHECK(a.value == Approx(b.value).margin(5 * std::hypot(a.error, b.error)));

@@ -96,8 +96,32 @@ class Values(Case):
                 ("--from 1 --to 2 --restart machine.toml", "machine.toml:1: '# format")]:
             with self.subTest(options):
                 self.refused(words, "response", self.machine, *options.split())
+        for options, words in [
+                ("--count 0", "--count 0: must be in 1...10000"), ("--count 1.5", "--count"), ("", "--count"),
+                ("--count 3 --starts -1", "--starts -1: must be in 0...1000"), ("--count 3 --starts 1e3", "--starts"),
+                ("--count 10000 --starts 18", "--starts 18: must be in 0...17 with --count 10000"),
+                ("--count 3 --budget 0", "--budget"), ("--count 3 --harmonics 6", "--harmonics"),
+                ("--count 3 --plot bifurcations", "must end in .svg, .png or .pdf"),
+                ("--count 3 --plot a.gif", "must end in .svg, .png or .pdf"),
+                ("--count 3 --plot no/such/folder.svg", "its folder does not exist"),
+                ("--count 3 --section no/such/file", "its folder does not exist"),
+                ("--count 3 --section machine.toml", "is the input"),
+                ("--count 3 --section same.svg --plot same.svg", "is the file of --section"),
+                ("--count 3 --to 10", "--from 10: must be below --to 10")]:
+            with self.subTest(options):
+                end = [] if "--to" in options else ["--to", "20"]
+                self.refused(words, "attractors", self.machine, "--from", "10", *end, *options.split())
         self.refused("subcommand")
         self.refused("subcommand", "dance")
+
+    def test_attractors_of_a_cage_that_does_not_repeat_with_the_rotation(self):
+        odd = self.file("odd.toml", MACHINE.replace("cage_speed_ratio = 0.5", "cage_speed_ratio = 0.4321"))
+        self.refused("not a whole number", "attractors", odd, *RESPONSE, "--count", 3)
+
+    def test_a_plot_without_matplotlib_is_refused_before_the_work(self):
+        self.refused("install python3-matplotlib", "attractors", self.machine, *RESPONSE, "--count", 3, "--plot",
+                     "a.svg", "--section", "b.tsv", env={**os.environ, "PYTHON": "/bin/false"})
+        self.assertEqual([file.name for file in self.folder.iterdir()], ["machine.toml"])
 
     def test_no_solution(self):
         self.refused_change("cage_speed_ratio = 0.5", "cage_speed_ratio = 0.4321", "not a whole number",

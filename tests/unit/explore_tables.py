@@ -1,9 +1,10 @@
 """What explore prints: its fixed columns, one method against another, branches that are saved, interrupted or
-isolated, and stability along a branch against that of single orbits.
+isolated, stability along a branch against that of single orbits, and attractors against orbits and the kept study.
 
 Usage: tests/unit/explore_tables.py   (from the project's root)
 """
 import math
+import os
 import re
 import sys
 import unittest
@@ -15,6 +16,7 @@ sys.path.insert(0, str(Path(__file__).parents[1]))
 from machines import entries, written  # noqa: E402
 from support.explore import Case, Table  # noqa: E402
 
+KEPT = Path("data/reference/attractors.tsv").resolve()
 SET_2 = Path("data/set2.toml").resolve()
 WHOLE = ["--from", "1", "--to", "60"]
 AMPLITUDES = ["amp_x_s", "amp_y_s", "amp_x_r", "amp_y_r"]
@@ -33,6 +35,13 @@ def difference(a, b):
     """Largest difference over the four displacements, over the largest displacement."""
     names = ["x_s", "y_s", "x_r", "y_r"]
     return max(abs(a[n] - b[n]).max() for n in names) / max(abs(b[n]).max() for n in names)
+
+
+def distances(section, states, row):
+    """Of each point of a section from a state, over its largest displacement."""
+    names = ["x_s", "y_s", "x_r", "y_r"]
+    state = np.array([states[name][row] for name in names])
+    return [abs(state - [section[name][k] for name in names]).max() / abs(state).max() for k in range(len(section))]
 
 
 def row_difference(a, i, b, j):
@@ -215,6 +224,90 @@ class Stability(Case):
         self.assertLess(known, len(table))
         self.assertAlmostEqual(table["f"][-1], 60)
         self.assertEqual(table["multiplier"][-1], -1)
+
+
+class Attractors(Case):
+    def attractors(self, *options, file=None):
+        return self.table("attractors", file or self.machine, *options)
+
+    def at(self, frequency, *options, file=None):
+        return self.attractors("--from", frequency, "--to", frequency + 1, "--count", 1, *options, file=file)
+
+    def test_between_the_doublings_the_period_is_two_from_every_start(self):
+        table = self.attractors("--from", 19.75, "--to", 20.25, "--count", 3, "--section", "section.tsv")
+        self.assertEqual(list(table.columns)[:10], ["f", "motion", "period", "starts", "lyapunov",
+                                                    "lyapunov_uncertainty", *AMPLITUDES])
+        np.testing.assert_array_equal(table["f"], [19.75, 20, 20.25])
+        np.testing.assert_array_equal(table["period"], [2, 2, 2])
+        # At the edges one neighbour in speed is missing.
+        np.testing.assert_array_equal(table["starts"], [5, 6, 5])
+        kinds = [table[f"from_{kind}"] for kind in ("rest", "below", "above", "random")]
+        np.testing.assert_array_equal(sum(kinds), table["starts"])
+        self.assertTrue((table["lyapunov"] + 3 * table["lyapunov_uncertainty"] < 0).all())
+        self.the_section_is_where_another_method_settles(Table(self.folder / "section.tsv"))
+
+    def the_section_is_where_another_method_settles(self, section):
+        """Two points at each speed; at 20 Hz rk8pd from rest stands on one of them at phase 0. 1e-5 is for the steps
+        of rk4."""
+        self.assertEqual(len(section), 6)
+        orbit = self.table("orbit", self.machine, "--frequency", 20, "--method", "rk8pd", "--points", 1)
+        apart = distances(section.where("f", 20), orbit, 0)
+        self.assertLess(min(apart), 1e-5)
+        self.assertGreater(max(apart), 1e-4)
+
+    def test_the_exponent_of_a_stable_orbit_is_that_of_its_multiplier(self):
+        """Both are of Eq. 7 without truncation: 1e-5 per turn leaves room for steps alone."""
+        for frequency in (30, 45):
+            with self.subTest(frequency=frequency):
+                header = self.table("orbit", self.machine, "--points", 1, "--frequency", frequency).header
+                multiplier = float(re.search(r"multiplier ([\d.e+-]+)", header)[1])
+                table = self.at(frequency)
+                np.testing.assert_array_equal(table["period"], [1])
+                self.assertAlmostEqual(table["lyapunov"][0], math.log(multiplier), delta=1e-5)
+
+    def test_an_aperiodic_motion_has_a_positive_exponent(self):
+        table = self.at(13.4)
+        np.testing.assert_array_equal(table["period"], [0])
+        self.assertGreater(table["lyapunov"][0], 5 * table["lyapunov_uncertainty"][0])
+
+    def test_two_attractors_at_one_speed_are_two_rows_and_those_of_the_kept_study(self):
+        kept = Table(KEPT).where("set", 1)
+        table = self.attractors("--from", 25, "--to", 25.25, "--count", 2, "--section", "section.tsv")
+        section = Table(self.folder / "section.tsv")
+        for frequency in (25, 25.25):
+            rows, known = (part.where("f", frequency) for part in (table, kept))
+            points = section.where("f", frequency)
+            reached = []
+            for number in (1, 2):
+                one = known.where("attractor", number)
+                near = points.rows(np.array(distances(points, one, 0)) < 1e-6)
+                self.assertEqual(len(near), 1)
+                self.assertEqual(near["period"][0], one["period"][0])
+                reached.append(near["motion"][0])
+            with self.subTest(frequency=frequency):
+                self.assertEqual(sorted(reached), [1, 2])
+                np.testing.assert_array_equal(rows["motion"], [1, 2])
+
+    def test_the_threads_change_nothing_not_even_where_the_budget_ends(self):
+        for budget, status in ((), 0), (("--budget", "2e7"), 3):
+            one, three = (self.run_explore("attractors", self.machine, "--from", 20, "--to", 22, "--count", 5, *budget,
+                                           env={**os.environ, "OMP_NUM_THREADS": threads}) for threads in "13")
+            with self.subTest(budget=budget):
+                self.assertEqual((one.returncode, one.stdout, one.stderr), (status, three.stdout, three.stderr))
+        self.assertIn("machine.toml: partial, ", one.stderr)
+        self.assertIn("the budget is used up, more with --budget", one.stderr)
+        self.assertIn("# incomplete: ", one.stdout)
+        self.assertTrue(0 < Table.of(one.stdout)["starts"].sum() < 28)
+
+    def test_the_plot_is_drawn_in_every_format_and_twice_alike(self):
+        for suffix, begin in (("svg", b"<?xml"), ("png", b"\x89PNG"), ("pdf", b"%PDF")):
+            drawn = []
+            for name in ("one", "two"):
+                self.at(45, "--starts", 0, "--plot", f"{name}.{suffix}")
+                drawn.append((self.folder / f"{name}.{suffix}").read_bytes())
+            with self.subTest(suffix):
+                self.assertTrue(drawn[0].startswith(begin))
+                self.assertEqual(*drawn)
 
 
 if __name__ == "__main__":
