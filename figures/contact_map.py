@@ -46,21 +46,22 @@ def fill(axes, cells, ends, colour):
     axes.set(xlim=(ends[0], ends[-1]), ylim=(0.5, cells.shape[0] + 0.5))
 
 
-def source_of(panel):
-    """In words, where the motion of a panel comes from."""
-    if panel.first("source") == BALANCE:
-        return (f"m = {panel.number('harmonic balance: m'):g}, "
-                f"force off by {100 * panel.first('difference_force'):.2g} %")
-    if panel.first("periodic") == 1:
-        return "time integration"
-    return "time integration, not T-periodic"
+def heading_of(panel, title):
+    """The title, where the motion of the panel comes from, and the error of harmonic balance."""
+    rms = f"rms error {100 * panel.first('difference_rms'):.2g} %"
+    if panel.first("shown") == BALANCE:
+        return f"{title}\n{rms}, force {100 * panel.first('difference_force'):.2g} %"
+    reason = ("not T-periodic" if panel.first("periodic") == 0
+              else "no solution found" if panel.first("found") == 0
+              else f"{panel.number('harmonic balance: m'):g} harmonics: {rms}")
+    return f"{title}, time integration\n{reason}"
 
 
 def draw_contact(axes, panel, title):
     """Black where Q > 0."""
     force, ends = force_map(panel)
     fill(axes, force > 0, ends, "black")
-    axes.set_title(f"{title}\n{source_of(panel)}")
+    axes.set_title(heading_of(panel, title))
 
 
 def draw_force(axes, panel, title):
@@ -100,7 +101,9 @@ def draw(table):
     figure = plt.figure(figsize=(10, 1.5 + 4.7 * rows), layout="constrained")
     above, below = figure.subfigures(2, 1, hspace=0.03)
     draw_block(above, panels, columns, draw_contact,
-               f"Contact (black), none (white), by harmonic balance unless said, δ = {1e6 * table.number('delta'):g} µm")
+               f"Contact (black), none (white), δ = {1e6 * table.number('delta'):g} µm, by harmonic balance with "
+               f"{table.number('harmonic balance: m'):g} harmonics unless said\n"
+               "rms error: of the displacements about their means; force: largest error of the bearing's force")
     draw_block(below, panels, columns, draw_force,
                "Force of each ball in the same panels (white: no contact)")
     return figure

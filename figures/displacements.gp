@@ -22,11 +22,12 @@ stats table using (0):(sqrt(relative_um("x") ** 2 + relative_um("y") ** 2)) name
 
 # Three lines on top: the case, how far the methods differ, whether integration finds period T.
 stats table using "found":"periodic" name 'flag' nooutput
-stats table using "spread":"difference" name 'error' nooutput
+stats table using "spread":"difference_rms" name 'error' nooutput
+stats table using (0):"difference_force" name 'force' nooutput
 found = int(flag_max_x)
 comparison = found == 1 ? \
-  sprintf("Largest difference of both methods over one period: %.2g %% ", 100 * error_max_y).\
-    "of the largest displacement" : \
+  sprintf("Difference of both methods over one period: displacements %.2g %% (rms, about the means), ", \
+          100 * error_max_y).sprintf("force %.2g %% (largest)", 100 * force_max_y) : \
   "No harmonic-balance solution found: time integration alone"
 regime = "Time integration is ".(flag_max_y == 1 ? "" : "not ").\
   sprintf("T-periodic: Poincaré spread %.2g %% of the largest displacement", 100 * error_max_x)

@@ -2,21 +2,22 @@
 #
 # Loaded by fig06_orbits.gp and fig08_orbits.gp with `table` and `output` set.
 # A panel shows the harmonic-balance orbit, in colour, where time integration finds a motion of
-# period T, with that motion in grey below it and their largest difference over the orbit's own half
-# peak-to-peak; elsewhere it shows the integrated motion over several periods, and says so.
+# period T and the rms error of harmonic balance about the mean is at most 10 %, with that motion in grey
+# below it; elsewhere it shows the integrated motion over several periods, and says why.
 
 rows = int(ceil(system(sprintf("grep -c '^# panel' '%s'", table)) / 3.0))
-height = 115 + 350 * rows
+height = 137 + 350 * rows
 load 'figures/style.gp'
 
 balance = 1; integrated = 2
 of(source, value) = column("panel") == p && column("source") == source ? value : NaN
 
-# After the speed: how far harmonic balance is off; else why it is not drawn, and the spread.
-title_of(f, found, periodic, spread, off) = sprintf("%g Hz", f).( \
+# After the speed: the error of harmonic balance; else why it is not drawn, or the spread.
+title_of(f, found, periodic, spread, error) = sprintf("%g Hz", f).( \
   periodic == 0 ? sprintf(", spread %.2g %%\nnot T-periodic", 100 * spread) : \
-  found == 1 ? sprintf("\noff by %.2g %%", 100 * off) : \
-  sprintf("\nno %d-harmonic solution found", harmonics(1)))
+  found == 0 ? sprintf("\nno %d-harmonic solution found", harmonics(1)) : \
+  source == balance ? sprintf("\nrms error %.2g %%", 100 * error) : \
+  sprintf(", time integration\n%d harmonics: rms error %.2g %%", harmonics(1), 100 * error))
 
 # Above the panels: what is drawn, and the names of the curves, given by the first panel.
 from_top(units) = 1 - units / (1.0 * height)
@@ -24,24 +25,27 @@ stats table using "panel":"t_over_T" name 'all' nooutput
 modelled = sprintf("δ = %g µm, harmonic balance with %d harmonics; ", \
                    1e6 * clearance(1), harmonics(1)).\
            sprintf("grey: %d periods of time integration\n", ceil(all_max_y)).\
-           "off: largest difference over half peak-to-peak; spread: Poincaré, over the largest displacement"
+           "rms error: of the displacements about their means; above 10 % time integration is drawn alone\n".\
+           "spread: scatter of the states after each turn, over the largest displacement"
 set label 1 modelled at screen 0.5, from_top(20) center
-set key at screen 0.53, from_top(58) center top vertical maxrows 2 Left reverse width 2
+set key at screen 0.53, from_top(80) center top vertical maxrows 2 Left reverse width 2
 
 set multiplot layout rows, 3 \
-  margins 0.09, 0.985, 65.0 / height, from_top(170) spacing 0.09, 120.0 / height
+  margins 0.09, 0.985, 65.0 / height, from_top(192) spacing 0.09, 120.0 / height
 do for [p = 1 : int(all_max_x)] {
   # A range left from the panel before would hide rows from `stats`.
   set xrange [* : *]
   set yrange [* : *]
   stats table using (of(integrated, column("found"))):"periodic" name 'flag' nooutput
   stats table using (of(integrated, column("f"))):"spread" name 'motion' nooutput
-  stats table using (of(integrated, column("f"))):"difference_orbit" name 'off' nooutput
-  source = flag_max_x * flag_max_y == 1 ? balance : integrated
-  shown(value) = of(source, value)
+  stats table using (of(integrated, column("shown"))):"difference_rms" name 'error' nooutput
+  source = error_max_x
+  # One turn of a motion that repeats: dashes drawn over others would fill their gaps.
+  turns = flag_max_y == 1 ? 1 : all_max_y
+  shown(value) = column("t_over_T") <= turns ? of(source, value) : NaN
   load 'figures/orbit_axes.gp'
   eval orbit_axes
-  set title title_of(speed, flag_max_x, flag_max_y, motion_max_y, off_max_y) offset 0, -0.6
+  set title title_of(speed, flag_max_x, flag_max_y, motion_max_y, error_max_y) offset 0, -0.6
   data = source == balance ? closed_orbit(p) : table
   line = source == balance ? 1.6 : 1
   plot \

@@ -59,8 +59,7 @@ def displacements():
     for name in ("fig04", "fig05"):
         table = Table(GENERATED / f"{name}_displacements.tsv")
         add(f"{name}.f", table.first("f"), "Hz", "speed of the figure")
-        for key, column in (("difference", "difference"), ("force", "difference_force"),
-                            ("spread", "spread")):
+        for key, column in (("rms", "difference_rms"), ("force", "difference_force"), ("spread", "spread")):
             add(f"{name}.{key}", table.first(column), "-", column)
         add(f"{name}.regime", "T-periodic" if table.first("periodic") == 1 else "not T-periodic", "-",
             "the integrated motion")

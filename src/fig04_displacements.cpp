@@ -20,14 +20,16 @@ of radius δ no ball is pressed.
 
 After its transient the integrated motion is observed once per turn. The scatter of these
 observations, over the largest displacement, is the spread; above a millionth the motion is called
-not T-periodic. Here the spread is a few per cent, and the difference of the two methods is of the
-same size. It does not measure the accuracy of harmonic balance: the periodic solution approximates
-a motion that does not occur.
+not T-periodic. Here the spread is a few per cent, and the difference of the two methods is about
+twice as large. It does not measure the accuracy of harmonic balance: the periodic solution
+approximates a motion that does not occur.
 
-The table measures the difference in three ways: over the largest displacement, which contains the
-static deflection under the weight; over each displacement's own half peak-to-peak; and as the
-difference of the bearing's force, over the largest force. The last is by far the largest, because
-a small error of the penetration of a ball is a large error of its force. */
+The difference is given in two ways. That of the displacements is the root mean square (rms) of
+the difference of both motions about their means, over the rms of the integrated motion about its
+mean; the static deflection under the weight does not count. That of the bearing's force is the
+largest over the period, over the largest force. It is by far the larger of the two, because a small
+error of the penetration of a ball is a large error of its force. The table also has the largest
+difference of a displacement, over the largest displacement. */
 #include "figures/panels.hpp"
 #include "io/program.hpp"
 

@@ -30,13 +30,14 @@ deflection and continues until the transient has decayed. The motion is then obs
 The widest range of these observations in one displacement, divided by the largest displacement, is
 the spread. A motion with a spread below one millionth counts as T-periodic.
 
-Where the motion is T-periodic, the panel draws the solution of harmonic balance in colour over the
-integrated motion in grey. The integration is far more accurate than six harmonics, so that the
-difference of the two is the error of harmonic balance. The panel prints it as "off": for each of the
-four displacements the largest difference over the period, divided by half the peak-to-peak value of
-that displacement; then the largest of the four. The table also gives the difference divided by the
-largest displacement; at low speed this number is small even for a poor solution, because the static
-deflection is much larger than the orbit.
+Where the motion is T-periodic, the difference of the two is the error of harmonic balance, since the
+integration is far more accurate than six harmonics. The rms error is the root mean square of the difference of
+both motions about their means, over the rms of the integrated motion about its mean. The static
+deflection does not count: at low speed it is much larger than the orbit and would hide a poor
+solution. Up to an rms error of 10 % the panel draws the solution of harmonic balance in colour over the integrated
+motion in grey. Above 10 % harmonic balance is no picture of the motion, and the panel draws the integrated
+motion alone: this happens at 3 Hz, where six harmonics miss the ripple. The table has the error of
+the bearing's force and the largest error of a displacement as well.
 
 Where the motion is not T-periodic, no T-periodic solution can represent it, and the panel draws
 five turns of the integrated motion alone. The paper names the three ranges but not the speeds of its

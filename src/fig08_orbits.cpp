@@ -16,10 +16,10 @@ bearing all the time, and the orbits are circles as in Figure 6. The rotor's cir
 the stator's by about the clearance, which is now visible.
 
 The panels are those of Figure 6: in colour the solution of harmonic balance, here with ten
-harmonics as in the paper (claim C3), where the integrated motion repeats after one turn; in grey
-the integrated motion. "Off" is the difference of the two, over half the peak-to-peak value. At 3
-Hz it is almost as large as the motion, because the rotor vibrates on the contact much faster than
-ten harmonics can follow.
+harmonics as in the paper (claim C3), where the integrated motion repeats after one turn and the rms
+error is at most 10 %; in grey the integrated motion. At 3 Hz the motion repeats, but the rms error is 34 %,
+because the rotor vibrates on the contact much faster than ten harmonics can follow. This panel shows the
+integrated motion.
 
 Harmonic balance finds a solution at all nine speeds, at some of them after a long search: from few
 harmonics to more, or along the curve of solutions from a lower speed. The header of the table says

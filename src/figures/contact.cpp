@@ -24,7 +24,7 @@ Table contact_table(const PanelScene& scene)
   describe(table, scene);
   table.note(
       "modelled: the force of every ball over two periods, of the harmonic-balance "
-      "solution where the integrated motion is periodic, of that motion elsewhere");
+      "solution or of the integrated motion, as the column `shown` says");
   return table;
 }
 

@@ -19,15 +19,20 @@ const std::vector<Field<PanelRow>>& panel_fields()
        [](auto& r) { return r.panel.periodic; }},
       {"spread", "-", "Poincare spread of the integrated motion",
        [](auto& r) { return r.panel.spread; }},
+      {"shown", "-",
+       "the motion that the panel shows as the machine's: 1 harmonic balance, 2 time "
+       "integration",
+       [](auto& r) { return r.panel.shows_balance() ? 1 : 2; }},
+      {"difference_rms", "-",
+       "rms difference of harmonic balance and time integration about their means over one "
+       "period, over the rms of the latter about its mean; -1 without solution",
+       [](auto& r) { return r.panel.rms_difference; }},
+      {"difference_force", "-",
+       "largest difference of the bearing's force, over the largest force",
+       [](auto& r) { return r.panel.force_difference; }},
       {"difference", "-",
-       "largest difference of harmonic balance and time integration over one period, "
-       "over the largest displacement; -1 without solution",
-       [](auto& r) { return r.panel.difference; }},
-      {"difference_orbit", "-",
-       "the same with each displacement over its own half peak-to-peak",
-       [](auto& r) { return r.panel.orbit_difference; }},
-      {"difference_force", "-", "the same of the bearing's force, over the largest force",
-       [](auto& r) { return r.panel.force_difference; }}};
+       "largest difference of a displacement, over the largest displacement",
+       [](auto& r) { return r.panel.difference; }}};
   return fields;
 }
 
@@ -77,6 +82,10 @@ void describe(Table& table, const PanelScene& scene)
              "for %g s; periodic below %g",
              integration.stepper.method.c_str(), integration.settled, integration.longest,
              integration.periodic));
+  table.note(
+      format("shown: harmonic balance where the integrated motion is T-periodic and "
+             "the rms error about the mean is at most %g, else time integration",
+             Panel::largest_error_shown));
 }
 
 Table orbit_table(const PanelScene& scene)
@@ -107,10 +116,10 @@ Panel compare(const PanelScene& scene, double frequency, const PeriodicMotion& b
                                settled.spread, settled.seconds)};
   if (balance.found()) {
     panel.balance = motion::motion_of(balance.bodies, points);
-    panel.difference = motion::relative_difference(*panel.balance, panel.settled);
-    panel.orbit_difference = motion::orbit_difference(*panel.balance, panel.settled);
+    panel.rms_difference = motion::rms_difference(*panel.balance, panel.settled);
     panel.force_difference =
         motion::relative_force_difference(scene.machine, *panel.balance, panel.settled);
+    panel.difference = motion::relative_difference(*panel.balance, panel.settled);
   }
   return panel;
 }

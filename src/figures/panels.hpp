@@ -3,7 +3,8 @@
 
 A panel belongs to one speed and holds two motions: the periodic solution of harmonic balance,
 and the motion that time integration settles on. Where the second repeats with the period of
-rotation, the difference of the two is the error of the first. */
+rotation, the difference of the two is the error of the first. Where that error is large, or the second
+does not repeat, the panel shows the integrated motion. */
 #pragma once
 
 #include <optional>
@@ -35,13 +36,19 @@ struct Panel {
   motion::Motion settled;
   bool periodic;                 ///< the settled motion repeats after T
   double spread;                 ///< of its Poincaré section [-]
-  double difference = -1;        ///< of displacement, over the largest displacement [-]
-  double orbit_difference = -1;  ///< the same, each over its own half peak-to-peak [-]
+  double rms_difference = -1;    ///< of displacement about its mean, over its rms [-]
   double force_difference = -1;  ///< of the bearing's force, over the largest force [-]
+  double difference = -1;        ///< of displacement, over the largest displacement [-]
   std::string ending;            ///< the `#` line that says how both computations ended
 
+  /** Above this rms error about the mean [-] a solution is no picture of the motion. */
+  static constexpr double largest_error_shown = 0.1;
+
   /** Whether the panel may show the solution of harmonic balance as what the machine does. */
-  bool shows_balance() const { return balance && periodic; }
+  bool shows_balance() const
+  {
+    return balance && periodic && rms_difference <= largest_error_shown;
+  }
   const motion::Motion& shown() const { return shows_balance() ? *balance : settled; }
 };
 

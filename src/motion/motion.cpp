@@ -130,19 +130,6 @@ double rms_difference(const Motion& motion, const Motion& reference)
   return size > 0 ? off / size : off > 0 ? std::numeric_limits<double>::infinity() : 0;
 }
 
-double orbit_difference(const Motion& motion, const Motion& reference)
-{
-  const auto size = half_peak_to_peak(reference);
-  double difference = 0;
-  for (int k = 0; k < reference.points_per_period; ++k) {
-    const auto a = displacements(motion.positions[k]);
-    const auto b = displacements(reference.positions[k]);
-    for (int i = 0; i < 4; ++i)
-      if (size[i] > 0) difference = larger(difference, std::abs(a[i] - b[i]) / size[i]);
-  }
-  return difference;
-}
-
 double relative_force_difference(const Parameters& parameters, const Motion& motion,
                                  const Motion& reference)
 {

@@ -74,10 +74,6 @@ double relative_difference(const Motion& motion, const Motion& reference);
     four displacements together: blind to the static sag [-]. */
 double rms_difference(const Motion& motion, const Motion& reference);
 
-/** The largest difference of each displacement over that displacement's own half peak-to-peak: blind
-    to the static sag that the other measure divides by [-]. */
-double orbit_difference(const Motion& motion, const Motion& reference);
-
 /** For the bearing's force: largest |F - F_ref| over the largest |F_ref| [-]. */
 double relative_force_difference(const Parameters& parameters, const Motion& motion,
                                  const Motion& reference);
