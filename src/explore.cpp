@@ -89,6 +89,9 @@ std::function<void()> add_motion_options(CLI::App& command, MotionRequest& reque
   aft.push_back(
       add_number(command, "--tolerance", request.tolerance, 1e-8, 0.1,
                  "relative error of displacement; without --harmonics, m is chosen"));
+  if (command.get_name() == "orbit")
+    aft.push_back(add_number(command, "--subharmonic", request.subharmonic, 1, 8,
+                             "K: a motion of period K T, harmonics of orders h/K"));
   aft.push_back(command.add_flag("!--no-stability", request.stability,
                                  "leave out the Floquet multipliers of aft"));
   const auto step = add_number(command, "--step", request.step, 0.0, largest,

@@ -10,6 +10,7 @@
 #include "motion/adaptive.hpp"
 #include "motion/contact.hpp"
 #include "motion/other_starts.hpp"
+#include "motion/subharmonic.hpp"
 #include "motion/verdict.hpp"
 
 namespace rotor_stator::explore {
@@ -58,23 +59,31 @@ AdaptiveMotion solved(const Parameters& parameters, const MotionRequest& request
   const NewtonSettings newton{.tolerance = request.newton_tolerance};
   const int m = request.harmonics.value_or(usual_harmonics);
   const int n = checked_samples(m, request.samples);
+  const motion::Search search{parameters, omega, m, n, newton, budget};
+  if (request.subharmonic > 1) {
+    /** Few harmonics often have no such solution where the machine has the motion. */
+    std::optional<double> tolerance = request.tolerance;
+    if (!request.harmonics && !tolerance) tolerance = 1e-4;
+    AdaptiveMotion at{motion::find_subharmonic(search, request.subharmonic, tolerance)};
+    at.reached = true;
+    return at;
+  }
   if (!request.tolerance) {
-    AdaptiveMotion at{motion::search_periodic({parameters, omega, m, n, newton, budget})};
+    AdaptiveMotion at{motion::search_periodic(search)};
     at.reached = at.motion.found();
     at.end = at.motion.newton.reason();
     return at;
   }
-  if (request.harmonics)
-    return motion::find_with_error({parameters, omega, m, n, newton, budget},
-                                   *request.tolerance);
+  if (request.harmonics) return motion::find_with_error(search, *request.tolerance);
   return motion::solve_adaptively(parameters, omega, settings_of(request), budget);
 }
 
 /** What stands behind the verdict on a solution, in the header's lines. */
 void note_verdict(Table& table, const Parameters& parameters,
-                  const PeriodicMotion& solution, const OperationBudget& budget)
+                  const PeriodicMotion& solution, const OperationBudget& budget,
+                  int turns)
 {
-  const motion::Verdict verdict = motion::verdict_on(parameters, solution, budget);
+  const motion::Verdict verdict = motion::verdict_on(parameters, solution, budget, turns);
   const Floquet& motion = verdict.floquet;
   if (verdict.found())
     table.note(format(
@@ -92,7 +101,7 @@ void note_verdict(Table& table, const Parameters& parameters,
         format("warning: the solution is not accurate, its rms error about the mean "
                "is %.2g %%; more harmonics or --tolerance help",
                100 * verdict.distance_rms));
-  table.note("regime: " + verdict.regime());
+  table.note("regime: " + verdict.regime(turns));
   const motion::Settled& there = verdict.from_there;
   if (there.periods > 0)
     table.note(
@@ -114,13 +123,20 @@ motion::Motion balance_motion(const Parameters& parameters, const MotionRequest&
   if (!at.reached)
     throw NoSolution(format("%s: %s at %g Hz: %s", parameters.file.c_str(),
                             wanted.c_str(), request.frequency, at.end.c_str()));
-  const bool is_chosen = request.tolerance && !request.harmonics;
+  const int turns = request.subharmonic;
+  const bool is_chosen = request.tolerance && !request.harmonics && turns == 1;
+  const std::string orders = turns > 1 ? format(", orders h/%d", turns) : "";
   table.note(format(
-      "method: aft, m = %d, N = %d, relative tolerance of Newton %g",
-      at.motion.harmonics.highest(), at.motion.samples,
+      "method: aft%s, m = %d, N = %d, relative tolerance of Newton %g", orders.c_str(),
+      at.motion.harmonics.highest() / turns, at.motion.samples / turns,
       is_chosen ? level_tolerance(settings_of(request)) : request.newton_tolerance));
   table.note("newton: from " + at.motion.start + ", " + at.motion.newton.reason());
-  if (request.tolerance)
+  if (turns > 1)
+    table.note(
+        format("error: %.2g of the largest displacement or rms about the mean, "
+               "against that motion",
+               at.motion.error->displacement));
+  else if (request.tolerance)
     table.note(
         format("error: %.2g of the largest displacement, estimated with m = %d, N = %d; "
                "tolerance %g",
@@ -129,12 +145,12 @@ motion::Motion balance_motion(const Parameters& parameters, const MotionRequest&
   if (std::isfinite(1 / request.frequency))
     table.note(format("base period: %.15g s", 1 / request.frequency));
   if (request.stability) {
-    note_verdict(table, parameters, at.motion, budget);
+    note_verdict(table, parameters, at.motion, budget, turns);
   } else {
     table.note("stability is not tested");
     table.note("regime: undecided");
   }
-  return motion::motion_of(at.motion.bodies, request.points);
+  return motion::motion_of(at.motion.bodies, request.points * turns);
 }
 
 /** What a time method settled on: T-periodic, kT-periodic or not, and the same with finer steps where those that
@@ -209,20 +225,22 @@ Computed computed(const Parameters& parameters, const MotionRequest& request, in
   at.motion = request.method == "aft"
                   ? balance_motion(parameters, request, at.budget, table)
                   : integrated_motion(parameters, request, periods, at.budget, table);
-  at.forces = motion::bearing_forces(parameters, at.motion);
+  at.forces =
+      motion::bearing_forces(over_turns(parameters, request.subharmonic), at.motion);
   return at;
 }
 
 /** A table of this length takes about a second and 0.4 GB to write. */
 constexpr int most_contact_rows = 1 << 20;
 
-const std::vector<Column> orbit_columns{{"phase", "rad", "omega t, modulo 2 pi"},
-                                        {"x_s", "m", "stator"},
-                                        {"y_s", "m", "stator"},
-                                        {"x_r", "m", "rotor"},
-                                        {"y_r", "m", "rotor"},
-                                        {"F_x", "N", "Eq. 6, on the stator"},
-                                        {"F_y", "N", "Eq. 6, on the stator"}};
+const std::vector<Column> orbit_columns{
+    {"phase", "rad", "omega t, modulo 2 pi, or 2 pi K with --subharmonic K"},
+    {"x_s", "m", "stator"},
+    {"y_s", "m", "stator"},
+    {"x_r", "m", "rotor"},
+    {"y_r", "m", "rotor"},
+    {"F_x", "N", "Eq. 6, on the stator"},
+    {"F_y", "N", "Eq. 6, on the stator"}};
 
 const std::vector<Column> contact_columns{
     {"t_over_T", "-", "time over the period, 0 to 2"},
@@ -238,8 +256,8 @@ Exploration explore_orbit(const MotionRequest& request)
   const Computed at = computed(parameters, request, 1, table);
   for (std::size_t k = 0; k < at.motion.size(); ++k) {
     const auto& [stator, rotor] = at.motion.positions[k];
-    table.row({2 * std::numbers::pi * at.motion.t_over_period(k), stator.x, stator.y,
-               rotor.x, rotor.y, at.forces[k].x, at.forces[k].y});
+    table.row({2 * std::numbers::pi * request.subharmonic * at.motion.t_over_period(k),
+               stator.x, stator.y, rotor.x, rotor.y, at.forces[k].x, at.forces[k].y});
   }
   conclude(table, parameters, at.touches(), at.budget);
   return {std::move(table)};

@@ -26,6 +26,7 @@ struct MotionRequest : Request {
   double frequency = 0;             ///< [Hz]
   std::string method = "aft";       ///< or a time method
   std::optional<double> tolerance;  ///< of displacement, relative
+  int subharmonic = 1;              ///< K: a motion of period KT (aft)
   int points = 256;                 ///< P
   double local_error = 1e-11;       ///< GSL's methods, relative
   double step = 0;                  ///< rk4 [s]; 0: from K_H

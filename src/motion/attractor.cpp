@@ -44,10 +44,13 @@ Settled settle(const Parameters& parameters, double omega, const State& state,
   std::vector<double> least;
   for (int blocks = 0; blocks < rule.most_blocks; ++blocks) {
     std::vector<Displacements> section;
+    double nearest = std::numeric_limits<double>::infinity();
     for (long k = 0; k < rule.block; ++k) {
       stepper.advance(settled.periods++, settled.state);
-      if (k >= rule.block - 3 * rule.most_period)
-        section.push_back(displacements(settled.state.position));
+      if (k < rule.block - 3 * rule.most_period) continue;
+      section.push_back(displacements(settled.state.position));
+      if (away_from)
+        nearest = std::min(nearest, apart(parameters, settled.state, *away_from));
     }
     if (!vector_of(settled.state).allFinite())
       throw NoSolution(
@@ -55,9 +58,7 @@ Settled settle(const Parameters& parameters, double omega, const State& state,
     const SectionJudgement judged = judge_section(
         section, size, {}, {.periodic = rule.closed, .most_period = rule.most_period});
     settled.spread = judged.spread_k;
-    const bool has_left =
-        !away_from || apart(parameters, settled.state, *away_from) > left;
-    if (settled.spread <= rule.closed && has_left) {
+    if (settled.spread <= rule.closed && nearest > left) {
       settled.period = judged.period;
       return settled;
     }

@@ -20,9 +20,9 @@ constexpr int most_harmonics = 192, points = 256;  // of each turn
 
 }  // namespace
 
-std::string Verdict::regime() const
+std::string Verdict::regime(int turns) const
 {
-  return floquet.stable() ? "periodic" : from_there.regime();
+  return floquet.stable() ? Settled{.period = turns}.regime() : from_there.regime();
 }
 
 namespace {
@@ -59,10 +59,10 @@ public:
     return reason();
   }
 
-  /** From where Eq. 7 settles, if that has the period T. */
+  /** From where Eq. 7 settles, if that has the same period. */
   bool from(const Settled& settled, State& state)
   {
-    return settled.period == 1 && closes(settled.state, state);
+    return settled.period == parameters_.turns && closes(settled.state, state);
   }
 
   double evaluations() const { return evaluations_; }
@@ -178,8 +178,9 @@ Floquet floquet_of_machine(const Parameters& parameters, const PeriodicMotion& s
 }
 
 Verdict verdict_on(const Parameters& parameters, const PeriodicMotion& solution,
-                   const OperationBudget& budget)
+                   const OperationBudget& budget, int turns)
 {
+  const Parameters longer = over_turns(parameters, turns);
   Verdict verdict;
   if (!std::isfinite(1 / solution.omega)) {
     verdict.reason = "the period of rotation is too long to be integrated";
@@ -187,14 +188,14 @@ Verdict verdict_on(const Parameters& parameters, const PeriodicMotion& solution,
   }
   /** The other half is for the integration from there. */
   const OperationBudget half = budget.part(0.5);
-  Shootings shootings(parameters, solution, half);
+  Shootings shootings(longer, solution, half);
   const auto integrate = [&](const State& from, const State* away_from) {
-    verdict.from_there = settle(parameters, solution.omega, disturbed(parameters, from),
-                                budget, away_from);
+    verdict.from_there = settle(parameters, turns * solution.omega,
+                                disturbed(parameters, from), budget, away_from);
   };
   try {
     verdict.reason = shootings.run(verdict.state);
-    if (verdict.found()) measure(parameters, solution, budget, verdict);
+    if (verdict.found()) measure(longer, solution, budget, verdict);
   } catch (const NoSolution& error) {
     verdict.reason = error.what();
   }
@@ -203,7 +204,7 @@ Verdict verdict_on(const Parameters& parameters, const PeriodicMotion& solution,
       integrate(state_of(solution), nullptr);
       if (shootings.from(verdict.from_there, verdict.state)) {
         verdict.reason.clear();
-        measure(parameters, solution, budget, verdict);
+        measure(longer, solution, budget, verdict);
       }
     } else if (!verdict.floquet.stable()) {
       integrate(verdict.state, verdict.floquet.unstable() ? &verdict.state : nullptr);

@@ -41,14 +41,14 @@ struct Verdict {
   /** "stable", "unstable" or "undecided". */
   const char* word() const { return found() ? floquet.verdict() : "undecided"; }
 
-  /** As `Settled::regime`: "periodic" of a stable motion, else what the machine does from there. */
-  std::string regime() const;
+  /** "periodic", "periodic K" of a stable motion, else what the machine does from there. */
+  std::string regime(int turns = 1) const;
 };
 
 /** Judges a solution of harmonic balance that has the series of both bodies. What `budget` does not pay for
-    makes it undecided. */
+    makes it undecided. The solution's base period is K = `turns` of the rotor. */
 Verdict verdict_on(const Parameters& parameters, const PeriodicMotion& solution,
-                   const OperationBudget& budget = {});
+                   const OperationBudget& budget = {}, int turns = 1);
 
 /** The multipliers behind the verdict, of the motion that shooting finds. `near`, if not empty, is such a motion at a
     speed nearby, and another start; it becomes the motion found. Throws NoSolution with the reason where none is

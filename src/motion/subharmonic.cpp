@@ -1,0 +1,211 @@
+#include "motion/subharmonic.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <numeric>
+
+#include "balance/bearing_problem.hpp"
+#include "integration/time_stepper.hpp"
+#include "io/errors.hpp"
+#include "motion/attractor.hpp"
+#include "motion/other_starts.hpp"
+#include "motion/verdict.hpp"
+#include "stability/eigenvalues.hpp"
+#include "stability/shooting.hpp"
+
+namespace rotor_stator::motion {
+
+namespace {
+
+constexpr double local_error = 1e-11, other = 1e-5;
+
+/** States over the sizes of their components. */
+Vector8 scaled(const Parameters& parameters, const State& state)
+{
+  return vector_of(state).cwiseQuotient(state_scales(parameters));
+}
+
+/** Looks for motions of period KT at one speed. */
+struct Hunt {
+  const Parameters& parameters;
+  double omega;
+  int turns;
+  OperationBudget budget;
+  std::vector<State> found = {};
+
+  /** Where state `start` is after 1, 2, … K turns, over the sizes. */
+  std::vector<Vector8> section(const State& start) const
+  {
+    const TimeStepper stepper = make_stepper(
+        parameters, omega,
+        {.intervals_per_period = 1, .tolerance = local_error, .budget = budget});
+    std::vector<Vector8> points;
+    State state = start;
+    for (int k = 0; k < turns; ++k) {
+      stepper.advance(k, state);
+      points.push_back(scaled(parameters, state));
+    }
+    return points;
+  }
+
+  /** Adds the motion that shooting over K turns closes from `start`, if it has no shorter period and is not known. */
+  void add(State start)
+  {
+    const Shooting shooting = shoot(over_turns(parameters, turns), omega / turns, start,
+                                    {.tolerance = local_error,
+                                     .periodicity_residual = 1e-9,
+                                     .most_maps = 30,
+                                     .speed_weight = 5,
+                                     .quasi_newton = false,
+                                     .final_derivative = false,
+                                     .budget = budget});
+    if (!shooting.converged) return;
+    const auto points = section(start);
+    const auto far_from = [&](const State& state) {
+      const Vector8 at = scaled(parameters, state);
+      return [at](const Vector8& point) {
+        return (point - at).cwiseAbs().maxCoeff() > other;
+      };
+    };
+    const auto shorter = points.end() - 1;
+    if (!std::all_of(points.begin(), shorter, far_from(start))) return;
+    for (const State& known : found)
+      if (!std::all_of(points.begin(), points.end(), far_from(known))) return;
+    found.push_back(start);
+  }
+
+  /** Along the eigenvectors of the motion of period dT through `state` whose multipliers are near a primitive root of
+      unity of order K/d. */
+  void add_along_eigenvectors(const State& state, int d)
+  {
+    const Vector8 sizes = state_scales(parameters);
+    const PeriodMap map = period_map(over_turns(parameters, d), omega / d, state,
+                                     local_error, "rk8pd", budget);
+    const auto [values, vectors] = eigensystem(
+        sizes.cwiseInverse().asDiagonal() * map.derivative * sizes.asDiagonal(), true);
+    const int order = turns / d;
+    for (int i = 0; i < 8; ++i) {
+      const std::complex<double> mu = values[i];
+      const double angle = std::arg(mu) * order / (2 * std::numbers::pi);
+      const int root = static_cast<int>(std::lround(angle));
+      /** Of a pair one is enough; what decays or turns otherwise leads to no such motion. */
+      if (mu.imag() < 0 || std::abs(mu) < 0.5 || std::abs(angle - root) > 0.25 ||
+          std::gcd(root, order) != 1)
+        continue;
+      const Vector8 along = vectors.col(i).real();
+      const Vector8 direction = along.cwiseProduct(sizes) / along.cwiseAbs().maxCoeff();
+      const std::size_t known = found.size();
+      for (double size : {0.003, -0.003, 0.01, -0.01, 0.03, -0.03, 0.1, -0.1, 0.3, -0.3})
+        if (found.size() == known)
+          add(rotor_stator::state_of(vector_of(state) + size * direction));
+    }
+  }
+};
+
+/** The motion of period T that shooting finds from harmonic balance, and what the machine does beside it. */
+std::optional<Verdict> motion_of_one_turn(const Search& search)
+{
+  const PeriodicMotion solution = search_periodic(search);
+  if (!solution.found()) return {};
+  return verdict_on(search.parameters, solution, search.budget.part(0.5));
+}
+
+/** Whether only every p-th harmonic is there, for a prime p that divides K: then the period is shorter. */
+bool repeats_sooner(const PeriodicMotion& motion, int turns)
+{
+  const Eigen::Map<const Eigen::MatrixXd> u(motion.x.data(), 2,
+                                            motion.harmonics.coefficients());
+  const int m = motion.harmonics.highest();
+  for (int p : {2, 3, 5, 7}) {
+    if (turns % p != 0) continue;
+    double all = 0, others = 0;
+    for (int h = 1; h <= m; ++h) {
+      const double size = u.middleCols(2 * h - 1, 2).squaredNorm();
+      all += size;
+      if (h % p != 0) others += size;
+    }
+    if (std::sqrt(others) <= other * std::sqrt(all)) return true;
+  }
+  return false;
+}
+
+}  // namespace
+
+std::vector<State> subharmonic_states(const Search& search, int turns)
+{
+  const Parameters& parameters = search.parameters;
+  Hunt hunt{parameters, search.omega, turns, search.budget};
+  if (const auto one = motion_of_one_turn(search)) {
+    if (one->from_there.period == turns) hunt.add(one->from_there.state);
+    if (hunt.found.empty() && one->found()) hunt.add_along_eigenvectors(one->state, 1);
+  }
+  if (hunt.found.empty()) {
+    const Settled end =
+        settle(parameters, search.omega, static_start(parameters), search.budget);
+    if (end.period == turns) hunt.add(end.state);
+  }
+  for (int d = 2; d < turns && hunt.found.empty(); ++d)
+    if (turns % d == 0)
+      for (const State& state : subharmonic_states(search, d))
+        hunt.add_along_eigenvectors(state, d);
+  return hunt.found;
+}
+
+namespace {
+
+/** The solution of harmonic balance with the motion of Eq. 7 through `state` as its start, and its distance from
+    that. */
+PeriodicMotion solved_near(const Search& search, int turns, State state)
+{
+  const Parameters longer = over_turns(search.parameters, turns);
+  const double omega = search.omega / turns;
+  const int m = turns * search.harmonics, n = turns * search.samples;
+  const TimeStepper stepper = make_stepper(
+      longer, omega,
+      {.intervals_per_period = n, .tolerance = local_error, .budget = search.budget});
+  const Motion exact = recorded(stepper, n, state);
+  Balance balance(bearing_problem(longer, n, search.budget), m);
+  PeriodicMotion motion = solve(balance, omega, relative_series(exact, m), search.newton);
+  motion.start = format("the motion of period %d T that shooting found", turns);
+  if (!motion.found()) return motion;
+  if (repeats_sooner(motion, turns)) motion.newton.end = NewtonEnd::no_decrease;
+  motion.bodies = body_series(longer, motion);
+  const Motion series = motion_of(motion.bodies, n);
+  motion.error = {.displacement = std::max(relative_difference(series, exact),
+                                           rms_difference(series, exact)),
+                  .settled = true,
+                  .harmonics = 0,
+                  .samples = n,
+                  .newton = 0,
+                  .force_samples = 0};
+  return motion;
+}
+
+}  // namespace
+
+PeriodicMotion find_subharmonic(const Search& search, int turns,
+                                std::optional<double> tolerance)
+{
+  constexpr int most_harmonics = 512;
+  const auto states = subharmonic_states(search, turns);
+  if (states.empty())
+    throw NoSolution(format("no motion of period %d T was found", turns));
+  int m = search.harmonics;
+  for (;; m *= 2) {
+    for (const State& state : states) {
+      PeriodicMotion motion = solved_near(
+          {search.parameters, search.omega, m,
+           std::max(search.samples, default_samples(m)), search.newton, search.budget},
+          turns, state);
+      if (motion.found() && (!tolerance || motion.error->displacement <= *tolerance))
+        return motion;
+    }
+    if (!tolerance || 2 * m > most_harmonics) break;
+  }
+  throw NoSolution(
+      format("%zu motions of period %d T were found by shooting, and no solution with "
+             "orders up to %d near them; more with --harmonics",
+             states.size(), turns, m));
+}
+
+}  // namespace rotor_stator::motion
