@@ -64,7 +64,8 @@ std::vector<CLI::Option*> add_balance_options(CLI::App& command, Request& reques
                                               const std::string& or_m)
 {
   add_common_options(command, request,
-                     "3 s, 8.2e7 with 16 balls; of 30 s with --stability");
+                     "3 s, 8.2e7 with 16 balls; of 30 s with --stability or "
+                     "--subharmonic in response");
   return {add_number(command, "--harmonics", request.harmonics, 1, 4096,
                      "m of harmonic balance (default: 6, or " + or_m + ")"),
           add_number(
@@ -72,6 +73,12 @@ std::vector<CLI::Option*> add_balance_options(CLI::App& command, Request& reques
               "N per period (default: the larger of 8m+1 and 2/3 m^(8/5), rounded up)"),
           add_number(command, "--newton-tolerance", request.newton_tolerance, 1e-15, 1e-3,
                      "relative tolerance of Newton")};
+}
+
+CLI::Option* add_subharmonic(CLI::App& command, Request& request)
+{
+  return add_number(command, "--subharmonic", request.subharmonic, 1, 8,
+                    "K: motions of period K T, harmonics of orders h/K");
 }
 
 /** The options of orbit and contact. What is returned throws BadInput for an option that the method
@@ -89,9 +96,7 @@ std::function<void()> add_motion_options(CLI::App& command, MotionRequest& reque
   aft.push_back(
       add_number(command, "--tolerance", request.tolerance, 1e-8, 0.1,
                  "relative error of displacement; without --harmonics, m is chosen"));
-  if (command.get_name() == "orbit")
-    aft.push_back(add_number(command, "--subharmonic", request.subharmonic, 1, 8,
-                             "K: a motion of period K T, harmonics of orders h/K"));
+  if (command.get_name() == "orbit") aft.push_back(add_subharmonic(command, request));
   aft.push_back(command.add_flag("!--no-stability", request.stability,
                                  "leave out the Floquet multipliers of aft"));
   const auto step = add_number(command, "--step", request.step, 0.0, largest,
@@ -126,6 +131,7 @@ void add_range_options(CLI::App& command, Ranged& request)
 void add_response_options(CLI::App& command, ResponseRequest& request)
 {
   add_balance_options(command, request, "the saved branch's");
+  add_subharmonic(command, request);
   add_range_options(command, request);
   command.add_option("--direction", request.direction,
                      "up: from --from to --to; down: from --to to --from");

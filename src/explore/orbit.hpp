@@ -20,13 +20,13 @@ struct Request {
   std::optional<int> samples;       ///< N
   double newton_tolerance = 1e-10;  ///< relative
   std::optional<double> budget;     ///< evaluations of the force, for all of it
+  int subharmonic = 1;              ///< K: motions of period KT
 };
 
 struct MotionRequest : Request {
   double frequency = 0;             ///< [Hz]
   std::string method = "aft";       ///< or a time method
   std::optional<double> tolerance;  ///< of displacement, relative
-  int subharmonic = 1;              ///< K: a motion of period KT (aft)
   int points = 256;                 ///< P
   double local_error = 1e-11;       ///< GSL's methods, relative
   double step = 0;                  ///< rk4 [s]; 0: from K_H

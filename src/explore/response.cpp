@@ -11,6 +11,7 @@
 #include "io/output_file.hpp"
 #include "motion/motion.hpp"
 #include "motion/other_starts.hpp"
+#include "motion/subharmonic.hpp"
 #include "motion/verdict.hpp"
 #include "stability/branch_stability.hpp"
 
@@ -21,7 +22,8 @@ namespace {
 /** The request, checked, with the machine, the saved branch and the settings that belong to it. */
 struct Task {
   const ResponseRequest& request;
-  Parameters parameters;
+  Parameters machine;
+  Parameters parameters;  ///< the same, its base period that of the motions
   std::optional<SavedBranch> saved;
   int harmonics, samples;
   ArcLengthSettings settings;
@@ -30,9 +32,13 @@ struct Task {
 
   SpeedRange range() const
   {
-    const double low = angular(request.from), high = angular(request.to);
+    const double low = base(request.from), high = base(request.to);
     return upwards ? SpeedRange{low, high} : SpeedRange{high, low};
   }
+
+  /** The base frequency [rad/s] at a speed [Hz], and back. */
+  double base(double hertz) const { return angular(hertz) / parameters.turns; }
+  double hertz(double omega) const { return omega * parameters.turns / angular(1); }
 };
 
 Task task_of(const ResponseRequest& request)
@@ -49,6 +55,9 @@ Task task_of(const ResponseRequest& request)
   std::vector<std::string> inputs{request.parameter_file};
   if (request.restart) inputs.push_back(*request.restart);
   if (request.save) require_writable("--save", *request.save, inputs);
+  const int turns = request.subharmonic;
+  if (turns > 1 && (request.save || request.restart || request.isolated > 0))
+    throw BadInput("--subharmonic: not together with --save, --restart or --isolated");
   std::optional<SavedBranch> saved;
   if (request.restart) saved = read_branch(*request.restart, parameters, request.branch);
   const int harmonics = request.harmonics.value_or(saved ? saved->harmonics : 6);
@@ -64,17 +73,12 @@ Task task_of(const ResponseRequest& request)
   settings.most_evaluations =
       std::numeric_limits<long>::max();  // the budget is the bound
   const OperationBudget budget =
-      budget_of(request.budget, request.stability ? 30 : 3, parameters);
+      budget_of(request.budget, request.stability || turns > 1 ? 30 : 3, parameters);
   const bool upwards =
       request.direction.empty() ? !saved || saved->upwards : request.direction == "up";
-  return {request,
-          std::move(parameters),
-          std::move(saved),
-          harmonics,
-          checked_samples(harmonics, samples),
-          settings,
-          upwards,
-          budget};
+  return {request,          parameters, over_turns(parameters, turns),
+          std::move(saved), harmonics,  checked_samples(harmonics, samples),
+          settings,         upwards,    budget};
 }
 
 /**
@@ -108,19 +112,22 @@ BranchPoint saved_start(const Task& task, Table& table)
 }
 
 /** A solution at the edge of the range, by whatever start finds one. */
-BranchPoint found_start(const Task& task, Balance& balance, Table& table)
+PeriodicMotion found_start(const Task& task)
 {
-  const double omega = task.range().from;
-  const PeriodicMotion start =
-      motion::search_periodic({task.parameters, omega, task.harmonics, task.samples,
-                               task.settings.newton, task.budget});
+  const double hertz = task.hertz(task.range().from);
+  const motion::Search search{task.machine, angular(hertz),       task.harmonics,
+                              task.samples, task.settings.newton, task.budget};
+  const int turns = task.parameters.turns;
+  if (turns > 1)
+    return motion::find_subharmonic(
+        search, turns, task.request.harmonics ? std::nullopt : std::optional(1e-2));
+  PeriodicMotion start = motion::search_periodic(search);
   if (!start.found())
     throw NoSolution(format("%s: no solution found with %d harmonics at --%s %g Hz: %s",
                             task.parameters.file.c_str(), task.harmonics,
-                            task.upwards ? "from" : "to", omega / angular(1),
+                            task.upwards ? "from" : "to", hertz,
                             start.newton.reason().c_str()));
-  table.note("start: " + start.start);
-  return point_of(balance, omega, start.x, task.upwards, task.settings);
+  return start;
 }
 
 /**
@@ -131,13 +138,14 @@ struct Row {
   const StablePoint& at;
   Eigen::VectorXd amplitude;  ///< half peak-to-peak of x_s, y_s, x_r, y_r [m]
   std::size_t branch;
+  int turns;  ///< of the rotor per base period
 };
 
 using Fields = std::vector<Field<Row>>;
 
 const Fields branch_fields{
     {"f", "Hz", "speed of rotation",
-     [](auto& r) { return r.at.point.motion.omega / angular(1); }},
+     [](auto& r) { return r.at.point.motion.omega * r.turns / angular(1); }},
     {"amp_x_s", "m", "half peak-to-peak of x_s", [](auto& r) { return r.amplitude[0]; }},
     {"amp_y_s", "m", "half peak-to-peak of y_s", [](auto& r) { return r.amplitude[1]; }},
     {"amp_x_r", "m", "half peak-to-peak of x_r", [](auto& r) { return r.amplitude[2]; }},
@@ -173,13 +181,13 @@ Fields fields_of(const ResponseRequest& request)
   return fields;
 }
 
-std::string summary(const Branch& branch)
+std::string summary(const Task& task, const Branch& branch)
 {
   const auto [low, high] = std::ranges::minmax(
       branch.points | std::views::transform([](auto& p) { return p.motion.omega; }));
   return format(
       "%.9g to %.9g Hz, %zu points, %zu folds, %ld evaluations of the force, %s",
-      low / angular(1), high / angular(1), branch.points.size(), branch.folds.size(),
+      task.hertz(low), task.hertz(high), branch.points.size(), branch.folds.size(),
       branch.evaluations,
       ((branch.covered ? "ended: " : "incomplete: ") + branch.end).c_str());
 }
@@ -204,8 +212,9 @@ Others others(const Task& task, Balance& balance, const Branch& main, Table& tab
   int number = 1;
   for (const IsolatedBranch& other : others.found)
     table.note(format("branch %d: off the branches before it, found at %g Hz from %s; %s",
-                      ++number, other.candidate.omega / angular(1),
-                      other.candidate.start.c_str(), summary(other.branch).c_str()));
+                      ++number, task.hertz(other.candidate.omega),
+                      other.candidate.start.c_str(),
+                      summary(task, other.branch).c_str()));
   if (task.budget.used_up())
     others.missing =
         "the budget is used up, more with --budget: not every start was followed";
@@ -220,7 +229,8 @@ Others others(const Task& task, Balance& balance, const Branch& main, Table& tab
 }
 
 /** One line in all, then one line per bifurcation. */
-void note(Table& table, const std::string& prefix, const BranchStability& stability)
+void note(Table& table, const Task& task, const std::string& prefix,
+          const BranchStability& stability)
 {
   const auto count = [&](Bifurcation kind) {
     return std::ranges::count(stability.points, kind, &StablePoint::bifurcation);
@@ -237,13 +247,13 @@ void note(Table& table, const std::string& prefix, const BranchStability& stabil
     const auto first = std::ranges::find(stability.points, false, &StablePoint::examined);
     table.note(prefix + format("undecided: %d of %zu points, the first at %.6g Hz: %s",
                                stability.failed, stability.points.size(),
-                               first->point.motion.omega / angular(1),
+                               task.hertz(first->point.motion.omega),
                                stability.failure.c_str()));
   }
   for (const StablePoint& p : stability.points)
     if (p.bifurcation != Bifurcation::none)
       table.note(prefix + format("%s: %.9g Hz", name_of(p.bifurcation),
-                                 p.point.motion.omega / angular(1)));
+                                 task.hertz(p.point.motion.omega)));
 }
 
 /** What was not computed and why; empty when nothing is missing. */
@@ -286,7 +296,7 @@ void add_branch(Table& table, const Task& task, Balance& balance, const Branch& 
         {.chosen = evenly_chosen(branch, width, 2), .widest = width});
     const std::string prefix =
         task.request.isolated > 0 ? format("branch %zu, ", number) : "";
-    note(table, prefix, stability);
+    note(table, task, prefix, stability);
     const std::string missing = missing_in(stability, task.budget);
     if (!missing.empty()) table.note("incomplete: " + prefix + missing);
     if (added.missing.empty()) added.missing = missing;
@@ -299,47 +309,68 @@ void add_branch(Table& table, const Task& task, Balance& balance, const Branch& 
   for (const StablePoint& at : stability.points) {
     const PeriodicMotion& motion = at.point.motion;
     added.touches = added.touches || !motion.force.isZero(0);
-    table.row(
-        fields,
-        {at, half_peak_to_peak(body_series(task.parameters, motion), transform), number});
+    table.row(fields,
+              {at, half_peak_to_peak(body_series(task.parameters, motion), transform),
+               number, task.parameters.turns});
   }
   if (task.request.isolated > 0) table.gap();
+}
+
+/** A branch of period KT turns where it meets that of period T, and comes back as the same motions a turn later. */
+bool is_whole(const Task& task, const Branch& branch)
+{
+  return branch.covered ||
+         (task.parameters.turns > 1 && branch.kind == BranchEnd::came_back);
 }
 
 /** The first thing that is missing, in the order in which it was asked for. */
 std::string unfinished(const Task& task, const Branch& branch,
                        const std::string& isolated, const std::string& stability)
 {
-  if (branch.covered && !isolated.empty())
+  if (is_whole(task, branch) && !isolated.empty())
     return task.parameters.file + ": isolated branches: " + isolated;
-  if (branch.covered)
+  if (is_whole(task, branch))
     return stability.empty() ? "" : task.parameters.file + ": " + stability;
   return format(
       "%s: the branch stopped at %g Hz, before --%s %g Hz: %s",
-      task.parameters.file.c_str(), branch.points.back().motion.omega / angular(1),
-      task.upwards ? "to" : "from", task.range().to / angular(1), branch.end.c_str());
+      task.parameters.file.c_str(), task.hertz(branch.points.back().motion.omega),
+      task.upwards ? "to" : "from", task.hertz(task.range().to), branch.end.c_str());
 }
 
 }  // namespace
 
 Exploration explore_response(const ResponseRequest& request)
 {
-  const Task task = task_of(request);
+  Task task = task_of(request);
   Table table("Frequency response along the branch", fields_of(request));
+  PeriodicMotion found;
+  if (!task.saved) {
+    found = found_start(task);
+    task.harmonics = found.harmonics.highest();
+    task.samples = found.samples;
+    table.note("start: " + found.start);
+    if (found.error)
+      table.note(
+          format("error at the start: %.2g of the largest displacement or rms about "
+                 "the mean, against that motion",
+                 found.error->displacement));
+  }
   Balance balance(bearing_problem(task.parameters, task.samples, task.budget),
                   task.harmonics);
   const BranchPoint start =
-      task.saved ? saved_start(task, table) : found_start(task, balance, table);
+      task.saved ? saved_start(task, table)
+                 : point_of(balance, found.omega, found.x, task.upwards, task.settings);
   const Branch main = follow_branch(balance, start, task.range(), task.settings);
-  describe(table, task.parameters);
-  table.note(
-      format("method: aft, m = %d, N = %d, relative tolerance %g, pseudo-arc-length %s",
-             task.harmonics, task.samples, task.request.newton_tolerance,
-             task.upwards ? "up" : "down"));
+  describe(table, task.machine);
+  const int turns = task.parameters.turns;
+  table.note(format(
+      "method: aft%s, m = %d, N = %d, relative tolerance %g, pseudo-arc-length %s",
+      turns > 1 ? format(", orders h/%d", turns).c_str() : "", task.harmonics / turns,
+      task.samples / turns, task.request.newton_tolerance, task.upwards ? "up" : "down"));
   table.note(format("folds: %zu", main.folds.size()));
   table.note(format("work: %ld evaluations of the force at %d instants", main.evaluations,
                     task.samples));
-  table.note((main.covered ? "ended: " : "incomplete: ") + main.end);
+  table.note((is_whole(task, main) ? "ended: " : "incomplete: ") + main.end);
 
   Others beside;
   if (request.isolated > 0) beside = others(task, balance, main, table);
@@ -352,7 +383,7 @@ Exploration explore_response(const ResponseRequest& request)
   if (request.save)
     write_file(*request.save, branch_text(task.parameters, task.harmonics, task.samples,
                                           task.upwards, all));
-  conclude(table, task.parameters, added.touches, task.budget);
+  conclude(table, task.machine, added.touches, task.budget);
   return {std::move(table), unfinished(task, main, beside.missing, added.missing)};
 }
 

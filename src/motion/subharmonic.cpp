@@ -188,8 +188,11 @@ PeriodicMotion find_subharmonic(const Search& search, int turns,
 {
   constexpr int most_harmonics = 512;
   const auto states = subharmonic_states(search, turns);
-  if (states.empty())
-    throw NoSolution(format("no motion of period %d T was found", turns));
+  const auto none = [&](const std::string& why) {
+    return NoSolution(format("%s: at %.9g Hz %s", search.parameters.file.c_str(),
+                             search.omega / angular(1), why.c_str()));
+  };
+  if (states.empty()) throw none(format("no motion of period %d T was found", turns));
   int m = search.harmonics;
   for (;; m *= 2) {
     for (const State& state : states) {
@@ -202,10 +205,9 @@ PeriodicMotion find_subharmonic(const Search& search, int turns,
     }
     if (!tolerance || 2 * m > most_harmonics) break;
   }
-  throw NoSolution(
-      format("%zu motions of period %d T were found by shooting, and no solution with "
-             "orders up to %d near them; more with --harmonics",
-             states.size(), turns, m));
+  throw none(format("shooting found a motion of period %d T, and no solution with orders up "
+                    "to %d is near it; more with --harmonics",
+                    turns, m));
 }
 
 }  // namespace rotor_stator::motion
