@@ -63,9 +63,9 @@ void add_common_options(CLI::App& command, Request& request,
 std::vector<CLI::Option*> add_balance_options(CLI::App& command, Request& request,
                                               const std::string& or_m)
 {
-  add_common_options(command, request,
-                     "3 s, 8.2e7 with 16 balls; of 30 s with --stability or "
-                     "--subharmonic in response");
+  add_common_options(
+      command, request,
+      "3 s, 8.2e7 with 16 balls; of 60 s with --stability, of 30 s with --subharmonic in response");
   return {add_number(command, "--harmonics", request.harmonics, 1, 4096,
                      "m of harmonic balance (default: 6, or " + or_m + ")"),
           add_number(

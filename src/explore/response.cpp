@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <limits>
 #include <ranges>
+#include <utility>
 
 #include "balance/bearing_problem.hpp"
 #include "continuation/arc_length.hpp"
@@ -72,8 +73,11 @@ Task task_of(const ResponseRequest& request)
       arc_length_settings(parameters, {.tolerance = request.newton_tolerance});
   settings.most_evaluations =
       std::numeric_limits<long>::max();  // the budget is the bound
-  const OperationBudget budget =
-      budget_of(request.budget, request.stability || turns > 1 ? 30 : 3, parameters);
+  const OperationBudget budget = budget_of(request.budget,
+                                           request.stability ? 60
+                                           : turns > 1       ? 30
+                                                             : 3,
+                                           parameters);
   const bool upwards =
       request.direction.empty() ? !saved || saved->upwards : request.direction == "up";
   return {request,          parameters, over_turns(parameters, turns),
@@ -166,8 +170,8 @@ const Fields stability_fields{
        return std::string(r.at.examined() ? r.at.floquet.verdict() : "undecided");
      }},
     {"bifurcation", "-",
-     "fold; plus-one, period-doubling: a multiplier passes 1, -1; "
-     "neimark-sacker: a pair passes the circle; - none",
+     "of the machine: plus-one, period-doubling: a multiplier passes 1, -1; "
+     "neimark-sacker: a pair passes the circle; of the m harmonics: fold; - none",
      [](auto& r) { return std::string(name_of(r.at.bifurcation)); }}};
 
 Fields fields_of(const ResponseRequest& request)
@@ -238,11 +242,10 @@ void note(Table& table, const Task& task, const std::string& prefix,
   table.note(
       prefix +
       format(
-          "stability: %td folds, %td plus-one, %td period doublings, %td Neimark-Sacker points, "
-          "speeds to %g, relative; %d not located",
-          count(Bifurcation::fold), count(Bifurcation::plus_one),
-          count(Bifurcation::period_doubling), count(Bifurcation::neimark_sacker),
-          BranchStabilitySettings{}.tolerance, stability.missed));
+          "stability of the machine: %td plus-one, %td period doublings, %td Neimark-Sacker "
+          "points, %d not located",
+          count(Bifurcation::plus_one), count(Bifurcation::period_doubling),
+          count(Bifurcation::neimark_sacker), stability.missed));
   if (stability.failed > 0) {
     const auto first = std::ranges::find(stability.points, false, &StablePoint::examined);
     table.note(prefix + format("undecided: %d of %zu points, the first at %.6g Hz: %s",
@@ -251,9 +254,10 @@ void note(Table& table, const Task& task, const std::string& prefix,
                                stability.failure.c_str()));
   }
   for (const StablePoint& p : stability.points)
-    if (p.bifurcation != Bifurcation::none)
-      table.note(prefix + format("%s: %.9g Hz", name_of(p.bifurcation),
-                                 task.hertz(p.point.motion.omega)));
+    if (p.bifurcation != Bifurcation::none && p.bifurcation != Bifurcation::fold)
+      table.note(prefix + format("%s: %.9g +- %.2g Hz", name_of(p.bifurcation),
+                                 task.hertz(p.point.motion.omega),
+                                 task.hertz(p.uncertainty)));
 }
 
 /** What was not computed and why; empty when nothing is missing. */
@@ -282,18 +286,23 @@ void add_branch(Table& table, const Task& task, Balance& balance, const Branch& 
   if (task.request.stability) {
     /** The machine's multipliers change over less speed than the curve of few harmonics does. */
     const double width = 0.004 * joint_resonance(task.parameters);
-    const double share = 0.02 * task.budget.left();  // of a point that cannot be decided
-    std::optional<State> last;
-    stability = stability_along(
-        balance, branch, task.settings,
-        [&](const BranchPoint& point) {
-          PeriodicMotion motion = point.motion;
-          motion.bodies = body_series(task.parameters, motion);
-          return motion::floquet_of_machine(
-              task.parameters, motion,
-              task.budget.part(std::min(1.0, share / task.budget.left())), last);
-        },
-        {.chosen = evenly_chosen(branch, width, 2), .widest = width});
+    const double share = 0.04 * task.budget.left();  // of a point that cannot be decided
+    motion::MotionsAlong known;
+    bool lost = false;
+    const auto multipliers = [&](const BranchPoint& point) {
+      PeriodicMotion motion = point.motion;
+      motion.bodies = body_series(task.parameters, motion);
+      /** Beside one that cannot be decided there are often more. */
+      const double most =
+          (std::exchange(lost, true) ? share / 8 : share) / task.budget.left();
+      const Floquet floquet = motion::floquet_of_machine(
+          task.parameters, motion, task.budget.part(std::min(1.0, most)), known);
+      lost = false;
+      return floquet;
+    };
+    stability =
+        stability_along(balance, branch, task.settings, multipliers,
+                        {.chosen = evenly_chosen(branch, width, 2), .widest = width});
     const std::string prefix =
         task.request.isolated > 0 ? format("branch %zu, ", number) : "";
     note(table, task, prefix, stability);
@@ -367,7 +376,7 @@ Exploration explore_response(const ResponseRequest& request)
       "method: aft%s, m = %d, N = %d, relative tolerance %g, pseudo-arc-length %s",
       turns > 1 ? format(", orders h/%d", turns).c_str() : "", task.harmonics / turns,
       task.samples / turns, task.request.newton_tolerance, task.upwards ? "up" : "down"));
-  table.note(format("folds: %zu", main.folds.size()));
+  table.note(format("folds: %zu, of the m harmonics", main.folds.size()));
   table.note(format("work: %ld evaluations of the force at %d instants", main.evaluations,
                     task.samples));
   table.note((is_whole(task, main) ? "ended: " : "incomplete: ") + main.end);

@@ -205,9 +205,10 @@ PeriodicMotion find_subharmonic(const Search& search, int turns,
     }
     if (!tolerance || 2 * m > most_harmonics) break;
   }
-  throw none(format("shooting found a motion of period %d T, and no solution with orders up "
-                    "to %d is near it; more with --harmonics",
-                    turns, m));
+  throw none(
+      format("shooting found a motion of period %d T, and no solution with orders up "
+             "to %d is near it; more with --harmonics",
+             turns, m));
 }
 
 }  // namespace rotor_stator::motion

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <vector>
 
 #include "balance/bearing_problem.hpp"
 #include "balance/newton.hpp"
@@ -15,7 +16,7 @@ namespace rotor_stator::motion {
 
 namespace {
 
-constexpr double local_error = 1e-11, finer = 1e-13;
+constexpr double local_error = 1e-11, finer = 1e-13, nearly_closed = 1e-7;
 constexpr int most_harmonics = 192, points = 256;  // of each turn
 
 }  // namespace
@@ -39,13 +40,12 @@ public:
   {
   }
 
-  /** Why no motion was found; empty when one was, whose state is then in `state`. From the solution, from a motion
-      nearby, from the same solution with more harmonics; then from all of them by other steps: where the contact
+  /** Why no motion was found; empty when one was, whose state is then in `state`. From `starts`, from the solution,
+      from the same with more harmonics; then from all of them by other steps: where the contact
       opens and closes, those of one kind are often refused. */
-  std::string run(State& state, const std::optional<State>& near = {})
+  std::string run(State& state, std::vector<State> starts = {})
   {
-    std::vector<State> starts{start_};
-    if (near) starts.push_back(*near);
+    starts.push_back(start_);
     for (const State& start : starts)
       if (closes(start, state)) return {};
     PeriodicMotion more = solution_;
@@ -91,7 +91,10 @@ private:
                        .final_derivative = false,
                        .budget = budget_});
     evaluations_ += static_cast<double>(shooting_.evaluations);
-    if (!shooting_.converged) return false;
+    /** A motion whose disturbances grow fast closes no better than its integration: the change of the multipliers
+        says what that leaves open. */
+    if (!(shooting_.converged || shooting_.periodicity_residual <= nearly_closed))
+      return false;
     const double away =
         (vector_of(state) - vector_of(start_)).head<4>().cwiseAbs().maxCoeff() / size_;
     nearest_ = std::min(nearest_, away);
@@ -130,8 +133,23 @@ private:
       std::numeric_limits<double>::infinity();  ///< motion found, at phase 0
 };
 
-/** The distance of the solution from the motion through `state`, which goes on to `next`, and the motion's
-    multipliers. */
+/** The multipliers of the motion through `state`, and their uncertainty. */
+void add_multipliers(const Parameters& parameters, double omega,
+                     const OperationBudget& budget, Verdict& verdict)
+{
+  const auto map = [&](const State& from, double error) {
+    const PeriodMap period = period_map(parameters, omega, from, error, "rk8pd", budget);
+    verdict.evaluations += static_cast<double>(period.evaluations);
+    return period;
+  };
+  const PeriodMap first = map(verdict.state, local_error), next = map(first.end, finer);
+  Floquet& floquet = verdict.floquet;
+  floquet.multipliers = multipliers_of(next.derivative);
+  floquet.change = largest_move(floquet.multipliers, multipliers_of(first.derivative));
+  floquet.settled = true;
+}
+
+/** The same, and the distance of the solution from the motion. */
 void measure(const Parameters& parameters, const PeriodicMotion& solution,
              const OperationBudget& budget, Verdict& verdict)
 {
@@ -139,22 +157,13 @@ void measure(const Parameters& parameters, const PeriodicMotion& solution,
   const TimeStepper stepper = make_stepper(
       parameters, solution.omega,
       {.intervals_per_period = instants, .tolerance = local_error, .budget = budget});
-  State next = verdict.state;
-  const Motion exact = recorded(stepper, instants, next);
+  State state = verdict.state;
+  const Motion exact = recorded(stepper, instants, state);
   const Motion judged = motion_of(solution.bodies, instants);
   verdict.distance = relative_difference(judged, exact);
   verdict.distance_rms = rms_difference(judged, exact);
   verdict.evaluations += static_cast<double>(stepper.evaluations());
-  const auto map = [&](const State& state, double error) {
-    const PeriodMap period =
-        period_map(parameters, solution.omega, state, error, "rk8pd", budget);
-    verdict.evaluations += static_cast<double>(period.evaluations);
-    return multipliers_of(period.derivative);
-  };
-  Floquet& floquet = verdict.floquet;
-  floquet.multipliers = map(next, finer);
-  floquet.change = largest_move(floquet.multipliers, map(verdict.state, local_error));
-  floquet.settled = true;
+  add_multipliers(parameters, solution.omega, budget, verdict);
 }
 
 /** All components by 1e-6 of their size. */
@@ -163,17 +172,37 @@ State disturbed(const Parameters& parameters, const State& state)
   return rotor_stator::state_of(vector_of(state) + 1e-6 * state_scales(parameters));
 }
 
+/** The states at `omega` on the line through the two known motions nearest in speed, and at the nearest one, where
+    that is within 1 % of the joint resonance. */
+std::vector<State> starts_near(const Parameters& parameters, double omega,
+                               MotionsAlong known)
+{
+  const auto away = [=](const auto& motion) { return std::abs(motion.first - omega); };
+  const double reach = 0.01 * joint_resonance(parameters) / parameters.turns;
+  std::erase_if(known, [=](const auto& motion) { return away(motion) > reach; });
+  std::ranges::sort(known, {}, away);
+  std::vector<State> starts;
+  if (known.size() > 1 && known[0].first != known[1].first) {
+    const double r = (omega - known[0].first) / (known[1].first - known[0].first);
+    starts.push_back(rotor_stator::state_of((1 - r) * vector_of(known[0].second) +
+                                            r * vector_of(known[1].second)));
+  }
+  if (!known.empty()) starts.push_back(known[0].second);
+  return starts;
+}
+
 }  // namespace
 
 Floquet floquet_of_machine(const Parameters& parameters, const PeriodicMotion& solution,
-                           const OperationBudget& budget, std::optional<State>& near)
+                           const OperationBudget& budget, MotionsAlong& known)
 {
   Verdict verdict;
   Shootings shootings(parameters, solution, budget);
-  verdict.reason = shootings.run(verdict.state, near);
-  if (verdict.found()) measure(parameters, solution, budget, verdict);
+  verdict.reason =
+      shootings.run(verdict.state, starts_near(parameters, solution.omega, known));
   if (!verdict.found()) throw NoSolution(verdict.reason);
-  near = verdict.state;
+  add_multipliers(parameters, solution.omega, budget, verdict);
+  known.emplace_back(solution.omega, verdict.state);
   return verdict.floquet;
 }
 

@@ -50,10 +50,13 @@ struct Verdict {
 Verdict verdict_on(const Parameters& parameters, const PeriodicMotion& solution,
                    const OperationBudget& budget = {}, int turns = 1);
 
-/** The multipliers behind the verdict, of the motion that shooting finds. `near`, if not empty, is such a motion at a
-    speed nearby, and another start; it becomes the motion found. Throws NoSolution with the reason where none is
-    found. */
+/** The motions of Eq. 7 found so far along a branch: the speed [rad/s] and the state at phase 0 of each. */
+using MotionsAlong = std::vector<std::pair<double, State>>;
+
+/** The multipliers behind the verdict, of the motion that shooting finds. It begins where the line through the two
+    known motions nearest in speed leads, and adds the motion found to them. Throws NoSolution with the reason
+    where none is found. */
 Floquet floquet_of_machine(const Parameters& parameters, const PeriodicMotion& solution,
-                           const OperationBudget& budget, std::optional<State>& near);
+                           const OperationBudget& budget, MotionsAlong& known);
 
 }  // namespace rotor_stator::motion

@@ -48,6 +48,18 @@ bool is_complex_pair(const Multipliers& multipliers)
   return complex;
 }
 
+/** The modulus of the multiplier that passes the circle there: of those nearest to +1, to -1, of the pair nearest to it. */
+double passing_modulus(Bifurcation kind, const Multipliers& multipliers)
+{
+  const auto off = [kind](Complex mu) {
+    if (kind == Bifurcation::plus_one) return std::abs(1.0 - mu);
+    if (kind == Bifurcation::period_doubling) return std::abs(1.0 + mu);
+    return mu.imag() != 0 ? std::abs(1 - std::abs(mu))
+                          : std::numeric_limits<double>::infinity();
+  };
+  return std::abs(*std::ranges::min_element(multipliers, {}, off));
+}
+
 /** Multipliers outside the unit circle. */
 auto unstable_count(const StablePoint& point)
 {
@@ -79,6 +91,7 @@ struct Walk {
     for (std::size_t k = 0; k < branch.points.size(); ++k)
       if (settings.chosen.empty() || settings.chosen[k])
         examined.emplace_back(k, known(branch, k));
+    retry(branch, examined);
     std::size_t last = 0;
     for (auto& [k, next] : examined) {
       if (k == 0)
@@ -88,6 +101,19 @@ struct Walk {
       last = k;
     }
     return std::move(result);
+  }
+
+  /** Points whose multipliers could not be had, from the other end, where a neighbour has its own. */
+  void retry(const Branch& branch,
+             std::vector<std::pair<std::size_t, StablePoint>>& examined)
+  {
+    for (auto point = examined.rbegin(); point != examined.rend(); ++point) {
+      if (point->second.examined() || point == examined.rbegin() ||
+          !std::prev(point)->second.examined())
+        continue;
+      --result.failed;
+      point->second = known(branch, point->first);
+    }
   }
 
   void mark_folds(const Branch& branch)
@@ -214,6 +240,12 @@ struct Walk {
       return;
     if (kind == Bifurcation::plus_one && (at_fold(a, point) || at_fold(b, point))) return;
     point.bifurcation = kind;
+    const auto modulus = [kind](const StablePoint& p) {
+      return passing_modulus(kind, p.floquet.multipliers);
+    };
+    const double speeds = std::abs(b.point.motion.omega - a.point.motion.omega);
+    point.uncertainty = settings.tolerance * point.point.motion.omega +
+                        point.floquet.change * speeds / std::abs(modulus(b) - modulus(a));
     passed.push_back(std::move(point));
   }
 

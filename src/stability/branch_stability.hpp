@@ -42,6 +42,7 @@ struct StablePoint {
   BranchPoint point;
   Floquet floquet;  ///< without multipliers where they were not computed
   Bifurcation bifurcation = Bifurcation::none;
+  double uncertainty = 0;  ///< of the bifurcation's speed [rad/s]
 
   bool examined() const { return !floquet.multipliers.empty(); }
 };
