@@ -146,7 +146,7 @@ void add_multipliers(const Parameters& parameters, double omega,
   Floquet& floquet = verdict.floquet;
   floquet.multipliers = multipliers_of(next.derivative);
   floquet.change = largest_move(floquet.multipliers, multipliers_of(first.derivative));
-  floquet.settled = true;
+  floquet.settled = floquet.change <= 0.1;
 }
 
 /** The same, and the distance of the solution from the motion. */
