@@ -230,12 +230,19 @@ void look_closer(const Task& task, Found& found)
 }
 
 /** Of a closed motion from its multipliers: where they do not call it stable, the machine does not settle on it.
-    Of another the mean over its starts, whose scatter knows more than one motion does of itself. */
+    Of another the mean over its starts, whose scatter knows more than one motion does of itself; its verdict must
+    hold for the mean, and a quasi-periodic one for each start; a section that nearly closes may be about to. */
 void sharpen_exponent(const Task& task, Found& found)
 {
   if (!found.closed()) {
     const BatchMean mean = batch_mean(found.exponents);
     found.exponent = {mean.value, std::max(mean.error, found.exponent.error)};
+    const bool positive =
+        mean.value - 3 * found.exponent.error > task.settings.rule.zero_rate;
+    const bool nearly_closed = found.spread_k < 1e-4;
+    if (found.verdict == Verdict::chaotic ? !positive
+                                          : found.undecided > 0 || nearly_closed)
+      found.verdict = Verdict::undecided;
     return;
   }
   try {
@@ -261,7 +268,7 @@ std::vector<Found> found_at(const Task& task, std::size_t speed, std::vector<Run
     if (one == all.end())
       one = all.insert(one, {run, task.speeds[speed], static_cast<int>(all.size()) + 1});
     ++one->from[static_cast<std::size_t>(run.origin)];
-    if (run.decided() || !one->decided()) one->exponents.push_back(run.exponent.value);
+    one->exponents.push_back(run.exponent.value);
     if (!run.decided()) ++one->undecided;
   }
   return all;
@@ -345,7 +352,8 @@ void note(Table& table, const Task& task)
   table.note(format(
       "period: K up to %d where points K periods apart are within %g and the exponent is "
       "negative; aperiodic if the exponent less 3 errors is above %.3g 1/s; quasi-periodic "
-      "if it is within 3 errors of 0 and these below %.3g 1/s; undecided otherwise",
+      "if for every start it is within 3 errors of 0, these below %.3g 1/s, and no points "
+      "K periods apart are all within 1e-4; undecided otherwise",
       s.rule.most_period, s.rule.periodic, s.rule.zero_rate, 2 * s.rule.zero_rate));
   table.note(
       "lyapunov: ln of the largest multiplier of a closed motion over K; of others the "

@@ -61,7 +61,7 @@ def fault(status, out, err):
     if status == 0:
         if err:
             return "status 0 with words on stderr"
-        words = out.startswith("Explores") or "Usage:" in out[:200] or re.match(r"explore \d", out)
+        words = out.startswith("Explores") or "Usage:" in out[:200] or re.match(r"rotor_stator \d", out)
         return None if words else table_fault(out)
     if status == 2:
         if out:

@@ -270,6 +270,14 @@ class Attractors(Case):
         np.testing.assert_array_equal(table["period"], [0])
         self.assertGreater(table["lyapunov"][0], 5 * table["lyapunov_uncertainty"][0])
 
+    def test_what_is_not_known_is_undecided(self):
+        """At 14.5 Hz the exponent is too near zero: the kept study could not decide either."""
+        kept = Table(KEPT).where("set", 1).where("f", 14.5)
+        self.assertIn(0, kept["verdict"])
+        table = self.at(14.5, "--starts", 1)
+        np.testing.assert_array_equal(table["period"], [-2])
+        self.assertGreater(table["undecided"][0], 0)
+
     def test_two_attractors_at_one_speed_are_two_rows_and_those_of_the_kept_study(self):
         kept = Table(KEPT).where("set", 1)
         table = self.attractors("--from", 25, "--to", 25.25, "--count", 2, "--section", "section.tsv")
