@@ -8,6 +8,7 @@
 #include "io/errors.hpp"
 #include "motion/other_starts.hpp"
 #include "stability/floquet.hpp"
+#include "stability/shooting.hpp"
 
 namespace rotor_stator::motion {
 
@@ -217,37 +218,30 @@ Motion motion_along(const Attractor& attractor, const Parameters& machine, doubl
                   attractor.closed() ? attractor.period : periods);
 }
 
-namespace {
-
-/** The multipliers over `periods` periods of rotation from `state`, which is left at their end. */
-Multipliers multipliers_over(int periods, const Parameters& machine, double omega,
-                             double local_error, const OperationBudget& budget,
-                             State& state)
-{
-  Matrix8 derivative = Matrix8::Identity();
-  for (int k = 0; k < periods; ++k) {
-    const PeriodMap map = period_map(machine, omega, state, local_error, "rk8pd", budget);
-    derivative = map.derivative * derivative;
-    state = map.end;
-  }
-  return multipliers_of(derivative);
-}
-
-}  // namespace
-
 Exponent closed_exponent(const Attractor& attractor, const Parameters& machine,
                          double omega, const OperationBudget& budget)
 {
-  const int k = attractor.period;
+  constexpr double local_error = 1e-11, finer = 1e-13, near = 1e-3;
+  const Parameters turned = over_turns(machine, attractor.period);
+  omega /= attractor.period;
   State state = attractor.state;
-  const double first =
-      std::abs(multipliers_over(k, machine, omega, 1e-11, budget, state).front());
-  const double second =
-      std::abs(multipliers_over(k, machine, omega, 1e-13, budget, state).front());
+  const Shooting shooting = shoot(turned, omega, state,
+                                  {.tolerance = local_error,
+                                   .periodicity_residual = 1e-9,
+                                   .final_derivative = false,
+                                   .budget = budget});
+  if (!shooting.converged || apart(machine, state, attractor.state) > near)
+    throw NoSolution("shooting did not close the motion: " + shooting.reason);
+  const auto multiplier = [&](double error) {
+    const PeriodMap map = period_map(turned, omega, state, error, "rk8pd", budget);
+    state = map.end;
+    return std::abs(multipliers_of(map.derivative).front());
+  };
+  const double first = multiplier(local_error), second = multiplier(finer);
   const double change = std::abs(second - first);
   if (!(second > 10 * (change + std::numeric_limits<double>::epsilon())))
     throw NoSolution(format("the multiplier %g is known to %g only", second, change));
-  const double period = k * 2 * std::numbers::pi / omega;
+  const double period = 2 * std::numbers::pi / omega;
   return {std::log(second) / period, std::abs(std::log(second / first)) / period};
 }
 

@@ -78,14 +78,15 @@ Motion motion_along(const Attractor& attractor, const Parameters& machine, doubl
                     int points_per_period, int periods,
                     const OperationBudget& budget = {});
 
-/** λ [1/s] of a closed motion from the multipliers of its own period, ln|μ|/(K T); its error is the change over
-    another K periods with a local error a hundred times smaller. Throws NoSolution when these say nothing:
-    `budget` is used up, or |μ| is within its error of zero. */
+/** λ [1/s] of a closed motion from the multipliers of its own period, ln|μ|/(K T), after shooting has closed it; its
+    error is the change over another K periods with a local error a hundred times smaller. Throws NoSolution when
+    these say nothing: shooting fails, `budget` is used up, or |μ| is within its error of zero. */
 Exponent closed_exponent(const Attractor& attractor, const Parameters& machine,
                          double omega, const OperationBudget& budget);
 
 /** Whether two motions of one machine and speed are on one attractor: both close or neither does, two verdicts
-    of motions that do not close do not contradict each other, and means and scatters agree within the tolerance, over the largest scatter. */
+    of motions that do not close do not contradict each other, and means and scatters agree within the tolerance, over
+    the largest scatter. */
 bool same_attractor(const Attractor& a, const Attractor& b,
                     const AttractorSettings& settings);
 

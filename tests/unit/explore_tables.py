@@ -255,6 +255,17 @@ class Attractors(Case):
         self.assertLess(min(apart), 1e-5)
         self.assertGreater(max(apart), 1e-4)
 
+    def test_the_subharmonic_orbit_is_the_same_motion(self):
+        """1e-4 of the largest displacement: what the truncation of the orbit leaves."""
+        table = self.at(20.25, "--starts", 0, "--section", "section.tsv")
+        orbit = self.table("orbit", self.machine, "--frequency", 20.25, "--subharmonic", 2,
+                           "--points", 1)
+        section = Table(self.folder / "section.tsv")
+        for turn in (0, 1):
+            self.assertLess(min(distances(section, orbit, turn)), 1e-4)
+        multiplier = float(re.search(r"multiplier ([\d.e+-]+)", orbit.header)[1])
+        self.assertAlmostEqual(table["lyapunov"][0], math.log(multiplier) / 2, delta=1e-4)
+
     def test_the_exponent_of_a_stable_orbit_is_that_of_its_multiplier(self):
         """Both are of Eq. 7 without truncation: 1e-5 per turn leaves room for steps alone."""
         for frequency in (30, 45):
