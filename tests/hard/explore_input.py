@@ -261,7 +261,7 @@ def motion_options(draw, extreme):
         return options + draw(chosen({
             "--harmonics": (2, whole(0, 3.6 if extreme else 1.5)),
             "--samples": (4, whole(1, 6 if extreme else 3)),
-            "--tolerance": (4, real(-8, -1)), "--newton-tolerance": (4, real(-15, -3))}))
+            "--tolerance": (4, real(-8, -1)), "--subharmonic": (6, st.integers(2, 8).map(str)), "--newton-tolerance": (4, real(-15, -3))}))
     return options + draw(chosen({
         "--longest": (4, real(-3, 5 if extreme else 0)),
         **({"--step": (2, real(-12 if extreme else -6, -1))} if method == "rk4" else
@@ -277,6 +277,9 @@ def response_options(draw, extreme):
         "--harmonics": (2, whole(0, 2.5 if extreme else 1)), "--samples": (4, whole(1, 5 if extreme else 3)),
         "--newton-tolerance": (4, real(-15, -3)), "--direction": (4, st.sampled_from(["up", "down"])),
         "--isolated": (8, whole(0, 1)), "--save": (8, st.just("saved.tsv"))}))
+    if draw(one_in(8)):
+        options = [["--subharmonic", draw(st.integers(2, 4).map(str))],
+                   *(option for option in options if option[0] not in ("--isolated", "--save"))]
     return [["--from", repr(start)], ["--to", repr(end)], *options]
 
 

@@ -80,7 +80,10 @@ class Values(Case):
                 ("--frequency 30 --newton-tolerance 0", "--newton-tolerance"),
                 ("--frequency 30 --newton-tolerance 1e6", "must be in 1e-15...0.001"),
                 ("--frequency 30 --method rk8pd --local-error 1e10", "--local-error"),
-                ("--frequency 30 --method rk4 --step 0", "--step")]:
+                ("--frequency 30 --method rk4 --step 0", "--step"),
+                ("--frequency 30 --subharmonic 0", "--subharmonic 0: must be in 1...8"),
+                ("--frequency 30 --subharmonic 9", "1...8"), ("--frequency 30 --subharmonic 1.5", "--subharmonic"),
+                ("--frequency 30 --subharmonic 2 --method rk4", "--subharmonic: is for --method aft")]:
             with self.subTest(options):
                 self.refused(words, "orbit", self.machine, *options.split())
         for options, words in [
@@ -89,6 +92,8 @@ class Values(Case):
                 ("--from 1 --to 10 --newton-tolerance 1", "--newton-tolerance 1"),
                 ("--from 1 --to 2 --direction left", "must be up or down"),
                 ("--from 1 --to 2 --isolated -1", "--isolated -1: must be in 0"),
+                ("--from 1 --to 2 --subharmonic 2 --isolated 3", "--subharmonic: not together"),
+                ("--from 1 --to 2 --subharmonic -2", "--subharmonic -2: must be in 1...8"),
                 ("--from 1 --to 2 --restart no/such/file", "no such file"),
                 ("--from 1 --to 2 --restart .", "is a directory"),
                 ("--from 1 --to 2 --restart /dev/zero", "is no regular file"),
@@ -111,6 +116,8 @@ class Values(Case):
             with self.subTest(options):
                 end = [] if "--to" in options else ["--to", "20"]
                 self.refused(words, "attractors", self.machine, "--from", "10", *end, *options.split())
+        self.refused("no motion of period 2 T was found", "orbit", self.machine, *ORBIT, "--subharmonic", 2,
+                     "--budget", 1e9, status=3)
         self.refused("subcommand")
         self.refused("subcommand", "dance")
 
