@@ -102,11 +102,12 @@ class Folder:
             if (self.path / name).read_bytes() != content:
                 return f"{name} was changed"
         more = {file.name for file in self.path.iterdir()} - files.keys()
-        if more - ({"saved.tsv"} if "saved.tsv" in arguments else set()):
+        asked = {name for option, name in zip(arguments, arguments[1:]) if option in ("--save", "--section")}
+        if more - asked:
             return f"left behind: {sorted(more)}"
         if more and status == 2:
             return "saved, although the input was bad"
-        if more and not (self.path / "saved.tsv").read_bytes().endswith(b"\n"):
+        if not all((self.path / name).read_bytes().endswith(b"\n") for name in more):
             return "saved in part"
         return None
 
@@ -261,7 +262,8 @@ def motion_options(draw, extreme):
         return options + draw(chosen({
             "--harmonics": (2, whole(0, 3.6 if extreme else 1.5)),
             "--samples": (4, whole(1, 6 if extreme else 3)),
-            "--tolerance": (4, real(-8, -1)), "--subharmonic": (6, st.integers(2, 8).map(str)), "--newton-tolerance": (4, real(-15, -3))}))
+            "--tolerance": (4, real(-8, -1)), "--subharmonic": (6, st.integers(2, 8).map(str)),
+            "--newton-tolerance": (4, real(-15, -3))}))
     return options + draw(chosen({
         "--longest": (4, real(-3, 5 if extreme else 0)),
         **({"--step": (2, real(-12 if extreme else -6, -1))} if method == "rk4" else
