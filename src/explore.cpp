@@ -93,9 +93,10 @@ std::function<void()> add_motion_options(CLI::App& command, MotionRequest& reque
       ->required();
   command.add_option("--method", request.method, methods)->capture_default_str();
   add_number(command, "--points", request.points, 1, most_points, "P, rows per period");
-  aft.push_back(
-      add_number(command, "--tolerance", request.tolerance, 1e-8, 0.1,
-                 "relative error of displacement; without --harmonics, m is chosen"));
+  aft.push_back(add_number(
+      command, "--tolerance", request.tolerance, 1e-8, 0.1,
+      "relative error of displacement, the largest and the rms about the mean; without "
+      "--harmonics, m is chosen"));
   if (command.get_name() == "orbit") aft.push_back(add_subharmonic(command, request));
   aft.push_back(command.add_flag("!--no-stability", request.stability,
                                  "leave out the Floquet multipliers of aft"));

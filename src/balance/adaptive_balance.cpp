@@ -106,7 +106,7 @@ struct Search {
     result.force_samples += error.force_samples;
     finer = error.settled ? std::move(refined.finer) : PeriodicMotion{};
     start = error.settled ? finer.x : result.motion.x;
-    result.reached = error.settled && error.displacement <= settings.tolerance;
+    result.reached = error.settled && error.larger() <= settings.tolerance;
     if (result.reached) result.end = "the estimate is below the tolerance";
     return result.reached;
   }
@@ -118,8 +118,8 @@ struct Search {
     const int a_little = std::max(m + 2, m + 2 * m / 5),
               half_as_many = m + std::max(1, m / 2);
     if (finer.x.size() == 0 || failures > 0) return half_as_many;
-    const double goal = 0.5 * settings.tolerance / result.motion.error->displacement *
-                        tail(finer.bodies, m);
+    const double goal =
+        0.5 * settings.tolerance / result.motion.error->larger() * tail(finer.bodies, m);
     int more = a_little;
     while (more < finer.harmonics.highest() && tail(finer.bodies, more) > goal) ++more;
     return more;
@@ -136,7 +136,7 @@ struct Search {
           "was found from it",
           solved, error.harmonics);
     const std::string reached = format("the error with %d harmonics is estimated as %.2g",
-                                       solved, error.displacement);
+                                       solved, error.larger());
     return solved == m ? reached : reached + format(", and none with %d was found", m);
   }
 };
@@ -173,14 +173,37 @@ double largest(const Eigen::MatrixXd& series)
 
 }  // namespace
 
-double series_difference(const Eigen::MatrixXd& series, const Eigen::MatrixXd& reference)
+namespace {
+
+/** Two series may differ in their numbers of harmonics. */
+Eigen::MatrixXd subtract(const Eigen::MatrixXd& series, const Eigen::MatrixXd& reference)
 {
   Eigen::MatrixXd difference =
       Eigen::MatrixXd::Zero(series.rows(), std::max(series.cols(), reference.cols()));
   difference.leftCols(series.cols()) = series;
   difference.leftCols(reference.cols()) -= reference;
-  const double size = largest(reference), off = largest(difference);
+  return difference;
+}
+
+double ratio(double off, double size)
+{
   return size > 0 ? off / size : off > 0 ? infinite : 0;
+}
+
+}  // namespace
+
+double series_difference(const Eigen::MatrixXd& series, const Eigen::MatrixXd& reference)
+{
+  return ratio(largest(subtract(series, reference)), largest(reference));
+}
+
+double rms_series_difference(const Eigen::MatrixXd& series,
+                             const Eigen::MatrixXd& reference)
+{
+  const auto vibration = [](const Eigen::MatrixXd& of) {
+    return of.rightCols(of.cols() - 1).norm();
+  };
+  return ratio(vibration(subtract(series, reference)), vibration(reference));
 }
 
 namespace {
@@ -247,7 +270,7 @@ Refined estimate_error(const ObservedProblem& observed, const PeriodicMotion& co
       fast_transform_size(std::max(8 * coarse.harmonics.highest(), 2 * coarse.samples));
   Balance balance(observed.problem(n), m);
   Refined refined{
-      {infinite, false, m, n, 0, 0},
+      {infinite, infinite, false, m, n, 0, 0},
       {.omega = coarse.omega, .harmonics = balance.harmonics(), .samples = n}};
   auto& [estimate, finer] = refined;
   finer.x = resize_harmonics(coarse.x, balance.problem().dofs, m);
@@ -259,6 +282,7 @@ Refined estimate_error(const ObservedProblem& observed, const PeriodicMotion& co
   finer.force = balance.force(finer.x, coarse.omega);
   finer.bodies = observed.series(finer);
   estimate.displacement = series_difference(coarse.bodies, finer.bodies);
+  estimate.rms = rms_series_difference(coarse.bodies, finer.bodies);
   /** The next solution starts from one step further, which costs nothing more. */
   finer.x += approach.next;
   return refined;

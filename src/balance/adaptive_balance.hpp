@@ -38,7 +38,7 @@ Refined estimate_error(const ObservedProblem& observed, const PeriodicMotion& co
 
 /** How far to go. */
 struct AdaptiveSettings {
-  double tolerance = 1e-4;   ///< wanted estimate [-]
+  double tolerance = 1e-4;   ///< wanted estimate of both errors [-]
   int first_harmonics = 8;   ///< m to begin with
   int most_harmonics = 512;  ///< of the solution, not of its estimate
   NewtonSettings newton = {};
@@ -68,5 +68,10 @@ AdaptiveMotion solve_adaptively(const ObservedProblem& observed, double omega,
 /** The largest difference of two observed series over rows and period, over the largest value of
     `reference` [-]; they may differ in their numbers of harmonics. */
 double series_difference(const Eigen::MatrixXd& series, const Eigen::MatrixXd& reference);
+
+/** The rms difference of two observed series about their means, over the rms of `reference` about its mean,
+    by Parseval [-]: blind to the static sag, beside which an error of the vibration looks small. */
+double rms_series_difference(const Eigen::MatrixXd& series,
+                             const Eigen::MatrixXd& reference);
 
 }  // namespace rotor_stator

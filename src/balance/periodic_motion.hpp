@@ -6,6 +6,7 @@ of harmonics, and what is known of how they were found and how far they are from
 #pragma once
 
 #include <Eigen/Core>
+#include <algorithm>
 #include <memory>
 #include <optional>
 #include <string>
@@ -56,12 +57,16 @@ struct NewtonReport {
 
 /** The error of a solution, measured in a finer discretisation (adaptive_balance.hpp). */
 struct ErrorEstimate {
-  double displacement;     ///< largest difference over the rows and the period, over the
-                           ///< largest value [-]; infinite when nothing was found
-  bool settled;            ///< the last step is small: the estimate can be relied on
+  double displacement;  ///< largest difference over the rows and the period, over the
+                        ///< largest value [-]; infinite when nothing was found
+  double rms;    ///< rms difference about the mean, over the rms about the mean [-]
+  bool settled;  ///< the last step is small: the estimate can be relied on
   int harmonics, samples;  ///< m' and N' of the finer discretisation
   int newton;              ///< steps taken there
   long force_samples;      ///< evaluations of the force times N'
+
+  /** The larger of the two errors, which a tolerance bounds. */
+  double larger() const { return std::max(displacement, rms); }
 };
 
 /** A solution, or a start for one: then Newton has not converged and `x` is a guess. */

@@ -135,13 +135,13 @@ motion::Motion balance_motion(const Parameters& parameters, const MotionRequest&
     table.note(
         format("error: %.2g of the largest displacement or rms about the mean, "
                "against that motion",
-               at.motion.error->displacement));
+               at.motion.error->larger()));
   else if (request.tolerance)
     table.note(
-        format("error: %.2g of the largest displacement, estimated with m = %d, N = %d; "
-               "tolerance %g",
-               at.motion.error->displacement, at.motion.error->harmonics,
-               at.motion.error->samples, *request.tolerance));
+        format("error: %.2g of the largest displacement, %.2g rms about the mean, "
+               "estimated with m = %d, N = %d; tolerance %g",
+               at.motion.error->displacement, at.motion.error->rms,
+               at.motion.error->harmonics, at.motion.error->samples, *request.tolerance));
   if (std::isfinite(1 / request.frequency))
     table.note(format("base period: %.15g s", 1 / request.frequency));
   if (request.stability) {

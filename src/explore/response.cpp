@@ -362,7 +362,7 @@ Exploration explore_response(const ResponseRequest& request)
       table.note(
           format("error at the start: %.2g of the largest displacement or rms about "
                  "the mean, against that motion",
-                 found.error->displacement));
+                 found.error->larger()));
   }
   Balance balance(bearing_problem(task.parameters, task.samples, task.budget),
                   task.harmonics);

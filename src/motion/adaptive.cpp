@@ -53,9 +53,9 @@ AdaptiveMotion find_with_error(const Search& search, double tolerance)
   }
   const ErrorEstimate& error = at.motion.error.emplace(
       estimate_error(search.parameters, at.motion, search.budget));
-  at.reached = error.settled && error.displacement <= tolerance;
+  at.reached = error.settled && error.larger() <= tolerance;
   at.end = error.settled ? format("the error with %d harmonics is estimated as %.2g",
-                                  search.harmonics, error.displacement)
+                                  search.harmonics, error.larger())
                          : format("the error with %d harmonics cannot be estimated",
                                   search.harmonics);
   return at;

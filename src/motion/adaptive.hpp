@@ -2,7 +2,7 @@
 # The bearing's motion to a tolerance
 
 `balance/adaptive_balance.hpp` for the rotor and the stator: the error is that of the four displacements,
-the largest difference over the period over the largest displacement. */
+the largest difference over the period over the largest displacement, and the rms about the mean. */
 #pragma once
 
 #include "balance/adaptive_balance.hpp"

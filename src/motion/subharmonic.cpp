@@ -171,8 +171,8 @@ PeriodicMotion solved_near(const Search& search, int turns, State state)
   if (repeats_sooner(motion, turns)) motion.newton.end = NewtonEnd::no_decrease;
   motion.bodies = body_series(longer, motion);
   const Motion series = motion_of(motion.bodies, n);
-  motion.error = {.displacement = std::max(relative_difference(series, exact),
-                                           rms_difference(series, exact)),
+  motion.error = {.displacement = relative_difference(series, exact),
+                  .rms = rms_difference(series, exact),
                   .settled = true,
                   .harmonics = 0,
                   .samples = n,
@@ -200,7 +200,7 @@ PeriodicMotion find_subharmonic(const Search& search, int turns,
           {search.parameters, search.omega, m,
            std::max(search.samples, default_samples(m)), search.newton, search.budget},
           turns, state);
-      if (motion.found() && (!tolerance || motion.error->displacement <= *tolerance))
+      if (motion.found() && (!tolerance || motion.error->larger() <= *tolerance))
         return motion;
     }
     if (!tolerance || 2 * m > most_harmonics) break;
