@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <limits>
 #include <ranges>
-#include <utility>
 
 #include "balance/bearing_problem.hpp"
 #include "continuation/arc_length.hpp"
@@ -14,7 +13,6 @@
 #include "motion/other_starts.hpp"
 #include "motion/subharmonic.hpp"
 #include "motion/verdict.hpp"
-#include "stability/branch_stability.hpp"
 
 namespace rotor_stator::explore {
 
@@ -284,25 +282,8 @@ void add_branch(Table& table, const Task& task, Balance& balance, const Branch& 
 {
   BranchStability stability;
   if (task.request.stability) {
-    /** The machine's multipliers change over less speed than the curve of few harmonics does. */
-    const double width = 0.004 * joint_resonance(task.parameters);
-    const double share = 0.04 * task.budget.left();  // of a point that cannot be decided
-    motion::MotionsAlong known;
-    bool lost = false;
-    const auto multipliers = [&](const BranchPoint& point) {
-      PeriodicMotion motion = point.motion;
-      motion.bodies = body_series(task.parameters, motion);
-      /** Beside one that cannot be decided there are often more. */
-      const double most =
-          (std::exchange(lost, true) ? share / 8 : share) / task.budget.left();
-      const Floquet floquet = motion::floquet_of_machine(
-          task.parameters, motion, task.budget.part(std::min(1.0, most)), known);
-      lost = false;
-      return floquet;
-    };
-    stability =
-        stability_along(balance, branch, task.settings, multipliers,
-                        {.chosen = evenly_chosen(branch, width, 2), .widest = width});
+    stability = motion::machine_stability(task.parameters, balance, branch, task.settings,
+                                          task.budget);
     const std::string prefix =
         task.request.isolated > 0 ? format("branch %zu, ", number) : "";
     note(table, task, prefix, stability);

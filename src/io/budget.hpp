@@ -42,8 +42,8 @@ public:
   /** What is left; infinite without a bound. */
   double left() const;
 
-  /** Whether something could not be paid for from this account, or nothing is left. */
-  bool used_up() const { return left() <= 0; }
+  /** Whether something could not be paid for from this account, or less than a thousandth of it is left. */
+  bool used_up() const { return account_ && left() < 1e-3 * account_->most; }
 
   /** Takes `evaluations` from the account. Throws NoSolution when they are not there. */
   void spend(double evaluations) const;

@@ -2,7 +2,9 @@
 
 #include <algorithm>
 #include <cmath>
+#include <functional>
 #include <limits>
+#include <utility>
 #include <vector>
 
 #include "balance/bearing_problem.hpp"
@@ -172,38 +174,66 @@ State disturbed(const Parameters& parameters, const State& state)
   return rotor_stator::state_of(vector_of(state) + 1e-6 * state_scales(parameters));
 }
 
-/** The states at `omega` on the line through the two known motions nearest in speed, and at the nearest one, where
-    that is within 1 % of the joint resonance. */
-std::vector<State> starts_near(const Parameters& parameters, double omega,
-                               MotionsAlong known)
-{
-  const auto away = [=](const auto& motion) { return std::abs(motion.first - omega); };
-  const double reach = 0.01 * joint_resonance(parameters) / parameters.turns;
-  std::erase_if(known, [=](const auto& motion) { return away(motion) > reach; });
-  std::ranges::sort(known, {}, away);
-  std::vector<State> starts;
-  if (known.size() > 1 && known[0].first != known[1].first) {
-    const double r = (omega - known[0].first) / (known[1].first - known[0].first);
-    starts.push_back(rotor_stator::state_of((1 - r) * vector_of(known[0].second) +
-                                            r * vector_of(known[1].second)));
+/** The machine's multipliers, point after point of a branch. */
+struct Along {
+  static constexpr double least =
+      2e6;  ///< evaluations, for a motion that is easily found
+  const Parameters& parameters;
+  OperationBudget budget;
+  double most;                                       ///< evaluations at one point
+  bool decided = true;                               ///< the last point
+  std::vector<std::pair<double, State>> found = {};  ///< speed [rad/s], state at phase 0
+
+  Floquet operator()(const BranchPoint& point)
+  {
+    PeriodicMotion solution = point.motion;
+    solution.bodies = body_series(parameters, solution);
+    const double share =
+        (std::exchange(decided, false) ? most : std::max(least, most / 8)) /
+        budget.left();
+    const OperationBudget part = budget.part(std::min(1.0, share));
+    Shootings shootings(parameters, solution, part);
+    Verdict verdict;
+    verdict.reason = shootings.run(verdict.state, starts_near(solution.omega));
+    if (!verdict.found()) throw NoSolution(verdict.reason);
+    add_multipliers(parameters, solution.omega, part, verdict);
+    found.emplace_back(solution.omega, verdict.state);
+    decided = true;
+    return verdict.floquet;
   }
-  if (!known.empty()) starts.push_back(known[0].second);
-  return starts;
-}
+
+  /** On the line through the two motions nearest in speed, and the nearest one, if it is within 1 % of the
+      joint resonance. */
+  std::vector<State> starts_near(double omega) const
+  {
+    auto near = found;
+    const auto away = [=](const auto& motion) { return std::abs(motion.first - omega); };
+    const double reach = 0.01 * joint_resonance(parameters) / parameters.turns;
+    std::erase_if(near, [=](const auto& motion) { return away(motion) > reach; });
+    std::ranges::sort(near, {}, away);
+    std::vector<State> starts;
+    if (near.size() > 1 && near[0].first != near[1].first) {
+      const double r = (omega - near[0].first) / (near[1].first - near[0].first);
+      starts.push_back(rotor_stator::state_of((1 - r) * vector_of(near[0].second) +
+                                              r * vector_of(near[1].second)));
+    }
+    if (!near.empty()) starts.push_back(near[0].second);
+    return starts;
+  }
+};
 
 }  // namespace
 
-Floquet floquet_of_machine(const Parameters& parameters, const PeriodicMotion& solution,
-                           const OperationBudget& budget, MotionsAlong& known)
+BranchStability machine_stability(const Parameters& parameters, Balance& balance,
+                                  const Branch& branch,
+                                  const ArcLengthSettings& arc_length,
+                                  const OperationBudget& budget)
 {
-  Verdict verdict;
-  Shootings shootings(parameters, solution, budget);
-  verdict.reason =
-      shootings.run(verdict.state, starts_near(parameters, solution.omega, known));
-  if (!verdict.found()) throw NoSolution(verdict.reason);
-  add_multipliers(parameters, solution.omega, budget, verdict);
-  known.emplace_back(solution.omega, verdict.state);
-  return verdict.floquet;
+  const double width = 0.004 * joint_resonance(parameters) / parameters.turns;
+  Along multipliers{parameters, budget,
+                    std::max(Along::least, 0.04 * std::min(budget.left(), 2e9))};
+  return stability_along(balance, branch, arc_length, std::ref(multipliers),
+                         {.chosen = evenly_chosen(branch, width, 2), .widest = width});
 }
 
 Verdict verdict_on(const Parameters& parameters, const PeriodicMotion& solution,
