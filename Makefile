@@ -74,7 +74,7 @@ computed := $(filter-out $(kept),$(filter $(programs),$(scenes)))
 
 # The paper's figures and tables, and what its claims are judged by: in the printed reading too, if all data
 # sets of the scene have one (data/NAME-as-printed.toml beside data/NAME.toml).
-paper := $(filter fig0% tab0% regimes sections multipliers,$(computed))
+paper := $(filter fig0% tab0% regimes sections,$(computed))
 sets := $(basename $(notdir $(wildcard data/*.toml)))
 unpaired := $(filter-out %-as-printed $(patsubst %-as-printed,%,$(filter %-as-printed,$(sets))),$(sets))
 paired := $(filter-out $(basename $(notdir $(shell grep -l $(unpaired:%=-e '"%"') data/scenes/*.toml))),$(paper))
@@ -200,7 +200,7 @@ build/paper/article.pdf: data/generated/article.md paper/article.tex build/paper
 
 # Long studies, computed anew and compared with the tables kept in data/reference.
 studies: $(studies) timing  ## the long studies and all timings (an hour)
-truth: attractors validity stability adaptive  ## where the periodic solution is true (15 minutes)
+truth: attractors validity stability verdicts adaptive  ## where the periodic solution is true (15 minutes)
 timing: $(timings) $(costs)  ## the tables of cost, alone on the machine (10 minutes)
 $(studies): $$(subst reference,generated,$$(wildcard data/reference/$$@.tsv data/reference/as-printed/$$@.tsv))
 	$(PYTHON) tests/compare_kept.py $^

@@ -2,8 +2,8 @@
 #
 # Paper: §3.3, Fig. 3.
 # Usage: gnuplot -e "table='data/reference/stability.tsv'; output='stability.svg'" figures/stability.gp
-# Rows: numbers of harmonics; columns: data sets. Solid: stable, dashed: unstable, thin grey: multipliers
-# not computed. The multipliers are those of the linearisation along the truncated series. Behind: where
+# Rows: numbers of harmonics; columns: data sets. Solid: stable, dashed: unstable, thin grey: no motion
+# of Eq. 7 found near the solution. Multipliers and bifurcations are the machine's, folds those of the m harmonics. Behind: where
 # time integration settles, T-periodic (dots) and otherwise (bars over all such attractors at a speed), from
 # the table of attractors beside that of stability.
 
@@ -31,12 +31,12 @@ set style line 43 lc rgb '#BBBBBB' lw 2.5 pt 7 ps 0.3
 # examined); others are gaps. A stretch of one kind begins with the last point of the stretch before it.
 rows(s, m, kind) = sprintf("< awk -F'\\t' '/^#/ { next } !NF { print \"\"; before = \"\"; next } \
   !names { names = 1; print; next } $1 != %d || $3 != %s { next } \
-  { now = $13 == 1 ? 1 : $13 == -2 ? 2 : 0; \
+  { now = $12 == 1 ? 1 : $12 == -2 ? 2 : 0; \
     if (now == %d) { if (before != \"\" && last != now) print before; print } \
     else if (last == %d && before != \"\") { print; print \"\" } before = $0; last = now }' '%s'", \
   s, m, kind, kind, table)
 marks(s, m, kind) = sprintf("< awk -F'\\t' '/^#/ || !NF { next } !names { names = 1; print; next } \
-  $1 == %d && $3 == %s && $14 == \"%s\"' '%s'; echo", s, m, kind, table)
+  $1 == %d && $3 == %s && $13 == \"%s\"' '%s'; echo", s, m, kind, table)
 
 # Attractors: speed and amplitude of those with the period of rotation; speed and least and largest amplitude
 # of the others. The column is that of amp_x_s or amp_x_r.
@@ -77,10 +77,10 @@ do for [k = 1 : words(ms)] {
       keyentry with lines ls 21 title "rotor, unstable", \
       keyentry with lines ls 12 title "stator, stable", \
       keyentry with lines ls 22 title "stator, unstable", \
-      keyentry with lines ls 23 title "not examined", \
+      keyentry with lines ls 23 title "no motion found", \
       keyentry with points ls 41 title "T-periodic motion", \
       keyentry with lines ls 43 title "other motions", \
-      keyentry with points ls 31 title "fold", \
+      keyentry with points ls 31 title "fold of m harmonics", \
       keyentry with points ls 32 title "period doubling", \
       keyentry with points ls 33 title "Neimark-Sacker", \
       keyentry with points ls 34 title "multiplier 1", \

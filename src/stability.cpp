@@ -11,20 +11,18 @@ small disturbance has changed after one period: all of them inside the unit circ
 
 The curves are those of Fig. 3, followed by their arc length so that they may turn back, with a row for each
 number of harmonics, and lie over the motions on which time integration settles. Solid stretches are stable,
-dashed ones are not. Marks stand where a multiplier leaves the circle or comes back: at plus one, at a fold of
-the curve or where branches cross; at minus one, where a motion of twice the period begins; as a pair, where a
+dashed ones are not. Marks stand where a multiplier leaves the circle or comes back: at plus one, where two motions meet
+or branches cross; at minus one, where a motion of twice the period begins; as a pair, where a
 second frequency does. A curve that does not reach the end of the range is followed from there too; the header of
 the table says where each ended, and why.
 
-Where a curve folds at every contact resonance it has hundreds of points within a hertz. The multipliers are
-then those of an even choice of them, thin grey between, and marks stand where stability is gained or lost, not
-between two unstable motions; folds are all marked.
+With few harmonics the multipliers along the series itself can be wrong where the amplitude is right, so
+nothing here comes from the series: at each point shooting finds the motion of Eq. 7 that the solution stands for, and
+the multipliers and bifurcations are those of that motion. Where none is found within 5 % the curve is thin and grey.
+Only the folds are those of the m harmonics; nothing damps the contact, their number grows with m and does
+not converge.
 
-The multipliers are those of the linearisation along the solution with that many harmonics, and with few of them
-they can be wrong where the amplitude is right. So every point carries how much its largest multiplier changed
-at the last refinement, and is left undecided when that could change the answer.
-
-Modelled: harmonic balance by arc length; the Floquet multipliers of rotor and stator. Finished curves are kept
+Modelled: harmonic balance by arc length; motions of Eq. 7 by shooting and their Floquet multipliers. Finished curves are kept
 in a journal. */
 #include <algorithm>
 

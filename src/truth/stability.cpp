@@ -7,18 +7,19 @@
 #include "continuation/arc_length.hpp"
 #include "io/errors.hpp"
 #include "motion/other_starts.hpp"
+#include "motion/verdict.hpp"
 
 namespace rotor_stator::truth {
 
 StabilityScene read_stability_scene(SceneFile& file)
 {
   StrictToml& toml = file.toml();
-  StabilityScene scene{.sets = read_parameter_list(file, "parameters"),
-                       .curves = {},
-                       .from = toml.number("from_hz", Range::positive),
-                       .to = toml.number("to_hz", Range::positive),
-                       .most_evaluations = toml.integer("most_evaluations", 1, 100000000),
-                       .examined_per_hz = toml.integer("examined_per_hz", 1, 1000000)};
+  StabilityScene scene{
+      .sets = read_parameter_list(file, "parameters"),
+      .curves = {},
+      .from = toml.number("from_hz", Range::positive),
+      .to = toml.number("to_hz", Range::positive),
+      .most_evaluations = toml.integer("most_evaluations", 1, 100000000)};
   const auto harmonics = toml.integers("harmonics", 1, 4096);
   if (scene.from >= scene.to) toml.fail("to_hz", "must be above from_hz");
   toml.refuse_unknown_keys();
@@ -57,10 +58,7 @@ std::vector<StabilityPoint> follow(const StabilityScene& scene,
   const Branch branch =
       follow_branch(balance, angular(from), angular(to), start.x, settings);
   const BranchStability stability =
-      stability_along(balance, branch, settings,
-                      [&](const BranchPoint& p) { return floquet(machine, p.motion); },
-                      {.chosen = evenly_chosen(branch, angular(1), scene.examined_per_hz),
-                       .among_unstable = false});
+      motion::machine_stability(machine, balance, branch, settings);
   summary.found = true;
   summary.end = branch.kind;
   summary.missed = stability.missed;
@@ -73,12 +71,12 @@ std::vector<StabilityPoint> follow(const StabilityScene& scene,
     next.frequency = at.point.motion.omega / angular(1);
     next.arc = at.point.arc;
     next.bifurcation = at.bifurcation;
+    next.speed_uncertainty = at.uncertainty / angular(1);
     Eigen::Map<Eigen::Vector4d>(next.amplitude.data()) =
         half_peak_to_peak(body_series(machine, at.point.motion), transform);
     if (at.examined()) {
       next.largest = at.floquet.largest();
       next.uncertainty = at.floquet.uncertainty();
-      next.settled = at.floquet.settled;
       next.stable = at.floquet.stable_number();
     }
     summary.low = std::min(summary.low, next.frequency);
@@ -159,17 +157,19 @@ const std::vector<Field<Row>> fields{
     {"arc", "-", "scaled arc length from the branch's first point",
      [](auto& p) { return rounded(p.arc, 9); }},
     {"largest_multiplier", "-",
-     "modulus; of the linearisation along the m harmonics; -1 if not examined",
+     "modulus; of the motion of Eq. 7 found there; -1 if not examined or not found",
      [](auto& p) { return rounded(p.largest, 9); }},
-    {"change", "-", "uncertainty of it: its change at the last refinement",
+    {"change", "-", "uncertainty of it",
      [](auto& p) { return rounded(p.uncertainty, 2); }},
-    {"settled", "-", "1 if no multiplier changes by more than 1e-6", &Row::settled},
-    {"stable", "-", "1 stable, 0 unstable, -1 within the uncertainty, -2 not examined",
+    {"stable", "-",
+     "the machine: 1 stable, 0 unstable, -1 within the uncertainty, -2 not examined or no motion found",
      &Row::stable},
     {"bifurcation", "-",
-     "fold; plus-one, period-doubling: a multiplier passes 1, -1; neimark-sacker: a pair "
-     "passes the circle; - none",
-     [](auto& p) { return std::string(name_of(p.bifurcation)); }}};
+     "of the machine: plus-one, period-doubling: a multiplier passes 1, -1; neimark-sacker: "
+     "a pair passes the circle; of the m harmonics: fold; - none",
+     [](auto& p) { return std::string(name_of(p.bifurcation)); }},
+    {"speed_uncertainty", "Hz", "of the machine's bifurcation",
+     [](auto& p) { return rounded(p.speed_uncertainty, 2); }}};
 
 }  // namespace
 
@@ -179,12 +179,8 @@ Table stability_table(const StabilityScene& scene,
   Table table("Stability along the response curves", fields);
   for (const Parameters& machine : scene.sets) describe(table, machine);
   table.note(
-      "modelled: harmonic balance by arc length, Floquet multipliers of the full "
-      "system along each solution");
-  table.note(format(
-      "multipliers: of at most %d points per hertz, those added between them and where "
-      "stability changes; bifurcations between two unstable points are not looked for",
-      scene.examined_per_hz));
+      "modelled: harmonic balance by arc length; near each point a motion of Eq. 7 by "
+      "shooting, and its Floquet multipliers");
   int number = 0;
   for (const auto& of_curve : points)
     for (auto first = of_curve.begin(); first != of_curve.end();) {

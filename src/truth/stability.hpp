@@ -1,15 +1,10 @@
 /**
 # Stability of the response curves
 
-The branches of Fig. 3 by arc length, for several numbers of harmonics, with the Floquet
-multipliers of the full system at every point and the bifurcations between them. The multipliers
-are those of the linearisation along the series of m harmonics: where m is too small for the contact
-they say what becomes of a disturbance of that series, not of the exact motion.
-
-Where m harmonics fold at every contact resonance a branch has hundreds of points within a hertz. There
-the multipliers are computed at an even choice of its points, and bifurcations are located where stability
-is gained or lost, not between two unstable solutions; folds are all marked. Points without multipliers are
-left out where the curve does not need them. */
+The branches of Fig. 3 by arc length, for several numbers of harmonics. The multipliers and the bifurcations are
+the machine's: those of the motion of Eq. 7 that shooting finds near each point (motion/verdict.hpp). The
+number of harmonics decides only where the curve runs, and where it folds. Points without multipliers are left out where
+the curve does not need them. */
 #pragma once
 
 #include "io/table.hpp"
@@ -30,7 +25,6 @@ struct StabilityScene {
   std::vector<StabilityCurve> curves;
   double from, to;        ///< [Hz]
   long most_evaluations;  ///< of the force, along a branch
-  int examined_per_hz;    ///< points with multipliers at most
 };
 
 StabilityScene read_stability_scene(SceneFile& file);
@@ -41,7 +35,7 @@ struct StabilityBranch : StabilityCurve {
   bool found = false;  ///< a solution to begin with
   BranchEnd end = BranchEnd::step;
   int missed = 0;                  ///< bifurcations that could not be located
-  int failed = 0;                  ///< points whose multipliers could not be computed
+  int failed = 0;                  ///< points without a motion of Eq. 7
   int passed = 0;                  ///< points of the branch, examined or not
   double low = from, high = from;  ///< the speeds between which it was followed [Hz]
 };
@@ -50,11 +44,11 @@ struct StabilityPoint : StabilityBranch {
   double frequency = 0;                  ///< [Hz]
   std::array<double, 4> amplitude = {};  ///< of x_s, y_s, x_r, y_r: half peak-to-peak [m]
   double arc = 0;                        ///< scaled arc length [-]
-  double largest = -1;                   ///< modulus of the largest multiplier [-]
-  double uncertainty = -1;               ///< of it [-]
-  bool settled = false;
+  double largest = -1;      ///< modulus of the machine's largest multiplier [-]
+  double uncertainty = -1;  ///< of it [-]
   int stable = -2;  ///< 1 stable, 0 unstable, -1 within the uncertainty, -2 not examined
   Bifurcation bifurcation = Bifurcation::none;
+  double speed_uncertainty = 0;  ///< of a bifurcation's speed [Hz]
 
   bool examined() const { return stable != -2; }
 };

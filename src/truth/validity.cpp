@@ -2,36 +2,61 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
+#include "balance/bearing_problem.hpp"
 #include "io/errors.hpp"
 #include "motion/adaptive.hpp"
+#include "motion/verdict.hpp"
 
 namespace rotor_stator::truth {
 
 namespace {
 
-double squared_distance(Vec2 a, Vec2 b = {0, 0})
+/** The rms of vectors about their mean over time. */
+struct Rms {
+  double count = 0, squares = 0;
+  Vec2 sum{0, 0};
+
+  void add(Vec2 v)
+  {
+    ++count;
+    squares += v.x * v.x + v.y * v.y;
+    sum = sum + v;
+  }
+  double variance() const
+  {
+    return squares / count - (sum.x * sum.x + sum.y * sum.y) / (count * count);
+  }
+};
+
+Vec2 operator-(Vec2 a, Vec2 b)
 {
-  return (a.x - b.x) * (a.x - b.x) + (a.y - b.y) * (a.y - b.y);
+  return {a.x - b.x, a.y - b.y};
 }
 
 }  // namespace
 
-RmsDifference rms_difference(const Parameters& machine, const motion::Motion& motion,
-                             const motion::Motion& reference)
+MotionDistance distance_of(const Parameters& machine, const motion::Motion& motion,
+                           const motion::Motion& reference)
 {
   const auto forces = motion::bearing_forces(machine, motion);
   const auto true_forces = motion::bearing_forces(machine, reference);
-  double off = 0, size = 0, off_force = 0, size_force = 0;
+  Rms off[3], size[3];  // of the stator, the rotor and the force
+  double largest = 0;
   for (std::size_t k = 0; k < reference.size(); ++k) {
     const std::size_t j = k % motion.size();
     const Bodies &a = motion.positions[j], &b = reference.positions[k];
-    off += squared_distance(a.stator, b.stator) + squared_distance(a.rotor, b.rotor);
-    size += squared_distance(b.stator) + squared_distance(b.rotor);
-    off_force += squared_distance(forces[j], true_forces[k]);
-    size_force += squared_distance(true_forces[k]);
+    const Vec2 off_s = a.stator - b.stator, off_r = a.rotor - b.rotor;
+    off[0].add(off_s), off[1].add(off_r), off[2].add(forces[j] - true_forces[k]);
+    size[0].add(b.stator), size[1].add(b.rotor), size[2].add(true_forces[k]);
+    for (double x : displacements({off_s, off_r}))
+      largest = std::max(largest, std::abs(x));
   }
-  return {std::sqrt(off / size), std::sqrt(off_force / size_force)};
+  return {.displacement = std::sqrt((off[0].variance() + off[1].variance()) /
+                                    (size[0].variance() + size[1].variance())),
+          .force = std::sqrt(off[2].variance() / size[2].variance()),
+          .largest = largest / motion::largest_displacement(reference)};
 }
 
 ValidityScene read_validity_scene(SceneFile& file, const std::string& attractors)
@@ -45,6 +70,7 @@ ValidityScene read_validity_scene(SceneFile& file, const std::string& attractors
       .tolerance = toml.number("tolerance", Range::positive),
       .most_adaptive = toml.integer("most_adaptive_harmonics", 1, 4096),
       .most_elsewhere = toml.integer("most_adaptive_elsewhere", 1, 4096),
+      .most_evaluations = toml.number("most_evaluations", Range::positive),
       .floquet = {.tolerance = toml.number("multiplier_tolerance", Range::positive),
                   .first = {}},
       .points_per_period = toml.integer("points_per_period", 4, 4096),
@@ -54,59 +80,138 @@ ValidityScene read_validity_scene(SceneFile& file, const std::string& attractors
   return scene;
 }
 
-std::vector<ValidityPoint> compared(const ValidityScene& scene, int set, double frequency,
-                                    const std::vector<PeriodicMotion>& solutions)
-{
-  const Parameters& machine = scene.sets[set - 1];
-  const auto known = attractors_at(scene.attractors, set, frequency);
-  ValidityPoint blank{
-      .set = set, .frequency = frequency, .attractors = static_cast<int>(known.size())};
-  std::vector<motion::Motion> motions;
-  for (const AttractorPoint& one : known) {
-    motions.push_back(motion_on(one, machine, scene.points_per_period, scene.periods));
-    blank.periodic |= one.periodic();
-  }
-  /** From the nearest attractor. */
-  const auto measure = [&](const PeriodicMotion& solution, ValidityPoint& point) {
+namespace {
+
+/** What a solution may be near. */
+struct Reference {
+  motion::Motion motion;
+  int number;   ///< of the attractor
+  int verdict;  ///< of it
+  bool periodic() const { return verdict == static_cast<int>(Verdict::periodic); }
+};
+
+/** One machine at one speed. */
+struct Comparison {
+  const ValidityScene& scene;
+  const Parameters& machine;
+  double omega;
+  std::vector<Reference> references;
+
+  /** From the nearest reference. */
+  void measure(const PeriodicMotion& solution, ValidityPoint& point) const
+  {
     const motion::Motion motion =
         motion::motion_of(solution.bodies, scene.points_per_period);
-    for (std::size_t k = 0; k < known.size(); ++k) {
-      const RmsDifference off = rms_difference(machine, motion, motions[k]);
-      if (point.found && off.displacement >= point.distance.displacement) continue;
+    point.found = false;
+    for (const Reference& reference : references) {
+      const MotionDistance off = distance_of(machine, motion, reference.motion);
+      if (point.found && !(off.displacement < point.distance.displacement)) continue;
       point.found = true;
       point.distance = off;
-      point.attractor = known[k].number;
-      point.nearest_verdict = static_cast<int>(known[k].verdict);
+      point.attractor = reference.number;
+      point.nearest_verdict = reference.verdict;
     }
-  };
-  const auto examine = [&](const PeriodicMotion& solution, ValidityPoint& point) {
-    const Floquet f = floquet(machine, solution, scene.floquet);
-    point.multiplier = f.largest();
-    point.change = f.change;
-    point.stable = f.stable_number();
-  };
+  }
+
+  /** The nearest of the solutions with m harmonics that the starts lead to. */
+  PeriodicMotion nearest(const PeriodicMotion& swept, int m) const
+  {
+    std::vector<PeriodicMotion> solutions{swept,
+                                          motion::find_periodic({machine, omega, m})};
+    for (const Reference& reference : references)
+      if (reference.periodic()) {
+        Balance balance(bearing_problem(machine, default_samples(m)), m);
+        PeriodicMotion motion =
+            solve(balance, omega, motion::relative_series(reference.motion, m));
+        if (motion.found()) motion.bodies = body_series(machine, motion);
+        solutions.push_back(std::move(motion));
+      }
+    const auto distance = [&](const PeriodicMotion& solution) {
+      ValidityPoint point{};
+      if (solution.found()) measure(solution, point);
+      return point.found ? point.distance.displacement
+                         : std::numeric_limits<double>::infinity();
+    };
+    return *std::ranges::min_element(solutions, {}, distance);
+  }
+
+  /** The verdict on a solution, and what its own harmonics say. A stable motion that is not known becomes a
+      reference. */
+  void examine(const PeriodicMotion& solution, ValidityPoint& point)
+  {
+    const motion::Verdict verdict =
+        motion::verdict_on(machine, solution, OperationBudget(scene.most_evaluations));
+    if (verdict.found()) {
+      point.multiplier = verdict.floquet.largest();
+      point.change = verdict.floquet.uncertainty();
+      point.stable = verdict.floquet.stable_number();
+      if (point.stable == 1) add(verdict.state);
+    }
+    try {
+      const Floquet series = floquet(machine, solution, scene.floquet);
+      point.series_multiplier = series.largest();
+      point.series_stable = series.stable_number();
+    } catch (const NoSolution&) {
+    }
+  }
+
+  void add(State state)
+  {
+    constexpr double same = 1e-3;
+    const TimeStepper stepper =
+        make_stepper(machine, omega,
+                     {.method = "rk4", .intervals_per_period = scene.points_per_period});
+    motion::Motion motion = motion::recorded(stepper, scene.points_per_period, state);
+    for (const Reference& known : references)
+      if (known.periodic() &&
+          distance_of(machine, motion, known.motion).displacement < same)
+        return;
+    references.push_back({std::move(motion), references.back().number + 1,
+                          static_cast<int>(Verdict::periodic)});
+  }
+};
+
+}  // namespace
+
+std::vector<ValidityPoint> compared(const ValidityScene& scene, int set, double frequency,
+                                    const std::vector<PeriodicMotion>& swept)
+{
+  const Parameters& machine = scene.sets[set - 1];
+  Comparison here{scene, machine, angular(frequency), {}};
+  for (const AttractorPoint& one : attractors_at(scene.attractors, set, frequency))
+    here.references.push_back(
+        {motion_on(one, machine, scene.points_per_period, scene.periods), one.number,
+         static_cast<int>(one.verdict)});
+  const bool periodic = std::ranges::any_of(here.references, &Reference::periodic);
+  std::vector<PeriodicMotion> solutions;
+  for (std::size_t k = 0; k < swept.size(); ++k)
+    solutions.push_back(here.nearest(swept[k], static_cast<int>(k) + 1));
+  const int most = periodic ? scene.most_adaptive : scene.most_elsewhere;
+  solutions.push_back(
+      motion::solve_adaptively(machine, here.omega,
+                               {.tolerance = scene.tolerance, .most_harmonics = most})
+          .motion);
+
   const auto& examined = scene.examined_harmonics;
   std::vector<ValidityPoint> points;
   for (const PeriodicMotion& solution : solutions) {
-    ValidityPoint& point = points.emplace_back(blank);
-    point.harmonics = static_cast<int>(points.size());
+    ValidityPoint& point = points.emplace_back();
+    point.set = set;
+    point.frequency = frequency;
+    point.adaptive = points.size() > swept.size();
+    point.harmonics = point.adaptive ? 0 : static_cast<int>(points.size());
     if (!solution.found()) continue;
-    measure(solution, point);
-    if (std::ranges::find(examined, point.harmonics) != examined.end())
-      examine(solution, point);
+    point.harmonics = solution.harmonics.highest();
+    if (point.adaptive && solution.error->settled)
+      point.estimate = solution.error->displacement;
+    if (point.adaptive || std::ranges::find(examined, point.harmonics) != examined.end())
+      here.examine(solution, point);
   }
-  ValidityPoint& adaptive = points.emplace_back(blank);
-  adaptive.adaptive = true;
-  const int most = blank.periodic ? scene.most_adaptive : scene.most_elsewhere;
-  const PeriodicMotion solution =
-      motion::solve_adaptively(machine, angular(frequency),
-                               {.tolerance = scene.tolerance, .most_harmonics = most})
-          .motion;
-  if (!solution.found()) return points;
-  adaptive.harmonics = solution.harmonics.highest();
-  if (solution.error->settled) adaptive.estimate = solution.error->displacement;
-  measure(solution, adaptive);
-  examine(solution, adaptive);
+  for (std::size_t k = 0; k < points.size(); ++k) {
+    if (solutions[k].found()) here.measure(solutions[k], points[k]);
+    points[k].attractors = static_cast<int>(here.references.size());
+    points[k].periodic = std::ranges::any_of(here.references, &Reference::periodic);
+  }
   return points;
 }
 
@@ -120,28 +225,39 @@ const std::vector<Field<Point>> fields{
      &Point::adaptive},
     {"m", "-", "harmonics; 0 for an adaptive solution that was not found",
      &Point::harmonics},
-    {"found", "-", "1 if there is a solution: fixed m by a sweep up", &Point::found},
+    {"found", "-", "1 if a solution was found, from many starts", &Point::found},
     {"distance", "-",
-     "rms of the displacements' difference to the nearest attractor's motion over that motion's rms; -1",
+     "rms about the mean of the displacements' difference to the nearest attractor's motion, over that motion's rms about its mean; -1",
      [](auto& p) { return p.distance.displacement; }},
     {"distance_force", "-", "the same of the bearing's force; -1 when not found",
      [](auto& p) { return p.distance.force; }},
-    {"attractor", "-", "number of the nearest attractor; 0 when not found",
+    {"attractor", "-",
+     "number of the nearest attractor, larger than those of the table for a stable motion that only shooting found; 0 when not found",
      &Point::attractor},
     {"nearest_verdict", "-",
      "its verdict: 1 T-periodic, 2 kT-periodic, 3 quasi-periodic, 4 chaotic, 0 undecided; -1",
      &Point::nearest_verdict},
     {"multiplier", "-",
-     "largest modulus of the solution's Floquet multipliers; -1 if not asked for",
+     "largest modulus of the Floquet multipliers of the motion of Eq. 7 found from the solution; -1",
      &Point::multiplier},
     {"multiplier_change", "-", "its uncertainty; -1", &Point::change},
-    {"stable", "-", "1 stable, 0 unstable, -1 not known or not asked for",
+    {"stable", "-",
+     "the machine there: 1 stable, 0 unstable, -1 undecided or not asked for",
      &Point::stable},
     {"estimate", "-",
      "of the adaptive solution's error: largest difference over the largest displacement; -1",
      &Point::estimate},
     {"attractors", "-", "attractors known at this speed", &Point::attractors},
-    {"periodic", "-", "1 if one of them has the period of rotation", &Point::periodic}};
+    {"periodic", "-", "1 if one of them has the period of rotation", &Point::periodic},
+    {"distance_largest", "-",
+     "largest difference to that motion over its largest displacement; -1",
+     [](auto& p) { return p.distance.largest; }},
+    {"series_multiplier", "-",
+     "largest modulus of the multipliers along the m harmonics themselves; -1",
+     &Point::series_multiplier},
+    {"series_stable", "-",
+     "what they say: 1 stable, 0 unstable, -1 undecided or not asked for",
+     &Point::series_stable}};
 
 }  // namespace
 
@@ -151,8 +267,9 @@ Table validity_table(const ValidityScene& scene,
   Table table("Distance of harmonic-balance solutions to the nearest attractor", fields);
   for (const Parameters& machine : scene.sets) describe(table, machine);
   table.note(format(
-      "modelled: sweeps up with m = 1 to %d, N = 8m+1 or more; adaptive: tolerance %g, m at most %d, %d where no attractor is T-periodic",
-      scene.most_harmonics, scene.tolerance, scene.most_adaptive, scene.most_elsewhere));
+      "modelled: solutions with m = 1 to %d, N = 8m+1 or more; adaptive: tolerance %g, m at most %d, %d where no attractor is T-periodic; verdicts by shooting with at most %g evaluations",
+      scene.most_harmonics, scene.tolerance, scene.most_adaptive, scene.most_elsewhere,
+      scene.most_evaluations));
   table.note(
       format("reference: rk4 from the attractor's state, %d periods of %d instants",
              scene.periods, scene.points_per_period));

@@ -193,16 +193,20 @@ TEST_CASE("Coexisting motions at 25 and 25.25 Hz are two attractors, whatever th
   }
 }
 
-TEST_CASE("The distance of a motion to itself is zero, to rest one")
+TEST_CASE("The distance of a motion to itself is zero, to rest one, and blind to the mean")
 {
   const Parameters parameters = set_1();
   Motion motion{8, 0, {}}, rest{8, 0, std::vector<Bodies>(8)};
   for (int k = 0; k < 8; ++k)
     motion.positions.push_back({{1e-5 * k, -1e-5}, {2e-5, 4e-5 * (k % 3)}});
-  CHECK(rms_difference(parameters, motion, motion).displacement == 0);
-  CHECK(rms_difference(parameters, motion, motion).force == 0);
-  CHECK(rms_difference(parameters, rest, motion).displacement == Approx(1));
-  CHECK(rms_difference(parameters, rest, motion).force == Approx(1));
+  CHECK(distance_of(parameters, motion, motion).displacement == 0);
+  CHECK(distance_of(parameters, motion, motion).force == 0);
+  CHECK(distance_of(parameters, rest, motion).displacement == Approx(1));
+  CHECK(distance_of(parameters, rest, motion).force == Approx(1));
+  Motion sagging = motion;
+  for (Bodies& q : sagging.positions) q.stator.y -= 1e-3, q.rotor.y -= 1e-3;
+  CHECK(distance_of(parameters, sagging, motion).displacement == Approx(0).margin(1e-12));
+  CHECK(distance_of(parameters, sagging, motion).largest > 10);
 }
 
 TEST_CASE("A table of numbers is read back, and a damaged one refused with its line")
