@@ -145,6 +145,31 @@ def stability(add):
     add("stability.list", r"\n".join(lines), "-", "stability along the followed branches")
 
 
+def judged(add):
+    """How often the multipliers of m harmonics are right, and what a verdict on the machine costs."""
+    table = Table(KEPT / "verdicts.tsv")
+    found, lines = table.where("found", 1), []
+    for number in np.unique(table["set"]).astype(int):
+        for m in np.unique(table["m"]).astype(int):
+            rows = found.where("set", number).where("m", m)
+            known = rows.rows(rows["machine_stable"] >= 0)
+            words = []
+            for method, name in (("series", "along the series"), ("hill", "Hill's method")):
+                said, truth = known[f"{method}_stable"], known["machine_stable"]
+                words.append(f"{name} {((said == 1) & (truth == 0)).sum()} false \"stable\", "
+                             f"{((said == 0) & (truth == 1)).sum()} false \"unstable\"")
+            lines.append(f"- data set {number}, {m} harmonics: {len(known)} of {len(rows)} solutions decided, "
+                         f"{(known['machine_stable'] == 0).sum()} of them unstable; {'; '.join(words)}.")
+    add("verdicts.list", r"\n".join(lines), "-", "false verdicts by the multipliers of m harmonics")
+    add("verdicts.speeds", len(np.unique(table["f"])), "-", "speeds of each set")
+    add("verdicts.hill", tomllib.loads(Path("data/scenes/verdicts.toml").read_text())["hill_harmonics"][-1], "-",
+        "largest number of harmonics of Hill's method")
+    add("verdicts.solutions", len(found), "-", "solutions judged")
+    add("verdicts.decided", (found["machine_stable"] >= 0).mean(), "-", "share with a verdict on the machine")
+    add("verdicts.median", np.median(found["evaluations"]), "-", "evaluations of the force for a verdict")
+    add("verdicts.most", found["evaluations"].max(), "-", "the most of them")
+
+
 def estimates(add):
     table = Table(KEPT / "adaptive.tsv")
     known = table.rows((table["reached"] == 1) & (table["effectivity"] > 0))
@@ -189,5 +214,5 @@ def verdicts(add):
 
 
 def add_all(add):
-    for part in (costs, growth, peers, truth, stability, estimates, hard, verdicts):
+    for part in (costs, growth, peers, truth, stability, judged, estimates, hard, verdicts):
         part(add)

@@ -166,9 +166,8 @@ std::string measured_regime(const Parameters& parameters, const MotionRequest& r
     stepper.step = std::min(stepper.step / 2, step);
     stepper.tolerance = 0.01 * coarse;
     const SteadyState fine = steady_state(parameters, omega, state, settings);
-    const double off =
-        motion::relative_difference(motion::motion_of(steady, request.points),
-                                    motion::motion_of(fine, request.points));
+    const double off = motion::rms_difference(motion::motion_of(steady, request.points),
+                                              motion::motion_of(fine, request.points));
     if (fine.periodic != steady.periodic)
       return format("undecided; %s with finer steps, spread %.2g",
                     fine.periodic ? "periodic" : "aperiodic", fine.spread);

@@ -44,8 +44,10 @@ namespace {
 
 double error_of(const PeriodicMotion& solution, const motion::Motion& exact)
 {
-  return motion::relative_difference(
-      motion::motion_of(solution.bodies, exact.points_per_period), exact);
+  const motion::Motion motion =
+      motion::motion_of(solution.bodies, exact.points_per_period);
+  return std::max(motion::relative_difference(motion, exact),
+                  motion::rms_difference(motion, exact));
 }
 
 /** The error of one solution, against the exact motion of the speed or, where that is far away, of its
@@ -102,7 +104,7 @@ std::vector<AdaptivePoint> judged(const AdaptiveScene& scene, std::size_t speed)
         motion::solve_adaptively(machine, angular(frequency), {.tolerance = tolerance}));
   /** The one with the least estimate of those that reached their tolerance. */
   const auto best = std::ranges::min_element(solutions, {}, [](const auto& solution) {
-    return solution.reached ? solution.motion.error->displacement
+    return solution.reached ? solution.motion.error->larger()
                             : std::numeric_limits<double>::infinity();
   });
   const motion::Motion exact =
@@ -116,7 +118,7 @@ std::vector<AdaptivePoint> judged(const AdaptiveScene& scene, std::size_t speed)
                       .reached = reached,
                       .harmonics = reached ? solution.harmonics.highest() : -1,
                       .samples = reached ? solution.samples : -1,
-                      .estimate = reached ? solution.error->displacement : -1,
+                      .estimate = reached ? solution.error->larger() : -1,
                       .searched = solution.start != motion::quasi_static_name,
                       .cost = static_cast<double>(cost)});
     if (reached) add_error(machine, solution, exact, points.back());

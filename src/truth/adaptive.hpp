@@ -1,7 +1,8 @@
 /**
 # What the error estimate is worth
 
-Per speed and tolerance, the number of harmonics chosen, the estimate, and the true error: the distance
+Per speed and tolerance, the number of harmonics chosen, the estimate, and the true error, each the larger of the
+largest difference over the largest displacement and the rms about the mean: the distance
 to the exact periodic motion, found by shooting from the most accurate solution of the speed. Beside the cost,
 evaluations of the force times samples, stands that of the best fixed number of harmonics: the
 cheapest of a ladder, solved from quasi-static contact, whose true error is not larger. */

@@ -203,7 +203,7 @@ std::vector<ValidityPoint> compared(const ValidityScene& scene, int set, double 
     if (!solution.found()) continue;
     point.harmonics = solution.harmonics.highest();
     if (point.adaptive && solution.error->settled)
-      point.estimate = solution.error->displacement;
+      point.estimate = solution.error->larger();
     if (point.adaptive || std::ranges::find(examined, point.harmonics) != examined.end())
       here.examine(solution, point);
   }
@@ -244,8 +244,7 @@ const std::vector<Field<Point>> fields{
     {"stable", "-",
      "the machine there: 1 stable, 0 unstable, -1 undecided or not asked for",
      &Point::stable},
-    {"estimate", "-",
-     "of the adaptive solution's error: largest difference over the largest displacement; -1",
+    {"estimate", "-", "of the adaptive solution's error, the larger of both norms; -1",
      &Point::estimate},
     {"attractors", "-", "attractors known at this speed", &Point::attractors},
     {"periodic", "-", "1 if one of them has the period of rotation", &Point::periodic},
