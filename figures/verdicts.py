@@ -45,12 +45,13 @@ def draw_set(axes, rows):
 def draw(table):
     """One panel per data set."""
     clearances = [float(x) for x in re.findall(r"delta = (\S+) m", table.header)]
-    figure, grid = plt.subplots(1, len(clearances), figsize=(10, 4.6), sharey=True, layout="constrained")
+    figure, grid = plt.subplots(1, len(clearances), figsize=(10, 4.8), sharey=True)
+    figure.subplots_adjust(left=0.08, right=0.99, bottom=0.07, top=0.8, wspace=0.06)
     for number, (axes, clearance) in enumerate(zip(grid, clearances), 1):
         draw_set(axes, table.where("set", number))
         axes.set_title(f"data set {number}, δ = {1e6 * clearance:g} µm", pad=16)
     grid[0].set(ylim=(0, 100), ylabel="share of the solutions [%]")
-    figure.legend(*grid[0].get_legend_handles_labels(), ncols=4, loc="outside upper center")
+    figure.legend(*grid[0].get_legend_handles_labels(), ncols=4, loc="upper center")
     return figure
 
 
