@@ -75,7 +75,7 @@ do for [s = 1 : sets] {
   set xlabel ""
   set format x ""
   set format y s == 1 ? "%g" : ""
-  set ylabel s == 1 ? "largest distance over the speeds [-]" : "" offset 0.5, 0
+  set ylabel s == 1 ? "largest rms error about the mean [-]" : "" offset 0.5, 0
   do for [i = 1 : words(limits)] {
     set label i sprintf("%g %%", 100 * word(limits, i)) at graph 1, first real(word(limits, i)) \
       left offset 0.3, 0

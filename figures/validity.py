@@ -64,7 +64,7 @@ def draw(table):
     for number, (axes, clearance) in enumerate(zip(grid, clearances), 1):
         draw_set(axes, table.where("set", number), tolerance)
         axes.set(yscale="log", xlim=(0, 61), title=f"data set {number}, δ = {1e6 * clearance:g} µm",
-                 ylabel="distance over the motion's size [-]")
+                 ylabel="rms error about the mean [-]")
     grid[-1].set_xlabel("speed of rotation [Hz]")
     shaded, *methods = grid[-1].get_legend_handles_labels()[0]
     points = point("black", "stable"), point("white", "unstable or unknown")
