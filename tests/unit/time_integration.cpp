@@ -2,9 +2,11 @@
 #include <cmath>
 #include "support/catch.hpp"
 
+#include "balance/bearing_problem.hpp"
 #include "integration/steady_state.hpp"
 #include "integration/time_stepper.hpp"
 #include "io/errors.hpp"
+#include "motion/find_periodic.hpp"
 #include "stability/period_map.hpp"
 #include "stability/shooting.hpp"
 #include "support/cases.hpp"
@@ -91,6 +93,35 @@ TEST_CASE("The stiff steppers' Jacobian in contact is that of differences of Eq.
   const double h = 1e-8;
   const Vector8 difference = (slope(y, t + h) - slope(y, t - h)) / (2 * h);
   CHECK((difference - in_time).norm() < 1e-6 * in_time.norm());
+}
+
+TEST_CASE("A base period of three turns is the same machine")
+{
+  const Parameters once = set_1(), thrice = over_turns(once, 3);
+  const double omega = angular(17.0);
+  State a = static_start(once), b = a;
+  const TimeStepper turn = make_stepper(once, omega, {.intervals_per_period = 1});
+  const TimeStepper turns = make_stepper(thrice, omega / 3, {.intervals_per_period = 1});
+  for (int k = 0; k < 3; ++k) turn.advance(k, a);
+  turns.advance(0, b);
+  const Vector8 apart = (vector_of(a) - vector_of(b)).cwiseQuotient(state_scales(once));
+  CHECK(apart.cwiseAbs().maxCoeff() < 1e-6);
+  CHECK(vector_of(a).norm() > 0);
+
+  /** What is periodic in T solves the balance of three turns, in every third harmonic. */
+  const int m = 6;
+  const PeriodicMotion one = motion::find_periodic({once, omega, m});
+  REQUIRE(one.found());
+  Eigen::MatrixXd x = Eigen::MatrixXd::Zero(2, 2 * 3 * m + 1);
+  x.col(0) = one.x.head<2>();
+  for (int h = 1; h <= m; ++h)
+    x.middleCols(6 * h - 1, 2) = one.x.segment<4>(4 * h - 2).reshaped(2, 2);
+  Balance balance(bearing_problem(thrice, 3 * one.samples), 3 * m);
+  const Eigen::VectorXd start = x.reshaped();
+  CHECK(balance.residual(start, omega / 3).norm() <
+        1e-8 * balance.problem().residual_scale);
+  Balance other(bearing_problem(over_turns(once, 2), 3 * one.samples), 3 * m);
+  CHECK(other.residual(start, omega / 3).norm() > 1e-3 * other.problem().residual_scale);
 }
 
 TEST_CASE("A cage that is not in step with the rotor gives an aperiodic verdict")
