@@ -12,13 +12,16 @@ with its power of 3/2, needs N/m^1.5, and we keep the number (D-08). The natural
 printed with the higher one for the rotor. The response then contradicts the text; with the
 opposite order it comes closer. Both readings are kept, the exchanged one as the default (D-09).
 The masses are not printed (D-13). Their ratio follows from the speed of the resonance, and their
-size from the speeds at which contact is lost; the program `identification` scores other choices.
+size from the speed at which contact is lost; the program `identification` computes which are admitted.
 The speed of the cage is not printed either, nor are the radii from which it follows (D-11). We
 take half the rotor's speed, since the paper says that every ball meets the rotating load once in
 two turns.
 
-The last column is computed: the frequency at which both bodies vibrate as one mass on both
-suspensions. It is where Figure 3 has its peak. */
+The last columns are computed. The rotor's centre of mass lies e = m_e e/m_r off its axis. Joined rigidly, both bodies
+resonate on both suspensions at f_joint, where Figure 3 has its peak. The joint then carries a static force from
+gravity and a rotating one from the unbalance. At f_loss they are equal, and their sum passes through zero once per
+turn: a bearing, which can only push, loses contact. In the printed reading gravity prevails again from f_gravity on, in
+the middle of the range where the paper has a rotating contact. */
 #include "figures/data_sets.hpp"
 #include "io/program.hpp"
 #include "model/rotor_stator.hpp"
@@ -31,8 +34,12 @@ int main(int argc, char** argv)
     file.toml().refuse_unknown_keys();
     Table table = figures::data_set_table(machines);
     for (int set = 0; const Parameters& machine : machines) {
-      const double joint = joint_resonance(machine) / angular(1);  // [Hz]
-      figures::add_data_set(table, ++set, machine, joint);
+      const double joint = joint_resonance(machine);
+      std::vector<double> equal = equal_force_speeds(machine, 2 * joint);
+      equal.resize(2, angular(-1));  // none
+      figures::add_data_set(
+          table, ++set, machine,
+          {joint / angular(1), equal[0] / angular(1), equal[1] / angular(1)});
     }
     return table;
   });

@@ -128,6 +128,18 @@ EvidenceList two_readings(const DeviationScene& scene)
                     "share of the time with a loaded ball"});
     list.push_back(
         {format("D-09.spread_%s", name), steady.spread, "-", "Poincare spread"});
+    const PeriodicMotion peak = require_periodic(
+        *machine, joint_resonance(*machine) / angular(1), scene.harmonics);
+    list.push_back({format("D-09.peak_%s", name),
+                    1e3 * half_peak_to_peak(scene.motion_of(peak))[2], "mm",
+                    "half peak-to-peak of x_r at the joint resonance"});
+    list.push_back({format("D-09.eccentricity_%s", name),
+                    1e3 * machine->unbalance / machine->rotor.mass, "mm",
+                    "of the rotor's centre of mass, m_e e/m_r"});
+    const auto equal = equal_force_speeds(*machine, 2 * joint_resonance(*machine));
+    for (int number = 0; double omega : equal)
+      list.push_back({format("D-09.equal_%s_%d", name, ++number), omega / angular(1),
+                      "Hz", "gravity and unbalance load the rigid joint equally"});
   }
   return list;
 }
@@ -141,6 +153,10 @@ EvidenceList unprinted_masses(const DeviationScene& scene)
       {"D-13.m_r_printed", scene.printed.rotor.mass, "kg", "rotor, printed reading"},
       {"D-13.joint", joint_resonance(scene.machine) / angular(1), "Hz",
        "joint resonance"},
+      {"D-13.loss",
+       equal_force_speeds(scene.machine, joint_resonance(scene.machine)).front() /
+           angular(1),
+       "Hz", "gravity and unbalance load the rigid joint equally"},
       {"D-13.speed", scene.transition_speed, "Hz", "speed of the following"}};
   int number = 0;
   for (double factor : scene.table("masses").numbers("factors", Range::positive)) {

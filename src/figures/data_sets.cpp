@@ -6,7 +6,7 @@ namespace {
 
 struct DataSet : Parameters {
   int number;
-  double joint;
+  Landmarks speeds;
 };
 
 using Set = const DataSet&;
@@ -32,7 +32,16 @@ const std::vector<Field<DataSet>> fields{
     {"cage_speed_ratio", "-", "omega_cage/omega, not printed in the paper",
      [](Set s) { return s.bearing.cage_speed_ratio; }},
     {"g", "m/s^2", "gravity, not printed in the paper", &DataSet::gravity},
-    {"f_joint", "Hz", "resonance of both bodies moving as one", &DataSet::joint}};
+    {"e", "m", "eccentricity of the rotor's centre of mass, m_e e/m_r",
+     [](Set s) { return s.unbalance / s.rotor.mass; }},
+    {"f_joint", "Hz", "resonance of both bodies moving as one",
+     [](Set s) { return s.speeds.joint; }},
+    {"f_loss", "Hz",
+     "closed form of the loss of contact: first speed at which gravity and unbalance load "
+     "the rigid joint equally; -1 if none up to twice f_joint",
+     [](Set s) { return s.speeds.loss; }},
+    {"f_gravity", "Hz", "first speed above it from which gravity is the larger again",
+     [](Set s) { return s.speeds.gravity_again; }}};
 
 }  // namespace
 
@@ -45,9 +54,10 @@ Table data_set_table(const std::vector<Parameters>& machines)
   return table;
 }
 
-void add_data_set(Table& table, int set, const Parameters& machine, double joint)
+void add_data_set(Table& table, int set, const Parameters& machine,
+                  const Landmarks& speeds)
 {
-  table.row(fields, {machine, set, joint});
+  table.row(fields, {machine, set, speeds});
 }
 
 }  // namespace rotor_stator::figures

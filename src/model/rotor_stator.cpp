@@ -84,6 +84,28 @@ Vec2 rigid_joint_force(const Parameters& parameters, double omega, double phase)
   return {whirl.real(), gravity + whirl.imag()};
 }
 
+std::vector<double> equal_force_speeds(const Parameters& parameters, double highest)
+{
+  const double gravity = rigid_joint_force(parameters, 0, 0).y;
+  const auto unbalance_prevails = [&](double omega) {
+    const Vec2 force = rigid_joint_force(parameters, omega, 0);
+    return std::hypot(force.x, force.y - gravity) > std::abs(gravity);
+  };
+  constexpr int steps = 4000;
+  std::vector<double> speeds;
+  for (int k = 0; k < steps; ++k) {
+    double low = highest * k / steps, high = highest * (k + 1) / steps;
+    const bool before = unbalance_prevails(low);
+    if (gravity == 0 || unbalance_prevails(high) == before) continue;
+    for (int halving = 0; halving < 40; ++halving) {
+      const double middle = 0.5 * (low + high);
+      (unbalance_prevails(middle) == before ? low : high) = middle;
+    }
+    speeds.push_back(0.5 * (low + high));
+  }
+  return speeds;
+}
+
 Vec2 free_displacement(const Parameters& parameters, double omega, double phase)
 {
   const auto sag = [&](const Body& body) {

@@ -15,6 +15,7 @@ them. */
 #include <array>
 #include <bit>
 #include <complex>
+#include <vector>
 
 #include "model/ball_bearing.hpp"
 #include "model/parameters.hpp"
@@ -122,6 +123,11 @@ double joint_resonance(const Parameters& parameters);
    state: F = (Z_s f_r - Z_r f_s)/(Z_s + Z_r) for gravity and for
    the unbalance. */
 Vec2 rigid_joint_force(const Parameters& parameters, double omega, double phase);
+
+/** The speeds [rad/s] up to `highest` at which the static part of that force, from gravity, is as large as its
+    rotating part, from the unbalance; ascending. At the first the force of the joint passes through zero: a contact that
+    can only push is lost. None without gravity. */
+std::vector<double> equal_force_speeds(const Parameters& parameters, double highest);
 
 /** The relative displacement [m] of both bodies without any contact, u = G_r f_r - G_s
    f_s, at `phase` ωt [rad]; infinite where the undamped rotor resonates.

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <complex>
 #include <numbers>
 #include <numeric>
 
@@ -10,21 +11,42 @@
 
 namespace rotor_stator::motion {
 
-double higher_harmonics(const Motion& motion)
+HigherHarmonics higher_harmonics(const Motion& motion)
 {
   const Eigen::MatrixXd series = series_of(motion, (motion.points_per_period - 1) / 2);
   const auto size = [&](int body, Eigen::Index first, Eigen::Index count) {
     return series.block(2 * body, first, 2, count).norm();
   };
-  double share = 0;
-  for (int body : {0, 1})
-    if (size(body, 1, 2) > 0)
-      share = std::max(share, size(body, 3, series.cols() - 3) / size(body, 1, 2));
-  return share;
+  HigherHarmonics shares;
+  for (int body : {0, 1}) {
+    const double first = size(body, 1, 2);
+    const double all = first > 0 ? size(body, 3, series.cols() - 3) / first : 0;
+    if (all <= shares.all) continue;
+    shares = {all, size(body, 3, 2) / first, size(body, 5, 2) / first,
+              size(body, 7, 2) / first, size(body, 9, 2) / first};
+  }
+  return shares;
 }
 
-Regime regime_at(const Parameters& parameters, double frequency,
-                 const RegimeSettings& settings)
+double turns_of(const std::vector<Vec2>& force)
+{
+  std::complex<double> last = 0;
+  double angle = 0;
+  const auto turn_to = [&](Vec2 f) {
+    const std::complex<double> next(f.x, f.y);
+    if (next == 0.0) return;
+    if (last != 0.0) angle += std::arg(next / last);
+    last = next;
+  };
+  for (const Vec2& f : force) turn_to(f);
+  const auto first =
+      std::ranges::find_if(force, [](const Vec2& f) { return f.x != 0 || f.y != 0; });
+  if (first != force.end()) turn_to(*first);
+  return std::round(angle / (2 * std::numbers::pi)) + 0.0;  // no -0
+}
+
+SteadyState settled_motion(const Parameters& parameters, double frequency,
+                           const RegimeSettings& settings)
 {
   const double omega = 2 * std::numbers::pi * frequency;
   SteadySettings steady_settings;
@@ -42,9 +64,14 @@ Regime regime_at(const Parameters& parameters, double frequency,
   PeriodicMotion solution;
   if (has_rotation_period(parameters.bearing))
     solution = find_near_contact({parameters, omega, 6});
-  const SteadyState steady = steady_state(
-      parameters, omega, solution.found() ? state_of(solution) : static_start(parameters),
-      steady_settings);
+  return steady_state(parameters, omega,
+                      solution.found() ? state_of(solution) : static_start(parameters),
+                      steady_settings);
+}
+
+Regime regime_of(const Parameters& parameters, double frequency,
+                 const SteadyState& steady, const RegimeSettings& settings)
+{
   Motion motion = motion_of(steady, settings.points_per_period);
   const double contact = contact_share(parameters, motion);
   motion.positions.resize(2 * static_cast<std::size_t>(settings.points_per_period));
@@ -62,13 +89,21 @@ Regime regime_at(const Parameters& parameters, double frequency,
           .periodic = steady.periodic,
           .spread = steady.spread,
           .contact = contact,
-          .higher_harmonics = higher_harmonics(motion),
+          .turns = turns_of(bearing_forces(parameters, motion)) / 2,
+          .higher = higher_harmonics(motion),
           .passed_once = std::ranges::count(passages, 1) == std::ssize(passages),
           .passages = std::accumulate(passages.begin(), passages.end(), 0.0) / balls,
           .loaded_arc = loaded / static_cast<double>(ball_force.size()) * 2 *
                         std::numbers::pi / balls,
           .largest_force = largest,
           .amp_x_r = half_peak_to_peak(motion)[2]};
+}
+
+Regime regime_at(const Parameters& parameters, double frequency,
+                 const RegimeSettings& settings)
+{
+  return regime_of(parameters, frequency, settled_motion(parameters, frequency, settings),
+                   settings);
 }
 
 RegimeSettings read_regime_settings(SceneFile& scene)

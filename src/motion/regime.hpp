@@ -24,28 +24,44 @@ struct RegimeSettings {
 /** The table [regime] of a scene. */
 RegimeSettings read_regime_settings(SceneFile& scene);
 
+/** Of the first period of a motion, over the amplitude of the first harmonic, for the body where all are larger [-]; 0
+    for bodies at rest. */
+struct HigherHarmonics {
+  double all = 0;                             ///< rms of harmonics 2 and above
+  double h_2 = 0, h_3 = 0, h_4 = 0, h_5 = 0;  ///< one by one
+};
+
 struct Regime {
   double frequency;  ///< [Hz]
   bool periodic;     ///< with period T
   double spread;     ///< Poincaré spread [-]
   double contact;    ///< share of `window` seconds with at least one loaded ball [-]
-  double higher_harmonics;  ///< rms of harmonics ≥ 2 over the first, the larger of both
-                            ///< bodies [-]
-  bool passed_once;         ///< every ball is loaded exactly once in two periods
+  double turns;      ///< of the force's direction per period, 1 where the contact
+                     ///< rotates with the rotor, 0 where gravity holds it
+  HigherHarmonics higher;
+  bool passed_once;   ///< every ball is loaded exactly once in two periods
   double passages;    ///< times a ball is loaded in two periods, mean over the balls [-]
   double loaded_arc;  ///< mean over time of the balls loaded at once, times 2π/n [rad]
   double largest_force;  ///< on one ball [N]
   double amp_x_r;        ///< half peak-to-peak of x_r [m]
-
-  bool permanent_contact() const { return contact == 1; }
 };
 
-/** Throws NoSolution when the integration breaks down. */
+Regime regime_of(const Parameters& parameters, double frequency,
+                 const SteadyState& steady, const RegimeSettings& settings);
+
+/** The same of the settled motion. Throws NoSolution when the integration breaks down. */
 Regime regime_at(const Parameters& parameters, double frequency,
                  const RegimeSettings& settings);
 
-/** The rms of harmonics ≥ 2 over the amplitude of the first in the first period of a
-   motion, for the body where it is larger [-]; 0 for a body at rest. */
-double higher_harmonics(const Motion& motion);
+HigherHarmonics higher_harmonics(const Motion& motion);
+
+/** How often a force turns around its origin along the instants of a closed motion; instants without force are
+    left out. */
+double turns_of(const std::vector<Vec2>& force);
+
+/** The motion of a machine at one speed, settled, by rk4: from the periodic solution if Newton finds one from the
+    quasi-static contact, else from the static load. Throws NoSolution when the integration breaks down. */
+SteadyState settled_motion(const Parameters& parameters, double frequency,
+                           const RegimeSettings& settings);
 
 }  // namespace rotor_stator::motion
