@@ -63,7 +63,8 @@ std::vector<Setting> cheapest_rk4(const TimingScene& scene, const References& re
     if (loosest == 0) break;
     const MotionError error = error_up_to(loosest, references, setting);
     for (std::size_t k = 0; k < balances.size(); ++k)
-      if (chosen[k].method.empty() && error.displacement <= balances[k].displacement)
+      if (chosen[k].method.empty() && error.displacement <= balances[k].displacement &&
+          error.force <= balances[k].force)
         chosen[k] = setting;
   }
   for (std::size_t k = 0; k < balances.size(); ++k) {
@@ -73,7 +74,9 @@ std::vector<Setting> cheapest_rk4(const TimingScene& scene, const References& re
           format("no harmonic-balance solution at %g Hz", target.worst_frequency));
     if (chosen[k].method.empty())
       throw NoSolution(
-          format("no tried RK4 setting reaches the error %.2g", target.displacement));
+          format("no tried RK4 setting reaches the errors %.2g of displacement and %.2g "
+                 "of force",
+                 target.displacement, target.force));
   }
   return chosen;
 }
@@ -90,7 +93,7 @@ using Row = TimingRow;
 const std::vector<Field<Row>> timing_fields{
     {"method", "-", "aft: harmonic balance; rk4: classical Runge-Kutta with fixed step",
      [](auto& r) { return r.setting.method; }},
-    {"harmonics", "-", "m; for rk4 that of the row whose error it reaches",
+    {"harmonics", "-", "m; for rk4 that of the row whose errors it reaches, both",
      &Row::harmonics},
     {"samples", "-", "N per period; 0 for rk4",
      [](auto& r) { return r.setting.samples; }},

@@ -21,8 +21,8 @@ struct TimingScene {
 
 TimingScene read_timing(SceneFile& file);
 
-/** For each of `balances` the first RK4 setting of the scene that reaches its error. Nothing is timed.
-    Throws NoSolution when harmonic balance fails at a periodic speed, or when none reaches its error. */
+/** For each of `balances` the first RK4 setting of the scene that reaches its errors of displacement and of force. Nothing is timed.
+    Throws NoSolution when harmonic balance fails at a periodic speed, or when none reaches them. */
 std::vector<Setting> cheapest_rk4(const TimingScene& scene, const References& references,
                                   const std::vector<Measurement>& balances);
 
