@@ -1,9 +1,11 @@
 /**
 # Identifying what the paper leaves out
 
-Masses, mass ratio and cage are not printed. A grid of candidates is judged by the rule of
-data/claims.toml: each candidate's motions at 60 speeds, integrated in time, give the
-quantities of claims C1, C4, C5, C6 and C10, and their mean is its score. */
+Masses, mass ratio and cage are not printed, but the text bounds them in closed form: the joint resonance is
+"around 50 Hz", which gives the ratio of the masses; gravity prevails up to 10 Hz and the unbalance above 19 Hz,
+which bounds the stator's mass; the force has the period of rotation and balls do not overlap, which leaves few
+cages. For the machines so accepted the motion is integrated speed by speed, so that every claim can be judged for
+all of them. No claim's verdict takes part in the choice. */
 #pragma once
 
 #include "io/table.hpp"
@@ -11,25 +13,31 @@ quantities of claims C1, C4, C5, C6 and C10, and their mean is its score. */
 
 namespace rotor_stator::studies {
 
-/** The rule of the verdicts, from data/claims.toml. */
-struct ClaimRule {
-  double low_to, middle_to;  ///< ends of the speed ranges [Hz]
-  double multi_harmonic;  ///< share of higher harmonics from which an orbit has many [-]
-  double paper_peak, peak_width;  ///< [Hz]
-  double within;  ///< candidates within this share of the best score are accepted [-]
+/** Largest and smallest [kg], or [Hz]. */
+struct Interval {
+  double from, to;
+};
+
+/** What the text says, from data/claims.toml. */
+struct Text {
+  double peak;        ///< [Hz]
+  Interval peaks;     ///< [Hz]
+  Interval loss;      ///< speeds between which gravity and unbalance become equal [Hz]
+  double loss_shown;  ///< the speed of Fig. 4 [Hz]
 };
 
 struct Candidate {
-  int reading;          ///< 0 exchanged, 1 as printed
-  double ratio_factor;  ///< mass ratio over that of the joint resonance at the peak
+  int reading;   ///< 0 exchanged, 1 as printed
+  int set;       ///< data set
+  double joint;  ///< joint resonance [Hz]
   Parameters machine;
 };
 
 struct IdentificationScene {
   std::vector<Candidate> candidates = {};
-  std::vector<double> frequencies = {};  ///< [Hz]
+  std::vector<std::string> accepted = {};  ///< the intervals of masses in words
+  std::vector<double> frequencies = {};    ///< [Hz]
   motion::RegimeSettings settings = {};
-  ClaimRule rule;
   std::vector<std::string> files;  ///< that were read
 };
 
@@ -37,25 +45,32 @@ struct IdentificationScene {
 IdentificationScene read_identification_scene(const std::string& file,
                                               const std::string& claims);
 
-/** Shares of the speeds of one range [-]. */
-struct RangeShares {
-  double permanent_contact, periodic, simple;
+/** The machine with a stator of `mass` [kg] and a rotor that puts the joint resonance at `joint` [rad/s]. */
+Parameters with_masses(Parameters machine, double mass, double joint);
+
+/** The stator's masses [kg], at that joint resonance [rad/s], for which gravity and unbalance first load the rigid
+    joint equally between two speeds [rad/s]. */
+Interval accepted_masses(const Parameters& machine, double joint, Interval loss);
+
+/** Cage ratios k/n for which the balls do not overlap, the largest first: ω_cage/ω ≤ 1/2. */
+std::vector<double> accepted_cages(int balls);
+
+/** The numbers of harmonics whose error is looked at. */
+inline constexpr std::array<int, 7> judged_harmonics{6, 7, 8, 9, 10, 12, 16};
+
+/** A candidate's motion at one speed. Errors: rms about the mean of the solution nearest to the motion; -1 where the
+    motion is not T-periodic, 2 where there is no solution. */
+struct CandidateMotion {
+  motion::Regime regime;
+  std::array<double, judged_harmonics.size()> error;
 };
 
-/** What a candidate's regimes come to. */
-struct ClaimScore {
-  double f_peak;                     ///< [Hz], by the parabola through the highest points
-  double f_loss_first, f_loss_last;  ///< [Hz]; -1 where contact is never lost
-  RangeShares low, middle, high;
-  double passages;             ///< per ball and 2T, mean over the high speeds [-]
-  double c1, c4, c5, c6, c10;  ///< quantities of the claims, 0…1
-  double score;                ///< their mean
-};
+/** At every speed of the scene. */
+std::vector<CandidateMotion> motions_of(const IdentificationScene& scene,
+                                        const Parameters& machine);
 
-ClaimScore score(const std::vector<motion::Regime>& regimes, const ClaimRule& rule);
-
-/** `scores` in the order of the candidates. */
+/** `motions` in the order of the candidates. */
 Table identification_table(const IdentificationScene& scene, const std::string& claims,
-                           const std::vector<std::vector<ClaimScore>>& scores);
+                           const std::vector<std::vector<CandidateMotion>>& motions);
 
 }  // namespace rotor_stator::studies
