@@ -10,6 +10,7 @@ from pathlib import Path
 import numpy as np
 
 sys.path.insert(0, "figures")
+import claim_quantities as quantities  # noqa: E402
 from article_results import add_all  # noqa: E402
 from project import source_line  # noqa: E402
 from tables import Table  # noqa: E402
@@ -25,8 +26,11 @@ def add(key, value, unit, meaning):
 
 
 def paper_values():
-    score = tomllib.loads(Path("data/claims.toml").read_text())["score"]
-    add("paper.peak", score["paper_peak_hz"], "Hz", "the peak that the paper names")
+    text = tomllib.loads(Path("data/claims.toml").read_text())["accepted"]
+    add("paper.peak", text["paper_peak_hz"], "Hz", "the peak that the paper names")
+    add("paper.loss", text["paper_loss_hz"], "Hz", "the speed of its Fig. 4")
+    for name, speed in zip(("from", "to"), text["loss_hz"]):
+        add(f"paper.loss_{name}", speed, "Hz", "its transition")
 
 
 def claim_counts():
@@ -71,17 +75,21 @@ def displacements():
 
 
 def regimes():
-    """The shares that claims C4 to C10 are made of, in the words of data/claims.toml."""
+    """The shares and means that claims C4 to C10 are made of, in the words of data/claims.toml."""
     table = Table(GENERATED / "regimes.tsv").where("set", 1)
     f = table["f"]
-    low, middle, high = table.rows(f <= 10), table.rows((f > 10) & (f <= 19)), table.rows(f > 19)
-    simple = (high["contact"] == 1) & (high["higher_harmonics"] < 0.05)
+    low, middle, high = (part(table) for part in (quantities.low, quantities.middle, quantities.high))
+    joint = Table(GENERATED / "tab01_parameters.tsv").first("f_joint")
     add("C4.low", (low["contact"] == 1).mean(), "-", "low speeds with permanent contact")
-    add("C5.multi", (middle["higher_harmonics"] >= 0.05).mean(), "-",
-        "middle speeds with orbits of many harmonics")
-    add("C6.simple", simple.mean(), "-", "high speeds with simple motion")
+    add("C5.higher", middle["higher_harmonics"].mean(), "-", "higher harmonics in the mean of the middle speeds")
+    add("C6.rest", quantities.high_rest(table), "-", "the same of the high speeds")
+    top = high["higher_harmonics"].argmax()
+    add("C6.most", high["higher_harmonics"][top], "-", "most of them at a high speed")
+    add("C6.most_f", high["f"][top], "Hz", "that speed")
+    add("C6.half", joint / 2, "Hz", "half the joint resonance")
+    add("C10.rotating", (high["turns"] == 1).mean(), "-", "high speeds with rotating contact")
     add("C10.once", (high["passed_once"] == 1).mean(), "-",
-        "high speeds at which every ball is loaded once in 2T")
+        "high speeds at which every ball is loaded without interruption, once in 2T")
     arcs = next(row for row in rows_of(GENERATED / "claims.tsv") if row[0] == "C8")[3]
     first, second = (float(number) for number in re.findall(r"[\d.]+", arcs)[:2])
     add("C8.arc_set_1", first, "degrees", "mean loaded arc of set 1 in Fig. 7f")
@@ -89,15 +97,18 @@ def regimes():
 
 
 def identification():
-    table = Table(KEPT / "identification.tsv")
-    for reading, name in ((0, "exchanged"), (1, "printed")):
-        add(f"identification.best_{name}", table.where("reading", reading)["score"].max(), "-",
-            f"best score of the {name} reading")
-        used = tomllib.loads(Path(f"data/set1{'' if reading == 0 else '-as-printed'}.toml").read_text())
-        rows = table.where("reading", reading)
-        off = (np.abs(rows["m_s"] / used["stator"]["mass_kg"] - 1) + np.abs(rows["m_r"] / used["rotor"]["mass_kg"] - 1)
-               + np.abs(rows["cage_speed_ratio"] - used["bearing"]["cage_speed_ratio"]))
-        add(f"identification.used_{name}", rows["score"][off.argmin()], "-", "score of the masses used, on the grid")
+    """The masses that the text admits, and what follows from those that are used."""
+    header = Table(KEPT / "identification.tsv").header
+    for name, folder, file in (("exchanged", GENERATED, "exchanged"), ("printed", GENERATED / "as-printed", "as-printed")):
+        found = re.search(rf"# accepted, {file}: m_s = (\S+) \.\.\. (\S+) kg; loss of contact at \S+ Hz: (\S+) kg", header)
+        for key, value in zip(("from", "to", "best"), found.groups()):
+            add(f"identification.{key}_{name}", float(value), "kg", "accepted mass of the stator, or the best guess")
+        used = Table(folder / "tab01_parameters.tsv")
+        for key, column, factor, unit in (("used", "m_s", 1, "kg"), ("e", "e", 1e3, "mm"), ("loss", "f_loss", 1, "Hz"),
+                                          ("again", "f_gravity", 1, "Hz")):
+            add(f"identification.{key}_{name}", factor * used.first(column), unit, f"{column} of the masses used")
+        curve = Table(folder / "fig03_response.tsv").where("set", 1).where("curve", 1)
+        add(f"identification.peak_{name}", 1e3 * curve["amp_x_r"].max(), "mm", "largest amp_x_r of set 1")
 
 
 def deviations():

@@ -28,14 +28,16 @@ def rows(path):
 def claims_section():
     """What the paper claims, what we find, and the verdict for each reading of Table 1."""
     exchanged, printed = (rows(path) for path in READINGS.values())
-    lines = [[row["id"], row["claim"], row["ours"], row["verdict"], other["verdict"]]
+    lines = [[row["id"], row["claim"], row["ours"], row["verdict"], row["range"], other["verdict"]]
              for row, other in zip(exchanged, printed)]
     head = "".join(f"<th>{name}</th>" for name in
-                   ("", "the paper says", "we find", "exchanged reading", "printed reading"))
+                   ("", "the paper says", "we find", "exchanged reading", "over the accepted machines", "printed reading"))
     body = "".join("<tr>" + "".join(f"<td>{html.escape(cell)}</td>" for cell in line) + "</tr>"
                    for line in lines)
     return ("## Claims\n\nEach claim of the paper, with what the tables say of it (exchanged reading) and "
-            "the verdict for both readings of Table 1. The rules were written down before the results.\n\n"
+            "the verdict for both readings of Table 1. The paper prints no masses: the column beside the verdict says for "
+            "which of the machines that its text admits the verdict holds, m_s being the stator's mass. The rules were "
+            "written down before the results.\n\n"
             f'```{{=html}}\n<table class="claims"><thead><tr>{head}</tr></thead><tbody>{body}</tbody></table>'
             "\n```")
 
