@@ -34,11 +34,11 @@ namespace {
 class Shootings {
 public:
   Shootings(const Parameters& parameters, const PeriodicMotion& solution,
-            const OperationBudget& budget)
+            OperationBudget budget)
       : parameters_(parameters), solution_(solution), start_(state_of(solution)),
         size_(
             largest_displacement(motion_of(solution.bodies, points * parameters.turns))),
-        budget_(budget)
+        budget_(std::move(budget))
   {
   }
 
@@ -61,10 +61,11 @@ public:
     return reason();
   }
 
-  /** From where Eq. 7 settles, if that has the same period. */
-  bool from(const Settled& settled, State& state)
+  /** From where Eq. 7 settles. */
+  bool from(const Settled& settled, const OperationBudget& budget, State& state)
   {
-    return settled.period == parameters_.turns && closes(settled.state, state);
+    budget_ = budget;
+    return closes(settled.state, state);
   }
 
   double evaluations() const { return evaluations_; }
@@ -74,10 +75,10 @@ private:
   {
     return std::isfinite(nearest_)
                ? format(
-                     "the T-periodic motion found from it is another one, at phase 0 "
+                     "the motion of its period found from it is another one, at phase 0 "
                      "%.2g of the largest displacement away",
                      nearest_)
-               : "no T-periodic motion was found from it: " + shooting_.reason;
+               : "no motion of its period was found from it: " + shooting_.reason;
   }
 
   bool closes(const State& start, State& state, double speed_weight = 5,
@@ -103,9 +104,11 @@ private:
     return away <= same_motion;
   }
 
-  /** Four times as many harmonics, or more where Newton finds none with so many; false at the end of them. */
+  /** Four times as many harmonics where Newton finds a solution with them, else as many as it finds one with; false
+      at the end of them. */
   bool raise(PeriodicMotion& solution)
   {
+    bool raised = false;
     int m = solution.harmonics.highest();
     const int most = most_harmonics * parameters_.turns;
     for (int doublings = 1; m < most && !budget_.used_up(); ++doublings) {
@@ -116,19 +119,19 @@ private:
           solve(balance, solution.omega, resize_harmonics(solution.x, 2, m));
       evaluations_ += static_cast<double>(more.force_samples);
       if (!more.found()) continue;
+      raised = true;
       solution = std::move(more);
-      if (doublings == 1 && m < most) continue;
-      solution.bodies = body_series(parameters_, solution);
-      return true;
+      if (doublings > 1) break;
     }
-    return false;
+    if (raised) solution.bodies = body_series(parameters_, solution);
+    return raised;
   }
 
   const Parameters& parameters_;
   const PeriodicMotion& solution_;
   State start_;
   double size_;  ///< the largest displacement of the solution [m]
-  const OperationBudget& budget_;
+  OperationBudget budget_;
   Shooting shooting_;
   double evaluations_ = 0;
   double nearest_ =
@@ -174,50 +177,85 @@ State disturbed(const Parameters& parameters, const State& state)
   return rotor_stator::state_of(vector_of(state) + 1e-6 * state_scales(parameters));
 }
 
+/** The motion that the machine settles on from there, which has the solution's period: if it is near the
+    solution too, the solution may stand for it. It does where no other was found, or where it is the nearer one. Where it
+    is less than three times as far away as the other, nothing is known. */
+void compare_with_settled(const Parameters& parameters, const PeriodicMotion& solution,
+                          const OperationBudget& budget, Shootings& shootings,
+                          Verdict& verdict)
+{
+  constexpr double much_farther = 3;
+  Verdict settled{.from_there = verdict.from_there, .evaluations = verdict.evaluations};
+  try {
+    if (!shootings.from(verdict.from_there, budget.part(0.5), settled.state)) return;
+    measure(parameters, solution, budget, settled);
+  } catch (const NoSolution&) {
+    return;
+  }
+  if (!verdict.found() || settled.distance_rms < verdict.distance_rms) {
+    verdict = settled;
+    return;
+  }
+  verdict.evaluations = settled.evaluations;
+  if (settled.distance_rms < much_farther * verdict.distance_rms &&
+      settled.floquet.stable())
+    verdict.reason = format(
+        "two motions are about as near, %.2g and %.2g rms about the mean, with the "
+        "largest multipliers %.4g and %.4g",
+        verdict.distance_rms, settled.distance_rms, verdict.floquet.largest(),
+        settled.floquet.largest());
+}
+
 /** The machine's multipliers, point after point of a branch. */
 struct Along {
-  static constexpr double least =
-      2e6;  ///< evaluations, for a motion that is easily found
+  struct Found {
+    double arc, omega;
+    State state;  ///< at phase 0
+  };
+
+  static constexpr double least = 2e6;  ///< evaluations where a motion is easily found
   const Parameters& parameters;
   OperationBudget budget;
-  double most;                                       ///< evaluations at one point
-  bool decided = true;                               ///< the last point
-  std::vector<std::pair<double, State>> found = {};  ///< speed [rad/s], state at phase 0
+  double most;               ///< evaluations at one point
+  bool motion_found = true;  ///< at the last point
+  std::vector<Found> found = {};
 
   Floquet operator()(const BranchPoint& point)
   {
     PeriodicMotion solution = point.motion;
     solution.bodies = body_series(parameters, solution);
     const double share =
-        (std::exchange(decided, false) ? most : std::max(least, most / 8)) /
+        (std::exchange(motion_found, false) ? most : std::max(least, most / 8)) /
         budget.left();
     const OperationBudget part = budget.part(std::min(1.0, share));
     Shootings shootings(parameters, solution, part);
     Verdict verdict;
-    verdict.reason = shootings.run(verdict.state, starts_near(solution.omega));
+    verdict.reason = shootings.run(verdict.state, starts_near(point));
     if (!verdict.found()) throw NoSolution(verdict.reason);
     add_multipliers(parameters, solution.omega, part, verdict);
-    found.emplace_back(solution.omega, verdict.state);
-    decided = true;
+    found.push_back({point.arc, solution.omega, verdict.state});
+    motion_found = true;
     return verdict.floquet;
   }
 
-  /** On the line through the two motions nearest in speed, and the nearest one, if it is within 1 % of the
-      joint resonance. */
-  std::vector<State> starts_near(double omega) const
+  /** On the line through the two motions nearest along the branch, and the nearest one, of those whose speed differs by
+      at most 1 % of the joint resonance. */
+  std::vector<State> starts_near(const BranchPoint& point) const
   {
     auto near = found;
-    const auto away = [=](const auto& motion) { return std::abs(motion.first - omega); };
     const double reach = 0.01 * joint_resonance(parameters) / parameters.turns;
-    std::erase_if(near, [=](const auto& motion) { return away(motion) > reach; });
-    std::ranges::sort(near, {}, away);
+    std::erase_if(near, [&](const Found& motion) {
+      return std::abs(motion.omega - point.motion.omega) > reach;
+    });
+    std::ranges::sort(
+        near, {}, [&](const Found& motion) { return std::abs(motion.arc - point.arc); });
     std::vector<State> starts;
-    if (near.size() > 1 && near[0].first != near[1].first) {
-      const double r = (omega - near[0].first) / (near[1].first - near[0].first);
-      starts.push_back(rotor_stator::state_of((1 - r) * vector_of(near[0].second) +
-                                              r * vector_of(near[1].second)));
+    if (near.size() > 1 && near[0].arc != near[1].arc) {
+      const double r = (point.arc - near[0].arc) / (near[1].arc - near[0].arc);
+      starts.push_back(rotor_stator::state_of((1 - r) * vector_of(near[0].state) +
+                                              r * vector_of(near[1].state)));
     }
-    if (!near.empty()) starts.push_back(near[0].second);
+    if (!near.empty()) starts.push_back(near[0].state);
     return starts;
   }
 };
@@ -245,31 +283,26 @@ Verdict verdict_on(const Parameters& parameters, const PeriodicMotion& solution,
     verdict.reason = "the period of rotation is too long to be integrated";
     return verdict;
   }
-  /** The other half is for the integration from there. */
-  const OperationBudget half = budget.part(0.5);
-  Shootings shootings(longer, solution, half);
-  const auto integrate = [&](const State& from, const State* away_from) {
-    verdict.from_there = settle(parameters, turns * solution.omega,
-                                disturbed(parameters, from), budget, away_from);
-  };
+  /** The rest is for the integration from there, and for the multipliers. */
+  Shootings shootings(longer, solution, budget.part(0.5));
   try {
     verdict.reason = shootings.run(verdict.state);
     if (verdict.found()) measure(longer, solution, budget, verdict);
   } catch (const NoSolution& error) {
     verdict.reason = error.what();
   }
-  try {
-    if (!verdict.found()) {
-      integrate(state_of(solution), nullptr);
-      if (shootings.from(verdict.from_there, verdict.state)) {
-        verdict.reason.clear();
-        measure(longer, solution, budget, verdict);
-      }
-    } else if (!verdict.floquet.stable()) {
-      integrate(verdict.state, verdict.floquet.unstable() ? &verdict.state : nullptr);
+  if (!verdict.floquet.stable()) {
+    try {
+      const bool leaves = verdict.found() && verdict.floquet.unstable();
+      const State from = verdict.found() ? verdict.state : state_of(solution);
+      verdict.from_there =
+          settle(parameters, turns * solution.omega, disturbed(parameters, from), budget,
+                 leaves ? &verdict.state : nullptr);
+    } catch (const NoSolution& error) {
+      verdict.lost = error.what();
     }
-  } catch (const NoSolution& error) {
-    verdict.lost = error.what();
+    if (verdict.from_there.period == turns)
+      compare_with_settled(longer, solution, budget, shootings, verdict);
   }
   verdict.evaluations += shootings.evaluations();
   return verdict;
