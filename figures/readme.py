@@ -46,7 +46,7 @@ neither masses nor cage: {{claims.changing:.0f}} of these verdicts change within
 **Resonance.** Rotor peak: {{peak.mm_set_1:.1f}} mm at {{peak.f_set_1:.1f}} Hz (set 1),
 {{peak.mm_set_2:.1f}} mm at {{peak.f_set_2:.1f}} Hz (set 2). Paper: about {{paper.peak:.0f}} Hz.
 
-**Contact.** At times no ball carries a load, at speeds of {{loss.first_set_1:.1f}}-{{loss.last_set_1:.1f}} Hz
+**Contact.** Rotor and stator lose contact during part of the motion at {{loss.first_set_1:.1f}}-{{loss.last_set_1:.1f}} Hz
 (set 1) and {{loss.first_set_2:.1f}}-{{loss.last_set_2:.1f}} Hz (set 2).
 
 **Period.** The motion that time integration reaches from rest repeats with every turn at {{periodic_1:.0%}} of the

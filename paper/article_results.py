@@ -166,6 +166,7 @@ def judged(add):
         "largest number of harmonics of Hill's method")
     add("verdicts.solutions", len(found), "-", "solutions judged")
     add("verdicts.decided", (found["machine_stable"] >= 0).mean(), "-", "share with a verdict on the machine")
+    add("verdicts.alone", (found["machine"] < 0).sum(), "-", "solutions without a motion of the machine near them")
     add("verdicts.median", np.median(found["evaluations"]), "-", "evaluations of the force for a verdict")
     add("verdicts.most", found["evaluations"].max(), "-", "the most of them")
 

@@ -9,16 +9,16 @@ The paper says that 6 harmonics suffice for the small clearance and that the lar
 Here a solution is compared with what the machine does: the root mean square of its difference from the nearest
 attractor's motion, both about their means, over that of the motion. The means are left out because the static sag
 of the suspension is much larger than the vibration at low speeds, and would hide any error of it. Each speed and each
-number of harmonics up to 16 is solved from many starts, and the nearest solution counts.
+number of harmonics up to 16 is solved from several starts, the known attractors among them; the solution nearest to an
+attractor counts, so that the errors are those of the best solution found.
 
 The first figure keeps the worst speed: the error against the number of harmonics, of displacement and of force. It
 falls in steps, at 8 and at 16 harmonics: 8 balls pass a fixed direction in a turn, so that the bearing excites harmonics 8,
-16, and so on, which fewer harmonics cannot follow. A
-curve that stays up may do so for another reason, and the dashed one tells them apart: it uses only the
-speeds with a T-periodic attractor. The bars below count the speeds without any solution.
+16, and so on, which fewer harmonics cannot follow. The
+worst error can also stay large because no attractor has the period T; the dashed curve leaves those speeds out. The bars below count the speeds without any solution.
 
 The second figure shows the same against speed; grey marks speeds at which no attractor has the period of
-rotation, where a periodic solution may exist, and be exact, and still be nothing that the machine does. There
+rotation, where a periodic solution can be exact but unstable, and the machine does not follow it. There
 more harmonics do not help.
 
 Points are full where the machine is stable: where shooting finds a motion of Eq. 7 from the solution, with all

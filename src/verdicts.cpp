@@ -5,21 +5,22 @@ Paper: §3.3, where six or ten harmonics are said to suffice; stability is not m
 
     make verdicts
 
-A solution of harmonic balance satisfies equations that were cut at m harmonics. Its Floquet multipliers, the
-factors by which small disturbances change over a period, can be had along the series itself: by
-integrating disturbances along it, or by Hill's method, which asks the same question harmonic by harmonic. Both are
-accurate about the series. Are they right about the machine?
+A solution of harmonic balance satisfies equations that are truncated at m harmonics. Its Floquet multipliers, the
+factors by which small disturbances change over a period, can be computed for the truncated series: by
+integrating disturbances along it, or by Hill's method, which expands the disturbances in harmonics. This study
+counts how often they agree with the machine.
 
-Here each is compared with the multipliers of a motion of Eq. 7 itself, with nothing truncated, which shooting finds
-from the solution. A bar counts the solutions for which that motion was found and decides. "False stable" means
-that the method calls stable what the machine leaves, "false unstable" the opposite. The displacements of these
-solutions are often right to a per cent: the contact's stiffness, on which the multipliers hang, converges more
-slowly than the displacement by two orders of m, because it jumps like the square root of the penetration where a
-ball meets its race.
+The machine's multipliers are those of a motion of Eq. 7 itself, with nothing truncated, which shooting finds
+from the solution. Each bar covers the solutions for which that motion was found and its stability decided. "False
+stable": the method says stable, the machine's motion is unstable. "False unstable": the reverse. The displacements of
+these solutions are often right to a per cent. The multipliers depend on the stiffness of the contact, which grows as
+the square root of the penetration, with infinite slope where contact begins; its series converges more slowly than
+that of the displacements.
 
 The product of all multipliers is known exactly (Liouville's formula) and checks the integration along the series, not
-the series. Hill's method with as many harmonics as the solution also misses the fastest vibration of the contact, and
-its choice among the computed exponents can go wrong.
+the series. Hill's method takes as many harmonics as the solution, at most 32. So few do not hold the fastest
+vibration of the contact, and the method can choose wrong ones among the exponents that it computes. It gives no
+uncertainty, so its verdict is never "undecided".
 
 Speeds avoid the half hertz on which other studies stand. Modelled: harmonic balance, shooting, disturbances along
 the series and Hill's method. Finished solutions are kept in a journal. */

@@ -88,7 +88,7 @@ struct Hunt {
       const std::complex<double> mu = values[i];
       const double angle = std::arg(mu) * order / (2 * std::numbers::pi);
       const int root = static_cast<int>(std::lround(angle));
-      /** Of a pair one is enough; what decays or turns otherwise leads to no such motion. */
+      /** Of a pair one is enough. */
       if (mu.imag() < 0 || std::abs(mu) < 0.5 || std::abs(angle - root) > 0.25 ||
           std::gcd(root, order) != 1)
         continue;
@@ -102,7 +102,8 @@ struct Hunt {
   }
 };
 
-/** The motion of period T that shooting finds from harmonic balance, and what the machine does beside it. */
+/** The motion of period T that shooting finds from harmonic balance, and where the machine settles if it is not
+    stable. */
 std::optional<Verdict> motion_of_one_turn(const Search& search)
 {
   const PeriodicMotion solution = search_periodic(search);

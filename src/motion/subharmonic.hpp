@@ -6,10 +6,10 @@ base period KT such a motion has the orders 0, 1/K, 2/K, … of the speed, and t
 stands for the machine that turns K times per period (`over_turns`).
 
 Newton needs a start that is not the motion of period T, which solves those equations too. It comes from Eq. 7:
-from where integration settles, if that has the period KT, and from the motions of shorter periods dT: where a
-multiplier of theirs is near a primitive root of unity of order K/d, motions of period KT lie along its eigenvector
-(at -1 the period doubling, Kuznetsov 2004, section 4.4). Shooting over K turns closes each, and what closes after fewer turns is
-not counted. */
+from where integration settles, if that has the period KT, and from the motions of shorter periods dT: if the
+argument of a multiplier of theirs is near that of a primitive root of unity of order K/d, a motion of period KT may lie
+along its eigenvector (at -1 the period doubling, Kuznetsov 2004, section 4.4). Shooting over K turns starts at several
+distances there. What closes after fewer turns is not counted. */
 #pragma once
 
 #include <optional>
@@ -22,8 +22,8 @@ namespace rotor_stator::motion {
     on one motion count as one. Empty when none was found. */
 std::vector<State> subharmonic_states(const Search& search, int turns);
 
-/** The solution of harmonic balance with the orders h/K up to m = `search.harmonics` near the first of these states
-    that has one: its ω is a K-th of the speed. Its error is the distance from the motion through that state, over the
+/** The solution of harmonic balance with the orders h/K up to m = `search.harmonics` that Newton finds from the first of
+    these states that leads to one: its ω is a K-th of the speed. Its error is the distance from the motion through that state, over the
     largest displacement or rms about the mean, whichever is larger; with a `tolerance` m is doubled until it is below. Throws
     NoSolution when there is none. */
 PeriodicMotion find_subharmonic(const Search& search, int turns,

@@ -5,16 +5,17 @@ Few harmonics give displacements that look right and multipliers that are wrong:
 series of six harmonics is stable, the machine is not. A verdict therefore speaks of a motion of Eq. 7
 itself, with nothing truncated. Shooting, begun at the solution's state, closes a T-periodic motion. Where it
 fails, the same solution is given more harmonics and shooting begins again; then Eq. 7 is integrated from the
-solution, and shooting begins where that settles. At phase 0, where shooting begins, the motion must lie within 5 %
-of the largest displacement of the solution, otherwise it is another one. Over the period it may be further away:
-six harmonics cannot follow the passing balls, which are harmonic n ω_cage/ω. The distance is printed beside
-the verdict.
+solution, and shooting begins where that settles. The motion counts as the solution's own if at phase 0, where
+shooting begins, its displacements differ by at most 5 % of the largest displacement, static sag included.
+Where the sag is much larger than the vibration, below about 5 Hz here, this excludes little, and few harmonics cannot
+follow the passing balls, which are harmonic n ω_cage/ω. The rms distance about the mean is therefore printed
+beside the verdict, and where the machine settles on another motion that counts, the nearer one is judged.
 
 Its multipliers are the eigenvalues of the period map's derivative. They are computed twice: at the state found,
 and one period later with a local error a hundred times smaller. The two maps differ by the error of the
 steps, by the contacts that these steps straddle, and by what the shooting left open, so that the largest change
-of a multiplier is the uncertainty of all three together. `stable` means that all multipliers are inside the
-unit circle by more than it, `unstable` that one is outside by more; everything else is `undecided`. */
+of a multiplier is taken as the uncertainty of all three together. `stable` means that all multipliers are inside the
+unit circle by more than it, `unstable` that one is outside by more; everything else is `undecided`, also a multiplier known to no tenth. */
 #pragma once
 
 #include "motion/attractor.hpp"
@@ -52,8 +53,9 @@ Verdict verdict_on(const Parameters& parameters, const PeriodicMotion& solution,
 
 /** The multipliers behind the verdicts along a branch, and the machine's bifurcations: at points no further apart than
     0.4 % of the joint resonance, since they change over less speed than the curve of few harmonics does. Shooting begins
-    where the line through the two motions found nearest in speed leads. A point may cost a twenty-fifth of
-    `budget`, and after one that could not be decided an eighth of that: beside it there are often more. */
+    with the linear extrapolation of the two motions nearest along the branch. A point may cost 4 % of `budget`, at
+    least 2e6 and at most 8e7 evaluations; after a point without a motion an eighth of that, but at least 2e6,
+    because the next point often has none either. */
 BranchStability machine_stability(const Parameters& parameters, Balance& balance,
                                   const Branch& branch,
                                   const ArcLengthSettings& arc_length,

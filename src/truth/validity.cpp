@@ -26,7 +26,8 @@ struct Rms {
   }
   double variance() const
   {
-    return squares / count - (sum.x * sum.x + sum.y * sum.y) / (count * count);
+    return std::max(0.0,
+                    squares / count - (sum.x * sum.x + sum.y * sum.y) / (count * count));
   }
 };
 
@@ -225,7 +226,7 @@ const std::vector<Field<Point>> fields{
      &Point::adaptive},
     {"m", "-", "harmonics; 0 for an adaptive solution that was not found",
      &Point::harmonics},
-    {"found", "-", "1 if a solution was found, from many starts", &Point::found},
+    {"found", "-", "1 if a solution was found, from several starts", &Point::found},
     {"distance", "-",
      "rms about the mean of the displacements' difference to the nearest attractor's motion, over that motion's rms about its mean; -1",
      [](auto& p) { return p.distance.displacement; }},

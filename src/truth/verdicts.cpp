@@ -1,5 +1,6 @@
 #include "truth/verdicts.hpp"
 
+#include <algorithm>
 #include <cmath>
 
 #include "io/errors.hpp"
@@ -57,11 +58,14 @@ VerdictPoint judged(const VerdictScene& scene, VerdictPoint point, int hill_harm
     point.liouville = series.liouville;
   } catch (const NoSolution&) {
   }
-  const double hill = std::abs(
-      hill_multipliers(vibration_of(machine), stiffness_along(machine, solution),
-                       1 / point.frequency, hill_harmonics, HillChoice::least_imaginary)
-          .front());
-  point.hill = {hill, -1, hill < 1};
+  try {
+    const double hill = std::abs(
+        hill_multipliers(vibration_of(machine), stiffness_along(machine, solution),
+                         1 / point.frequency, hill_harmonics, HillChoice::least_imaginary)
+            .front());
+    point.hill = {hill, -1, hill < 1};
+  } catch (const NoSolution&) {
+  }
   return point;
 }
 
@@ -105,8 +109,8 @@ Table verdict_table(const VerdictScene& scene,
   for (const Parameters& machine : scene.sets) describe(table, machine);
   table.note(format(
       "modelled: harmonic balance; shooting with at most %g evaluations; disturbances "
-      "along the series; Hill's method with its m harmonics, at most %d",
-      scene.most_evaluations, scene.hill_harmonics.back()));
+      "along the series; Hill's method with m harmonics, at most %d",
+      scene.most_evaluations, std::ranges::max(scene.hill_harmonics)));
   for (const auto& piece : points)
     for (const Point& point : piece) table.row(fields, point);
   return table;
