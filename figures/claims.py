@@ -93,8 +93,8 @@ class Evidence:
         words = (f"{named(harmonics(errors))} for the displacements, {named(harmonics(force))} for the force; "
                  f"m = {paper}: error above 10 % at {wrong.size} of {speeds.size} T-periodic speeds"
                  f"{' (' + listed(wrong) + ' Hz)' if 0 < wrong.size <= 8 else ''}, largest {percent(errors[paper])}, "
-                 f"force {percent(force[paper])}; the passing balls are harmonic {passage}: at {speeds[slowest]:g} Hz the "
-                 f"error is {percent(errors[passage - 1][[slowest]])} with {passage - 1} and "
+                 f"force {percent(force[paper])}; the passing balls are harmonic {passage}: at "
+                 f"{speeds[slowest]:g} Hz the error is {percent(errors[passage - 1][[slowest]])} with {passage - 1} and "
                  f"{percent(errors[passage][[slowest]])} with {passage}")
         return harmonics(errors), words
 
@@ -109,15 +109,17 @@ class Evidence:
         value = low_permanent(self.regimes(), f_loss)
         rows = low(self.regimes())
         return value, (f"in contact {100 * rows['contact'].mean():.4g} % of the time, and always at "
-                       f"{100 * share(rows['contact'] == 1):.0f} % of the low speeds; closed form of the loss: {f_loss:.2f} Hz")
+                       f"{100 * share(rows['contact'] == 1):.0f} % of the low speeds; closed form of the loss: "
+                       f"{f_loss:.2f} Hz")
 
     def middle_complex(self):
         rows = self.regimes()
         value, lost = middle_complex(rows), losing(rows)
         if lost.size == 0:
             return value, "contact is never lost"
-        words = (f"contact lost at {lost.size} speeds from {lost[0]:g} to {lost[-1]:g} Hz, {100 * lost_inside(rows):.0f} % of "
-                 f"that time in the middle range; closed form {self.landmark('f_loss'):.2f} Hz; higher harmonics "
+        words = (f"contact lost at {lost.size} speeds from {lost[0]:g} to {lost[-1]:g} Hz, "
+                 f"{100 * lost_inside(rows):.0f} % of that time in the middle range; closed form "
+                 f"{self.landmark('f_loss'):.2f} Hz; higher harmonics "
                  f"{100 * middle(rows)['higher_harmonics'].mean():.2g} % in the mean of that range")
         joint = self.landmark("f_joint")
         peaks = [(k, strongest(rows, k, joint / k)) for k in (5, 4, 3, 2)]
@@ -176,17 +178,17 @@ class Evidence:
         aft, rk4 = self.pairs()
         least = (rk4["cpu_min_s"] / aft["cpu_max_s"]).min()
         most = (rk4["cpu_max_s"] / aft["cpu_min_s"]).min()
-        found = sorted({verdict(claim, value) for value in (least, most)}, key=("not reproduced", "partly", "reproduced").index)
+        found = dict.fromkeys(verdict(claim, value) for value in (least, most))
         return f"{least:.4g}", f"{most:.4g}", f"{' to '.join(found)} over the repetitions of the timing"
 
     def passes_of_contact(self):
         rows = high(self.regimes())
         rotating = rows.where("turns", 1)
-        return passes(self.regimes(), self.landmark("cage_speed_ratio")), (
-            f"{passes(self.regimes(), self.landmark('cage_speed_ratio')):.3g} in two periods, at the {100 * len(rotating) / len(rows):.0f} % "
-            f"of the high speeds with rotating contact; a passage is split by short losses at "
-            f"{100 * share(rotating['passed_once'] == 0):.0f} % of these, into {rotating['passages'].mean():.2f} loadings "
-            f"per ball in the mean of all")
+        value = passes(rows, self.landmark("cage_speed_ratio"))
+        return value, (f"{value:.3g} in two periods, at the {100 * len(rotating) / len(rows):.0f} % of the high "
+                       f"speeds with rotating contact; short losses split a passage at "
+                       f"{100 * share(rotating['passed_once'] == 0):.0f} % of these, into "
+                       f"{rotating['passages'].mean():.2f} loadings per ball in the mean of all")
 
     def study_ratio(self):
         aft, rk4 = (rows.where("harmonics", 6) for rows in self.pairs())
@@ -194,8 +196,8 @@ class Evidence:
         points, speeds = study["delta"].size, int(re.search(r"(\d+) speeds", study.header)[1])
         solved = 1 - study["missed"].sum() / (points * speeds)
         ratio = rk4.first("evaluations") / aft.first("evaluations")
-        return ratio * solved, (f"{ratio * solved:.1f} times: {ratio:.1f} times the evaluations for a sweep, and the balance "
-                                f"solves {100 * solved:.0f} % of the speeds of a study of {points} machines")
+        return ratio * solved, (f"{ratio * solved:.1f} times: {ratio:.1f} times the evaluations for a sweep, and the "
+                                f"balance solves {100 * solved:.0f} % of the speeds of a study of {points} machines")
 
     def not_tested(self):
         return None, "not tested"

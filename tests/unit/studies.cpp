@@ -46,8 +46,8 @@ TEST_CASE("Of 16 balls that do not overlap, two cages have the period of rotatio
   CHECK(accepted_cages(3) == std::vector<double>{1.0 / 3});
 }
 
-/** The closed form knows nothing of clearance and Hertz's law. The narrower the clearance, the narrower is the band around
-    it in which integration loses contact; below it gravity holds the force, above it the force turns with the rotor.
+/** The closed form knows nothing of clearance and Hertz's law. The narrower the clearance, the narrower is the
+    band around it in which integration loses contact; below it gravity holds the force, above it the force turns with the rotor.
     Would catch a wrong ratio of the joint's forces: 3 % in speed is 7 % in the unbalance. */
 TEST_CASE(
     "Contact is lost at the speed of the closed form, in a band that closes with the "
