@@ -90,8 +90,9 @@ class Evidence:
         wrong = speeds[errors[paper] > LIMITS["accurate"]]
         passage = round(self.landmark("n", number) * self.landmark("cage_speed_ratio", number))
         slowest = int(np.argmin(speeds))
+        every = np.unique(self.table("validity").where("set", number)["f"]).size
         words = (f"{named(harmonics(errors))} for the displacements, {named(harmonics(force))} for the force; "
-                 f"m = {paper}: error above 10 % at {wrong.size} of {speeds.size} T-periodic speeds"
+                 f"m = {paper}: error above 10 % at {wrong.size} of {speeds.size} T-periodic speeds of {every}"
                  f"{' (' + listed(wrong) + ' Hz)' if 0 < wrong.size <= 8 else ''}, largest {percent(errors[paper])}, "
                  f"force {percent(force[paper])}; the passing balls are harmonic {passage}: at "
                  f"{speeds[slowest]:g} Hz the error is {percent(errors[passage - 1][[slowest]])} with {passage - 1} and "
