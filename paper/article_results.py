@@ -143,6 +143,18 @@ def stability(add):
                      f"{rows['f'][0]:.3g} to {rows['f'][-1]:.3g} Hz: of {examined} points examined "
                      f"{decided.sum()} have a verdict, {100 * unstable:.2g} % of them unstable; {', '.join(kinds)}.")
     add("stability.list", r"\n".join(lines), "-", "stability along the followed branches")
+    one = table.where("set", 1)
+    one = one.rows((one["bifurcation"] != "-") & (one["bifurcation"] != "fold"))
+    few, more = (one.where("harmonics", m) for m in np.unique(one["harmonics"])[:2])
+    same = [np.abs(more["f"][more["bifurcation"] == kind] / f - 1).min(initial=1)
+            for f, kind in zip(few["f"], few["bifurcation"])]
+    add("stability.count", len(few), "-", "bifurcations of set 1 along the branch with fewest harmonics")
+    add("stability.same", sum(off < 1e-6 for off in same), "-", "of them at the same speed along the next one")
+    others = [f for f, off in zip(few["f"], same) if off >= 1e-6]
+    add("stability.first", min(others, default=0), "Hz", "the first of the others")
+    add("stability.last", max(others, default=0), "Hz", "the last of them")
+    add("stability.fewer", few.first("harmonics"), "-", "harmonics of that branch")
+    add("stability.more", more.first("harmonics"), "-", "harmonics of the next one")
 
 
 def judged(add):

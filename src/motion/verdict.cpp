@@ -18,7 +18,7 @@ namespace rotor_stator::motion {
 
 namespace {
 
-constexpr double local_error = 1e-11, finer = 1e-13, nearly_closed = 1e-7;
+constexpr double local_error = 1e-11, finer = 1e-13, nearly_closed = 1e-8;
 constexpr int most_harmonics = 192, points = 256;  // of each turn
 
 }  // namespace
@@ -48,16 +48,20 @@ public:
   std::string run(State& state, std::vector<State> starts = {})
   {
     starts.push_back(start_);
-    for (const State& start : starts)
-      if (closes(start, state)) return {};
-    PeriodicMotion more = solution_;
-    while (raise(more)) {
-      starts.push_back(state_of(more));
-      if (closes(starts.back(), state)) return {};
-    }
-    for (bool quasi_newton : {false, true})
+    for (double speed_weight : {5, 20, 1})
       for (const State& start : starts)
-        if (closes(start, state, 1, quasi_newton)) return {};
+        if (closes(start, state, speed_weight)) return {};
+    std::vector<State> raised;
+    for (PeriodicMotion more = solution_; raise(more);) {
+      raised.push_back(state_of(more));
+      if (closes(raised.back(), state, 5)) return {};
+    }
+    for (double speed_weight : {20, 1})
+      for (const State& start : raised)
+        if (closes(start, state, speed_weight)) return {};
+    starts.insert(starts.end(), raised.begin(), raised.end());
+    for (const State& start : starts)
+      if (closes(start, state, 1, true)) return {};
     return reason();
   }
 
@@ -65,10 +69,13 @@ public:
   bool from(const Settled& settled, const OperationBudget& budget, State& state)
   {
     budget_ = budget;
-    return closes(settled.state, state);
+    return closes(settled.state, state, 5);
   }
 
   double evaluations() const { return evaluations_; }
+
+  /** Whether the first iteration, from the solution itself, closed the motion: then no other is as near to it. */
+  bool found_at_once() const { return iterations_ == 1 && shooting_.converged; }
 
 private:
   std::string reason() const
@@ -81,10 +88,11 @@ private:
                : "no motion of its period was found from it: " + shooting_.reason;
   }
 
-  bool closes(const State& start, State& state, double speed_weight = 5,
+  bool closes(const State& start, State& state, double speed_weight,
               bool quasi_newton = false)
   {
     state = start;
+    ++iterations_;
     shooting_ = shoot(parameters_, solution_.omega, state,
                       {.tolerance = local_error,
                        .periodicity_residual = 1e-9,
@@ -133,6 +141,7 @@ private:
   double size_;  ///< the largest displacement of the solution [m]
   OperationBudget budget_;
   Shooting shooting_;
+  int iterations_ = 0;
   double evaluations_ = 0;
   double nearest_ =
       std::numeric_limits<double>::infinity();  ///< motion found, at phase 0
@@ -178,13 +187,11 @@ State disturbed(const Parameters& parameters, const State& state)
 }
 
 /** The motion that the machine settles on from there, which has the solution's period: if it is near the
-    solution too, the solution may stand for it. It does where no other was found, or where it is the nearer one. Where it
-    is less than three times as far away as the other, nothing is known. */
+    solution too, and shooting found no other or one that is further away, the solution stands for it. */
 void compare_with_settled(const Parameters& parameters, const PeriodicMotion& solution,
                           const OperationBudget& budget, Shootings& shootings,
                           Verdict& verdict)
 {
-  constexpr double much_farther = 3;
   Verdict settled{.from_there = verdict.from_there, .evaluations = verdict.evaluations};
   try {
     if (!shootings.from(verdict.from_there, budget.part(0.5), settled.state)) return;
@@ -192,18 +199,7 @@ void compare_with_settled(const Parameters& parameters, const PeriodicMotion& so
   } catch (const NoSolution&) {
     return;
   }
-  if (!verdict.found() || settled.distance_rms < verdict.distance_rms) {
-    verdict = settled;
-    return;
-  }
-  verdict.evaluations = settled.evaluations;
-  if (settled.distance_rms < much_farther * verdict.distance_rms &&
-      settled.floquet.stable())
-    verdict.reason = format(
-        "two motions are about as near, %.2g and %.2g rms about the mean, with the "
-        "largest multipliers %.4g and %.4g",
-        verdict.distance_rms, settled.distance_rms, verdict.floquet.largest(),
-        settled.floquet.largest());
+  if (!verdict.found() || settled.distance_rms < verdict.distance_rms) verdict = settled;
 }
 
 /** The machine's multipliers, point after point of a branch. */
@@ -301,7 +297,7 @@ Verdict verdict_on(const Parameters& parameters, const PeriodicMotion& solution,
     } catch (const NoSolution& error) {
       verdict.lost = error.what();
     }
-    if (verdict.from_there.period == turns)
+    if (verdict.from_there.period == turns && !shootings.found_at_once())
       compare_with_settled(longer, solution, budget, shootings, verdict);
   }
   verdict.evaluations += shootings.evaluations();

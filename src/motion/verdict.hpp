@@ -9,7 +9,8 @@ solution, and shooting begins where that settles. The motion counts as the solut
 shooting begins, its displacements differ by at most 5 % of the largest displacement, static sag included.
 Where the sag is much larger than the vibration, below about 5 Hz here, this excludes little, and few harmonics cannot
 follow the passing balls, which are harmonic n ω_cage/ω. The rms distance about the mean is therefore printed
-beside the verdict, and where the machine settles on another motion that counts, the nearer one is judged.
+beside the verdict. Where only a later start closed a motion and the machine settles on another one that counts too, the
+nearer one is judged.
 
 Its multipliers are the eigenvalues of the period map's derivative. They are computed twice: at the state found,
 and one period later with a local error a hundred times smaller. The two maps differ by the error of the
