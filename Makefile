@@ -157,7 +157,7 @@ figures/generated/%.svg: figures/$$(*F).py figures/rotor_stator.mplstyle figures
 # What else some of them read.
 figures/generated/identification.svg: figures/claim_quantities.py figures/claim_ranges.py
 figures/generated/identification.svg figures/generated/clearance_stiffness.svg: data/set1.toml data/set2.toml data/set1-as-printed.toml
-figures/generated/stability.svg figures/generated/as-printed/stability.svg: data/reference/attractors.tsv data/reference/as-printed/attractors.tsv
+figures/generated/stability.svg: data/reference/attractors.tsv
 figures/generated/work_precision.svg figures/generated/peers.svg: data/reference/peers.tsv data/reference/peers_auto.tsv data/generated/fig03_response.tsv
 
 png: $(patsubst %.svg,%.png,$(figures) $(figures_printed))  ## the figures as PNG, for viewing
