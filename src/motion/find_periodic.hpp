@@ -28,8 +28,8 @@ struct Search {
   OperationBudget budget = {};
 };
 
-/** Looks for the periodic motion, and for the series of both bodies. Newton starts from quasi-static contact, then from a solution with fewer harmonics, then
-    from `further` ones, then from one period of time integration; the first that converges is kept.
+/** Looks for the periodic motion, and for the series of both bodies. Newton starts from quasi-static contact,
+    then from a solution with fewer harmonics, then from `further` ones, then from one period of time integration; the first that converges is kept.
     Not found means that none of these found one. Throws NoSolution when the budget is used up. */
 PeriodicMotion find_periodic(const Search& search,
                              const std::vector<Start>& further = {});

@@ -193,7 +193,8 @@ TEST_CASE("Coexisting motions at 25 and 25.25 Hz are two attractors, whatever th
   }
 }
 
-TEST_CASE("The distance of a motion to itself is zero, to rest one, and blind to the mean")
+TEST_CASE(
+    "The distance of a motion to itself is zero, to rest one, and blind to the mean")
 {
   const Parameters parameters = set_1();
   Motion motion{8, 0, {}}, rest{8, 0, std::vector<Bodies>(8)};
