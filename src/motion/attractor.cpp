@@ -12,9 +12,6 @@
 
 namespace rotor_stator::motion {
 
-namespace {
-
-/** The largest difference of two states, over the sizes of their components. */
 double apart(const Parameters& parameters, const State& a, const State& b)
 {
   return (vector_of(a) - vector_of(b))
@@ -22,8 +19,6 @@ double apart(const Parameters& parameters, const State& a, const State& b)
       .cwiseAbs()
       .maxCoeff();
 }
-
-}  // namespace
 
 std::string Settled::regime() const
 {
@@ -232,12 +227,11 @@ Exponent closed_exponent(const Attractor& attractor, const Parameters& machine,
                                    .budget = budget});
   if (!shooting.converged || apart(machine, state, attractor.state) > near)
     throw NoSolution("shooting did not close the motion: " + shooting.reason);
-  const auto multiplier = [&](double error) {
-    const PeriodMap map = period_map(turned, omega, state, error, "rk8pd", budget);
-    state = map.end;
+  const auto maps = period_map_twice(turned, omega, state, local_error, finer, budget);
+  const auto largest = [](const PeriodMap& map) {
     return std::abs(multipliers_of(map.derivative).front());
   };
-  const double first = multiplier(local_error), second = multiplier(finer);
+  const double first = largest(maps.first), second = largest(maps.finer);
   const double change = std::abs(second - first);
   if (!(second > 10 * (change + std::numeric_limits<double>::epsilon())))
     throw NoSolution(format("the multiplier %g is known to %g only", second, change));

@@ -13,6 +13,9 @@ there is enough to judge by. Verdicts, the study of the attractors and `explore 
 
 namespace rotor_stator::motion {
 
+/** The largest difference of two states, over the sizes of their components [-]. */
+double apart(const Parameters& parameters, const State& a, const State& b);
+
 /** What Eq. 7 makes of a state, period after period. */
 struct Settled {
   int period = 0;  ///< K where the section closes after K periods; 0 where it does not

@@ -19,12 +19,6 @@ namespace {
 
 constexpr double local_error = 1e-11, other = 1e-5;
 
-/** States over the sizes of their components. */
-Vector8 scaled(const Parameters& parameters, const State& state)
-{
-  return vector_of(state).cwiseQuotient(state_scales(parameters));
-}
-
 /** Looks for motions of period KT at one speed. */
 struct Hunt {
   const Parameters& parameters;
@@ -33,17 +27,17 @@ struct Hunt {
   OperationBudget budget;
   std::vector<State> found = {};
 
-  /** Where state `start` is after 1, 2, … K turns, over the sizes. */
-  std::vector<Vector8> section(const State& start) const
+  /** Where state `start` is after 1, 2, … K turns. */
+  std::vector<State> section(const State& start) const
   {
     const TimeStepper stepper = make_stepper(
         parameters, omega,
         {.intervals_per_period = 1, .tolerance = local_error, .budget = budget});
-    std::vector<Vector8> points;
+    std::vector<State> points;
     State state = start;
     for (int k = 0; k < turns; ++k) {
       stepper.advance(k, state);
-      points.push_back(scaled(parameters, state));
+      points.push_back(state);
     }
     return points;
   }
@@ -62,10 +56,7 @@ struct Hunt {
     if (!shooting.converged) return;
     const auto points = section(start);
     const auto far_from = [&](const State& state) {
-      const Vector8 at = scaled(parameters, state);
-      return [at](const Vector8& point) {
-        return (point - at).cwiseAbs().maxCoeff() > other;
-      };
+      return [&](const State& point) { return apart(parameters, point, state) > other; };
     };
     const auto shorter = points.end() - 1;
     if (!std::all_of(points.begin(), shorter, far_from(start))) return;
@@ -102,15 +93,6 @@ struct Hunt {
   }
 };
 
-/** The motion of period T that shooting finds from harmonic balance, and where the machine settles if it is not
-    stable. */
-std::optional<Verdict> motion_of_one_turn(const Search& search)
-{
-  const PeriodicMotion solution = search_periodic(search);
-  if (!solution.found()) return {};
-  return verdict_on(search.parameters, solution, search.budget.part(0.5));
-}
-
 /** Whether only every p-th harmonic is there, for a prime p that divides K: then the period is shorter. */
 bool repeats_sooner(const PeriodicMotion& motion, int turns)
 {
@@ -130,29 +112,46 @@ bool repeats_sooner(const PeriodicMotion& motion, int turns)
   return false;
 }
 
-}  // namespace
+/** What motions of all periods are looked for from, computed once. */
+struct Sources {
+  const Search& search;
+  std::optional<Verdict> one_turn;  ///< on the solution of period T, if there is one
+  std::optional<Settled> rest = {};
 
-std::vector<State> subharmonic_states(const Search& search, int turns)
+  /** Where the machine settles from rest. */
+  const Settled& at_rest()
+  {
+    if (!rest)
+      rest = settle(search.parameters, search.omega, static_start(search.parameters),
+                    search.budget);
+    return *rest;
+  }
+};
+
+Sources sources_of(const Search& search)
 {
-  const Parameters& parameters = search.parameters;
-  Hunt hunt{parameters, search.omega, turns, search.budget};
-  if (const auto one = motion_of_one_turn(search)) {
+  const PeriodicMotion solution = search_periodic(search);
+  if (!solution.found()) return {search, {}};
+  return {search, verdict_on(search.parameters, solution, search.budget.part(0.5))};
+}
+
+/** States [m, m/s] at phase 0 of motions with the period KT and none shorter, K ≤ 8; those on one motion count as
+    one. Empty when none was found. */
+std::vector<State> states_of(Sources& from, int turns)
+{
+  const Search& search = from.search;
+  Hunt hunt{search.parameters, search.omega, turns, search.budget};
+  if (const auto& one = from.one_turn) {
     if (one->from_there.period == turns) hunt.add(one->from_there.state);
     if (hunt.found.empty() && one->found()) hunt.add_along_eigenvectors(one->state, 1);
   }
-  if (hunt.found.empty()) {
-    const Settled end =
-        settle(parameters, search.omega, static_start(parameters), search.budget);
-    if (end.period == turns) hunt.add(end.state);
-  }
+  if (hunt.found.empty() && from.at_rest().period == turns)
+    hunt.add(from.at_rest().state);
   for (int d = 2; d < turns && hunt.found.empty(); ++d)
     if (turns % d == 0)
-      for (const State& state : subharmonic_states(search, d))
-        hunt.add_along_eigenvectors(state, d);
+      for (const State& state : states_of(from, d)) hunt.add_along_eigenvectors(state, d);
   return hunt.found;
 }
-
-namespace {
 
 /** The solution of harmonic balance with the motion of Eq. 7 through `state` as its start, and its distance from
     that. */
@@ -188,7 +187,8 @@ PeriodicMotion find_subharmonic(const Search& search, int turns,
                                 std::optional<double> tolerance)
 {
   constexpr int most_harmonics = 512;
-  const auto states = subharmonic_states(search, turns);
+  Sources sources = sources_of(search);
+  const auto states = states_of(sources, turns);
   const auto none = [&](const std::string& why) {
     return NoSolution(format("%s: at %.9g Hz %s", search.parameters.file.c_str(),
                              search.omega / angular(1), why.c_str()));

@@ -151,12 +151,9 @@ private:
 void add_multipliers(const Parameters& parameters, double omega,
                      const OperationBudget& budget, Verdict& verdict)
 {
-  const auto map = [&](const State& from, double error) {
-    const PeriodMap period = period_map(parameters, omega, from, error, "rk8pd", budget);
-    verdict.evaluations += static_cast<double>(period.evaluations);
-    return period;
-  };
-  const PeriodMap first = map(verdict.state, local_error), next = map(first.end, finer);
+  const auto [first, next] =
+      period_map_twice(parameters, omega, verdict.state, local_error, finer, budget);
+  verdict.evaluations += static_cast<double>(first.evaluations + next.evaluations);
   Floquet& floquet = verdict.floquet;
   floquet.multipliers = multipliers_of(next.derivative);
   floquet.change = largest_move(floquet.multipliers, multipliers_of(first.derivative));

@@ -79,6 +79,17 @@ PeriodMap period_map(const Parameters& parameters, double omega, const State& st
           .evaluations = variation.evaluations.count};
 }
 
+PeriodMapTwice period_map_twice(const Parameters& parameters, double omega,
+                                const State& start, double tolerance, double finer,
+                                const OperationBudget& budget)
+{
+  const auto map = [&](const State& from, double error) {
+    return period_map(parameters, omega, from, error, "rk8pd", budget);
+  };
+  const PeriodMap first = map(start, tolerance);
+  return {first, map(first.end, finer)};
+}
+
 Rk4PeriodMap::Rk4PeriodMap(const Parameters& parameters, double omega,
                            double longest_step)
     : rk4_(parameters, omega, 1, longest_step), system_(parameters, omega),

@@ -34,6 +34,15 @@ PeriodMap period_map(const Parameters& parameters, double omega, const State& st
                      double tolerance, const std::string& method = "rk8pd",
                      const OperationBudget& budget = {});
 
+/** The map from `start`, and from where that leads with the smaller local error `finer`: their derivatives
+    differ by the error of the steps, and by what is open if `start` is only nearly a fixed point. */
+struct PeriodMapTwice {
+  PeriodMap first, finer;
+};
+PeriodMapTwice period_map_twice(const Parameters& parameters, double omega,
+                                const State& start, double tolerance, double finer,
+                                const OperationBudget& budget = {});
+
 /**
 ## The variational equations of Eq. 7
 
