@@ -194,7 +194,8 @@ motion::Motion integrated_motion(const Parameters& parameters,
       steady_state(parameters, angular(request.frequency), settings);
   table.note(format("method: %s, %g s from rest, %ld evaluations of Eq. 7",
                     request.method.c_str(), steady.seconds, steady.evaluations));
-  table.note(format("Poincare spread: %.3g", steady.spread));
+  table.note(format("Poincare spread: %.3g", steady.spread) +
+             (steady.periodic ? "" : format(" +- %.1g", steady.spread_error)));
   table.note("regime: " + measured_regime(parameters, request, settings, steady));
   return motion::motion_of(steady, request.points);
 }

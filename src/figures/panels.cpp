@@ -17,7 +17,9 @@ const std::vector<Field<PanelRow>>& panel_fields()
        [](auto& r) { return r.panel.balance.has_value(); }},
       {"periodic", "-", "1 if the integrated motion has the period of rotation",
        [](auto& r) { return r.panel.periodic; }},
-      {"spread", "-", "Poincare spread of the integrated motion",
+      {"spread", "-",
+       "Poincare spread of the integrated motion; where it is not periodic the mean over "
+       "windows of a second, with the standard error in the line of the panel",
        [](auto& r) { return r.panel.spread; }},
       {"shown", "-",
        "the motion that the panel shows as the machine's: 1 harmonic balance, 2 time "
@@ -68,6 +70,7 @@ PanelScene read_panels(SceneFile& file)
   scene.samples = toml.integer_or("samples", 2 * scene.harmonics + 1, 1 << 20,
                                   default_samples(scene.harmonics));
   toml.refuse_unknown_keys();
+  scene.time_integration.average = 30;
   return scene;
 }
 
@@ -82,6 +85,9 @@ void describe(Table& table, const PanelScene& scene)
              "for %g s; periodic below %g",
              integration.stepper.method.c_str(), integration.settled, integration.longest,
              integration.periodic));
+  table.note(
+      "an aperiodic motion is one realisation: its rows and the differences from it are "
+      "others on another processor, the spread agrees within its standard error");
   table.note(
       format("shown: harmonic balance where the integrated motion is T-periodic and "
              "the rms error about the mean is at most %g, else time integration",
@@ -102,18 +108,24 @@ Panel compare(const PanelScene& scene, double frequency, const PeriodicMotion& b
   const int points = scene.time_integration.stepper.intervals_per_period;
   const auto& speeds = scene.frequencies;
   const auto place = std::find(speeds.begin(), speeds.end(), frequency) - speeds.begin();
-  Panel panel{.number = static_cast<std::size_t>(place) + 1,
-              .frequency = frequency,
-              .balance = {},
-              .settled = motion::motion_of(settled, points),
-              .periodic = settled.periodic,
-              .spread = settled.spread,
-              .ending = format("panel %td: %g Hz: harmonic balance from %s, %s; time "
-                               "integration %s, spread %.3g after %.3g s",
-                               place + 1, frequency, balance.start.c_str(),
-                               balance.newton.reason().c_str(),
-                               settled.periodic ? "periodic" : "aperiodic",
-                               settled.spread, settled.seconds)};
+  Panel panel{
+      .number = static_cast<std::size_t>(place) + 1,
+      .frequency = frequency,
+      .balance = {},
+      .settled = motion::motion_of(settled, points),
+      .periodic = settled.periodic,
+      .spread = settled.spread,
+      .spread_error = settled.spread_error,
+      .ending = format(
+          "panel %td: %g Hz: harmonic balance from %s, %s; time "
+          "integration %s, spread %.3g%s after %.3g s",
+          place + 1, frequency, balance.start.c_str(), balance.newton.reason().c_str(),
+          settled.periodic ? "periodic" : "aperiodic", settled.spread,
+          settled.periodic ? "" : format(" +- %.1g", settled.spread_error).c_str(),
+          settled.seconds)};
+  /** Drawn are the first turns of a long average. */
+  panel.settled.positions.resize(static_cast<std::size_t>(points) *
+                                 scene.time_integration.shown_periods);
   if (balance.found()) {
     panel.balance = motion::motion_of(balance.bodies, points);
     panel.rms_difference = motion::rms_difference(*panel.balance, panel.settled);

@@ -35,7 +35,7 @@ struct Panel {
   std::optional<motion::Motion> balance;
   motion::Motion settled;
   bool periodic;                 ///< the settled motion repeats after T
-  double spread;                 ///< of its Poincaré section [-]
+  double spread, spread_error;   ///< of its Poincaré section [-]
   double rms_difference = -1;    ///< of displacement about its mean, over its rms [-]
   double force_difference = -1;  ///< of the bearing's force, over the largest force [-]
   double difference = -1;        ///< of displacement, over the largest displacement [-]

@@ -18,6 +18,9 @@ struct Row {
   int newton = 0;
   double spread = 0;
   bool periodic = true;  ///< harmonic balance finds nothing else
+  /** Standard errors. */
+  double spread_error = 0, contact_error = 0;
+  std::array<double, 4> amplitude_error = {};
 };
 
 const std::vector<Field<Row>> fields{
@@ -33,7 +36,20 @@ const std::vector<Field<Row>> fields{
     {"contact", "-", "share of the time with at least one loaded ball", &Row::contact},
     {"newton", "-", "Newton iterations, 0 for time integration", &Row::newton},
     {"spread", "-", "Poincare spread over the largest displacement", &Row::spread},
-    {"periodic", "-", "1 if the motion has the period of rotation", &Row::periodic}};
+    {"periodic", "-",
+     "1 if the motion has the period of rotation; where 0, the amplitudes and the share of "
+     "contact are means over single turns, the spread over windows of a second",
+     &Row::periodic},
+    {"spread_error", "-", "standard error of spread", &Row::spread_error},
+    {"contact_error", "-", "standard error of contact", &Row::contact_error},
+    {"amp_x_s_error", "m", "standard error of amp_x_s",
+     [](auto& r) { return r.amplitude_error[0]; }},
+    {"amp_y_s_error", "m", "standard error of amp_y_s",
+     [](auto& r) { return r.amplitude_error[1]; }},
+    {"amp_x_r_error", "m", "standard error of amp_x_r",
+     [](auto& r) { return r.amplitude_error[2]; }},
+    {"amp_y_r_error", "m", "standard error of amp_y_r",
+     [](auto& r) { return r.amplitude_error[3]; }}};
 
 }  // namespace
 
@@ -51,6 +67,7 @@ ResponseScene read_response(SceneFile& file)
   for (std::size_t k = 0; k < machines.size(); ++k)
     scene.sets.push_back({static_cast<int>(k) + 1, machines[k], harmonics[k]});
   toml.refuse_unknown_keys();
+  scene.time_integration.average = 30;
   return scene;
 }
 
@@ -95,18 +112,40 @@ void add_curve(Table& table, const DataSet& set, Curve curve,
   table.gap();
 }
 
+/** Of an aperiodic motion, the amplitudes and the contact of a turn. */
+static void average_over_turns(Row& row, const Parameters& machine,
+                               const motion::Motion& motion)
+{
+  std::array<std::vector<double>, 4> amplitudes;
+  std::vector<double> contact;
+  for (const motion::Motion& turn : motion::pieces(motion, 1)) {
+    const Displacements amplitude = half_peak_to_peak(turn);
+    for (std::size_t i = 0; i < 4; ++i) amplitudes[i].push_back(amplitude[i]);
+    contact.push_back(motion::contact_share(machine, turn));
+  }
+  for (std::size_t i = 0; i < 4; ++i) {
+    const BatchMean mean = batch_mean(amplitudes[i]);
+    row.amplitude[i] = mean.value;
+    row.amplitude_error[i] = mean.error;
+  }
+  row.contact_error = batch_mean(contact).error;
+}
+
 void add_settled(Table& table, const DataSet& set, double frequency, int points,
                  const SteadyState& settled)
 {
   const motion::Motion motion = motion::motion_of(settled, points);
-  table.row(fields, {.set = set.number,
-                     .curve = Curve::time_integration,
-                     .segment = 1,
-                     .frequency = frequency,
-                     .amplitude = half_peak_to_peak(motion),
-                     .contact = motion::contact_share(set.machine, motion),
-                     .spread = settled.spread,
-                     .periodic = settled.periodic});
+  Row row{.set = set.number,
+          .curve = Curve::time_integration,
+          .segment = 1,
+          .frequency = frequency,
+          .amplitude = half_peak_to_peak(motion),
+          .contact = motion::contact_share(set.machine, motion),
+          .spread = settled.spread,
+          .periodic = settled.periodic,
+          .spread_error = settled.spread_error};
+  if (!settled.periodic) average_over_turns(row, set.machine, motion);
+  table.row(fields, row);
 }
 
 }  // namespace rotor_stator::figures

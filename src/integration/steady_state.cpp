@@ -9,6 +9,26 @@
 
 namespace rotor_stator {
 
+BatchMean batch_mean(const std::vector<double>& series)
+{
+  /** Few and long, so that neighbouring batches know little of each other. */
+  constexpr std::size_t most_batches = 10;
+  const std::size_t batches = std::min(most_batches, series.size());
+  const auto count = static_cast<double>(series.size());
+  double mean = 0, squares = 0;
+  for (double value : series) mean += value / count;
+  for (std::size_t batch = 0; batch < batches; ++batch) {
+    const std::size_t first = batch * series.size() / batches;
+    const std::size_t last = (batch + 1) * series.size() / batches;
+    double part = 0;
+    for (std::size_t k = first; k < last; ++k)
+      part += series[k] / static_cast<double>(last - first);
+    squares += (part - mean) * (part - mean);
+  }
+  const auto n = static_cast<double>(batches * std::max<std::size_t>(1, batches - 1));
+  return {mean, std::sqrt(squares / n)};
+}
+
 /** Beyond this the section alone fills the memory. */
 static constexpr double most_periods = 1e7;
 
@@ -86,9 +106,11 @@ SteadyState steady_state(const Parameters& parameters, double omega, const State
       std::max(2 * window, std::lround(std::ceil(settings.longest / period)));
   const auto section = static_cast<std::size_t>(window);
   Settling motion(parameters, omega, start, settings);
+  std::vector<double> spreads;
   do {
     const long block = std::min(window, most - motion.periods());
     for (long k = 0; k < block; ++k) motion.advance_one_period(section);
+    spreads.push_back(motion.spread());
   } while (motion.periods() < most && motion.spread() > settings.settled);
 
   /** The shown periods start with the cage at home, so that ball j is the ball j of t = 0; a cage
@@ -97,14 +119,27 @@ SteadyState steady_state(const Parameters& parameters, double omega, const State
   for (int k = 0; k < most_home && !motion.cage_is_home(); ++k)
     motion.advance_one_period(section);
 
+  const bool periodic = motion.spread() < settings.periodic;
+  const auto transient = std::ssize(spreads) / 2;
   SteadyState steady{.states = {},
                      .first_period = motion.periods(),
                      .spread = motion.spread(),
-                     .periodic = motion.spread() < settings.periodic,
+                     .spread_error = 0,
+                     .periodic = periodic,
                      .seconds = static_cast<double>(motion.periods()) * period,
                      .evaluations = 0};
-  for (int k = 0; k < settings.shown_periods; ++k)
+  long shown = settings.shown_periods;
+  if (!periodic) shown = std::max(shown, std::lround(settings.average / period));
+  for (long k = 1; k <= shown; ++k) {
     motion.advance_one_period(section, &steady.states);
+    if (k % window == 0) spreads.push_back(motion.spread());
+  }
+  if (!periodic) {
+    spreads.erase(spreads.begin(), spreads.begin() + transient);
+    const BatchMean mean = batch_mean(spreads);
+    steady.spread = mean.value;
+    steady.spread_error = mean.error;
+  }
   steady.evaluations = motion.evaluations();
   return steady;
 }

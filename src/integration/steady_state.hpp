@@ -7,6 +7,11 @@ between the section points of the last `window` seconds, over the largest displa
 the orbit. Integration ends when the spread falls below `settled`, or after `longest`
 seconds; the motion is then called periodic if the spread is below `periodic`, aperiodic
 (with period T) otherwise, and the periods that a scene shows are recorded from there on.
+
+Chaotic motion differs in every digit from processor to processor; only its averages are numbers of the
+machine. The spread of an aperiodic motion is therefore the mean over the windows of the second half of
+the integration, with its standard error; with `average`, over the windows of so many seconds
+more, which are recorded.
 */
 #pragma once
 
@@ -24,7 +29,16 @@ struct SteadySettings {
   double window = 1.0;     ///< [s], at least four periods
   double longest = 20.0;   ///< [s]
   int shown_periods = 1;   ///< periods of the motion that are returned
+  double average = 0;      ///< at least so many seconds are, where it is aperiodic [s]
 };
+
+/** The mean of a series and its standard error. */
+struct BatchMean {
+  double value, error = 0;
+};
+
+/** The error is that of the means of at most ten batches of neighbours. */
+BatchMean batch_mean(const std::vector<double>& series);
 
 /** The table [time_integration] of a scene. */
 SteadySettings read_steady_settings(SceneFile& scene);
@@ -33,6 +47,7 @@ struct SteadyState {
   std::vector<State> states;  ///< P per period, `shown_periods` periods, from phase 0
   long first_period;          ///< periods since t = 0 at states[0], for the cage's angle
   double spread;              ///< Poincaré spread [-]
+  double spread_error;        ///< its standard error where the motion is aperiodic [-]
   bool periodic;
   double seconds;    ///< integrated time [s]
   long evaluations;  ///< of Eq. 7

@@ -1,5 +1,7 @@
 #include "motion/find_periodic.hpp"
 
+#include <algorithm>
+#include <cmath>
 #include <utility>
 
 #include "balance/bearing_problem.hpp"
@@ -37,6 +39,49 @@ Eigen::VectorXd fewer_harmonics(Search search)
   return resize_harmonics(motion.x, 2, harmonics);
 }
 
+/** Follows a solution to another speed by Newton, in steps that are halved where it needs many
+    iterations. Empty where it cannot. */
+Eigen::VectorXd walk(Balance& balance, PeriodicMotion motion, double omega,
+                     const NewtonSettings& newton)
+{
+  constexpr int most_solves = 40;
+  const double least = 0.01 * std::abs(omega - motion.omega);
+  double step = 0.5 * (omega - motion.omega);
+  for (int k = 0; k < most_solves && std::abs(step) >= least; ++k) {
+    const double left = omega - motion.omega;
+    const bool arrives = std::abs(step) >= std::abs(left);
+    PeriodicMotion next =
+        solve(balance, arrives ? omega : motion.omega + step, motion.x, newton);
+    const bool is_found = next.found();
+    if (is_found && arrives) return next.x;
+    if (is_found) motion = std::move(next);
+    step *= is_found ? 2 : 0.5;
+  }
+  return {};
+}
+
+/** The solution at a neighbouring speed, found from quasi-static contact there and followed to this one.
+    Short iterations only: a long one magnifies rounding until chance decides where it ends. */
+Eigen::VectorXd from_a_neighbour(const Search& search)
+{
+  constexpr int neighbours = 10;
+  constexpr double distance = 0.02;
+  NewtonSettings newton = search.newton;
+  newton.most_iterations = std::min(newton.most_iterations, 10);
+  newton.most_halvings = std::min(newton.most_halvings, 3);
+  Balance balance = balance_of(search);
+  for (int k = 1; k <= neighbours; ++k)
+    for (const double off : {-distance * k, distance * k}) {
+      Search at = search;
+      at.omega *= 1 + off;
+      PeriodicMotion motion = solve(balance, at.omega, near_contact(at), newton);
+      if (!motion.found()) continue;
+      Eigen::VectorXd x = walk(balance, std::move(motion), search.omega, newton);
+      if (x.size() > 0) return x;
+    }
+  return {};
+}
+
 }  // namespace
 
 Eigen::VectorXd integrated_start(const Parameters& parameters, double omega,
@@ -46,8 +91,23 @@ Eigen::VectorXd integrated_start(const Parameters& parameters, double omega,
   const int points = default_samples(harmonics);
   settings.stepper = {.method = "rk4", .intervals_per_period = points, .budget = budget};
   settings.longest = 10;
-  const SteadyState steady = steady_state(parameters, omega, settings);
-  return relative_series(motion_of(steady, points), harmonics);
+  const auto settled = [&](double speed) {
+    SteadyState steady = steady_state(parameters, speed, settings);
+    if (!steady.periodic)
+      throw NoSolution(format("time integration at %.15g rad/s does not settle", speed));
+    return steady;
+  };
+  const SteadyState steady = settled(omega);
+  const Motion motion = motion_of(steady, points);
+  /** A chaotic transient ends at another time after the least change. */
+  constexpr double same = 0.01, same_time = 0.5;
+  for (const double other_rounding : {1e-11, -2e-11}) {
+    const SteadyState copy = settled(omega * (1 + other_rounding));
+    if (std::abs(copy.seconds - steady.seconds) > same_time ||
+        relative_difference(motion_of(copy, points), motion) > same)
+      throw NoSolution("where time integration settles depends on rounding");
+  }
+  return relative_series(motion, harmonics);
 }
 
 PeriodicMotion find_near_contact(const Search& search)
@@ -69,6 +129,7 @@ PeriodicMotion find_periodic(const Search& search, const std::vector<Start>& fur
                       return integrated_start(search.parameters, search.omega,
                                               search.harmonics, search.budget);
                     }});
+  starts.push_back({"a neighbouring speed", [&] { return from_a_neighbour(search); }});
   Balance balance = balance_of(search);
   PeriodicMotion motion{
       .omega = search.omega, .harmonics = search.harmonics, .samples = search.samples};

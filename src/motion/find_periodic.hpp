@@ -28,8 +28,9 @@ struct Search {
   OperationBudget budget = {};
 };
 
-/** Looks for the periodic motion, and for the series of both bodies. Newton starts from quasi-static contact,
-    then from a solution with fewer harmonics, then from `further` ones, then from one period of time integration; the first that converges is kept.
+/** Looks for the periodic motion, and for the series of both bodies. Newton starts from quasi-static contact, then
+    from a solution with fewer harmonics, from `further` ones, from one period of time integration where that
+    settles, and from a neighbouring speed; the first that converges is kept. No start depends on rounding.
     Not found means that none of these found one. Throws NoSolution when the budget is used up. */
 PeriodicMotion find_periodic(const Search& search,
                              const std::vector<Start>& further = {});
@@ -38,7 +39,8 @@ PeriodicMotion find_periodic(const Search& search,
 PeriodicMotion find_near_contact(const Search& search);
 
 /** A start for Newton: the relative motion [m] of one period after ten seconds of RK4 from rest, as
-    coefficients. Throws NoSolution when the integration breaks down. */
+    coefficients. Throws NoSolution when the integration breaks down, or does not settle on a T-periodic motion,
+    the same one in the same time at speeds that differ by 1e-11: chaotic motion differs from processor to processor. */
 Eigen::VectorXd integrated_start(const Parameters& parameters, double omega,
                                  int harmonics, const OperationBudget& budget = {});
 

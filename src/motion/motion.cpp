@@ -77,6 +77,18 @@ Motion motion_of(const SteadyState& steady, int points_per_period)
   return motion;
 }
 
+std::vector<Motion> pieces(const Motion& motion, int periods)
+{
+  std::vector<Motion> parts;
+  const auto length = static_cast<std::ptrdiff_t>(periods) * motion.points_per_period;
+  for (auto at = motion.positions.begin(); motion.positions.end() - at >= length;
+       at += length)
+    parts.push_back({motion.points_per_period,
+                     motion.first_period + periods * std::ssize(parts),
+                     {at, at + length}});
+  return parts;
+}
+
 std::vector<Vec2> bearing_forces(const Parameters& parameters, const Motion& motion)
 {
   const BallBearing bearing(parameters.bearing);

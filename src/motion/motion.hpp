@@ -57,6 +57,9 @@ State state_of(const PeriodicMotion& motion);
 /** The periods kept by a time integration. */
 Motion motion_of(const SteadyState& steady, int points_per_period);
 
+/** A recorded motion cut into pieces of so many periods; an odd rest is left out. */
+std::vector<Motion> pieces(const Motion& motion, int periods);
+
 /** Eq. 6: the bearing's force [N] on the stator at each instant of a motion. */
 std::vector<Vec2> bearing_forces(const Parameters& parameters, const Motion& motion);
 

@@ -71,7 +71,7 @@ FoundStarts other_starts(const Parameters& parameters, SpeedRange range, int har
            .x = integrated_start(parameters, omega, harmonics, share),
            .start = "time integration"});
     } catch (const NoSolution&) {
-      // cut off or broken down: only random starts here
+      // cut off, broken down or not settled: only random starts here
       starts.cut_off += share.used_up();
     }
     for (int j = 1; j <= wanted.random; ++j)

@@ -10,26 +10,6 @@ namespace rotor_stator {
 /** Far above rounding, far below what bends the motion. */
 static constexpr double first_distance = 1e-7;
 
-BatchMean batch_mean(const std::vector<double>& series)
-{
-  /** Few and long, so that neighbouring batches know little of each other. */
-  constexpr std::size_t most_batches = 10;
-  const std::size_t batches = std::min(most_batches, series.size());
-  const auto count = static_cast<double>(series.size());
-  double mean = 0, squares = 0;
-  for (double value : series) mean += value / count;
-  for (std::size_t batch = 0; batch < batches; ++batch) {
-    const std::size_t first = batch * series.size() / batches;
-    const std::size_t last = (batch + 1) * series.size() / batches;
-    double part = 0;
-    for (std::size_t k = first; k < last; ++k)
-      part += series[k] / static_cast<double>(last - first);
-    squares += (part - mean) * (part - mean);
-  }
-  const auto n = static_cast<double>(batches * std::max<std::size_t>(1, batches - 1));
-  return {mean, std::sqrt(squares / n)};
-}
-
 /** The neighbour starts off in all directions, so that none is missed. */
 TrajectoryPair::TrajectoryPair(TimeStepper stepper, int intervals_per_period,
                                const Vector8& scales, const State& start)

@@ -20,14 +20,6 @@ of ten batches of them gives the standard error. */
 
 namespace rotor_stator {
 
-/** The mean of a series and its standard error. */
-struct BatchMean {
-  double value, error = 0;
-};
-
-/** The error is that of the means of at most ten batches of neighbours. */
-BatchMean batch_mean(const std::vector<double>& series);
-
 /** λ [1/s] and its standard error [1/s]: `batch_mean` of the growth rates of equal blocks in order. */
 using Exponent = BatchMean;
 
