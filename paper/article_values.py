@@ -63,7 +63,8 @@ def displacements():
     for name in ("fig04", "fig05"):
         table = Table(GENERATED / f"{name}_displacements.tsv")
         add(f"{name}.f", table.first("f"), "Hz", "speed of the figure")
-        for key, column in (("rms", "difference_rms"), ("force", "difference_force"), ("spread", "spread")):
+        for key, column in (("rms", "difference_rms"), ("force", "difference_force"), ("spread", "spread"),
+                            ("rms_error", "difference_rms_error"), ("spread_error", "spread_error")):
             add(f"{name}.{key}", table.first(column), "-", column)
         add(f"{name}.regime", "T-periodic" if table.first("periodic") == 1 else "not T-periodic", "-",
             "the integrated motion")

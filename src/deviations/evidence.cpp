@@ -11,6 +11,8 @@ DeviationScene read_deviation_scene(SceneFile& file)
     throw BadInput("--reading " + file.reading() +
                    ": must be exchanged; the deviations compare both readings (D-09)");
   StrictToml& toml = file.toml();
+  SteadySettings settings = read_steady_settings(file);
+  settings.average = toml.number("average_s", Range::positive);
   return {.toml = toml,
           .machine = read_parameters(file, "parameters"),
           .printed = read_parameters(file, "printed_parameters"),
@@ -19,7 +21,7 @@ DeviationScene read_deviation_scene(SceneFile& file)
           .gravity_speed = toml.number("gravity_speed_hz", Range::positive),
           .transition_speed = toml.number("transition_speed_hz", Range::positive),
           .range = file.speed_range("range_hz"),
-          .time_integration = read_steady_settings(file)};
+          .time_integration = settings};
 }
 
 PeriodicMotion require_periodic(const Parameters& machine, double frequency,
@@ -58,6 +60,26 @@ motion::Motion DeviationScene::integrated(double frequency) const
     throw NoSolution(format("the motion at %g Hz is not T-periodic (spread %.2g)",
                             frequency, steady.spread));
   return motion_of(steady);
+}
+
+EvidenceList spread_of(const std::string& key, const SteadyState& steady,
+                       const std::string& meaning)
+{
+  return {
+      {key, steady.spread, "-", meaning},
+      {key + "_error", steady.spread_error, "-", "its standard error, 0 if T-periodic"}};
+}
+
+EvidenceList mean_of(const std::string& key, const std::string& meaning,
+                     const motion::Motion& motion, int periods,
+                     const std::function<double(const motion::Motion&)>& measure)
+{
+  std::vector<double> values;
+  for (const motion::Motion& piece : motion::pieces(motion, periods))
+    values.push_back(measure(piece));
+  const BatchMean mean = batch_mean(values);
+  return {{key, mean.value, "-", meaning},
+          {key + "_error", mean.error, "-", "its standard error over the turns"}};
 }
 
 namespace {

@@ -6,6 +6,8 @@ numbers that its evidence and effect quote. They are small: one speed, one sweep
 each. What only one entry asks for is read where it is used. */
 #pragma once
 
+#include <functional>
+
 #include "balance/newton.hpp"
 #include "io/table.hpp"
 #include "io/toml_file.hpp"
@@ -71,6 +73,20 @@ DeviationScene read_deviation_scene(SceneFile& file);
 PeriodicMotion require_periodic(const Parameters& machine, double frequency,
                                 int harmonics, int samples = 0,
                                 const NewtonSettings& settings = {});
+
+inline void add(EvidenceList& list, const EvidenceList& more)
+{
+  list.insert(list.end(), more.begin(), more.end());
+}
+
+/** The Poincaré spread of a settled motion, and its standard error as `key`_error. */
+EvidenceList spread_of(const std::string& key, const SteadyState& steady,
+                       const std::string& meaning = "Poincare spread");
+
+/** The mean of a measure over all pieces of so many periods of a motion, and its standard error as `key`_error. */
+EvidenceList mean_of(const std::string& key, const std::string& meaning,
+                     const motion::Motion& motion, int periods,
+                     const std::function<double(const motion::Motion&)>& measure);
 
 /** The table that paper/deviations.md quotes: one row per number. */
 Table evidence_table(const DeviationScene& scene);

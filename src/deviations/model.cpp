@@ -123,11 +123,12 @@ EvidenceList two_readings(const DeviationScene& scene)
   for (const auto& [name, machine] :
        {std::pair{"exchanged", &ours}, std::pair{"printed", &printed}}) {
     const SteadyState steady = scene.settled(*machine, speed);
-    list.push_back({format("D-09.contact_%s", name),
-                    motion::contact_share(*machine, scene.motion_of(steady)), "-",
-                    "share of the time with a loaded ball"});
-    list.push_back(
-        {format("D-09.spread_%s", name), steady.spread, "-", "Poincare spread"});
+    add(list,
+        mean_of(format("D-09.contact_%s", name), "share of the time with a loaded ball",
+                scene.motion_of(steady), 1, [&](const motion::Motion& turn) {
+                  return motion::contact_share(*machine, turn);
+                }));
+    add(list, spread_of(format("D-09.spread_%s", name), steady));
     const PeriodicMotion peak = require_periodic(
         *machine, joint_resonance(*machine) / angular(1), scene.harmonics);
     list.push_back({format("D-09.peak_%s", name),
@@ -165,12 +166,14 @@ EvidenceList unprinted_masses(const DeviationScene& scene)
     machine.stator.mass *= factor;
     machine.rotor.mass *= factor;
     const SteadyState steady = scene.settled(machine, scene.transition_speed);
-    const motion::Motion motion = scene.motion_of(steady);
-    list.push_back(
-        {format("D-13.contact_%d", number), motion::contact_share(machine, motion), "-",
-         format("share of the time in contact with both masses times %g", factor)});
-    list.push_back({format("D-13.spread_%d", number), steady.spread, "-",
-                    format("Poincare spread with both masses times %g", factor)});
+    add(list,
+        mean_of(format("D-13.contact_%d", number),
+                format("share of the time in contact with both masses times %g", factor),
+                scene.motion_of(steady), 1, [&](const motion::Motion& turn) {
+                  return motion::contact_share(machine, turn);
+                }));
+    add(list, spread_of(format("D-13.spread_%d", number), steady,
+                        format("Poincare spread with both masses times %g", factor)));
   }
   return list;
 }

@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <cmath>
 #include <numbers>
-#include <numeric>
 
 #include "balance/fourier_transform.hpp"
 #include "continuation/sweep.hpp"
@@ -69,9 +68,9 @@ EvidenceList cage_and_period(const DeviationScene& scene)
     list.push_back({format("D-11.passages_c%g", ratio),
                     passages_per_turn(machine.bearing), "-",
                     format("ball passages per turn, c = %g", ratio)});
-    list.push_back({format("D-11.spread_c%g", ratio),
-                    scene.settled(machine, scene.speed).spread, "-",
-                    format("Poincare spread, c = %g", ratio)});
+    add(list,
+        spread_of(format("D-11.spread_c%g", ratio), scene.settled(machine, scene.speed),
+                  format("Poincare spread, c = %g", ratio)));
   }
   return list;
 }
@@ -115,16 +114,20 @@ EvidenceList speeds_of_panels(const DeviationScene& scene)
     const double frequency = speeds[k];
     const SteadyState steady = scene.settled(scene.machine, frequency);
     const motion::Motion motion = scene.motion_of(steady);
-    const Eigen::MatrixXd series = motion::series_of(motion, scene.harmonics);
-    const double higher = series.row(2).tail(series.cols() - 3).norm();
+    const auto contact = [&](const motion::Motion& turn) {
+      return motion::contact_share(scene.machine, turn);
+    };
+    const auto higher = [&](const motion::Motion& turn) {
+      const Eigen::MatrixXd series = motion::series_of(turn, scene.harmonics);
+      return series.row(2).tail(series.cols() - 3).norm() / harmonic(series, 2, 1);
+    };
     const std::string key = format("_%zu", k + 1);
-    list.insert(list.end(),
-                {{"D-17.speed" + key, frequency, "Hz", "speed of the panel"},
-                 {"D-17.contact" + key, motion::contact_share(scene.machine, motion), "-",
-                  "share of the time with a loaded ball"},
-                 {"D-17.higher" + key, higher / harmonic(series, 2, 1), "-",
-                  "harmonics 2 and more of x_r over the first"},
-                 {"D-17.spread" + key, steady.spread, "-", "Poincare spread"}});
+    list.push_back({"D-17.speed" + key, frequency, "Hz", "speed of the panel"});
+    add(list, mean_of("D-17.contact" + key, "share of the time with a loaded ball",
+                      motion, 1, contact));
+    add(list, mean_of("D-17.higher" + key, "harmonics 2 and more of x_r over the first",
+                      motion, 1, higher));
+    add(list, spread_of("D-17.spread" + key, steady));
   }
   return list;
 }
@@ -137,11 +140,7 @@ EvidenceList kind_of_figures(const DeviationScene& scene)
   CurvePoint peak{0, 0};
   for (double frequency : scene.range)
     if (const double a = amplitude(frequency); a > peak.amplitude) peak = {frequency, a};
-  return {
-      {"D-19.spread_fig4", scene.settled(scene.machine, scene.transition_speed).spread,
-       "-", "Poincare spread at the speed of Fig. 4"},
-      {"D-19.spread_fig5", scene.settled(scene.machine, scene.speed).spread, "-",
-       "Poincare spread at the speed of Fig. 5"},
+  EvidenceList list{
       {"D-19.from", scene.range.front(), "Hz", "first speed of our Fig. 3"},
       {"D-19.to", scene.range.back(), "Hz", "last speed of our Fig. 3"},
       {"D-19.peak_speed", peak.frequency, "Hz", "speed of the largest amplitude of x_r"},
@@ -149,6 +148,12 @@ EvidenceList kind_of_figures(const DeviationScene& scene)
        "amplitude of x_r at the first speed over the largest"},
       {"D-19.amplitude_to", amplitude(scene.range.back()) / peak.amplitude, "-",
        "amplitude of x_r at the last speed over the largest"}};
+  add(list,
+      spread_of("D-19.spread_fig4", scene.settled(scene.machine, scene.transition_speed),
+                "Poincare spread at the speed of Fig. 4"));
+  add(list, spread_of("D-19.spread_fig5", scene.settled(scene.machine, scene.speed),
+                      "Poincare spread at the speed of Fig. 5"));
+  return list;
 }
 
 EvidenceList passages_over_2t(const DeviationScene& scene)
@@ -158,13 +163,13 @@ EvidenceList passages_over_2t(const DeviationScene& scene)
     Parameters machine = scene.machine;
     machine.bearing.cage_speed_ratio = ratio;
     const motion::Motion motion = scene.motion_of(scene.settled(machine, scene.speed));
-    const auto loadings =
-        motion::passages_per_ball(motion::contact_evolution(machine, motion).ball_force);
-    list.push_back(
-        {format("D-20.loadings_c%g", ratio),
-         std::accumulate(loadings.begin(), loadings.end(), 0.0) /
-             static_cast<double>(loadings.size()),
-         "-", format("loadings of a ball in 2T, mean over the balls, c = %g", ratio)});
+    const auto loadings = [&](const motion::Motion& two_periods) {
+      return motion::measures_of(machine, two_periods).passages;
+    };
+    add(list,
+        mean_of(format("D-20.loadings_c%g", ratio),
+                format("loadings of a ball in 2T, mean over the balls, c = %g", ratio),
+                motion, 2, loadings));
     list.push_back(
         {format("D-20.interval_c%g", ratio), 1 / (1 - ratio), "-",
          format("time between two loadings over T, 1/(1 - c), c = %g", ratio)});

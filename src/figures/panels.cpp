@@ -1,6 +1,8 @@
 #include "figures/panels.hpp"
 
 #include <algorithm>
+#include <cmath>
+#include <utility>
 
 #include "balance/fourier_transform.hpp"
 #include "io/errors.hpp"
@@ -19,16 +21,21 @@ const std::vector<Field<PanelRow>>& panel_fields()
        [](auto& r) { return r.panel.periodic; }},
       {"spread", "-",
        "Poincare spread of the integrated motion; where it is not periodic the mean over "
-       "windows of a second, with the standard error in the line of the panel",
+       "windows of a second",
        [](auto& r) { return r.panel.spread; }},
+      {"spread_error", "-", "standard error of spread",
+       [](auto& r) { return r.panel.spread_error; }},
       {"shown", "-",
        "the motion that the panel shows as the machine's: 1 harmonic balance, 2 time "
        "integration",
        [](auto& r) { return r.panel.shows_balance() ? 1 : 2; }},
       {"difference_rms", "-",
-       "rms difference of harmonic balance and time integration about their means over one "
-       "period, over the rms of the latter about its mean; -1 without solution",
-       [](auto& r) { return r.panel.rms_difference; }},
+       "rms difference of harmonic balance and time integration about their means, over the "
+       "rms of the latter about its mean; where that is not periodic the mean over windows "
+       "of a second; -1 without solution",
+       [](auto& r) { return r.panel.rms_difference.value; }},
+      {"difference_rms_error", "-", "standard error of difference_rms",
+       [](auto& r) { return r.panel.rms_difference.error; }},
       {"difference_force", "-",
        "largest difference of the bearing's force, over the largest force",
        [](auto& r) { return r.panel.force_difference; }},
@@ -124,11 +131,17 @@ Panel compare(const PanelScene& scene, double frequency, const PeriodicMotion& b
           settled.periodic ? "" : format(" +- %.1g", settled.spread_error).c_str(),
           settled.seconds)};
   /** Drawn are the first turns of a long average. */
-  panel.settled.positions.resize(static_cast<std::size_t>(points) *
-                                 scene.time_integration.shown_periods);
+  const motion::Motion all = std::exchange(
+      panel.settled,
+      motion::pieces(panel.settled, scene.time_integration.shown_periods).front());
   if (balance.found()) {
     panel.balance = motion::motion_of(balance.bodies, points);
-    panel.rms_difference = motion::rms_difference(*panel.balance, panel.settled);
+    const int window = settled.periodic ? scene.time_integration.shown_periods
+                                        : static_cast<int>(std::ceil(frequency));
+    std::vector<double> differences;
+    for (const motion::Motion& piece : motion::pieces(all, window))
+      differences.push_back(motion::rms_difference(*panel.balance, piece));
+    panel.rms_difference = batch_mean(differences);
     panel.force_difference =
         motion::relative_force_difference(scene.machine, *panel.balance, panel.settled);
     panel.difference = motion::relative_difference(*panel.balance, panel.settled);

@@ -36,7 +36,7 @@ struct Panel {
   motion::Motion settled;
   bool periodic;                 ///< the settled motion repeats after T
   double spread, spread_error;   ///< of its Poincaré section [-]
-  double rms_difference = -1;    ///< of displacement about its mean, over its rms [-]
+  BatchMean rms_difference{-1};  ///< of displacement about its mean, over its rms [-]
   double force_difference = -1;  ///< of the bearing's force, over the largest force [-]
   double difference = -1;        ///< of displacement, over the largest displacement [-]
   std::string ending;            ///< the `#` line that says how both computations ended
@@ -47,7 +47,7 @@ struct Panel {
   /** Whether the panel may show the solution of harmonic balance as what the machine does. */
   bool shows_balance() const
   {
-    return balance && periodic && rms_difference <= largest_error_shown;
+    return balance && periodic && rms_difference.value <= largest_error_shown;
   }
   const motion::Motion& shown() const { return shows_balance() ? *balance : settled; }
 };

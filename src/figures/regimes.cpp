@@ -10,29 +10,47 @@ struct Row : motion::Regime {
   int set;
 };
 
-const std::vector<Field<Row>> fields{
-    {"set", "-", "data set", &Row::set},
-    {"f", "Hz", "speed of rotation", &Row::frequency},
-    {"periodic", "-", "1 if the motion has the period of rotation", &Row::periodic},
-    {"spread", "-", "Poincare spread over the largest displacement", &Row::spread},
-    {"contact", "-", "share of the window with at least one loaded ball; 1 is permanent",
-     &Row::contact},
-    {"turns", "-",
-     "turns of the bearing's force per period: 1 rotating contact, 0 held by gravity",
-     &Row::turns},
-    {"higher_harmonics", "-", "rms of harmonics 2 and above over the first, larger body",
-     [](auto& r) { return r.higher.all; }},
-    {"h_2", "-", "harmonic 2 alone over the first", [](auto& r) { return r.higher.h_2; }},
-    {"h_3", "-", "harmonic 3", [](auto& r) { return r.higher.h_3; }},
-    {"h_4", "-", "harmonic 4", [](auto& r) { return r.higher.h_4; }},
-    {"h_5", "-", "harmonic 5", [](auto& r) { return r.higher.h_5; }},
-    {"passed_once", "-", "1 if every ball is loaded exactly once in two periods",
-     &Row::passed_once},
-    {"passages", "-", "times a ball is loaded in two periods, mean over the balls",
-     &Row::passages},
-    {"loaded_arc", "rad", "mean over time of the loaded arc", &Row::loaded_arc},
-    {"largest_force", "N", "largest force on one ball", &Row::largest_force},
-    {"amp_x_r", "m", "half peak-to-peak of x_r", &Row::amp_x_r}};
+using M = motion::RegimeMeasures;
+const std::pair<Column, double M::*> measures[] = {
+    {{"contact", "-", "share of the time with at least one loaded ball; 1 is permanent"},
+     &M::contact},
+    {{"turns", "-",
+      "turns of the bearing's force per period: 1 rotating contact, 0 held by gravity"},
+     &M::turns},
+    {{"higher_harmonics", "-",
+      "rms of harmonics 2 and above over the first, larger body"},
+     &M::all},
+    {{"h_2", "-", "harmonic 2 alone over the first"}, &M::h_2},
+    {{"h_3", "-", "harmonic 3"}, &M::h_3},
+    {{"h_4", "-", "harmonic 4"}, &M::h_4},
+    {{"h_5", "-", "harmonic 5"}, &M::h_5},
+    {{"passed_once", "-",
+      "1 if every ball is loaded exactly once in two periods; a share where aperiodic"},
+     &M::passed_once},
+    {{"passages", "-", "times a ball is loaded in two periods, mean over the balls"},
+     &M::passages},
+    {{"loaded_arc", "rad", "mean over time of the loaded arc"}, &M::loaded_arc},
+    {{"largest_force", "N", "largest force on one ball in two periods"},
+     &M::largest_force},
+    {{"amp_x_r", "m", "half peak-to-peak of x_r"}, &M::amp_x_r}};
+
+std::vector<Field<Row>> regime_fields()
+{
+  std::vector<Field<Row>> fields{
+      {"set", "-", "data set", &Row::set},
+      {"f", "Hz", "speed of rotation", &Row::frequency},
+      {"periodic", "-", "1 if the motion has the period of rotation", &Row::periodic},
+      {"spread", "-", "Poincare spread over the largest displacement", &Row::spread}};
+  for (const auto& [column, measure] : measures)
+    fields.push_back({column, [measure](const Row& row) { return row.*measure; }});
+  for (const auto& [column, measure] : measures)
+    fields.push_back(
+        {{column.name + "_error", column.unit, "standard error of its mean, aperiodic"},
+         [measure](const Row& row) { return row.error.*measure; }});
+  return fields;
+}
+
+const std::vector<Field<Row>> fields = regime_fields();
 
 }  // namespace
 
@@ -51,8 +69,8 @@ Table regime_table(const RegimeScene& scene)
   for (const Parameters& machine : scene.machines) describe(table, machine);
   table.note(format(
       "modelled: rk4 from the 6-harmonic solution or the static load, at most %g s; then "
-      "%g s for contact and two periods for the rest, %d instants per period",
-      scene.settings.longest, scene.settings.window, scene.settings.points_per_period));
+      "two periods, %d instants each; where they do not repeat, the means over %g s",
+      scene.settings.longest, scene.settings.points_per_period, scene.settings.average));
   return table;
 }
 

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <deque>
 #include <numbers>
+#include <numeric>
 
 #include "io/errors.hpp"
 
@@ -15,8 +16,8 @@ BatchMean batch_mean(const std::vector<double>& series)
   constexpr std::size_t most_batches = 10;
   const std::size_t batches = std::min(most_batches, series.size());
   const auto count = static_cast<double>(series.size());
-  double mean = 0, squares = 0;
-  for (double value : series) mean += value / count;
+  const double mean = std::accumulate(series.begin(), series.end(), 0.0) / count;
+  double squares = 0;
   for (std::size_t batch = 0; batch < batches; ++batch) {
     const std::size_t first = batch * series.size() / batches;
     const std::size_t last = (batch + 1) * series.size() / batches;

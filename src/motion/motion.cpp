@@ -19,14 +19,12 @@ double larger(double a, double b)
   return std::isfinite(b) ? std::max(a, b) : std::numeric_limits<double>::infinity();
 }
 
-/** x_s, y_s, x_r, y_r [m] at the instants of the first period, P × 4. */
+/** x_s, y_s, x_r, y_r [m] at the instants, a row each. */
 Eigen::MatrixXd displacement_samples(const Motion& motion)
 {
-  Eigen::MatrixXd samples(motion.points_per_period, 4);
-  for (int k = 0; k < motion.points_per_period; ++k) {
-    const Bodies& q = motion.positions[static_cast<std::size_t>(k)];
-    samples.row(k) << q.stator.x, q.stator.y, q.rotor.x, q.rotor.y;
-  }
+  Eigen::MatrixXd samples(std::ssize(motion.positions), 4);
+  for (Eigen::Index row = 0; const Bodies& q : motion.positions)
+    samples.row(row++) << q.stator.x, q.stator.y, q.rotor.x, q.rotor.y;
   return samples;
 }
 
@@ -41,7 +39,7 @@ Eigen::MatrixXd series_of(const Motion& motion, int harmonics)
 {
   Eigen::MatrixXd series(4, 2 * harmonics + 1);
   FourierTransform(motion.points_per_period)
-      .to_series(displacement_samples(motion), series);
+      .to_series(displacement_samples(motion).topRows(motion.points_per_period), series);
   return series;
 }
 
@@ -131,15 +129,36 @@ double relative_difference(const Motion& motion, const Motion& reference)
   return difference / size;
 }
 
-double rms_difference(const Motion& motion, const Motion& reference)
+/** Rows are instants; `samples` is repeated as often as `exact` is longer. */
+static double rms_about_the_mean(const Eigen::MatrixXd& samples,
+                                 const Eigen::MatrixXd& exact)
 {
-  const auto about_the_mean = [](const Motion& m) -> Eigen::MatrixXd {
-    const Eigen::MatrixXd q = displacement_samples(m);
+  const auto centred = [](const Eigen::MatrixXd& q) -> Eigen::MatrixXd {
     return q.rowwise() - q.colwise().mean();
   };
-  const Eigen::MatrixXd exact = about_the_mean(reference);
-  const double size = exact.norm(), off = (about_the_mean(motion) - exact).norm();
+  const Eigen::Index times = exact.rows() / samples.rows();
+  const double size = centred(exact).norm();
+  const double off = centred(samples.replicate(times, 1) - exact).norm();
   return size > 0 ? off / size : off > 0 ? std::numeric_limits<double>::infinity() : 0;
+}
+
+double rms_difference(const Motion& motion, const Motion& reference)
+{
+  return rms_about_the_mean(displacement_samples(motion),
+                            displacement_samples(reference));
+}
+
+double rms_force_difference(const Parameters& parameters, const Motion& motion,
+                            const Motion& reference)
+{
+  const auto samples = [&](const Motion& m) {
+    const auto forces = bearing_forces(parameters, m);
+    Eigen::MatrixXd rows(std::ssize(forces), 2);
+    for (Eigen::Index row = 0; const Vec2& force : forces)
+      rows.row(row++) << force.x, force.y;
+    return rows;
+  };
+  return rms_about_the_mean(samples(motion), samples(reference));
 }
 
 double relative_force_difference(const Parameters& parameters, const Motion& motion,

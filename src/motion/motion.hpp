@@ -74,8 +74,13 @@ double largest_displacement(const Motion& motion);
 double relative_difference(const Motion& motion, const Motion& reference);
 
 /** The rms difference of the two motions about their means, over that of `reference` about its mean, all
-    four displacements together: blind to the static sag [-]. */
+    four displacements together, at all instants of `reference`, along which `motion` is repeated: blind to the static
+    sag [-]. */
 double rms_difference(const Motion& motion, const Motion& reference);
+
+/** The same of the bearing's force. */
+double rms_force_difference(const Parameters& parameters, const Motion& motion,
+                            const Motion& reference);
 
 /** For the bearing's force: largest |F - F_ref| over the largest |F_ref| [-]. */
 double relative_force_difference(const Parameters& parameters, const Motion& motion,

@@ -57,9 +57,8 @@ SteadyState settled_motion(const Parameters& parameters, double frequency,
   steady_settings.settled = 1e-7;
   steady_settings.window = settings.window;
   steady_settings.longest = settings.longest;
-  /** Contact that is lost now and then takes more than two periods to be seen. */
-  steady_settings.shown_periods =
-      std::max(2, static_cast<int>(std::ceil(settings.window * frequency)));
+  steady_settings.shown_periods = 2;
+  steady_settings.average = settings.average;
   /** On the periodic solution if Newton finds one from the quasi-static contact, else at the static load. */
   PeriodicMotion solution;
   if (has_rotation_period(parameters.bearing))
@@ -69,14 +68,9 @@ SteadyState settled_motion(const Parameters& parameters, double frequency,
                       steady_settings);
 }
 
-Regime regime_of(const Parameters& parameters, double frequency,
-                 const SteadyState& steady, const RegimeSettings& settings)
+RegimeMeasures measures_of(const Parameters& parameters, const Motion& two_periods)
 {
-  Motion motion = motion_of(steady, settings.points_per_period);
-  const double contact = contact_share(parameters, motion);
-  motion.positions.resize(2 * static_cast<std::size_t>(settings.points_per_period));
-
-  const auto ball_force = contact_evolution(parameters, motion).ball_force;
+  const auto ball_force = contact_evolution(parameters, two_periods).ball_force;
   const auto passages = passages_per_ball(ball_force);
   const auto balls = static_cast<double>(passages.size());
   double loaded = 0, largest = 0;
@@ -85,18 +79,40 @@ Regime regime_of(const Parameters& parameters, double frequency,
       loaded += q > 0;
       largest = std::max(largest, q);
     }
-  return {.frequency = frequency,
-          .periodic = steady.periodic,
-          .spread = steady.spread,
-          .contact = contact,
-          .turns = turns_of(bearing_forces(parameters, motion)) / 2,
-          .higher = higher_harmonics(motion),
-          .passed_once = std::ranges::count(passages, 1) == std::ssize(passages),
-          .passages = std::accumulate(passages.begin(), passages.end(), 0.0) / balls,
-          .loaded_arc = loaded / static_cast<double>(ball_force.size()) * 2 *
-                        std::numbers::pi / balls,
-          .largest_force = largest,
-          .amp_x_r = half_peak_to_peak(motion)[2]};
+  RegimeMeasures measures{higher_harmonics(two_periods)};
+  measures.contact = contact_share(parameters, two_periods);
+  measures.turns = turns_of(bearing_forces(parameters, two_periods)) / 2;
+  measures.passed_once = std::ranges::count(passages, 1) == std::ssize(passages);
+  measures.passages = std::accumulate(passages.begin(), passages.end(), 0.0) / balls;
+  measures.loaded_arc =
+      loaded / static_cast<double>(ball_force.size()) * 2 * std::numbers::pi / balls;
+  measures.largest_force = largest;
+  measures.amp_x_r = half_peak_to_peak(two_periods)[2];
+  return measures;
+}
+
+Regime regime_of(const Parameters& parameters, double frequency,
+                 const SteadyState& steady, const RegimeSettings& settings)
+{
+  using M = RegimeMeasures;
+  constexpr double M::*each[] = {&M::all,        &M::h_2,           &M::h_3,
+                                 &M::h_4,        &M::h_5,           &M::contact,
+                                 &M::turns,      &M::passed_once,   &M::passages,
+                                 &M::loaded_arc, &M::largest_force, &M::amp_x_r};
+  std::vector<RegimeMeasures> pairs;
+  for (const Motion& pair : pieces(motion_of(steady, settings.points_per_period), 2)) {
+    pairs.push_back(measures_of(parameters, pair));
+    if (steady.periodic) break;
+  }
+  Regime regime{{}, frequency, steady.periodic, steady.spread, {}};
+  for (double M::*measure : each) {
+    std::vector<double> values;
+    for (const RegimeMeasures& pair : pairs) values.push_back(pair.*measure);
+    const BatchMean mean = batch_mean(values);
+    regime.*measure = mean.value;
+    regime.error.*measure = mean.error;
+  }
+  return regime;
 }
 
 Regime regime_at(const Parameters& parameters, double frequency,
@@ -112,6 +128,7 @@ RegimeSettings read_regime_settings(SceneFile& scene)
   return {.step_over_default = table.number("step_over_default", Range::positive),
           .longest = table.number("longest_s", Range::positive),
           .window = table.number("window_s", Range::positive),
+          .average = table.number("average_s", Range::positive),
           .points_per_period = table.integer("points_per_period", 4, 4096)};
 }
 

@@ -17,8 +17,9 @@ namespace rotor_stator::motion {
 struct RegimeSettings {
   double step_over_default;  ///< RK4's step over `default_step` [-]
   double longest;            ///< integration at most [s]
-  double window;          ///< of the Poincaré section, and of contact [s], ≥ 2 periods
-  int points_per_period;  ///< of the two recorded periods, those of a ball's passage
+  double window;             ///< of the Poincaré section [s], ≥ 2 periods
+  double average;            ///< at least so long an aperiodic motion is recorded [s]
+  int points_per_period;     ///< of the recorded motion
 };
 
 /** The table [regime] of a scene. */
@@ -31,20 +32,28 @@ struct HigherHarmonics {
   double h_2 = 0, h_3 = 0, h_4 = 0, h_5 = 0;  ///< one by one
 };
 
-struct Regime {
-  double frequency;  ///< [Hz]
-  bool periodic;     ///< with period T
-  double spread;     ///< Poincaré spread [-]
-  double contact;    ///< share of `window` seconds with at least one loaded ball [-]
-  double turns;      ///< of the force's direction per period, 1 where the contact
-                     ///< rotates with the rotor, 0 where gravity holds it
-  HigherHarmonics higher;
-  bool passed_once;   ///< every ball is loaded exactly once in two periods
-  double passages;    ///< times a ball is loaded in two periods, mean over the balls [-]
-  double loaded_arc;  ///< mean over time of the balls loaded at once, times 2π/n [rad]
-  double largest_force;  ///< on one ball [N]
-  double amp_x_r;        ///< half peak-to-peak of x_r [m]
+/** Of two periods, those of a ball's passage. */
+struct RegimeMeasures : HigherHarmonics {
+  double contact = 0;      ///< share of the time with at least one loaded ball [-]
+  double turns = 0;        ///< of the force's direction per period, 1 where the contact
+                           ///< rotates with the rotor, 0 where gravity holds it
+  double passed_once = 0;  ///< 1 if every ball is loaded exactly once
+  double passages = 0;     ///< times a ball is loaded, mean over the balls [-]
+  double loaded_arc =
+      0;  ///< mean over time of the balls loaded at once, times 2π/n [rad]
+  double largest_force = 0;  ///< on one ball [N]
+  double amp_x_r = 0;        ///< half peak-to-peak of x_r [m]
 };
+
+/** Of an aperiodic motion the measures are means over pairs of periods. */
+struct Regime : RegimeMeasures {
+  double frequency;      ///< [Hz]
+  bool periodic;         ///< with period T
+  double spread;         ///< Poincaré spread [-]
+  RegimeMeasures error;  ///< standard errors of the measures; 0 where periodic
+};
+
+RegimeMeasures measures_of(const Parameters& parameters, const Motion& two_periods);
 
 Regime regime_of(const Parameters& parameters, double frequency,
                  const SteadyState& steady, const RegimeSettings& settings);

@@ -190,13 +190,16 @@ void compare_with_settled(const Parameters& parameters, const PeriodicMotion& so
                           Verdict& verdict)
 {
   Verdict settled{.from_there = verdict.from_there, .evaluations = verdict.evaluations};
+  bool is_closed = false;
   try {
-    if (!shootings.from(verdict.from_there, budget.part(0.5), settled.state)) return;
-    measure(parameters, solution, budget, settled);
+    is_closed = shootings.from(verdict.from_there, budget.part(0.5), settled.state);
+    if (is_closed) measure(parameters, solution, budget, settled);
   } catch (const NoSolution&) {
-    return;
+    is_closed = false;
   }
-  if (!verdict.found() || settled.distance_rms < verdict.distance_rms) verdict = settled;
+  verdict.evaluations = settled.evaluations;
+  if (is_closed && (!verdict.found() || settled.distance_rms < verdict.distance_rms))
+    verdict = settled;
 }
 
 /** The machine's multipliers, point after point of a branch. */

@@ -11,52 +11,18 @@
 
 namespace rotor_stator::truth {
 
-namespace {
-
-/** The rms of vectors about their mean over time. */
-struct Rms {
-  double count = 0, squares = 0;
-  Vec2 sum{0, 0};
-
-  void add(Vec2 v)
-  {
-    ++count;
-    squares += v.x * v.x + v.y * v.y;
-    sum = sum + v;
-  }
-  double variance() const
-  {
-    return std::max(0.0,
-                    squares / count - (sum.x * sum.x + sum.y * sum.y) / (count * count));
-  }
-};
-
-Vec2 operator-(Vec2 a, Vec2 b)
-{
-  return {a.x - b.x, a.y - b.y};
-}
-
-}  // namespace
-
 MotionDistance distance_of(const Parameters& machine, const motion::Motion& motion,
                            const motion::Motion& reference)
 {
-  const auto forces = motion::bearing_forces(machine, motion);
-  const auto true_forces = motion::bearing_forces(machine, reference);
-  Rms off[3], size[3];  // of the stator, the rotor and the force
   double largest = 0;
   for (std::size_t k = 0; k < reference.size(); ++k) {
-    const std::size_t j = k % motion.size();
-    const Bodies &a = motion.positions[j], &b = reference.positions[k];
-    const Vec2 off_s = a.stator - b.stator, off_r = a.rotor - b.rotor;
-    off[0].add(off_s), off[1].add(off_r), off[2].add(forces[j] - true_forces[k]);
-    size[0].add(b.stator), size[1].add(b.rotor), size[2].add(true_forces[k]);
-    for (double x : displacements({off_s, off_r}))
-      largest = std::max(largest, std::abs(x));
+    const auto a = displacements(motion.positions[k % motion.size()]);
+    const auto b = displacements(reference.positions[k]);
+    for (std::size_t i = 0; i < a.size(); ++i)
+      largest = std::max(largest, std::abs(a[i] - b[i]));
   }
-  return {.displacement = std::sqrt((off[0].variance() + off[1].variance()) /
-                                    (size[0].variance() + size[1].variance())),
-          .force = std::sqrt(off[2].variance() / size[2].variance()),
+  return {.displacement = motion::rms_difference(motion, reference),
+          .force = motion::rms_force_difference(machine, motion, reference),
           .largest = largest / motion::largest_displacement(reference)};
 }
 
