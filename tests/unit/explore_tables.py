@@ -167,7 +167,7 @@ class Branch(Case):
         self.assertIn("# incomplete: the budget cut off", table.header)
 
     def test_a_branch_beside_the_followed_one_is_reported_and_printed(self):
-        table = self.table("response", SET_2, *WHOLE, "--isolated", 10)
+        table = self.table("response", SET_2, *WHOLE, "--isolated", 10, "--seed", 2)
         self.assertIn("# branch 2: off the branches before it", table.header)
         self.assertIn("the branch is closed", table.header)
         self.assertEqual(list(np.unique(table["branch"])), [1, 2])
