@@ -77,7 +77,7 @@ EvidenceList mean_of(const std::string& key, const std::string& meaning,
   std::vector<double> values;
   for (const motion::Motion& piece : motion::pieces(motion, periods))
     values.push_back(measure(piece));
-  const BatchMean mean = batch_mean(values);
+  const BatchMean mean = long_mean(values);
   return {{key, mean.value, "-", meaning},
           {key + "_error", mean.error, "-", "its standard error over the turns"}};
 }

@@ -141,7 +141,7 @@ Panel compare(const PanelScene& scene, double frequency, const PeriodicMotion& b
     std::vector<double> differences;
     for (const motion::Motion& piece : motion::pieces(all, window))
       differences.push_back(motion::rms_difference(*panel.balance, piece));
-    panel.rms_difference = batch_mean(differences);
+    panel.rms_difference = long_mean(differences);
     panel.force_difference =
         motion::relative_force_difference(scene.machine, *panel.balance, panel.settled);
     panel.difference = motion::relative_difference(*panel.balance, panel.settled);

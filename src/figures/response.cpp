@@ -124,11 +124,11 @@ static void average_over_turns(Row& row, const Parameters& machine,
     contact.push_back(motion::contact_share(machine, turn));
   }
   for (std::size_t i = 0; i < 4; ++i) {
-    const BatchMean mean = batch_mean(amplitudes[i]);
+    const BatchMean mean = long_mean(amplitudes[i]);
     row.amplitude[i] = mean.value;
     row.amplitude_error[i] = mean.error;
   }
-  row.contact_error = batch_mean(contact).error;
+  row.contact_error = long_mean(contact).error;
 }
 
 void add_settled(Table& table, const DataSet& set, double frequency, int points,

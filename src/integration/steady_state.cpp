@@ -10,10 +10,8 @@
 
 namespace rotor_stator {
 
-BatchMean batch_mean(const std::vector<double>& series)
+BatchMean batch_mean(const std::vector<double>& series, std::size_t most_batches)
 {
-  /** Few and long, so that neighbouring batches know little of each other. */
-  constexpr std::size_t most_batches = 10;
   const std::size_t batches = std::min(most_batches, series.size());
   const auto count = static_cast<double>(series.size());
   const double mean = std::accumulate(series.begin(), series.end(), 0.0) / count;
@@ -28,6 +26,13 @@ BatchMean batch_mean(const std::vector<double>& series)
   }
   const auto n = static_cast<double>(batches * std::max<std::size_t>(1, batches - 1));
   return {mean, std::sqrt(squares / n)};
+}
+
+BatchMean long_mean(const std::vector<double>& series)
+{
+  BatchMean mean = batch_mean(series);
+  mean.error = std::max(mean.error, batch_mean(series, 4).error);
+  return mean;
 }
 
 /** Beyond this the section alone fills the memory. */
@@ -137,7 +142,7 @@ SteadyState steady_state(const Parameters& parameters, double omega, const State
   }
   if (!periodic) {
     spreads.erase(spreads.begin(), spreads.begin() + transient);
-    const BatchMean mean = batch_mean(spreads);
+    const BatchMean mean = long_mean(spreads);
     steady.spread = mean.value;
     steady.spread_error = mean.error;
   }

@@ -92,7 +92,7 @@ RegimeMeasures measures_of(const Parameters& parameters, const Motion& two_perio
 }
 
 Regime regime_of(const Parameters& parameters, double frequency,
-                 const SteadyState& steady, const RegimeSettings& settings)
+                 const std::vector<SteadyState>& runs, const RegimeSettings& settings)
 {
   using M = RegimeMeasures;
   constexpr double M::*each[] = {&M::all,        &M::h_2,           &M::h_3,
@@ -100,15 +100,18 @@ Regime regime_of(const Parameters& parameters, double frequency,
                                  &M::turns,      &M::passed_once,   &M::passages,
                                  &M::loaded_arc, &M::largest_force, &M::amp_x_r};
   std::vector<RegimeMeasures> pairs;
-  for (const Motion& pair : pieces(motion_of(steady, settings.points_per_period), 2)) {
-    pairs.push_back(measures_of(parameters, pair));
-    if (steady.periodic) break;
+  Regime regime{{}, frequency, true, 0, {}};
+  for (const SteadyState& run : runs) {
+    for (const Motion& pair : pieces(motion_of(run, settings.points_per_period), 2))
+      pairs.push_back(measures_of(parameters, pair));
+    regime.periodic = regime.periodic && run.periodic;
+    regime.spread = std::max(regime.spread, run.spread);
   }
-  Regime regime{{}, frequency, steady.periodic, steady.spread, {}};
+  if (regime.periodic) pairs.resize(1);
   for (double M::*measure : each) {
     std::vector<double> values;
     for (const RegimeMeasures& pair : pairs) values.push_back(pair.*measure);
-    const BatchMean mean = batch_mean(values);
+    const BatchMean mean = long_mean(values);
     regime.*measure = mean.value;
     regime.error.*measure = mean.error;
   }
@@ -118,8 +121,12 @@ Regime regime_of(const Parameters& parameters, double frequency,
 Regime regime_at(const Parameters& parameters, double frequency,
                  const RegimeSettings& settings)
 {
-  return regime_of(parameters, frequency, settled_motion(parameters, frequency, settings),
-                   settings);
+  constexpr double other_rounding = 1e-11;
+  return regime_of(
+      parameters, frequency,
+      {settled_motion(parameters, frequency, settings),
+       settled_motion(parameters, frequency * (1 + other_rounding), settings)},
+      settings);
 }
 
 RegimeSettings read_regime_settings(SceneFile& scene)

@@ -45,7 +45,8 @@ struct RegimeMeasures : HigherHarmonics {
   double amp_x_r = 0;        ///< half peak-to-peak of x_r [m]
 };
 
-/** Of an aperiodic motion the measures are means over pairs of periods. */
+/** Of an aperiodic motion the measures are means over pairs of periods. A run that does not settle on a T-periodic
+    motion makes the regime aperiodic. */
 struct Regime : RegimeMeasures {
   double frequency;      ///< [Hz]
   bool periodic;         ///< with period T
@@ -56,9 +57,10 @@ struct Regime : RegimeMeasures {
 RegimeMeasures measures_of(const Parameters& parameters, const Motion& two_periods);
 
 Regime regime_of(const Parameters& parameters, double frequency,
-                 const SteadyState& steady, const RegimeSettings& settings);
+                 const std::vector<SteadyState>& runs, const RegimeSettings& settings);
 
-/** The same of the settled motion. Throws NoSolution when the integration breaks down. */
+/** The same of the settled motion, integrated twice, at speeds that differ by 1e-11: where several motions are stable,
+    rounding may decide which one is reached. Throws NoSolution when the integration breaks down. */
 Regime regime_at(const Parameters& parameters, double frequency,
                  const RegimeSettings& settings);
 

@@ -175,7 +175,7 @@ std::vector<CandidateMotion> motions_of(const IdentificationScene& scene,
     try {
       const SteadyState steady =
           motion::settled_motion(machine, frequency, scene.settings);
-      at.regime = regime_of(machine, frequency, steady, scene.settings);
+      at.regime = regime_of(machine, frequency, {steady}, scene.settings);
       if (!steady.periodic) continue;
       motion::Motion truth = motion::motion_of(steady, scene.settings.points_per_period);
       truth.positions.resize(static_cast<std::size_t>(truth.points_per_period));
