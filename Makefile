@@ -89,7 +89,7 @@ timings := $(filter %/tab02_timing.tsv,$(tables) $(tables_printed))
 untimed := $(filter-out $(timings),$(tables) $(tables_printed)) $(figures) $(figures_printed) data/generated/deviations.md
 studies := $(filter $(programs),$(kept))
 costs := $(filter tab02% work_precision cost_growth,$(studies))
-sources := $(shell find src -type f) CMakeLists.txt CMakePresets.json
+sources := $(shell find src data/bearings -type f) CMakeLists.txt CMakePresets.json
 
 shown := $(tables_printed) $(figures_printed)
 ifeq ($(READING),exchanged)

@@ -158,11 +158,14 @@ struct StrictToml::Content {
   }
 };
 
-StrictToml::StrictToml(const std::string& file) : content_(std::make_shared<Content>())
+StrictToml::StrictToml(const std::string& file) : StrictToml(file, content_of(file)) {}
+
+StrictToml::StrictToml(const std::string& file, const std::string& content)
+    : content_(std::make_shared<Content>())
 {
   content_->file = file;
   try {
-    content_->table = toml::parse(content_of(file), file);
+    content_->table = toml::parse(content, file);
   } catch (const toml::parse_error& error) {
     const std::string message(error.description());
     throw BadInput(file + ":" + std::to_string(error.source().begin.line) +
@@ -173,6 +176,25 @@ StrictToml::StrictToml(const std::string& file) : content_(std::make_shared<Cont
 bool StrictToml::has(const std::string& key) const
 {
   return content_->table.contains(key);
+}
+
+std::size_t StrictToml::way(const std::vector<std::vector<std::string>>& ways) const
+{
+  std::string given, advice;
+  std::size_t taken = ways.size();
+  for (std::size_t k = 0; k < ways.size(); ++k) {
+    std::string keys;
+    for (const std::string& key : ways[k]) {
+      keys += (keys.empty() ? "" : key == ways[k].back() ? " and " : ", ") + key;
+      if (!has(key) || taken == k) continue;
+      if (taken < k) fail(key, "and " + given + " are both given; give one of them");
+      taken = k;
+      given = key;
+    }
+    advice += (k == 0 ? "; give it, or " : k == 1 ? "" : ", or ") + (k == 0 ? "" : keys);
+  }
+  if (taken == ways.size()) missing(ways[0][0], advice, ways);
+  return taken;
 }
 
 double StrictToml::number(const std::string& key, Range range)
@@ -259,10 +281,13 @@ void StrictToml::fail(const std::string& key, const std::string& problem) const
                  content_->path + key + " " + problem);
 }
 
-void StrictToml::missing(const std::string& key, const std::string& advice) const
+void StrictToml::missing(const std::string& key, const std::string& advice,
+                         const std::vector<std::vector<std::string>>& ways) const
 {
+  std::vector<std::string> wanted{key};
+  for (const auto& way : ways) wanted.insert(wanted.end(), way.begin(), way.end());
   for (const std::string& found : keys()) {
-    const std::string meant = suggestion(found, {key});
+    const std::string meant = suggestion(found, wanted);
     if (!content_->read.contains(found) && !meant.empty())
       fail(found, "is not a known key here" + meant + " (" + content_->path + key +
                       " is missing" + advice + ")");

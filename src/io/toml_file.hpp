@@ -28,7 +28,15 @@ public:
       deeply or not TOML. */
   explicit StrictToml(const std::string& file);
 
+  /** The same for `content` at hand, called `file` in messages. */
+  StrictToml(const std::string& file, const std::string& content);
+
   bool has(const std::string& key) const;
+
+  /** Which of several ways to give one value is taken, each a list of keys: the one of which any key is there. Throws
+      BadInput where there are keys of two, or of none. */
+  std::size_t way(const std::vector<std::vector<std::string>>& ways) const;
+
   double number(const std::string& key, Range range);
   double number_or(const std::string& key, Range range, double otherwise);
   int integer(const std::string& key, int least, int most);
@@ -47,8 +55,10 @@ public:
   /** Throws BadInput about `key`: file, line, key and `problem`. */
   [[noreturn]] void fail(const std::string& key, const std::string& problem) const;
 
-  /** Throws BadInput about a required key: names the key that it may have been misspelt as, if any. */
-  [[noreturn]] void missing(const std::string& key, const std::string& advice = "") const;
+  /** Throws BadInput about a required key: names the key that it, or one of other `ways` to give the value, may have
+      been misspelt as, if any. */
+  [[noreturn]] void missing(const std::string& key, const std::string& advice = "",
+                            const std::vector<std::vector<std::string>>& ways = {}) const;
 
   /** Throws BadInput if a key of this table, or of a table in it that was asked for, was never asked
       for. */

@@ -37,17 +37,53 @@ struct Solid {
   double poisson_ratio;
 };
 
+/** Complete elliptic integrals of the modulus k: the first kind K, the second kind E, and K - E, which would lose its
+    digits as a difference for small k. */
+struct EllipticIntegrals {
+  double first, second, difference;
+};
+
+/** Those whose complementary modulus √(1 - k²) is `complement`, 0 < complement ≤ 1, by the arithmetic-geometric mean. */
+EllipticIntegrals elliptic_integrals(double complement);
+
+/** Hertz's contact of two bodies whose sums of curvatures in the two principal planes are `a` and `b` > 0 [1/m]
+    (a convex surface counts positive). */
+struct PointContact {
+  double ellipticity;  ///< κ ≥ 1, long over short half axis of the pressed ellipse
+  double
+      deformation;  ///< δ* of Harris, its approach over that of a circular contact of the same a + b
+  double stiffness;  ///< K [N/m^{3/2}] in Q = K p^{3/2}
+};
+
+/** With e² = 1 - κ⁻², κ follows from the geometry and gives the rest:
+
+   $$\frac{\max(a, b)}{\min(a, b)} = \frac{\kappa^2 E - K}{K - E}, \qquad
+     \delta^* = \frac{2K}{\pi} \Bigl(\frac{\pi}{2\kappa^2 E}\Bigr)^{1/3}, \qquad
+     K_H = \frac{4\sqrt2}{3} E^* (a + b)^{-1/2} (\delta^*)^{-3/2}.$$
+
+   T. A. Harris, Rolling Bearing Analysis, 4th ed. (2001), chapter 6. */
+PointContact point_contact(double a, double b, const Solid& first, const Solid& second);
+
+/** The geometry of a ball bearing, all lengths in metres. */
+struct BallGeometry {
+  double ball_diameter, pitch_diameter;
+  double inner_groove_ratio,
+      outer_groove_ratio;  ///< groove radius over ball diameter, > 1/2
+};
+
+/** A ball of the bearing against one of its races, whose radius in the plane of rotation is (d_m ∓ D)/2. */
+PointContact inner_contact(const BallGeometry& geometry, const Solid& steel);
+PointContact outer_contact(const BallGeometry& geometry, const Solid& steel);
+
+/** Two contacts that carry the same force, their penetrations added. */
+double in_series(double stiffness_a, double stiffness_b);
+
 /** The contact stiffness [N/m^{3/2}] of a ball of radius R_b = `ball_radius` [m] on a flat:
 
    $$K_H = \tfrac43 \sqrt{R_b}\, E^*, \qquad 1/E^* = (1-\nu_1^2)/E_1 + (1-\nu_2^2)/E_2. \tag{2}$$
 
    The figures take K_H from Table 1 instead (D-07:
    on steel Table 1's 1e11 would need a ball of 0.42 m). */
-inline double hertz_contact_stiffness(double ball_radius, const Solid& a, const Solid& b)
-{
-  const double compliance = (1 - a.poisson_ratio * a.poisson_ratio) / a.young_modulus +
-                            (1 - b.poisson_ratio * b.poisson_ratio) / b.young_modulus;
-  return 4.0 / 3.0 * std::sqrt(ball_radius) / compliance;
-}
+double hertz_contact_stiffness(double ball_radius, const Solid& a, const Solid& b);
 
 }  // namespace rotor_stator

@@ -5,12 +5,11 @@
 
 #include "io/errors.hpp"
 #include "io/toml_file.hpp"
+#include "model/catalogue.hpp"
 
 namespace rotor_stator {
 
 namespace {
-
-constexpr int most_balls = 1024;
 
 Body read_body(StrictToml& table)
 {
@@ -18,47 +17,6 @@ Body read_body(StrictToml& table)
       .mass = table.number("mass_kg", Range::positive),
       .natural_frequency = table.number("natural_frequency_rad_per_s", Range::positive),
       .damping_ratio = table.number("damping_ratio", Range::not_negative)};
-}
-
-/** The cage either as its speed ratio or as both radii, never both ways. */
-void read_cage(StrictToml& table, Bearing& bearing)
-{
-  const bool has_ratio = table.has("cage_speed_ratio");
-  const bool has_radii = table.has("ball_radius_m") || table.has("inner_race_radius_m");
-  if (has_ratio && has_radii)
-    table.fail("cage_speed_ratio", "and the radii are both given; give one of them");
-  if (!has_ratio && !has_radii)
-    table.missing("cage_speed_ratio",
-                  "; give it, or ball_radius_m and inner_race_radius_m");
-  if (has_ratio) {
-    bearing.cage_speed_ratio = table.number("cage_speed_ratio", Range::positive);
-    if (bearing.cage_speed_ratio > 0.5)
-      table.fail("cage_speed_ratio", "must be in 0 < c <= 0.5");
-    bearing.radius_ratio = 0;
-    return;
-  }
-  const double ball = table.number("ball_radius_m", Range::positive);
-  const double race = table.number("inner_race_radius_m", Range::positive);
-  bearing.radius_ratio = ball / (ball + race);
-  bearing.cage_speed_ratio = cage_speed_ratio(ball, race);
-  if (bearing.balls >= 2 &&
-      bearing.radius_ratio >= std::sin(std::numbers::pi / bearing.balls))
-    table.fail("ball_radius_m",
-               format("makes the %d balls overlap: R_b/(R_b+R) = %g must be "
-                      "below sin(pi/n) = %g",
-                      bearing.balls, bearing.radius_ratio,
-                      std::sin(std::numbers::pi / bearing.balls)));
-}
-
-Bearing read_bearing(StrictToml& table)
-{
-  Bearing bearing{};
-  bearing.balls = table.integer("balls", 1, most_balls);
-  bearing.contact_stiffness =
-      table.number("contact_stiffness_N_per_m1p5", Range::positive);
-  bearing.clearance = table.number("radial_clearance_m", Range::not_negative);
-  read_cage(table, bearing);
-  return bearing;
 }
 
 }  // namespace
@@ -76,7 +34,7 @@ Parameters read_parameters(const std::string& file)
   parameters.rotor = read_body(rotor);
   parameters.unbalance = rotor.number("unbalance_kg_m", Range::not_negative);
   StrictToml bearing = root.table("bearing");
-  parameters.bearing = read_bearing(bearing);
+  parameters.bearing = read_bearing(bearing, parameters.derived);
   StrictToml gravity = root.table("gravity");
   parameters.gravity = gravity.number("acceleration_m_per_s2", Range::not_negative);
 
@@ -136,6 +94,7 @@ void describe(Table& table, const Parameters& parameters)
       "  bearing: n = %d, K_H = %.15g N/m^1.5, delta = %.15g m, omega_cage/omega = %.15g",
       bearing.balls, bearing.contact_stiffness, bearing.clearance,
       bearing.cage_speed_ratio));
+  for (const std::string& line : parameters.derived) table.note("  " + line);
 }
 
 double angular(double hertz)

@@ -3,7 +3,8 @@
 
 One TOML file describes one machine, in SI units named in each key. Every key is required
 unless said otherwise, an unknown key is an error, and every value is checked when it is
-read, so that the programs below never meet a machine that cannot exist. */
+read, so that the programs below never meet a machine that cannot exist. The bearing's keys
+are in model/catalogue.hpp. */
 #pragma once
 
 #include <string>
@@ -42,7 +43,9 @@ struct Parameters {
   double unbalance;  ///< m_e e [kg m], on the rotor
   Bearing bearing;
   double gravity;  ///< g [m/s²], along -y
-  int turns = 1;   ///< of the rotor in one base period, whose frequency ω is
+  std::vector<std::string> derived =
+      {};         ///< lines for headers: what a catalogue's values gave
+  int turns = 1;  ///< of the rotor in one base period, whose frequency ω is
 };
 
 /** Reads and checks a parameter file. Throws BadInput with file, line and key. */

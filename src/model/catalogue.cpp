@@ -1,0 +1,212 @@
+#include "model/catalogue.hpp"
+
+#include <cmath>
+#include <numbers>
+
+#include "io/errors.hpp"
+#include "model/bearing_catalogue.hpp"
+#include "model/hertz.hpp"
+
+namespace rotor_stator {
+
+namespace {
+
+constexpr int most_balls = 1024;
+
+const char* const designation_key = "designation";
+
+/** The catalogue's tables [[`key`]]. */
+std::vector<StrictToml> catalogue(const std::string& key)
+{
+  return StrictToml("deep_groove.toml", bearing_catalogue).tables(key);
+}
+
+/** The entry of a designation. Throws BadInput, with all that there are, for one that is not there. */
+StrictToml entry_of(StrictToml& table)
+{
+  const std::string wanted = table.string(designation_key);
+  std::string there;
+  for (StrictToml& entry : catalogue("bearing")) {
+    const std::string designation = entry.string(designation_key);
+    if (designation == wanted) return entry;
+    there += (there.empty() ? "" : ", ") + designation;
+  }
+  table.fail(designation_key, "\"" + wanted + "\" is not in the catalogue; there are " +
+                                  there + "; give the bearing's dimensions instead");
+}
+
+/** The same table, or the catalogue's where the designation gives the value. */
+StrictToml source_of(StrictToml& table, bool from_catalogue)
+{
+  return from_catalogue ? entry_of(table) : table;
+}
+
+/** Diameters of balls and pitch circle [m], 0 where only the cage's ratio is given. */
+struct Diameters {
+  double ball, pitch;
+};
+
+/** Throws BadInput about `key` for balls that overlap. */
+void refuse_overlap(StrictToml& table, const std::string& key, int balls,
+                    double radius_ratio)
+{
+  const double most = balls >= 2 ? std::sin(std::numbers::pi / balls) : 1;
+  if (radius_ratio >= most)
+    table.fail(key, format("makes the %d balls overlap: R_b/(R_b+R) = %g must be "
+                           "below sin(pi/n) = %g",
+                           balls, radius_ratio, most));
+}
+
+Diameters read_cage(StrictToml& table, Bearing& bearing)
+{
+  const std::size_t way = table.way({{"cage_speed_ratio"},
+                                     {"ball_radius_m", "inner_race_radius_m"},
+                                     {"ball_diameter_m", "pitch_diameter_m"},
+                                     {designation_key}});
+  if (way == 0) {
+    bearing.cage_speed_ratio = table.number("cage_speed_ratio", Range::positive);
+    if (bearing.cage_speed_ratio > 0.5)
+      table.fail("cage_speed_ratio", "must be in 0 < c <= 0.5");
+    return {};
+  }
+  if (way == 1) {
+    const double ball = table.number("ball_radius_m", Range::positive);
+    const double race = table.number("inner_race_radius_m", Range::positive);
+    bearing.radius_ratio = ball / (ball + race);
+    bearing.cage_speed_ratio = cage_speed_ratio(ball, race);
+    refuse_overlap(table, "ball_radius_m", bearing.balls, bearing.radius_ratio);
+    return {2 * ball, 2 * (ball + race)};
+  }
+  StrictToml source = source_of(table, way == 3);
+  const double ball = source.number("ball_diameter_m", Range::positive);
+  const double pitch = source.number("pitch_diameter_m", Range::positive);
+  bearing.radius_ratio = ball / pitch;
+  bearing.cage_speed_ratio = 0.5 * (1 - bearing.radius_ratio);
+  refuse_overlap(source, "ball_diameter_m", bearing.balls, bearing.radius_ratio);
+  return {ball, pitch};
+}
+
+/** The range of a class of clearance [m], on the diameter, for a bore. */
+std::vector<double> clearance_range(StrictToml& table, double bore)
+{
+  const std::string wanted = table.string("internal_clearance");
+  if (wanted != "C2" && wanted != "CN" && wanted != "C3" && wanted != "C4")
+    table.fail("internal_clearance",
+               "\"" + wanted + "\": must be C2, CN (normal), C3 or C4");
+  for (StrictToml& range : catalogue("clearance"))
+    if (bore > range.number("above_m", Range::positive) &&
+        bore <= range.number("up_to_m", Range::positive))
+      return range.numbers(wanted, Range::not_negative);
+  table.fail("internal_clearance", format("is not known for a bore of %g m", bore));
+}
+
+double read_clearance(StrictToml& table, std::vector<std::string>& derived)
+{
+  const std::size_t way = table.way(
+      {{"radial_clearance_m"}, {"diametral_clearance_m"}, {"internal_clearance"}});
+  if (way == 0) return table.number("radial_clearance_m", Range::not_negative);
+  if (way == 1) {
+    const double diametral = table.number("diametral_clearance_m", Range::not_negative);
+    derived.push_back(
+        format("clearance: %.15g m on the diameter, delta is half of it", diametral));
+    return diametral / 2;
+  }
+  if (!table.has(designation_key))
+    table.fail("internal_clearance",
+               "needs designation, which gives the bore; without it give "
+               "diametral_clearance_m");
+  const auto range =
+      clearance_range(table, entry_of(table).number("bore_m", Range::positive));
+  derived.push_back(
+      format("clearance: %s, %g to %g um on the diameter unmounted (ISO 5753-1), "
+             "delta is half of the middle",
+             table.string("internal_clearance").c_str(), 1e6 * range[0], 1e6 * range[1]));
+  return (range[0] + range[1]) / 4;
+}
+
+double groove_ratio(StrictToml& source, const std::string& key)
+{
+  const double ratio = source.number(key, Range::positive);
+  if (ratio <= 0.5)
+    source.fail(key,
+                format("must be > 0.5: groove radius over ball diameter, got %g", ratio));
+  return ratio;
+}
+
+Solid read_steel(StrictToml& source)
+{
+  const Solid steel{
+      .young_modulus = source.number("youngs_modulus_Pa", Range::positive),
+      .poisson_ratio = source.number("poissons_ratio", Range::not_negative)};
+  if (steel.poisson_ratio > 0.5)
+    source.fail("poissons_ratio",
+                format("must be in 0...0.5, got %g", steel.poisson_ratio));
+  return steel;
+}
+
+double read_stiffness(StrictToml& table, const Diameters& diameters,
+                      std::vector<std::string>& derived)
+{
+  const std::size_t way = table.way({{"contact_stiffness_N_per_m1p5"},
+                                     {"inner_groove_ratio", "outer_groove_ratio",
+                                      "youngs_modulus_Pa", "poissons_ratio"},
+                                     {designation_key}});
+  if (way == 0) return table.number("contact_stiffness_N_per_m1p5", Range::positive);
+  if (way == 1 && diameters.ball == 0)
+    table.fail("cage_speed_ratio",
+               "does not give the ball's size, which the groove ratios need; give "
+               "ball_diameter_m and pitch_diameter_m instead");
+  StrictToml source = source_of(table, way == 2);
+  const BallGeometry geometry{diameters.ball, diameters.pitch,
+                              groove_ratio(source, "inner_groove_ratio"),
+                              groove_ratio(source, "outer_groove_ratio")};
+  StrictToml material =
+      way == 1 ? table : StrictToml("deep_groove.toml", bearing_catalogue).table("steel");
+  const Solid steel = read_steel(material);
+  const double inner = inner_contact(geometry, steel).stiffness;
+  const double outer = outer_contact(geometry, steel).stiffness;
+  derived.push_back(
+      format("contact: groove ratios %.15g and %.15g (%s), E = %.15g Pa, nu = %.15g; "
+             "Hertz: K_inner = %.6g, K_outer = %.6g N/m^1.5, in series K_H",
+             geometry.inner_groove_ratio, geometry.outer_groove_ratio,
+             way == 1 ? "given" : source.string("groove_ratios").c_str(),
+             steel.young_modulus, steel.poisson_ratio, inner, outer));
+  return in_series(inner, outer);
+}
+
+}  // namespace
+
+KinematicOrders kinematic_orders(const Bearing& bearing)
+{
+  const double c = bearing.cage_speed_ratio, ratio = 1 - 2 * c;
+  return {.cage = c,
+          .spin = (1 - ratio * ratio) / (2 * ratio),
+          .outer = bearing.balls * c,
+          .inner = bearing.balls * (1 - c)};
+}
+
+Bearing read_bearing(StrictToml& table, std::vector<std::string>& derived)
+{
+  Bearing bearing{};
+  const bool has_count = table.way({{"balls"}, {designation_key}}) == 0;
+  StrictToml source = source_of(table, !has_count);
+  bearing.balls = source.integer("balls", 1, most_balls);
+  const Diameters diameters = read_cage(table, bearing);
+  bearing.contact_stiffness = read_stiffness(table, diameters, derived);
+  bearing.clearance = read_clearance(table, derived);
+  if (!has_count || table.has("ball_diameter_m"))
+    derived.insert(
+        derived.begin(),
+        format("%s: D = %.15g m, d_m = %.15g m",
+               has_count ? "dimensions" : table.string(designation_key).c_str(),
+               diameters.ball, diameters.pitch));
+  if (derived.empty()) return bearing;
+  const KinematicOrders orders = kinematic_orders(bearing);
+  derived.push_back(
+      format("per turn: FTF = %.6g", orders.cage) +
+      (orders.cage < 0.5 ? format(", BSF = %.6g", orders.spin) : "") +
+      format(", BPFO = n c = %.6g, BPFI = %.6g", orders.outer, orders.inner));
+  return bearing;
+}
+
+}  // namespace rotor_stator
