@@ -54,10 +54,50 @@ def extreme_machine(dice):
     return machine
 
 
+DESIGNATIONS = ["6002", "6203", "6204", "6205", "6206", "6207", "6208", "6209", "6210", "6306", "6308"]
+
+
+def of_another_kind(dice, machine):
+    """The machine with a rigid stator, a body that only the bearing carries, dampers, loads or a bearing from the
+    catalogue; values as likely as in `extreme_machine`."""
+    def number(low, high):
+        return decade(dice, *((-320, 308) if one_in(dice, 16) else (low, high)))
+
+    for body in ["stator", "rotor"]:
+        if one_in(dice, 2):
+            machine[body]["damping_N_s_per_m"] = number(-3, 6)
+            del machine[body]["damping_ratio"]
+        if one_in(dice, 2):
+            machine[body]["load_N"] = [dice.choice([-1, 0, 1]) * number(-3, 6) for _ in "xy"]
+    hanging = dice.choice(["stator", "rotor", None])
+    if hanging:
+        machine[hanging]["natural_frequency_rad_per_s"] = 0
+        if "damping_ratio" in machine[hanging]:
+            machine[hanging]["damping_ratio"] = 0
+    if one_in(dice, 3):
+        machine["stator"] = {"rigid": True}
+    if one_in(dice, 3):
+        machine["bearing"] = {"designation": dice.choice(DESIGNATIONS),
+                              "internal_clearance": dice.choice(["C2", "CN", "C3", "C4"])}
+    elif one_in(dice, 2):
+        ball = number(-4, -1)
+        machine["bearing"] = {
+            "balls": dice.choice([1, 2, 3, 8]), "ball_diameter_m": ball, "pitch_diameter_m": 4 * ball,
+            "inner_groove_ratio": 0.5 + number(-3, 0), "outer_groove_ratio": 0.5 + number(-3, 0),
+            "youngs_modulus_Pa": number(8, 12), "poissons_ratio": 0.5 * dice.random(),
+            "diametral_clearance_m": number(-9, -2)}
+    return machine
+
+
+def value_text(value):
+    """As TOML and as Python would read it back."""
+    return str(value).lower() if isinstance(value, bool) else f'"{value}"' if isinstance(value, str) else repr(value)
+
+
 def entries(machine, title="random"):
     """The lines of the parameter file: [table, key, value as text]."""
     return [["", "title", f'"{title}"'],
-            *([table, key, repr(value)] for table, keys in machine.items() for key, value in keys.items())]
+            *([table, key, value_text(value)] for table, keys in machine.items() for key, value in keys.items())]
 
 
 def written(lines):

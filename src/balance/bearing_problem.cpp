@@ -35,7 +35,7 @@ struct Varying {
   }
 };
 
-/** A body's impedance and the amplitudes of its load in x and y: weight on harmonic 0, unbalance on that
+/** A body's impedance and the amplitudes of its load in x and y: weight and constant load on harmonic 0, unbalance on that
     of the rotor's turning (cos φ in x and sin φ = Re(-i e^{iφ}) in y). */
 struct LoadedBody {
   Varying z;
@@ -49,7 +49,9 @@ LoadedBody loaded(const Body& body, double gravity, double unbalance, double ome
   LoadedBody loaded{{z.value, static_cast<double>(h) * z.slope}, {}};
   const double moment = unbalance * turns * turns;
   const Varying force{moment * omega * omega, 2 * moment * omega};
-  if (h == 0) loaded.load[1] = {-body.mass * gravity, 0};
+  const Vec2 rest = body.static_acceleration(gravity);
+  if (h == 0)
+    loaded.load = {Varying{body.mass * rest.x, 0}, Varying{body.mass * rest.y, 0}};
   if (h == turns) loaded.load = {force, force * Varying{{0, -1}, 0}};
   return loaded;
 }

@@ -28,6 +28,11 @@ std::string machine(const Parameters& p)
         static_cast<double>(p.bearing.balls), p.bearing.contact_stiffness,
         p.bearing.clearance, p.bearing.cage_speed_ratio})
     line.append(line.empty() ? "" : " ").append(exact(value));
+  for (const Body* body : {&p.stator, &p.rotor})
+    if (body->damper != 0 || body->load.x != 0 || body->load.y != 0)
+      line += format(" %s: damper %.17g load %.17g %.17g",
+                     body == &p.rotor ? "rotor" : "stator", body->damper, body->load.x,
+                     body->load.y);
   return line;
 }
 

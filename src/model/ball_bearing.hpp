@@ -33,11 +33,6 @@ back: one sine and one cosine of the cage angle serve all balls. */
 
 namespace rotor_stator {
 
-/** A vector of the x-y plane. */
-struct Vec2 {
-  double x, y;
-};
-
 /** A direction, by its cosine and sine. */
 struct Direction {
   double cos, sin;

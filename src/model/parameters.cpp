@@ -6,6 +6,7 @@
 #include "io/errors.hpp"
 #include "io/toml_file.hpp"
 #include "model/catalogue.hpp"
+#include "model/rotor_stator.hpp"
 
 namespace rotor_stator {
 
@@ -13,10 +14,38 @@ namespace {
 
 Body read_body(StrictToml& table)
 {
-  return {
-      .mass = table.number("mass_kg", Range::positive),
-      .natural_frequency = table.number("natural_frequency_rad_per_s", Range::positive),
-      .damping_ratio = table.number("damping_ratio", Range::not_negative)};
+  Body body{};
+  body.mass = table.number("mass_kg", Range::positive);
+  body.natural_frequency =
+      table.number("natural_frequency_rad_per_s", Range::not_negative);
+  if (table.way({{"damping_ratio"}, {"damping_N_s_per_m"}}) == 0)
+    body.damping_ratio = table.number("damping_ratio", Range::not_negative);
+  else
+    body.damper = table.number("damping_N_s_per_m", Range::not_negative);
+  if (body.damping_ratio > 0 && body.natural_frequency == 0)
+    table.fail("damping_ratio",
+               "damps nothing where natural_frequency_rad_per_s is 0; give "
+               "damping_N_s_per_m instead");
+  if (table.has("load_N")) {
+    const std::vector<double> load = table.numbers("load_N", Range::any);
+    if (load.size() != 2) table.fail("load_N", "must be [x, y]");
+    body.load = {load[0], load[1]};
+  }
+  return body;
+}
+
+/** A stator that no force moves: so much heavier than the rotor that its motion is below the rounding of the rotor's,
+    and damped within the contact's vibration, so that it adds no slow multiplier. Its frequency is set when the rest
+    is known. */
+bool read_rigid(StrictToml& table, double rotor_mass, Body& stator)
+{
+  if (!table.has("rigid") || !table.flag("rigid")) return false;
+  constexpr double heavier = 1e15;
+  stator = {.mass = heavier * rotor_mass,
+            .natural_frequency = 0,
+            .damping_ratio = 1,
+            .rigid = true};
+  return true;
 }
 
 }  // namespace
@@ -29,9 +58,10 @@ Parameters read_parameters(const std::string& file)
   parameters.title = root.string("title");
 
   StrictToml stator = root.table("stator");
-  parameters.stator = read_body(stator);
   StrictToml rotor = root.table("rotor");
   parameters.rotor = read_body(rotor);
+  if (!read_rigid(stator, parameters.rotor.mass, parameters.stator))
+    parameters.stator = read_body(stator);
   parameters.unbalance = rotor.number("unbalance_kg_m", Range::not_negative);
   StrictToml bearing = root.table("bearing");
   parameters.bearing = read_bearing(bearing, parameters.derived);
@@ -39,6 +69,12 @@ Parameters read_parameters(const std::string& file)
   parameters.gravity = gravity.number("acceleration_m_per_s2", Range::not_negative);
 
   root.refuse_unknown_keys();
+  if (parameters.stator.rigid)
+    parameters.stator.natural_frequency = contact_frequency(parameters);
+  else if (parameters.stator.natural_frequency == 0 &&
+           parameters.rotor.natural_frequency == 0)
+    rotor.fail("natural_frequency_rad_per_s",
+               "and the stator's must not both be 0: nothing would hold the machine");
   return parameters;
 }
 
@@ -80,9 +116,15 @@ std::vector<Parameters> read_parameter_list(SceneFile& scene, const std::string&
 
 void describe(Table& table, const Parameters& parameters)
 {
-  const auto body = [](const char* name, const Body& b) {
-    return format("%s: m = %.15g kg, omega_0 = %.15g rad/s, xi = %.15g", name, b.mass,
-                  b.natural_frequency, b.damping_ratio);
+  const auto body = [](const std::string& name, const Body& b) {
+    if (b.rigid) return name + ": rigid";
+    return format("%s: m = %.15g kg, omega_0 = %.15g rad/s, ", name.c_str(), b.mass,
+                  b.natural_frequency) +
+           (b.damper > 0 ? format("c = %.15g N s/m", b.damper)
+                         : format("xi = %.15g", b.damping_ratio)) +
+           (b.load.x != 0 || b.load.y != 0
+                ? format(", load = (%.15g, %.15g) N", b.load.x, b.load.y)
+                : "");
   };
   const Bearing& bearing = parameters.bearing;
   table.note("parameters: " + parameters.file + " (" + parameters.title + ")");

@@ -15,14 +15,29 @@ are in model/catalogue.hpp. */
 
 namespace rotor_stator {
 
+/** A vector of the x-y plane. */
+struct Vec2 {
+  double x, y;
+};
+
 /** A body on its own suspension, the same in x and y. */
 struct Body {
-  double mass;               ///< m [kg], not in the paper (D-13)
-  double natural_frequency;  ///< ω₀ [rad/s], the body alone
-  double damping_ratio;      ///< ξ [-]
+  double mass;  ///< m [kg], not in the paper (D-13)
+  double
+      natural_frequency;  ///< ω₀ [rad/s], the body alone; 0 where nothing but the bearing carries it
+  double damping_ratio;  ///< ξ [-]
+  double damper = 0;     ///< [N s/m], given instead of ξ
+  Vec2 load = {0, 0};    ///< constant force [N], beside the weight
+  bool rigid = false;    ///< held: a mass that no force moves measurably, without weight
 
   double stiffness() const { return mass * natural_frequency * natural_frequency; }
-  double damping() const { return 2 * damping_ratio * mass * natural_frequency; }
+  double damping() const { return 2 * damping_ratio * mass * natural_frequency + damper; }
+
+  /** Acceleration [m/s²] under the constant forces, with gravity g along -y. */
+  Vec2 static_acceleration(double gravity) const
+  {
+    return rigid ? Vec2{0, 0} : Vec2{load.x / mass, load.y / mass - gravity};
+  }
 };
 
 /** The ball bearing between them. */

@@ -11,10 +11,11 @@ RotorStator::RotorStator(const Parameters& parameters, double omega)
     : bearing_(parameters.bearing), omega_(omega), turns_(parameters.turns),
       cage_ratio_(parameters.bearing.cage_speed_ratio),
       unbalance_(parameters.unbalance * (turns_ * omega) * (turns_ * omega)),
-      gravity_(parameters.gravity), k_s_(parameters.stator.stiffness()),
-      c_s_(parameters.stator.damping()), per_m_s_(1 / parameters.stator.mass),
-      k_r_(parameters.rotor.stiffness()), c_r_(parameters.rotor.damping()),
-      per_m_r_(1 / parameters.rotor.mass)
+      rest_s_(parameters.stator.static_acceleration(parameters.gravity)),
+      rest_r_(parameters.rotor.static_acceleration(parameters.gravity)),
+      k_s_(parameters.stator.stiffness()), c_s_(parameters.stator.damping()),
+      per_m_s_(1 / parameters.stator.mass), k_r_(parameters.rotor.stiffness()),
+      c_r_(parameters.rotor.damping()), per_m_r_(1 / parameters.rotor.mass)
 {
 }
 
@@ -32,14 +33,18 @@ DynamicStiffness dynamic_stiffness(const Body& body, double frequency)
 
 double joint_resonance(const Parameters& parameters)
 {
+  if (parameters.stator.rigid)
+    return parameters.rotor.stiffness() > 0 ? parameters.rotor.natural_frequency
+                                            : parameters.stator.natural_frequency;
   return std::sqrt((parameters.stator.stiffness() + parameters.rotor.stiffness()) /
                    (parameters.stator.mass + parameters.rotor.mass));
 }
 
 Scales scales(const Parameters& parameters)
 {
-  const double weight =
-      (parameters.stator.mass + parameters.rotor.mass) * parameters.gravity;
+  const Body &s = parameters.stator, &r = parameters.rotor;
+  const double weight = ((s.rigid ? 0 : s.mass) + r.mass) * parameters.gravity +
+                        std::hypot(s.load.x, s.load.y) + std::hypot(r.load.x, r.load.y);
   const double resonance = joint_resonance(parameters);
   const double unbalance = parameters.unbalance * resonance * resonance;
   const double k_h = parameters.bearing.contact_stiffness;
@@ -69,34 +74,49 @@ Vector8 state_scales(const Parameters& parameters)
   return sizes;
 }
 
-Vec2 rigid_joint_force(const Parameters& parameters, double omega, double phase)
+namespace {
+
+/** The constant force [N] on a body. */
+Vec2 static_load(const Body& body, double gravity)
+{
+  return body.rigid ? Vec2{0, 0} : Vec2{body.load.x, body.load.y - body.mass * gravity};
+}
+
+}  // namespace
+
+Vec2 static_joint_force(const Parameters& parameters)
 {
   const double k_s = parameters.stator.stiffness(), k_r = parameters.rotor.stiffness();
-  const double weight_s = parameters.stator.mass * parameters.gravity;
-  const double weight_r = parameters.rotor.mass * parameters.gravity;
-  const double gravity = (k_r * weight_s - k_s * weight_r) / (k_s + k_r);
+  const Vec2 f_s = static_load(parameters.stator, parameters.gravity);
+  const Vec2 f_r = static_load(parameters.rotor, parameters.gravity);
+  return {(k_s * f_r.x - k_r * f_s.x) / (k_s + k_r),
+          (k_s * f_r.y - k_r * f_s.y) / (k_s + k_r)};
+}
 
+Vec2 rigid_joint_force(const Parameters& parameters, double omega, double phase)
+{
+  const Vec2 rest = static_joint_force(parameters);
   const double speed = parameters.turns * omega;
   const auto z_s = dynamic_stiffness(parameters.stator, speed).value;
   const auto z_r = dynamic_stiffness(parameters.rotor, speed).value;
   const auto whirl = z_s * parameters.unbalance * speed * speed / (z_s + z_r) *
                      std::polar(1.0, parameters.turns * phase);
-  return {whirl.real(), gravity + whirl.imag()};
+  return {rest.x + whirl.real(), rest.y + whirl.imag()};
 }
 
 std::vector<double> equal_force_speeds(const Parameters& parameters, double highest)
 {
-  const double gravity = rigid_joint_force(parameters, 0, 0).y;
+  const Vec2 rest = static_joint_force(parameters);
   const auto unbalance_prevails = [&](double omega) {
     const Vec2 force = rigid_joint_force(parameters, omega, 0);
-    return std::hypot(force.x, force.y - gravity) > std::abs(gravity);
+    return std::hypot(force.x - rest.x, force.y - rest.y) > std::hypot(rest.x, rest.y);
   };
   constexpr int steps = 4000;
   std::vector<double> speeds;
   for (int k = 0; k < steps; ++k) {
     double low = highest * k / steps, high = highest * (k + 1) / steps;
     const bool before = unbalance_prevails(low);
-    if (gravity == 0 || unbalance_prevails(high) == before) continue;
+    if ((rest.x == 0 && rest.y == 0) || unbalance_prevails(high) == before) continue;
     for (int halving = 0; halving < 40; ++halving) {
       const double middle = 0.5 * (low + high);
       (unbalance_prevails(middle) == before ? low : high) = middle;
@@ -108,14 +128,18 @@ std::vector<double> equal_force_speeds(const Parameters& parameters, double high
 
 Vec2 free_displacement(const Parameters& parameters, double omega, double phase)
 {
-  const auto sag = [&](const Body& body) {
-    return parameters.gravity / (body.natural_frequency * body.natural_frequency);
+  /** Without a suspension a loaded body sags without end, an unloaded one stays where it is. */
+  const auto sag = [&](const Body& body) -> Vec2 {
+    const double squared = body.natural_frequency * body.natural_frequency;
+    const Vec2 a = body.static_acceleration(parameters.gravity);
+    return {a.x == 0 ? 0 : a.x / squared, a.y == 0 ? 0 : a.y / squared};
   };
+  const Vec2 s = sag(parameters.stator), r = sag(parameters.rotor);
   const double speed = parameters.turns * omega;
   const auto whirl = parameters.unbalance * speed * speed /
                      dynamic_stiffness(parameters.rotor, speed).value *
                      std::polar(1.0, parameters.turns * phase);
-  return {whirl.real(), sag(parameters.stator) - sag(parameters.rotor) + whirl.imag()};
+  return {r.x - s.x + whirl.real(), r.y - s.y + whirl.imag()};
 }
 
 Vec2 quasi_static_contact(const Parameters& parameters, Vec2 force)
@@ -129,11 +153,19 @@ Vec2 quasi_static_contact(const Parameters& parameters, Vec2 force)
 
 State static_start(const Parameters& parameters)
 {
-  const Vec2 force = rigid_joint_force(parameters, 0, 0);
+  const Vec2 force = static_joint_force(parameters);
   const Vec2 u = quasi_static_contact(parameters, force);
-  const double y_s = (force.y - parameters.stator.mass * parameters.gravity) /
-                     parameters.stator.stiffness();
-  return {.position = {.stator = {0, y_s}, .rotor = {u.x, y_s + u.y}}, .velocity = {}};
+  const auto displaced = [&](const Body& body, double sign) -> Vec2 {
+    const Vec2 load = static_load(body, parameters.gravity);
+    return {(sign * force.x + load.x) / body.stiffness(),
+            (sign * force.y + load.y) / body.stiffness()};
+  };
+  if (parameters.stator.stiffness() == 0) {
+    const Vec2 r = displaced(parameters.rotor, -1);
+    return {.position = {.stator = {r.x - u.x, r.y - u.y}, .rotor = r}, .velocity = {}};
+  }
+  const Vec2 s = displaced(parameters.stator, 1);
+  return {.position = {.stator = s, .rotor = {s.x + u.x, s.y + u.y}}, .velocity = {}};
 }
 
 }  // namespace rotor_stator

@@ -73,11 +73,12 @@ public:
     const Bodies& q = state.position;
     const Bodies& v = state.velocity;
     return {
-        {(f.x - c_s_ * v.stator.x - k_s_ * q.stator.x) * per_m_s_,
-         (f.y - c_s_ * v.stator.y - k_s_ * q.stator.y) * per_m_s_ - gravity_},
-        {(unbalance_ * rotor.cos - f.x - c_r_ * v.rotor.x - k_r_ * q.rotor.x) * per_m_r_,
-         (unbalance_ * rotor.sin - f.y - c_r_ * v.rotor.y - k_r_ * q.rotor.y) * per_m_r_ -
-             gravity_}};
+        {(f.x - c_s_ * v.stator.x - k_s_ * q.stator.x) * per_m_s_ + rest_s_.x,
+         (f.y - c_s_ * v.stator.y - k_s_ * q.stator.y) * per_m_s_ + rest_s_.y},
+        {(unbalance_ * rotor.cos - f.x - c_r_ * v.rotor.x - k_r_ * q.rotor.x) * per_m_r_ +
+             rest_r_.x,
+         (unbalance_ * rotor.sin - f.y - c_r_ * v.rotor.y - k_r_ * q.rotor.y) * per_m_r_ +
+             rest_r_.y}};
   }
 
   double omega() const { return omega_; }
@@ -91,7 +92,8 @@ public:
 
 private:
   BallBearing bearing_;
-  double omega_, turns_, cage_ratio_, unbalance_, gravity_;
+  double omega_, turns_, cage_ratio_, unbalance_;
+  Vec2 rest_s_, rest_r_;  ///< static accelerations [m/s²]
   double k_s_, c_s_, per_m_s_, k_r_, c_r_, per_m_r_;
 };
 
@@ -103,7 +105,8 @@ DynamicStiffness dynamic_stiffness(const Body& body, double frequency);
 
 /** Sizes that make the equations dimensionless. */
 struct Scales {
-  double load;  ///< weight of both bodies plus the unbalance at the joint resonance [N]
+  double
+      load;  ///< weights and loads of both bodies plus the unbalance at the joint resonance [N]
   double penetration;  ///< of one ball under that load [m]
   double length;       ///< clearance plus penetration: the size of u [m]
   double stiffness;    ///< of one ball under that load [N/m]
@@ -116,17 +119,21 @@ double contact_frequency(const Parameters& parameters);
 /** Sizes of the eight components of a state, for tolerances and norms. */
 Vector8 state_scales(const Parameters& parameters);
 
-/** Resonance [rad/s] of rotor and stator moving as one body on both suspensions. */
+/** Resonance [rad/s] of rotor and stator moving as one body on both suspensions; beside a rigid stator that of the rotor,
+    on the contact if it has no suspension. */
 double joint_resonance(const Parameters& parameters);
 
+/** The static part of the next force, from weights and loads: (k_s f_r - k_r f_s)/(k_s + k_r) [N]. */
+Vec2 static_joint_force(const Parameters& parameters);
+
 /** The bearing's force [N] that would keep u = 0 at `phase` ωt [rad] in the steady
-   state: F = (Z_s f_r - Z_r f_s)/(Z_s + Z_r) for gravity and for
+   state: F = (Z_s f_r - Z_r f_s)/(Z_s + Z_r) for weights and loads and for
    the unbalance. */
 Vec2 rigid_joint_force(const Parameters& parameters, double omega, double phase);
 
-/** The speeds [rad/s] up to `highest` at which the static part of that force, from gravity, is as large as its
+/** The speeds [rad/s] up to `highest` at which the static part of that force, from weights and loads, is as large as its
     rotating part, from the unbalance; ascending. At the first the force of the joint passes through zero: a contact that
-    can only push is lost. None without gravity. */
+    can only push is lost. None without them. */
 std::vector<double> equal_force_speeds(const Parameters& parameters, double highest);
 
 /** The relative displacement [m] of both bodies without any contact, u = G_r f_r - G_s
@@ -139,8 +146,8 @@ Vec2 free_displacement(const Parameters& parameters, double omega, double phase)
    iterations. */
 Vec2 quasi_static_contact(const Parameters& parameters, Vec2 force);
 
-/** A state at rest with the bearing carrying the static load: where time integration
-    starts. */
+/** A state at rest with the bearing carrying the static load, on one ball: where time integration
+    starts. A body without a suspension of its own hangs on the other. */
 State static_start(const Parameters& parameters);
 
 /**

@@ -195,20 +195,17 @@ Shooting shoot(const Parameters& parameters, double omega, State& state,
 
 State quasi_static_state(const Parameters& parameters, double omega)
 {
-  /** F = gravity + Re(whirl (1, -i) e^{iφ}); the stator answers with its receptance, the rotor stands
+  /** F = rest + Re(whirl (1, -i) e^{iφ}); the stator answers with its receptance, the rotor stands
       off by u, which follows the force. */
   const Vec2 at_0 = rigid_joint_force(parameters, omega, 0);
-  const Vec2 at_90 =
-      rigid_joint_force(parameters, omega, std::numbers::pi / 2 / parameters.turns);
-  const double gravity = at_90.y - at_0.x;
-  const std::complex<double> whirl(at_0.x, at_0.y - gravity);
+  const Vec2 rest = static_joint_force(parameters);
+  const std::complex<double> whirl(at_0.x - rest.x, at_0.y - rest.y);
   const auto response =
       whirl / dynamic_stiffness(parameters.stator, parameters.turns * omega).value;
-  const double sag = (gravity - parameters.stator.mass * parameters.gravity) /
-                     parameters.stator.stiffness();
+  const Vec2 sag = static_start(parameters).position.stator;
   const auto stator = [&](double phase) -> Vec2 {
     const auto turned = response * std::polar(1.0, parameters.turns * phase);
-    return {turned.real(), sag + turned.imag()};
+    return {sag.x + turned.real(), sag.y + turned.imag()};
   };
   const auto relative = [&](double phase) {
     return quasi_static_contact(parameters, rigid_joint_force(parameters, omega, phase));

@@ -30,7 +30,7 @@ class Values(Case):
                 ("mass_kg = 20.0", "mass_kg = 20.0\ncolour = 1",
                  f":{line + 1}: stator.colour is not a known key"),
                 ("mass_kg = 20.0", "", "stator.mass_kg is missing"),
-                ("rad_per_s = 500.0", "rad_per_s = 0", "natural_frequency_rad_per_s must be > 0"),
+                ("rad_per_s = 500.0", "rad_per_s = -1", "natural_frequency_rad_per_s must be >= 0"),
                 ("damping_ratio = 0.05", "damping_ratio = -0.1", "damping_ratio must be >= 0"),
                 ("unbalance_kg_m = 0.05", "unbalance_kg_m = -1", "rotor.unbalance_kg_m"),
                 ("balls = 16", "balls = 0", "bearing.balls must be in 1...1024"),
