@@ -83,7 +83,7 @@ def of_another_kind(dice, machine):
         ball = number(-4, -1)
         machine["bearing"] = {
             "balls": dice.choice([1, 2, 3, 8]), "ball_diameter_m": ball, "pitch_diameter_m": 4 * ball,
-            "inner_groove_ratio": 0.5 + number(-3, 0), "outer_groove_ratio": 0.5 + number(-3, 0),
+            "inner_groove_ratio": 0.5 + decade(dice, -6, 3), "outer_groove_ratio": 0.5 + decade(dice, -3, 0),
             "youngs_modulus_Pa": number(8, 12), "poissons_ratio": 0.5 * dice.random(),
             "diametral_clearance_m": number(-9, -2)}
     return machine

@@ -165,13 +165,17 @@ double read_stiffness(StrictToml& table, const Diameters& diameters,
   const Solid steel = read_steel(material);
   const double inner = inner_contact(geometry, steel).stiffness;
   const double outer = outer_contact(geometry, steel).stiffness;
+  const double stiffness = in_series(inner, outer);
+  if (!(stiffness > 0 && std::isfinite(stiffness)))
+    source.fail("youngs_modulus_Pa",
+                "and the dimensions give no contact stiffness that a double holds");
   derived.push_back(
       format("contact: groove ratios %.15g and %.15g (%s), E = %.15g Pa, nu = %.15g; "
              "Hertz: K_inner = %.6g, K_outer = %.6g N/m^1.5, in series K_H",
              geometry.inner_groove_ratio, geometry.outer_groove_ratio,
              way == 1 ? "given" : source.string("groove_ratios").c_str(),
              steel.young_modulus, steel.poisson_ratio, inner, outer));
-  return in_series(inner, outer);
+  return stiffness;
 }
 
 }  // namespace

@@ -71,8 +71,7 @@ Parameters read_parameters(const std::string& file)
   root.refuse_unknown_keys();
   if (parameters.stator.rigid)
     parameters.stator.natural_frequency = contact_frequency(parameters);
-  else if (parameters.stator.natural_frequency == 0 &&
-           parameters.rotor.natural_frequency == 0)
+  else if (parameters.stator.stiffness() == 0 && parameters.rotor.stiffness() == 0)
     rotor.fail("natural_frequency_rad_per_s",
                "and the stator's must not both be 0: nothing would hold the machine");
   return parameters;

@@ -151,10 +151,45 @@ Vec2 quasi_static_contact(const Parameters& parameters, Vec2 force)
   return {reach * force.x / size, reach * force.y / size};
 }
 
+namespace {
+
+/** Where the bearing, ball 1 at angle 0, answers with `force`: Newton from far enough along that force for balls to
+    touch. The potential is convex, so steps that are halved until the error falls arrive. One or two balls may not be able
+    to answer; what is left then is a start too. */
+Vec2 equilibrium(const Parameters& parameters, Vec2 force)
+{
+  const BallBearing bearing(parameters.bearing);
+  Vec2 u = quasi_static_contact(parameters, force);
+  const auto off = [&](Vec2 at) {
+    const Vec2 f = bearing.force({1, 0}, at);
+    return std::hypot(force.x - f.x, force.y - f.y);
+  };
+  for (int k = 0; k < 4 && off(u) == off({0, 0}); ++k) u = 2.0 * u;
+  for (int step = 0; step < 100; ++step) {
+    const auto [f, s] = bearing.reaction({1, 0}, u);
+    const double error = off(u), little = 1e-6 * (s.xx + s.yy);
+    if (!(error > 1e-12 * std::hypot(force.x, force.y)) || little == 0) break;
+    const Vec2 rest{force.x - f.x, force.y - f.y};
+    const double xx = s.xx + little, yy = s.yy + little;
+    const double per = 1 / (xx * yy - s.xy * s.xy);
+    Vec2 change{per * (yy * rest.x - s.xy * rest.y), per * (xx * rest.y - s.xy * rest.x)};
+    for (int halving = 0; halving < 40 && !(off(u + change) < error); ++halving)
+      change = 0.5 * change;
+    if (!(off(u + change) < error)) break;
+    u = u + change;
+  }
+  return u;
+}
+
+}  // namespace
+
 State static_start(const Parameters& parameters)
 {
   const Vec2 force = static_joint_force(parameters);
-  const Vec2 u = quasi_static_contact(parameters, force);
+  const bool is_carried =
+      parameters.stator.stiffness() == 0 || parameters.rotor.stiffness() == 0;
+  const Vec2 u = is_carried ? equilibrium(parameters, force)
+                            : quasi_static_contact(parameters, force);
   const auto displaced = [&](const Body& body, double sign) -> Vec2 {
     const Vec2 load = static_load(body, parameters.gravity);
     return {(sign * force.x + load.x) / body.stiffness(),

@@ -27,7 +27,7 @@ from hypothesis import strategies as st  # noqa: E402
 
 sys.path.insert(0, str(Path(__file__).parents[1]))
 from hard import odd  # noqa: E402
-from machines import SET_1, decade, entries, extreme_machine, written  # noqa: E402
+from machines import SET_1, decade, entries, extreme_machine, of_another_kind, written  # noqa: E402
 
 EXPLORE = Path(os.environ.get("BUILD", "build"), "explore").resolve()
 SANITIZED = "SANITIZED" in os.environ
@@ -354,9 +354,12 @@ def spoilt_questions(draw):
 
 
 @st.composite
-def extreme_questions(draw, flags=True):
+def extreme_questions(draw, flags=True, another_kind=False):
     """A legal machine and legal options, both over their whole range."""
-    machine = extreme_machine(draw(st.randoms()))
+    dice = draw(st.randoms())
+    machine = extreme_machine(dice)
+    if another_kind:
+        machine = of_another_kind(dice, machine)
     command, options = draw(questions(extreme=True))
     words = [command, "machine.toml", *(word for option in options for word in option)]
     if flags and command == "response" and draw(one_in(4)):
@@ -477,6 +480,19 @@ class Explore(unittest.TestCase):
 
         @examples(600)
         @given(extreme_questions())
+        def run(question):
+            content, words = question
+            self.ask(tally, words, content)
+
+        run()
+        print(dict(tally))
+        self.assertGreater(tally[0] + tally[3], tally[2])
+
+    def test_legal_and_extreme_machines_of_another_kind(self):
+        tally = Counter()
+
+        @examples(600)
+        @given(extreme_questions(another_kind=True))
         def run(question):
             content, words = question
             self.ask(tally, words, content)

@@ -156,3 +156,27 @@ TEST_CASE("A step beyond stability is reported, not returned")
   CHECK_THROWS_AS(steady_state(set_1(), hertz(10), static_start(set_1()), settings),
                   NoSolution);
 }
+
+TEST_CASE(
+    "Where the bearing alone carries a body, time integration starts in equilibrium")
+{
+  /** The acceleration at the start is that of the unbalance and no more. One ball under the whole weight, which is not
+      where the balls stand, would leave some. */
+  Parameters parameters = set_1();
+  parameters.rotor.natural_frequency = 0;
+  parameters.unbalance = 0;
+  for (int balls : {3, 7, 9, 16})
+    for (Vec2 load : {Vec2{0, 0}, Vec2{500, -300}, Vec2{-2000, 900}}) {
+      parameters.bearing.balls = balls;
+      parameters.rotor.load = load;
+      const RotorStator system(parameters, hertz(10));
+      const Bodies a =
+          system.acceleration(static_start(parameters), Direction{1, 0}, Direction{1, 0});
+      for (double value : displacements(a)) CHECK(std::abs(value) < 1e-8);
+    }
+  std::swap(parameters.stator, parameters.rotor);
+  const RotorStator system(parameters, hertz(10));
+  const Bodies a =
+      system.acceleration(static_start(parameters), Direction{1, 0}, Direction{1, 0});
+  for (double value : displacements(a)) CHECK(std::abs(value) < 1e-8);
+}
