@@ -5,12 +5,13 @@ A catalogue gives a designation, a diametral clearance and perhaps ball and pitc
 speed ratio, the radial clearance and the contact stiffness. Each of them has several ways to be given, and exactly one
 is taken:
 
-| value | keys |
-|---|---|
-| balls n | `balls`, or `designation` |
-| cage ω_cage/ω | `cage_speed_ratio`, or both radii (Eq. 3), or `ball_diameter_m` and `pitch_diameter_m`: (1 - D/d_m)/2, or `designation` |
-| radial clearance δ | `radial_clearance_m`, or half of `diametral_clearance_m`, or half of the middle of the range of `internal_clearance` |
-| stiffness K_H | `contact_stiffness_N_per_m1p5`, or Hertz's from `inner_groove_ratio`, `outer_groove_ratio`, `youngs_modulus_Pa`, `poissons_ratio`, or `designation` |
+- balls n: `balls`, or `designation`;
+- cage ω_cage/ω: `cage_speed_ratio`, or both radii (Eq. 3), or `ball_diameter_m` and `pitch_diameter_m` with
+  (1 - D/d_m)/2, or `designation`;
+- radial clearance δ: `radial_clearance_m`, or half of `diametral_clearance_m`, or half of the middle of the range of
+  the class `internal_clearance`;
+- stiffness K_H: `contact_stiffness_N_per_m1p5`, or Hertz's from `inner_groove_ratio`, `outer_groove_ratio`,
+  `youngs_modulus_Pa` and `poissons_ratio`, or `designation`.
 
 Designations and classes of clearance are those of data/bearings/deep_groove.toml. */
 #pragma once

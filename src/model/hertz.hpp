@@ -43,7 +43,8 @@ struct EllipticIntegrals {
   double first, second, difference;
 };
 
-/** Those whose complementary modulus √(1 - k²) is `complement`, 0 < complement ≤ 1, by the arithmetic-geometric mean. */
+/** Those whose complementary modulus √(1 - k²) is `complement`, in 0 … 1 but not 0, by the arithmetic-geometric
+    mean. */
 EllipticIntegrals elliptic_integrals(double complement);
 
 /** Hertz's contact of two bodies whose sums of curvatures in the two principal planes are `a` and `b` > 0 [1/m]

@@ -154,8 +154,8 @@ Vec2 quasi_static_contact(const Parameters& parameters, Vec2 force)
 namespace {
 
 /** Where the bearing, ball 1 at angle 0, answers with `force`: Newton from far enough along that force for balls to
-    touch. The potential is convex, so steps that are halved until the error falls arrive. One or two balls may not be able
-    to answer; what is left then is a start too. */
+    touch. The potential is convex, so steps that are halved until the error falls arrive. One or two balls may not
+    be able to answer; what is left then is a start too. */
 Vec2 equilibrium(const Parameters& parameters, Vec2 force)
 {
   const BallBearing bearing(parameters.bearing);

@@ -119,8 +119,8 @@ double contact_frequency(const Parameters& parameters);
 /** Sizes of the eight components of a state, for tolerances and norms. */
 Vector8 state_scales(const Parameters& parameters);
 
-/** Resonance [rad/s] of rotor and stator moving as one body on both suspensions; beside a rigid stator that of the rotor,
-    on the contact if it has no suspension. */
+/** Resonance [rad/s] of rotor and stator moving as one body on both suspensions; beside a rigid stator that of the
+    rotor, on the contact if it has no suspension. */
 double joint_resonance(const Parameters& parameters);
 
 /** The static part of the next force, from weights and loads: (k_s f_r - k_r f_s)/(k_s + k_r) [N]. */
