@@ -121,14 +121,14 @@ struct Search {
     const double goal =
         0.5 * settings.tolerance / result.motion.error->larger() * tail(finer.bodies, m);
     int more = a_little;
-    while (more < finer.harmonics.highest() && tail(finer.bodies, more) > goal) ++more;
+    while (more < finer.harmonics.count() && tail(finer.bodies, more) > goal) ++more;
     return more;
   }
 
   std::string end(int m) const
   {
     if (!result.motion.found()) return format("no solution with up to %d harmonics", m);
-    const int solved = result.motion.harmonics.highest();
+    const int solved = result.motion.harmonics.count();
     const ErrorEstimate& error = *result.motion.error;
     if (!error.settled)
       return format(
@@ -208,8 +208,7 @@ double rms_series_difference(const Eigen::MatrixXd& series,
 
 namespace {
 
-/** Newton's iteration from the coarse solution, until what the next step would add is small against
-    the steps taken. That is measured on displacements, where the residual would have to be known
+/** What the next step would add is measured on displacements, where the residual would have to be known
     with the factor, often above a hundred, by which a resonance of the contact magnifies it. */
 struct Approach {
   Balance& balance;
@@ -262,21 +261,30 @@ struct Approach {
 
 }  // namespace
 
+Approached approach(Balance& finer, double omega, double newton_tolerance,
+                    Eigen::VectorXd& x)
+{
+  Approach way{finer, omega, newton_tolerance, x};
+  const bool settled = way.arrives();
+  return {settled, way.steps, std::move(way.next)};
+}
+
 Refined estimate_error(const ObservedProblem& observed, const PeriodicMotion& coarse,
                        double newton_tolerance)
 {
-  const int m = 3 * coarse.harmonics.highest();
+  const int m = 3 * coarse.harmonics.count();
   const int n =
-      fast_transform_size(std::max(8 * coarse.harmonics.highest(), 2 * coarse.samples));
+      fast_transform_size(std::max(8 * coarse.harmonics.count(), 2 * coarse.samples));
   Balance balance(observed.problem(n), m);
   Refined refined{
       {infinite, infinite, false, m, n, 0, 0},
       {.omega = coarse.omega, .harmonics = balance.harmonics(), .samples = n}};
   auto& [estimate, finer] = refined;
   finer.x = resize_harmonics(coarse.x, balance.problem().dofs, m);
-  Approach approach{balance, coarse.omega, newton_tolerance, finer.x};
-  estimate.settled = approach.arrives();
-  estimate.newton = approach.steps;
+  const Approached approached =
+      approach(balance, coarse.omega, newton_tolerance, finer.x);
+  estimate.settled = approached.settled;
+  estimate.newton = approached.steps;
   estimate.force_samples = balance.evaluations() * n;
   if (!estimate.settled) return refined;
   finer.force = balance.force(finer.x, coarse.omega);
@@ -284,7 +292,7 @@ Refined estimate_error(const ObservedProblem& observed, const PeriodicMotion& co
   estimate.displacement = series_difference(coarse.bodies, finer.bodies);
   estimate.rms = rms_series_difference(coarse.bodies, finer.bodies);
   /** The next solution starts from one step further, which costs nothing more. */
-  finer.x += approach.next;
+  finer.x += approached.next;
   return refined;
 }
 

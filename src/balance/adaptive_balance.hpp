@@ -36,6 +36,16 @@ struct Refined {
 Refined estimate_error(const ObservedProblem& observed, const PeriodicMotion& coarse,
                        double newton_tolerance = 1e-10);
 
+/** Newton's iteration in `finer` from the coefficients x, until what the next step would add is small against the
+    steps taken. */
+struct Approached {
+  bool settled;
+  int steps;
+  Eigen::VectorXd next;  ///< the next step
+};
+Approached approach(Balance& finer, double omega, double newton_tolerance,
+                    Eigen::VectorXd& x);
+
 /** How far to go. */
 struct AdaptiveSettings {
   double tolerance = 1e-4;   ///< wanted estimate of both errors [-]

@@ -53,8 +53,9 @@ LinearBlock second_order_block(const Eigen::MatrixXd& mass,
           .c_slope = SmallVector::Zero(d)};
 }
 
-Balance::Balance(Problem problem, int harmonics)
-    : problem_(std::move(problem)), harmonics_(harmonics), m_(harmonics),
+Balance::Balance(Problem problem, Harmonics harmonics)
+    : problem_(std::move(problem)), harmonics_(std::move(harmonics)),
+      m_(harmonics_.count()), images_(harmonics_.images(problem_.line, problem_.samples)),
       transform_(problem_.samples), omega_(std::numeric_limits<double>::quiet_NaN()),
       a_(2 * problem_.dofs, 2 * problem_.dofs * (m_ + 1)), b_(a_.rows(), a_.cols()),
       c_(problem_.dofs, harmonics_.coefficients()), series_(c_), force_series_(c_),
@@ -70,7 +71,7 @@ void Balance::refresh_blocks(double omega)
   if (omega == omega_) return;
   const auto size = a_.rows();
   for (int h = 0; h <= m_; ++h) {
-    const LinearBlock block = problem_.linear(omega, h);
+    const LinearBlock block = problem_.linear(omega, harmonics_.list()[h]);
     expand(block.a, a_.middleCols(h * size, size));
     expand(block.b, b_.middleCols(h * size, size));
     put_amplitude(c_, h, block.c);
@@ -116,7 +117,7 @@ const Eigen::VectorXd& Balance::residual(const Eigen::VectorXd& x, double omega,
     spend(2 * problem_.dofs * transform_.operations());
     refresh_blocks(omega);
     std::copy(x.begin(), x.end(), series_.data());
-    transform_.to_samples(series_, samples_);
+    transform_.to_samples(series_, samples_, images_);
   }
   spend(problem_.operations);
   ++evaluations_;
@@ -125,7 +126,7 @@ const Eigen::VectorXd& Balance::residual(const Eigen::VectorXd& x, double omega,
                  has_stiffness_ ? &stiffness_samples_ : nullptr);
   evaluated_ = true;
   if (known) return residual_;
-  transform_.to_series(force_samples_, force_series_);
+  transform_.to_series(force_samples_, force_series_, images_);
   combine(series_, force_series_, residual_);
   residual_ -= c_.reshaped();
   return residual_;
@@ -142,7 +143,7 @@ const Eigen::VectorXd& Balance::speed_derivative(const Eigen::VectorXd& x, doubl
   residual(x, omega, With::force);
   Eigen::Map<Eigen::MatrixXd> slope(speed_derivative_.data(), c_.rows(), c_.cols());
   for (int h = 0; h <= m_; ++h) {
-    const LinearBlock block = problem_.linear(omega_, h);
+    const LinearBlock block = problem_.linear(omega_, harmonics_.list()[h]);
     put_amplitude(slope, h,
                   block.a_slope * amplitude(series_, h) +
                       block.b_slope * amplitude(force_series_, h) - block.c_slope);
@@ -173,21 +174,25 @@ void Balance::need_spectra(const Eigen::VectorXd& x, double omega)
   has_spectra_ = true;
 }
 
-/** α_p + iβ_p = conj κ_p of one stiffness series, p ≥ 0. The indices are modulo N, which makes the
+/** α_p + iβ_p = conj κ_p of one stiffness series, |p| ≤ N. The indices are modulo N, which makes the
     derivative exact for any N ≥ 2m+1. */
 std::complex<double> Balance::conjugate_kappa(int p, Eigen::Index column) const
 {
   const int n = problem_.samples;
+  if (p < 0) return std::conj(conjugate_kappa(-p, column));
   return 2 * p <= n ? std::conj(spectra_(p, column)) : spectra_(n - p, column);
 }
 
-/** The same for p = -`below` … `above`. */
-void Balance::extend_spectrum(Eigen::Index column, int below, int above)
+/** The same for all sums and differences of the images of the first harmonics. */
+void Balance::extend_spectrum(Eigen::Index column, int harmonics)
 {
-  extended_.resize(below + above + 1);
-  for (int p = 0; p <= above; ++p) extended_[below + p] = conjugate_kappa(p, column);
-  for (int p = 1; p <= below; ++p)
-    extended_[below - p] = std::conj(conjugate_kappa(p, column));
+  int reach = 0;
+  for (int h = 0; h <= harmonics; ++h) reach = std::max(reach, 2 * std::abs(images_[h]));
+  extended_.resize(2 * reach + 1);
+  for (int p = 0; p <= reach; ++p) {
+    extended_[reach + p] = conjugate_kappa(p, column);
+    extended_[reach - p] = std::conj(extended_[reach + p]);
+  }
 }
 
 /** Entries ∂(coefficients of f_i)/∂(coefficients of q_j) before the blocks B_h multiply
@@ -195,17 +200,18 @@ void Balance::extend_spectrum(Eigen::Index column, int below, int above)
 void Balance::fill_force_jacobian(int i, int j, int harmonics, Eigen::MatrixXd& jacobian)
 {
   const int d = problem_.dofs;
-  extend_spectrum(i + d * j, harmonics, 2 * harmonics);
+  extend_spectrum(i + d * j, harmonics);
+  const std::complex<double>* middle = &extended_[extended_.size() / 2];
   for (int q = 0; q <= harmonics; ++q) {
-    const std::complex<double>* sums = &extended_[harmonics + q];
-    const std::complex<double>* differences = &extended_[harmonics - q];
+    const std::complex<double>*sums = middle + images_[q],
+                    *differences = middle - images_[q];
     double* cosine = &jacobian(i, (q == 0 ? 0 : 2 * q - 1) * d + j);
     double* sine =
         &jacobian(i, 2 * q * d + j);  // for q = 0 the same column: written first
     sine[0] = sums[0].imag();
     cosine[0] = sums[0].real();
     for (int p = 1; p <= harmonics; ++p) {
-      const auto sum = sums[p], difference = differences[p];
+      const auto sum = sums[images_[p]], difference = differences[images_[p]];
       const Eigen::Index row = (2 * p - 1) * d;
       sine[row] = sum.imag() - difference.imag();
       sine[row + d] = difference.real() - sum.real();
@@ -264,7 +270,7 @@ void Balance::apply_jacobian(const Eigen::VectorXd& x, double omega,
   const int d = problem_.dofs;
   spend(2 * d * transform_.operations() + 2.0 * d * d * problem_.samples);
   const Eigen::Map<const Eigen::MatrixXd> series(v.data(), d, c_.cols());
-  transform_.to_samples(series, product_samples_);
+  transform_.to_samples(series, product_samples_, images_);
   product_force_.resize(problem_.samples, d);
   for (int i = 0; i < d; ++i) {
     product_force_.col(i) =
@@ -273,7 +279,7 @@ void Balance::apply_jacobian(const Eigen::VectorXd& x, double omega,
       product_force_.col(i) +=
           stiffness_samples_.col(i + d * j).cwiseProduct(product_samples_.col(j));
   }
-  transform_.to_series(product_force_, product_series_);
+  transform_.to_series(product_force_, product_series_, images_);
   combine(series, product_series_, product);
 }
 
@@ -286,7 +292,7 @@ RealBlock Balance::diagonal_block(const Eigen::VectorXd& x, double omega, int h)
     for (int i = 0; i < d; ++i) {
       const Eigen::Index column = i + d * j;
       const double mean = spectra_(0, column).real();
-      const auto twice = conjugate_kappa(2 * h, column);
+      const auto twice = conjugate_kappa(2 * images_[h], column);
       force(i, j) = mean + twice.real();
       force(i, d + j) = twice.imag();
       force(d + i, j) = twice.imag();

@@ -70,8 +70,8 @@ struct Problem {
   double residual_scale;  ///< size of c_h, for the relative tolerance
   double unknown_scale;   ///< size of q [the unit of q]
 
-  /** The block of harmonic `h` ≥ 0 at speed `omega` [rad/s]. */
-  std::function<LinearBlock(double omega, int h)> linear;
+  /** The block of one harmonic at speed `omega` [rad/s]. */
+  std::function<LinearBlock(double omega, Harmonic h)> linear;
 
   /** The force at all N samples. `q`: N × d; `force`: N × d; `stiffness`, unless it is
      null: N × d², column i + d j holding ∂f_i/∂q_j. */
@@ -84,6 +84,10 @@ struct Problem {
 
   /** Takes operations from a budget, and throws when they are not there; empty without a bound. */
   std::function<void(double operations)> spend = {};
+
+  /** z: with two frequencies the samples lie on the line θ_2 = z θ_1 (torus_line.hpp), where the harmonic
+      (k_1, k_2) is h = k_1 + z k_2. */
+  int line = 0;
 };
 
 /** The block of M q̈ + D q̇ + K q + f(q) = Re(F e^{iωt}) for real d × d matrices and a
@@ -114,12 +118,12 @@ void with_dofs(int dofs, Work work)
 
 class StepSolver;
 
-/** The balance of a problem with m harmonics. Every quantity is one of the point (X, ω) that it is
+/** The balance of a problem on a set of harmonics. Every quantity is one of the point (X, ω) that it is
     asked for; what was computed at the last point is not computed again. */
 class Balance {
 public:
-  /** N = problem.samples must be at least 2m+1. */
-  Balance(Problem problem, int harmonics);
+  /** N = problem.samples must be at least 2m+1; among chosen harmonics no one an image of another. */
+  Balance(Problem problem, Harmonics harmonics);
   ~Balance();
   Balance(Balance&&) noexcept;
 
@@ -142,7 +146,7 @@ public:
   const Eigen::MatrixXd& jacobian(const Eigen::VectorXd& x, double omega);
   const Eigen::VectorXd& speed_derivative(const Eigen::VectorXd& x, double omega);
 
-  /** Rows and columns of ∂R/∂X of the harmonics up to `harmonics`. */
+  /** Rows and columns of ∂R/∂X of the mean and the first so many harmonics. */
   void jacobian(const Eigen::VectorXd& x, double omega, int harmonics,
                 Eigen::MatrixXd& jacobian);
 
@@ -150,10 +154,10 @@ public:
   void apply_jacobian(const Eigen::VectorXd& x, double omega, const Eigen::VectorXd& v,
                       Eigen::VectorXd& product);
 
-  /** The diagonal block of ∂R/∂X of harmonic `h` ≥ 1, 2d × 2d. */
+  /** The diagonal block of ∂R/∂X of the harmonic `h` ≥ 1 of the list, 2d × 2d. */
   RealBlock diagonal_block(const Eigen::VectorXd& x, double omega, int h);
 
-  /** The highest harmonic h that the nonlinear force still decides on: ‖A_h⁻¹ B_h‖ times the
+  /** The last harmonic h of the list that the nonlinear force still decides on: ‖A_h⁻¹ B_h‖ times the
       largest stiffness over the period is at least `coupling` [-]. */
   int highest_coupled(const Eigen::VectorXd& x, double omega, double coupling);
 
@@ -176,20 +180,21 @@ private:
   void combine(const Eigen::Ref<const Eigen::MatrixXd>& series,
                const Eigen::MatrixXd& force, Eigen::VectorXd& sum) const;
   std::complex<double> conjugate_kappa(int p, Eigen::Index column) const;
-  void extend_spectrum(Eigen::Index column, int below, int above);
+  void extend_spectrum(Eigen::Index column, int harmonics);
   void fill_force_jacobian(int i, int j, int harmonics, Eigen::MatrixXd& jacobian);
 
   Problem problem_;
   Harmonics harmonics_;
-  int m_;
+  int m_;  ///< how many vibrate
+  Images images_;
   FourierTransform transform_;
   double omega_;
-  Eigen::MatrixXd a_, b_;  ///< A_h and B_h as real 2d × 2d blocks side by side, h = 0 … m
+  Eigen::MatrixXd a_, b_;  ///< A_h and B_h as real 2d × 2d blocks side by side, in the list's order
   Eigen::MatrixXd c_;      ///< d × (2m+1)
   Eigen::MatrixXd series_, samples_, force_samples_, stiffness_samples_, force_series_;
   Eigen::MatrixXd product_samples_, product_force_, product_series_;
   Eigen::MatrixXcd spectra_;   ///< κ_p of each stiffness series
-  Eigen::VectorXcd extended_;  ///< conj κ_p of one of them, p from negative to 2m
+  Eigen::VectorXcd extended_;  ///< conj κ_p of one of them, the middle one p = 0
   Eigen::VectorXd residual_, speed_derivative_;
   Eigen::MatrixXd jacobian_;
   bool evaluated_ = false, has_stiffness_ = false, has_spectra_ = false;

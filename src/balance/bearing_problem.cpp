@@ -43,27 +43,28 @@ struct LoadedBody {
 };
 
 LoadedBody loaded(const Body& body, double gravity, double unbalance, double omega,
-                  int turns, int h)
+                  int turns, Harmonic h, double order)
 {
-  const auto z = dynamic_stiffness(body, h * omega);
-  LoadedBody loaded{{z.value, static_cast<double>(h) * z.slope}, {}};
+  const auto z = dynamic_stiffness(body, order * omega);
+  LoadedBody loaded{{z.value, order * z.slope}, {}};
   const double moment = unbalance * turns * turns;
   const Varying force{moment * omega * omega, 2 * moment * omega};
   const Vec2 rest = body.static_acceleration(gravity);
-  if (h == 0)
+  if (h == Harmonic{0, 0})
     loaded.load = {Varying{body.mass * rest.x, 0}, Varying{body.mass * rest.y, 0}};
-  if (h == turns) loaded.load = {force, force * Varying{{0, -1}, 0}};
+  if (h == Harmonic{turns, 0}) loaded.load = {force, force * Varying{{0, -1}, 0}};
   return loaded;
 }
 
-std::array<LoadedBody, 2> stator_and_rotor(const Parameters& p, double omega, int h)
+std::array<LoadedBody, 2> stator_and_rotor(const Parameters& p, double omega, Harmonic h)
 {
-  return {loaded(p.stator, p.gravity, 0, omega, p.turns, h),
-          loaded(p.rotor, p.gravity, p.unbalance, omega, p.turns, h)};
+  const double order = order_of(h, p.bearing);
+  return {loaded(p.stator, p.gravity, 0, omega, p.turns, h, order),
+          loaded(p.rotor, p.gravity, p.unbalance, omega, p.turns, h, order)};
 }
 
 LinearBlock condensed_block(const Parameters& parameters, double ball_stiffness,
-                            double omega, int h)
+                            double omega, Harmonic h)
 {
   const auto [stator, rotor] = stator_and_rotor(parameters, omega, h);
   const auto& [z_s, f_s] = stator;
@@ -96,17 +97,25 @@ Problem bearing_problem(const Parameters& parameters, int samples,
         format("%s: n*omega_cage/omega = %.9g is not a whole number, so the bearing's "
                "force has not the period of rotation; use a time method",
                parameters.file.c_str(), passages_per_turn(parameters.bearing)));
+  const int z = static_cast<int>(std::lround(passages_per_turn(parameters.bearing)));
+  return bearing_problem(parameters, TorusLine{z, samples}, budget);
+}
+
+Problem bearing_problem(const Parameters& parameters, const TorusLine& line,
+                        const OperationBudget& budget)
+{
   const Scales scale = scales(parameters);
   Problem problem{.dofs = 2,
-                  .samples = samples,
+                  .samples = line.samples,
                   .residual_scale = scale.penetration,
                   .unknown_scale = scale.penetration,
                   .linear =
-                      [parameters, scale](double omega, int h) {
+                      [parameters, scale](double omega, Harmonic h) {
                         return condensed_block(parameters, scale.stiffness, omega, h);
                       },
-                  .force = SampledBearing(parameters.bearing, samples),
-                  .operations = 5e3 + samples * (8 + 1.5 * parameters.bearing.balls)};
+                  .force = SampledBearing(on(line, parameters.bearing), line.samples),
+                  .operations = 5e3 + line.samples * (8 + 1.5 * parameters.bearing.balls),
+                  .line = line.z};
   if (budget.bounded())
     problem.spend = [budget, balls = parameters.bearing.balls](double operations) {
       budget.spend(operations / operations_per_evaluation(balls));
@@ -153,8 +162,9 @@ Eigen::MatrixXd body_series(const Parameters& parameters, const PeriodicMotion& 
   const auto columns = motion.harmonics.coefficients();
   const Eigen::Map<const Eigen::MatrixXd> u(motion.x.data(), 2, columns);
   Eigen::MatrixXd bodies(4, columns);
-  for (int h = 0; h <= motion.harmonics.highest(); ++h) {
-    const auto [stator, rotor] = stator_and_rotor(parameters, motion.omega, h);
+  for (int h = 0; h <= motion.harmonics.count(); ++h) {
+    const auto [stator, rotor] =
+        stator_and_rotor(parameters, motion.omega, motion.harmonics.list()[h]);
     const Complex z_s = stator.z.value, z_r = rotor.z.value;
     const SmallVector force = amplitude(motion.force, h), relative = amplitude(u, h);
     SmallVector body(4);

@@ -15,6 +15,7 @@ high harmonics alike. */
 #pragma once
 
 #include "balance/balance.hpp"
+#include "balance/torus_line.hpp"
 #include "io/budget.hpp"
 #include "model/rotor_stator.hpp"
 
@@ -24,6 +25,10 @@ namespace rotor_stator {
    the force has not the period of rotation (n ω_cage/ω not whole, D-11): no series in ω
    can solve it. Evaluations, transforms and factorisations are paid for from `budget`. */
 Problem bearing_problem(const Parameters& parameters, int samples,
+                        const OperationBudget& budget = {});
+
+/** The same with any cage, along a line of the torus. */
+Problem bearing_problem(const Parameters& parameters, const TorusLine& line,
                         const OperationBudget& budget = {});
 
 /** A start for Newton without any previous solution, 2 × (2m+1) coefficients as a vector:

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 #include <mutex>
+#include <numeric>
 
 namespace rotor_stator {
 
@@ -91,33 +92,63 @@ double FourierTransform::operations() const
   return plans_->operations;
 }
 
+namespace {
+
+/** Those of Eq. 9. */
+Images consecutive(Eigen::Index columns)
+{
+  Images images(static_cast<std::size_t>(columns / 2 + 1));
+  std::iota(images.begin(), images.end(), 0);
+  return images;
+}
+
+}  // namespace
+
 void FourierTransform::to_samples(const Eigen::Ref<const Eigen::MatrixXd>& series,
                                   Eigen::MatrixXd& samples)
+{
+  to_samples(series, samples, consecutive(series.cols()));
+}
+
+void FourierTransform::to_series(const Eigen::MatrixXd& samples,
+                                 Eigen::Ref<Eigen::MatrixXd> series)
+{
+  to_series(samples, series, consecutive(series.cols()));
+}
+
+void FourierTransform::to_samples(const Eigen::Ref<const Eigen::MatrixXd>& series,
+                                  Eigen::MatrixXd& samples, const Images& images)
 {
   const int n = plans_->samples;
   const auto harmonics = (series.cols() - 1) / 2;
   std::complex<double>* spectrum = plans_->frequency.get();
   samples.resize(n, series.rows());
   for (Eigen::Index row = 0; row < series.rows(); ++row) {
+    std::fill(spectrum + 1, spectrum + n / 2 + 1, 0.0);
     spectrum[0] = series(row, 0);
-    for (Eigen::Index h = 1; h <= harmonics; ++h)
-      spectrum[h] = 0.5 * std::complex(series(row, 2 * h - 1), -series(row, 2 * h));
-    std::fill(spectrum + harmonics + 1, spectrum + n / 2 + 1, 0.0);
+    for (Eigen::Index h = 1; h <= harmonics; ++h) {
+      const int p = images[h];
+      const double sine = series(row, 2 * h);
+      spectrum[std::abs(p)] =
+          0.5 * std::complex(series(row, 2 * h - 1), p < 0 ? sine : -sine);
+    }
     fftw_execute(plans_->backward.get());
     std::copy_n(plans_->time.get(), n, samples.col(row).data());
   }
 }
 
 void FourierTransform::to_series(const Eigen::MatrixXd& samples,
-                                 Eigen::Ref<Eigen::MatrixXd> series)
+                                 Eigen::Ref<Eigen::MatrixXd> series, const Images& images)
 {
   const auto harmonics = (series.cols() - 1) / 2;
   for (Eigen::Index row = 0; row < series.rows(); ++row) {
     const auto kappa = spectrum(samples.col(row));
     series(row, 0) = kappa[0].real();
     for (Eigen::Index h = 1; h <= harmonics; ++h) {
-      series(row, 2 * h - 1) = 2 * kappa[h].real();
-      series(row, 2 * h) = -2 * kappa[h].imag();
+      const int p = images[h];
+      const double sine = 2 * kappa[std::abs(p)].imag();
+      series(row, 2 * h - 1) = 2 * kappa[std::abs(p)].real();
+      series(row, 2 * h) = p < 0 ? sine : -sine;
     }
   }
 }

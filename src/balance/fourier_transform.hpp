@@ -19,6 +19,9 @@ parentheses (D-21). */
 #include <Eigen/Core>
 #include <complex>
 #include <memory>
+#include <vector>
+
+#include "balance/periodic_motion.hpp"
 
 namespace rotor_stator {
 
@@ -50,8 +53,14 @@ public:
   void to_samples(const Eigen::Ref<const Eigen::MatrixXd>& series,
                   Eigen::MatrixXd& samples);
 
+  /** The same for harmonics that stand at `images`, no two of which are the same or opposite. */
+  void to_samples(const Eigen::Ref<const Eigen::MatrixXd>& series,
+                  Eigen::MatrixXd& samples, const Images& images);
+
   /** Γ: samples to the coefficients of as many harmonics as `series` has columns for. */
   void to_series(const Eigen::MatrixXd& samples, Eigen::Ref<Eigen::MatrixXd> series);
+  void to_series(const Eigen::MatrixXd& samples, Eigen::Ref<Eigen::MatrixXd> series,
+                 const Images& images);
 
   /** The discrete Fourier coefficients κ_p = (1/N) Σ_k x(φ_k) e^{-ipφ_k}, p = 0…N/2, of
      one column of samples; valid until the next call. */

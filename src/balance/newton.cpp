@@ -105,6 +105,7 @@ bool solve(Balance& balance, PeriodicMotion& motion, const NewtonSettings& setti
   motion.force = balance.force(motion.x, motion.omega);
   motion.harmonics = balance.harmonics();
   motion.samples = balance.problem().samples;
+  motion.line = balance.problem().line;
   motion.force_samples = (balance.evaluations() - before) * motion.samples;
   return motion.found();
 }

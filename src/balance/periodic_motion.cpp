@@ -2,6 +2,8 @@
 
 #include <algorithm>
 #include <cmath>
+#include <map>
+#include <utility>
 
 #include "io/errors.hpp"
 
@@ -14,6 +16,22 @@ Harmonics::Harmonics(int m)
   list_ = std::make_shared<const std::vector<Harmonic>>(std::move(list));
 }
 
+Harmonics::Harmonics(std::vector<Harmonic> list)
+    : list_(std::make_shared<const std::vector<Harmonic>>(std::move(list)))
+{
+}
+
+Images Harmonics::images(int z, int samples) const
+{
+  Images images;
+  for (const auto& [k_1, k_2] : list()) {
+    const auto h = (k_1 + static_cast<long>(z) * k_2) % samples;
+    const long least = 2 * h > samples ? h - samples : 2 * h < -samples ? h + samples : h;
+    images.push_back(static_cast<int>(least));
+  }
+  return images;
+}
+
 std::string NewtonReport::reason() const
 {
   constexpr const char* ends[] = {"converged", "iterations exhausted",
@@ -24,6 +42,25 @@ std::string NewtonReport::reason() const
                    delta_2)
           : format(" after %d iterations (residual or step not finite)", iterations);
   return ends[static_cast<int>(end)] + numbers;
+}
+
+Eigen::VectorXd project(const Eigen::VectorXd& x, int dofs, const Harmonics& from,
+                        const Harmonics& to)
+{
+  std::map<std::pair<int, int>, Eigen::Index> place;
+  for (const auto& [k_1, k_2] : from.list()) {
+    const auto h = static_cast<Eigen::Index>(place.size());
+    place[{k_1, k_2}] = h;
+  }
+  const auto first = [&](Eigen::Index h) { return h == 0 ? 0 : (2 * h - 1) * dofs; };
+  Eigen::VectorXd y = Eigen::VectorXd::Zero(to.coefficients() * dofs);
+  for (Eigen::Index h = 0; h <= to.count(); ++h) {
+    const auto& [k_1, k_2] = to.list()[static_cast<std::size_t>(h)];
+    const auto at = place.find({k_1, k_2});
+    const Eigen::Index size = h == 0 ? dofs : 2 * dofs;
+    if (at != place.end()) y.segment(first(h), size) = x.segment(first(at->second), size);
+  }
+  return y;
 }
 
 Eigen::VectorXd resize_harmonics(const Eigen::VectorXd& x, int dofs, int harmonics)

@@ -14,9 +14,15 @@ of harmonics, and what is known of how they were found and how far they are from
 
 namespace rotor_stator {
 
+/** Where the harmonics of a list stand among those of N samples, |p| ≤ N/2; the harmonic of
+    frequency -p for p < 0. */
+using Images = std::vector<int>;
+
 /** One frequency of a motion, k_1 ω + k_2 n ω_cage. */
 struct Harmonic {
   int k_1, k_2;
+
+  bool operator==(const Harmonic&) const = default;
 };
 
 /** The frequencies of a motion, the mean first. Motions with the same ones share the list. */
@@ -27,10 +33,16 @@ public:
   /** Those of Eq. 9: (0, 0), (1, 0), … (m, 0). */
   Harmonics(int m);
 
+  /** Chosen ones, (0, 0) first, none of them twice nor with its negative. */
+  explicit Harmonics(std::vector<Harmonic> list);
+
   const std::vector<Harmonic>& list() const { return *list_; }
 
-  /** m, the largest k_1. */
-  int highest() const { return list_ ? list_->back().k_1 : 0; }
+  /** How many they are beside the mean: m where they are those of Eq. 9. */
+  int count() const { return list_ ? static_cast<int>(list_->size()) - 1 : 0; }
+
+  /** h = k_1 + z k_2 modulo N, for each of them. */
+  Images images(int z, int samples) const;
 
   /** Coefficients of one displacement: the mean, and a cosine and a sine of each other frequency. */
   Eigen::Index coefficients() const
@@ -74,6 +86,7 @@ struct PeriodicMotion {
   double omega = 0;  ///< [rad/s]
   Harmonics harmonics = {};
   int samples = 0;              ///< N
+  int line = 0;                 ///< z, with two frequencies (torus_line.hpp)
   Eigen::VectorXd x = {};       ///< coefficients of u [m], d for each one of Eq. 9
   Eigen::MatrixXd force = {};   ///< those of the nonlinear force at u [N], d × (2m+1)
   Eigen::MatrixXd bodies = {};  ///< series of x_s, y_s, x_r, y_r [m], where asked for
@@ -84,6 +97,10 @@ struct PeriodicMotion {
 
   bool found() const { return newton.converged(); }
 };
+
+/** The coefficients x of one set of harmonics on another one: zero where it has none. */
+Eigen::VectorXd project(const Eigen::VectorXd& x, int dofs, const Harmonics& from,
+                        const Harmonics& to);
 
 /** The coefficients x with m = `harmonics`: cut, or filled with zeros. */
 Eigen::VectorXd resize_harmonics(const Eigen::VectorXd& x, int dofs, int harmonics);

@@ -85,7 +85,7 @@ constexpr int many_linear_iterations = 25;
 
 int largest_low(const Balance& balance)
 {
-  return std::min(balance.harmonics().highest(),
+  return std::min(balance.harmonics().count(),
                   (most_low_unknowns / balance.problem().dofs - 1) / 2);
 }
 
@@ -93,11 +93,12 @@ int largest_low(const Balance& balance)
 
 void StepSolver::factor(Balance& balance, const Eigen::VectorXd& x, double omega)
 {
-  const int m = balance.harmonics().highest(), two = 2 * balance.problem().dofs;
+  const int m = balance.harmonics().count(), two = 2 * balance.problem().dofs;
   low_ = std::max(least_low_,
                   m > least_low_ ? balance.highest_coupled(x, omega, weak_coupling) : m);
   if (low_ >= most_low_share * m) low_ = m;
-  low_ = std::min(low_, largest_low(balance));
+  if (held_ > 0) low_ = std::max(held_, least_low_);
+  low_ = std::min({low_, largest_low(balance), m});
   is_complete_ = low_ == m;
   balance.jacobian(x, omega, low_, low_jacobian_);
   low_factors_.compute(low_jacobian_);

@@ -77,6 +77,9 @@ public:
   /** What the last step, whole, left of the residual [-]. */
   void learn(double contraction);
 
+  /** The dense block holds the first so many harmonics, whatever couples the others. */
+  void hold(int harmonics) { held_ = harmonics; }
+
   /** The next step factors the Jacobian anew. */
   void forget() { factored_ = false; }
 
@@ -108,6 +111,7 @@ private:
   double contraction_ = 0;           ///< of the last step with these factors
   double entering_contraction_ = 0;  ///< of the last first step with older factors
   int low_ = 0;                      ///< harmonics in the dense block
+  int held_ = 0;                     ///< the same where it is fixed
   int least_low_ = 16;               ///< grows when GMRES stalls
   Eigen::MatrixXd low_jacobian_;
   Eigen::PartialPivLU<Eigen::MatrixXd> low_factors_;

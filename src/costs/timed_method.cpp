@@ -170,7 +170,7 @@ private:
       linear system: an indicator, not a bound. It looks up to the contact mode, and to 2m at least. */
   int harmonics_wanted(PeriodicMotion& motion)
   {
-    const int m = motion.harmonics.highest();
+    const int m = motion.harmonics.count();
     const int mode =
         static_cast<int>(std::ceil(contact_frequency(task_.parameters) / motion.omega));
     const int far = rounded_up(std::max(2 * m, mode));

@@ -119,7 +119,7 @@ motion::Motion balance_motion(const Parameters& parameters, const MotionRequest&
   const std::string wanted =
       request.tolerance
           ? format("tolerance %g not reached", *request.tolerance)
-          : format("no solution found with %d harmonics", at.motion.harmonics.highest());
+          : format("no solution found with %d harmonics", at.motion.harmonics.count());
   if (!at.reached)
     throw NoSolution(format("%s: %s at %g Hz: %s", parameters.file.c_str(),
                             wanted.c_str(), request.frequency, at.end.c_str()));
@@ -128,7 +128,7 @@ motion::Motion balance_motion(const Parameters& parameters, const MotionRequest&
   const std::string orders = turns > 1 ? format(", orders h/%d", turns) : "";
   table.note(format(
       "method: aft%s, m = %d, N = %d, relative tolerance of Newton %g", orders.c_str(),
-      at.motion.harmonics.highest() / turns, at.motion.samples / turns,
+      at.motion.harmonics.count() / turns, at.motion.samples / turns,
       is_chosen ? level_tolerance(settings_of(request)) : request.newton_tolerance));
   table.note("newton: from " + at.motion.start + ", " + at.motion.newton.reason());
   if (turns > 1)

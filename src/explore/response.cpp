@@ -336,7 +336,7 @@ Exploration explore_response(const ResponseRequest& request)
   PeriodicMotion found;
   if (!task.saved) {
     found = found_start(task);
-    task.harmonics = found.harmonics.highest();
+    task.harmonics = found.harmonics.count();
     task.samples = found.samples;
     table.note("start: " + found.start);
     if (found.error)

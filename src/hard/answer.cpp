@@ -81,7 +81,7 @@ using Approach = Eigen::VectorXd (*)(const HardCase& hard, Balance& balance);
 Eigen::VectorXd by_predictor(const HardCase& hard, Balance& balance)
 {
   const Parameters& p = hard.machine;
-  const int m = balance.harmonics().highest();
+  const int m = balance.harmonics().count();
   const int steps =
       static_cast<int>(std::clamp((hard.frequency - hard.from) / 0.5, 20.0, 400.0));
   std::vector<double> omegas;
@@ -99,7 +99,7 @@ Eigen::VectorXd by_predictor(const HardCase& hard, Balance& balance)
 Eigen::VectorXd by_arc_length(const HardCase& hard, Balance& balance)
 {
   const Parameters& p = hard.machine;
-  const int m = balance.harmonics().highest();
+  const int m = balance.harmonics().count();
   const Branch branch =
       follow_branch(balance, angular(hard.from), angular(hard.frequency),
                     quasi_static_start(p, angular(hard.from), m), arc_length_settings(p));

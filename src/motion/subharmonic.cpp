@@ -98,7 +98,7 @@ bool repeats_sooner(const PeriodicMotion& motion, int turns)
 {
   const Eigen::Map<const Eigen::MatrixXd> u(motion.x.data(), 2,
                                             motion.harmonics.coefficients());
-  const int m = motion.harmonics.highest();
+  const int m = motion.harmonics.count();
   for (int p : {2, 3, 5, 7}) {
     if (turns % p != 0) continue;
     double all = 0, others = 0;

@@ -117,7 +117,7 @@ private:
   bool raise(PeriodicMotion& solution)
   {
     bool raised = false;
-    int m = solution.harmonics.highest();
+    int m = solution.harmonics.count();
     const int most = most_harmonics * parameters_.turns;
     for (int doublings = 1; m < most && !budget_.used_up(); ++doublings) {
       m = std::min(2 * m, most);

@@ -116,7 +116,7 @@ std::vector<AdaptivePoint> judged(const AdaptiveScene& scene, std::size_t speed)
                       .frequency = frequency,
                       .tolerance = scene.tolerances[k],
                       .reached = reached,
-                      .harmonics = reached ? solution.harmonics.highest() : -1,
+                      .harmonics = reached ? solution.harmonics.count() : -1,
                       .samples = reached ? solution.samples : -1,
                       .estimate = reached ? solution.error->larger() : -1,
                       .searched = solution.start != motion::quasi_static_name,

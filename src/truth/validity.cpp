@@ -168,7 +168,7 @@ std::vector<ValidityPoint> compared(const ValidityScene& scene, int set, double 
     point.adaptive = points.size() > swept.size();
     point.harmonics = point.adaptive ? 0 : static_cast<int>(points.size());
     if (!solution.found()) continue;
-    point.harmonics = solution.harmonics.highest();
+    point.harmonics = solution.harmonics.count();
     if (point.adaptive && solution.error->settled)
       point.estimate = solution.error->larger();
     if (point.adaptive || std::ranges::find(examined, point.harmonics) != examined.end())

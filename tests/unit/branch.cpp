@@ -26,7 +26,7 @@ Problem curve(double (*f)(double), double (*slope)(double),
           .residual_scale = 1,
           .unknown_scale = 1,
           .linear =
-              [=](double omega, int) {
+              [=](double omega, Harmonic) {
                 const SmallMatrix zero = SmallMatrix::Zero(1, 1);
                 const SmallMatrix one = SmallMatrix::Identity(1, 1);
                 return LinearBlock{zero, one,  SmallVector::Constant(1, c(omega)),

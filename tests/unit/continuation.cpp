@@ -24,7 +24,7 @@ std::vector<double> speeds(double from, double to, double step)
 std::vector<PeriodicMotion> sweep_set_1(Balance& balance,
                                         const std::vector<double>& omegas)
 {
-  const int m = balance.harmonics().highest();
+  const int m = balance.harmonics().count();
   return sweep(
       balance, omegas,
       [&](double omega) { return quasi_static_start(set_1(), omega, m); },

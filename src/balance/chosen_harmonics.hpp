@@ -1,0 +1,24 @@
+/**
+# Harmonics chosen by their size
+
+A motion with two frequencies has lines everywhere, and few of them are large. The solution starts on
+the orders 0 to 3 of the speed and their first sidebands of the passing balls. It is then put on a large set of
+candidates, where Newton's next steps (a dense block for the harmonics kept, a block of 2 × 2 complex
+numbers with the mean stiffness of the contact for each other one, GMRES on the whole) say how large
+each dropped harmonic is and what that does to the kept ones. Those that the tolerance asks for are taken, the
+others dropped, until the difference of the two solutions is below it (choice by size: Grolet and
+Thouverez 2012). */
+#pragma once
+
+#include "balance/adaptive_balance.hpp"
+#include "balance/bearing_problem.hpp"
+
+namespace rotor_stator {
+
+/** A solution with two frequencies whose estimated error is below `settings.tolerance`; `end` names the largest dropped
+    harmonic where there is none. `most_harmonics` bounds those chosen. */
+AdaptiveMotion solve_on_chosen(const Parameters& parameters, double omega,
+                               const AdaptiveSettings& settings,
+                               const OperationBudget& budget = {});
+
+}  // namespace rotor_stator

@@ -1,0 +1,83 @@
+#include "balance/torus_line.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <set>
+#include <utility>
+
+#include "balance/fourier_transform.hpp"
+
+namespace rotor_stator {
+
+Bearing on(const TorusLine& line, Bearing bearing)
+{
+  const bool is_on_it =
+      has_rotation_period(bearing) && std::lround(passages_per_turn(bearing)) == line.z;
+  if (!is_on_it) bearing.cage_speed_ratio = static_cast<double>(line.z) / bearing.balls;
+  return bearing;
+}
+
+double order_of(Harmonic h, const Bearing& bearing)
+{
+  return h.k_1 + h.k_2 * passages_per_turn(bearing);
+}
+
+Harmonics candidates(const Bearing& bearing, int orders, int sidebands)
+{
+  std::set<std::pair<int, int>> pairs;
+  for (int k = -sidebands; k <= sidebands; ++k)
+    for (int l = std::abs(k) - sidebands; l <= sidebands - std::abs(k); ++l)
+      for (int a = -orders; a <= orders; ++a)
+        pairs.insert({a + l * bearing.balls, k - l});
+  std::vector<Harmonic> list;
+  for (const auto& [k_1, k_2] : pairs) {
+    const double order = order_of({k_1, k_2}, bearing);
+    if (order > 0 || (order == 0 && (k_2 > 0 || (k_2 == 0 && k_1 >= 0))))
+      list.push_back({k_1, k_2});
+  }
+  std::ranges::stable_sort(list, {}, [&](Harmonic h) { return order_of(h, bearing); });
+  const auto mean = std::ranges::find(list, Harmonic{0, 0});
+  std::rotate(list.begin(), mean, mean + 1);
+  return Harmonics(std::move(list));
+}
+
+namespace {
+
+/** Looks for z with one number of samples. */
+struct LineSearch {
+  std::vector<Harmonic> kept, others;
+  std::vector<int> taken_by = {};  ///< the last z that took this image
+
+  bool is_free(int z, int n)
+  {
+    for (Harmonic h : kept)
+      if (std::exchange(taken_by[image(h, z, n)], z) == z) return false;
+    if (taken_by.back() == z) return false;
+    return std::ranges::none_of(
+        others, [&](Harmonic h) { return taken_by[image(h, z, n)] == z; });
+  }
+
+  static std::size_t image(Harmonic h, int z, int n)
+  {
+    const auto p = std::abs((h.k_1 + static_cast<long>(z) * h.k_2) % n);
+    return static_cast<std::size_t>(std::min(p, n - p));
+  }
+};
+
+}  // namespace
+
+TorusLine line_without_images(const Harmonics& kept, const Harmonics& others)
+{
+  LineSearch search{kept.list(), others.list()};
+  std::erase_if(search.others, [&](Harmonic h) {
+    return std::ranges::find(search.kept, h) != search.kept.end();
+  });
+  for (int n = fast_transform_size(std::max(32, 4 * kept.count()));;
+       n = fast_transform_size(n + n / 16 + 1)) {
+    search.taken_by.assign(static_cast<std::size_t>(n / 2 + 1), 0);
+    for (int z = 1; z <= n / 2; ++z)
+      if (search.is_free(z, n)) return {z, n};
+  }
+}
+
+}  // namespace rotor_stator

@@ -1,0 +1,40 @@
+/**
+# Two frequencies: samples along a closed line of the torus
+
+The bearing's force depends on the rotor's angle θ_1 = ωt and on the passing of the balls, θ_2 = n ω_cage t, with
+the period 2π in both (Eqs 3 to 6). Where n ω_cage/ω is not a whole number, the motion is sought as
+
+$$x = \sum_{(k_1, k_2)} x_{k_1 k_2}\, e^{i (k_1 \theta_1 + k_2 \theta_2)}.$$
+
+Its coefficients, and those of the force at them, do not depend on the two frequencies, so that the samples may be
+taken along any closed line θ_2 = z θ_1 with z whole: there the harmonic (k_1, k_2) is the harmonic k_1 + z k_2 of
+one real transform (artificial frequency mapping: Kundert 1990; a rank-1 lattice: Kämmerer, Potts and
+Volkmer 2015). The true frequencies k_1 ω + k_2 n ω_cage enter the linear blocks alone. N samples tell two
+harmonics apart unless one is an image of the other: h' = ±h modulo N. */
+#pragma once
+
+#include "balance/periodic_motion.hpp"
+#include "model/parameters.hpp"
+
+namespace rotor_stator {
+
+/** The line, and how many samples are taken along it. */
+struct TorusLine {
+  int z, samples;
+};
+
+/** The bearing whose cage turns so that samples at equal steps of ωt lie on the line. */
+Bearing on(const TorusLine& line, Bearing bearing);
+
+/** k_1 + k_2 n ω_cage/ω, the frequency over the speed. */
+double order_of(Harmonic h, const Bearing& bearing);
+
+/** The harmonics in which a motion may have something: orders a of the speed with |a| ≤ `orders`, and their sidebands
+    a + k·BPFO + l·BPFI with |k| + |l| ≤ `sidebands`, BPFO = (0, 1) and BPFI = (n, -1). Ascending orders, none negative. */
+Harmonics candidates(const Bearing& bearing, int orders, int sidebands);
+
+/** A line with few samples on which no image of any of the `others` falls on one of the `kept`, nor
+    of one of these on another. Kept ones among the others do no harm. */
+TorusLine line_without_images(const Harmonics& kept, const Harmonics& others);
+
+}  // namespace rotor_stator
