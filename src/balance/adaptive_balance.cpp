@@ -214,6 +214,7 @@ struct Approach {
   Balance& balance;
   double omega, tolerance;
   Eigen::VectorXd& x;
+  bool until_stall = false;
   Eigen::VectorXd start = x, next = {};
   int steps = 0;
 
@@ -227,7 +228,8 @@ struct Approach {
     Eigen::VectorXd last;  // the step to x
     for (int halvings = 0; balance.evaluations() < most_evaluations;) {
       const double residual = find_step(before), size = next.norm();
-      if (!std::isfinite(size)) return false;
+      if (!std::isfinite(size) || (until_stall && balance.steps().stalled()))
+        return false;
       if (!(residual <= residual_before)) {
         if (++halvings > most_halvings) return false;
         last /= 2;
@@ -262,9 +264,9 @@ struct Approach {
 }  // namespace
 
 Approached approach(Balance& finer, double omega, double newton_tolerance,
-                    Eigen::VectorXd& x)
+                    Eigen::VectorXd& x, bool until_stall)
 {
-  Approach way{finer, omega, newton_tolerance, x};
+  Approach way{finer, omega, newton_tolerance, x, until_stall};
   const bool settled = way.arrives();
   return {settled, way.steps, std::move(way.next)};
 }

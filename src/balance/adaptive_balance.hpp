@@ -37,14 +37,14 @@ Refined estimate_error(const ObservedProblem& observed, const PeriodicMotion& co
                        double newton_tolerance = 1e-10);
 
 /** Newton's iteration in `finer` from the coefficients x, until what the next step would add is small against the
-    steps taken. */
+    steps taken; `until_stall`: or GMRES does not find one. */
 struct Approached {
   bool settled;
   int steps;
   Eigen::VectorXd next;  ///< the next step
 };
 Approached approach(Balance& finer, double omega, double newton_tolerance,
-                    Eigen::VectorXd& x);
+                    Eigen::VectorXd& x, bool until_stall = false);
 
 /** How far to go. */
 struct AdaptiveSettings {

@@ -3,6 +3,7 @@
 #include <Eigen/LU>
 #include <cstring>
 #include <limits>
+#include <numeric>
 
 #include "balance/step_solver.hpp"
 #include "io/errors.hpp"
@@ -138,6 +139,18 @@ const Eigen::MatrixXd& Balance::force(const Eigen::VectorXd& x, double omega)
   return force_series_;
 }
 
+Eigen::MatrixXd Balance::balancing_force(const Eigen::VectorXd& x, double omega)
+{
+  const Eigen::Map<const Eigen::MatrixXd> series(x.data(), c_.rows(), c_.cols());
+  Eigen::MatrixXd force(c_.rows(), c_.cols());
+  for (int h = 0; h <= m_; ++h) {
+    const LinearBlock block = problem_.linear(omega, harmonics_.list()[h]);
+    const SmallVector rest = block.c - block.a * amplitude(series, h);
+    put_amplitude(force, h, block.b.partialPivLu().solve(rest));
+  }
+  return force;
+}
+
 const Eigen::VectorXd& Balance::speed_derivative(const Eigen::VectorXd& x, double omega)
 {
   residual(x, omega, With::force);
@@ -183,11 +196,11 @@ std::complex<double> Balance::conjugate_kappa(int p, Eigen::Index column) const
   return 2 * p <= n ? std::conj(spectra_(p, column)) : spectra_(n - p, column);
 }
 
-/** The same for all sums and differences of the images of the first harmonics. */
-void Balance::extend_spectrum(Eigen::Index column, int harmonics)
+/** The same for all sums and differences of `images`. */
+void Balance::extend_spectrum(Eigen::Index column, const Images& images)
 {
   int reach = 0;
-  for (int h = 0; h <= harmonics; ++h) reach = std::max(reach, 2 * std::abs(images_[h]));
+  for (int p : images) reach = std::max(reach, 2 * std::abs(p));
   extended_.resize(2 * reach + 1);
   for (int p = 0; p <= reach; ++p) {
     extended_[reach + p] = conjugate_kappa(p, column);
@@ -196,23 +209,27 @@ void Balance::extend_spectrum(Eigen::Index column, int harmonics)
 }
 
 /** Entries ∂(coefficients of f_i)/∂(coefficients of q_j) before the blocks B_h multiply
-   them: cosine column q and row p hold α_{p-q} + α_{p+q} and so on. */
-void Balance::fill_force_jacobian(int i, int j, int harmonics, Eigen::MatrixXd& jacobian)
+   them: cosine column q and row p hold α_{p-q} + α_{p+q} and so on. With the mean its row and column come first. */
+void Balance::fill_force_jacobian(int i, int j, const Images& images, bool with_mean,
+                                  Eigen::MatrixXd& jacobian)
 {
-  const int d = problem_.dofs;
-  extend_spectrum(i + d * j, harmonics);
+  const int d = problem_.dofs, count = static_cast<int>(images.size());
+  extend_spectrum(i + d * j, images);
   const std::complex<double>* middle = &extended_[extended_.size() / 2];
-  for (int q = 0; q <= harmonics; ++q) {
-    const std::complex<double>*sums = middle + images_[q],
-                    *differences = middle - images_[q];
-    double* cosine = &jacobian(i, (q == 0 ? 0 : 2 * q - 1) * d + j);
-    double* sine =
-        &jacobian(i, 2 * q * d + j);  // for q = 0 the same column: written first
-    sine[0] = sums[0].imag();
-    cosine[0] = sums[0].real();
-    for (int p = 1; p <= harmonics; ++p) {
-      const auto sum = sums[images_[p]], difference = differences[images_[p]];
-      const Eigen::Index row = (2 * p - 1) * d;
+  const int shift = with_mean ? d : 0;
+  for (int q = 0; q < count; ++q) {
+    const std::complex<double>*sums = middle + images[q],
+                    *differences = middle - images[q];
+    const bool is_mean = with_mean && q == 0;
+    double* cosine = &jacobian(i, is_mean ? j : 2 * q * d - shift + j);
+    double* sine = is_mean ? cosine : &jacobian(i, (2 * q + 1) * d - shift + j);
+    if (with_mean) {  // for q = 0 the same column: the sine is written first
+      sine[0] = sums[0].imag();
+      cosine[0] = sums[0].real();
+    }
+    for (int p = with_mean; p < count; ++p) {
+      const auto sum = sums[images[p]], difference = differences[images[p]];
+      const Eigen::Index row = 2 * p * d - shift;
       sine[row] = sum.imag() - difference.imag();
       sine[row + d] = difference.real() - sum.real();
       cosine[row] = difference.real() + sum.real();
@@ -221,17 +238,22 @@ void Balance::fill_force_jacobian(int i, int j, int harmonics, Eigen::MatrixXd& 
   }
 }
 
-void Balance::jacobian(const Eigen::VectorXd& x, double omega, int harmonics,
-                       Eigen::MatrixXd& jacobian)
+void Balance::jacobian(const Eigen::VectorXd& x, double omega,
+                       const std::vector<int>& places, Eigen::MatrixXd& jacobian)
 {
-  const double n = problem_.dofs * (2.0 * harmonics + 1);
+  const int dofs = problem_.dofs, count = static_cast<int>(places.size());
+  const bool with_mean = places[0] == 0;
+  const int shift = with_mean ? dofs : 0;
+  const Eigen::Index size = 2 * count * dofs - shift;
+  const auto n = static_cast<double>(size);
   spend(1.5e4 + 10 * n * n + n * n * n / 18);  // with its factorisation
   need_spectra(x, omega);
-  const int dofs = problem_.dofs;
-  const Eigen::Index size = dofs * (2 * harmonics + 1);
+  Images images;
+  for (int h : places) images.push_back(images_[h]);
   jacobian.resize(size, size);
   for (int j = 0; j < dofs; ++j)
-    for (int i = 0; i < dofs; ++i) fill_force_jacobian(i, j, harmonics, jacobian);
+    for (int i = 0; i < dofs; ++i)
+      fill_force_jacobian(i, j, images, with_mean, jacobian);
 
   /** Rows of harmonic h: multiply by B_h, add A_h on the diagonal. */
   with_dofs(dofs, [&](auto constant) {
@@ -240,17 +262,27 @@ void Balance::jacobian(const Eigen::VectorXd& x, double omega, int harmonics,
     const Eigen::Matrix<double, d, d> mean = b_.template topLeftCorner<d, d>();
     for (Eigen::Index k = 0; k < size; ++k) {
       auto column = jacobian.col(k);
-      column.template head<d>() = (mean * column.template head<d>()).eval();
-      for (Eigen::Index h = 1; h <= harmonics; ++h) {
-        auto part = column.template segment<two>((2 * h - 1) * d);
-        part = (Eigen::Map<const Block>(&b_(0, h * two)) * part).eval();
+      if (with_mean)
+        column.template head<d>() = (mean * column.template head<d>()).eval();
+      for (int p = with_mean; p < count; ++p) {
+        auto part = column.template segment<two>(p * two - shift);
+        part = (Eigen::Map<const Block>(&b_(0, places[p] * two)) * part).eval();
       }
     }
-    jacobian.template topLeftCorner<d, d>() += a_.template topLeftCorner<d, d>();
-    for (Eigen::Index h = 1; h <= harmonics; ++h)
-      jacobian.template block<two, two>((2 * h - 1) * d, (2 * h - 1) * d) +=
-          a_.template middleCols<two>(h * two);
+    if (with_mean)
+      jacobian.template topLeftCorner<d, d>() += a_.template topLeftCorner<d, d>();
+    for (int p = with_mean; p < count; ++p)
+      jacobian.template block<two, two>(p * two - shift, p * two - shift) +=
+          a_.template middleCols<two>(places[p] * two);
   });
+}
+
+void Balance::jacobian(const Eigen::VectorXd& x, double omega, int harmonics,
+                       Eigen::MatrixXd& jacobian)
+{
+  std::vector<int> places(static_cast<std::size_t>(harmonics + 1));
+  std::iota(places.begin(), places.end(), 0);
+  this->jacobian(x, omega, places, jacobian);
 }
 
 const Eigen::MatrixXd& Balance::jacobian(const Eigen::VectorXd& x, double omega)

@@ -142,12 +142,19 @@ public:
   /** Coefficients of the nonlinear force, d × (2m+1). */
   const Eigen::MatrixXd& force(const Eigen::VectorXd& x, double omega);
 
+  /** The same of the force that would balance X: f_h = B_h⁻¹ (c_h - A_h q_h). */
+  Eigen::MatrixXd balancing_force(const Eigen::VectorXd& x, double omega);
+
   /** ∂R/∂X and ∂R/∂ω. Throws NoSolution when the dense matrix would not fit. */
   const Eigen::MatrixXd& jacobian(const Eigen::VectorXd& x, double omega);
   const Eigen::VectorXd& speed_derivative(const Eigen::VectorXd& x, double omega);
 
   /** Rows and columns of ∂R/∂X of the mean and the first so many harmonics. */
   void jacobian(const Eigen::VectorXd& x, double omega, int harmonics,
+                Eigen::MatrixXd& jacobian);
+
+  /** The same of the harmonics at these places of the list, ascending. */
+  void jacobian(const Eigen::VectorXd& x, double omega, const std::vector<int>& places,
                 Eigen::MatrixXd& jacobian);
 
   /** `product` = ∂R/∂X `v`, without the matrix. */
@@ -180,8 +187,9 @@ private:
   void combine(const Eigen::Ref<const Eigen::MatrixXd>& series,
                const Eigen::MatrixXd& force, Eigen::VectorXd& sum) const;
   std::complex<double> conjugate_kappa(int p, Eigen::Index column) const;
-  void extend_spectrum(Eigen::Index column, int harmonics);
-  void fill_force_jacobian(int i, int j, int harmonics, Eigen::MatrixXd& jacobian);
+  void extend_spectrum(Eigen::Index column, const Images& images);
+  void fill_force_jacobian(int i, int j, const Images& images, bool with_mean,
+                           Eigen::MatrixXd& jacobian);
 
   Problem problem_;
   Harmonics harmonics_;

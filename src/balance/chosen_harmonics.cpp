@@ -25,60 +25,109 @@ Eigen::MatrixXd project_series(const Eigen::MatrixXd& series, const Harmonics& f
                                const Harmonics& to)
 {
   const auto rows = static_cast<int>(series.rows());
-  return project(series.reshaped(), rows, from, to)
-      .reshaped(rows, to.coefficients());
+  return project(series.reshaped(), rows, from, to).reshaped(rows, to.coefficients());
 }
 
-/** The size of the harmonic h ≥ 1 of a series. */
-double size_of(const Eigen::MatrixXd& series, int h)
+/** rms of a series about its mean, but for a factor. */
+double vibration(const Eigen::MatrixXd& series)
 {
-  return series.middleCols(2 * h - 1, 2).norm();
+  return series.rightCols(series.cols() - 1).norm();
+}
+
+/** The places of those with the same |k_2|: the contact turns with its load, so that a harmonic is
+    coupled most with those two orders away. */
+std::vector<std::vector<int>> by_passages(const Harmonics& harmonics)
+{
+  std::vector<std::vector<int>> parts;
+  for (int h = 0; h <= harmonics.count(); ++h) {
+    const auto k_2 = static_cast<std::size_t>(
+        std::abs(harmonics.list()[static_cast<std::size_t>(h)].k_2));
+    if (parts.size() <= k_2) parts.resize(k_2 + 1);
+    parts[k_2].push_back(h);
+  }
+  std::erase_if(parts, [](const auto& part) { return part.empty(); });
+  return parts;
 }
 
 struct Choosing {
   const Parameters& parameters;
   double omega;
   const AdaptiveSettings& settings;
+  const SettledOn& settled;
   const OperationBudget& budget;
-  Harmonics all = candidates(parameters.bearing, orders(), 3);
-  TorusLine finest = line_without_images(all, Harmonics({{0, 0}}));
-  AdaptiveMotion result = {};
-  PeriodicMotion finer = {};
+  const Bearing& bearing = parameters.bearing;
 
-  /** Beyond the frequency of the contact, where the masses answer for little. */
-  int orders() const
-  {
-    const double contact = contact_frequency(parameters) / omega;
-    return std::clamp(static_cast<int>(std::lround(1.5 * contact)) + 4, 12, 40);
-  }
+  /** Up to the contact's frequency under the usual load, and beyond. */
+  double highest_order =
+      std::clamp(0.5 * contact_frequency(parameters) / omega + 4, 8.0, 30.0);
+  int least_samples = settings.tolerance >= 1e-3 ? 1024 : 4096;
+  Harmonics medium = up_to(highest_order, 4, bearing);
+  Harmonics large = joined(joined(up_to(1.3 * highest_order, 6, bearing), medium),
+                           joined(up_to(1.5, 12, bearing), sidebands(bearing, 12, 4)));
+  TorusLine finest = line_without_images(large, large, 4 * least_samples);
+  AdaptiveMotion result = {};
+  PeriodicMotion finer = {};  ///< on `large`, the harmonics kept first
 
   AdaptiveMotion run()
   {
-    Harmonics kept = candidates(parameters.bearing, 3, 1);
-    Eigen::VectorXd x =
-        project(quasi_static_start(parameters, omega, 3), 2, Harmonics(3), kept);
-    constexpr int most_rounds = 12;
-    double share = 0.5;
-    for (int round = 0; round < most_rounds; ++round) {
-      if (!solve_on(kept, x)) break;
-      if (estimate() || !result.motion.error->settled) break;
-      Harmonics next = chosen(share * settings.tolerance);
-      if (next.count() == kept.count()) share /= 2;
-      kept = next;
-      x = project(finer.x, 2, finer.harmonics, kept);
-    }
+    if (!from_few()) from_settled();
     return std::move(result);
   }
 
-  bool solve_on(const Harmonics& kept, const Eigen::VectorXd& x)
+  /** Whether a solution is found to the tolerance from the first harmonics. */
+  bool from_few()
   {
-    const TorusLine line = line_without_images(kept, all);
+    constexpr int most_rounds = 6;
+    Harmonics kept = sidebands(bearing, 3, 1);
+    Eigen::VectorXd x =
+        project(quasi_static_start(parameters, omega, 3), 2, Harmonics(3), kept);
+    double share = 0.5;
+    for (int round = 0; round < most_rounds; ++round) {
+      if (!solve_on(kept, x, "quasi-static contact") || !estimate()) return false;
+      if (result.reached) return true;
+      kept = chosen(share * settings.tolerance, finer.harmonics, finer.bodies);
+      x = project(finer.x, 2, finer.harmonics, kept);
+      share /= 3;
+    }
+    return false;
+  }
+
+  /** The same from what Eq. 7 settles on: all harmonics up to the contact's frequency, then those that the tolerance asks
+      for. */
+  void from_settled()
+  {
+    for (const Harmonics& all : {medium, large}) {
+      const Eigen::VectorXd start = settled.lines(all);
+      if (start.size() == 0 || !solve_on(all, start, "time integration")) return;
+      measure();
+      if (result.reached) break;
+    }
+    if (!result.reached) return;
+    const AdaptiveMotion whole = result;
+    const Harmonics kept =
+        chosen(0.3 * settings.tolerance, whole.motion.harmonics, whole.motion.bodies);
+    const Eigen::VectorXd x = project(whole.motion.x, 2, whole.motion.harmonics, kept);
+    if (solve_on(kept, x, "time integration")) measure();
+    if (!result.reached) result = whole;
+  }
+
+  void measure()
+  {
+    result.motion.error = settled.error(result.motion);
+    conclude();
+  }
+
+  bool solve_on(const Harmonics& kept, const Eigen::VectorXd& x, const std::string& start)
+  {
+    const TorusLine line = line_without_images(kept, large, least_samples);
     Balance balance(bearing_problem(parameters, line, budget), kept);
+    balance.steps().hold();
     NewtonSettings newton = settings.newton;
     newton.tolerance = level_tolerance(settings);
     PeriodicMotion motion = solve(balance, omega, x, newton);
     result.force_samples += motion.force_samples;
-    motion.start = "quasi-static contact";
+    motion.start = start;
+    result.reached = false;
     const bool found = motion.found();
     if (found) motion.bodies = body_series(parameters, motion);
     result.end = motion.newton.reason();
@@ -86,77 +135,90 @@ struct Choosing {
     return found;
   }
 
+  /** Measures the solution on the large set. False where GMRES does not lead there. */
   bool estimate()
   {
     const PeriodicMotion& coarse = result.motion;
     Balance balance(bearing_problem(parameters, finest, budget),
-                    joined(coarse.harmonics, all));
-    balance.steps().hold(coarse.harmonics.count());
+                    joined(coarse.harmonics, large));
+    balance.steps().divide(by_passages(balance.harmonics()));
     finer = {.omega = omega, .harmonics = balance.harmonics(), .samples = finest.samples};
     finer.x = project(coarse.x, 2, coarse.harmonics, finer.harmonics);
     const Approached approached =
-        approach(balance, omega, settings.newton.tolerance, finer.x);
-    ErrorEstimate error{.displacement = std::numeric_limits<double>::infinity(),
-                        .rms = std::numeric_limits<double>::infinity(),
-                        .settled = approached.settled,
-                        .harmonics = finer.harmonics.count(),
-                        .samples = finest.samples,
-                        .newton = approached.steps,
-                        .force_samples = balance.evaluations() * finest.samples};
-    result.force_samples += error.force_samples;
-    if (error.settled) {
+        approach(balance, omega, level_tolerance(settings), finer.x, true);
+    result.force_samples += balance.evaluations() * finest.samples;
+    if (approached.settled) {
       finer.force = balance.force(finer.x, omega);
       finer.bodies = body_series(parameters, finer);
-      measure(error);
+      finer.x += approached.next;
+    }
+    finer.newton.iterations = approached.steps;
+    finer.newton.end =
+        approached.settled ? NewtonEnd::converged : NewtonEnd::no_decrease;
+    compare();
+    return approached.settled;
+  }
+
+  /** The error of the solution against the finer one. */
+  void compare()
+  {
+    constexpr double infinite = std::numeric_limits<double>::infinity();
+    const PeriodicMotion& coarse = result.motion;
+    ErrorEstimate error{.displacement = infinite,
+                        .rms = infinite,
+                        .settled = finer.found(),
+                        .harmonics = finer.harmonics.count(),
+                        .samples = finest.samples,
+                        .newton = finer.newton.iterations,
+                        .force_samples = 0};
+    if (error.settled) {
+      const Eigen::MatrixXd off =
+          project_series(coarse.bodies, coarse.harmonics, finer.harmonics) - finer.bodies;
+      error.displacement = largest(off) / largest(finer.bodies);
+      error.rms = vibration(off) / vibration(finer.bodies);
     }
     result.motion.error = error;
-    if (error.settled) finer.x += approached.next;
-    result.reached = error.settled && error.larger() <= settings.tolerance;
-    result.end = format("the error with %d harmonics is estimated as %.2g",
-                        coarse.harmonics.count(), error.larger());
-    return result.reached;
+    conclude();
   }
 
-  void measure(ErrorEstimate& error) const
+  /** What the error says. */
+  void conclude()
   {
-    const Eigen::MatrixXd off =
-        project_series(result.motion.bodies, result.motion.harmonics, finer.harmonics) -
-        finer.bodies;
-    FourierTransform transform(finest.samples);
-    const Images images = finer.harmonics.images(finest.z, finest.samples);
-    const auto largest = [&](const Eigen::MatrixXd& series) {
-      Eigen::MatrixXd samples;
-      transform.to_samples(series, samples, images);
-      return samples.cwiseAbs().maxCoeff();
-    };
-    const auto vibration = [](const Eigen::MatrixXd& of) {
-      return of.rightCols(of.cols() - 1).norm();
-    };
-    error.displacement = largest(off) / largest(finer.bodies);
-    error.rms = vibration(off) / vibration(finer.bodies);
+    const PeriodicMotion& motion = result.motion;
+    result.reached =
+        motion.error->settled && motion.error->larger() <= settings.tolerance;
+    result.end =
+        motion.error->settled
+            ? format("the error with %d harmonics is estimated as %.2g",
+                     motion.harmonics.count(), motion.error->larger())
+            : format("the error with %d harmonics cannot be estimated",
+                     motion.harmonics.count());
   }
 
-  /** The fewest harmonics without which both errors stay below `most`: the squares of the others' sizes for that of the
-      rms, the sum for the largest. */
-  Harmonics chosen(double most) const
+  double largest(const Eigen::MatrixXd& series) const
   {
-    const Eigen::MatrixXd& series = finer.bodies;
-    std::vector<int> order(static_cast<std::size_t>(finer.harmonics.count()));
-    std::iota(order.begin(), order.end(), 1);
-    std::ranges::sort(order, {}, [&](int h) { return size_of(series, h); });
-    const double vibration = series.rightCols(series.cols() - 1).norm();
+    Eigen::MatrixXd samples;
+    FourierTransform(finest.samples)
+        .to_samples(series, samples,
+                    finer.harmonics.images(finest.z, finest.samples));
+    return samples.cwiseAbs().maxCoeff();
+  }
+
+  /** The fewest harmonics of a series without which the rms error stays below `most`. */
+  Harmonics chosen(double most, const Harmonics& all, const Eigen::MatrixXd& series) const
+  {
+    std::vector<std::pair<double, Harmonic>> by_size;
+    for (int h = 1; h <= all.count(); ++h)
+      by_size.push_back({series.middleCols(2 * h - 1, 2).squaredNorm(),
+                         all.list()[static_cast<std::size_t>(h)]});
+    std::ranges::sort(by_size, {}, &std::pair<double, Harmonic>::first);
+    const double rest = most * vibration(series);
     double squares = 0;
-    std::size_t dropped = 0;
-    for (; dropped < order.size(); ++dropped) {
-      const double size = size_of(series, order[dropped]) / vibration;
-      squares += size * size;
-      if (squares > most * most) break;
-    }
     std::vector<Harmonic> list;
-    for (std::size_t k = dropped; k < order.size(); ++k)
-      list.push_back(finer.harmonics.list()[static_cast<std::size_t>(order[k])]);
-    std::ranges::stable_sort(
-        list, {}, [&](Harmonic h) { return order_of(h, parameters.bearing); });
+    for (const auto& [size, h] : by_size)
+      if ((squares += size) > rest * rest || list.size() > 0 || h == Harmonic{1, 0})
+        list.push_back(h);
+    std::ranges::stable_sort(list, {}, [&](Harmonic h) { return order_of(h, bearing); });
     list.insert(list.begin(), {0, 0});
     return Harmonics(std::move(list));
   }
@@ -165,10 +227,10 @@ struct Choosing {
 }  // namespace
 
 AdaptiveMotion solve_on_chosen(const Parameters& parameters, double omega,
-                               const AdaptiveSettings& settings,
+                               const AdaptiveSettings& settings, const SettledOn& settled,
                                const OperationBudget& budget)
 {
-  return Choosing{parameters, omega, settings, budget}.run();
+  return Choosing{parameters, omega, settings, settled, budget}.run();
 }
 
 }  // namespace rotor_stator

@@ -91,14 +91,36 @@ int largest_low(const Balance& balance)
 
 }  // namespace
 
+void StepSolver::divide(std::vector<std::vector<int>> parts)
+{
+  for (std::vector<int>& places : parts) parts_.push_back({std::move(places), {}});
+}
+
+void StepSolver::factor_parts(Balance& balance, const Eigen::VectorXd& x, double omega)
+{
+  const int d = balance.problem().dofs;
+  for (Part& part : parts_) {
+    part.unknowns.clear();
+    for (int h : part.places)
+      for (int k = 0; k < (h == 0 ? d : 2 * d); ++k)
+        part.unknowns.push_back((h == 0 ? 0 : (2 * h - 1) * d) + k);
+    balance.jacobian(x, omega, part.places, low_jacobian_);
+    part.factors.compute(low_jacobian_);
+  }
+  is_complete_ = parts_.size() == 1;
+  factored_ = true;
+  ++factorisations_;
+}
+
 void StepSolver::factor(Balance& balance, const Eigen::VectorXd& x, double omega)
 {
+  if (!parts_.empty()) return factor_parts(balance, x, omega);
   const int m = balance.harmonics().count(), two = 2 * balance.problem().dofs;
   low_ = std::max(least_low_,
                   m > least_low_ ? balance.highest_coupled(x, omega, weak_coupling) : m);
   if (low_ >= most_low_share * m) low_ = m;
-  if (held_ > 0) low_ = std::max(held_, least_low_);
-  low_ = std::min({low_, largest_low(balance), m});
+  if (holds_) low_ = m;
+  low_ = std::min(low_, largest_low(balance));
   is_complete_ = low_ == m;
   balance.jacobian(x, omega, low_, low_jacobian_);
   low_factors_.compute(low_jacobian_);
@@ -115,14 +137,19 @@ void StepSolver::precondition(const Eigen::VectorXd& r, Eigen::VectorXd& z) cons
 {
   const auto low = low_jacobian_.rows();
   z.resize(r.size());
+  for (const Part& part : parts_) {
+    const Eigen::VectorXd own = r(part.unknowns);
+    z(part.unknowns) = part.factors.solve(own).eval();
+  }
+  if (!parts_.empty()) return;
   z.head(low) = low_factors_.solve(r.head(low));
   with_dofs(static_cast<int>(high_inverses_.rows() / 2), [&](auto dofs) {
     constexpr int two = 2 * dofs;
-    using Part = Eigen::Matrix<double, two, 1>;
+    using Pair = Eigen::Matrix<double, two, 1>;
     using Block = Eigen::Map<const Eigen::Matrix<double, two, two>>;
     for (Eigen::Index k = 0; low + k < r.size(); k += two)
-      Eigen::Map<Part>(z.data() + low + k) =
-          Block(&high_inverses_(0, k)) * Eigen::Map<const Part>(r.data() + low + k);
+      Eigen::Map<Pair>(z.data() + low + k) =
+          Block(&high_inverses_(0, k)) * Eigen::Map<const Pair>(r.data() + low + k);
   });
 }
 
@@ -147,6 +174,7 @@ void StepSolver::iterate(Balance& balance, const Eigen::VectorXd& x, double omeg
   if (report.iterations > many_linear_iterations) factored_ = false;
   if (!stalled_ || !are_new) return;
   /** Factors of this very point were not enough: a larger block, if there is one. */
+  if (!parts_.empty()) return;
   least_low_ = 2 * low_;
   factored_ = low_ >= largest_low(balance);
 }

@@ -9,6 +9,7 @@ tolerance only, allocates at each call and wants the operator dressed as a spars
 #include <Eigen/Core>
 #include <Eigen/LU>
 #include <functional>
+#include <vector>
 
 #include "balance/balance.hpp"
 
@@ -77,8 +78,11 @@ public:
   /** What the last step, whole, left of the residual [-]. */
   void learn(double contraction);
 
-  /** The dense block holds the first so many harmonics, whatever couples the others. */
-  void hold(int harmonics) { held_ = harmonics; }
+  /** The dense block holds all harmonics, however many. */
+  void hold() { holds_ = true; }
+
+  /** Preconditions by the blocks of these places in the list, each of which is in one of them. */
+  void divide(std::vector<std::vector<int>> parts);
 
   /** The next step factors the Jacobian anew. */
   void forget() { factored_ = false; }
@@ -90,6 +94,9 @@ public:
   /** Whether the next step is likely to be a chord: it needs no stiffness. */
   bool expects_chord() const { return factored_ && takes_chords() && !entering_; }
 
+  /** GMRES did not reach the goal of the last step. */
+  bool stalled() const { return stalled_; }
+
   long factorisations() const { return factorisations_; }
   long linear_iterations() const { return linear_iterations_; }
 
@@ -99,6 +106,7 @@ private:
   bool takes_chords() const;
   bool chord_pays(double decrease) const;
   void factor(Balance& balance, const Eigen::VectorXd& x, double omega);
+  void factor_parts(Balance& balance, const Eigen::VectorXd& x, double omega);
   void precondition(const Eigen::VectorXd& r, Eigen::VectorXd& z) const;
   void iterate(Balance& balance, const Eigen::VectorXd& x, double omega,
                const Eigen::VectorXd& residual, double goal, bool are_new,
@@ -106,16 +114,21 @@ private:
 
   bool factored_ = false, is_complete_ = false, entering_ = true;
   StepKind last_ = StepKind::fresh;
-  bool stalled_ = false;  ///< GMRES did not reach its goal
+  bool stalled_ = false;
   double chord_contraction_ = 0;
   double contraction_ = 0;           ///< of the last step with these factors
   double entering_contraction_ = 0;  ///< of the last first step with older factors
   int low_ = 0;                      ///< harmonics in the dense block
-  int held_ = 0;                     ///< the same where it is fixed
+  bool holds_ = false;               ///< it is to hold all of them
   int least_low_ = 16;               ///< grows when GMRES stalls
   Eigen::MatrixXd low_jacobian_;
   Eigen::PartialPivLU<Eigen::MatrixXd> low_factors_;
   Eigen::MatrixXd high_inverses_;  ///< 2d × 2d blocks side by side
+  struct Part {
+    std::vector<int> places, unknowns;
+    Eigen::PartialPivLU<Eigen::MatrixXd> factors = {};
+  };
+  std::vector<Part> parts_;  ///< instead of all that, where there are any
   Gmres gmres_;
   long factorisations_ = 0, linear_iterations_ = 0;
 };

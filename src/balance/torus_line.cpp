@@ -22,13 +22,11 @@ double order_of(Harmonic h, const Bearing& bearing)
   return h.k_1 + h.k_2 * passages_per_turn(bearing);
 }
 
-Harmonics candidates(const Bearing& bearing, int orders, int sidebands)
+namespace {
+
+/** One of each pair of opposite ones, that of positive order, ascending after the mean. */
+Harmonics ascending(const std::set<std::pair<int, int>>& pairs, const Bearing& bearing)
 {
-  std::set<std::pair<int, int>> pairs;
-  for (int k = -sidebands; k <= sidebands; ++k)
-    for (int l = std::abs(k) - sidebands; l <= sidebands - std::abs(k); ++l)
-      for (int a = -orders; a <= orders; ++a)
-        pairs.insert({a + l * bearing.balls, k - l});
   std::vector<Harmonic> list;
   for (const auto& [k_1, k_2] : pairs) {
     const double order = order_of({k_1, k_2}, bearing);
@@ -39,6 +37,30 @@ Harmonics candidates(const Bearing& bearing, int orders, int sidebands)
   const auto mean = std::ranges::find(list, Harmonic{0, 0});
   std::rotate(list.begin(), mean, mean + 1);
   return Harmonics(std::move(list));
+}
+
+}  // namespace
+
+Harmonics sidebands(const Bearing& bearing, int orders, int passages)
+{
+  std::set<std::pair<int, int>> pairs;
+  for (int k = -passages; k <= passages; ++k)
+    for (int l = std::abs(k) - passages; l <= passages - std::abs(k); ++l)
+      for (int a = -orders; a <= orders; ++a)
+        pairs.insert({a + l * bearing.balls, k - l});
+  return ascending(pairs, bearing);
+}
+
+Harmonics up_to(double order, int passages, const Bearing& bearing)
+{
+  std::set<std::pair<int, int>> pairs;
+  for (int k_2 = -passages; k_2 <= passages; ++k_2) {
+    const double passing = k_2 * passages_per_turn(bearing);
+    for (int k_1 = static_cast<int>(std::ceil(-order - passing)); k_1 + passing <= order;
+         ++k_1)
+      pairs.insert({k_1, k_2});
+  }
+  return ascending(pairs, bearing);
 }
 
 namespace {
@@ -66,13 +88,14 @@ struct LineSearch {
 
 }  // namespace
 
-TorusLine line_without_images(const Harmonics& kept, const Harmonics& others)
+TorusLine line_without_images(const Harmonics& kept, const Harmonics& others,
+                              int least_samples)
 {
   LineSearch search{kept.list(), others.list()};
   std::erase_if(search.others, [&](Harmonic h) {
     return std::ranges::find(search.kept, h) != search.kept.end();
   });
-  for (int n = fast_transform_size(std::max(32, 4 * kept.count()));;
+  for (int n = fast_transform_size(std::max(least_samples, 4 * kept.count()));;
        n = fast_transform_size(n + n / 16 + 1)) {
     search.taken_by.assign(static_cast<std::size_t>(n / 2 + 1), 0);
     for (int z = 1; z <= n / 2; ++z)

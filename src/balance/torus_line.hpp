@@ -29,12 +29,17 @@ Bearing on(const TorusLine& line, Bearing bearing);
 /** k_1 + k_2 n ω_cage/ω, the frequency over the speed. */
 double order_of(Harmonic h, const Bearing& bearing);
 
-/** The harmonics in which a motion may have something: orders a of the speed with |a| ≤ `orders`, and their sidebands
-    a + k·BPFO + l·BPFI with |k| + |l| ≤ `sidebands`, BPFO = (0, 1) and BPFI = (n, -1). Ascending orders, none negative. */
-Harmonics candidates(const Bearing& bearing, int orders, int sidebands);
+/** The orders a of the speed, |a| ≤ `orders`, and their sidebands a + k·BPFO + l·BPFI with |k| + |l| ≤
+    `passages`, where BPFO = (0, 1) and BPFI = (n, -1): the first of a load at rest, the second of one that turns. Ascending
+    orders, none negative. */
+Harmonics sidebands(const Bearing& bearing, int orders, int passages);
 
-/** A line with few samples on which no image of any of the `others` falls on one of the `kept`, nor
+/** All up to an order, with |k_2| ≤ `passages`. */
+Harmonics up_to(double order, int passages, const Bearing& bearing);
+
+/** A line with few samples, at least so many, on which no image of any of the `others` falls on one of the `kept`, nor
     of one of these on another. Kept ones among the others do no harm. */
-TorusLine line_without_images(const Harmonics& kept, const Harmonics& others);
+TorusLine line_without_images(const Harmonics& kept, const Harmonics& others,
+                              int least_samples = 32);
 
 }  // namespace rotor_stator

@@ -1,0 +1,181 @@
+#include "motion/quasi_periodic.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+namespace rotor_stator::motion {
+
+namespace {
+
+constexpr int points_per_turn = 128, window_turns = 160;
+
+/** 4-term window of Blackman and Harris; its side lobes are below -92 dB. */
+double blackman_harris(double share)
+{
+  const double angle = 2 * std::numbers::pi * share;
+  return 0.35875 - 0.48829 * std::cos(angle) + 0.14128 * std::cos(2 * angle) -
+         0.01168 * std::cos(3 * angle);
+}
+
+/** Turns until the slower of both suspensions has damped a disturbance to 1e-5. */
+long settling_turns(const Parameters& parameters, double omega)
+{
+  const auto rate = [](const Body& body) {
+    return body.damping_ratio * body.natural_frequency;
+  };
+  const double slower = std::min(rate(parameters.stator), rate(parameters.rotor));
+  constexpr double longest = 10;  // [s]
+  const double seconds = std::min(longest, std::log(1e5) / slower);
+  return std::lround(std::ceil(seconds * omega / (2 * std::numbers::pi)));
+}
+
+/** Those whose orders differ by more than a main lobe, the smallest |k_2| first; as places in the list. */
+std::vector<int> distinct(const Harmonics& harmonics, const Bearing& bearing)
+{
+  std::vector<int> places;
+  for (int h = 1; h <= harmonics.count(); ++h) places.push_back(h);
+  const auto at = [&](int h) { return harmonics.list()[static_cast<std::size_t>(h)]; };
+  std::ranges::stable_sort(places, {}, [&](int h) { return std::abs(at(h).k_2); });
+  std::vector<double> orders{0};
+  std::erase_if(places, [&](int h) {
+    const double order = order_of(at(h), bearing);
+    const bool is_near = std::ranges::any_of(orders, [&](double other) {
+      return std::abs(order - other) < 4.0 / window_turns;
+    });
+    if (!is_near) orders.push_back(order);
+    return is_near;
+  });
+  return places;
+}
+
+/** What Eq. 7 settles on from rest, by rk4. */
+class SettledMotion {
+public:
+  SettledMotion(const Parameters& parameters, double omega, const OperationBudget& budget)
+      : parameters_(parameters), omega_(omega), budget_(budget)
+  {
+  }
+
+  /** Its lines, by integrals with a window of Blackman and Harris. Of lines that these cannot tell apart the one with the
+      smallest |k_2| is taken. */
+  Eigen::VectorXd lines(const Harmonics& harmonics)
+  {
+    integrate();
+    Eigen::MatrixXd series = Eigen::MatrixXd::Zero(2, harmonics.coefficients());
+    series.col(0) = weighted_.colwise().sum().transpose();
+    for (int h : distinct(harmonics, parameters_.bearing)) {
+      const double order = order_of(harmonics.list()[static_cast<std::size_t>(h)],
+                                    parameters_.bearing);
+      put_amplitude(series, h, line(order));
+    }
+    return series.reshaped();
+  }
+
+  /** The distance of a solution from the next turns, integrated with small steps. */
+  ErrorEstimate error(const PeriodicMotion& solution)
+  {
+    integrate();
+    constexpr int points = 64, turns = 16;
+    const TimeStepper stepper = make_stepper(
+        parameters_, omega_, {.intervals_per_period = points, .budget = budget_});
+    State state = state_;
+    Motion exact = recorded(stepper, points, state, turn_, turns);
+    Motion series = motion::motion_of(parameters_, solution, points, turns, turn_);
+    exact.points_per_period = series.points_per_period = points * turns;
+    return {.displacement = relative_difference(series, exact),
+            .rms = rms_difference(series, exact),
+            .settled = true,
+            .harmonics = 0,
+            .samples = points,
+            .newton = 0,
+            .force_samples = 0};
+  }
+
+private:
+  void integrate()
+  {
+    if (turn_ > 0) return;
+    first_ = settling_turns(parameters_, omega_);
+    state_ = static_start(parameters_);
+    const TimeStepper stepper = make_stepper(
+        parameters_, omega_,
+        {.method = "rk4", .intervals_per_period = points_per_turn, .budget = budget_});
+    for (long k = 0; k < first_ * points_per_turn; ++k) stepper.advance(k, state_);
+    const Motion motion =
+        recorded(stepper, points_per_turn, state_, first_, window_turns);
+    turn_ = first_ + window_turns;
+    const auto n = static_cast<Eigen::Index>(motion.size());
+    weighted_.resize(n, 2);
+    double sum = 0;
+    for (Eigen::Index k = 0; k < n; ++k) {
+      const auto at = static_cast<std::size_t>(k);
+      const double weight =
+          blackman_harris(static_cast<double>(k) / static_cast<double>(n));
+      const Vec2 u = motion.positions[at].relative();
+      weighted_.row(k) << weight * u.x, weight * u.y;
+      sum += weight;
+    }
+    weighted_ /= sum;
+  }
+
+  SmallVector line(double order) const
+  {
+    constexpr double turn = 2 * std::numbers::pi;
+    const auto step = std::polar(1.0, -turn * order / points_per_turn);
+    std::complex<double> wave =
+        std::polar(1.0, -turn * std::fmod(order * static_cast<double>(first_), 1.0));
+    Eigen::Vector2cd amplitude = Eigen::Vector2cd::Zero();
+    for (Eigen::Index k = 0; k < weighted_.rows(); ++k, wave *= step)
+      amplitude += 2.0 * wave * weighted_.row(k).transpose();
+    return amplitude;
+  }
+
+  const Parameters& parameters_;
+  double omega_;
+  OperationBudget budget_;
+  long first_ = 0, turn_ = 0;  ///< the window, from t = 0 [turns]
+  State state_ = {};           ///< at its end
+  Eigen::MatrixX2d weighted_;  ///< relative motion times the window [m]
+};
+
+}  // namespace
+
+Motion motion_of(const Parameters& parameters, const PeriodicMotion& solution, int points,
+                 int turns, long first)
+{
+  constexpr double turn = 2 * std::numbers::pi;
+  const auto n = static_cast<Eigen::Index>(points) * turns;
+  Eigen::MatrixXd samples = solution.bodies.col(0).transpose().replicate(n, 1);
+  const double passages = passages_per_turn(parameters.bearing);
+  for (int h = 1; h <= solution.harmonics.count(); ++h) {
+    const auto& [k_1, k_2] = solution.harmonics.list()[static_cast<std::size_t>(h)];
+    const Eigen::RowVectorXd cosine = solution.bodies.col(2 * h - 1).transpose(),
+                             sine = solution.bodies.col(2 * h).transpose();
+    for (Eigen::Index k = 0; k < n; ++k) {
+      const double at = static_cast<double>(k % points) / points;
+      const double since = static_cast<double>(first + k / points) + at;
+      const double angle = turn * (k_1 * at + k_2 * std::fmod(passages * since, 1.0));
+      samples.row(k) += std::cos(angle) * cosine + std::sin(angle) * sine;
+    }
+  }
+  Motion motion{points, first, {}};
+  for (Eigen::Index k = 0; k < n; ++k)
+    motion.positions.push_back(
+        {{samples(k, 0), samples(k, 1)}, {samples(k, 2), samples(k, 3)}});
+  return motion;
+}
+
+AdaptiveMotion find_quasi_periodic(const Parameters& parameters, double omega,
+                                   const AdaptiveSettings& settings,
+                                   const OperationBudget& budget)
+{
+  SettledMotion settled(parameters, omega, budget);
+  return solve_on_chosen(
+      parameters, omega, settings,
+      {[&](const Harmonics& harmonics) { return settled.lines(harmonics); },
+       [&](const PeriodicMotion& solution) { return settled.error(solution); }},
+      budget);
+}
+
+}  // namespace rotor_stator::motion
