@@ -96,8 +96,11 @@ std::function<void()> add_motion_options(CLI::App& command, MotionRequest& reque
   aft.push_back(add_number(
       command, "--tolerance", request.tolerance, 1e-8, 0.1,
       "relative error of displacement, the largest and the rms about the mean; without "
-      "--harmonics, m is chosen"));
-  if (command.get_name() == "orbit") aft.push_back(add_subharmonic(command, request));
+      "--harmonics, m is chosen (default with two frequencies: 1e-3)"));
+  if (command.get_name() == "orbit") {
+    aft.push_back(add_subharmonic(command, request));
+    add_number(command, "--periods", request.periods, 1, 1000, "turns that are printed");
+  }
   aft.push_back(command.add_flag("!--no-stability", request.stability,
                                  "leave out the Floquet multipliers of aft"));
   const auto step = add_number(command, "--step", request.step, 0.0, largest,

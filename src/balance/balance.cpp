@@ -219,7 +219,7 @@ void Balance::fill_force_jacobian(int i, int j, const Images& images, bool with_
   const int shift = with_mean ? d : 0;
   for (int q = 0; q < count; ++q) {
     const std::complex<double>*sums = middle + images[q],
-                    *differences = middle - images[q];
+          *differences = middle - images[q];
     const bool is_mean = with_mean && q == 0;
     double* cosine = &jacobian(i, is_mean ? j : 2 * q * d - shift + j);
     double* sine = is_mean ? cosine : &jacobian(i, (2 * q + 1) * d - shift + j);
@@ -248,12 +248,12 @@ void Balance::jacobian(const Eigen::VectorXd& x, double omega,
   const auto n = static_cast<double>(size);
   spend(1.5e4 + 10 * n * n + n * n * n / 18);  // with its factorisation
   need_spectra(x, omega);
-  Images images;
-  for (int h : places) images.push_back(images_[h]);
+  part_images_.clear();
+  for (int h : places) part_images_.push_back(images_[h]);
   jacobian.resize(size, size);
   for (int j = 0; j < dofs; ++j)
     for (int i = 0; i < dofs; ++i)
-      fill_force_jacobian(i, j, images, with_mean, jacobian);
+      fill_force_jacobian(i, j, part_images_, with_mean, jacobian);
 
   /** Rows of harmonic h: multiply by B_h, add A_h on the diagonal. */
   with_dofs(dofs, [&](auto constant) {
@@ -280,9 +280,9 @@ void Balance::jacobian(const Eigen::VectorXd& x, double omega,
 void Balance::jacobian(const Eigen::VectorXd& x, double omega, int harmonics,
                        Eigen::MatrixXd& jacobian)
 {
-  std::vector<int> places(static_cast<std::size_t>(harmonics + 1));
-  std::iota(places.begin(), places.end(), 0);
-  this->jacobian(x, omega, places, jacobian);
+  first_places_.resize(static_cast<std::size_t>(harmonics + 1));
+  std::iota(first_places_.begin(), first_places_.end(), 0);
+  this->jacobian(x, omega, first_places_, jacobian);
 }
 
 const Eigen::MatrixXd& Balance::jacobian(const Eigen::VectorXd& x, double omega)

@@ -194,11 +194,13 @@ private:
   Problem problem_;
   Harmonics harmonics_;
   int m_;  ///< how many vibrate
-  Images images_;
+  Images images_, part_images_;
+  std::vector<int> first_places_;
   FourierTransform transform_;
   double omega_;
-  Eigen::MatrixXd a_, b_;  ///< A_h and B_h as real 2d × 2d blocks side by side, in the list's order
-  Eigen::MatrixXd c_;      ///< d × (2m+1)
+  Eigen::MatrixXd a_,
+      b_;  ///< A_h and B_h as real 2d × 2d blocks side by side, in the list's order
+  Eigen::MatrixXd c_;  ///< d × (2m+1)
   Eigen::MatrixXd series_, samples_, force_samples_, stiffness_samples_, force_series_;
   Eigen::MatrixXd product_samples_, product_force_, product_series_;
   Eigen::MatrixXcd spectra_;   ///< κ_p of each stiffness series

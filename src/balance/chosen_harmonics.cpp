@@ -59,7 +59,7 @@ struct Choosing {
 
   /** Up to the contact's frequency under the usual load, and beyond. */
   double highest_order =
-      std::clamp(0.5 * contact_frequency(parameters) / omega + 4, 8.0, 30.0);
+      std::max(8.0, std::min(0.5 * contact_frequency(parameters) / omega + 4, 30.0));
   int least_samples = settings.tolerance >= 1e-3 ? 1024 : 4096;
   Harmonics medium = up_to(highest_order, 4, bearing);
   Harmonics large = joined(joined(up_to(1.3 * highest_order, 6, bearing), medium),
@@ -92,13 +92,18 @@ struct Choosing {
     return false;
   }
 
-  /** The same from what Eq. 7 settles on: all harmonics up to the contact's frequency, then those that the tolerance asks
+  /** The same from what Eq. 7 settles on: the largest of many harmonics, then those that the tolerance asks
       for. */
   void from_settled()
   {
-    for (const Harmonics& all : {medium, large}) {
-      const Eigen::VectorXd start = settled.lines(all);
-      if (start.size() == 0 || !solve_on(all, start, "time integration")) return;
+    const Harmonics all = up_to(2 * highest_order, 8, bearing);
+    finer = {.omega = omega, .harmonics = all};
+    finer.x = settled.lines(all);
+    finer.bodies = finer.x.reshaped(2, all.coefficients());
+    finer.newton.end = NewtonEnd::converged;
+    for (const int most : {120, 350}) {
+      const Harmonics kept = chosen(0, all, finer.bodies, most);
+      if (!solve_on(kept, project(finer.x, 2, all, kept), "time integration")) continue;
       measure();
       if (result.reached) break;
     }
@@ -119,7 +124,8 @@ struct Choosing {
 
   bool solve_on(const Harmonics& kept, const Eigen::VectorXd& x, const std::string& start)
   {
-    const TorusLine line = line_without_images(kept, large, least_samples);
+    const TorusLine line =
+        line_without_images(kept, large, std::max(least_samples, 16 * kept.count()));
     Balance balance(bearing_problem(parameters, line, budget), kept);
     balance.steps().hold();
     NewtonSettings newton = settings.newton;
@@ -130,8 +136,9 @@ struct Choosing {
     result.reached = false;
     const bool found = motion.found();
     if (found) motion.bodies = body_series(parameters, motion);
-    result.end = motion.newton.reason();
+    result.end = format("with %d harmonics: ", kept.count()) + motion.newton.reason();
     result.motion = std::move(motion);
+    if (!found && finer.found()) result.end += largest_dropped();
     return found;
   }
 
@@ -153,8 +160,7 @@ struct Choosing {
       finer.x += approached.next;
     }
     finer.newton.iterations = approached.steps;
-    finer.newton.end =
-        approached.settled ? NewtonEnd::converged : NewtonEnd::no_decrease;
+    finer.newton.end = approached.settled ? NewtonEnd::converged : NewtonEnd::no_decrease;
     compare();
     return approached.settled;
   }
@@ -187,37 +193,57 @@ struct Choosing {
     const PeriodicMotion& motion = result.motion;
     result.reached =
         motion.error->settled && motion.error->larger() <= settings.tolerance;
-    result.end =
-        motion.error->settled
-            ? format("the error with %d harmonics is estimated as %.2g",
-                     motion.harmonics.count(), motion.error->larger())
-            : format("the error with %d harmonics cannot be estimated",
-                     motion.harmonics.count());
+    result.end = motion.error->settled
+                     ? format("the error with %d harmonics is estimated as %.2g",
+                              motion.harmonics.count(), motion.error->larger())
+                     : format("the error with %d harmonics cannot be estimated",
+                              motion.harmonics.count());
+    if (!result.reached && finer.found()) result.end += largest_dropped();
+  }
+
+  /** The largest of the large set that the solution does not have. */
+  std::string largest_dropped() const
+  {
+    const auto& kept = result.motion.harmonics.list();
+    double most = -1;
+    Harmonic at{};
+    for (int h = 1; h <= finer.harmonics.count(); ++h) {
+      const Harmonic candidate = finer.harmonics.list()[static_cast<std::size_t>(h)];
+      const double size = finer.bodies.middleCols(2 * h - 1, 2).norm();
+      if (size <= most || std::ranges::find(kept, candidate) != kept.end()) continue;
+      most = size;
+      at = candidate;
+    }
+    return format("; the largest dropped harmonic is (%d, %d), %.2g of the vibration",
+                  at.k_1, at.k_2, most / vibration(finer.bodies));
   }
 
   double largest(const Eigen::MatrixXd& series) const
   {
     Eigen::MatrixXd samples;
     FourierTransform(finest.samples)
-        .to_samples(series, samples,
-                    finer.harmonics.images(finest.z, finest.samples));
+        .to_samples(series, samples, finer.harmonics.images(finest.z, finest.samples));
     return samples.cwiseAbs().maxCoeff();
   }
 
-  /** The fewest harmonics of a series without which the rms error stays below `most`. */
-  Harmonics chosen(double most, const Harmonics& all, const Eigen::MatrixXd& series) const
+  /** The fewest harmonics of a series without which the rms error stays below `off`, at most so many. */
+  Harmonics chosen(double off, const Harmonics& all, const Eigen::MatrixXd& series,
+                   std::size_t most = 1000) const
   {
     std::vector<std::pair<double, Harmonic>> by_size;
     for (int h = 1; h <= all.count(); ++h)
       by_size.push_back({series.middleCols(2 * h - 1, 2).squaredNorm(),
                          all.list()[static_cast<std::size_t>(h)]});
     std::ranges::sort(by_size, {}, &std::pair<double, Harmonic>::first);
-    const double rest = most * vibration(series);
+    const double rest = off * vibration(series);
     double squares = 0;
     std::vector<Harmonic> list;
-    for (const auto& [size, h] : by_size)
-      if ((squares += size) > rest * rest || list.size() > 0 || h == Harmonic{1, 0})
-        list.push_back(h);
+    for (std::size_t k = 0; k < by_size.size(); ++k) {
+      const auto& [size, h] = by_size[k];
+      squares += size;
+      const bool counts = squares > rest * rest && k + most >= by_size.size();
+      if (counts || h == Harmonic{1, 0}) list.push_back(h);
+    }
     std::ranges::stable_sort(list, {}, [&](Harmonic h) { return order_of(h, bearing); });
     list.insert(list.begin(), {0, 0});
     return Harmonics(std::move(list));

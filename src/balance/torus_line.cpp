@@ -22,6 +22,22 @@ double order_of(Harmonic h, const Bearing& bearing)
   return h.k_1 + h.k_2 * passages_per_turn(bearing);
 }
 
+int turns_to_repeat(const Bearing& bearing)
+{
+  for (int q = 1; q <= 8; ++q) {
+    Bearing longer = bearing;
+    longer.cage_speed_ratio *= q;
+    if (has_rotation_period(longer)) return q;
+  }
+  return 0;
+}
+
+Parameters over_passage(Parameters parameters)
+{
+  parameters.bearing.cage_speed_ratio = 1.0 / parameters.bearing.balls;
+  return parameters;
+}
+
 namespace {
 
 /** One of each pair of opposite ones, that of positive order, ascending after the mean. */

@@ -10,6 +10,7 @@
 #include "motion/adaptive.hpp"
 #include "motion/contact.hpp"
 #include "motion/other_starts.hpp"
+#include "motion/quasi_periodic.hpp"
 #include "motion/subharmonic.hpp"
 #include "motion/verdict.hpp"
 
@@ -112,8 +113,53 @@ void note_verdict(Table& table, const Parameters& parameters,
   table.note(format("verdict: %.3g evaluations of the force", verdict.evaluations));
 }
 
-motion::Motion balance_motion(const Parameters& parameters, const MotionRequest& request,
-                              const OperationBudget& budget, Table& table)
+/** A motion with the frequencies of rotation and of the passing balls, on chosen harmonics. */
+motion::Motion quasi_periodic_motion(const Parameters& parameters,
+                                     const MotionRequest& request,
+                                     const OperationBudget& budget, Table& table)
+{
+  if (request.harmonics || request.samples)
+    throw BadInput(
+        "--harmonics, --samples: chosen by --tolerance where n*omega_cage/omega is not "
+        "a whole number");
+  AdaptiveSettings settings{.tolerance = request.tolerance.value_or(1e-3),
+                            .newton = {.tolerance = request.newton_tolerance}};
+  const AdaptiveMotion at = motion::find_quasi_periodic(
+      parameters, angular(request.frequency), settings, budget);
+  if (!at.reached)
+    throw NoSolution(format("%s: tolerance %g not reached at %g Hz: %s",
+                            parameters.file.c_str(), settings.tolerance,
+                            request.frequency, at.end.c_str()));
+  const PeriodicMotion& solution = at.motion;
+  const double passages = passages_per_turn(parameters.bearing);
+  table.note(
+      format("method: aft, two frequencies: omega and n omega_cage = %.9g omega; %d "
+             "harmonics, %ld unknowns, z = %d, N = %d, relative tolerance of Newton %g",
+             passages, solution.harmonics.count(), static_cast<long>(solution.x.size()),
+             solution.line, solution.samples, level_tolerance(settings)));
+  std::string list;
+  for (const auto& [k_1, k_2] : solution.harmonics.list())
+    list += format(" (%d,%d)", k_1, k_2);
+  table.note("harmonics (k_1,k_2) of k_1 omega + k_2 n omega_cage:" + list);
+  table.note("newton: from " + solution.start + ", " + solution.newton.reason());
+  const std::string against =
+      solution.error->harmonics > 0
+          ? format("estimated with %d harmonics, N = %d", solution.error->harmonics,
+                   solution.error->samples)
+          : std::string("against the motion integrated from rest");
+  table.note(
+      format("error: %.2g of the largest displacement, %.2g rms about the mean, %s; "
+             "tolerance %g",
+             solution.error->displacement, solution.error->rms, against.c_str(),
+             settings.tolerance));
+  table.note("stability: undecided; not tested");
+  table.note("regime: undecided");
+  return motion::motion_of(parameters, solution, request.points, request.periods);
+}
+
+/** A motion with one frequency, that of the parameters, its solution. */
+PeriodicMotion solution_of(const Parameters& parameters, const MotionRequest& request,
+                           const OperationBudget& budget, Table& table)
 {
   const AdaptiveMotion at = solved(parameters, request, budget);
   const std::string wanted =
@@ -150,7 +196,55 @@ motion::Motion balance_motion(const Parameters& parameters, const MotionRequest&
     table.note("stability is not tested");
     table.note("regime: undecided");
   }
-  return motion::motion_of(at.motion.bodies, request.points * turns);
+  return at.motion;
+}
+
+/** A machine that repeats itself after q turns: harmonics of orders h/q. */
+motion::Motion motion_of_turns(const Parameters& parameters, MotionRequest request, int q,
+                               const OperationBudget& budget, Table& table)
+{
+  table.note(format("n omega_cage/omega = %.9g = %ld/%d: one frequency, orders h/%d",
+                    passages_per_turn(parameters.bearing),
+                    std::lround(q * passages_per_turn(parameters.bearing)), q, q));
+  request.frequency /= q;
+  if (request.harmonics || !request.tolerance)
+    request.harmonics = q * request.harmonics.value_or(usual_harmonics);
+  if (request.samples) *request.samples *= q;
+  const PeriodicMotion solution =
+      solution_of(over_turns(parameters, q), request, budget, table);
+  return {request.points, 0,
+          motion::motion_of(solution.bodies, q * request.points).positions};
+}
+
+/** A machine without unbalance: harmonics of the passing of the balls. */
+motion::Motion motion_of_passages(const Parameters& parameters, MotionRequest request,
+                                  const OperationBudget& budget, Table& table)
+{
+  table.note("no unbalance: one frequency, n omega_cage");
+  request.frequency *= passages_per_turn(parameters.bearing);
+  PeriodicMotion solution = solution_of(over_passage(parameters), request, budget, table);
+  std::vector<Harmonic> list = solution.harmonics.list();
+  for (Harmonic& h : list) h = {0, h.k_1};
+  solution.harmonics = Harmonics(std::move(list));
+  return motion::motion_of(parameters, solution, request.points, request.periods);
+}
+
+motion::Motion balance_motion(const Parameters& parameters, const MotionRequest& request,
+                              const OperationBudget& budget, Table& table)
+{
+  const int q = turns_to_repeat(parameters.bearing);
+  if (q == 1)
+    return motion::motion_of(solution_of(parameters, request, budget, table).bodies,
+                             request.points * request.subharmonic);
+  if (request.subharmonic > 1)
+    throw BadInput(
+        format("--subharmonic %d: needs a whole number of passing balls in a turn, and "
+               "n*omega_cage/omega is %.9g",
+               request.subharmonic, passages_per_turn(parameters.bearing)));
+  if (parameters.unbalance == 0)
+    return motion_of_passages(parameters, request, budget, table);
+  return q > 0 ? motion_of_turns(parameters, request, q, budget, table)
+               : quasi_periodic_motion(parameters, request, budget, table);
 }
 
 /** What a time method settled on: T-periodic, kT-periodic or not, and the same with finer steps where those that
@@ -180,7 +274,7 @@ std::string measured_regime(const Parameters& parameters, const MotionRequest& r
 }
 
 motion::Motion integrated_motion(const Parameters& parameters,
-                                 const MotionRequest& request, int periods,
+                                 const MotionRequest& request,
                                  const OperationBudget& budget, Table& table)
 {
   const SteadySettings settings{.stepper = {.method = request.method,
@@ -189,7 +283,7 @@ motion::Motion integrated_motion(const Parameters& parameters,
                                             .tolerance = request.local_error,
                                             .budget = budget},
                                 .longest = request.longest,
-                                .shown_periods = periods};
+                                .shown_periods = request.periods};
   const SteadyState steady =
       steady_state(parameters, angular(request.frequency), settings);
   table.note(format("method: %s, %g s from rest, %ld evaluations of Eq. 7",
@@ -212,7 +306,7 @@ struct Computed {
   }
 };
 
-Computed computed(const Parameters& parameters, const MotionRequest& request, int periods,
+Computed computed(const Parameters& parameters, const MotionRequest& request,
                   Table& table)
 {
   require_method(request.method);
@@ -224,7 +318,7 @@ Computed computed(const Parameters& parameters, const MotionRequest& request, in
   Computed at{.budget = budget_of(request.budget, 3, parameters)};
   at.motion = request.method == "aft"
                   ? balance_motion(parameters, request, at.budget, table)
-                  : integrated_motion(parameters, request, periods, at.budget, table);
+                  : integrated_motion(parameters, request, at.budget, table);
   at.forces =
       motion::bearing_forces(over_turns(parameters, request.subharmonic), at.motion);
   return at;
@@ -234,7 +328,8 @@ Computed computed(const Parameters& parameters, const MotionRequest& request, in
 constexpr int most_contact_rows = 1 << 20;
 
 const std::vector<Column> orbit_columns{
-    {"phase", "rad", "omega t, modulo 2 pi, or 2 pi K with --subharmonic K"},
+    {"phase", "rad",
+     "omega t, modulo 2 pi, or 2 pi K with --subharmonic K or --periods K"},
     {"x_s", "m", "stator"},
     {"y_s", "m", "stator"},
     {"x_r", "m", "rotor"},
@@ -253,11 +348,16 @@ Exploration explore_orbit(const MotionRequest& request)
 {
   Table table("Orbit of rotor and stator over one period", orbit_columns);
   const Parameters parameters = read_parameters(request.parameter_file);
-  const Computed at = computed(parameters, request, 1, table);
-  for (std::size_t k = 0; k < at.motion.size(); ++k) {
-    const auto& [stator, rotor] = at.motion.positions[k];
+  const Computed at = computed(parameters, request, table);
+  const auto rows =
+      static_cast<std::size_t>(std::max(request.periods, request.subharmonic)) *
+      request.points;
+  for (std::size_t k = 0; k < rows; ++k) {
+    const std::size_t same = k % at.motion.size();
+    const auto& [stator, rotor] = at.motion.positions[same];
     table.row({2 * std::numbers::pi * request.subharmonic * at.motion.t_over_period(k),
-               stator.x, stator.y, rotor.x, rotor.y, at.forces[k].x, at.forces[k].y});
+               stator.x, stator.y, rotor.x, rotor.y, at.forces[same].x,
+               at.forces[same].y});
   }
   conclude(table, parameters, at.touches(), at.budget);
   return {std::move(table)};
@@ -271,7 +371,9 @@ Exploration explore_contact(const MotionRequest& request)
   if (request.points > most_points)
     throw BadInput(format("--points %d: must be at most %d with %d balls", request.points,
                           most_points, parameters.bearing.balls));
-  const Computed at = computed(parameters, request, 2, table);
+  MotionRequest two = request;
+  two.periods = 2;
+  const Computed at = computed(parameters, two, table);
   const auto evolution = motion::contact_evolution(parameters, at.motion);
   for (std::size_t k = 0; k < evolution.t_over_period.size(); ++k)
     for (std::size_t j = 0; j < evolution.ball_force[k].size(); ++j)

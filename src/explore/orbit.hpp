@@ -31,6 +31,7 @@ struct MotionRequest : Request {
   double local_error = 1e-11;       ///< GSL's methods, relative
   double step = 0;                  ///< rk4 [s]; 0: from K_H
   double longest = 30;              ///< transient at most [s]
+  int periods = 1;                  ///< turns that are printed
   bool stability = true;            ///< Floquet multipliers in the header (aft)
 };
 

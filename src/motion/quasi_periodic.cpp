@@ -4,6 +4,8 @@
 #include <cmath>
 #include <numbers>
 
+#include "integration/steady_state.hpp"
+
 namespace rotor_stator::motion {
 
 namespace {
@@ -18,7 +20,8 @@ double blackman_harris(double share)
          0.01168 * std::cos(3 * angle);
 }
 
-/** Turns until the slower of both suspensions has damped a disturbance to 1e-5. */
+/** Turns until the slower of both suspensions has damped a disturbance to 1e-5. Throws NoSolution when they are too
+    many. */
 long settling_turns(const Parameters& parameters, double omega)
 {
   const auto rate = [](const Body& body) {
@@ -27,7 +30,7 @@ long settling_turns(const Parameters& parameters, double omega)
   const double slower = std::min(rate(parameters.stator), rate(parameters.rotor));
   constexpr double longest = 10;  // [s]
   const double seconds = std::min(longest, std::log(1e5) / slower);
-  return std::lround(std::ceil(seconds * omega / (2 * std::numbers::pi)));
+  return std::lround(std::ceil(seconds / checked_period(omega, seconds)));
 }
 
 /** Those whose orders differ by more than a main lobe, the smallest |k_2| first; as places in the list. */
@@ -65,8 +68,8 @@ public:
     Eigen::MatrixXd series = Eigen::MatrixXd::Zero(2, harmonics.coefficients());
     series.col(0) = weighted_.colwise().sum().transpose();
     for (int h : distinct(harmonics, parameters_.bearing)) {
-      const double order = order_of(harmonics.list()[static_cast<std::size_t>(h)],
-                                    parameters_.bearing);
+      const double order =
+          order_of(harmonics.list()[static_cast<std::size_t>(h)], parameters_.bearing);
       put_amplitude(series, h, line(order));
     }
     return series.reshaped();

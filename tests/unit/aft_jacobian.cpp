@@ -51,6 +51,25 @@ TEST_CASE("AFT Jacobian of the bearing, also at the aliasing N = 2m+1")
   }
 }
 
+/** Catches an image with the wrong sign: (19, -1) and (-3, 1) stand at negative ones. */
+TEST_CASE("AFT Jacobian of the bearing on chosen harmonics of two frequencies")
+{
+  Parameters parameters = set_1();
+  parameters.bearing.cage_speed_ratio = 0.43;
+  const Harmonics first = sidebands(parameters.bearing, 3, 1);
+  Balance balance(
+      bearing_problem(parameters,
+                      line_without_images(first, sidebands(parameters.bearing, 6, 2))),
+      first);
+  Eigen::VectorXd x = project(0.98 * quasi_static_start(parameters, hertz(16), 3), 2,
+                              Harmonics(3), first);
+  for (Eigen::Index k = 14; k < x.size(); ++k)
+    x[k] += 1e-7 * std::sin(1.0 + static_cast<double>(k));
+  const JacobianError error = jacobian_error(balance, x, hertz(16), 1e-10);
+  CHECK(error.unknowns < 1e-6);
+  CHECK(error.speed < 1e-6);
+}
+
 TEST_CASE("AFT Jacobian of a two-mass oscillator with coupled forces")
 {
   const Oscillator oscillator = two_masses_cubic();

@@ -125,14 +125,20 @@ class Values(Case):
         odd = self.file("odd.toml", MACHINE.replace("cage_speed_ratio = 0.5", "cage_speed_ratio = 0.4321"))
         self.refused("not a whole number", "attractors", odd, *RESPONSE, "--count", 3)
 
+    def test_a_cage_that_does_not_repeat(self):
+        odd = self.file("odd.toml", MACHINE.replace("cage_speed_ratio = 0.5", "cage_speed_ratio = 0.4321"))
+        self.refused("chosen by --tolerance", "orbit", odd, *ORBIT, "--harmonics", 6)
+        self.refused("--subharmonic 2: needs a whole number", "orbit", odd, *ORBIT, "--subharmonic", 2)
+        for periods in ("0", "1001", "1.5"):
+            self.refused("--periods", "orbit", odd, *ORBIT, "--periods", periods)
+        self.refused("the largest dropped harmonic is (", "orbit", odd, "--frequency", 18.7, "--tolerance", 1e-6, status=3)
+
     def test_a_plot_without_matplotlib_is_refused_before_the_work(self):
         self.refused("install python3-matplotlib", "attractors", self.machine, *RESPONSE, "--count", 3, "--plot",
                      "a.svg", "--section", "b.tsv", env={**os.environ, "PYTHON": "/bin/false"})
         self.assertEqual([file.name for file in self.folder.iterdir()], ["machine.toml"])
 
     def test_no_solution(self):
-        self.refused_change("cage_speed_ratio = 0.5", "cage_speed_ratio = 0.4321", "not a whole number",
-                            status=3)
         self.refused("no solution found with 24 harmonics at 13.4 Hz", "orbit",
                      Path("data/set2.toml").resolve(), "--frequency", "13.4", "--harmonics", "24", status=3)
 

@@ -14,7 +14,7 @@ import numpy as np
 
 sys.path.insert(0, str(Path(__file__).parents[1]))
 from machines import entries, written  # noqa: E402
-from support.explore import Case, Table  # noqa: E402
+from support.explore import MACHINE, Case, Table  # noqa: E402
 
 KEPT = Path("data/reference/attractors.tsv").resolve()
 SET_2 = Path("data/set2.toml").resolve()
@@ -52,6 +52,38 @@ def row_difference(a, i, b, j):
 class Motion(Case):
     def orbit(self, file, frequency, *options):
         return self.table("orbit", file, "--points", 64, "--frequency", frequency, *options)
+
+    def test_any_cage(self):
+        """Set 1 with c = 0.43: more turns are the same motion, further on; contact adds up to the force of the orbit."""
+        odd = self.file("odd.toml", MACHINE.replace("cage_speed_ratio = 0.5", "cage_speed_ratio = 0.43"))
+        one, three = self.orbit(odd, 45), self.orbit(odd, 45, "--periods", 3)
+        np.testing.assert_allclose(three["phase"], 2 * math.pi * np.arange(192) / 64, rtol=1e-12)
+        np.testing.assert_array_equal(three["x_r"][:64], one["x_r"])
+        self.assertGreater(abs(three["F_x"][64:128] - three["F_x"][:64]).max(), 1)
+        for words in ["two frequencies", "harmonics (k_1,k_2)", "(13,-1)", "unknowns, z = ", "# error: ", "# regime: "]:
+            self.assertIn(words, one.header)
+        balls = self.table("contact", odd, "--points", 64, "--frequency", 45)
+        ball, turn = np.array(balls["ball"]), np.array(balls["t_over_T"])
+        angle = 2 * math.pi * (0.43 * turn + (ball - 1) / 16)
+        force = (np.array(balls["Q"]) * np.cos(angle)).reshape(-1, 16).sum(axis=1)
+        np.testing.assert_allclose(force, three["F_x"][:128], rtol=1e-9, atol=1e-6)
+
+    def test_a_cage_that_repeats_after_two_turns_and_a_rotor_without_unbalance(self):
+        half = MACHINE.replace("cage_speed_ratio = 0.5", "cage_speed_ratio = 0.40625")
+        table = self.orbit(self.file("half.toml", half), 45, "--periods", 4)
+        self.assertIn("= 13/2: one frequency", table.header)
+        self.assertIn(f"# base period: {2 / 45:.15g} s", table.header)
+        np.testing.assert_array_equal(table["x_r"][128:], table["x_r"][:128])
+        self.assertGreater(abs(table["x_r"][64:128] - table["x_r"][:64]).max(), 1e-9)
+        odd = MACHINE.replace("cage_speed_ratio = 0.5", "cage_speed_ratio = 0.43").replace(
+            "unbalance_kg_m = 0.05", "unbalance_kg_m = 0.0")
+        still = self.file("still.toml", odd)
+        header = self.orbit(still, 45).header
+        self.assertIn(f"# base period: {1 / (45 * 16 * 0.43):.14g}", header)
+        # In another direction every ball passes at another time, and the motion is the same.
+        exact = self.orbit(still, 90, "--method", "rk8pd", "--periods", 25)
+        series = self.orbit(still, 90, "--harmonics", 40, "--periods", 25)
+        self.assertLess(difference(series, exact), 1e-5)
 
     def test_orbit_columns_phases_and_regime(self):
         table = self.orbit(self.machine, 45)

@@ -1,0 +1,125 @@
+/** Motions with two frequencies: against eighth-order integration, against the same machine as one with one
+    frequency, and the rule of the images. */
+#include "support/catch.hpp"
+
+#include "motion/find_periodic.hpp"
+#include "motion/quasi_periodic.hpp"
+#include "support/cases.hpp"
+
+using namespace rotor_stator;
+using namespace rotor_stator::motion;
+using namespace rotor_stator::tests;
+
+namespace {
+
+Parameters machine(int set, int balls, double cage)
+{
+  Parameters parameters = set_1();
+  if (set == 2) parameters.bearing.clearance = 20e-5;
+  parameters.bearing.balls = balls;
+  parameters.bearing.cage_speed_ratio = cage;
+  return parameters;
+}
+
+/** Over one long period. */
+double distance(Motion motion, Motion reference)
+{
+  motion.points_per_period = reference.points_per_period =
+      static_cast<int>(reference.size());
+  return std::max(relative_difference(motion, reference),
+                  rms_difference(motion, reference));
+}
+
+/** Four turns of rk8pd, after `turns` from rest. */
+Motion integrated(const Parameters& parameters, double frequency, long turns)
+{
+  constexpr int points = 64;
+  const TimeStepper stepper = make_stepper(
+      parameters, hertz(frequency),
+      {.method = "rk8pd", .intervals_per_period = points, .tolerance = 1e-10});
+  State state = static_start(parameters);
+  for (long k = 0; k < turns * points; ++k) stepper.advance(k, state);
+  return recorded(stepper, points, state, turns, 4);
+}
+
+}  // namespace
+
+/** Catches a wrong frequency in a linear block, a force at the wrong angle of the cage, and an estimate that does not see
+    what was dropped. */
+TEST_CASE("A motion with two frequencies is the one that integration settles on")
+{
+  struct Case {
+    int set, balls;
+    double cage, frequency;
+  };
+  for (const Case& at : {Case{1, 16, 0.43, 31.1},
+                         {1, 16, 0.4173, 56.3},
+                         {1, 16, 0.381966, 98.6},
+                         {1, 9, 0.3983, 45.4},
+                         {2, 16, 0.43, 139.5},
+                         {2, 16, 0.381966, 56.3}}) {
+    INFO("set " << at.set << ", " << at.balls << " balls, c = " << at.cage << ", "
+                << at.frequency << " Hz");
+    const Parameters parameters = machine(at.set, at.balls, at.cage);
+    const AdaptiveMotion found =
+        find_quasi_periodic(parameters, hertz(at.frequency), {.tolerance = 1e-3});
+    REQUIRE(found.reached);
+    const long turns = std::lround(5 * at.frequency);
+    CHECK(distance(motion_of(parameters, found.motion, 64, 4, turns),
+                   integrated(parameters, at.frequency, turns)) < 1e-3);
+  }
+}
+
+/** Both are the same torus, one of them closed. Catches a z or an N that mixes harmonics, and phases that
+    depend on the turn. */
+TEST_CASE("Where a whole number of balls passes in two turns both ways find one motion")
+{
+  const Parameters parameters = machine(1, 16, 0.40625);
+  constexpr double frequency = 38.2;
+  const AdaptiveMotion two =
+      find_quasi_periodic(parameters, hertz(frequency), {.tolerance = 1e-5});
+  REQUIRE(two.reached);
+  const PeriodicMotion one =
+      find_periodic({over_turns(parameters, 2), hertz(frequency / 2), 128});
+  REQUIRE(one.found());
+  Motion closed = motion_of(one.bodies, 128);
+  closed.points_per_period = 64;
+  CHECK(distance(motion_of(parameters, two.motion, 64, 2), closed) < 3e-5);
+}
+
+/** Among all pairs, from their definition. */
+TEST_CASE("No image falls on a harmonic that is kept")
+{
+  const Bearing bearing = machine(1, 16, 0.4173).bearing;
+  const Harmonics kept = sidebands(bearing, 3, 1), others = sidebands(bearing, 12, 3);
+  const auto [z, n] = line_without_images(kept, others);
+  const auto place = [&](Harmonic h) { return ((h.k_1 + z * h.k_2) % n + n) % n; };
+  for (Harmonic a : kept.list())
+    for (const Harmonics& set : {kept, others})
+      for (Harmonic b : set.list()) {
+        if (a == b) continue;
+        CHECK(place(a) != place(b));
+        CHECK((place(a) + place(b)) % n != 0);
+      }
+}
+
+/** With z = 8, BPFO and the eighth order of the speed are one: the solution then is that of n c = 8. */
+TEST_CASE("A line on which images fall on kept harmonics gives another solution")
+{
+  const Parameters parameters = machine(1, 16, 0.43);
+  const double omega = hertz(38.2);
+  const Harmonics kept = sidebands(parameters.bearing, 3, 1);
+  const auto solved = [&](const TorusLine& line) {
+    Balance balance(bearing_problem(parameters, line), kept);
+    PeriodicMotion motion =
+        solve(balance, omega,
+              project(quasi_static_start(parameters, omega, 3), 2, Harmonics(3), kept));
+    REQUIRE(motion.found());
+    motion.bodies = body_series(parameters, motion);
+    return motion_of(parameters, motion, 64, 4);
+  };
+  const Harmonics others = sidebands(parameters.bearing, 12, 4);
+  const Motion right = solved(line_without_images(kept, others, 1024));
+  CHECK(distance(solved(line_without_images(kept, others, 2048)), right) < 2e-4);
+  CHECK(distance(solved({19, 96}), right) > 5e-4);
+}
