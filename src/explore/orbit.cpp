@@ -113,6 +113,31 @@ void note_verdict(Table& table, const Parameters& parameters,
   table.note(format("verdict: %.3g evaluations of the force", verdict.evaluations));
 }
 
+/** The same for a motion with two frequencies. */
+void note_torus_verdict(Table& table, const Parameters& parameters,
+                        const PeriodicMotion& solution, double tolerance,
+                        const OperationBudget& budget)
+{
+  motion::TorusVerdict verdict;
+  try {
+    verdict = motion::verdict_on_torus(parameters, solution, tolerance, budget);
+  } catch (const NoSolution& none) {
+    table.note(std::string("stability: undecided; ") + none.what());
+    table.note("regime: undecided");
+    return;
+  }
+  table.note(
+      format("stability: %s; neighbouring motions of Eq. 7 from the solution part by "
+             "%.3g +- %.2g a turn",
+             verdict.word(), verdict.rate, verdict.uncertainty));
+  table.note(
+      format("from the solution: integration %s it, within %.2g of the largest "
+             "displacement over %d turns",
+             verdict.stays ? "stays on" : "leaves", verdict.away, verdict.turns));
+  table.note(verdict.stable() ? "regime: quasi-periodic" : "regime: undecided");
+  table.note(format("verdict: %.3g evaluations of the force", verdict.evaluations));
+}
+
 /** A motion with the frequencies of rotation and of the passing balls, on chosen harmonics. */
 motion::Motion quasi_periodic_motion(const Parameters& parameters,
                                      const MotionRequest& request,
@@ -152,8 +177,12 @@ motion::Motion quasi_periodic_motion(const Parameters& parameters,
              "tolerance %g",
              solution.error->displacement, solution.error->rms, against.c_str(),
              settings.tolerance));
-  table.note("stability: undecided; not tested");
-  table.note("regime: undecided");
+  if (request.stability) {
+    note_torus_verdict(table, parameters, solution, settings.tolerance, budget);
+  } else {
+    table.note("stability is not tested");
+    table.note("regime: undecided");
+  }
   return motion::motion_of(parameters, solution, request.points, request.periods);
 }
 

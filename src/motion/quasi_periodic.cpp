@@ -5,6 +5,7 @@
 #include <numbers>
 
 #include "integration/steady_state.hpp"
+#include "stability/lyapunov.hpp"
 
 namespace rotor_stator::motion {
 
@@ -167,6 +168,58 @@ Motion motion_of(const Parameters& parameters, const PeriodicMotion& solution, i
     motion.positions.push_back(
         {{samples(k, 0), samples(k, 1)}, {samples(k, 2), samples(k, 3)}});
   return motion;
+}
+
+namespace {
+
+/** The state [m, m/s] at t = 0. */
+State first_state(const Parameters& parameters, const PeriodicMotion& solution)
+{
+  Eigen::Vector4d q = solution.bodies.col(0), v = Eigen::Vector4d::Zero();
+  for (int h = 1; h <= solution.harmonics.count(); ++h) {
+    const Harmonic at = solution.harmonics.list()[static_cast<std::size_t>(h)];
+    q += solution.bodies.col(2 * h - 1);
+    v += order_of(at, parameters.bearing) * solution.omega * solution.bodies.col(2 * h);
+  }
+  Vector8 state;
+  state << q, v;
+  return rotor_stator::state_of(state);
+}
+
+}  // namespace
+
+TorusVerdict verdict_on_torus(const Parameters& parameters,
+                              const PeriodicMotion& solution, double tolerance,
+                              const OperationBudget& budget)
+{
+  constexpr int points = 8, fading = 56;
+  constexpr double standard_errors = 3;
+  const auto turns = std::max(256L, settling_turns(parameters, solution.omega));
+  TorusVerdict verdict{.turns = static_cast<int>(turns)};
+  const TimeStepper stepper =
+      make_stepper(parameters, solution.omega,
+                   {.method = "rk4", .intervals_per_period = points, .budget = budget});
+  TrajectoryPair pair(stepper, points, state_scales(parameters),
+                      first_state(parameters, solution));
+  const Motion exact = motion_of(parameters, solution, points, verdict.turns);
+  const double size = largest_displacement(exact);
+  std::vector<double> growth;
+  auto at = exact.positions.begin();
+  const auto compare = [&](const State& state) {
+    const auto a = displacements(state.position), b = displacements(*at++);
+    for (std::size_t i = 0; i < 4; ++i)
+      verdict.away = std::max(verdict.away, std::abs(a[i] - b[i]) / size);
+  };
+  for (int turn = 0; turn < verdict.turns; ++turn) {
+    const double rate = pair.advance_one_period(compare);
+    if (turn >= fading) growth.push_back(rate);
+  }
+  const BatchMean rate = batch_mean(growth);
+  verdict.rate = rate.value;
+  verdict.uncertainty = standard_errors * rate.error;
+  verdict.stays = verdict.away <= tolerance;
+  verdict.evaluations = static_cast<double>(stepper.evaluations());
+  return verdict;
 }
 
 AdaptiveMotion find_quasi_periodic(const Parameters& parameters, double omega,

@@ -18,4 +18,24 @@ AdaptiveMotion find_quasi_periodic(const Parameters& parameters, double omega,
                                    const AdaptiveSettings& settings,
                                    const OperationBudget& budget = {});
 
+/** What two neighbouring motions of Eq. 7 from a solution with two frequencies say of it. */
+struct TorusVerdict {
+  int turns;               ///< integrated, at least 256
+  double away = 0;         ///< from the solution, over its largest displacement
+  double rate = 0;         ///< at which the two part [1/turn]
+  double uncertainty = 0;  ///< three standard errors
+  bool stays = false;      ///< away at most the tolerance
+  double evaluations = 0;  ///< of Eq. 7
+
+  bool stable() const { return stays && rate + uncertainty < 0; }
+  bool unstable() const { return rate - uncertainty > 0; }
+  const char* word() const
+  {
+    return stable() ? "stable" : unstable() ? "unstable" : "undecided";
+  }
+};
+TorusVerdict verdict_on_torus(const Parameters& parameters,
+                              const PeriodicMotion& solution, double tolerance,
+                              const OperationBudget& budget = {});
+
 }  // namespace rotor_stator::motion
