@@ -12,15 +12,6 @@ namespace rotor_stator {
 
 namespace {
 
-/** `first`, then what else `all` has. */
-Harmonics joined(const Harmonics& first, const Harmonics& all)
-{
-  std::vector<Harmonic> list = first.list();
-  for (Harmonic h : all.list())
-    if (std::ranges::find(first.list(), h) == first.list().end()) list.push_back(h);
-  return Harmonics(std::move(list));
-}
-
 Eigen::MatrixXd project_series(const Eigen::MatrixXd& series, const Harmonics& from,
                                const Harmonics& to)
 {

@@ -67,6 +67,14 @@ Harmonics sidebands(const Bearing& bearing, int orders, int passages)
   return ascending(pairs, bearing);
 }
 
+Harmonics joined(const Harmonics& first, const Harmonics& others)
+{
+  std::vector<Harmonic> list = first.list();
+  for (Harmonic h : others.list())
+    if (std::ranges::find(first.list(), h) == first.list().end()) list.push_back(h);
+  return Harmonics(std::move(list));
+}
+
 Harmonics up_to(double order, int passages, const Bearing& bearing)
 {
   std::set<std::pair<int, int>> pairs;

@@ -43,6 +43,9 @@ Harmonics sidebands(const Bearing& bearing, int orders, int passages);
 /** All up to an order, with |k_2| ≤ `passages`. */
 Harmonics up_to(double order, int passages, const Bearing& bearing);
 
+/** `first`, then what else `others` have. */
+Harmonics joined(const Harmonics& first, const Harmonics& others);
+
 /** A line with few samples, at least so many, on which no image of any of the `others` falls on one of the `kept`, nor
     of one of these on another. Kept ones among the others do no harm. */
 TorusLine line_without_images(const Harmonics& kept, const Harmonics& others,

@@ -105,6 +105,7 @@ Correction ExtendedBalance::correct(const Eigen::VectorXd& direction,
   motion.force = balance_.force(motion.x, motion.omega);
   motion.harmonics = balance_.harmonics();
   motion.samples = balance_.problem().samples;
+  motion.line = balance_.problem().line;
   return correction;
 }
 

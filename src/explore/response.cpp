@@ -11,6 +11,7 @@
 #include "io/output_file.hpp"
 #include "motion/motion.hpp"
 #include "motion/other_starts.hpp"
+#include "motion/quasi_periodic.hpp"
 #include "motion/subharmonic.hpp"
 #include "motion/verdict.hpp"
 
@@ -28,6 +29,8 @@ struct Task {
   ArcLengthSettings settings;
   bool upwards;
   OperationBudget budget;
+  double passages = 1;  ///< the base frequency over the speed, without unbalance
+  bool has_two_frequencies = false;
 
   SpeedRange range() const
   {
@@ -36,9 +39,38 @@ struct Task {
   }
 
   /** The base frequency [rad/s] at a speed [Hz], and back. */
-  double base(double hertz) const { return angular(hertz) / parameters.turns; }
-  double hertz(double omega) const { return omega * parameters.turns / angular(1); }
+  double base(double hertz) const { return angular(hertz) * passages / parameters.turns; }
+  double hertz(double omega) const
+  {
+    return omega * parameters.turns / passages / angular(1);
+  }
 };
+
+/** Where the balls' passing has not the period of rotation. */
+void take_any_cage(const ResponseRequest& request, Task& task)
+{
+  const int q = turns_to_repeat(task.machine.bearing);
+  if (q == 1) return;
+  if (request.subharmonic > 1 || request.save || request.restart || request.isolated > 0)
+    throw BadInput(
+        format("--subharmonic, --save, --restart and --isolated need a whole number of "
+               "passing balls in a turn, and n*omega_cage/omega is %.9g",
+               passages_per_turn(task.machine.bearing)));
+  if (task.machine.unbalance == 0) {
+    task.parameters = over_passage(task.machine);
+    task.passages = passages_per_turn(task.machine.bearing);
+  } else if (q > 0) {
+    task.parameters = over_turns(task.machine, q);
+    task.harmonics *= q;
+    task.samples *= q;
+  } else {
+    task.has_two_frequencies = true;
+    if (request.harmonics || request.samples || request.stability)
+      throw BadInput(
+          "--harmonics, --samples, --stability: not where n*omega_cage/omega is not a "
+          "whole number; the harmonics are chosen, and orbit judges");
+  }
+}
 
 Task task_of(const ResponseRequest& request)
 {
@@ -78,9 +110,11 @@ Task task_of(const ResponseRequest& request)
                                            parameters);
   const bool upwards =
       request.direction.empty() ? !saved || saved->upwards : request.direction == "up";
-  return {request,          parameters, over_turns(parameters, turns),
-          std::move(saved), harmonics,  checked_samples(harmonics, samples),
-          settings,         upwards,    budget};
+  Task task{request,          parameters, over_turns(parameters, turns),
+            std::move(saved), harmonics,  checked_samples(harmonics, samples),
+            settings,         upwards,    budget};
+  take_any_cage(request, task);
+  return task;
 }
 
 /**
@@ -117,9 +151,13 @@ BranchPoint saved_start(const Task& task, Table& table)
 PeriodicMotion found_start(const Task& task)
 {
   const double hertz = task.hertz(task.range().from);
-  const motion::Search search{task.machine, angular(hertz),       task.harmonics,
-                              task.samples, task.settings.newton, task.budget};
-  const int turns = task.parameters.turns;
+  const int turns = task.request.subharmonic;
+  const motion::Search search{turns > 1 ? task.machine : task.parameters,
+                              turns > 1 ? angular(hertz) : task.range().from,
+                              task.harmonics,
+                              task.samples,
+                              task.settings.newton,
+                              task.budget};
   if (turns > 1)
     return motion::find_subharmonic(
         search, turns, task.request.harmonics ? std::nullopt : std::optional(1e-2));
@@ -132,6 +170,34 @@ PeriodicMotion found_start(const Task& task)
   return start;
 }
 
+/** With two frequencies: all harmonics that the usual tolerance asks for at some speeds of the range, the start on
+    them, and the line of its samples. */
+std::pair<PeriodicMotion, TorusLine> chosen_start(const Task& task)
+{
+  constexpr int speeds = 5;
+  const Bearing& bearing = task.machine.bearing;
+  Harmonics all = sidebands(bearing, 3, 1);
+  PeriodicMotion start;
+  std::string end;
+  const auto [from, to] = task.range();
+  for (int k = 0; k < speeds; ++k) {
+    const AdaptiveMotion at = motion::find_quasi_periodic(
+        task.machine, from + k * (to - from) / (speeds - 1),
+        {.tolerance = 1e-3, .newton = task.settings.newton}, task.budget);
+    if (k == 0 && !at.reached)
+      throw NoSolution(format("%s: no solution found at %g Hz: %s",
+                              task.machine.file.c_str(), task.hertz(from),
+                              at.end.c_str()));
+    if (k == 0) start = at.motion;
+    if (at.reached) all = joined(all, at.motion.harmonics);
+  }
+  start.x = project(start.x, 2, start.harmonics, all);
+  start.harmonics = all;
+  const TorusLine line = line_without_images(all, sidebands(bearing, 12, 4), 1024);
+  start.samples = line.samples;
+  return {start, line};
+}
+
 /**
 ## The table */
 
@@ -140,14 +206,14 @@ struct Row {
   const StablePoint& at;
   Eigen::VectorXd amplitude;  ///< half peak-to-peak of x_s, y_s, x_r, y_r [m]
   std::size_t branch;
-  int turns;  ///< of the rotor per base period
+  const Task& task;
 };
 
 using Fields = std::vector<Field<Row>>;
 
 const Fields branch_fields{
     {"f", "Hz", "speed of rotation",
-     [](auto& r) { return r.at.point.motion.omega * r.turns / angular(1); }},
+     [](auto& r) { return r.task.hertz(r.at.point.motion.omega); }},
     {"amp_x_s", "m", "half peak-to-peak of x_s", [](auto& r) { return r.amplitude[0]; }},
     {"amp_y_s", "m", "half peak-to-peak of y_s", [](auto& r) { return r.amplitude[1]; }},
     {"amp_x_r", "m", "half peak-to-peak of x_r", [](auto& r) { return r.amplitude[2]; }},
@@ -296,12 +362,15 @@ void add_branch(Table& table, const Task& task, Balance& balance, const Branch& 
   }
   const Fields fields = fields_of(task.request);
   FourierTransform transform = amplitude_transform(task.harmonics);
+  const auto amplitude = [&](const PeriodicMotion& motion) {
+    return task.has_two_frequencies
+               ? motion::half_peak_to_peak_of_torus(task.machine, motion)
+               : half_peak_to_peak(body_series(task.parameters, motion), transform);
+  };
   for (const StablePoint& at : stability.points) {
     const PeriodicMotion& motion = at.point.motion;
     added.touches = added.touches || !motion.force.isZero(0);
-    table.row(fields,
-              {at, half_peak_to_peak(body_series(task.parameters, motion), transform),
-               number, task.parameters.turns});
+    table.row(fields, {at, amplitude(motion), number, task});
   }
   if (task.request.isolated > 0) table.gap();
 }
@@ -310,7 +379,7 @@ void add_branch(Table& table, const Task& task, Balance& balance, const Branch& 
 bool is_whole(const Task& task, const Branch& branch)
 {
   return branch.covered ||
-         (task.parameters.turns > 1 && branch.kind == BranchEnd::came_back);
+         (task.request.subharmonic > 1 && branch.kind == BranchEnd::came_back);
 }
 
 /** The first thing that is missing, in the order in which it was asked for. */
@@ -334,7 +403,12 @@ Exploration explore_response(const ResponseRequest& request)
   Task task = task_of(request);
   Table table("Frequency response along the branch", fields_of(request));
   PeriodicMotion found;
-  if (!task.saved) {
+  TorusLine line{};
+  if (task.has_two_frequencies) {
+    std::tie(found, line) = chosen_start(task);
+    task.samples = found.samples;
+    table.note("start: " + found.start);
+  } else if (!task.saved) {
     found = found_start(task);
     task.harmonics = found.harmonics.count();
     task.samples = found.samples;
@@ -345,18 +419,30 @@ Exploration explore_response(const ResponseRequest& request)
                  "the mean, against that motion",
                  found.error->larger()));
   }
-  Balance balance(bearing_problem(task.parameters, task.samples, task.budget),
-                  task.harmonics);
+  Balance balance =
+      task.has_two_frequencies
+          ? Balance(bearing_problem(task.parameters, line, task.budget), found.harmonics)
+          : Balance(bearing_problem(task.parameters, task.samples, task.budget),
+                    task.harmonics);
   const BranchPoint start =
       task.saved ? saved_start(task, table)
                  : point_of(balance, found.omega, found.x, task.upwards, task.settings);
   const Branch main = follow_branch(balance, start, task.range(), task.settings);
   describe(table, task.machine);
   const int turns = task.parameters.turns;
-  table.note(format(
-      "method: aft%s, m = %d, N = %d, relative tolerance %g, pseudo-arc-length %s",
-      turns > 1 ? format(", orders h/%d", turns).c_str() : "", task.harmonics / turns,
-      task.samples / turns, task.request.newton_tolerance, task.upwards ? "up" : "down"));
+  if (task.has_two_frequencies)
+    table.note(format(
+        "method: aft, two frequencies: omega and n omega_cage = %.9g omega; "
+        "%d harmonics chosen at five speeds, z = %d, N = %d, relative "
+        "tolerance %g, pseudo-arc-length %s",
+        passages_per_turn(task.machine.bearing), found.harmonics.count(), line.z,
+        line.samples, task.request.newton_tolerance, task.upwards ? "up" : "down"));
+  else
+    table.note(format(
+        "method: aft%s, m = %d, N = %d, relative tolerance %g, pseudo-arc-length %s",
+        turns > 1 ? format(", orders h/%d", turns).c_str() : "", task.harmonics / turns,
+        task.samples / turns, task.request.newton_tolerance,
+        task.upwards ? "up" : "down"));
   table.note(format("folds: %zu, of the m harmonics", main.folds.size()));
   table.note(format("work: %ld evaluations of the force at %d instants", main.evaluations,
                     task.samples));

@@ -170,6 +170,16 @@ Motion motion_of(const Parameters& parameters, const PeriodicMotion& solution, i
   return motion;
 }
 
+Eigen::VectorXd half_peak_to_peak_of_torus(const Parameters& parameters,
+                                           const PeriodicMotion& solution)
+{
+  FourierTransform transform(solution.samples);
+  Eigen::MatrixXd samples;
+  transform.to_samples(body_series(parameters, solution), samples,
+                       solution.harmonics.images(solution.line, solution.samples));
+  return 0.5 * (samples.colwise().maxCoeff() - samples.colwise().minCoeff());
+}
+
 namespace {
 
 /** The state [m, m/s] at t = 0. */

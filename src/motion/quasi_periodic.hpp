@@ -13,6 +13,11 @@ namespace rotor_stator::motion {
 Motion motion_of(const Parameters& parameters, const PeriodicMotion& solution, int points,
                  int turns, long first = 0);
 
+/** Half of the largest less the smallest value of x_s, y_s, x_r, y_r [m] that a solution with two frequencies ever
+    comes near. */
+Eigen::VectorXd half_peak_to_peak_of_torus(const Parameters& parameters,
+                                           const PeriodicMotion& solution);
+
 /** The solution with two frequencies at speed `omega` [rad/s]. */
 AdaptiveMotion find_quasi_periodic(const Parameters& parameters, double omega,
                                    const AdaptiveSettings& settings,

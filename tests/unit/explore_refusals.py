@@ -129,6 +129,9 @@ class Values(Case):
         odd = self.file("odd.toml", MACHINE.replace("cage_speed_ratio = 0.5", "cage_speed_ratio = 0.4321"))
         self.refused("chosen by --tolerance", "orbit", odd, *ORBIT, "--harmonics", 6)
         self.refused("--subharmonic 2: needs a whole number", "orbit", odd, *ORBIT, "--subharmonic", 2)
+        for options in (["--save", "a"], ["--isolated", 3], ["--subharmonic", 2]):
+            self.refused("need a whole number of passing balls", "response", odd, *RESPONSE, *options)
+        self.refused("orbit judges", "response", odd, *RESPONSE, "--stability")
         for periods in ("0", "1001", "1.5"):
             self.refused("--periods", "orbit", odd, *ORBIT, "--periods", periods)
         self.refused("the largest dropped harmonic is (", "orbit", odd, "--frequency", 18.7, "--tolerance", 1e-6, status=3)

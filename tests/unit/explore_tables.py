@@ -68,6 +68,17 @@ class Motion(Case):
         force = (np.array(balls["Q"]) * np.cos(angle)).reshape(-1, 16).sum(axis=1)
         np.testing.assert_allclose(force, three["F_x"][:128], rtol=1e-9, atol=1e-6)
 
+    def test_response_of_any_cage(self):
+        """The last row against the orbit at that speed, over 200 turns where the motion does not repeat."""
+        for old, new, turns in [("cage_speed_ratio = 0.5", "cage_speed_ratio = 0.43", 200),
+                                ("cage_speed_ratio = 0.5", "cage_speed_ratio = 0.40625", 2)]:
+            odd = self.file("odd.toml", MACHINE.replace(old, new))
+            branch = self.table("response", odd, "--from", 50, "--to", 60)
+            orbit = self.orbit(odd, 60, "--periods", turns)
+            self.assertAlmostEqual(branch["f"][-1], 60)
+            for name in ["x_s", "y_s", "x_r", "y_r"]:
+                self.assertAlmostEqual(branch["amp_" + name][-1] / (np.ptp(orbit[name]) / 2), 1, delta=1e-3)
+
     def test_verdict_on_two_frequencies(self):
         """At 98.6 Hz with c = 0.4173 integration from rest settles 0.16 % beside the solution, and so it does from it."""
         for cage, frequency, words in [(0.43, 45.4, ["stability: stable", "regime: quasi-periodic", "stays on"]),
