@@ -90,7 +90,9 @@ struct Choosing {
     const Harmonics all = up_to(2 * highest_order, 8, bearing);
     finer = {.omega = omega, .harmonics = all};
     finer.x = settled.lines(all);
-    finer.bodies = finer.x.reshaped(2, all.coefficients());
+    Balance balance(bearing_problem(parameters, finest, budget), all);
+    finer.force = balance.balancing_force(finer.x, omega);
+    finer.bodies = body_series(parameters, finer);
     finer.newton.end = NewtonEnd::converged;
     for (const int most : {120, 350}) {
       const Harmonics kept = chosen(0, all, finer.bodies, most);
@@ -196,7 +198,7 @@ struct Choosing {
   std::string largest_dropped() const
   {
     const auto& kept = result.motion.harmonics.list();
-    double most = -1;
+    double most = 0;
     Harmonic at{};
     for (int h = 1; h <= finer.harmonics.count(); ++h) {
       const Harmonic candidate = finer.harmonics.list()[static_cast<std::size_t>(h)];
@@ -205,6 +207,7 @@ struct Choosing {
       most = size;
       at = candidate;
     }
+    if (most == 0) return "; the candidates are exhausted, none is dropped";
     return format("; the largest dropped harmonic is (%d, %d), %.2g of the vibration",
                   at.k_1, at.k_2, most / vibration(finer.bodies));
   }
