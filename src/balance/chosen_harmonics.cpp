@@ -184,8 +184,9 @@ struct Choosing {
   void conclude()
   {
     const PeriodicMotion& motion = result.motion;
+    /** A quarter is left for what no candidate stands for. */
     result.reached =
-        motion.error->settled && motion.error->larger() <= settings.tolerance;
+        motion.error->settled && motion.error->larger() <= 0.75 * settings.tolerance;
     result.end = motion.error->settled
                      ? format("the error with %d harmonics is estimated as %.2g",
                               motion.harmonics.count(), motion.error->larger())

@@ -29,9 +29,9 @@ long settling_turns(const Parameters& parameters, double omega)
     return body.damping_ratio * body.natural_frequency;
   };
   const double slower = std::min(rate(parameters.stator), rate(parameters.rotor));
-  constexpr double longest = 10;  // [s]
+  constexpr double longest = 10, most = 20000;  // [s], turns
   const double seconds = std::min(longest, std::log(1e5) / slower);
-  return std::lround(std::ceil(seconds / checked_period(omega, seconds)));
+  return std::lround(std::ceil(std::min(most, seconds / checked_period(omega, seconds))));
 }
 
 /** Those whose orders differ by more than a main lobe, the smallest |k_2| first; as places in the list. */
@@ -204,7 +204,7 @@ TorusVerdict verdict_on_torus(const Parameters& parameters,
 {
   constexpr int points = 8, fading = 56;
   constexpr double standard_errors = 3;
-  const auto turns = std::max(256L, settling_turns(parameters, solution.omega));
+  const auto turns = std::clamp(settling_turns(parameters, solution.omega), 256L, 2048L);
   TorusVerdict verdict{.turns = static_cast<int>(turns)};
   const TimeStepper stepper =
       make_stepper(parameters, solution.omega,
