@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <numbers>
 
 #include "integration/steady_state.hpp"
@@ -26,7 +27,8 @@ double blackman_harris(double share)
 long settling_turns(const Parameters& parameters, double omega)
 {
   const auto rate = [](const Body& body) {
-    return body.damping_ratio * body.natural_frequency;
+    return body.rigid ? std::numeric_limits<double>::infinity()
+                      : body.damping() / (2 * body.mass);
   };
   const double slower = std::min(rate(parameters.stator), rate(parameters.rotor));
   constexpr double longest = 10, most = 20000;  // [s], turns
