@@ -85,29 +85,29 @@ CLI::Option* add_subharmonic(CLI::App& command, Request& request)
     would ignore. */
 std::function<void()> add_motion_options(CLI::App& command, MotionRequest& request)
 {
-  std::string methods = "aft (harmonic balance)";
+  std::string methods = "aft (harmonic balance), shooting, auto (the cheaper of both)";
   for (const std::string& name : time_methods()) methods += ", " + name;
-  auto aft = add_balance_options(command, request, "by --tolerance");
+  const auto aft = add_balance_options(command, request, "by --tolerance");
   add_number(command, "--frequency", request.frequency, 0.0, largest,
              "speed of rotation [Hz]")
       ->required();
   command.add_option("--method", request.method, methods)->capture_default_str();
   add_number(command, "--points", request.points, 1, most_points, "P, rows per period");
-  aft.push_back(add_number(
+  std::vector<CLI::Option*> periodic{add_number(
       command, "--tolerance", request.tolerance, 1e-8, 0.1,
       "relative error of displacement, the largest and the rms about the mean; without "
-      "--harmonics, m is chosen (default with two frequencies: 1e-3)"));
+      "--harmonics, m is chosen (default with two frequencies and of auto: 1e-3)")};
   if (command.get_name() == "orbit") {
-    aft.push_back(add_subharmonic(command, request));
+    periodic.push_back(add_subharmonic(command, request));
     add_number(command, "--periods", request.periods, 1, 1000, "turns that are printed");
   }
-  aft.push_back(command.add_flag("!--no-stability", request.stability,
-                                 "leave out the Floquet multipliers of aft"));
+  periodic.push_back(command.add_flag("!--no-stability", request.stability,
+                                      "leave out the Floquet multipliers"));
   const auto step = add_number(command, "--step", request.step, 0.0, largest,
                                "longest step of rk4 [s] (default: from K_H)");
   const auto local_error =
       add_number(command, "--local-error", request.local_error, 1e-15, 1e-2,
-                 "relative, per step, of the time methods but rk4");
+                 "relative, per step, of shooting and the time methods but rk4");
   const auto longest = add_number(command, "--longest", request.longest, 1e-3, 1e5,
                                   "longest transient of the time methods [s]");
   return [=, &request] {
@@ -116,11 +116,18 @@ std::function<void()> add_motion_options(CLI::App& command, MotionRequest& reque
         throw BadInput(option->get_name() + ": is " + where + ", and --method is " +
                        request.method);
     };
-    const bool is_aft = request.method == "aft", is_rk4 = request.method == "rk4";
-    for (const CLI::Option* option : aft) refuse(option, is_aft, "for --method aft");
-    refuse(step, is_rk4, "for --method rk4");
-    refuse(local_error, !is_aft && !is_rk4, "for the time methods but rk4");
-    refuse(longest, !is_aft, "for the time methods");
+    const std::string& method = request.method;
+    require_method(method, periodic_methods);
+    const bool is_periodic =
+        std::ranges::find(periodic_methods, method) != periodic_methods.end();
+    for (const CLI::Option* option : aft)
+      refuse(option, method == "aft", "for --method aft");
+    for (const CLI::Option* option : periodic)
+      refuse(option, is_periodic, "for the methods aft, shooting and auto");
+    refuse(step, method == "rk4", "for --method rk4");
+    refuse(local_error, method != "aft" && method != "rk4",
+           "for shooting and the time methods but rk4");
+    refuse(longest, !is_periodic, "for the time methods");
   };
 }
 
@@ -132,16 +139,22 @@ void add_range_options(CLI::App& command, Ranged& request)
   add_number(command, "--to", request.to, 0.0, largest, "last speed [Hz]")->required();
 }
 
-void add_response_options(CLI::App& command, ResponseRequest& request)
+/** What is returned throws BadInput for an option that the method would ignore. */
+std::function<void()> add_response_options(CLI::App& command, ResponseRequest& request)
 {
-  add_balance_options(command, request, "the saved branch's");
-  add_subharmonic(command, request);
+  auto aft = add_balance_options(command, request, "the saved branch's");
+  command
+      .add_option("--method", request.method, "aft (harmonic balance), or shooting (rk4)")
+      ->capture_default_str();
+  aft.push_back(add_subharmonic(command, request));
   add_range_options(command, request);
   command.add_option("--direction", request.direction,
                      "up: from --from to --to; down: from --to to --from");
-  command.add_flag("--stability", request.stability,
-                   "Floquet multipliers of each point, and the bifurcations between");
-  command.add_option("--save", request.save, "file for the branch, all coefficients");
+  aft.push_back(command.add_flag(
+      "--stability", request.stability,
+      "Floquet multipliers of each point, and the bifurcations between"));
+  aft.push_back(command.add_option("--save", request.save,
+                                   "file for the branch, all coefficients"));
   CLI::Option* restart =
       command.add_option("--restart", request.restart, "file of --save to continue from");
   add_number(command, "--at", request.at, 0.0, largest,
@@ -150,11 +163,22 @@ void add_response_options(CLI::App& command, ResponseRequest& request)
   add_number(command, "--branch", request.branch, 1, 1000000,
              "number of the branch to restart")
       ->needs(restart);
+  aft.push_back(restart);
   CLI::Option* isolated = add_number(command, "--isolated", request.isolated, 0, 10000,
                                      "look for isolated branches at so many speeds");
   add_number(command, "--seed", request.seed, 0, largest_seed,
              "of the random starts of --isolated")
       ->needs(isolated);
+  aft.push_back(isolated);
+  return [aft, &request] {
+    if (request.method == "aft") return;
+    if (request.method != "shooting")
+      throw BadInput("--method " + request.method + ": must be one of aft, shooting");
+    for (const CLI::Option* option : aft)
+      if (option->count() > 0)
+        throw BadInput(option->get_name() +
+                       ": is for --method aft, and --method is shooting");
+  };
 }
 
 void add_attractors_options(CLI::App& command, AttractorsRequest& request)
@@ -199,12 +223,15 @@ int main(int argc, char** argv)
       "attractors", "what the machine settles on, speed by speed, from many starts");
   const auto refuse_of_orbit = add_motion_options(*orbit, motion);
   const auto refuse_of_contact = add_motion_options(*contact, motion);
-  add_response_options(*branch, response);
+  const auto refuse_of_response = add_response_options(*branch, response);
   add_attractors_options(*settled, attractors);
   return guarded([&] {
     if (!parse(app, argc, argv)) return 0;
     if (settled->parsed()) return finish(explore_attractors(attractors));
-    if (branch->parsed()) return finish(explore_response(response));
+    if (branch->parsed()) {
+      refuse_of_response();
+      return finish(explore_response(response));
+    }
     refuse_of_orbit();
     refuse_of_contact();
     return finish(orbit->parsed() ? explore_orbit(motion) : explore_contact(motion));

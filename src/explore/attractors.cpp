@@ -63,11 +63,7 @@ Task task_of(const AttractorsRequest& request)
   Parameters machine = read_parameters(request.parameter_file);
   if (request.from >= request.to)
     throw BadInput(format("--from %g: must be below --to %g", request.from, request.to));
-  if (!has_rotation_period(machine.bearing))
-    throw BadInput(format(
-        "%s: bearing.cage_speed_ratio: attractors needs a force with the period of "
-        "rotation, but %.9g balls pass in a turn, not a whole number",
-        machine.file.c_str(), passages_per_turn(machine.bearing)));
+  require_rotation_period(machine, "attractors");
   std::vector<std::string> inputs{request.parameter_file};
   if (request.section) require_writable("--section", *request.section, inputs);
   if (request.plot) require_plot(*request.plot, script, inputs);

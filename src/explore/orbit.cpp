@@ -8,6 +8,7 @@
 #include "integration/time_stepper.hpp"
 #include "io/errors.hpp"
 #include "motion/adaptive.hpp"
+#include "motion/closed_motion.hpp"
 #include "motion/contact.hpp"
 #include "motion/other_starts.hpp"
 #include "motion/quasi_periodic.hpp"
@@ -79,18 +80,14 @@ AdaptiveMotion solved(const Parameters& parameters, const MotionRequest& request
   return motion::solve_adaptively(parameters, omega, settings_of(request), budget);
 }
 
-/** What stands behind the verdict on a solution, in the header's lines. */
-void note_verdict(Table& table, const Parameters& parameters,
-                  const PeriodicMotion& solution, const OperationBudget& budget,
-                  int turns)
+/** What stands behind a verdict, in the header's lines. */
+void note_verdict(Table& table, const motion::Verdict& verdict, int turns,
+                  const char* whose)
 {
-  const motion::Verdict verdict = motion::verdict_on(parameters, solution, budget, turns);
   const Floquet& motion = verdict.floquet;
   if (verdict.found())
-    table.note(format(
-        "stability: %s; largest Floquet multiplier %.9g +- %.2g, of the motion of Eq. 7 "
-        "found from the solution",
-        verdict.word(), motion.largest(), motion.uncertainty()));
+    table.note(format("stability: %s; largest Floquet multiplier %.9g +- %.2g, of %s",
+                      verdict.word(), motion.largest(), motion.uncertainty(), whose));
   else
     table.note("stability: undecided; " + verdict.reason);
   if (verdict.distance > 0)
@@ -111,6 +108,12 @@ void note_verdict(Table& table, const Parameters& parameters,
                there.regime().c_str(), there.periods, there.spread));
   if (!verdict.lost.empty()) table.note("from the solution: " + verdict.lost);
   table.note(format("verdict: %.3g evaluations of the force", verdict.evaluations));
+}
+
+void note_no_verdict(Table& table)
+{
+  table.note("stability is not tested");
+  table.note("regime: undecided");
 }
 
 /** The same for a motion with two frequencies. */
@@ -180,8 +183,7 @@ motion::Motion quasi_periodic_motion(const Parameters& parameters,
   if (request.stability) {
     note_torus_verdict(table, parameters, solution, settings.tolerance, budget);
   } else {
-    table.note("stability is not tested");
-    table.note("regime: undecided");
+    note_no_verdict(table);
   }
   return motion::motion_of(parameters, solution, request.points, request.periods);
 }
@@ -220,10 +222,10 @@ PeriodicMotion solution_of(const Parameters& parameters, const MotionRequest& re
   if (std::isfinite(1 / request.frequency))
     table.note(format("base period: %.15g s", 1 / request.frequency));
   if (request.stability) {
-    note_verdict(table, parameters, at.motion, budget, turns);
+    note_verdict(table, motion::verdict_on(parameters, at.motion, budget, turns), turns,
+                 "the motion of Eq. 7 found from the solution");
   } else {
-    table.note("stability is not tested");
-    table.note("regime: undecided");
+    note_no_verdict(table);
   }
   return at.motion;
 }
@@ -274,6 +276,66 @@ motion::Motion balance_motion(const Parameters& parameters, const MotionRequest&
     return motion_of_passages(parameters, request, budget, table);
   return q > 0 ? motion_of_turns(parameters, request, q, budget, table)
                : quasi_periodic_motion(parameters, request, budget, table);
+}
+
+motion::Motion closed_motion(const Parameters& parameters, const MotionRequest& request,
+                             const OperationBudget& budget, Table& table)
+{
+  const double omega = angular(request.frequency);
+  const int turns = request.subharmonic;
+  const motion::Search search{
+      parameters, omega, usual_harmonics, default_samples(usual_harmonics), {}, budget};
+  motion::ClosedMotion closed =
+      motion::closed_motion(search, turns, request.points, request.local_error);
+  const double error = std::max(closed.distance, closed.distance_rms);
+  table.note(
+      format("method: shooting by rk8pd, local error %g, from %s: closed to %.2g of "
+             "the sizes of the state after %d periods",
+             request.local_error, closed.start.c_str(), closed.periodicity_residual,
+             closed.maps));
+  table.note(
+      format("error: %.2g of the largest displacement, %.2g rms about the mean, "
+             "against a hundredth of the local error",
+             closed.distance, closed.distance_rms));
+  if (request.tolerance && !(error <= *request.tolerance))
+    throw NoSolution(
+        format("%s: tolerance %g not reached at %g Hz, error %.2g: "
+               "--local-error is too large",
+               parameters.file.c_str(), *request.tolerance, request.frequency, error));
+  table.note(format("base period: %.15g s", 1 / request.frequency));
+  if (request.stability)
+    note_verdict(table,
+                 motion::verdict_through(parameters, omega, closed.state, budget, turns),
+                 turns, "this motion");
+  else
+    note_no_verdict(table);
+  return std::move(closed.motion);
+}
+
+/** Of the two methods for periodic motions, the one that costs less at the same error (`tab02_equal_error`): below
+    half the joint resonance, where contact is lost and found again, shooting; above it harmonic balance. Where that
+    one finds nothing, the other. */
+motion::Motion cheaper_motion(const Parameters& parameters, MotionRequest request,
+                              const OperationBudget& budget, Table& table)
+{
+  if (!request.tolerance) request.tolerance = 1e-3;
+  const double half = joint_resonance(parameters) / angular(2);
+  const bool is_slow = request.frequency < half;
+  const bool can_shoot = has_rotation_period(parameters.bearing);
+  table.note(can_shoot
+                 ? format("method auto: %s, cheaper at equal error %s %.4g Hz, half the "
+                          "joint resonance",
+                          is_slow ? "shooting" : "aft", is_slow ? "below" : "above", half)
+                 : "method auto: aft, the force has not the period of rotation");
+  if (!can_shoot) return balance_motion(parameters, request, budget, table);
+  const auto first = is_slow ? closed_motion : balance_motion;
+  const auto second = is_slow ? balance_motion : closed_motion;
+  try {
+    return first(parameters, request, budget.part(0.5), table);
+  } catch (const NoSolution& error) {
+    table.note(std::string("method auto: the other, since that failed: ") + error.what());
+  }
+  return second(parameters, request, budget, table);
 }
 
 /** What a time method settled on: T-periodic, kT-periodic or not, and the same with finer steps where those that
@@ -338,16 +400,20 @@ struct Computed {
 Computed computed(const Parameters& parameters, const MotionRequest& request,
                   Table& table)
 {
-  require_method(request.method);
   checked_samples(request.harmonics.value_or(usual_harmonics), request.samples);
   if (request.tolerance && request.samples && !request.harmonics)
     throw BadInput("--samples: chosen with m for --tolerance; give --harmonics too");
   describe(table, parameters);
   table.note(format("frequency: %.15g Hz", request.frequency));
   Computed at{.budget = budget_of(request.budget, 3, parameters)};
-  at.motion = request.method == "aft"
-                  ? balance_motion(parameters, request, at.budget, table)
-                  : integrated_motion(parameters, request, at.budget, table);
+  if (request.method == "aft")
+    at.motion = balance_motion(parameters, request, at.budget, table);
+  else if (request.method == "shooting")
+    at.motion = closed_motion(parameters, request, at.budget, table);
+  else if (request.method == "auto")
+    at.motion = cheaper_motion(parameters, request, at.budget, table);
+  else
+    at.motion = integrated_motion(parameters, request, at.budget, table);
   at.forces =
       motion::bearing_forces(over_turns(parameters, request.subharmonic), at.motion);
   return at;

@@ -23,9 +23,12 @@ struct Request {
   int subharmonic = 1;              ///< K: motions of period KT
 };
 
+/** Those that find periodic motions: harmonic balance, shooting, and the cheaper of the two. */
+inline const std::vector<std::string> periodic_methods{"aft", "shooting", "auto"};
+
 struct MotionRequest : Request {
   double frequency = 0;             ///< [Hz]
-  std::string method = "aft";       ///< or a time method
+  std::string method = "aft";       ///< one of `periodic_methods`, or a time method
   std::optional<double> tolerance;  ///< of displacement, relative
   int points = 256;                 ///< P
   double local_error = 1e-11;       ///< GSL's methods, relative

@@ -7,13 +7,17 @@
 #include "balance/bearing_problem.hpp"
 #include "continuation/arc_length.hpp"
 #include "explore/branch_file.hpp"
+#include "integration/time_stepper.hpp"
 #include "io/errors.hpp"
 #include "io/output_file.hpp"
+#include "motion/closed_motion.hpp"
+#include "motion/contact.hpp"
 #include "motion/motion.hpp"
 #include "motion/other_starts.hpp"
 #include "motion/quasi_periodic.hpp"
 #include "motion/subharmonic.hpp"
 #include "motion/verdict.hpp"
+#include "stability/shooting_branch.hpp"
 
 namespace rotor_stator::explore {
 
@@ -103,11 +107,12 @@ Task task_of(const ResponseRequest& request)
       arc_length_settings(parameters, {.tolerance = request.newton_tolerance});
   settings.most_evaluations =
       std::numeric_limits<long>::max();  // the budget is the bound
-  const OperationBudget budget = budget_of(request.budget,
-                                           request.stability ? 60
-                                           : turns > 1       ? 30
-                                                             : 3,
-                                           parameters);
+  const OperationBudget budget =
+      budget_of(request.budget,
+                request.stability || request.method == "shooting" ? 60
+                : turns > 1                                       ? 30
+                                                                  : 3,
+                parameters);
   const bool upwards =
       request.direction.empty() ? !saved || saved->upwards : request.direction == "up";
   Task task{request,          parameters, over_turns(parameters, turns),
@@ -396,11 +401,68 @@ std::string unfinished(const Task& task, const Branch& branch,
       task.upwards ? "to" : "from", task.hertz(task.range().to), branch.end.c_str());
 }
 
+/** The same branch by a time method. */
+Exploration shooting_response(const ResponseRequest& request, const Task& task)
+{
+  constexpr int points = 256;
+  const Parameters& machine = task.machine;
+  require_rotation_period(machine, "shooting");
+  const SpeedRange range = task.range();
+  const motion::Search search{machine,      range.from,           task.harmonics,
+                              task.samples, task.settings.newton, task.budget};
+  /** On the motion that the machine settles on where that has the period T. */
+  const motion::Settled settled =
+      motion::settle(machine, range.from, static_start(machine), task.budget);
+  std::string start = "time integration";
+  State state = settled.state;
+  if (settled.period != 1) {
+    const auto closed = motion::closed_motion(search, 1, points, 1e-11);
+    start = closed.start;
+    state = closed.state;
+  }
+  const ShootingBranch branch =
+      follow_by_shooting(machine, range.from, range.to, state, {.budget = task.budget});
+  Table table("Frequency response along the branch", fields_of(request));
+  table.note("start: " + start);
+  describe(table, machine);
+  table.note(
+      format("method: shooting by rk4, steps of at most %.4g s, pseudo-arc-length %s",
+             default_step(machine), task.upwards ? "up" : "down"));
+  table.note(format("folds: %d, of the machine", branch.folds));
+  table.note(format("work: %ld evaluations of the force", branch.evaluations));
+  table.note((branch.covered ? "ended: " : "incomplete: ") + branch.end);
+  bool touches = false;
+  for (const ShootingBranchPoint& point : branch.points) {
+    const TimeStepper stepper = make_stepper(
+        machine, point.omega, {.method = "rk4", .intervals_per_period = points});
+    state = point.state;
+    const motion::Motion motion = motion::recorded(stepper, points, state);
+    const auto amplitude = half_peak_to_peak(motion);
+    touches = touches || motion::contact_share(machine, motion) > 0;
+    StablePoint at{};
+    at.point.motion.omega = point.omega;
+    at.point.motion.newton.iterations = point.newton;
+    at.point.arc = point.arc;
+    table.row(branch_fields,
+              Row{at, Eigen::Map<const Eigen::Vector4d>(amplitude.data()), 1, task});
+  }
+  conclude(table, machine, touches, task.budget);
+  const std::string unfinished =
+      branch.covered
+          ? ""
+          : format("%s: the branch stopped at %g Hz, before --%s %g Hz: %s",
+                   machine.file.c_str(), task.hertz(branch.points.back().omega),
+                   task.upwards ? "to" : "from", task.hertz(range.to),
+                   branch.end.c_str());
+  return {std::move(table), unfinished};
+}
+
 }  // namespace
 
 Exploration explore_response(const ResponseRequest& request)
 {
   Task task = task_of(request);
+  if (request.method == "shooting") return shooting_response(request, task);
   Table table("Frequency response along the branch", fields_of(request));
   PeriodicMotion found;
   TorusLine line{};

@@ -11,8 +11,9 @@ namespace rotor_stator::explore {
 
 /** One branch over a range of speeds, and on demand others beside it. */
 struct ResponseRequest : Request {
-  double from = 0, to = 0;  ///< [Hz]
-  std::string direction;    ///< "up", "down", or empty: the saved branch's, or up
+  std::string method = "aft";  ///< one of `periodic_methods`
+  double from = 0, to = 0;     ///< [Hz]
+  std::string direction;       ///< "up", "down", or empty: the saved branch's, or up
   std::optional<std::string> save, restart;  ///< files
   int branch = 1;                            ///< number in the file `restart`
   std::optional<double> at;                  ///< speed to restart from [Hz]

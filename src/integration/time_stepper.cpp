@@ -34,13 +34,12 @@ const std::vector<std::string>& time_methods()
   return names;
 }
 
-void require_method(const std::string& method)
+void require_method(const std::string& method, std::vector<std::string> others)
 {
-  const auto& known = time_methods();
-  if (method == "aft" || std::find(known.begin(), known.end(), method) != known.end())
-    return;
-  std::string list = "aft";
-  for (const auto& name : known) list += ", " + name;
+  others.insert(others.end(), time_methods().begin(), time_methods().end());
+  if (std::ranges::find(others, method) != others.end()) return;
+  std::string list;
+  for (const auto& name : others) list += (list.empty() ? "" : ", ") + name;
   throw BadInput("--method " + method + ": must be one of " + list);
 }
 

@@ -37,9 +37,9 @@ struct TimeStepper {
   std::function<long()> evaluations;
 };
 
-/** Throws BadInput for a method that is neither a time method nor "aft", naming the known
+/** Throws BadInput for a method that is neither one of `others` nor a time method, naming the known
     ones. */
-void require_method(const std::string& method);
+void require_method(const std::string& method, std::vector<std::string> others = {});
 
 TimeStepper make_stepper(const Parameters& parameters, double omega,
                          const StepperSettings& settings);

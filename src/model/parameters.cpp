@@ -100,6 +100,15 @@ bool has_rotation_period(const Bearing& bearing)
   return std::abs(passages - std::round(passages)) < 1e-9;
 }
 
+void require_rotation_period(const Parameters& parameters, const char* who)
+{
+  if (!has_rotation_period(parameters.bearing))
+    throw BadInput(format(
+        "%s: bearing.cage_speed_ratio: %s needs a force with the period of rotation, but "
+        "%.9g balls pass in a turn, not a whole number",
+        parameters.file.c_str(), who, passages_per_turn(parameters.bearing)));
+}
+
 Parameters read_parameters(SceneFile& scene, const std::string& key)
 {
   return read_parameters(scene.data_set(key));

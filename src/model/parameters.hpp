@@ -90,4 +90,7 @@ Parameters over_turns(Parameters parameters, int turns);
 double passages_per_turn(const Bearing& bearing);
 bool has_rotation_period(const Bearing& bearing);
 
+/** Throws BadInput, in the name of `who`, when the force has not the period of rotation. */
+void require_rotation_period(const Parameters& parameters, const char* who);
+
 }  // namespace rotor_stator

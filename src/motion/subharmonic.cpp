@@ -183,12 +183,17 @@ PeriodicMotion solved_near(const Search& search, int turns, State state)
 
 }  // namespace
 
+std::vector<State> subharmonic_states(const Search& search, int turns)
+{
+  Sources sources = sources_of(search);
+  return states_of(sources, turns);
+}
+
 PeriodicMotion find_subharmonic(const Search& search, int turns,
                                 std::optional<double> tolerance)
 {
   constexpr int most_harmonics = 512;
-  Sources sources = sources_of(search);
-  const auto states = states_of(sources, turns);
+  const auto states = subharmonic_states(search, turns);
   const auto none = [&](const std::string& why) {
     return NoSolution(format("%s: at %.9g Hz %s", search.parameters.file.c_str(),
                              search.omega / angular(1), why.c_str()));

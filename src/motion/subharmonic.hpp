@@ -18,6 +18,10 @@ distances there. What closes after fewer turns is not counted. */
 
 namespace rotor_stator::motion {
 
+/** States [m, m/s] at phase 0 of motions of Eq. 7 with the period KT and none shorter, K ≤ 8, at the speed of
+    `search`; those on one motion count as one. Empty when none was found. */
+std::vector<State> subharmonic_states(const Search& search, int turns);
+
 /** The solution of harmonic balance with the orders h/K up to m = `search.harmonics` that Newton finds from the
     first motion of period KT, K ≤ 8, that leads to one: its ω is a K-th of the speed. Its error is the distance from the
     motion of Eq. 7, over the largest displacement or rms about the mean, whichever is larger; with a

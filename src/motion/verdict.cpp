@@ -270,6 +270,32 @@ BranchStability machine_stability(const Parameters& parameters, Balance& balance
                          {.chosen = evenly_chosen(branch, width, 2), .widest = width});
 }
 
+/** What the machine does from `state`, slightly disturbed, if that is not stable. */
+static void add_settled(const Parameters& parameters, double omega, const State& state,
+                        const OperationBudget& budget, Verdict& verdict)
+{
+  try {
+    const bool leaves = verdict.found() && verdict.floquet.unstable();
+    verdict.from_there = settle(parameters, omega, disturbed(parameters, state), budget,
+                                leaves ? &verdict.state : nullptr);
+  } catch (const NoSolution& error) {
+    verdict.lost = error.what();
+  }
+}
+
+Verdict verdict_through(const Parameters& parameters, double omega, const State& state,
+                        const OperationBudget& budget, int turns)
+{
+  Verdict verdict{.state = state};
+  try {
+    add_multipliers(over_turns(parameters, turns), omega / turns, budget, verdict);
+  } catch (const NoSolution& error) {
+    verdict.reason = error.what();
+  }
+  if (!verdict.floquet.stable()) add_settled(parameters, omega, state, budget, verdict);
+  return verdict;
+}
+
 Verdict verdict_on(const Parameters& parameters, const PeriodicMotion& solution,
                    const OperationBudget& budget, int turns)
 {
@@ -288,15 +314,8 @@ Verdict verdict_on(const Parameters& parameters, const PeriodicMotion& solution,
     verdict.reason = error.what();
   }
   if (!verdict.floquet.stable()) {
-    try {
-      const bool leaves = verdict.found() && verdict.floquet.unstable();
-      const State from = verdict.found() ? verdict.state : state_of(solution);
-      verdict.from_there =
-          settle(parameters, turns * solution.omega, disturbed(parameters, from), budget,
-                 leaves ? &verdict.state : nullptr);
-    } catch (const NoSolution& error) {
-      verdict.lost = error.what();
-    }
+    add_settled(parameters, turns * solution.omega,
+                verdict.found() ? verdict.state : state_of(solution), budget, verdict);
     if (verdict.from_there.period == turns && !shootings.found_at_once())
       compare_with_settled(longer, solution, budget, shootings, verdict);
   }

@@ -52,6 +52,10 @@ struct Verdict {
 Verdict verdict_on(const Parameters& parameters, const PeriodicMotion& solution,
                    const OperationBudget& budget = {}, int turns = 1);
 
+/** The same of a motion of Eq. 7 itself, through `state` at phase 0, that shooting has closed. */
+Verdict verdict_through(const Parameters& parameters, double omega, const State& state,
+                        const OperationBudget& budget = {}, int turns = 1);
+
 /** The multipliers behind the verdicts along a branch, and the machine's bifurcations: at points no further apart than
     0.4 % of the joint resonance, since they change over less speed than the curve of few harmonics does. Shooting begins
     with the linear extrapolation of the two motions nearest along the branch. A point may cost 4 % of `budget`, at

@@ -83,7 +83,7 @@ class Values(Case):
                 ("--frequency 30 --method rk4 --step 0", "--step"),
                 ("--frequency 30 --subharmonic 0", "--subharmonic 0: must be in 1...8"),
                 ("--frequency 30 --subharmonic 9", "1...8"), ("--frequency 30 --subharmonic 1.5", "--subharmonic"),
-                ("--frequency 30 --subharmonic 2 --method rk4", "--subharmonic: is for --method aft")]:
+                ("--frequency 30 --subharmonic 2 --method rk4", "--subharmonic: is for the methods aft")]:
             with self.subTest(options):
                 self.refused(words, "orbit", self.machine, *options.split())
         for options, words in [

@@ -229,6 +229,80 @@ class Branch(Case):
         self.assertGreater(min(row_difference(other, 0, main, k) for k in range(len(main))), 1e-6)
 
 
+class Shooting(Case):
+    """Time methods as equals of harmonic balance."""
+
+    def orbit(self, frequency, *options):
+        return self.table("orbit", self.machine, "--points", 64, "--frequency", frequency, *options)
+
+    def multiplier(self, table):
+        word, number, error = re.search(r"# stability: (\w+); largest Floquet multiplier (\S+) \+- (\S+),",
+                                        table.header).groups()
+        return word, float(number), float(error)
+
+    def test_it_closes_the_motion_that_integration_settles_on(self):
+        for frequency in (6, 45):
+            with self.subTest(frequency):
+                settled = self.orbit(frequency, "--method", "rk8pd")
+                closed = self.orbit(frequency, "--method", "shooting")
+                self.assertLess(difference(closed, settled), 1e-7)
+                self.assertIn("# regime: periodic\n", closed.header)
+
+    def test_unstable_motions_and_those_of_two_turns_are_the_balance_s(self):
+        for turns in ([], ["--subharmonic", 2]):
+            with self.subTest(turns):
+                closed = self.orbit(20, "--method", "shooting", *turns)
+                series = self.orbit(20, "--harmonics", 96, *turns)
+                self.assertLess(difference(closed, series), 1e-3)
+                word, number, error = self.multiplier(closed)
+                other_word, other, other_error = self.multiplier(series)
+                self.assertEqual(word, other_word)
+                self.assertLess(abs(number - other), error + other_error)
+
+    def test_auto_takes_the_cheaper_method_and_keeps_the_tolerance(self):
+        for frequency, method in [(6, "shooting"), (45, "aft")]:
+            with self.subTest(frequency):
+                table = self.orbit(frequency, "--method", "auto", "--tolerance", 1e-4, "--no-stability")
+                self.assertIn(f"# method auto: {method},", table.header)
+                self.assertIn(f"# method: {method}", table.header)
+                self.assertLess(difference(table, self.orbit(frequency, "--method", "rk8pd")), 1e-4)
+
+    def test_the_branch_is_that_of_many_harmonics(self):
+        times, series = (self.table("response", self.machine, "--from", 38, "--to", 60, *how)
+                         for how in (["--method", "shooting"], ["--harmonics", 24]))
+        self.assertEqual(list(times.columns), list(series.columns))
+        self.assertEqual((times["f"][0], times["f"][-1]), (38, 60))
+        at = times["f"][1:-1]
+        for name in AMPLITUDES:
+            near = np.interp(at, series["f"], series[name])
+            self.assertLess(np.max(np.abs(times[name][1:-1] / near - 1)), 5e-3)
+
+    def test_a_branch_turns_back_where_an_attractor_ends(self):
+        """The kept study has two T-periodic attractors of set 1 at 34.25 Hz and one at 34.5 Hz."""
+        result = self.run_explore("response", self.machine, "--from", 28, "--to", 60, "--method", "shooting")
+        self.assertEqual(result.returncode, 3)
+        self.assertIn("came back", result.stderr)
+        table = Table.of(result.stdout)
+        self.assertIn("# folds: 1, of the machine", table.header)
+        kept = Table(KEPT).where("set", 1)
+        for low, high, count in [(34.25, max(table["f"]), 2), (max(table["f"]), 34.5, 1)]:
+            self.assertLess(low, high)
+            at = kept.where("f", low if count == 2 else high)
+            self.assertEqual(len(set(at["attractor"])), count)
+
+    def test_what_it_cannot_do_is_refused(self):
+        slow = self.file("slow.toml", MACHINE.replace("cage_speed_ratio = 0.5", "cage_speed_ratio = 0.43"))
+        self.refused("cage_speed_ratio: shooting needs", "orbit", slow, "--frequency", 30, "--method", "shooting")
+        for options, words in [("orbit --frequency 30 --method shooting --harmonics 6", "--harmonics: is for"),
+                               ("orbit --frequency 30 --method shooting --step 1e-5", "--step: is for"),
+                               ("orbit --frequency 30 --method auto --samples 64", "--samples: is for"),
+                               ("response --from 30 --to 40 --method rk4", "must be one of aft, shooting"),
+                               ("response --from 30 --to 40 --method shooting --stability", "--stability: is for")]:
+            with self.subTest(options):
+                command, *rest = options.split()
+                self.refused(words, command, self.machine, *rest)
+
+
 class Stability(Case):
     def along(self, *range_and_budget):
         return self.table("response", self.machine, *range_and_budget, "--harmonics", 6, "--stability")

@@ -1,0 +1,99 @@
+#include "motion/closed_motion.hpp"
+
+#include <algorithm>
+#include <utility>
+
+#include "io/errors.hpp"
+#include "motion/attractor.hpp"
+#include "motion/subharmonic.hpp"
+#include "stability/shooting.hpp"
+
+namespace rotor_stator::motion {
+
+namespace {
+
+struct Closing {
+  const Search& search;
+  int turns, points;
+  Parameters longer = over_turns(search.parameters, turns);
+  double omega = search.omega / turns;
+
+  /** Newton alone: Broyden's steps save maps and lose motions. */
+  Shooting shot(State& state, double local_error) const
+  {
+    return shoot(longer, omega, state,
+                 {.tolerance = local_error,
+                  .periodicity_residual = std::max(1e-9, 10 * local_error),
+                  .speed_weight = 5,
+                  .quasi_newton = false,
+                  .final_derivative = false,
+                  .budget = search.budget});
+  }
+
+  Motion record(State state, double local_error) const
+  {
+    const int instants = points * turns;
+    const TimeStepper stepper = make_stepper(longer, omega,
+                                             {.intervals_per_period = instants,
+                                              .tolerance = local_error,
+                                              .budget = search.budget});
+    return recorded(stepper, instants, state);
+  }
+
+  using Starts = std::vector<std::pair<std::string, std::function<std::vector<State>()>>>;
+
+  Starts starts() const
+  {
+    const Parameters& parameters = search.parameters;
+    if (turns > 1)
+      return {{format("a motion of period %d T", turns),
+               [&] { return subharmonic_states(search, turns); }}};
+    return {{"quasi-static contact",
+             [&] { return std::vector{quasi_static_state(parameters, search.omega)}; }},
+            {"few harmonics",
+             [&] {
+               const PeriodicMotion solution = find_near_contact(search);
+               return solution.found() ? std::vector{state_of(solution)}
+                                       : std::vector<State>{};
+             }},
+            {"time integration", [&] {
+               return std::vector{settle(parameters, search.omega,
+                                         static_start(parameters), search.budget)
+                                      .state};
+             }}};
+  }
+};
+
+}  // namespace
+
+ClosedMotion closed_motion(const Search& search, int turns, int points,
+                           double local_error)
+{
+  const Parameters& parameters = search.parameters;
+  require_rotation_period(parameters, "shooting");
+  const Closing closing{search, turns, points};
+  std::string why = "no start";
+  for (const auto& [name, states] : closing.starts())
+    for (State state : states()) {
+      const Shooting shooting = closing.shot(state, local_error);
+      why = "from " + name + ": " + shooting.reason;
+      if (!shooting.converged) continue;
+      State finer = state;
+      const Motion motion = closing.record(state, local_error);
+      if (!closing.shot(finer, 0.01 * local_error).converged) finer = state;
+      const Motion exact = closing.record(finer, 0.01 * local_error);
+      return {name,
+              state,
+              motion,
+              shooting.periodicity_residual,
+              shooting.maps,
+              relative_difference(motion, exact),
+              rms_difference(motion, exact)};
+    }
+  throw NoSolution(format("%s: shooting closed no motion of period %s at %g Hz: %s",
+                          parameters.file.c_str(),
+                          turns > 1 ? format("%d T", turns).c_str() : "T",
+                          search.omega / angular(1), why.c_str()));
+}
+
+}  // namespace rotor_stator::motion
