@@ -59,7 +59,7 @@ struct PointContact {
 /** With e² = 1 - κ⁻², κ follows from the geometry and gives the rest:
 
    $$\frac{\max(a, b)}{\min(a, b)} = \frac{\kappa^2 E - K}{K - E}, \qquad
-     \delta^* = \frac{2K}{\pi} \Bigl(\frac{\pi}{2\kappa^2 E}\Bigr)^{1/3}, \qquad
+     \delta^* = \frac{2K}{\pi} \left(\frac{\pi}{2\kappa^2 E}\right)^{1/3}, \qquad
      K_H = \frac{4\sqrt2}{3} E^* (a + b)^{-1/2} (\delta^*)^{-3/2}.$$
 
    T. A. Harris, Rolling Bearing Analysis, 4th ed. (2001), chapter 6. */
