@@ -43,8 +43,8 @@ void check_estimate(const ObservedProblem& problem, const PeriodicMotion& coarse
 {
   const ErrorEstimate estimate = estimate_error(problem, coarse).estimate;
   const double error = series_difference(coarse.bodies, fine.bodies);
-  INFO("m = " << coarse.harmonics.count() << ", omega = " << coarse.omega
-              << ": estimate " << estimate.displacement << ", error " << error);
+  INFO("m = " << coarse.harmonics.count() << ", omega = " << coarse.omega << ": estimate "
+              << estimate.displacement << ", error " << error);
   CHECK(estimate.settled);
   CHECK(estimate.displacement > least_effectivity * error);
   CHECK(estimate.displacement < most_effectivity * error);
