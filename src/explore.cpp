@@ -4,6 +4,7 @@
 Run: build/explore orbit data/set1.toml --frequency 45 > orbit.tsv
      build/explore orbit data/set1.toml --frequency 45 --tolerance 1e-4 > orbit.tsv
      build/explore contact data/set1.toml --frequency 45 --method rk8pd > contact.tsv
+     build/explore spectrum data/set1.toml --frequency 45 --plot spectrum.svg > spectrum.tsv
      build/explore response data/set1.toml --from 1 --to 60 --harmonics 10 > response.tsv
      build/explore attractors data/set1.toml --from 18 --to 22 --count 17 > attractors.tsv
 
@@ -14,6 +15,7 @@ or one of the time integrators. A table on stdout, errors on stderr. */
 #include "explore/attractors.hpp"
 #include "explore/orbit.hpp"
 #include "explore/response.hpp"
+#include "explore/spectrum.hpp"
 #include "integration/time_stepper.hpp"
 #include "io/errors.hpp"
 #include "io/program.hpp"
@@ -81,7 +83,7 @@ CLI::Option* add_subharmonic(CLI::App& command, Request& request)
                     "K: motions of period K T, harmonics of orders h/K");
 }
 
-/** The options of orbit and contact. What is returned throws BadInput for an option that the method
+/** The options of orbit, contact and spectrum. What is returned throws BadInput for an option that the method
     would ignore. */
 std::function<void()> add_motion_options(CLI::App& command, MotionRequest& request)
 {
@@ -92,15 +94,19 @@ std::function<void()> add_motion_options(CLI::App& command, MotionRequest& reque
              "speed of rotation [Hz]")
       ->required();
   command.add_option("--method", request.method, methods)->capture_default_str();
-  add_number(command, "--points", request.points, 1, most_points, "P, rows per period");
+  const bool is_spectrum = command.get_name() == "spectrum";
+  const auto points =
+      add_number(command, "--points", request.points, 1, most_points,
+                 is_spectrum ? "P, samples per period of shooting and the time methods"
+                             : "P, rows per period");
   std::vector<CLI::Option*> periodic{add_number(
       command, "--tolerance", request.tolerance, 1e-8, 0.1,
       "relative error of displacement, the largest and the rms about the mean; without "
       "--harmonics, m is chosen (default with two frequencies and of auto: 1e-3)")};
-  if (command.get_name() == "orbit") {
+  if (command.get_name() != "contact")
     periodic.push_back(add_subharmonic(command, request));
+  if (command.get_name() == "orbit")
     add_number(command, "--periods", request.periods, 1, 1000, "turns that are printed");
-  }
   periodic.push_back(command.add_flag("!--no-stability", request.stability,
                                       "leave out the Floquet multipliers"));
   const auto step = add_number(command, "--step", request.step, 0.0, largest,
@@ -128,7 +134,15 @@ std::function<void()> add_motion_options(CLI::App& command, MotionRequest& reque
     refuse(local_error, method != "aft" && method != "rk4",
            "for shooting and the time methods but rk4");
     refuse(longest, !is_periodic, "for the time methods");
+    refuse(points, !is_spectrum || method != "aft", "for shooting and the time methods");
   };
+}
+
+std::function<void()> add_spectrum_options(CLI::App& command, SpectrumRequest& request)
+{
+  command.add_option("--plot", request.plot,
+                     "figure of the lines against frequency: .svg, .png or .pdf");
+  return add_motion_options(command, request);
 }
 
 template <class Ranged>
@@ -218,11 +232,15 @@ int main(int argc, char** argv)
       app.add_subcommand("contact", "force of every ball over two periods");
   CLI::App* branch =
       app.add_subcommand("response", "amplitudes along the branch, arc length");
+  CLI::App* lines =
+      app.add_subcommand("spectrum", "lines of the motion, with names such as BPFO-1X");
+  SpectrumRequest spectrum;
   AttractorsRequest attractors;
   CLI::App* settled = app.add_subcommand(
       "attractors", "what the machine settles on, speed by speed, from many starts");
   const auto refuse_of_orbit = add_motion_options(*orbit, motion);
   const auto refuse_of_contact = add_motion_options(*contact, motion);
+  const auto refuse_of_spectrum = add_spectrum_options(*lines, spectrum);
   const auto refuse_of_response = add_response_options(*branch, response);
   add_attractors_options(*settled, attractors);
   return guarded([&] {
@@ -231,6 +249,10 @@ int main(int argc, char** argv)
     if (branch->parsed()) {
       refuse_of_response();
       return finish(explore_response(response));
+    }
+    if (lines->parsed()) {
+      refuse_of_spectrum();
+      return finish(explore_spectrum(spectrum));
     }
     refuse_of_orbit();
     refuse_of_contact();

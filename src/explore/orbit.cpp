@@ -46,6 +46,8 @@ namespace {
 
 constexpr int usual_harmonics = 6;
 
+using motion::lines_of;
+
 /** When the tolerance chooses m. */
 AdaptiveSettings settings_of(const MotionRequest& request)
 {
@@ -142,9 +144,9 @@ void note_torus_verdict(Table& table, const Parameters& parameters,
 }
 
 /** A motion with the frequencies of rotation and of the passing balls, on chosen harmonics. */
-motion::Motion quasi_periodic_motion(const Parameters& parameters,
-                                     const MotionRequest& request,
-                                     const OperationBudget& budget, Table& table)
+FoundMotion quasi_periodic_motion(const Parameters& parameters,
+                                  const MotionRequest& request,
+                                  const OperationBudget& budget, Table& table)
 {
   if (request.harmonics || request.samples)
     throw BadInput(
@@ -185,7 +187,8 @@ motion::Motion quasi_periodic_motion(const Parameters& parameters,
   } else {
     note_no_verdict(table);
   }
-  return motion::motion_of(parameters, solution, request.points, request.periods);
+  return {motion::motion_of(parameters, solution, request.points, request.periods),
+          lines_of(parameters.bearing, solution)};
 }
 
 /** A motion with one frequency, that of the parameters, its solution. */
@@ -231,8 +234,8 @@ PeriodicMotion solution_of(const Parameters& parameters, const MotionRequest& re
 }
 
 /** A machine that repeats itself after q turns: harmonics of orders h/q. */
-motion::Motion motion_of_turns(const Parameters& parameters, MotionRequest request, int q,
-                               const OperationBudget& budget, Table& table)
+FoundMotion motion_of_turns(const Parameters& parameters, MotionRequest request, int q,
+                            const OperationBudget& budget, Table& table)
 {
   table.note(format("n omega_cage/omega = %.9g = %ld/%d: one frequency, orders h/%d",
                     passages_per_turn(parameters.bearing),
@@ -243,13 +246,14 @@ motion::Motion motion_of_turns(const Parameters& parameters, MotionRequest reque
   if (request.samples) *request.samples *= q;
   const PeriodicMotion solution =
       solution_of(over_turns(parameters, q), request, budget, table);
-  return {request.points, 0,
-          motion::motion_of(solution.bodies, q * request.points).positions};
+  return {{request.points, 0,
+           motion::motion_of(solution.bodies, q * request.points).positions},
+          lines_of(parameters.bearing, solution, q)};
 }
 
 /** A machine without unbalance: harmonics of the passing of the balls. */
-motion::Motion motion_of_passages(const Parameters& parameters, MotionRequest request,
-                                  const OperationBudget& budget, Table& table)
+FoundMotion motion_of_passages(const Parameters& parameters, MotionRequest request,
+                               const OperationBudget& budget, Table& table)
 {
   table.note("no unbalance: one frequency, n omega_cage");
   request.frequency *= passages_per_turn(parameters.bearing);
@@ -257,16 +261,23 @@ motion::Motion motion_of_passages(const Parameters& parameters, MotionRequest re
   std::vector<Harmonic> list = solution.harmonics.list();
   for (Harmonic& h : list) h = {0, h.k_1};
   solution.harmonics = Harmonics(std::move(list));
-  return motion::motion_of(parameters, solution, request.points, request.periods);
+  return {motion::motion_of(parameters, solution, request.points, request.periods),
+          lines_of(parameters.bearing, solution)};
 }
 
-motion::Motion balance_motion(const Parameters& parameters, const MotionRequest& request,
-                              const OperationBudget& budget, Table& table)
+FoundMotion motion_of_rotation(const Parameters& parameters, const MotionRequest& request,
+                               const OperationBudget& budget, Table& table)
+{
+  const PeriodicMotion solution = solution_of(parameters, request, budget, table);
+  return {motion::motion_of(solution.bodies, request.points * request.subharmonic),
+          lines_of(parameters.bearing, solution, request.subharmonic)};
+}
+
+FoundMotion balance_motion(const Parameters& parameters, const MotionRequest& request,
+                           const OperationBudget& budget, Table& table)
 {
   const int q = turns_to_repeat(parameters.bearing);
-  if (q == 1)
-    return motion::motion_of(solution_of(parameters, request, budget, table).bodies,
-                             request.points * request.subharmonic);
+  if (q == 1) return motion_of_rotation(parameters, request, budget, table);
   if (request.subharmonic > 1)
     throw BadInput(
         format("--subharmonic %d: needs a whole number of passing balls in a turn, and "
@@ -278,8 +289,8 @@ motion::Motion balance_motion(const Parameters& parameters, const MotionRequest&
                : quasi_periodic_motion(parameters, request, budget, table);
 }
 
-motion::Motion closed_motion(const Parameters& parameters, const MotionRequest& request,
-                             const OperationBudget& budget, Table& table)
+FoundMotion closed_motion(const Parameters& parameters, const MotionRequest& request,
+                          const OperationBudget& budget, Table& table)
 {
   const double omega = angular(request.frequency);
   const int turns = request.subharmonic;
@@ -309,14 +320,15 @@ motion::Motion closed_motion(const Parameters& parameters, const MotionRequest& 
                  turns, "this motion");
   else
     note_no_verdict(table);
-  return std::move(closed.motion);
+  motion::Lines lines = motion::lines_of_closed(closed.motion, turns);
+  return {std::move(closed.motion), std::move(lines)};
 }
 
 /** Of the two methods for periodic motions, the one that costs less at the same error (`tab02_equal_error`): below
     half the joint resonance, where contact is lost and found again, shooting; above it harmonic balance. Where that
     one finds nothing, the other. */
-motion::Motion cheaper_motion(const Parameters& parameters, MotionRequest request,
-                              const OperationBudget& budget, Table& table)
+FoundMotion cheaper_motion(const Parameters& parameters, MotionRequest request,
+                           const OperationBudget& budget, Table& table)
 {
   if (!request.tolerance) request.tolerance = 1e-3;
   const double half = joint_resonance(parameters) / angular(2);
@@ -364,9 +376,8 @@ std::string measured_regime(const Parameters& parameters, const MotionRequest& r
   return motion::settle(parameters, omega, state, stepper.budget).regime();
 }
 
-motion::Motion integrated_motion(const Parameters& parameters,
-                                 const MotionRequest& request,
-                                 const OperationBudget& budget, Table& table)
+FoundMotion integrated_motion(const Parameters& parameters, const MotionRequest& request,
+                              const OperationBudget& budget, Table& table)
 {
   const SteadySettings settings{.stepper = {.method = request.method,
                                             .intervals_per_period = request.points,
@@ -382,20 +393,15 @@ motion::Motion integrated_motion(const Parameters& parameters,
   table.note(format("Poincare spread: %.3g", steady.spread) +
              (steady.periodic ? "" : format(" +- %.1g", steady.spread_error)));
   table.note("regime: " + measured_regime(parameters, request, settings, steady));
-  return motion::motion_of(steady, request.points);
+  return {motion::motion_of(steady, request.points), {}};
 }
 
-/** A motion, the bearing's force at its instants, and what it has cost. */
-struct Computed {
-  motion::Motion motion = {};
-  std::vector<Vec2> forces = {};
-  OperationBudget budget;
+}  // namespace
 
-  bool touches() const
-  {
-    return std::ranges::any_of(forces, [](Vec2 f) { return f.x != 0 || f.y != 0; });
-  }
-};
+bool Computed::touches() const
+{
+  return std::ranges::any_of(forces, [](Vec2 f) { return f.x != 0 || f.y != 0; });
+}
 
 Computed computed(const Parameters& parameters, const MotionRequest& request,
                   Table& table)
@@ -407,17 +413,19 @@ Computed computed(const Parameters& parameters, const MotionRequest& request,
   table.note(format("frequency: %.15g Hz", request.frequency));
   Computed at{.budget = budget_of(request.budget, 3, parameters)};
   if (request.method == "aft")
-    at.motion = balance_motion(parameters, request, at.budget, table);
+    at.found = balance_motion(parameters, request, at.budget, table);
   else if (request.method == "shooting")
-    at.motion = closed_motion(parameters, request, at.budget, table);
+    at.found = closed_motion(parameters, request, at.budget, table);
   else if (request.method == "auto")
-    at.motion = cheaper_motion(parameters, request, at.budget, table);
+    at.found = cheaper_motion(parameters, request, at.budget, table);
   else
-    at.motion = integrated_motion(parameters, request, at.budget, table);
-  at.forces =
-      motion::bearing_forces(over_turns(parameters, request.subharmonic), at.motion);
+    at.found = integrated_motion(parameters, request, at.budget, table);
+  at.forces = motion::bearing_forces(over_turns(parameters, request.subharmonic),
+                                     at.found.motion);
   return at;
 }
+
+namespace {
 
 /** A table of this length takes about a second and 0.4 GB to write. */
 constexpr int most_contact_rows = 1 << 20;
@@ -448,11 +456,11 @@ Exploration explore_orbit(const MotionRequest& request)
       static_cast<std::size_t>(std::max(request.periods, request.subharmonic)) *
       request.points;
   for (std::size_t k = 0; k < rows; ++k) {
-    const std::size_t same = k % at.motion.size();
-    const auto& [stator, rotor] = at.motion.positions[same];
-    table.row({2 * std::numbers::pi * request.subharmonic * at.motion.t_over_period(k),
-               stator.x, stator.y, rotor.x, rotor.y, at.forces[same].x,
-               at.forces[same].y});
+    const std::size_t same = k % at.found.motion.size();
+    const auto& [stator, rotor] = at.found.motion.positions[same];
+    table.row(
+        {2 * std::numbers::pi * request.subharmonic * at.found.motion.t_over_period(k),
+         stator.x, stator.y, rotor.x, rotor.y, at.forces[same].x, at.forces[same].y});
   }
   conclude(table, parameters, at.touches(), at.budget);
   return {std::move(table)};
@@ -469,7 +477,7 @@ Exploration explore_contact(const MotionRequest& request)
   MotionRequest two = request;
   two.periods = 2;
   const Computed at = computed(parameters, two, table);
-  const auto evolution = motion::contact_evolution(parameters, at.motion);
+  const auto evolution = motion::contact_evolution(parameters, at.found.motion);
   for (std::size_t k = 0; k < evolution.t_over_period.size(); ++k)
     for (std::size_t j = 0; j < evolution.ball_force[k].size(); ++j)
       table.row({evolution.t_over_period[k], j + 1, evolution.ball_force[k][j]});

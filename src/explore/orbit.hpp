@@ -10,6 +10,7 @@ One motion of one machine at one speed, by harmonic balance or in time, as a tab
 #include "io/budget.hpp"
 #include "io/table.hpp"
 #include "model/parameters.hpp"
+#include "motion/lines.hpp"
 
 namespace rotor_stator::explore {
 
@@ -48,7 +49,26 @@ Exploration explore_orbit(const MotionRequest& request);
 Exploration explore_contact(const MotionRequest& request);
 
 /**
-## What explore response needs too */
+## What the other commands need too */
+
+/** A motion and its lines; those of a time method are left out. */
+struct FoundMotion {
+  motion::Motion motion;
+  motion::Lines lines = {};
+};
+
+/** A motion, the bearing's force at its instants, and what it has cost. */
+struct Computed {
+  FoundMotion found = {};
+  std::vector<Vec2> forces = {};
+  OperationBudget budget;
+
+  bool touches() const;
+};
+
+/** The motion that is asked for; how it was found goes to the table's header. */
+Computed computed(const Parameters& parameters, const MotionRequest& request,
+                  Table& table);
 
 /** N as asked for, or the default for m. Throws BadInput when it is too small. */
 int checked_samples(int harmonics, const std::optional<int>& samples);

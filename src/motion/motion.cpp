@@ -19,7 +19,8 @@ double larger(double a, double b)
   return std::isfinite(b) ? std::max(a, b) : std::numeric_limits<double>::infinity();
 }
 
-/** x_s, y_s, x_r, y_r [m] at the instants, a row each. */
+}  // namespace
+
 Eigen::MatrixXd displacement_samples(const Motion& motion)
 {
   Eigen::MatrixXd samples(std::ssize(motion.positions), 4);
@@ -27,8 +28,6 @@ Eigen::MatrixXd displacement_samples(const Motion& motion)
     samples.row(row++) << q.stator.x, q.stator.y, q.rotor.x, q.rotor.y;
   return samples;
 }
-
-}  // namespace
 
 double Motion::phase(std::size_t k) const
 {

@@ -43,6 +43,9 @@ Motion recorded(Stepper& stepper, int points_per_period, State& state,
   return motion;
 }
 
+/** x_s, y_s, x_r, y_r [m] at the instants of a motion, a row each. */
+Eigen::MatrixXd displacement_samples(const Motion& motion);
+
 /** The series of x_s, y_s, x_r, y_r over the first period of a motion [m], 4 × (2m+1); and that of the
     relative motion u as the unknowns of a balance. */
 Eigen::MatrixXd series_of(const Motion& motion, int harmonics);

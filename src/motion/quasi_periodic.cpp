@@ -6,6 +6,7 @@
 #include <numbers>
 
 #include "integration/steady_state.hpp"
+#include "motion/lines.hpp"
 #include "stability/lyapunov.hpp"
 
 namespace rotor_stator::motion {
@@ -13,14 +14,6 @@ namespace rotor_stator::motion {
 namespace {
 
 constexpr int points_per_turn = 128, window_turns = 160;
-
-/** 4-term window of Blackman and Harris; its side lobes are below -92 dB. */
-double blackman_harris(double share)
-{
-  const double angle = 2 * std::numbers::pi * share;
-  return 0.35875 - 0.48829 * std::cos(angle) + 0.14128 * std::cos(2 * angle) -
-         0.01168 * std::cos(3 * angle);
-}
 
 /** Turns until the slower of both suspensions has damped a disturbance to 1e-5. Throws NoSolution when they are too
     many. */

@@ -1,0 +1,47 @@
+"""The lines of a motion: amplitudes of rotor and stator against the order, the largest with their names.
+
+Each stem is a line of the table of `explore spectrum`; its height is the larger of the amplitudes in x and y.
+Usage: /usr/bin/python3 figures/spectrum.py TABLE.tsv OUTPUT.svg
+"""
+
+import matplotlib.pyplot as plt
+import numpy as np
+from tables import ROTOR, STATOR, run
+
+MOST_NAMES = 14
+NEAR = 0.045  # of the width: names that would overlap
+
+
+def chosen(orders, heights, width):
+    """The highest lines whose names have room."""
+    places = []
+    for place in np.argsort(-heights, kind="stable"):
+        if all(abs(orders[place] - orders[other]) > NEAR * width for other in places):
+            places.append(place)
+    return places[:MOST_NAMES]
+
+
+def draw(table):
+    figure, grid = plt.subplots(2, 1, figsize=(10, 7.5), sharex=True, sharey=True, layout="constrained")
+    orders = table["order"]
+    width = 1.04 * orders.max()
+    heights = {body: np.maximum(table[f"x_{body}"], table[f"y_{body}"]) for body in "rs"}
+    top = max(height.max() for height in heights.values())
+    bottom = 0.5 * min(1e-6 * top if len(table) > 1 else 0.1 * top, top)
+    for axes, body, name, colour in zip(grid, "rs", ("rotor", "stator"), (ROTOR, STATOR)):
+        height = heights[body]
+        shown = height > bottom
+        axes.vlines(orders[shown], bottom, height[shown], color=colour, lw=1.3)
+        axes.plot(orders[shown], height[shown], "o", ms=3.5, color=colour)
+        for place in chosen(orders[shown], height[shown], width):
+            axes.annotate(str(table["name"][shown][place]), (orders[shown][place], height[shown][place]),
+                          xytext=(0, 6), textcoords="offset points", rotation=90, ha="center", va="bottom",
+                          fontsize=10)
+        axes.set_ylabel(f"amplitude of the {name} [m]")
+    grid[0].set(yscale="log", ylim=(bottom, 60 * top), xlim=(0, width))
+    grid[1].set_xlabel("frequency over speed [-]")
+    figure.suptitle(f"Lines of the motion at {table.number('frequency'):g} Hz, larger of x and y")
+    return figure
+
+
+run(draw)
