@@ -8,8 +8,8 @@ import matplotlib.pyplot as plt
 import numpy as np
 from tables import ROTOR, STATOR, run
 
-MOST_NAMES = 14
-NEAR = 0.045  # of the width: names that would overlap
+MOST_NAMES = 24
+NEAR = 0.018  # of the width: names that would overlap
 
 
 def chosen(orders, heights, width):
@@ -38,7 +38,7 @@ def draw(table):
                           xytext=(0, 6), textcoords="offset points", rotation=90, ha="center", va="bottom",
                           fontsize=10)
         axes.set_ylabel(f"amplitude of the {name} [m]")
-    grid[0].set(yscale="log", ylim=(bottom, 60 * top), xlim=(0, width))
+    grid[0].set(yscale="log", ylim=(bottom, top * (top / bottom) ** 0.2), xlim=(0, width))
     grid[1].set_xlabel("frequency over speed [-]")
     figure.suptitle(f"Lines of the motion at {table.number('frequency'):g} Hz, larger of x and y")
     return figure

@@ -50,9 +50,9 @@ void note_names(Table& table, const motion::Lines& lines)
                     lines.mean[0], lines.mean[1], lines.mean[2], lines.mean[3]));
   table.note(format("rows: amplitudes down to %g of the largest, largest first", least));
   table.note(
-      "name: sum of multiples of X, BPFO and BPFI with the smallest sum of their absolute "
-      "values, then the fewest terms, then the smallest multiple of BPFI; else a multiple of "
-      "FTF or BSF");
+      "name: sum of multiples of X (rotation), BPFO and BPFI with the smallest sum of their "
+      "absolute values, BPFO and BPFI counted twice, then the fewest terms, then the smallest "
+      "multiple of BPFI; else a multiple of FTF or BSF");
 }
 
 void add_rows(Table& table, const Parameters& parameters, const SpectrumRequest& request,
@@ -89,7 +89,7 @@ Exploration explore_spectrum(const SpectrumRequest& request)
     lines = motion::lines_of_recorded(parameters.bearing, at.found.motion);
     naming.passages = 16;
     table.note(format(
-        "lines: least squares over %d turns, window of Blackman and Harris; lines "
+        "lines: least squares over %d turns, window of Blackman and Harris, at most 200; lines "
         "nearer than %.3g of the speed may be taken for one; rest, in no line: %.2g "
         "rms of that about the mean",
         longer.periods, 4.0 / longer.periods, lines.rest));

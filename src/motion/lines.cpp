@@ -289,8 +289,8 @@ struct Sum {
   /** Smaller is shorter. */
   auto length() const
   {
-    return std::tuple(static_cast<double>(std::abs(h)) / denominator + std::abs(outer) +
-                          std::abs(inner),
+    return std::tuple(static_cast<double>(std::abs(h)) / denominator +
+                          2 * (std::abs(outer) + std::abs(inner)),
                       (h != 0) + (outer != 0) + (inner != 0), std::abs(inner));
   }
 

@@ -10,8 +10,8 @@ with ω_ball a ball's rotation about itself, seen from the cage. X = ω, BPFO = 
 FTF = ω_cage, BSF = ω_ball.
 
 The name of a line is the shortest sum of multiples of X, BPFO and BPFI: that with the smallest sum of the absolute values
-of the multiples, then the fewest terms, then the smallest multiple of BPFI. A multiple of X may be h/K, K ≤ 8,
-where n c is whole. A line without such a name may be a multiple of FTF or of BSF. */
+of the multiples, those of BPFO and BPFI counted twice, then the fewest terms, then the smallest multiple of BPFI. A
+multiple of X may be h/K, K ≤ 8, where n c is whole. A line without such a name may be a multiple of FTF or of BSF. */
 #pragma once
 
 #include <optional>

@@ -1,0 +1,165 @@
+"""explore spectrum: frequencies from kinematics, amplitudes from closed forms, from a transform of what orbit prints, and
+one method against another.
+
+Usage: tests/unit/spectrum.py   (from the project's root)
+"""
+import math
+import re
+import sys
+import tomllib
+import unittest
+from pathlib import Path
+
+import numpy as np
+
+sys.path.insert(0, str(Path(__file__).parents[1]))
+from support.explore import MACHINE, Case  # noqa: E402
+
+VALUES = tomllib.loads(MACHINE)
+NAMES = ["x_s", "y_s", "x_r", "y_r"]
+BALLS = VALUES["bearing"]["balls"]
+G = VALUES["gravity"]["acceleration_m_per_s2"]
+
+
+def changed(text=MACHINE, **values):
+    for key, value in values.items():
+        text, count = re.subn(rf"(?m)^{key} = .*$", f"{key} = {value}", text)
+        assert count > 0, key
+    return text
+
+
+def with_cage(cage, **values):
+    return changed(cage_speed_ratio=cage, **values)
+
+
+def kinematics(cage):
+    """Rotation, cage, spin of each symbol."""
+    return {"X": (1, 0, 0), "BPFO": (0, BALLS, 0), "BPFI": (BALLS, -BALLS, 0), "FTF": (0, 1, 0), "BSF": (0, 0, 1)}
+
+
+def meaning(name, cage):
+    """k_rotation, k_cage, k_spin of a name."""
+    terms = re.findall(r"([+-]?)(\d*)(?:/(\d))?(X|BPFO|BPFI|FTF|BSF)", name)
+    assert "".join(s + h + ("/" + d if d else "") + x for s, h, d, x in terms) == name, name
+    total = np.zeros(3)
+    for sign, h, d, symbol in terms:
+        total += (-1 if sign == "-" else 1) * int(h or 1) / int(d or 1) * np.array(kinematics(cage)[symbol])
+    return total
+
+
+class Spectrum(Case):
+    def spectrum(self, text, frequency, *options):
+        return self.table("spectrum", self.file("own.toml", text), "--frequency", frequency, *options)
+
+    def by_name(self, table):
+        return {name: np.array([table[column][k] for column in NAMES]) for k, name in enumerate(table["name"])}
+
+    def assert_consistent(self, table, frequency, cage):
+        """What the columns say of each other."""
+        spin = (1 - (1 - 2 * cage) ** 2) / (2 * (1 - 2 * cage)) if cage < 0.5 else 0
+        np.testing.assert_allclose(table["f"], frequency * table["order"], rtol=1e-12)
+        for k, name in enumerate(table["name"]):
+            numbers = [table[column][k] for column in ("k_rotation", "k_cage", "k_spin")]
+            if name == "-":
+                self.assertEqual(numbers, [0, 0, 0])
+                continue
+            np.testing.assert_allclose(numbers, meaning(name, cage), err_msg=name)
+            self.assertAlmostEqual(table["order"][k], np.dot(numbers, [1, cage, spin]), delta=1e-9)
+        largest = np.max([table[column] for column in NAMES], axis=0)
+        self.assertTrue((np.diff(largest) <= 0).all() and largest[-1] >= 1e-6 * largest[0])
+
+    def test_a_rotor_that_touches_nothing(self):
+        """m_e e ω²/|k - m ω² + i c ω|, one line; another unit or a factor of two would show."""
+        text = changed(radial_clearance_m=0.01)
+        m, w0, xi = (VALUES["rotor"][key] for key in ("mass_kg", "natural_frequency_rad_per_s", "damping_ratio"))
+        w = 2 * math.pi * 30
+        amplitude = VALUES["rotor"]["unbalance_kg_m"] * w**2 / m / abs(w0**2 - w**2 + 2j * xi * w0 * w)
+        for method in [["--no-stability"], ["--method", "shooting", "--no-stability"], ["--method", "rk8pd"]]:
+            with self.subTest(method):
+                table = self.spectrum(text, 30, *method)
+                self.assertEqual(list(table["name"]), ["1X"])
+                self.assertEqual(table["f"][0], 30)
+                np.testing.assert_allclose([table["x_r"][0], table["y_r"][0]], amplitude, rtol=1e-6)
+                self.assertLess(max(table["x_s"][0], table["y_s"][0]), 1e-9 * amplitude)
+                self.assertAlmostEqual(table.number("y_r") / (-G / w0**2), 1, delta=1e-6)
+
+    def test_frequencies_of_a_machine_that_stays_in_contact(self):
+        """Without unbalance only the passing balls move it: multiples of n c f. A small unbalance adds the speed and its sums
+        and differences with these, each in proportion."""
+        cage, speed = 0.43, 30
+        still = self.spectrum(with_cage(cage, unbalance_kg_m=0), speed, "--method", "rk8pd", "--longest", 8)
+        self.assert_consistent(still, speed, cage)
+        for k in range(1, 5):
+            self.assertAlmostEqual(np.abs(still["f"] - k * BALLS * cage * speed).min(), 0, delta=1e-9)
+        main = still.rows(np.maximum(still["y_s"], still["y_r"]) > 1e-4 * still["y_s"].max())
+        for name in main["name"]:
+            self.assertRegex(name, r"^\d*BPFO$")
+        one, two = (self.by_name(self.spectrum(with_cage(cage, unbalance_kg_m=unbalance), speed, "--method", "rk8pd",
+                                               "--longest", 8)) for unbalance in (1e-6, 2e-6))
+        still = self.by_name(still)
+        for name in ["1X", "BPFO-1X", "BPFO+1X"]:
+            self.assertNotIn(name, {key: a for key, a in still.items() if a.max() > 1e-5 * still["BPFO"].max()})
+            np.testing.assert_allclose(two[name] / one[name], 2, rtol=0.01, err_msg=name)
+        np.testing.assert_allclose(two["BPFO"], still["BPFO"], rtol=1e-3)
+
+    def test_against_a_transform_of_what_orbit_prints(self):
+        """25 turns of n c = 6.88 close: numpy's transform has a bin for each line, with neither window nor least squares."""
+        for cage, turns, options in [(0.43, 25, ["--method", "rk8pd"]),
+                                     (0.5, 1, ["--method", "shooting", "--no-stability"]),
+                                     (0.5, 1, ["--harmonics", 24, "--no-stability"])]:
+            with self.subTest(cage=cage, options=options):
+                text = with_cage(cage)
+                periods = ["--periods", turns] if turns > 1 else []
+                orbit = self.table("orbit", self.file("own.toml", text), "--frequency", 45, *options, *periods)
+                table = self.spectrum(text, 45, *options)
+                self.assert_consistent(table, 45, cage)
+                self.assertGreater(len(table), 20)
+                size = max(table["y_r"])
+                for name in NAMES:
+                    bins = 2 * np.abs(np.fft.rfft(orbit[name])) / len(orbit)
+                    places = np.rint(table["order"] * turns).astype(int)
+                    np.testing.assert_allclose(table[name], bins[places], atol=3e-8 * size if turns > 1 else 1e-13 * size)
+
+    def test_harmonic_balance_against_eighth_order_integration(self):
+        """Every line within the tolerance of the largest."""
+        for cage, speed in [(0.43, 45), (0.43, 30), (0.5, 30)]:
+            with self.subTest(cage=cage, speed=speed):
+                text = with_cage(cage)
+                balance = self.by_name(self.spectrum(text, speed, "--tolerance", 1e-3, "--no-stability"))
+                integrated = self.by_name(self.spectrum(text, speed, "--method", "rk8pd"))
+                size = max(integrated["1X"])
+                for name in balance.keys() | integrated.keys():
+                    np.testing.assert_allclose(balance.get(name, np.zeros(4)), integrated.get(name, np.zeros(4)),
+                                               atol=1e-3 * size, rtol=0, err_msg=name)
+                common = balance.keys() & integrated.keys()
+                self.assertTrue({"1X", "2X"} <= common and any("BPF" in name for name in common), common)
+
+    def test_motion_of_two_turns(self):
+        """Half orders, by both ways."""
+        balance = self.spectrum(MACHINE, 20, "--subharmonic", 2, "--no-stability")
+        settled = self.spectrum(MACHINE, 20, "--method", "rk4")
+        self.assert_consistent(balance, 20, 0.5)
+        self.assert_consistent(settled, 20, 0.5)
+        a, b = self.by_name(balance), self.by_name(settled)
+        for name in ["1/2X", "BPFO-1/2X", "2BPFO+1/2X"]:
+            np.testing.assert_allclose(a[name], b[name], atol=1e-4 * max(a["1X"]), rtol=0)
+
+    def test_refusals(self):
+        for words, options in [("--points: is for shooting", ["--points", 64]),
+                               ("--step: is for --method rk4", ["--step", 1e-5]),
+                               ("--points 65536: must be at most 1024", ["--points", 65536, "--method", "rk4"]),
+                               ("--subharmonic: is for", ["--subharmonic", 2, "--method", "rk4"]),
+                               ("must end in .svg", ["--plot", "lines.txt"]),
+                               ("must be one of", ["--method", "rk5"])]:
+            self.refused(words, "spectrum", self.machine, "--frequency", 45, *options)
+        self.refused("budget", "spectrum", self.machine, "--frequency", 45, "--budget", 1000, "--plot", "a.svg",
+                     status=3)
+        self.assertFalse((self.folder / "a.svg").exists())
+
+    def test_plot(self):
+        self.lines("spectrum", self.machine, "--frequency", 45, "--no-stability", "--plot", "lines.svg")
+        self.assertIn("</svg>", (self.folder / "lines.svg").read_text(encoding="utf-8"))
+
+
+if __name__ == "__main__":
+    unittest.main()
