@@ -89,12 +89,14 @@ std::function<void()> add_motion_options(CLI::App& command, MotionRequest& reque
 {
   std::string methods = "aft (harmonic balance), shooting, auto (the cheaper of both)";
   for (const std::string& name : time_methods()) methods += ", " + name;
-  const auto aft = add_balance_options(command, request, "by --tolerance");
+  const bool is_spectrum = command.get_name() == "spectrum";
+  const auto aft = add_balance_options(
+      command, request,
+      is_spectrum ? "three times BPFO, or by --tolerance" : "by --tolerance");
   add_number(command, "--frequency", request.frequency, 0.0, largest,
              "speed of rotation [Hz]")
       ->required();
   command.add_option("--method", request.method, methods)->capture_default_str();
-  const bool is_spectrum = command.get_name() == "spectrum";
   const auto points =
       add_number(command, "--points", request.points, 1, most_points,
                  is_spectrum ? "P, samples per period of shooting and the time methods"

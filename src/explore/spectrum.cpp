@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "balance/torus_line.hpp"
 #include "explore/plot.hpp"
 #include "io/errors.hpp"
 
@@ -14,10 +15,27 @@ const char* const script = "spectrum.py";
 constexpr int most_samples = 1 << 18;  // of a record; larger ones take minutes
 constexpr double least = 1e-6;         // of the largest line
 
+bool is_periodic(const std::string& method)
+{
+  return std::ranges::find(periodic_methods, method) != periodic_methods.end();
+}
+
 /** Ten seconds in 64 to 256 turns. */
 int recorded_turns(double frequency)
 {
   return static_cast<int>(std::clamp(std::ceil(10 * frequency), 64.0, 256.0));
+}
+
+/** What stands for the defaults of orbit: turns enough to tell lines apart, and harmonics up to three times BPFO. */
+MotionRequest with_defaults(MotionRequest request, const Parameters& parameters)
+{
+  if (!is_periodic(request.method)) request.periods = recorded_turns(request.frequency);
+  const bool is_free = !request.harmonics && !request.tolerance && !request.samples &&
+                       request.subharmonic == 1;
+  if (request.method == "aft" && is_free && turns_to_repeat(parameters.bearing) > 0)
+    request.harmonics = static_cast<int>(
+        std::clamp(std::ceil(3 * passages_per_turn(parameters.bearing)), 6.0, 96.0));
+  return request;
 }
 
 const std::vector<Column> columns{
@@ -32,11 +50,6 @@ const std::vector<Column> columns{
     {"y_s", "m", "amplitude, stator"},
     {"x_r", "m", "amplitude, rotor"},
     {"y_r", "m", "amplitude, rotor"}};
-
-bool is_periodic(const std::string& method)
-{
-  return std::ranges::find(periodic_methods, method) != periodic_methods.end();
-}
 
 /** A tolerance for the orders, and the largest multiple of BPFO less that of BPFI. */
 struct Naming {
@@ -76,9 +89,8 @@ Exploration explore_spectrum(const SpectrumRequest& request)
   Table table("Lines of the motion of rotor and stator", columns);
   const Parameters parameters = read_parameters(request.parameter_file);
   if (request.plot) require_plot(*request.plot, script, {request.parameter_file});
-  SpectrumRequest longer = request;
+  const MotionRequest longer = with_defaults(request, parameters);
   const bool is_recorded = !is_periodic(request.method);
-  if (is_recorded) longer.periods = recorded_turns(request.frequency);
   if (request.points > most_samples / std::max(longer.periods, request.subharmonic))
     throw BadInput(format("--points %d: must be at most %d with %d turns", request.points,
                           most_samples / longer.periods, longer.periods));

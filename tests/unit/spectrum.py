@@ -134,6 +134,13 @@ class Spectrum(Case):
                 common = balance.keys() & integrated.keys()
                 self.assertTrue({"1X", "2X"} <= common and any("BPF" in name for name in common), common)
 
+    def test_harmonic_balance_takes_in_the_passing_balls(self):
+        """Six harmonics, the default of orbit, end below BPFO where n c = 8; a tolerance that is given decides."""
+        table = self.spectrum(MACHINE, 30, "--no-stability")
+        self.assertIn("aft, m = 24,", table.header)
+        self.assertTrue({"BPFO-1X", "BPFO", "2BPFO"} <= set(table["name"]))
+        self.assertNotIn("aft, m = 24,", self.spectrum(MACHINE, 30, "--no-stability", "--tolerance", 1e-2).header)
+
     def test_motion_of_two_turns(self):
         """Half orders, by both ways."""
         balance = self.spectrum(MACHINE, 20, "--subharmonic", 2, "--no-stability")
