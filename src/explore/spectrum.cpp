@@ -69,11 +69,15 @@ void note_names(Table& table, const motion::Lines& lines)
 }
 
 void add_rows(Table& table, const Parameters& parameters, const SpectrumRequest& request,
-              std::vector<motion::Line> lines, const Naming& naming)
+              std::vector<motion::Line> lines, double noise, const Naming& naming)
 {
   std::ranges::stable_sort(lines, std::ranges::greater{}, &motion::Line::largest);
+  const double cut =
+      std::max(least * (lines.empty() ? 0 : lines.front().largest()), noise);
+  if (lines.empty() || !(lines.front().largest() > cut))
+    throw NoSolution(parameters.file + ": the motion has no line, nothing moves");
   for (const motion::Line& line : lines) {
-    if (line.largest() == 0 || line.largest() < least * lines.front().largest()) break;
+    if (line.largest() < cut) break;
     const motion::LineName name = motion::name_of(line.order, parameters.bearing,
                                                   naming.tolerance, naming.passages);
     const auto& a = line.amplitude;
@@ -107,7 +111,10 @@ Exploration explore_spectrum(const SpectrumRequest& request)
         longer.periods, 4.0 / longer.periods, lines.rest));
   }
   note_names(table, lines);
-  add_rows(table, parameters, request, std::move(lines.lines), naming);
+  const double rounding =
+      1e-13 * std::ranges::max(lines.mean, {}, [](double x) { return std::abs(x); });
+  add_rows(table, parameters, request, std::move(lines.lines), std::abs(rounding),
+           naming);
   conclude(table, parameters, at.touches(), at.budget);
   std::string missing;
   try {

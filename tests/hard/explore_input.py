@@ -295,14 +295,22 @@ def attractors_options(draw, extreme):
     return [["--from", repr(start)], ["--to", repr(end)], ["--count", draw(whole(0, 1))], *options]
 
 
-OPTIONS_OF = {"orbit": motion_options, "contact": motion_options, "response": response_options,
+@st.composite
+def spectrum_options(draw, extreme):
+    """Those of orbit; --points belongs to the methods in time."""
+    options = draw(motion_options(extreme))
+    in_time = any(name == "--method" and value != "aft" for name, value in options)
+    return [option for option in options if in_time or option[0] != "--points"]
+
+
+OPTIONS_OF = {"orbit": motion_options, "contact": motion_options, "spectrum": spectrum_options, "response": response_options,
               "attractors": attractors_options}
 
 
 @st.composite
 def questions(draw, extreme):
     """A command and its options, as [name, value]."""
-    command = draw(one("orbit", "orbit", "contact", "response", "attractors"))
+    command = draw(one("orbit", "orbit", "contact", "spectrum", "response", "attractors"))
     return command, draw(OPTIONS_OF[command](extreme))
 
 

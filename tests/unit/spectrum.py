@@ -162,6 +162,8 @@ class Spectrum(Case):
         self.refused("budget", "spectrum", self.machine, "--frequency", 45, "--budget", 1000, "--plot", "a.svg",
                      status=3)
         self.assertFalse((self.folder / "a.svg").exists())
+        still = self.file("still.toml", changed(radial_clearance_m=0.01, unbalance_kg_m=0))
+        self.refused("nothing moves", "spectrum", still, "--frequency", 45, status=3)
 
     def test_plot(self):
         self.lines("spectrum", self.machine, "--frequency", 45, "--no-stability", "--plot", "lines.svg")
