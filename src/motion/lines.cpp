@@ -27,7 +27,7 @@ constexpr double window_terms[] = {0.35875, -0.48829, 0.14128, -0.01168};
 double blackman_harris(double share)
 {
   double value = 0;
-  for (int k = 0; k < 4; ++k) value += window_terms[k] * std::cos(turn * k * share);
+  for (int k = 0; k < 4; ++k) value += window_terms[k] * std::cos(k * (turn * share));
   return value;
 }
 

@@ -32,18 +32,17 @@ def with_cage(cage, **values):
     return changed(cage_speed_ratio=cage, **values)
 
 
-def kinematics(cage):
-    """Rotation, cage, spin of each symbol."""
-    return {"X": (1, 0, 0), "BPFO": (0, BALLS, 0), "BPFI": (BALLS, -BALLS, 0), "FTF": (0, 1, 0), "BSF": (0, 0, 1)}
+# Rotation, cage and spin of each symbol.
+SYMBOLS = {"X": (1, 0, 0), "BPFO": (0, BALLS, 0), "BPFI": (BALLS, -BALLS, 0), "FTF": (0, 1, 0), "BSF": (0, 0, 1)}
 
 
-def meaning(name, cage):
+def meaning(name):
     """k_rotation, k_cage, k_spin of a name."""
     terms = re.findall(r"([+-]?)(\d*)(?:/(\d))?(X|BPFO|BPFI|FTF|BSF)", name)
     assert "".join(s + h + ("/" + d if d else "") + x for s, h, d, x in terms) == name, name
     total = np.zeros(3)
     for sign, h, d, symbol in terms:
-        total += (-1 if sign == "-" else 1) * int(h or 1) / int(d or 1) * np.array(kinematics(cage)[symbol])
+        total += (-1 if sign == "-" else 1) * int(h or 1) / int(d or 1) * np.array(SYMBOLS[symbol])
     return total
 
 
@@ -63,7 +62,7 @@ class Spectrum(Case):
             if name == "-":
                 self.assertEqual(numbers, [0, 0, 0])
                 continue
-            np.testing.assert_allclose(numbers, meaning(name, cage), err_msg=name)
+            np.testing.assert_allclose(numbers, meaning(name), err_msg=name)
             self.assertAlmostEqual(table["order"][k], np.dot(numbers, [1, cage, spin]), delta=1e-9)
         largest = np.max([table[column] for column in NAMES], axis=0)
         self.assertTrue((np.diff(largest) <= 0).all() and largest[-1] >= 1e-6 * largest[0])
@@ -150,6 +149,21 @@ class Spectrum(Case):
         a, b = self.by_name(balance), self.by_name(settled)
         for name in ["1/2X", "BPFO-1/2X", "2BPFO+1/2X"]:
             np.testing.assert_allclose(a[name], b[name], atol=1e-4 * max(a["1X"]), rtol=0)
+
+    def test_motions_with_a_frequency_of_their_own(self):
+        """Set 1 settles on a torus at 13.75 Hz, whose lines are sums of the speed and one frequency more, and on chaos at
+        12.5 Hz (data/reference/attractors.tsv). Neither may get names by chance."""
+        table = self.spectrum(MACHINE, 13.75, "--method", "rk4")
+        self.assert_consistent(table, 13.75, 0.5)
+        own = table["order"][table["name"] == "-"]
+        self.assertGreater(len(own), 20)
+        sums = np.outer(np.arange(-4, 5), [own[0]]).ravel()
+        for order in own[:20]:
+            off = order - sums
+            self.assertLess(np.abs(off - np.rint(off)).min(), 1e-4, order)
+        chaos = self.spectrum(MACHINE, 12.5, "--method", "rk4")
+        self.assertGreater(np.count_nonzero(chaos["name"] == "-"), 50)
+        self.assertGreater(chaos.number("rest, in no line"), 1e-3)
 
     def test_refusals(self):
         for words, options in [("--points: is for shooting", ["--points", 64]),
