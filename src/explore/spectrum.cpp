@@ -51,12 +51,6 @@ const std::vector<Column> columns{
     {"x_r", "m", "amplitude, rotor"},
     {"y_r", "m", "amplitude, rotor"}};
 
-/** A tolerance for the orders, and the largest multiple of BPFO less that of BPFI. */
-struct Naming {
-  double tolerance;
-  int passages;
-};
-
 void note_names(Table& table, const motion::Lines& lines)
 {
   table.note(format("mean: x_s = %.15g m, y_s = %.15g m, x_r = %.15g m, y_r = %.15g m",
@@ -68,57 +62,62 @@ void note_names(Table& table, const motion::Lines& lines)
       "multiple of BPFI; else a multiple of FTF or BSF");
 }
 
-void add_rows(Table& table, const Parameters& parameters, const SpectrumRequest& request,
-              std::vector<motion::Line> lines, double noise, const Naming& naming)
+/** Throws NoSolution when there is no line above rounding. */
+void add_rows(Table& table, const Parameters& parameters, const MotionRequest& request,
+              motion::Lines all)
 {
+  const int passages = is_periodic(request.method) ? 128 : 16;
+  auto& lines = all.lines;
   std::ranges::stable_sort(lines, std::ranges::greater{}, &motion::Line::largest);
-  const double cut =
-      std::max(least * (lines.empty() ? 0 : lines.front().largest()), noise);
-  if (lines.empty() || !(lines.front().largest() > cut))
+  const double largest = lines.empty() ? 0 : lines.front().largest();
+  double rounding = 0;
+  for (double mean : all.mean) rounding = std::max(rounding, 1e-13 * std::abs(mean));
+  if (!(largest > rounding))
     throw NoSolution(parameters.file + ": the motion has no line, nothing moves");
   for (const motion::Line& line : lines) {
-    if (line.largest() < cut) break;
-    const motion::LineName name = motion::name_of(line.order, parameters.bearing,
-                                                  naming.tolerance, naming.passages);
+    if (line.largest() < std::max(least * largest, rounding)) break;
+    const motion::LineName name =
+        motion::name_of(line.order, parameters.bearing, 1e-9, passages);
     const auto& a = line.amplitude;
     table.row({line.order * request.frequency, line.order, name.rotation, name.cage,
                name.spin, name.name.empty() ? "-" : name.name, a[0], a[1], a[2], a[3]});
   }
 }
 
+/** Those that harmonic balance or shooting have found, or read from the record. */
+motion::Lines lines_of(const Parameters& parameters, const MotionRequest& request,
+                       Computed& at, Table& table)
+{
+  if (is_periodic(request.method)) return std::move(at.found.lines);
+  motion::Lines lines = motion::lines_of_recorded(parameters.bearing, at.found.motion);
+  table.note(
+      format("lines: least squares over %d turns, window of Blackman and Harris, at most "
+             "200; lines nearer than %.3g of the speed may be taken for one; rest, in no "
+             "line: %.2g rms of that about the mean",
+             request.periods, 4.0 / request.periods, lines.rest));
+  return lines;
+}
+
 }  // namespace
 
-Exploration explore_spectrum(const SpectrumRequest& request)
+Exploration explore_spectrum(const SpectrumRequest& asked)
 {
   Table table("Lines of the motion of rotor and stator", columns);
-  const Parameters parameters = read_parameters(request.parameter_file);
-  if (request.plot) require_plot(*request.plot, script, {request.parameter_file});
-  const MotionRequest longer = with_defaults(request, parameters);
-  const bool is_recorded = !is_periodic(request.method);
-  if (request.points > most_samples / std::max(longer.periods, request.subharmonic))
+  const Parameters parameters = read_parameters(asked.parameter_file);
+  if (asked.plot) require_plot(*asked.plot, script, {asked.parameter_file});
+  const MotionRequest request = with_defaults(asked, parameters);
+  const int turns = std::max(request.periods, request.subharmonic);
+  if (request.points > most_samples / turns)
     throw BadInput(format("--points %d: must be at most %d with %d turns", request.points,
-                          most_samples / longer.periods, longer.periods));
-  Computed at = computed(parameters, longer, table);
-  motion::Lines& lines = at.found.lines;
-  Naming naming{1e-9, 128};
-  if (is_recorded) {
-    lines = motion::lines_of_recorded(parameters.bearing, at.found.motion);
-    naming.passages = 16;
-    table.note(format(
-        "lines: least squares over %d turns, window of Blackman and Harris, at most 200; lines "
-        "nearer than %.3g of the speed may be taken for one; rest, in no line: %.2g "
-        "rms of that about the mean",
-        longer.periods, 4.0 / longer.periods, lines.rest));
-  }
+                          most_samples / turns, turns));
+  Computed at = computed(parameters, request, table);
+  const motion::Lines lines = lines_of(parameters, request, at, table);
   note_names(table, lines);
-  const double rounding =
-      1e-13 * std::ranges::max(lines.mean, {}, [](double x) { return std::abs(x); });
-  add_rows(table, parameters, request, std::move(lines.lines), std::abs(rounding),
-           naming);
+  add_rows(table, parameters, request, lines);
   conclude(table, parameters, at.touches(), at.budget);
   std::string missing;
   try {
-    if (request.plot) plot(*request.plot, script, table.text());
+    if (asked.plot) plot(*asked.plot, script, table.text());
   } catch (const NoSolution& error) {
     missing = error.what();
   }
