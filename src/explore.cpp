@@ -98,7 +98,7 @@ std::function<void()> add_motion_options(CLI::App& command, MotionRequest& reque
       ->required();
   command.add_option("--method", request.method, methods)->capture_default_str();
   const auto points =
-      add_number(command, "--points", request.points, 1, most_points,
+      add_number(command, "--points", request.points, is_spectrum ? 32 : 1, most_points,
                  is_spectrum ? "P, samples per period of shooting and the time methods"
                              : "P, rows per period");
   std::vector<CLI::Option*> periodic{add_number(

@@ -111,6 +111,11 @@ Exploration explore_spectrum(const SpectrumRequest& asked)
     throw BadInput(format("--points %d: must be at most %d with %d turns", request.points,
                           most_samples / turns, turns));
   Computed at = computed(parameters, request, table);
+  if (request.method != "aft")
+    table.note(
+        format("samples of shooting and time methods: %d per turn, orders up to %d; "
+               "higher ones are folded onto these",
+               request.points, request.points / 2));
   const motion::Lines lines = lines_of(parameters, request, at, table);
   note_names(table, lines);
   add_rows(table, parameters, request, lines);

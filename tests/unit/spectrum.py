@@ -168,6 +168,7 @@ class Spectrum(Case):
     def test_refusals(self):
         for words, options in [("--points: is for shooting", ["--points", 64]),
                                ("--step: is for --method rk4", ["--step", 1e-5]),
+                               ("32", ["--points", 31, "--method", "rk4"]),
                                ("--points 65536: must be at most 1024", ["--points", 65536, "--method", "rk4"]),
                                ("--subharmonic: is for", ["--subharmonic", 2, "--method", "rk4"]),
                                ("must end in .svg", ["--plot", "lines.txt"]),
