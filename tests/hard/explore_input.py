@@ -297,14 +297,12 @@ def attractors_options(draw, extreme):
 
 @st.composite
 def spectrum_options(draw, extreme):
-    """Those of orbit; --points belongs to the methods in time."""
-    options = draw(motion_options(extreme))
-    in_time = any(name == "--method" and value != "aft" for name, value in options)
-    return [option for option in options if in_time or option[0] != "--points"]
+    """Those of orbit without --points, which have limits of their own."""
+    return [option for option in draw(motion_options(extreme)) if option[0] != "--points"]
 
 
-OPTIONS_OF = {"orbit": motion_options, "contact": motion_options, "spectrum": spectrum_options, "response": response_options,
-              "attractors": attractors_options}
+OPTIONS_OF = {"orbit": motion_options, "contact": motion_options, "spectrum": spectrum_options,
+              "response": response_options, "attractors": attractors_options}
 
 
 @st.composite
