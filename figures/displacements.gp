@@ -26,11 +26,12 @@ stats table using "spread":"difference_rms" name 'error' nooutput
 stats table using (0):"difference_force" name 'force' nooutput
 found = int(flag_max_x)
 comparison = found == 1 ? \
-  sprintf("Difference of both methods over one period: displacements %.2g %% (rms, about the means), ", \
+  sprintf("Difference of both methods: displacements %.2g %% (rms, about the means), ", \
           100 * error_max_y).sprintf("force %.2g %% (largest)", 100 * force_max_y) : \
   "No harmonic-balance solution found: time integration alone"
 regime = "Time integration is ".(flag_max_y == 1 ? "" : "not ").\
-  sprintf("T-periodic: Poincaré spread %.2g %% of the largest displacement", 100 * error_max_x)
+  sprintf("T-periodic: Poincaré spread %.2g %% ", 100 * error_max_x).\
+  (flag_max_y == 1 ? "of the largest displacement" : "(spread and rms: means over 30 s)")
 case = sprintf("f = %g Hz, δ = %g µm, harmonic balance with %d harmonics", \
                speed, delta_um, harmonics(1))
 set label 1 case."\n".comparison."\n".regime at screen 0.5, from_top(18) center
