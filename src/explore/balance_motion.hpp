@@ -1,0 +1,25 @@
+/**
+# The motion that harmonic balance finds, for explore
+
+With one frequency or two, with m harmonics or those that a tolerance chooses; how it was found, its error and its
+verdict go to the table's header. */
+#pragma once
+
+#include "explore/orbit.hpp"
+#include "motion/verdict.hpp"
+
+namespace rotor_stator::explore {
+
+/** m where none is asked for. */
+inline constexpr int usual_harmonics = 6;
+
+/** Throws BadInput for options that the machine does not allow, NoSolution when nothing was found. */
+FoundMotion balance_motion(const Parameters& parameters, const MotionRequest& request,
+                           const OperationBudget& budget, Table& table);
+
+/** What stands behind a verdict on the motion `whose`, in the header's lines. */
+void note_verdict(Table& table, const motion::Verdict& verdict, int turns,
+                  const char* whose);
+void note_no_verdict(Table& table);
+
+}  // namespace rotor_stator::explore
