@@ -244,7 +244,9 @@ def close(old, new):
 
 
 def agree(old, new):
-    """The same words, and numbers that are close."""
+    """The same words, and numbers that are close. An uncertainty may be another one: it is the size of rounding."""
+    old, new = (re.sub(r"\+- \S+", "", text) for text in (old, new))
+
     def words(text):
         return NUMBER.sub("#", text).split()
     return words(old) == words(new) and all(map(close, NUMBER.findall(old), NUMBER.findall(new)))
