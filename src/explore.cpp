@@ -83,6 +83,14 @@ CLI::Option* add_subharmonic(CLI::App& command, Request& request)
                     "K: motions of period K T, harmonics of orders h/K");
 }
 
+/** Throws BadInput for an option that was given and is not `used` by the method; `where` it is. */
+void refuse(const CLI::Option* option, bool used, const char* where,
+            const std::string& method)
+{
+  if (!used && option->count() > 0)
+    throw BadInput(option->get_name() + ": is " + where + ", and --method is " + method);
+}
+
 /** The options of orbit, contact and spectrum. What is returned throws BadInput for an option that the method
     would ignore. */
 std::function<void()> add_motion_options(CLI::App& command, MotionRequest& request)
@@ -119,24 +127,19 @@ std::function<void()> add_motion_options(CLI::App& command, MotionRequest& reque
   const auto longest = add_number(command, "--longest", request.longest, 1e-3, 1e5,
                                   "longest transient of the time methods [s]");
   return [=, &request] {
-    const auto refuse = [&](const CLI::Option* option, bool used, const char* where) {
-      if (!used && option->count() > 0)
-        throw BadInput(option->get_name() + ": is " + where + ", and --method is " +
-                       request.method);
-    };
     const std::string& method = request.method;
     require_method(method, periodic_methods);
-    const bool is_periodic =
-        std::ranges::find(periodic_methods, method) != periodic_methods.end();
+    const bool finds_periodic = is_periodic(method);
     for (const CLI::Option* option : aft)
-      refuse(option, method == "aft", "for --method aft");
+      refuse(option, method == "aft", "for --method aft", method);
     for (const CLI::Option* option : periodic)
-      refuse(option, is_periodic, "for the methods aft, shooting and auto");
-    refuse(step, method == "rk4", "for --method rk4");
+      refuse(option, finds_periodic, "for the methods aft, shooting and auto", method);
+    refuse(step, method == "rk4", "for --method rk4", method);
     refuse(local_error, method != "aft" && method != "rk4",
-           "for shooting and the time methods but rk4");
-    refuse(longest, !is_periodic, "for the time methods");
-    refuse(points, !is_spectrum || method != "aft", "for shooting and the time methods");
+           "for shooting and the time methods but rk4", method);
+    refuse(longest, !finds_periodic, "for the time methods", method);
+    refuse(points, !is_spectrum || method != "aft", "for shooting and the time methods",
+           method);
   };
 }
 
@@ -187,13 +190,11 @@ std::function<void()> add_response_options(CLI::App& command, ResponseRequest& r
       ->needs(isolated);
   aft.push_back(isolated);
   return [aft, &request] {
-    if (request.method == "aft") return;
-    if (request.method != "shooting")
-      throw BadInput("--method " + request.method + ": must be one of aft, shooting");
+    const std::string& method = request.method;
+    if (method != "aft" && method != "shooting")
+      throw BadInput("--method " + method + ": must be one of aft, shooting");
     for (const CLI::Option* option : aft)
-      if (option->count() > 0)
-        throw BadInput(option->get_name() +
-                       ": is for --method aft, and --method is shooting");
+      refuse(option, method == "aft", "for --method aft", method);
   };
 }
 

@@ -14,13 +14,11 @@ namespace rotor_stator::costs {
 namespace {
 
 /** One period from `state` by rk8pd. */
-motion::Motion one_period(const Parameters& parameters, double frequency, State state,
-                          int points, double tolerance)
+motion::Motion one_period(const Parameters& parameters, double frequency,
+                          const State& state, int points, double tolerance)
 {
-  const TimeStepper stepper =
-      make_stepper(parameters, angular(frequency),
-                   {.intervals_per_period = points, .tolerance = tolerance});
-  return motion::recorded(stepper, points, state);
+  return motion::one_period(parameters, angular(frequency), state,
+                            {.intervals_per_period = points, .tolerance = tolerance});
 }
 
 }  // namespace

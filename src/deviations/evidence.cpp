@@ -11,8 +11,6 @@ DeviationScene read_deviation_scene(SceneFile& file)
     throw BadInput("--reading " + file.reading() +
                    ": must be exchanged; the deviations compare both readings (D-09)");
   StrictToml& toml = file.toml();
-  SteadySettings settings = read_steady_settings(file);
-  settings.average = toml.number("average_s", Range::positive);
   return {.toml = toml,
           .machine = read_parameters(file, "parameters"),
           .printed = read_parameters(file, "printed_parameters"),
@@ -21,7 +19,7 @@ DeviationScene read_deviation_scene(SceneFile& file)
           .gravity_speed = toml.number("gravity_speed_hz", Range::positive),
           .transition_speed = toml.number("transition_speed_hz", Range::positive),
           .range = file.speed_range("range_hz"),
-          .time_integration = settings};
+          .time_integration = read_steady_settings(file)};
 }
 
 PeriodicMotion require_periodic(const Parameters& machine, double frequency,
@@ -74,10 +72,7 @@ EvidenceList mean_of(const std::string& key, const std::string& meaning,
                      const motion::Motion& motion, int periods,
                      const std::function<double(const motion::Motion&)>& measure)
 {
-  std::vector<double> values;
-  for (const motion::Motion& piece : motion::pieces(motion, periods))
-    values.push_back(measure(piece));
-  const BatchMean mean = long_mean(values);
+  const BatchMean mean = motion::mean_over(motion, periods, measure);
   return {{key, mean.value, "-", meaning},
           {key + "_error", mean.error, "-", "its standard error over the turns"}};
 }

@@ -402,11 +402,8 @@ Exploration explore_attractors(const AttractorsRequest& request)
   if (request.section || request.plot) {
     const std::string section = section_text(task, all);
     if (request.section) write_file(*request.section, section);
-    try {
-      if (request.plot) plot(*request.plot, script, section);
-    } catch (const NoSolution& error) {
-      if (missing.empty()) missing = error.what();
-    }
+    const std::string undrawn = plot(request.plot, script, section);
+    if (missing.empty()) missing = undrawn;
   }
   return {std::move(table), missing};
 }

@@ -14,6 +14,11 @@
 
 namespace rotor_stator::explore {
 
+bool is_periodic(const std::string& method)
+{
+  return std::ranges::find(periodic_methods, method) != periodic_methods.end();
+}
+
 int checked_samples(int harmonics, const std::optional<int>& samples)
 {
   if (samples && *samples <= 2 * harmonics)
@@ -46,8 +51,10 @@ FoundMotion closed_motion(const Parameters& parameters, const MotionRequest& req
 {
   const double omega = angular(request.frequency);
   const int turns = request.subharmonic;
-  const motion::Search search{
-      parameters, omega, usual_harmonics, default_samples(usual_harmonics), {}, budget};
+  const motion::Search search{.parameters = parameters,
+                              .omega = omega,
+                              .harmonics = usual_harmonics,
+                              .budget = budget};
   motion::ClosedMotion closed =
       motion::closed_motion(search, turns, request.points, request.local_error);
   const double error = std::max(closed.distance, closed.distance_rms);

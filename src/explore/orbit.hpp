@@ -26,6 +26,7 @@ struct Request {
 
 /** Those that find periodic motions: harmonic balance, shooting, and the cheaper of the two. */
 inline const std::vector<std::string> periodic_methods{"aft", "shooting", "auto"};
+bool is_periodic(const std::string& method);
 
 struct MotionRequest : Request {
   double frequency = 0;             ///< [Hz]

@@ -85,6 +85,24 @@ bool run_python(const std::vector<std::string>& arguments, const path& log)
   return begun && waitpid(child, &status, 0) == child && status == 0;
 }
 
+/** All or nothing. Throws NoSolution when it cannot. */
+void draw(const std::string& file, const std::string& script, const std::string& table)
+{
+  const TemporaryFolder temporary;
+  const path log = temporary.folder / "log";
+  const path data = temporary.folder / "table.tsv";
+  const path figure =
+      (temporary.folder / "figure").concat(path(file).extension().string());
+  write_file(data, table);
+  if (!run_python({script_file(script), data, figure}, log)) {
+    std::string why = content_of(log);
+    while (!why.empty() && why.back() == '\n') why.pop_back();
+    throw NoSolution("--plot: " + script + ": " +
+                     printable(why.substr(why.rfind('\n') + 1)));
+  }
+  write_file(file, content_of(figure));
+}
+
 }  // namespace
 
 void require_plot(const std::string& file, const std::string& script,
@@ -101,21 +119,15 @@ void require_plot(const std::string& file, const std::string& script,
                    ": install python3-matplotlib, or name another Python in PYTHON");
 }
 
-void plot(const std::string& file, const std::string& script, const std::string& table)
+std::string plot(const std::optional<std::string>& file, const std::string& script,
+                 const std::string& table)
 {
-  const TemporaryFolder temporary;
-  const path log = temporary.folder / "log";
-  const path data = temporary.folder / "table.tsv";
-  const path figure =
-      (temporary.folder / "figure").concat(path(file).extension().string());
-  write_file(data, table);
-  if (!run_python({script_file(script), data, figure}, log)) {
-    std::string why = content_of(log);
-    while (!why.empty() && why.back() == '\n') why.pop_back();
-    throw NoSolution("--plot: " + script + ": " +
-                     printable(why.substr(why.rfind('\n') + 1)));
+  try {
+    if (file) draw(*file, script, table);
+  } catch (const NoSolution& error) {
+    return error.what();
   }
-  write_file(file, content_of(figure));
+  return "";
 }
 
 }  // namespace rotor_stator::explore

@@ -157,16 +157,16 @@ PeriodicMotion found_start(const Task& task)
 {
   const double hertz = task.hertz(task.range().from);
   const int turns = task.request.subharmonic;
-  const motion::Search search{turns > 1 ? task.machine : task.parameters,
-                              turns > 1 ? angular(hertz) : task.range().from,
-                              task.harmonics,
-                              task.samples,
-                              task.settings.newton,
-                              task.budget};
+  const auto search = [&](const Parameters& parameters, double omega) -> motion::Search {
+    return {parameters,           omega,      task.harmonics, task.samples,
+            task.settings.newton, task.budget};
+  };
   if (turns > 1)
     return motion::find_subharmonic(
-        search, turns, task.request.harmonics ? std::nullopt : std::optional(1e-2));
-  PeriodicMotion start = motion::search_periodic(search);
+        search(task.machine, angular(hertz)), turns,
+        task.request.harmonics ? std::nullopt : std::optional(1e-2));
+  PeriodicMotion start =
+      motion::search_periodic(search(task.parameters, task.range().from));
   if (!start.found())
     throw NoSolution(format("%s: no solution found with %d harmonics at --%s %g Hz: %s",
                             task.parameters.file.c_str(), task.harmonics,
@@ -387,6 +387,13 @@ bool is_whole(const Task& task, const Branch& branch)
          (task.request.subharmonic > 1 && branch.kind == BranchEnd::came_back);
 }
 
+std::string stopped_at(const Task& task, double omega, const std::string& end)
+{
+  return format("%s: the branch stopped at %g Hz, before --%s %g Hz: %s",
+                task.parameters.file.c_str(), task.hertz(omega),
+                task.upwards ? "to" : "from", task.hertz(task.range().to), end.c_str());
+}
+
 /** The first thing that is missing, in the order in which it was asked for. */
 std::string unfinished(const Task& task, const Branch& branch,
                        const std::string& isolated, const std::string& stability)
@@ -395,10 +402,7 @@ std::string unfinished(const Task& task, const Branch& branch,
     return task.parameters.file + ": isolated branches: " + isolated;
   if (is_whole(task, branch))
     return stability.empty() ? "" : task.parameters.file + ": " + stability;
-  return format(
-      "%s: the branch stopped at %g Hz, before --%s %g Hz: %s",
-      task.parameters.file.c_str(), task.hertz(branch.points.back().motion.omega),
-      task.upwards ? "to" : "from", task.hertz(task.range().to), branch.end.c_str());
+  return stopped_at(task, branch.points.back().motion.omega, branch.end);
 }
 
 /** The same branch by a time method. */
@@ -433,10 +437,9 @@ Exploration shooting_response(const ResponseRequest& request, const Task& task)
   table.note((branch.covered ? "ended: " : "incomplete: ") + branch.end);
   bool touches = false;
   for (const ShootingBranchPoint& point : branch.points) {
-    const TimeStepper stepper = make_stepper(
-        machine, point.omega, {.method = "rk4", .intervals_per_period = points});
-    state = point.state;
-    const motion::Motion motion = motion::recorded(stepper, points, state);
+    const motion::Motion motion =
+        motion::one_period(machine, point.omega, point.state,
+                           {.method = "rk4", .intervals_per_period = points});
     const auto amplitude = half_peak_to_peak(motion);
     touches = touches || motion::contact_share(machine, motion) > 0;
     StablePoint at{};
@@ -447,14 +450,8 @@ Exploration shooting_response(const ResponseRequest& request, const Task& task)
               Row{at, Eigen::Map<const Eigen::Vector4d>(amplitude.data()), 1, task});
   }
   conclude(table, machine, touches, task.budget);
-  const std::string unfinished =
-      branch.covered
-          ? ""
-          : format("%s: the branch stopped at %g Hz, before --%s %g Hz: %s",
-                   machine.file.c_str(), task.hertz(branch.points.back().omega),
-                   task.upwards ? "to" : "from", task.hertz(range.to),
-                   branch.end.c_str());
-  return {std::move(table), unfinished};
+  return {std::move(table),
+          branch.covered ? "" : stopped_at(task, branch.points.back().omega, branch.end)};
 }
 
 }  // namespace

@@ -15,11 +15,6 @@ const char* const script = "spectrum.py";
 constexpr int most_samples = 1 << 18;  // of a record; larger ones take minutes
 constexpr double least = 1e-6;         // of the largest line
 
-bool is_periodic(const std::string& method)
-{
-  return std::ranges::find(periodic_methods, method) != periodic_methods.end();
-}
-
 /** Ten seconds in 64 to 256 turns. */
 int recorded_turns(double frequency)
 {
@@ -120,13 +115,8 @@ Exploration explore_spectrum(const SpectrumRequest& asked)
   note_names(table, lines);
   add_rows(table, parameters, request, lines);
   conclude(table, parameters, at.touches(), at.budget);
-  std::string missing;
-  try {
-    if (asked.plot) plot(*asked.plot, script, table.text());
-  } catch (const NoSolution& error) {
-    missing = error.what();
-  }
-  return {std::move(table), missing};
+  std::string missing = plot(asked.plot, script, table.text());
+  return {std::move(table), std::move(missing)};
 }
 
 }  // namespace rotor_stator::explore

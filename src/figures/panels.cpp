@@ -77,7 +77,6 @@ PanelScene read_panels(SceneFile& file)
   scene.samples = toml.integer_or("samples", 2 * scene.harmonics + 1, 1 << 20,
                                   default_samples(scene.harmonics));
   toml.refuse_unknown_keys();
-  scene.time_integration.average = 30;
   return scene;
 }
 
@@ -138,10 +137,9 @@ Panel compare(const PanelScene& scene, double frequency, const PeriodicMotion& b
     panel.balance = motion::motion_of(balance.bodies, points);
     const int window = settled.periodic ? scene.time_integration.shown_periods
                                         : static_cast<int>(std::ceil(frequency));
-    std::vector<double> differences;
-    for (const motion::Motion& piece : motion::pieces(all, window))
-      differences.push_back(motion::rms_difference(*panel.balance, piece));
-    panel.rms_difference = long_mean(differences);
+    panel.rms_difference = mean_over(all, window, [&](const motion::Motion& piece) {
+      return motion::rms_difference(*panel.balance, piece);
+    });
     panel.force_difference =
         motion::relative_force_difference(scene.machine, *panel.balance, panel.settled);
     panel.difference = motion::relative_difference(*panel.balance, panel.settled);

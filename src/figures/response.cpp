@@ -67,7 +67,6 @@ ResponseScene read_response(SceneFile& file)
   for (std::size_t k = 0; k < machines.size(); ++k)
     scene.sets.push_back({static_cast<int>(k) + 1, machines[k], harmonics[k]});
   toml.refuse_unknown_keys();
-  scene.time_integration.average = 30;
   return scene;
 }
 

@@ -33,12 +33,10 @@ SteadySettings hard_settings(const HardCase& hard, const std::string& method, do
 
 motion::Motion period_from(const HardCase& hard, const State& start)
 {
-  const TimeStepper stepper = make_stepper(hard.machine, angular(hard.frequency),
-                                           {.intervals_per_period = compared_points,
-                                            .tolerance = 1e-11,
-                                            .budget = budget_of(hard, "rk8pd", 1e8)});
-  State state = start;
-  return motion::recorded(stepper, compared_points, state);
+  return motion::one_period(hard.machine, angular(hard.frequency), start,
+                            {.intervals_per_period = compared_points,
+                             .tolerance = 1e-11,
+                             .budget = budget_of(hard, "rk8pd", 1e8)});
 }
 
 double motion_difference(const motion::Motion& motion, const motion::Motion& reference)
@@ -212,8 +210,7 @@ Shooting closed_from_rest(const HardCase& hard, Answer& answer)
       return steady_state(p, angular(frequency), static_start(p), settings)
           .states.front();
     };
-    /** A chaotic motion is another one after the least change of the speed, and on another processor. */
-    constexpr double other_rounding = 1e-11, same = 1e-3;
+    constexpr double same = 1e-3;
     const State start = settled(hard.frequency);
     if (motion::apart(p, start, settled(hard.frequency * (1 + other_rounding))) > same) {
       shooting.reason = "the state after 2 s of integration depends on rounding";

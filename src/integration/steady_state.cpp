@@ -162,6 +162,7 @@ SteadySettings read_steady_settings(SceneFile& scene)
   settings.stepper.intervals_per_period = table.integer("points_per_period", 4, 4096);
   settings.longest = table.number("longest_s", Range::positive);
   settings.shown_periods = table.integer("shown_periods", 1, 1000);
+  settings.average = table.number_or("average_s", Range::positive, 0);
   return settings;
 }
 

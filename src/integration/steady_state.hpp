@@ -22,6 +22,10 @@ more, which are recorded.
 
 namespace rotor_stator {
 
+/** Relative. A chaotic motion is another one after so little a change of the speed, as it is on another processor;
+    no other motion changes visibly. */
+inline constexpr double other_rounding = 1e-11;
+
 struct SteadySettings {
   StepperSettings stepper;
   double settled = 1e-9;   ///< spread at which integration ends [-]

@@ -30,14 +30,12 @@ struct Closing {
                   .budget = search.budget});
   }
 
-  Motion record(State state, double local_error) const
+  Motion record(const State& state, double local_error) const
   {
-    const int instants = points * turns;
-    const TimeStepper stepper = make_stepper(longer, omega,
-                                             {.intervals_per_period = instants,
-                                              .tolerance = local_error,
-                                              .budget = search.budget});
-    return recorded(stepper, instants, state);
+    return one_period(longer, omega, state,
+                      {.intervals_per_period = points * turns,
+                       .tolerance = local_error,
+                       .budget = search.budget});
   }
 
   using Starts = std::vector<std::pair<std::string, std::function<std::vector<State>()>>>;

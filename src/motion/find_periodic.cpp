@@ -101,8 +101,8 @@ Eigen::VectorXd integrated_start(const Parameters& parameters, double omega,
   const Motion motion = motion_of(steady, points);
   /** A chaotic transient ends at another time after the least change. */
   constexpr double same = 0.01, same_time = 0.5;
-  for (const double other_rounding : {1e-11, -2e-11}) {
-    const SteadyState copy = settled(omega * (1 + other_rounding));
+  for (const double change : {other_rounding, -2 * other_rounding}) {
+    const SteadyState copy = settled(omega * (1 + change));
     if (std::abs(copy.seconds - steady.seconds) > same_time ||
         relative_difference(motion_of(copy, points), motion) > same)
       throw NoSolution("where time integration settles depends on rounding");

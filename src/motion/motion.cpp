@@ -74,6 +74,24 @@ Motion motion_of(const SteadyState& steady, int points_per_period)
   return motion;
 }
 
+Motion one_period(const Parameters& parameters, double omega, State state,
+                  const StepperSettings& settings)
+{
+  const TimeStepper stepper = make_stepper(parameters, omega, settings);
+  return recorded(stepper, settings.intervals_per_period, state);
+}
+
+ErrorEstimate error_against(const Motion& exact, const Motion& solution, int samples)
+{
+  return {.displacement = relative_difference(solution, exact),
+          .rms = rms_difference(solution, exact),
+          .settled = true,
+          .harmonics = 0,
+          .samples = samples,
+          .newton = 0,
+          .force_samples = 0};
+}
+
 std::vector<Motion> pieces(const Motion& motion, int periods)
 {
   std::vector<Motion> parts;
@@ -84,6 +102,14 @@ std::vector<Motion> pieces(const Motion& motion, int periods)
                      motion.first_period + periods * std::ssize(parts),
                      {at, at + length}});
   return parts;
+}
+
+BatchMean mean_over(const Motion& motion, int periods,
+                    const std::function<double(const Motion&)>& measure)
+{
+  std::vector<double> values;
+  for (const Motion& piece : pieces(motion, periods)) values.push_back(measure(piece));
+  return long_mean(values);
 }
 
 std::vector<Vec2> bearing_forces(const Parameters& parameters, const Motion& motion)

@@ -5,6 +5,7 @@ A motion is a row of bearing states at equal phases. Scenes draw from it and not
 so that the two methods meet in the same table. */
 #pragma once
 
+#include <functional>
 #include <vector>
 
 #include "balance/periodic_motion.hpp"
@@ -60,8 +61,20 @@ State state_of(const PeriodicMotion& motion);
 /** The periods kept by a time integration. */
 Motion motion_of(const SteadyState& steady, int points_per_period);
 
+/** One base period from `state` at phase 0, at the instants that `settings` cuts it into. */
+Motion one_period(const Parameters& parameters, double omega, State state,
+                  const StepperSettings& settings);
+
+/** The error of a solution against the same motion by a time method, both at so many instants of the base
+    period. */
+ErrorEstimate error_against(const Motion& exact, const Motion& solution, int samples);
+
 /** A recorded motion cut into pieces of so many periods; an odd rest is left out. */
 std::vector<Motion> pieces(const Motion& motion, int periods);
+
+/** The mean of a measure over these pieces. */
+BatchMean mean_over(const Motion& motion, int periods,
+                    const std::function<double(const Motion&)>& measure);
 
 /** Eq. 6: the bearing's force [N] on the stator at each instant of a motion. */
 std::vector<Vec2> bearing_forces(const Parameters& parameters, const Motion& motion);

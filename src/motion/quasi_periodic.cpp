@@ -82,13 +82,7 @@ public:
     Motion exact = recorded(stepper, points, state, turn_, turns);
     Motion series = motion::motion_of(parameters_, solution, points, turns, turn_);
     exact.points_per_period = series.points_per_period = points * turns;
-    return {.displacement = relative_difference(series, exact),
-            .rms = rms_difference(series, exact),
-            .settled = true,
-            .harmonics = 0,
-            .samples = points,
-            .newton = 0,
-            .force_samples = 0};
+    return error_against(exact, series, points);
   }
 
 private:

@@ -121,7 +121,6 @@ Regime regime_of(const Parameters& parameters, double frequency,
 Regime regime_at(const Parameters& parameters, double frequency,
                  const RegimeSettings& settings)
 {
-  constexpr double other_rounding = 1e-11;
   return regime_of(
       parameters, frequency,
       {settled_motion(parameters, frequency, settings),

@@ -155,15 +155,14 @@ std::vector<State> states_of(Sources& from, int turns)
 
 /** The solution of harmonic balance with the motion of Eq. 7 through `state` as its start, and its distance from
     that. */
-PeriodicMotion solved_near(const Search& search, int turns, State state)
+PeriodicMotion solved_near(const Search& search, int turns, const State& state)
 {
   const Parameters longer = over_turns(search.parameters, turns);
   const double omega = search.omega / turns;
   const int m = turns * search.harmonics, n = turns * search.samples;
-  const TimeStepper stepper = make_stepper(
-      longer, omega,
+  const Motion exact = one_period(
+      longer, omega, state,
       {.intervals_per_period = n, .tolerance = local_error, .budget = search.budget});
-  const Motion exact = recorded(stepper, n, state);
   Balance balance(bearing_problem(longer, n, search.budget), m);
   PeriodicMotion motion = solve(balance, omega, relative_series(exact, m), search.newton);
   motion.start = format("the motion of period %d T that shooting found", turns);
@@ -171,13 +170,7 @@ PeriodicMotion solved_near(const Search& search, int turns, State state)
   if (repeats_sooner(motion, turns)) motion.newton.end = NewtonEnd::no_decrease;
   motion.bodies = body_series(longer, motion);
   const Motion series = motion_of(motion.bodies, n);
-  motion.error = {.displacement = relative_difference(series, exact),
-                  .rms = rms_difference(series, exact),
-                  .settled = true,
-                  .harmonics = 0,
-                  .samples = n,
-                  .newton = 0,
-                  .force_samples = 0};
+  motion.error = error_against(exact, series, n);
   return motion;
 }
 

@@ -42,7 +42,6 @@ public:
   struct Linear {
     Vector8 residual;
     Eigen::Matrix<double, 8, 9> slope;  ///< of the residual by y
-    Matrix8 derivative;                 ///< Φ
   };
 
   /** Of rk4's default step, at the speed of y. */
@@ -69,8 +68,7 @@ public:
     evaluations_ += here.evaluations() + above.evaluations() + below.evaluations();
     Linear linear{
         .residual = (vector_of(map.end) - vector_of(from)).cwiseQuotient(scales_),
-        .slope = {},
-        .derivative = map.derivative};
+        .slope = {}};
     linear.slope << scales_.cwiseInverse().asDiagonal() * map.derivative *
                             scales_.asDiagonal() -
                         Matrix8::Identity(),
@@ -88,12 +86,11 @@ private:
   long evaluations_ = 0;
 };
 
-/** A corrected point: y, its tangent, and the map there. */
+/** A corrected point and its tangent. */
 struct Corrected {
   bool converged = false;
   Vector9 y, tangent;
   int iterations = 0;
-  Matrix8 derivative;
 };
 
 struct Corrector {
@@ -115,7 +112,6 @@ struct Corrector {
       const Eigen::PartialPivLU<Matrix9> lu(bordered);
       if (linear.residual.norm() <= residual) {
         at.tangent = lu.solve(Vector9::Unit(8)).normalized();
-        at.derivative = linear.derivative;
         at.converged = at.tangent.allFinite();
         return at;
       }
@@ -146,8 +142,8 @@ ShootingBranch follow_by_shooting(const Parameters& parameters, double from, dou
                             from * 0.5 / std::numbers::pi));
   ShootingBranch branch;
   const auto add = [&](const Corrected& point, double arc) {
-    branch.points.push_back({map.omega(point.y), map.state(point.y), arc,
-                             point.iterations, point.derivative});
+    branch.points.push_back(
+        {map.omega(point.y), map.state(point.y), arc, point.iterations});
   };
   add(last, 0);
   const auto left = [&](const Vector9& y, double edge) {

@@ -3,11 +3,8 @@
 
 The unknowns are the state at phase 0 and the speed, over their sizes; the equations P(s; ω) = s and the step's
 length along the tangent. Φ comes from the variational equations, ∂P/∂ω from a difference of two maps. RK4 takes the
-same number of steps in all maps of one correction, so that P depends smoothly on the speed. The motion of a
-machine that leaves a fold leaves the speed, not the branch. */
+same number of steps in all maps of one correction, so that P depends smoothly on the speed. */
 #pragma once
-
-#include <functional>
 
 #include "stability/shooting.hpp"
 
@@ -18,7 +15,6 @@ struct ShootingBranchPoint {
   State state = {};  ///< at phase 0
   double arc = 0;    ///< along the branch from its first point [-]
   int newton = 0;    ///< iterations of the corrector
-  Matrix8 derivative = Matrix8::Identity();  ///< Φ
 };
 
 struct ShootingBranch {

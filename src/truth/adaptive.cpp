@@ -35,9 +35,8 @@ motion::Motion exact_motion(const Parameters& machine, const PeriodicMotion& sol
       shoot(machine, solution.omega, state,
             {.tolerance = tolerance, .periodicity_residual = 1e-11});
   if (!shooting.converged) return {points, 0, {}};
-  const TimeStepper stepper = make_stepper(
-      machine, solution.omega, {.intervals_per_period = points, .tolerance = tolerance});
-  return motion::recorded(stepper, points, state);
+  return motion::one_period(machine, solution.omega, state,
+                            {.intervals_per_period = points, .tolerance = tolerance});
 }
 
 namespace {

@@ -122,13 +122,12 @@ struct Comparison {
     }
   }
 
-  void add(State state)
+  void add(const State& state)
   {
     constexpr double same = 1e-3;
-    const TimeStepper stepper =
-        make_stepper(machine, omega,
-                     {.method = "rk4", .intervals_per_period = scene.points_per_period});
-    motion::Motion motion = motion::recorded(stepper, scene.points_per_period, state);
+    motion::Motion motion = motion::one_period(
+        machine, omega, state,
+        {.method = "rk4", .intervals_per_period = scene.points_per_period});
     for (const Reference& known : references)
       if (known.periodic() &&
           distance_of(machine, motion, known.motion).displacement < same)

@@ -481,11 +481,11 @@ class Explore(unittest.TestCase):
         print(dict(tally))
         self.assertGreater(tally[2], tally[0])
 
-    def test_legal_and_extreme_machines_and_options(self):
+    def legal_and_extreme(self, questions):
         tally = Counter()
 
         @examples(600)
-        @given(extreme_questions())
+        @given(questions)
         def run(question):
             content, words = question
             self.ask(tally, words, content)
@@ -493,19 +493,12 @@ class Explore(unittest.TestCase):
         run()
         print(dict(tally))
         self.assertGreater(tally[0] + tally[3], tally[2])
+
+    def test_legal_and_extreme_machines_and_options(self):
+        self.legal_and_extreme(extreme_questions())
 
     def test_legal_and_extreme_machines_of_another_kind(self):
-        tally = Counter()
-
-        @examples(600)
-        @given(extreme_questions(another_kind=True))
-        def run(question):
-            content, words = question
-            self.ask(tally, words, content)
-
-        run()
-        print(dict(tally))
-        self.assertGreater(tally[0] + tally[3], tally[2])
+        self.legal_and_extreme(extreme_questions(another_kind=True))
 
     def test_legal_and_extreme_machines_with_the_budget_of_explore(self):
         tally = Counter()
