@@ -85,9 +85,8 @@ struct Problem {
   /** Takes operations from a budget, and throws when they are not there; empty without a bound. */
   std::function<void(double operations)> spend = {};
 
-  /** z: with two frequencies the samples lie on the line θ_2 = z θ_1 (torus_line.hpp), where the harmonic
-      (k_1, k_2) is h = k_1 + z k_2. */
-  int line = 0;
+  /** Where the samples lie, with two frequencies. */
+  TorusLine line = {};
 };
 
 /** The block of M q̈ + D q̇ + K q + f(q) = Re(F e^{iωt}) for real d × d matrices and a

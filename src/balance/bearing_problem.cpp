@@ -52,7 +52,8 @@ LoadedBody loaded(const Body& body, double gravity, double unbalance, double ome
   const Vec2 rest = body.static_acceleration(gravity);
   if (h == Harmonic{0, 0})
     loaded.load = {Varying{body.mass * rest.x, 0}, Varying{body.mass * rest.y, 0}};
-  if (h == Harmonic{turns, 0}) loaded.load = {force, force * Varying{{0, -1}, 0}};
+  if (h == Harmonic{static_cast<double>(turns), 0})
+    loaded.load = {force, force * Varying{{0, -1}, 0}};
   return loaded;
 }
 
@@ -115,7 +116,7 @@ Problem bearing_problem(const Parameters& parameters, const TorusLine& line,
                       },
                   .force = SampledBearing(on(line, parameters.bearing), line.samples),
                   .operations = 5e3 + line.samples * (8 + 1.5 * parameters.bearing.balls),
-                  .line = line.z};
+                  .line = line};
   if (budget.bounded())
     problem.spend = [budget, balls = parameters.bearing.balls](double operations) {
       budget.spend(operations / operations_per_evaluation(balls));

@@ -32,7 +32,7 @@ std::vector<std::vector<int>> by_passages(const Harmonics& harmonics)
   std::vector<std::vector<int>> parts;
   for (int h = 0; h <= harmonics.count(); ++h) {
     const auto k_2 = static_cast<std::size_t>(
-        std::abs(harmonics.list()[static_cast<std::size_t>(h)].k_2));
+        std::lround(std::abs(harmonics.list()[static_cast<std::size_t>(h)].k_2)));
     if (parts.size() <= k_2) parts.resize(k_2 + 1);
     parts[k_2].push_back(h);
   }
@@ -61,7 +61,7 @@ struct Choosing {
 
   AdaptiveMotion run()
   {
-    if (!from_few()) from_settled();
+    if (settled.only || !from_few()) from_settled();
     return std::move(result);
   }
 
@@ -83,29 +83,63 @@ struct Choosing {
     return false;
   }
 
-  /** The same from what Eq. 7 settles on: the largest of many harmonics, then those that the tolerance asks
-      for. */
+  /** The same from the lines of what Eq. 7 settles on, of whole orders or also of halves. */
   void from_settled()
   {
-    const Harmonics all = up_to(2 * highest_order, 8, bearing);
-    finer = {.omega = omega, .harmonics = all};
-    finer.x = settled.lines(all);
-    Balance balance(bearing_problem(parameters, finest, budget), all);
+    for (const int turns : {1, 2}) {
+      take_lines(up_to(2 * highest_order, 8, bearing, turns), turns);
+      solve_on_largest();
+      if (!result.reached) {
+        result.motion = finer;
+        measure();
+      }
+      if (result.reached) return drop_small();
+    }
+  }
+
+  void take_lines(const Harmonics& all, int turns)
+  {
+    constexpr int samples = 4096;
+    const TorusLine line = line_without_images(all, all, samples, turns);
+    Balance balance(bearing_problem(parameters, line, budget), all);
+    finer = {.omega = omega,
+             .harmonics = all,
+             .samples = line.samples,
+             .line = line,
+             .x = settled.lines(all),
+             .start = "the lines of time integration"};
+    finer.newton = {.end = NewtonEnd::not_begun,
+                    .delta_1 = balance.residual(finer.x, omega).norm() /
+                               balance.problem().residual_scale};
     finer.force = balance.balancing_force(finer.x, omega);
     finer.bodies = body_series(parameters, finer);
-    finer.newton.end = NewtonEnd::converged;
-    for (const int most : {120, 350}) {
-      const Harmonics kept = chosen(0, all, finer.bodies, most);
-      if (!solve_on(kept, project(finer.x, 2, all, kept), "time integration")) continue;
+  }
+
+  void solve_on_largest()
+  {
+    constexpr int most = 120;
+    const Harmonics kept = chosen(0, finer.harmonics, finer.bodies, most);
+    if (solve_on(kept, project(finer.x, 2, finer.harmonics, kept), "time integration"))
       measure();
-      if (result.reached) break;
-    }
-    if (!result.reached) return;
+  }
+
+  /** Keeps those that the tolerance asks for, where the solution on them is good enough. */
+  void drop_small()
+  {
     const AdaptiveMotion whole = result;
-    const Harmonics kept =
-        chosen(0.3 * settings.tolerance, whole.motion.harmonics, whole.motion.bodies);
-    const Eigen::VectorXd x = project(whole.motion.x, 2, whole.motion.harmonics, kept);
-    if (solve_on(kept, x, "time integration")) measure();
+    const PeriodicMotion& all = whole.motion;
+    const Harmonics kept = chosen(0.3 * settings.tolerance, all.harmonics, all.bodies);
+    const Eigen::VectorXd x = project(all.x, 2, all.harmonics, kept);
+    if (!all.found()) {
+      PeriodicMotion& few = result.motion;
+      few.x = x;
+      few.force = project_series(all.force, all.harmonics, kept);
+      few.bodies = project_series(all.bodies, all.harmonics, kept);
+      few.harmonics = kept;
+      measure();
+    } else if (solve_on(kept, x, "time integration")) {
+      measure();
+    }
     if (!result.reached) result = whole;
   }
 
@@ -117,8 +151,8 @@ struct Choosing {
 
   bool solve_on(const Harmonics& kept, const Eigen::VectorXd& x, const std::string& start)
   {
-    const TorusLine line =
-        line_without_images(kept, large, std::max(least_samples, 16 * kept.count()));
+    const TorusLine line = line_without_images(
+        kept, large, std::max(least_samples, 16 * kept.count()), finer.line.turns);
     Balance balance(bearing_problem(parameters, line, budget), kept);
     balance.steps().hold();
     NewtonSettings newton = settings.newton;
@@ -131,7 +165,7 @@ struct Choosing {
     if (found) motion.bodies = body_series(parameters, motion);
     result.end = format("with %d harmonics: ", kept.count()) + motion.newton.reason();
     result.motion = std::move(motion);
-    if (!found && finer.found()) result.end += largest_dropped();
+    if (!found && finer.x.size() > 0) result.end += largest_dropped();
     return found;
   }
 
@@ -184,15 +218,16 @@ struct Choosing {
   void conclude()
   {
     const PeriodicMotion& motion = result.motion;
-    /** A quarter is left for what no candidate stands for. */
+    /** A part is left for what no candidate, or none of the instants compared, stands for. */
+    const double share = motion.error->harmonics > 0 ? 0.75 : 0.9;
     result.reached =
-        motion.error->settled && motion.error->larger() <= 0.75 * settings.tolerance;
+        motion.error->settled && motion.error->larger() <= share * settings.tolerance;
     result.end = motion.error->settled
                      ? format("the error with %d harmonics is estimated as %.2g",
                               motion.harmonics.count(), motion.error->larger())
                      : format("the error with %d harmonics cannot be estimated",
                               motion.harmonics.count());
-    if (!result.reached && finer.found()) result.end += largest_dropped();
+    if (!result.reached && finer.x.size() > 0) result.end += largest_dropped();
   }
 
   /** The largest of the large set that the solution does not have. */
@@ -209,7 +244,7 @@ struct Choosing {
       at = candidate;
     }
     if (most == 0) return "; the candidates are exhausted, none is dropped";
-    return format("; the largest dropped harmonic is (%d, %d), %.2g of the vibration",
+    return format("; the largest dropped harmonic is (%g, %g), %.2g of the vibration",
                   at.k_1, at.k_2, most / vibration(finer.bodies));
   }
 
@@ -217,7 +252,7 @@ struct Choosing {
   {
     Eigen::MatrixXd samples;
     FourierTransform(finest.samples)
-        .to_samples(series, samples, finer.harmonics.images(finest.z, finest.samples));
+        .to_samples(series, samples, finer.harmonics.images(finest, finest.samples));
     return samples.cwiseAbs().maxCoeff();
   }
 

@@ -8,7 +8,8 @@ numbers with the mean stiffness of the contact for each other one, GMRES on the 
 each dropped harmonic is and what that does to the kept ones. Those that the tolerance asks for are taken, the
 others dropped, until the difference of the two solutions is below it (choice by size: Grolet and
 Thouverez 2012). Where that fails, at a resonance of the contact, the solution is found on all harmonics up to
-that frequency, from the lines of the motion that Eq. 7 settles on, and its error is the distance from that motion. */
+that frequency, from the lines of the motion that Eq. 7 settles on, and its error is the distance from that motion. The
+last answer is these lines themselves, with those of halves where the motion has doubled. */
 #pragma once
 
 #include "balance/adaptive_balance.hpp"
@@ -23,6 +24,8 @@ struct SettledOn {
 
   /** The error of a solution against it. */
   std::function<ErrorEstimate(const PeriodicMotion& solution)> error;
+
+  bool only = false;  ///< nothing else is tried
 };
 
 /** A solution with two frequencies whose error is below `settings.tolerance`; `end` names the largest dropped

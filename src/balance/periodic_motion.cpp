@@ -12,7 +12,7 @@ namespace rotor_stator {
 Harmonics::Harmonics(int m)
 {
   std::vector<Harmonic> list;
-  for (int k = 0; k <= m; ++k) list.push_back({k, 0});
+  for (int k = 0; k <= m; ++k) list.push_back({static_cast<double>(k), 0});
   list_ = std::make_shared<const std::vector<Harmonic>>(std::move(list));
 }
 
@@ -21,11 +21,11 @@ Harmonics::Harmonics(std::vector<Harmonic> list)
 {
 }
 
-Images Harmonics::images(int z, int samples) const
+Images Harmonics::images(const TorusLine& line, int samples) const
 {
   Images images;
   for (const auto& [k_1, k_2] : list()) {
-    const auto h = (k_1 + static_cast<long>(z) * k_2) % samples;
+    const auto h = std::lround(line.turns * (k_1 + line.z * k_2)) % samples;
     const long least = 2 * h > samples ? h - samples : 2 * h < -samples ? h + samples : h;
     images.push_back(static_cast<int>(least));
   }
@@ -36,6 +36,8 @@ std::string NewtonReport::reason() const
 {
   constexpr const char* ends[] = {"converged", "iterations exhausted",
                                   "no step decreases the residual", "singular Jacobian"};
+  if (end == NewtonEnd::not_begun)
+    return format("no step taken (residual %.1e)", delta_1);
   const std::string numbers =
       std::isfinite(delta_1) && std::isfinite(delta_2)
           ? format(" after %d iterations (residual %.1e, step %.1e)", iterations, delta_1,
@@ -47,7 +49,7 @@ std::string NewtonReport::reason() const
 Eigen::VectorXd project(const Eigen::VectorXd& x, int dofs, const Harmonics& from,
                         const Harmonics& to)
 {
-  std::map<std::pair<int, int>, Eigen::Index> place;
+  std::map<std::pair<double, double>, Eigen::Index> place;
   for (const auto& [k_1, k_2] : from.list()) {
     const auto h = static_cast<Eigen::Index>(place.size());
     place[{k_1, k_2}] = h;

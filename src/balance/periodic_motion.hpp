@@ -18,11 +18,18 @@ namespace rotor_stator {
     frequency -p for p < 0. */
 using Images = std::vector<int>;
 
-/** One frequency of a motion, k_1 ω + k_2 n ω_cage. */
+/** One frequency of a motion, k_1 ω + k_2 n ω_cage; halves where it repeats itself after two turns and two
+    passages only. */
 struct Harmonic {
-  int k_1, k_2;
+  double k_1, k_2;
 
   bool operator==(const Harmonic&) const = default;
+};
+
+/** With two frequencies the samples lie on the line θ_2 = z θ_1 (torus_line.hpp), which closes after
+    so many turns. */
+struct TorusLine {
+  int z = 0, samples = 0, turns = 1;
 };
 
 /** The frequencies of a motion, the mean first. Motions with the same ones share the list. */
@@ -41,8 +48,8 @@ public:
   /** How many they are beside the mean: m where they are those of Eq. 9. */
   int count() const { return list_ ? static_cast<int>(list_->size()) - 1 : 0; }
 
-  /** h = k_1 + z k_2 modulo N, for each of them. */
-  Images images(int z, int samples) const;
+  /** h = k_1 + z k_2 times the line's turns, modulo N, for each of them. */
+  Images images(const TorusLine& line, int samples) const;
 
   /** Coefficients of one displacement: the mean, and a cosine and a sine of each other frequency. */
   Eigen::Index coefficients() const
@@ -55,7 +62,13 @@ private:
 };
 
 /** How Newton's iteration ended. */
-enum class NewtonEnd { converged, too_many_iterations, no_decrease, singular };
+enum class NewtonEnd {
+  converged,
+  too_many_iterations,
+  no_decrease,
+  singular,
+  not_begun  ///< the coefficients are those of the start
+};
 
 struct NewtonReport {
   NewtonEnd end = NewtonEnd::too_many_iterations;
@@ -86,7 +99,7 @@ struct PeriodicMotion {
   double omega = 0;  ///< [rad/s]
   Harmonics harmonics = {};
   int samples = 0;              ///< N
-  int line = 0;                 ///< z, with two frequencies (torus_line.hpp)
+  TorusLine line = {};          ///< with two frequencies
   Eigen::VectorXd x = {};       ///< coefficients of u [m], d for each one of Eq. 9
   Eigen::MatrixXd force = {};   ///< those of the nonlinear force at u [N], d × (2m+1)
   Eigen::MatrixXd bodies = {};  ///< series of x_s, y_s, x_r, y_r [m], where asked for

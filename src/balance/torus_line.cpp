@@ -11,9 +11,10 @@ namespace rotor_stator {
 
 Bearing on(const TorusLine& line, Bearing bearing)
 {
-  const bool is_on_it =
-      has_rotation_period(bearing) && std::lround(passages_per_turn(bearing)) == line.z;
-  if (!is_on_it) bearing.cage_speed_ratio = static_cast<double>(line.z) / bearing.balls;
+  const bool is_on_it = line.turns == 1 && has_rotation_period(bearing) &&
+                        std::lround(passages_per_turn(bearing)) == line.z;
+  if (!is_on_it)
+    bearing.cage_speed_ratio = static_cast<double>(line.turns * line.z) / bearing.balls;
   return bearing;
 }
 
@@ -41,7 +42,8 @@ Parameters over_passage(Parameters parameters)
 namespace {
 
 /** One of each pair of opposite ones, that of positive order, ascending after the mean. */
-Harmonics ascending(const std::set<std::pair<int, int>>& pairs, const Bearing& bearing)
+Harmonics ascending(const std::set<std::pair<double, double>>& pairs,
+                    const Bearing& bearing)
 {
   std::vector<Harmonic> list;
   for (const auto& [k_1, k_2] : pairs) {
@@ -59,7 +61,7 @@ Harmonics ascending(const std::set<std::pair<int, int>>& pairs, const Bearing& b
 
 Harmonics sidebands(const Bearing& bearing, int orders, int passages)
 {
-  std::set<std::pair<int, int>> pairs;
+  std::set<std::pair<double, double>> pairs;
   for (int k = -passages; k <= passages; ++k)
     for (int l = std::abs(k) - passages; l <= passages - std::abs(k); ++l)
       for (int a = -orders; a <= orders; ++a)
@@ -75,13 +77,14 @@ Harmonics joined(const Harmonics& first, const Harmonics& others)
   return Harmonics(std::move(list));
 }
 
-Harmonics up_to(double order, int passages, const Bearing& bearing)
+Harmonics up_to(double order, int passages, const Bearing& bearing, int parts)
 {
-  std::set<std::pair<int, int>> pairs;
-  for (int k_2 = -passages; k_2 <= passages; ++k_2) {
+  std::set<std::pair<double, double>> pairs;
+  const double part = 1.0 / parts;
+  for (double k_2 = -passages; k_2 <= passages; k_2 += part) {
     const double passing = k_2 * passages_per_turn(bearing);
-    for (int k_1 = static_cast<int>(std::ceil(-order - passing)); k_1 + passing <= order;
-         ++k_1)
+    for (double k_1 = part * std::ceil(parts * (-order - passing));
+         k_1 + passing <= order; k_1 += part)
       pairs.insert({k_1, k_2});
   }
   return ascending(pairs, bearing);
@@ -92,6 +95,7 @@ namespace {
 /** Looks for z with one number of samples. */
 struct LineSearch {
   std::vector<Harmonic> kept, others;
+  int turns;
   std::vector<int> taken_by = {};  ///< the last z that took this image
 
   bool is_free(int z, int n)
@@ -103,9 +107,9 @@ struct LineSearch {
         others, [&](Harmonic h) { return taken_by[image(h, z, n)] == z; });
   }
 
-  static std::size_t image(Harmonic h, int z, int n)
+  std::size_t image(Harmonic h, int z, int n) const
   {
-    const auto p = std::abs((h.k_1 + static_cast<long>(z) * h.k_2) % n);
+    const auto p = std::abs(std::lround(turns * (h.k_1 + z * h.k_2)) % n);
     return static_cast<std::size_t>(std::min(p, n - p));
   }
 };
@@ -113,9 +117,9 @@ struct LineSearch {
 }  // namespace
 
 TorusLine line_without_images(const Harmonics& kept, const Harmonics& others,
-                              int least_samples)
+                              int least_samples, int turns)
 {
-  LineSearch search{kept.list(), others.list()};
+  LineSearch search{kept.list(), others.list(), turns};
   std::erase_if(search.others, [&](Harmonic h) {
     return std::ranges::find(search.kept, h) != search.kept.end();
   });
@@ -123,7 +127,7 @@ TorusLine line_without_images(const Harmonics& kept, const Harmonics& others,
        n = fast_transform_size(n + n / 16 + 1)) {
     search.taken_by.assign(static_cast<std::size_t>(n / 2 + 1), 0);
     for (int z = 1; z <= n / 2; ++z)
-      if (search.is_free(z, n)) return {z, n};
+      if (search.is_free(z, n)) return {z, n, turns};
   }
 }
 

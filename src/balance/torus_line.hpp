@@ -10,18 +10,14 @@ Its coefficients, and those of the force at them, do not depend on the two frequ
 taken along any closed line θ_2 = z θ_1 with z whole: there the harmonic (k_1, k_2) is the harmonic k_1 + z k_2 of
 one real transform (artificial frequency mapping: Kundert 1990; a rank-1 lattice: Kämmerer, Potts and
 Volkmer 2015). The true frequencies k_1 ω + k_2 n ω_cage enter the linear blocks alone. N samples tell two
-harmonics apart unless one is an image of the other: h' = ±h modulo N. */
+harmonics apart unless one is an image of the other: h' = ±h modulo N. A motion that has doubled also has halves
+of k_1 and k_2: the line then closes after two turns. */
 #pragma once
 
 #include "balance/periodic_motion.hpp"
 #include "model/parameters.hpp"
 
 namespace rotor_stator {
-
-/** The line, and how many samples are taken along it. */
-struct TorusLine {
-  int z, samples;
-};
 
 /** The bearing whose cage turns so that samples at equal steps of ωt lie on the line. */
 Bearing on(const TorusLine& line, Bearing bearing);
@@ -40,8 +36,8 @@ Parameters over_passage(Parameters parameters);
     orders, none negative. */
 Harmonics sidebands(const Bearing& bearing, int orders, int passages);
 
-/** All up to an order, with |k_2| ≤ `passages`. */
-Harmonics up_to(double order, int passages, const Bearing& bearing);
+/** All up to an order, with |k_2| ≤ `passages`; whole numbers, or with `parts` = 2 halves. */
+Harmonics up_to(double order, int passages, const Bearing& bearing, int parts = 1);
 
 /** `first`, then what else `others` have. */
 Harmonics joined(const Harmonics& first, const Harmonics& others);
@@ -49,6 +45,6 @@ Harmonics joined(const Harmonics& first, const Harmonics& others);
 /** A line with few samples, at least so many, on which no image of any of the `others` falls on one of the `kept`, nor
     of one of these on another. Kept ones among the others do no harm. */
 TorusLine line_without_images(const Harmonics& kept, const Harmonics& others,
-                              int least_samples = 32);
+                              int least_samples = 32, int turns = 1);
 
 }  // namespace rotor_stator

@@ -84,19 +84,56 @@ AdaptiveMotion solved(const Parameters& parameters, const MotionRequest& request
   return motion::solve_adaptively(parameters, omega, settings_of(request), budget);
 }
 
-/** The same for a motion with two frequencies. */
-void note_torus_verdict(Table& table, const Parameters& parameters,
-                        const PeriodicMotion& solution, double tolerance,
-                        const OperationBudget& budget)
+/** A solution with two frequencies, and what the machine says of it. */
+struct JudgedTorus {
+  AdaptiveMotion at;
+  std::optional<motion::TorusVerdict> verdict = {};
+  std::string undecided = {};  ///< why there is none
+};
+
+/** One that the machine leaves gives way to the motion that Eq. 7 settles on, where that is found. */
+JudgedTorus judged(const Parameters& parameters, const MotionRequest& request,
+                   const AdaptiveSettings& settings, const OperationBudget& budget)
 {
-  motion::TorusVerdict verdict;
-  try {
-    verdict = motion::verdict_on_torus(parameters, solution, tolerance, budget);
-  } catch (const NoSolution& none) {
-    table.note(std::string("stability: undecided; ") + none.what());
+  const double omega = angular(request.frequency);
+  const auto found = [&](bool settled_only) {
+    JudgedTorus one{
+        motion::find_quasi_periodic(parameters, omega, settings, budget, settled_only)};
+    if (!one.at.reached || !request.stability) return one;
+    try {
+      one.verdict =
+          motion::verdict_on_torus(parameters, one.at.motion, settings.tolerance, budget);
+    } catch (const NoSolution& none) {
+      one.undecided = none.what();
+    }
+    return one;
+  };
+  JudgedTorus first = found(false);
+  if (!first.verdict || first.verdict->stays || !first.at.motion.error->harmonics)
+    return first;
+  JudgedTorus second = found(true);
+  if (second.verdict && second.verdict->stays) return second;
+  /** All neighbouring motions come to one that is near, but not within the tolerance. */
+  constexpr double near = 0.05;
+  if (first.verdict->rate + first.verdict->uncertainty < 0 &&
+      first.verdict->away < near) {
+    first.at.reached = false;
+    first.at.end = format(
+        "integration from the solution with %d harmonics comes to a motion %.2g of "
+        "the largest displacement away",
+        first.at.motion.harmonics.count(), first.verdict->away);
+  }
+  return first;
+}
+
+void note_torus_verdict(Table& table, const JudgedTorus& judged)
+{
+  if (!judged.verdict) {
+    table.note("stability: undecided; " + judged.undecided);
     table.note("regime: undecided");
     return;
   }
+  const motion::TorusVerdict& verdict = *judged.verdict;
   table.note(
       format("stability: %s; neighbouring motions of Eq. 7 from the solution part by "
              "%.3g +- %.2g a turn",
@@ -120,8 +157,8 @@ FoundMotion quasi_periodic_motion(const Parameters& parameters,
         "a whole number");
   AdaptiveSettings settings{.tolerance = request.tolerance.value_or(1e-3),
                             .newton = {.tolerance = request.newton_tolerance}};
-  const AdaptiveMotion at = motion::find_quasi_periodic(
-      parameters, angular(request.frequency), settings, budget);
+  const JudgedTorus judged = explore::judged(parameters, request, settings, budget);
+  const AdaptiveMotion& at = judged.at;
   if (!at.reached)
     throw NoSolution(format("%s: tolerance %g not reached at %g Hz: %s",
                             parameters.file.c_str(), settings.tolerance,
@@ -132,10 +169,10 @@ FoundMotion quasi_periodic_motion(const Parameters& parameters,
       format("method: aft, two frequencies: omega and n omega_cage = %.9g omega; %d "
              "harmonics, %ld unknowns, z = %d, N = %d, relative tolerance of Newton %g",
              passages, solution.harmonics.count(), static_cast<long>(solution.x.size()),
-             solution.line, solution.samples, level_tolerance(settings)));
+             solution.line.z, solution.samples, level_tolerance(settings)));
   std::string list;
   for (const auto& [k_1, k_2] : solution.harmonics.list())
-    list += format(" (%d,%d)", k_1, k_2);
+    list += format(" (%g,%g)", k_1, k_2);
   table.note("harmonics (k_1,k_2) of k_1 omega + k_2 n omega_cage:" + list);
   table.note("newton: from " + solution.start + ", " + solution.newton.reason());
   const std::string against =
@@ -149,7 +186,7 @@ FoundMotion quasi_periodic_motion(const Parameters& parameters,
              solution.error->displacement, solution.error->rms, against.c_str(),
              settings.tolerance));
   if (request.stability) {
-    note_torus_verdict(table, parameters, solution, settings.tolerance, budget);
+    note_torus_verdict(table, judged);
   } else {
     note_no_verdict(table);
   }

@@ -189,12 +189,14 @@ std::pair<PeriodicMotion, TorusLine> chosen_start(const Task& task)
     const AdaptiveMotion at = motion::find_quasi_periodic(
         task.machine, from + k * (to - from) / (speeds - 1),
         {.tolerance = 1e-3, .newton = task.settings.newton}, task.budget);
-    if (k == 0 && !at.reached)
+    /** The lines of an integrated motion are no point of a branch. */
+    const bool is_solved = at.reached && at.motion.found() && at.motion.line.turns == 1;
+    if (k == 0 && !is_solved)
       throw NoSolution(format("%s: no solution found at %g Hz: %s",
                               task.machine.file.c_str(), task.hertz(from),
                               at.end.c_str()));
     if (k == 0) start = at.motion;
-    if (at.reached) all = joined(all, at.motion.harmonics);
+    if (is_solved) all = joined(all, at.motion.harmonics);
   }
   start.x = project(start.x, 2, start.harmonics, all);
   start.harmonics = all;

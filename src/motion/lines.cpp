@@ -5,6 +5,7 @@
 #include <complex>
 #include <limits>
 #include <numbers>
+#include <numeric>
 #include <tuple>
 
 #include <Eigen/Cholesky>
@@ -277,20 +278,23 @@ namespace {
 /** A term as in BPFO, 2BPFO, 1X or 1/2X, where the multiple is h/K. */
 std::string term(int h, int denominator, const char* symbol)
 {
+  const int common = std::gcd(h, denominator);
+  h /= common;
+  denominator /= common;
   const std::string whole =
       h == 1 && denominator == 1 && symbol[0] != 'X' ? "" : format("%d", h);
   return whole + (denominator > 1 ? format("/%d", denominator) : "") + symbol;
 }
 
-/** h/K X + outer BPFO + inner BPFI. */
+/** h/K X + outer/L BPFO + inner BPFI. */
 struct Sum {
-  int h, denominator, outer, inner;
+  int h, denominator, outer, passing, inner;
 
   /** Smaller is shorter. */
   auto length() const
   {
     return std::tuple(static_cast<double>(std::abs(h)) / denominator +
-                          2 * (std::abs(outer) + std::abs(inner)),
+                          2.0 * std::abs(outer) / passing + 2 * std::abs(inner),
                       (h != 0) + (outer != 0) + (inner != 0), std::abs(inner));
   }
 
@@ -308,7 +312,7 @@ struct Sum {
         text += term(std::abs(multiple), of, symbol);
       };
       one(inner, 1, "BPFI");
-      one(outer, 1, "BPFO");
+      one(outer, passing, "BPFO");
       one(h, denominator, "X");
     };
     write(1);
@@ -317,12 +321,14 @@ struct Sum {
   }
 };
 
-/** The shortest with the multiple h/K of X in all: k_1 = h/K + n inner, k_2 = outer - inner. */
-void shorten(std::optional<Sum>& best, int h, int denominator, int k_2, int balls)
+/** The shortest with the multiple h/K of X in all: k_1 = h/K + n inner, k_2/L = outer/L - inner. */
+void shorten(std::optional<Sum>& best, int h, int denominator, int k_2, int passing,
+             int balls)
 {
   const int most = std::abs(h) / (denominator * balls) + 1;
   for (int inner = -most; inner <= most; ++inner) {
-    const Sum sum{h - denominator * balls * inner, denominator, k_2 + inner, inner};
+    const Sum sum{h - denominator * balls * inner, denominator, k_2 + passing * inner,
+                  passing, inner};
     if (!best || sum.length() < best->length()) best = sum;
   }
 }
@@ -338,22 +344,38 @@ LineName multiple_of(const char* symbol, double order, double unit, int most,
 
 }  // namespace
 
+namespace {
+
+/** The shortest in parts of X, and in as many parts of BPFO; |k_2| at most `most`. */
+std::optional<Sum> sum_of(double order, const Bearing& bearing, double tolerance,
+                          int parts, int passing, int most)
+{
+  std::optional<Sum> best;
+  for (int k_2 = -most * passing; k_2 <= most * passing; ++k_2) {
+    const double k_1 = order - k_2 * passages_per_turn(bearing) / passing;
+    const double h = std::round(parts * k_1);
+    if (std::abs(k_1 - h / parts) <= tolerance && std::abs(h) < 1e6)
+      shorten(best, static_cast<int>(h), parts, k_2, passing, bearing.balls);
+  }
+  return best;
+}
+
+LineName name_of(const Sum& sum, int balls)
+{
+  return {static_cast<double>(sum.h) / sum.denominator + balls * sum.inner,
+          balls * (static_cast<double>(sum.outer) / sum.passing - sum.inner), 0,
+          sum.name()};
+}
+
+}  // namespace
+
 LineName name_of(double order, const Bearing& bearing, double tolerance, int passages)
 {
-  const int fractions = has_rotation_period(bearing) ? 8 : 1;
-  std::optional<Sum> best;
-  for (int denominator = 1; denominator <= fractions && !best; ++denominator)
-    for (int k_2 = -passages; k_2 <= passages; ++k_2) {
-      const double k_1 = order - k_2 * passages_per_turn(bearing);
-      const double h = std::round(denominator * k_1);
-      if (std::abs(k_1 - h / denominator) <= tolerance && std::abs(h) < 1e6)
-        shorten(best, static_cast<int>(h), denominator, k_2, bearing.balls);
-    }
-  if (best)
-    return {
-        static_cast<double>(best->h) / best->denominator + bearing.balls * best->inner,
-        static_cast<double>(bearing.balls) * (best->outer - best->inner), 0,
-        best->name()};
+  const bool is_periodic = has_rotation_period(bearing);
+  const int fractions = is_periodic ? 8 : 1;
+  for (int parts = 1; parts <= fractions; ++parts)
+    if (const auto sum = sum_of(order, bearing, tolerance, parts, 1, passages))
+      return name_of(*sum, bearing.balls);
   const KinematicOrders orders = kinematic_orders(bearing);
   LineName name = multiple_of("FTF", order, orders.cage, bearing.balls, tolerance);
   name.cage = std::round(order / orders.cage);
@@ -361,7 +383,12 @@ LineName name_of(double order, const Bearing& bearing, double tolerance, int pas
     name = multiple_of("BSF", order, orders.spin, 4, tolerance);
     name.spin = std::round(order / orders.spin);
   }
-  return name.name.empty() ? LineName{} : name;
+  if (!name.name.empty()) return name;
+  /** A torus that has doubled has halves of both; as many would name anything. */
+  if (!is_periodic)
+    if (const auto sum = sum_of(order, bearing, tolerance, 2, 2, passages / 8))
+      return name_of(*sum, bearing.balls);
+  return {};
 }
 
 }  // namespace rotor_stator::motion

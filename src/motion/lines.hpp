@@ -55,7 +55,8 @@ struct LineName {
   double order(const Bearing& bearing) const;
 };
 
-/** The shortest name of an order, at most `tolerance` off, with k_cage at most n `passages`. */
+/** The shortest name of an order, at most `tolerance` off, with k_cage at most n `passages`; halves of both frequencies of a
+    torus up to an eighth of that. */
 LineName name_of(double order, const Bearing& bearing, double tolerance, int passages);
 
 /** 4-term window of Blackman and Harris at a share of its length; its side lobes are below -92 dB. */

@@ -13,7 +13,7 @@ namespace rotor_stator::motion {
 
 namespace {
 
-constexpr int points_per_turn = 128, window_turns = 160;
+constexpr int window_turns = 160;
 
 /** Turns until the slower of both suspensions has damped a disturbance to 1e-5. Throws NoSolution when they are too
     many. */
@@ -91,6 +91,8 @@ private:
     if (turn_ > 0) return;
     first_ = settling_turns(parameters_, omega_);
     state_ = static_start(parameters_);
+    const bool is_fast = contact_frequency(parameters_) < 8 * omega_;
+    const int points_per_turn = is_fast ? 64 : 128;
     const TimeStepper stepper = make_stepper(
         parameters_, omega_,
         {.method = "rk4", .intervals_per_period = points_per_turn, .budget = budget_});
@@ -115,7 +117,8 @@ private:
   SmallVector line(double order) const
   {
     constexpr double turn = 2 * std::numbers::pi;
-    const auto step = std::polar(1.0, -turn * order / points_per_turn);
+    const auto step = std::polar(
+        1.0, -turn * order * window_turns / static_cast<double>(weighted_.rows()));
     std::complex<double> wave =
         std::polar(1.0, -turn * std::fmod(order * static_cast<double>(first_), 1.0));
     Eigen::Vector2cd amplitude = Eigen::Vector2cd::Zero();
@@ -148,7 +151,9 @@ Motion motion_of(const Parameters& parameters, const PeriodicMotion& solution, i
     for (Eigen::Index k = 0; k < n; ++k) {
       const double at = static_cast<double>(k % points) / points;
       const double since = static_cast<double>(first + k / points) + at;
-      const double angle = turn * (k_1 * at + k_2 * std::fmod(passages * since, 1.0));
+      const double angle =
+          turn * (k_1 * (at + static_cast<double>((first + k / points) % 2)) +
+                  k_2 * std::fmod(passages * since, 2.0));
       samples.row(k) += std::cos(angle) * cosine + std::sin(angle) * sine;
     }
   }
@@ -223,13 +228,14 @@ TorusVerdict verdict_on_torus(const Parameters& parameters,
 
 AdaptiveMotion find_quasi_periodic(const Parameters& parameters, double omega,
                                    const AdaptiveSettings& settings,
-                                   const OperationBudget& budget)
+                                   const OperationBudget& budget, bool settled_only)
 {
   SettledMotion settled(parameters, omega, budget);
   return solve_on_chosen(
       parameters, omega, settings,
       {[&](const Harmonics& harmonics) { return settled.lines(harmonics); },
-       [&](const PeriodicMotion& solution) { return settled.error(solution); }},
+       [&](const PeriodicMotion& solution) { return settled.error(solution); },
+       settled_only},
       budget);
 }
 

@@ -18,10 +18,12 @@ Motion motion_of(const Parameters& parameters, const PeriodicMotion& solution, i
 Eigen::VectorXd half_peak_to_peak_of_torus(const Parameters& parameters,
                                            const PeriodicMotion& solution);
 
-/** The solution with two frequencies at speed `omega` [rad/s]. */
+/** The solution with two frequencies at speed `omega` [rad/s]; with `settled_only` the one that Eq. 7 settles on
+    from rest. */
 AdaptiveMotion find_quasi_periodic(const Parameters& parameters, double omega,
                                    const AdaptiveSettings& settings,
-                                   const OperationBudget& budget = {});
+                                   const OperationBudget& budget = {},
+                                   bool settled_only = false);
 
 /** What two neighbouring motions of Eq. 7 from a solution with two frequencies say of it. */
 struct TorusVerdict {

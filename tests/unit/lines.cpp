@@ -100,7 +100,8 @@ TEST_CASE("the name of an order is the shortest sum")
   CHECK(name(11.12, 0.43).name == "BPFI+2X");
   CHECK(name(2.24, 0.43).name == "BPFI-BPFO");
   CHECK(name(0.12, 0.43).name == "7X-BPFO");
-  CHECK(name(0.5, 0.43).name.empty());
+  CHECK(name(0.31, 0.43).name.empty());
+  CHECK(name(9 - 0.5 * 16 * 0.4173, 0.4173).name == "9X-1/2BPFO");
   const LineName inner = name(9.12 + 1, 0.43);
   CHECK(inner.rotation == 17);
   CHECK(inner.cage == -16);

@@ -92,8 +92,10 @@ TEST_CASE("No image falls on a harmonic that is kept")
 {
   const Bearing bearing = machine(1, 16, 0.4173).bearing;
   const Harmonics kept = sidebands(bearing, 3, 1), others = sidebands(bearing, 12, 3);
-  const auto [z, n] = line_without_images(kept, others);
-  const auto place = [&](Harmonic h) { return ((h.k_1 + z * h.k_2) % n + n) % n; };
+  const auto [z, n, turns] = line_without_images(kept, others);
+  const auto place = [&](Harmonic h) {
+    return ((std::lround(h.k_1 + z * h.k_2)) % n + n) % n;
+  };
   for (Harmonic a : kept.list())
     for (const Harmonics& set : {kept, others})
       for (Harmonic b : set.list()) {

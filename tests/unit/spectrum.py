@@ -140,6 +140,20 @@ class Spectrum(Case):
         self.assertTrue({"BPFO-1X", "BPFO", "2BPFO"} <= set(table["name"]))
         self.assertNotIn("aft, m = 24,", self.spectrum(MACHINE, 30, "--no-stability", "--tolerance", 1e-2).header)
 
+    def test_a_torus_that_has_doubled(self):
+        """Halves of the orders and of the passages, by harmonic balance as by integration. Without them harmonic balance
+        has no line at (13 - BPFO)/2, or another amplitude."""
+        text = with_cage(0.3983).replace("balls = 16", "balls = 9")
+        with_halves = [self.spectrum(text, 88.2, *options) for options in (["--tolerance", "1e-3"], ["--method", "rk4"])]
+        self.assertIn("# stability: stable", with_halves[0].header)
+        rotation, cage = with_halves[0]["k_rotation"], with_halves[0]["k_cage"]
+        np.testing.assert_allclose(with_halves[0]["order"], rotation + 0.3983 * cage, rtol=1e-12)
+        self.assertEqual((rotation[1], cage[1]), (6.5, -4.5))
+        balance, integrated = (self.by_name(table) for table in with_halves)
+        for name in list(integrated)[:8]:
+            np.testing.assert_allclose(balance[name], integrated[name], atol=1e-3 * integrated["1X"].max())
+            np.testing.assert_allclose(balance[name], integrated[name], rtol=0.05, err_msg=name)
+
     def test_motion_of_two_turns(self):
         """Half orders, by both ways."""
         balance = self.spectrum(MACHINE, 20, "--subharmonic", 2, "--no-stability")
