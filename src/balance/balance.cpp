@@ -59,9 +59,9 @@ Balance::Balance(Problem problem, Harmonics harmonics)
       m_(harmonics_.count()), images_(harmonics_.images(problem_.line, problem_.samples)),
       transform_(problem_.samples), omega_(std::numeric_limits<double>::quiet_NaN()),
       a_(2 * problem_.dofs, 2 * problem_.dofs * (m_ + 1)), b_(a_.rows(), a_.cols()),
-      c_(problem_.dofs, harmonics_.coefficients()), series_(c_), force_series_(c_),
-      product_series_(c_), residual_(c_.size()), speed_derivative_(c_.size()),
-      steps_(std::make_unique<StepSolver>())
+      c_(problem_.dofs, harmonics_.coefficients()), blocks_(m_ + 1), series_(c_),
+      force_series_(c_), product_series_(c_), residual_(c_.size()),
+      speed_derivative_(c_.size()), steps_(std::make_unique<StepSolver>())
 {
 }
 Balance::~Balance() = default;
@@ -71,8 +71,9 @@ void Balance::refresh_blocks(double omega)
 {
   if (omega == omega_) return;
   const auto size = a_.rows();
+  evaluated_ = false;
   for (int h = 0; h <= m_; ++h) {
-    const LinearBlock block = problem_.linear(omega, harmonics_.list()[h]);
+    const LinearBlock& block = blocks_[h] = problem_.linear(omega, harmonics_.list()[h]);
     expand(block.a, a_.middleCols(h * size, size));
     expand(block.b, b_.middleCols(h * size, size));
     put_amplitude(c_, h, block.c);
@@ -143,8 +144,9 @@ Eigen::MatrixXd Balance::balancing_force(const Eigen::VectorXd& x, double omega)
 {
   const Eigen::Map<const Eigen::MatrixXd> series(x.data(), c_.rows(), c_.cols());
   Eigen::MatrixXd force(c_.rows(), c_.cols());
+  refresh_blocks(omega);
   for (int h = 0; h <= m_; ++h) {
-    const LinearBlock block = problem_.linear(omega, harmonics_.list()[h]);
+    const LinearBlock& block = blocks_[h];
     const SmallVector rest = block.c - block.a * amplitude(series, h);
     put_amplitude(force, h, block.b.partialPivLu().solve(rest));
   }
@@ -156,7 +158,7 @@ const Eigen::VectorXd& Balance::speed_derivative(const Eigen::VectorXd& x, doubl
   residual(x, omega, With::force);
   Eigen::Map<Eigen::MatrixXd> slope(speed_derivative_.data(), c_.rows(), c_.cols());
   for (int h = 0; h <= m_; ++h) {
-    const LinearBlock block = problem_.linear(omega_, harmonics_.list()[h]);
+    const LinearBlock& block = blocks_[h];
     put_amplitude(slope, h,
                   block.a_slope * amplitude(series_, h) +
                       block.b_slope * amplitude(force_series_, h) - block.c_slope);

@@ -199,7 +199,8 @@ private:
   double omega_;
   Eigen::MatrixXd a_,
       b_;  ///< A_h and B_h as real 2d × 2d blocks side by side, in the list's order
-  Eigen::MatrixXd c_;  ///< d × (2m+1)
+  Eigen::MatrixXd c_;                ///< d × (2m+1)
+  std::vector<LinearBlock> blocks_;  ///< what all three are made of
   Eigen::MatrixXd series_, samples_, force_samples_, stiffness_samples_, force_series_;
   Eigen::MatrixXd product_samples_, product_force_, product_series_;
   Eigen::MatrixXcd spectra_;   ///< κ_p of each stiffness series

@@ -64,6 +64,14 @@ std::array<LoadedBody, 2> stator_and_rotor(const Parameters& p, double omega, Ha
           loaded(p.rotor, p.gravity, p.unbalance, omega, p.turns, h, order)};
 }
 
+SmallMatrix isotropic(Complex value)
+{
+  SmallMatrix block(2, 2);
+  block(0, 0) = block(1, 1) = value;
+  block(0, 1) = block(1, 0) = 0;
+  return block;
+}
+
 LinearBlock condensed_block(const Parameters& parameters, double ball_stiffness,
                             double omega, Harmonic h)
 {
@@ -73,12 +81,11 @@ LinearBlock condensed_block(const Parameters& parameters, double ball_stiffness,
   const Varying product = z_s * z_r, sum = z_s + z_r;
   const Varying sigma = product.modulus() + Varying{ball_stiffness, 0} * sum.modulus();
   const Varying a = product.over(sigma), b = sum.over(sigma);
-  const SmallMatrix unit = SmallMatrix::Identity(2, 2);
-  LinearBlock block{.a = a.value * unit,
-                    .b = b.value * unit,
+  LinearBlock block{.a = isotropic(a.value),
+                    .b = isotropic(b.value),
                     .c = SmallVector(2),
-                    .a_slope = a.slope * unit,
-                    .b_slope = b.slope * unit,
+                    .a_slope = isotropic(a.slope),
+                    .b_slope = isotropic(b.slope),
                     .c_slope = SmallVector(2)};
   for (int axis = 0; axis < 2; ++axis) {
     const Varying c = (z_s * f_r[axis] - z_r * f_s[axis]).over(sigma);
