@@ -86,15 +86,19 @@ struct Choosing {
   /** The same from the lines of what Eq. 7 settles on, of whole orders or also of halves. */
   void from_settled()
   {
+    std::string why;
     for (const int turns : {1, 2}) {
       take_lines(up_to(2 * highest_order, 8, bearing, turns), turns);
       solve_on_largest();
       if (!result.reached) {
+        why = result.end;
         result.motion = finer;
         measure();
       }
       if (result.reached) return drop_small();
     }
+    result.end = why + format("; with all %d lines of time integration it is %.2g",
+                              finer.harmonics.count(), result.motion.error->larger());
   }
 
   void take_lines(const Harmonics& all, int turns)
