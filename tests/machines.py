@@ -6,6 +6,7 @@ A machine is the tables of a parameter file, as a dictionary of dictionaries. `e
 Usage: tests/machines.py SEED > machine.toml
 """
 import copy
+import math
 import random
 import sys
 
@@ -51,6 +52,22 @@ def extreme_machine(dice):
         machine["bearing"]["balls"] = dice.choice(BALLS)
     if one_in(dice, 8):
         machine["bearing"]["cage_speed_ratio"] = 0.4321
+    return machine
+
+
+def random_machine(dice):
+    """A machine like those that are built: ten times more or less of most values."""
+    def between(low, high):
+        return float(f"{math.exp(dice.uniform(math.log(low), math.log(high))):.4g}")
+    balls = dice.choice([8, 9, 10, 12, 14, 16, 18, 20])
+    machine = {name: dict(table) for name, table in SET_1.items()}
+    for body, masses, frequencies in (("stator", (5, 60), (150, 900)), ("rotor", (5, 80), (60, 400))):
+        machine[body] |= {"mass_kg": between(*masses), "natural_frequency_rad_per_s": between(*frequencies),
+                          "damping_ratio": between(0.01, 0.1)}
+    machine["rotor"]["unbalance_kg_m"] = between(0.003, 0.1)
+    machine["bearing"] |= {"balls": balls, "contact_stiffness_N_per_m1p5": between(1e9, 3e11),
+                           "radial_clearance_m": between(3e-6, 2e-4),
+                           "cage_speed_ratio": dice.randint(math.ceil(0.35 * balls), balls // 2) / balls}
     return machine
 
 

@@ -108,22 +108,21 @@ JudgedTorus judged(const Parameters& parameters, const MotionRequest& request,
     }
     return one;
   };
-  JudgedTorus first = found(false);
-  if (!first.verdict || first.verdict->stays || !first.at.motion.error->harmonics)
-    return first;
-  JudgedTorus second = found(true);
-  if (second.verdict && second.verdict->stays) return second;
-  /** All neighbouring motions come to one that is near, but not within the tolerance. */
+  JudgedTorus best = found(false);
+  const auto leaves = [&] { return best.verdict && !best.verdict->stays; };
+  if (leaves() && best.at.motion.error->harmonics > 0) {
+    JudgedTorus settled = found(true);
+    if (settled.verdict && settled.verdict->stays) best = std::move(settled);
+  }
   constexpr double near = 0.05;
-  if (first.verdict->rate + first.verdict->uncertainty < 0 &&
-      first.verdict->away < near) {
-    first.at.reached = false;
-    first.at.end = format(
+  if (leaves() && best.verdict->away < near && !best.verdict->unstable()) {
+    best.at.reached = false;
+    best.at.end = format(
         "integration from the solution with %d harmonics comes to a motion %.2g of "
         "the largest displacement away",
-        first.at.motion.harmonics.count(), first.verdict->away);
+        best.at.motion.harmonics.count(), best.verdict->away);
   }
-  return first;
+  return best;
 }
 
 void note_torus_verdict(Table& table, const JudgedTorus& judged)

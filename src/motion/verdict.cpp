@@ -109,7 +109,15 @@ private:
     const double away =
         (vector_of(state) - vector_of(start_)).head<4>().cwiseAbs().maxCoeff() / size_;
     nearest_ = std::min(nearest_, away);
-    return away <= same_motion;
+    return away <= reach();
+  }
+
+  /** A motion ten times as far away as the estimated error is another one. */
+  double reach() const
+  {
+    const auto& error = solution_.error;
+    if (!error || !error->settled) return same_motion;
+    return std::clamp(10 * error->larger(), 1e-3, same_motion);
   }
 
   /** Four times as many harmonics where Newton finds a solution with them, else as many as it finds one with; false

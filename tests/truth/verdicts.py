@@ -17,7 +17,7 @@ from pathlib import Path
 import numpy as np
 
 sys.path.insert(0, str(Path(__file__).parents[1]))
-from machines import SET_1, entries, written  # noqa: E402
+from machines import entries, random_machine, written  # noqa: E402
 from support.explore import Case  # noqa: E402
 
 JUDGE = Path(os.environ.get("BUILD", "build"), "tests", "judge").resolve()
@@ -32,22 +32,6 @@ FALSELY_STABLE = [(1, 12.5, 6), (1, 12.5, 8), (1, 13, 6), (1, 13, 10), (1, 13.5,
                   (1, 14, 8), (1, 14, 10), (1, 14.5, 6), (1, 14.5, 8), (1, 14.5, 10), (1, 20, 6), (1, 20, 8), (1, 20, 10),
                   (1, 54, 6), (1, 54, 8), (1, 54, 10), (2, 9.5, 10), (2, 38.5, 8), (2, 39, 6), (2, 39, 8), (2, 57, 6),
                   (2, 57, 8), (2, 57, 10), (2, 60, 6), (2, 60, 8), (2, 37.5, 8)]
-
-
-def random_machine(dice):
-    """A machine like those that are built: ten times more or less of most values."""
-    def between(low, high):
-        return float(f"{math.exp(dice.uniform(math.log(low), math.log(high))):.4g}")
-    balls = dice.choice([8, 9, 10, 12, 14, 16, 18, 20])
-    machine = {name: dict(table) for name, table in SET_1.items()}
-    for body, masses, frequencies in (("stator", (5, 60), (150, 900)), ("rotor", (5, 80), (60, 400))):
-        machine[body] |= {"mass_kg": between(*masses), "natural_frequency_rad_per_s": between(*frequencies),
-                          "damping_ratio": between(0.01, 0.1)}
-    machine["rotor"]["unbalance_kg_m"] = between(0.003, 0.1)
-    machine["bearing"] |= {"balls": balls, "contact_stiffness_N_per_m1p5": between(1e9, 3e11),
-                           "radial_clearance_m": between(3e-6, 2e-4),
-                           "cage_speed_ratio": dice.randint(math.ceil(0.35 * balls), balls // 2) / balls}
-    return machine
 
 
 class Judge:

@@ -134,6 +134,9 @@ class Values(Case):
         self.refused("orbit judges", "response", odd, *RESPONSE, "--stability")
         for periods in ("0", "1001", "1.5"):
             self.refused("--periods", "orbit", odd, *ORBIT, "--periods", periods)
+        # Nine turns are nearly a period: what is right over sixteen turns is not over 250.
+        slow = self.file("slow.toml", MACHINE.replace("cage_speed_ratio = 0.5", "cage_speed_ratio = 0.381966"))
+        self.refused("integration from the solution", "orbit", slow, "--frequency", 24.3, status=3)
         self.refused("the largest dropped harmonic is (", "orbit", odd, "--frequency", 18.7, "--tolerance", 1e-6, status=3)
 
     def test_a_plot_without_matplotlib_is_refused_before_the_work(self):

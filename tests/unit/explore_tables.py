@@ -80,12 +80,9 @@ class Motion(Case):
                 self.assertAlmostEqual(branch["amp_" + name][-1] / (np.ptp(orbit[name]) / 2), 1, delta=1e-3)
 
     def test_verdict_on_two_frequencies(self):
-        """At 98.6 Hz with c = 0.4173 the torus has doubled, and integration leaves the one that has not; at 24.3 Hz with
-        c = 0.381966 nine turns are nearly a period, and over 250 turns integration leaves what is within the tolerance
-        over sixteen."""
+        """At 98.6 Hz with c = 0.4173 the torus has doubled, and integration leaves the one that has not."""
         for cage, frequency, words in [(0.43, 45.4, ["stability: stable", "regime: quasi-periodic", "stays on"]),
-                                       (0.4173, 98.6, ["stability: stable", ",-0.5)", "stays on"]),
-                                       (0.381966, 24.3, ["stability: undecided", "regime: undecided", "leaves it"])]:
+                                       (0.4173, 98.6, ["stability: stable", ",-0.5)", "stays on"])]:
             odd = self.file("odd.toml", MACHINE.replace("cage_speed_ratio = 0.5", f"cage_speed_ratio = {cage}"))
             header = self.orbit(odd, frequency).header
             for word in words:

@@ -1,0 +1,65 @@
+"""The error that `--tolerance` promises, on random machines: what harmonic balance prints must be within the tolerance of a
+motion of Eq. 7 itself, which shooting closes (one frequency) or which integration follows for at least 256 turns (two).
+An estimate that overlooks a harmonic, or believes a solution that has not converged, would show.
+
+Usage: tests/truth/coverage.py [COUNT]   (from the project's root; 100 machines, 300 for the table of the page on cost)
+"""
+import math
+import random
+import re
+import sys
+import unittest
+from pathlib import Path
+
+sys.path.insert(0, str(Path(__file__).parents[1]))
+from machines import entries, random_machine, written  # noqa: E402
+from support.explore import Case  # noqa: E402
+
+TOLERANCES = [1e-2, 1e-3, 1e-4]
+COUNT = int(sys.argv.pop()) if len(sys.argv) > 1 and sys.argv[-1].isdigit() else 100
+
+
+def drawn(seed):
+    """A machine, half of them with two frequencies, and a speed [Hz]."""
+    dice = random.Random(seed)
+    machine = random_machine(dice)
+    if dice.random() < 0.5:
+        machine["bearing"]["cage_speed_ratio"] = round(dice.uniform(0.36, 0.46), 4)
+    return machine, round(dice.uniform(18, 140), 3)
+
+
+def distance(header):
+    """Of the solution from the machine's motion: the larger of the two errors, or None where none was found."""
+    found = re.search(r"# distance: (\S+) of .*?, (\S+) rms", header)
+    if found:
+        return max(map(float, found.groups()))
+    found = re.search(r"# from the solution: .* within (\S+) of", header)
+    return float(found.group(1)) if found else None
+
+
+class Coverage(Case):
+    def test_at_least_99_per_cent(self):
+        beyond, judged, unanswered = [], 0, 0
+        for seed in range(COUNT):
+            machine, speed = drawn(seed)
+            tolerance = TOLERANCES[seed % 3]
+            result = self.run_explore("orbit", self.file("random.toml", written(entries(machine))), "--frequency", speed,
+                                      "--points", 2, "--tolerance", tolerance)
+            self.assertIn(result.returncode, (0, 3), result.stderr)
+            if result.returncode == 3:
+                self.assertRegex(result.stderr, "not reached at .* Hz: ")
+                unanswered += 1
+                continue
+            off = distance(result.stdout)
+            if off is None or "regime: undecided" in result.stdout and off > 0.05:
+                continue  # the header says that nothing is known, or that the machine leaves it
+            judged += 1
+            if not off <= tolerance * (1 + 0.1):  # two digits are printed
+                beyond.append((seed, tolerance, off))
+        print(f"{COUNT} machines: {unanswered} without an answer, {judged} judged, beyond the tolerance: {beyond}")
+        self.assertGreater(judged, 0.6 * COUNT)
+        self.assertLessEqual(len(beyond), math.floor(0.01 * COUNT))
+
+
+if __name__ == "__main__":
+    unittest.main()
