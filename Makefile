@@ -36,7 +36,7 @@ packages := $(sort $(if $(filter-out list clean adopt format,$(goals)),cmake g++
   $(if $(filter test sanitize,$(goals)),catch2 chromium chromium-driver python3-hypothesis python3-selenium tidy) \
   $(if $(filter pdf,$(goals)),librsvg2-bin lmodern texlive-fonts-recommended texlive-latex-recommended texlive-luatex) \
   $(if $(filter peers,$(goals)),auto-07p gfortran libsundials-dev python3-scipy) \
-  $(if $(filter png,$(goals)),librsvg2-bin) $(if $(filter bench,$(goals)),libbenchmark-dev) \
+  $(if $(filter live,$(goals)),emscripten) $(if $(filter png,$(goals)),librsvg2-bin) $(if $(filter bench,$(goals)),libbenchmark-dev) \
   $(if $(filter format,$(goals)),clang-format-14))
 
 # The packages that dpkg does not have; nothing on systems without dpkg.
@@ -97,7 +97,7 @@ shown := $(patsubst %,data/generated/%.tsv,$(paper) truth_intervals) data/genera
   $(patsubst %,figures/generated/%.svg,$(filter $(paper) $(kept_printed),$(scripts)) truncation)
 endif
 .PHONY: deps all figures timing claims studies truth $(studies) adopt peers book article pdf png readme golden \
-  test sanitize bench format dist list clean
+  live test sanitize bench format dist list clean
 
 all: $(untimed) $(timings) $(claims) build/book/index.html build/paper/article.html  ## figures, tables and claims of both readings, pages, article
 deps:  ## install the Debian packages that the goals beside it need (goals=NAME: of a goal that is not made now)
@@ -191,8 +191,39 @@ book: build/book/index.html  ## the sources as pages, in reading order: build/bo
 
 # The index is written last; a page that would be the same is left as it is.
 build/book/index.html: $(wildcard paper/book/*) paper/guide.md paper/references.bib $(sources) $(untimed) $(timings) $(claims) \
-  $(wildcard data/reference/*.tsv)
+  $(wildcard data/reference/*.tsv) $(wildcard build/live/index.html)
 	$(PYTHON) paper/book/weave.py $(@D)
+# The live page: the rooms of the core and what of explore computes motions, by the compiler for the browser. That of
+# Debian 12 lacks parts of the library of C++20 (live/libcxx.hpp) and looks for its parser where only Debian's node does.
+live: build/live/index.html  ## the solver as a page for the browser, one file: build/live/index.html
+live_sources := $(wildcard $(patsubst %,src/%/*.cpp,model balance continuation integration stability motion)) \
+  $(filter-out src/io/program.cpp src/io/parallel.cpp,$(wildcard src/io/*.cpp)) \
+  $(patsubst %,src/explore/%.cpp,balance_motion branch_file orbit response) live/live.cpp
+live_objects := $(live_sources:%.cpp=build/live/%.o)
+live_flags := -O2 -ffp-contract=off -fno-math-errno -fexceptions
+export NODE_PATH ?= /usr/share/nodejs
+
+build/model/bearing_catalogue.hpp: data/bearings/deep_groove.toml CMakeLists.txt
+	@mkdir -p build; cmake --preset release > build/configure.log; touch $@
+build/live/include/toml++: build/model/bearing_catalogue.hpp $(sources)
+	@mkdir -p $(@D); ln -sfn $$(pkg-config --variable=includedir tomlplusplus)/toml++ $@; touch -h $@
+	sh src/io/stamp_revision.sh $$(sed -nE 's/^project.rotor_stator VERSION ([0-9.]+).*/\1/p' CMakeLists.txt) \
+	  "$(live_flags)" $(@D)/source_revision.hpp
+
+$(live_objects): build/live/%.o: %.cpp live/libcxx.hpp $(wildcard live/gsl/*.h) build/model/bearing_catalogue.hpp \
+  | build/live/include/toml++
+	@mkdir -p $(@D)
+	em++ -std=c++20 $(live_flags) -DEIGEN_DONT_PARALLELIZE -DROTOR_STATOR_EIGEN_FFT -include live/libcxx.hpp -Ilive -Isrc \
+	  -Ibuild/live/include -Ibuild $$(pkg-config --cflags eigen3) -MMD -c $< -o $@
+-include $(live_objects:.o=.d)
+
+build/live/core.js: $(live_objects)
+	em++ $(live_flags) $^ -o $@ -sMODULARIZE=1 -sEXPORT_NAME=createCore -sALLOW_MEMORY_GROWTH=1 -sTOTAL_STACK=2MB \
+	  -sENVIRONMENT=worker,node -sEXPORTED_RUNTIME_METHODS=ccall,UTF8ToString
+
+build/live/index.html: live/assemble.py build/live/core.js $(wildcard live/*.js live/*.css live/*.html live/presets/*) $(wildcard data/*.toml)
+	$(PYTHON) $< build/live/core.js build/live/core.wasm $@.tmp; mv $@.tmp $@
+
 article: build/paper/article.html  ## the article: build/paper/article.html
 build/paper/article.html: data/generated/article.md paper/render_article.py paper/article.html paper/book/comments.py \
   paper/book/book.css paper/book/figures.toml paper/references.bib \

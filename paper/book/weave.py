@@ -238,6 +238,8 @@ def chapters(pages):
 
 def index_markdown(found_chapters, pages):
     parts = [(HERE / "index.md").read_text(), folder_map(pages)]
+    if Path("build/live/index.html").exists():
+        parts.insert(1, "[The live page](../live/index.html) computes motions of a machine in the browser.")
     for chapter in found_chapters:
         if not chapter["found"]:
             continue

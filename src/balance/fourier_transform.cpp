@@ -1,12 +1,34 @@
 #include "balance/fourier_transform.hpp"
 
-#include <fftw3.h>
 #include <algorithm>
 #include <cmath>
 #include <mutex>
 #include <numeric>
+#ifdef ROTOR_STATOR_EIGEN_FFT
+#include <unsupported/Eigen/FFT>
+#else
+#include <fftw3.h>
+#endif
 
 namespace rotor_stator {
+
+#ifdef ROTOR_STATOR_EIGEN_FFT
+
+/** Eigen's own transform, where there is no FFTW: in the browser. */
+struct FourierTransform::Plans {
+  using Engine = Eigen::FFT<double>;
+  int samples;
+  Eigen::VectorXd time = Eigen::VectorXd::Zero(samples);
+  Eigen::VectorXcd frequency = Eigen::VectorXcd::Zero(samples / 2 + 1);
+  Engine engine{{}, Engine::Flag(Engine::HalfSpectrum | Engine::Unscaled)};
+  double operations = samples * (2.5 * std::log2(samples) + 5);
+
+  explicit Plans(int n) : samples(n) {}
+  void forward() { engine.fwd(frequency.data(), time.data(), samples); }
+  void backward() { engine.inv(time.data(), frequency.data(), samples); }
+};
+
+#else
 
 namespace {
 
@@ -38,7 +60,7 @@ struct FourierTransform::Plans {
   int samples;
   std::unique_ptr<double[], FftwFree> time;
   std::unique_ptr<std::complex<double>[], FftwFree> frequency;
-  Plan forward, backward;
+  Plan to_frequency, to_time;
   double operations;
 
   explicit Plans(int n)
@@ -47,13 +69,17 @@ struct FourierTransform::Plans {
   {
     auto* spectrum = reinterpret_cast<fftw_complex*>(frequency.get());
     const std::lock_guard lock(planner());
-    forward.reset(fftw_plan_dft_r2c_1d(n, time.get(), spectrum, FFTW_ESTIMATE));
-    backward.reset(fftw_plan_dft_c2r_1d(n, spectrum, time.get(), FFTW_ESTIMATE));
+    to_frequency.reset(fftw_plan_dft_r2c_1d(n, time.get(), spectrum, FFTW_ESTIMATE));
+    to_time.reset(fftw_plan_dft_c2r_1d(n, spectrum, time.get(), FFTW_ESTIMATE));
     double additions, products, both;
-    fftw_flops(forward.get(), &additions, &products, &both);
+    fftw_flops(to_frequency.get(), &additions, &products, &both);
     operations = additions + products + 2 * both + 5.0 * n;
   }
+  void forward() { fftw_execute(to_frequency.get()); }
+  void backward() { fftw_execute(to_time.get()); }
 };
+
+#endif
 
 int fast_transform_size(int at_least)
 {
@@ -121,7 +147,7 @@ void FourierTransform::to_samples(const Eigen::Ref<const Eigen::MatrixXd>& serie
 {
   const int n = plans_->samples;
   const auto harmonics = (series.cols() - 1) / 2;
-  std::complex<double>* spectrum = plans_->frequency.get();
+  std::complex<double>* spectrum = &plans_->frequency[0];
   samples.resize(n, series.rows());
   for (Eigen::Index row = 0; row < series.rows(); ++row) {
     std::fill(spectrum + 1, spectrum + n / 2 + 1, 0.0);
@@ -132,8 +158,8 @@ void FourierTransform::to_samples(const Eigen::Ref<const Eigen::MatrixXd>& serie
       spectrum[std::abs(p)] =
           0.5 * std::complex(series(row, 2 * h - 1), p < 0 ? sine : -sine);
     }
-    fftw_execute(plans_->backward.get());
-    std::copy_n(plans_->time.get(), n, samples.col(row).data());
+    plans_->backward();
+    std::copy_n(&plans_->time[0], n, samples.col(row).data());
   }
 }
 
@@ -157,11 +183,11 @@ Eigen::Map<const Eigen::VectorXcd> FourierTransform::spectrum(
     const Eigen::Ref<const Eigen::VectorXd>& column)
 {
   const int n = plans_->samples;
-  std::copy_n(column.data(), n, plans_->time.get());
-  fftw_execute(plans_->forward.get());
-  Eigen::Map<Eigen::VectorXcd> kappa(plans_->frequency.get(), n / 2 + 1);
+  std::copy_n(column.data(), n, &plans_->time[0]);
+  plans_->forward();
+  Eigen::Map<Eigen::VectorXcd> kappa(&plans_->frequency[0], n / 2 + 1);
   kappa *= 1.0 / n;
-  return {plans_->frequency.get(), n / 2 + 1};
+  return {&plans_->frequency[0], n / 2 + 1};
 }
 
 Eigen::MatrixXd sample_series(const Eigen::MatrixXd& series, int points)

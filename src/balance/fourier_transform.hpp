@@ -10,7 +10,7 @@ with φ = ωt. From its N samples at φ_k = 2πk/N the coefficients follow by
 $$X_0 = \frac{1}{N}\sum_k x(\varphi_k), \quad X_{2i-1} = \frac{2}{N}\sum_k x(\varphi_k)\cos
 i\varphi_k, \quad X_{2i} = \frac{2}{N}\sum_k x(\varphi_k)\sin i\varphi_k. \tag{13}$$
 
-Both ways are real discrete Fourier transforms (FFTW). Γ takes samples to coefficients, Γ⁻¹
+Both ways are real discrete Fourier transforms (FFTW; Eigen's with ROTOR_STATOR_EIGEN_FFT). Γ takes samples to coefficients, Γ⁻¹
 coefficients to samples (D-04: the paper's text names them the other way round). N is a
 parameter, at least 2m+1; the paper's own N = 2m+1 aliases (D-05); its arguments lack
 parentheses (D-21). */

@@ -105,6 +105,7 @@ struct Walk {
   void keep(BranchPoint point)
   {
     history.add(point);
+    if (settings.watch) settings.watch(point);
     branch.points.push_back(std::move(point));
   }
 

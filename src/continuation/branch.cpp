@@ -78,7 +78,9 @@ Correction ExtendedBalance::correct(const Eigen::VectorXd& direction,
   const double unknown_scale =
       balance_.problem().unknown_scale / settings_.arc_unknown_scale;
   Correction correction{.y = predicted};
-  auto& [motion, y, contraction] = correction;
+  PeriodicMotion& motion = correction.motion;
+  Eigen::VectorXd& y = correction.y;
+  double& contraction = correction.contraction;
   NewtonReport& report = motion.newton;
   Eigen::VectorXd right(n_ + 1);
   /** The condition is linear: after the first correction it holds to rounding. */

@@ -6,9 +6,13 @@ measured. It is a row of solutions with the unit tangent at each; between two of
 cubic with both tangents stands for it. */
 #pragma once
 
+#include <functional>
+
 #include "continuation/sweep.hpp"
 
 namespace rotor_stator {
+
+struct BranchPoint;
 
 /** The first three have no default: two scales of the problem and Newton's settings. Lengths are
     scaled arc lengths [-]. */
@@ -28,6 +32,8 @@ struct ArcLengthSettings {
   double fold_tolerance = 1e-8;      ///< of the folds' speeds, relative
   int most_points = 100000;
   long most_evaluations = 1000000;  ///< of the force: the bound on work
+  std::function<void(const BranchPoint&)> watch =
+      {};  ///< sees each point when it is kept
 };
 
 struct BranchPoint {

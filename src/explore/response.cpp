@@ -216,6 +216,14 @@ struct Row {
   const Task& task;
 };
 
+Eigen::VectorXd amplitude(const Task& task, const PeriodicMotion& motion,
+                          FourierTransform& transform)
+{
+  return task.has_two_frequencies
+             ? motion::half_peak_to_peak_of_torus(task.machine, motion)
+             : half_peak_to_peak(body_series(task.parameters, motion), transform);
+}
+
 using Fields = std::vector<Field<Row>>;
 
 const Fields branch_fields{
@@ -369,15 +377,10 @@ void add_branch(Table& table, const Task& task, Balance& balance, const Branch& 
   }
   const Fields fields = fields_of(task.request);
   FourierTransform transform = amplitude_transform(task.harmonics);
-  const auto amplitude = [&](const PeriodicMotion& motion) {
-    return task.has_two_frequencies
-               ? motion::half_peak_to_peak_of_torus(task.machine, motion)
-               : half_peak_to_peak(body_series(task.parameters, motion), transform);
-  };
   for (const StablePoint& at : stability.points) {
     const PeriodicMotion& motion = at.point.motion;
     added.touches = added.touches || !motion.force.isZero(0);
-    table.row(fields, {at, amplitude(motion), number, task});
+    table.row(fields, {at, amplitude(task, motion, transform), number, task});
   }
   if (task.request.isolated > 0) table.gap();
 }
@@ -488,7 +491,13 @@ Exploration explore_response(const ResponseRequest& request)
   const BranchPoint start =
       task.saved ? saved_start(task, table)
                  : point_of(balance, found.omega, found.x, task.upwards, task.settings);
-  const Branch main = follow_branch(balance, start, task.range(), task.settings);
+  FourierTransform transform = amplitude_transform(task.harmonics);
+  ArcLengthSettings watched = task.settings;
+  if (request.watch)
+    watched.watch = [&](const BranchPoint& p) {
+      request.watch(task.hertz(p.motion.omega), amplitude(task, p.motion, transform));
+    };
+  const Branch main = follow_branch(balance, start, task.range(), watched);
   describe(table, task.machine);
   const int turns = task.parameters.turns;
   if (task.has_two_frequencies)

@@ -5,6 +5,9 @@ The frequency response of one machine along its branch of periodic solutions, as
 the branches beside it, the Floquet multipliers and the bifurcations. */
 #pragma once
 
+#include <Eigen/Core>
+#include <functional>
+
 #include "explore/orbit.hpp"
 
 namespace rotor_stator::explore {
@@ -20,6 +23,8 @@ struct ResponseRequest : Request {
   int isolated = 0;  ///< speeds at which isolated branches are looked for
   int seed = 1;
   bool stability = false;  ///< multipliers at each point, and the bifurcations
+  /** Sees the points of the main branch while it is followed: speed [Hz], half peak-to-peak [m]. */
+  std::function<void(double f, const Eigen::VectorXd& amplitude)> watch = {};
 };
 
 /** Throws BadInput for options that contradict each other, NoSolution when nothing was found. */

@@ -15,7 +15,11 @@ std::string source_revision()
 
 std::string compiler()
 {
+#ifdef __clang__
+  return __VERSION__ " " ROTOR_STATOR_FLAGS;
+#else
   return "g++ " __VERSION__ " " ROTOR_STATOR_FLAGS;
+#endif
 }
 
 namespace {

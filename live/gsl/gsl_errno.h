@@ -1,0 +1,2 @@
+#pragma once
+#include "gsl_odeiv2.h"
