@@ -210,8 +210,7 @@ build/live/include/toml++: build/model/bearing_catalogue.hpp $(sources)
 	sh src/io/stamp_revision.sh $$(sed -nE 's/^project.rotor_stator VERSION ([0-9.]+).*/\1/p' CMakeLists.txt) \
 	  "$(live_flags)" $(@D)/source_revision.hpp
 
-$(live_objects): build/live/%.o: %.cpp live/libcxx.hpp $(wildcard live/gsl/*.h) build/model/bearing_catalogue.hpp \
-  | build/live/include/toml++
+$(live_objects): build/live/%.o: %.cpp | build/live/include/toml++
 	@mkdir -p $(@D)
 	em++ -std=c++20 $(live_flags) -DEIGEN_DONT_PARALLELIZE -DROTOR_STATOR_EIGEN_FFT -include live/libcxx.hpp -Ilive -Isrc \
 	  -Ibuild/live/include -Ibuild $$(pkg-config --cflags eigen3) -MMD -c $< -o $@
@@ -221,7 +220,7 @@ build/live/core.js: $(live_objects)
 	em++ $(live_flags) $^ -o $@ -sMODULARIZE=1 -sEXPORT_NAME=createCore -sALLOW_MEMORY_GROWTH=1 -sTOTAL_STACK=2MB \
 	  -sENVIRONMENT=worker,node -sEXPORTED_RUNTIME_METHODS=ccall,UTF8ToString
 
-build/live/index.html: live/assemble.py build/live/core.js $(wildcard live/*.js live/*.css live/*.html live/presets/*) $(wildcard data/*.toml)
+build/live/index.html: live/assemble.py build/live/core.js $(wildcard live/*.* data/*.toml data/live/*)
 	$(PYTHON) $< build/live/core.js build/live/core.wasm $@.tmp; mv $@.tmp $@
 
 article: build/paper/article.html  ## the article: build/paper/article.html

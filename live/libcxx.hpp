@@ -6,10 +6,7 @@
 #include <cstdlib>
 #include <cstring>
 #include <functional>
-#include <ranges>
 #include <string>
-#include <utility>
-#include <vector>
 
 #if _LIBCPP_VERSION < 15000
 namespace std {
@@ -22,38 +19,16 @@ To bit_cast(const From& from)
   return to;
 }
 
-/** Of decimal numbers at the begin of a text; hexadecimal ones and names of no number are refused. */
+/** Of decimal numbers: names such as inf and hexadecimal ones are refused. */
 inline from_chars_result from_chars(const char* first, const char* last, double& value)
 {
-  const string text(first, last);
-  const size_t digits = text.find_first_not_of("+-.0123456789eE");
+  string text(first, last);
+  text = text.substr(0, text.find_first_not_of("+-.0123456789eE"));
   char* end = nullptr;
-  value = strtod(text.substr(0, digits).c_str(), &end);
-  const auto used = end ? strlen(text.substr(0, digits).c_str()) - strlen(end) : 0;
-  return {first + used, used > 0 ? errc() : errc::invalid_argument};
+  value = strtod(text.c_str(), &end);
+  return {first + (end - text.c_str()),
+          end == text.c_str() ? errc::invalid_argument : errc()};
 }
-
-namespace views {
-
-/** Eager: the values themselves. */
-template <class Take>
-struct Transform {
-  Take take;
-};
-template <class Take>
-Transform<Take> transform(Take take)
-{
-  return {take};
-}
-template <class Range, class Take>
-auto operator|(const Range& range, const Transform<Take>& transform)
-{
-  vector<decay_t<decltype(transform.take(*range.begin()))>> values;
-  for (const auto& item : range) values.push_back(transform.take(item));
-  return values;
-}
-
-}  // namespace views
 
 namespace ranges {
 
@@ -65,62 +40,37 @@ auto by(Before before, Key key)
   };
 }
 
-template <class Range, class Before = less, class Key = identity>
-void sort(Range&& range, Before before = {}, Key key = {})
-{
-  std::sort(begin(range), end(range), by(before, key));
-}
-template <class Range, class Before = less, class Key = identity>
-void stable_sort(Range&& range, Before before = {}, Key key = {})
-{
-  std::stable_sort(begin(range), end(range), by(before, key));
-}
-template <class Range, class Before = less, class Key = identity>
-auto min_element(Range&& range, Before before = {}, Key key = {})
-{
-  return std::min_element(begin(range), end(range), by(before, key));
-}
-template <class Range, class Before = less, class Key = identity>
-auto max_element(Range&& range, Before before = {}, Key key = {})
-{
-  return std::max_element(begin(range), end(range), by(before, key));
-}
-template <class Range>
-auto minmax(Range&& range)
-{
-  const auto [low, high] = std::minmax_element(begin(range), end(range));
-  return pair(*low, *high);
-}
-template <class Range, class Test>
-auto find_if(Range&& range, Test test)
-{
-  return std::find_if(begin(range), end(range), test);
-}
-template <class Range, class Value, class Key = identity>
-auto find(Range&& range, const Value& value, Key key = {})
-{
-  return find_if(range, [&](const auto& item) { return invoke(key, item) == value; });
-}
-template <class Range, class Test>
-auto count_if(Range&& range, Test test)
-{
-  return std::count_if(begin(range), end(range), test);
-}
-template <class Range, class Value, class Key = identity>
-auto count(Range&& range, const Value& value, Key key = {})
-{
-  return count_if(range, [&](const auto& item) { return invoke(key, item) == value; });
-}
-template <class Range, class Test>
-bool any_of(Range&& range, Test test)
-{
-  return std::any_of(begin(range), end(range), test);
-}
-template <class Range, class Test>
-bool none_of(Range&& range, Test test)
-{
-  return !any_of(range, test);
-}
+#define WITH_ORDER(name)                                            \
+  template <class Range, class Before = less, class Key = identity> \
+  auto name(Range&& range, Before before = {}, Key key = {})        \
+  {                                                                 \
+    return std::name(begin(range), end(range), by(before, key));    \
+  }
+WITH_ORDER(sort)
+WITH_ORDER(stable_sort)
+WITH_ORDER(min_element)
+WITH_ORDER(max_element)
+WITH_ORDER(minmax_element)
+
+#define WITH_TEST(name)                               \
+  template <class Range, class Test>                  \
+  auto name(Range&& range, Test test)                 \
+  {                                                   \
+    return std::name(begin(range), end(range), test); \
+  }
+WITH_TEST(find_if)
+WITH_TEST(count_if)
+WITH_TEST(any_of)
+WITH_TEST(none_of)
+
+#define WITH_VALUE(name)                                                             \
+  template <class Range, class Value, class Key = identity>                          \
+  auto name(Range&& range, const Value& value, Key key = {})                         \
+  {                                                                                  \
+    return name##_if(range, [&](auto& item) { return invoke(key, item) == value; }); \
+  }
+WITH_VALUE(find)
+WITH_VALUE(count)
 
 }  // namespace ranges
 }  // namespace std

@@ -117,7 +117,7 @@ class Page(unittest.TestCase):
         return self.driver.execute_async_script(
             "const [engine, question, done] = arguments;"
             "engines[engine].ask(question).then((r) => done({status: r.status, text: r.text,"
-            " samples: r.status === 0 && r.numbers?.length ? Array.from(r.numbers.slice(8, 8 + 6 * r.numbers[0])) : []}))",
+            " samples: r.status === 0 && r.numbers?.length ? Array.from(r.numbers.slice(7, 7 + 6 * r.numbers[0])) : []}))",
             engine, {"what": what, "file": file, "toml": toml, "f": f, "m": m, "from": 1, "to": 60})
 
     def explore(self, *arguments):
@@ -129,27 +129,36 @@ class Page(unittest.TestCase):
 
     # A wrong transform, stepper, unit or rounding-unsafe flag of the browser's build would show here.
     def test_machines_agree_with_explore(self):
-        dice, found, words = random.Random(1), 0, []
+        dice, found, words, unsure = random.Random(1), 0, [], []
         for k in range(MACHINES):
             toml = random_machine(dice)
             (self.folder / "machine.toml").write_text(toml)
             for _ in range(3):
                 f = round(dice.uniform(*SPEEDS), 2)
-                native = self.explore("orbit", "machine.toml", "--frequency", f, "--harmonics", 10)
+                periods = 2 if "0.4375" in toml else 1  # 3.5 balls pass in a turn
+                native = self.explore("orbit", "machine.toml", "--frequency", f, "--harmonics", 10, "--periods", periods)
                 with self.subTest(machine=toml, f=f):
                     judged = self.ask("verdict", toml, f)
                     self.assertEqual(judged["status"], native.returncode, judged["text"] + native.stderr)
                     if native.returncode:
-                        self.assertEqual(judged["text"], native.stderr.rstrip("\n"))
+                        # The same place; Newton's last residual is a matter of rounding.
+                        self.assertEqual(judged["text"].split(" Hz:")[0], native.stderr.split(" Hz:")[0])
                         continue
                     found += 1
                     self.compare(self.ask("orbit", toml, f)["samples"], numbers_of(native.stdout))
                     word = note(native.stdout, "stability").split(";")[0]
                     words.append(word)
-                    self.assertEqual(note(judged["text"], "stability").split(";")[0], word)
+                    live = note(judged["text"], "stability").split(";")[0]
+                    if "undecided" in (live, word) and live != word:
+                        unsure.append((f, live, word))
+                    else:
+                        self.assertEqual(live, word)
+        # Where a chaotic transient leads depends on rounding: one of the two may then find no motion to judge.
+        self.assertLessEqual(len(unsure), 2, unsure)
         self.assertGreater(found, 2 * MACHINES)
         self.assertLessEqual({"stable", "unstable"}, set(words))
-        print(f"{found} of {3 * MACHINES} solutions,", {word: words.count(word) for word in set(words)})
+        print(f"{found} of {3 * MACHINES} solutions,", {word: words.count(word) for word in sorted(set(words))},
+              "undecided in one of the two:", unsure)
 
     def compare(self, samples, rows):
         self.assertEqual(len(samples), 6 * len(rows))
@@ -186,8 +195,8 @@ class Page(unittest.TestCase):
             state = self.js("return state")
             self.assertEqual(state["toml"], Path(path).read_text())
             self.assertIn(f"build/explore orbit {path} --frequency {state['f']}", self.text("command"))
-            self.wait("$('verdict').dataset.verdict !== 'computing'")
-            self.assertIn(self.js("return $('verdict').dataset.verdict"), ("stable", "unstable", "undecided"))
+            self.wait("$('verdict').className !== 'computing'")
+            self.assertIn(self.js("return $('verdict').className"), ("stable", "unstable", "undecided"))
             given = self.text("command").split()[2:]
             native = subprocess.run([EXPLORE, "orbit", *given, "--no-stability"], capture_output=True, encoding="utf-8")
             samples = self.ask("orbit", state["toml"], state["f"], state["m"])["samples"]
@@ -216,6 +225,8 @@ class Page(unittest.TestCase):
         self.type_into("#key-bearing-balls", "8")
         self.settled()
         self.assertEqual(self.js("return shown.motion.balls"), 8)
+        self.find('[data-key="bearing.balls"] button').click()
+        self.settled()
         self.type_into("#f", "-3")
         self.assertIn("must be in 0.1", self.find('[data-key="frequency"] .refusal').text)
         self.type_into("#f", "20")
@@ -278,8 +289,8 @@ class Page(unittest.TestCase):
         for f, word in [(45, "stable"), (20, "unstable")]:
             self.type_into("#f", f)
             self.assertEqual(self.js("return $('orbit').getAttribute('class')"), "computing")
-            self.wait("$('verdict').dataset.verdict !== 'computing'")
-            self.assertEqual(self.js("return [$('verdict').dataset.verdict, $('orbit').getAttribute('class')]"), [word] * 2)
+            self.wait("$('verdict').className !== 'computing'")
+            self.assertEqual(self.js("return [$('verdict').className, $('orbit').getAttribute('class')]"), [word] * 2)
             self.wait("!$('error-state').textContent.includes('computing')")
             self.assertIn("of the largest displacement", self.text("error-state"))
         self.type_into("#f", 45)
@@ -352,7 +363,7 @@ class Page(unittest.TestCase):
             self.driver.get("about:blank")
             self.driver.get_log("performance")
             self.open(address)
-            self.wait("['stable', 'unstable', 'undecided'].includes($('verdict').dataset.verdict)")
+            self.wait("['stable', 'unstable', 'undecided'].includes($('verdict').className)")
             sent = [json.loads(entry["message"])["message"] for entry in self.driver.get_log("performance")]
             urls = {message["params"]["request"]["url"] for message in sent if message["method"] == "Network.requestWillBeSent"}
             self.assertEqual({url for url in urls if not url.startswith(("data:", "blob:"))}, {address})

@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <limits>
-#include <ranges>
 
 #include "balance/bearing_problem.hpp"
 #include "continuation/arc_length.hpp"
@@ -266,12 +265,12 @@ Fields fields_of(const ResponseRequest& request)
 
 std::string summary(const Task& task, const Branch& branch)
 {
-  const auto [low, high] = std::ranges::minmax(
-      branch.points | std::views::transform([](auto& p) { return p.motion.omega; }));
+  const auto [low, high] = std::ranges::minmax_element(
+      branch.points, {}, [](auto& p) { return p.motion.omega; });
   return format(
       "%.9g to %.9g Hz, %zu points, %zu folds, %ld evaluations of the force, %s",
-      task.hertz(low), task.hertz(high), branch.points.size(), branch.folds.size(),
-      branch.evaluations,
+      task.hertz(low->motion.omega), task.hertz(high->motion.omega), branch.points.size(),
+      branch.folds.size(), branch.evaluations,
       ((branch.covered ? "ended: " : "incomplete: ") + branch.end).c_str());
 }
 

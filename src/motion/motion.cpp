@@ -4,7 +4,6 @@
 #include <cmath>
 #include <limits>
 #include <numbers>
-#include <ranges>
 
 #include "balance/fourier_transform.hpp"
 
@@ -125,13 +124,10 @@ std::vector<Vec2> bearing_forces(const Parameters& parameters, const Motion& mot
 
 Displacements half_peak_to_peak(const Motion& motion)
 {
+  const Eigen::MatrixXd q = displacement_samples(motion);
   Displacements amplitude;
-  for (int i = 0; i < 4; ++i) {
-    const auto [low, high] = std::ranges::minmax(
-        motion.positions |
-        std::views::transform([i](const Bodies& q) { return displacements(q)[i]; }));
-    amplitude[i] = 0.5 * (high - low);
-  }
+  for (int i = 0; i < 4; ++i)
+    amplitude[i] = 0.5 * (q.col(i).maxCoeff() - q.col(i).minCoeff());
   return amplitude;
 }
 
