@@ -101,10 +101,29 @@ int default_samples(int harmonics)
       std::max({32, 8 * harmonics + 1, static_cast<int>(std::min(as_truncation, most))}));
 }
 
-FourierTransform::FourierTransform(int samples) : plans_(std::make_unique<Plans>(samples))
+/** Plans of transforms that are gone wait for the next one of their length: planning costs as much as some
+    hundred transforms, and a search at one speed asks for the same few lengths again and again. */
+std::multimap<int, std::unique_ptr<FourierTransform::Plans>>& FourierTransform::idle()
 {
+  thread_local std::multimap<int, std::unique_ptr<Plans>> plans;
+  return plans;
 }
-FourierTransform::~FourierTransform() = default;
+
+FourierTransform::FourierTransform(int samples)
+{
+  auto waiting = idle().extract(samples);
+  plans_ =
+      waiting.empty() ? std::make_unique<Plans>(samples) : std::move(waiting.mapped());
+}
+
+FourierTransform::~FourierTransform()
+{
+  constexpr int longest = 1 << 13;
+  constexpr std::size_t most = 64;
+  if (plans_ && plans_->samples <= longest && idle().size() < most)
+    idle().emplace(plans_->samples, std::move(plans_));
+}
+
 FourierTransform::FourierTransform(FourierTransform&&) noexcept = default;
 FourierTransform& FourierTransform::operator=(FourierTransform&&) noexcept = default;
 

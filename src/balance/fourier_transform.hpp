@@ -18,6 +18,7 @@ parentheses (D-21). */
 
 #include <Eigen/Core>
 #include <complex>
+#include <map>
 #include <memory>
 #include <vector>
 
@@ -69,6 +70,7 @@ public:
 
 private:
   struct Plans;
+  static std::multimap<int, std::unique_ptr<Plans>>& idle();
   std::unique_ptr<Plans> plans_;
 };
 
