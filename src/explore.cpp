@@ -7,12 +7,15 @@ Run: build/explore orbit data/set1.toml --frequency 45 > orbit.tsv
      build/explore spectrum data/set1.toml --frequency 45 --plot spectrum.svg > spectrum.tsv
      build/explore response data/set1.toml --from 1 --to 60 --harmonics 10 > response.tsv
      build/explore attractors data/set1.toml --from 18 --to 22 --count 17 > attractors.tsv
+     build/explore map data/set1.toml --x frequency=10:50:41 \
+       --y bearing.radial_clearance_m=0:1e-4:21 --quantity amplitude,stability > map.tsv
 
 The general program for follow-up studies: any parameter file, any speed, harmonic balance
 or one of the time integrators. A table on stdout, errors on stderr. */
 #include <CLI/CLI.hpp>
 
 #include "explore/attractors.hpp"
+#include "explore/map.hpp"
 #include "explore/orbit.hpp"
 #include "explore/response.hpp"
 #include "explore/spectrum.hpp"
@@ -214,6 +217,40 @@ void add_attractors_options(CLI::App& command, AttractorsRequest& request)
                      "figure of the sections against speed: .svg, .png or .pdf");
 }
 
+void add_map_options(CLI::App& command, MapRequest& request)
+{
+  std::string known;
+  for (const Column& one : map_quantities())
+    known +=
+        (known.empty() ? "" : "; ") + one.name + " [" + one.unit + "] " + one.meaning;
+  add_balance_options(command, request, "by --tolerance");
+  command.get_option("--budget")
+      ->description(
+          "most evaluations of the force at each point (default: those of 5 s, 1.4e8 with 16 balls)");
+  command.add_option(
+      "--x", request.x,
+      "KEY=from:to:count[:log]; KEY: frequency [Hz], or of the parameter file, "
+      "as bearing.radial_clearance_m; the points of a line start from each other");
+  command.add_option("--y", request.y, "the same, a line for each value");
+  command.add_option("--list", request.list,
+                     "table whose columns are keys, a line for each row, instead of --y");
+  command.add_option("--quantity", request.quantities, known)->delimiter(',')->required();
+  add_number(command, "--frequency", request.frequency, 0.0, largest,
+             "speed of rotation [Hz], where it is no key");
+  command.add_option(
+      "--sweep", request.sweep,
+      "A:B[:COUNT], speeds of peak, peak_frequency and permanent [Hz] (101)");
+  add_number(command, "--tolerance", request.tolerance, 1e-8, 0.1,
+             "relative error for which m is chosen");
+  add_number(command, "--threads", request.threads, 1, 1024,
+             "lines at a time (default: OMP_NUM_THREADS, or all cores)");
+  command.add_option("--lines", request.lines, "A:B, only the lines with A <= index < B");
+  command.add_option(
+      "--resume", request.resume,
+      "table of the same map that was interrupted: its whole lines are taken over");
+  command.add_option("--plot", request.plot, "figure of the map: .svg, .png or .pdf");
+}
+
 int finish(const Exploration& exploration)
 {
   write(exploration.table.text());
@@ -241,6 +278,10 @@ int main(int argc, char** argv)
   AttractorsRequest attractors;
   CLI::App* settled = app.add_subcommand(
       "attractors", "what the machine settles on, speed by speed, from many starts");
+  CLI::App* map = app.add_subcommand(
+      "map", "quantities over two keys of the parameter file, on all cores");
+  MapRequest mapped;
+  add_map_options(*map, mapped);
   const auto refuse_of_orbit = add_motion_options(*orbit, motion);
   const auto refuse_of_contact = add_motion_options(*contact, motion);
   const auto refuse_of_spectrum = add_spectrum_options(*lines, spectrum);
@@ -249,6 +290,10 @@ int main(int argc, char** argv)
   return guarded([&] {
     if (!parse(app, argc, argv)) return 0;
     if (settled->parsed()) return finish(explore_attractors(attractors));
+    if (map->parsed()) {
+      explore_map(mapped);
+      return 0;
+    }
     if (branch->parsed()) {
       refuse_of_response();
       return finish(explore_response(response));

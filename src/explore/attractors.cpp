@@ -372,6 +372,18 @@ std::string unfinished(const Task& task, const std::vector<Run>& all)
 
 }  // namespace
 
+SettledMotion settled_from_rest(const Parameters& machine, double frequency,
+                                const OperationBudget& budget)
+{
+  const AttractorsRequest alone;
+  const Task task{alone, machine, {frequency}, settings_of(machine), budget};
+  const Run run = runs_of(task, {Piece::up}, budget).front();
+  if (!run.lost.empty()) throw NoSolution(run.lost);
+  Found found = found_at(task, 0, {run}).front();
+  sharpen_exponent(task, found);
+  return {found.period_number(), found.turns(found.exponent.value)};
+}
+
 Exploration explore_attractors(const AttractorsRequest& request)
 {
   const Task task = task_of(request);

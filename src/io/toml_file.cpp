@@ -3,6 +3,7 @@
 #include <toml++/toml.h>
 #include <cmath>
 #include <filesystem>
+#include <optional>
 #include <set>
 #include <sstream>
 
@@ -173,6 +174,58 @@ StrictToml::StrictToml(const std::string& file, const std::string& content)
   }
 }
 
+namespace {
+
+/** What a word of a dotted key names: the table of a key, new where there is none, or an element of an array,
+    counted from 1. */
+toml::node& inner(toml::node& at, const std::string& word)
+{
+  if (toml::table* table = at.as_table())
+    return table->insert(word, toml::table{}).first->second;
+  const toml::array* array = at.as_array();
+  const std::optional<double> k = decimal(word);
+  if (!array || !k || *k < 1 || *k > static_cast<double>(array->size()))
+    throw BadInput(word + ": names nothing in the parameter file");
+  return (*at.as_array())[static_cast<std::size_t>(*k) - 1];
+}
+
+/** Whole numbers become integers, which are read as numbers too. */
+void set_number(toml::node& at, const std::string& key, double value)
+{
+  if (const auto dot = key.find('.'); dot != std::string::npos)
+    return set_number(inner(at, key.substr(0, dot)), key.substr(dot + 1), value);
+  const auto place = [&](auto number) {
+    if (toml::table* table = at.as_table()) {
+      table->insert_or_assign(key, number);
+    } else if (toml::array* array = at.as_array()) {
+      inner(at, key);
+      array->replace(array->cbegin() + static_cast<long>(*decimal(key)) - 1, number);
+    } else {
+      throw BadInput(key + ": names nothing in the parameter file");
+    }
+  };
+  if (value == std::round(value) && std::abs(value) < 1e15)
+    place(static_cast<std::int64_t>(value));
+  else
+    place(value);
+}
+
+}  // namespace
+
+StrictToml StrictToml::with(
+    const std::vector<std::pair<std::string, double>>& values) const
+{
+  StrictToml changed(std::make_shared<Content>(
+      Content{content_->file, content_->path, content_->table, {}, {}}));
+  for (const auto& [key, value] : values) set_number(changed.content_->table, key, value);
+  return changed;
+}
+
+const std::string& StrictToml::file() const
+{
+  return content_->file;
+}
+
 bool StrictToml::has(const std::string& key) const
 {
   return content_->table.contains(key);
@@ -276,8 +329,8 @@ void StrictToml::fail(const std::string& key, const std::string& problem) const
 {
   const toml::node* node = content_->table.get(key);
   const toml::node& place = node ? *node : content_->table;
-  throw BadInput(format("%s:%d: ", content_->file.c_str(),
-                        static_cast<int>(place.source().begin.line)) +
+  const auto line = static_cast<int>(place.source().begin.line);
+  throw BadInput(content_->file + (line > 0 ? format(":%d: ", line) : ": ") +
                  content_->path + key + " " + problem);
 }
 

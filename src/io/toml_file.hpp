@@ -31,6 +31,11 @@ public:
   /** The same for `content` at hand, called `file` in messages. */
   StrictToml(const std::string& file, const std::string& content);
 
+  /** The same tables, nothing of them read yet, with a number set or added at each dotted key;
+      `bearing.2.balls` is in the second of [[bearing]], `stator.load_N.2` in an array. */
+  StrictToml with(const std::vector<std::pair<std::string, double>>& values) const;
+
+  const std::string& file() const;
   bool has(const std::string& key) const;
 
   /** Which of several ways to give one value is taken, each a list of keys: the one of which any key is there. Throws

@@ -52,9 +52,13 @@ bool read_rigid(StrictToml& table, double rotor_mass, Body& stator)
 
 Parameters read_parameters(const std::string& file)
 {
-  StrictToml root(file);
+  return read_parameters(StrictToml(file));
+}
+
+Parameters read_parameters(StrictToml root)
+{
   Parameters parameters{};
-  parameters.file = file;
+  parameters.file = root.file();
   parameters.title = root.string("title");
 
   StrictToml stator = root.table("stator");

@@ -65,6 +65,7 @@ struct Parameters {
 
 /** Reads and checks a parameter file. Throws BadInput with file, line and key. */
 Parameters read_parameters(const std::string& file);
+Parameters read_parameters(StrictToml root);
 
 /** Those of the data sets that a key of a scene names. */
 Parameters read_parameters(SceneFile& scene, const std::string& key);

@@ -1,0 +1,667 @@
+#include "explore/map.hpp"
+
+#include <omp.h>
+#include <algorithm>
+#include <cmath>
+#include <condition_variable>
+#include <map>
+#include <mutex>
+
+#include "balance/bearing_problem.hpp"
+#include "balance/fourier_transform.hpp"
+#include "continuation/sweep.hpp"
+#include "explore/attractors.hpp"
+#include "explore/balance_motion.hpp"
+#include "explore/plot.hpp"
+#include "io/errors.hpp"
+#include "io/number_table.hpp"
+#include "io/output_file.hpp"
+#include "io/parallel.hpp"
+#include "io/program.hpp"
+#include "motion/adaptive.hpp"
+#include "motion/contact.hpp"
+#include "motion/other_starts.hpp"
+#include "motion/verdict.hpp"
+
+namespace rotor_stator::explore {
+
+namespace {
+
+const char* const script = "map.py";
+const char* const speed = "frequency";  // the key that no parameter file has
+constexpr int instants = 512;           // of a period, for forces
+constexpr int most_points = 10'000'000;
+constexpr double seconds = 5;  // that a point may take, about
+
+/**
+## Where the points are */
+
+struct Axis {
+  std::string key = {};  ///< empty: the axis has one place and no column
+  double from = 0, to = 0;
+  std::size_t count = 1;
+  bool logarithmic = false;
+
+  double at(std::size_t k) const
+  {
+    if (k == 0 || count == 1) return from;
+    if (k + 1 == count) return to;
+    const double share = static_cast<double>(k) / static_cast<double>(count - 1);
+    return logarithmic ? from * std::pow(to / from, share) : from + (to - from) * share;
+  }
+};
+
+std::vector<std::string> parts_of(const std::string& text, char between)
+{
+  std::vector<std::string> parts{""};
+  for (const char c : text)
+    if (c == between)
+      parts.emplace_back();
+    else
+      parts.back() += c;
+  return parts;
+}
+
+Axis read_axis(const std::string& option, const std::string& text)
+{
+  if (text.empty()) return {};
+  const auto refuse = [&](const std::string& why) {
+    throw BadInput(option + " " + text + ": " + why);
+  };
+  const auto equals = text.find('=');
+  auto parts = parts_of(equals < text.size() ? text.substr(equals + 1) : "", ':');
+  const bool logarithmic = parts.size() == 4 && parts.back() == "log";
+  if (logarithmic) parts.pop_back();
+  if (equals == 0 || parts.size() != 3) refuse("must be KEY=from:to:count[:log]");
+  Axis axis{text.substr(0, equals), real_number(option, parts[0], -1e300, 1e300),
+            real_number(option, parts[1], -1e300, 1e300),
+            static_cast<std::size_t>(whole_number(option, parts[2], 1, most_points)),
+            logarithmic};
+  if (axis.count > 1 && axis.from == axis.to) refuse("from and to must differ");
+  if (logarithmic && (axis.from <= 0 || axis.to <= 0))
+    refuse("log needs from > 0 and to > 0");
+  return axis;
+}
+
+/** The points: lines of x, one for each value of y or for each row of a list. */
+struct Grid {
+  Axis x, y;
+  std::optional<NumberTable> list = {};
+  std::size_t first = 0, last = 0;  ///< lines that are asked for: first ≤ j < last
+
+  std::size_t lines() const { return list ? list->rows() : y.count; }
+
+  std::vector<std::string> keys() const
+  {
+    std::vector<std::string> all;
+    for (const Axis& axis : {x, y})
+      if (!axis.key.empty()) all.push_back(axis.key);
+    if (list) all.insert(all.end(), list->names().begin(), list->names().end());
+    return all;
+  }
+
+  /** In the order of the keys. */
+  std::vector<double> values(std::size_t line, std::size_t k) const
+  {
+    std::vector<double> all;
+    if (!x.key.empty()) all.push_back(x.at(k));
+    if (!y.key.empty()) all.push_back(y.at(line));
+    if (list) all.insert(all.end(), list->row(line).begin(), list->row(line).end());
+    return all;
+  }
+};
+
+/** A:B, two whole numbers. */
+void read_lines(const std::string& text, Grid& grid)
+{
+  grid.last = grid.lines();
+  if (text.empty()) return;
+  const auto parts = parts_of(text, ':');
+  if (parts.size() != 2) throw BadInput("--lines " + text + ": must be A:B");
+  const int most = static_cast<int>(std::min<std::size_t>(grid.lines(), most_points));
+  grid.first = static_cast<std::size_t>(whole_number("--lines", parts[0], 0, most - 1));
+  grid.last = static_cast<std::size_t>(
+      whole_number("--lines", parts[1], static_cast<int>(grid.first) + 1, most));
+}
+
+Grid grid_of(const MapRequest& request)
+{
+  if (request.list && !request.y.empty())
+    throw BadInput("--y: not together with --list, whose rows stand for its lines");
+  if (!request.list && request.x.empty() && request.y.empty())
+    throw BadInput("--x: is missing; give --x, --y or --list");
+  Grid grid{read_axis("--x", request.x), read_axis("--y", request.y)};
+  if (request.list) grid.list.emplace(*request.list);
+  read_lines(request.lines, grid);
+  auto keys = grid.keys();
+  std::ranges::sort(keys);
+  if (const auto twice = std::ranges::adjacent_find(keys); twice != keys.end())
+    throw BadInput(*twice + ": is given twice, in --x, --y or --list");
+  return grid;
+}
+
+/**
+## What all points share */
+
+struct Task {
+  const MapRequest& request;
+  Grid grid;
+  StrictToml file;
+  std::vector<std::string> keys;
+  std::vector<double> sweep = {};  ///< [Hz]
+  int harmonics = usual_harmonics, samples = 0;
+
+  /** The machine at the values of the keys, and its speed [Hz], 0 without one. */
+  std::pair<Parameters, double> machine(const std::vector<double>& values) const
+  {
+    double frequency = request.frequency.value_or(0);
+    std::vector<std::pair<std::string, double>> changes;
+    for (std::size_t k = 0; k < keys.size(); ++k)
+      if (keys[k] != speed)
+        changes.emplace_back(keys[k], values[k]);
+      else if (frequency = values[k]; !(frequency > 0))
+        throw BadInput(format("%s: must be > 0, got %g", speed, frequency));
+    return {read_parameters(file.with(changes)), frequency};
+  }
+
+  bool has_speed() const { return std::ranges::find(keys, speed) != keys.end(); }
+};
+
+/**
+## One point
+
+What several quantities need is computed once, and its failure is remembered. */
+
+template <class Value>
+class Once {
+public:
+  template <class Make>
+  const Value& operator()(const Make& make)
+  {
+    if (!value_ && lost_.empty()) try {
+        value_ = make();
+      } catch (const NoSolution& none) {
+        lost_ = none.what();
+      }
+    if (!value_) throw NoSolution(lost_);
+    return *value_;
+  }
+
+private:
+  std::optional<Value> value_;
+  std::string lost_;
+};
+
+struct Swept {
+  CurvePoint peak;
+  double permanent;
+};
+
+class Point {
+public:
+  /** `before`: the solution at the point before on the line, which becomes that of this one. */
+  Point(const Task& task, const std::vector<double>& values, PeriodicMotion& before)
+      : Point(task, task.machine(values), before)
+  {
+  }
+
+  const PeriodicMotion& solution()
+  {
+    return solution_([&] {
+      const bool is_chosen = task_.request.tolerance && !task_.request.harmonics;
+      PeriodicMotion found = is_chosen ? chosen().motion : with_fixed_harmonics();
+      if (!found.found())
+        throw NoSolution(
+            format("no solution found with %d harmonics: ", task_.harmonics) +
+            found.newton.reason());
+      return before_ = std::move(found);
+    });
+  }
+
+  /** With the harmonics that the tolerance asks for. */
+  const AdaptiveMotion& chosen()
+  {
+    return chosen_([&] {
+      require_period();
+      AdaptiveMotion at = motion::solve_adaptively(
+          machine, omega(),
+          {.tolerance = task_.request.tolerance.value_or(1e-3), .newton = newton_},
+          budget_);
+      if (!at.reached) throw NoSolution("tolerance not reached: " + at.end);
+      return at;
+    });
+  }
+
+  const motion::Motion& motion()
+  {
+    return motion_([&] { return motion::motion_of(solution().bodies, instants); });
+  }
+
+  const motion::Verdict& verdict()
+  {
+    return verdict_([&] { return motion::verdict_on(machine, solution(), budget_); });
+  }
+
+  /** The multipliers of a motion that was found. */
+  const Floquet& floquet()
+  {
+    if (!verdict().found()) throw NoSolution(verdict().reason);
+    return verdict().floquet;
+  }
+
+  const SettledMotion& settled()
+  {
+    return settled_([&] { return settled_from_rest(machine, frequency, budget_); });
+  }
+
+  /** The response curve of x_r over the range of --sweep. */
+  const Swept& swept()
+  {
+    return swept_([&] {
+      require_period();
+      std::vector<CurvePoint> curve;
+      int permanent = 0;
+      for (const PeriodicMotion& at : rotor_stator::sweep(
+               machine, angular(task_.sweep), task_.harmonics, task_.samples)) {
+        if (!at.found()) continue;
+        curve.push_back({at.omega / angular(1), half_peak_to_peak(at.bodies)[2]});
+        permanent +=
+            motion::contact_share(machine, motion::motion_of(at.bodies, instants)) == 1;
+      }
+      if (curve.empty()) throw NoSolution("no solution at any speed of --sweep");
+      return Swept{refined_peak(curve), permanent / static_cast<double>(curve.size())};
+    });
+  }
+
+  /** Estimated with more harmonics; where that does not settle, against the motion of Eq. 7. */
+  double error()
+  {
+    const ErrorEstimate estimate = motion::estimate_error(machine, solution(), budget_);
+    if (estimate.settled) return estimate.larger();
+    floquet();
+    return std::max(verdict().distance, verdict().distance_rms);
+  }
+
+  const Parameters machine;
+  const double frequency;  ///< [Hz]
+
+private:
+  Point(const Task& task, std::pair<Parameters, double> at, PeriodicMotion& before)
+      : machine(std::move(at.first)), frequency(at.second), task_(task), before_(before),
+        budget_(budget_of(task.request.budget, seconds, machine)),
+        newton_{.tolerance = task.request.newton_tolerance}
+  {
+  }
+
+  double omega() const { return angular(frequency); }
+
+  void require_period() const
+  {
+    if (!has_rotation_period(machine.bearing))
+      throw NoSolution(format("%.9g balls pass in a turn, not a whole number",
+                              passages_per_turn(machine.bearing)));
+  }
+
+  PeriodicMotion with_fixed_harmonics() const
+  {
+    require_period();
+    if (before_.found()) {
+      Balance balance(bearing_problem(machine, task_.samples, budget_), task_.harmonics);
+      PeriodicMotion next = solve(balance, omega(), before_.x, newton_);
+      if (next.found()) {
+        next.bodies = body_series(machine, next);
+        return next;
+      }
+    }
+    return motion::search_periodic(
+        {machine, omega(), task_.harmonics, task_.samples, newton_, budget_});
+  }
+
+  const Task& task_;
+  PeriodicMotion& before_;
+  OperationBudget budget_;
+  NewtonSettings newton_;
+  Once<PeriodicMotion> solution_;
+  Once<AdaptiveMotion> chosen_;
+  Once<motion::Motion> motion_;
+  Once<motion::Verdict> verdict_;
+  Once<SettledMotion> settled_;
+  Once<Swept> swept_;
+};
+
+/**
+## The quantities */
+
+double largest_ball_force(Point& point)
+{
+  double largest = 0;
+  const auto evolution = motion::contact_evolution(point.machine, point.motion());
+  for (const auto& forces : evolution.ball_force)
+    largest = std::max(largest, std::ranges::max(forces));
+  return largest;
+}
+
+double largest_force(Point& point)
+{
+  double largest = 0;
+  for (const Vec2 force : motion::bearing_forces(point.machine, point.motion()))
+    largest = std::max(largest, std::hypot(force.x, force.y));
+  return largest;
+}
+
+struct Quantity : Column {
+  bool sweeps;  ///< over the speeds of --sweep; else at one speed
+  Cell (*value)(Point& point);
+};
+
+const std::vector<Quantity> quantities{
+    {"amplitude", "m", "half peak-to-peak of x_r", false,
+     [](auto& p) -> Cell { return half_peak_to_peak(p.solution().bodies)[2]; }},
+    {"mean", "m", "mean of y_r over the period", false,
+     [](auto& p) -> Cell { return p.solution().bodies(3, 0); }},
+    {"peak", "m", "largest amplitude over the speeds of --sweep, refined by a parabola",
+     true, [](auto& p) -> Cell { return p.swept().peak.amplitude; }},
+    {"peak_frequency", "Hz", "its speed", true,
+     [](auto& p) -> Cell { return p.swept().peak.frequency; }},
+    {"permanent", "-", "share of the speeds of --sweep with permanent contact", true,
+     [](auto& p) -> Cell { return p.swept().permanent; }},
+    {"contact_share", "-", "share of the period with at least one loaded ball", false,
+     [](auto& p) -> Cell { return motion::contact_share(p.machine, p.motion()); }},
+    {"ball_load", "N", "largest force on a ball, over two periods", false,
+     [](auto& p) -> Cell { return largest_ball_force(p); }},
+    {"force", "N", "largest force of the bearing, Eq. 6", false,
+     [](auto& p) -> Cell { return largest_force(p); }},
+    {"stability", "word",
+     "of the motion of Eq. 7 found from the solution: stable, unstable, undecided", false,
+     [](auto& p) -> Cell { return std::string(p.verdict().word()); }},
+    {"period", "-",
+     "K of the motion from rest; 0 aperiodic, -1 quasi-periodic, -2 undecided", false,
+     [](auto& p) -> Cell { return p.settled().period; }},
+    {"multiplier", "-", "largest modulus of the multipliers behind stability", false,
+     [](auto& p) -> Cell { return p.floquet().largest(); }},
+    {"lyapunov", "1/base period", "largest Lyapunov exponent of the motion from rest",
+     false, [](auto& p) -> Cell { return p.settled().lyapunov; }},
+    {"harmonics", "-", "m that --tolerance needs, 1e-3 without it", false,
+     [](auto& p) -> Cell { return p.chosen().motion.harmonics.count(); }},
+    {"error", "-",
+     "of the solution, the larger of the largest displacement's and the rms about the mean, estimated with more "
+     "harmonics or, where that does not settle, against the motion behind stability",
+     false, [](auto& p) -> Cell { return p.error(); }}};
+
+std::vector<Quantity> chosen_quantities(const Task& task)
+{
+  std::vector<Quantity> chosen;
+  for (const std::string& name : task.request.quantities) {
+    const auto found = std::ranges::find(quantities, name, &Quantity::name);
+    if (found == quantities.end()) {
+      std::vector<std::string> names;
+      std::string list;
+      for (const Quantity& q : quantities) {
+        names.push_back(q.name);
+        list += (list.empty() ? "" : ", ") + q.name;
+      }
+      throw BadInput("--quantity " + name + ": is not a quantity" +
+                     suggestion(name, names) + " (known: " + list + ")");
+    }
+    if (std::ranges::find(chosen, name, &Quantity::name) != chosen.end())
+      throw BadInput("--quantity " + name + ": is given twice");
+    chosen.push_back(*found);
+  }
+  const auto any = [&](bool sweeps) {
+    const auto one = std::ranges::find(chosen, sweeps, &Quantity::sweeps);
+    return one == chosen.end() ? std::string() : one->name;
+  };
+  const bool has_speed = task.request.frequency || task.has_speed();
+  if (!any(true).empty() && task.sweep.empty())
+    throw BadInput("--sweep: is missing, the speeds of " + any(true));
+  if (any(true).empty() && !task.sweep.empty())
+    throw BadInput("--sweep: is for peak, peak_frequency and permanent");
+  if (!any(false).empty() && !has_speed)
+    throw BadInput("--frequency: is missing, the speed of " + any(false));
+  if (any(false).empty() && has_speed)
+    throw BadInput("--frequency: the quantities asked for are those of --sweep");
+  return chosen;
+}
+
+Task task_of(const MapRequest& request)
+{
+  Task task{request, grid_of(request), StrictToml(request.parameter_file), {}};
+  task.keys = task.grid.keys();
+  if (task.has_speed() && request.frequency)
+    throw BadInput("--frequency: is a key of the map already");
+  if (!request.sweep.empty()) {
+    const auto parts = parts_of(request.sweep, ':');
+    if (parts.size() != 2 && parts.size() != 3)
+      throw BadInput("--sweep " + request.sweep + ": must be A:B or A:B:COUNT");
+    const Axis axis{"", real_number("--sweep", parts[0], 0, 1e300),
+                    real_number("--sweep", parts[1], 0, 1e300),
+                    parts.size() == 3 ? static_cast<std::size_t>(
+                                            whole_number("--sweep", parts[2], 2, 100000))
+                                      : 101};
+    if (axis.from >= axis.to)
+      throw BadInput("--sweep " + request.sweep + ": A must be below B");
+    for (std::size_t k = 0; k < axis.count; ++k) task.sweep.push_back(axis.at(k));
+  }
+  task.harmonics = request.harmonics.value_or(usual_harmonics);
+  task.samples = checked_samples(task.harmonics, request.samples);
+  if (request.tolerance && request.samples && !request.harmonics)
+    throw BadInput("--samples: chosen with m for --tolerance; give --harmonics too");
+  std::vector<std::string> inputs{request.parameter_file};
+  if (request.list) inputs.push_back(*request.list);
+  if (request.resume) inputs.push_back(*request.resume);
+  if (request.plot) require_plot(*request.plot, script, inputs);
+  /** The corners, so that an unknown key or a range that no machine has is refused at once. */
+  const Grid& grid = task.grid;
+  const std::size_t top = grid.list ? 0 : grid.lines() - 1;
+  for (const std::size_t line : {std::size_t{0}, top})
+    for (const std::size_t k : {std::size_t{0}, grid.x.count - 1})
+      task.machine(grid.values(line, k));
+  return task;
+}
+
+/**
+## The table, line by line */
+
+std::string header_of(const Task& task, const std::vector<Quantity>& chosen)
+{
+  const MapRequest& request = task.request;
+  std::vector<Column> columns;
+  for (const std::string& key : task.keys)
+    columns.push_back({key, key == speed ? "Hz" : "see key",
+                       key == speed ? "speed of rotation" : "of the parameter file"});
+  columns.insert(columns.end(), chosen.begin(), chosen.end());
+  columns.push_back(
+      {"status", "word", "ok, or why a quantity is missing, which is then -"});
+  Table table("Map of a machine", columns);
+  const Parameters base = read_parameters(task.file.with({}));
+  describe(table, base);
+  for (const auto& [name, text] : {std::pair{"x", request.x}, {"y", request.y}})
+    if (!text.empty()) table.note(format("%s: ", name) + text);
+  if (request.list) table.note("list: " + *request.list);
+  if (request.frequency) table.note(format("frequency: %.15g Hz", *request.frequency));
+  if (!task.sweep.empty())
+    table.note(format("sweep: %zu speeds from %.15g to %.15g Hz", task.sweep.size(),
+                      task.sweep.front(), task.sweep.back()));
+  table.note(
+      request.tolerance && !request.harmonics
+          ? format("method: aft, m chosen for a tolerance of %g", *request.tolerance)
+          : format("method: aft, m = %d, N = %d, relative tolerance of Newton %g",
+                   task.harmonics, task.samples, request.newton_tolerance));
+  if (request.tolerance && request.harmonics)
+    table.note(format("harmonics: for a tolerance of %g", *request.tolerance));
+  table.note(format("budget: %g evaluations of the force for each point",
+                    budget_of(request.budget, seconds, base).left()));
+  return table.text();
+}
+
+const char* const all_well = "\tok";
+
+/** The cells of a point's keys. */
+std::string place_of(const std::vector<double>& values)
+{
+  std::string cells;
+  for (const double value : values) cells += Cell(value).text() + "\t";
+  return cells;
+}
+
+/** The row of one point. */
+std::string row_of(const Task& task, const std::vector<Quantity>& chosen,
+                   const std::vector<double>& values, PeriodicMotion& before)
+{
+  std::string row = place_of(values), status = "ok";
+  std::optional<Point> point;
+  for (const Quantity& quantity : chosen) {
+    std::string text = "-";
+    try {
+      if (!point && status == "ok") point.emplace(task, values, before);
+      if (point) {
+        const Cell cell = quantity.value(*point);
+        if (!cell.is_finite()) throw NoSolution(quantity.name + " is not finite");
+        text = cell.text();
+      }
+    } catch (const std::runtime_error& none) {
+      if (status == "ok") status = printable(none.what());
+    }
+    row += text + "\t";
+  }
+  return row + status;
+}
+
+/** Rows in order of their lines, written as soon as all before them are there. */
+class Output {
+public:
+  Output(const Task& task, std::string header) : task_(task), next_(task.grid.first)
+  {
+    if (task.request.resume)
+      copy(*task.request.resume, header);
+    else
+      print(header);
+  }
+
+  std::size_t next() const { return next_; }
+
+  /** Waits until the line is not too far ahead of the first that is missing: what is kept is bounded. */
+  void wait_for_turn(std::size_t line)
+  {
+    constexpr std::size_t most_ahead = 256;
+    std::unique_lock lock(mutex_);
+    moved_.wait(lock, [&] { return stopped_ || line < next_ + most_ahead; });
+  }
+
+  void take(std::size_t line, std::string rows, std::size_t failed)
+  {
+    const std::lock_guard lock(mutex_);
+    failed_ += failed;
+    waiting_[line] = std::move(rows);
+    for (; !waiting_.empty() && waiting_.begin()->first == next_; ++next_) {
+      print(waiting_.begin()->second);
+      waiting_.erase(waiting_.begin());
+    }
+    moved_.notify_all();
+  }
+
+  /** Nobody waits for a line that will not come. */
+  void stop()
+  {
+    const std::lock_guard lock(mutex_);
+    stopped_ = true;
+    moved_.notify_all();
+  }
+
+  std::size_t failed() const { return failed_; }
+  const std::string& all() const { return all_; }  ///< kept for --plot alone
+
+private:
+  void print(const std::string& text)
+  {
+    write(text);
+    if (task_.request.plot) all_ += text;
+  }
+
+  /** The whole lines of x of an interrupted table. Throws BadInput when it is another one. */
+  void copy(const std::string& file, const std::string& header)
+  {
+    std::ifstream in = open_file(file, "a map", std::uintmax_t{1} << 60);
+    std::string found(header.size(), '\0');
+    in.read(found.data(), static_cast<std::streamsize>(found.size()));
+    found.resize(static_cast<std::size_t>(in.gcount()));
+    if (!header.starts_with(found))
+      throw BadInput("--resume " + file + ": was made with other settings");
+    const std::size_t lines = whole_lines(in, file);
+    print(header);
+    in.clear();
+    in.seekg(static_cast<std::streamoff>(found.size()));
+    for (; next_ < lines; ++next_) {
+      std::string rows, row;
+      for (std::size_t k = 0; k < task_.grid.x.count && std::getline(in, row); ++k) {
+        failed_ += !row.ends_with(all_well);
+        rows += row + "\n";
+      }
+      print(rows);
+    }
+  }
+
+  /** The first line of x that a table has not, or not all of. */
+  std::size_t whole_lines(std::ifstream& in, const std::string& file) const
+  {
+    const Grid& grid = task_.grid;
+    std::size_t line = grid.first, k = 0;
+    for (std::string row; std::getline(in, row) && !in.eof();) {
+      if (line == grid.last || !row.starts_with(place_of(grid.values(line, k))))
+        throw BadInput("--resume " + file + ": holds other points");
+      k = (k + 1) % grid.x.count;
+      line += k == 0;
+    }
+    return line;
+  }
+
+  const Task& task_;
+  std::mutex mutex_;
+  std::condition_variable moved_;
+  bool stopped_ = false;
+  std::map<std::size_t, std::string> waiting_;
+  std::size_t next_, failed_ = 0;
+  std::string all_;
+};
+
+}  // namespace
+
+const std::vector<Column>& map_quantities()
+{
+  static const std::vector<Column> columns(quantities.begin(), quantities.end());
+  return columns;
+}
+
+void explore_map(const MapRequest& request)
+{
+  const Task task = task_of(request);
+  const std::vector<Quantity> chosen = chosen_quantities(task);
+  if (request.threads > 0) omp_set_num_threads(request.threads);
+  Output output(task, header_of(task, chosen));
+  const std::size_t first = output.next(), points = task.grid.x.count;
+  in_parallel("lines", task.grid.last - first, [&](std::size_t piece) {
+    try {
+      output.wait_for_turn(first + piece);
+      std::string rows;
+      std::size_t failed = 0;
+      PeriodicMotion before;
+      for (std::size_t k = 0; k < points; ++k) {
+        const std::string row =
+            row_of(task, chosen, task.grid.values(first + piece, k), before);
+        failed += !row.ends_with(all_well);
+        rows += row + "\n";
+      }
+      output.take(first + piece, std::move(rows), failed);
+    } catch (...) {
+      output.stop();
+      throw;
+    }
+  });
+  if (output.failed() > 0)
+    std::fprintf(stderr, "%zu of %zu points have no result: see their status\n",
+                 output.failed(), (task.grid.last - task.grid.first) * points);
+  const std::string undrawn = plot(request.plot, script, output.all());
+  if (!undrawn.empty()) throw NoSolution(undrawn);
+}
+
+}  // namespace rotor_stator::explore

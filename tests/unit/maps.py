@@ -1,0 +1,214 @@
+"""explore map: the same bytes whatever the number of threads, of runs and of interruptions; rows against single
+points of the other commands; what it refuses, and what stands in the row of a point without a result.
+
+Usage: tests/unit/maps.py   (from the project's root)
+"""
+import subprocess
+import sys
+import time
+import unittest
+from pathlib import Path
+
+import numpy as np
+
+sys.path.insert(0, str(Path(__file__).parents[1]))
+from support.explore import EXPLORE, MACHINE, Case, Table  # noqa: E402
+
+CLEARANCE = "bearing.radial_clearance_m"
+GRID = ["--x", "frequency=20:50:5", "--y", f"{CLEARANCE}=0:1e-4:7", "--quantity", "amplitude,contact_share"]
+
+
+def rows(text):
+    """The rows below the names, with their ends."""
+    lines = [line for line in text.splitlines(keepends=True) if not line.startswith("#")]
+    return "".join(lines[1:])
+
+
+class Bytes(Case):
+    """The table does not know how it came to be."""
+
+    def map(self, *options):
+        result = self.run_explore("map", self.machine, *GRID, *options)
+        self.assertEqual((result.returncode, result.stderr), (0, ""))
+        return result.stdout
+
+    def test_threads_and_shards(self):
+        """Would catch a line that starts from another one, rows out of order, and a header that tells of the run."""
+        whole = self.map("--threads", 1)
+        self.assertEqual(self.map("--threads", 2), whole)
+        for shards in (1, 3, 7):
+            edges = [7 * k // shards for k in range(shards + 1)]
+            parts = [self.map("--lines", f"{a}:{b}", "--threads", 2) for a, b in zip(edges, edges[1:])]
+            head = whole[:len(whole) - len(rows(whole))]
+            self.assertTrue(all(part.startswith(head) for part in parts))
+            self.assertEqual("".join(map(rows, parts)), rows(whole))
+
+    def test_cut_off_and_resumed(self):
+        """At ten places: within the header, a row, between rows, and after whole lines. Would catch a row twice, a row
+        left out, and a line of x that goes on in its middle without the solution before."""
+        whole = self.map()
+        for k in range(10):
+            cut = len(whole) * (2 * k + 1) // 20
+            part = self.file("part.tsv", whole[:cut])
+            self.assertEqual(self.map("--resume", part), whole, cut)
+        self.assertEqual(self.map("--resume", self.file("whole.tsv", whole)), whole)
+
+    def test_killed_and_resumed(self):
+        """Killed while it works; what was written is whole lines and at most one that is cut off."""
+        options = [EXPLORE, "map", self.machine, "--x", "frequency=10:50:21", "--y", f"{CLEARANCE}=0:1e-4:41",
+                   "--quantity", "amplitude", "--threads", "2"]
+        whole = subprocess.run(options, stdout=subprocess.PIPE, check=True, cwd=self.folder, encoding="utf-8").stdout
+        part = self.folder / "part.tsv"
+        with part.open("w") as out, subprocess.Popen(options, stdout=out, cwd=self.folder) as running:
+            while part.stat().st_size < len(whole) // 3 and running.poll() is None:
+                time.sleep(0.001)
+            running.kill()
+        self.assertTrue(whole.startswith(part.read_text(encoding="utf-8")))
+        again = subprocess.run([*options, "--resume", part], stdout=subprocess.PIPE, check=True, cwd=self.folder,
+                               encoding="utf-8")
+        self.assertEqual(again.stdout, whole)
+
+
+class Values(Case):
+    """Rows against the commands for one point."""
+
+    def test_against_orbits(self):
+        """Amplitude, mean, contact, forces and verdict of three rows, from the table of `orbit` at the same machine.
+        Would catch a key that changes another value, and a quantity of another column."""
+        names = "amplitude,mean,contact_share,ball_load,force,stability,multiplier"
+        table = self.table("map", self.machine, "--x", "rotor.mass_kg=40:50:2", "--y", f"{CLEARANCE}=2e-5:4e-5:2",
+                           "--frequency", 45, "--quantity", names)
+        self.assertEqual(list(table.columns), ["rotor.mass_kg", CLEARANCE, *names.split(","), "status"])
+        for k in range(4):
+            machine = self.file("one.toml", MACHINE.replace("mass_kg = 40.0", f"mass_kg = {table['rotor.mass_kg'][k]}")
+                                .replace("2e-5", str(table[CLEARANCE][k])))
+            orbit = self.table("orbit", machine, "--frequency", 45, "--points", 512)
+            contact = self.table("contact", machine, "--frequency", 45, "--points", 512)
+            force = np.hypot(orbit["F_x"], orbit["F_y"])
+            for name, value in [("amplitude", np.ptp(orbit["x_r"]) / 2), ("mean", orbit["y_r"].mean()),
+                                ("contact_share", (force > 0).mean()), ("force", force.max()),
+                                ("ball_load", contact["Q"].max())]:
+                self.assertAlmostEqual(table[name][k] / value, 1, delta=1e-4, msg=name)
+            self.assertIn(f"# stability: {table['stability'][k]}; largest Floquet multiplier", orbit.header)
+            largest = float(orbit.header.split("Floquet multiplier ")[1].split()[0])
+            self.assertAlmostEqual(table["multiplier"][k], largest, delta=1e-5)
+
+    def test_chosen_harmonics_and_error(self):
+        table = self.table("map", self.machine, "--y", "frequency=30:45:2", "--tolerance", 1e-3,
+                           "--quantity", "harmonics,error")
+        for k in range(2):
+            header = self.table("orbit", self.machine, "--frequency", table["frequency"][k], "--tolerance", 1e-3).header
+            self.assertIn(f"m = {table['harmonics'][k]:g}, N", header)
+            errors = header.split("# error: ")[1].split()
+            self.assertAlmostEqual(table["error"][k] / max(float(errors[0]), float(errors[5])), 1, delta=0.1)
+
+    def test_period_against_attractors(self):
+        """At 20 Hz two turns, at 30 Hz one."""
+        table = self.table("map", self.machine, "--y", "frequency=20:30:2", "--quantity", "period,lyapunov")
+        self.assertEqual(list(table["period"]), [2, 1])
+        for k, frequency in enumerate((20, 30)):
+            known = self.table("attractors", self.machine, "--from", frequency, "--to", frequency + 1, "--count", 1,
+                               "--starts", 0)
+            self.assertAlmostEqual(table["lyapunov"][k], known["lyapunov"][0], delta=1e-9)
+
+    def test_peak_against_response(self):
+        """Of the finest response, and its place; by a sweep of 101 speeds. In permanent contact above 20 Hz."""
+        table = self.table("map", self.machine, "--y", f"{CLEARANCE}=1e-5:2e-5:2",
+                           "--sweep", "40:60", "--quantity", "peak,peak_frequency,permanent")
+        branch = self.table("response", self.machine, "--from", 40, "--to", 60)
+        top = branch["amp_x_r"].argmax()
+        self.assertAlmostEqual(table["peak"][1] / branch["amp_x_r"][top], 1, delta=2e-3)
+        self.assertAlmostEqual(table["peak_frequency"][1], branch["f"][top], delta=0.2)
+        self.assertEqual(table["permanent"][1], 1)
+
+    def test_list(self):
+        """Rows of a table are points, or with --x lines: the same numbers as those of a grid."""
+        points = self.file("points.tsv", f"rotor.mass_kg\t{CLEARANCE}\n40\t2e-05\n45\t3e-05\n")
+        some = self.table("map", self.machine, "--list", points, "--frequency", 45, "--quantity", "amplitude")
+        self.assertEqual(list(some["rotor.mass_kg"]), [40, 45])
+        lines = self.table("map", self.machine, "--list", points, "--x", "frequency=45:50:3", "--quantity", "amplitude")
+        self.assertEqual(list(lines["frequency"]), [45, 47.5, 50] * 2)
+        np.testing.assert_allclose(lines["amplitude"][::3], some["amplitude"], rtol=1e-12)
+
+    def test_logarithmic(self):
+        table = self.table("map", self.machine, "--x", "bearing.contact_stiffness_N_per_m1p5=1e9:1e12:4:log",
+                           "--frequency", 45, "--quantity", "amplitude")
+        np.testing.assert_allclose(table["bearing.contact_stiffness_N_per_m1p5"], [1e9, 1e10, 1e11, 1e12], rtol=1e-14)
+
+    def test_a_point_without_a_result(self):
+        """Nine balls do not repeat with the rotation; the map goes on, and says how many."""
+        result = self.run_explore("map", self.machine, "--x", "bearing.balls=8:10:3", "--frequency", 45,
+                                  "--quantity", "amplitude")
+        table = Table.of(result.stdout)
+        self.assertEqual((result.returncode, result.stderr), (0, "1 of 3 points have no result: see their status\n"))
+        self.assertEqual([cell == "-" for cell in table["amplitude"]], [False, True, False])
+        self.assertIn("4.5 balls pass", table["status"][1])
+
+
+class Refusals(Case):
+    def refused_map(self, words, text):
+        with self.subTest(text):
+            self.refused(words, "map", self.machine, *text.split())
+
+    def test_axes_and_quantities(self):
+        usual = "--frequency 45 --quantity amplitude"
+        for words, text in [
+                ("bearing.colour is not a known key here (known: balls", f"--x bearing.colour=1:2:3 {usual}"),
+                ("did you mean balls", f"--x bearing.bals=1:2:3 {usual}"),
+                ("wind is not a known key", f"--x wind.speed=1:2:3 {usual}"),
+                ("title must be a string", f"--x title=1:2:3 {usual}"),
+                ("radial_clearance_m must be >= 0", f"--x {CLEARANCE}=-1:1:3 {usual}"),
+                ("must be in 1...10000000", f"--x {CLEARANCE}=0:1e-4:0 {usual}"),
+                ("must be in 1...10000000", f"--x {CLEARANCE}=0:1e-4:10000001 {usual}"),
+                ("log needs", f"--x {CLEARANCE}=0:1e-4:3:log {usual}"),
+                ("log needs", f"--x {CLEARANCE}=-1:-2:3:log {usual}"),
+                ("from and to must differ", f"--x {CLEARANCE}=1e-4:1e-4:3 {usual}"),
+                ("must be KEY=from:to:count[:log]", f"--x {CLEARANCE}=0:1 {usual}"),
+                ("must be KEY=from:to:count[:log]", f"--x {CLEARANCE}=0:1:2:lin {usual}"),
+                ("must be KEY=from:to:count[:log]", f"--x {CLEARANCE} {usual}"),
+                ("decimal", f"--x {CLEARANCE}=0:nan:3 {usual}"),
+                ("--x: is missing", usual),
+                ("is given twice", f"--x {CLEARANCE}=0:1e-4:3 --y {CLEARANCE}=0:1e-4:3 {usual}"),
+                ("amplitude, mean, peak", f"--x {CLEARANCE}=0:1e-4:3 --frequency 45 --quantity colour"),
+                ("is given twice", f"--x {CLEARANCE}=0:1e-4:3 --frequency 45 --quantity force,force"),
+                ("--frequency: is missing", f"--x {CLEARANCE}=0:1e-4:3 --quantity amplitude"),
+                ("--frequency: is a key", f"--x frequency=1:2:3 {usual}"),
+                ("must be > 0", "--x frequency=0:2:3 --quantity amplitude"),
+                ("--sweep: is missing", f"--x {CLEARANCE}=0:1e-4:3 --quantity peak"),
+                ("--sweep: is for", f"--x {CLEARANCE}=0:1e-4:3 --sweep 1:2 {usual}"),
+                ("A must be below B", f"--x {CLEARANCE}=0:1e-4:3 --sweep 2:1 --quantity peak"),
+                ("those of --sweep", f"--x {CLEARANCE}=0:1e-4:3 --sweep 1:2 --frequency 45 --quantity peak"),
+                ("--threads 0", f"--x {CLEARANCE}=0:1e-4:3 --threads 0 {usual}")]:
+            self.refused_map(words, text)
+
+    def test_lines_and_lists(self):
+        for lines, words in [("0:4", "must be in 1...3"), ("3:3", "must be in 0...2"), ("-1:2", "0...2"),
+                             ("2:1", "must be in 3...3"), ("1", "must be A:B")]:
+            self.refused_map(words, f"--y {CLEARANCE}=0:1e-4:3 --lines {lines} --frequency 45 --quantity amplitude")
+        self.refused_map("no such file", "--list none.tsv --frequency 45 --quantity amplitude")
+        self.file("list.tsv", "bearing.colour\n1\n")
+        self.refused_map("is not a known key", "--list list.tsv --frequency 45 --quantity amplitude")
+        self.refused_map("--y: not together", f"--list list.tsv --y {CLEARANCE}=0:1:2 --frequency 45 --quantity force")
+
+    def test_a_table_of_another_map(self):
+        """Other quantities, other values of a key, other lines, and no map at all."""
+        usual = ["map", self.machine, "--x", "frequency=40:45:2", "--y", f"{CLEARANCE}=0:1e-4:3", "--quantity"]
+        part = self.file("part.tsv", "".join(f"{line}\n" for line in self.lines(*usual, "amplitude")))
+        self.refused("other settings", *usual, "mean", "--resume", part)
+        self.refused("other settings", *usual, "amplitude", "--harmonics", 7, "--resume", part)
+        self.refused("holds other points", *usual, "amplitude", "--lines", "1:3", "--resume", part)
+        self.refused("holds other points", *usual, "amplitude", "--lines", "0:2", "--resume", part)
+        self.refused("no such file", *usual, "amplitude", "--resume", "none.tsv")
+
+
+class Figure(Case):
+    def test_drawn(self):
+        """A map with classes and one over a single key."""
+        for options in (GRID + ["--quantity", "stability"], ["--x", "frequency=20:50:5", "--quantity", "amplitude"]):
+            result = self.run_explore("map", self.machine, *options, "--plot", "map.svg")
+            self.assertEqual((result.returncode, result.stderr), (0, ""))
+            self.assertIn("</svg>", (self.folder / "map.svg").read_text(encoding="utf-8"))
+
+
+if __name__ == "__main__":
+    unittest.main()
