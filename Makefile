@@ -35,6 +35,7 @@ packages := $(sort $(if $(filter-out list clean adopt format,$(goals)),cmake g++
   $(if $(with_pages),pandoc) \
   $(if $(filter test sanitize,$(goals)),catch2 chromium chromium-driver python3-hypothesis python3-selenium tidy) \
   $(if $(filter pdf,$(goals)),librsvg2-bin lmodern texlive-fonts-recommended texlive-latex-recommended texlive-luatex) \
+  $(if $(filter studies maps test sanitize $(basename $(notdir $(wildcard studies/*.yaml))),$(goals)),snakemake) \
   $(if $(filter peers,$(goals)),auto-07p gfortran libsundials-dev python3-scipy) \
   $(if $(filter live,$(goals)),emscripten) $(if $(filter png,$(goals)),librsvg2-bin) $(if $(filter bench,$(goals)),libbenchmark-dev) \
   $(if $(filter format,$(goals)),clang-format-14))
@@ -67,6 +68,7 @@ else
 MAKEFLAGS += --no-builtin-rules
 programs := $(basename $(notdir $(wildcard src/*.cpp)))
 scenes := $(basename $(notdir $(wildcard data/scenes/*.toml)))
+mapped := $(basename $(notdir $(wildcard studies/*.yaml)))
 scripts := $(basename $(notdir $(wildcard figures/*.gp figures/*.py)))
 kept := $(filter-out claims,$(basename $(notdir $(wildcard data/reference/*.tsv))))
 kept_printed := $(filter-out claims,$(basename $(notdir $(wildcard data/reference/as-printed/*.tsv))))
@@ -87,7 +89,8 @@ claims := data/generated/claims.tsv data/generated/as-printed/claims.tsv
 intervals := $(claims:claims.tsv=truth_intervals.tsv)
 timings := $(filter %/tab02_timing.tsv,$(tables) $(tables_printed))
 untimed := $(filter-out $(timings),$(tables) $(tables_printed)) $(figures) $(figures_printed) data/generated/deviations.md
-studies := $(filter $(programs),$(kept))
+studies := $(filter $(programs) $(mapped) sensitivity,$(kept))
+maps := $(filter-out $(kept),$(mapped))
 costs := $(filter tab02% work_precision cost_growth,$(studies))
 sources := $(shell find src data/bearings -type f) CMakeLists.txt CMakePresets.json
 
@@ -96,7 +99,7 @@ ifeq ($(READING),exchanged)
 shown := $(patsubst %,data/generated/%.tsv,$(paper) truth_intervals) data/generated/deviations.md \
   $(patsubst %,figures/generated/%.svg,$(filter $(paper) $(kept_printed),$(scripts)) truncation)
 endif
-.PHONY: deps all figures timing claims studies truth $(studies) adopt peers book article pdf png readme golden \
+.PHONY: deps all figures timing claims studies truth maps $(maps) $(studies) adopt peers book article pdf png readme golden \
   live test sanitize bench format dist list clean
 
 all: $(untimed) $(timings) $(claims) build/book/index.html build/paper/article.html  ## figures, tables and claims of both readings, pages, article
@@ -121,6 +124,8 @@ $(programs:%=build/%): build/.built
 build/environment.txt: paper/environment.py build/.built
 	$(whole) $(PYTHON) $< > $$new; mv $$new $@
 
+python_tables := figures/tables.py figures/project.py CMakeLists.txt data/claims.toml
+
 # Tables and figures. In the rules the stem is NAME or as-printed/NAME; what $$ begins is looked up when it is
 # known. What is written is moved into place when it is complete.
 whole = @echo $@; mkdir -p $(@D); new=$@.$$BASHPID.tmp; trap 'rm -f $$new' EXIT;
@@ -129,14 +134,19 @@ whole = @echo $@; mkdir -p $(@D); new=$@.$$BASHPID.tmp; trap 'rm -f $$new' EXIT;
 parameters = $(patsubst %,data/%$(if $(filter as-printed,$(*D)),-as-printed).toml, \
   $(shell sed -nE '/parameters = /s/[^"]*"([^"]*)"[^"]*/\1 /gp' data/scenes/$(*F).toml))
 attractors = $(if $(filter sections validity,$(*F)),$(subst generated,reference,$(@D))/attractors.tsv)
-journaled := $(basename $(notdir $(shell grep -l -e --journal src/*.cpp)))
 
 data/generated/%.tsv: build/$$(*F) data/scenes/$$(*F).toml $$(parameters) $$(attractors)
-	$(whole) $(alone) $< $(word 2,$^) $(if $(filter as-printed,$(*D)),--reading as-printed) $(attractors:%=--attractors %) \
-	  $(if $(filter $(*F),$(journaled)),--journal $(@:.tsv=.journal)) > $$new; mv $$new $@
+	$(whole) $(alone) $< $(word 2,$^) $(if $(filter as-printed,$(*D)),--reading as-printed) $(attractors:%=--attractors %) > $$new; mv $$new $@
 
-data/generated/sensitivity_derivatives.tsv: build/sensitivity_derivatives data/scenes/sensitivity.toml data/reference/sensitivity.tsv
-	$(whole) $< $(word 2,$^) --sensitivity $(word 3,$^) > $$new; mv $$new $@
+data/generated/sensitivity_derivatives.tsv: figures/sensitivity_derivatives.py data/reference/sensitivity.tsv $(python_tables)
+	$(whole) $(PYTHON) $(wordlist 1,2,$^) > $$new; mv $$new $@
+
+# Studies by explore map. Snakemake deals the lines of a map to jobs, and keeps the shards that are done.
+data/generated/sensitivity.tsv: studies/sensitivity.py data/scenes/sensitivity.toml data/set1.toml build/explore
+	$(whole) $(PYTHON) $(wordlist 1,2,$^) > $$new; mv $$new $@
+
+$(patsubst %,data/generated/%.tsv,$(filter $(kept),$(mapped))): data/generated/%.tsv: studies/%.yaml studies/Snakefile build/explore
+	snakemake --snakefile studies/Snakefile --profile studies/local $@
 
 # Timings run alone: after all that is not timed, one after the other.
 $(timings) $(costs:%=data/generated/%.tsv): private alone = flock build/.timing
@@ -166,7 +176,6 @@ png: $(patsubst %.svg,%.png,$(figures) $(figures_printed))  ## the figures as PN
 
 # What follows from tables: intervals, claims, texts, pages. The stem is generated or generated/as-printed.
 judging := figures/claim_quantities.py figures/claim_ranges.py data/scenes/fig07_contact.toml data/scenes/fig09_contact.toml
-python_tables := figures/tables.py figures/project.py CMakeLists.txt data/claims.toml
 $(intervals): data/%/truth_intervals.tsv: figures/truth_intervals.py $$(subst generated,reference,data/$$*/attractors.tsv) \
   $$(subst generated,reference,data/$$*/validity.tsv) $(python_tables)
 	$(whole) $(PYTHON) $(wordlist 1,3,$^) > $$new; mv $$new $@
@@ -234,6 +243,9 @@ build/paper/article.pdf: data/generated/article.md paper/article.tex build/paper
 
 # Long studies, computed anew and compared with the tables kept in data/reference.
 studies: $(studies) timing  ## the long studies and all timings (an hour)
+maps: $(maps)  ## maps that nobody has published, by studies/*.yaml (7 hours of one core; all cores are used)
+$(maps): %: build/explore
+	snakemake --snakefile studies/Snakefile --profile studies/local build/studies/$@/map.tsv
 truth: attractors validity stability verdicts adaptive  ## where the periodic solution is true (15 minutes)
 timing: $(timings) $(costs)  ## the tables of cost, alone on the machine (10 minutes)
 $(studies): $$(subst reference,generated,$$(wildcard data/reference/$$@.tsv data/reference/as-printed/$$@.tsv))
@@ -281,7 +293,7 @@ format:  ## clang-format on all C++ sources
 archive := rotor-stator-$(shell sed -nE 's/^project.rotor_stator VERSION ([0-9.]+).*/\1/p' CMakeLists.txt)
 dist: all  ## an archive of the commit with its tables, figures and pages: build/rotor-stator-VERSION.tar.gz
 	@git diff --quiet HEAD || { echo "dist: the work tree differs from the commit" >&2; exit 1; }
-	{ git ls-files; find data/generated figures/generated build/book build/paper -type f ! -name '*.journal' ! -name '*.tmp*'; } | \
+	{ git ls-files; find data/generated figures/generated build/book build/paper -type f ! -name '*.tmp*'; } | \
 	  sort | tar --mtime=@0 --owner=0 --group=0 --numeric-owner --mode=go+u,go-w --transform 's,^,$(archive)/,' -T - -c | \
 	  gzip -n > build/$(archive).tar.gz
 

@@ -19,21 +19,20 @@ number chosen, speed by speed; a cross is a tolerance that was not reached. The 
 by far more than one number for a whole data set suggests. Open marks in (a) and (b) belong to data set 2. Speeds
 at which the motion is not T-periodic have no exact solution to compare with and are left out.
 
-Modelled: harmonic balance, and shooting for the exact motion. Finished speeds are kept in a journal. */
+Modelled: harmonic balance, and shooting for the exact motion. */
 #include "truth/adaptive.hpp"
-#include "io/journal.hpp"
+#include "io/parallel.hpp"
 #include "io/program.hpp"
 
 int main(int argc, char** argv)
 {
   using namespace rotor_stator;
-  const Program program{.options = {{"--journal", "adaptive.journal", "finished speeds"}},
-                        .has_readings = false};
-  return run_figure(argc, argv, program, [](SceneFile& file, const Options& options) {
+  const Program program{.options = {}, .has_readings = false};
+  return run_figure(argc, argv, program, [](SceneFile& file, const Options&) {
     const truth::AdaptiveScene scene = truth::read_adaptive_scene(file);
-    const auto points = run_study<truth::AdaptivePoint>(
-        {"speeds", options["--journal"], stamp_of(file.files()), scene.speeds.size()},
-        [&](std::size_t k) { return truth::judged(scene, k); });
+    const auto points =
+        computed_in_parallel("speeds", scene.speeds.size(),
+                             [&](std::size_t k) { return truth::judged(scene, k); });
     return truth::adaptive_table(scene, points);
   });
 }

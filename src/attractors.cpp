@@ -15,22 +15,19 @@ Lyapunov exponent, the rate at which neighbouring motions separate, known to a s
 if the exponent is positive by three of these errors, quasi-periodic if the exponent is zero within three
 small ones, and undecided otherwise.
 
-Modelled: the motion once per period, and the largest Lyapunov exponent, for both data sets. Finished pieces
-are kept in a journal. */
+Modelled: the motion once per period, and the largest Lyapunov exponent, for both data sets. */
 #include "truth/attractors.hpp"
-#include "io/journal.hpp"
+#include "io/parallel.hpp"
 #include "io/program.hpp"
 
 int main(int argc, char** argv)
 {
   using namespace rotor_stator;
-  const Program program{
-      .options = {{"--journal", "attractors.journal", "finished chains"}}};
-  return run_figure(argc, argv, program, [](SceneFile& file, const Options& options) {
+  return run_figure(argc, argv, [](SceneFile& file) {
     const truth::AttractorScene scene = truth::read_attractor_scene(file);
     const auto chains = truth::chains(scene);
-    const auto motions = run_study<truth::AttractorPoint>(
-        {"attractors", options["--journal"], stamp_of(file.files()), chains.size()},
+    const auto motions = computed_in_parallel(
+        "attractors", chains.size(),
         [&](std::size_t k) { return truth::settled(scene, chains[k]); });
     return truth::attractor_table(scene, truth::numbered(motions, scene.settings));
   });

@@ -217,13 +217,16 @@ void add_attractors_options(CLI::App& command, AttractorsRequest& request)
                      "figure of the sections against speed: .svg, .png or .pdf");
 }
 
-void add_map_options(CLI::App& command, MapRequest& request)
+/** What is returned throws BadInput for an option that the method would ignore. */
+std::function<void()> add_map_options(CLI::App& command, MapRequest& request)
 {
   std::string known;
   for (const Column& one : map_quantities())
     known +=
         (known.empty() ? "" : "; ") + one.name + " [" + one.unit + "] " + one.meaning;
-  add_balance_options(command, request, "by --tolerance");
+  std::string methods = "aft (harmonic balance)";
+  for (const std::string& name : time_methods()) methods += ", " + name;
+  auto aft = add_balance_options(command, request, "by --tolerance");
   command.get_option("--budget")
       ->description(
           "most evaluations of the force at each point (default: those of 5 s, 1.4e8 with 16 balls)");
@@ -239,9 +242,16 @@ void add_map_options(CLI::App& command, MapRequest& request)
              "speed of rotation [Hz], where it is no key");
   command.add_option(
       "--sweep", request.sweep,
-      "A:B[:COUNT], speeds of peak, peak_frequency and permanent [Hz] (101)");
-  add_number(command, "--tolerance", request.tolerance, 1e-8, 0.1,
-             "relative error for which m is chosen");
+      "A:B[:COUNT], range of speeds of the quantities over one [Hz] (101)");
+  command.add_option("--method", request.method, methods)->capture_default_str();
+  aft.push_back(add_number(command, "--tolerance", request.tolerance, 1e-8, 0.1,
+                           "relative error for which m is chosen"));
+  const auto step = add_number(command, "--step", request.step, 0.0, largest,
+                               "longest step of rk4 [s] (default: from K_H)");
+  const auto longest = add_number(command, "--longest", request.longest, 1e-3, 1e5,
+                                  "longest transient of the time methods, from rest [s]");
+  const auto periods = add_number(command, "--periods", request.periods, 2, 10000,
+                                  "that the time methods observe");
   add_number(command, "--threads", request.threads, 1, 1024,
              "lines at a time (default: OMP_NUM_THREADS, or all cores)");
   command.add_option("--lines", request.lines, "A:B, only the lines with A <= index < B");
@@ -249,6 +259,15 @@ void add_map_options(CLI::App& command, MapRequest& request)
       "--resume", request.resume,
       "table of the same map that was interrupted: its whole lines are taken over");
   command.add_option("--plot", request.plot, "figure of the map: .svg, .png or .pdf");
+  return [=, &request] {
+    const std::string& method = request.method;
+    require_method(method, {"aft"});
+    for (const CLI::Option* option : aft)
+      refuse(option, method == "aft", "for --method aft", method);
+    refuse(step, method == "rk4", "for --method rk4", method);
+    refuse(longest, method != "aft", "for the time methods", method);
+    refuse(periods, method != "aft", "for the time methods", method);
+  };
 }
 
 int finish(const Exploration& exploration)
@@ -281,7 +300,7 @@ int main(int argc, char** argv)
   CLI::App* map = app.add_subcommand(
       "map", "quantities over two keys of the parameter file, on all cores");
   MapRequest mapped;
-  add_map_options(*map, mapped);
+  const auto refuse_of_map = add_map_options(*map, mapped);
   const auto refuse_of_orbit = add_motion_options(*orbit, motion);
   const auto refuse_of_contact = add_motion_options(*contact, motion);
   const auto refuse_of_spectrum = add_spectrum_options(*lines, spectrum);
@@ -291,6 +310,7 @@ int main(int argc, char** argv)
     if (!parse(app, argc, argv)) return 0;
     if (settled->parsed()) return finish(explore_attractors(attractors));
     if (map->parsed()) {
+      refuse_of_map();
       explore_map(mapped);
       return 0;
     }

@@ -21,26 +21,22 @@ Above, the figure shows against the stator's mass the closed form of the loss of
 integration loses contact; below, the verdict of every claim for every accepted machine. Circles stand at the masses
 used everywhere else.
 
-Modelled: the integrated motion of every accepted machine. Finished ones are kept in a journal: an interrupted run
-goes on where it was. */
+Modelled: the integrated motion of every accepted machine. */
 #include "studies/identification.hpp"
-#include "io/journal.hpp"
+#include "io/parallel.hpp"
 #include "io/program.hpp"
 
 int main(int argc, char** argv)
 {
   using namespace rotor_stator;
   const Program program{
-      .options = {{"--claims", "data/claims.toml", "what the text says"},
-                  {"--journal", "identification.journal", "finished candidates"}},
+      .options = {{"--claims", "data/claims.toml", "what the text says"}},
       .has_readings = false};
   return run(argc, argv, program, [](const Options& options) {
     const auto scene =
         studies::read_identification_scene(options.scene_file, options["--claims"]);
-    const auto motions = run_study<studies::CandidateMotion>(
-        {"candidates", options["--journal"], stamp_of(scene.files),
-         scene.candidates.size()},
-        [&](std::size_t k) {
+    const auto motions =
+        computed_in_parallel("candidates", scene.candidates.size(), [&](std::size_t k) {
           return studies::motions_of(scene, scene.candidates[k].machine);
         });
     return studies::identification_table(scene, options["--claims"], motions);

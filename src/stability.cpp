@@ -21,25 +21,22 @@ the multipliers and bifurcations are those of that motion. Where none is found n
 The folds are those of the truncated equations. Their number grows with m, because the contact has no damping and each
 further harmonic can excite another contact resonance.
 
-Modelled: harmonic balance by arc length; motions of Eq. 7 by shooting and their Floquet multipliers. Finished curves are kept
-in a journal. */
+Modelled: harmonic balance by arc length; motions of Eq. 7 by shooting and their Floquet multipliers. */
 #include <algorithm>
 
-#include "io/journal.hpp"
+#include "io/parallel.hpp"
 #include "io/program.hpp"
 #include "truth/stability.hpp"
 
 int main(int argc, char** argv)
 {
   using namespace rotor_stator;
-  const Program program{
-      .options = {{"--journal", "stability.journal", "finished curves"}}};
-  return run_figure(argc, argv, program, [](SceneFile& file, const Options& options) {
+  return run_figure(argc, argv, [](SceneFile& file) {
     const truth::StabilityScene scene = truth::read_stability_scene(file);
     auto longest_first = scene.curves;
     std::reverse(longest_first.begin(), longest_first.end());
-    auto points = run_study<truth::StabilityPoint>(
-        {"curves", options["--journal"], stamp_of(file.files()), longest_first.size()},
+    auto points = computed_in_parallel(
+        "curves", longest_first.size(),
         [&](std::size_t k) { return truth::follow_stability(scene, longest_first[k]); });
     std::reverse(points.begin(), points.end());
     return truth::stability_table(scene, points);

@@ -27,15 +27,14 @@ multipliers inside the unit circle.
 Modelled: harmonic balance from many starts, verdicts by shooting, and motions from the states of the attractors. */
 #include "truth/validity.hpp"
 #include "continuation/sweep.hpp"
-#include "io/journal.hpp"
+#include "io/parallel.hpp"
 #include "io/program.hpp"
 
 int main(int argc, char** argv)
 {
   using namespace rotor_stator;
   const Program program{
-      .options = {{"--attractors", "data/reference/attractors.tsv", "their table"},
-                  {"--journal", "validity.journal", "finished speeds"}}};
+      .options = {{"--attractors", "data/reference/attractors.tsv", "their table"}}};
   return run_figure(argc, argv, program, [](SceneFile& file, const Options& options) {
     const auto scene = truth::read_validity_scene(file, options["--attractors"]);
     const std::size_t sets = scene.sets.size(), speeds = scene.frequencies.size();
@@ -44,11 +43,8 @@ int main(int argc, char** argv)
       const int m = 1 + static_cast<int>(k) % most;
       return sweep(scene.sets[k / most], angular(scene.frequencies), m);
     });
-    auto files = file.files();
-    files.push_back(options["--attractors"]);
-    const auto points = run_study<truth::ValidityPoint>(
-        {"validity", options["--journal"], stamp_of(files), sets * speeds},
-        [&](std::size_t k) {
+    const auto points =
+        computed_in_parallel("validity", sets * speeds, [&](std::size_t k) {
           const int set = static_cast<int>(k / speeds);
           const std::size_t speed = k % speeds;
           std::vector<PeriodicMotion> solutions;

@@ -23,22 +23,19 @@ vibration of the contact, and the method can choose wrong ones among the exponen
 uncertainty, so its verdict is never "undecided".
 
 Speeds avoid the half hertz on which other studies stand. Modelled: harmonic balance, shooting, disturbances along
-the series and Hill's method. Finished solutions are kept in a journal. */
+the series and Hill's method. */
 #include "truth/verdicts.hpp"
-#include "io/journal.hpp"
+#include "io/parallel.hpp"
 #include "io/program.hpp"
 
 int main(int argc, char** argv)
 {
   using namespace rotor_stator;
-  const Program program{
-      .options = {{"--journal", "verdicts.journal", "finished solutions"}}};
-  return run_figure(argc, argv, program, [](SceneFile& file, const Options& options) {
+  return run_figure(argc, argv, [](SceneFile& file) {
     const truth::VerdictScene scene = truth::read_verdict_scene(file);
     const auto& hill = scene.hill_harmonics;
-    const auto points = run_study<truth::VerdictPoint>(
-        {"verdicts", options["--journal"], stamp_of(file.files()), scene.points.size()},
-        [&](std::size_t k) {
+    const auto points =
+        computed_in_parallel("verdicts", scene.points.size(), [&](std::size_t k) {
           return std::vector{
               truth::judged(scene, scene.points[k], hill[k % hill.size()])};
         });

@@ -11,6 +11,7 @@
 #include "io/output_file.hpp"
 #include "io/parallel.hpp"
 #include "motion/attractor.hpp"
+#include "motion/contact.hpp"
 
 namespace rotor_stator::explore {
 
@@ -381,7 +382,10 @@ SettledMotion settled_from_rest(const Parameters& machine, double frequency,
   if (!run.lost.empty()) throw NoSolution(run.lost);
   Found found = found_at(task, 0, {run}).front();
   sharpen_exponent(task, found);
-  return {found.period_number(), found.turns(found.exponent.value)};
+  const motion::Motion motion = motion::motion_along(found, machine, angular(frequency),
+                                                     128, section_points, budget);
+  return {found.period_number(), found.turns(found.exponent.value),
+          motion::contact_share(machine, motion)};
 }
 
 Exploration explore_attractors(const AttractorsRequest& request)

@@ -24,6 +24,7 @@ Exploration explore_attractors(const AttractorsRequest& request);
 struct SettledMotion {
   int period;       ///< K; 0 aperiodic, -1 quasi-periodic, -2 undecided
   double lyapunov;  ///< [1/base period]
+  double contact;   ///< share of the time with at least one loaded ball [-]
 };
 
 /** Throws NoSolution when the integration breaks down or `budget` is used up. */

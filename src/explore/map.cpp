@@ -29,7 +29,7 @@ namespace {
 
 const char* const script = "map.py";
 const char* const speed = "frequency";  // the key that no parameter file has
-constexpr int instants = 512;           // of a period, for forces
+constexpr int instants = 512, swept_instants = 128, timed_instants = 64;  // of a period
 constexpr int most_points = 10'000'000;
 constexpr double seconds = 5;  // that a point may take, about
 
@@ -192,10 +192,21 @@ private:
   std::string lost_;
 };
 
+/** A response curve over the speeds of --sweep. */
 struct Swept {
-  CurvePoint peak;
-  double permanent;
+  CurvePoint peak = {};  ///< of x_r [Hz, m]
+  int solved = 0, permanent = 0;
+  double loss_first = -1, loss_last = -1;  ///< speeds losing contact [Hz]; -1: none
+  double ball_load = 0;                    ///< [N]
 };
+
+double largest_ball_force(const Parameters& machine, const motion::Motion& motion)
+{
+  double largest = 0;
+  for (const auto& forces : motion::contact_evolution(machine, motion).ball_force)
+    largest = std::max(largest, std::ranges::max(forces));
+  return largest;
+}
 
 class Point {
 public:
@@ -232,9 +243,40 @@ public:
     });
   }
 
+  /** Of a time method the periods that are observed. */
   const motion::Motion& motion()
   {
-    return motion_([&] { return motion::motion_of(solution().bodies, instants); });
+    return motion_([&] {
+      const MapRequest& asked = task_.request;
+      if (asked.method == "aft") return motion::motion_of(solution().bodies, instants);
+      const SteadySettings settings{.stepper = {.method = asked.method,
+                                                .intervals_per_period = timed_instants,
+                                                .step = asked.step,
+                                                .budget = budget_},
+                                    .longest = asked.longest,
+                                    .shown_periods = asked.periods};
+      return motion::motion_of(steady_state(machine, omega(), settings), timed_instants);
+    });
+  }
+
+  /** Half peak-to-peak of x_r [m]; of a time method the mean over the periods. */
+  double amplitude()
+  {
+    if (task_.request.method == "aft") return half_peak_to_peak(solution().bodies)[2];
+    return motion::mean_over(motion(), 1,
+                             [](const motion::Motion& period) {
+                               return motion::half_peak_to_peak(period)[2];
+                             })
+        .value;
+  }
+
+  int missed() { return static_cast<int>(task_.sweep.size()) - swept().solved; }
+
+  double mean()
+  {
+    double sum = 0;
+    for (const Bodies& at : motion().positions) sum += at.rotor.y;
+    return sum / static_cast<double>(motion().size());
   }
 
   const motion::Verdict& verdict()
@@ -254,22 +296,30 @@ public:
     return settled_([&] { return settled_from_rest(machine, frequency, budget_); });
   }
 
-  /** The response curve of x_r over the range of --sweep. */
   const Swept& swept()
   {
     return swept_([&] {
       require_period();
+      Swept all;
       std::vector<CurvePoint> curve;
-      int permanent = 0;
       for (const PeriodicMotion& at : rotor_stator::sweep(
                machine, angular(task_.sweep), task_.harmonics, task_.samples)) {
         if (!at.found()) continue;
-        curve.push_back({at.omega / angular(1), half_peak_to_peak(at.bodies)[2]});
-        permanent +=
-            motion::contact_share(machine, motion::motion_of(at.bodies, instants)) == 1;
+        const double hertz = at.omega / angular(1);
+        const motion::Motion motion = motion::motion_of(at.bodies, swept_instants);
+        curve.push_back({hertz, motion::half_peak_to_peak(motion)[2]});
+        all.ball_load = std::max(all.ball_load, largest_ball_force(machine, motion));
+        if (motion::contact_share(machine, motion) == 1) {
+          ++all.permanent;
+          continue;
+        }
+        if (all.loss_first < 0) all.loss_first = hertz;
+        all.loss_last = hertz;
       }
       if (curve.empty()) throw NoSolution("no solution at any speed of --sweep");
-      return Swept{refined_peak(curve), permanent / static_cast<double>(curve.size())};
+      all.peak = refined_peak(curve);
+      all.solved = static_cast<int>(curve.size());
+      return all;
     });
   }
 
@@ -332,15 +382,6 @@ private:
 /**
 ## The quantities */
 
-double largest_ball_force(Point& point)
-{
-  double largest = 0;
-  const auto evolution = motion::contact_evolution(point.machine, point.motion());
-  for (const auto& forces : evolution.ball_force)
-    largest = std::max(largest, std::ranges::max(forces));
-  return largest;
-}
-
 double largest_force(Point& point)
 {
   double largest = 0;
@@ -349,44 +390,60 @@ double largest_force(Point& point)
   return largest;
 }
 
+/** What a quantity is taken from: a solution of harmonic balance, or the motion of any method, or the motion from
+    rest as `explore attractors` finds it, all at one speed; or the speeds of --sweep. */
+enum Source { solution, motion_of_method, rest, sweeps };
+
 struct Quantity : Column {
-  bool sweeps;  ///< over the speeds of --sweep; else at one speed
+  Source source;
   Cell (*value)(Point& point);
 };
 
 const std::vector<Quantity> quantities{
-    {"amplitude", "m", "half peak-to-peak of x_r", false,
-     [](auto& p) -> Cell { return half_peak_to_peak(p.solution().bodies)[2]; }},
-    {"mean", "m", "mean of y_r over the period", false,
-     [](auto& p) -> Cell { return p.solution().bodies(3, 0); }},
+    {"amplitude", "m", "half peak-to-peak of x_r", motion_of_method,
+     [](auto& p) -> Cell { return p.amplitude(); }},
+    {"mean", "m", "mean of y_r over the period", motion_of_method,
+     [](auto& p) -> Cell { return p.mean(); }},
     {"peak", "m", "largest amplitude over the speeds of --sweep, refined by a parabola",
-     true, [](auto& p) -> Cell { return p.swept().peak.amplitude; }},
-    {"peak_frequency", "Hz", "its speed", true,
+     sweeps, [](auto& p) -> Cell { return p.swept().peak.amplitude; }},
+    {"peak_frequency", "Hz", "its speed", sweeps,
      [](auto& p) -> Cell { return p.swept().peak.frequency; }},
-    {"permanent", "-", "share of the speeds of --sweep with permanent contact", true,
-     [](auto& p) -> Cell { return p.swept().permanent; }},
-    {"contact_share", "-", "share of the period with at least one loaded ball", false,
+    {"permanent", "-", "share of the solved speeds of --sweep with permanent contact",
+     sweeps,
+     [](auto& p) -> Cell { return 1.0 * p.swept().permanent / p.swept().solved; }},
+    {"loss_first", "Hz", "first speed of --sweep at which contact is lost; -1: none",
+     sweeps, [](auto& p) -> Cell { return p.swept().loss_first; }},
+    {"loss_last", "Hz", "last such speed; -1: none", sweeps,
+     [](auto& p) -> Cell { return p.swept().loss_last; }},
+    {"largest_load", "N", "largest force on a ball over the speeds of --sweep", sweeps,
+     [](auto& p) -> Cell { return p.swept().ball_load; }},
+    {"missed", "-", "speeds of --sweep without a solution", sweeps,
+     [](auto& p) -> Cell { return p.missed(); }},
+    {"contact_share", "-", "share of the period with at least one loaded ball",
+     motion_of_method,
      [](auto& p) -> Cell { return motion::contact_share(p.machine, p.motion()); }},
-    {"ball_load", "N", "largest force on a ball, over two periods", false,
-     [](auto& p) -> Cell { return largest_ball_force(p); }},
-    {"force", "N", "largest force of the bearing, Eq. 6", false,
+    {"ball_load", "N", "largest force on a ball, over two periods", motion_of_method,
+     [](auto& p) -> Cell { return largest_ball_force(p.machine, p.motion()); }},
+    {"force", "N", "largest force of the bearing, Eq. 6", motion_of_method,
      [](auto& p) -> Cell { return largest_force(p); }},
     {"stability", "word",
-     "of the motion of Eq. 7 found from the solution: stable, unstable, undecided", false,
-     [](auto& p) -> Cell { return std::string(p.verdict().word()); }},
+     "of the motion of Eq. 7 found from the solution: stable, unstable, undecided",
+     solution, [](auto& p) -> Cell { return std::string(p.verdict().word()); }},
     {"period", "-",
-     "K of the motion from rest; 0 aperiodic, -1 quasi-periodic, -2 undecided", false,
+     "K of the motion from rest; 0 aperiodic, -1 quasi-periodic, -2 undecided", rest,
      [](auto& p) -> Cell { return p.settled().period; }},
-    {"multiplier", "-", "largest modulus of the multipliers behind stability", false,
+    {"multiplier", "-", "largest modulus of the multipliers behind stability", solution,
      [](auto& p) -> Cell { return p.floquet().largest(); }},
     {"lyapunov", "1/base period", "largest Lyapunov exponent of the motion from rest",
-     false, [](auto& p) -> Cell { return p.settled().lyapunov; }},
-    {"harmonics", "-", "m that --tolerance needs, 1e-3 without it", false,
+     rest, [](auto& p) -> Cell { return p.settled().lyapunov; }},
+    {"loaded", "-", "share of the time of the motion from rest with a loaded ball", rest,
+     [](auto& p) -> Cell { return p.settled().contact; }},
+    {"harmonics", "-", "m that --tolerance needs, 1e-3 without it", solution,
      [](auto& p) -> Cell { return p.chosen().motion.harmonics.count(); }},
     {"error", "-",
      "of the solution, the larger of the largest displacement's and the rms about the mean, estimated with more "
      "harmonics or, where that does not settle, against the motion behind stability",
-     false, [](auto& p) -> Cell { return p.error(); }}};
+     solution, [](auto& p) -> Cell { return p.error(); }}};
 
 std::vector<Quantity> chosen_quantities(const Task& task)
 {
@@ -407,19 +464,25 @@ std::vector<Quantity> chosen_quantities(const Task& task)
       throw BadInput("--quantity " + name + ": is given twice");
     chosen.push_back(*found);
   }
-  const auto any = [&](bool sweeps) {
-    const auto one = std::ranges::find(chosen, sweeps, &Quantity::sweeps);
+  const auto of = [&](auto... sources) {
+    const auto one = std::ranges::find_if(
+        chosen, [&](const Quantity& q) { return ((q.source == sources) || ...); });
     return one == chosen.end() ? std::string() : one->name;
   };
+  const std::string swept = of(sweeps), here = of(solution, motion_of_method, rest);
   const bool has_speed = task.request.frequency || task.has_speed();
-  if (!any(true).empty() && task.sweep.empty())
-    throw BadInput("--sweep: is missing, the speeds of " + any(true));
-  if (any(true).empty() && !task.sweep.empty())
-    throw BadInput("--sweep: is for peak, peak_frequency and permanent");
-  if (!any(false).empty() && !has_speed)
-    throw BadInput("--frequency: is missing, the speed of " + any(false));
-  if (any(false).empty() && has_speed)
+  if (!swept.empty() && task.sweep.empty())
+    throw BadInput("--sweep: is missing, the speeds of " + swept);
+  if (swept.empty() && !task.sweep.empty())
+    throw BadInput("--sweep: no quantity of a range of speeds is asked for");
+  if (!here.empty() && !has_speed)
+    throw BadInput("--frequency: is missing, the speed of " + here);
+  if (here.empty() && has_speed)
     throw BadInput("--frequency: the quantities asked for are those of --sweep");
+  if (const std::string balanced = of(solution, sweeps);
+      task.request.method != "aft" && !balanced.empty())
+    throw BadInput("--method " + task.request.method + ": " + balanced +
+                   " is of harmonic balance, aft");
   return chosen;
 }
 
@@ -482,11 +545,15 @@ std::string header_of(const Task& task, const std::vector<Quantity>& chosen)
   if (!task.sweep.empty())
     table.note(format("sweep: %zu speeds from %.15g to %.15g Hz", task.sweep.size(),
                       task.sweep.front(), task.sweep.back()));
-  table.note(
-      request.tolerance && !request.harmonics
-          ? format("method: aft, m chosen for a tolerance of %g", *request.tolerance)
-          : format("method: aft, m = %d, N = %d, relative tolerance of Newton %g",
-                   task.harmonics, task.samples, request.newton_tolerance));
+  if (request.method != "aft")
+    table.note(format(
+        "method: %s, longest step %g s (0: from K_H), at most %g s from rest, then %d periods",
+        request.method.c_str(), request.step, request.longest, request.periods));
+  else if (request.tolerance && !request.harmonics)
+    table.note(format("method: aft, m chosen for a tolerance of %g", *request.tolerance));
+  else
+    table.note(format("method: aft, m = %d, N = %d, relative tolerance of Newton %g",
+                      task.harmonics, task.samples, request.newton_tolerance));
   if (request.tolerance && request.harmonics)
     table.note(format("harmonics: for a tolerance of %g", *request.tolerance));
   table.note(format("budget: %g evaluations of the force for each point",

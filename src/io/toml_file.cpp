@@ -363,7 +363,7 @@ void StrictToml::refuse_unknown_keys() const
 }
 
 SceneFile::SceneFile(const std::string& file, const std::string& reading)
-    : file_(file), reading_(reading), files_{file}, toml_(file)
+    : file_(file), reading_(reading), toml_(file)
 {
   if (reading != "exchanged" && reading != "as-printed")
     throw BadInput("--reading " + reading + ": must be exchanged or as-printed");
@@ -373,8 +373,7 @@ std::string SceneFile::file_of(const std::string& name)
 {
   const std::string suffix = reading_ == "exchanged" ? "" : "-" + reading_;
   const auto data = std::filesystem::path(file_).parent_path().parent_path();
-  files_.push_back((data / (name + suffix + ".toml")).string());
-  return files_.back();
+  return (data / (name + suffix + ".toml")).string();
 }
 
 std::string SceneFile::data_set(const std::string& key)

@@ -96,9 +96,6 @@ public:
   std::string data_set(const std::string& key);
   std::vector<std::string> data_sets(const std::string& key);
 
-  /** The scene's file and those of the data sets that were asked for. */
-  const std::vector<std::string>& files() const { return files_; }
-
   /** `from`, `to` and `step` in hertz, both ends included. */
   std::vector<double> speed_range(const std::string& key);
 
@@ -106,7 +103,6 @@ private:
   std::string file_of(const std::string& name);
 
   std::string file_, reading_;
-  std::vector<std::string> files_;
   StrictToml toml_;
 };
 

@@ -124,7 +124,7 @@ IdentificationScene read_identification_scene(const std::string& file,
                                               const std::string& claims)
 {
   const Text text = read_text(claims);
-  IdentificationScene scene{.files = {claims}};
+  IdentificationScene scene;
   int reading = 0;
   for (const char* name : {"exchanged", "as-printed"}) {
     SceneFile scene_file(file, name);
@@ -137,7 +137,6 @@ IdentificationScene read_identification_scene(const std::string& file,
       add_set(scene, reading, ++set, base, masses, text);
     scene.accepted.push_back(accepted_words(sets.front(), name, text));
     scene_file.toml().refuse_unknown_keys();
-    for (const std::string& read : scene_file.files()) scene.files.push_back(read);
     ++reading;
   }
   return scene;

@@ -38,7 +38,6 @@ struct IdentificationScene {
   std::vector<std::string> accepted = {};  ///< the intervals of masses in words
   std::vector<double> frequencies = {};    ///< [Hz]
   motion::RegimeSettings settings = {};
-  std::vector<std::string> files;  ///< that were read
 };
 
 /** Both readings of a scene. */

@@ -93,6 +93,15 @@ class Values(Case):
             largest = float(orbit.header.split("Floquet multiplier ")[1].split()[0])
             self.assertAlmostEqual(table["multiplier"][k], largest, delta=1e-5)
 
+    def test_time_method(self):
+        """At 45 Hz, where 32 harmonics are exact, rk4 gives the same numbers; also with a cage for which there is no period."""
+        over = ["map", self.machine, "--frequency", 45, "--quantity", "amplitude,mean,contact_share,ball_load"]
+        balance = self.table(*over, "--y", "bearing.cage_speed_ratio=0.4375:0.5:2", "--harmonics", 32)
+        time_method = self.table(*over, "--y", "bearing.cage_speed_ratio=0.4375:0.5:3", "--method", "rk4")
+        for name, most in (("amplitude", 1e-3), ("mean", 1e-5), ("contact_share", 0), ("ball_load", 0.02)):
+            np.testing.assert_allclose(time_method[name][::2], balance[name], rtol=most)
+        self.assertEqual(time_method["status"][1], "ok")
+
     def test_chosen_harmonics_and_error(self):
         table = self.table("map", self.machine, "--y", "frequency=30:45:2", "--tolerance", 1e-3,
                            "--quantity", "harmonics,error")
@@ -175,9 +184,12 @@ class Refusals(Case):
                 ("--frequency: is a key", f"--x frequency=1:2:3 {usual}"),
                 ("must be > 0", "--x frequency=0:2:3 --quantity amplitude"),
                 ("--sweep: is missing", f"--x {CLEARANCE}=0:1e-4:3 --quantity peak"),
-                ("--sweep: is for", f"--x {CLEARANCE}=0:1e-4:3 --sweep 1:2 {usual}"),
+                ("--sweep: no quantity", f"--x {CLEARANCE}=0:1e-4:3 --sweep 1:2 {usual}"),
                 ("A must be below B", f"--x {CLEARANCE}=0:1e-4:3 --sweep 2:1 --quantity peak"),
                 ("those of --sweep", f"--x {CLEARANCE}=0:1e-4:3 --sweep 1:2 --frequency 45 --quantity peak"),
+                ("is of harmonic balance", f"--x {CLEARANCE}=0:1e-4:3 --frequency 45 --method rk4 --quantity error"),
+                ("for the time methods", f"--x {CLEARANCE}=0:1e-4:3 --longest 3 {usual}"),
+                ("rk8pd", f"--x {CLEARANCE}=0:1e-4:3 --method euler {usual}"),
                 ("--threads 0", f"--x {CLEARANCE}=0:1e-4:3 --threads 0 {usual}")]:
             self.refused_map(words, text)
 

@@ -1,18 +1,13 @@
-/** Regimes, the judgement of a candidate, and studies that go on where they were interrupted. */
+/** Regimes, the judgement of a candidate, and pieces of work on several threads. */
 #include <atomic>
 #include <cmath>
-#include <fstream>
 #include <numbers>
 #include "support/catch.hpp"
 
-#include "continuation/sweep.hpp"
-#include "io/journal.hpp"
 #include "io/parallel.hpp"
 #include "motion/contact.hpp"
-#include "studies/clearance_stiffness.hpp"
 #include "studies/identification.hpp"
 #include "support/cases.hpp"
-#include "support/command.hpp"
 
 using namespace rotor_stator;
 using namespace rotor_stator::studies;
@@ -145,61 +140,6 @@ TEST_CASE("At 45 Hz each ball of set 1 is passed once per 2T, at 13.4 Hz not")
   CHECK_FALSE(middle.periodic);
 }
 
-TEST_CASE("An interrupted study goes on where it was, and a changed one starts anew")
-{
-  const Scratch scratch;
-  struct Square {
-    int number;
-    double square;
-    bool operator==(const Square&) const = default;
-  };
-  std::atomic<int> calls = 0;
-  const auto squares = [&](std::size_t piece) {
-    ++calls;
-    const int k = static_cast<int>(piece);
-    return std::vector<Square>(piece % 3, {k, 0.1 * k * k});
-  };
-  Study study{.name = "squares",
-              .journal = scratch.path("journal"),
-              .stamp = "squares of small numbers",
-              .pieces = 20};
-  const auto records = run_study<Square>(study, squares);
-  CHECK(calls == 20);
-  CHECK(records[6].empty());
-  CHECK(records[7] == std::vector<Square>{{7, 0.1 * 49}});
-  CHECK(records[8].size() == 2);
-
-  /** Five pieces are lost, and the last kept line is cut off in the middle. */
-  std::string journal = read_whole(study.journal);
-  for (int lines = 0; lines < 5; ++lines)
-    journal.erase(journal.rfind('\n', journal.size() - 2) + 1);
-  journal.pop_back();
-  std::ofstream(study.journal) << journal;
-  calls = 0;
-  CHECK(run_study<Square>(study, squares) == records);
-  CHECK(calls == 6);
-
-  study.stamp = "other numbers";
-  calls = 0;
-  run_study<Square>(study, squares);
-  CHECK(calls == 20);
-}
-
-TEST_CASE("A study that fails says why, and keeps what it has")
-{
-  const Scratch scratch;
-  const Study study{.name = "failing",
-                    .journal = scratch.path("journal"),
-                    .stamp = "stamp",
-                    .pieces = 4};
-  const auto fourth = [](std::size_t piece) {
-    if (piece == 3) throw std::runtime_error("the fourth piece");
-    return std::vector<char>{'a'};
-  };
-  CHECK_THROWS_WITH(run_study<char>(study, fourth), "the fourth piece");
-  CHECK(read_whole(study.journal).find("0 61\n") != std::string::npos);
-}
-
 /** Would catch an order or a result that depends on the threads, and an exception that stays in one. */
 TEST_CASE(
     "Pieces are computed in order by any number of threads, and the first failure is told")
@@ -215,14 +155,4 @@ TEST_CASE(
   };
   CHECK_THROWS_WITH(in_parallel("failing", 10000, failing), "piece 7");
   CHECK(calls < 5000);
-}
-
-TEST_CASE("A point of the parametric study agrees with the paper's set 1")
-{
-  const GridPoint point =
-      summary(set_1(), sweep(set_1(), angular(std::vector{45.0, 48.0, 50.0, 52.0}), 6));
-  CHECK(point.missed == 0);
-  CHECK(point.peak.frequency == Approx(50).margin(0.5));
-  CHECK(point.peak.amplitude == Approx(12.7e-3).epsilon(0.01));
-  CHECK(point.f_loss_first == -1);
 }

@@ -1,0 +1,36 @@
+"""The table of the parametric study under the names that figure and claims read.
+
+Usage: studies/clearance_stiffness.py MAP.tsv > clearance_stiffness.tsv
+"""
+import sys
+from pathlib import Path
+
+sys.path.insert(0, str(Path(__file__).parents[1] / "figures"))
+from tables import Table  # noqa: E402
+
+COLUMNS = [
+    ("delta", "m", "radial clearance", "bearing.radial_clearance_m"),
+    ("K_H", "N/m^1.5", "contact stiffness", "bearing.contact_stiffness_N_per_m1p5"),
+    ("f_peak", "Hz", "speed of the largest x_r; -1 without any solution", "peak_frequency"),
+    ("amp_peak", "m", "half peak-to-peak of x_r there", "peak"),
+    ("f_loss_first", "Hz", "first speed at which contact is lost; -1 when never", "loss_first"),
+    ("f_loss_last", "Hz", "last such speed; -1 when never", "loss_last"),
+    ("largest_force", "N", "largest force on one ball over all speeds", "largest_load"),
+    ("missed", "-", "speeds without a solution", "missed")]
+
+
+def main(file):
+    table = Table(file)
+    kept = [line for line in table.header.split("\n") if not line.startswith(("# Map", "# column"))]
+    print("# Clearance against contact stiffness", *kept, sep="\n")
+    print("# modelled: sweeps up, m = 6, {} speeds from {} to {} Hz".format(
+        *(kept[next(k for k, line in enumerate(kept) if line.startswith("# sweep: "))].split()[k] for k in (2, 5, 7))))
+    for name, unit, meaning, _ in COLUMNS:
+        print(f"# column: {name} [{unit}] {meaning}")
+    print("\t".join(name for name, *_ in COLUMNS))
+    for cells in zip(*(table[source] for *_, source in COLUMNS)):
+        print("\t".join(str(cell) if isinstance(cell, str) else f"{cell:.15g}" for cell in cells))
+
+
+if __name__ == "__main__":
+    main(*sys.argv[1:])
