@@ -69,6 +69,7 @@ MAKEFLAGS += --no-builtin-rules
 programs := $(basename $(notdir $(wildcard src/*.cpp)))
 scenes := $(basename $(notdir $(wildcard data/scenes/*.toml)))
 mapped := $(basename $(notdir $(wildcard studies/*.yaml)))
+scripted := $(filter $(scenes),$(basename $(notdir $(wildcard studies/*.py))))
 scripts := $(basename $(notdir $(wildcard figures/*.gp figures/*.py)))
 kept := $(filter-out claims,$(basename $(notdir $(wildcard data/reference/*.tsv))))
 kept_printed := $(filter-out claims,$(basename $(notdir $(wildcard data/reference/as-printed/*.tsv))))
@@ -89,7 +90,7 @@ claims := data/generated/claims.tsv data/generated/as-printed/claims.tsv
 intervals := $(claims:claims.tsv=truth_intervals.tsv)
 timings := $(filter %/tab02_timing.tsv,$(tables) $(tables_printed))
 untimed := $(filter-out $(timings),$(tables) $(tables_printed)) $(figures) $(figures_printed) data/generated/deviations.md
-studies := $(filter $(programs) $(mapped) sensitivity,$(kept))
+studies := $(filter $(programs) $(mapped) $(scripted),$(kept))
 maps := $(filter-out $(kept),$(mapped))
 costs := $(filter tab02% work_precision cost_growth,$(studies))
 sources := $(shell find src data/bearings -type f) CMakeLists.txt CMakePresets.json
@@ -141,8 +142,8 @@ data/generated/%.tsv: build/$$(*F) data/scenes/$$(*F).toml $$(parameters) $$(att
 data/generated/sensitivity_derivatives.tsv: figures/sensitivity_derivatives.py data/reference/sensitivity.tsv $(python_tables)
 	$(whole) $(PYTHON) $(wordlist 1,2,$^) > $$new; mv $$new $@
 
-# Studies by explore map. Snakemake deals the lines of a map to jobs, and keeps the shards that are done.
-data/generated/sensitivity.tsv: studies/sensitivity.py data/scenes/sensitivity.toml data/set1.toml build/explore
+# Studies by explore. Snakemake deals the lines of a map to jobs, and keeps the shards that are done.
+$(scripted:%=data/generated/%.tsv): data/generated/%.tsv: studies/%.py data/scenes/%.toml $$(parameters) build/explore
 	$(whole) $(PYTHON) $(wordlist 1,2,$^) > $$new; mv $$new $@
 
 $(patsubst %,data/generated/%.tsv,$(filter $(kept),$(mapped))): data/generated/%.tsv: studies/%.yaml studies/Snakefile build/explore

@@ -179,9 +179,10 @@ class Study:
     @cache
     def integrated_size(self, model):
         """The same by rk4, each the mean over the periods with its standard error; spread and whether it is periodic."""
-        points, periods = self.time["points_per_period"], self.scene["orbit_periods"]
-        table = self.orbit(model, *self.method(model, False), "--points", points, "--periods", periods)
-        sizes = [mean_and_error(np.ptp(np.array(table[name]).reshape(periods, points), axis=1) / 2)
+        points = self.time["points_per_period"]
+        table = self.orbit(model, *self.method(model, False), "--points", points, "--periods",
+                           self.scene["orbit_periods"])
+        sizes = [mean_and_error((crests(table[name], points) + crests(-table[name], points)) / 2)
                  for name in ("x_r", "y_r")]
         spread = next(line for line in table.header.split("\n") if line.startswith("# Poincare spread")).split()
         return *sizes, float(spread[3]), int("+-" not in spread)
@@ -197,6 +198,16 @@ class Study:
         return [int(model == self.usual), *self.peak(balanced if by_balance else integrated, by_balance),
                 first[0], last[0], x[0], y[0], *self.balance_size(balanced), first[1], last[1], x[1], y[1],
                 spread, periodic, "aft" if by_balance else "rk4"]
+
+
+def crests(values, points):
+    """The largest value of each period, of a parabola where it is higher than both its neighbours."""
+    around = np.concatenate([values[points - 1:points], values, values[-points:][:1]])
+    top = np.arange(0, values.size, points) + values.reshape(-1, points).argmax(axis=1)
+    before, largest, after = around[top], around[top + 1], around[top + 2]
+    bend = before - 2 * largest + after
+    is_crest = (before <= largest) & (after <= largest) & (bend < 0)
+    return np.where(is_crest, largest - (after - before)**2 / (8 * np.where(is_crest, bend, 1)), largest)
 
 
 def mean_and_error(values):
