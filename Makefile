@@ -294,7 +294,7 @@ format:  ## clang-format on all C++ sources
 archive := rotor-stator-$(shell sed -nE 's/^project.rotor_stator VERSION ([0-9.]+).*/\1/p' CMakeLists.txt)
 dist: all  ## an archive of the commit with its tables, figures and pages: build/rotor-stator-VERSION.tar.gz
 	@git diff --quiet HEAD || { echo "dist: the work tree differs from the commit" >&2; exit 1; }
-	{ git ls-files; find data/generated figures/generated build/book build/paper -type f ! -name '*.tmp*'; } | \
+	{ git ls-files; find data/generated figures/generated build/book build/paper $(wildcard build/live/index.html) -type f ! -name '*.tmp*'; } | \
 	  sort | tar --mtime=@0 --owner=0 --group=0 --numeric-owner --mode=go+u,go-w --transform 's,^,$(archive)/,' -T - -c | \
 	  gzip -n > build/$(archive).tar.gz
 

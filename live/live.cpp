@@ -54,10 +54,7 @@ void show_motion(const std::string& what, const Parameters& parameters,
                  MotionRequest request)
 {
   request.stability = what == "verdict";
-  if (what == "integrate") {
-    request.method = "rk8pd";
-    request.harmonics.reset();
-  }
+  if (what == "integrate") request.method = "rk8pd", request.harmonics.reset();
   if (!request.harmonics) request.periods = 8;
   if (what == "error" && request.harmonics)
     request.tolerance = HUGE_VAL;  // any is accepted

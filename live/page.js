@@ -314,7 +314,7 @@ function logTicks(low, high) {
 
 // The axes of a panel, and where a value stands.
 function frame(svg, [x0, x1], [y0, y1], { x, y, log = false, most = 7 }) {
-  const { width, height } = svg.viewBox.baseVal, left = 48, right = width - 12, top = 14, bottom = height - 34;
+  const { width, height } = svg.viewBox.baseVal, left = 48, right = width - 12, top = 20, bottom = height - 34;
   const X = (v) => left + (right - left) * (v - x0) / (x1 - x0);
   const Y = (v) => bottom - (bottom - top) * (log ? Math.log(v / y0) / Math.log(y1 / y0) : (v - y0) / (y1 - y0));
   const text = (at, place, anchor, label) => `<text x="${at}" y="${place}" text-anchor="${anchor}">${label}</text>`;
@@ -328,7 +328,7 @@ function frame(svg, [x0, x1], [y0, y1], { x, y, log = false, most = 7 }) {
 
 const path = (name, points, end = "") => points.length < 2 ? "" : `<path class="${name}" d="M${points.join("L")}${end}"/>`;
 const legend = (at) => NAMES.map((name, i) =>
-  `<text class="${name}" x="${at.left + 12 + 30 * i}" y="${at.top + 14}">${name}</text>`).join("");
+  `<text class="${name}" x="${at.left + 60 + 36 * i}" y="${at.top - 4}">${name}</text>`).join("");
 const cursor = (at) => `<path class="cursor" d="M0 ${at.top}V${at.bottom}"/>`;
 
 function clearMotion(why) {
@@ -449,7 +449,7 @@ function drawSpectrum() {
   const at = frame(svg, [0, 1.08 * Math.max(state.f, ...seen.map((line) => line.f))], [1e-5 * top, 2.5 * top],
     { x: "f [Hz]", y: "µm", log: true });
   const label = ({ name, f, size }) => {
-    const x = at.X(f), y = at.Y(size) - 5, wide = 7 * name.length;
+    const x = at.X(f), y = at.Y(size) - 5, wide = 8 * name.length;
     const isTaken = taken.some(([u, v, w]) => Math.abs(u - x) < (w + wide) / 2 && Math.abs(v - y) < 12);
     return !name || isTaken || taken.push([x, y, wide]) > 10 ? "" : at.text(x, y, "middle", escaped(name));
   };
@@ -503,7 +503,7 @@ async function loadFile(file) {
 function save(name, text, type) {
   const href = URL.createObjectURL(new Blob([text], { type }));
   Object.assign(document.createElement("a"), { href, download: name }).click();
-  setTimeout(() => URL.revokeObjectURL(href), 1000);
+  setTimeout(URL.revokeObjectURL, 1000, href);
 }
 
 async function saveTable() {

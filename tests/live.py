@@ -12,6 +12,7 @@ import base64
 import http.server
 import json
 import random
+import re
 import shutil
 import statistics
 import subprocess
@@ -153,12 +154,19 @@ class Page(unittest.TestCase):
                         unsure.append((f, live, word))
                     else:
                         self.assertEqual(live, word)
+                        self.compare_multipliers(judged["text"], native.stdout)
         # Where a chaotic transient leads depends on rounding: one of the two may then find no motion to judge.
         self.assertLessEqual(len(unsure), 2, unsure)
         self.assertGreater(found, 2 * MACHINES)
         self.assertLessEqual({"stable", "unstable"}, set(words))
         print(f"{found} of {3 * MACHINES} solutions,", {word: words.count(word) for word in sorted(set(words))},
               "undecided in one of the two:", unsure)
+
+    def compare_multipliers(self, *texts):
+        """Each printed as: largest Floquet multiplier VALUE +- UNCERTAINTY, of …"""
+        found = [re.search(r"multiplier (\S+) \+- ([^,\s]+)", note(text, "stability")) for text in texts]
+        if all(found):
+            self.assertLessEqual(abs(float(found[0][1]) - float(found[1][1])), 10 * sum(float(f[2]) for f in found) + 1e-8)
 
     def compare(self, samples, rows):
         self.assertEqual(len(samples), 6 * len(rows))
@@ -370,8 +378,8 @@ class Page(unittest.TestCase):
 
     def memory(self):
         self.driver.execute_cdp_cmd("HeapProfiler.collectGarbage", {})
-        heap = self.driver.execute_cdp_cmd("Runtime.getHeapUsage", {})["usedSize"]
-        return heap, self.js("return [Number(document.body.dataset.memory), document.querySelectorAll('*').length]")
+        heap = self.driver.execute_cdp_cmd("Runtime.getHeapUsage", {})
+        return heap["usedSize"] + heap["backingStorageSize"], self.js("return [Number(document.body.dataset.memory), document.querySelectorAll('*').length]")
 
     def test_memory_does_not_grow(self):
         sizes = []
