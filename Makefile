@@ -215,12 +215,14 @@ export NODE_PATH ?= /usr/share/nodejs
 
 build/model/bearing_catalogue.hpp: data/bearings/deep_groove.toml CMakeLists.txt
 	@mkdir -p build; cmake --preset release > build/configure.log; touch $@
-build/live/include/toml++: build/model/bearing_catalogue.hpp $(sources)
-	@mkdir -p $(@D); ln -sfn $$(pkg-config --variable=includedir tomlplusplus)/toml++ $@; touch -h $@
+build/live/include/.stamped: build/model/bearing_catalogue.hpp $(sources)
+	@mkdir -p $(@D); ln -sfn $$(pkg-config --variable=includedir tomlplusplus)/toml++ $(@D)/toml++
 	sh src/io/stamp_revision.sh $$(sed -nE 's/^project.rotor_stator VERSION ([0-9.]+).*/\1/p' CMakeLists.txt) \
-	  "$(live_flags)" $(@D)/source_revision.hpp
+	  "$(live_flags)" $(@D)/source_revision.hpp; touch $@
+build/live/include/source_revision.hpp: build/live/include/.stamped
+	+@:
 
-$(live_objects): build/live/%.o: %.cpp | build/live/include/toml++
+$(live_objects): build/live/%.o: %.cpp | build/live/include/source_revision.hpp
 	@mkdir -p $(@D)
 	em++ -std=c++20 $(live_flags) -DEIGEN_DONT_PARALLELIZE -DROTOR_STATOR_EIGEN_FFT -include live/libcxx.hpp -Ilive -Isrc \
 	  -Ibuild/live/include -Ibuild $$(pkg-config --cflags eigen3) -MMD -c $< -o $@

@@ -12,7 +12,7 @@ LIVE = Path(__file__).parent
 # What the page offers, with the speed [Hz], harmonics and range [Hz] that it begins with.
 PRESETS = [("data/set1.toml", "Set 1", 16, 10, 1, 60), ("data/set2.toml", "Set 2", 45, 6, 1, 60),
            ("data/set1-as-printed.toml", "Set 1, printed reading", 45, 10, 1, 60),
-           ("data/live/bearing-6205.toml", "Bearing 6205", 45, 10, 5, 60),
+           ("data/live/bearing-6205.toml", "Bearing 6205", 45, 10, 40, 60),
            ("data/live/varying-compliance.toml", "Varying compliance", 31, 16, 15, 45)]
 
 

@@ -314,7 +314,7 @@ function logTicks(low, high) {
 
 // The axes of a panel, and where a value stands.
 function frame(svg, [x0, x1], [y0, y1], { x, y, log = false, most = 7 }) {
-  const { width, height } = svg.viewBox.baseVal, left = 48, right = width - 12, top = 20, bottom = height - 34;
+  const { width, height } = svg.viewBox.baseVal, left = 54, right = width - 12, top = 20, bottom = height - 34;
   const X = (v) => left + (right - left) * (v - x0) / (x1 - x0);
   const Y = (v) => bottom - (bottom - top) * (log ? Math.log(v / y0) / Math.log(y1 / y0) : (v - y0) / (y1 - y0));
   const text = (at, place, anchor, label) => `<text x="${at}" y="${place}" text-anchor="${anchor}">${label}</text>`;
@@ -449,7 +449,7 @@ function drawSpectrum() {
   const at = frame(svg, [0, 1.08 * Math.max(state.f, ...seen.map((line) => line.f))], [1e-5 * top, 2.5 * top],
     { x: "f [Hz]", y: "µm", log: true });
   const label = ({ name, f, size }) => {
-    const x = at.X(f), y = at.Y(size) - 5, wide = 8 * name.length;
+    const x = at.X(f), y = at.Y(size) - 5, wide = (innerWidth < 760 ? 11 : 8) * name.length;
     const isTaken = taken.some(([u, v, w]) => Math.abs(u - x) < (w + wide) / 2 && Math.abs(v - y) < 12);
     return !name || isTaken || taken.push([x, y, wide]) > 10 ? "" : at.text(x, y, "middle", escaped(name));
   };
@@ -517,15 +517,15 @@ function pictureText() {
   const colours = getComputedStyle(document.documentElement);
   const used = new Set(`${DRAWING_STYLE} --ground --idle`.match(/--\w+/g));
   const values = Array.from(used, (name) => `${name}: ${colours.getPropertyValue(name)};`);
-  const places = { orbit: [0, 20], curve: [430, 20], time: [430, 330], contact: [0, 600], spectrum: [430, 600] };
+  const places = { orbit: [0, 20], curve: [430, 20], time: [430, 290], contact: [0, 500], spectrum: [430, 560] };
   const panels = Object.entries(places).map(([id, [x, y]]) => {
     const { width, height } = $(id).viewBox.baseVal, content = new XMLSerializer().serializeToString($(id));
     return `<svg class="${$(id).getAttribute("class") ?? ""}" x="${x}" y="${y}" width="${x ? width : 420}" height="${height}"
       viewBox="0 0 ${width} ${height}">${content.replace(/^<svg[^>]*>|<\/svg>$/g, "")}</svg>`;
   });
   const title = `${stem()}, ${fmt(state.f)} Hz, m = ${state.m}; ${$("verdict").className}`;
-  return `<svg xmlns="http://www.w3.org/2000/svg" viewBox="0 0 950 870"><style>svg { ${values.join("")} } ${DRAWING_STYLE}</style>
-    <rect width="950" height="870" fill="var(--ground)"/><text x="6" y="14">${escaped(title)}</text>${panels.join("")}</svg>`;
+  return `<svg xmlns="http://www.w3.org/2000/svg" viewBox="0 0 950 830"><style>svg { ${values.join("")} } ${DRAWING_STYLE}</style>
+    <rect width="950" height="830" fill="var(--ground)"/><text x="6" y="14">${escaped(title)}</text>${panels.join("")}</svg>`;
 }
 
 function makeLink() {

@@ -452,6 +452,9 @@ if __name__ == "__main__":
         why = "emscripten is not installed" if not shutil.which("em++") else "it is not built"
         print(f"skipped: there is no live page, {why} (make deps live)")
         sys.exit(77)
+    if subprocess.run(["make", "-q", "live"], capture_output=True).returncode:
+        print("skipped: the live page is older than its sources (make live)")
+        sys.exit(77)
     if sys.argv[1:] in (["--measure"], ["--screenshots"]):
         measure() if sys.argv[1] == "--measure" else screenshots()
     else:

@@ -1,5 +1,6 @@
 #include "stability/floquet.hpp"
 
+#include <Eigen/LU>
 #include <algorithm>
 #include <cmath>
 #include <limits>

@@ -1,5 +1,6 @@
 #include "stability/hill.hpp"
 
+#include <Eigen/LU>
 #include <algorithm>
 #include <cmath>
 #include <numbers>
