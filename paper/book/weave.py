@@ -237,9 +237,11 @@ def chapters(pages):
 
 
 def index_markdown(found_chapters, pages):
-    parts = [(HERE / "index.md").read_text(), folder_map(pages)]
+    text = (HERE / "index.md").read_text()
     if Path("build/live/index.html").exists():
-        parts.insert(1, "[The live page](../live/index.html) computes motions of a machine in the browser.")
+        live = "[The live page](../live/index.html) computes motions of a machine in the browser."
+        text = text.replace("## The folders", live + "\n\n## The folders")
+    parts = [text, folder_map(pages)]
     for chapter in found_chapters:
         if not chapter["found"]:
             continue
