@@ -200,7 +200,7 @@ data/generated/deviations.md data/generated/article.md: data/generated/%.md: pap
 book: build/book/index.html  ## the sources as pages, in reading order: build/book/index.html
 
 # The index is written last; a page that would be the same is left as it is.
-build/book/index.html: $(wildcard paper/book/*) paper/guide.md paper/references.bib $(sources) $(untimed) $(timings) $(claims) \
+build/book/index.html: $(wildcard paper/book/*) paper/guide.md paper/varying_compliance.md paper/references.bib $(sources) $(untimed) $(timings) $(claims) \
   $(wildcard data/reference/*.tsv) $(wildcard build/live/index.html)
 	$(PYTHON) paper/book/weave.py $(@D)
 # The live page: the rooms of the core and what of explore computes motions, by the compiler for the browser. That of
@@ -208,7 +208,7 @@ build/book/index.html: $(wildcard paper/book/*) paper/guide.md paper/references.
 live: build/live/index.html  ## the solver as a page for the browser, one file: build/live/index.html
 live_sources := $(wildcard $(patsubst %,src/%/*.cpp,model balance continuation integration stability motion)) \
   $(filter-out src/io/program.cpp src/io/parallel.cpp,$(wildcard src/io/*.cpp)) \
-  $(patsubst %,src/explore/%.cpp,balance_motion branch_file orbit response) live/live.cpp
+  $(patsubst %,src/explore/%.cpp,balance_motion branch_file orbit response spectrum) live/live.cpp
 live_objects := $(live_sources:%.cpp=build/live/%.o)
 live_flags := -O2 -ffp-contract=off -fno-math-errno -fexceptions
 export NODE_PATH ?= /usr/share/nodejs

@@ -64,7 +64,7 @@ def draw_contact(axes, panel, title):
     axes.set_title(heading_of(panel, title))
 
 
-def draw_force(axes, panel, title):
+def fill_force(axes, panel):
     """Q in colour with its bar, white where it is zero."""
     force, ends = force_map(panel)
     largest = force.max() or 1
@@ -73,6 +73,10 @@ def draw_force(axes, panel, title):
     for step in range(COLOURS):
         fill(axes, (force > 0) & (level == step), ends, colours.cmap(step))
     axes.figure.colorbar(colours, ax=axes, pad=0.03, label="Q [N]", ticks=MaxNLocator(4))
+
+
+def draw_force(axes, panel, title):
+    fill_force(axes, panel)
     axes.set_title(title)
 
 

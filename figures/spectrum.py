@@ -1,12 +1,15 @@
 """The lines of a motion: amplitudes of rotor and stator against the order, the largest with their names.
 
 Each stem is a line of the table of `explore spectrum`; its height is the larger of the amplitudes in x and y.
+A measured spectrum that the header names, a table with the columns f [Hz] and amplitude [m], is drawn over both.
 Usage: /usr/bin/python3 figures/spectrum.py TABLE.tsv OUTPUT.svg
 """
 
+import re
+
 import matplotlib.pyplot as plt
 import numpy as np
-from tables import ROTOR, STATOR, run
+from tables import ROTOR, STATOR, Table, run
 
 MOST_NAMES = 24
 NEAR = 0.018  # of the width: names that would overlap
@@ -22,13 +25,20 @@ def chosen(orders, heights, width):
 
 
 def draw(table):
-    figure, grid = plt.subplots(2, 1, figsize=(10, 7.5), sharex=True, sharey=True, layout="constrained")
+    named = re.search(r"^# measured: (.*)$", table.header, re.MULTILINE)
+    measured = Table(named[1]) if named else None
+    bodies = table.bodies()
+    figure, grid = plt.subplots(len(bodies), 1, figsize=(10, 1 + 3.25 * len(bodies)), sharex=True, sharey=True,
+                                layout="constrained", squeeze=False)
+    grid = grid[:, 0]
     orders = table["order"]
     width = 1.04 * orders.max()
-    heights = {body: np.maximum(table[f"x_{body}"], table[f"y_{body}"]) for body in "rs"}
+    heights = {body: np.maximum(table[f"x_{body}"], table[f"y_{body}"]) for body in bodies}
     top = max(height.max() for height in heights.values())
     bottom = 0.5 * min(1e-6 * top if len(table) > 1 else 0.1 * top, top)
-    for axes, body, name, colour in zip(grid, "rs", ("rotor", "stator"), (ROTOR, STATOR)):
+    if measured is not None:
+        top = max(top, measured["amplitude"].max())
+    for axes, body, name, colour in zip(grid, bodies, ("rotor", "stator"), (ROTOR, STATOR)):
         height = heights[body]
         shown = height > bottom
         axes.vlines(orders[shown], bottom, height[shown], color=colour, lw=1.3)
@@ -38,8 +48,12 @@ def draw(table):
                           xytext=(0, 6), textcoords="offset points", rotation=90, ha="center", va="bottom",
                           fontsize=10)
         axes.set_ylabel(f"amplitude of the {name} [m]")
+        if measured is not None:
+            axes.plot(measured["f"] / table.number("frequency"), measured["amplitude"], color="#808080", lw=0.9,
+                      zorder=0, label="measured")
+            axes.legend(loc="upper right", frameon=False)
     grid[0].set(yscale="log", ylim=(bottom, top * (top / bottom) ** 0.2), xlim=(0, width))
-    grid[1].set_xlabel("frequency over speed [-]")
+    grid[-1].set_xlabel("frequency over speed [-]")
     figure.suptitle(f"Lines of the motion at {table.number('frequency'):g} Hz, larger of x and y")
     return figure
 

@@ -58,6 +58,10 @@ class Table:
         """A column's value in the first row, for columns that are constant in the rows."""
         return self[name][0]
 
+    def bodies(self):
+        """r, s: rotor and stator, without a stator that is held."""
+        return "r" if "stator: rigid" in self.header else "rs"
+
     def number(self, name):
         """The number that the header gives after `name = ` or `name: `."""
         found = re.search(rf"\b{re.escape(name)}\s*[=:]\s*([-+.\deE]+)", self.header)
@@ -67,8 +71,8 @@ class Table:
 
 
 def run(draw):
-    """Call draw(table) with the style of the project; save the figure that it returns as SVG, or as the PNG or
-    PDF that the name of the output says. No dates: the same table gives the same bytes."""
+    """Call draw(table) with the style of the project; save the figure that it returns as SVG,
+    or as the PNG or PDF that the name of the output says. No dates: the same table gives the same bytes."""
     import matplotlib.pyplot as plt  # here, since tests read tables and draw nothing
 
     if len(sys.argv) != 3:

@@ -1,7 +1,8 @@
 /**
 # explore: one's own machine
 
-Run: build/explore orbit data/set1.toml --frequency 45 > orbit.tsv
+Run: build/explore check data/set1.toml
+     build/explore orbit data/set1.toml --frequency 45 > orbit.tsv
      build/explore orbit data/set1.toml --frequency 45 --tolerance 1e-4 > orbit.tsv
      build/explore contact data/set1.toml --frequency 45 --method rk8pd > contact.tsv
      build/explore spectrum data/set1.toml --frequency 45 --plot spectrum.svg > spectrum.tsv
@@ -15,8 +16,10 @@ or one of the time integrators. A table on stdout, errors on stderr. */
 #include <CLI/CLI.hpp>
 
 #include "explore/attractors.hpp"
+#include "explore/check.hpp"
 #include "explore/map.hpp"
 #include "explore/orbit.hpp"
+#include "explore/plot.hpp"
 #include "explore/response.hpp"
 #include "explore/spectrum.hpp"
 #include "integration/time_stepper.hpp"
@@ -51,12 +54,34 @@ CLI::Option* add_number(CLI::App& command, const std::string& name, Number& valu
 constexpr int largest_seed = 1000000000, most_samples = 1 << 20, most_points = 1 << 16;
 constexpr double largest = 1e300;  // 2 pi times as much is still a number
 
-/** The machine and what its run may cost. */
-void add_common_options(CLI::App& command, Request& request,
-                        const std::string& usual_budget)
+/** The machine, and how the table is written. */
+void add_table_options(CLI::App& command, Request& request)
 {
   command.add_option("parameters", request.parameter_file, "TOML parameter file")
       ->required();
+  if (command.get_name() == "map") return;  // its quantities are chosen
+  command.add_option("--columns", request.columns,
+                     "NAME,... that are printed, or all; others are not computed");
+  command.add_option_function<std::string>(
+      "--format",
+      [&request](const std::string& word) {
+        if (word != "tsv" && word != "csv" && word != "json")
+          throw BadInput("--format " + word + ": must be one of tsv, csv, json");
+        request.format = word == "csv"    ? TableFormat::csv
+                         : word == "json" ? TableFormat::json
+                                          : TableFormat::tsv;
+      },
+      "tsv, csv (without the # lines) or json");
+}
+
+/** The same, what a run may cost and its figure. */
+void add_common_options(CLI::App& command, Request& request,
+                        const std::string& usual_budget)
+{
+  add_table_options(command, request);
+  command.add_flag("--quiet", request.quiet,
+                   "no progress on stderr, which a terminal gets after two seconds");
+  command.add_option("--plot", request.plot, "figure: .svg, .png or .pdf");
   add_number(command, "--budget", request.budget, 1.0, 1e15,
              "most evaluations of the force in the whole run, other work counted as the "
              "evaluations that take as long (default: those of " +
@@ -118,6 +143,9 @@ std::function<void()> add_motion_options(CLI::App& command, MotionRequest& reque
       "--harmonics, m is chosen (default with two frequencies and of auto: 1e-3)")};
   if (command.get_name() != "contact")
     periodic.push_back(add_subharmonic(command, request));
+  if (is_spectrum)
+    command.add_option("--overlay", request.overlay,
+                       "table of a measured spectrum for --plot: f [Hz], amplitude [m]");
   if (command.get_name() == "orbit")
     add_number(command, "--periods", request.periods, 1, 1000, "turns that are printed");
   periodic.push_back(command.add_flag("!--no-stability", request.stability,
@@ -146,13 +174,6 @@ std::function<void()> add_motion_options(CLI::App& command, MotionRequest& reque
   };
 }
 
-std::function<void()> add_spectrum_options(CLI::App& command, SpectrumRequest& request)
-{
-  command.add_option("--plot", request.plot,
-                     "figure of the lines against frequency: .svg, .png or .pdf");
-  return add_motion_options(command, request);
-}
-
 template <class Ranged>
 void add_range_options(CLI::App& command, Ranged& request)
 {
@@ -175,6 +196,11 @@ std::function<void()> add_response_options(CLI::App& command, ResponseRequest& r
   aft.push_back(command.add_flag(
       "--stability", request.stability,
       "Floquet multipliers of each point, and the bifurcations between"));
+  command.add_option(
+      "--harmonics-of", request.harmonics_of,
+      "x_s, y_s, x_r or y_r: its harmonics at each point, complex amplitudes");
+  aft.push_back(command.add_option("--waterfall", request.waterfall,
+                                   "file for the lines of each point, with their names"));
   aft.push_back(command.add_option("--save", request.save,
                                    "file for the branch, all coefficients"));
   CLI::Option* restart =
@@ -213,8 +239,6 @@ void add_attractors_options(CLI::App& command, AttractorsRequest& request)
   add_number(command, "--seed", request.seed, 0, largest_seed, "of the random states");
   command.add_option("--section", request.section,
                      "file for the points of the Poincare sections");
-  command.add_option("--plot", request.plot,
-                     "figure of the sections against speed: .svg, .png or .pdf");
 }
 
 /** What is returned throws BadInput for an option that the method would ignore. */
@@ -258,7 +282,6 @@ std::function<void()> add_map_options(CLI::App& command, MapRequest& request)
   command.add_option(
       "--resume", request.resume,
       "table of the same map that was interrupted: its whole lines are taken over");
-  command.add_option("--plot", request.plot, "figure of the map: .svg, .png or .pdf");
   return [=, &request] {
     const std::string& method = request.method;
     require_method(method, {"aft"});
@@ -270,10 +293,25 @@ std::function<void()> add_map_options(CLI::App& command, MapRequest& request)
   };
 }
 
-int finish(const Exploration& exploration)
+/** Computes, draws and prints. `files` are others that the command reads or writes. */
+int finish(const Request& request, const std::string& script,
+           const std::function<Exploration()>& explored,
+           std::vector<std::optional<std::string>> files = {})
 {
-  write(exploration.table.text());
-  if (!exploration.unfinished.empty()) throw NoSolution(exploration.unfinished);
+  files.insert(files.end(), {request.plot, request.overlay});
+  std::ranges::sort(files);
+  const auto same = std::ranges::adjacent_find(
+      files, [](const auto& a, const auto& b) { return a && a == b; });
+  if (same != files.end()) throw BadInput(**same + ": is the file of two options");
+  if (request.plot) require_plot(*request.plot, script, {request.parameter_file});
+  if (request.overlay && !request.plot) throw BadInput("--overlay: needs --plot");
+  const Exploration found = explored();
+  const std::string undrawn =
+      plot(request.plot, script,
+           found.drawn.empty() ? found.table.text(TableFormat::tsv, true) : found.drawn);
+  write(found.table.text(request.format));
+  if (!found.unfinished.empty()) throw NoSolution(found.unfinished);
+  if (!undrawn.empty()) throw NoSolution(undrawn);
   return 0;
 }
 
@@ -281,49 +319,57 @@ int finish(const Exploration& exploration)
 
 int main(int argc, char** argv)
 {
-  CLI::App app("Explores a rotor and a stator joined by a ball bearing; TSV on stdout.");
+  CLI::App app(
+      "Explores a rotor and a stator joined by a ball bearing; a table on stdout.");
   app.require_subcommand(1);
+  const auto command = [&](const char* name, const char* meaning) {
+    return app.add_subcommand(name, meaning);
+  };
   MotionRequest motion;
   ResponseRequest response;
-  CLI::App* orbit =
-      app.add_subcommand("orbit", "displacements and force over one period");
-  CLI::App* contact =
-      app.add_subcommand("contact", "force of every ball over two periods");
-  CLI::App* branch =
-      app.add_subcommand("response", "amplitudes along the branch, arc length");
-  CLI::App* lines =
-      app.add_subcommand("spectrum", "lines of the motion, with names such as BPFO-1X");
-  SpectrumRequest spectrum;
   AttractorsRequest attractors;
-  CLI::App* settled = app.add_subcommand(
-      "attractors", "what the machine settles on, speed by speed, from many starts");
-  CLI::App* map = app.add_subcommand(
-      "map", "quantities over two keys of the parameter file, on all cores");
+  CheckRequest checked;
+  CLI::App* check = command("check", "what a machine is, before anything is computed");
+  CLI::App* orbit = command("orbit", "displacements and force over one period");
+  CLI::App* contact = command("contact", "force of every ball over two periods");
+  CLI::App* branch = command("response", "amplitudes along the branch, arc length");
+  CLI::App* lines =
+      command("spectrum", "lines of the motion, with names such as BPFO-1X");
+  CLI::App* settled =
+      command("attractors", "what the machine settles on, speed by speed");
+  add_table_options(*check, checked);
+  add_number(*check, "--from", checked.from, 0.0, largest, "first speed [Hz]");
+  add_number(*check, "--to", checked.to, 0.0, largest, "last speed [Hz]");
+  CLI::App* map = command("map", "quantities over two keys of the parameter file");
   MapRequest mapped;
   const auto refuse_of_map = add_map_options(*map, mapped);
   const auto refuse_of_orbit = add_motion_options(*orbit, motion);
   const auto refuse_of_contact = add_motion_options(*contact, motion);
-  const auto refuse_of_spectrum = add_spectrum_options(*lines, spectrum);
+  MotionRequest spectrum;
+  const auto refuse_of_spectrum = add_motion_options(*lines, spectrum);
   const auto refuse_of_response = add_response_options(*branch, response);
   add_attractors_options(*settled, attractors);
   return guarded([&] {
     if (!parse(app, argc, argv)) return 0;
-    if (settled->parsed()) return finish(explore_attractors(attractors));
+    for (const auto& refuse : {refuse_of_orbit, refuse_of_contact, refuse_of_spectrum,
+                               refuse_of_response, refuse_of_map})
+      refuse();
     if (map->parsed()) {
-      refuse_of_map();
       explore_map(mapped);
       return 0;
     }
-    if (branch->parsed()) {
-      refuse_of_response();
-      return finish(explore_response(response));
-    }
-    if (lines->parsed()) {
-      refuse_of_spectrum();
-      return finish(explore_spectrum(spectrum));
-    }
-    refuse_of_orbit();
-    refuse_of_contact();
-    return finish(orbit->parsed() ? explore_orbit(motion) : explore_contact(motion));
+    if (check->parsed())
+      return finish(checked, "", [&] { return explore_check(checked); });
+    if (settled->parsed())
+      return finish(attractors, "sections.py",
+                    [&] { return explore_attractors(attractors); }, {attractors.section});
+    if (branch->parsed())
+      return finish(response, "response.py", [&] { return explore_response(response); },
+                    {response.save, response.waterfall});
+    if (lines->parsed())
+      return finish(spectrum, "spectrum.py", [&] { return explore_spectrum(spectrum); });
+    if (orbit->parsed())
+      return finish(motion, "orbit.py", [&] { return explore_orbit(motion); });
+    return finish(motion, "contact.py", [&] { return explore_contact(motion); });
   });
 }

@@ -1,4 +1,4 @@
-"""Runs the follow-up guide as a reader would: its files written and its commands run, in order, in a copy of
+"""Runs the follow-up guide and the page on varying compliance as a reader would: its files written and its commands run, in order, in a copy of
 the project. The copy's compiler takes every object whose source is the same from the project's own build, so
 that only what the guide adds is compiled.
 
@@ -58,7 +58,8 @@ def run(block, environment):
 def main():
     environment = copy_project()
     subprocess.run(["make", "build/explore"], cwd=COPY, check=True, env=environment)
-    blocks = list(BLOCK.finditer(Path("paper/guide.md").read_text(encoding="utf-8")))
+    text = "".join(Path("paper", page).read_text(encoding="utf-8") for page in ("guide.md", "varying_compliance.md"))
+    blocks = list(BLOCK.finditer(text))
     commands = sum(block["plain"] == "sh" for block in blocks)
     for block in blocks:
         if not run(block, environment):

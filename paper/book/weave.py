@@ -289,8 +289,9 @@ def main(output):
     back = '<a href="index.html">Index</a>'
     convert(output, "list_of_deviations.html", with_names(Path("data/generated/deviations.md").read_text()),
             "Deviations", back, cited=True)
-    convert(output, "guide.html", with_files(Path("paper/guide.md").read_text()), "A study of one's own",
-            back, cited=True)
+    for name, title in (("guide", "A study of one's own"), ("varying_compliance", "Varying compliance")):
+        text = Path("paper", name + ".md").read_text().replace("(varying_compliance.md)", "(varying_compliance.html)")
+        convert(output, name + ".html", with_files(text), title, back, cited=True)
     convert(output, "index.html", index_markdown(found, pages), "Contents")
     output.remove_others()
     (output.path / "index.html").touch()

@@ -6,7 +6,7 @@
 #include <cmath>
 #include <numbers>
 
-#include "explore/plot.hpp"
+#include "balance/torus_line.hpp"
 #include "io/errors.hpp"
 #include "io/output_file.hpp"
 #include "io/parallel.hpp"
@@ -20,7 +20,6 @@ namespace {
 using motion::Attractor;
 using motion::AttractorSettings;
 
-const char* const script = "sections.py";
 constexpr int section_points = 200;    // of a motion that does not close
 constexpr int most_runs = 200000;      // each keeps its state and statistics
 constexpr int amplitude_points = 512;  // per period of one that does
@@ -28,8 +27,9 @@ constexpr int amplitude_points = 512;  // per period of one that does
 /** The request, checked, with the machine and the settings that belong to it. */
 struct Task {
   const AttractorsRequest& request;
-  Parameters machine;
-  std::vector<double> speeds;  ///< [Hz]
+  Parameters asked, machine;   ///< the second with the base period of its motions
+  double passages;             ///< the base frequency over the speed
+  std::vector<double> speeds;  ///< base frequencies [Hz]
   AttractorSettings settings;
   OperationBudget budget;
 
@@ -61,27 +61,28 @@ AttractorSettings settings_of(const Parameters& machine)
 
 Task task_of(const AttractorsRequest& request)
 {
-  Parameters machine = read_parameters(request.parameter_file);
-  if (request.from >= request.to)
-    throw BadInput(format("--from %g: must be below --to %g", request.from, request.to));
-  require_rotation_period(machine, "attractors");
+  const Parameters asked = read_parameters(request.parameter_file);
+  require_range(request.from, request.to);
+  const bool is_still = asked.unbalance == 0;  // only the passing balls move it
+  if (!is_still) require_rotation_period(asked, "attractors of an unbalanced rotor");
+  const Parameters machine =
+      is_still && !has_rotation_period(asked.bearing) ? over_passage(asked) : asked;
+  const double passages =
+      passages_per_turn(asked.bearing) / passages_per_turn(machine.bearing);
   std::vector<std::string> inputs{request.parameter_file};
   if (request.section) require_writable("--section", *request.section, inputs);
-  if (request.plot) require_plot(*request.plot, script, inputs);
   const int most_starts = most_runs / request.count - 3;
   if (request.starts > most_starts)
     throw BadInput(format("--starts %d: must be in 0...%d with --count %d",
                           request.starts, most_starts, request.count));
-  if (request.section && request.section == request.plot)
-    throw BadInput("--plot " + *request.plot + ": is the file of --section");
   std::vector<double> speeds;
   for (int k = 0; k < request.count; ++k)
-    speeds.push_back(request.from +
-                     (request.to - request.from) * k / std::max(1, request.count - 1));
+    speeds.push_back(passages * (request.from + (request.to - request.from) * k /
+                                                    std::max(1, request.count - 1)));
   AttractorSettings settings = settings_of(machine);
   const OperationBudget budget =
-      budget_of(request.budget, request.count * (3.0 + request.starts), machine);
-  return {request, std::move(machine), std::move(speeds), settings, budget};
+      budget_of(request, request.count * (3.0 + request.starts), machine);
+  return {request, asked, machine, passages, std::move(speeds), settings, budget};
 }
 
 /**
@@ -169,8 +170,8 @@ std::vector<Run> all_runs(const Task& task)
   /** The rest is for the exponents of closed motions. */
   const double most = 0.9 * task.budget.left();
   std::atomic<double> spent = 0;
-  const auto of_pieces =
-      computed_in_parallel("attractors", pieces.size(), [&](std::size_t k) {
+  const auto of_pieces = computed_in_parallel(
+      task.request.quiet ? "" : "attractors", pieces.size(), [&](std::size_t k) {
         /** Of earlier pieces only: these begin in order. */
         auto runs =
             runs_of(task, pieces[k], OperationBudget(std::max(0.0, most - spent)));
@@ -194,7 +195,7 @@ std::vector<Run> all_runs(const Task& task)
 
 /** An attractor with the starts that ended on it. */
 struct Found : Attractor {
-  double frequency;                    ///< [Hz]
+  double frequency, passages;          ///< of the base period [Hz]; over the speed
   int number;                          ///< at this speed
   std::array<int, 4> from = {};        ///< starts by `Origin`
   int undecided = 0;                   ///< of them
@@ -203,6 +204,7 @@ struct Found : Attractor {
   bool touches = false;
 
   int starts() const { return from[0] + from[1] + from[2] + from[3]; }
+  double speed() const { return frequency / passages; }
   double turns(double rate) const { return rate / frequency; }
 
   /** K; 0 aperiodic, -1 quasi-periodic, -2 undecided. */
@@ -263,7 +265,8 @@ std::vector<Found> found_at(const Task& task, std::size_t speed, std::vector<Run
     auto one = std::ranges::find_if(
         all, [&](const Found& f) { return same_attractor(run, f, task.settings); });
     if (one == all.end())
-      one = all.insert(one, {run, task.speeds[speed], static_cast<int>(all.size()) + 1});
+      one = all.insert(one, {run, task.speeds[speed], task.passages,
+                             static_cast<int>(all.size()) + 1});
     ++one->from[static_cast<std::size_t>(run.origin)];
     one->exponents.push_back(run.exponent.value);
     if (!run.decided()) ++one->undecided;
@@ -283,9 +286,9 @@ constexpr auto from =
     [](const Found& f) -> Cell { return f.from[static_cast<std::size_t>(origin)]; };
 
 const Fields fields{
-    {"f", "Hz", "speed of rotation", &Found::frequency},
+    {"f", "Hz", "speed of rotation", &Found::speed},
     {"motion", "-", "number of the motion at this speed", &Found::number},
-    {"period", "-", "K periods of rotation; 0 aperiodic, -1 quasi-periodic, -2 undecided",
+    {"period", "-", "K base periods; 0 aperiodic, -1 quasi-periodic, -2 undecided",
      &Found::period_number},
     {"starts", "-", "how many ended there", &Found::starts},
     {"lyapunov", "1/base period", "largest Lyapunov exponent",
@@ -322,11 +325,11 @@ const std::vector<Column> section_columns{
 std::string section_text(const Task& task, const std::vector<Found>& all)
 {
   Table table("Poincare sections of the attractors", section_columns);
-  describe(table, task.machine);
+  describe(table, task.asked);
   table.note(format("points: K of a motion that closes, %d of another", section_points));
   for (const Found& found : all)
     for (const Displacements& q : found.section)
-      table.row({found.frequency, found.number, q[0], q[1], q[2], q[3],
+      table.row({found.speed(), found.number, q[0], q[1], q[2], q[3],
                  found.period_number(), found.turns(found.exponent.value),
                  found.turns(found.exponent.error)});
   return table.text();
@@ -335,13 +338,14 @@ std::string section_text(const Task& task, const std::vector<Found>& all)
 void note(Table& table, const Task& task)
 {
   const AttractorSettings& s = task.settings;
-  describe(table, task.machine);
+  describe(table, task.asked);
   table.note(format(
       "starts: at each of %zu speeds from rest, from the motion at the speed below, from that "
       "at the speed above, and from %d random states (seed %d)",
       task.speeds.size(), task.request.starts, task.request.seed));
-  table.note(format("method: rk4, steps of at most %.4g s; base period: that of rotation",
-                    default_step(task.machine)));
+  table.note(format("method: rk4, steps of at most %.4g s; base period: that of %s",
+                    default_step(task.machine),
+                    task.passages == 1 ? "rotation" : "the passing balls"));
   table.note(format(
       "transient: until the section's spread is below %g, at most %.3g s; then observed for "
       "%.3g s if the section closes, %.3g s if aperiodic, %.3g s else",
@@ -368,7 +372,8 @@ std::string unfinished(const Task& task, const std::vector<Run>& all)
   if (first == all.end()) return "";
   return format("%s: partial, %td of %zu starts have no result, the first at %.9g Hz: %s",
                 task.machine.file.c_str(), std::ranges::count_if(all, is_lost),
-                all.size(), task.speeds[first->speed], first->lost.c_str());
+                all.size(), task.speeds[first->speed] / task.passages,
+                first->lost.c_str());
 }
 
 }  // namespace
@@ -377,7 +382,7 @@ SettledMotion settled_from_rest(const Parameters& machine, double frequency,
                                 const OperationBudget& budget)
 {
   const AttractorsRequest alone;
-  const Task task{alone, machine, {frequency}, settings_of(machine), budget};
+  const Task task{alone, machine, machine, 1, {frequency}, settings_of(machine), budget};
   const Run run = runs_of(task, {Piece::up}, budget).front();
   if (!run.lost.empty()) throw NoSolution(run.lost);
   Found found = found_at(task, 0, {run}).front();
@@ -390,6 +395,8 @@ SettledMotion settled_from_rest(const Parameters& machine, double frequency,
 
 Exploration explore_attractors(const AttractorsRequest& request)
 {
+  Table table("Attractors, speed by speed", fields);
+  table.choose(request.columns, fields.size(), false);
   const Task task = task_of(request);
   const std::vector<Run> ended = all_runs(task);
   std::string missing = unfinished(task, ended);
@@ -405,23 +412,19 @@ Exploration explore_attractors(const AttractorsRequest& request)
       } catch (const NoSolution& error) {
         if (missing.empty())
           missing = format("%s: partial, no section at %.9g Hz: %s",
-                           task.machine.file.c_str(), found.frequency, error.what());
+                           task.machine.file.c_str(), found.speed(), error.what());
       }
       sharpen_exponent(task, found);
       all.push_back(std::move(found));
     }
-  Table table("Attractors, speed by speed", fields);
   note(table, task);
   if (!missing.empty()) table.note("incomplete: " + missing);
   for (const Found& found : all) table.row(fields, found);
   conclude(table, task.machine, std::ranges::any_of(all, &Found::touches), task.budget);
-  if (request.section || request.plot) {
-    const std::string section = section_text(task, all);
-    if (request.section) write_file(*request.section, section);
-    const std::string undrawn = plot(request.plot, script, section);
-    if (missing.empty()) missing = undrawn;
-  }
-  return {std::move(table), missing};
+  std::string section;
+  if (request.section || request.plot) section = section_text(task, all);
+  if (request.section) write_file(*request.section, section);
+  return {std::move(table), missing, section};
 }
 
 }  // namespace rotor_stator::explore

@@ -706,7 +706,7 @@ void explore_map(const MapRequest& request)
   if (request.threads > 0) omp_set_num_threads(request.threads);
   Output output(task, header_of(task, chosen));
   const std::size_t first = output.next(), points = task.grid.x.count;
-  in_parallel("lines", task.grid.last - first, [&](std::size_t piece) {
+  in_parallel(task.request.quiet ? "" : "lines", task.grid.last - first, [&](std::size_t piece) {
     try {
       output.wait_for_turn(first + piece);
       std::string rows;

@@ -8,6 +8,7 @@
 #include "explore/balance_motion.hpp"
 #include "integration/time_stepper.hpp"
 #include "io/errors.hpp"
+#include "io/progress.hpp"
 #include "motion/closed_motion.hpp"
 #include "motion/contact.hpp"
 #include "motion/verdict.hpp"
@@ -17,6 +18,11 @@ namespace rotor_stator::explore {
 bool is_periodic(const std::string& method)
 {
   return std::ranges::find(periodic_methods, method) != periodic_methods.end();
+}
+
+void require_range(double from, double to)
+{
+  if (from >= to) throw BadInput(format("--from %g: must be below --to %g", from, to));
 }
 
 int checked_samples(int harmonics, const std::optional<int>& samples)
@@ -32,6 +38,18 @@ OperationBudget budget_of(const std::optional<double>& evaluations, double secon
 {
   const double each = operations_per_evaluation(parameters.bearing.balls);
   return OperationBudget(evaluations.value_or(1e9 * seconds / each), "--budget");
+}
+
+OperationBudget budget_of(const Request& request, double seconds,
+                          const Parameters& parameters)
+{
+  OperationBudget budget = budget_of(request.budget, seconds, parameters);
+  const auto progress =
+      std::make_shared<Progress>(request.quiet ? "" : "share of --budget", 1);
+  if (progress->is_watched())
+    budget.watch(
+        [progress](double share) { progress->show(format("%.1f %%", 100 * share)); });
+  return budget;
 }
 
 void conclude(Table& table, const Parameters& parameters, bool touches,
@@ -170,7 +188,7 @@ Computed computed(const Parameters& parameters, const MotionRequest& request,
     throw BadInput("--samples: chosen with m for --tolerance; give --harmonics too");
   describe(table, parameters);
   table.note(format("frequency: %.15g Hz", request.frequency));
-  Computed at{.budget = budget_of(request.budget, 3, parameters)};
+  Computed at{.budget = budget_of(request, 3, parameters)};
   if (request.method == "aft")
     at.found = balance_motion(parameters, request, at.budget, table);
   else if (request.method == "shooting")
@@ -197,29 +215,35 @@ const std::vector<Column> orbit_columns{
     {"x_r", "m", "rotor"},
     {"y_r", "m", "rotor"},
     {"F_x", "N", "Eq. 6, on the stator"},
-    {"F_y", "N", "Eq. 6, on the stator"}};
+    {"F_y", "N", "Eq. 6, on the stator"},
+    {"t", "s", "time since phase 0"}};
 
 const std::vector<Column> contact_columns{
     {"t_over_T", "-", "time over the period, 0 to 2"},
     {"ball", "-", "j of Eq. 3"},
-    {"Q", "N", "Eq. 5, force of the ball"}};
+    {"Q", "N", "Eq. 5, force of the ball"},
+    {"t", "s", "time since phase 0"},
+    {"angle", "rad", "theta_j of Eq. 3, modulo 2 pi"},
+    {"stress", "N/mm^2", "largest pressure of Hertz on the races"}};
 
 }  // namespace
 
 Exploration explore_orbit(const MotionRequest& request)
 {
   Table table("Orbit of rotor and stator over one period", orbit_columns);
+  table.choose(request.columns, 7, request.plot.has_value());
   const Parameters parameters = read_parameters(request.parameter_file);
   const Computed at = computed(parameters, request, table);
+  const motion::Motion& motion = at.found.motion;
   const auto rows =
       static_cast<std::size_t>(std::max(request.periods, request.subharmonic)) *
       request.points;
   for (std::size_t k = 0; k < rows; ++k) {
-    const std::size_t same = k % at.found.motion.size();
-    const auto& [stator, rotor] = at.found.motion.positions[same];
-    table.row(
-        {2 * std::numbers::pi * request.subharmonic * at.found.motion.t_over_period(k),
-         stator.x, stator.y, rotor.x, rotor.y, at.forces[same].x, at.forces[same].y});
+    const std::size_t same = k % motion.size();
+    const auto& [stator, rotor] = motion.positions[same];
+    const double turns = request.subharmonic * motion.t_over_period(k);
+    table.row({2 * std::numbers::pi * turns, stator.x, stator.y, rotor.x, rotor.y,
+               at.forces[same].x, at.forces[same].y, turns / request.frequency});
   }
   conclude(table, parameters, at.touches(), at.budget);
   return {std::move(table)};
@@ -227,19 +251,30 @@ Exploration explore_orbit(const MotionRequest& request)
 
 Exploration explore_contact(const MotionRequest& request)
 {
-  Table table("Contact of every ball over two periods", contact_columns);
   const Parameters parameters = read_parameters(request.parameter_file);
-  const int most_points = most_contact_rows / (2 * parameters.bearing.balls);
+  const Bearing& bearing = parameters.bearing;
+  auto columns = contact_columns;
+  if (bearing.pressure == 0) columns.pop_back();
+  Table table("Contact of every ball over two periods", std::move(columns));
+  table.choose(request.columns, 3, request.plot.has_value());
+  const int most_points = most_contact_rows / (2 * bearing.balls);
   if (request.points > most_points)
     throw BadInput(format("--points %d: must be at most %d with %d balls", request.points,
-                          most_points, parameters.bearing.balls));
+                          most_points, bearing.balls));
   MotionRequest two = request;
   two.periods = 2;
   const Computed at = computed(parameters, two, table);
   const auto evolution = motion::contact_evolution(parameters, at.found.motion);
   for (std::size_t k = 0; k < evolution.t_over_period.size(); ++k)
-    for (std::size_t j = 0; j < evolution.ball_force[k].size(); ++j)
-      table.row({evolution.t_over_period[k], j + 1, evolution.ball_force[k][j]});
+    for (std::size_t j = 0; j < evolution.ball_force[k].size(); ++j) {
+      const double turns = evolution.t_over_period[k], q = evolution.ball_force[k][j];
+      const double angle =
+          bearing.cage_speed_ratio * at.found.motion.phase(k) / angular(1) +
+          static_cast<double>(j) / bearing.balls;
+      table.row({turns, j + 1, q, turns / request.frequency,
+                 angular(angle - std::floor(angle)),
+                 1e-6 * bearing.pressure * std::cbrt(q)});
+    }
   conclude(table, parameters, at.touches(), at.budget);
   return {std::move(table)};
 }

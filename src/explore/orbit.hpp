@@ -22,6 +22,10 @@ struct Request {
   double newton_tolerance = 1e-10;  ///< relative
   std::optional<double> budget;     ///< evaluations of the force, for all of it
   int subharmonic = 1;              ///< K: motions of period KT
+  std::string columns = {};         ///< names, "all", or empty: the usual ones
+  TableFormat format = TableFormat::tsv;
+  bool quiet = false;                                  ///< no progress on stderr
+  std::optional<std::string> plot = {}, overlay = {};  ///< files
 };
 
 /** Those that find periodic motions: harmonic balance, shooting, and the cheaper of the two. */
@@ -43,6 +47,7 @@ struct MotionRequest : Request {
 struct Exploration {
   Table table;
   std::string unfinished = {};  ///< why a branch stopped early; empty when it did not
+  std::string drawn = {};       ///< the table of the figure, where it is another one
 };
 
 /** Throw BadInput for options that contradict each other, NoSolution when nothing was found. */
@@ -71,10 +76,15 @@ struct Computed {
 Computed computed(const Parameters& parameters, const MotionRequest& request,
                   Table& table);
 
+/** Throws BadInput unless --from is below --to. */
+void require_range(double from, double to);
+
 /** N as asked for, or the default for m. Throws BadInput when it is too small. */
 int checked_samples(int harmonics, const std::optional<int>& samples);
 
-/** A budget of so many evaluations, or of those that take `seconds`. */
+/** The budget that is asked for, or the evaluations that take `seconds`; watched where a person is. */
+OperationBudget budget_of(const Request& request, double seconds,
+                          const Parameters& parameters);
 OperationBudget budget_of(const std::optional<double>& evaluations, double seconds,
                           const Parameters& parameters);
 

@@ -1,11 +1,13 @@
 #include "explore/response.hpp"
 
 #include <algorithm>
+#include <cmath>
 #include <limits>
 
 #include "balance/bearing_problem.hpp"
 #include "continuation/arc_length.hpp"
 #include "explore/branch_file.hpp"
+#include "explore/spectrum.hpp"
 #include "integration/time_stepper.hpp"
 #include "io/errors.hpp"
 #include "io/output_file.hpp"
@@ -78,8 +80,7 @@ void take_any_cage(const ResponseRequest& request, Task& task)
 Task task_of(const ResponseRequest& request)
 {
   Parameters parameters = read_parameters(request.parameter_file);
-  if (request.from >= request.to)
-    throw BadInput(format("--from %g: must be below --to %g", request.from, request.to));
+  require_range(request.from, request.to);
   if (request.at && (*request.at < request.from || *request.at > request.to))
     throw BadInput(
         format("--at %g: must be in %g...%g", *request.at, request.from, request.to));
@@ -89,6 +90,12 @@ Task task_of(const ResponseRequest& request)
   std::vector<std::string> inputs{request.parameter_file};
   if (request.restart) inputs.push_back(*request.restart);
   if (request.save) require_writable("--save", *request.save, inputs);
+  if (request.waterfall) require_writable("--waterfall", *request.waterfall, inputs);
+  if (request.plot) require_writable("--plot", *request.plot, inputs);
+  const std::vector<std::string> known{"", "x_s", "y_s", "x_r", "y_r"};
+  if (std::ranges::find(known, request.harmonics_of) == known.end())
+    throw BadInput("--harmonics-of " + request.harmonics_of +
+                   ": must be one of x_s, y_s, x_r, y_r");
   const int turns = request.subharmonic;
   if (turns > 1 && (request.save || request.restart || request.isolated > 0))
     throw BadInput("--subharmonic: not together with --save, --restart or --isolated");
@@ -107,7 +114,7 @@ Task task_of(const ResponseRequest& request)
   settings.most_evaluations =
       std::numeric_limits<long>::max();  // the budget is the bound
   const OperationBudget budget =
-      budget_of(request.budget,
+      budget_of(request,
                 request.stability || request.method == "shooting" ? 60
                 : turns > 1                                       ? 30
                                                                   : 3,
@@ -213,6 +220,29 @@ struct Row {
   Eigen::VectorXd amplitude;  ///< half peak-to-peak of x_s, y_s, x_r, y_r [m]
   std::size_t branch;
   const Task& task;
+  motion::Motion motion = {};  ///< where a column needs its instants
+  Eigen::MatrixXd series =
+      {};  ///< of x_s, y_s, x_r, y_r, 4 × (2m+1) [m], with --harmonics-of
+
+  double mean(Eigen::Index k) const
+  {
+    return motion::displacement_samples(motion).col(k).mean();
+  }
+  double force(double Vec2::*axis) const
+  {
+    const auto forces = motion::bearing_forces(task.parameters, motion);
+    const auto [low, high] = std::ranges::minmax(forces, {}, axis);
+    return 0.5 * (high.*axis - low.*axis);
+  }
+  double ball_load() const
+  {
+    double most = 0;
+    const long periods = std::ssize(motion.positions) / motion.points_per_period;
+    for (const auto& q :
+         motion::contact_evolution(task.parameters, motion, periods).ball_force)
+      most = std::max(most, std::ranges::max(q));
+    return most;
+  }
 };
 
 Eigen::VectorXd amplitude(const Task& task, const PeriodicMotion& motion,
@@ -252,15 +282,76 @@ const Fields stability_fields{
      "neimark-sacker: a pair passes the circle; of the m harmonics: fold; - none",
      [](auto& r) { return std::string(name_of(r.at.bifurcation)); }}};
 
-Fields fields_of(const ResponseRequest& request)
+const Fields further_fields{
+    {"mean_x_s", "m", "mean of x_s", [](auto& r) { return r.mean(0); }},
+    {"mean_y_s", "m", "mean of y_s", [](auto& r) { return r.mean(1); }},
+    {"mean_x_r", "m", "mean of x_r", [](auto& r) { return r.mean(2); }},
+    {"mean_y_r", "m", "mean of y_r", [](auto& r) { return r.mean(3); }},
+    {"amp_F_x", "N", "half peak-to-peak of F_x",
+     [](auto& r) { return r.force(&Vec2::x); }},
+    {"amp_F_y", "N", "half peak-to-peak of F_y",
+     [](auto& r) { return r.force(&Vec2::y); }},
+    {"contact_share", "-", "share of the time with a loaded ball",
+     [](auto& r) { return motion::contact_share(r.task.parameters, r.motion); }},
+    {"ball_load", "N", "largest force of a ball", &Row::ball_load}};
+
+/** Complex amplitudes a of one displacement, Re a e^{i 2 pi f t}. */
+void add_harmonics(Fields& fields, const Task& task, const Harmonics& harmonics)
 {
+  const std::string& whose = task.request.harmonics_of;
+  const Eigen::Index row = whose[2] == 's' ? whose[0] == 'y' : 2 + (whose[0] == 'y');
+  const bool two = task.has_two_frequencies;
+  for (int k = 0; const Harmonic& h : harmonics.list()) {
+    const double order = two ? order_of(h, task.machine.bearing)
+                             : h.k_1 * task.passages / task.parameters.turns;
+    const std::string name = whose + (two ? format("_%g_%g", 1.0 * h.k_1, 1.0 * h.k_2)
+                                          : format("_%g", 1.0 * h.k_1));
+    const auto at = [=](const Row& r) {
+      return rotor_stator::amplitude(r.series, k)[row];
+    };
+    fields.push_back({name + "_re", "m", format("order %.9g, real part", order),
+                      [=](auto& r) { return at(r).real(); }});
+    fields.push_back({name + "_im", "m", format("order %.9g, imaginary part", order),
+                      [=](auto& r) { return at(r).imag(); }});
+    ++k;
+  }
+}
+
+/** The fields, and how many of them are printed where no others are asked for. */
+std::pair<Fields, std::size_t> fields_of(const Task& task, const Harmonics& harmonics)
+{
+  const ResponseRequest& request = task.request;
   Fields fields = branch_fields;
   if (request.stability)
     fields.insert(fields.end(), stability_fields.begin(), stability_fields.end());
   if (request.isolated > 0)
     fields.push_back(
         {"branch", "-", "1 the branch followed, then those beside it", &Row::branch});
-  return fields;
+  if (!request.harmonics_of.empty()) add_harmonics(fields, task, harmonics);
+  const std::size_t usual = fields.size();
+  fields.insert(fields.end(), further_fields.begin(), further_fields.end());
+  if (const double pressure = task.machine.bearing.pressure; pressure > 0)
+    fields.push_back(
+        {"stress", "N/mm^2", "largest pressure of Hertz under ball_load",
+         [=](const Row& r) { return 1e-6 * pressure * std::cbrt(r.ball_load()); }});
+  return {fields, usual};
+}
+
+motion::Lines lines_at(const Task& task, PeriodicMotion motion)
+{
+  motion.bodies = body_series(task.parameters, motion);
+  auto all = motion::lines_of(task.machine.bearing, motion, task.parameters.turns);
+  for (motion::Line& line : all.lines) line.order *= task.passages;
+  return all;
+}
+
+/** The instants of one point: a period, or 64 turns of two frequencies. */
+motion::Motion samples_at(const Task& task, PeriodicMotion motion)
+{
+  motion.bodies = body_series(task.parameters, motion);
+  return task.has_two_frequencies
+             ? motion::motion_of(task.parameters, motion, 128, 64)
+             : motion::motion_of(motion.bodies, std::max(256, 4 * task.harmonics + 4));
 }
 
 std::string summary(const Task& task, const Branch& branch)
@@ -351,6 +442,9 @@ std::string missing_in(const BranchStability& stability, const OperationBudget& 
 
 /** What was added to the table. */
 struct Added {
+  const Fields& fields;
+  bool has_further;  ///< columns that need the instants
+  Table* lines;      ///< of the followed branch, where they are asked for
   bool touches = false;
   std::string missing = {};  ///< of the multipliers: the first that could not be had
 };
@@ -374,12 +468,18 @@ void add_branch(Table& table, const Task& task, Balance& balance, const Branch& 
     for (const BranchPoint& point : branch.points)
       stability.points.push_back({.point = point, .floquet = {}});
   }
-  const Fields fields = fields_of(task.request);
   FourierTransform transform = amplitude_transform(task.harmonics);
   for (const StablePoint& at : stability.points) {
     const PeriodicMotion& motion = at.point.motion;
     added.touches = added.touches || !motion.force.isZero(0);
-    table.row(fields, {at, amplitude(task, motion, transform), number, task});
+    Row row{at, amplitude(task, motion, transform), number, task};
+    if (added.has_further) row.motion = samples_at(task, motion);
+    if (!task.request.harmonics_of.empty())
+      row.series = body_series(task.parameters, motion);
+    table.row(added.fields, row);
+    if (added.lines && number == 1)
+      add_lines(*added.lines, task.machine.bearing, task.hertz(motion.omega),
+                lines_at(task, motion), 128, 1e-4);
   }
   if (task.request.isolated > 0) table.gap();
 }
@@ -430,7 +530,9 @@ Exploration shooting_response(const ResponseRequest& request, const Task& task)
   }
   const ShootingBranch branch =
       follow_by_shooting(machine, range.from, range.to, state, {.budget = task.budget});
-  Table table("Frequency response along the branch", fields_of(request));
+  const auto [fields, usual] = fields_of(task, Harmonics(task.harmonics));
+  Table table("Frequency response along the branch", fields);
+  table.choose(request.columns, usual, request.plot.has_value());
   table.note("start: " + start);
   describe(table, machine);
   table.note(
@@ -450,8 +552,8 @@ Exploration shooting_response(const ResponseRequest& request, const Task& task)
     at.point.motion.omega = point.omega;
     at.point.motion.newton.iterations = point.newton;
     at.point.arc = point.arc;
-    table.row(branch_fields,
-              Row{at, Eigen::Map<const Eigen::Vector4d>(amplitude.data()), 1, task});
+    table.row(fields, Row{at, Eigen::Map<const Eigen::Vector4d>(amplitude.data()), 1,
+                          task, motion, motion::series_of(motion, task.harmonics)});
   }
   conclude(table, machine, touches, task.budget);
   return {std::move(table),
@@ -464,24 +566,26 @@ Exploration explore_response(const ResponseRequest& request)
 {
   Task task = task_of(request);
   if (request.method == "shooting") return shooting_response(request, task);
-  Table table("Frequency response along the branch", fields_of(request));
   PeriodicMotion found;
   TorusLine line{};
   if (task.has_two_frequencies) {
     std::tie(found, line) = chosen_start(task);
     task.samples = found.samples;
-    table.note("start: " + found.start);
   } else if (!task.saved) {
     found = found_start(task);
     task.harmonics = found.harmonics.count();
     task.samples = found.samples;
-    table.note("start: " + found.start);
-    if (found.error)
-      table.note(
-          format("error at the start: %.2g of the largest displacement or rms about "
-                 "the mean, against that motion",
-                 found.error->larger()));
   }
+  const auto [fields, usual] = fields_of(
+      task, task.has_two_frequencies ? found.harmonics : Harmonics(task.harmonics));
+  Table table("Frequency response along the branch", fields);
+  const bool has_further = table.choose(request.columns, usual, request.plot.has_value());
+  if (!task.saved) table.note("start: " + found.start);
+  if (found.error && !task.has_two_frequencies)
+    table.note(
+        format("error at the start: %.2g of the largest displacement or rms about "
+               "the mean, against that motion",
+               found.error->larger()));
   Balance balance =
       task.has_two_frequencies
           ? Balance(bearing_problem(task.parameters, line, task.budget), found.harmonics)
@@ -522,12 +626,15 @@ Exploration explore_response(const ResponseRequest& request)
   std::vector<const Branch*> all{&main};
   for (const IsolatedBranch& other : beside.found) all.push_back(&other.branch);
 
-  Added added;
+  Table lines("Lines of the motions along the branch", line_columns);
+  describe(lines, task.machine);
+  Added added{fields, has_further, request.waterfall ? &lines : nullptr};
   for (std::size_t k = 0; k < all.size(); ++k)
     add_branch(table, task, balance, *all[k], k + 1, added);
   if (request.save)
     write_file(*request.save, branch_text(task.parameters, task.harmonics, task.samples,
                                           task.upwards, all));
+  if (request.waterfall) write_file(*request.waterfall, lines.text());
   conclude(table, task.machine, added.touches, task.budget);
   return {std::move(table), unfinished(task, main, beside.missing, added.missing)};
 }

@@ -22,6 +22,8 @@ struct ResponseRequest : Request {
   std::optional<double> at;                  ///< speed to restart from [Hz]
   int isolated = 0;  ///< speeds at which isolated branches are looked for
   int seed = 1;
+  std::string harmonics_of = {};         ///< a displacement, or empty
+  std::optional<std::string> waterfall;  ///< file
   bool stability = false;  ///< multipliers at each point, and the bifurcations
   /** Sees the points of the main branch while it is followed: speed [Hz], half peak-to-peak [m]. */
   std::function<void(double f, const Eigen::VectorXd& amplitude)> watch = {};

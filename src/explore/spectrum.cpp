@@ -4,14 +4,13 @@
 #include <cmath>
 
 #include "balance/torus_line.hpp"
-#include "explore/plot.hpp"
 #include "io/errors.hpp"
+#include "io/number_table.hpp"
 
 namespace rotor_stator::explore {
 
 namespace {
 
-const char* const script = "spectrum.py";
 constexpr int most_samples = 1 << 18;  // of a record; larger ones take minutes
 constexpr double least = 1e-6;         // of the largest line
 
@@ -33,19 +32,6 @@ MotionRequest with_defaults(MotionRequest request, const Parameters& parameters)
   return request;
 }
 
-const std::vector<Column> columns{
-    {"f", "Hz", "of the line"},
-    {"order", "-", "f over the speed"},
-    {"k_rotation", "-",
-     "2 pi f = k_rotation omega + k_cage omega_cage + k_spin omega_ball"},
-    {"k_cage", "-", "n for BPFO"},
-    {"k_spin", "-", "all three are 0 for a line without a name"},
-    {"name", "-", "- for a line that is no combination"},
-    {"x_s", "m", "amplitude, stator"},
-    {"y_s", "m", "amplitude, stator"},
-    {"x_r", "m", "amplitude, rotor"},
-    {"y_r", "m", "amplitude, rotor"}};
-
 void note_names(Table& table, const motion::Lines& lines)
 {
   table.note(format("mean: x_s = %.15g m, y_s = %.15g m, x_r = %.15g m, y_r = %.15g m",
@@ -55,28 +41,6 @@ void note_names(Table& table, const motion::Lines& lines)
       "name: sum of multiples of X (rotation), BPFO and BPFI with the smallest sum of their "
       "absolute values, BPFO and BPFI counted twice, then the fewest terms, then the smallest "
       "multiple of BPFI; else a multiple of FTF or BSF");
-}
-
-/** Throws NoSolution when there is no line above rounding. */
-void add_rows(Table& table, const Parameters& parameters, const MotionRequest& request,
-              motion::Lines all)
-{
-  const int passages = is_periodic(request.method) ? 128 : 16;
-  auto& lines = all.lines;
-  std::ranges::stable_sort(lines, std::ranges::greater{}, &motion::Line::largest);
-  const double largest = lines.empty() ? 0 : lines.front().largest();
-  double rounding = 0;
-  for (double mean : all.mean) rounding = std::max(rounding, 1e-13 * std::abs(mean));
-  if (!(largest > rounding))
-    throw NoSolution(parameters.file + ": the motion has no line, nothing moves");
-  for (const motion::Line& line : lines) {
-    if (line.largest() < std::max(least * largest, rounding)) break;
-    const motion::LineName name =
-        motion::name_of(line.order, parameters.bearing, 1e-9, passages);
-    const auto& a = line.amplitude;
-    table.row({line.order * request.frequency, line.order, name.rotation, name.cage,
-               name.spin, name.name.empty() ? "-" : name.name, a[0], a[1], a[2], a[3]});
-  }
 }
 
 /** Those that harmonic balance or shooting have found, or read from the record. */
@@ -95,11 +59,47 @@ motion::Lines lines_of(const Parameters& parameters, const MotionRequest& reques
 
 }  // namespace
 
-Exploration explore_spectrum(const SpectrumRequest& asked)
+const std::vector<Column> line_columns{
+    {"f", "Hz", "of the line"},
+    {"order", "-", "f over the speed"},
+    {"k_rotation", "-",
+     "2 pi f = k_rotation omega + k_cage omega_cage + k_spin omega_ball"},
+    {"k_cage", "-", "n for BPFO"},
+    {"k_spin", "-", "all three are 0 for a line without a name"},
+    {"name", "-", "- for a line that is no combination"},
+    {"x_s", "m", "amplitude, stator"},
+    {"y_s", "m", "amplitude, stator"},
+    {"x_r", "m", "amplitude, rotor"},
+    {"y_r", "m", "amplitude, rotor"}};
+
+bool add_lines(Table& table, const Bearing& bearing, double frequency, motion::Lines all,
+               int passages, double smallest)
 {
-  Table table("Lines of the motion of rotor and stator", columns);
+  auto& lines = all.lines;
+  std::ranges::stable_sort(lines, std::ranges::greater{}, &motion::Line::largest);
+  const double largest = lines.empty() ? 0 : lines.front().largest();
+  double rounding = 0;
+  for (double mean : all.mean) rounding = std::max(rounding, 1e-13 * std::abs(mean));
+  if (!(largest > rounding)) return false;
+  for (const motion::Line& line : lines) {
+    if (line.largest() < std::max(smallest * largest, rounding)) break;
+    const motion::LineName name = motion::name_of(line.order, bearing, 1e-9, passages);
+    const auto& a = line.amplitude;
+    table.row({line.order * frequency, line.order, name.rotation, name.cage, name.spin,
+               name.name.empty() ? "-" : name.name, a[0], a[1], a[2], a[3]});
+  }
+  return true;
+}
+
+Exploration explore_spectrum(const MotionRequest& asked)
+{
+  Table table("Lines of the motion of rotor and stator", line_columns);
+  table.choose(asked.columns, line_columns.size(), asked.plot.has_value());
   const Parameters parameters = read_parameters(asked.parameter_file);
-  if (asked.plot) require_plot(*asked.plot, script, {asked.parameter_file});
+  if (asked.overlay) {
+    for (const char* name : {"f", "amplitude"}) NumberTable(*asked.overlay).at(0, name);
+    table.note("measured: " + *asked.overlay);
+  }
   const MotionRequest request = with_defaults(asked, parameters);
   const int turns = std::max(request.periods, request.subharmonic);
   if (request.points > most_samples / turns)
@@ -113,10 +113,11 @@ Exploration explore_spectrum(const SpectrumRequest& asked)
                request.points, request.points / 2));
   const motion::Lines lines = lines_of(parameters, request, at, table);
   note_names(table, lines);
-  add_rows(table, parameters, request, lines);
+  if (!add_lines(table, parameters.bearing, request.frequency, lines,
+                 is_periodic(request.method) ? 128 : 16, least))
+    throw NoSolution(parameters.file + ": the motion has no line, nothing moves");
   conclude(table, parameters, at.touches(), at.budget);
-  std::string missing = plot(asked.plot, script, table.text());
-  return {std::move(table), std::move(missing)};
+  return {std::move(table)};
 }
 
 }  // namespace rotor_stator::explore

@@ -25,6 +25,7 @@ const OperationBudget::Account* OperationBudget::short_of(double evaluations) co
       return account;
     }
     account->left -= evaluations;
+    if (account->watch) account->watch(1 - account->left / account->most);
   }
   return nullptr;
 }
@@ -38,8 +39,11 @@ void OperationBudget::spend(double evaluations) const
 {
   const Account* account = short_of(evaluations);
   if (!account) return;
-  const std::string more =
-      account->option.empty() ? "" : "; more with " + account->option;
+  const Account* whole = account;
+  while (whole->parent) whole = whole->parent.get();
+  const std::string more = account->option.empty() ? ""
+                                                   : "; more with " + account->option +
+                                                         format(" %.2g", 4 * whole->most);
   throw NoSolution(format("the %s of %.3g evaluations of the force is used up%s",
                           account->parent ? "share" : "budget", account->most,
                           more.c_str()));

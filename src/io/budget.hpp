@@ -10,6 +10,7 @@ as many evaluations as take that time. The prices are given in elementary operat
 does about one per nanosecond; one evaluation is 15 + 1.35 n of them. */
 #pragma once
 
+#include <functional>
 #include <memory>
 #include <string>
 
@@ -32,6 +33,12 @@ public:
       : account_(std::make_shared<Account>(
             Account{evaluations, evaluations, std::move(option), nullptr}))
   {
+  }
+
+  /** Calls `watch` with the share that is spent, whenever something is. */
+  void watch(std::function<void(double share)> watch)
+  {
+    account_->watch = std::move(watch);
   }
 
   bool bounded() const { return account_ != nullptr; }
@@ -59,6 +66,7 @@ private:
     double most, left;
     std::string option;
     std::shared_ptr<Account> parent;
+    std::function<void(double share)> watch = {};
   };
 
   /** The first account that has not `evaluations` left, emptied; null where all had and paid. */

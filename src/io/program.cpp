@@ -1,6 +1,5 @@
 #include "io/program.hpp"
 
-#include <unistd.h>
 #include <CLI/CLI.hpp>
 #include <algorithm>
 #include <charconv>
@@ -12,22 +11,6 @@
 #include "io/errors.hpp"
 
 namespace rotor_stator {
-
-Progress::Progress(std::string what, std::size_t total)
-    : what_(std::move(what)), total_(total), watched_(isatty(STDERR_FILENO) == 1)
-{
-}
-
-Progress::~Progress()
-{
-  if (watched_ && done_ > 0) std::fputc('\n', stderr);
-}
-
-void Progress::step()
-{
-  ++done_;
-  if (watched_) std::fprintf(stderr, "\r%s: %zu of %zu", what_.c_str(), done_, total_);
-}
 
 namespace {
 

@@ -1,7 +1,4 @@
-/**
-# Progress of long work
-
-A line on stderr that is rewritten in place, and only when a person is watching. */
+/** # The frame of programs */
 #pragma once
 
 #include <functional>
@@ -10,6 +7,7 @@ A line on stderr that is rewritten in place, and only when a person is watching.
 #include <string>
 #include <vector>
 
+#include "io/progress.hpp"
 #include "io/table.hpp"
 #include "io/toml_file.hpp"
 
@@ -18,21 +16,6 @@ class App;
 }
 
 namespace rotor_stator {
-
-class Progress {
-public:
-  Progress(std::string what, std::size_t total);
-  ~Progress();
-  Progress(const Progress&) = delete;
-  Progress& operator=(const Progress&) = delete;
-
-  void step();
-
-private:
-  std::string what_;
-  std::size_t done_ = 0, total_;
-  bool watched_;
-};
 
 /** The items of a list one after the other, with their progress:
     `for (double f : watched("orbits", frequencies))`. */

@@ -31,17 +31,23 @@ struct Column {
   std::string name, unit, meaning;
 };
 
+/** How a table is written: with its `#` lines; names and rows alone; all of it as one object, with the numbers of the
+    header by name. */
+enum class TableFormat { tsv, csv, json };
+
 /** A number or a word. */
 class Cell {
 public:
   Cell(double number) : value_(number) {}
   Cell(std::integral auto number) : value_(static_cast<double>(number)) {}
   Cell(std::string word) : value_(std::move(word)) {}
+  Cell(const char* word) : value_(word) {}
   template <class Enum>
   requires std::is_enum_v<Enum> Cell(Enum number) : value_(static_cast<double>(number)) {}
 
   bool is_finite() const;
-  std::string text() const;  ///< 15 significant digits
+  std::string text(
+      TableFormat format = TableFormat::tsv) const;  ///< 15 significant digits
 
 private:
   std::variant<double, std::string> value_;
@@ -65,29 +71,40 @@ public:
   {
   }
 
+  /** Prints the columns that `names` lists, separated by commas; without it the first `usual`; "all" of them. A figure
+      is drawn from the usual ones too. Whether others are wanted. Throws BadInput for another name. */
+  bool choose(const std::string& names, std::size_t usual, bool is_drawn);
+
   /** One more `#` line. */
   void note(const std::string& line);
 
   /** Throws NoSolution if a number is not finite: no NaN is ever printed as a result. */
   void row(std::vector<Cell> cells);
 
-  /** The row of `item`. */
+  /** The row of `item`; what is not wanted is not computed. */
   template <class Row>
   void row(const std::vector<Field<Row>>& fields, const Row& item)
   {
     std::vector<Cell> cells;
-    for (const Field<Row>& field : fields) cells.push_back(field.value(item));
+    for (std::size_t k = 0; k < fields.size(); ++k)
+      cells.push_back(wanted_[k] ? fields[k].value(item) : 0);
     row(std::move(cells));
   }
 
   /** A blank line: curves are drawn with a gap here. */
   void gap();
 
-  std::string text() const;
+  /** For a figure with all columns. */
+  std::string text(TableFormat format = TableFormat::tsv, bool is_drawn = false) const;
 
 private:
+  std::string body(TableFormat format, const std::vector<std::size_t>& places) const;
+  std::string json() const;
+
   std::vector<std::string> header_;
   std::vector<Column> columns_;
+  std::vector<std::size_t> printed_, drawn_;  ///< their places
+  std::vector<bool> wanted_;
   std::vector<std::vector<Cell>> rows_;  ///< an empty row is a gap
 };
 

@@ -1,5 +1,6 @@
 #include "model/catalogue.hpp"
 
+#include <algorithm>
 #include <cmath>
 #include <numbers>
 
@@ -35,12 +36,6 @@ StrictToml entry_of(StrictToml& table)
                                   there + "; give the bearing's dimensions instead");
 }
 
-/** The same table, or the catalogue's where the designation gives the value. */
-StrictToml source_of(StrictToml& table, bool from_catalogue)
-{
-  return from_catalogue ? entry_of(table) : table;
-}
-
 /** Diameters of balls and pitch circle [m], 0 where only the cage's ratio is given. */
 struct Diameters {
   double ball, pitch;
@@ -57,7 +52,8 @@ void refuse_overlap(StrictToml& table, const std::string& key, int balls,
                            balls, radius_ratio, most));
 }
 
-Diameters read_cage(StrictToml& table, Bearing& bearing)
+/** `source`: the catalogue's entry where there is a designation, else the same table. */
+Diameters read_cage(StrictToml& table, StrictToml& source, Bearing& bearing)
 {
   const std::size_t way = table.way({{"cage_speed_ratio"},
                                      {"ball_radius_m", "inner_race_radius_m"},
@@ -77,7 +73,6 @@ Diameters read_cage(StrictToml& table, Bearing& bearing)
     refuse_overlap(table, "ball_radius_m", bearing.balls, bearing.radius_ratio);
     return {2 * ball, 2 * (ball + race)};
   }
-  StrictToml source = source_of(table, way == 3);
   const double ball = source.number("ball_diameter_m", Range::positive);
   const double pitch = source.number("pitch_diameter_m", Range::positive);
   bearing.radius_ratio = ball / pitch;
@@ -100,7 +95,8 @@ std::vector<double> clearance_range(StrictToml& table, double bore)
   table.fail("internal_clearance", format("is not known for a bore of %g m", bore));
 }
 
-double read_clearance(StrictToml& table, std::vector<std::string>& derived)
+double read_clearance(StrictToml& table, StrictToml& source,
+                      std::vector<std::string>& derived)
 {
   const std::size_t way = table.way(
       {{"radial_clearance_m"}, {"diametral_clearance_m"}, {"internal_clearance"}});
@@ -115,8 +111,7 @@ double read_clearance(StrictToml& table, std::vector<std::string>& derived)
     table.fail("internal_clearance",
                "needs designation, which gives the bore; without it give "
                "diametral_clearance_m");
-  const auto range =
-      clearance_range(table, entry_of(table).number("bore_m", Range::positive));
+  const auto range = clearance_range(table, source.number("bore_m", Range::positive));
   derived.push_back(
       format("clearance: %s, %g to %g um on the diameter unmounted (ISO 5753-1), "
              "delta is half of the middle",
@@ -144,8 +139,8 @@ Solid read_steel(StrictToml& source)
   return steel;
 }
 
-double read_stiffness(StrictToml& table, const Diameters& diameters,
-                      std::vector<std::string>& derived)
+double read_stiffness(StrictToml& table, StrictToml& source, const Diameters& diameters,
+                      double& pressure, std::vector<std::string>& derived)
 {
   const std::size_t way = table.way({{"contact_stiffness_N_per_m1p5"},
                                      {"inner_groove_ratio", "outer_groove_ratio",
@@ -156,16 +151,16 @@ double read_stiffness(StrictToml& table, const Diameters& diameters,
     table.fail("cage_speed_ratio",
                "does not give the ball's size, which the groove ratios need; give "
                "ball_diameter_m and pitch_diameter_m instead");
-  StrictToml source = source_of(table, way == 2);
   const BallGeometry geometry{diameters.ball, diameters.pitch,
                               groove_ratio(source, "inner_groove_ratio"),
                               groove_ratio(source, "outer_groove_ratio")};
   StrictToml material =
       way == 1 ? table : StrictToml("deep_groove.toml", bearing_catalogue).table("steel");
   const Solid steel = read_steel(material);
-  const double inner = inner_contact(geometry, steel).stiffness;
-  const double outer = outer_contact(geometry, steel).stiffness;
-  const double stiffness = in_series(inner, outer);
+  const PointContact inner = inner_contact(geometry, steel);
+  const PointContact outer = outer_contact(geometry, steel);
+  const double stiffness = in_series(inner.stiffness, outer.stiffness);
+  pressure = std::max(inner.pressure, outer.pressure);
   if (!(stiffness > 0 && std::isfinite(stiffness)))
     source.fail("youngs_modulus_Pa",
                 "and the dimensions give no contact stiffness that a double holds");
@@ -174,7 +169,7 @@ double read_stiffness(StrictToml& table, const Diameters& diameters,
              "Hertz: K_inner = %.6g, K_outer = %.6g N/m^1.5, in series K_H",
              geometry.inner_groove_ratio, geometry.outer_groove_ratio,
              way == 1 ? "given" : source.string("groove_ratios").c_str(),
-             steel.young_modulus, steel.poisson_ratio, inner, outer));
+             steel.young_modulus, steel.poisson_ratio, inner.stiffness, outer.stiffness));
   return stiffness;
 }
 
@@ -193,11 +188,13 @@ Bearing read_bearing(StrictToml& table, std::vector<std::string>& derived)
 {
   Bearing bearing{};
   const bool has_count = table.way({{"balls"}, {designation_key}}) == 0;
-  StrictToml source = source_of(table, !has_count);
+  StrictToml source = has_count ? table : entry_of(table);
   bearing.balls = source.integer("balls", 1, most_balls);
-  const Diameters diameters = read_cage(table, bearing);
-  bearing.contact_stiffness = read_stiffness(table, diameters, derived);
-  bearing.clearance = read_clearance(table, derived);
+  const Diameters diameters = read_cage(table, source, bearing);
+  bearing.ball_diameter = diameters.ball;
+  bearing.contact_stiffness =
+      read_stiffness(table, source, diameters, bearing.pressure, derived);
+  bearing.clearance = read_clearance(table, source, derived);
   if (!has_count || table.has("ball_diameter_m"))
     derived.insert(
         derived.begin(),

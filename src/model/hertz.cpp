@@ -48,13 +48,17 @@ PointContact point_contact(double a, double b, const Solid& first, const Solid& 
 {
   const double kappa = ellipticity_of(std::max(a, b) / std::min(a, b));
   const EllipticIntegrals integrals = elliptic_integrals(1 / kappa);
-  const double pi = std::numbers::pi;
+  const double pi = std::numbers::pi, modulus = effective_modulus(first, second);
   const double deformation =
       2 * integrals.first / pi * std::cbrt(pi / (2 * kappa * kappa * integrals.second));
   return {.ellipticity = kappa,
           .deformation = deformation,
-          .stiffness = 4 * std::numbers::sqrt2 / 3 * effective_modulus(first, second) /
-                       (std::sqrt(a + b) * deformation * std::sqrt(deformation))};
+          .stiffness = 4 * std::numbers::sqrt2 / 3 * modulus /
+                       (std::sqrt(a + b) * deformation * std::sqrt(deformation)),
+          .pressure =
+              1.5 / pi *
+              std::cbrt(pi * pi / (4 * kappa) * std::pow(modulus * (a + b) / 1.5, 2)) /
+              std::cbrt(integrals.second * integrals.second)};
 }
 
 namespace {

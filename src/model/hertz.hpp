@@ -54,13 +54,16 @@ struct PointContact {
   double
       deformation;  ///< δ* of Harris, its approach over that of a circular contact of the same a + b
   double stiffness;  ///< K [N/m^{3/2}] in Q = K p^{3/2}
+  double pressure;   ///< largest [Pa/N^{1/3}], over Q^{1/3}
 };
 
 /** With e² = 1 - κ⁻², κ follows from the geometry and gives the rest:
 
    $$\frac{\max(a, b)}{\min(a, b)} = \frac{\kappa^2 E - K}{K - E}, \qquad
      \delta^* = \frac{2K}{\pi} \left(\frac{\pi}{2\kappa^2 E}\right)^{1/3}, \qquad
-     K_H = \frac{4\sqrt2}{3} E^* (a + b)^{-1/2} (\delta^*)^{-3/2}.$$
+     K_H = \frac{4\sqrt2}{3} E^* (a + b)^{-1/2} (\delta^*)^{-3/2}, \qquad
+     p_{max} = \frac{3}{2\pi} \left(\frac{\pi^2}{4\kappa E^2}\right)^{1/3}
+       \left(\frac{2 (a + b) E^*}{3}\right)^{2/3} Q^{1/3}.$$
 
    T. A. Harris, Rolling Bearing Analysis, 4th ed. (2001), chapter 6. */
 PointContact point_contact(double a, double b, const Solid& first, const Solid& second);

@@ -47,6 +47,9 @@ struct Bearing {
   double clearance;          ///< δ [m], radial
   double cage_speed_ratio;   ///< c = ω_cage/ω [-]
   double radius_ratio;       ///< R_b/(R_b + R) [-]; 0 when only c was given
+  double ball_diameter = 0;  ///< [m]; 0 when only c was given
+  double pressure =
+      0;  ///< largest of Hertz [Pa] on the race that has more of it, over Q^{1/3}; 0 unknown
 };
 
 /** One machine. */

@@ -153,21 +153,23 @@ Vec2 quasi_static_contact(const Parameters& parameters, Vec2 force)
 
 namespace {
 
-/** Where the bearing, ball 1 at angle 0, answers with `force`: Newton from far enough along that force for balls to
-    touch. The potential is convex, so steps that are halved until the error falls arrive. One or two balls may not
-    be able to answer; what is left then is a start too. */
-Vec2 equilibrium(const Parameters& parameters, Vec2 force)
+/** Where the bearing with ball 1 at angle `cage`, and a spring [N/m] beside it, answer with `force`: Newton from far
+    enough along that force for balls to touch. The potential is convex, so steps that are halved until the error falls
+    arrive. One or two balls may not be able to answer; what is left then is a start too. */
+Vec2 equilibrium(const Parameters& parameters, Vec2 force, Direction cage = {1, 0},
+                 double spring = 0)
 {
   const BallBearing bearing(parameters.bearing);
   Vec2 u = quasi_static_contact(parameters, force);
   const auto off = [&](Vec2 at) {
-    const Vec2 f = bearing.force({1, 0}, at);
+    const Vec2 f = bearing.force(cage, at) + spring * at;
     return std::hypot(force.x - f.x, force.y - f.y);
   };
   for (int k = 0; k < 4 && off(u) == off({0, 0}); ++k) u = 2.0 * u;
   for (int step = 0; step < 100; ++step) {
-    const auto [f, s] = bearing.reaction({1, 0}, u);
-    const double error = off(u), little = 1e-6 * (s.xx + s.yy);
+    const auto [pressed, s] = bearing.reaction(cage, u);
+    const Vec2 f = pressed + spring * u;
+    const double error = off(u), little = 1e-6 * (s.xx + s.yy) + spring;
     if (!(error > 1e-12 * std::hypot(force.x, force.y)) || little == 0) break;
     const Vec2 rest{force.x - f.x, force.y - f.y};
     const double xx = s.xx + little, yy = s.yy + little;
@@ -182,6 +184,13 @@ Vec2 equilibrium(const Parameters& parameters, Vec2 force)
 }
 
 }  // namespace
+
+Vec2 static_equilibrium(const Parameters& parameters, Direction cage)
+{
+  const double k_s = parameters.stator.stiffness(), k_r = parameters.rotor.stiffness();
+  return equilibrium(parameters, static_joint_force(parameters), cage,
+                     k_s / (k_s + k_r) * k_r);
+}
 
 State static_start(const Parameters& parameters)
 {

@@ -146,6 +146,9 @@ Vec2 free_displacement(const Parameters& parameters, double omega, double phase)
    iterations. */
 Vec2 quasi_static_contact(const Parameters& parameters, Vec2 force);
 
+/** The relative displacement [m] at rest with ball 1 at the angle `cage`. */
+Vec2 static_equilibrium(const Parameters& parameters, Direction cage);
+
 /** A state at rest with the bearing carrying the static load: where time integration starts. The load stands on
     one ball; where the bearing alone carries a body, on those that balance it with ball 1 at angle 0. */
 State static_start(const Parameters& parameters);

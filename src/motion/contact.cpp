@@ -12,12 +12,13 @@ double contact_share(const Parameters& parameters, const Motion& motion)
   return static_cast<double>(loaded) / static_cast<double>(forces.size());
 }
 
-ContactEvolution contact_evolution(const Parameters& parameters, const Motion& motion)
+ContactEvolution contact_evolution(const Parameters& parameters, const Motion& motion,
+                                   long periods)
 {
   const BallBearing bearing(parameters.bearing);
   ContactEvolution evolution;
-  for (std::size_t k = 0; k < 2 * static_cast<std::size_t>(motion.points_per_period);
-       ++k) {
+  const auto instants = static_cast<std::size_t>(periods * motion.points_per_period);
+  for (std::size_t k = 0; k < instants; ++k) {
     const Direction cage =
         Direction::of(parameters.bearing.cage_speed_ratio * motion.phase(k));
     std::vector<double> q;

@@ -12,15 +12,16 @@ namespace rotor_stator::motion {
 /** Share of the instants with at least one loaded ball [-]. */
 double contact_share(const Parameters& parameters, const Motion& motion);
 
-/** Ball forces at P instants per period over two periods. */
+/** Ball forces at P instants per period. */
 struct ContactEvolution {
-  std::vector<double> t_over_period;            ///< 0 ≤ t/T < 2
+  std::vector<double> t_over_period;            ///< 0 ≤ t/T < periods
   std::vector<std::vector<double>> ball_force;  ///< [instant][ball] Q_j [N]
 };
 
 /** Ball j stands where Eq. 3 puts it, with t counted as the motion counts it. A motion of
    one period is repeated. */
-ContactEvolution contact_evolution(const Parameters& parameters, const Motion& motion);
+ContactEvolution contact_evolution(const Parameters& parameters, const Motion& motion,
+                                   long periods = 2);
 
 /** Times that each ball is loaded anew in two periods, counted around the end. */
 std::vector<int> passages_per_ball(const std::vector<std::vector<double>>& ball_force);

@@ -257,7 +257,7 @@ def motion_options(draw, extreme):
     options = [["--frequency", frequency]]
     if method != "aft" or draw(one_in(2)):
         options.append(["--method", method])
-    options += draw(chosen({"--points": (2, whole(0, 3 if extreme else 2))}))
+    options += draw(chosen({"--points": (2, whole(0, 3 if extreme else 2)), "--columns": (4, st.just("all"))}))
     if method == "aft":
         return options + draw(chosen({
             "--harmonics": (2, whole(0, 3.6 if extreme else 1.5)),
@@ -278,6 +278,7 @@ def response_options(draw, extreme):
     options = draw(chosen({
         "--harmonics": (2, whole(0, 2.5 if extreme else 1)), "--samples": (4, whole(1, 5 if extreme else 3)),
         "--newton-tolerance": (4, real(-15, -3)), "--direction": (4, st.sampled_from(["up", "down"])),
+        "--columns": (4, st.just("all")), "--harmonics-of": (6, st.sampled_from(["x_s", "y_r"])),
         "--isolated": (8, whole(0, 1)), "--save": (8, st.just("saved.tsv"))}))
     if draw(one_in(8)):
         options = [["--subharmonic", draw(st.integers(2, 4).map(str))],
@@ -301,14 +302,21 @@ def spectrum_options(draw, extreme):
     return [option for option in draw(motion_options(extreme)) if option[0] != "--points"]
 
 
-OPTIONS_OF = {"orbit": motion_options, "contact": motion_options, "spectrum": spectrum_options,
+@st.composite
+def check_options(draw, extreme):
+    dice = draw(st.randoms())
+    start = decade(dice, -300 if extreme and draw(one_in(4)) else -4, 4)
+    return [["--from", repr(start)], ["--to", repr(start * (1 + decade(dice, -3, 4)))]]
+
+
+OPTIONS_OF = {"check": check_options, "orbit": motion_options, "contact": motion_options, "spectrum": spectrum_options,
               "response": response_options, "attractors": attractors_options}
 
 
 @st.composite
 def questions(draw, extreme):
     """A command and its options, as [name, value]."""
-    command = draw(one("orbit", "orbit", "contact", "spectrum", "response", "attractors"))
+    command = draw(one("orbit", "orbit", "contact", "spectrum", "response", "attractors", "check"))
     return command, draw(OPTIONS_OF[command](extreme))
 
 
@@ -431,7 +439,7 @@ class Explore(unittest.TestCase):
 
     def ask(self, tally, words, content=GOOD_FILE, budget=LITTLE, **files):
         """Asks, and counts how it ended."""
-        bounded = [*words, "--budget", budget] if budget else words
+        bounded = [*words, "--budget", budget] if budget and words[0] != "check" else words
         tally[self.folder.ask(bounded, {"machine.toml": content, **files})] += 1
 
     def test_a_good_question_is_answered(self):

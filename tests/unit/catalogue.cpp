@@ -57,6 +57,12 @@ TEST_CASE("Contact parameters are those of Harris's table, and of a ball on a fl
         point_contact(100 * (1 - difference), 100 * (1 + difference), steel, steel);
     CHECK(contact.ellipticity == Approx(a / b).epsilon(1e-3));
     CHECK(contact.deformation == Approx(deformation).epsilon(5e-4));
+    /** 3/(2π) over the half axes a* and b* times (3/(2 Σρ E*))^{1/3}, for 1 N. */
+    const double modulus =
+        steel.young_modulus / (2 * (1 - steel.poisson_ratio * steel.poisson_ratio));
+    CHECK(contact.pressure == Approx(1.5 / (std::numbers::pi * a * b) *
+                                     std::pow(2 * 200 * modulus / 3, 2.0 / 3))
+                                  .epsilon(1e-3));
   }
   const PointContact circle = point_contact(100, 100, steel, steel);
   CHECK(circle.ellipticity == Approx(1).epsilon(1e-12));

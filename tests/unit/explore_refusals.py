@@ -111,7 +111,7 @@ class Values(Case):
                 ("--count 3 --plot no/such/folder.svg", "its folder does not exist"),
                 ("--count 3 --section no/such/file", "its folder does not exist"),
                 ("--count 3 --section machine.toml", "is the input"),
-                ("--count 3 --section same.svg --plot same.svg", "is the file of --section"),
+                ("--count 3 --section same.svg --plot same.svg", "is the file of two options"),
                 ("--count 3 --to 10", "--from 10: must be below --to 10")]:
             with self.subTest(options):
                 end = [] if "--to" in options else ["--to", "20"]
@@ -291,7 +291,7 @@ class Options(Case):
                      "orbit", self.machine, *ORBIT, "--harmonic", "6")
         self.refused("--freqency: not expected; did you mean --frequency?",
                      "orbit", self.machine, "--freqency=45")
-        self.refused("orbits: not expected; did you mean orbit?; subcommands: orbit, contact, response",
+        self.refused("orbits: not expected; did you mean orbit?; subcommands: check, orbit, contact, response",
                      "orbits", self.machine, *ORBIT)
 
     def test_ignored_options(self):

@@ -148,6 +148,16 @@ class Branch(Case):
         self.assertEqual(result.returncode, 3, result.stderr)
         return Table.of(result.stdout), result.stderr
 
+    def test_the_advice_of_a_used_up_budget_arrives(self):
+        """Set 2 with ten harmonics: a branch of a thousand folds. What the message names goes further, and to the end."""
+        options = [SET_2, *WHOLE, "--harmonics", 10]
+        table, why = self.cut_off(*options)
+        found = re.search(r"stopped at (\S+) Hz, before --to 60 Hz: .*; more with --budget (\S+)$", why.strip())
+        self.assertAlmostEqual(table["f"][-1] / float(found[1]), 1, delta=1e-5)
+        whole = self.table("response", *options, "--budget", found[2])
+        self.assertAlmostEqual(whole["f"][-1], 60)
+        np.testing.assert_array_equal(whole["f"][:len(table)], table["f"])
+
     def test_from_end_to_end_with_the_peak_near_50_hz(self):
         table = self.response()
         self.assertEqual(list(table.columns), ["f", *AMPLITUDES, "arc", "newton"])

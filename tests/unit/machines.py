@@ -170,6 +170,22 @@ acceleration_m_per_s2 = 9.81
         loaded = self.file("loaded.toml", MACHINE.replace("[rotor]", "[rotor]\nload_N = [1, 0]"))
         self.refused("another machine", "response", loaded, "--from", 44, "--to", 46, "--restart", branch)
 
+    def test_attractors_of_a_balanced_rotor(self):
+        """A 6205 without unbalance has the base period of its passing balls: against harmonic balance at that speed."""
+        text = carried("rotor")
+        text = re.sub(r"(?s)\[bearing\].*?(?=\n\[)", '[bearing]\ndesignation = "6205"\ninternal_clearance = "C3"\n', text)
+        own = self.file("own.toml", re.sub("unbalance_kg_m = .*", "unbalance_kg_m = 0", text))
+        found = self.table("attractors", own, "--from", 60, "--to", 62, "--count", 2, "--starts", 0)
+        self.assertIn("base period: that of the passing balls", found.header)
+        self.assertEqual(sorted(set(found["f"])), [60, 62])
+        orbit = self.table("orbit", own, "--frequency", 60, "--harmonics", 60, "--points", 64, "--periods", 30)
+        self.assertEqual(found["period"][0], 1)
+        for name in NAMES:
+            self.assertAlmostEqual(found["amp_" + name][0] / (np.ptp(orbit[name]) / 2), 1, delta=3e-3)
+        unbalanced = self.file("other.toml", re.sub("unbalance_kg_m = .*", "unbalance_kg_m = 1e-3", text))
+        self.refused("attractors of an unbalanced rotor needs", "attractors", unbalanced, "--from", 60, "--to", 62,
+                     "--count", 2)
+
     def test_refusals(self):
         zero = "natural_frequency_rad_per_s = 0"
         both = replaced(replaced(carried("rotor"), "stator", "natural_frequency_rad_per_s", zero), "stator",

@@ -1,0 +1,64 @@
+"""One motion of `explore orbit`: orbits of rotor, stator and relative motion, and the same in time with the force.
+
+Marks stand at each quarter turn, the filled one at phase 0; the circle is the clearance.
+Usage: /usr/bin/python3 figures/orbit.py TABLE.tsv OUTPUT.svg
+"""
+
+import matplotlib.pyplot as plt
+import numpy as np
+from matplotlib.ticker import MaxNLocator
+from tables import ROTOR, STATOR, run
+
+RELATIVE = "C2"
+
+
+def draw_orbit(axes, x, y, quarter, colour, title):
+    """Closed where the motion is nearly closed."""
+    gap = np.hypot(x[-1] - x[0], y[-1] - y[0])
+    closed = gap < 4 * np.hypot(np.diff(x), np.diff(y)).max()
+    axes.plot(np.append(x, x[0]) if closed else x, np.append(y, y[0]) if closed else y, color=colour)
+    axes.plot(x[::quarter], y[::quarter], "o", ms=5, mfc="white", color=colour)
+    axes.plot(x[0], y[0], "o", ms=6, color=colour)
+    axes.set_title(title)
+    axes.set_aspect("equal", adjustable="datalim")
+    for axis in (axes.xaxis, axes.yaxis):
+        axis.set_major_locator(MaxNLocator(4))
+    axes.set_xlabel("x [µm]")
+
+
+def draw(table):
+    figure = plt.figure(figsize=(10, 8.5), layout="constrained")
+    above, below = figure.subfigures(2, 1, height_ratios=(4, 5))
+    phase = table["phase"] / (2 * np.pi)
+    per_turn = int(round(1 / phase[1])) if len(phase) > 1 else 1
+    quarter = max(1, per_turn // 4)
+    micro = {name: 1e6 * table[name] for name in ("x_s", "y_s", "x_r", "y_r")}
+    u, v = micro["x_r"] - micro["x_s"], micro["y_r"] - micro["y_s"]
+    bodies = table.bodies()
+    *panels, right = above.subplots(1, 1 + len(bodies), squeeze=False)[0]
+    for axes, body, name, colour in zip(panels, bodies, ("rotor", "stator"), (ROTOR, STATOR)):
+        draw_orbit(axes, micro[f"x_{body}"], micro[f"y_{body}"], quarter, colour, name)
+    draw_orbit(right, u, v, quarter, RELATIVE, "rotor against stator")
+    panels[0].set_ylabel("y [µm]")
+    clearance = 1e6 * table.number("delta")
+    if 0 < clearance < 20 * np.hypot(u, v).max():
+        angle = np.linspace(0, 2 * np.pi, 200)
+        right.plot(clearance * np.cos(angle), clearance * np.sin(angle), "--", color="#404040", lw=1)
+        right.set_title(f"rotor against stator\n(dashed: clearance {clearance:.4g} µm)")
+    displacement, force = below.subplots(2, 1, sharex=True)
+    for axis, line in (("x", "-"), ("y", "--")):
+        for body, colour in zip(bodies, (ROTOR, STATOR)):
+            displacement.plot(phase, micro[f"{axis}_{body}"], line, color=colour, label=f"${axis}_{body}$")
+        force.plot(phase, table[f"F_{axis}"], line, color="#404040", label=f"$F_{axis}$")
+    for axes in (displacement, force):
+        axes.legend(loc="center left", bbox_to_anchor=(1, 0.5), frameon=False)
+        axes.yaxis.set_major_locator(MaxNLocator(5))
+    displacement.set_ylabel("displacement [µm]")
+    force.set_ylabel("force on the stator [N]")
+    force.set(xlabel="turns [-]", xlim=(0, max(phase[-1], phase[1] if len(phase) > 1 else 1)))
+    below.align_ylabels()
+    above.suptitle(f"Motion at {table.number('frequency'):g} Hz")
+    return figure
+
+
+run(draw)

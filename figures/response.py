@@ -1,0 +1,77 @@
+"""The branch of `explore response`: amplitudes of rotor and stator against speed, with folds, and with `--stability`
+what is stable and the bifurcations.
+
+Usage: /usr/bin/python3 figures/response.py TABLE.tsv OUTPUT.svg
+"""
+
+import matplotlib.pyplot as plt
+import numpy as np
+from tables import ROTOR, STATOR, run
+
+MARKS = {"fold": ("s", "fold"), "plus-one": ("D", "multiplier +1"), "period-doubling": ("^", "period doubling"),
+         "neimark-sacker": ("o", "Neimark-Sacker")}
+LINES = {"stable": ("-", 1.8), "unstable": (":", 1.8), "undecided": ("-", 0.7)}
+
+
+def branches(table):
+    """Each branch, in the order in which it was followed."""
+    if "branch" not in table.columns:
+        return [table]
+    return [table.where("branch", number) for number in np.unique(table["branch"])]
+
+
+def draw_branch(axes, branch, name, colour):
+    """Pieces of one verdict; each ends where the next begins."""
+    f, amplitude = branch["f"], 1e6 * branch[name]
+    verdict = branch["verdict"] if "verdict" in branch.columns else np.full(len(branch), "stable")
+    start = 0
+    for end in range(1, len(branch) + 1):
+        if end == len(branch) or verdict[end] != verdict[start]:
+            style, width = LINES[str(verdict[start])]
+            axes.plot(f[start:end + 1], amplitude[start:end + 1], style, color=colour, lw=width)
+            start = end
+    if "bifurcation" in branch.columns:
+        for kind, (marker, _) in MARKS.items():
+            there = branch["bifurcation"] == kind
+            axes.plot(f[there], amplitude[there], marker, ms=6, mfc="white", color="#404040")
+    else:
+        turned = np.flatnonzero(np.diff(np.sign(np.diff(f)))) + 1
+        axes.plot(f[turned], amplitude[turned], "s", ms=6, mfc="white", color="#404040")
+
+
+def legend(axes, table):
+    """What occurs, below the panels."""
+    has_verdicts = "verdict" in table.columns
+    lines = [(style, width, word) for word, (style, width) in LINES.items()
+             if has_verdicts and np.isin(word, table["verdict"])]
+    handles = [axes.plot([], [], style, lw=width, color="#404040", label=word)[0] for style, width, word in lines]
+    known = np.unique(table["bifurcation"]) if has_verdicts else ["fold"]
+    f = table["f"]
+    for kind, (marker, label) in MARKS.items():
+        if kind in known and (has_verdicts or np.any(np.diff(np.sign(np.diff(f))))):
+            handles += axes.plot([], [], marker, mfc="white", color="#404040", label=label)
+    if handles:
+        axes.legend(handles=handles, loc="best", fontsize=10)
+
+
+def draw(table):
+    bodies = table.bodies()
+    figure, grid = plt.subplots(2, len(bodies), figsize=(10, 7.5), sharex=True, layout="constrained", squeeze=False)
+    for row, axis in zip(grid, "xy"):
+        for axes, body, word, colour in zip(row, bodies, ("rotor", "stator"), (ROTOR, STATOR)):
+            for branch in branches(table):
+                draw_branch(axes, branch, f"amp_{axis}_{body}", colour)
+            axes.set_ylabel(f"{word}, {axis} [µm]")
+            amplitude = table[f"amp_{axis}_{body}"]
+            if amplitude.max() > 30 * amplitude.min() > 0:
+                axes.set_yscale("log")
+            else:
+                axes.set_ylim(0, 1.05e6 * amplitude.max() or 1)
+    for axes in grid[1]:
+        axes.set_xlabel("speed of rotation [Hz]")
+    figure.suptitle("Half peak-to-peak of the displacements")
+    legend(grid[0, 0], table)
+    return figure
+
+
+run(draw)

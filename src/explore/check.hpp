@@ -1,0 +1,18 @@
+/**
+# explore check
+
+What one machine is, before anything is computed: its values, its rest, its linear frequencies, and what may go wrong. */
+#pragma once
+
+#include "explore/orbit.hpp"
+
+namespace rotor_stator::explore {
+
+struct CheckRequest : Request {
+  double from = 1, to = 60;  ///< speeds of interest [Hz]
+};
+
+/** Throws BadInput for a machine that cannot exist. */
+Exploration explore_check(const CheckRequest& request);
+
+}  // namespace rotor_stator::explore

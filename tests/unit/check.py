@@ -1,0 +1,94 @@
+"""explore check: rest, frequencies, loss of contact and warnings against closed forms.
+
+Usage: tests/unit/check.py   (from the project's root)
+"""
+import math
+import sys
+import unittest
+from pathlib import Path
+
+import numpy as np
+
+sys.path.insert(0, str(Path(__file__).parents[1]))
+from support.explore import MACHINE, Case  # noqa: E402
+
+BALLS, HERTZ, G = 1024, 1e9, 9.81
+RADIAL = math.gamma(1.75) / (2 * math.sqrt(math.pi) * math.gamma(2.25))  # mean of cos^{5/2} over the loaded half
+MANY = f"""[bearing]
+balls = {BALLS}
+contact_stiffness_N_per_m1p5 = {HERTZ}
+radial_clearance_m = 0
+cage_speed_ratio = 0.4
+"""
+HELD = """title = "a rotor that its bearing carries"
+[stator]
+rigid = true
+[rotor]
+mass_kg = 2.0
+natural_frequency_rad_per_s = 0
+damping_N_s_per_m = 10
+unbalance_kg_m = 1e-4
+[gravity]
+acceleration_m_per_s2 = 9.81
+"""
+NAMED = '[bearing]\ndesignation = "6205"\n'
+
+
+class Check(Case):
+    def values(self, text, *options):
+        table = self.table("check", self.file("own.toml", text), *options)
+        return dict(zip(table["name"], table["value"])), table
+
+    def test_a_rotor_on_very_many_balls(self):
+        """Stribeck's load of the lowest ball, 4.37 W/n, sag, stiffness along and across the load, frequencies."""
+        values, _ = self.values(HELD + MANY, "--from", 0.1, "--to", 80)
+        weight = 2 * G
+        sag = (weight / (BALLS * HERTZ * RADIAL)) ** (2 / 3)
+        self.assertAlmostEqual(4.37 * RADIAL, 1, delta=1e-3)
+        for name, value in [("static_force", weight), ("static_y", -sag), ("ball_load", weight / (BALLS * RADIAL)),
+                            ("f_1_y", math.sqrt(1.5 * weight / sag / 2) / (2 * math.pi)),
+                            ("f_1_x", math.sqrt(weight / sag / 2) / (2 * math.pi)),
+                            ("contact_loss", math.sqrt(weight / 1e-4) / (2 * math.pi))]:
+            self.assertAlmostEqual(values.get(name, math.nan) / value, 1, delta=1e-4, msg=name)
+        self.assertAlmostEqual(values["loaded_balls"], BALLS / 2, delta=1)
+        self.assertAlmostEqual(values["passage_f_1_x"] * 0.4 * BALLS, values["f_1_x"], delta=1e-9 * values["f_1_x"])
+        self.assertNotIn("f_r", values)
+
+    def test_two_bodies(self):
+        """Frequencies from the matrices of both bodies; the critical speed within the range only."""
+        text = MACHINE[:MACHINE.index("[bearing]")] + MACHINE[MACHINE.index("[gravity]"):] + MANY
+        values, _ = self.values(text)
+        m, k = np.array([20, 40.]), np.array([20 * 500.**2, 40 * 150.**2])
+        self.assertAlmostEqual(values["f_s"], 500 / (2 * math.pi), delta=1e-9)
+        self.assertAlmostEqual(values["f_r"], 150 / (2 * math.pi), delta=1e-9)
+        u = -values["static_y"]
+        force = BALLS * HERTZ * RADIAL * u ** 1.5
+        free = 40 * G / k[1] - 20 * G / k[0]
+        self.assertAlmostEqual((u + force * sum(1 / k)) / free, 1, delta=1e-4)  # at rest
+        for axis, spring in [("x", force / u), ("y", 1.5 * force / u)]:
+            squares = np.linalg.eigvals((np.diag(k) + spring * np.array([[1, -1], [-1, 1]])) / m[:, None])
+            for order, frequency in enumerate(np.sort(np.sqrt(squares)) / (2 * math.pi), 1):
+                self.assertAlmostEqual(values[f"f_{order}_{axis}"] / frequency, 1, delta=1e-4)
+        self.assertNotIn("passage_f_2_x", self.values(text, "--to", values["f_2_x"] / (0.4 * BALLS) - 1e-6, "--from", 1e-3)[0])
+
+    def test_warnings(self):
+        """Each where it holds, none on data set 1."""
+        far = MACHINE.replace("radial_clearance_m = 2e-5", "radial_clearance_m = 20")
+        self.assertIn("# warning: nothing touches from 1 to 60 Hz: the clearance of 20 m", self.values(far)[1].header)
+        rest = self.values(far)[0]
+        self.assertEqual((rest["loaded_balls"], rest["ball_load"]), (0, 0))
+        self.assertNotIn("warning", self.values(MACHINE)[1].header)
+        wide = self.values(HELD + NAMED + "diametral_clearance_m = 2e-3")[1].header
+        self.assertIn("more than a tenth of the ball", wide)
+        heavy = HELD.replace("mass_kg = 2.0", "mass_kg = 2000") + NAMED + 'internal_clearance = "C3"'
+        values, table = self.values(heavy)
+        self.assertGreater(values["stress"], 4000)
+        self.assertIn("is above 4000", table.header)
+
+    def test_refusals(self):
+        self.refused("--from 3: must be below --to 2", "check", self.machine, "--from", 3, "--to", 2)
+        self.refused("must be one of tsv, csv, json", "check", self.machine, "--format", "xml")
+
+
+if __name__ == "__main__":
+    unittest.main()

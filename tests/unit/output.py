@@ -1,0 +1,171 @@
+"""explore: chosen columns against the usual ones and against orbits, formats, files of lines, figures and progress.
+
+Usage: tests/unit/output.py   (from the project's root)
+"""
+import csv
+import io
+import json
+import math
+import os
+import pty
+import subprocess
+import sys
+import unittest
+from pathlib import Path
+
+import numpy as np
+
+sys.path.insert(0, str(Path(__file__).parents[1]))
+from support.explore import EXPLORE, MACHINE, Case, Table  # noqa: E402
+
+AT_45 = ["--frequency", 45, "--points", 64]
+TO_45 = ["--from", 44, "--to", 45]
+CARRIED = MACHINE[:MACHINE.index("[bearing]")] + MACHINE[MACHINE.index("[gravity]"):] + """[bearing]
+designation = "6205"
+internal_clearance = "C3"
+"""
+
+
+class Columns(Case):
+    def test_time_and_phase(self):
+        usual, table = self.table("orbit", self.machine, *AT_45), self.table("orbit", self.machine, *AT_45, "--columns",
+                                                                              "t,x_r,phase")
+        self.assertEqual(list(table.columns), ["t", "x_r", "phase"])
+        np.testing.assert_array_equal(table["x_r"], usual["x_r"])
+        np.testing.assert_allclose(table["t"] * 2 * math.pi * 45, table["phase"], rtol=1e-12)
+
+    def test_angle_of_each_ball_and_its_stress(self):
+        """The balls' forces along these angles add up to that of the orbit; the stress is Hertz's at rest of check."""
+        own = self.file("own.toml", CARRIED)
+        for method in [[], ["--method", "rk8pd", "--longest", 2]]:
+            balls = self.table("contact", own, *AT_45, "--columns", "all", *method)
+            orbit = self.table("orbit", own, *AT_45, "--periods", 2, *method)
+            sums = (balls["Q"] * np.sin(balls["angle"])).reshape(-1, 9).sum(axis=1)
+            np.testing.assert_allclose(sums, orbit["F_y"], rtol=1e-9, atol=1e-6)
+            self.assertTrue((0 <= balls["angle"]).all() and (balls["angle"] < 2 * math.pi).all())
+        rest = self.table("check", own)
+        value = dict(zip(rest["name"], rest["value"]))
+        loaded = balls["Q"] > 0
+        np.testing.assert_allclose(balls["stress"][loaded] / value["stress"],
+                                   np.cbrt(balls["Q"][loaded] / value["ball_load"]), rtol=1e-9)
+        self.assertNotIn("stress", self.table("contact", self.machine, *AT_45, "--columns", "all").columns)
+
+    def test_response_against_orbit_and_contact(self):
+        """Mean, force, share, load and harmonics of the last row against tables of the motion there."""
+        for text in [MACHINE, CARRIED, CARRIED.replace("unbalance_kg_m = 0.05", "unbalance_kg_m = 0.0")]:
+            own = self.file("own.toml", text)
+            usual = self.table("response", own, *TO_45)
+            table = self.table("response", own, *TO_45, "--columns", "all", "--harmonics-of", "y_r")
+            for name in usual.columns:
+                np.testing.assert_array_equal(table[name], usual[name])
+            odd = text != MACHINE
+            orbit = self.table("orbit", own, "--frequency", 45, "--points", 512, "--periods", 64 if odd else 1)
+            for name in ["x_r", "y_r", "y_s"]:
+                self.assertAlmostEqual(table["mean_" + name][-1], orbit[name].mean(), delta=1e-3 * abs(orbit[name]).max())
+            for name in ["F_x", "F_y"]:
+                self.assertAlmostEqual(table["amp_" + name][-1], np.ptp(orbit[name]) / 2,
+                                       delta=0.01 * abs(orbit["F_y"]).max())
+            share = np.mean(np.hypot(orbit["F_x"], orbit["F_y"]) > 0)
+            self.assertAlmostEqual(table["contact_share"][-1], share, delta=0.01)
+            balls = self.table("contact", own, "--frequency", 45, "--points", 512)["Q"]
+            self.assertAlmostEqual(table["ball_load"][-1] / balls.max(), 1, delta=0.02)
+            # The sum of the harmonics at phase 0 is y_r there.
+            total = sum(table[name][-1] for name in table.columns if name.startswith("y_r_") and name.endswith("_re"))
+            self.assertAlmostEqual(total, orbit["y_r"][0], delta=3e-3 * abs(orbit["y_r"]).max())
+
+    def test_shooting_has_the_same_columns(self):
+        options = ["--from", 44, "--to", 45, "--columns", "f,ball_load,y_r_1_re", "--harmonics-of", "y_r"]
+        shooting = self.table("response", self.machine, *options, "--method", "shooting")
+        balance = self.table("response", self.machine, *options, "--harmonics", 64)
+        for name in ["ball_load", "y_r_1_re"]:
+            self.assertAlmostEqual(shooting[name][-1] / balance[name][-1], 1, delta=5e-3)
+
+    def test_waterfall_is_the_spectrum_at_each_speed(self):
+        for unbalance, first in [("0.05", "1X"), ("0.0", "BPFO")]:
+            own = self.file("own.toml", CARRIED.replace("unbalance_kg_m = 0.05", "unbalance_kg_m = " + unbalance))
+            self.lines("response", own, *TO_45, "--waterfall", "lines.tsv")
+            lines = Table(self.folder / "lines.tsv")
+            last = lines.rows(abs(lines["f"] / lines["order"] - 45) < 1e-9)
+            spectrum = self.table("spectrum", own, "--frequency", 45)
+            known = dict(zip(spectrum["name"], spectrum["x_r"]))
+            self.assertEqual(known.keys() >= set(last["name"]) and last["name"][0], first)
+            for name, amplitude in zip(last["name"], last["x_r"]):
+                self.assertAlmostEqual(known[name], amplitude, delta=3e-3 * max(known.values()))
+
+    def test_refusals(self):
+        for words, arguments in [("--columns nope: must be all, or of phase x_s", ["orbit", *AT_45, "--columns", "nope"]),
+                                 ("--columns t: must be", ["orbit", *AT_45, "--columns", "t,t"]),
+                                 ("must be one of x_s, y_s", ["response", *TO_45, "--harmonics-of", "z"]),
+                                 ("a: is the file of two options", ["response", *TO_45, "--save", "a", "--waterfall", "a"])]:
+            self.refused(words, arguments[0], self.machine, *arguments[1:])
+
+
+class Formats(Case):
+    def test_json_and_csv_hold_the_same(self):
+        own = self.file("own.toml", MACHINE.replace('title = "', 'title = "a \\\\ and \\" '))
+        arguments = ["spectrum", own, "--frequency", 45]
+        table = self.table(*arguments)
+        whole = json.loads("\n".join(self.lines(*arguments, "--format", "json")))
+        self.assertEqual([column["name"] for column in whole["columns"]], list(table.columns))
+        self.assertEqual([row[5] for row in whole["rows"]], list(table["name"]))
+        np.testing.assert_array_equal([row[8] for row in whole["rows"]], table["x_r"])
+        self.assertEqual("\n".join("# " + line for line in whole["header"]),
+                         table.header[:table.header.index("\n# column")])
+        self.assertEqual((whole["values"]["bearing.n"], whole["values"]["rotor.m"], whole["values"]["frequency"]),
+                         (16, 40, 45))
+        rows = list(csv.DictReader(io.StringIO("\n".join(self.lines(*arguments, "--format", "csv")))))
+        np.testing.assert_array_equal([float(row["x_r"]) for row in rows], table["x_r"])
+
+    def test_figure_keeps_the_chosen_columns(self):
+        """The figure needs columns that are not printed."""
+        table = self.table("orbit", self.machine, *AT_45, "--columns", "t", "--plot", "orbit.svg")
+        self.assertEqual(list(table.columns), ["t"])
+        self.assertIn("</svg>", (self.folder / "orbit.svg").read_text(encoding="utf-8"))
+
+    def test_every_command_draws(self):
+        """On data set 1 and on a balanced 6205, in each format; what is missing is said before any work."""
+        balanced = self.file("own.toml", CARRIED.replace("unbalance_kg_m = 0.05", "unbalance_kg_m = 0.0"))
+        commands = [["orbit", *AT_45], ["contact", *AT_45], ["spectrum", "--frequency", 45], ["response", *TO_45],
+                    ["attractors", "--from", 44, "--to", 45, "--count", 1, "--starts", 0]]
+        for machine in [self.machine, balanced]:
+            for k, (command, *options) in enumerate(commands):
+                suffix, begin = [(".svg", b"<?xml"), (".png", b"\x89PNG"), (".pdf", b"%PDF")][k % 3]
+                self.lines(command, machine, *options, "--plot", "figure" + suffix)
+                self.assertTrue((self.folder / ("figure" + suffix)).read_bytes().startswith(begin), command)
+                self.refused("install python3-matplotlib", command, machine, *options, "--plot", "none.svg",
+                             env={**os.environ, "PYTHON": "/bin/false"})
+
+    def test_measured_spectrum(self):
+        """It changes the figure; one without its columns, or without a figure, is refused."""
+        measured = self.file("measured.tsv", "f\tamplitude\n45\t1e-3\n90\t1e-5\n")
+        spectrum = ["spectrum", self.machine, "--frequency", 45]
+        self.lines(*spectrum, "--plot", "a.svg")
+        self.assertIn("# measured: ", self.table(*spectrum, "--plot", "b.svg", "--overlay", measured).header)
+        self.assertNotEqual(*((self.folder / name).read_bytes() for name in ["a.svg", "b.svg"]))
+        self.refused("--overlay: needs --plot", *spectrum, "--overlay", measured)
+        other = self.file("other.tsv", "f\tsize\n45\t1e-3\n")
+        self.refused("has no column amplitude", *spectrum, "--plot", "c.svg", "--overlay", other)
+
+    def progress(self, *options):
+        """What a terminal gets on stderr."""
+        ours, theirs = pty.openpty()
+        with subprocess.Popen([EXPLORE, "orbit", self.machine, "--frequency", "13.4", "--method", "rk8pd", *options],
+                              stdout=subprocess.DEVNULL, stderr=theirs) as run:
+            os.close(theirs)
+            text = b""
+            while True:
+                try:
+                    text += os.read(ours, 4096)
+                except OSError:
+                    break
+        os.close(ours)
+        self.assertEqual(run.returncode, 3)  # the budget is used up
+        return text.decode()
+
+    def test_progress_is_for_terminals(self):
+        self.assertIn(" %", self.progress())
+        self.assertNotIn(" %", self.progress("--quiet"))
+
+
+if __name__ == "__main__":
+    unittest.main()
