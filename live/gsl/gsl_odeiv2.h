@@ -74,13 +74,12 @@ struct gsl_odeiv2_driver {
     return system->function(t, y, to.data(), system->params);
   }
 
-  /** start + h Σ w_j k_j. */
-  void add(double h, const double* w, double* to) const
+  /** Σ w_j k_j. */
+  void sum(const double* w, std::vector<double>& to) const
   {
-    std::fill_n(to, n, 0.0);
+    std::fill(to.begin(), to.end(), 0.0);
     for (int j = 0; j < rk8pd_stages; ++j)
       for (std::size_t i = 0; w[j] != 0 && i < n; ++i) to[i] += w[j] * k[j][i];
-    for (std::size_t i = 0; i < n; ++i) to[i] = start[i] + h * to[i];
   }
 
   /** One step of length h; its error is order 7's minus order 8's. */
@@ -88,13 +87,17 @@ struct gsl_odeiv2_driver {
   {
     for (int j = 1; j < rk8pd_stages; ++j) {
       const double* row = rk8pd_weights[j];
-      add(h, row, at.data());
+      sum(row, at);
+      for (std::size_t i = 0; i < n; ++i) at[i] = start[i] + h * at[i];
       const double node = std::accumulate(row, row + j, 0.0);
       if (const int bad = slopes_of(t + node * h, at.data(), k[j])) return bad;
     }
-    add(h, rk8pd_weights[rk8pd_stages], y);
-    add(h, rk8pd_weights[rk8pd_stages + 1], error.data());
-    for (std::size_t i = 0; i < n; ++i) error[i] -= y[i];
+    sum(rk8pd_weights[rk8pd_stages], at);
+    sum(rk8pd_weights[rk8pd_stages + 1], error);
+    for (std::size_t i = 0; i < n; ++i) {
+      y[i] = start[i] + h * at[i];
+      error[i] = h * (error[i] - at[i]);
+    }
     return slopes_of(t + h, y, slope);
   }
 
@@ -105,7 +108,7 @@ struct gsl_odeiv2_driver {
     for (std::size_t i = 0; i < n; ++i)
       worst = std::max(worst, std::abs(error[i]) / (tolerance * scales[i]));
     if (worst > 1.1) return h * std::max(0.2, 0.9 / std::pow(worst, 1.0 / 8));
-    if (worst < 0.5) return h * std::clamp(0.9 / std::pow(worst, 1.0 / 9), 1.0, 5.0);
+    if (worst < 0.5) return h * std::clamp(0.9 / std::pow(worst, 1.0 / 9), 1.0, 4.9);
     return h;
   }
 
