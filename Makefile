@@ -89,7 +89,7 @@ figures_printed := $(patsubst %,figures/generated/as-printed/%.svg,$(filter $(pa
 claims := data/generated/claims.tsv data/generated/as-printed/claims.tsv
 intervals := $(claims:claims.tsv=truth_intervals.tsv)
 timings := $(filter %/tab02_timing.tsv,$(tables) $(tables_printed))
-untimed := $(filter-out $(timings),$(tables) $(tables_printed)) $(figures) $(figures_printed) data/generated/deviations.md
+untimed := $(filter-out $(timings),$(tables) $(tables_printed)) $(figures) $(figures_printed) $(patsubst %,data/generated/%.md,deviations cage)
 studies := $(filter $(programs) $(mapped) $(scripted),$(kept))
 maps := $(filter-out $(kept),$(mapped))
 costs := $(filter tab02% work_precision cost_growth,$(studies))
@@ -196,6 +196,9 @@ data/generated/article.tsv: paper/article_values.py paper/article_results.py $(j
 # A text with the numbers of the table of the same name.
 data/generated/deviations.md data/generated/article.md: data/generated/%.md: paper/include.py paper/%.md data/generated/%.tsv
 	$(whole) $(PYTHON) $^ > $$new; mv $$new $@
+
+data/generated/cage.md: studies/cage.py data/reference/cage.tsv figures/tables.py
+	$(whole) $(PYTHON) $< data/reference/cage.tsv > $$new; mv $$new $@
 
 book: build/book/index.html  ## the sources as pages, in reading order: build/book/index.html
 

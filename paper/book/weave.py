@@ -289,9 +289,11 @@ def main(output):
     back = '<a href="index.html">Index</a>'
     convert(output, "list_of_deviations.html", with_names(Path("data/generated/deviations.md").read_text()),
             "Deviations", back, cited=True)
-    for name, title in (("guide", "A study of one's own"), ("varying_compliance", "Varying compliance")):
-        text = Path("paper", name + ".md").read_text().replace("(varying_compliance.md)", "(varying_compliance.html)")
-        convert(output, name + ".html", with_files(text), title, back, cited=True)
+    for text, title in (("paper/guide.md", "A study of one's own"), ("paper/varying_compliance.md", "Varying compliance"),
+                        ("data/generated/cage.md", "What a cage ratio of 1/2 hides")):
+        text = Path(text)
+        linked = re.sub(r"\((varying_compliance|cage)\.md\)", r"(\1.html)", text.read_text())
+        convert(output, text.stem + ".html", with_files(linked), title, back, cited=True)
     convert(output, "index.html", index_markdown(found, pages), "Contents")
     output.remove_others()
     (output.path / "index.html").touch()
