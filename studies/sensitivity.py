@@ -223,7 +223,7 @@ def main(file):
         rows = list(pool.map(lambda point: study.row(*point[:2]), points))
     print("# Sensitivity to the parameters that the paper leaves out")
     print("\n".join(study.header.split("\n")[1:7]))
-    print(f"#   harmonic balance: m = {scene['harmonics']}, N = {scene['samples']}")
+    print(f"#   harmonic balance: m = {study.scene['harmonics']}, N = {study.scene['samples']}")
     print(f"# modelled: {file}; one parameter at a time, the others at their defaults")
     for name, unit, meaning in COLUMNS:
         print(f"# column: {name} [{unit}] {meaning}")
