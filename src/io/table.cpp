@@ -114,7 +114,7 @@ bool Table::choose(const std::string& names, std::size_t usual, bool is_drawn)
   for (std::size_t k = 0; is_drawn && k < usual; ++k)
     if (!wanted_[k]) drawn_.push_back(k);
   for (std::size_t k : drawn_) wanted_[k] = true;
-  return std::ranges::max(drawn_) >= usual;
+  return *std::max_element(drawn_.begin(), drawn_.end()) >= usual;
 }
 
 void Table::note(const std::string& line)
