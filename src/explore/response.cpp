@@ -231,8 +231,8 @@ struct Row {
   double force(double Vec2::*axis) const
   {
     const auto forces = motion::bearing_forces(task.parameters, motion);
-    const auto [low, high] = std::ranges::minmax(forces, {}, axis);
-    return 0.5 * (high.*axis - low.*axis);
+    const auto [low, high] = std::ranges::minmax_element(forces, {}, axis);
+    return 0.5 * ((*high).*axis - (*low).*axis);
   }
   double ball_load() const
   {
@@ -240,7 +240,7 @@ struct Row {
     const long periods = std::ssize(motion.positions) / motion.points_per_period;
     for (const auto& q :
          motion::contact_evolution(task.parameters, motion, periods).ball_force)
-      most = std::max(most, std::ranges::max(q));
+      most = std::max(most, *std::ranges::max_element(q));
     return most;
   }
 };
