@@ -319,8 +319,7 @@ int finish(const Request& request, const std::string& script,
 
 int main(int argc, char** argv)
 {
-  CLI::App app(
-      "Explores a rotor and a stator joined by a ball bearing; a table on stdout.");
+  CLI::App app("Explores a rotor and a stator in a ball bearing; a table on stdout.");
   app.require_subcommand(1);
   const auto command = [&](const char* name, const char* meaning) {
     return app.add_subcommand(name, meaning);

@@ -371,6 +371,9 @@ struct Others {
   std::string missing;
 };
 
+/**
+## Beside the branch */
+
 /** The branches beside `main`; what is said of each stands in the table's header. */
 Others others(const Task& task, Balance& balance, const Branch& main, Table& table)
 {

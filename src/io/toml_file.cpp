@@ -174,6 +174,9 @@ StrictToml::StrictToml(const std::string& file, const std::string& content)
   }
 }
 
+/**
+## A file with other values */
+
 namespace {
 
 /** What a word of a dotted key names: the table of a key, new where there is none, or an element of an array,
