@@ -706,24 +706,25 @@ void explore_map(const MapRequest& request)
   if (request.threads > 0) omp_set_num_threads(request.threads);
   Output output(task, header_of(task, chosen));
   const std::size_t first = output.next(), points = task.grid.x.count;
-  in_parallel(task.request.quiet ? "" : "lines", task.grid.last - first, [&](std::size_t piece) {
-    try {
-      output.wait_for_turn(first + piece);
-      std::string rows;
-      std::size_t failed = 0;
-      PeriodicMotion before;
-      for (std::size_t k = 0; k < points; ++k) {
-        const std::string row =
-            row_of(task, chosen, task.grid.values(first + piece, k), before);
-        failed += !row.ends_with(all_well);
-        rows += row + "\n";
-      }
-      output.take(first + piece, std::move(rows), failed);
-    } catch (...) {
-      output.stop();
-      throw;
-    }
-  });
+  in_parallel(task.request.quiet ? "" : "lines", task.grid.last - first,
+              [&](std::size_t piece) {
+                try {
+                  output.wait_for_turn(first + piece);
+                  std::string rows;
+                  std::size_t failed = 0;
+                  PeriodicMotion before;
+                  for (std::size_t k = 0; k < points; ++k) {
+                    const std::string row =
+                        row_of(task, chosen, task.grid.values(first + piece, k), before);
+                    failed += !row.ends_with(all_well);
+                    rows += row + "\n";
+                  }
+                  output.take(first + piece, std::move(rows), failed);
+                } catch (...) {
+                  output.stop();
+                  throw;
+                }
+              });
   if (output.failed() > 0)
     std::fprintf(stderr, "%zu of %zu points have no result: see their status\n",
                  output.failed(), (task.grid.last - task.grid.first) * points);
