@@ -91,14 +91,17 @@ struct JudgedTorus {
   std::string undecided = {};  ///< why there is none
 };
 
-/** One that the machine leaves gives way to the motion that Eq. 7 settles on, where that is found. */
+/** One that the machine leaves gives way to the motion that Eq. 7 settles on, or to a solution to a third of the
+    tolerance, where the machine stays on that. */
 JudgedTorus judged(const Parameters& parameters, const MotionRequest& request,
                    const AdaptiveSettings& settings, const OperationBudget& budget)
 {
   const double omega = angular(request.frequency);
-  const auto found = [&](bool settled_only) {
+  const auto found = [&](double share, bool settled_only) {
+    AdaptiveSettings finer = settings;
+    finer.tolerance *= share;
     JudgedTorus one{
-        motion::find_quasi_periodic(parameters, omega, settings, budget, settled_only)};
+        motion::find_quasi_periodic(parameters, omega, finer, budget, settled_only)};
     if (!one.at.reached || !request.stability) return one;
     try {
       one.verdict =
@@ -108,11 +111,12 @@ JudgedTorus judged(const Parameters& parameters, const MotionRequest& request,
     }
     return one;
   };
-  JudgedTorus best = found(false);
+  JudgedTorus best = found(1, false);
   const auto leaves = [&] { return best.verdict && !best.verdict->stays; };
-  if (leaves() && best.at.motion.error->harmonics > 0) {
-    JudgedTorus settled = found(true);
-    if (settled.verdict && settled.verdict->stays) best = std::move(settled);
+  for (const bool settled_only : {true, false}) {
+    if (!leaves()) break;
+    JudgedTorus other = found(settled_only ? 1 : 0.3, settled_only);
+    if (other.verdict && other.verdict->stays) best = std::move(other);
   }
   constexpr double near = 0.05;
   if (leaves() && best.verdict->away < near && !best.verdict->unstable()) {
