@@ -10,7 +10,7 @@ import sys
 
 import numpy as np
 from project import source_line
-from tables import Table
+from tables import Table, print_columns
 
 BALANCED = ("f_peak", "amp_peak", "amp_x_13p4_aft", "amp_y_13p4_aft")
 INTEGRATED = ("f_peak", "amp_peak", "f_loss_first", "f_loss_last", "amp_x_13p4", "amp_y_13p4")
@@ -48,9 +48,7 @@ def main(file):
     print("# Normalised derivatives with respect to what the paper leaves out")
     print(source_line())
     print(f"# modelled: nothing; {file}")
-    for name, unit, meaning in COLUMNS:
-        print(f"# column: {name} [{unit}] {meaning}")
-    print("\t".join(name for name, _, _ in COLUMNS))
+    print_columns(COLUMNS)
     for parameter in dict.fromkeys(table["parameter"]):
         rows = table.where("parameter", parameter)
         for output in OUTPUTS:

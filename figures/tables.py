@@ -1,6 +1,7 @@
 """Read a table, start and finish a figure: what every figure drawn by Python needs."""
 
 import re
+import subprocess
 import sys
 from pathlib import Path
 
@@ -68,6 +69,22 @@ class Table:
         if found is None:
             raise ValueError(f"the header of the table says nothing of {name}")
         return float(found[1])
+
+
+def explore(*words):
+    """A run of explore; what it refuses ends the program."""
+    result = subprocess.run(["build/explore", *map(str, words)], stdout=subprocess.PIPE, stderr=subprocess.PIPE,
+                            encoding="utf-8", check=False)
+    if result.returncode == 2:
+        sys.exit(result.stderr)
+    return result
+
+
+def print_columns(columns):
+    """The lines that say what the columns are, (name, unit, meaning) each, and the row of names."""
+    for name, unit, meaning in columns:
+        print(f"# column: {name} [{unit}] {meaning}")
+    print("\t".join(name for name, _, _ in columns))
 
 
 def run(draw):

@@ -8,7 +8,7 @@ from pathlib import Path
 
 import numpy as np
 from project import source_line
-from tables import Table
+from tables import Table, print_columns
 
 PERIODIC = 1
 WORDS = {0: "undecided", 1: "T", 3: "quasi-periodic", 4: "chaotic"}
@@ -91,9 +91,7 @@ def main(attractors_file, validity_file):
     print("# Intervals of speed with and without a stable T-periodic motion")
     print(source_line())
     print(f"# modelled: nothing; {attractors_file} and {validity_file}")
-    for name, unit, meaning in COLUMNS:
-        print(f"# column: {name} [{unit}] {meaning}")
-    print("\t".join(name for name, _, _ in COLUMNS))
+    print_columns(COLUMNS)
     for number in np.unique(attractors["set"]).astype(int):
         for interval in intervals_of(attractors.where("set", number)):
             print("\t".join(f"{cell:.12g}" if not isinstance(cell, str) else cell

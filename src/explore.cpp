@@ -306,9 +306,11 @@ int finish(const Request& request, const std::string& script,
   if (request.plot) require_plot(*request.plot, script, {request.parameter_file});
   if (request.overlay && !request.plot) throw BadInput("--overlay: needs --plot");
   const Exploration found = explored();
-  const std::string undrawn =
-      plot(request.plot, script,
-           found.drawn.empty() ? found.table.text(TableFormat::tsv, true) : found.drawn);
+  std::string undrawn;
+  if (request.plot)
+    undrawn = plot(
+        *request.plot, script,
+        found.drawn.empty() ? found.table.text(TableFormat::tsv, true) : found.drawn);
   write(found.table.text(request.format));
   if (!found.unfinished.empty()) throw NoSolution(found.unfinished);
   if (!undrawn.empty()) throw NoSolution(undrawn);

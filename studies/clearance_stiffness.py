@@ -6,7 +6,7 @@ import sys
 from pathlib import Path
 
 sys.path.insert(0, str(Path(__file__).parents[1] / "figures"))
-from tables import Table  # noqa: E402
+from tables import Table, print_columns  # noqa: E402
 
 COLUMNS = [
     ("delta", "m", "radial clearance", "bearing.radial_clearance_m"),
@@ -25,9 +25,7 @@ def main(file):
     print("# Clearance against contact stiffness", *kept, sep="\n")
     print("# modelled: sweeps up, m = 6, {} speeds from {} to {} Hz".format(
         *(kept[next(k for k, line in enumerate(kept) if line.startswith("# sweep: "))].split()[k] for k in (2, 5, 7))))
-    for name, unit, meaning, _ in COLUMNS:
-        print(f"# column: {name} [{unit}] {meaning}")
-    print("\t".join(name for name, *_ in COLUMNS))
+    print_columns([column[:3] for column in COLUMNS])
     for cells in zip(*(table[source] for *_, source in COLUMNS)):
         print("\t".join(str(cell) if isinstance(cell, str) else f"{cell:.15g}" for cell in cells))
 

@@ -13,7 +13,6 @@ of the first, since they belong to the method and not to the machine.
 Usage: studies/sensitivity.py data/scenes/sensitivity.toml > sensitivity.tsv   (from the project's root)
 """
 import os
-import subprocess
 import sys
 import tempfile
 import tomllib
@@ -25,9 +24,8 @@ from pathlib import Path
 import numpy as np
 
 sys.path.insert(0, str(Path(__file__).parents[1] / "figures"))
-from tables import Table  # noqa: E402
+from tables import Table, explore, print_columns  # noqa: E402
 
-EXPLORE = "build/explore"
 PARAMETERS = [("mass", "mass_kg", "kg"), ("mass_ratio", "mass_ratio", "-"), ("cage_ratio", "cage_ratio", "-"),
               ("samples", "samples", "-"), ("step", "step_s", "s")]
 KEYS = ("stator.mass_kg", "rotor.mass_kg", "bearing.cage_speed_ratio")
@@ -87,10 +85,7 @@ class Study:
 
     def explore(self, *words):
         """The table of explore, None where there is no solution."""
-        result = subprocess.run([EXPLORE, *map(str, words)], stdout=subprocess.PIPE, stderr=subprocess.PIPE,
-                                encoding="utf-8", check=False)
-        if result.returncode == 2:
-            sys.exit(result.stderr)
+        result = explore(*words)
         return Table.of(result.stdout) if result.returncode == 0 else None
 
     def method(self, model, by_balance):
@@ -225,9 +220,7 @@ def main(file):
     print("\n".join(study.header.split("\n")[1:7]))
     print(f"#   harmonic balance: m = {study.scene['harmonics']}, N = {study.scene['samples']}")
     print(f"# modelled: {file}; one parameter at a time, the others at their defaults")
-    for name, unit, meaning in COLUMNS:
-        print(f"# column: {name} [{unit}] {meaning}")
-    print("\t".join(name for name, _, _ in COLUMNS))
+    print_columns(COLUMNS)
     for (name, value, unit), cells in zip(points, rows):
         print("\t".join(cell if isinstance(cell, str) else f"{cell:.15g}" for cell in (name, value, unit, *cells)))
 

@@ -10,14 +10,13 @@ not need them.
 Usage: studies/stability.py data/scenes/stability.toml > stability.tsv   (from the project's root)
 """
 import os
-import subprocess
 import sys
 import tomllib
 from concurrent.futures import ThreadPoolExecutor
 from pathlib import Path
 
 sys.path.insert(0, str(Path(__file__).parents[1] / "figures"))
-from tables import Table  # noqa: E402
+from tables import Table, explore, print_columns  # noqa: E402
 
 AMPLITUDES = ("amp_x_s", "amp_y_s", "amp_x_r", "amp_y_r")
 VERDICTS = {"stable": 1, "unstable": 0, "undecided": -1}
@@ -37,12 +36,8 @@ COLUMNS = [
 
 def followed(file, scene, m, direction):
     """The branch, as far as explore followed it; None without a solution to begin with."""
-    result = subprocess.run(
-        ["build/explore", "response", file, "--from", str(scene["from_hz"]), "--to", str(scene["to_hz"]), "--harmonics",
-         str(m), "--direction", direction, "--stability", "--budget", "1e15"],
-        stdout=subprocess.PIPE, stderr=subprocess.PIPE, encoding="utf-8", check=False)
-    if result.returncode == 2:
-        sys.exit(result.stderr)
+    result = explore("response", file, "--from", scene["from_hz"], "--to", scene["to_hz"], "--harmonics", m,
+                     "--direction", direction, "--stability", "--budget", "1e15")
     return Table.of(result.stdout) if result.stdout else None
 
 
@@ -90,9 +85,7 @@ def main(file):
     for count, (number, m, table) in enumerate(branches, 1):
         print(f"# curve {count}: set {number + 1}, m = {m}, from {table['f'][0]:g} Hz")
         print("\n".join(line for line in table.header.split("\n")[3:] if " +- " not in line and "# column" not in line))
-    for name, unit, meaning in COLUMNS:
-        print(f"# column: {name} [{unit}] {meaning}")
-    print("\t".join(name for name, _, _ in COLUMNS))
+    print_columns(COLUMNS)
     for count, (number, m, table) in enumerate(branches, 1):
         for row in rows_of(table):
             print("\t".join([str(number + 1), str(count), str(m), *row]))

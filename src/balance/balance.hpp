@@ -95,7 +95,7 @@ struct Problem {
 LinearBlock second_order_block(const Eigen::MatrixXd& mass,
                                const Eigen::MatrixXd& damping,
                                const Eigen::MatrixXd& stiffness,
-                               const Eigen::VectorXcd& load, double omega, int h);
+                               const Eigen::VectorXcd& load, double omega, double h);
 
 /** Complex amplitude of harmonic `h` of a series, and back. */
 SmallVector amplitude(const Eigen::Ref<const Eigen::MatrixXd>& series, int h);

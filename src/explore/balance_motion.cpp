@@ -97,11 +97,12 @@ JudgedTorus judged(const Parameters& parameters, const MotionRequest& request,
                    const AdaptiveSettings& settings, const OperationBudget& budget)
 {
   const double omega = angular(request.frequency);
+  SettledOn settled = motion::settled_torus(parameters, omega, budget);
   const auto found = [&](double share, bool settled_only) {
     AdaptiveSettings finer = settings;
     finer.tolerance *= share;
-    JudgedTorus one{
-        motion::find_quasi_periodic(parameters, omega, finer, budget, settled_only)};
+    settled.only = settled_only;
+    JudgedTorus one{solve_on_chosen(parameters, omega, finer, settled, budget)};
     if (!one.at.reached || !request.stability) return one;
     try {
       one.verdict =
@@ -115,6 +116,8 @@ JudgedTorus judged(const Parameters& parameters, const MotionRequest& request,
   const auto leaves = [&] { return best.verdict && !best.verdict->stays; };
   for (const bool settled_only : {true, false}) {
     if (!leaves()) break;
+    const bool is_from_settled = best.at.motion.error->harmonics == 0;
+    if (settled_only && is_from_settled) continue;
     JudgedTorus other = found(settled_only ? 1 : 0.3, settled_only);
     if (other.verdict && other.verdict->stays) best = std::move(other);
   }

@@ -200,14 +200,6 @@ struct Swept {
   double ball_load = 0;                    ///< [N]
 };
 
-double largest_ball_force(const Parameters& machine, const motion::Motion& motion)
-{
-  double largest = 0;
-  for (const auto& forces : motion::contact_evolution(machine, motion).ball_force)
-    largest = std::max(largest, std::ranges::max(forces));
-  return largest;
-}
-
 class Point {
 public:
   /** `before`: the solution at the point before on the line, which becomes that of this one. */
@@ -308,7 +300,8 @@ public:
         const double hertz = at.omega / angular(1);
         const motion::Motion motion = motion::motion_of(at.bodies, swept_instants);
         curve.push_back({hertz, motion::half_peak_to_peak(motion)[2]});
-        all.ball_load = std::max(all.ball_load, largest_ball_force(machine, motion));
+        all.ball_load =
+            std::max(all.ball_load, motion::largest_ball_load(machine, motion));
         if (motion::contact_share(machine, motion) == 1) {
           ++all.permanent;
           continue;
@@ -423,7 +416,7 @@ const std::vector<Quantity> quantities{
      motion_of_method,
      [](auto& p) -> Cell { return motion::contact_share(p.machine, p.motion()); }},
     {"ball_load", "N", "largest force on a ball, over two periods", motion_of_method,
-     [](auto& p) -> Cell { return largest_ball_force(p.machine, p.motion()); }},
+     [](auto& p) -> Cell { return motion::largest_ball_load(p.machine, p.motion()); }},
     {"force", "N", "largest force of the bearing, Eq. 6", motion_of_method,
      [](auto& p) -> Cell { return largest_force(p); }},
     {"stability", "word",
@@ -728,7 +721,8 @@ void explore_map(const MapRequest& request)
   if (output.failed() > 0)
     std::fprintf(stderr, "%zu of %zu points have no result: see their status\n",
                  output.failed(), (task.grid.last - task.grid.first) * points);
-  const std::string undrawn = plot(request.plot, script, output.all());
+  if (!request.plot) return;
+  const std::string undrawn = plot(*request.plot, script, output.all());
   if (!undrawn.empty()) throw NoSolution(undrawn);
 }
 

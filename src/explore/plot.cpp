@@ -119,11 +119,11 @@ void require_plot(const std::string& file, const std::string& script,
                    ": install python3-matplotlib, or name another Python in PYTHON");
 }
 
-std::string plot(const std::optional<std::string>& file, const std::string& script,
+std::string plot(const std::string& file, const std::string& script,
                  const std::string& table)
 {
   try {
-    if (file) draw(*file, script, table);
+    draw(file, script, table);
   } catch (const NoSolution& error) {
     return error.what();
   }

@@ -4,7 +4,6 @@
 Drawn by a script of the folder figures, in the source tree or installed, with Matplotlib. */
 #pragma once
 
-#include <optional>
 #include <string>
 #include <vector>
 
@@ -15,8 +14,8 @@ namespace rotor_stator::explore {
 void require_plot(const std::string& file, const std::string& script,
                   const std::vector<std::string>& inputs);
 
-/** Draws a table by `script` into `file`, if any, all or nothing; returns why it could not, empty otherwise. */
-std::string plot(const std::optional<std::string>& file, const std::string& script,
+/** Draws a table by `script` into `file`, all or nothing; returns why it could not, empty otherwise. */
+std::string plot(const std::string& file, const std::string& script,
                  const std::string& table);
 
 }  // namespace rotor_stator::explore

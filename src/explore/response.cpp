@@ -236,12 +236,8 @@ struct Row {
   }
   double ball_load() const
   {
-    double most = 0;
-    const long periods = std::ssize(motion.positions) / motion.points_per_period;
-    for (const auto& q :
-         motion::contact_evolution(task.parameters, motion, periods).ball_force)
-      most = std::max(most, *std::ranges::max_element(q));
-    return most;
+    return motion::largest_ball_load(
+        task.parameters, motion, std::ssize(motion.positions) / motion.points_per_period);
   }
 };
 

@@ -29,6 +29,14 @@ ContactEvolution contact_evolution(const Parameters& parameters, const Motion& m
   return evolution;
 }
 
+double largest_ball_load(const Parameters& parameters, const Motion& motion, long periods)
+{
+  double most = 0;
+  for (const auto& forces : contact_evolution(parameters, motion, periods).ball_force)
+    most = std::max(most, *std::ranges::max_element(forces));
+  return most;
+}
+
 std::vector<int> passages_per_ball(const std::vector<std::vector<double>>& ball_force)
 {
   std::vector<int> passages(ball_force.front().size(), 0);

@@ -23,6 +23,10 @@ struct ContactEvolution {
 ContactEvolution contact_evolution(const Parameters& parameters, const Motion& motion,
                                    long periods = 2);
 
+/** The largest force on a ball over so many periods [N]. */
+double largest_ball_load(const Parameters& parameters, const Motion& motion,
+                         long periods = 2);
+
 /** Times that each ball is loaded anew in two periods, counted around the end. */
 std::vector<int> passages_per_ball(const std::vector<std::vector<double>>& ball_force);
 

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <memory>
 #include <numbers>
 
 #include "integration/steady_state.hpp"
@@ -226,17 +227,20 @@ TorusVerdict verdict_on_torus(const Parameters& parameters,
   return verdict;
 }
 
+SettledOn settled_torus(const Parameters& parameters, double omega,
+                        const OperationBudget& budget)
+{
+  const auto settled = std::make_shared<SettledMotion>(parameters, omega, budget);
+  return {[=](const Harmonics& harmonics) { return settled->lines(harmonics); },
+          [=](const PeriodicMotion& solution) { return settled->error(solution); }};
+}
+
 AdaptiveMotion find_quasi_periodic(const Parameters& parameters, double omega,
                                    const AdaptiveSettings& settings,
-                                   const OperationBudget& budget, bool settled_only)
+                                   const OperationBudget& budget)
 {
-  SettledMotion settled(parameters, omega, budget);
-  return solve_on_chosen(
-      parameters, omega, settings,
-      {[&](const Harmonics& harmonics) { return settled.lines(harmonics); },
-       [&](const PeriodicMotion& solution) { return settled.error(solution); },
-       settled_only},
-      budget);
+  return solve_on_chosen(parameters, omega, settings,
+                         settled_torus(parameters, omega, budget), budget);
 }
 
 }  // namespace rotor_stator::motion

@@ -18,12 +18,14 @@ Motion motion_of(const Parameters& parameters, const PeriodicMotion& solution, i
 Eigen::VectorXd half_peak_to_peak_of_torus(const Parameters& parameters,
                                            const PeriodicMotion& solution);
 
-/** The solution with two frequencies at speed `omega` [rad/s]; with `settled_only` the one that Eq. 7 settles on
-    from rest. */
+/** What Eq. 7 settles on from rest: integrated when it is first asked for, and kept. `parameters` must outlive it. */
+SettledOn settled_torus(const Parameters& parameters, double omega,
+                        const OperationBudget& budget = {});
+
+/** The solution with two frequencies at speed `omega` [rad/s]. */
 AdaptiveMotion find_quasi_periodic(const Parameters& parameters, double omega,
                                    const AdaptiveSettings& settings,
-                                   const OperationBudget& budget = {},
-                                   bool settled_only = false);
+                                   const OperationBudget& budget = {});
 
 /** What two neighbouring motions of Eq. 7 from a solution with two frequencies say of it. */
 struct TorusVerdict {

@@ -25,7 +25,7 @@ Problem Oscillator::problem(int samples) const
           .linear =
               [o = *this](double omega, Harmonic h) {
                 return second_order_block(o.mass, o.damping, o.stiffness, o.load, omega,
-                                          static_cast<int>(h.k_1));
+                                          h.k_1);
               },
           .force = all_samples};
 }
