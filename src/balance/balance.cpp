@@ -63,6 +63,9 @@ Balance::Balance(Problem problem, Harmonics harmonics)
       force_series_(c_), product_series_(c_), residual_(c_.size()),
       speed_derivative_(c_.size()), steps_(std::make_unique<StepSolver>())
 {
+  if (!is_moving()) return;
+  orders_.resize(m_ + 1);
+  for (int h = 0; h <= m_; ++h) orders_[h] = problem_.order(harmonics_.list()[h]);
 }
 Balance::~Balance() = default;
 Balance::Balance(Balance&&) noexcept = default;
@@ -79,6 +82,19 @@ void Balance::refresh_blocks(double omega)
     put_amplitude(c_, h, block.c);
   }
   omega_ = omega;
+}
+
+/** Of the rate of a series, at the present speed. */
+void Balance::rate_samples(const Eigen::Ref<const Eigen::MatrixXd>& series,
+                           Eigen::MatrixXd& samples)
+{
+  rate_series_.setZero(series.rows(), series.cols());
+  for (int h = 1; h <= m_; ++h) {
+    const double frequency = orders_[h] * omega_;
+    rate_series_.col(2 * h - 1) = frequency * series.col(2 * h);
+    rate_series_.col(2 * h) = -frequency * series.col(2 * h - 1);
+  }
+  transform_.to_samples(rate_series_, samples, images_);
 }
 
 /** Rows of A q + B f for the coefficients `series` of q and `force` of f. */
@@ -124,8 +140,13 @@ const Eigen::VectorXd& Balance::residual(const Eigen::VectorXd& x, double omega,
   spend(problem_.operations);
   ++evaluations_;
   has_stiffness_ = with == With::stiffness;
-  problem_.force(samples_, force_samples_,
-                 has_stiffness_ ? &stiffness_samples_ : nullptr);
+  Eigen::MatrixXd* slopes = has_stiffness_ ? &stiffness_samples_ : nullptr;
+  if (is_moving()) {
+    rate_samples(series_, rate_samples_);
+    problem_.moving_force(samples_, rate_samples_, omega, force_samples_, slopes);
+  } else {
+    problem_.force(samples_, force_samples_, slopes);
+  }
   evaluated_ = true;
   if (known) return residual_;
   transform_.to_series(force_samples_, force_series_, images_);
@@ -155,13 +176,21 @@ Eigen::MatrixXd Balance::balancing_force(const Eigen::VectorXd& x, double omega)
 
 const Eigen::VectorXd& Balance::speed_derivative(const Eigen::VectorXd& x, double omega)
 {
-  residual(x, omega, With::force);
+  residual(x, omega, is_moving() ? With::stiffness : With::force);
   Eigen::Map<Eigen::MatrixXd> slope(speed_derivative_.data(), c_.rows(), c_.cols());
   for (int h = 0; h <= m_; ++h) {
     const LinearBlock& block = blocks_[h];
     put_amplitude(slope, h,
                   block.a_slope * amplitude(series_, h) +
                       block.b_slope * amplitude(force_series_, h) - block.c_slope);
+  }
+  if (!is_moving()) return speed_derivative_;
+  product_force_ = stiffness_samples_.rightCols(c_.rows());
+  transform_.to_series(product_force_, product_series_, images_);
+  for (int h = 0; h <= m_; ++h) {
+    const SmallVector sum =
+        amplitude(slope, h) + blocks_[h].b * amplitude(product_series_, h);
+    put_amplitude(slope, h, sum);
   }
   return speed_derivative_;
 }
@@ -212,11 +241,11 @@ void Balance::extend_spectrum(Eigen::Index column, const Images& images)
 
 /** Entries ∂(coefficients of f_i)/∂(coefficients of q_j) before the blocks B_h multiply
    them: cosine column q and row p hold α_{p-q} + α_{p+q} and so on. With the mean its row and column come first. */
-void Balance::fill_force_jacobian(int i, int j, const Images& images, bool with_mean,
-                                  Eigen::MatrixXd& jacobian)
+void Balance::fill_force_jacobian(int i, int j, Eigen::Index column, const Images& images,
+                                  bool with_mean, Eigen::MatrixXd& jacobian)
 {
   const int d = problem_.dofs, count = static_cast<int>(images.size());
-  extend_spectrum(i + d * j, images);
+  extend_spectrum(column, images);
   const std::complex<double>* middle = &extended_[extended_.size() / 2];
   const int shift = with_mean ? d : 0;
   for (int q = 0; q < count; ++q) {
@@ -253,9 +282,24 @@ void Balance::jacobian(const Eigen::VectorXd& x, double omega,
   part_images_.clear();
   for (int h : places) part_images_.push_back(images_[h]);
   jacobian.resize(size, size);
+  if (is_moving()) damping_jacobian_.resize(size, size);
   for (int j = 0; j < dofs; ++j)
-    for (int i = 0; i < dofs; ++i)
-      fill_force_jacobian(i, j, part_images_, with_mean, jacobian);
+    for (int i = 0; i < dofs; ++i) {
+      const Eigen::Index column = i + dofs * j;
+      fill_force_jacobian(i, j, column, part_images_, with_mean, jacobian);
+      if (is_moving())
+        fill_force_jacobian(i, j, dofs * dofs + column, part_images_, with_mean,
+                            damping_jacobian_);
+    }
+  /** The rate of a cosine is -Ω times the sine, that of a sine Ω times the cosine. */
+  for (int q = with_mean; is_moving() && q < count; ++q) {
+    const double frequency = orders_[places[q]] * omega;
+    const Eigen::Index cosine = 2 * q * dofs - shift, sine = cosine + dofs;
+    jacobian.middleCols(cosine, dofs) -=
+        frequency * damping_jacobian_.middleCols(sine, dofs);
+    jacobian.middleCols(sine, dofs) +=
+        frequency * damping_jacobian_.middleCols(cosine, dofs);
+  }
 
   /** Rows of harmonic h: multiply by B_h, add A_h on the diagonal. */
   with_dofs(dofs, [&](auto constant) {
@@ -313,18 +357,25 @@ void Balance::apply_jacobian(const Eigen::VectorXd& x, double omega,
       product_force_.col(i) +=
           stiffness_samples_.col(i + d * j).cwiseProduct(product_samples_.col(j));
   }
+  if (is_moving()) {
+    rate_samples(series, product_samples_);
+    for (int i = 0; i < d; ++i)
+      for (int j = 0; j < d; ++j)
+        product_force_.col(i) += stiffness_samples_.col(d * d + i + d * j)
+                                     .cwiseProduct(product_samples_.col(j));
+  }
   transform_.to_series(product_force_, product_series_, images_);
   combine(series, product_series_, product);
 }
 
-RealBlock Balance::diagonal_block(const Eigen::VectorXd& x, double omega, int h)
+/** What one harmonic of q adds to the same one of the force, by the slopes from `first_column` on. */
+RealBlock Balance::force_block(Eigen::Index first_column, int h) const
 {
-  need_spectra(x, omega);
   const int d = problem_.dofs, two = 2 * d;
   RealBlock force(two, two);
   for (int j = 0; j < d; ++j)
     for (int i = 0; i < d; ++i) {
-      const Eigen::Index column = i + d * j;
+      const Eigen::Index column = first_column + i + d * j;
       const double mean = spectra_(0, column).real();
       const auto twice = conjugate_kappa(2 * images_[h], column);
       force(i, j) = mean + twice.real();
@@ -332,14 +383,28 @@ RealBlock Balance::diagonal_block(const Eigen::VectorXd& x, double omega, int h)
       force(d + i, j) = twice.imag();
       force(d + i, d + j) = mean - twice.real();
     }
+  return force;
+}
+
+RealBlock Balance::diagonal_block(const Eigen::VectorXd& x, double omega, int h)
+{
+  need_spectra(x, omega);
+  const int d = problem_.dofs, two = 2 * d;
+  RealBlock force = force_block(0, h);
+  if (is_moving()) {
+    const RealBlock damping = orders_[h] * omega * force_block(d * d, h);
+    force.leftCols(d) -= damping.rightCols(d);
+    force.rightCols(d) += damping.leftCols(d);
+  }
   return a_.middleCols(h * two, two) + b_.middleCols(h * two, two) * force;
 }
 
 int Balance::highest_coupled(const Eigen::VectorXd& x, double omega, double coupling)
 {
   residual(x, omega);
-  const double stiffness = stiffness_samples_.rowwise().norm().maxCoeff();
   const int two = 2 * problem_.dofs;
+  const double stiffness =
+      stiffness_samples_.leftCols(two * two / 4).rowwise().norm().maxCoeff();
   for (int h = m_; h > 0; --h) {
     const RealBlock a = a_.middleCols(h * two, two), b = b_.middleCols(h * two, two);
     if (!(a.partialPivLu().solve(b).norm() * stiffness < coupling)) return h;

@@ -79,6 +79,14 @@ struct Problem {
                      Eigen::MatrixXd* stiffness)>
       force;
 
+  /** Instead of it, where the force depends on q̇ too. `rate`: N × d, q̇ at speed `omega`; `slopes`, unless it is
+      null: N × (2d² + d), ∂f_i/∂q_j in column i + d j, then ∂f_i/∂q̇_j, then df_i/dω along q(φ). */
+  std::function<void(const Eigen::MatrixXd& q, const Eigen::MatrixXd& rate, double omega,
+                     Eigen::MatrixXd& force, Eigen::MatrixXd* slopes)>
+      moving_force = {};
+  /** The frequency of a harmonic over ω; needed with `moving_force` only. */
+  std::function<double(Harmonic h)> order = {};
+
   /** Elementary operations of one evaluation of the force. */
   double operations = 0;
 
@@ -187,8 +195,12 @@ private:
                const Eigen::MatrixXd& force, Eigen::VectorXd& sum) const;
   std::complex<double> conjugate_kappa(int p, Eigen::Index column) const;
   void extend_spectrum(Eigen::Index column, const Images& images);
-  void fill_force_jacobian(int i, int j, const Images& images, bool with_mean,
-                           Eigen::MatrixXd& jacobian);
+  void fill_force_jacobian(int i, int j, Eigen::Index column, const Images& images,
+                           bool with_mean, Eigen::MatrixXd& jacobian);
+  bool is_moving() const { return static_cast<bool>(problem_.moving_force); }
+  void rate_samples(const Eigen::Ref<const Eigen::MatrixXd>& series,
+                    Eigen::MatrixXd& samples);
+  RealBlock force_block(Eigen::Index first_column, int h) const;
 
   Problem problem_;
   Harmonics harmonics_;
@@ -202,6 +214,8 @@ private:
   Eigen::MatrixXd c_;                ///< d × (2m+1)
   std::vector<LinearBlock> blocks_;  ///< what all three are made of
   Eigen::MatrixXd series_, samples_, force_samples_, stiffness_samples_, force_series_;
+  Eigen::VectorXd orders_;  ///< with a moving force
+  Eigen::MatrixXd rate_series_, rate_samples_, damping_jacobian_;
   Eigen::MatrixXd product_samples_, product_force_, product_series_;
   Eigen::MatrixXcd spectra_;   ///< κ_p of each stiffness series
   Eigen::VectorXcd extended_;  ///< conj κ_p of one of them, the middle one p = 0

@@ -2,6 +2,7 @@
 
 #include <cmath>
 #include <numbers>
+#include <tuple>
 
 #include "io/errors.hpp"
 #include "model/ball_bearing.hpp"
@@ -97,9 +98,39 @@ LinearBlock condensed_block(const Parameters& parameters, double ball_stiffness,
 
 }  // namespace
 
+namespace {
+
+/** The force of a bearing that is not plain, along the line. */
+auto moving_force(const Parameters& parameters, const TorusLine& line)
+{
+  const BallBearing there(on(line, parameters.bearing), 0, parameters.turns * line.turns);
+  std::vector<Angles> angles;
+  for (int k = 0; k < line.samples; ++k)
+    angles.push_back(there.angles(2 * std::numbers::pi * k / line.samples));
+  return [parameters, angles](const Eigen::MatrixXd& q, const Eigen::MatrixXd& rate,
+                              double omega, Eigen::MatrixXd& force,
+                              Eigen::MatrixXd* slopes) {
+    const BallBearing bearing(parameters.bearing, omega, parameters.turns);
+    force.resize(q.rows(), 2);
+    if (slopes) slopes->resize(q.rows(), 10);
+    for (Eigen::Index k = 0; k < q.rows(); ++k) {
+      const BearingReaction at =
+          bearing.reaction(angles[k], {q(k, 0), q(k, 1)}, {rate(k, 0), rate(k, 1)});
+      force.row(k) << at.force.x, at.force.y;
+      if (!slopes) continue;
+      const auto& [s, d, by_speed] = std::tie(at.stiffness, at.damping, at.speed_slope);
+      slopes->row(k) << s.xx, s.yx, s.xy, s.yy, d.xx, d.yx, d.xy, d.yy, by_speed.x,
+          by_speed.y;
+    }
+  };
+}
+
+}  // namespace
+
 Problem bearing_problem(const Parameters& parameters, int samples,
                         const OperationBudget& budget)
 {
+  require_two_angles(parameters);
   if (!has_rotation_period(parameters.bearing))
     throw NoSolution(
         format("%s: n*omega_cage/omega = %.9g is not a whole number, so the bearing's "
@@ -112,6 +143,7 @@ Problem bearing_problem(const Parameters& parameters, int samples,
 Problem bearing_problem(const Parameters& parameters, const TorusLine& line,
                         const OperationBudget& budget)
 {
+  require_two_angles(parameters);
   const Scales scale = scales(parameters);
   Problem problem{.dofs = 2,
                   .samples = line.samples,
@@ -121,9 +153,18 @@ Problem bearing_problem(const Parameters& parameters, const TorusLine& line,
                       [parameters, scale](double omega, Harmonic h) {
                         return condensed_block(parameters, scale.stiffness, omega, h);
                       },
-                  .force = SampledBearing(on(line, parameters.bearing), line.samples),
+                  .force = {},
                   .operations = 5e3 + line.samples * (8 + 1.5 * parameters.bearing.balls),
                   .line = line};
+  if (parameters.bearing.is_plain()) {
+    problem.force = SampledBearing(on(line, parameters.bearing), line.samples);
+  } else {
+    problem.moving_force = moving_force(parameters, line);
+    problem.order = [bearing = parameters.bearing](Harmonic h) {
+      return order_of(h, bearing);
+    };
+    problem.operations *= 4;
+  }
   if (budget.bounded())
     problem.spend = [budget, balls = parameters.bearing.balls](double operations) {
       budget.spend(operations / operations_per_evaluation(balls));

@@ -53,8 +53,10 @@ struct Choosing {
       std::max(8.0, std::min(0.5 * contact_frequency(parameters) / omega + 4, 30.0));
   int least_samples = settings.tolerance >= 1e-3 ? 1024 : 4096;
   Harmonics medium = up_to(highest_order, 4, bearing);
-  Harmonics large = joined(joined(up_to(1.3 * highest_order, 6, bearing), medium),
-                           joined(up_to(1.5, 12, bearing), sidebands(bearing, 12, 4)));
+  Harmonics large =
+      joined(joined(joined(up_to(1.3 * highest_order, 6, bearing), medium),
+                    joined(up_to(1.5, 12, bearing), sidebands(bearing, 12, 4))),
+             of_defect(bearing));
   TorusLine finest = line_without_images(large, large, 4 * least_samples);
   AdaptiveMotion result = {};
   PeriodicMotion finer = {};  ///< on `large`, the harmonics kept first
@@ -88,7 +90,8 @@ struct Choosing {
   {
     std::string why;
     for (const int turns : {1, 2}) {
-      take_lines(up_to(2 * highest_order, 8, bearing, turns), turns);
+      take_lines(joined(up_to(2 * highest_order, 8, bearing, turns), of_defect(bearing)),
+                 turns);
       solve_on_largest();
       if (!result.reached) {
         why = result.end;

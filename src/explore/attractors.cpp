@@ -63,7 +63,7 @@ Task task_of(const AttractorsRequest& request)
 {
   const Parameters asked = read_parameters(request.parameter_file);
   require_range(request.from, request.to);
-  const bool is_still = asked.unbalance == 0;  // only the passing balls move it
+  const bool is_still = !turns_visibly(asked);  // only the passing balls move it
   if (!is_still) require_rotation_period(asked, "attractors of an unbalanced rotor");
   const Parameters machine =
       is_still && !has_rotation_period(asked.bearing) ? over_passage(asked) : asked;

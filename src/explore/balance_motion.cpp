@@ -255,9 +255,10 @@ FoundMotion motion_of_turns(const Parameters& parameters, MotionRequest request,
   if (request.samples) *request.samples *= q;
   const PeriodicMotion solution =
       solution_of(over_turns(parameters, q), request, budget, table);
-  return {{request.points, 0,
-           motion::motion_of(solution.bodies, q * request.points).positions},
-          lines_of(parameters.bearing, solution, q)};
+  motion::Motion motion = motion::motion_of(solution, q * request.points);
+  motion.points_per_period = request.points;
+  motion.omega *= q;
+  return {std::move(motion), lines_of(parameters.bearing, solution, q)};
 }
 
 /** A machine without unbalance: harmonics of the passing of the balls. */
@@ -270,6 +271,7 @@ FoundMotion motion_of_passages(const Parameters& parameters, MotionRequest reque
   std::vector<Harmonic> list = solution.harmonics.list();
   for (Harmonic& h : list) h = {0, h.k_1};
   solution.harmonics = Harmonics(std::move(list));
+  solution.omega /= passages_per_turn(parameters.bearing);
   return {motion::motion_of(parameters, solution, request.points, request.periods),
           lines_of(parameters.bearing, solution)};
 }
@@ -278,7 +280,7 @@ FoundMotion motion_of_rotation(const Parameters& parameters, const MotionRequest
                                const OperationBudget& budget, Table& table)
 {
   const PeriodicMotion solution = solution_of(parameters, request, budget, table);
-  return {motion::motion_of(solution.bodies, request.points * request.subharmonic),
+  return {motion::motion_of(solution, request.points * request.subharmonic),
           lines_of(parameters.bearing, solution, request.subharmonic)};
 }
 
@@ -294,7 +296,7 @@ FoundMotion balance_motion(const Parameters& parameters, const MotionRequest& re
         format("--subharmonic %d: needs a whole number of passing balls in a turn, and "
                "n*omega_cage/omega is %.9g",
                request.subharmonic, passages_per_turn(parameters.bearing)));
-  if (parameters.unbalance == 0)
+  if (!turns_visibly(parameters))
     return motion_of_passages(parameters, request, budget, table);
   return q > 0 ? motion_of_turns(parameters, request, q, budget, table)
                : quasi_periodic_motion(parameters, request, budget, table);

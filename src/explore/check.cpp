@@ -27,12 +27,11 @@ Rest rest_of(const Parameters& machine)
   constexpr double share = 1.0 / angles;
   const BallBearing bearing(machine.bearing);
   Rest rest;
-  std::vector<double> q;
   for (int k = 0; k < angles; ++k) {
     const auto cage = Direction::of(turn * share * k / machine.bearing.balls);
     const Vec2 u = static_equilibrium(machine, cage);
     const auto [force, stiffness] = bearing.reaction(cage, u);
-    bearing.ball_forces(cage, u, q);
+    const auto q = bearing.ball_forces({{1, 0}, cage}, u, {0, 0});
     rest.u = rest.u + share * u;
     rest.stiffness = rest.stiffness + share * Vec2{stiffness.xx, stiffness.yy};
     rest.force += share * std::hypot(force.x, force.y);

@@ -240,7 +240,7 @@ public:
   {
     return motion_([&] {
       const MapRequest& asked = task_.request;
-      if (asked.method == "aft") return motion::motion_of(solution().bodies, instants);
+      if (asked.method == "aft") return motion::motion_of(solution(), instants);
       const SteadySettings settings{.stepper = {.method = asked.method,
                                                 .intervals_per_period = timed_instants,
                                                 .step = asked.step,
@@ -298,7 +298,7 @@ public:
                machine, angular(task_.sweep), task_.harmonics, task_.samples)) {
         if (!at.found()) continue;
         const double hertz = at.omega / angular(1);
-        const motion::Motion motion = motion::motion_of(at.bodies, swept_instants);
+        const motion::Motion motion = motion::motion_of(at, swept_instants);
         curve.push_back({hertz, motion::half_peak_to_peak(motion)[2]});
         all.ball_load =
             std::max(all.ball_load, motion::largest_ball_load(machine, motion));

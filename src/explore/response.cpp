@@ -61,7 +61,7 @@ void take_any_cage(const ResponseRequest& request, Task& task)
         format("--subharmonic, --save, --restart and --isolated need a whole number of "
                "passing balls in a turn, and n*omega_cage/omega is %.9g",
                passages_per_turn(task.machine.bearing)));
-  if (task.machine.unbalance == 0) {
+  if (!turns_visibly(task.machine)) {
     task.parameters = over_passage(task.machine);
     task.passages = passages_per_turn(task.machine.bearing);
   } else if (q > 0) {
@@ -347,7 +347,7 @@ motion::Motion samples_at(const Task& task, PeriodicMotion motion)
   motion.bodies = body_series(task.parameters, motion);
   return task.has_two_frequencies
              ? motion::motion_of(task.parameters, motion, 128, 64)
-             : motion::motion_of(motion.bodies, std::max(256, 4 * task.harmonics + 4));
+             : motion::motion_of(motion, std::max(256, 4 * task.harmonics + 4));
 }
 
 std::string summary(const Task& task, const Branch& branch)

@@ -11,12 +11,6 @@ namespace rotor_stator {
 
 namespace {
 
-/** The direction turned further by another. */
-Direction turned(Direction a, Direction b)
-{
-  return {a.cos * b.cos - a.sin * b.sin, a.sin * b.cos + a.cos * b.sin};
-}
-
 /** The table of angles stays below 200 MB. */
 constexpr double most_steps_per_period = 3e6;
 
@@ -37,6 +31,7 @@ Rk4::Rk4(const Parameters& parameters, double omega, int intervals, double longe
          OperationBudget budget)
     : system_(parameters, omega),
       cage_turn_(2 * std::numbers::pi * parameters.bearing.cage_speed_ratio),
+      spin_turn_(2 * std::numbers::pi * parameters.bearing.defect.spin),
       intervals_(intervals),
       steps_(steps_per_interval(system_.period(), intervals, longest_step)),
       budget_(std::move(budget))
@@ -45,7 +40,7 @@ Rk4::Rk4(const Parameters& parameters, double omega, int intervals, double longe
   h_ = 2 * system_.period() / half_steps;
   for (int k = 0; k <= half_steps; ++k) {
     const double phase = 2 * std::numbers::pi * k / half_steps;
-    angles_.push_back({system_.rotor_direction(phase), system_.cage_direction(phase)});
+    angles_.push_back(system_.bearing().angles(phase));
   }
 }
 
@@ -54,10 +49,13 @@ void Rk4::advance(long interval, State& state)
   const long evaluations = 4L * steps_;
   budget_.spend(static_cast<double>(evaluations));
   evaluations_ += evaluations;
-  const Direction turns =
-      Direction::of(cage_turn_ * static_cast<double>(interval / intervals_));
+  const auto periods = static_cast<double>(interval / intervals_);
+  const Direction turns = Direction::of(cage_turn_ * periods);
+  const Direction spins = Direction::of(spin_turn_ * periods);
   const auto acceleration = [&](const Bodies& q, const Bodies& v, const Angles& at) {
-    return system_.acceleration({q, v}, at.rotor, turned(at.cage, turns));
+    const Angles now{at.rotor, turned(at.cage, turns),
+                     spin_turn_ > 0 ? turned(at.spin, spins) : at.spin};
+    return system_.acceleration({q, v}, now);
   };
   const Angles* angles = &angles_[2 * steps_ * (interval % intervals_)];
   for (int k = 0; k < steps_; ++k, angles += 2)

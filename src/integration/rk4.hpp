@@ -43,15 +43,12 @@ public:
   long evaluations() const { return evaluations_; }
   double step() const { return h_; }
 
-  /** Directions at the half steps of one period, both ends included. */
-  struct Angles {
-    Direction rotor, cage;
-  };
+  /** At the half steps of one period, both ends included. */
   const std::vector<Angles>& angles() const { return angles_; }
 
 private:
   RotorStator system_;
-  double cage_turn_;  ///< the cage's angle after one period [rad]
+  double cage_turn_, spin_turn_;  ///< after one period [rad]
   int intervals_, steps_;
   double h_;
   OperationBudget budget_;

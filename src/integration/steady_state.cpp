@@ -133,7 +133,8 @@ SteadyState steady_state(const Parameters& parameters, double omega, const State
                      .spread_error = 0,
                      .periodic = periodic,
                      .seconds = static_cast<double>(motion.periods()) * period,
-                     .evaluations = 0};
+                     .evaluations = 0,
+                     .omega = omega};
   long shown = settings.shown_periods;
   if (!periodic) shown = std::max(shown, std::lround(settings.average / period));
   for (long k = 1; k <= shown; ++k) {

@@ -59,6 +59,7 @@ struct SteadyState {
   bool periodic;
   double seconds;    ///< integrated time [s]
   long evaluations;  ///< of Eq. 7
+  double omega = 0;  ///< the base frequency [rad/s]
 };
 
 /** The period T [s]. Throws NoSolution unless `seconds` of it can be integrated. */

@@ -45,7 +45,11 @@ void require_method(const std::string& method, std::vector<std::string> others)
 
 double default_step(const Parameters& parameters)
 {
-  return 2 * std::numbers::pi / contact_frequency(parameters) / 40;
+  const double contact = 2 * std::numbers::pi / contact_frequency(parameters) / 40;
+  /** A damper of the contact's own size lets no speed change within a step. */
+  const double rate = parameters.bearing.damping * scales(parameters).load *
+                      (1 / parameters.stator.mass + 1 / parameters.rotor.mass);
+  return rate > 0 ? std::min(contact, 0.5 / rate) : contact;
 }
 
 double evaluation_price(const Parameters& parameters, const std::string& method)
@@ -95,7 +99,8 @@ void equation_7_slopes(const Parameters& p, const RotorStator& system, double t,
 {
   const double omega = system.omega(), phase = omega * t;
   const Vec2 u{y[2] - y[0], y[3] - y[1]};
-  const auto [f, s] = system.bearing().reaction(system.cage_direction(phase), u);
+  const Angles at = system.bearing().angles(phase);
+  const auto [f, s] = system.bearing().reaction(at.cage, u);
 
   const Eigen::Matrix2d one = Eigen::Matrix2d::Identity();
   Eigen::Matrix2d joint;
@@ -114,14 +119,13 @@ void equation_7_slopes(const Parameters& p, const RotorStator& system, double t,
   const double cage_speed = p.bearing.cage_speed_ratio * omega;
   const Vec2 turning{cage_speed * (-f.y + s.xx * u.y - s.xy * u.x),
                      cage_speed * (f.x + s.xy * u.y - s.yy * u.x)};
-  const Direction rotor = system.rotor_direction(phase);
   const double speed = p.turns * omega;
   const double unbalance = p.unbalance * speed * speed * speed;
   std::fill_n(dfdt, 4, 0.0);
   dfdt[4] = turning.x / p.stator.mass;
   dfdt[5] = turning.y / p.stator.mass;
-  dfdt[6] = (-turning.x - unbalance * rotor.sin) / p.rotor.mass;
-  dfdt[7] = (-turning.y + unbalance * rotor.cos) / p.rotor.mass;
+  dfdt[6] = (-turning.x - unbalance * at.rotor.sin) / p.rotor.mass;
+  dfdt[7] = (-turning.y + unbalance * at.rotor.cos) / p.rotor.mass;
 }
 
 namespace {
@@ -140,9 +144,9 @@ int derivative(double t, const double y[], double dydt[], void* data)
   const double phase = equation.system.omega() * t;
   const State state = state_of(Eigen::Map<const Vector8>(y));
   Eigen::Map<Vector8> slopes(dydt);
-  slopes = vector_of({state.velocity, equation.system.acceleration(
-                                          state, equation.system.rotor_direction(phase),
-                                          equation.system.cage_direction(phase))});
+  slopes =
+      vector_of({state.velocity, equation.system.acceleration(
+                                     state, equation.system.bearing().angles(phase))});
   return slopes.allFinite() ? GSL_SUCCESS : GSL_EBADFUNC;
 }
 
@@ -202,6 +206,12 @@ TimeStepper make_stepper(const Parameters& parameters, double omega,
                          const StepperSettings& settings)
 {
   require_method(settings.method);
+  const bool needs_slopes = settings.method == "bsimp" || settings.method == "msbdf";
+  if (needs_slopes && !parameters.bearing.is_plain())
+    throw BadInput(
+        "--method " + settings.method +
+        ": knows no contact damping and no defect; take rk4, rk8pd, rkf45, rkck "
+        "or msadams");
   const double price = evaluation_price(parameters, settings.method);
   /** Bounded in any case: 1e9 evaluations are half a minute of RK4. */
   const OperationBudget budget =

@@ -15,8 +15,11 @@
 
 namespace rotor_stator {
 
-BallBearing::BallBearing(const Bearing& bearing)
-    : contact_stiffness_(bearing.contact_stiffness), clearance_(bearing.clearance),
+BallBearing::BallBearing(const Bearing& bearing, double omega, int turns)
+    : bearing_(bearing), is_plain_(bearing.is_plain()), turns_(turns), omega_(omega),
+      rotor_speed_(turns * omega), cage_speed_(bearing.cage_speed_ratio * omega),
+      place_(Direction::of(bearing.defect.place)),
+      contact_stiffness_(bearing.contact_stiffness), clearance_(bearing.clearance),
       clearance_squared_(bearing.clearance * bearing.clearance)
 {
   fours_.resize((bearing.balls + 3) / 4);
@@ -27,12 +30,14 @@ BallBearing::BallBearing(const Bearing& bearing)
   }
 }
 
-BearingReaction BallBearing::reaction(Direction cage, Vec2 u) const
+ElasticReaction BallBearing::reaction(Direction cage, Vec2 u) const
 {
   if (u.x * u.x + u.y * u.y <= clearance_squared_) return {};
   const Vec2 v = into_frame(cage, u);
   Vec2 sum{0, 0};
-  Stiffness2 slope{0, 0, 0};
+  struct {
+    double xx = 0, xy = 0, yy = 0;
+  } slope;
   for (const Direction& ball : balls_) {
     const double p = ball.cos * v.x + ball.sin * v.y - clearance_;
     if (p <= 0) continue;
@@ -47,21 +52,101 @@ BearingReaction BallBearing::reaction(Direction cage, Vec2 u) const
   /** The stiffness turns back with the force: R S Rᵀ. */
   const double c = cage.cos, s = cage.sin, k = 1.5 * contact_stiffness_;
   const double mixed = 2 * c * s * slope.xy;
+  const double xy = k * (c * s * (slope.xx - slope.yy) + (c * c - s * s) * slope.xy);
   return {.force = out_of_frame(cage,
                                 {contact_stiffness_ * sum.x, contact_stiffness_ * sum.y}),
-          .stiffness = {
-              .xx = k * (c * c * slope.xx + s * s * slope.yy - mixed),
-              .xy = k * (c * s * (slope.xx - slope.yy) + (c * c - s * s) * slope.xy),
-              .yy = k * (s * s * slope.xx + c * c * slope.yy + mixed)}};
+          .stiffness = {.xx = k * (c * c * slope.xx + s * s * slope.yy - mixed),
+                        .xy = xy,
+                        .yx = xy,
+                        .yy = k * (s * s * slope.xx + c * c * slope.yy + mixed)}};
 }
 
-void BallBearing::ball_forces(Direction cage, Vec2 u, std::vector<double>& q) const
+namespace {
+
+Direction opposite(Direction d)
 {
-  const Vec2 v = into_frame(cage, u);
-  q.resize(balls_.size());
-  for (std::size_t j = 0; j < balls_.size(); ++j)
-    q[j] = hertz_force(contact_stiffness_,
-                       balls_[j].cos * v.x + balls_[j].sin * v.y - clearance_);
+  return {d.cos, -d.sin};
+}
+
+}  // namespace
+
+BallBearing::Loss BallBearing::loss(std::size_t ball, Direction direction,
+                                    const Angles& at) const
+{
+  const Defect& spall = bearing_.defect;
+  Direction met =
+      turned(at.spin, opposite(place_));  // from the spall's middle to the contact
+  double speed = spall.spin * omega_;
+  if (spall.surface != Defect::Surface::ball) {
+    const bool turns = spall.surface == Defect::Surface::inner_race;
+    met = turned(direction, opposite(place_));
+    if (turns) met = turned(met, opposite(at.rotor));
+    speed = cage_speed_ - (turns ? rotor_speed_ : 0);
+  } else if (ball + 1 != static_cast<std::size_t>(spall.ball)) {
+    return {0, 0};
+  } else if (met.cos < 0) {
+    met = {-met.cos, -met.sin};  // on the other race
+  }
+  const double share = std::atan2(met.sin, met.cos) / spall.width;
+  if (std::abs(share) >= 0.5) return {0, 0};
+  const double c = std::cos(std::numbers::pi * share);
+  const double slope = -4 * std::numbers::pi / spall.width * c * c * c *
+                       std::sin(std::numbers::pi * share);
+  return {spall.depth * c * c * c * c, spall.depth * slope * speed};
+}
+
+/** Deflections change by the rates of u and by the cage's turning along the race. */
+template <class Visit>
+void BallBearing::each_contact(const Angles& at, Vec2 u, Vec2 rate, Visit visit) const
+{
+  const Vec2 v = into_frame(at.cage, u);
+  const Vec2 w{rate.x + cage_speed_ * u.y, rate.y - cage_speed_ * u.x};
+  const bool is_damaged = !bearing_.is_damaged(Defect::Surface::none);
+  for (std::size_t j = 0; j < balls_.size(); ++j) {
+    const double near = balls_[j].cos * v.x + balls_[j].sin * v.y - clearance_;
+    if (near <= 0) continue;
+    const Direction ball = turned(balls_[j], at.cage);
+    const Loss lost = is_damaged ? loss(j, ball, at) : Loss{0, 0};
+    const double pressed = near - lost.depth;
+    if (pressed <= 0) continue;
+    const double faster = ball.cos * w.x + ball.sin * w.y - lost.rate;
+    const double share = 1 + bearing_.damping * faster;
+    if (share <= 0) continue;
+    const double hertz = hertz_force(contact_stiffness_, pressed);
+    visit(Contact{j, ball, share * hertz,
+                  share * hertz_stiffness(contact_stiffness_, pressed),
+                  bearing_.damping * hertz, faster});
+  }
+}
+
+BearingReaction BallBearing::full_reaction(const Angles& at, Vec2 u, Vec2 rate) const
+{
+  BearingReaction sum{};
+  each_contact(at, u, rate, [&](const Contact& on) {
+    const auto [c, s] = on.direction;
+    const double turning = on.damping * cage_speed_;
+    const double by_speed = omega_ > 0 ? on.damping * on.rate / omega_ : 0;
+    sum.force.x += on.force * c;
+    sum.force.y += on.force * s;
+    sum.stiffness.xx += c * (on.stiffness * c - turning * s);
+    sum.stiffness.xy += c * (on.stiffness * s + turning * c);
+    sum.stiffness.yx += s * (on.stiffness * c - turning * s);
+    sum.stiffness.yy += s * (on.stiffness * s + turning * c);
+    sum.damping.xx += on.damping * c * c;
+    sum.damping.xy += on.damping * c * s;
+    sum.damping.yy += on.damping * s * s;
+    sum.speed_slope.x += by_speed * c;
+    sum.speed_slope.y += by_speed * s;
+  });
+  sum.damping.yx = sum.damping.xy;
+  return sum;
+}
+
+std::vector<double> BallBearing::ball_forces(const Angles& at, Vec2 u, Vec2 rate) const
+{
+  std::vector<double> q(balls_.size(), 0.0);
+  each_contact(at, u, rate, [&](const Contact& on) { q[on.ball] = on.force; });
+  return q;
 }
 
 namespace {

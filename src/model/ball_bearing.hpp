@@ -18,6 +18,14 @@ $$F = \sum_j Q_j\,(\cos\theta_j, \sin\theta_j), \tag{6}$$
 acting as +F on the stator and -F on the rotor. Only the relative motion u = (x_r - x_s,
 y_r - y_s) enters.
 
+With contact damping (Hunt and Crossley 1975) the force of a loaded ball is Q_j (1 + λ dΔ_j/dt), but never
+negative. A spall lets a ball lose h of its deflection while it passes,
+
+$$h = h_0 \cos^4(\pi\alpha/w), \qquad |\alpha| < w/2,$$
+
+where α is the angle between ball and spall on the race that is damaged; a damaged ball meets both races once in
+each turn about itself. Both need more than the cage's angle: the rates of u, and what else turns.
+
 In the frame that turns with the cage the directions of the balls are constants. The
 relative motion is turned into that frame, the balls are summed, and the force is turned
 back: one sine and one cosine of the cage angle serve all balls. */
@@ -39,6 +47,12 @@ struct Direction {
   static Direction of(double angle) { return {std::cos(angle), std::sin(angle)}; }
 };
 
+/** A direction turned further by another. */
+inline Direction turned(Direction a, Direction b)
+{
+  return {a.cos * b.cos - a.sin * b.sin, a.sin * b.cos + a.cos * b.sin};
+}
+
 /** `v` seen from the frame turned by `d`. */
 inline Vec2 into_frame(Direction d, Vec2 v)
 {
@@ -51,24 +65,59 @@ inline Vec2 out_of_frame(Direction d, Vec2 v)
   return {d.cos * v.x - d.sin * v.y, d.sin * v.x + d.cos * v.y};
 }
 
-/** ∂F/∂u [N/m], symmetric. */
-struct Stiffness2 {
-  double xx, xy, yy;
+/** What turns in a bearing. */
+struct Angles {
+  Direction rotor, cage;
+  Direction spin = {1, 0};  ///< of a damaged ball, seen from the cage
 };
 
-/** Force on the stator [N] and its derivative with respect to u [N/m]. */
-struct BearingReaction {
+/** ∂F/∂u [N/m] or ∂F/∂u̇ [N s/m]; without damping symmetric. */
+struct Slopes2 {
+  double xx, xy, yx, yy;
+};
+
+/** Force on the stator [N] and its derivative. */
+struct ElasticReaction {
   Vec2 force;
-  Stiffness2 stiffness;
+  Slopes2 stiffness;  ///< ∂F/∂u [N/m]
+};
+struct BearingReaction : ElasticReaction {
+  Slopes2 damping = {};   ///< ∂F/∂u̇ [N s/m]
+  Vec2 speed_slope = {};  ///< dF/dω along a motion u(φ), φ = ωt [N s]
 };
 
 /** The bearing with its constant ball directions in the cage frame. */
 class BallBearing {
 public:
-  explicit BallBearing(const Bearing& bearing);
+  /** `omega` is the base frequency [rad/s], `turns` those of the rotor in one base period: they matter to a bearing
+      that is not plain. */
+  explicit BallBearing(const Bearing& bearing, double omega = 0, int turns = 1);
 
-  /** Eq. 6: force [N] on the stator for the relative displacement u [m], with the cage
-     (ball 1) turned to `cage`. */
+  bool is_plain() const { return is_plain_; }
+
+  /** Where everything stands at `phase` ωt [rad]. */
+  Angles angles(double phase) const
+  {
+    return {Direction::of(turns_ * phase),
+            Direction::of(bearing_.cage_speed_ratio * phase),
+            bearing_.defect.spin > 0 ? Direction::of(bearing_.defect.spin * phase)
+                                     : Direction{1, 0}};
+  }
+
+  /** Eq. 6: force [N] on the stator for the relative displacement u [m] and its rate [m/s]. */
+  Vec2 force(const Angles& at, Vec2 u, Vec2 rate) const
+  {
+    return is_plain() ? force(at.cage, u) : full_reaction(at, u, rate).force;
+  }
+
+  /** The same with its derivatives. */
+  BearingReaction reaction(const Angles& at, Vec2 u, Vec2 rate) const
+  {
+    return is_plain() ? BearingReaction{reaction(at.cage, u)}
+                      : full_reaction(at, u, rate);
+  }
+
+  /** The same of an undamaged bearing at rest, with the cage (ball 1) turned to `cage`. */
   Vec2 force(Direction cage, Vec2 u) const
   {
     if (u.x * u.x + u.y * u.y <= clearance_squared_) return {0, 0};
@@ -89,11 +138,10 @@ public:
     return out_of_frame(cage, {contact_stiffness_ * sum.x, contact_stiffness_ * sum.y});
   }
 
-  /** The same with ∂F/∂u. */
-  BearingReaction reaction(Direction cage, Vec2 u) const;
+  ElasticReaction reaction(Direction cage, Vec2 u) const;
 
   /** Eq. 5: the force Q_j [N] of each ball, j = 1…n in order. */
-  void ball_forces(Direction cage, Vec2 u, std::vector<double>& q) const;
+  std::vector<double> ball_forces(const Angles& at, Vec2 u, Vec2 rate) const;
 
   const std::vector<Direction>& balls() const { return balls_; }
 
@@ -104,8 +152,30 @@ private:
     double cos[4]{}, sin[4]{};
   };
 
-  std::vector<Direction> balls_;  ///< at cage angle 0
-  std::vector<Four> fours_;       ///< the same
+  struct Contact {
+    std::size_t ball;
+    Direction direction;
+    double force;      ///< Q_j [N]
+    double stiffness;  ///< ∂Q_j/∂Δ_j [N/m]
+    double damping;    ///< ∂Q_j/∂(dΔ_j/dt) [N s/m]
+    double rate;       ///< dΔ_j/dt [m/s]
+  };
+  template <class Visit>
+  void each_contact(const Angles& at, Vec2 u, Vec2 rate, Visit visit) const;
+  BearingReaction full_reaction(const Angles& at, Vec2 u, Vec2 rate) const;
+
+  /** What a ball has lost of its deflection, and how fast it loses more. */
+  struct Loss {
+    double depth, rate;
+  };
+  Loss loss(std::size_t ball, Direction direction, const Angles& at) const;
+
+  Bearing bearing_;
+  bool is_plain_;
+  double turns_, omega_, rotor_speed_, cage_speed_;  ///< [rad/s]
+  Direction place_;                                  ///< of the spall's middle
+  std::vector<Direction> balls_;                     ///< at cage angle 0
+  std::vector<Four> fours_;                          ///< the same
   double contact_stiffness_;
   double clearance_;
   double clearance_squared_;
@@ -123,7 +193,7 @@ four remain. */
 
 class SampledBearing {
 public:
-  /** N = `samples` instants ωt = 2πk/N of one turn of the rotor. */
+  /** N = `samples` instants ωt = 2πk/N of one base period, of a plain bearing. */
   SampledBearing(const Bearing& bearing, int samples);
 
   int samples() const { return samples_; }

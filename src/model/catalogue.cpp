@@ -173,6 +173,37 @@ double read_stiffness(StrictToml& table, StrictToml& source, const Diameters& di
   return stiffness;
 }
 
+Defect read_defect(StrictToml& table, const Bearing& bearing)
+{
+  using enum Defect::Surface;
+  Defect defect;
+  const std::string surface = table.string("surface");
+  if (surface != "outer_race" && surface != "inner_race" && surface != "ball")
+    table.fail("surface",
+               "\"" + surface + "\": must be \"outer_race\", \"inner_race\" or \"ball\"");
+  defect.surface = surface == "outer_race"   ? outer_race
+                   : surface == "inner_race" ? inner_race
+                                             : ball;
+  defect.depth = table.number("depth_m", Range::not_negative);
+  defect.width = table.number("width_rad", Range::positive);
+  defect.place = table.number_or("angle_rad", Range::any, 0);
+  const bool is_ball = defect.surface == ball;
+  const double widest = (is_ball ? 1 : 2.0 / bearing.balls) * std::numbers::pi;
+  if (defect.width > widest)
+    table.fail("width_rad", format("must not exceed %s, %.9g rad, got %g",
+                                   is_ball ? "half a turn of the ball"
+                                           : "the spacing of the balls 2 pi/n",
+                                   widest, defect.width));
+  if (!is_ball) return defect;
+  defect.ball = table.integer_or("ball", 1, bearing.balls, 1);
+  if (bearing.cage_speed_ratio == 0.5)
+    table.fail(
+        "surface",
+        "\"ball\": with omega_cage/omega = 1/2 no ball of finite size turns about itself");
+  defect.spin = kinematic_orders(bearing).spin;
+  return defect;
+}
+
 }  // namespace
 
 KinematicOrders kinematic_orders(const Bearing& bearing)
@@ -195,6 +226,11 @@ Bearing read_bearing(StrictToml& table, std::vector<std::string>& derived)
   bearing.contact_stiffness =
       read_stiffness(table, source, diameters, bearing.pressure, derived);
   bearing.clearance = read_clearance(table, source, derived);
+  bearing.damping = table.number_or("contact_damping_s_per_m", Range::not_negative, 0);
+  if (table.has("defect")) {
+    StrictToml defect = table.table("defect");
+    bearing.defect = read_defect(defect, bearing);
+  }
   if (!has_count || table.has("ball_diameter_m"))
     derived.insert(
         derived.begin(),

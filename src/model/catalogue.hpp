@@ -13,6 +13,9 @@ is taken:
 - stiffness K_H: `contact_stiffness_N_per_m1p5`, or Hertz's from `inner_groove_ratio`, `outer_groove_ratio`,
   `youngs_modulus_Pa` and `poissons_ratio`, or `designation`.
 
+Two things may be added: `contact_damping_s_per_m`, and a table `defect` with `surface` ("outer_race", "inner_race" or
+"ball"), `depth_m`, `width_rad`, the place `angle_rad` of its middle, and for a ball its number `ball`.
+
 Designations and classes of clearance are those of data/bearings/deep_groove.toml. */
 #pragma once
 

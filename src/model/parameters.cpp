@@ -90,6 +90,7 @@ Parameters over_turns(Parameters parameters, int turns)
 {
   parameters.turns *= turns;
   parameters.bearing.cage_speed_ratio *= turns;
+  parameters.bearing.defect.spin *= turns;
   return parameters;
 }
 
@@ -101,11 +102,27 @@ double passages_per_turn(const Bearing& bearing)
 bool has_rotation_period(const Bearing& bearing)
 {
   const double passages = passages_per_turn(bearing);
-  return std::abs(passages - std::round(passages)) < 1e-9;
+  return !bearing.is_damaged(Defect::Surface::ball) &&
+         std::abs(passages - std::round(passages)) < 1e-9;
+}
+
+void require_two_angles(const Parameters& parameters)
+{
+  if (parameters.bearing.is_damaged(Defect::Surface::ball))
+    throw BadInput(parameters.file +
+                   ": bearing.defect: a damaged ball turns about itself, a third "
+                   "frequency beside those of rotor and cage; use a time method");
+}
+
+bool turns_visibly(const Parameters& parameters)
+{
+  return parameters.unbalance > 0 ||
+         parameters.bearing.is_damaged(Defect::Surface::inner_race);
 }
 
 void require_rotation_period(const Parameters& parameters, const char* who)
 {
+  require_two_angles(parameters);
   if (!has_rotation_period(parameters.bearing))
     throw BadInput(format(
         "%s: bearing.cage_speed_ratio: %s needs a force with the period of rotation, but "
@@ -148,6 +165,17 @@ void describe(Table& table, const Parameters& parameters)
       "  bearing: n = %d, K_H = %.15g N/m^1.5, delta = %.15g m, omega_cage/omega = %.15g",
       bearing.balls, bearing.contact_stiffness, bearing.clearance,
       bearing.cage_speed_ratio));
+  if (bearing.damping > 0)
+    table.note(format("  contact damping: lambda = %.15g s/m", bearing.damping));
+  if (!bearing.is_damaged(Defect::Surface::none)) {
+    const char* const surfaces[] = {"", "outer race", "inner race", "ball"};
+    table.note(format("  defect: %s, depth %.15g m, width %.15g rad, angle %.15g rad",
+                      surfaces[static_cast<int>(bearing.defect.surface)],
+                      bearing.defect.depth, bearing.defect.width, bearing.defect.place) +
+               (bearing.is_damaged(Defect::Surface::ball)
+                    ? format(", ball %d", bearing.defect.ball)
+                    : ""));
+  }
   for (const std::string& line : parameters.derived) table.note("  " + line);
 }
 

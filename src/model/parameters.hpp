@@ -40,6 +40,20 @@ struct Body {
   }
 };
 
+/** A spall [bearing.defect]: over an angle a ball loses up to `depth` of its deflection. Angles [rad] are those of the
+    surface that is damaged. */
+struct Defect {
+  enum class Surface { none, outer_race, inner_race, ball };
+  Surface surface = Surface::none;
+  double depth = 0;  ///< [m]
+  double width = 0;  ///< [rad]
+  double place =
+      0;  ///< of its middle [rad]: outer race from the x axis, inner race from the unbalance
+  int ball = 1;  ///< which one, where a ball is damaged
+  double spin =
+      0;  ///< that ball's turns about itself per base period, seen from the cage
+};
+
 /** The ball bearing between them. */
 struct Bearing {
   int balls;                 ///< n
@@ -50,6 +64,13 @@ struct Bearing {
   double ball_diameter = 0;  ///< [m]; 0 when only c was given
   double pressure =
       0;  ///< largest of Hertz [Pa] on the race that has more of it, over Q^{1/3}; 0 unknown
+  double damping = 0;  ///< λ of Hunt and Crossley [s/m]
+  Defect defect = {};
+
+  bool is_damaged(Defect::Surface at) const { return defect.surface == at; }
+
+  /** Whether the force depends on nothing but u and the cage's angle. */
+  bool is_plain() const { return damping == 0 && is_damaged(Defect::Surface::none); }
 };
 
 /** One machine. */
@@ -90,11 +111,17 @@ double cage_speed_ratio(double ball_radius, double inner_race_radius);
 Parameters over_turns(Parameters parameters, int turns);
 
 /** Ball passages through a fixed direction per turn, n·c. The bearing's force has the
-   period T = 2π/ω only when this is a whole number (D-11). */
+   period T = 2π/ω only when this is a whole number (D-11) and no ball is damaged. */
 double passages_per_turn(const Bearing& bearing);
 bool has_rotation_period(const Bearing& bearing);
 
 /** Throws BadInput, in the name of `who`, when the force has not the period of rotation. */
 void require_rotation_period(const Parameters& parameters, const char* who);
+
+/** Throws BadInput where a damaged ball adds a third angle to those of rotor and cage. */
+void require_two_angles(const Parameters& parameters);
+
+/** Whether anything turns with the rotor; if not, only the passing balls move the machine. */
+bool turns_visibly(const Parameters& parameters);
 
 }  // namespace rotor_stator

@@ -8,9 +8,9 @@
 namespace rotor_stator {
 
 RotorStator::RotorStator(const Parameters& parameters, double omega)
-    : bearing_(parameters.bearing), omega_(omega), turns_(parameters.turns),
-      cage_ratio_(parameters.bearing.cage_speed_ratio),
-      unbalance_(parameters.unbalance * (turns_ * omega) * (turns_ * omega)),
+    : bearing_(parameters.bearing, omega, parameters.turns), omega_(omega),
+      unbalance_(parameters.unbalance * (parameters.turns * omega) *
+                 (parameters.turns * omega)),
       rest_s_(parameters.stator.static_acceleration(parameters.gravity)),
       rest_r_(parameters.rotor.static_acceleration(parameters.gravity)),
       k_s_(parameters.stator.stiffness()), c_s_(parameters.stator.damping()),

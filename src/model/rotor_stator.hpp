@@ -60,11 +60,12 @@ public:
   /** `omega` is the base frequency [rad/s], the rotor's speed where that turns once per period. */
   RotorStator(const Parameters& parameters, double omega);
 
-  /** Accelerations [m/s²] for the rotor's angle ωt = `rotor` and the cage's angle `cage`.
-   */
-  Bodies acceleration(const State& state, Direction rotor, Direction cage) const
+  /** Accelerations [m/s²]. */
+  Bodies acceleration(const State& state, const Angles& at) const
   {
-    return acceleration(state, rotor, bearing_.force(cage, state.position.relative()));
+    return acceleration(
+        state, at.rotor,
+        bearing_.force(at, state.position.relative(), state.velocity.relative()));
   }
 
   /** The same for a bearing force `f` [N] that is known already. */
@@ -83,16 +84,11 @@ public:
 
   double omega() const { return omega_; }
   double period() const;
-  Direction rotor_direction(double phase) const { return Direction::of(turns_ * phase); }
-  Direction cage_direction(double phase) const
-  {
-    return Direction::of(cage_ratio_ * phase);
-  }
   const BallBearing& bearing() const { return bearing_; }
 
 private:
   BallBearing bearing_;
-  double omega_, turns_, cage_ratio_, unbalance_;
+  double omega_, unbalance_;
   Vec2 rest_s_, rest_r_;  ///< static accelerations [m/s²]
   double k_s_, c_s_, per_m_s_, k_r_, c_r_, per_m_r_;
 };

@@ -209,8 +209,10 @@ Motion motion_along(const Attractor& attractor, const Parameters& machine, doubl
       machine, omega,
       {.method = "rk4", .intervals_per_period = points_per_period, .budget = budget});
   State state = attractor.state;
-  return recorded(stepper, points_per_period, state, 0,
-                  attractor.closed() ? attractor.period : periods);
+  Motion motion = recorded(stepper, points_per_period, state, 0,
+                           attractor.closed() ? attractor.period : periods);
+  motion.omega = omega;
+  return motion;
 }
 
 Exponent closed_exponent(const Attractor& attractor, const Parameters& machine,

@@ -15,16 +15,13 @@ double contact_share(const Parameters& parameters, const Motion& motion)
 ContactEvolution contact_evolution(const Parameters& parameters, const Motion& motion,
                                    long periods)
 {
-  const BallBearing bearing(parameters.bearing);
+  const BearingInstants at(parameters, motion);
   ContactEvolution evolution;
   const auto instants = static_cast<std::size_t>(periods * motion.points_per_period);
   for (std::size_t k = 0; k < instants; ++k) {
-    const Direction cage =
-        Direction::of(parameters.bearing.cage_speed_ratio * motion.phase(k));
-    std::vector<double> q;
-    bearing.ball_forces(cage, motion.positions[k % motion.size()].relative(), q);
     evolution.t_over_period.push_back(motion.t_over_period(k));
-    evolution.ball_force.push_back(std::move(q));
+    evolution.ball_force.push_back(
+        at.bearing.ball_forces(at.angles(k), at.u(k), at.rate(k)));
   }
   return evolution;
 }

@@ -367,15 +367,50 @@ LineName name_of(const Sum& sum, int balls)
           sum.name()};
 }
 
+/** Of a damaged ball, which meets a race every half turn and stands elsewhere each time: 2s BSF + j FTF + h X, if
+    shorter than `length`. */
+std::optional<LineName> name_of_spin(double order, const Bearing& bearing,
+                                     double tolerance, double length)
+{
+  constexpr int most = 16, sidebands = 2;
+  const KinematicOrders orders = kinematic_orders(bearing);
+  std::optional<LineName> best;
+  for (int s = 2; s <= most; s += 2)
+    for (int h = -sidebands; h <= sidebands; ++h) {
+      const double rest = order - s * orders.spin - h;
+      const auto j = static_cast<int>(std::lround(rest / orders.cage));
+      const double cost = s + 0.5 * std::abs(j) + std::abs(h);
+      if (std::abs(j) > bearing.balls || cost >= length ||
+          std::abs(rest - j * orders.cage) > tolerance)
+        continue;
+      length = cost;
+      std::string name = term(s, 1, "BSF");
+      for (const auto& [multiple, symbol] : {std::pair{j, "FTF"}, {h, "X"}})
+        if (multiple != 0)
+          name += (multiple > 0 ? "+" : "-") + term(std::abs(multiple), 1, symbol);
+      best = LineName{static_cast<double>(h), static_cast<double>(j),
+                      static_cast<double>(s), name};
+    }
+  return best;
+}
+
 }  // namespace
 
 LineName name_of(double order, const Bearing& bearing, double tolerance, int passages)
 {
+  const bool has_damaged_ball = bearing.is_damaged(Defect::Surface::ball);
   const bool is_periodic = has_rotation_period(bearing);
   const int fractions = is_periodic ? 8 : 1;
   for (int parts = 1; parts <= fractions; ++parts)
-    if (const auto sum = sum_of(order, bearing, tolerance, parts, 1, passages))
+    if (const auto sum = sum_of(order, bearing, tolerance, parts, 1, passages)) {
+      if (has_damaged_ball)
+        if (const auto spin =
+                name_of_spin(order, bearing, tolerance, std::get<0>(sum->length())))
+          return *spin;
       return name_of(*sum, bearing.balls);
+    }
+  if (has_damaged_ball)
+    if (const auto spin = name_of_spin(order, bearing, tolerance, 1e9)) return *spin;
   const KinematicOrders orders = kinematic_orders(bearing);
   LineName name = multiple_of("FTF", order, orders.cage, bearing.balls, tolerance);
   name.cage = std::round(order / orders.cage);

@@ -6,6 +6,7 @@
 #include <numbers>
 
 #include "balance/fourier_transform.hpp"
+#include "io/errors.hpp"
 
 namespace rotor_stator::motion {
 
@@ -57,6 +58,15 @@ Motion motion_of(const Eigen::MatrixXd& bodies, int points)
   return motion;
 }
 
+Motion motion_of(const PeriodicMotion& solution, int points)
+{
+  Motion motion = motion_of(solution.bodies, points);
+  motion.omega = solution.omega;
+  for (const Bodies& rate : motion_of(differentiate(solution.bodies), points).positions)
+    motion.rates.push_back(solution.omega * rate.relative());
+  return motion;
+}
+
 State state_of(const PeriodicMotion& motion)
 {
   const Eigen::Vector4d q = sample_series(motion.bodies, 1).row(0);
@@ -68,8 +78,11 @@ State state_of(const PeriodicMotion& motion)
 
 Motion motion_of(const SteadyState& steady, int points_per_period)
 {
-  Motion motion{points_per_period, steady.first_period, {}};
-  for (const State& state : steady.states) motion.positions.push_back(state.position);
+  Motion motion{points_per_period, steady.first_period, {}, {}, steady.omega};
+  for (const State& state : steady.states) {
+    motion.positions.push_back(state.position);
+    motion.rates.push_back(state.velocity.relative());
+  }
   return motion;
 }
 
@@ -77,7 +90,9 @@ Motion one_period(const Parameters& parameters, double omega, State state,
                   const StepperSettings& settings)
 {
   const TimeStepper stepper = make_stepper(parameters, omega, settings);
-  return recorded(stepper, settings.intervals_per_period, state);
+  Motion motion = recorded(stepper, settings.intervals_per_period, state);
+  motion.omega = omega;
+  return motion;
 }
 
 ErrorEstimate error_against(const Motion& exact, const Motion& solution, int samples)
@@ -95,11 +110,15 @@ std::vector<Motion> pieces(const Motion& motion, int periods)
 {
   std::vector<Motion> parts;
   const auto length = static_cast<std::ptrdiff_t>(periods) * motion.points_per_period;
-  for (auto at = motion.positions.begin(); motion.positions.end() - at >= length;
-       at += length)
-    parts.push_back({motion.points_per_period,
-                     motion.first_period + periods * std::ssize(parts),
-                     {at, at + length}});
+  const auto cut = [&](const auto& whole, std::ptrdiff_t from) {
+    return std::vector(whole.begin() + from, whole.begin() + from + length);
+  };
+  for (std::ptrdiff_t from = 0; std::ssize(motion.positions) - from >= length;
+       from += length)
+    parts.push_back(
+        {motion.points_per_period, motion.first_period + periods * std::ssize(parts),
+         cut(motion.positions, from),
+         motion.rates.empty() ? motion.rates : cut(motion.rates, from), motion.omega});
   return parts;
 }
 
@@ -111,14 +130,18 @@ BatchMean mean_over(const Motion& motion, int periods,
   return long_mean(values);
 }
 
+BearingInstants::BearingInstants(const Parameters& parameters, const Motion& m)
+    : motion(m), bearing(parameters.bearing, m.omega, parameters.turns)
+{
+  if (parameters.bearing.damping > 0 && (m.rates.empty() || m.omega == 0))
+    throw NoSolution("the force of a damped contact needs the rates of the motion");
+}
+
 std::vector<Vec2> bearing_forces(const Parameters& parameters, const Motion& motion)
 {
-  const BallBearing bearing(parameters.bearing);
+  const BearingInstants instants(parameters, motion);
   std::vector<Vec2> forces;
-  for (std::size_t k = 0; k < motion.size(); ++k)
-    forces.push_back(bearing.force(
-        Direction::of(parameters.bearing.cage_speed_ratio * motion.phase(k)),
-        motion.positions[k].relative()));
+  for (std::size_t k = 0; k < motion.size(); ++k) forces.push_back(instants.force(k));
   return forces;
 }
 

@@ -18,6 +18,9 @@ struct Motion {
   int points_per_period;
   long first_period;  ///< periods since t = 0, for the cage's angle
   std::vector<Bodies> positions;
+  std::vector<Vec2> rates =
+      {};            ///< u̇ [m/s], where the force of a damped contact is asked for
+  double omega = 0;  ///< the base frequency that belongs to them [rad/s]
 
   std::size_t size() const { return positions.size(); }
   double t_over_period(std::size_t k) const
@@ -39,6 +42,7 @@ Motion recorded(Stepper& stepper, int points_per_period, State& state,
   const long begin = first_period * points_per_period;
   for (long k = begin; k < begin + periods * points_per_period; ++k) {
     motion.positions.push_back(state.position);
+    motion.rates.push_back(state.velocity.relative());
     stepper.advance(k, state);
   }
   return motion;
@@ -52,8 +56,9 @@ Eigen::MatrixXd displacement_samples(const Motion& motion);
 Eigen::MatrixXd series_of(const Motion& motion, int harmonics);
 Eigen::VectorXd relative_series(const Motion& motion, int harmonics);
 
-/** `points` instants of one period of a solution, from its series of both bodies. */
+/** `points` instants of one period of a solution, from its series of both bodies; the second with its rates. */
 Motion motion_of(const Eigen::MatrixXd& bodies, int points);
+Motion motion_of(const PeriodicMotion& solution, int points);
 
 /** The state [m, m/s] of a periodic motion at phase 0. */
 State state_of(const PeriodicMotion& motion);
@@ -75,6 +80,22 @@ std::vector<Motion> pieces(const Motion& motion, int periods);
 /** The mean of a measure over these pieces. */
 BatchMean mean_over(const Motion& motion, int periods,
                     const std::function<double(const Motion&)>& measure);
+
+/** Where everything in the bearing stands at instant k, and how u changes. Throws NoSolution for a damped contact
+    without rates. */
+struct BearingInstants {
+  BearingInstants(const Parameters& parameters, const Motion& motion);
+  Angles angles(std::size_t k) const { return bearing.angles(motion.phase(k)); }
+  Vec2 u(std::size_t k) const { return motion.positions[k % motion.size()].relative(); }
+  Vec2 rate(std::size_t k) const
+  {
+    return motion.rates.empty() ? Vec2{0, 0} : motion.rates[k % motion.size()];
+  }
+  Vec2 force(std::size_t k) const { return bearing.force(angles(k), u(k), rate(k)); }
+
+  const Motion& motion;
+  BallBearing bearing;
+};
 
 /** Eq. 6: the bearing's force [N] on the stator at each instant of a motion. */
 std::vector<Vec2> bearing_forces(const Parameters& parameters, const Motion& motion);

@@ -144,11 +144,13 @@ Motion motion_of(const Parameters& parameters, const PeriodicMotion& solution, i
   constexpr double turn = 2 * std::numbers::pi;
   const auto n = static_cast<Eigen::Index>(points) * turns;
   Eigen::MatrixXd samples = solution.bodies.col(0).transpose().replicate(n, 1);
+  Eigen::MatrixXd rates = Eigen::MatrixXd::Zero(n, 4);
   const double passages = passages_per_turn(parameters.bearing);
   for (int h = 1; h <= solution.harmonics.count(); ++h) {
     const auto& [k_1, k_2] = solution.harmonics.list()[static_cast<std::size_t>(h)];
     const Eigen::RowVectorXd cosine = solution.bodies.col(2 * h - 1).transpose(),
                              sine = solution.bodies.col(2 * h).transpose();
+    const double frequency = (k_1 + k_2 * passages) * solution.omega;
     for (Eigen::Index k = 0; k < n; ++k) {
       const double at = static_cast<double>(k % points) / points;
       const double since = static_cast<double>(first + k / points) + at;
@@ -156,12 +158,15 @@ Motion motion_of(const Parameters& parameters, const PeriodicMotion& solution, i
           turn * (k_1 * (at + static_cast<double>((first + k / points) % 2)) +
                   k_2 * std::fmod(passages * since, 2.0));
       samples.row(k) += std::cos(angle) * cosine + std::sin(angle) * sine;
+      rates.row(k) += frequency * (std::cos(angle) * sine - std::sin(angle) * cosine);
     }
   }
-  Motion motion{points, first, {}};
-  for (Eigen::Index k = 0; k < n; ++k)
+  Motion motion{points, first, {}, {}, solution.omega};
+  for (Eigen::Index k = 0; k < n; ++k) {
     motion.positions.push_back(
         {{samples(k, 0), samples(k, 1)}, {samples(k, 2), samples(k, 3)}});
+    motion.rates.push_back({rates(k, 2) - rates(k, 0), rates(k, 3) - rates(k, 1)});
+  }
   return motion;
 }
 

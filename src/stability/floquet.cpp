@@ -118,7 +118,7 @@ struct BearingAlong {
   /** ∂F/∂u as the stiffness of x_s, y_s, x_r, y_r. */
   void stiffness(double phase, double* k) const
   {
-    const Stiffness2 s =
+    const Slopes2 s =
         bearing.reaction(Direction::of(cage_ratio * phase), at(phase)).stiffness;
     Eigen::Matrix2d joint;
     joint << s.xx, s.xy, s.xy, s.yy;
@@ -178,6 +178,8 @@ PeriodicStiffness stiffness_along(const Parameters& parameters,
                                   const PeriodicMotion& motion)
 {
   const Bearing& bearing = parameters.bearing;
+  if (!bearing.is_plain())
+    throw NoSolution("multipliers along a series know no contact damping and no defect");
   const BearingAlong along{BallBearing(bearing), bearing.clearance,
                            bearing.cage_speed_ratio,
                            motion.x.reshaped(2, motion.x.size() / 2)};

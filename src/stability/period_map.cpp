@@ -27,18 +27,16 @@ int derivative(double t, const double y[], double dydt[], void* data)
   if (!variation.evaluations.pay()) return GSL_EBADFUNC;
   const double phase = system.omega() * t;
   const State state = state_of(Eigen::Map<const Vector8>(y));
-  const Direction cage = system.cage_direction(phase);
+  const Angles at = system.bearing().angles(phase);
   const BearingReaction bearing =
-      system.bearing().reaction(cage, state.position.relative());
+      system.bearing().reaction(at, state.position.relative(), state.velocity.relative());
   Eigen::Map<Vector8> slopes(dydt);
   slopes =
-      vector_of({state.velocity, system.acceleration(state, system.rotor_direction(phase),
-                                                     bearing.force)});
+      vector_of({state.velocity, system.acceleration(state, at.rotor, bearing.force)});
 
   const Eigen::Map<const Disturbances> q(y + 8), v(y + 40);
   Eigen::Map<Disturbances>(dydt + 8) = v;
-  Eigen::Map<Disturbances>(dydt + 40) =
-      variation.rates.acceleration(bearing.stiffness, q, v);
+  Eigen::Map<Disturbances>(dydt + 40) = variation.rates.acceleration(bearing, q, v);
   return slopes.allFinite() ? GSL_SUCCESS : GSL_EBADFUNC;
 }
 
@@ -126,11 +124,11 @@ Varied operator*(double s, const Varied& a)
 PeriodMap Rk4PeriodMap::map(const State& start)
 {
   const auto acceleration = [&](const Varied& q, const Varied& v,
-                                const Rk4::Angles& at) -> Varied {
+                                const Angles& at) -> Varied {
     const BearingReaction bearing =
-        system_.bearing().reaction(at.cage, q.bodies.relative());
+        system_.bearing().reaction(at, q.bodies.relative(), v.bodies.relative());
     return {system_.acceleration({q.bodies, v.bodies}, at.rotor, bearing.force),
-            rates_.acceleration(bearing.stiffness, q.disturbances, v.disturbances)};
+            rates_.acceleration(bearing, q.disturbances, v.disturbances)};
   };
   Varied q{start.position, Disturbances::Zero()}, v{start.velocity, Disturbances::Zero()};
   q.disturbances.topRows<4>().setIdentity();

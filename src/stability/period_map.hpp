@@ -54,16 +54,26 @@ using Disturbances = Eigen::Matrix<double, 8, 4>;
 
 class DisturbanceRates {
 public:
-  explicit DisturbanceRates(const Parameters& p) : bodies_{of(p.stator), of(p.rotor)} {}
+  explicit DisturbanceRates(const Parameters& p)
+      : bodies_{of(p.stator), of(p.rotor)}, is_damped_(p.bearing.damping > 0)
+  {
+  }
 
-  /** Accelerations of the disturbances `q` and their speeds `v`, with the bearing's stiffness `s`
-      [N/m] at that instant of the motion. */
+  /** Accelerations of the disturbances `q` and their speeds `v`, with the bearing's reaction at that instant of the
+      motion. */
   template <class Q, class V>
-  Disturbances acceleration(const Stiffness2& s, const Q& q, const V& v) const
+  Disturbances acceleration(const BearingReaction& bearing, const Q& q, const V& v) const
   {
     using Eight = Eigen::Matrix<double, 8, 1>;
     const Eight u_x = q.col(2) - q.col(0), u_y = q.col(3) - q.col(1);
-    const Eight force[2] = {s.xx * u_x + s.xy * u_y, s.xy * u_x + s.yy * u_y};
+    const Slopes2& s = bearing.stiffness;
+    Eight force[2] = {s.xx * u_x + s.xy * u_y, s.yx * u_x + s.yy * u_y};
+    if (is_damped_) {
+      const Eight w_x = v.col(2) - v.col(0), w_y = v.col(3) - v.col(1);
+      const Slopes2& d = bearing.damping;
+      force[0] += d.xx * w_x + d.xy * w_y;
+      force[1] += d.yx * w_x + d.yy * w_y;
+    }
     Disturbances a;
     for (int i = 0; i < 4; ++i) {
       const Rates& body = bodies_[i / 2];
@@ -84,6 +94,7 @@ private:
   }
 
   Rates bodies_[2];
+  bool is_damped_;
 };
 
 /**

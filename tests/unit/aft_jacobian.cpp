@@ -70,6 +70,41 @@ TEST_CASE("AFT Jacobian of the bearing on chosen harmonics of two frequencies")
   CHECK(error.speed < 1e-6);
 }
 
+/** Catches a rate of the wrong sign or order, a cage that stands still, and a spall that does not turn. */
+TEST_CASE("AFT Jacobian of a bearing with contact damping and a spall")
+{
+  Parameters parameters = set_1();
+  parameters.bearing.damping = 8;
+  parameters.bearing.defect = {
+      .surface = Defect::Surface::inner_race, .depth = 2e-6, .width = 0.3, .place = 0.4};
+  SECTION("one frequency")
+  {
+    Balance balance(bearing_problem(parameters, 64), 5);
+    const Eigen::VectorXd x = 0.98 * quasi_static_start(parameters, hertz(16), 5);
+    const JacobianError error = jacobian_error(balance, x, hertz(16), 1e-10);
+    CHECK(error.unknowns < 1e-6);
+    CHECK(error.speed < 1e-6);
+    /** Its products, and the block of one harmonic. */
+    const Eigen::MatrixXd jacobian = balance.jacobian(x, hertz(16));
+    Eigen::VectorXd product(x.size());
+    balance.apply_jacobian(x, hertz(16), x, product);
+    CHECK((product - jacobian * x).norm() < 1e-12 * product.norm());
+    const RealBlock block = balance.diagonal_block(x, hertz(16), 3);
+    CHECK((block - jacobian.block(10, 10, 4, 4)).norm() < 1e-12 * block.norm());
+  }
+  SECTION("two frequencies")
+  {
+    parameters.bearing.cage_speed_ratio = 0.43;
+    const Harmonics kept = sidebands(parameters.bearing, 3, 1);
+    Balance balance(bearing_problem(parameters, line_without_images(kept, kept)), kept);
+    const Eigen::VectorXd x = project(0.98 * quasi_static_start(parameters, hertz(16), 3),
+                                      2, Harmonics(3), kept);
+    const JacobianError error = jacobian_error(balance, x, hertz(16), 1e-10);
+    CHECK(error.unknowns < 1e-6);
+    CHECK(error.speed < 1e-6);
+  }
+}
+
 TEST_CASE("AFT Jacobian of a two-mass oscillator with coupled forces")
 {
   const Oscillator oscillator = two_masses_cubic();

@@ -93,6 +93,25 @@ class Catalogue(Case):
         thirty = self.header('designation = "6206"\ninternal_clearance = "C4"')
         self.assertIn("C4, 23 to 41 um", thirty)
 
+    def test_refusals_of_damping_and_spalls(self):
+        def spall(**values):
+            values = {"surface": "'outer_race'", "depth_m": 1e-6, "width_rad": 0.2, **values}
+            return C3 + "\n[bearing.defect]\n" + "\n".join(f"{key} = {value}" for key, value in values.items())
+        for bearing, words in [
+                (C3 + "\ncontact_damping_s_per_m = -1", "contact_damping_s_per_m must be >= 0"),
+                (spall(surface="'cage'"), '"cage": must be "outer_race", "inner_race" or "ball"'),
+                (spall(depth_m=-1e-6), "depth_m must be >= 0"),
+                (spall(width_rad=0), "width_rad must be > 0"),
+                (spall(width_rad=0.7), "must not exceed the spacing of the balls 2 pi/n, 0.698131701 rad"),
+                (spall(surface="'ball'", width_rad=3.2), "must not exceed half a turn of the ball"),
+                (spall(surface="'ball'", ball=10), "bearing.defect.ball"),
+                (spall(ball=1), "bearing.defect.ball is not a known key"),
+                (BY_HAND.replace("pitch_diameter_m = 0.03904", "pitch_diameter_m = 1e300") +
+                 "\n[bearing.defect]\nsurface = 'ball'\ndepth_m = 0\nwidth_rad = 1", "1/2"),
+                (C3 + "\ndefect = 1", "bearing.defect")]:
+            with self.subTest(words):
+                self.refused_machine(words, machine(bearing))
+
     def test_refusals(self):
         ratios = "\n".join(BY_HAND.splitlines()[3:])
         for bearing, words in [

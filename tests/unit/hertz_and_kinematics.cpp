@@ -56,11 +56,51 @@ TEST_CASE("Eqs 4 to 6: a rotor pushed onto one ball meets that ball's Hertz forc
   CHECK(force.x == Approx(hertz_force(1e11, 5e-6) * cage.cos));
   CHECK(force.y == Approx(hertz_force(1e11, 5e-6) * cage.sin));
 
-  std::vector<double> q;
-  bearing.ball_forces(cage, u, q);
+  const auto q = bearing.ball_forces({{1, 0}, cage}, u, {0, 0});
   CHECK(q[0] == Approx(hertz_force(1e11, 5e-6)));
   CHECK(q[1] == 0);
   CHECK(q[2] == 0);
+}
+
+TEST_CASE("Hunt and Crossley: one ball, with the cage's turning, and never a pull")
+{
+  Bearing damped = bearing_with(4, 1e-5);
+  damped.damping = 3;
+  const double omega = 100, cage_speed = 50;
+  const BallBearing bearing(damped, omega);
+  const Vec2 u{1.5e-5, 2e-6};  // on ball 1, and along the race
+  const double rate = 0.01 + cage_speed * u.y;
+  const Angles at{{1, 0}, {1, 0}};
+  CHECK(bearing.force(at, u, {0.01, 0.2}).x ==
+        Approx(hertz_force(1e11, 5e-6) * (1 + 3 * rate)));
+  CHECK(bearing.force(at, u, {-0.5, 0}).x == 0);
+}
+
+TEST_CASE("A spall takes its depth from the ball over it, and nothing beyond its width")
+{
+  Bearing damaged = bearing_with(4, 1e-5);
+  const double width = 0.2, place = 0.7;
+  damaged.defect = {.depth = 2e-6, .width = width, .place = place};
+  /** Ball 1 in the spall's frame at this angle; the rotor is turned by 0.3. */
+  const auto loaded = [&](Defect::Surface surface, double angle) {
+    damaged.defect.surface = surface;
+    const BallBearing bearing(damaged, 100);
+    const bool is_inner = surface == Defect::Surface::inner_race;
+    const double ball =
+        surface == Defect::Surface::ball ? 0.1 : angle + place + (is_inner ? 0.3 : 0);
+    const Direction to = Direction::of(ball);
+    const Angles at{Direction::of(0.3), to, Direction::of(angle + place)};
+    return bearing.ball_forces(at, {1.5e-5 * to.cos, 1.5e-5 * to.sin}, {0, 0})[0];
+  };
+  using enum Defect::Surface;
+  for (const auto surface : {outer_race, inner_race, Defect::Surface::ball}) {
+    CHECK(loaded(surface, 0) == Approx(hertz_force(1e11, 3e-6)));
+    CHECK(loaded(surface, width / 4) == Approx(hertz_force(1e11, 4.5e-6)));
+    CHECK(loaded(surface, 0.51 * width) == Approx(hertz_force(1e11, 5e-6)));
+    CHECK(loaded(surface, 1.5) == Approx(hertz_force(1e11, 5e-6)));
+  }
+  CHECK(loaded(Defect::Surface::ball, std::numbers::pi) ==
+        Approx(hertz_force(1e11, 3e-6)));  // the other race
 }
 
 TEST_CASE(

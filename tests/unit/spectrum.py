@@ -101,6 +101,35 @@ class Spectrum(Case):
             np.testing.assert_allclose(two[name] / one[name], 2, rtol=0.01, err_msg=name)
         np.testing.assert_allclose(two["BPFO"], still["BPFO"], rtol=1e-3)
 
+    def test_spalls_stand_where_kinematics_says(self):
+        """A light rotor, always on its balls; what is new beside the same machine without a spall."""
+        cage = 0.41
+        text = with_cage(cage, unbalance_kg_m=1e-4, radial_clearance_m=0)
+        whole = self.by_name(self.spectrum(text, 30, "--method", "rk8pd", "--longest", 8))
+        size = max(whole["BPFO"])
+        for surface, line, sidebands in [("outer_race", "2BPFO", []), ("inner_race", "BPFI", ["BPFI-1X", "BPFI+1X"]),
+                                         ("ball", "2BSF", ["2BSF-FTF", "2BSF+FTF"])]:
+            for depth in (1e-6, 0):
+                with self.subTest(surface=surface, depth=depth):
+                    spall = f"\n[bearing.defect]\nsurface = '{surface}'\ndepth_m = {depth}\nwidth_rad = 0.2\nangle_rad = -1.5\n"
+                    table = self.spectrum(text + spall, 30, "--method", "rk8pd", "--longest", 8)
+                    self.assertIn(f"defect: {surface.replace('_', ' ')}", table.header)
+                    found = self.by_name(table)
+                    new = [name for name in [line, *sidebands]
+                           if np.abs(found.get(name, 0) - whole.get(name, 0)).max() > 1e-4 * size]
+                    self.assertEqual(new, [line, *sidebands] if depth else [])
+
+    def test_spalls_of_races_by_harmonic_balance_and_shooting(self):
+        text = MACHINE + "\n[bearing.defect]\nsurface = 'inner_race'\ndepth_m = 1e-6\nwidth_rad = 0.3\n"
+        exact = self.by_name(self.spectrum(text, 45, "--method", "rk8pd"))
+        size = max(exact["1X"])
+        for method in (["--method", "shooting"], ["--tolerance", 1e-4]):
+            other = self.by_name(self.spectrum(text, 45, *method))
+            for name in ["1X", "2X", "3X", "BPFO"]:
+                np.testing.assert_allclose(other[name], exact[name], atol=1e-4 * size, err_msg=name)
+        self.refused("third frequency", "orbit", self.file("ball.toml", text.replace("inner_race", "ball").replace(
+            "cage_speed_ratio = 0.5", "cage_speed_ratio = 0.4")), "--frequency", 45)
+
     def test_against_a_transform_of_what_orbit_prints(self):
         """25 turns of n c = 6.88 close: numpy's transform has a bin for each line, with neither window nor least squares."""
         for cage, turns, options in [(0.43, 25, ["--method", "rk8pd"]),

@@ -111,7 +111,14 @@ TEST_CASE("The multipliers of Mathieu's equation: product and trace as tabulated
 
 TEST_CASE("The derivative of the period map is that of its differences")
 {
-  const Parameters parameters = set_1();
+  Parameters parameters = set_1();
+  SECTION("Hertz") {}
+  SECTION("with contact damping and a spall that turns")
+  {
+    parameters.bearing.damping = 5;
+    parameters.bearing.defect = {
+        .surface = Defect::Surface::inner_race, .depth = 2e-6, .width = 0.3};
+  }
   const auto solution = solution_at(parameters, 45, 32);
   const Vector8 y = vector_of(state_of(solution)), sizes = state_scales(parameters);
   const auto map = [&](const Vector8& at) {
