@@ -80,6 +80,16 @@ def explore(*words):
     return result
 
 
+def print_header(title, tables, *notes):
+    """The `#` lines of a table made from others: what it is, their source and compiler, the parameters of each, notes."""
+    lines = [table.header.split("\n") for table in tables]
+    print(f"# {title}", *lines[0][1:3], sep="\n")
+    for part in lines:
+        print(*(line for line in part if line.startswith(("# parameters: ", "#   "))), sep="\n")
+    for note in notes:
+        print(f"# {note}")
+
+
 def print_columns(columns):
     """The lines that say what the columns are, (name, unit, meaning) each, and the row of names."""
     for name, unit, meaning in columns:

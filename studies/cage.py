@@ -18,7 +18,7 @@ from pathlib import Path
 
 import numpy as np
 
-sys.path.insert(0, str(Path(__file__).parents[1] / "figures"))
+sys.path.insert(1, str(Path(__file__).parents[1] / "figures"))
 from tables import Table, explore, print_columns  # noqa: E402
 
 MEASURED = ["amplitude", "contact_share", "ball_load"]

@@ -5,7 +5,7 @@ Usage: studies/clearance_stiffness.py MAP.tsv > clearance_stiffness.tsv
 import sys
 from pathlib import Path
 
-sys.path.insert(0, str(Path(__file__).parents[1] / "figures"))
+sys.path.insert(1, str(Path(__file__).parents[1] / "figures"))
 from tables import Table, print_columns  # noqa: E402
 
 COLUMNS = [

@@ -23,7 +23,7 @@ from pathlib import Path
 
 import numpy as np
 
-sys.path.insert(0, str(Path(__file__).parents[1] / "figures"))
+sys.path.insert(1, str(Path(__file__).parents[1] / "figures"))
 from tables import Table, explore, print_columns  # noqa: E402
 
 PARAMETERS = [("mass", "mass_kg", "kg"), ("mass_ratio", "mass_ratio", "-"), ("cage_ratio", "cage_ratio", "-"),

@@ -15,7 +15,7 @@ import tomllib
 from concurrent.futures import ThreadPoolExecutor
 from pathlib import Path
 
-sys.path.insert(0, str(Path(__file__).parents[1] / "figures"))
+sys.path.insert(1, str(Path(__file__).parents[1] / "figures"))
 from tables import Table, explore, print_columns  # noqa: E402
 
 AMPLITUDES = ("amp_x_s", "amp_y_s", "amp_x_r", "amp_y_r")

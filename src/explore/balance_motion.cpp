@@ -1,5 +1,6 @@
 #include "explore/balance_motion.hpp"
 
+#include <algorithm>
 #include <cmath>
 
 #include "balance/fourier_transform.hpp"
@@ -22,7 +23,7 @@ void note_verdict(Table& table, const motion::Verdict& verdict, int turns,
     table.note("stability: undecided; " + verdict.reason);
   if (verdict.distance > 0)
     table.note(
-        format("distance: %.2g of the largest displacement, %.2g rms about the mean",
+        format("distance: %.3g of the largest displacement, %.3g rms about the mean",
                verdict.distance, verdict.distance_rms));
   if (verdict.distance_rms > 0.1)
     table.note(
@@ -220,6 +221,8 @@ PeriodicMotion solution_of(const Parameters& parameters, const MotionRequest& re
       at.motion.harmonics.count() / turns, at.motion.samples / turns,
       is_chosen ? level_tolerance(settings_of(request)) : request.newton_tolerance));
   table.note("newton: from " + at.motion.start + ", " + at.motion.newton.reason());
+  table.note(format("cost: %ld evaluations of the force times N",
+                    std::max(at.force_samples, at.motion.force_samples)));
   if (turns > 1)
     table.note(
         format("error: %.2g of the largest displacement or rms about the mean, "
@@ -227,7 +230,7 @@ PeriodicMotion solution_of(const Parameters& parameters, const MotionRequest& re
                at.motion.error->larger()));
   else if (request.tolerance)
     table.note(
-        format("error: %.2g of the largest displacement, %.2g rms about the mean, "
+        format("error: %.3g of the largest displacement, %.3g rms about the mean, "
                "estimated with m = %d, N = %d; tolerance %g",
                at.motion.error->displacement, at.motion.error->rms,
                at.motion.error->harmonics, at.motion.error->samples, *request.tolerance));

@@ -14,8 +14,9 @@ from pathlib import Path
 
 import numpy as np
 
-for folder in ("studies", "figures", "tests"):
+for folder in ("tests", "figures", "studies"):  # a study may be called like its figure
     sys.path.insert(0, folder)
+import adaptive  # noqa: E402
 import sensitivity  # noqa: E402
 from sensitivity_derivatives import derivative  # noqa: E402
 from stability import rows_of  # noqa: E402
@@ -134,6 +135,34 @@ class Sensitivity(unittest.TestCase):
         mean, error = sensitivity.mean_and_error(values)
         self.assertAlmostEqual(mean, 4.5)
         self.assertAlmostEqual(error, np.arange(10).std(ddof=1) / np.sqrt(10))
+
+
+class Adaptive(unittest.TestCase):
+    MACHINE = "data/set1.toml"
+
+    def test_errors_of_a_known_motion(self):
+        """Against a sine of 1 about 9: 0.05 more of it is 0.5 % of the largest displacement and 5 % about the mean; a
+        shift of 0.2 is 2 % and nothing about the mean. Would catch one norm alone, and a mean that counts."""
+        sine = np.sin(2 * np.pi * np.arange(64) / 64)
+        exact, larger, shifted = ({name: q for name in ("x_s", "y_s", "x_r", "y_r")}
+                                  for q in (9 + sine, 9 + 1.05 * sine, 9.2 + sine))
+        self.assertAlmostEqual(adaptive.error_of(larger, exact), 0.05)
+        self.assertAlmostEqual(adaptive.error_of(shifted, exact), 0.02)
+
+    def test_row(self):
+        """At 30 Hz the estimate is within what is asked of it, and no fixed m of the row does as well for half its cost;
+        what is not reached has no numbers. Would catch words of another line of the header."""
+        loose, lost = adaptive.rows_of(self.MACHINE, 30, [1e-3, 1e-8], 64)
+        self.assertTrue(loose["reached"] and 0.3 < loose["effectivity"] < 10 and loose["error"] < 1e-3, loose)
+        self.assertTrue(loose["error_fixed"] <= loose["error"] and loose["m_fixed"] > 0 and 0 < loose["ratio"] < 2, loose)
+        self.assertEqual((lost["reached"], lost["m"], lost["cost"], lost["ratio"]), (0, -1, -1, -1))
+
+    def test_another_motion(self):
+        """At 24 Hz shooting alone closes a mirrored motion; the solutions keep their own."""
+        row, = adaptive.rows_of(self.MACHINE, 24, [1e-2], 64)
+        self.assertLess(row["error"], 1e-3)
+        self.assertEqual(row["own_branch"], 0)
+        self.assertGreater(row["m_fixed"], 0)
 
 
 class Stability(unittest.TestCase):

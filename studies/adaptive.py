@@ -1,0 +1,138 @@
+"""Adaptive harmonics: what the error estimate is worth.
+
+Beside the paper: §3.3 asks how many harmonics are enough. Instead of a number of harmonics one may ask for an error. The
+balance then adds harmonics until its own estimate of the error is below the tolerance. Two things can go wrong: the estimate
+may promise more than it keeps, and the search may cost more than it saves. This table looks at both, at the speeds of both
+data sets where the motion is T-periodic.
+
+Panel (a) of the figure divides the estimate by the true error, the distance to the exact periodic motion found by shooting:
+on the line the estimate is right, below it it is too hopeful; the grey band is what is asked of it. Panel (b) divides the
+cost by that of the cheapest fixed number of harmonics that does as well, a number that nobody knows beforehand: above one is
+what not knowing costs, and the line at two is what it may cost. Panels (c) and (d) show the number chosen, speed by speed; a
+cross is a tolerance that was not reached.
+
+Each error is the larger of the largest difference over the largest displacement and the rms about the mean. Where shooting
+from its own starts closes none of the solutions' motions, a solution with four times as many harmonics as the ladder has stands
+for the exact motion; where the exact motion is not a solution's own, the distance that its verdict prints is the error.
+
+Usage: studies/adaptive.py data/scenes/adaptive.toml > adaptive.tsv   (from the project's root)
+"""
+import os
+import re
+import sys
+import tomllib
+from concurrent.futures import ThreadPoolExecutor
+from pathlib import Path
+
+import numpy as np
+
+sys.path.insert(1, str(Path(__file__).parents[1] / "figures"))
+from tables import Table, explore, print_columns, print_header  # noqa: E402
+
+POINTS = 2048
+FAR = 10  # times the estimate: another motion
+COLUMNS = [
+    ("set", "-", "data set"), ("f", "Hz", "speed of rotation"), ("tolerance", "-", "wanted error of displacement"),
+    ("reached", "-", "1 when the estimate is below the tolerance"),
+    ("m", "-", "harmonics chosen; -1 when the tolerance was not reached"), ("N", "-", "samples chosen; -1 likewise"),
+    ("estimate", "-", "estimated error of displacement; -1 likewise"),
+    ("error", "-", "distance to the exact periodic motion; -1 when none was found"),
+    ("effectivity", "-", "estimate over error; -1 without error"),
+    ("own_branch", "-", "1: against another exact motion than the other tolerances"),
+    ("searched", "-", "1: quasi-static contact was no start; the search is not in the cost"),
+    ("cost", "-", "evaluations of the force times samples; -1 when the tolerance was not reached"),
+    ("m_fixed", "-", "cheapest fixed m with at most that error; -1 when none"), ("error_fixed", "-", "its error"),
+    ("cost_fixed", "-", "its cost"), ("ratio", "-", "cost over that of the fixed m")]
+
+
+def orbit(machine, speed, *options):
+    """The orbit; None without a solution."""
+    result = explore("orbit", machine, "--frequency", speed, "--columns", "x_s,y_s,x_r,y_r", *options)
+    return Table.of(result.stdout) if result.returncode == 0 else None
+
+
+def said(table, pattern):
+    """The words of a header's line that a pattern has groups for; none where there is no such line."""
+    found = re.search(pattern, table.header)
+    return found.groups() if found else ()
+
+
+def samples(table):
+    return np.array([table[name] for name in ("x_s", "y_s", "x_r", "y_r")])
+
+
+def error_of(solution, exact):
+    """The larger of both norms."""
+    a, b = samples(solution), samples(exact)
+    centred = [q - q.mean(axis=1, keepdims=True) for q in (a, b)]
+    return max(abs(a - b).max() / abs(b).max(), np.linalg.norm(centred[0] - centred[1]) / np.linalg.norm(centred[1]))
+
+
+def over(a, b):
+    return a / b if a > 0 and b > 0 else -1
+
+
+def chosen(machine, speed, tolerance, exact):
+    """The cells for one tolerance, but for the first three and the fixed m."""
+    row = dict.fromkeys((name for name, *_ in COLUMNS[3:]), -1) | {"reached": 0, "own_branch": 0, "searched": 0}
+    solution = orbit(machine, speed, "--tolerance", tolerance, "--points", POINTS)
+    if solution is None:
+        return row
+    m, n = said(solution, r"# method: aft, m = (\d+), N = (\d+)")
+    start, = said(solution, r"# newton: from (.*?), ")
+    row |= {"reached": 1, "m": int(m), "N": int(n), "searched": int(start != "quasi-static contact"),
+            "estimate": max(map(float, said(solution, r"# error: (\S+) of .*?, (\S+) rms"))),
+            "cost": float(*said(solution, r"# cost: (\d+)"))}
+    if exact is not None:
+        row["error"] = error_of(solution, exact)
+    if exact is None or row["error"] > FAR * row["estimate"]:
+        own = max(map(float, said(solution, r"# distance: (\S+) of .*?, (\S+) rms")), default=-1)
+        if own > 0 and (exact is None or own < row["error"]):
+            row |= {"error": own, "own_branch": 1}
+    return row | {"effectivity": over(row["estimate"], row["error"])}
+
+
+def add_best_fixed(machine, speed, exact, most, rows):
+    """The cheapest m of a ladder whose error is that of the row at most; the ladder ends with the first m that is as
+    accurate as all rows want."""
+    compared = [row for row in rows if row["error"] > 0 and not row["own_branch"]]
+    least, error, m = min((row["error"] for row in compared), default=1), 2, 4
+    while m <= most and error > least:
+        fixed = orbit(machine, speed, "--harmonics", m, "--points", POINTS, "--no-stability")
+        if fixed is not None and said(fixed, r"# newton: from (.*?), ") == ("quasi-static contact",):
+            error, cost = error_of(fixed, exact), float(*said(fixed, r"# cost: (\d+)"))
+            for row in compared:
+                if error <= row["error"] and (row["m_fixed"] < 0 or cost < row["cost_fixed"]):
+                    row |= {"m_fixed": m, "error_fixed": error, "cost_fixed": cost, "ratio": over(row["cost"], cost)}
+        m += max(1, m // 7)
+
+
+def rows_of(machine, speed, tolerances, most):
+    """The rows of one speed."""
+    exact = orbit(machine, speed, "--method", "shooting", "--local-error", 1e-12, "--points", POINTS, "--no-stability")
+    rows = [chosen(machine, speed, tolerance, exact) for tolerance in tolerances]
+    if all(row["own_branch"] for row in rows if row["reached"]):  # shooting found another motion, or none
+        exact = orbit(machine, speed, "--harmonics", 4 * most, "--points", POINTS, "--no-stability")
+        rows = [chosen(machine, speed, tolerance, exact) for tolerance in tolerances]
+    if exact is not None:
+        add_best_fixed(machine, speed, exact, most, rows)
+    return rows
+
+
+def main(file):
+    scene = tomllib.loads(Path(file).read_text(encoding="utf-8"))
+    machines = [f"data/{name}.toml" for name in scene["parameters"]]
+    speeds = [(number, speed) for number in range(1, len(machines) + 1) for speed in scene[f"speeds_of_set_{number}_hz"]]
+    tolerances, most = scene["tolerances"], scene["most_fixed_harmonics"]
+    with ThreadPoolExecutor(os.cpu_count()) as pool:
+        found = list(pool.map(lambda at: rows_of(machines[at[0] - 1], at[1], tolerances, most), speeds))
+    print_header("Error estimate, true error and cost of the adaptive number of harmonics", [Table.of(explore("check", machine).stdout) for machine in machines],
+                 f"modelled: harmonic balance; exact motions by shooting; fixed m up to {most}")
+    print_columns(COLUMNS)
+    for (number, speed), rows in zip(speeds, found):
+        for tolerance, row in zip(tolerances, rows):
+            print("\t".join(f"{cell:.12g}" for cell in (number, speed, tolerance, *row.values())))
+
+
+if __name__ == "__main__":
+    main(*sys.argv[1:])
