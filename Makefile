@@ -142,6 +142,8 @@ data/generated/%.tsv: build/$$(*F) data/scenes/$$(*F).toml $$(parameters) $$(att
 data/generated/sensitivity_derivatives.tsv: figures/sensitivity_derivatives.py data/reference/sensitivity.tsv $(python_tables)
 	$(whole) $(PYTHON) $(wordlist 1,2,$^) > $$new; mv $$new $@
 
+data/generated/identification.tsv: data/claims.toml data/set1-as-printed.toml data/set2-as-printed.toml
+
 # Studies by explore. Snakemake deals the lines of a map to jobs, and keeps the shards that are done.
 $(scripted:%=data/generated/%.tsv): data/generated/%.tsv: studies/%.py data/scenes/%.toml $$(parameters) build/explore
 	$(whole) $(PYTHON) $(wordlist 1,2,$^) > $$new; mv $$new $@

@@ -174,7 +174,7 @@ def judged(add):
                          f"{(known['machine_stable'] == 0).sum()} of them unstable; {'; '.join(words)}.")
     add("verdicts.list", r"\n".join(lines), "-", "false verdicts by the multipliers of m harmonics")
     add("verdicts.speeds", len(np.unique(table["f"])), "-", "speeds of each set")
-    add("verdicts.hill", tomllib.loads(Path("data/scenes/verdicts.toml").read_text())["hill_harmonics"][-1], "-",
+    add("verdicts.hill", int(re.search(r"Hill's method with m harmonics, at most (\d+)", table.header)[1]), "-",
         "largest number of harmonics of Hill's method")
     add("verdicts.solutions", len(found), "-", "solutions judged")
     add("verdicts.decided", (found["machine_stable"] >= 0).mean(), "-", "share with a verdict on the machine")

@@ -126,7 +126,8 @@ def main(file):
     tolerances, most = scene["tolerances"], scene["most_fixed_harmonics"]
     with ThreadPoolExecutor(os.cpu_count()) as pool:
         found = list(pool.map(lambda at: rows_of(machines[at[0] - 1], at[1], tolerances, most), speeds))
-    print_header("Error estimate, true error and cost of the adaptive number of harmonics", [Table.of(explore("check", machine).stdout) for machine in machines],
+    print_header("Error estimate, true error and cost of the adaptive number of harmonics",
+                 [Table.of(explore("check", machine).stdout) for machine in machines],
                  f"modelled: harmonic balance; exact motions by shooting; fixed m up to {most}")
     print_columns(COLUMNS)
     for (number, speed), rows in zip(speeds, found):

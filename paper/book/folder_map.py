@@ -1,7 +1,7 @@
 """The folders of src/ as a drawing: one below the other, in the order in which they may include, with an
 arc wherever one includes another, as thick as the number of includes."""
 ORDER = ["io", "model", "balance", "continuation", "integration", "stability", "motion", "figures",
-         "truth", "costs", "studies", "deviations", "hard", "explore", "programs"]
+         "truth", "costs", "deviations", "hard", "explore", "programs"]
 WIDTH, HEIGHT, STEP, REACH = 190, 24, 30, 190
 
 

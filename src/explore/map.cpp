@@ -21,7 +21,9 @@
 #include "motion/adaptive.hpp"
 #include "motion/contact.hpp"
 #include "motion/other_starts.hpp"
+#include "motion/regime.hpp"
 #include "motion/verdict.hpp"
+#include "stability/hill.hpp"
 
 namespace rotor_stator::explore {
 
@@ -31,7 +33,8 @@ const char* const script = "map.py";
 const char* const speed = "frequency";  // the key that no parameter file has
 constexpr int instants = 512, swept_instants = 128, timed_instants = 64;  // of a period
 constexpr int most_points = 10'000'000;
-constexpr double seconds = 5;  // that a point may take, about
+constexpr int most_of_hill = 32;  // harmonics of a disturbance
+constexpr double seconds = 5;     // that a point may take, about
 
 /**
 ## Where the points are */
@@ -200,6 +203,11 @@ struct Swept {
   double ball_load = 0;                    ///< [N]
 };
 
+/** The motion that rk4 settles on from a periodic solution or, where Newton finds none, from the static load. */
+struct Settled : motion::Regime {
+  motion::Motion motion;
+};
+
 class Point {
 public:
   /** `before`: the solution at the point before on the line, which becomes that of this one. */
@@ -262,6 +270,14 @@ public:
         .value;
   }
 
+  /** [Hz] */
+  double force_balance() const
+  {
+    const auto speeds = equal_force_speeds(machine, 2 * joint_resonance(machine));
+    if (speeds.empty()) throw NoSolution("the unbalance never lifts the static load");
+    return speeds.front() / angular(1);
+  }
+
   int missed() { return static_cast<int>(task_.sweep.size()) - swept().solved; }
 
   double mean()
@@ -283,9 +299,59 @@ public:
     return verdict().floquet;
   }
 
+  /** What the m harmonics say of themselves. */
+  const Floquet& series()
+  {
+    return series_([&] { return rotor_stator::floquet(machine, solution()); });
+  }
+
+  /** The largest multiplier by Hill's method: of the two best choices of exponents, that of least |Im lambda|. */
+  double hill()
+  {
+    const int harmonics = std::min(solution().harmonics.count(), most_of_hill);
+    return std::abs(hill_multipliers(vibration_of(machine),
+                                     stiffness_along(machine, solution()), 1 / frequency,
+                                     harmonics, HillChoice::least_imaginary)
+                        .front());
+  }
+
   const SettledMotion& settled()
   {
     return settled_([&] { return settled_from_rest(machine, frequency, budget_); });
+  }
+
+  const Settled& regime()
+  {
+    return regime_([&] {
+      const double longest = task_.request.longest, step = task_.request.step;
+      const motion::RegimeSettings settings{
+          .step_over_default = step > 0 ? step / default_step(machine) : 2,
+          .longest = longest,
+          .window = longest / 10,
+          .average = 2 * longest,
+          .points_per_period = timed_instants};
+      const SteadyState steady = motion::settled_motion(machine, frequency, settings);
+      return Settled{motion::regime_of(machine, frequency, {steady}, settings),
+                     motion::motion_of(steady, timed_instants)};
+    });
+  }
+
+  /** Of the solution with m harmonics that Newton finds from the settled motion, or from the quasi-static contact where
+      that is nearer: rms about the mean; 2 where there is none. */
+  double error_near(int m)
+  {
+    if (!regime().periodic) throw NoSolution("the settled motion is not T-periodic");
+    motion::Motion truth = regime().motion;
+    truth.positions.resize(timed_instants);
+    const auto error = [&](const PeriodicMotion& at) {
+      return at.found()
+                 ? motion::rms_difference(
+                       motion::motion_of(body_series(machine, at), timed_instants), truth)
+                 : 2;
+    };
+    Balance balance(bearing_problem(machine, default_samples(m)), m);
+    const double near = error(solve(balance, omega(), motion::relative_series(truth, m)));
+    return std::min(near, error(motion::find_near_contact({machine, omega(), m})));
   }
 
   const Swept& swept()
@@ -368,7 +434,9 @@ private:
   Once<AdaptiveMotion> chosen_;
   Once<motion::Motion> motion_;
   Once<motion::Verdict> verdict_;
+  Once<Floquet> series_;
   Once<SettledMotion> settled_;
+  Once<Settled> regime_;
   Once<Swept> swept_;
 };
 
@@ -384,14 +452,32 @@ double largest_force(Point& point)
 }
 
 /** What a quantity is taken from: a solution of harmonic balance, or the motion of any method, or the motion from
-    rest as `explore attractors` finds it, all at one speed; or the speeds of --sweep. */
-enum Source { solution, motion_of_method, rest, sweeps };
+    rest as `explore attractors` finds it, or that of rk4 from a solution, all at one speed; or the speeds of --sweep. */
+enum Source { solution, motion_of_method, rest, settled, sweeps };
 
 struct Quantity : Column {
   Source source;
   Cell (*value)(Point& point);
 };
 
+template <auto measure>
+Cell settled_measure(Point& p)
+{
+  return p.regime().*measure;
+}
+
+template <int m>
+Quantity error_near()
+{
+  return {{format("error_%d", m), "-",
+           m > 6 ? ""
+                 : "of the nearest solution with so many harmonics from the settled "
+                   "motion, rms about the mean; 2 where there is none"},
+          settled,
+          [](auto& p) -> Cell { return p.error_near(m); }};
+}
+
+using Measures = motion::RegimeMeasures;
 const std::vector<Quantity> quantities{
     {"amplitude", "m", "half peak-to-peak of x_r", motion_of_method,
      [](auto& p) -> Cell { return p.amplitude(); }},
@@ -427,6 +513,23 @@ const std::vector<Quantity> quantities{
      [](auto& p) -> Cell { return p.settled().period; }},
     {"multiplier", "-", "largest modulus of the multipliers behind stability", solution,
      [](auto& p) -> Cell { return p.floquet().largest(); }},
+    {"uncertainty", "-", "of multiplier", solution,
+     [](auto& p) -> Cell { return p.floquet().uncertainty(); }},
+    {"distance", "-",
+     "of the solution from the motion behind stability, rms about the mean", solution,
+     [](auto& p) -> Cell { return p.floquet(), p.verdict().distance_rms; }},
+    {"evaluations", "-", "of the force, for the verdict of stability", solution,
+     [](auto& p) -> Cell { return p.verdict().evaluations; }},
+    {"series", "-", "largest modulus of the multipliers along the m harmonics", solution,
+     [](auto& p) -> Cell { return p.series().largest(); }},
+    {"series_uncertainty", "-", "of series", solution,
+     [](auto& p) -> Cell { return p.series().uncertainty(); }},
+    {"series_stability", "word", "what they say: stable, unstable, undecided", solution,
+     [](auto& p) -> Cell { return std::string(p.series().verdict()); }},
+    {"liouville", "-", "relative error of the product of the multipliers of series",
+     solution, [](auto& p) -> Cell { return p.series().liouville; }},
+    {"hill", "-", "largest modulus by Hill's method, with m harmonics but at most 32",
+     solution, [](auto& p) -> Cell { return p.hill(); }},
     {"lyapunov", "1/base period", "largest Lyapunov exponent of the motion from rest",
      rest, [](auto& p) -> Cell { return p.settled().lyapunov; }},
     {"loaded", "-", "share of the time of the motion from rest with a loaded ball", rest,
@@ -436,7 +539,38 @@ const std::vector<Quantity> quantities{
     {"error", "-",
      "of the solution, the larger of the largest displacement's and the rms about the mean, estimated with more "
      "harmonics or, where that does not settle, against the motion behind stability",
-     solution, [](auto& p) -> Cell { return p.error(); }}};
+     solution, [](auto& p) -> Cell { return p.error(); }},
+    {"periodic", "-",
+     "1 if rk4 from the solution, or from the static load, settles on the period of "
+     "rotation; of this settled motion:",
+     settled, [](auto& p) -> Cell { return p.regime().periodic; }},
+    {"settled_contact", "-", "share of the time with at least one loaded ball", settled,
+     settled_measure<&Measures::contact>},
+    {"turns", "-", "turns of the bearing's force per period", settled,
+     settled_measure<&Measures::turns>},
+    {"higher_harmonics", "-", "rms of harmonics 2 and above over the first", settled,
+     settled_measure<&Measures::all>},
+    {"passed_once", "-",
+     "share of pairs of periods in which every ball is loaded exactly once", settled,
+     settled_measure<&Measures::passed_once>},
+    {"passages", "-", "times a ball is loaded in two periods, mean over the balls",
+     settled, settled_measure<&Measures::passages>},
+    {"loaded_arc", "rad", "mean over time of the loaded arc", settled,
+     settled_measure<&Measures::loaded_arc>},
+    {"settled_load", "N", "largest force on a ball in two periods", settled,
+     settled_measure<&Measures::largest_force>},
+    {"settled_amplitude", "m", "half peak-to-peak of x_r", settled,
+     settled_measure<&Measures::amp_x_r>},
+    error_near<6>(),
+    error_near<7>(),
+    error_near<8>(),
+    error_near<9>(),
+    error_near<10>(),
+    error_near<12>(),
+    error_near<16>(),
+    {"force_balance", "Hz",
+     "speed at which the unbalance lifts the static load, at u = 0", settled,
+     [](auto& p) -> Cell { return p.force_balance(); }}};
 
 std::vector<Quantity> chosen_quantities(const Task& task)
 {
@@ -462,7 +596,8 @@ std::vector<Quantity> chosen_quantities(const Task& task)
         chosen, [&](const Quantity& q) { return ((q.source == sources) || ...); });
     return one == chosen.end() ? std::string() : one->name;
   };
-  const std::string swept = of(sweeps), here = of(solution, motion_of_method, rest);
+  const std::string swept = of(sweeps),
+                    here = of(solution, motion_of_method, rest, settled);
   const bool has_speed = task.request.frequency || task.has_speed();
   if (!swept.empty() && task.sweep.empty())
     throw BadInput("--sweep: is missing, the speeds of " + swept);
@@ -476,6 +611,9 @@ std::vector<Quantity> chosen_quantities(const Task& task)
       task.request.method != "aft" && !balanced.empty())
     throw BadInput("--method " + task.request.method + ": " + balanced +
                    " is of harmonic balance, aft");
+  if (const std::string timed = of(settled);
+      task.request.method != "rk4" && !timed.empty())
+    throw BadInput("--method " + task.request.method + ": " + timed + " is of rk4");
   return chosen;
 }
 

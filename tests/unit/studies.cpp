@@ -1,4 +1,4 @@
-/** Regimes, the judgement of a candidate, and pieces of work on several threads. */
+/** Regimes, and pieces of work on several threads. */
 #include <atomic>
 #include <cmath>
 #include <numbers>
@@ -6,40 +6,12 @@
 
 #include "io/parallel.hpp"
 #include "motion/contact.hpp"
-#include "studies/identification.hpp"
+#include "motion/regime.hpp"
 #include "support/cases.hpp"
 
 using namespace rotor_stator;
-using namespace rotor_stator::studies;
 using namespace rotor_stator::motion;
 using namespace rotor_stator::tests;
-
-/** Would catch a wrong mass ratio, an interval that is typed, and one of another end: the ends are put back into the
-    force of the rigid joint, and the mass for 13.4 Hz is inside. */
-TEST_CASE(
-    "The accepted masses have gravity and unbalance equal at the ends of the transition")
-{
-  const Parameters base = set_1();
-  const double joint = angular(50);
-  const Interval masses = accepted_masses(base, joint, {angular(10), angular(19)});
-  for (auto [mass, frequency] : {std::pair{masses.from, 10.0}, {masses.to, 19.0}}) {
-    const Parameters machine = with_masses(base, mass, joint);
-    CHECK(joint_resonance(machine) == Approx(joint));
-    const Vec2 still = rigid_joint_force(machine, 0, 0);
-    const Vec2 turned = rigid_joint_force(machine, angular(frequency), 0);
-    CHECK(std::hypot(turned.x, turned.y - still.y) == Approx(std::abs(still.y)));
-  }
-  const Interval shown = accepted_masses(base, joint, {angular(13.4), angular(19)});
-  CHECK(shown.from == Approx(20.8).epsilon(0.01));
-  CHECK(masses.from < shown.from);
-  CHECK(shown.from < masses.to);
-}
-
-TEST_CASE("Of 16 balls that do not overlap, two cages have the period of rotation")
-{
-  CHECK(accepted_cages(16) == std::vector<double>{0.5, 0.4375});
-  CHECK(accepted_cages(3) == std::vector<double>{1.0 / 3});
-}
 
 /** The closed form knows nothing of clearance and Hertz's law. The narrower the clearance, the narrower is the
     band around it in which integration loses contact; below it gravity holds the force, above it the force turns with the rotor.

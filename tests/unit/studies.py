@@ -8,6 +8,7 @@ import shutil
 import signal
 import subprocess
 import sys
+import tempfile
 import time
 import unittest
 from pathlib import Path
@@ -17,7 +18,9 @@ import numpy as np
 for folder in ("tests", "figures", "studies"):  # a study may be called like its figure
     sys.path.insert(0, folder)
 import adaptive  # noqa: E402
+import identification  # noqa: E402
 import sensitivity  # noqa: E402
+import verdicts  # noqa: E402
 from sensitivity_derivatives import derivative  # noqa: E402
 from stability import rows_of  # noqa: E402
 from support.explore import EXPLORE, Case, Table  # noqa: E402
@@ -163,6 +166,78 @@ class Adaptive(unittest.TestCase):
         self.assertLess(row["error"], 1e-3)
         self.assertEqual(row["own_branch"], 0)
         self.assertGreater(row["m_fixed"], 0)
+
+
+class Verdicts(unittest.TestCase):
+    def test_rows(self):
+        """Of a solution that is judged, one without a motion near it, and none at all."""
+        names = verdicts.QUANTITIES
+        judged = verdicts.row(dict(zip(names, "0.9 1e-6 stable 0.01 5000 1.2 1e-7 unstable 1e-9 0.95".split())))
+        self.assertEqual(judged, "1 0.9 1e-6 1 0.01 5000 1.2 1e-7 0 1e-9 0.95 1".split())
+        alone = verdicts.row(dict(zip(names, "- - undecided - 5000 1.2 1e-7 undecided 1e-9 1.3".split())))
+        self.assertEqual(alone, "1 -1 -1 -1 -1 5000 1.2 1e-7 -1 1e-9 1.3 0".split())
+        none = verdicts.row(dict.fromkeys(names, "-"))
+        self.assertEqual(none, "0 -1 -1 -1 -1 0 -1 -1 -1 -1 -1 -1".split())
+        self.assertEqual(len(none) + 3, len(verdicts.COLUMNS))
+
+    def test_kept(self):
+        """The first two speeds anew, with the fewest harmonics. Would catch quantities in another order, and solutions
+        that start from their neighbours."""
+        kept = Table("data/reference/verdicts.tsv").where("set", 1).where("m", 6)
+        scene = Path("data/scenes/verdicts.toml").read_text(encoding="utf-8")
+        for old, new in [(", \"set2\"", ""), ("59.73", "1.73"), ("[6, 10, 24, 64]", "[6]")]:
+            self.assertIn(old, scene)
+            scene = scene.replace(old, new)
+        with tempfile.TemporaryDirectory() as folder:
+            file = Path(folder, "verdicts.toml")
+            file.write_text(scene, encoding="utf-8")
+            table = Table.of(subprocess.run([sys.executable, "studies/verdicts.py", file], capture_output=True, check=True,
+                                            text=True).stdout)
+        self.assertEqual(list(table.columns), list(kept.columns))
+        for name in ("f", "machine", "machine_stable", "distance", "series", "series_stable", "hill", "hill_stable"):
+            np.testing.assert_allclose(table[name], kept[name][:2], rtol=1e-4, err_msg=name)
+
+
+class Identification(unittest.TestCase):
+    def setUp(self):
+        self.base = identification.Base("data/set1.toml")
+
+    def test_masses(self):
+        """Those that lose contact at 10 and 19 Hz, put into the forces of the rigid joint: gravity and unbalance are equal
+        there; the masses resonate at 50 Hz; that for 13.4 Hz is between. Would catch a wrong ratio of the masses."""
+        gravity, unbalance = 9.81, 0.05
+        masses = [self.base.mass_losing_at(50, speed) for speed in (10, 13.4, 19)]
+        for mass, speed in zip(masses, (10, 13.4, 19)):
+            stator, rotor = self.base.masses(mass, 50)
+            k_s, k_r = stator * 500**2, rotor * 150**2
+            self.assertAlmostEqual(np.sqrt((k_s + k_r) / (stator + rotor)) / (2 * np.pi), 50)
+            omega = 2 * np.pi * speed
+            static = gravity * abs(rotor - k_r * (stator + rotor) / (k_s + k_r))
+            z_s = stator * (500**2 - omega**2 + 2j * 0.05 * 500 * omega)
+            z_r = rotor * (150**2 - omega**2 + 2j * 0.02 * 150 * omega)
+            self.assertAlmostEqual(abs(z_s / (z_s + z_r)) * unbalance * omega**2 / static, 1, delta=1e-5)
+        self.assertEqual(masses, sorted(masses))
+        self.assertAlmostEqual(masses[1], 20.8, delta=0.2)
+
+    def test_cages(self):
+        """Of 16 balls that do not overlap, two cages have the period of rotation."""
+        self.assertEqual(identification.accepted_cages(16), [0.5, 0.4375])
+        self.assertEqual(identification.accepted_cages(3), [1 / 3])
+
+    def test_kept(self):
+        """Three speeds of a machine anew, as in the kept table where the motion has the period of rotation. Would catch
+        quantities in another order."""
+        kept = Table("data/reference/identification.tsv")
+        kept = kept.where("m_s", kept["m_s"][0]).where("cage_speed_ratio", 0.4375).where("f_joint", 50).where("reading", 0)
+        speeds = {"from": 5.0, "to": 55.0, "step": 25.0}
+        machine = (50, (*self.base.masses(self.base.mass_losing_at(50, 10), 50), 0.4375))
+        _, rows = identification.rows_of(self.base, [machine], {"speeds_hz": speeds, "regime": {"longest_s": 5.0}})
+        for row in rows:
+            old = kept.where("set", 1).where("f", row[5])
+            self.assertEqual(row[6], old["periodic"][0])
+            if row[6]:
+                np.testing.assert_allclose(row, [old[name][0] for name, *_ in identification.COLUMNS[2:]], rtol=2e-4, atol=1e-7)
+        self.assertTrue(any(row[6] for row in rows))
 
 
 class Stability(unittest.TestCase):
