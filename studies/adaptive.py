@@ -75,7 +75,8 @@ def over(a, b):
 def chosen(machine, speed, tolerance, exact):
     """The cells for one tolerance, but for the first three and the fixed m."""
     row = dict.fromkeys((name for name, *_ in COLUMNS[3:]), -1) | {"reached": 0, "own_branch": 0, "searched": 0}
-    solution = orbit(machine, speed, "--tolerance", tolerance, "--points", POINTS)
+    asked = ["--tolerance", tolerance, "--budget", 1e12]
+    solution = orbit(machine, speed, *asked, "--points", POINTS, "--no-stability")
     if solution is None:
         return row
     m, n = said(solution, r"# method: aft, m = (\d+), N = (\d+)")
@@ -86,7 +87,8 @@ def chosen(machine, speed, tolerance, exact):
     if exact is not None:
         row["error"] = error_of(solution, exact)
     if exact is None or row["error"] > FAR * row["estimate"]:
-        own = max(map(float, said(solution, r"# distance: (\S+) of .*?, (\S+) rms")), default=-1)
+        judged = orbit(machine, speed, *asked, "--points", 2)
+        own = max(map(float, said(judged, r"# distance: (\S+) of .*?, (\S+) rms")), default=-1)
         if own > 0 and (exact is None or own < row["error"]):
             row |= {"error": own, "own_branch": 1}
     return row | {"effectivity": over(row["estimate"], row["error"])}
@@ -111,7 +113,8 @@ def rows_of(machine, speed, tolerances, most):
     """The rows of one speed."""
     exact = orbit(machine, speed, "--method", "shooting", "--local-error", 1e-12, "--points", POINTS, "--no-stability")
     rows = [chosen(machine, speed, tolerance, exact) for tolerance in tolerances]
-    if all(row["own_branch"] for row in rows if row["reached"]):  # shooting found another motion, or none
+    finest = [row["own_branch"] for row in rows if row["reached"]][-1:]
+    if finest == [1] or exact is None:  # shooting found another motion, or none
         exact = orbit(machine, speed, "--harmonics", 4 * most, "--points", POINTS, "--no-stability")
         rows = [chosen(machine, speed, tolerance, exact) for tolerance in tolerances]
     if exact is not None:
