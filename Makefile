@@ -73,7 +73,7 @@ scripted := $(filter $(scenes),$(basename $(notdir $(wildcard studies/*.py))))
 scripts := $(basename $(notdir $(wildcard figures/*.gp figures/*.py)))
 kept := $(filter-out claims,$(basename $(notdir $(wildcard data/reference/*.tsv))))
 kept_printed := $(filter-out claims,$(basename $(notdir $(wildcard data/reference/as-printed/*.tsv))))
-computed := $(filter-out $(kept),$(filter $(programs),$(scenes)))
+computed := $(filter-out $(kept),$(filter $(programs) $(scripted),$(scenes)))
 
 # The paper's figures and tables, and what its claims are judged by: in the printed reading too, if all data
 # sets of the scene have one (data/NAME-as-printed.toml beside data/NAME.toml).
@@ -144,8 +144,8 @@ data/generated/sensitivity_derivatives.tsv: figures/sensitivity_derivatives.py d
 
 data/generated/identification.tsv: data/claims.toml data/set1-as-printed.toml data/set2-as-printed.toml
 
-# Studies by explore. Snakemake deals the lines of a map to jobs, and keeps the shards that are done.
-$(scripted:%=data/generated/%.tsv): data/generated/%.tsv: studies/%.py data/scenes/%.toml $$(parameters) build/explore
+# Studies by explore: those without a kept table belong to `all`. Snakemake deals the lines of a map to jobs, and keeps the shards that are done.
+$(scripted:%=data/generated/%.tsv): data/generated/%.tsv: studies/%.py data/scenes/%.toml $$(parameters) build/explore figures/tables.py
 	$(whole) $(PYTHON) $(wordlist 1,2,$^) > $$new; mv $$new $@
 
 $(patsubst %,data/generated/%.tsv,$(filter $(kept),$(mapped))): data/generated/%.tsv: studies/%.yaml studies/Snakefile build/explore

@@ -80,6 +80,14 @@ def explore(*words):
     return result
 
 
+def displacement_errors(orbit, exact):
+    """Of two tables of `explore orbit` with the same points: the rms difference about the means over that of the exact one about
+    its mean, and the largest difference over the largest displacement."""
+    a, b = (np.array([table[name] for name in ("x_s", "y_s", "x_r", "y_r")]) for table in (orbit, exact))
+    centred = [q - q.mean(axis=1, keepdims=True) for q in (a, b)]
+    return np.linalg.norm(centred[0] - centred[1]) / np.linalg.norm(centred[1]), abs(a - b).max() / abs(b).max()
+
+
 def print_header(title, tables, *notes):
     """The `#` lines of a table made from others: what it is, their source and compiler, the parameters of each, notes."""
     lines = [table.header.split("\n") for table in tables]

@@ -24,10 +24,8 @@ import tomllib
 from concurrent.futures import ThreadPoolExecutor
 from pathlib import Path
 
-import numpy as np
-
 sys.path.insert(1, str(Path(__file__).parents[1] / "figures"))
-from tables import Table, explore, print_columns, print_header  # noqa: E402
+from tables import Table, displacement_errors, explore, print_columns, print_header  # noqa: E402
 
 POINTS = 2048
 FAR = 10  # times the estimate: another motion
@@ -57,17 +55,6 @@ def said(table, pattern):
     return found.groups() if found else ()
 
 
-def samples(table):
-    return np.array([table[name] for name in ("x_s", "y_s", "x_r", "y_r")])
-
-
-def error_of(solution, exact):
-    """The larger of both norms."""
-    a, b = samples(solution), samples(exact)
-    centred = [q - q.mean(axis=1, keepdims=True) for q in (a, b)]
-    return max(abs(a - b).max() / abs(b).max(), np.linalg.norm(centred[0] - centred[1]) / np.linalg.norm(centred[1]))
-
-
 def over(a, b):
     return a / b if a > 0 and b > 0 else -1
 
@@ -85,7 +72,7 @@ def chosen(machine, speed, tolerance, exact):
             "estimate": max(map(float, said(solution, r"# error: (\S+) of .*?, (\S+) rms"))),
             "cost": float(*said(solution, r"# cost: (\d+)"))}
     if exact is not None:
-        row["error"] = error_of(solution, exact)
+        row["error"] = max(displacement_errors(solution, exact))
     if exact is None or row["error"] > FAR * row["estimate"]:
         judged = orbit(machine, speed, *asked, "--points", 2)
         own = max(map(float, said(judged, r"# distance: (\S+) of .*?, (\S+) rms")), default=-1)
@@ -102,7 +89,7 @@ def add_best_fixed(machine, speed, exact, most, rows):
     while m <= most and error > least:
         fixed = orbit(machine, speed, "--harmonics", m, "--points", POINTS, "--no-stability")
         if fixed is not None and said(fixed, r"# newton: from (.*?), ") == ("quasi-static contact",):
-            error, cost = error_of(fixed, exact), float(*said(fixed, r"# cost: (\d+)"))
+            error, cost = max(displacement_errors(fixed, exact)), float(*said(fixed, r"# cost: (\d+)"))
             for row in compared:
                 if error <= row["error"] and (row["m_fixed"] < 0 or cost < row["cost_fixed"]):
                     row |= {"m_fixed": m, "error_fixed": error, "cost_fixed": cost, "ratio": over(row["cost"], cost)}

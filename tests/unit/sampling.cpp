@@ -5,7 +5,6 @@
 #include "balance/bearing_problem.hpp"
 #include "balance/newton.hpp"
 #include "costs/cost_growth.hpp"
-#include "costs/sampling.hpp"
 #include "motion/find_periodic.hpp"
 #include "support/cases.hpp"
 
@@ -176,24 +175,4 @@ TEST_CASE("Up to 64 harmonics the default N is 8m+1, and at least 32")
     CHECK(default_samples(m) == fast_transform_size(std::max(32, 8 * m + 1)));
   CHECK(default_samples(512) == 14580);
   CHECK(default_samples(4096) < (1 << 17) + (1 << 12));
-}
-
-TEST_CASE("Up to 64 harmonics the default N samples finer than the series is truncated")
-{
-  const Parameters set_2 = read_parameters(SOURCE_DIR "/data/set2.toml");
-  const SamplingScene scene{.harmonics = {6, 64},
-                            .samples_over_m = {3},
-                            .fine_over_m = 128,
-                            .reference_harmonics = 256};
-  std::vector<SamplingPoint> points;
-  for (const SamplingCase& at : {SamplingCase{1, set_1(), 6}, SamplingCase{2, set_2, 45}})
-    for (const SamplingPoint& point : sampling_errors(scene, at)) points.push_back(point);
-  REQUIRE(points.size() == 8);
-  for (const SamplingPoint& p : points) {
-    INFO("m = " << p.harmonics << ", N = " << p.samples);
-    REQUIRE(p.found);
-    if (p.samples != default_samples(p.harmonics)) continue;
-    CHECK(p.sampling.displacement < p.truncation.displacement);
-    CHECK(p.sampling.force < p.truncation.force);
-  }
 }

@@ -19,9 +19,11 @@ for folder in ("tests", "figures", "studies"):  # a study may be called like its
     sys.path.insert(0, folder)
 import adaptive  # noqa: E402
 import identification  # noqa: E402
+import sampling  # noqa: E402
 import sensitivity  # noqa: E402
 import verdicts  # noqa: E402
 from sensitivity_derivatives import derivative  # noqa: E402
+from tables import displacement_errors  # noqa: E402
 from stability import rows_of  # noqa: E402
 from support.explore import EXPLORE, Case, Table  # noqa: E402
 
@@ -149,8 +151,8 @@ class Adaptive(unittest.TestCase):
         sine = np.sin(2 * np.pi * np.arange(64) / 64)
         exact, larger, shifted = ({name: q for name in ("x_s", "y_s", "x_r", "y_r")}
                                   for q in (9 + sine, 9 + 1.05 * sine, 9.2 + sine))
-        self.assertAlmostEqual(adaptive.error_of(larger, exact), 0.05)
-        self.assertAlmostEqual(adaptive.error_of(shifted, exact), 0.02)
+        np.testing.assert_allclose(displacement_errors(larger, exact), (0.05, 0.005), rtol=1e-9)
+        np.testing.assert_allclose(displacement_errors(shifted, exact), (0, 0.02), atol=1e-12)
 
     def test_row(self):
         """At 30 Hz the estimate is within what is asked of it, and no fixed m of the row does as well for half its cost;
@@ -166,6 +168,25 @@ class Adaptive(unittest.TestCase):
         self.assertLess(row["error"], 1e-3)
         self.assertEqual(row["own_branch"], 0)
         self.assertGreater(row["m_fixed"], 0)
+
+
+class Sampling(unittest.TestCase):
+    SCENE = {"samples_over_m": [2, 3], "fine_over_m": 128, "reference_harmonics": 256}
+
+    def test_the_usual_number_samples_finer_than_the_series_is_truncated(self):
+        """Up to 64 harmonics; 2m+1 samples do not. Would catch errors of the wrong pair of orbits."""
+        for machine, speed in (("data/set1.toml", 6), ("data/set2.toml", 45)):
+            for m in (6, 64):
+                rows = np.array(sampling.rows_of(machine, speed, m, self.SCENE)[1])
+                usual, few = rows[rows[:, 2] == 1][0], rows[0]
+                self.assertEqual((usual[1], few[1]), (sampling.fast_size(8 * m + 1), sampling.fast_size(2 * m + 1)))
+                self.assertTrue((usual[5:7] < usual[8:10]).all(), (machine, m))
+                self.assertGreater(few[4], usual[4])
+
+    def test_fast_sizes(self):
+        """The even numbers without a factor above 7, up to 40."""
+        self.assertEqual(sorted({sampling.fast_size(k) for k in range(1, 41)}),
+                         [2, 4, 6, 8, 10, 12, 14, 16, 18, 20, 24, 28, 30, 32, 36, 40])
 
 
 class Verdicts(unittest.TestCase):
