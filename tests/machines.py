@@ -75,8 +75,8 @@ DESIGNATIONS = ["6002", "6203", "6204", "6205", "6206", "6207", "6208", "6209", 
 
 
 def of_another_kind(dice, machine):
-    """The machine with a rigid stator, a body that only the bearing carries, dampers, loads or a bearing from the
-    catalogue; values as likely as in `extreme_machine`."""
+    """The machine with a rigid stator, a body that only the bearing carries, dampers, loads, a bearing from the
+    catalogue, contact damping or a spall; values as likely as in `extreme_machine`."""
     def number(low, high):
         return decade(dice, *((-320, 308) if one_in(dice, 16) else (low, high)))
 
@@ -103,6 +103,15 @@ def of_another_kind(dice, machine):
             "inner_groove_ratio": 0.5 + decade(dice, -6, 3), "outer_groove_ratio": 0.5 + decade(dice, -3, 0),
             "youngs_modulus_Pa": number(8, 12), "poissons_ratio": 0.5 * dice.random(),
             "diametral_clearance_m": number(-9, -2)}
+    if one_in(dice, 2):
+        machine["bearing"]["contact_damping_s_per_m"] = number(-3, 4)
+    if one_in(dice, 3):
+        surface = dice.choice(["outer_race", "inner_race", "ball"])
+        if surface == "ball" and machine["bearing"].get("cage_speed_ratio") == 0.5:
+            machine["bearing"]["cage_speed_ratio"] = 0.4321
+        widest = 2 * math.pi / machine["bearing"].get("balls", 20)
+        machine["bearing.defect"] = {"surface": surface, "depth_m": number(-9, -3),
+                                     "width_rad": widest / 2 * (0.01 + 0.99 * dice.random())}
     return machine
 
 
