@@ -64,7 +64,6 @@ Task task_of(const AttractorsRequest& request)
   const Parameters asked = read_parameters(request.parameter_file);
   require_range(request.from, request.to);
   const bool is_still = !turns_visibly(asked);  // only the passing balls move it
-  if (!is_still) require_rotation_period(asked, "attractors of an unbalanced rotor");
   const Parameters machine =
       is_still && !has_rotation_period(asked.bearing) ? over_passage(asked) : asked;
   const double passages =
@@ -238,7 +237,8 @@ void sharpen_exponent(const Task& task, Found& found)
     found.exponent = {mean.value, std::max(mean.error, found.exponent.error)};
     const bool positive =
         mean.value - 3 * found.exponent.error > task.settings.rule.zero_rate;
-    const bool nearly_closed = found.spread_k < 1e-4;
+    const bool is_driven_twice = turns_to_repeat(task.machine.bearing) == 0;
+    const bool nearly_closed = found.spread_k < 1e-4 && !is_driven_twice;
     if (found.verdict == Verdict::chaotic ? !positive
                                           : found.undecided > 0 || nearly_closed)
       found.verdict = Verdict::undecided;
@@ -356,6 +356,10 @@ void note(Table& table, const Task& task)
       "if for every start it is within 3 errors of 0, these below %.3g 1/s, and no points "
       "K periods apart are all within 1e-4; undecided otherwise",
       s.rule.most_period, s.rule.periodic, s.rule.zero_rate, 2 * s.rule.zero_rate));
+  if (turns_to_repeat(task.machine.bearing) == 0)
+    table.note(
+        "two frequencies drive the machine: a motion to which neighbours come, its "
+        "exponent plus 3 errors negative, is quasi-periodic");
   table.note(
       "lyapunov: ln of the largest multiplier of a closed motion over K; of others the "
       "growth of a neighbour's distance, mean over the starts");

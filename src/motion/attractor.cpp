@@ -5,6 +5,7 @@
 #include <limits>
 #include <numbers>
 
+#include "balance/torus_line.hpp"
 #include "io/errors.hpp"
 #include "motion/other_starts.hpp"
 #include "stability/floquet.hpp"
@@ -98,6 +99,7 @@ struct Observation {
   const AttractorSettings& settings;
   double period;    ///< of rotation [s]
   double smallest;  ///< size of a displacement that counts [m]
+  long block;       ///< periods over which a growth rate is taken
   TrajectoryPair motion;
   std::vector<Displacements> section = {};
   std::vector<Statistics> periods = {};
@@ -107,9 +109,8 @@ struct Observation {
 
   void add_block()
   {
-    const long count = periods_in(settings.block, period);
     double growth = 0;
-    for (long k = 0; k < count; ++k) {
+    for (long k = 0; k < block; ++k) {
       section.push_back(displacements(motion.state().position));
       Statistics& statistics = periods.emplace_back();
       growth += motion.advance_one_period([&](const State& state) {
@@ -117,14 +118,14 @@ struct Observation {
         statistics.add({1, q, q * q, q, q});
       });
     }
-    rates.push_back(growth / (static_cast<double>(count) * period));
+    rates.push_back(growth / (static_cast<double>(block) * period));
   }
 
   /** The last points decide whether the section closes, the whole observation what the exponent is. */
   SectionJudgement judged() const
   {
-    const auto window = static_cast<std::size_t>(
-        std::max(periods_in(settings.block, period), 3L * settings.rule.most_period));
+    const auto window =
+        static_cast<std::size_t>(std::max(block, 3L * settings.rule.most_period));
     const auto last = section.size() - std::min(section.size(), window);
     const double size = std::max(
         {smallest, -periods.back().low.minCoeff(), periods.back().high.maxCoeff()});
@@ -138,9 +139,11 @@ struct Observation {
   bool enough(const Attractor& attractor) const
   {
     if (rates.size() < 2 || section.size() < 4) return false;
-    const double needed = attractor.closed()                      ? settings.least
-                          : attractor.verdict == Verdict::chaotic ? settings.chaotic
-                                                                  : settings.most;
+    const double needed = attractor.closed() ? settings.least
+                          : attractor.verdict == Verdict::chaotic ||
+                                  (settings.rule.is_driven_twice && attractor.decided())
+                              ? settings.chaotic
+                              : settings.most;
     return seconds() >= needed * (1 - 1e-9);
   }
 
@@ -162,14 +165,18 @@ struct Observation {
 }  // namespace
 
 Attractor attractor_from(const Parameters& machine, double omega, const State& start,
-                         const AttractorSettings& settings)
+                         const AttractorSettings& asked)
 {
-  if (!has_rotation_period(machine.bearing))
-    throw NoSolution("attractors: the bearing's force has not the period of rotation");
+  AttractorSettings settings = asked;
+  const int turns = turns_to_repeat(machine.bearing);
+  settings.rule.is_driven_twice = turns == 0;
   const StepperSettings& stepper = settings.stepper;
   const double period = checked_period(omega, settings.longest + settings.most);
-  const long block =
-      std::max(periods_in(settings.block, period), 3L * settings.rule.most_period);
+  const auto repeated = [&](long periods) {
+    return turns > 1 ? (periods + turns - 1) / turns * turns : periods;
+  };
+  const long block = repeated(
+      std::max(periods_in(settings.block, period), 3L * settings.rule.most_period));
   const Settled settled =
       settle(machine, omega, start, stepper.budget, nullptr,
              {.closed = settings.settled,
@@ -182,8 +189,9 @@ Attractor attractor_from(const Parameters& machine, double omega, const State& s
   Observation seen{settings,
                    period,
                    1e-6 * sizes[0],
+                   repeated(periods_in(settings.block, period)),
                    {make_stepper(machine, omega, stepper), stepper.intervals_per_period,
-                    sizes, settled.state}};
+                    sizes, settled.state, turns == 1 ? 0 : settled.periods}};
   /** The first block turns the neighbour into the direction of fastest growth, and its rate is not
       used; then blocks until there is enough to judge by. */
   seen.add_block();
@@ -198,6 +206,7 @@ Attractor attractor_from(const Parameters& machine, double omega, const State& s
   } while (!seen.enough(attractor));
   seen.summarise(attractor);
   attractor.state = seen.motion.state();
+  attractor.first_period = turns == 1 ? 0 : settled.periods + std::ssize(seen.periods);
   attractor.seconds = seen.seconds() + static_cast<double>(settled.periods) * period;
   return attractor;
 }
@@ -209,7 +218,7 @@ Motion motion_along(const Attractor& attractor, const Parameters& machine, doubl
       machine, omega,
       {.method = "rk4", .intervals_per_period = points_per_period, .budget = budget});
   State state = attractor.state;
-  Motion motion = recorded(stepper, points_per_period, state, 0,
+  Motion motion = recorded(stepper, points_per_period, state, attractor.first_period,
                            attractor.closed() ? attractor.period : periods);
   motion.omega = omega;
   return motion;

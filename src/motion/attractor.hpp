@@ -64,14 +64,15 @@ struct Attractor : SectionJudgement {
   std::array<double, 4> amplitude;  ///< half peak-to-peak [m]
   State state;                      ///< at phase 0 [m, m/s]
   double seconds;                   ///< integrated in all [s]
+  long first_period = 0;            ///< periods since t = 0 at the state, for the cage's angle
 
   bool periodic() const { return verdict == Verdict::periodic; }
   bool decided() const { return verdict != Verdict::undecided; }
   bool closed() const { return periodic() || verdict == Verdict::subharmonic; }
 };
 
-/** Integrates from `start` at phase 0. Throws NoSolution when the integration breaks down or the
-    bearing's force has not the period of rotation. */
+/** Integrates from `start` at phase 0. With any cage: where n c = p/q, motions close after multiples of q turns; else
+    the machine is driven by two frequencies. Throws NoSolution when the integration breaks down. */
 Attractor attractor_from(const Parameters& machine, double omega, const State& start,
                          const AttractorSettings& settings);
 

@@ -12,9 +12,10 @@ static constexpr double first_distance = 1e-7;
 
 /** The neighbour starts off in all directions, so that none is missed. */
 TrajectoryPair::TrajectoryPair(TimeStepper stepper, int intervals_per_period,
-                               const Vector8& scales, const State& start)
+                               const Vector8& scales, const State& start,
+                               long first_period)
     : stepper_(std::move(stepper)), intervals_(intervals_per_period), scales_(scales),
-      state_(start)
+      state_(start), periods_(first_period)
 {
   const double share = first_distance / std::sqrt(8.0);
   neighbour_ = state_of(vector_of(start) + share * scales);
@@ -69,6 +70,8 @@ Verdict verdict_of(const SectionJudgement& j, const VerdictRule& rule)
   const bool known = doubt < 2 * rule.zero_rate;
   const bool zero = std::abs(j.exponent.value) <= std::max(doubt, 0.1 * rule.zero_rate);
   if (known && zero) return Verdict::quasi_periodic;
+  if (rule.is_driven_twice && j.exponent.value + doubt < 0)
+    return Verdict::quasi_periodic;
   return Verdict::undecided;
 }
 

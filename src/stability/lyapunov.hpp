@@ -29,7 +29,7 @@ public:
   /** `stepper`: of fixed step, since an adaptive one takes other steps for the neighbour and its
       error would pass for growth. `scales`: sizes of the eight components, which make the distance a number. */
   TrajectoryPair(TimeStepper stepper, int intervals_per_period, const Vector8& scales,
-                 const State& start);
+                 const State& start, long first_period = 0);
 
   /** Advances by one period; `visit`, if any, sees the state at the start of each interval.
       Returns ln of the growth of the distance [-]. Throws NoSolution when the motion diverges. */
@@ -44,7 +44,7 @@ private:
   int intervals_;
   Vector8 scales_;
   State state_, neighbour_;
-  long periods_ = 0;
+  long periods_;  ///< since t = 0
 };
 
 /**
@@ -58,6 +58,8 @@ Lyapunov exponent λ, known to a standard error s:
 - chaotic if λ - 3s is above a small rate;
 - quasi-periodic if |λ| is below 3s, and 3s is small enough for that to say something; where λ hardly
   scatters, a tenth of the small rate stands for 3s;
+- quasi-periodic too if λ + 3s < 0 and two frequencies drive the machine: neighbours come to a motion that
+  both phases decide;
 - undecided otherwise, for instance a transient that has not ended (λ < 0, no period). */
 
 enum class Verdict {
@@ -72,6 +74,7 @@ struct VerdictRule {
   double periodic = 1e-6;  ///< largest spread of a closed section [-]
   int most_period = 16;    ///< k
   double zero_rate = 0.1;  ///< the small rate [1/s]
+  bool is_driven_twice = false;
 };
 
 struct SectionJudgement {

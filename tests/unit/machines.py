@@ -182,9 +182,22 @@ acceleration_m_per_s2 = 9.81
         self.assertEqual(found["period"][0], 1)
         for name in NAMES:
             self.assertAlmostEqual(found["amp_" + name][0] / (np.ptp(orbit[name]) / 2), 1, delta=3e-3)
-        unbalanced = self.file("other.toml", re.sub("unbalance_kg_m = .*", "unbalance_kg_m = 1e-3", text))
-        self.refused("attractors of an unbalanced rotor needs", "attractors", unbalanced, "--from", 60, "--to", 62,
-                     "--count", 2)
+
+    def test_attractors_with_any_cage(self):
+        """With two frequencies a torus, its amplitudes those of harmonic balance over many turns; with n c = 32/5 a motion of
+        five turns at 45 Hz, and twice as many at 20 Hz, where that of c = 1/2 has two."""
+        def attractors(cage, speed):
+            own = self.file("own.toml", re.sub("cage_speed_ratio = .*", f"cage_speed_ratio = {cage}", MACHINE))
+            return own, self.table("attractors", own, "--from", speed, "--to", speed + 1, "--count", 1, "--starts", 0)
+        own, torus = attractors(0.43, 45)
+        self.assertEqual(list(torus["period"]), [-1])
+        self.assertIn("two frequencies drive the machine", torus.header)
+        self.assertLess(torus["lyapunov"][0] + 3 * torus["lyapunov_uncertainty"][0], 0)
+        orbit = self.table("orbit", own, "--frequency", 45, "--tolerance", 1e-3, "--points", 64, "--periods", 60)
+        for name in NAMES:
+            self.assertAlmostEqual(torus["amp_" + name][0] / (np.ptp(orbit[name]) / 2), 1, delta=3e-3)
+        self.assertEqual(list(attractors(0.4, 45)[1]["period"]), [5])
+        self.assertEqual(set(attractors(0.4, 20)[1]["period"]), {10})
 
     def test_refusals(self):
         zero = "natural_frequency_rad_per_s = 0"
