@@ -111,6 +111,50 @@ class Values(Case):
             errors = header.split("# error: ")[1].split()
             self.assertAlmostEqual(table["error"][k] / max(float(errors[0]), float(errors[5])), 1, delta=0.1)
 
+    def test_multipliers_of_the_harmonics(self):
+        """With 64 harmonics at 45 Hz the series is the machine, by both methods; the distance is that of `orbit`. At 20 Hz the
+        series of six harmonics is stable, and the machine is not. Would catch multipliers of another motion."""
+        table = self.table("map", self.machine, "--y", "frequency=20:45:2", "--harmonics", 6, "--quantity",
+                           "stability,series_stability,distance,evaluations")
+        self.assertEqual((table["stability"][0], table["series_stability"][0]), ("unstable", "stable"))
+        header = self.table("orbit", self.machine, "--frequency", 45, "--harmonics", 6).header
+        distance = float(header.split("# distance: ")[1].split()[5])
+        self.assertAlmostEqual(table["distance"][1] / distance, 1, delta=0.01)
+        self.assertIn(f"# verdict: {table['evaluations'][1]:.3g} ", header)
+        table = self.table("map", self.machine, "--y", "frequency=45:46:1", "--harmonics", 64, "--quantity",
+                           "multiplier,uncertainty,series,series_uncertainty,hill,liouville")
+        for method in ("series", "hill"):
+            self.assertAlmostEqual(table[method][0], table["multiplier"][0], delta=2e-4)
+        self.assertTrue((0 < table["uncertainty"] < 1e-4) and (0 < table["series_uncertainty"] < 1e-5))
+        self.assertLess(abs(table["liouville"][0]), 1e-6)
+
+    def test_settled_motion(self):
+        """At 45 Hz against the orbit by rk4 from rest: contact, size, turns of the force, the error of six harmonics; the
+        closed form against `check`. At 13 Hz contact is lost and the motion aperiodic, so that no solution has an error.
+        Would catch a motion that is not settled, and harmonics that are counted wrongly."""
+        names = "periodic,settled_contact,turns,passages,settled_load,settled_amplitude,error_6,force_balance"
+        table = Table.of(self.run_explore("map", self.machine, "--y", "frequency=13:45:2", "--method", "rk4", "--longest", 5,
+                                          "--quantity", names).stdout)
+        rk4, six = (self.table("orbit", self.machine, "--frequency", 45, "--points", 64, *options)
+                    for options in (["--method", "rk4"], ["--no-stability"]))
+        contact = self.table("contact", self.machine, "--frequency", 45, "--points", 64, "--method", "rk4")
+        errors = [q - q.mean() for q in (six["x_r"] - rk4["x_r"], six["y_r"] - rk4["y_r"], six["x_s"] - rk4["x_s"],
+                                         six["y_s"] - rk4["y_s"])]
+        sizes = [rk4[name] - rk4[name].mean() for name in ("x_r", "y_r", "x_s", "y_s")]
+        angle = np.unwrap(np.angle(rk4["F_x"] + 1j * rk4["F_y"]))
+        for name, value, most in [("periodic", 1, 0), ("settled_contact", 1, 0), ("passages", 1, 0),
+                                  ("turns", round((angle[-1] - angle[0]) / (2 * np.pi)), 0),
+                                  ("settled_amplitude", np.ptp(rk4["x_r"]) / 2, 1e-3),
+                                  ("settled_load", contact["Q"].max(), 5e-3),
+                                  ("error_6", np.linalg.norm(errors) / np.linalg.norm(sizes), 1e-2)]:
+            self.assertAlmostEqual(float(table[name][1]) / value, 1, delta=most, msg=name)
+        self.assertEqual((table["periodic"][0], table["error_6"][0]), (0, "-"))
+        self.assertLess(table["settled_contact"][0], 1)
+        check = self.table("check", self.machine)
+        self.assertAlmostEqual(table["force_balance"][0], float(check["value"][list(check["name"]).index("contact_loss")]),
+                               delta=1e-6)
+        self.refused("turns is of rk4", "map", self.machine, "--y", "frequency=13:45:2", "--quantity", "turns")
+
     def test_period_against_attractors(self):
         """At 20 Hz two turns, at 30 Hz one."""
         table = self.table("map", self.machine, "--y", "frequency=20:30:2", "--quantity", "period,lyapunov")
