@@ -26,10 +26,12 @@ shooting and RK4. */
 int main(int argc, char** argv)
 {
   using namespace rotor_stator;
-  const Program program{.options = {{"--every", "1", "only each n-th of the rows"}},
+  const Program program{.option = "--every",
+                        .value = "1",
+                        .meaning = "only each n-th of the rows",
                         .has_readings = false};
-  return run_figure(argc, argv, program, [](SceneFile& file, const Options& options) {
-    const int every = whole_number("--every", options["--every"], 1, 1000);
+  return run_figure(argc, argv, program, [](SceneFile& file, const std::string& value) {
+    const int every = whole_number("--every", value, 1, 1000);
     const hard::HardCases hard = hard::read_hard_cases(file);
     const std::size_t methods = hard::methods.size();
     const std::size_t rows = (hard.cases.size() * methods + every - 1) / every;

@@ -32,15 +32,15 @@ from other starts are explained. */
 int main(int argc, char** argv)
 {
   using namespace rotor_stator;
-  const Program program{
-      .options = {{"--attractors", "data/reference/attractors.tsv", "their table"}}};
-  return run_figure(argc, argv, program, [](SceneFile& file, const Options& options) {
-    const auto scene = truth::read_section_scene(file, options["--attractors"]);
-    const auto sections =
-        computed_in_parallel("sections", scene.attractors.size(), [&](std::size_t k) {
-          const truth::AttractorPoint& point = scene.attractors[k];
-          return truth::section_of(point, scene.sets.at(point.set - 1), scene.points);
-        });
-    return truth::section_table(scene, sections);
-  });
+  const Program program{"--attractors", "data/reference/attractors.tsv", "their table"};
+  return run_figure(
+      argc, argv, program, [](SceneFile& file, const std::string& attractors) {
+        const auto scene = truth::read_section_scene(file, attractors);
+        const auto sections =
+            computed_in_parallel("sections", scene.attractors.size(), [&](std::size_t k) {
+              const truth::AttractorPoint& point = scene.attractors[k];
+              return truth::section_of(point, scene.sets.at(point.set - 1), scene.points);
+            });
+        return truth::section_table(scene, sections);
+      });
 }

@@ -33,25 +33,26 @@ Modelled: harmonic balance from many starts, verdicts by shooting, and motions f
 int main(int argc, char** argv)
 {
   using namespace rotor_stator;
-  const Program program{
-      .options = {{"--attractors", "data/reference/attractors.tsv", "their table"}}};
-  return run_figure(argc, argv, program, [](SceneFile& file, const Options& options) {
-    const auto scene = truth::read_validity_scene(file, options["--attractors"]);
-    const std::size_t sets = scene.sets.size(), speeds = scene.frequencies.size();
-    const int most = scene.most_harmonics;
-    const auto swept = computed_in_parallel("sweeps", sets * most, [&](std::size_t k) {
-      const int m = 1 + static_cast<int>(k) % most;
-      return sweep(scene.sets[k / most], angular(scene.frequencies), m);
-    });
-    const auto points =
-        computed_in_parallel("validity", sets * speeds, [&](std::size_t k) {
-          const int set = static_cast<int>(k / speeds);
-          const std::size_t speed = k % speeds;
-          std::vector<PeriodicMotion> solutions;
-          for (int m = 1; m <= most; ++m)
-            solutions.push_back(swept[set * most + m - 1][speed]);
-          return truth::compared(scene, set + 1, scene.frequencies[speed], solutions);
-        });
-    return truth::validity_table(scene, points);
-  });
+  const Program program{"--attractors", "data/reference/attractors.tsv", "their table"};
+  return run_figure(
+      argc, argv, program, [](SceneFile& file, const std::string& attractors) {
+        const auto scene = truth::read_validity_scene(file, attractors);
+        const std::size_t sets = scene.sets.size(), speeds = scene.frequencies.size();
+        const int most = scene.most_harmonics;
+        const auto swept =
+            computed_in_parallel("sweeps", sets * most, [&](std::size_t k) {
+              const int m = 1 + static_cast<int>(k) % most;
+              return sweep(scene.sets[k / most], angular(scene.frequencies), m);
+            });
+        const auto points =
+            computed_in_parallel("validity", sets * speeds, [&](std::size_t k) {
+              const int set = static_cast<int>(k / speeds);
+              const std::size_t speed = k % speeds;
+              std::vector<PeriodicMotion> solutions;
+              for (int m = 1; m <= most; ++m)
+                solutions.push_back(swept[set * most + m - 1][speed]);
+              return truth::compared(scene, set + 1, scene.frequencies[speed], solutions);
+            });
+        return truth::validity_table(scene, points);
+      });
 }

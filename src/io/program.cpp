@@ -81,13 +81,6 @@ void write(const std::string& text)
     throw NoSolution("the standard output cannot be written to");
 }
 
-const std::string& Options::operator[](const std::string& name) const
-{
-  return std::find_if(others.begin(), others.end(),
-                      [&](const ExtraOption& option) { return option.name == name; })
-      ->value;
-}
-
 int whole_number(const std::string& option, const std::string& value, int least, int most)
 {
   int number = 0;
@@ -111,25 +104,22 @@ double real_number(const std::string& option, const std::string& value, double l
   return *number;
 }
 
-int run(int argc, char** argv, const Program& program,
-        const std::function<Table(const Options&)>& compute)
+int run_figure(int argc, char** argv, Program program,
+               const std::function<Table(SceneFile&, const std::string& value)>& compute)
 {
-  Options options{program.scene_file, "exchanged", program.options};
-  if (options.scene_file.empty()) {
-    const std::string name = std::filesystem::path(argv[0]).filename();
-    options.scene_file = "data/scenes/" + name + ".toml";
-  }
+  const std::string name = std::filesystem::path(argv[0]).filename();
+  std::string scene_file = "data/scenes/" + name + ".toml", reading = "exchanged";
   CLI::App app("Computes one table; TSV on stdout.");
-  app.add_option("scene", options.scene_file, "scene file")->capture_default_str();
+  app.add_option("scene", scene_file, "scene file")->capture_default_str();
   if (program.has_readings)
-    app.add_option("--reading", options.reading,
-                   "reading of Table 1: exchanged or as-printed")
+    app.add_option("--reading", reading, "reading of Table 1: exchanged or as-printed")
         ->capture_default_str();
-  for (ExtraOption& option : options.others)
-    app.add_option(option.name, option.value, option.meaning)->capture_default_str();
+  if (!program.option.empty())
+    app.add_option(program.option, program.value, program.meaning)->capture_default_str();
   return guarded([&] {
     if (!parse(app, argc, argv)) return 0;
-    write(compute(options).text());
+    SceneFile scene(scene_file, reading);
+    write(compute(scene, program.value).text());
     return 0;
   });
 }
@@ -137,16 +127,7 @@ int run(int argc, char** argv, const Program& program,
 int run_figure(int argc, char** argv, const std::function<Table(SceneFile&)>& compute)
 {
   return run_figure(argc, argv, {},
-                    [&](SceneFile& scene, const Options&) { return compute(scene); });
-}
-
-int run_figure(int argc, char** argv, const Program& program,
-               const std::function<Table(SceneFile&, const Options&)>& compute)
-{
-  return run(argc, argv, program, [&](const Options& options) {
-    SceneFile scene(options.scene_file, options.reading);
-    return compute(scene, options);
-  });
+                    [&](SceneFile& scene, const std::string&) { return compute(scene); });
 }
 
 }  // namespace rotor_stator

@@ -35,37 +35,19 @@ auto watched(std::string what, const std::vector<Item>& list)
 Options in, one table out on stdout, log on stderr; the exit status says how it ended: 0
 done, 2 bad input, 3 no solution. Nothing is written before everything is computed. */
 
-/** One more option of a program, with its default. */
-struct ExtraOption {
-  std::string name;  ///< with its dashes
-  std::string value;
-  std::string meaning;
-};
-
-/** What a program reads. */
+/** What a program reads beside its scene, data/scenes/NAME.toml. */
 struct Program {
-  std::string scene_file =
-      {};  ///< empty: that with the program's name, data/scenes/NAME.toml
-  std::vector<ExtraOption> options = {};
+  std::string option = {};   ///< one more, with its dashes, or none
+  std::string value = {};    ///< its default
+  std::string meaning = {};  ///< of it
   bool has_readings = true;  ///< of Table 1 (D-09)
 };
 
-struct Options {
-  std::string scene_file;  ///< the scene of the figure
-  std::string reading;     ///< of Table 1: "exchanged" or "as-printed" (D-09)
-  std::vector<ExtraOption> others;
-
-  const std::string& operator[](const std::string& name) const;
-};
-
-/** Runs a program: parses its options, computes its table, prints it. */
-int run(int argc, char** argv, const Program& program,
-        const std::function<Table(const Options&)>& compute);
-
-/** Runs the program of a figure: `compute` makes the table that the scene asks for. */
+/** Runs the program of a figure: parses its options, computes the table that the scene and the value of the program's
+    own option ask for, prints it. */
+int run_figure(int argc, char** argv, Program program,
+               const std::function<Table(SceneFile&, const std::string& value)>& compute);
 int run_figure(int argc, char** argv, const std::function<Table(SceneFile&)>& compute);
-int run_figure(int argc, char** argv, const Program& program,
-               const std::function<Table(SceneFile&, const Options&)>& compute);
 
 /** The number that an option's value is, in decimal notation. Throws BadInput unless
     `least` ≤ it ≤ `most`; a real number with `least` = 0 must be above it. */
