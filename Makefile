@@ -4,8 +4,8 @@
 #   make deps test    the same, then the tests
 #   make list         every target with one line
 #
-# One name from scene to figure: data/scenes/NAME.toml -> src/NAME.cpp -> data/generated/NAME.tsv ->
-# figures/NAME.gp or .py -> figures/generated/NAME.svg. `all` computes every scene that has a program, unless
+# One name from scene to figure: data/scenes/NAME.toml -> src/NAME.cpp or studies/NAME.py -> data/generated/NAME.tsv ->
+# figures/NAME.gp or .py -> figures/generated/NAME.svg. `all` computes every scene that has one of these, unless
 # its table is kept in data/reference: then it is a long study, and is drawn from the kept table. The printed
 # reading of Table 1 (D-09) stands in as-printed/ below data/generated, data/reference and figures/generated.
 
