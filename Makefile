@@ -32,8 +32,8 @@ with_pages := $(filter all book article pdf test sanitize readme dist,$(goals))
 packages := $(sort $(if $(filter-out list clean adopt format,$(goals)),cmake g++ git libcli11-dev libeigen3-dev \
     libfftw3-dev libgsl-dev libtomlplusplus-dev ninja-build pkg-config) \
   $(if $(filter-out list clean adopt format bench build/%,$(goals)),gnuplot-nox python3-matplotlib) \
-  $(if $(with_pages),pandoc) \
-  $(if $(filter test sanitize,$(goals)),catch2 chromium chromium-driver python3-hypothesis python3-selenium tidy) \
+  $(if $(with_pages),furo libjs-mathjax pandoc python3-myst-parser python3-sphinx-copybutton python3-sphinxcontrib.bibtex) \
+  $(if $(filter test sanitize,$(goals)),catch2 chromium chromium-driver python3-hypothesis python3-selenium) \
   $(if $(filter pdf,$(goals)),librsvg2-bin lmodern texlive-fonts-recommended texlive-latex-recommended texlive-luatex) \
   $(if $(filter studies maps test sanitize $(basename $(notdir $(wildcard studies/*.yaml))),$(goals)),snakemake) \
   $(if $(filter peers,$(goals)),auto-07p gfortran libsundials-dev python3-scipy) \
@@ -204,16 +204,18 @@ data/generated/cage.md: studies/cage.py data/reference/cage.tsv figures/tables.p
 
 book: build/book/index.html  ## the sources as pages, in reading order: build/book/index.html
 
-# The index is written last; a page that would be the same is left as it is.
-build/book/index.html: $(wildcard paper/book/*) paper/guide.md paper/varying_compliance.md paper/references.bib $(sources) $(untimed) $(timings) $(claims) \
-  $(wildcard data/reference/*.tsv) $(wildcard build/live/index.html)
-	$(PYTHON) paper/book/weave.py $(@D)
+# A page that would be the same is left as it is.
+build/book/index.html: $(wildcard paper/book/* *.md paper/*.md paper/references.bib studies/*.py peers/*.py data/reference/*.tsv build/live/index.html) \
+  $(sources) $(untimed) $(timings) $(claims)
+	$(PYTHON) paper/book/pages.py build/book-pages $(@D)
+	$(PYTHON) -m sphinx -q -W --keep-going -c paper/book -d build/book-doctrees build/book-pages $(@D)
+	@touch $@
 live: build/live/index.html  ## the solver as a page for the browser, one file: build/live/index.html
 include live/live.mk
 
 article: build/paper/article.html  ## the article: build/paper/article.html
-build/paper/article.html: data/generated/article.md paper/render_article.py paper/article.html paper/book/comments.py \
-  paper/book/book.css paper/book/figures.toml paper/references.bib \
+build/paper/article.html: data/generated/article.md paper/render_article.py paper/article.html \
+  paper/article.css paper/book/figures.toml paper/references.bib \
   $(shell sed -nE 's/^!\[.*\]\(figures\/(.*\.svg)\)$$/figures\/generated\/\1/p' paper/article.md)
 	$(PYTHON) paper/render_article.py $< $@
 pdf: build/paper/article.pdf  ## the article as PDF

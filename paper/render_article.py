@@ -13,9 +13,8 @@ import tempfile
 import tomllib
 from pathlib import Path
 
-sys.path.insert(0, "paper/book")
-from comments import DEVIATION, EQUATION, numbered  # noqa: E402
-
+EQUATION, TAG = re.compile(r"\$\$(.+?)\$\$", re.DOTALL), re.compile(r"\\tag\{([^}]*)\}")
+DEVIATION = re.compile(r"\bD-(\d\d)\b")
 TABLE = re.compile(r"^<!-- table: (\S+) (.*?) -->$", re.MULTILINE)
 FIGURE = re.compile(r"\]\((figures/(?:as-printed/)?\w+)\.svg\)")
 DRAWN = Path("figures/generated")
@@ -33,6 +32,13 @@ def table_rows(match):
     return "\n".join("| " + " | ".join(row) + " |" for row in rows)
 
 
+def numbered(match):
+    """A displayed equation with the paper's number beside it."""
+    equation = f"$${TAG.sub('', match[1]).strip()}$$"
+    tags = ", ".join(TAG.findall(match[1]))
+    return f"\n::: equation\n{equation}\n\n[({tags})]{{.number}}\n:::\n" if tags else equation
+
+
 def pandoc(text, *options):
     subprocess.run(["pandoc", "--from", "markdown", "--citeproc", *options], input=text, text=True,
                    check=True)
@@ -47,7 +53,7 @@ def as_html(text, output):
     (output.parent / "figures").mkdir(parents=True, exist_ok=True)
     for drawing in drawings(text).values():
         shutil.copy(drawing, output.parent / "figures")
-    shutil.copy("paper/book/book.css", output.parent)
+    shutil.copy("paper/article.css", output.parent)
     text = FIGURE.sub(lambda match: f'{match[0]}{{alt="{SHOWN[Path(match[1]).name]["alt"]}"}}', text)
     text = DEVIATION.sub(r"[D-\1](../book/list_of_deviations.html#d-\1)", text)
     pandoc(EQUATION.sub(numbered, text), "--to", "html5", "--mathml", "--standalone", "--toc",

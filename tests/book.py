@@ -1,188 +1,281 @@
-"""Reads the pages as a reader would, in a headless browser.
+"""Reads the book and the article as a reader would, in a headless browser.
 
-Every program and module has its page. All pages: every link leads somewhere, every picture has an
-alternative text, the HTML is valid, and none is longer than a sitting; a page with a figure has words of
-its own.
-The index, two pages and the article, opened: no message of the browser, all pictures loaded, equations
-rendered, nothing wider than the window, and the search finds what is there and nothing else. Each
-is kept as a picture, 1280 and 400 pixels wide, in build/screenshots.
+Files: no replacement character, no link that leads nowhere, a text for every picture, a page for every program and
+module, a complete page for every figure, links from equations and names to where they stand and back. Browser: on every
+page all mathematics is set, nothing is wider than the window, no message of the browser and no request but to the pages;
+the search finds what is there; text has contrast and pictures a text (axe-core, where npm has it). Two locales more give
+the same bytes. Screenshots of some pages, two widths, light and dark, stand in build/screenshots.
 
 Usage: tests/book.py   (from the project's root, after `make all`)
 """
+import contextlib
+import functools
+import http.server
+import json
+import os
 import re
 import shutil
 import subprocess
 import sys
 import tempfile
+import threading
+import unittest
 from html.parser import HTMLParser
 from pathlib import Path
+from urllib.parse import unquote, urlsplit
 
 from selenium import webdriver
 from selenium.webdriver.chrome.service import Service
-from selenium.webdriver.common.by import By
 
-BOOK, ARTICLE = Path("build/book"), Path("build/paper/article.html")
-SHOTS = Path("build/screenshots")
-OPENED = [BOOK / "index.html", BOOK / "model-ball_bearing.html", BOOK / "fig07_contact.html",
-          ARTICLE]
-COLLECTIONS = {"index.html", "list_of_deviations.html", "article.html"}
-WITH_EQUATIONS = {"model-ball_bearing.html", "article.html"}
-WIDTHS = (1280, 400)
-# A file is cut at its headings from 250 lines of code on; one idea may be longer than that.
-LEAST_WORDS, MOST_WORDS, MOST_CODE = 200, 3000, 330
+BUILD, BOOK, ARTICLE = Path("build"), Path("build/book"), Path("build/paper/article.html")
+SHOTS, AXE = BUILD / "screenshots", BUILD / "npm/node_modules/axe-core/axe.min.js"
+SHOWN = ["index.html", "chapter-8.html", "fig06_orbits.html", "model-rotor_stator.html", "results.html", "search.html?q=clearance"]
+NARROW, WIDE = 400, 1400
 
 
 class Links(HTMLParser):
     """What a page points to, what it can be pointed at, and its pictures without a text."""
 
-    def __init__(self):
+    def __init__(self, text):
         super().__init__()
-        self.targets, self.names, self.silent = [], set(), []
+        self.targets, self.names, self.silent = set(), {"", "top"}, []
+        self.feed(text)
 
     def handle_starttag(self, tag, attributes):
         found = dict(attributes)
-        self.targets += [found[key] for key in ("href", "src") if found.get(key)]
-        self.names.update(found[key] for key in ("id", "name") if found.get(key))
+        self.targets |= {found[key] for key in ("href", "src") if found.get(key)}
+        self.names |= {found[key] for key in ("id", "name") if found.get(key)}
         if tag == "img" and not found.get("alt"):
             self.silent.append(found.get("src"))
 
 
-def read(page):
-    links = Links()
-    links.feed(page.read_text(encoding="utf-8"))
-    return links
+class Files(unittest.TestCase):
+    """What can be read without a browser."""
+
+    @classmethod
+    def setUpClass(cls):
+        cls.text = {page.resolve(): page.read_text(encoding="utf-8") for page in [*BOOK.glob("*.html"), ARTICLE]}
+        cls.links = {page: Links(text) for page, text in cls.text.items()}
+
+    def page(self, name):
+        return self.text[(BOOK / f"{name}.html").resolve()]
+
+    def test_no_replacement_character(self):
+        self.assertGreater(len(self.text), 130)
+        self.assertEqual([page.name for page, text in self.text.items() if "\ufffd" in text], [])
+
+    def test_every_link_leads_somewhere(self):
+        broken = []
+        for page, links in self.links.items():
+            for target in links.targets:
+                if not re.match(r"[a-z]+:", target):
+                    parts = urlsplit(target)
+                    to = (page.parent / unquote(parts.path)).resolve() if parts.path else page
+                    known = self.links[to].names if to in self.links else {parts.fragment}
+                    if not to.exists() or unquote(parts.fragment) not in known:
+                        broken.append(f"{page.name}: {target}")
+        self.assertEqual(broken, [])
+
+    def test_every_picture_has_a_text(self):
+        self.assertEqual({page.name: links.silent for page, links in self.links.items() if links.silent}, {})
+
+    def test_every_source_has_its_page_with_all_its_lines(self):
+        """Only what stands in comments that became text is not shown with its line's number."""
+        for source in sorted(Path("src").rglob("*.?pp")):
+            text, lines = self.page("-".join(source.with_suffix("").parts[1:])), source.read_text(encoding="utf-8").split("\n")
+            shown = set(map(int, re.findall(rf'id="{source.suffix[1:]}-(\d+)"', text)))
+            comment = False
+            for number, line in enumerate(lines, 1):
+                comment = comment or line.startswith("/**")
+                if line.strip() and not comment:
+                    self.assertIn(number, shown, source)
+                comment = comment and "*/" not in line
+
+    def test_every_figure_has_a_complete_page(self):
+        for figure in sorted(Path("figures/generated").glob("*.svg")):
+            page = self.page(figure.stem)
+            for part in (f'src="_images/{figure.name}"', "How .* was computed", "make</span>", "What differs from the paper", "(D-\\d\\d|paper)"):
+                self.assertRegex(page, part, figure.stem)
+
+    def test_links_go_both_ways(self):
+        """Equation 5, a deviation, a claim and a function: from a page that names them, and back."""
+        for name, mark, place in (("fig07_contact", "eq-5", "model-hertz"), ("fig06_orbits", "d-17", "list_of_deviations"),
+                                  ("fig09_contact", "c8", "results")):
+            self.assertIn(f'href="{place}.html#{mark}"', self.page(name))
+            self.assertIn(f'href="marks.html#{mark}"', self.page(place))
+            self.assertRegex(self.page("marks"), f'id="{mark}".*\n?.*href="{name}.html"')
+        self.assertIn('href="motion-find_periodic.html#name-find_periodic"', self.page("fig06_orbits"))
+        self.assertIn('href="names-motion.html#find_periodic"', self.page("motion-find_periodic"))
+        self.assertRegex(self.page("names-motion"), r'id="find_periodic"(.|\n)*?</tr>')
+        row = re.search(r'id="find_periodic".*?</tr>', self.page("names-motion"), re.DOTALL)[0]
+        self.assertIn('href="fig06_orbits.html"', row)
+
+    def test_previous_and_next_pass_every_page(self):
+        """From the first page to the last, in the order of the paper."""
+        passed, page = [], "index"
+        while page:
+            passed.append(page)
+            found = re.search(r'<link rel="next"[^>]*href="([^"]+)\.html"', self.page(page))
+            page = found and found[1]
+        self.assertEqual({page.stem for page in BOOK.glob("*.html")} - set(passed), {"search"})
+        order = ["model-hertz", "balance-newton", "continuation-sweep", "fig03_response", "fig09_contact", "guide"]
+        self.assertEqual(sorted(order, key=passed.index), order)
+
+    def test_same_bytes_in_every_locale(self):
+        with tempfile.TemporaryDirectory(dir=BUILD) as scratch:
+            made = {}
+            for locale in ("C", "C.UTF-8", "de_DE.UTF-8"):
+                pages, out = Path(scratch) / "pages", Path(scratch) / "out"
+                how = {"env": {**os.environ, "LC_ALL": locale, "PYTHONDONTWRITEBYTECODE": "1"}, "check": True}
+                subprocess.run([sys.executable, "paper/book/pages.py", pages, out], **how)
+                subprocess.run([sys.executable, "-m", "sphinx", "-q", "-W", "-c", "paper/book", "-d", Path(scratch) / "trees", pages, out], **how)
+                made[locale] = {file.relative_to(out): file.read_bytes() for file in out.rglob("*") if file.is_file()}
+                for folder in ("pages", "trees", "out"):
+                    shutil.rmtree(Path(scratch) / folder)
+            for locale in ("C.UTF-8", "de_DE.UTF-8"):
+                self.assertEqual(made["C"].keys(), made[locale].keys())
+                self.assertEqual([name for name in made["C"] if made["C"][name] != made[locale][name]], [], locale)
 
 
-def broken_links(pages):
-    """Links within the project that lead nowhere; those to the network are not followed."""
-    known = {page.resolve(): read(page) for page in pages}
-    for page, links in known.items():
-        yield from (f"{page.name}: no text for {name}" for name in links.silent)
-        for target in links.targets:
-            if re.match(r"[a-z]+:", target):
-                continue
-            file, _, name = target.partition("#")
-            to = (page.parent / file).resolve() if file else page
-            if not to.exists():
-                yield f"{page.name}: {target} is not there"
-            elif name and to in known and name not in known[to].names:
-                yield f"{page.name}: {target} names no place"
+class Server(http.server.SimpleHTTPRequestHandler):
+    def log_message(self, *_):
+        pass
 
 
-def invalid(pages):
-    """What the validator says; MathML and SVG it does not know."""
-    foreign = re.compile(r"<(math|svg)\b.*?</\1>", re.DOTALL)
-    for page in pages:
-        text = foreign.sub("", page.read_text(encoding="utf-8"))
-        said = subprocess.run(["tidy", "-quiet", "-errors", "-utf8", "--drop-empty-elements", "no"],
-                              input=text, text=True, capture_output=True)
-        yield from (f"{page.name}: {line}" for line in said.stderr.splitlines()
-                    if "Error:" in line or "Warning:" in line)
+class Browser(unittest.TestCase):
+    """What a browser shows."""
 
+    @classmethod
+    def setUpClass(cls):
+        SHOTS.mkdir(parents=True, exist_ok=True)
+        stack = contextlib.ExitStack()
+        cls.addClassCleanup(stack.close)
+        profile = stack.enter_context(tempfile.TemporaryDirectory())
+        server = http.server.ThreadingHTTPServer(("127.0.0.1", 0), functools.partial(Server, directory="build"))
+        threading.Thread(target=server.serve_forever, daemon=True).start()
+        stack.callback(server.server_close)
+        stack.callback(server.shutdown)
+        cls.address = f"http://127.0.0.1:{server.server_address[1]}/"
+        options = webdriver.ChromeOptions()
+        for flag in ("headless=new", "no-sandbox", "disable-gpu", "hide-scrollbars", "no-first-run", "disable-background-networking",
+                     "disable-component-update", "disable-sync", f"user-data-dir={profile}"):
+            options.add_argument(f"--{flag}")
+        options.set_capability("goog:loggingPrefs", {"browser": "ALL", "performance": "ALL"})
+        cls.driver = webdriver.Chrome(service=Service(shutil.which("chromedriver")), options=options)
+        stack.callback(cls.driver.quit)
+        cls.driver.get("about:blank")
 
-def words_in(text):
-    return len(re.sub(r"<[^>]+>", " ", text).split())
+    def setUp(self):
+        self.driver.get_log("browser"), self.driver.get_log("performance")
+        self.show(WIDE)
 
+    def tearDown(self):
+        """No message of the browser, and nothing asked of another place."""
+        self.assertEqual([entry["message"] for entry in self.driver.get_log("browser")], [])
+        asked = [json.loads(entry["message"])["message"] for entry in self.driver.get_log("performance")]
+        addresses = {entry["params"]["request"]["url"] for entry in asked if entry["method"] == "Network.requestWillBeSent"}
+        self.assertEqual({a for a in addresses if not a.startswith((self.address, "file:///", "data:", "chrome:", "about:"))}, set())
 
-def lengths(pages):
-    """Pages that are too long to read at once, and pages of a figure that say too little of it. Code,
-    tables, captions and links to neighbours are not words of their own."""
-    for page in pages:
-        text = re.search(r"<main>(.*)</main>", page.read_text(encoding="utf-8"), re.DOTALL)[1]
-        code = re.findall(r"<pre.*?</pre>", text, re.DOTALL)
-        lines = sum(bool(line.strip()) for block in code
-                    for line in re.sub(r"<[^>]+>", "", block).splitlines())
-        prose = re.sub(r"<(pre|table|figure|math|style)\b.*?</\1>", " ", text, flags=re.DOTALL)
-        own = words_in(re.split(r"<h2[^>]*>(?:What it makes|Where it stands)</h2>", prose)[0])
-        if lines > MOST_CODE or own > MOST_WORDS:
-            yield f"{page.name}: {lines} lines of code and {own} words are too much for one sitting"
-        if re.match(r"fig\d\d", page.name) and 'src="figures/' not in text:
-            yield f"{page.name}: shows no figure"
-        if 'src="figures/' in text and own < LEAST_WORDS:
-            yield f"{page.name}: shows a figure and has {own} words of its own"
+    def show(self, width, scheme="light", height=900):
+        self.driver.execute_cdp_cmd("Emulation.setDeviceMetricsOverride", {
+            "width": width, "height": height, "deviceScaleFactor": 1, "mobile": False})
+        self.driver.execute_cdp_cmd("Emulation.setEmulatedMedia", {"features": [{"name": "prefers-color-scheme", "value": scheme}]})
 
+    def open(self, page, folder="book/"):
+        """The page when its equations are set."""
+        self.driver.get(self.address + folder + page)
+        self.driver.execute_async_script(
+            "const done = arguments[0]; window.MathJax && MathJax.Hub ? MathJax.Hub.Queue(done) : done()")
 
-def without_page():
-    """Programs and modules that have no page."""
-    for source in sorted(Path("src").rglob("*.?pp")):
-        name = "-".join(source.with_suffix("").parts[1:]) + ".html"
-        if not (BOOK / name).exists():
-            yield f"{source}: no page {name}"
+    def js(self, script, *arguments):
+        return self.driver.execute_script(script, *arguments)
 
+    def test_every_page_fits_and_has_its_mathematics(self):
+        """In a narrow window, the worst for both."""
+        self.show(NARROW)
+        equations = 0
+        for page in sorted(BOOK.glob("*.html")):
+            with self.subTest(page.name):
+                self.open(page.name)
+                self.assertLessEqual(self.js("return document.documentElement.scrollWidth"), NARROW)
+                asked, given, wrong = self.js("""return [document.querySelectorAll('.math').length,
+                  [...document.querySelectorAll('.MathJax_SVG svg')].filter(s => s.getBoundingClientRect().height > 5).length,
+                  document.querySelectorAll('.MathJax_SVG_Error, .MathJax_SVG [fill=red], .merror, .noError').length]""")
+                equations += asked
+                self.assertEqual((given, wrong), (asked, 0))
+        self.assertGreater(equations, 25)
 
-def browser(profile):
-    options = webdriver.ChromeOptions()
-    for flag in ("headless=new", "no-sandbox", "disable-gpu", "hide-scrollbars", "no-first-run",
-                 "disable-background-networking", "disable-component-update", "disable-sync",
-                 "allow-file-access-from-files", f"user-data-dir={profile}"):
-        options.add_argument(f"--{flag}")
-    options.set_capability("goog:loggingPrefs", {"browser": "ALL"})
-    return webdriver.Chrome(service=Service(shutil.which("chromedriver")), options=options)
+    def test_every_figure_is_seen_at_both_widths(self):
+        for width in (NARROW, WIDE):
+            self.show(width)
+            for figure in sorted(Path("figures/generated").glob("*.svg")):
+                with self.subTest(figure.stem, width=width):
+                    self.open(f"{figure.stem}.html")
+                    left, right, natural, page = self.js("""
+                      const image = document.querySelector(`img[src="_images/${arguments[0]}"]`), box = image.getBoundingClientRect();
+                      return [box.left, box.right, image.naturalWidth, document.documentElement.scrollWidth];""", figure.name)
+                    self.assertGreater(natural, 0)
+                    self.assertGreater(right - left, 0.85 * width if width == NARROW else 500)
+                    self.assertTrue(left >= 0 and right <= width and page <= width, (left, right, page))
 
+    def test_search(self):
+        """The word clearance, in titles and in text; nothing for a word that is not there. From the file system too."""
+        for start in (self.address, BUILD.resolve().as_uri() + "/"):
+            for word, least, most in (("clearance", 20, 150), ("xylophone", 0, 0)):
+                self.driver.get(f"{start}book/search.html?q={word}")
+                self.driver.execute_async_script("""const done = arguments[0];
+                  (function wait() { /finished|did not match/i.test(document.body.innerText) ? done() : setTimeout(wait, 50); })();""")
+                found = [link.get_attribute("href") for link in self.driver.find_elements("css selector", "#search-results li > a")]
+                self.assertTrue(least <= len(found) <= most, (start, word, found))
+                if found:
+                    self.assertIn("model-ball_bearing.html", "\n".join(found))
 
-def window(driver, width):
-    """Sets the width of the page itself, whatever the least width of a window is."""
-    driver.execute_cdp_cmd("Emulation.setDeviceMetricsOverride", {
-        "width": width, "height": 900, "deviceScaleFactor": 1, "mobile": False})
+    def test_dark_where_the_reader_has_it_so(self):
+        for scheme, dark in (("light", False), ("dark", True)):
+            self.show(WIDE, scheme)
+            self.open("index.html")
+            colour = self.js("return getComputedStyle(document.body).backgroundColor")
+            self.assertEqual(sum(map(int, re.findall(r"\d+", colour)[:3])) < 200, dark, colour)
 
+    def test_copy_leaves_out_the_line_numbers(self):
+        self.open("fig06_orbits.html")
+        shown = self.js("return document.querySelector('.highlight .line').closest('pre').innerText")
+        self.assertIn(shown.strip(), Path("src/fig06_orbits.cpp").read_text(encoding="utf-8"))
 
-def faults_of(driver, page, width):
-    """What is wrong with an opened page."""
-    for entry in driver.get_log("browser"):
-        yield f"the browser says {entry['message']}"
-    for image in driver.find_elements(By.TAG_NAME, "img"):
-        if not driver.execute_script("return arguments[0].naturalWidth > 0", image):
-            yield f"{image.get_attribute('src')} did not load"
-    if page.name in WITH_EQUATIONS:
-        shown = driver.execute_script(
-            "return [...document.querySelectorAll('math')].filter("
-            "m => m.getBoundingClientRect().height > 5).length")
-        if shown == 0:
-            yield "no equation is rendered"
-    wide = driver.execute_script("return document.documentElement.scrollWidth")
-    if wide > width:
-        yield f"{wide} pixels wide in a window of {width}"
+    def test_contrast_and_texts_by_axe(self):
+        if not AXE.exists() and shutil.which("npm"):
+            subprocess.run(["npm", "install", "--silent", "--no-audit", "--no-fund", "--prefix", BUILD / "npm", "axe-core@4.10.3"],
+                           check=False, capture_output=True)
+        if not AXE.exists():
+            self.skipTest("no npm with axe-core here")
+        for scheme in ("light", "dark"):
+            self.show(WIDE, scheme)
+            for page in [*SHOWN[:5], "list_of_deviations.html", "guide.html", "marks.html", "names-model.html"]:
+                with self.subTest(page, scheme=scheme):
+                    self.open(page)
+                    self.js(AXE.read_text(encoding="utf-8"))
+                    found = self.driver.execute_async_script(
+                        "const done = arguments[0]; axe.run({runOnly: ['wcag2a', 'wcag2aa']}).then(r => done(r.violations.map("
+                        "v => [v.id, v.nodes.length, v.nodes[0].html.slice(0, 200), v.nodes[0].failureSummary])))")
+                    self.assertEqual(found, [])
 
+    def test_article(self):
+        for width in (NARROW, WIDE):
+            self.show(width)
+            self.open("article.html", "paper/")
+            self.assertLessEqual(self.js("return document.documentElement.scrollWidth"), width)
+            self.assertEqual(self.js("return [...document.images].filter(i => !i.naturalWidth).length"), 0)
+            self.assertGreater(self.js("return [...document.querySelectorAll('math')].filter("
+                                       "m => m.getBoundingClientRect().height > 5).length"), 10)
 
-def search_faults(driver):
-    """The box finds the page of the ball bearing, and nothing for a word that is not there."""
-    for word, least, most in (("clearance stiffness", 1, 60), ("xylophone", 0, 0)):
-        box = driver.find_element(By.CSS_SELECTOR, ".search")
-        box.clear()
-        box.send_keys(word)
-        found = len(driver.find_elements(By.CSS_SELECTOR, "#found li"))
-        if not least <= found <= most:
-            yield f"the search for {word!r} finds {found} pages"
-
-
-def opened(profile):
-    driver = browser(profile)
-    try:
-        for page in OPENED:
-            for width in WIDTHS:
-                window(driver, width)
-                driver.get(page.resolve().as_uri())
-                yield from (f"{page.name} at {width}: {fault}"
-                            for fault in faults_of(driver, page, width))
-                driver.save_screenshot(str(SHOTS / f"{page.stem}-{width}.png"))
-            if page.name == "index.html":
-                yield from search_faults(driver)
-    finally:
-        driver.quit()
-
-
-def main():
-    pages = sorted(BOOK.glob("*.html")) + [ARTICLE]
-    SHOTS.mkdir(parents=True, exist_ok=True)
-    sittings = [page for page in pages if page.name not in COLLECTIONS]
-    faults = [*broken_links(pages), *invalid(pages), *lengths(sittings), *without_page()]
-    with tempfile.TemporaryDirectory() as profile:
-        faults += opened(profile)
-    for fault in faults:
-        print(fault, file=sys.stderr)
-    print(f"{len(pages)} pages, {len(faults)} faults")
-    return 1 if faults or len(pages) < 10 else 0
+    def test_screenshots(self):
+        for scheme in ("light", "dark"):
+            for width in (NARROW, WIDE):
+                self.show(width, scheme, 1600)
+                for page in SHOWN:
+                    self.open(page)
+                    self.driver.save_screenshot(str(SHOTS / f"{re.split(r'[.]', page)[0]}-{width}-{scheme}.png"))
 
 
 if __name__ == "__main__":
-    sys.exit(main())
+    unittest.main()
