@@ -207,8 +207,8 @@ book: build/book/index.html  ## the sources as pages, in reading order: build/bo
 # A page that would be the same is left as it is.
 build/book/index.html: $(wildcard paper/book/* *.md paper/*.md paper/references.bib studies/*.py peers/*.py data/reference/*.tsv build/live/index.html) \
   $(sources) $(untimed) $(timings) $(claims)
-	$(PYTHON) paper/book/pages.py build/book-pages $(@D)
-	$(PYTHON) -m sphinx -q -W --keep-going -c paper/book -d build/book-doctrees build/book-pages $(@D)
+	@mkdir -p build/book-pages
+	$(PYTHON) -m sphinx -q -W --keep-going -c paper/book -d build/book-pages/.trees build/book-pages $(@D)
 	@touch $@
 live: build/live/index.html  ## the solver as a page for the browser, one file: build/live/index.html
 include live/live.mk

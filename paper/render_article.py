@@ -55,7 +55,7 @@ def as_html(text, output):
         shutil.copy(drawing, output.parent / "figures")
     shutil.copy("paper/article.css", output.parent)
     text = FIGURE.sub(lambda match: f'{match[0]}{{alt="{SHOWN[Path(match[1]).name]["alt"]}"}}', text)
-    text = DEVIATION.sub(r"[D-\1](../book/list_of_deviations.html#d-\1)", text)
+    text = DEVIATION.sub(r"[D-\1](../book/list_of_deviations.html#D-\1)", text)
     pandoc(EQUATION.sub(numbered, text), "--to", "html5", "--mathml", "--standalone", "--toc",
            "--toc-depth", "2", "--template", "paper/article.html", "--output", str(output))
 

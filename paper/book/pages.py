@@ -1,237 +1,177 @@
-"""Writes the pages of the book in MyST Markdown, from which Sphinx makes HTML (conf.py).
+"""The pages of the book in MyST Markdown, made from the sources; an extension of Sphinx.
 
-Every program, every module of src/ (header and implementation together) and every entry [text] of chapters.toml is
-a page. Comments with a heading or an equation become text; the other lines are shown with their numbers. Equations,
-deviations, claims and names of src/ are linked to where they stand, and from there to where they are used. A page
-that would be the same keeps its date, so that Sphinx renders only what changed.
-
-Usage: pages.py FOLDER_OF_MARKDOWN FOLDER_OF_HTML   (from the project's root)
+Every program, every module of src/ and every entry [text] of chapters.toml is a page. Comments with a heading or an
+equation become text, the other lines stand below with their numbers. Equations, deviations, claims and names of src/
+are links to where they stand; the pages marks and names-* list who uses them. A page that would be the same is left.
 """
-import html
 import inspect
-import json
-import os
 import re
-import sys
+import shutil
 import tomllib
 from collections import defaultdict
 from pathlib import Path
 
+import furo
 from pygments import highlight
 from pygments.formatters import HtmlFormatter
 from pygments.lexers import get_lexer_by_name
 
-OUT, RENDERED, DRAWN = Path(sys.argv[1]), Path(sys.argv[2]), Path("figures/generated")
-CONTENTS, FIGURES = (tomllib.loads(Path(f"paper/book/{name}.toml").read_text("utf-8")) for name in ("chapters", "figures"))
-PAGES = {page: [Path(file) for file in files] for page, files in CONTENTS["text"].items()}
+HERE = Path("paper/book")
+BOOK, DRAWN = (tomllib.loads((HERE / f"{name}.toml").read_text("utf-8")) for name in ("chapters", "figures"))
+PAGES = {page: [Path(file) for file in files] for page, files in BOOK["text"].items()}
 for source in sorted(Path("src").rglob("*.?pp"), reverse=True):  # x.hpp before x.cpp
     PAGES.setdefault("-".join(source.relative_to("src").with_suffix("").parts), []).append(source)
+FIGURES = {name: {"page": name, "alt": name, "table": name, "time": "a while", "command": f"make figures/generated/{name}.svg",
+                  "differs": "The paper has no such figure.", **DRAWN.get(name, {})}
+           for name in sorted(drawing.stem for drawing in Path("figures/generated").glob("*.svg"))}
 TEXTS = {file.name: page for page, files in PAGES.items() for file in files if file.suffix == ".md"}
-PROSE = {".hpp": re.compile(r"^/\*\*(?=\s*#|(?:(?!\*/).)*?\$\$)(.*?)\*/[ \t]*\n", re.M | re.S),
-         ".py": re.compile(r'\A"""(.*?)"""\n', re.S), ".gp": re.compile(r"\A((?:#.*\n)+)"), ".md": re.compile(r"\A(.*)\Z", re.S)}
-PROSE[".cpp"] = PROSE[".hpp"]
-EQUATION = re.compile(r"\$\$((?:(?!\$\$).)*?)\\tag\{([^}]*)\}((?:(?!\$\$).)*?)\$\$", re.S)
+LANGUAGES = {".py": "python", ".gp": "gnuplot"}
+PROSE = defaultdict(lambda: re.compile(r"^(/\*\*(?=\s*#|(?:(?!\*/).)*?\$\$).*?\*/[ \t]*\n)", re.M | re.S), {
+    ".py": re.compile(r'\A(""".*?"""\n)', re.S), ".gp": re.compile(r"\A((?:#.*\n)+)"), ".md": re.compile(r"(?s)\A(.*)\Z")})
 MARK = r"\bEqs?\. ?\d+|\bEqs \d+(?:(?:, | and | to |-)\d+)*|\bD-\d\d\b|(?<!class )\bC(?:1[0-4]|[1-9])\b"
-INLINE = re.compile(r"(?P<kept>^ *(?P<fence>`{3,}).*?^ *(?P=fence)$|^(?:    |#)[^\n]*|\$\$.*?\$\$|\$[^$\n]+\$|\[[^]]*\]\([^)]*\)|<[^>\n]*>)"
-                    rf"|`(?P<name>\w{4,})`|(?P<code>`[^`]*`)|(?P<mark>{MARK})|(?P<cite>\[@\w+\]|(?<!\w)@\w+)"
-                    r"|(?<![\w\\])(?P<letter>[A-Za-zΑ-Ωα-ω])_(?P<index>\w+)", re.S | re.M)
-DECLARED = re.compile(r"(?:^/\*\* ?((?:(?!\*/).)*?)\*/\n)?(?:^template.*\n)?^(?:(?:struct|class|enum class) (\w+)\b(?![;\w])"
-                      r"|(?!namespace|using|return|extern|static)[A-Za-z][\w:<>,&* ]*[ &*](\w+)\()", re.M | re.S)
-NAMES, CITED, USERS, SHOWN, MADE = defaultdict(dict), defaultdict(set), defaultdict(set), set(), {}
-for page, files in PAGES.items():
-    for header in (file for file in files if file.suffix == ".hpp"):
-        for comment, kind, function in DECLARED.findall(header.read_text("utf-8")):
-            NAMES[kind or function].setdefault(page, re.split(r"[.;:](?: |$)", " ".join(comment.split()))[0])
-PLACES = defaultdict(lambda: "marks", {f"eq-{n}": page for page, files in PAGES.items() for file in files
-                                       for found in EQUATION.findall(file.read_text("utf-8")) for n in re.findall(r"\d+", found[1])})
-
-
-def a(page, text, mark=""):
-    return f'<a href="{page}.html{mark and "#" + mark}">{text}</a>'
+INLINE = re.compile(  # what has no name stays as it is
+    r"^ *(?P<fence>`{3,}).*?^ *(?P=fence)$|^(?:    |#)[^\n]*|\$\$.*?\$\$|\$[^$\n]+\$|<[^>\n]*>|"
+    r"(?P<words>\[[^]]*\])\((?P<path>(?!http)[^)#]+)(?P<place>[^)]*)\)|\]\([^)]*\)|"
+    rf"`(?P<name>\w{{4,}})`|`[^`]*`|(?P<mark>{MARK})|(?<![\w\\])(?P<letter>[A-Za-zΑ-Ωα-ω])_(?P<index>\w+)", re.S | re.M)
+BLOCKS = ((r"^(Usage|Run): ([^`\n]+(?:\n +.+)*)", r"\1:\n\n```\n\2\n```"),
+          (r'^```\{\.(\w+) \w+="([^"]+)"\}$', r"```{code-block} \1\n:caption: \2"),
+          (r"\$\$([^$]*)\\tag\{(\d+)\}([^$]*)\$\$", r'\n<div id="eq-\2"></div>\n\n\\begin{equation*}\1\3\\tag{\2}\\end{equation*}'
+           r'\n\n<p class="cited"><a href="marks.html#eq-\2">Where it is used</a></p>\n\n'),
+          (r"^## (D-\d\d) .*$", r'<div id="\1"></div>\n\n\g<0>\n\n<p class="cited"><a href="marks.html#\1">Where it is cited</a></p>'),
+          (r'^\| <a href="results.html#(C\d+)">(?=(?:.*\|){6})', r'| <a id="\1" href="marks.html#\1">'))
+CODE = re.compile(
+    r'(?P<comment><span class="c[1m]">.*?</span>)|(?<!\.</span>)(?<!-&gt;</span>)(?<!std</span><span class="o">::</span>)'
+    r'<span class="n[cf]?">(?:(?P<call>[a-z]\w+)</span>(?=<span class="p">\()|(?P<type>[A-Z]\w+)</span>)')
+DECLARED = re.compile(
+    r"(?:^/\*\* ?((?:(?!\*/).)*?)\*/\n)?(?:^template.*\n)?^(?:(?:struct|class|enum class) (\w+)\b(?![;\w])|"
+    r"(?!namespace|using|return|extern|static)[A-Za-z][\w:<>,&* ]*[ &*](\w+)\()", re.M | re.S)
+NAMES, PLACES, USED = defaultdict(dict), {}, defaultdict(set)  # {name: {page: (line, what it is)}}, {mark: page}, {(page, name): pages}
+for page, text in ((page, file.read_text("utf-8")) for page, files in PAGES.items() for file in files if file.suffix == ".hpp"):
+    PLACES.update({f"eq-{number}": page for number in re.findall(r"\\tag\{(\d+)\}", text)})
+    for found in DECLARED.finditer(text, text.find("#pragma")):
+        told = re.split(r"[.;:](?: |$)", " ".join((found[1] or "").split()))[0].replace("|", "&#124;")
+        NAMES[found[2] or found[3]].setdefault(page, (text.count("\n", 0, found.end()) + 1, told))
 
 
 def marks(text, page):
     """Eqs 3 and 4, D-09, C8: each a link to its place."""
+    def one(match):
+        anchor = match[0] if match[0][0] in "DC" else "eq-" + re.search(r"\d+", match[0])[0]
+        place = {"D": "list_of_deviations", "C": "results"}.get(anchor[0]) or PLACES.get(anchor, "marks")
+        USED[place, anchor].add(page)
+        return f'<a href="{place}.html#{anchor}">{match[0]}</a>'
+    return re.sub(r"(?:Eqs?\.? ?)?\d+" if text[0] == "E" else r".+", one, text)
+
+
+def named(name, text, page, number=0):
+    """A link to the line that declares a name, there to its users. Of several, that of the page or its room counts."""
+    pages, room = NAMES.get(name, {}), page.split("-")[0]
+    found = {page} & set(pages) or {other for other in pages if other.split("-")[0] == room} or set(pages)
+    for place in found if len(found) == 1 else ():
+        if (place, pages[place][0]) == (page, number):
+            return f'<a href="names-{room}.html#{name}">{text}</a>'
+        USED[place, name].add(page)
+        return f'<a href="{place}.html#hpp-{pages[place][0]}">{text}</a>'
+    return text
+
+
+def code(file, text, first, page):
+    """Lines with their numbers."""
+    def linked(found):
+        name = found["call"] or found["type"]
+        return named(name, found[0], page, n) if name else re.sub(MARK, lambda mark: marks(mark[0], page), found[0])
+    kind, lines = file.suffix[1:], []
+    shown = highlight(text.strip("\n"), get_lexer_by_name(LANGUAGES.get(file.suffix, "cpp")), HtmlFormatter(nowrap=True))
+    for n, line in enumerate(shown.rstrip("\n").split("\n"), first + len(text) - len(text.lstrip("\n"))):
+        lines.append(f'<a class="line" id="{kind}-{n}" href="#{kind}-{n}" data-line="{n}" aria-label="line {n}"></a>'
+                     + (CODE.sub(linked, line) if kind[1:] == "pp" else line))
+    return '``````{raw} html\n<div class="highlight"><pre>' + "\n".join(lines) + "</pre></div>\n``````"
+
+
+def prose(text, file, page):
+    """Text with its links, to equations, names, files and pages; x_r as it is printed."""
     def one(found):
-        key = found[0].lower() if found[0][0] in "DC" else "eq-" + re.search(r"\d+", found[0])[0]
-        CITED[key].add(page)
-        where = {"d": "list_of_deviations", "c": "results"}.get(key[0]) or PLACES[key]
-        return found[0] if where == page and key[0] != "d" else a(where, found[0], key)
-    return re.sub(r"(?:Eqs?\.? ?)?\d+" if text.startswith("Eq") else r".+", one, text)
-
-
-def choice(name, page):
-    """The page that declares a name: this one, one of the same room, or the only one."""
-    rooms = [p for p in NAMES.get(name, {}) if p == page] or [p for p in NAMES.get(name, {}) if p.split("-")[0] == page.split("-")[0]]
-    found = rooms or list(NAMES.get(name, {}))
-    return found[0] if len(found) == 1 else None
-
-
-def named(match, page):
-    """A name of src/ in highlighted code: a link to its declaration, there one to its users."""
-    where = choice(match["n"], page)
-    if not where:
-        return match[0]
-    if where != page:
-        USERS[where, match["n"]].add(page)
-        return a(where, match[0], f"name-{match['n']}")
-    if (page, match["n"]) in SHOWN:
-        return a(page, match[0], f"name-{match['n']}")
-    SHOWN.add((page, match["n"]))
-    return f'<a id="name-{match["n"]}" href="names-{page.split("-")[0]}.html#{match["n"]}">{match[0]}</a>'
-
-
-def code(file, text, line, page):
-    line, text = line + len(text) - len(text.lstrip("\n")), text.strip("\n")
-    if not text:
-        return ""
-    shown = highlight(text, get_lexer_by_name({".py": "python", ".gp": "gnuplot"}.get(file.suffix, "cpp")), HtmlFormatter(lineanchors=file.suffix[1:], linenostart=line))
-    if file.suffix in (".cpp", ".hpp"):
-        shown = re.sub(r'(?<!\.</span>)(?<!std</span><span class="o">::</span>)(?<!-&gt;</span>)<span class="(?:n|nf)">(?P<n>[a-z]\w+)</span>(?=<span class="p">\()|'
-                       r'<span class="(?:n|nc)">(?P<t>[A-Z]\w+)</span>', lambda m: named({"n": m["n"] or m["t"], 0: m[0]}, page), shown)
-        shown = re.sub(r'(?<=<span class="c[1m]">).*?(?=</span>)', lambda m: re.sub(MARK, lambda n: marks(n[0], page), m[0]), shown, flags=re.S)
-    shown = re.sub(r'<a id="(\w+-(\d+))" name="[^"]*"(?: href="[^"]*")?></a>',
-                   r'<a class="line" id="\1" href="#\1" data-line="\2" aria-label="line \2" tabindex="-1"></a>', shown)
-    return f"``````{{raw}} html\n{shown}``````"
-
-
-def inline(text, page):
-    """Text with its links: to equations, names, references and other pages; x_r as it is printed."""
-    def one(found):
-        if found["mark"]:
-            return marks(found["mark"], page)
-        if found["name"]:
-            where = choice(found["name"], page)
-            return a(where, found[0], f"name-{found['name']}") if where and where != page else found[0]
-        if found["cite"]:
-            return f"{{cite:{'p' if found[0][0] == '[' else 't'}}}`{found[0].strip('[@]')}`"
+        if found["path"]:
+            name, known = Path(found["path"]).name, file.parent / found["path"]
+            known = known if known.exists() else Path("figures/generated", name)
+            return f"{found['words']}({TEXTS[name] + '.md' if name in TEXTS else f'../../{known}'}{found['place']})"
+        if found["mark"] or found["name"]:
+            return marks(found[0], page) if found["mark"] else named(found["name"], found[0], page)
         return f"{found['letter']}<sub>{found['index']}</sub>" if found["letter"] else found[0]
-
-    def numbered(found):
-        keys = [f"eq-{n}" for n in re.findall(r"\d+", found[2])]
-        places = "".join(f'<span id="{key}"></span>' for key in keys)
-        return (f"\n<div>{places}</div>\n\n\\begin{{equation*}}\n{(found[1] + found[3]).strip()} \\tag{{{found[2]}}}\n\\end{{equation*}}\n\n"
-                f'<p class="cited">Where used: {", ".join(a("marks", f"Eq. {key[3:]}", key) for key in keys)}</p>\n\n')
-    return EQUATION.sub(numbered, INLINE.sub(one, text))
-
-
-def relinked(text, file):
-    def one(found):
-        path, hash_mark, place = found[1].partition("#")
-        known = [p for p in (file.parent / path, DRAWN / Path(path).name, Path(path)) if path and p.is_file()]
-        if Path(path).name in TEXTS:
-            return f"]({TEXTS[Path(path).name]}.md{hash_mark}{place})"
-        return f"]({os.path.relpath(known[0], OUT)})" if known else found[0]
-    text = re.sub(r"\]\((?!http)([^)\s]+)\)", one, text)
-    text = re.sub(r'^```\{\.(\w+) (?:file|append)="([^"]+)"\}$', r"```{code-block} \1\n:caption: \2", text, flags=re.M)
-    text = re.sub(r"^## (D-\d\d) .*$", lambda m: f'<div id="{m[1].lower()}"></div>\n\n{m[0]}\n\n<p class="cited">'
-                  f'{a("marks", "Where it is cited", m[1].lower())}</p>', text, flags=re.M)
-    return re.sub(r"^\| (C\d+) \|", lambda m: f'| <a id="{m[1].lower()}" href="marks.html#{m[1].lower()}">{m[1]}</a> |', text, flags=re.M)
-
-
-def parts(file, page):
-    """Text and code of a file in their order, the text first that tells what it is."""
-    text, at, begun = file.read_text("utf-8"), 0, False
-    for found in [*PROSE[file.suffix].finditer(text), None]:
-        block = code(file, text[at:found.start() if found else None], text.count("\n", 0, at) + 1, page)
-        if block:
-            yield block if begun else f"## {file}\n\n{block}"
-            begun = True
-        if found:
-            prose, at = found[1], found.end()
-            if file.suffix in (".py", ".gp"):
-                prose = "# " + re.sub(r"^# ?", "", prose, flags=re.M)
-            prose = re.sub(r"^(Usage|Run): ([^`\n]+(?:\n +.+)*)", r"\1:\n\n```\n\2\n```", inspect.cleandoc(prose), flags=re.M)
-            yield inline(relinked(prose, file), page) + "\n"
-
-
-def figure(name):
-    script = next(Path("figures").glob(f"{name}.*"))
-    return (f"```{{figure}} {os.path.relpath(DRAWN, OUT)}/{name}.svg\n:alt: {json.dumps(FIGURES.get(name, {}).get('alt', name))}\n:target: _images/{name}.svg\n\n"
-            f"Drawn by [{script}]({os.path.relpath(script, OUT)}).\n```")
-
-
-def computed(name, page):
-    """Command, time and what was modelled; what differs from the paper; the first rows of the table."""
-    shown = FIGURES.get(name, {})
-    table = next((f for f in (Path(f"data/{w}/{shown.get('table', name)}.tsv") for w in ("reference", "generated")) if f.exists()), None)
-    lines = table.read_text("utf-8").splitlines() if table else []
-    told = [line[2:] for line in lines if re.match(r"# (?!source|compiler|column|panel|event)", line)][:24]
-    rows = [[f"{float(cell):.5g}" if re.match(r"-?\d+\.\d{5}", cell) else cell for cell in line.split("\t")] for line in lines if line[:1] != "#"][:5]
-    grid = ["| " + " | ".join(row) + " |" for row in [*rows[:1], ["---"] * len(rows[0]), *rows[1:]]] if rows else []
-    command = shown.get("command", f"make figures/generated/{name}.svg")
-    return (f"## How {name} was computed\n\n`{command}`" + (f" takes {shown['time']}." if "time" in shown else "") + " The table says what was modelled:\n\n```\n"
-            + "\n".join(told) + "\n```\n\n### What differs from the paper\n\n" + inline(shown.get("differs", "The paper has no such figure."), page)
-            + (f"\n\n### The table\n\nThe first rows of [{table.name}]({os.path.relpath(table, OUT)}):\n\n" + "\n".join(grid) if table else ""))
+    text = re.sub(r'^/\*\* ?|\s*\*/\s*$|"""', "", text)
+    text = INLINE.sub(one, inspect.cleandoc("# " + re.sub(r"^# ?", "", text, flags=re.M) if file.suffix in LANGUAGES else text))
+    for pattern, shown in BLOCKS:
+        text = re.sub(pattern, shown, text, flags=re.M)
+    return text
 
 
 def page_text(page):
-    texts = [part for file in PAGES[page] for part in parts(file, page)]
-    drawn = [n for n in sorted(f.stem for f in DRAWN.glob("*.svg")) if FIGURES.get(n, {}).get("page", n) == page]
-    if drawn:
-        heading, _, told = texts[0].partition("\n")
-        texts = [heading, *map(figure, drawn), told, *(computed(name, page) for name in drawn), *texts[1:]]
-    return "\n\n".join(texts)
+    """Text and code of its files in their order; where it shows a figure, the picture first, then how it was made."""
+    parts = []
+    for file in PAGES[page]:
+        line, heading = 1, f"## {file}\n\n"
+        for k, piece in enumerate(PROSE[file.suffix].split(file.read_text("utf-8"))):
+            if k % 2:
+                parts.append(prose(piece, file, page))
+            elif piece.strip():
+                parts.append(heading + code(file, piece, line, page))
+                heading = ""
+            line += piece.count("\n")
+    for name, shown in ((name, shown) for name, shown in FIGURES.items() if shown["page"] == page):
+        table = max(Path("data").glob(f"[gr]e*/{shown['table']}.tsv"))  # reference/ before generated/
+        header = re.findall(r"^# (?!source|compiler|panel|event)(.*)", table.read_text("utf-8"), re.M)
+        heading, _, told = parts[0].partition("\n")
+        parts[0] = (HERE / "figure.md").read_text("utf-8").format(**shown | {
+            "name": name, "heading": heading, "told": told, "table": table, "header": "\n".join(header),
+            "script": next(Path("figures").glob(f"{name}.*")), "differs": prose(shown["differs"], table, page)})
+    return "\n\n".join(parts)
 
 
-def toctree(pages, *options):
-    return "\n".join(["```{toctree}", *options, "", *pages, "```"])
+def write(app):
+    """All pages, those that list others last; where the contents change, which all pages show, everything anew."""
+    made, rows, chapters = {page: page_text(page) for page in PAGES}, defaultdict(list), []
+    titles = {page: re.search(r"^# (.+)", text, re.M)[1] for page, text in made.items()}
+    for page, name, line, told in sorted((page, name, *at) for name, pages in NAMES.items() for page, at in pages.items()):
+        rows[f"names-{page.split('-')[0]}"].append((page, name, f"hpp-{line}", f"<code>{name}</code>", told))
+    for place, key in sorted({*USED, *((place, key) for key, place in PLACES.items())}, key=lambda at: (at[1][0] != "e", len(at[1]), at[1])):
+        if re.fullmatch(r"eq-\d+|D-\d\d|C\d+", key):
+            rows["marks"].append((place, key, key, key.replace("eq-", "Eq. "), titles.get(place, "")))
+    for page, listed in rows.items():
+        made[page] = f"# {'Where they are used: ' + page.replace('-', ' of ')}\n\n| | what it is | used in |\n|---|---|---|\n" + "\n".join(
+            f'| <a id="{anchor}" href="{place}.html#{target}">{text}</a> | {told} | ' + ", ".join(
+                f'<a href="{user}.html">{titles[user]}</a>' for user in sorted(USED[place, anchor])) + " |"
+            for place, anchor, target, text, told in listed)
+    left = sorted(made)
+    for number, chapter in enumerate(BOOK["chapter"], 1):
+        named_here = [page for page in chapter.get("pages", []) if page in left]
+        pages = named_here + [page for page in left if page not in named_here and page.startswith(tuple(chapter.get("rest_of", "/")))]
+        left = [page for page in left if page not in pages]
+        if pages:
+            chapters.append(f"chapter-{number}")
+            made[chapters[-1]] = f"# {chapter['title']}\n\n{chapter['introduction']}\n```{{toctree}}\n" + "\n".join(pages) + "\n```\n"
+    live = '- <a href="../live/index.html">The live page</a> computes motions in the browser' if Path("build/live/index.html").exists() else ""
+    made["index"] = (HERE / "index.md").read_text("utf-8").format(chapters="\n".join(chapters), live=live)
+    made["contents"] = "\n".join(f"{page} {re.search(r'^# .+', text, re.M)[0]}" for page, text in made.items())
+    files = {Path(app.srcdir, f"{page}.md"): text for page, text in made.items()}
+    changed = {file for file, text in files.items() if not file.exists() or file.read_text("utf-8") != text}
+    if Path(app.srcdir, "contents.md") in changed:
+        for old in [*Path(app.srcdir).glob("*.md"), *Path(app.outdir).glob("*.html")]:
+            old.unlink()
+    for file in changed:
+        file.write_text(files[file], "utf-8")
 
 
-def chapter_text(chapter):
-    pictures = "".join(f'<a href="{page}.html"><img src="_images/{name}.svg" alt="{html.escape(FIGURES.get(name, {}).get("alt", name))}"></a>'
-                       for page in chapter["pages"] for name in sorted(f.stem for f in DRAWN.glob("*.svg"))
-                       if FIGURES.get(name, {}).get("page", name) == page)
-    return f"# {chapter['title']}\n\n{chapter['introduction']}\n{toctree(chapter['pages'], ':maxdepth: 1')}\n\n" + (
-        f'<div class="gallery">{pictures}</div>\n' if pictures else "")
+def complete(app, error):
+    """What Debian's furo lacks: the style and the script that it imports, and dark colours where the reader's system is dark."""
+    theme, static = Path(furo.__file__).parent / "theme/furo/static", Path(app.outdir, "_static")
+    normal, (style, spy, script) = Path("/usr/share/javascript/normalize.css/normalize.css").read_text("utf-8"), (
+        (theme / name).read_text("utf-8") for name in ("styles/furo.css", "scripts/gumshoe-patched.js", "scripts/furo.js"))
+    dark = re.search(r'body\[data-theme="dark"\] (\{.*?\})', style, re.S)[1]
+    system = f'@media screen and (prefers-color-scheme: dark) {{ body:not([data-theme="light"]) {dark} }}\n'
+    (static / "styles/furo.css").write_text(normal + style.partition("\n")[2] + system, "utf-8")
+    (static / "scripts/furo.js").write_text(spy + script.partition("\n")[2], "utf-8")
 
 
-def links(pages):
-    return ", ".join(a(page, re.search(r'^# (.+)', MADE[page], re.M)[1]) for page in sorted(pages))
-
-
-def names_text(room):
-    rows = [f'| <span id="{name}"></span>{a(page, f"<code>{name}</code>", f"name-{name}")} | {told.replace("|", "&#124;")} '
-            f"| {links(USERS[page, name])} |" for page, name, told in sorted((p, n, NAMES[n][p]) for p, n in SHOWN if p.split("-")[0] == room)]
-    return "\n".join([f"# Names of {room}", "", "| name | what it is | used by |", "|---|---|---|", *rows])
-
-
-def marks_text():
-    def row(key):
-        where = {"d": "list_of_deviations", "c": "results"}.get(key[0]) or PLACES[key]
-        name = key.upper() if key[0] in "dc" else f"Eq. {key[3:]}"
-        return f'| <span id="{key}"></span>{name if where == "marks" else a(where, name, key)} | {links(CITED[key])} |'
-    keys = sorted(set(PLACES) | set(CITED), key=lambda k: ("edc".index(k[0]), int(re.search(r"\d+", k)[0])))
-    return "\n".join(["# Equations, deviations and claims: where they are used", "", "| | used in |", "|---|---|", *map(row, keys)])
-
-
-def main():
-    made = MADE
-    made |= {page: page_text(page) for page in PAGES}
-    rooms = list(dict.fromkeys(page.split("-")[0] for page, _ in sorted(SHOWN) if "-" in page))
-    made |= {f"names-{room}": names_text(room) for room in rooms} | {"marks": marks_text()}
-    left, chapters = dict.fromkeys(made), CONTENTS["chapter"]
-    for chapter in chapters:
-        named = [page for page in chapter.get("pages", []) if page in left] + [
-            page for page in sorted(left) if page not in chapter.get("pages", []) and page.startswith(tuple(chapter.get("rest_of", ["//"])))]
-        chapter["pages"] = [page for page in named if left.pop(page, page) is None]
-    if left:
-        sys.exit("no chapter for: " + ", ".join(left))
-    chapters = [chapter for chapter in chapters if chapter["pages"]]
-    made |= {f"chapter-{number}": chapter_text(chapter) for number, chapter in enumerate(chapters, 1)}
-    live = '- <a href="../live/index.html">The live page</a> computes motions in the browser\n\n' if Path("build/live/index.html").exists() else ""
-    made["index"] = Path("paper/book/index.md").read_text("utf-8") + live + toctree(
-        [f"chapter-{number}" for number in range(1, len(chapters) + 1)], ":hidden:", ":titlesonly:")
-    made["contents"] = "\n".join(re.search(r"^# .+", text, re.M)[0] for text in made.values())
-    OUT.mkdir(parents=True, exist_ok=True)
-    for file in OUT.glob("*.md"):
-        if file.stem not in made:
-            file.unlink()
-            (RENDERED / f"{file.stem}.html").unlink(missing_ok=True)
-    for page, text in made.items():
-        file = OUT / f"{page}.md"
-        if not file.exists() or file.read_text("utf-8") != text:
-            file.write_text(text, "utf-8")
-
-
-main()
+def setup(app):
+    app.connect("builder-inited", write)
+    app.connect("build-finished", complete)

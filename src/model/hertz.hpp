@@ -1,11 +1,9 @@
 /**
 # Hertz contact of a ball with its races (Eqs 1, 2 and 5)
 
-A ball pressed by the penetration $p = \Delta - \delta > 0$ answers with
+A ball pressed by the penetration $p > 0$ answers with the force Q; ball j of a bearing, approached by Δ_j, with Q_j:
 
-$$Q = K_H\, p^{3/2}, \tag{1, 5}$$
-
-and with nothing when it is not pressed. */
+$$Q = K_H\, p^{3/2}, \tag{1}$$ $$Q_j = K_H \max(0, \Delta_j - \delta)^{3/2}. \tag{5}$$ */
 #pragma once
 
 #include <cmath>
