@@ -103,7 +103,7 @@ endif
 .PHONY: deps all figures timing claims studies truth maps $(maps) $(studies) adopt peers book article pdf png readme golden \
   live test sanitize bench format dist list clean
 
-all: $(untimed) $(timings) $(claims) build/book/index.html build/paper/article.html  ## figures, tables and claims of both readings, pages, article
+all: $(untimed) $(timings) $(claims) build/book/.built build/paper/article.html  ## figures, tables and claims of both readings, pages, article
 deps:  ## install the Debian packages that the goals beside it need (goals=NAME: of a goal that is not made now)
 	@:
 figures: $(shown)  ## the paper's figures and tables, of one READING (exchanged or as-printed)
@@ -202,20 +202,15 @@ data/generated/deviations.md data/generated/article.md: data/generated/%.md: pap
 data/generated/cage.md: studies/cage.py data/reference/cage.tsv figures/tables.py
 	$(whole) $(PYTHON) $< data/reference/cage.tsv > $$new; mv $$new $@
 
-book: build/book/index.html  ## the sources as pages, in reading order: build/book/index.html
-
-# A page that would be the same is left as it is.
-build/book/index.html: $(wildcard paper/book/* *.md paper/*.md paper/references.bib studies/*.py peers/*.py data/reference/*.tsv build/live/index.html) \
+book: build/book/.built  ## programs, figures and texts as pages, with a search: build/book/index.html
+build/book/.built: $(wildcard paper/book/* *.md paper/*.md paper/references.bib studies/*.py peers/*.py data/reference/*.tsv build/live/index.html) \
   $(sources) $(untimed) $(timings) $(claims)
-	@mkdir -p build/book-pages
-	$(PYTHON) -m sphinx -q -W --keep-going -c paper/book -d build/book-pages/.trees build/book-pages $(@D)
-	@touch $@
+	mkdir -p build/book-pages && $(PYTHON) -m sphinx -q -W --keep-going -c paper/book -d build/book-pages/.trees build/book-pages $(@D) && touch $@
 live: build/live/index.html  ## the solver as a page for the browser, one file: build/live/index.html
 include live/live.mk
 
 article: build/paper/article.html  ## the article: build/paper/article.html
-build/paper/article.html: data/generated/article.md paper/render_article.py paper/article.html \
-  paper/article.css paper/book/figures.toml paper/references.bib \
+build/paper/article.html: data/generated/article.md paper/render_article.py paper/article.html paper/article.css paper/book/figures.toml paper/references.bib \
   $(shell sed -nE 's/^!\[.*\]\(figures\/(.*\.svg)\)$$/figures\/generated\/\1/p' paper/article.md)
 	$(PYTHON) paper/render_article.py $< $@
 pdf: build/paper/article.pdf  ## the article as PDF

@@ -94,7 +94,7 @@ class Files(unittest.TestCase):
     def test_every_figure_has_a_complete_page(self):
         for figure in sorted(Path("figures/generated").glob("*.svg")):
             page = self.page({"truncation": "validity"}.get(figure.stem, figure.stem))
-            for part in (f'src="_images/{figure.name}"', "How .* was computed", "make</span>", "What differs from the paper", "(D-\\d\\d|paper)"):
+            for part in (f'src="_images/{figure.name}"', f"{figure.stem}: how it was computed", "make</span>", f"{figure.stem}: what differs from the paper", "(D-\\d\\d|paper)"):
                 self.assertRegex(page, part, figure.stem)
 
     def test_links_go_both_ways(self):

@@ -26,7 +26,7 @@ INLINE = re.compile(  # what has no name stays as it is
     r"^ *(?P<fence>`{3,}).*?^ *(?P=fence)$|^(?:    |#)[^\n]*|\$\$.*?\$\$|\$[^$\n]+\$|<[^>\n]*>|"
     r"(?P<words>\[[^]]*\])\((?P<path>(?!http)[^)#]+)(?P<place>[^)]*)\)|\]\([^)]*\)|"
     rf"`(?P<name>\w{{4,}})`|`[^`]*`|(?P<mark>{MARK})|(?<![\w\\])(?P<letter>[A-Za-zΑ-Ωα-ω])_(?P<index>\w+)", re.S | re.M)
-BLOCKS = ((r'^/\*\* ?|\s*\*/\s*\Z|"""\s*\Z', ""), (r'\A"""', "# "),
+BLOCKS = ((r'^/\*\* ?|\s*\*/\s*\Z|"""\s*\Z', ""), (r'\A"""(.*?)\.?$', r"# \1"),
           (r'^```\{\.(\w+) \w+="([^"]+)"\}$', r"```{code-block} \1\n:caption: \2"),
           (r"\$\$([^$]*)\\tag\{(\d+)\}([^$]*)\$\$", r'\n<div id="eq-\2"></div>\n\n\\begin{equation*}\1\3\\tag{\2}\\end{equation*}'
            r'\n\n<p class="cited"><a href="marks.html#\2">Where it is used</a></p>\n\n'),
@@ -37,13 +37,13 @@ CODE = re.compile(
     r'<span class="n[cf]?">(?:(?P<call>[a-z]\w+)</span>(?=<span class="p">\()|(?P<type>[A-Z]\w+)</span>)')
 MARKED = re.compile(r"\\tag\{(\d+)\}()|^(?:## |\| )(?=D-\d\d|C\d+ (?:.*\|){6})([CD][-\d]+)[ |]+([^|\n]*)", re.M)
 DECLARED = re.compile(
-    r"(?:^/\*\* ?((?:(?!\*/).)*?)\*/\n)?(?:^template.*\n)?^(?:(?:struct|class|enum class) (\w+)\b(?![;\w])|"
+    r"(?:^/\*\* ?((?:(?!\*/).)*?)\*/\n)?(?:^template[^\n]*\n)?^(?:(?:struct|class|enum class) (\w+)\b(?![;\w])|"
     r"(?!namespace|using|return|extern|static)[A-Za-z][\w:<>,&* ]*[ &*](\w+)\()", re.M | re.S)
 NAMES, USED = defaultdict(dict), defaultdict(set)  # {name or mark: {page: (place there, what it is)}}, {(page, name): pages}
 for page, text in ((page, file.read_text("utf-8")) for page, files in PAGES.items() for file in files if file.suffix in (".hpp", ".md")):
     NAMES |= {number or mark: {page: (f"eq-{number}" if number else mark, told)} for number, _, mark, told in MARKED.findall(text)}
     for found in DECLARED.finditer(text, text.find("#pragma")) if "#pragma" in text else ():
-        told = re.split(r"[.;:](?: |$)", " ".join((found[1] or "").split()))[0].replace("|", "&#124;")
+        told = re.split(r"[.;:](?: |$)", " ".join((found[1] or "").split()))[0].replace("|", "&#124;").replace("<", "&lt;")
         NAMES[found[2] or found[3]].setdefault(page, (f"hpp-{text.count(chr(10), 0, found.end()) + 1}", told))
 
 
@@ -85,7 +85,7 @@ def prose(text, file, page):
         return f"{found['letter']}<sub>{found['index']}</sub>" if found["letter"] else found[0]
     text = INLINE.sub(linked, inspect.cleandoc(text))
     for pattern, shown in BLOCKS:
-        text = re.sub(pattern, shown, text, flags=re.M)
+        text = re.sub(pattern, shown, text.strip(), flags=re.M)
     return text
 
 
