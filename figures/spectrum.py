@@ -15,11 +15,11 @@ MOST_NAMES = 24
 NEAR = 0.018  # of the width: names that would overlap
 
 
-def chosen(orders, heights, width):
-    """The highest lines whose names have room."""
+def chosen(names, orders, heights, width):
+    """The highest named lines whose names have room."""
     places = []
     for place in np.argsort(-heights, kind="stable"):
-        if all(abs(orders[place] - orders[other]) > NEAR * width for other in places):
+        if names[place] != "-" and all(abs(orders[place] - orders[other]) > NEAR * width for other in places):
             places.append(place)
     return places[:MOST_NAMES]
 
@@ -43,8 +43,9 @@ def draw(table):
         shown = height > bottom
         axes.vlines(orders[shown], bottom, height[shown], color=colour, lw=1.3)
         axes.plot(orders[shown], height[shown], "o", ms=3.5, color=colour)
-        for place in chosen(orders[shown], height[shown], width):
-            axes.annotate(str(table["name"][shown][place]), (orders[shown][place], height[shown][place]),
+        names = table["name"][shown]
+        for place in chosen(names, orders[shown], height[shown], width):
+            axes.annotate(str(names[place]), (orders[shown][place], height[shown][place]),
                           xytext=(0, 6), textcoords="offset points", rotation=90, ha="center", va="bottom",
                           fontsize=10)
         axes.set_ylabel(f"amplitude of the {name} [m]")
