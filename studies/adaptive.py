@@ -15,9 +15,6 @@ Each error is the larger of the largest difference over the largest displacement
 from its own starts closes none of the solutions' motions, a solution with four times as many harmonics as the ladder has stands
 for the exact motion; where the exact motion is not a solution's own, the distance that its verdict prints is the error.
 
-The kept table was made by the program that this script replaced. Recomputed speeds agree in all digits that `orbit` prints; only
-there the cost of a tolerance that was not reached is a number too, and quasi-static contact is said to fail there.
-
 Usage: studies/adaptive.py data/scenes/adaptive.toml > adaptive.tsv   (from the project's root)
 """
 import os

@@ -19,9 +19,7 @@ SHARE_OF_ROWS = 0.97
 OF_LARGEST = 0.02
 
 # The columns that are compared, where not all are; the columns that name a row, where rows may be missing.
-COLUMNS = {"attractors": ["set"],
-           "adaptive": ["set", "f", "tolerance", "reached", "m", "N", "estimate", "error", "m_fixed", "error_fixed"],
-           "validity": ["found", "distance", "periodic"],
+COLUMNS = {"attractors": ["set"], "validity": ["found", "distance", "periodic"],
            "identification": ["reading", "set", "m_s", "m_r", "f_loss", "f", "periodic", "turns", "amp_x_r"],
            "hard_cases": ["case", "method", "status", "verdict", "regime"]}
 KEY = {"attractors": ["set", "f", "origin", "verdict"]}
