@@ -197,7 +197,9 @@ class Browser(unittest.TestCase):
         for page in sorted(BOOK.glob("*.html")):
             with self.subTest(page.name):
                 self.open(page.name)
-                self.assertLessEqual(self.js("return document.documentElement.scrollWidth"), NARROW)
+                self.assertEqual(self.js("""return [...document.querySelectorAll('article *')].filter(
+                  part => part.getBoundingClientRect().right > innerWidth && !part.closest('pre, .table-wrapper, .math, .MathJax_SVG')).map(
+                  part => part.outerHTML.slice(0, 100))"""), [])
                 asked, given, wrong = self.js("""return [document.querySelectorAll('.math').length,
                   [...document.querySelectorAll('.MathJax_SVG svg')].filter(s => s.getBoundingClientRect().height > 5).length,
                   document.querySelectorAll('.MathJax_SVG_Error, .MathJax_SVG [fill=red], .merror, .noError').length]""")
