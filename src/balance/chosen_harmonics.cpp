@@ -56,7 +56,7 @@ struct Choosing {
   Harmonics large =
       joined(joined(joined(up_to(1.3 * highest_order, 6, bearing), medium),
                     joined(up_to(1.5, 12, bearing), sidebands(bearing, 12, 4))),
-             of_defect(bearing));
+             of_passages(bearing));
   TorusLine finest = line_without_images(large, large, 4 * least_samples);
   AdaptiveMotion result = {};
   PeriodicMotion finer = {};  ///< on `large`, the harmonics kept first
@@ -90,8 +90,9 @@ struct Choosing {
   {
     std::string why;
     for (const int turns : {1, 2}) {
-      take_lines(joined(up_to(2 * highest_order, 8, bearing, turns), of_defect(bearing)),
-                 turns);
+      take_lines(
+          joined(up_to(2 * highest_order, 8, bearing, turns), of_passages(bearing)),
+          turns);
       solve_on_largest();
       if (!result.reached) {
         why = result.end;

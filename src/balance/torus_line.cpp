@@ -70,22 +70,24 @@ Harmonics sidebands(const Bearing& bearing, int orders, int passages)
   return ascending(pairs, bearing);
 }
 
-Harmonics of_defect(const Bearing& bearing)
+Harmonics of_passages(const Bearing& bearing)
 {
   constexpr double most_waves = 600, highest = 10;
   constexpr int passages = 16, turns = 3;
-  if (bearing.is_damaged(Defect::Surface::none)) return Harmonics({{0, 0}});
   const int n = bearing.balls;
+  const bool is_damaged = !bearing.is_damaged(Defect::Surface::none);
   const bool is_inner = bearing.is_damaged(Defect::Surface::inner_race);
   /** The spectrum of cos^4 ends at three waves in its width; on the inner race there would be too many. */
-  const double circles = 2 * std::numbers::pi / bearing.defect.width;
+  const double circles = is_damaged ? 2 * std::numbers::pi / bearing.defect.width : 0;
   const auto waves =
       static_cast<int>(std::min(most_waves, std::ceil((is_inner ? 2 : 3) * circles)));
+  const int multiples = std::max(passages, waves / n + 1);
   const int most = is_inner ? waves : turns;
   std::set<std::pair<double, double>> pairs{{0, 0}};
   for (int k_1 = -most; k_1 <= most; ++k_1)
-    for (int k_2 = -waves / n - 1; k_2 <= waves / n + 1; ++k_2)
-      if (!is_inner || std::abs(k_1 + n * k_2) <= 2 * n) pairs.insert({k_1, k_2});
+    for (int k_2 = -multiples; k_2 <= multiples; ++k_2)
+      if (std::abs(k_1) <= turns || std::abs(k_1 + n * k_2) <= 2 * n)
+        pairs.insert({k_1, k_2});
   const Harmonics own = ascending(pairs, bearing);
   return is_inner ? joined(own, up_to(highest, passages, bearing)) : own;
 }
