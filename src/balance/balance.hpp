@@ -44,8 +44,9 @@ the samples. */
 
 namespace rotor_stator {
 
-/** Small complex matrices without heap memory: at most four nonlinear unknowns. */
-constexpr int most_dofs = 4;
+/** Small complex matrices without heap memory: at most eight nonlinear unknowns, two of
+    each of four bearings. */
+constexpr int most_dofs = 8;
 using SmallMatrix = Eigen::Matrix<std::complex<double>, Eigen::Dynamic, Eigen::Dynamic, 0,
                                   most_dofs, most_dofs>;
 using SmallVector =
@@ -65,7 +66,7 @@ struct LinearBlock {
 
 /** A nonlinear system under periodic load, sampled N times per period. */
 struct Problem {
-  int dofs;               ///< d ≤ 4
+  int dofs;               ///< d ≤ 8
   int samples;            ///< N
   double residual_scale;  ///< size of c_h, for the relative tolerance
   double unknown_scale;   ///< size of q [the unit of q]
@@ -110,7 +111,7 @@ SmallVector amplitude(const Eigen::Ref<const Eigen::MatrixXd>& series, int h);
 void put_amplitude(Eigen::Ref<Eigen::MatrixXd> series, int h,
                    const SmallVector& amplitude);
 
-/** Calls `work` with `dofs` = 1 … 4 as a std::integral_constant: small matrices of a size that the
+/** Calls `work` with `dofs` = 1 … 4, 6 or 8 as a std::integral_constant: small matrices of a size that the
     compiler knows are multiplied without loops. */
 template <class Work>
 void with_dofs(int dofs, Work work)
@@ -119,7 +120,9 @@ void with_dofs(int dofs, Work work)
     case 1: return work(std::integral_constant<int, 1>{});
     case 2: return work(std::integral_constant<int, 2>{});
     case 3: return work(std::integral_constant<int, 3>{});
-    default: return work(std::integral_constant<int, 4>{});
+    case 4: return work(std::integral_constant<int, 4>{});
+    case 6: return work(std::integral_constant<int, 6>{});
+    default: return work(std::integral_constant<int, 8>{});
   }
 }
 

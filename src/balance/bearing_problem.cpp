@@ -4,6 +4,7 @@
 #include <numbers>
 #include <tuple>
 
+#include "balance/large_problem.hpp"
 #include "io/errors.hpp"
 #include "model/ball_bearing.hpp"
 
@@ -156,7 +157,9 @@ Problem bearing_problem(const Parameters& parameters, const TorusLine& line,
                   .force = {},
                   .operations = 5e3 + line.samples * (8 + 1.5 * parameters.bearing.balls),
                   .line = line};
-  if (parameters.bearing.is_plain()) {
+  if (parameters.large) {
+    put_large_bodies(parameters, line, problem);
+  } else if (parameters.bearing.is_plain()) {
     problem.force = SampledBearing(on(line, parameters.bearing), line.samples);
   } else {
     problem.moving_force = moving_force(parameters, line);
@@ -192,6 +195,12 @@ Eigen::VectorXd quasi_static_start(const Parameters& parameters, double omega,
                                    int harmonics)
 {
   const int samples = default_samples(harmonics);
+  if (parameters.large) {
+    const Eigen::MatrixXd u = large_start_samples(parameters, omega, samples);
+    Eigen::MatrixXd series(u.cols(), 2 * harmonics + 1);
+    FourierTransform(samples).to_series(u, series);
+    return series.reshaped();
+  }
   Eigen::MatrixXd u = sampled(
       samples, [&](double phase) { return free_displacement(parameters, omega, phase); });
   const bool without_contact =
@@ -208,6 +217,8 @@ Eigen::VectorXd quasi_static_start(const Parameters& parameters, double omega,
 
 Eigen::MatrixXd body_series(const Parameters& parameters, const PeriodicMotion& motion)
 {
+  if (parameters.large)
+    return coordinate_series(parameters, motion).topRows(parameters.large->shown);
   const auto columns = motion.harmonics.coefficients();
   const Eigen::Map<const Eigen::MatrixXd> u(motion.x.data(), 2, columns);
   Eigen::MatrixXd bodies(4, columns);

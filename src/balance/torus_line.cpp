@@ -36,7 +36,10 @@ int turns_to_repeat(const Bearing& bearing)
 
 Parameters over_passage(Parameters parameters)
 {
+  parameters.speed_ratio = 1 / passages_per_turn(parameters.bearing);
   parameters.bearing.cage_speed_ratio = 1.0 / parameters.bearing.balls;
+  for (Bearing& further : parameters.further)
+    further.cage_speed_ratio *= parameters.speed_ratio;
   return parameters;
 }
 

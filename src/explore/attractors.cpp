@@ -10,6 +10,7 @@
 #include "io/errors.hpp"
 #include "io/output_file.hpp"
 #include "io/parallel.hpp"
+#include "model/large_machine.hpp"
 #include "motion/attractor.hpp"
 #include "motion/contact.hpp"
 
@@ -62,6 +63,7 @@ AttractorSettings settings_of(const Parameters& machine)
 Task task_of(const AttractorsRequest& request)
 {
   const Parameters asked = read_parameters(request.parameter_file);
+  require_two_masses(asked, "attractors");
   require_range(request.from, request.to);
   const bool is_still = !turns_visibly(asked);  // only the passing balls move it
   const Parameters machine =

@@ -6,6 +6,7 @@
 
 #include "io/errors.hpp"
 #include "model/catalogue.hpp"
+#include "model/large_machine.hpp"
 #include "model/rotor_stator.hpp"
 
 namespace rotor_stator::explore {
@@ -78,6 +79,7 @@ Exploration explore_check(const CheckRequest& request)
                                       {"meaning", "word", "of the value"}});
   table.choose(request.columns, 4, false);
   const Parameters machine = read_parameters(request.parameter_file);
+  require_two_masses(machine, "check");
   require_range(request.from, request.to);
   const Rest rest = rest_of(machine);
   const KinematicOrders orders = kinematic_orders(machine.bearing);

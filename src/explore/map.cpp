@@ -18,6 +18,7 @@
 #include "io/output_file.hpp"
 #include "io/parallel.hpp"
 #include "io/program.hpp"
+#include "model/large_machine.hpp"
 #include "motion/adaptive.hpp"
 #include "motion/contact.hpp"
 #include "motion/other_starts.hpp"
@@ -668,6 +669,7 @@ std::string header_of(const Task& task, const std::vector<Quantity>& chosen)
       {"status", "word", "ok, or why a quantity is missing, which is then -"});
   Table table("Map of a machine", columns);
   const Parameters base = read_parameters(task.file.with({}));
+  require_two_masses(base, "map");
   describe(table, base);
   for (const auto& [name, text] : {std::pair{"x", request.x}, {"y", request.y}})
     if (!text.empty()) table.note(format("%s: ", name) + text);

@@ -9,6 +9,7 @@
 #include "integration/time_stepper.hpp"
 #include "io/errors.hpp"
 #include "io/progress.hpp"
+#include "model/large_machine.hpp"
 #include "motion/closed_motion.hpp"
 #include "motion/contact.hpp"
 #include "motion/verdict.hpp"
@@ -37,6 +38,7 @@ OperationBudget budget_of(const std::optional<double>& evaluations, double secon
                           const Parameters& parameters)
 {
   const double each = operations_per_evaluation(parameters.bearing.balls);
+  if (parameters.large) seconds *= 20;
   return OperationBudget(evaluations.value_or(1e9 * seconds / each), "--budget");
 }
 
@@ -186,6 +188,9 @@ Computed computed(const Parameters& parameters, const MotionRequest& request,
   checked_samples(request.harmonics.value_or(usual_harmonics), request.samples);
   if (request.tolerance && request.samples && !request.harmonics)
     throw BadInput("--samples: chosen with m for --tolerance; give --harmonics too");
+  if (parameters.large && !is_periodic(request.method) && request.method != "exponential")
+    throw BadInput("--method " + request.method +
+                   ": bodies given by matrices take aft, shooting, auto or exponential");
   describe(table, parameters);
   table.note(format("frequency: %.15g Hz", request.frequency));
   Computed at{.budget = budget_of(request, 3, parameters)};
@@ -230,11 +235,28 @@ const std::vector<Column> contact_columns{
 
 Exploration explore_orbit(const MotionRequest& request)
 {
-  Table table("Orbit of rotor and stator over one period", orbit_columns);
-  table.choose(request.columns, 7, request.plot.has_value());
   const Parameters parameters = read_parameters(request.parameter_file);
+  auto columns = orbit_columns;
+  const auto add = [&](const std::string& name, const char* unit, const char* meaning) {
+    columns.insert(columns.end() - 1, {name, unit, meaning});
+  };
+  const std::size_t bearings = 1 + parameters.further.size();
+  for (std::size_t b = 2; b <= bearings; ++b)
+    for (const char* axis : {"x", "y"})
+      add(format("F_%s_%zu", axis, b), "N", "Eq. 6, of that bearing, on the stator");
+  std::vector<std::pair<std::string, int>> outputs;
+  if (parameters.large) outputs = parameters.large->outputs;
+  for (const auto& [name, place] : outputs) add(name, "m", "of a body given by matrices");
+  Table table("Orbit of rotor and stator over one period", columns);
+  table.choose(request.columns, columns.size() - 1, request.plot.has_value());
   const Computed at = computed(parameters, request, table);
   const motion::Motion& motion = at.found.motion;
+  std::vector<std::vector<Vec2>> further;
+  for (std::size_t b = 1; b < bearings; ++b) {
+    const auto one =
+        motion::at_bearing(over_turns(parameters, request.subharmonic), motion, b);
+    further.push_back(motion::bearing_forces(one.parameters, one.motion));
+  }
   const auto rows =
       static_cast<std::size_t>(std::max(request.periods, request.subharmonic)) *
       request.points;
@@ -242,8 +264,21 @@ Exploration explore_orbit(const MotionRequest& request)
     const std::size_t same = k % motion.size();
     const auto& [stator, rotor] = motion.positions[same];
     const double turns = request.subharmonic * motion.t_over_period(k);
-    table.row({2 * std::numbers::pi * turns, stator.x, stator.y, rotor.x, rotor.y,
-               at.forces[same].x, at.forces[same].y, turns / request.frequency});
+    std::vector<Cell> row{2 * std::numbers::pi * turns,
+                          stator.x,
+                          stator.y,
+                          rotor.x,
+                          rotor.y,
+                          at.forces[same].x,
+                          at.forces[same].y};
+    for (const auto& forces : further) {
+      row.emplace_back(forces[same].x);
+      row.emplace_back(forces[same].y);
+    }
+    for (const auto& [name, place] : outputs)
+      row.emplace_back(motion::shown_at(motion, same, place));
+    row.emplace_back(turns / request.frequency);
+    table.row(std::move(row));
   }
   conclude(table, parameters, at.touches(), at.budget);
   return {std::move(table)};
@@ -255,8 +290,11 @@ Exploration explore_contact(const MotionRequest& request)
   const Bearing& bearing = parameters.bearing;
   auto columns = contact_columns;
   if (bearing.pressure == 0) columns.pop_back();
+  const std::size_t bearings = 1 + parameters.further.size();
+  if (bearings > 1)
+    columns.insert(columns.begin() + 1, {"bearing", "-", "in the order of the file"});
   Table table("Contact of every ball over two periods", std::move(columns));
-  table.choose(request.columns, 3, request.plot.has_value());
+  table.choose(request.columns, bearings > 1 ? 4 : 3, request.plot.has_value());
   const int most_points = most_contact_rows / (2 * bearing.balls);
   if (request.points > most_points)
     throw BadInput(format("--points %d: must be at most %d with %d balls", request.points,
@@ -264,17 +302,23 @@ Exploration explore_contact(const MotionRequest& request)
   MotionRequest two = request;
   two.periods = 2;
   const Computed at = computed(parameters, two, table);
-  const auto evolution = motion::contact_evolution(parameters, at.found.motion);
-  for (std::size_t k = 0; k < evolution.t_over_period.size(); ++k)
-    for (std::size_t j = 0; j < evolution.ball_force[k].size(); ++j) {
-      const double turns = evolution.t_over_period[k], q = evolution.ball_force[k][j];
-      const double angle =
-          bearing.cage_speed_ratio * at.found.motion.phase(k) / angular(1) +
-          static_cast<double>(j) / bearing.balls;
-      table.row({turns, j + 1, q, turns / request.frequency,
-                 angular(angle - std::floor(angle)),
-                 1e-6 * bearing.pressure * std::cbrt(q)});
-    }
+  for (std::size_t b = 0; b < bearings; ++b) {
+    const auto [one, motion] = motion::at_bearing(parameters, at.found.motion, b);
+    const auto evolution = motion::contact_evolution(one, motion);
+    for (std::size_t k = 0; k < evolution.t_over_period.size(); ++k)
+      for (std::size_t j = 0; j < evolution.ball_force[k].size(); ++j) {
+        const double turns = evolution.t_over_period[k], q = evolution.ball_force[k][j];
+        const double angle = one.bearing.cage_angle(motion.phase(k)) / angular(1) +
+                             static_cast<double>(j) / one.bearing.balls;
+        std::vector<Cell> row{turns};
+        if (bearings > 1) row.emplace_back(b + 1);
+        for (double value : {static_cast<double>(j + 1), q, turns / request.frequency,
+                             angular(angle - std::floor(angle)),
+                             1e-6 * one.bearing.pressure * std::cbrt(q)})
+          row.emplace_back(value);
+        table.row(std::move(row));
+      }
+  }
   conclude(table, parameters, at.touches(), at.budget);
   return {std::move(table)};
 }

@@ -11,6 +11,7 @@
 #include "integration/time_stepper.hpp"
 #include "io/errors.hpp"
 #include "io/output_file.hpp"
+#include "model/large_machine.hpp"
 #include "motion/closed_motion.hpp"
 #include "motion/contact.hpp"
 #include "motion/motion.hpp"
@@ -80,6 +81,9 @@ void take_any_cage(const ResponseRequest& request, Task& task)
 Task task_of(const ResponseRequest& request)
 {
   Parameters parameters = read_parameters(request.parameter_file);
+  if (request.method == "shooting" || request.save || request.restart ||
+      request.isolated > 0)
+    require_two_masses(parameters, "--method shooting, --save, --restart or --isolated");
   require_range(request.from, request.to);
   if (request.at && (*request.at < request.from || *request.at > request.to))
     throw BadInput(

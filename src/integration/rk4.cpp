@@ -55,7 +55,7 @@ void Rk4::advance(long interval, State& state)
   const auto acceleration = [&](const Bodies& q, const Bodies& v, const Angles& at) {
     const Angles now{at.rotor, turned(at.cage, turns),
                      spin_turn_ > 0 ? turned(at.spin, spins) : at.spin};
-    return system_.acceleration({q, v}, now);
+    return system_.acceleration(q, v, now);
   };
   const Angles* angles = &angles_[2 * steps_ * (interval % intervals_)];
   for (int k = 0; k < steps_; ++k, angles += 2)

@@ -6,6 +6,7 @@
 #include <map>
 #include <numbers>
 
+#include "integration/exponential.hpp"
 #include "integration/rk4.hpp"
 #include "io/errors.hpp"
 
@@ -27,7 +28,7 @@ const std::map<std::string, const gsl_odeiv2_step_type*>& step_types()
 const std::vector<std::string>& time_methods()
 {
   static const std::vector<std::string> names = [] {
-    std::vector<std::string> list{"rk4"};
+    std::vector<std::string> list{"rk4", "exponential"};
     for (const auto& [name, type] : step_types()) list.push_back(name);
     return list;
   }();
@@ -142,12 +143,11 @@ int derivative(double t, const double y[], double dydt[], void* data)
   auto& equation = *static_cast<Equation7*>(data);
   if (!equation.evaluations.pay()) return GSL_EBADFUNC;
   const double phase = equation.system.omega() * t;
-  const State state = state_of(Eigen::Map<const Vector8>(y));
-  Eigen::Map<Vector8> slopes(dydt);
-  slopes =
-      vector_of({state.velocity, equation.system.acceleration(
-                                     state, equation.system.bearing().angles(phase))});
-  return slopes.allFinite() ? GSL_SUCCESS : GSL_EBADFUNC;
+  const RotorStator& system = equation.system;
+  std::copy_n(y + 4, 4, dydt);
+  put(system.acceleration(bodies_at(y), bodies_at(y + 4), system.bearing().angles(phase)),
+      dydt + 4);
+  return Eigen::Map<Vector8>(dydt).allFinite() ? GSL_SUCCESS : GSL_EBADFUNC;
 }
 
 int jacobian(double t, const double y[], double* dfdy, double dfdt[], void* data)
@@ -176,7 +176,7 @@ public:
   {
     if (interval != next_) driver_.reset();
     next_ = interval + 1;
-    Vector8 y = vector_of(state);
+    Eigen::VectorXd y = vector_of(state);
     driver_.advance(static_cast<double>(interval) * interval_length_,
                     static_cast<double>(next_) * interval_length_, y.data(),
                     equation_.evaluations);
@@ -216,6 +216,12 @@ TimeStepper make_stepper(const Parameters& parameters, double omega,
   /** Bounded in any case: 1e9 evaluations are half a minute of RK4. */
   const OperationBudget budget =
       settings.budget.bounded() ? settings.budget : OperationBudget(1e9 * price);
+  if (parameters.large)
+    return wrap(std::make_shared<ExponentialStepper>(
+        parameters, omega, settings.intervals_per_period,
+        settings.method == "rk4" ? 1e-8 : settings.tolerance, budget));
+  if (settings.method == "exponential")
+    throw BadInput("--method exponential: for bodies given by matrices");
   if (settings.method != "rk4")
     return wrap(std::make_shared<GslStepper>(parameters, omega, settings,
                                              PaidEvaluations{budget, price}));

@@ -234,6 +234,11 @@ bool StrictToml::has(const std::string& key) const
   return content_->table.contains(key);
 }
 
+bool StrictToml::has_tables(const std::string& key) const
+{
+  return content_->table[key].is_array();
+}
+
 std::size_t StrictToml::way(const std::vector<std::vector<std::string>>& ways) const
 {
   std::string given, advice;

@@ -38,6 +38,9 @@ public:
   const std::string& file() const;
   bool has(const std::string& key) const;
 
+  /** Whether the key is there as [[key]]. */
+  bool has_tables(const std::string& key) const;
+
   /** Which of several ways to give one value is taken, each a list of keys: the one of which any key is there. Throws
       BadInput where there are keys of two, or of none. */
   std::size_t way(const std::vector<std::vector<std::string>>& ways) const;

@@ -270,8 +270,9 @@ SampledBearing::SampledBearing(const Bearing& bearing, int samples)
 {
   const auto row = [](Direction d) { return Eigen::RowVector2d(d.cos, d.sin); };
   for (Eigen::Index k = 0; k < cage_.rows(); ++k)
-    cage_.row(k) = row(Direction::of(bearing.cage_speed_ratio * 2 * std::numbers::pi *
-                                     static_cast<double>(k) / samples));
+    cage_.row(k) = row(Direction::of(bearing.cage_phase +
+                                     bearing.cage_speed_ratio * 2 * std::numbers::pi *
+                                         static_cast<double>(k) / samples));
   const BallBearing plain(bearing);
   for (int j = 0; j < bearing.balls; ++j) balls_.row(j) = row(plain.balls()[j]);
 }

@@ -99,7 +99,7 @@ public:
   Angles angles(double phase) const
   {
     return {Direction::of(turns_ * phase),
-            Direction::of(bearing_.cage_speed_ratio * phase),
+            Direction::of(bearing_.cage_angle(phase)),
             bearing_.defect.spin > 0 ? Direction::of(bearing_.defect.spin * phase)
                                      : Direction{1, 0}};
   }

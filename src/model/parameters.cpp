@@ -6,6 +6,7 @@
 #include "io/errors.hpp"
 #include "io/toml_file.hpp"
 #include "model/catalogue.hpp"
+#include "model/large_machine.hpp"
 #include "model/rotor_stator.hpp"
 
 namespace rotor_stator {
@@ -63,19 +64,28 @@ Parameters read_parameters(StrictToml root)
 
   StrictToml stator = root.table("stator");
   StrictToml rotor = root.table("rotor");
-  parameters.rotor = read_body(rotor);
-  if (!read_rigid(stator, parameters.rotor.mass, parameters.stator))
+  constexpr const char* matrices = "matrices";
+  if (!rotor.has(matrices)) parameters.rotor = read_body(rotor);
+  if (!read_rigid(stator, parameters.rotor.mass, parameters.stator) &&
+      !stator.has(matrices))
     parameters.stator = read_body(stator);
-  parameters.unbalance = rotor.number("unbalance_kg_m", Range::not_negative);
-  StrictToml bearing = root.table("bearing");
-  parameters.bearing = read_bearing(bearing, parameters.derived);
+  if (!rotor.has(matrices))
+    parameters.unbalance = rotor.number("unbalance_kg_m", Range::not_negative);
   StrictToml gravity = root.table("gravity");
   parameters.gravity = gravity.number("acceleration_m_per_s2", Range::not_negative);
+  if (stator.has(matrices) || rotor.has(matrices)) {
+    read_large_machine(root, parameters);
+    read_rigid(stator, parameters.rotor.mass, parameters.stator);
+  } else {
+    StrictToml bearing = root.table("bearing");
+    parameters.bearing = read_bearing(bearing, parameters.derived);
+  }
 
   root.refuse_unknown_keys();
   if (parameters.stator.rigid)
     parameters.stator.natural_frequency = contact_frequency(parameters);
-  else if (parameters.stator.stiffness() == 0 && parameters.rotor.stiffness() == 0)
+  else if (!parameters.large && parameters.stator.stiffness() == 0 &&
+           parameters.rotor.stiffness() == 0)
     rotor.fail("natural_frequency_rad_per_s",
                "and the stator's must not both be 0: nothing would hold the machine");
   return parameters;
@@ -86,11 +96,17 @@ double cage_speed_ratio(double ball_radius, double inner_race_radius)
   return 0.5 * (1 - ball_radius / (ball_radius + inner_race_radius));
 }
 
+double rotor_speed(const Parameters& parameters, double omega)
+{
+  return parameters.turns * parameters.speed_ratio * omega;
+}
+
 Parameters over_turns(Parameters parameters, int turns)
 {
   parameters.turns *= turns;
   parameters.bearing.cage_speed_ratio *= turns;
   parameters.bearing.defect.spin *= turns;
+  for (Bearing& bearing : parameters.further) bearing.cage_speed_ratio *= turns;
   return parameters;
 }
 
@@ -155,16 +171,24 @@ void describe(Table& table, const Parameters& parameters)
                 ? format(", load = (%.15g, %.15g) N", b.load.x, b.load.y)
                 : "");
   };
-  const Bearing& bearing = parameters.bearing;
   table.note("parameters: " + parameters.file + " (" + parameters.title + ")");
-  table.note("  " + body("stator", parameters.stator) + "; " +
-             body("rotor", parameters.rotor));
+  if (const auto& large = parameters.large)
+    table.note(format("  bodies: %ld degrees of freedom, all kept; k_0 = %.6g N/m",
+                      static_cast<long>(large->mass.rows()), large->spring));
+  else
+    table.note("  " + body("stator", parameters.stator) + "; " +
+               body("rotor", parameters.rotor));
   table.note(format("  m_e e = %.15g kg m; g = %.15g m/s^2", parameters.unbalance,
                     parameters.gravity));
-  table.note(format(
-      "  bearing: n = %d, K_H = %.15g N/m^1.5, delta = %.15g m, omega_cage/omega = %.15g",
-      bearing.balls, bearing.contact_stiffness, bearing.clearance,
-      bearing.cage_speed_ratio));
+  for (const Bearing& bearing : bearings_of(parameters))
+    table.note(format("  bearing: n = %d, K_H = %.15g N/m^1.5, delta = %.15g m, "
+                      "omega_cage/omega = %.15g",
+                      bearing.balls, bearing.contact_stiffness, bearing.clearance,
+                      bearing.cage_speed_ratio) +
+               (bearing.cage_phase != 0
+                    ? format(", cage phase = %.15g rad", bearing.cage_phase)
+                    : ""));
+  const Bearing& bearing = parameters.bearing;
   if (bearing.damping > 0)
     table.note(format("  contact damping: lambda = %.15g s/m", bearing.damping));
   if (!bearing.is_damaged(Defect::Surface::none)) {

@@ -7,6 +7,7 @@ read, so that the programs below never meet a machine that cannot exist. The bea
 are in model/catalogue.hpp. */
 #pragma once
 
+#include <memory>
 #include <string>
 #include <vector>
 
@@ -71,9 +72,16 @@ struct Bearing {
 
   /** Whether the force depends on nothing but u and the cage's angle. */
   bool is_plain() const { return damping == 0 && is_damaged(Defect::Surface::none); }
+  double cage_phase = 0;  ///< angle of ball 1 at t = 0 [rad]
+
+  /** The angle of ball 1 [rad] at the rotor's angle ωt = `phase`. */
+  double cage_angle(double phase) const { return cage_phase + cage_speed_ratio * phase; }
 };
 
-/** One machine. */
+struct LargeMachine;
+
+/** One machine. Where `large` is set, that holds both bodies, and `stator` and `rotor` are single masses that
+    vibrate about as they do: sizes for tolerances and steps. */
 struct Parameters {
   std::string file;   ///< where it was read from
   std::string title;  ///< one line for headers and legends
@@ -85,6 +93,10 @@ struct Parameters {
   std::vector<std::string> derived =
       {};         ///< lines for headers: what a catalogue's values gave
   int turns = 1;  ///< of the rotor in one base period, whose frequency ω is
+  double speed_ratio =
+      1;  ///< of the speed over `turns` ω; not 1 where the base frequency is that of passing balls
+  std::vector<Bearing> further = {};  ///< bearings beside the first, of a large machine
+  std::shared_ptr<const LargeMachine> large = {};  ///< bodies given by matrices
 };
 
 /** Reads and checks a parameter file. Throws BadInput with file, line and key. */
@@ -105,6 +117,9 @@ std::vector<double> angular(const std::vector<double>& hertz);
 /** Eq. 3: c = ω_cage/ω = ½(1 - R_b/(R_b + R)) from the radii of ball and inner race
    (the paper's R; in its Eq. 2 R is the ball's, D-07). */
 double cage_speed_ratio(double ball_radius, double inner_race_radius);
+
+/** The speed of the rotor [rad/s] at the base frequency ω. */
+double rotor_speed(const Parameters& parameters, double omega);
 
 /** The same machine, its base period K turns of the rotor: ω is then a K-th of the speed, and the cage ratio
     counts the cage's turns per base period. */

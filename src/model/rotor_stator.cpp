@@ -4,6 +4,7 @@
 #include <numbers>
 
 #include "model/hertz.hpp"
+#include "model/large_machine.hpp"
 
 namespace rotor_stator {
 
@@ -65,8 +66,28 @@ double contact_frequency(const Parameters& parameters)
                    (1 / parameters.stator.mass + 1 / parameters.rotor.mass));
 }
 
-Vector8 state_scales(const Parameters& parameters)
+Eigen::VectorXd vector_of(const State& state)
 {
+  const Eigen::Index more = state.inner.size() / 2;
+  Eigen::VectorXd y(8 + 2 * more);
+  put(state.position, y.data());
+  put(state.velocity, y.data() + 4 + more);
+  y.segment(4, more) = state.inner.head(more);
+  y.tail(more) = state.inner.tail(more);
+  return y;
+}
+
+State state_of(const Eigen::VectorXd& y)
+{
+  const Eigen::Index half = y.size() / 2, more = half - 4;
+  State state{bodies_at(y.data()), bodies_at(y.data() + half), Eigen::VectorXd(2 * more)};
+  state.inner << y.segment(4, more), y.tail(more);
+  return state;
+}
+
+Eigen::VectorXd state_scales(const Parameters& parameters)
+{
+  if (parameters.large) return large_state_scales(parameters);
   const double length = scales(parameters).length;
   Vector8 sizes;
   sizes.head<4>().setConstant(length);
@@ -194,6 +215,7 @@ Vec2 static_equilibrium(const Parameters& parameters, Direction cage)
 
 State static_start(const Parameters& parameters)
 {
+  if (parameters.large) return large_static_start(parameters);
   const Vec2 force = static_joint_force(parameters);
   const bool is_carried =
       parameters.stator.stiffness() == 0 || parameters.rotor.stiffness() == 0;

@@ -39,19 +39,23 @@ inline Displacements displacements(const Bodies& bodies)
 /** Displacements [m] and speeds [m/s]. */
 struct State {
   Bodies position, velocity;
+  Eigen::VectorXd inner =
+      {};  ///< the further displacements of a large machine, then their speeds
 };
 
-/** The same as a vector: the displacements, then the speeds. */
+/** The same as a vector, 8 where there are two masses: the displacements, then the speeds. */
 using Vector8 = Eigen::Matrix<double, 8, 1>;
-inline Vector8 vector_of(const State& state)
+Eigen::VectorXd vector_of(const State& state);
+State state_of(const Eigen::VectorXd& y);
+
+/** Four numbers of such a vector. */
+inline Bodies bodies_at(const double* y)
 {
-  return Vector8(std::bit_cast<std::array<double, 8>>(state).data());
+  return {{y[0], y[1]}, {y[2], y[3]}};
 }
-inline State state_of(const Vector8& y)
+inline void put(const Bodies& bodies, double* y)
 {
-  std::array<double, 8> values;
-  std::copy(y.begin(), y.end(), values.begin());
-  return std::bit_cast<State>(values);
+  std::ranges::copy(displacements(bodies), y);
 }
 
 /** Eq. 7 at one rotor speed: everything that does not change along a motion. */
@@ -61,18 +65,14 @@ public:
   RotorStator(const Parameters& parameters, double omega);
 
   /** Accelerations [m/s²]. */
-  Bodies acceleration(const State& state, const Angles& at) const
+  Bodies acceleration(const Bodies& q, const Bodies& v, const Angles& at) const
   {
-    return acceleration(
-        state, at.rotor,
-        bearing_.force(at, state.position.relative(), state.velocity.relative()));
+    return acceleration(q, v, at.rotor, bearing_.force(at, q.relative(), v.relative()));
   }
 
   /** The same for a bearing force `f` [N] that is known already. */
-  Bodies acceleration(const State& state, Direction rotor, Vec2 f) const
+  Bodies acceleration(const Bodies& q, const Bodies& v, Direction rotor, Vec2 f) const
   {
-    const Bodies& q = state.position;
-    const Bodies& v = state.velocity;
     return {
         {(f.x - c_s_ * v.stator.x - k_s_ * q.stator.x) * per_m_s_ + rest_s_.x,
          (f.y - c_s_ * v.stator.y - k_s_ * q.stator.y) * per_m_s_ + rest_s_.y},
@@ -112,8 +112,8 @@ Scales scales(const Parameters& parameters);
 /** The vibration [rad/s] of both bodies against one ball that is pressed by that load. */
 double contact_frequency(const Parameters& parameters);
 
-/** Sizes of the eight components of a state, for tolerances and norms. */
-Vector8 state_scales(const Parameters& parameters);
+/** Sizes of the components of a state, for tolerances and norms. */
+Eigen::VectorXd state_scales(const Parameters& parameters);
 
 /** Resonance [rad/s] of rotor and stator moving as one body on both suspensions; beside a rigid stator that of the
     rotor, on the contact if it has no suspension. */

@@ -185,7 +185,7 @@ Attractor attractor_from(const Parameters& machine, double omega, const State& s
               .most_blocks = static_cast<int>(
                   periods_in(settings.longest / static_cast<double>(block), period)),
               .step = stepper.step > 0 ? stepper.step : default_step(machine)});
-  const Vector8 sizes = state_scales(machine);
+  const Eigen::VectorXd sizes = state_scales(machine);
   Observation seen{settings,
                    period,
                    1e-6 * sizes[0],
@@ -272,8 +272,8 @@ State random_state(const Parameters& machine, double omega, std::uint64_t seed)
   const double joined = std::abs(dynamic_stiffness(machine.stator, omega).value +
                                  dynamic_stiffness(machine.rotor, omega).value);
   const double amplitude = machine.unbalance * omega * omega / joined;
-  const Vector8 scales = state_scales(machine);
-  Vector8 y = vector_of(static_start(machine));
+  const Eigen::VectorXd scales = state_scales(machine);
+  Eigen::VectorXd y = vector_of(static_start(machine));
   for (int i = 0; i < 2; ++i) {
     const double position = random() * amplitude, speed = random() * amplitude * omega;
     for (int body : {0, 2}) {

@@ -47,11 +47,15 @@ struct Closing {
       return {{format("a motion of period %d T", turns),
                [&] { return subharmonic_states(search, turns); }}};
     return {{"quasi-static contact",
-             [&] { return std::vector{quasi_static_state(parameters, search.omega)}; }},
+             [&] {
+               return std::vector{parameters.large
+                                      ? static_start(parameters)
+                                      : quasi_static_state(parameters, search.omega)};
+             }},
             {"few harmonics",
              [&] {
                const PeriodicMotion solution = find_near_contact(search);
-               return solution.found() ? std::vector{state_of(solution)}
+               return solution.found() ? std::vector{state_of(parameters, solution)}
                                        : std::vector<State>{};
              }},
             {"time integration", [&] {

@@ -36,7 +36,7 @@ Eigen::VectorXd fewer_harmonics(Search search)
     motion.x = fewer_harmonics(search);
     if (motion.x.size() == 0 || !solve(balance, motion, search.newton)) return {};
   }
-  return resize_harmonics(motion.x, 2, harmonics);
+  return resize_harmonics(motion.x, balance.problem().dofs, harmonics);
 }
 
 /** Follows a solution to another speed by Newton, in steps that are halved where it needs many
@@ -107,7 +107,7 @@ Eigen::VectorXd integrated_start(const Parameters& parameters, double omega,
         relative_difference(motion_of(copy, points), motion) > same)
       throw NoSolution("where time integration settles depends on rounding");
   }
-  return relative_series(motion, harmonics);
+  return relative_series(parameters, motion, harmonics);
 }
 
 PeriodicMotion find_near_contact(const Search& search)

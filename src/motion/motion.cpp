@@ -7,6 +7,8 @@
 
 #include "balance/fourier_transform.hpp"
 #include "io/errors.hpp"
+#include "balance/large_problem.hpp"
+#include "balance/torus_line.hpp"
 
 namespace rotor_stator::motion {
 
@@ -42,19 +44,48 @@ Eigen::MatrixXd series_of(const Motion& motion, int harmonics)
   return series;
 }
 
+Eigen::MatrixXd relative_samples(const Parameters& parameters, const Motion& motion)
+{
+  const std::size_t bearings = 1 + parameters.further.size();
+  Eigen::MatrixXd u(std::ssize(motion.positions), 2 * bearings);
+  for (std::size_t k = 0; k < bearings; ++k) {
+    const Eigen::MatrixXd q =
+        displacement_samples(at_bearing(parameters, motion, k).motion);
+    u.middleCols<2>(2 * static_cast<Eigen::Index>(k)) =
+        q.rightCols<2>() - q.leftCols<2>();
+  }
+  return u;
+}
+
+Eigen::VectorXd relative_series(const Parameters& parameters, const Motion& motion,
+                                int harmonics)
+{
+  const Eigen::MatrixXd u =
+      relative_samples(parameters, motion).topRows(motion.points_per_period);
+  Eigen::MatrixXd series(u.cols(), 2 * harmonics + 1);
+  FourierTransform(motion.points_per_period).to_series(u, series);
+  return series.reshaped();
+}
+
 Eigen::VectorXd relative_series(const Motion& motion, int harmonics)
 {
-  const Eigen::MatrixXd bodies = series_of(motion, harmonics);
-  return (bodies.bottomRows(2) - bodies.topRows(2)).reshaped();
+  return relative_series(Parameters{}, motion, harmonics);
 }
 
 Motion motion_of(const Eigen::MatrixXd& bodies, int points)
 {
-  const Eigen::MatrixXd samples = sample_series(bodies, points);
-  Motion motion{points, 0, {}};
-  for (int k = 0; k < points; ++k)
+  return motion_of_samples(sample_series(bodies, points), points);
+}
+
+Motion motion_of_samples(const Eigen::MatrixXd& samples, int points, long first_period)
+{
+  Motion motion{points, first_period, {}};
+  for (Eigen::Index k = 0; k < samples.rows(); ++k) {
     motion.positions.push_back(
         {{samples(k, 0), samples(k, 1)}, {samples(k, 2), samples(k, 3)}});
+    if (samples.cols() > 4)
+      motion.further.emplace_back(samples.row(k).tail(samples.cols() - 4));
+  }
   return motion;
 }
 
@@ -76,13 +107,33 @@ State state_of(const PeriodicMotion& motion)
           .velocity = {{v[0], v[1]}, {v[2], v[3]}}};
 }
 
+void add(Motion& motion, const State& state)
+{
+  motion.positions.push_back(state.position);
+  motion.rates.push_back(state.velocity.relative());
+  if (const auto more = state.inner.size() / 2; more > 0)
+    motion.further.emplace_back(state.inner.head(more));
+}
+
+State state_of(const Parameters& parameters, const PeriodicMotion& motion)
+{
+  const Eigen::MatrixXd series =
+      parameters.large ? coordinate_series(parameters, motion) : motion.bodies;
+  Eigen::VectorXd q = series.col(0), v = Eigen::VectorXd::Zero(q.size());
+  for (int h = 1; h <= motion.harmonics.count(); ++h) {
+    const Harmonic at = motion.harmonics.list()[static_cast<std::size_t>(h)];
+    q += series.col(2 * h - 1);
+    v += order_of(at, parameters.bearing) * motion.omega * series.col(2 * h);
+  }
+  Eigen::VectorXd state(2 * q.size());
+  state << q, v;
+  return rotor_stator::state_of(state);
+}
+
 Motion motion_of(const SteadyState& steady, int points_per_period)
 {
   Motion motion{points_per_period, steady.first_period, {}, {}, steady.omega};
-  for (const State& state : steady.states) {
-    motion.positions.push_back(state.position);
-    motion.rates.push_back(state.velocity.relative());
-  }
+  for (const State& state : steady.states) add(motion, state);
   return motion;
 }
 
@@ -143,6 +194,25 @@ std::vector<Vec2> bearing_forces(const Parameters& parameters, const Motion& mot
   std::vector<Vec2> forces;
   for (std::size_t k = 0; k < motion.size(); ++k) forces.push_back(instants.force(k));
   return forces;
+}
+
+double shown_at(const Motion& motion, std::size_t k, int place)
+{
+  return place < 4 ? displacements(motion.positions[k])[static_cast<std::size_t>(place)]
+                   : motion.further[k][place - 4];
+}
+
+AtBearing at_bearing(const Parameters& parameters, const Motion& motion, std::size_t k)
+{
+  if (!parameters.large) return {parameters, motion};
+  const auto& [x_s, y_s, x_r, y_r] = parameters.large->places[k];
+  AtBearing one{parameters, {motion.points_per_period, motion.first_period, {}}};
+  one.parameters.bearing = bearings_of(parameters)[k];
+  for (std::size_t i = 0; i < motion.size(); ++i)
+    one.motion.positions.push_back(
+        {{shown_at(motion, i, x_s), shown_at(motion, i, y_s)},
+         {shown_at(motion, i, x_r), shown_at(motion, i, y_r)}});
+  return one;
 }
 
 Displacements half_peak_to_peak(const Motion& motion)

@@ -21,6 +21,8 @@ struct Motion {
   std::vector<Vec2> rates =
       {};            ///< u̇ [m/s], where the force of a damped contact is asked for
   double omega = 0;  ///< the base frequency that belongs to them [rad/s]
+  std::vector<Eigen::VectorXd> further =
+      {};  ///< of a large machine: its other displacements
 
   std::size_t size() const { return positions.size(); }
   double t_over_period(std::size_t k) const
@@ -32,6 +34,9 @@ struct Motion {
   double phase(std::size_t k) const;
 };
 
+/** Appends an instant. */
+void add(Motion& motion, const State& state);
+
 /** Whole periods by a stepper that cuts each into P intervals, from `state` at the start of period
     `first_period`; `state` is left at their end. */
 template <class Stepper>
@@ -41,8 +46,7 @@ Motion recorded(Stepper& stepper, int points_per_period, State& state,
   Motion motion{points_per_period, first_period, {}};
   const long begin = first_period * points_per_period;
   for (long k = begin; k < begin + periods * points_per_period; ++k) {
-    motion.positions.push_back(state.position);
-    motion.rates.push_back(state.velocity.relative());
+    add(motion, state);
     stepper.advance(k, state);
   }
   return motion;
@@ -52,9 +56,20 @@ Motion recorded(Stepper& stepper, int points_per_period, State& state,
 Eigen::MatrixXd displacement_samples(const Motion& motion);
 
 /** The series of x_s, y_s, x_r, y_r over the first period of a motion [m], 4 × (2m+1); and that of the
-    relative motion u as the unknowns of a balance. */
+    relative motions u of all bearings as the unknowns of a balance. */
 Eigen::MatrixXd series_of(const Motion& motion, int harmonics);
+Eigen::VectorXd relative_series(const Parameters& parameters, const Motion& motion,
+                                int harmonics);
+
+/** The same of two masses. */
 Eigen::VectorXd relative_series(const Motion& motion, int harmonics);
+
+/** The relative motions u of all bearings at the instants of a motion, N × 2b [m]. */
+Eigen::MatrixXd relative_samples(const Parameters& parameters, const Motion& motion);
+
+/** From x_s, y_s, x_r, y_r and what else a large machine shows, a row for each instant. */
+Motion motion_of_samples(const Eigen::MatrixXd& samples, int points,
+                         long first_period = 0);
 
 /** `points` instants of one period of a solution, from its series of both bodies; the second with its rates. */
 Motion motion_of(const Eigen::MatrixXd& bodies, int points);
@@ -62,6 +77,9 @@ Motion motion_of(const PeriodicMotion& solution, int points);
 
 /** The state [m, m/s] of a periodic motion at phase 0. */
 State state_of(const PeriodicMotion& motion);
+
+/** The same of any machine, and of a motion with two frequencies. */
+State state_of(const Parameters& parameters, const PeriodicMotion& motion);
 
 /** The periods kept by a time integration. */
 Motion motion_of(const SteadyState& steady, int points_per_period);
@@ -99,6 +117,17 @@ struct BearingInstants {
 
 /** Eq. 6: the bearing's force [N] on the stator at each instant of a motion. */
 std::vector<Vec2> bearing_forces(const Parameters& parameters, const Motion& motion);
+
+/** Coordinate `place` of a large machine at instant k [m]. */
+double shown_at(const Motion& motion, std::size_t k, int place);
+
+/** A machine as its bearing k = 0, 1, … sees it, and the motion there: the functions that speak of the bearing then
+    speak of that one. */
+struct AtBearing {
+  Parameters parameters;
+  Motion motion;
+};
+AtBearing at_bearing(const Parameters& parameters, const Motion& motion, std::size_t k);
 
 /** Half peak-to-peak of x_s, y_s, x_r, y_r [m] over the instants of a motion. */
 Displacements half_peak_to_peak(const Motion& motion);

@@ -161,12 +161,10 @@ Motion motion_of(const Parameters& parameters, const PeriodicMotion& solution, i
       rates.row(k) += frequency * (std::cos(angle) * sine - std::sin(angle) * cosine);
     }
   }
-  Motion motion{points, first, {}, {}, solution.omega};
-  for (Eigen::Index k = 0; k < n; ++k) {
-    motion.positions.push_back(
-        {{samples(k, 0), samples(k, 1)}, {samples(k, 2), samples(k, 3)}});
+  Motion motion = motion_of_samples(samples, points, first);
+  motion.omega = solution.omega;
+  for (Eigen::Index k = 0; k < n; ++k)
     motion.rates.push_back({rates(k, 2) - rates(k, 0), rates(k, 3) - rates(k, 1)});
-  }
   return motion;
 }
 
@@ -180,24 +178,6 @@ Eigen::VectorXd half_peak_to_peak_of_torus(const Parameters& parameters,
   return 0.5 * (samples.colwise().maxCoeff() - samples.colwise().minCoeff());
 }
 
-namespace {
-
-/** The state [m, m/s] at t = 0. */
-State first_state(const Parameters& parameters, const PeriodicMotion& solution)
-{
-  Eigen::Vector4d q = solution.bodies.col(0), v = Eigen::Vector4d::Zero();
-  for (int h = 1; h <= solution.harmonics.count(); ++h) {
-    const Harmonic at = solution.harmonics.list()[static_cast<std::size_t>(h)];
-    q += solution.bodies.col(2 * h - 1);
-    v += order_of(at, parameters.bearing) * solution.omega * solution.bodies.col(2 * h);
-  }
-  Vector8 state;
-  state << q, v;
-  return rotor_stator::state_of(state);
-}
-
-}  // namespace
-
 TorusVerdict verdict_on_torus(const Parameters& parameters,
                               const PeriodicMotion& solution, double tolerance,
                               const OperationBudget& budget)
@@ -210,7 +190,7 @@ TorusVerdict verdict_on_torus(const Parameters& parameters,
       make_stepper(parameters, solution.omega,
                    {.method = "rk4", .intervals_per_period = points, .budget = budget});
   TrajectoryPair pair(stepper, points, state_scales(parameters),
-                      first_state(parameters, solution));
+                      state_of(parameters, solution));
   const Motion exact = motion_of(parameters, solution, points, verdict.turns);
   const double size = largest_displacement(exact);
   std::vector<double> growth;

@@ -70,13 +70,13 @@ struct Hunt {
       unity of order K/d. */
   void add_along_eigenvectors(const State& state, int d)
   {
-    const Vector8 sizes = state_scales(parameters);
+    const Eigen::VectorXd sizes = state_scales(parameters);
     const PeriodMap map = period_map(over_turns(parameters, d), omega / d, state,
                                      local_error, "rk8pd", budget);
     const auto [values, vectors] = eigensystem(
         sizes.cwiseInverse().asDiagonal() * map.derivative * sizes.asDiagonal(), true);
     const int order = turns / d;
-    for (int i = 0; i < 8; ++i) {
+    for (Eigen::Index i = 0; i < values.size(); ++i) {
       const std::complex<double> mu = values[i];
       const double angle = std::arg(mu) * order / (2 * std::numbers::pi);
       const int root = static_cast<int>(std::lround(angle));
@@ -84,8 +84,9 @@ struct Hunt {
       if (mu.imag() < 0 || std::abs(mu) < 0.5 || std::abs(angle - root) > 0.25 ||
           std::gcd(root, order) != 1)
         continue;
-      const Vector8 along = vectors.col(i).real();
-      const Vector8 direction = along.cwiseProduct(sizes) / along.cwiseAbs().maxCoeff();
+      const Eigen::VectorXd along = vectors.col(i).real();
+      const Eigen::VectorXd direction =
+          along.cwiseProduct(sizes) / along.cwiseAbs().maxCoeff();
       const std::size_t known = found.size();
       for (double size : {0.003, -0.003, 0.01, -0.01, 0.03, -0.03, 0.1, -0.1, 0.3, -0.3})
         if (found.size() == known)
@@ -165,7 +166,8 @@ PeriodicMotion solved_near(const Search& search, int turns, const State& state)
       longer, omega, state,
       {.intervals_per_period = n, .tolerance = local_error, .budget = search.budget});
   Balance balance(bearing_problem(longer, n, search.budget), m);
-  PeriodicMotion motion = solve(balance, omega, relative_series(exact, m), search.newton);
+  PeriodicMotion motion =
+      solve(balance, omega, relative_series(longer, exact, m), search.newton);
   motion.start = format("the motion of period %d T that shooting found", turns);
   if (!motion.found()) return motion;
   if (repeats_sooner(motion, turns)) motion.newton.end = NewtonEnd::no_decrease;

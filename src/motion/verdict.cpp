@@ -35,7 +35,8 @@ class Shootings {
 public:
   Shootings(const Parameters& parameters, const PeriodicMotion& solution,
             OperationBudget budget)
-      : parameters_(parameters), solution_(solution), start_(state_of(solution)),
+      : parameters_(parameters), solution_(solution),
+        start_(state_of(parameters, solution)),
         size_(
             largest_displacement(motion_of(solution.bodies, points * parameters.turns))),
         budget_(std::move(budget))
@@ -53,7 +54,7 @@ public:
         if (closes(start, state, speed_weight)) return {};
     std::vector<State> raised;
     for (PeriodicMotion more = solution_; raise(more);) {
-      raised.push_back(state_of(more));
+      raised.push_back(state_of(parameters_, more));
       if (closes(raised.back(), state, 5)) return {};
     }
     for (double speed_weight : {20, 1})
@@ -132,7 +133,8 @@ private:
       Balance balance(
           bearing_problem(parameters_, fast_transform_size(8 * m + 1), budget_), m);
       PeriodicMotion more =
-          solve(balance, solution.omega, resize_harmonics(solution.x, 2, m));
+          solve(balance, solution.omega,
+                resize_harmonics(solution.x, balance.problem().dofs, m));
       evaluations_ += static_cast<double>(more.force_samples);
       if (!more.found()) continue;
       raised = true;
@@ -323,7 +325,8 @@ Verdict verdict_on(const Parameters& parameters, const PeriodicMotion& solution,
   }
   if (!verdict.floquet.stable()) {
     add_settled(parameters, turns * solution.omega,
-                verdict.found() ? verdict.state : state_of(solution), budget, verdict);
+                verdict.found() ? verdict.state : state_of(parameters, solution), budget,
+                verdict);
     if (verdict.from_there.period == turns && !shootings.found_at_once())
       compare_with_settled(longer, solution, budget, shootings, verdict);
   }

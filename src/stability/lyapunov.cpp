@@ -12,12 +12,12 @@ static constexpr double first_distance = 1e-7;
 
 /** The neighbour starts off in all directions, so that none is missed. */
 TrajectoryPair::TrajectoryPair(TimeStepper stepper, int intervals_per_period,
-                               const Vector8& scales, const State& start,
+                               const Eigen::VectorXd& scales, const State& start,
                                long first_period)
     : stepper_(std::move(stepper)), intervals_(intervals_per_period), scales_(scales),
       state_(start), periods_(first_period)
 {
-  const double share = first_distance / std::sqrt(8.0);
+  const double share = first_distance / std::sqrt(static_cast<double>(scales.size()));
   neighbour_ = state_of(vector_of(start) + share * scales);
 }
 
@@ -37,8 +37,8 @@ double TrajectoryPair::advance_one_period(const std::function<void(const State&)
 
 double TrajectoryPair::pull_back()
 {
-  const Vector8 y = vector_of(state_);
-  const Vector8 apart = vector_of(neighbour_) - y;
+  const Eigen::VectorXd y = vector_of(state_);
+  const Eigen::VectorXd apart = vector_of(neighbour_) - y;
   const double growth = apart.cwiseQuotient(scales_).norm() / first_distance;
   if (!std::isfinite(growth) || !(growth > 0))
     throw NoSolution(format(growth == 0 ? "neighbouring motions met after %ld periods"

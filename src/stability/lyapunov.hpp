@@ -27,9 +27,10 @@ using Exponent = BatchMean;
 class TrajectoryPair {
 public:
   /** `stepper`: of fixed step, since an adaptive one takes other steps for the neighbour and its
-      error would pass for growth. `scales`: sizes of the eight components, which make the distance a number. */
-  TrajectoryPair(TimeStepper stepper, int intervals_per_period, const Vector8& scales,
-                 const State& start, long first_period = 0);
+      error would pass for growth. `scales`: sizes of the components, which make the distance a number. */
+  TrajectoryPair(TimeStepper stepper, int intervals_per_period,
+                 const Eigen::VectorXd& scales, const State& start,
+                 long first_period = 0);
 
   /** Advances by one period; `visit`, if any, sees the state at the start of each interval.
       Returns ln of the growth of the distance [-]. Throws NoSolution when the motion diverges. */
@@ -42,7 +43,7 @@ private:
 
   TimeStepper stepper_;
   int intervals_;
-  Vector8 scales_;
+  Eigen::VectorXd scales_;
   State state_, neighbour_;
   long periods_;  ///< since t = 0
 };

@@ -3,6 +3,7 @@
 #include <gsl/gsl_errno.h>
 #include <algorithm>
 
+#include "integration/exponential.hpp"
 #include "integration/time_stepper.hpp"
 
 namespace rotor_stator {
@@ -26,18 +27,32 @@ int derivative(double t, const double y[], double dydt[], void* data)
   const RotorStator& system = variation.system;
   if (!variation.evaluations.pay()) return GSL_EBADFUNC;
   const double phase = system.omega() * t;
-  const State state = state_of(Eigen::Map<const Vector8>(y));
+  const Bodies q_now = bodies_at(y), v_now = bodies_at(y + 4);
   const Angles at = system.bearing().angles(phase);
   const BearingReaction bearing =
-      system.bearing().reaction(at, state.position.relative(), state.velocity.relative());
-  Eigen::Map<Vector8> slopes(dydt);
-  slopes =
-      vector_of({state.velocity, system.acceleration(state, at.rotor, bearing.force)});
+      system.bearing().reaction(at, q_now.relative(), v_now.relative());
+  std::copy_n(y + 4, 4, dydt);
+  put(system.acceleration(q_now, v_now, at.rotor, bearing.force), dydt + 4);
 
   const Eigen::Map<const Disturbances> q(y + 8), v(y + 40);
   Eigen::Map<Disturbances>(dydt + 8) = v;
   Eigen::Map<Disturbances>(dydt + 40) = variation.rates.acceleration(bearing, q, v);
-  return slopes.allFinite() ? GSL_SUCCESS : GSL_EBADFUNC;
+  return Eigen::Map<Vector8>(dydt).allFinite() ? GSL_SUCCESS : GSL_EBADFUNC;
+}
+
+/** The same of bodies given by matrices. Steps for the derivative need not be as small as those for the state. */
+PeriodMap exponential_period_map(const Parameters& parameters, double omega,
+                                 const State& start, double tolerance,
+                                 const OperationBudget& budget)
+{
+  constexpr double coarser = 1e4;
+  ExponentialStepper state(parameters, omega, 1, tolerance, budget);
+  PeriodMap map{.end = start, .derivative = {}, .evaluations = 0};
+  state.advance(0, map.end);
+  ExponentialStepper varied(parameters, omega, 1, coarser * tolerance, budget);
+  map.derivative = varied.derivative(0, start);
+  map.evaluations = state.evaluations() + varied.evaluations();
+  return map;
 }
 
 /** Error scales: those of the state; the variations are given so much room that they never
@@ -60,6 +75,8 @@ PeriodMap period_map(const Parameters& parameters, double omega, const State& st
                      double tolerance, const std::string& method,
                      const OperationBudget& budget)
 {
+  if (parameters.large)
+    return exponential_period_map(parameters, omega, start, tolerance, budget);
   Variation variation{{parameters, omega},
                       DisturbanceRates(parameters),
                       {budget, with_variations * evaluation_price(parameters, method)}};
@@ -72,7 +89,7 @@ PeriodMap period_map(const Parameters& parameters, double omega, const State& st
   Eigen::Map<Matrix8> disturbances(y.data() + 8);  // the transpose of Φ
   disturbances.setIdentity();
   driver.advance(0, period, y.data(), variation.evaluations);
-  return {.end = state_of(Eigen::Map<const Vector8>(y.data())),
+  return {.end = {bodies_at(y.data()), bodies_at(y.data() + 4)},
           .derivative = disturbances.transpose(),
           .evaluations = variation.evaluations.count};
 }
@@ -127,7 +144,7 @@ PeriodMap Rk4PeriodMap::map(const State& start)
                                 const Angles& at) -> Varied {
     const BearingReaction bearing =
         system_.bearing().reaction(at, q.bodies.relative(), v.bodies.relative());
-    return {system_.acceleration({q.bodies, v.bodies}, at.rotor, bearing.force),
+    return {system_.acceleration(q.bodies, v.bodies, at.rotor, bearing.force),
             rates_.acceleration(bearing, q.disturbances, v.disturbances)};
   };
   Varied q{start.position, Disturbances::Zero()}, v{start.velocity, Disturbances::Zero()};

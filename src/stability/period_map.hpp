@@ -24,8 +24,8 @@ using Matrix8 = Eigen::Matrix<double, 8, 8>;
 
 struct PeriodMap {
   State end;
-  Matrix8 derivative;  ///< Φ
-  long evaluations;    ///< of the bearing's force and stiffness
+  Eigen::MatrixXd derivative;  ///< Φ
+  long evaluations;            ///< of the bearing's force and stiffness
 };
 
 /** From `start` at phase 0. `tolerance`: local error per step, over the size of each component.

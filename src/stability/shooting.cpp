@@ -60,9 +60,9 @@ Maps gsl_maps(const Parameters& parameters, double omega,
 struct Iteration {
   const ShootingSettings& settings;
   Maps maps;
-  Vector8 sizes, y;
-  Vector8 open = {};      ///< P(y) - y
-  Matrix8 jacobian = {};  ///< its derivative
+  Eigen::VectorXd sizes, y;
+  Eigen::VectorXd open = {};      ///< P(y) - y
+  Eigen::MatrixXd jacobian = {};  ///< its derivative
   double reduction = 1;
   Shooting report = {};
 
@@ -94,7 +94,7 @@ struct Iteration {
     open = vector_of(map.end).cwiseQuotient(sizes) - y;
     report.periodicity_residual = open.norm();
     jacobian = sizes.cwiseInverse().asDiagonal() * map.derivative * sizes.asDiagonal();
-    jacobian -= Matrix8::Identity();
+    jacobian.diagonal().array() -= 1;
     if (finished()) return;
     if (!quasi_newton_steps() && report.reason.empty())
       stop("no step closes the motion better");
@@ -115,13 +115,13 @@ struct Iteration {
   /** One step, halved until the residual decreases; Broyden's rule learns from it. */
   bool damped_step()
   {
-    const Vector8 step = -jacobian.partialPivLu().solve(open);
+    const Eigen::VectorXd step = -jacobian.partialPivLu().solve(open);
     const int most_halvings = settings.quasi_newton ? 8 : 12;
     double length = 1;
     for (int halvings = 0; halvings < most_halvings && !out_of_maps();
          ++halvings, length /= 2) {
-      const Vector8 next = y + length * step;
-      const Vector8 open_next = mapped(next) - next;
+      const Eigen::VectorXd next = y + length * step;
+      const Eigen::VectorXd open_next = mapped(next) - next;
       const double residual = open_next.norm();
       reduction = residual / report.periodicity_residual;
       if (!(reduction < 1)) continue;
@@ -137,7 +137,7 @@ struct Iteration {
 
   void take_known_step()
   {
-    const Vector8 step = jacobian.partialPivLu().solve(open);
+    const Eigen::VectorXd step = jacobian.partialPivLu().solve(open);
     if (step.allFinite()) y -= step;
     if (settings.final_derivative) integrate_derivative();
   }
@@ -151,15 +151,15 @@ struct Iteration {
     return map;
   }
 
-  Vector8 mapped(const Vector8& at)
+  Eigen::VectorXd mapped(const Eigen::VectorXd& at)
   {
     ++report.maps;
     return vector_of(maps.end(unscaled(at))).cwiseQuotient(sizes);
   }
 
-  State unscaled(const Vector8& at) const
+  State unscaled(const Eigen::VectorXd& at) const
   {
-    return state_of(Vector8(at.cwiseProduct(sizes)));
+    return state_of(at.cwiseProduct(sizes));
   }
   bool out_of_maps() const { return report.maps >= settings.most_maps; }
 
@@ -185,9 +185,10 @@ Shooting shoot(const Parameters& parameters, double omega, State& state,
                const ShootingSettings& settings, PeriodicityJacobian* jacobian)
 {
   PeriodicityJacobian none;
-  Vector8 sizes = state_scales(parameters);
-  sizes.tail<4>() /= settings.speed_weight;
-  const auto maps = settings.method == "rk4" ? rk4_maps : gsl_maps;
+  Eigen::VectorXd sizes = state_scales(parameters);
+  sizes.tail(sizes.size() / 2) /= settings.speed_weight;
+  const bool by_rk4 = settings.method == "rk4" && !parameters.large;
+  const auto maps = by_rk4 ? rk4_maps : gsl_maps;
   return Iteration{settings, maps(parameters, omega, settings), sizes,
                    vector_of(state).cwiseQuotient(sizes)}
       .run(state, jacobian ? *jacobian : none);

@@ -37,12 +37,12 @@ struct Shooting {
   int maps = 0;                     ///< periods integrated, those with the derivative too
   int derivatives = 0;              ///< of them with the variational equations
   long evaluations = 0;             ///< of Eq. 7, with or without its derivative
-  Matrix8 derivative = Matrix8::Identity();  ///< Φ at the motion found, or the last one
-  std::string reason = {};                   ///< why it stopped
+  Eigen::MatrixXd derivative = {};  ///< Φ at the motion found, or the last one
+  std::string reason = {};          ///< why it stopped
 };
 
 /** Φ - 1 in units of the sizes, as the last iteration left it. */
-using PeriodicityJacobian = std::optional<Matrix8>;
+using PeriodicityJacobian = std::optional<Eigen::MatrixXd>;
 
 /** Iterates from `state` (at phase 0), which becomes the fixed point or the best state reached. With
     `jacobian`, the iteration starts from what it holds, if anything, and leaves its own there. */

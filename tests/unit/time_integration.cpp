@@ -104,8 +104,8 @@ TEST_CASE("The stiff steppers' Jacobian in contact is that of differences of Eq.
   const auto slope = [&](const Vector8& at, double time) {
     const State now = state_of(at);
     const double phase = system.omega() * time;
-    return vector_of(
-        {now.velocity, system.acceleration(now, system.bearing().angles(phase))});
+    return vector_of({now.velocity, system.acceleration(now.position, now.velocity,
+                                                        system.bearing().angles(phase))});
   };
   REQUIRE(system.bearing()
               .reaction(system.bearing().angles(system.omega() * t).cage,
@@ -200,12 +200,15 @@ TEST_CASE(
       parameters.bearing.balls = balls;
       parameters.rotor.load = load;
       const RotorStator system(parameters, hertz(10));
+      const State rest = static_start(parameters);
       const Bodies a =
-          system.acceleration(static_start(parameters), Angles{{1, 0}, {1, 0}});
+          system.acceleration(rest.position, rest.velocity, Angles{{1, 0}, {1, 0}});
       for (double value : displacements(a)) CHECK(std::abs(value) < 1e-8);
     }
   std::swap(parameters.stator, parameters.rotor);
   const RotorStator system(parameters, hertz(10));
-  const Bodies a = system.acceleration(static_start(parameters), Angles{{1, 0}, {1, 0}});
+  const State rest = static_start(parameters);
+  const Bodies a =
+      system.acceleration(rest.position, rest.velocity, Angles{{1, 0}, {1, 0}});
   for (double value : displacements(a)) CHECK(std::abs(value) < 1e-8);
 }

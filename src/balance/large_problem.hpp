@@ -1,0 +1,31 @@
+/**
+# Bodies given by matrices as a harmonic-balance problem
+
+Per harmonic of frequency Ω all n unknowns condense exactly to the relative displacements u = Dᵀq of the b bearings,
+
+$$(I - k H)\, u_h + H F_h(u) = D^T S^{-1} p_h, \qquad H = D^T S^{-1} D,\qquad
+S = K + k D D^T - \Omega^2 M + i\Omega\,(C + \omega G),$$
+
+for any spring k that is added to the bearings and taken off their forces. Here it is k_0 at rest and k_0(1 + i) for a
+vibration, so that no resonance of the bodies with k_0, however little damped, makes S singular. */
+#pragma once
+
+#include "balance/balance.hpp"
+#include "model/large_machine.hpp"
+
+namespace rotor_stator {
+
+/** The problem's dofs, blocks and force, along a line of the torus. Throws BadInput where the balls of the bearings pass
+    at different rates. */
+void put_large_bodies(const Parameters& parameters, const TorusLine& line,
+                      Problem& problem);
+
+/** `quasi_static_start` for them. */
+Eigen::MatrixXd large_start_samples(const Parameters& parameters, double omega,
+                                    int samples);
+
+/** Series of all n coordinates along `motion` [m], n × (2m+1). */
+Eigen::MatrixXd coordinate_series(const Parameters& parameters,
+                                  const PeriodicMotion& motion);
+
+}  // namespace rotor_stator

@@ -1,0 +1,500 @@
+#include "model/large_machine.hpp"
+
+#include <Eigen/Cholesky>
+#include <Eigen/LU>
+#include <Eigen/SparseCholesky>
+#include <algorithm>
+#include <cmath>
+#include <filesystem>
+
+#include "io/errors.hpp"
+#include "io/matrix_market.hpp"
+#include "model/catalogue.hpp"
+#include "model/hertz.hpp"
+
+namespace rotor_stator {
+
+namespace {
+
+using Complex = std::complex<double>;
+using Triplets = std::vector<Eigen::Triplet<double, int>>;
+
+/** Matrices of this size are kept as they are. */
+constexpr int most_kept = 400;
+
+/** A body that moves in its own degrees of freedom, counted from 0. */
+struct LinearBody {
+  std::string name;
+  SparseMatrix m, c, g, k;
+  std::vector<int> vertical = {};
+  Eigen::VectorXd load = {};                 ///< beside the weight [N]
+  Eigen::VectorXcd unbalance = {};           ///< [kg m]
+  std::vector<int> joint = {}, output = {};  ///< x and y
+
+  int size() const { return static_cast<int>(m.rows()); }
+};
+
+/** The name of a matrix, the sign of its transpose, and whether its file may be missing. */
+struct Named {
+  const char* name;
+  double sign;
+  bool required;
+};
+
+SparseMatrix read_one(const std::filesystem::path& folder, const Named& named, int size)
+{
+  const std::string file = (folder / (std::string(named.name) + ".mtx")).string();
+  if (!named.required && !std::filesystem::exists(file)) return SparseMatrix(size, size);
+  const SparseMatrix matrix = read_matrix(file);
+  if (size > 0 && matrix.rows() != size)
+    throw BadInput(format("%s: has %ld rows, and M.mtx %d", file.c_str(),
+                          static_cast<long>(matrix.rows()), size));
+  const SparseMatrix image = named.sign * SparseMatrix(matrix.transpose());
+  constexpr double rounding = 1e-8;
+  if (SparseMatrix(matrix - image).norm() > rounding * matrix.norm())
+    throw BadInput(format(
+        "%s: is not %s", file.c_str(),
+        named.sign > 0 ? "symmetric" : "antisymmetric, as gyroscopic moments are"));
+  return 0.5 * (matrix + image);
+}
+
+/** Every degree of freedom needs mass, and no motion may have none. */
+void require_mass(const SparseMatrix& m, const std::string& file)
+{
+  for (int i = 0; i < m.rows(); ++i)
+    if (!(m.coeff(i, i) > 0))
+      throw BadInput(format("%s: degree of freedom %d has no mass", file.c_str(), i + 1));
+  if (Eigen::SimplicialLLT<SparseMatrix>(m).info() != Eigen::Success)
+    throw BadInput(file + ": is not positive definite");
+}
+
+/** Numbers of degrees of freedom, from 0. */
+std::vector<int> read_dofs(StrictToml& table, const std::string& key, int size,
+                           bool is_pair)
+{
+  std::vector<int> dofs = table.integers(key, 1, size);
+  if (is_pair && (dofs.size() != 2 || dofs[0] == dofs[1]))
+    table.fail(key, "must be [x, y], two degrees of freedom");
+  for (int& dof : dofs) --dof;
+  return dofs;
+}
+
+LinearBody read_matrices(StrictToml& table, const std::string& name, bool has_weight)
+{
+  const auto folder =
+      std::filesystem::path(table.file()).parent_path() / table.string("matrices");
+  if (!std::filesystem::is_directory(folder))
+    table.fail("matrices", "names no folder: " + folder.string());
+  LinearBody body{
+      .name = name, .m = read_one(folder, {"M", 1, true}, 0), .c = {}, .g = {}, .k = {}};
+  const int n = body.size();
+  require_mass(body.m, (folder / "M.mtx").string());
+  body.k = read_one(folder, {"K", 1, true}, n);
+  body.c = read_one(folder, {"C", 1, false}, n);
+  body.g = read_one(folder, {"G", -1, false}, n);
+  body.load = Eigen::VectorXd::Zero(n);
+  body.unbalance = Eigen::VectorXcd::Zero(n);
+  if (table.has("bearing_dofs")) body.joint = read_dofs(table, "bearing_dofs", n, true);
+  if (table.has("output_dofs")) body.output = read_dofs(table, "output_dofs", n, true);
+  if (has_weight && !table.has("vertical_dofs"))
+    table.missing("vertical_dofs", ": where the weight acts; [] for a body without it");
+  if (table.has("vertical_dofs"))
+    body.vertical = read_dofs(table, "vertical_dofs", n, false);
+  if (table.has("unbalance"))
+    for (StrictToml& one : table.tables("unbalance")) {
+      const std::vector<int> dofs = read_dofs(one, "dofs", n, true);
+      const Complex moment = std::polar(one.number("moment_kg_m", Range::not_negative),
+                                        one.number_or("phase_rad", Range::any, 0));
+      body.unbalance[dofs[0]] += moment;
+      body.unbalance[dofs[1]] += Complex(0, -1) * moment;
+    }
+  return body;
+}
+
+/** A single mass, the same in x and y. */
+LinearBody single_mass(const Body& body, const std::string& name, double unbalance)
+{
+  SparseMatrix one(2, 2);
+  one.setIdentity();
+  return {.name = name,
+          .m = body.mass * one,
+          .c = body.damping() * one,
+          .g = SparseMatrix(2, 2),
+          .k = body.stiffness() * one,
+          .vertical = {1},
+          .load = Eigen::Vector2d(body.load.x, body.load.y),
+          .unbalance = unbalance * Eigen::Vector2cd(1, Complex(0, -1)),
+          .joint = {0, 1}};
+}
+
+/** A single mass that vibrates about as the body does: in the shape that one force on all bearings gives it. */
+Body equivalent(const LinearBody& body, const std::vector<std::array<int, 2>>& joints,
+                double spring)
+{
+  Eigen::VectorXd force = Eigen::VectorXd::Zero(body.size());
+  SparseMatrix held = body.k;
+  for (const auto& joint : joints)
+    for (int dof : joint) {
+      held.coeffRef(dof, dof) += spring;
+      if (dof == joint[1]) force[dof] = 1;
+    }
+  const Eigen::VectorXd shape = Eigen::SimplicialLDLT<SparseMatrix>(held).solve(force);
+  const double count = force.sum(), sag = force.dot(shape) / count;
+  const double stiffness = count / sag - count * spring;
+  const double mass = shape.dot(body.m * shape) / (sag * sag);
+  const bool is_held = stiffness > 1e-6 * count * spring;
+  Body one{.mass = mass,
+           .natural_frequency = is_held ? std::sqrt(stiffness / mass) : 0,
+           .damping_ratio = 0};
+  one.damper = shape.dot(body.c * shape) / (sag * sag);
+  return one;
+}
+
+/** The whole machine, its coordinates in the order of the files. */
+struct Assembly {
+  std::vector<LinearBody> bodies;  ///< stator and rotor
+  bool is_rigid;                   ///< the stator
+  std::vector<std::array<int, 4>> places = {};
+
+  int first(int body) const { return body == 0 ? 0 : bodies[0].size(); }
+  int size() const { return bodies[0].size() + bodies[1].size(); }
+
+  SparseMatrix joined(SparseMatrix LinearBody::*part) const
+  {
+    Triplets entries;
+    for (int body : {0, 1}) {
+      const SparseMatrix& own = bodies[body].*part;
+      for (int j = 0; j < own.outerSize(); ++j)
+        for (SparseMatrix::InnerIterator it(own, j); it; ++it)
+          entries.emplace_back(first(body) + static_cast<int>(it.row()), first(body) + j,
+                               it.value());
+    }
+    SparseMatrix all(size(), size());
+    all.setFromTriplets(entries.begin(), entries.end());
+    return all;
+  }
+
+  SparseMatrix joints() const
+  {
+    Triplets entries;
+    for (int b = 0; b < std::ssize(places); ++b)
+      for (int axis : {0, 1}) {
+        entries.emplace_back(places[b][2 + axis], 2 * b + axis, 1);
+        if (!is_rigid) entries.emplace_back(places[b][axis], 2 * b + axis, -1);
+      }
+    SparseMatrix all(size(), 2 * static_cast<int>(places.size()));
+    all.setFromTriplets(entries.begin(), entries.end());
+    return all;
+  }
+
+  /** Degrees of freedom, those first that are shown; their number. */
+  std::pair<std::vector<int>, int> order() const
+  {
+    std::vector<int> list;
+    const auto add = [&](int dof) {
+      if (std::ranges::find(list, dof) == list.end()) list.push_back(dof);
+    };
+    for (const auto& place : places) std::ranges::for_each(place, add);
+    for (int body : {0, 1})
+      for (int dof : bodies[body].output) add(first(body) + dof);
+    const int shown = static_cast<int>(list.size());
+    std::vector<bool> taken(static_cast<std::size_t>(size()));
+    for (int dof : list) taken[dof] = true;
+    for (int dof = 0; dof < size(); ++dof)
+      if (!taken[dof]) list.push_back(dof);
+    return {list, shown};
+  }
+
+  /** Throws BadInput for what neither K nor a bearing holds. */
+  void require_held(double spring) const
+  {
+    const SparseMatrix d = joints();
+    const SparseMatrix held =
+        joined(&LinearBody::k) + spring * SparseMatrix(d * d.transpose());
+    const Eigen::SimplicialLDLT<SparseMatrix> factors(held);
+    constexpr double rounding = 1e-13;
+    for (int i = 0; i < size(); ++i) {
+      const int dof = factors.permutationPinv().indices()[i];
+      const bool is_rotor = dof >= first(1);
+      if (factors.info() == Eigen::Success &&
+          factors.vectorD()[i] > rounding * held.coeff(dof, dof))
+        continue;
+      throw BadInput(format(
+          "%s: K is singular, and no bearing holds what it leaves free: found at degree "
+          "of freedom %d (torsion and axial motion must be held too)",
+          bodies[is_rotor].name.c_str(), dof - (is_rotor ? first(1) : 0) + 1));
+    }
+  }
+};
+
+/** One bearing: [bearing] between the bearing_dofs of both bodies, or one of [[bearing]]. */
+std::array<int, 4> read_place(StrictToml* table, const Assembly& all)
+{
+  std::array<int, 4> place{};
+  for (int body : {0, 1}) {
+    const LinearBody& one = all.bodies[body];
+    const std::string key = body == 0 ? "stator_dofs" : "rotor_dofs";
+    const bool is_given = table && table->has(key);
+    if (!is_given && one.joint.empty()) {
+      if (table) table->missing(key);
+      throw BadInput(one.name + ".bearing_dofs is missing: [x, y], from 1");
+    }
+    const std::vector<int> dofs =
+        is_given ? read_dofs(*table, key, one.size(), true) : one.joint;
+    for (int axis : {0, 1}) place[2 * body + axis] = all.first(body) + dofs[axis];
+  }
+  return place;
+}
+
+void read_bearings(StrictToml& root, Parameters& parameters, Assembly& all)
+{
+  if (!root.has_tables("bearing")) {
+    StrictToml table = root.table("bearing");
+    parameters.bearing = read_bearing(table, parameters.derived);
+    all.places = {read_place(nullptr, all)};
+    return;
+  }
+  std::vector<Bearing> list;
+  for (StrictToml& table : root.tables("bearing")) {
+    list.push_back(read_bearing(table, parameters.derived));
+    list.back().cage_phase = table.number_or("cage_phase_rad", Range::any, 0);
+    all.places.push_back(read_place(&table, all));
+    for (std::size_t k = 0; k + 1 < list.size(); ++k)
+      if (all.places[k] == all.places.back())
+        table.fail("rotor_dofs", "and stator_dofs are those of another bearing too");
+  }
+  constexpr std::size_t most = 4;
+  if (list.empty() || list.size() > most)
+    root.fail("bearing", format("must be 1...%zu tables [[bearing]]", most));
+  parameters.bearing = list[0];
+  parameters.further.assign(list.begin() + 1, list.end());
+}
+
+/** The columns that go beyond those of two masses. */
+std::vector<std::pair<std::string, int>> outputs_of(const Assembly& all,
+                                                    const std::vector<int>& place_of)
+{
+  std::vector<std::pair<std::string, int>> list;
+  constexpr const char* names[] = {"x_s", "y_s", "x_r", "y_r"};
+  for (std::size_t b = 1; b < all.places.size(); ++b)
+    for (int k = 0; k < 4; ++k)
+      list.emplace_back(format("%s_%zu", names[k], b + 1), place_of[all.places[b][k]]);
+  for (int body : {0, 1})
+    for (std::size_t axis = 0; axis < all.bodies[body].output.size(); ++axis)
+      list.emplace_back(std::string(names[2 * body + static_cast<int>(axis)]) + "_out",
+                        place_of[all.first(body) + all.bodies[body].output[axis]]);
+  return list;
+}
+
+LargeMachine machine_of(const Assembly& all, double gravity, double spring)
+{
+  const auto [order, shown] = all.order();
+  const int n = all.size();
+  std::vector<int> place_of(order.size());
+  for (int i = 0; i < n; ++i) place_of[order[i]] = i;
+  const auto dense = [&](const SparseMatrix& a) -> Eigen::MatrixXd {
+    return Eigen::MatrixXd(a)(order, order);
+  };
+  const SparseMatrix mass = all.joined(&LinearBody::m);
+  Eigen::VectorXd load(n), upright = Eigen::VectorXd::Zero(n);
+  Eigen::VectorXcd unbalance(n);
+  load << all.bodies[0].load, all.bodies[1].load;
+  unbalance << all.bodies[0].unbalance, all.bodies[1].unbalance;
+  for (int body : {0, 1})
+    for (int dof : all.bodies[body].vertical) upright[all.first(body) + dof] = 1;
+  load -= gravity * (mass * upright);
+  LargeMachine machine{.mass = dense(mass),
+                       .damping = dense(all.joined(&LinearBody::c)),
+                       .gyroscopic = dense(all.joined(&LinearBody::g)),
+                       .stiffness = dense(all.joined(&LinearBody::k)),
+                       .joints = Eigen::MatrixXd(all.joints())(order, Eigen::all),
+                       .load = load(order),
+                       .unbalance = unbalance(order),
+                       .spring = spring,
+                       .shown = shown,
+                       .places = all.places,
+                       .outputs = outputs_of(all, place_of)};
+  for (auto& place : machine.places)
+    for (int& dof : place) dof = place_of[dof];
+  return machine;
+}
+
+}  // namespace
+
+void read_large_machine(StrictToml& root, Parameters& parameters)
+{
+  StrictToml tables[] = {root.table("stator"), root.table("rotor")};
+  const double gravity = parameters.gravity;
+  Assembly all{.bodies = {}, .is_rigid = parameters.stator.rigid};
+  for (int body : {0, 1}) {
+    const Body& mass = body == 0 ? parameters.stator : parameters.rotor;
+    all.bodies.push_back(
+        tables[body].has("matrices")
+            ? read_matrices(tables[body], body == 0 ? "stator" : "rotor", gravity > 0)
+            : single_mass(mass, body == 0 ? "stator" : "rotor",
+                          body == 0 ? 0 : parameters.unbalance));
+  }
+  if (all.is_rigid) all.bodies[0].vertical.clear();
+  read_bearings(root, parameters, all);
+  for (const Bearing& bearing : bearings_of(parameters))
+    if (!bearing.is_plain())
+      root.fail("bearing", "of bodies given by matrices takes no contact damping and no defect");
+  if (all.size() > most_kept)
+    throw BadInput(format("%s: %d degrees of freedom; at most %d",
+                          parameters.file.c_str(), all.size(), most_kept));
+
+  /** The spring is that of a ball that carries all weights and loads. */
+  double weight = 0;
+  for (const LinearBody& body : all.bodies) {
+    Eigen::VectorXd upright = Eigen::VectorXd::Zero(body.size());
+    for (int dof : body.vertical) upright[dof] = 1;
+    weight += gravity * upright.dot(body.m * upright) + body.load.norm();
+  }
+  const double k_h = parameters.bearing.contact_stiffness;
+  const double penetration =
+      hertz_penetration(k_h, std::max(weight, hertz_force(k_h, 1e-6)));
+  const double spring = hertz_stiffness(k_h, penetration);
+
+  std::vector<std::array<int, 2>> joints[2];
+  for (const auto& place : all.places)
+    for (int body : {0, 1})
+      joints[body].push_back(
+          {place[2 * body] - all.first(body), place[2 * body + 1] - all.first(body)});
+  if (tables[1].has("matrices")) {
+    parameters.rotor = equivalent(all.bodies[1], joints[1], spring);
+    parameters.unbalance = all.bodies[1].unbalance.cwiseAbs().sum() / 2;
+  }
+  if (tables[0].has("matrices"))
+    parameters.stator = equivalent(all.bodies[0], joints[0], spring);
+  if (all.is_rigid) {
+    /** Its pair of coordinates, which no force reaches, is damped within the contact's vibration. */
+    const double omega = std::sqrt(spring / parameters.rotor.mass);
+    all.bodies[0] = single_mass(
+        {.mass = 1, .natural_frequency = omega, .damping_ratio = 0.7}, "stator", 0);
+    all.bodies[0].vertical.clear();
+  }
+  all.require_held(spring);
+  parameters.large =
+      std::make_shared<const LargeMachine>(machine_of(all, gravity, spring));
+}
+
+Eigen::MatrixXcd LargeMachine::dynamic_stiffness(std::complex<double> k, double frequency,
+                                                 double speed) const
+{
+  const Complex i(0, 1);
+  Eigen::MatrixXcd z = i * frequency * (damping + speed * gyroscopic);
+  z += stiffness - frequency * frequency * mass;
+  return z + k * (joints * joints.transpose());
+}
+
+std::vector<Bearing> bearings_of(const Parameters& parameters)
+{
+  std::vector<Bearing> list{parameters.bearing};
+  list.insert(list.end(), parameters.further.begin(), parameters.further.end());
+  return list;
+}
+
+FreeMotion held_motion(const LargeMachine& machine, double speed)
+{
+  const Eigen::MatrixXcd z = machine.dynamic_stiffness(machine.spring, speed, speed);
+  return {machine.held_stiffness().ldlt().solve(machine.load),
+          z.partialPivLu().solve(speed * speed * machine.unbalance)};
+}
+
+JointForces rigid_joint_forces(const LargeMachine& machine, double speed)
+{
+  const Eigen::MatrixXd& d = machine.joints;
+  const FreeMotion held = held_motion(machine, speed);
+  const Eigen::MatrixXd at_rest =
+      d.transpose() * machine.held_stiffness().ldlt().solve(d);
+  const Eigen::MatrixXcd z = machine.dynamic_stiffness(machine.spring, speed, speed);
+  const Eigen::MatrixXcd turning =
+      d.transpose() * z.partialPivLu().solve(d.cast<Complex>());
+  return {at_rest.ldlt().solve(d.transpose() * held.rest),
+          turning.partialPivLu().solve(d.transpose() * held.whirl)};
+}
+
+Eigen::VectorXd quasi_static_contacts(const Parameters& parameters,
+                                      const Eigen::VectorXd& forces)
+{
+  Eigen::VectorXd u = Eigen::VectorXd::Zero(forces.size());
+  for (Eigen::Index k = 0; const Bearing& bearing : bearings_of(parameters)) {
+    const Eigen::Vector2d force = forces.segment<2>(k);
+    const double size = force.norm();
+    if (size > 0)
+      u.segment<2>(k) =
+          (bearing.clearance + hertz_penetration(bearing.contact_stiffness, size)) /
+          size * force;
+    k += 2;
+  }
+  return u;
+}
+
+State large_static_start(const Parameters& parameters)
+{
+  const LargeMachine& machine = *parameters.large;
+  const Eigen::MatrixXd& d = machine.joints;
+  const Eigen::LDLT<Eigen::MatrixXd> held(machine.held_stiffness());
+  const Eigen::VectorXd alone = held.solve(machine.load);
+  const Eigen::MatrixXd h = d.transpose() * held.solve(d);
+  const Eigen::VectorXd c = d.transpose() * alone;
+  const auto bearings = bearings_of(parameters);
+
+  /** u - c + H (F - k_0 u) and its derivative. */
+  Eigen::VectorXd force(c.size());
+  Eigen::MatrixXd slope(c.size(), c.size());
+  const auto open = [&](const Eigen::VectorXd& u) -> Eigen::VectorXd {
+    slope.setZero();
+    for (int b = 0; b < machine.bearings(); ++b) {
+      const auto [f, s] =
+          BallBearing(bearings[b])
+              .reaction(Direction::of(bearings[b].cage_phase), {u[2 * b], u[2 * b + 1]});
+      force.segment<2>(2 * b) << f.x, f.y;
+      slope.block<2, 2>(2 * b, 2 * b) << s.xx, s.xy, s.xy, s.yy;
+    }
+    force -= machine.spring * u;
+    slope.diagonal().array() -= machine.spring;
+    return u - c + h * force;
+  };
+  Eigen::VectorXd u = quasi_static_contacts(parameters, h.ldlt().solve(c));
+  for (int step = 0; step < 100; ++step) {
+    const Eigen::VectorXd rest = open(u);
+    const Eigen::VectorXd change =
+        (Eigen::MatrixXd::Identity(u.size(), u.size()) + h * slope)
+            .partialPivLu()
+            .solve(rest);
+    double length = 1;
+    while (length > 1e-6 && !(open(u - length * change).norm() < rest.norm()))
+      length /= 2;
+    if (!(length > 1e-6)) break;
+    u -= length * change;
+  }
+  open(u);
+  const Eigen::VectorXd q = alone - held.solve(d * force);
+  Eigen::VectorXd y = Eigen::VectorXd::Zero(2 * q.size());
+  y.head(q.size()) = q;
+  return state_of(y);
+}
+
+Eigen::VectorXd large_state_scales(const Parameters& parameters)
+{
+  const LargeMachine& machine = *parameters.large;
+  const auto n = machine.mass.rows();
+  const Eigen::VectorXd masses = machine.mass.diagonal();
+  const double length = scales(parameters).length,
+               shown = masses.head(machine.shown).mean();
+  Eigen::VectorXd sizes(2 * n);
+  for (Eigen::Index i = 0; i < n; ++i)
+    sizes[i] = length * (i < machine.shown ? 1 : std::sqrt(shown / masses[i]));
+  sizes.tail(n) = contact_frequency(parameters) * sizes.head(n);
+  return sizes;
+}
+
+void require_two_masses(const Parameters& parameters, const char* who)
+{
+  if (parameters.large)
+    throw BadInput(
+        format("%s: %s knows no bodies given by matrices", parameters.file.c_str(), who));
+}
+
+}  // namespace rotor_stator

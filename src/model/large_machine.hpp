@@ -1,0 +1,85 @@
+/**
+# Bodies given by matrices
+
+A rotor or a stator of a finite-element program comes as mass, damping, gyroscopic and stiffness matrices. With the
+relative displacements u = Dᵀq of all bearings and their forces F on the stator the whole machine is
+
+$$M\ddot q + (C + \omega G)\,\dot q + K q = p(t) - D F(u, t).$$
+
+The first coordinates of q are the displacements that are shown: x_s, y_s, x_r, y_r at the first bearing, those of
+the other bearings, the outputs. A rigid stator is a pair of coordinates that nothing moves.
+
+A spring k_0 in each bearing, added to K and taken off F, changes nothing and keeps K + k_0 D Dᵀ regular where the
+bearings carry a body. */
+#pragma once
+
+#include <Eigen/Core>
+#include <array>
+#include <complex>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "model/rotor_stator.hpp"
+
+namespace rotor_stator {
+
+/** n coordinates, b bearings. */
+struct LargeMachine {
+  Eigen::MatrixXd mass, damping, gyroscopic, stiffness;  ///< n × n, SI units
+  Eigen::MatrixXd joints;                                ///< D, n × 2b
+  Eigen::VectorXd load;        ///< constant forces, weight included [N]
+  Eigen::VectorXcd unbalance;  ///< the force is ω² Re(unbalance e^{iωt}) [kg m]
+  double spring;               ///< k_0 [N/m]
+  int shown;                   ///< coordinates that are shown, at least four
+  std::vector<std::array<int, 4>> places;  ///< of x_s, y_s, x_r, y_r at each bearing
+  std::vector<std::pair<std::string, int>>
+      outputs;  ///< further columns, and their coordinates
+
+  int bearings() const { return static_cast<int>(places.size()); }
+  Eigen::MatrixXd held_stiffness() const  ///< K + k_0 D Dᵀ
+  {
+    return stiffness + spring * joints * joints.transpose();
+  }
+
+  /** K + k D Dᵀ - Ω² M + iΩ (C + ωG) at the frequency Ω and the speed ω, for a spring k. */
+  Eigen::MatrixXcd dynamic_stiffness(std::complex<double> k, double frequency,
+                                     double speed) const;
+};
+
+/** Reads bodies of which at least one has `matrices`, and the bearings, [bearing] or [[bearing]]. Throws BadInput. */
+void read_large_machine(StrictToml& root, Parameters& parameters);
+
+/** All bearings of a machine. */
+std::vector<Bearing> bearings_of(const Parameters& parameters);
+
+/** What carries the constant loads and the unbalance without any contact but k_0: displacements of all coordinates, at
+    rest and as complex amplitudes at the speed ω [m]. */
+struct FreeMotion {
+  Eigen::VectorXd rest;
+  Eigen::VectorXcd whirl;
+};
+FreeMotion held_motion(const LargeMachine& machine, double speed);
+
+/** The bearings' forces [N] that would keep all u = 0 under the constant loads, 2b, and their amplitudes from the
+    unbalance at the speed ω. */
+struct JointForces {
+  Eigen::VectorXd rest;
+  Eigen::VectorXcd whirl;
+};
+JointForces rigid_joint_forces(const LargeMachine& machine, double speed);
+
+/** The relative displacements [m] with which the bearings answer these forces, each on one ball. */
+Eigen::VectorXd quasi_static_contacts(const Parameters& parameters,
+                                      const Eigen::VectorXd& forces);
+
+/** At rest, the bearings holding the constant loads. */
+State large_static_start(const Parameters& parameters);
+
+/** Throws BadInput, in the name of `who`, for a machine given by matrices. */
+void require_two_masses(const Parameters& parameters, const char* who);
+
+/** Sizes of all displacements and speeds, for tolerances and norms. */
+Eigen::VectorXd large_state_scales(const Parameters& parameters);
+
+}  // namespace rotor_stator

@@ -1,0 +1,273 @@
+"""Bodies given by matrices: the paper's machine in that form, what is refused, and flexible shafts against an
+integration of all degrees of freedom written here.
+
+Usage: tests/unit/large.py   (from the project's root)
+"""
+import sys
+import tomllib
+import unittest
+from pathlib import Path
+
+import numpy as np
+
+sys.path.insert(0, str(Path(__file__).parents[1]))
+from support.explore import Case  # noqa: E402
+
+NAMES = ["x_s", "y_s", "x_r", "y_r"]
+GRAVITY = 9.81
+
+
+def matrix_market(matrix, kind="general"):
+    """`kind`: general, or the triangle of a symmetric matrix that is written: upper, lower; or array."""
+    n = len(matrix)
+    if kind == "array":
+        return f"%%MatrixMarket matrix array real general\n{n} {n}\n" + "".join(f"{x!r}\n" for x in matrix.T.flat)
+    rows = [f"{i + 1} {j + 1} {float(matrix[i, j])!r}\n" for i in range(n) for j in range(n) if matrix[i, j] != 0
+            and (kind == "general" or (i >= j if kind == "lower" else i <= j))]
+    stored = kind if kind == "general" else "symmetric"
+    return f"%%MatrixMarket matrix coordinate real {stored}\n% written by a test\n{n} {n} {len(rows)}\n" + "".join(rows)
+
+
+def beam(elements, length, diameter, disks, damping):
+    """M, C, G, K of a round steel shaft of Euler and Bernoulli. Each node has x, y and their slopes along the shaft. A
+    disk is (node, mass, diametral and polar moment of inertia); `damping`: C over M and over K."""
+    n, l = 4 * (elements + 1), length / elements
+    mass = 7810 * np.pi * diameter**2 / 4 * l / 420 * np.array(
+        [[156, 22 * l, 54, -13 * l], [22 * l, 4 * l**2, 13 * l, -3 * l**2],
+         [54, 13 * l, 156, -22 * l], [-13 * l, -3 * l**2, -22 * l, 4 * l**2]])
+    stiffness = 211e9 * np.pi * diameter**4 / 64 / l**3 * np.array(
+        [[12, 6 * l, -12, 6 * l], [6 * l, 4 * l**2, -6 * l, 2 * l**2],
+         [-12, -6 * l, 12, -6 * l], [6 * l, 2 * l**2, -6 * l, 4 * l**2]])
+    m, g, k = np.zeros((3, n, n))
+    for e in range(elements):
+        for axis in [0, 1]:
+            place = np.ix_(*[[4 * e + axis + i for i in [0, 2, 4, 6]]] * 2)
+            m[place] += mass
+            k[place] += stiffness
+    for node, disk, diametral, polar in disks:
+        at = range(4 * node, 4 * node + 4)
+        m[at, at] += [disk, disk, diametral, diametral]
+        g[at[2], at[3]] += polar
+        g[at[3], at[2]] -= polar
+    return m, damping[0] * m + damping[1] * k, g, k
+
+
+class Judge:
+    """M q'' + (C + w G) q' + K q = loads - D F by classical Runge-Kutta, all speeds at once, a column each. `bearings`:
+    (columns of D, parameters); the force is Eqs 3 to 6 as the paper prints them, but for the sign of Eq. 4."""
+
+    def __init__(self, matrices, bearings, weight, unbalance, speeds):
+        m, self.c, self.g, self.k = matrices
+        self.per_mass = np.linalg.inv(m)
+        self.bearings, self.weight, self.unbalance = bearings, weight, unbalance
+        self.w = 2 * np.pi * np.array(speeds)
+
+    def acceleration(self, q, v, phase):
+        force = self.weight[:, None] - self.k @ q - self.c @ v - self.w * (self.g @ v)
+        force = force + self.w**2 * np.real(self.unbalance * np.exp(1j * phase))[:, None]
+        for d, b in self.bearings:
+            u = d.T @ q
+            angle = b["cage"] * phase + b["phase"] + 2 * np.pi * np.arange(b["balls"])[:, None] / b["balls"]
+            pressed = np.maximum(0, np.cos(angle) * u[0] + np.sin(angle) * u[1] - b["clearance"])
+            ball = b["stiffness"] * pressed * np.sqrt(pressed)
+            force = force - d @ np.array([(ball * np.cos(angle)).sum(0), (ball * np.sin(angle)).sum(0)])
+        return self.per_mass @ force
+
+    def run(self, start, periods, steps, points):
+        """One period of q after so many, `points` × n × speeds."""
+        h = 2 * np.pi / self.w / steps
+        q, v, kept = np.repeat(start[:, None], len(h), 1), np.zeros((len(start), len(h))), []
+        a, turn = self.acceleration, 2 * np.pi / steps
+        for k in range((periods + 1) * steps):
+            if k >= periods * steps and k % (steps // points) == 0:
+                kept.append(q)
+            phase = k * turn
+            a_1 = a(q, v, phase)
+            a_2 = a(q + h / 2 * v, v + h / 2 * a_1, phase + turn / 2)
+            a_3 = a(q + h / 2 * v + h * h / 4 * a_1, v + h / 2 * a_2, phase + turn / 2)
+            a_4 = a(q + h * v + h * h / 2 * a_2, v + h * a_3, phase + turn)
+            q = q + h * v + h * h / 6 * (a_1 + a_2 + a_3)
+            v = v + h / 6 * (a_1 + 2 * a_2 + 2 * a_3 + a_4)
+        return np.array(kept)
+
+
+def rms(a, b):
+    """The rms difference of b about its mean from a's, over that of b."""
+    a, b = a - a.mean(0), b - b.mean(0)
+    return np.linalg.norm(a - b) / np.linalg.norm(b)
+
+
+class Large(Case):
+    def folder_of(self, name, m, c=None, g=None, k=None, kind="general"):
+        (self.folder / name).mkdir(exist_ok=True)
+        for letter, matrix in [("M", m), ("C", c), ("G", g), ("K", k)]:
+            if matrix is not None:
+                self.file(f"{name}/{letter}.mtx", matrix_market(matrix, "general" if letter == "G" else kind))
+
+    def paper_machine(self, name, kind="general"):
+        values = tomllib.loads(Path(f"data/{name}.toml").read_text(encoding="utf-8"))
+        text = f'title = "{name} by matrices"\n'
+        for body in ["stator", "rotor"]:
+            v = values[body]
+            m, w = v["mass_kg"], v["natural_frequency_rad_per_s"]
+            one = np.eye(2)
+            self.folder_of(body, m * one, 2 * v["damping_ratio"] * m * w * one, None, m * w * w * one, kind)
+            text += f'[{body}]\nmatrices = "{body}"\nbearing_dofs = [1, 2]\nvertical_dofs = [2]\n'
+        text += f"unbalance = [{{ dofs = [1, 2], moment_kg_m = {values['rotor']['unbalance_kg_m']} }}]\n"
+        for table in ["bearing", "gravity"]:
+            text += f"[{table}]\n" + "".join(f"{key} = {value}\n" for key, value in values[table].items())
+        return text
+
+    def test_the_papers_machine(self):
+        """Another sign of a force, a wrong weight, a spring k_0 that does not cancel, a verdict that forgets a
+        coordinate: each would show."""
+        options = ["--newton-tolerance", "1e-13"]
+        for name in ["set1", "set2"]:
+            own = self.file("own.toml", self.paper_machine(name))
+            for speed in [30, 45, 90]:
+                with self.subTest(name=name, speed=speed):
+                    a = self.table("orbit", own, "--frequency", speed, *options)
+                    b = self.table("orbit", Path(f"data/{name}.toml").resolve(), "--frequency", speed, *options)
+                    for names in [NAMES, ["F_x", "F_y"]]:
+                        size = max(abs(b[column]).max() for column in names)
+                        for column in names:
+                            np.testing.assert_allclose(a[column], b[column], rtol=0, atol=1e-10 * size)
+                    for line in ["stability: ", "regime: "]:
+                        words = [[l.split(";")[0] for l in t.header.splitlines() if line in l] for t in [a, b]]
+                        self.assertEqual(*words)
+
+    def test_kinds_of_files(self):
+        """A triangle that is read as the whole matrix, or one matrix transposed, would give other numbers."""
+        rows = []
+        for kind in ["general", "upper", "lower", "array"]:
+            own = self.file("own.toml", self.paper_machine("set1", kind))
+            lines = self.lines("orbit", own, "--frequency", 45, "--points", 4)
+            rows.append([line for line in lines if not line.startswith("#")])
+        for other in rows[1:]:
+            self.assertEqual(rows[0], other)
+
+    def test_refused(self):
+        good = self.paper_machine("set1")
+        run = ["orbit", self.file("own.toml", good), "--frequency", 45, "--points", 4]
+
+        def with_file(name, text, words):
+            path = self.folder / name
+            kept = path.read_text(encoding="utf-8")
+            with self.subTest(name=name, text=text[:60]):
+                self.file(name, text)
+                self.refused(words, *run)
+            path.write_text(kept, encoding="utf-8")
+
+        head = "%%MatrixMarket matrix coordinate real general\n"
+        for text, words in [
+                ("", "must be %%MatrixMarket"), ("\0" * 5000, "line"),
+                ("%%MatrixMarket matrix coordinate pattern general\n2 2 1\n1 1\n", "pattern"),
+                ("%%MatrixMarket matrix coordinate complex general\n2 2 1\n1 1 1 0\n", "complex"),
+                ("%%MatrixMarket matrix coordinate real hermitian\n2 2 1\n1 1 1\n", "hermitian"),
+                ("%%MatrixMarket vector coordinate real general\n2 2 1\n1 1 1\n", "must be %%MatrixMarket"),
+                (head, "sizes"), (head + "2 3 1\n1 1 1\n", "square"), (head + "3 3 1\n1 1 1\n", "M.mtx 2"),
+                (head + "2 2 2\n1 1 1\n", "ends after 1 of 2"), (head + "2 2 1\n1 1 1\n2 2 1\n", "ended"),
+                (head + "2 2 2\n1 1 1\n1 1 1\n", "twice"), (head + "2 2 1\n1 3 1\n", "1...2"),
+                (head + "2 2 1\n0 1 1\n", "1...2"), (head + "2 2 1\n1 1 nan\n", "finite"),
+                (head + "2 2 1\n1 1 1 1\n", "more"), (head + "2 2 1\n1 1\n", "lacks"),
+                (head + "2 2 1\n1 1 x\n", "something else"), (head + "2 2 1\n1 2 1\n", "symmetric"),
+                (head + "2 2 1000000000000\n1 1 1\n", "entries"), (head + "100000 100000 2000000000\n1 1 1\n", "can hold"),
+                (head + "2 2 2\n1 1 1e5\n2 2 -1e12\n", "singular")]:
+            with_file("rotor/K.mtx", text, words)
+        with_file("rotor/M.mtx", head + "2 2 1\n1 1 1\n", "freedom 2 has no mass")
+        with_file("rotor/M.mtx", head + "2 2 4\n1 1 1\n2 2 1\n1 2 2\n2 1 2\n", "positive definite")
+        self.file("rotor/G.mtx", head + "2 2 2\n1 2 1\n2 1 1\n")
+        self.refused("antisymmetric", *run)
+        (self.folder / "rotor/G.mtx").unlink()
+        for old, new, words in [
+                ('"rotor"', '"nowhere"', "no folder"), ("[1, 2]\nvertical_dofs = [2]\nunb", "[1, 3]\nunb", "1...2"),
+                ("dofs = [1, 2], mom", "dofs = [1, 5], mom", "1...2"), ("dofs = [1, 2], mom", "dofs = [2, 2], mom", "[x, y]"),
+                ("vertical_dofs = [2]\nunb", "unb", "vertical_dofs"), ("moment_kg_m = ", "moment_kg_m = -", "moment"),
+                ("bearing_dofs = [1, 2]\nvertical_dofs = [2]\n[rotor]", "vertical_dofs = [2]\n[rotor]", "bearing_dofs"),
+                ("[rotor]\n", "[rotor]\nmass_kg = 1\n", "mass_kg")]:
+            with self.subTest(new=new):
+                self.assertIn(old, good)
+                self.refused(words, "orbit", self.file("bad.toml", good.replace(old, new)), *run[2:])
+        self.refused("exponential", *run, "--method", "rk4")
+        self.refused("matrices", "check", run[1], "--from", 1, "--to", 2)
+
+    def shaft(self, elements, bearings, spring, name="shaft"):
+        """A shaft with a disk in the middle, weight and unbalance there. `bearings`: (node, parameters), between the shaft
+        and a stator that is a single mass. Its left end stands on a spring. The text of its file, and a judge."""
+        m, c, g, k = beam(elements, 0.8, 0.05, [(elements // 2, 12, 0.08, 0.15)], (100, 2e-6))
+        n, middle, phase = len(m), 2 * elements, 0.7
+        for dof in [0, 1]:
+            k[dof, dof] += spring
+        self.folder_of(name, m, c, g, k, "upper")
+        vertical = [4 * node + 1 for node in range(elements + 1)]
+        stator = {"mass": 25, "omega": 400, "damping_ratio": 0.12}
+        text = f"""title = "flexible shaft"
+[stator]
+mass_kg = {stator["mass"]}
+natural_frequency_rad_per_s = {stator["omega"]}
+damping_ratio = {stator["damping_ratio"]}
+[rotor]
+matrices = "{name}"
+output_dofs = [{middle + 1}, {middle + 2}]
+vertical_dofs = {[dof + 1 for dof in vertical]}
+unbalance = [{{ dofs = [{middle + 1}, {middle + 2}], moment_kg_m = 2e-3, phase_rad = {phase} }},
+             {{ dofs = [1, 2], moment_kg_m = 3e-4 }}]
+[gravity]
+acceleration_m_per_s2 = {GRAVITY}
+"""
+        joints = []
+        for node, b in bearings:
+            text += f"""[[bearing]]
+rotor_dofs = [{4 * node + 1}, {4 * node + 2}]
+stator_dofs = [1, 2]
+balls = {b["balls"]}
+cage_speed_ratio = {b["cage"]}
+cage_phase_rad = {b["phase"]}
+contact_stiffness_N_per_m1p5 = {b["stiffness"]}
+radial_clearance_m = {b["clearance"]}
+"""
+            d = np.zeros((n + 2, 2))
+            d[[0, 1], [0, 1]], d[[2 + 4 * node, 3 + 4 * node], [0, 1]] = -1, 1
+            joints.append((d, b))
+        m_s, w_s = stator["mass"], stator["omega"]
+        whole = [np.block([[np.eye(2) * s, np.zeros((2, n))], [np.zeros((n, 2)), a]]) for s, a in
+                 [(m_s, m), (2 * stator["damping_ratio"] * m_s * w_s, c), (0, g), (m_s * w_s**2, k)]]
+        up = np.zeros(n + 2)
+        up[[1] + [2 + dof for dof in vertical]] = 1
+        unbalance = np.zeros(n + 2, complex)
+        unbalance[2 + middle:4 + middle] += 2e-3 * np.exp(1j * phase) * np.array([1, -1j])
+        unbalance[2:4] += 3e-4 * np.array([1, -1j])
+        return text, whole, joints, -GRAVITY * whole[0] @ up, unbalance, middle
+
+    def against_all(self, bearings, elements, spring, speeds, steps):
+        text, whole, joints, weight, unbalance, middle = self.shaft(elements, bearings, spring)
+        soft = whole[3] + 1e7 * sum(d @ d.T for d, _ in joints)
+        judge = Judge(whole, joints, weight, unbalance, speeds)
+        exact = judge.run(np.linalg.solve(soft, weight), 25, steps, 100)
+        own = self.file("shaft.toml", text)
+        for s, speed in enumerate(speeds):
+            with self.subTest(speed=speed):
+                table = self.table("orbit", own, "--frequency", speed, "--points", 100, "--tolerance", 1e-3)
+                self.assertIn("stability: stable", table.header)
+                for b, (node, _) in enumerate(bearings):
+                    tail = "" if b == 0 else f"_{b + 1}"
+                    places = [0, 1, 2 + 4 * node, 3 + 4 * node]
+                    found = np.column_stack([table[name + tail] for name in NAMES])
+                    self.assertLess(rms(found, exact[:, places, s]), 1e-3)
+                found = np.column_stack([table["x_r_out"], table["y_r_out"]])
+                self.assertLess(rms(found, exact[:, [2 + middle, 3 + middle], s]), 1e-3)
+
+    def test_one_bearing_against_integration(self):
+        """A wrong G, phase, output or cage angle would show, and a truncation that is not seen at the bearing."""
+        bearing = {"balls": 8, "cage": 0.375, "phase": 0.3, "stiffness": 1e10, "clearance": 2e-5}
+        self.against_all([(4, bearing)], 4, 4e6, [18, 30, 42, 55, 70, 95], 4000)
+
+    def test_two_bearings_against_integration(self):
+        """Two unlike bearings carry the shaft alone: a force at the wrong one would show."""
+        left = {"balls": 8, "cage": 0.375, "phase": 0.3, "stiffness": 1e10, "clearance": 1e-5}
+        right = {"balls": 10, "cage": 0.3, "phase": -0.2, "stiffness": 7e9, "clearance": 1.5e-5}
+        self.against_all([(0, left), (4, right)], 4, 0, [18, 30, 42, 55, 70, 95], 4000)
+
+
+if __name__ == "__main__":
+    unittest.main()
