@@ -9,6 +9,7 @@
     build/explore attractors data/set1.toml --from 18 --to 22 --count 17 > attractors.tsv
     build/explore map data/set1.toml --x frequency=10:50:41 \
       --y bearing.radial_clearance_m=0:1e-4:21 --quantity amplitude,stability > map.tsv
+    build/explore shaft data/rotors/overhung_shaft.toml --to overhung > nodes.tsv
 
 The general program for follow-up studies: any parameter file, any speed, harmonic balance
 or one of the time integrators. A table on stdout, errors on stderr. */
@@ -20,6 +21,7 @@ or one of the time integrators. A table on stdout, errors on stderr. */
 #include "explore/orbit.hpp"
 #include "explore/plot.hpp"
 #include "explore/response.hpp"
+#include "explore/shaft.hpp"
 #include "explore/spectrum.hpp"
 #include "integration/time_stepper.hpp"
 #include "io/errors.hpp"
@@ -330,6 +332,7 @@ int main(int argc, char** argv)
   AttractorsRequest attractors;
   CheckRequest checked;
   CLI::App* check = command("check", "what a machine is, before anything is computed");
+  CLI::App* beams = command("shaft", "matrices of a shaft of beam elements, in files");
   CLI::App* orbit = command("orbit", "displacements and force over one period");
   CLI::App* contact = command("contact", "force of every ball over two periods");
   CLI::App* branch = command("response", "amplitudes along the branch, arc length");
@@ -338,6 +341,10 @@ int main(int argc, char** argv)
   CLI::App* settled =
       command("attractors", "what the machine settles on, speed by speed");
   add_table_options(*check, checked);
+  ShaftRequest shaft;
+  add_table_options(*beams, shaft);
+  beams->add_option("--to", shaft.folder, "folder for M.mtx, C.mtx, G.mtx and K.mtx")
+      ->required();
   add_number(*check, "--from", checked.from, 0.0, largest, "first speed [Hz]");
   add_number(*check, "--to", checked.to, 0.0, largest, "last speed [Hz]");
   CLI::App* map = command("map", "quantities over two keys of the parameter file");
@@ -358,6 +365,7 @@ int main(int argc, char** argv)
       explore_map(mapped);
       return 0;
     }
+    if (beams->parsed()) return finish(shaft, "", [&] { return explore_shaft(shaft); });
     if (check->parsed())
       return finish(checked, "", [&] { return explore_check(checked); });
     if (settled->parsed())

@@ -1,0 +1,141 @@
+"""explore shaft: whirl frequencies of rotors whose values are published, and what is refused.
+
+The rotors are examples 5.9.1, 5.9.2 and 5.9.9 of Friswell, Penny, Garvey and Lees, Dynamics of Rotating Machines (2010),
+with the frequencies that ROSS prints for them.
+
+Usage: tests/unit/shaft.py   (from the project's root)
+"""
+import sys
+import unittest
+from pathlib import Path
+
+import numpy as np
+
+sys.path.insert(0, str(Path(__file__).parents[1]))
+from support.explore import Case  # noqa: E402
+
+STEEL = """title = "published shaft"
+[material]
+youngs_modulus_Pa = 211e9
+shear_modulus_Pa = 81.2e9
+density_kg_per_m3 = 7810
+"""
+
+
+def segment(elements):
+    return f"[[segment]]\nlength_m = 1.5\ndiameter_m = 0.05\nelements = {elements}\n"
+
+
+def disk(node, diameter):
+    return f"[[disk]]\nnode = {node}\nouter_diameter_m = {diameter}\nbore_m = 0.05\nthickness_m = 0.07\n"
+
+
+def support(node, x, y):
+    return f"[[support]]\nnode = {node}\nstiffness_N_per_m = [{x}, {y}]\n"
+
+
+def two_disks(elements, x, y):
+    third = elements // 3
+    return (STEEL + segment(elements) + disk(third + 1, 0.28) + disk(2 * third + 1, 0.35) + support(1, x, y)
+            + support(elements + 1, x, y))
+
+
+OVERHUNG = STEEL + segment(6) + disk(7, 0.35) + support(1, 1e7, 1e7) + support(5, 1e7, 1e7)
+
+
+def read(path):
+    rows = [line for line in path.read_text(encoding="utf-8").splitlines() if not line.startswith("%")]
+    n = int(rows[0].split()[0])
+    matrix = np.zeros((n, n))
+    for row in rows[1:]:
+        i, j, value = row.split()
+        matrix[int(i) - 1, int(j) - 1] = float(value)
+    return matrix
+
+
+class Shaft(Case):
+    def matrices(self, text):
+        self.lines("shaft", self.file("shaft.toml", text), "--to", "shaft")
+        return [read(self.folder / "shaft" / f"{name}.mtx") for name in "MCGK"]
+
+    def whirl(self, text, rpm):
+        """Frequencies [rad/s], ascending, and whether each whirls in the direction of rotation."""
+        m, c, g, k = self.matrices(text)
+        n, speed = len(m), rpm * np.pi / 30
+        a = np.block([[np.zeros((n, n)), np.eye(n)],
+                      [-np.linalg.solve(m, k), -np.linalg.solve(m, c + speed * g)]])
+        values, vectors = np.linalg.eig(a)
+        order = [i for i in np.argsort(values.imag) if values[i].imag > 0]
+        x, y = vectors[0:n:4, order], vectors[1:n:4, order]
+        return values.imag[order], (x * np.conj(y)).imag.sum(0) > 0
+
+    def test_published_frequencies(self):
+        """A shear coefficient, a rotary inertia or gyroscopic moments that are wrong or missing change these digits."""
+        for name, text, rpm, published in [
+                ("5.9.1", two_disks(6, 1e6, 1e6), 0, [86.66, 86.66, 274.31, 274.31, 716.78]),
+                ("5.9.1", two_disks(6, 1e6, 1e6), 4000, [85.39, 87.80, 251.78, 294.71, 600.18]),
+                ("5.9.2", two_disks(48, 1e6, 8e5), 4000, [82.33, 86.86, 239.64, 287.25, 583.49]),
+                ("5.9.9", OVERHUNG, 0, [90.14, 90.14, 630.73, 630.73, 830.43, 830.43]),
+                ("5.9.9", OVERHUNG, 4000, [76.19, 103.91, 565.99, 634.23, 647.75, 1174.2])]:
+            with self.subTest(name=name, rpm=rpm):
+                found, _ = self.whirl(text, rpm)
+                for value, printed in zip(found, published):
+                    self.assertLessEqual(abs(value - printed), 0.051 if printed > 1000 else 0.0051)
+
+    def test_forward_whirl_becomes_faster(self):
+        """The other sign of G only exchanges the two, which the frequencies do not show."""
+        _, forward = self.whirl(two_disks(6, 1e6, 1e6), 4000)
+        self.assertEqual(list(forward[:4]), [False, True, False, True])
+
+    def test_hollow_shaft(self):
+        """A free hollow shaft's second bending mode is below the Euler beam's and above that without its shear
+        stiffness; M holds its mass."""
+        text = STEEL + "[[segment]]\nlength_m = 1.5\ndiameter_m = 0.05\nbore_m = 0.03\nelements = 30\n"
+        m, _, _, k = self.matrices(text)
+        area = np.pi / 4 * (0.05**2 - 0.03**2)
+        upright = np.zeros(len(m))
+        upright[1::4] = 1
+        self.assertAlmostEqual(upright @ m @ upright / (7810 * area * 1.5), 1, places=12)
+        moment = np.pi / 64 * (0.05**4 - 0.03**4)
+        beam = 4.730040744862704**2 * np.sqrt(211e9 * moment / (7810 * area)) / 1.5**2
+        first = np.sqrt(np.sort(np.linalg.eigvals(np.linalg.solve(m, k)).real)[8])
+        self.assertLess(first, beam)
+        self.assertGreater(first, 0.99 * beam)
+
+    def test_other_ways(self):
+        """A disk by its inertia is that by its dimensions; a mass adds to the diagonal; damping is what it says."""
+        squares, mass = 0.28**2 + 0.05**2, 7810 * np.pi / 4 * (0.28**2 - 0.05**2) * 0.07
+        text = STEEL + segment(2)
+        inertia = (f"[[disk]]\nnode = 2\nmass_kg = {mass!r}\npolar_inertia_kg_m2 = {mass * squares / 8!r}\n"
+                   f"diametral_inertia_kg_m2 = {mass * (squares / 16 + 0.07**2 / 12)!r}\n")
+        for a, b in zip(self.matrices(text + disk(2, 0.28)), self.matrices(text + inertia)):
+            np.testing.assert_allclose(a, b, rtol=1e-12, atol=1e-9)
+        m, _, _, k = self.matrices(text)
+        heavier, c, _, _ = self.matrices(text + "[[mass]]\nnode = 3\nmass_kg = 2\n" + support(1, 0, 0)
+                                         + "damping_N_s_per_m = [3, 4]\n[damping]\nover_mass_1_per_s = 5\n"
+                                         "over_stiffness_s = 1e-6\n")
+        added = np.zeros(12)
+        added[8:10] = 2
+        np.testing.assert_allclose(heavier, m + np.diag(added), rtol=1e-14, atol=0)
+        dampers = np.zeros(12)
+        dampers[:2] = 3, 4
+        np.testing.assert_allclose(c, np.diag(dampers) + 5 * heavier + 1e-6 * k, rtol=1e-12, atol=1e-12)
+
+    def test_refused(self):
+        good = two_disks(6, 1e6, 1e6)
+        for old, new, words in [("node = 3", "node = 8", "1...7"), ("bore_m = 0.05", "bore_m = 0.4", "below"),
+                                ("elements = 6", "elements = 0", "elements"), ("[1000000.0, 1000000.0]", "[1]", "[x, y]"),
+                                ("density_kg_per_m3 = 7810", "density_kg_per_m3 = 0", "density"),
+                                ("title", "titel", "title"), ("thickness_m = 0.07\n", "", "thickness_m"),
+                                ("[[segment]]", "[[segmnt]]", "segment")]:
+            with self.subTest(new=new):
+                self.assertIn(old, good)
+                self.refused(words, "shaft", self.file("bad.toml", good.replace(old, new, 1)), "--to", "shaft")
+        self.assertFalse((self.folder / "shaft").exists())
+        own = self.file("good.toml", good)
+        self.refused("--to", "shaft", own, "--to", own)
+        self.refused("--to", "shaft", own, "--to", "no/such/folder")
+
+
+if __name__ == "__main__":
+    unittest.main()
