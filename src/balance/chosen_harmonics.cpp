@@ -58,6 +58,7 @@ struct Choosing {
                     joined(up_to(1.5, 12, bearing), sidebands(bearing, 12, 4))),
              of_passages(bearing));
   TorusLine finest = line_without_images(large, large, 4 * least_samples);
+  const int dofs = 2 * static_cast<int>(1 + parameters.further.size());
   AdaptiveMotion result = {};
   PeriodicMotion finer = {};  ///< on `large`, the harmonics kept first
 
@@ -73,13 +74,13 @@ struct Choosing {
     constexpr int most_rounds = 6;
     Harmonics kept = sidebands(bearing, 3, 1);
     Eigen::VectorXd x =
-        project(quasi_static_start(parameters, omega, 3), 2, Harmonics(3), kept);
+        project(quasi_static_start(parameters, omega, 3), dofs, Harmonics(3), kept);
     double share = 0.5;
     for (int round = 0; round < most_rounds; ++round) {
       if (!solve_on(kept, x, "quasi-static contact") || !estimate()) return false;
       if (result.reached) return true;
       kept = chosen(share * settings.tolerance, finer.harmonics, finer.bodies);
-      x = project(finer.x, 2, finer.harmonics, kept);
+      x = project(finer.x, dofs, finer.harmonics, kept);
       share /= 3;
     }
     return false;
@@ -127,7 +128,7 @@ struct Choosing {
   {
     constexpr int most = 120;
     const Harmonics kept = chosen(0, finer.harmonics, finer.bodies, most);
-    if (solve_on(kept, project(finer.x, 2, finer.harmonics, kept), "time integration"))
+    if (solve_on(kept, project(finer.x, dofs, finer.harmonics, kept), "time integration"))
       measure();
   }
 
@@ -137,7 +138,7 @@ struct Choosing {
     const AdaptiveMotion whole = result;
     const PeriodicMotion& all = whole.motion;
     const Harmonics kept = chosen(0.3 * settings.tolerance, all.harmonics, all.bodies);
-    const Eigen::VectorXd x = project(all.x, 2, all.harmonics, kept);
+    const Eigen::VectorXd x = project(all.x, dofs, all.harmonics, kept);
     if (!all.found()) {
       PeriodicMotion& few = result.motion;
       few.x = x;
@@ -185,7 +186,7 @@ struct Choosing {
                     joined(coarse.harmonics, large));
     balance.steps().divide(by_passages(balance.harmonics()));
     finer = {.omega = omega, .harmonics = balance.harmonics(), .samples = finest.samples};
-    finer.x = project(coarse.x, 2, coarse.harmonics, finer.harmonics);
+    finer.x = project(coarse.x, dofs, coarse.harmonics, finer.harmonics);
     const Approached approached =
         approach(balance, omega, level_tolerance(settings), finer.x, true);
     result.force_samples += balance.evaluations() * finest.samples;
@@ -215,8 +216,15 @@ struct Choosing {
     if (error.settled) {
       const Eigen::MatrixXd off =
           project_series(coarse.bodies, coarse.harmonics, finer.harmonics) - finer.bodies;
-      error.displacement = largest(off) / largest(finer.bodies);
-      error.rms = vibration(off) / vibration(finer.bodies);
+      error.displacement = error.rms = 0;
+      for (Eigen::Index row = 0, rows = 4; row < off.rows(); row += rows, rows = 2) {
+        rows = std::min(rows, off.rows() - row);
+        const Eigen::MatrixXd part = off.middleRows(row, rows),
+                              of = finer.bodies.middleRows(row, rows);
+        if (row > 0 && of.isZero(0)) continue;
+        error.displacement = std::max(error.displacement, largest(part) / largest(of));
+        error.rms = std::max(error.rms, vibration(part) / vibration(of));
+      }
     }
     result.motion.error = error;
     conclude();

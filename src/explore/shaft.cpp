@@ -91,7 +91,8 @@ void add_element(Matrices& all, int node, double l, double outer, double inner,
   const double r_2 = (3 - 15 * f) * l, r_3 = (4 + 5 * f + 10 * f2) * l * l;
   const Eigen::Matrix4d rotary =
       steel.density * moment * per * per / (30 * l) *
-      symmetric({36, r_2, -36, r_2, r_3, -r_2, (-1 - 5 * f + 5 * f2) * l * l, 36, -r_2, r_3});
+      symmetric(
+          {36, r_2, -36, r_2, r_3, -r_2, (-1 - 5 * f + 5 * f2) * l * l, 36, -r_2, r_3});
   const std::array dofs{4 * node, 4 * node + 2, 4 * node + 4, 4 * node + 6};
   Matrices::add(all.k, dofs, stiffness);
   Matrices::add(all.m, dofs, mass + rotary);
@@ -160,7 +161,8 @@ struct Shaft {
       if (to == &all.c && !support.has(key)) continue;
       const std::vector<double> values = support.numbers(key, Range::not_negative);
       if (values.size() != 2) support.fail(key, "must be [x, y]");
-      for (int axis : {0, 1}) to->emplace_back(4 * node + axis, 4 * node + axis, values[axis]);
+      for (int axis : {0, 1})
+        to->emplace_back(4 * node + axis, 4 * node + axis, values[axis]);
     }
   }
 
@@ -186,7 +188,8 @@ Exploration explore_shaft(const ShaftRequest& request)
   shaft.read_segments();
   for (StrictToml& disk : shaft.tables("disk")) shaft.read_disk(disk);
   for (StrictToml& mass : shaft.tables("mass"))
-    shaft.all.add_body(shaft.node_of(mass), mass.number("mass_kg", Range::positive), 0, 0);
+    shaft.all.add_body(shaft.node_of(mass), mass.number("mass_kg", Range::positive), 0,
+                       0);
   for (StrictToml& support : shaft.tables("support")) shaft.read_support(support);
   double over_mass = 0, over_stiffness = 0;
   if (shaft.file.has("damping")) {

@@ -98,8 +98,7 @@ public:
   /** Where everything stands at `phase` ωt [rad]. */
   Angles angles(double phase) const
   {
-    return {Direction::of(turns_ * phase),
-            Direction::of(bearing_.cage_angle(phase)),
+    return {Direction::of(turns_ * phase), Direction::of(bearing_.cage_angle(phase)),
             bearing_.defect.spin > 0 ? Direction::of(bearing_.defect.spin * phase)
                                      : Direction{1, 0}};
   }

@@ -338,7 +338,8 @@ void read_large_machine(StrictToml& root, Parameters& parameters)
   read_bearings(root, parameters, all);
   for (const Bearing& bearing : bearings_of(parameters))
     if (!bearing.is_plain())
-      root.fail("bearing", "of bodies given by matrices takes no contact damping and no defect");
+      root.fail("bearing",
+                "of bodies given by matrices takes no contact damping and no defect");
   if (all.size() > most_kept)
     throw BadInput(format("%s: %d degrees of freedom; at most %d",
                           parameters.file.c_str(), all.size(), most_kept));

@@ -6,9 +6,9 @@
 #include <numbers>
 
 #include "balance/fourier_transform.hpp"
-#include "io/errors.hpp"
 #include "balance/large_problem.hpp"
 #include "balance/torus_line.hpp"
+#include "io/errors.hpp"
 
 namespace rotor_stator::motion {
 

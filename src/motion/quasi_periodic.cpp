@@ -62,7 +62,8 @@ public:
   Eigen::VectorXd lines(const Harmonics& harmonics)
   {
     integrate();
-    Eigen::MatrixXd series = Eigen::MatrixXd::Zero(2, harmonics.coefficients());
+    Eigen::MatrixXd series =
+        Eigen::MatrixXd::Zero(weighted_.cols(), harmonics.coefficients());
     series.col(0) = weighted_.colwise().sum().transpose();
     for (int h : distinct(harmonics, parameters_.bearing)) {
       const double order =
@@ -102,14 +103,12 @@ private:
         recorded(stepper, points_per_turn, state_, first_, window_turns);
     turn_ = first_ + window_turns;
     const auto n = static_cast<Eigen::Index>(motion.size());
-    weighted_.resize(n, 2);
+    weighted_ = relative_samples(parameters_, motion);
     double sum = 0;
     for (Eigen::Index k = 0; k < n; ++k) {
-      const auto at = static_cast<std::size_t>(k);
       const double weight =
           blackman_harris(static_cast<double>(k) / static_cast<double>(n));
-      const Vec2 u = motion.positions[at].relative();
-      weighted_.row(k) << weight * u.x, weight * u.y;
+      weighted_.row(k) *= weight;
       sum += weight;
     }
     weighted_ /= sum;
@@ -122,7 +121,7 @@ private:
         1.0, -turn * order * window_turns / static_cast<double>(weighted_.rows()));
     std::complex<double> wave =
         std::polar(1.0, -turn * std::fmod(order * static_cast<double>(first_), 1.0));
-    Eigen::Vector2cd amplitude = Eigen::Vector2cd::Zero();
+    Eigen::VectorXcd amplitude = Eigen::VectorXcd::Zero(weighted_.cols());
     for (Eigen::Index k = 0; k < weighted_.rows(); ++k, wave *= step)
       amplitude += 2.0 * wave * weighted_.row(k).transpose();
     return amplitude;
@@ -133,7 +132,7 @@ private:
   OperationBudget budget_;
   long first_ = 0, turn_ = 0;  ///< the window, from t = 0 [turns]
   State state_ = {};           ///< at its end
-  Eigen::MatrixX2d weighted_;  ///< relative motion times the window [m]
+  Eigen::MatrixXd weighted_;   ///< relative motions times the window [m]
 };
 
 }  // namespace
