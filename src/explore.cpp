@@ -124,7 +124,9 @@ void refuse(const CLI::Option* option, bool used, const char* where,
     would ignore. */
 std::function<void()> add_motion_options(CLI::App& command, MotionRequest& request)
 {
-  std::string methods = "aft (harmonic balance), shooting, auto (the cheaper of both)";
+  std::string methods =
+      "aft (harmonic balance), shooting, auto (the cheaper of both), exponential (of "
+      "bodies given by matrices)";
   for (const std::string& name : time_methods()) methods += ", " + name;
   const bool is_spectrum = command.get_name() == "spectrum";
   const auto aft = add_balance_options(
@@ -160,7 +162,9 @@ std::function<void()> add_motion_options(CLI::App& command, MotionRequest& reque
                                   "longest transient of the time methods [s]");
   return [=, &request] {
     const std::string& method = request.method;
-    require_method(method, periodic_methods);
+    auto others = periodic_methods;
+    others.emplace_back("exponential");
+    require_method(method, others);
     const bool finds_periodic = is_periodic(method);
     for (const CLI::Option* option : aft)
       refuse(option, method == "aft", "for --method aft", method);

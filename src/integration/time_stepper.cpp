@@ -28,7 +28,7 @@ const std::map<std::string, const gsl_odeiv2_step_type*>& step_types()
 const std::vector<std::string>& time_methods()
 {
   static const std::vector<std::string> names = [] {
-    std::vector<std::string> list{"rk4", "exponential"};
+    std::vector<std::string> list{"rk4"};
     for (const auto& [name, type] : step_types()) list.push_back(name);
     return list;
   }();
@@ -205,7 +205,7 @@ TimeStepper wrap(std::shared_ptr<Stepper> stepper)
 TimeStepper make_stepper(const Parameters& parameters, double omega,
                          const StepperSettings& settings)
 {
-  require_method(settings.method);
+  if (!parameters.large) require_method(settings.method);
   const bool needs_slopes = settings.method == "bsimp" || settings.method == "msbdf";
   if (needs_slopes && !parameters.bearing.is_plain())
     throw BadInput(
@@ -220,8 +220,6 @@ TimeStepper make_stepper(const Parameters& parameters, double omega,
     return wrap(std::make_shared<ExponentialStepper>(
         parameters, omega, settings.intervals_per_period,
         settings.method == "rk4" ? 1e-8 : settings.tolerance, budget));
-  if (settings.method == "exponential")
-    throw BadInput("--method exponential: for bodies given by matrices");
   if (settings.method != "rk4")
     return wrap(std::make_shared<GslStepper>(parameters, omega, settings,
                                              PaidEvaluations{budget, price}));

@@ -44,7 +44,7 @@ void require_method(const std::string& method, std::vector<std::string> others =
 TimeStepper make_stepper(const Parameters& parameters, double omega,
                          const StepperSettings& settings);
 
-/** "rk4", "exponential" of bodies given by matrices, and GSL's explicit, multistep and implicit methods. */
+/** "rk4" and GSL's explicit, multistep and implicit methods. */
 const std::vector<std::string>& time_methods();
 
 /** What an evaluation of Eq. 7 costs with the method's share of a step, in evaluations by rk4. */

@@ -116,64 +116,20 @@ struct Kind {
 
 Kind kind_of(Lines& lines)
 {
-  const std::string wanted =
-      "%%MatrixMarket matrix coordinate (or array) real (or integer) general (or "
-      "symmetric, skew-symmetric)";
   const std::vector<std::string> words =
       lines.next(true) ? lines.words() : std::vector<std::string>{};
   const auto is_one_of = [&](std::size_t k, const std::vector<std::string>& known) {
     return std::ranges::find(known, words[k]) != known.end();
   };
-  if (words.size() != 5 || words[0] != "%%matrixmarket" || words[1] != "matrix")
-    lines.fail("must be " + wanted);
-  if (!is_one_of(2, {"coordinate", "array"}) || !is_one_of(3, {"real", "integer"}) ||
+  if (words.size() != 5 || words[0] != "%%matrixmarket" || words[1] != "matrix" ||
+      !is_one_of(2, {"coordinate", "array"}) || !is_one_of(3, {"real", "integer"}) ||
       !is_one_of(4, {"general", "symmetric", "skew-symmetric"}))
-    lines.fail("\"" + words[2] + " " + words[3] + " " + words[4] + "\": must be " +
-               wanted);
+    lines.fail(
+        "must be %%MatrixMarket matrix, coordinate or array, real or integer, "
+        "general, symmetric or skew-symmetric; not pattern, complex or hermitian");
   return {words[2] == "array", words[4] == "general"     ? Half::none
                                : words[4] == "symmetric" ? Half::symmetric
                                                          : Half::skew};
-}
-
-using Triplets = std::vector<Eigen::Triplet<double, int>>;
-
-/** An entry and, where the file holds one triangle, its image. */
-void add(Lines& lines, Triplets& entries, Half half, long row, long column, double value)
-{
-  const int i = static_cast<int>(row), j = static_cast<int>(column);
-  if (half == Half::skew && i == j && value != 0)
-    lines.fail("a skew-symmetric matrix has no diagonal");
-  entries.emplace_back(i, j, value);
-  if (half != Half::none && i != j)
-    entries.emplace_back(j, i, half == Half::skew ? -value : value);
-}
-
-Triplets entries_in_full(Lines& lines, Half half, long rows)
-{
-  Triplets entries;
-  for (long j = 0; j < rows; ++j)
-    for (long i = half == Half::none ? 0 : j + (half == Half::skew); i < rows; ++i) {
-      if (!lines.next()) lines.fail("the file ends before the matrix does");
-      const double value = lines.real();
-      lines.end_line();
-      if (value != 0) add(lines, entries, half, i, j, value);
-    }
-  return entries;
-}
-
-Triplets entries_by_coordinates(Lines& lines, Half half, long rows, long count)
-{
-  Triplets entries;
-  entries.reserve(static_cast<std::size_t>(half == Half::none ? count : 2 * count));
-  for (long k = 0; k < count; ++k) {
-    if (!lines.next())
-      lines.fail(format("the file ends after %ld of %ld entries", k, count));
-    const long i = lines.whole("row", 1, rows), j = lines.whole("column", 1, rows);
-    const double value = lines.real();
-    lines.end_line();
-    add(lines, entries, half, i - 1, j - 1, value);
-  }
-  return entries;
 }
 
 }  // namespace
@@ -187,19 +143,38 @@ SparseMatrix read_matrix(const std::string& file)
   const long rows = lines.whole("the number of rows", 1, most_rows);
   if (lines.whole("the number of columns", 1, most_rows) != rows)
     lines.fail("the matrix must be square");
-  const double all = static_cast<double>(rows) * static_cast<double>(rows);
-  const double stored =
-      half == Half::none
-          ? all
-          : (all + (half == Half::skew ? -1.0 : 1.0) * static_cast<double>(rows)) / 2;
-  const long count = in_full ? 0 : lines.whole("the number of entries", 0, 2'000'000'000);
+  const long below = rows * (rows - 1) / 2;
+  const long stored =
+      below + (half == Half::none ? below : 0) + (half == Half::skew ? 0 : rows);
+  const long count =
+      in_full ? stored : lines.whole("the number of entries", 0, 2'000'000'000);
   lines.end_line();
   /** "0\n" is the shortest number in full, "1 1 0\n" the shortest entry; the last needs no end of line. */
-  const double least = in_full ? 2 * stored : 6.0 * static_cast<double>(count);
-  if (static_cast<double>(count) > stored || least > bytes + 1)
+  const double least = (in_full ? 2.0 : 6.0) * static_cast<double>(count);
+  if (count > stored || least > bytes + 1)
     lines.fail("announces more entries than the matrix or the file can hold");
-  const Triplets entries = in_full ? entries_in_full(lines, half, rows)
-                                   : entries_by_coordinates(lines, half, rows, count);
+
+  std::vector<Eigen::Triplet<double, int>> entries;
+  long row = half == Half::skew ? 1 : 0, column = 0;  // of the next one in full
+  for (long k = 0; k < count; ++k) {
+    if (!lines.next())
+      lines.fail(format("the file ends after %ld of %ld entries", k, count));
+    if (!in_full) {
+      row = lines.whole("row", 1, rows) - 1;
+      column = lines.whole("column", 1, rows) - 1;
+    }
+    const double value = lines.real();
+    lines.end_line();
+    const int i = static_cast<int>(row), j = static_cast<int>(column);
+    if (half == Half::skew && i == j && value != 0)
+      lines.fail("a skew-symmetric matrix has no diagonal");
+    if (value != 0 || !in_full) entries.emplace_back(i, j, value);
+    if ((value != 0 || !in_full) && half != Half::none && i != j)
+      entries.emplace_back(j, i, half == Half::skew ? -value : value);
+    if (++row < rows || !in_full) continue;
+    ++column;
+    row = half == Half::none ? 0 : column + (half == Half::skew);
+  }
   if (lines.next()) lines.fail("the matrix has ended before this line");
   SparseMatrix matrix(static_cast<int>(rows), static_cast<int>(rows));
   bool is_repeated = false;
