@@ -336,7 +336,6 @@ int main(int argc, char** argv)
   AttractorsRequest attractors;
   CheckRequest checked;
   CLI::App* check = command("check", "what a machine is, before anything is computed");
-  CLI::App* beams = command("shaft", "matrices of a shaft of beam elements, in files");
   CLI::App* orbit = command("orbit", "displacements and force over one period");
   CLI::App* contact = command("contact", "force of every ball over two periods");
   CLI::App* branch = command("response", "amplitudes along the branch, arc length");
@@ -345,14 +344,15 @@ int main(int argc, char** argv)
   CLI::App* settled =
       command("attractors", "what the machine settles on, speed by speed");
   add_table_options(*check, checked);
-  ShaftRequest shaft;
-  add_table_options(*beams, shaft);
-  beams->add_option("--to", shaft.folder, "folder for M.mtx, C.mtx, G.mtx and K.mtx")
-      ->required();
   add_number(*check, "--from", checked.from, 0.0, largest, "first speed [Hz]");
   add_number(*check, "--to", checked.to, 0.0, largest, "last speed [Hz]");
   CLI::App* map = command("map", "quantities over two keys of the parameter file");
   MapRequest mapped;
+  CLI::App* beams = command("shaft", "matrices of a shaft of beam elements, in files");
+  ShaftRequest shaft;
+  add_table_options(*beams, shaft);
+  beams->add_option("--to", shaft.folder, "folder for M.mtx, C.mtx, G.mtx and K.mtx")
+      ->required();
   const auto refuse_of_map = add_map_options(*map, mapped);
   const auto refuse_of_orbit = add_motion_options(*orbit, motion);
   const auto refuse_of_contact = add_motion_options(*contact, motion);
