@@ -121,10 +121,6 @@ class Values(Case):
         self.refused("subcommand")
         self.refused("subcommand", "dance")
 
-    def test_attractors_of_a_cage_that_does_not_repeat_with_the_rotation(self):
-        odd = self.file("odd.toml", MACHINE.replace("cage_speed_ratio = 0.5", "cage_speed_ratio = 0.4321"))
-        self.refused("not a whole number", "attractors", odd, *RESPONSE, "--count", 3)
-
     def test_a_cage_that_does_not_repeat(self):
         odd = self.file("odd.toml", MACHINE.replace("cage_speed_ratio = 0.5", "cage_speed_ratio = 0.4321"))
         self.refused("chosen by --tolerance", "orbit", odd, *ORBIT, "--harmonics", 6)
