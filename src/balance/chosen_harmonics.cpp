@@ -249,6 +249,7 @@ struct Choosing {
   /** The largest of the large set that the solution does not have. */
   std::string largest_dropped() const
   {
+    if (finer.bodies.size() == 0) return {};
     const auto& kept = result.motion.harmonics.list();
     double most = 0;
     Harmonic at{};

@@ -194,7 +194,8 @@ struct Assembly {
     const auto add = [&](int dof) {
       if (std::ranges::find(list, dof) == list.end()) list.push_back(dof);
     };
-    for (const auto& place : places) std::ranges::for_each(place, add);
+    for (const auto& place : places)
+      for (int dof : place) add(dof);
     for (int body : {0, 1})
       for (int dof : bodies[body].output) add(first(body) + dof);
     const int shown = static_cast<int>(list.size());
@@ -292,7 +293,7 @@ LargeMachine machine_of(const Assembly& all, double gravity, double spring)
   const int n = all.size();
   std::vector<int> place_of(order.size());
   for (int i = 0; i < n; ++i) place_of[order[i]] = i;
-  const auto dense = [&](const SparseMatrix& a) -> Eigen::MatrixXd {
+  const auto dense = [&order = order](const SparseMatrix& a) -> Eigen::MatrixXd {
     return Eigen::MatrixXd(a)(order, order);
   };
   const SparseMatrix mass = all.joined(&LinearBody::m);

@@ -55,7 +55,8 @@ inline Bodies bodies_at(const double* y)
 }
 inline void put(const Bodies& bodies, double* y)
 {
-  std::ranges::copy(displacements(bodies), y);
+  const Displacements q = displacements(bodies);
+  std::copy(q.begin(), q.end(), y);
 }
 
 /** Eq. 7 at one rotor speed: everything that does not change along a motion. */
