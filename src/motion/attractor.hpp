@@ -64,7 +64,7 @@ struct Attractor : SectionJudgement {
   std::array<double, 4> amplitude;  ///< half peak-to-peak [m]
   State state;                      ///< at phase 0 [m, m/s]
   double seconds;                   ///< integrated in all [s]
-  long first_period = 0;            ///< periods since t = 0 at the state, for the cage's angle
+  long first_period = 0;  ///< periods since t = 0 at the state, for the cage's angle
 
   bool periodic() const { return verdict == Verdict::periodic; }
   bool decided() const { return verdict != Verdict::undecided; }
