@@ -250,9 +250,14 @@ static double rms_about_the_mean(const Eigen::MatrixXd& samples,
   const auto centred = [](const Eigen::MatrixXd& q) -> Eigen::MatrixXd {
     return q.rowwise() - q.colwise().mean();
   };
+  /** Squares of legal displacements may overflow. */
+  const auto norm = [](const Eigen::MatrixXd& q) {
+    const double plain = q.norm();
+    return std::isfinite(plain) ? plain : q.stableNorm();
+  };
   const Eigen::Index times = exact.rows() / samples.rows();
-  const double size = centred(exact).norm();
-  const double off = centred(samples.replicate(times, 1) - exact).norm();
+  const double size = norm(centred(exact));
+  const double off = norm(centred(samples.replicate(times, 1) - exact));
   return size > 0 ? off / size : off > 0 ? std::numeric_limits<double>::infinity() : 0;
 }
 
