@@ -292,14 +292,12 @@ Refined estimate_error(const ObservedProblem& observed, const PeriodicMotion& co
   finer.force = balance.force(finer.x, coarse.omega);
   finer.bodies = observed.series(finer);
   estimate.displacement = estimate.rms = 0;
-  for (Eigen::Index row = 0, rows = 4; row < finer.bodies.rows(); row += rows, rows = 2) {
-    rows = std::min(rows, finer.bodies.rows() - row);
+  each_group(finer.bodies, [&](Eigen::Index row, Eigen::Index rows) {
     const Eigen::MatrixXd a = coarse.bodies.middleRows(row, rows),
                           b = finer.bodies.middleRows(row, rows);
-    if (row > 0 && b.isZero(0)) continue;
     estimate.displacement = std::max(estimate.displacement, series_difference(a, b));
     estimate.rms = std::max(estimate.rms, rms_series_difference(a, b));
-  }
+  });
   /** The next solution starts from one step further, which costs nothing more. */
   finer.x += approached.next;
   return refined;

@@ -75,6 +75,17 @@ AdaptiveMotion solve_adaptively(const ObservedProblem& observed, double omega,
                                 const ColdSolve& cold_solve,
                                 const AdaptiveSettings& settings);
 
+/** Calls `work` with the rows of each group of displacements in `reference` whose error is measured on its own, so that
+    a large one hides none: those of both bodies at the first bearing, then the further pairs, if anything moves there. */
+template <class Work>
+void each_group(const Eigen::MatrixXd& reference, Work work)
+{
+  for (Eigen::Index row = 0, rows = 4; row < reference.rows(); row += rows, rows = 2) {
+    rows = std::min(rows, reference.rows() - row);
+    if (row == 0 || !reference.middleRows(row, rows).isZero(0)) work(row, rows);
+  }
+}
+
 /** The largest difference of two observed series over rows and period, over the largest value of
     `reference` [-]; they may differ in their numbers of harmonics. */
 double series_difference(const Eigen::MatrixXd& series, const Eigen::MatrixXd& reference);

@@ -207,7 +207,7 @@ Eigen::VectorXd quasi_static_start(const Parameters& parameters, double omega,
       u.rowwise().norm().maxCoeff() <= parameters.bearing.clearance;
   if (!without_contact)
     u = sampled(samples, [&](double phase) {
-      return quasi_static_contact(parameters,
+      return quasi_static_contact(parameters.bearing,
                                   rigid_joint_force(parameters, omega, phase));
     });
   Eigen::MatrixXd series(2, 2 * harmonics + 1);

@@ -217,14 +217,12 @@ struct Choosing {
       const Eigen::MatrixXd off =
           project_series(coarse.bodies, coarse.harmonics, finer.harmonics) - finer.bodies;
       error.displacement = error.rms = 0;
-      for (Eigen::Index row = 0, rows = 4; row < off.rows(); row += rows, rows = 2) {
-        rows = std::min(rows, off.rows() - row);
+      each_group(finer.bodies, [&](Eigen::Index row, Eigen::Index rows) {
         const Eigen::MatrixXd part = off.middleRows(row, rows),
                               of = finer.bodies.middleRows(row, rows);
-        if (row > 0 && of.isZero(0)) continue;
         error.displacement = std::max(error.displacement, largest(part) / largest(of));
         error.rms = std::max(error.rms, vibration(part) / vibration(of));
-      }
+      });
     }
     result.motion.error = error;
     conclude();

@@ -140,7 +140,8 @@ StaticContact static_contact(const Parameters& parameters)
       1 / parameters.stator.stiffness() + 1 / parameters.rotor.stiffness();
   const double sag = free_displacement(parameters, 0, 0).y;
   const BallBearing bearing(parameters.bearing);
-  double u = quasi_static_contact(parameters, rigid_joint_force(parameters, 0, 0)).y;
+  double u =
+      quasi_static_contact(parameters.bearing, rigid_joint_force(parameters, 0, 0)).y;
   for (int iteration = 0; iteration < 50; ++iteration) {
     const auto [force, slope] = bearing.reaction({1, 0}, {0, u});
     const double step = (sag - u - compliance * force.y) / (1 + compliance * slope.yy);

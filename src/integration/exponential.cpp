@@ -170,13 +170,15 @@ const ExponentialStepper::Level& ExponentialStepper::level(int k)
   return levels_.emplace(k, std::move(made)).first->second;
 }
 
-/** The motion that loads and unbalance drive against k_0, `at` in output intervals. */
-Eigen::VectorXd ExponentialStepper::driven(double at, bool speeds) const
+/** The state that loads and unbalance drive against k_0, `at` in output intervals. */
+Eigen::VectorXd ExponentialStepper::driven(double at) const
 {
   const double phase = 2 * std::numbers::pi * turns_ * at / intervals_;
   const Complex turn = std::polar(1.0, phase);
-  if (speeds) return (Complex(0, speed_) * turn * free_.whirl).real();
-  return free_.rest + (turn * free_.whirl).real();
+  Eigen::VectorXd state(2 * free_.rest.size());
+  state << free_.rest + (turn * free_.whirl).real(),
+      (Complex(0, speed_) * turn * free_.whirl).real();
+  return state;
 }
 
 /** g of the motion in the first column, and its change for the disturbances in the others. */
@@ -253,23 +255,18 @@ void ExponentialStepper::integrate(long interval, Eigen::MatrixXd& y)
 void ExponentialStepper::advance(long interval, State& state)
 {
   const auto begin = static_cast<double>(interval);
-  Eigen::VectorXd s = vector_of(state), drive(s.size());
-  drive << driven(begin, false), driven(begin, true);
-  Eigen::MatrixXd y = to_modes_ * (s - drive);
+  Eigen::MatrixXd y = to_modes_ * (vector_of(state) - driven(begin));
   integrate(interval, y);
-  drive << driven(begin + 1, false), driven(begin + 1, true);
-  state = state_of(to_state_ * y.col(0) + drive);
+  state = state_of(to_state_ * y.col(0) + driven(begin + 1));
 }
 
 Eigen::MatrixXd ExponentialStepper::derivative(long interval, const State& start)
 {
-  const auto begin = static_cast<double>(interval);
-  Eigen::VectorXd s = vector_of(start), drive(s.size());
-  drive << driven(begin, false), driven(begin, true);
-  Eigen::MatrixXd y(s.size(), s.size() + 1);
-  y << to_modes_ * (s - drive), to_modes_;
+  const Eigen::Index n = to_modes_.rows();
+  Eigen::MatrixXd y(n, n + 1);
+  y << to_modes_ * (vector_of(start) - driven(static_cast<double>(interval))), to_modes_;
   integrate(interval, y);
-  return to_state_ * y.rightCols(s.size());
+  return to_state_ * y.rightCols(n);
 }
 
 }  // namespace rotor_stator

@@ -51,7 +51,7 @@ private:
   Factors factors(Function function, double seconds) const;
   Eigen::MatrixXd times(const Factors& factors, const Eigen::MatrixXd& y) const;
   const Level& level(int k);
-  Eigen::VectorXd driven(double at, bool speeds) const;
+  Eigen::VectorXd driven(double at) const;
   Eigen::MatrixXd forces(const Eigen::MatrixXd& y, double at);
   void step(const Level& level, double at, Eigen::MatrixXd& y);
   void integrate(long interval, Eigen::MatrixXd& y);

@@ -32,6 +32,14 @@ struct LinearBody {
   std::vector<int> joint = {}, output = {};  ///< x and y
 
   int size() const { return static_cast<int>(m.rows()); }
+
+  /** Ones where the weight acts. */
+  Eigen::VectorXd upright() const
+  {
+    Eigen::VectorXd ones = Eigen::VectorXd::Zero(size());
+    for (int dof : vertical) ones[dof] = 1;
+    return ones;
+  }
 };
 
 /** The name of a matrix, the sign of its transpose, and whether its file may be missing. */
@@ -297,12 +305,11 @@ LargeMachine machine_of(const Assembly& all, double gravity, double spring)
     return Eigen::MatrixXd(a)(order, order);
   };
   const SparseMatrix mass = all.joined(&LinearBody::m);
-  Eigen::VectorXd load(n), upright = Eigen::VectorXd::Zero(n);
+  Eigen::VectorXd load(n), upright(n);
   Eigen::VectorXcd unbalance(n);
   load << all.bodies[0].load, all.bodies[1].load;
   unbalance << all.bodies[0].unbalance, all.bodies[1].unbalance;
-  for (int body : {0, 1})
-    for (int dof : all.bodies[body].vertical) upright[all.first(body) + dof] = 1;
+  upright << all.bodies[0].upright(), all.bodies[1].upright();
   load -= gravity * (mass * upright);
   LargeMachine machine{.mass = dense(mass),
                        .damping = dense(all.joined(&LinearBody::c)),
@@ -348,8 +355,7 @@ void read_large_machine(StrictToml& root, Parameters& parameters)
   /** The spring is that of a ball that carries all weights and loads. */
   double weight = 0;
   for (const LinearBody& body : all.bodies) {
-    Eigen::VectorXd upright = Eigen::VectorXd::Zero(body.size());
-    for (int dof : body.vertical) upright[dof] = 1;
+    const Eigen::VectorXd upright = body.upright();
     weight += gravity * upright.dot(body.m * upright) + body.load.norm();
   }
   const double k_h = parameters.bearing.contact_stiffness;
@@ -406,27 +412,24 @@ FreeMotion held_motion(const LargeMachine& machine, double speed)
 JointForces rigid_joint_forces(const LargeMachine& machine, double speed)
 {
   const Eigen::MatrixXd& d = machine.joints;
-  const FreeMotion held = held_motion(machine, speed);
-  const Eigen::MatrixXd at_rest =
-      d.transpose() * machine.held_stiffness().ldlt().solve(d);
-  const Eigen::MatrixXcd z = machine.dynamic_stiffness(machine.spring, speed, speed);
-  const Eigen::MatrixXcd turning =
-      d.transpose() * z.partialPivLu().solve(d.cast<Complex>());
-  return {at_rest.ldlt().solve(d.transpose() * held.rest),
-          turning.partialPivLu().solve(d.transpose() * held.whirl)};
+  const Eigen::LDLT<Eigen::MatrixXd> held(machine.held_stiffness());
+  const Eigen::PartialPivLU<Eigen::MatrixXcd> z(
+      machine.dynamic_stiffness(machine.spring, speed, speed));
+  const Eigen::MatrixXd at_rest = d.transpose() * held.solve(d);
+  const Eigen::MatrixXcd turning = d.transpose() * z.solve(d.cast<Complex>());
+  const Eigen::VectorXd rest = held.solve(machine.load);
+  const Eigen::VectorXcd whirl = z.solve(speed * speed * machine.unbalance);
+  return {at_rest.ldlt().solve(d.transpose() * rest),
+          turning.partialPivLu().solve(d.transpose() * whirl)};
 }
 
 Eigen::VectorXd quasi_static_contacts(const Parameters& parameters,
                                       const Eigen::VectorXd& forces)
 {
-  Eigen::VectorXd u = Eigen::VectorXd::Zero(forces.size());
+  Eigen::VectorXd u(forces.size());
   for (Eigen::Index k = 0; const Bearing& bearing : bearings_of(parameters)) {
-    const Eigen::Vector2d force = forces.segment<2>(k);
-    const double size = force.norm();
-    if (size > 0)
-      u.segment<2>(k) =
-          (bearing.clearance + hertz_penetration(bearing.contact_stiffness, size)) /
-          size * force;
+    const Vec2 answer = quasi_static_contact(bearing, {forces[k], forces[k + 1]});
+    u.segment<2>(k) << answer.x, answer.y;
     k += 2;
   }
   return u;

@@ -163,12 +163,12 @@ Vec2 free_displacement(const Parameters& parameters, double omega, double phase)
   return {r.x - s.x + whirl.real(), r.y - s.y + whirl.imag()};
 }
 
-Vec2 quasi_static_contact(const Parameters& parameters, Vec2 force)
+Vec2 quasi_static_contact(const Bearing& bearing, Vec2 force)
 {
   const double size = std::hypot(force.x, force.y);
   if (size == 0) return {0, 0};
-  const double reach = parameters.bearing.clearance +
-                       hertz_penetration(parameters.bearing.contact_stiffness, size);
+  const double reach =
+      bearing.clearance + hertz_penetration(bearing.contact_stiffness, size);
   return {reach * force.x / size, reach * force.y / size};
 }
 
@@ -181,7 +181,7 @@ Vec2 equilibrium(const Parameters& parameters, Vec2 force, Direction cage = {1, 
                  double spring = 0)
 {
   const BallBearing bearing(parameters.bearing);
-  Vec2 u = quasi_static_contact(parameters, force);
+  Vec2 u = quasi_static_contact(parameters.bearing, force);
   const auto off = [&](Vec2 at) {
     const Vec2 f = bearing.force(cage, at) + spring * at;
     return std::hypot(force.x - f.x, force.y - f.y);
@@ -220,7 +220,7 @@ State static_start(const Parameters& parameters)
   const bool is_carried =
       parameters.stator.stiffness() == 0 || parameters.rotor.stiffness() == 0;
   const Vec2 u = is_carried ? equilibrium(parameters, force)
-                            : quasi_static_contact(parameters, force);
+                            : quasi_static_contact(parameters.bearing, force);
   const auto displaced = [&](const Body& body, double sign) -> Vec2 {
     const Vec2 load = static_load(body, parameters.gravity);
     return {(sign * force.x + load.x) / body.stiffness(),

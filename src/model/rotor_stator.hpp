@@ -141,7 +141,7 @@ Vec2 free_displacement(const Parameters& parameters, double omega, double phase)
 /** The relative displacement [m] that the bearing needs to answer with `force`, all of it
    on one ball: along the force, by the clearance plus the Hertz penetration. A start for
    iterations. */
-Vec2 quasi_static_contact(const Parameters& parameters, Vec2 force);
+Vec2 quasi_static_contact(const Bearing& bearing, Vec2 force);
 
 /** The relative displacement [m] at rest with ball 1 at the angle `cage`. */
 Vec2 static_equilibrium(const Parameters& parameters, Direction cage);

@@ -398,19 +398,17 @@ std::optional<LineName> name_of_spin(double order, const Bearing& bearing,
 
 LineName name_of(double order, const Bearing& bearing, double tolerance, int passages)
 {
-  const bool has_damaged_ball = bearing.is_damaged(Defect::Surface::ball);
   const bool is_periodic = has_rotation_period(bearing);
   const int fractions = is_periodic ? 8 : 1;
-  for (int parts = 1; parts <= fractions; ++parts)
-    if (const auto sum = sum_of(order, bearing, tolerance, parts, 1, passages)) {
-      if (has_damaged_ball)
-        if (const auto spin =
-                name_of_spin(order, bearing, tolerance, std::get<0>(sum->length())))
-          return *spin;
-      return name_of(*sum, bearing.balls);
-    }
-  if (has_damaged_ball)
-    if (const auto spin = name_of_spin(order, bearing, tolerance, 1e9)) return *spin;
+  std::optional<Sum> sum;
+  for (int parts = 1; parts <= fractions && !sum; ++parts)
+    sum = sum_of(order, bearing, tolerance, parts, 1, passages);
+  if (bearing.is_damaged(Defect::Surface::ball))
+    if (const auto spin = name_of_spin(
+            order, bearing, tolerance,
+            sum ? std::get<0>(sum->length()) : std::numeric_limits<double>::infinity()))
+      return *spin;
+  if (sum) return name_of(*sum, bearing.balls);
   const KinematicOrders orders = kinematic_orders(bearing);
   LineName name = multiple_of("FTF", order, orders.cage, bearing.balls, tolerance);
   name.cage = std::round(order / orders.cage);
@@ -421,8 +419,8 @@ LineName name_of(double order, const Bearing& bearing, double tolerance, int pas
   if (!name.name.empty()) return name;
   /** A torus that has doubled has halves of both; as many would name anything. */
   if (!is_periodic)
-    if (const auto sum = sum_of(order, bearing, tolerance, 2, 2, passages / 8))
-      return name_of(*sum, bearing.balls);
+    if (const auto halves = sum_of(order, bearing, tolerance, 2, 2, passages / 8))
+      return name_of(*halves, bearing.balls);
   return {};
 }
 

@@ -162,14 +162,16 @@ std::vector<Motion> pieces(const Motion& motion, int periods)
   std::vector<Motion> parts;
   const auto length = static_cast<std::ptrdiff_t>(periods) * motion.points_per_period;
   const auto cut = [&](const auto& whole, std::ptrdiff_t from) {
-    return std::vector(whole.begin() + from, whole.begin() + from + length);
+    return whole.empty()
+               ? whole
+               : std::vector(whole.begin() + from, whole.begin() + from + length);
   };
   for (std::ptrdiff_t from = 0; std::ssize(motion.positions) - from >= length;
        from += length)
-    parts.push_back(
-        {motion.points_per_period, motion.first_period + periods * std::ssize(parts),
-         cut(motion.positions, from),
-         motion.rates.empty() ? motion.rates : cut(motion.rates, from), motion.omega});
+    parts.push_back({motion.points_per_period,
+                     motion.first_period + periods * std::ssize(parts),
+                     cut(motion.positions, from), cut(motion.rates, from), motion.omega,
+                     cut(motion.further, from)});
   return parts;
 }
 

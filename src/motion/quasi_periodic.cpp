@@ -143,7 +143,7 @@ Motion motion_of(const Parameters& parameters, const PeriodicMotion& solution, i
   constexpr double turn = 2 * std::numbers::pi;
   const auto n = static_cast<Eigen::Index>(points) * turns;
   Eigen::MatrixXd samples = solution.bodies.col(0).transpose().replicate(n, 1);
-  Eigen::MatrixXd rates = Eigen::MatrixXd::Zero(n, 4);
+  Eigen::MatrixX2d rates = Eigen::MatrixX2d::Zero(n, 2);  // of u
   const double passages = passages_per_turn(parameters.bearing);
   for (int h = 1; h <= solution.harmonics.count(); ++h) {
     const auto& [k_1, k_2] = solution.harmonics.list()[static_cast<std::size_t>(h)];
@@ -157,13 +157,14 @@ Motion motion_of(const Parameters& parameters, const PeriodicMotion& solution, i
           turn * (k_1 * (at + static_cast<double>((first + k / points) % 2)) +
                   k_2 * std::fmod(passages * since, 2.0));
       samples.row(k) += std::cos(angle) * cosine + std::sin(angle) * sine;
-      rates.row(k) += frequency * (std::cos(angle) * sine - std::sin(angle) * cosine);
+      const Eigen::RowVector4d rate =
+          frequency * (std::cos(angle) * sine - std::sin(angle) * cosine).head<4>();
+      rates.row(k) += rate.tail<2>() - rate.head<2>();
     }
   }
   Motion motion = motion_of_samples(samples, points, first);
   motion.omega = solution.omega;
-  for (Eigen::Index k = 0; k < n; ++k)
-    motion.rates.push_back({rates(k, 2) - rates(k, 0), rates(k, 3) - rates(k, 1)});
+  for (Eigen::Index k = 0; k < n; ++k) motion.rates.push_back({rates(k, 0), rates(k, 1)});
   return motion;
 }
 

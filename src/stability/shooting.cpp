@@ -209,7 +209,8 @@ State quasi_static_state(const Parameters& parameters, double omega)
     return {sag.x + turned.real(), sag.y + turned.imag()};
   };
   const auto relative = [&](double phase) {
-    return quasi_static_contact(parameters, rigid_joint_force(parameters, omega, phase));
+    return quasi_static_contact(parameters.bearing,
+                                rigid_joint_force(parameters, omega, phase));
   };
   constexpr double little = 1e-4;
   const auto speed = [&](const auto& path) -> Vec2 {
