@@ -1,10 +1,12 @@
 # The live page: the rooms of the core and what of explore computes motions, by the compiler for the browser. That of
 # Debian 12 lacks parts of the library of C++20 (live/libcxx.hpp) and looks for its parser where only Debian's node does.
-live_sources := $(wildcard $(patsubst %,src/%/*.cpp,model balance continuation integration stability motion)) \
-  $(filter-out src/io/program.cpp src/io/parallel.cpp,$(wildcard src/io/*.cpp)) \
-  $(patsubst %,src/explore/%.cpp,balance_motion branch_file orbit response spectrum) live/live.cpp
+# Exceptions are WebAssembly's own (browsers of 2022 and later): by JavaScript's the module was a quarter larger.
+live_sources := $(filter-out $(patsubst %,src/%.cpp,io/program io/parallel io/matrix_market model/large_machine \
+  balance/large_problem integration/exponential), $(wildcard $(patsubst %,src/%/*.cpp,io model balance continuation \
+  integration stability motion))) $(patsubst %,src/explore/%.cpp,balance_motion branch_file orbit response spectrum) \
+  live/live.cpp live/two_masses.cpp
 live_objects := $(live_sources:%.cpp=build/live/%.o)
-live_flags := -O2 -ffp-contract=off -fno-math-errno -fexceptions
+live_flags := -O2 -ffp-contract=off -fno-math-errno -fwasm-exceptions
 export NODE_PATH ?= /usr/share/nodejs
 
 build/model/bearing_catalogue.hpp: data/bearings/deep_groove.toml CMakeLists.txt
@@ -16,7 +18,7 @@ build/live/include/.stamped: build/model/bearing_catalogue.hpp $(sources)
 build/live/include/source_revision.hpp: build/live/include/.stamped
 	+@:
 
-$(live_objects): build/live/%.o: %.cpp | build/live/include/source_revision.hpp
+$(live_objects): build/live/%.o: %.cpp live/live.mk | build/live/include/source_revision.hpp
 	@mkdir -p $(@D)
 	em++ -std=c++20 $(live_flags) -DEIGEN_DONT_PARALLELIZE -DROTOR_STATOR_EIGEN_FFT -include live/libcxx.hpp -Ilive -Isrc \
 	  -Ibuild/live/include -Ibuild $$(pkg-config --cflags eigen3) -MMD -c $< -o $@

@@ -281,7 +281,8 @@ Refined estimate_error(const ObservedProblem& observed, const PeriodicMotion& co
   Refined refined{
       {infinite, infinite, false, m, n, 0, 0},
       {.omega = coarse.omega, .harmonics = balance.harmonics(), .samples = n}};
-  auto& [estimate, finer] = refined;
+  ErrorEstimate& estimate = refined.estimate;
+  PeriodicMotion& finer = refined.finer;
   finer.x = resize_harmonics(coarse.x, balance.problem().dofs, m);
   const Approached approached =
       approach(balance, coarse.omega, newton_tolerance, finer.x);

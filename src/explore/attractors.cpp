@@ -10,7 +10,6 @@
 #include "io/errors.hpp"
 #include "io/output_file.hpp"
 #include "io/parallel.hpp"
-#include "model/large_machine.hpp"
 #include "motion/attractor.hpp"
 #include "motion/contact.hpp"
 

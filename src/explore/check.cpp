@@ -6,7 +6,6 @@
 
 #include "io/errors.hpp"
 #include "model/catalogue.hpp"
-#include "model/large_machine.hpp"
 #include "model/rotor_stator.hpp"
 
 namespace rotor_stator::explore {

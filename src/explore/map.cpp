@@ -18,7 +18,6 @@
 #include "io/output_file.hpp"
 #include "io/parallel.hpp"
 #include "io/program.hpp"
-#include "model/large_machine.hpp"
 #include "motion/adaptive.hpp"
 #include "motion/contact.hpp"
 #include "motion/other_starts.hpp"

@@ -11,7 +11,6 @@
 #include "integration/time_stepper.hpp"
 #include "io/errors.hpp"
 #include "io/output_file.hpp"
-#include "model/large_machine.hpp"
 #include "motion/closed_motion.hpp"
 #include "motion/contact.hpp"
 #include "motion/motion.hpp"

@@ -395,13 +395,6 @@ Eigen::MatrixXcd LargeMachine::dynamic_stiffness(std::complex<double> k, double 
   return z + k * (joints * joints.transpose());
 }
 
-std::vector<Bearing> bearings_of(const Parameters& parameters)
-{
-  std::vector<Bearing> list{parameters.bearing};
-  list.insert(list.end(), parameters.further.begin(), parameters.further.end());
-  return list;
-}
-
 FreeMotion held_motion(const LargeMachine& machine, double speed)
 {
   const Eigen::MatrixXcd z = machine.dynamic_stiffness(machine.spring, speed, speed);
@@ -493,13 +486,6 @@ Eigen::VectorXd large_state_scales(const Parameters& parameters)
     sizes[i] = length * (i < machine.shown ? 1 : std::sqrt(shown / masses[i]));
   sizes.tail(n) = contact_frequency(parameters) * sizes.head(n);
   return sizes;
-}
-
-void require_two_masses(const Parameters& parameters, const char* who)
-{
-  if (parameters.large)
-    throw BadInput(
-        format("%s: %s knows no bodies given by matrices", parameters.file.c_str(), who));
 }
 
 }  // namespace rotor_stator

@@ -50,9 +50,6 @@ struct LargeMachine {
 /** Reads bodies of which at least one has `matrices`, and the bearings, [bearing] or [[bearing]]. Throws BadInput. */
 void read_large_machine(StrictToml& root, Parameters& parameters);
 
-/** All bearings of a machine. */
-std::vector<Bearing> bearings_of(const Parameters& parameters);
-
 /** What carries the constant loads and the unbalance without any contact but k_0: displacements of all coordinates, at
     rest and as complex amplitudes at the speed ω [m]. */
 struct FreeMotion {
@@ -75,9 +72,6 @@ Eigen::VectorXd quasi_static_contacts(const Parameters& parameters,
 
 /** At rest, the bearings holding the constant loads. */
 State large_static_start(const Parameters& parameters);
-
-/** Throws BadInput, in the name of `who`, for a machine given by matrices. */
-void require_two_masses(const Parameters& parameters, const char* who);
 
 /** Sizes of all displacements and speeds, for tolerances and norms. */
 Eigen::VectorXd large_state_scales(const Parameters& parameters);

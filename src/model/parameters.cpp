@@ -122,6 +122,20 @@ bool has_rotation_period(const Bearing& bearing)
          std::abs(passages - std::round(passages)) < 1e-9;
 }
 
+void require_two_masses(const Parameters& parameters, const char* who)
+{
+  if (parameters.large)
+    throw BadInput(
+        format("%s: %s knows no bodies given by matrices", parameters.file.c_str(), who));
+}
+
+std::vector<Bearing> bearings_of(const Parameters& parameters)
+{
+  std::vector<Bearing> list{parameters.bearing};
+  list.insert(list.end(), parameters.further.begin(), parameters.further.end());
+  return list;
+}
+
 void require_two_angles(const Parameters& parameters)
 {
   if (parameters.bearing.is_damaged(Defect::Surface::ball))

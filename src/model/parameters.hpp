@@ -133,6 +133,12 @@ bool has_rotation_period(const Bearing& bearing);
 /** Throws BadInput, in the name of `who`, when the force has not the period of rotation. */
 void require_rotation_period(const Parameters& parameters, const char* who);
 
+/** Throws BadInput, in the name of `who`, for a machine given by matrices. */
+void require_two_masses(const Parameters& parameters, const char* who);
+
+/** All bearings of a machine. */
+std::vector<Bearing> bearings_of(const Parameters& parameters);
+
 /** Throws BadInput where a damaged ball adds a third angle to those of rotor and cage. */
 void require_two_angles(const Parameters& parameters);
 

@@ -19,6 +19,8 @@ namespace rotor_stator::motion {
 namespace {
 
 constexpr double local_error = 1e-11, finer = 1e-13, nearly_closed = 1e-8;
+/** A motion so near is the solution's own [of the largest displacement]; of two, one `as_near` times as far is not. */
+constexpr double surely_its_own = 5e-4, as_near = 2;
 constexpr int most_harmonics = 192, points = 256;  // of each turn
 
 }  // namespace
@@ -43,27 +45,38 @@ public:
   {
   }
 
-  /** Why no motion was found; empty when one was, whose state is then in `state`. From `starts`, from the solution,
-      from the same with more harmonics; then from all of them by other steps: where the contact
-      opens and closes, those of one kind are often refused. */
-  std::string run(State& state, std::vector<State> starts = {})
+  /** Whether a motion was found, whose state is then in `state`. From `starts`, from the solution, from the same with
+      more harmonics; then from all of them by other steps: where the contact opens and closes, those of one
+      kind are often refused. */
+  bool run(State& state, std::vector<State> starts = {})
   {
     starts.push_back(start_);
     for (double speed_weight : {5, 20, 1})
       for (const State& start : starts)
-        if (closes(start, state, speed_weight)) return {};
+        if (closes(start, state, speed_weight)) return true;
     std::vector<State> raised;
     for (PeriodicMotion more = solution_; raise(more);) {
       raised.push_back(state_of(parameters_, more));
-      if (closes(raised.back(), state, 5)) return {};
+      if (closes(raised.back(), state, 5)) return true;
     }
     for (double speed_weight : {20, 1})
       for (const State& start : raised)
-        if (closes(start, state, speed_weight)) return {};
+        if (closes(start, state, speed_weight)) return true;
     starts.insert(starts.end(), raised.begin(), raised.end());
     for (const State& start : starts)
-      if (closes(start, state, 1, true)) return {};
-    return reason();
+      if (closes(start, state, 1, true)) return true;
+    return false;
+  }
+
+  /** From the solution with more harmonics alone. */
+  bool from_more_harmonics(State& state)
+  {
+    PeriodicMotion more = solution_;
+    if (!raise(more)) return false;
+    const State start = state_of(parameters_, more);
+    for (double speed_weight : {5, 20, 1})
+      if (closes(start, state, speed_weight)) return true;
+    return closes(start, state, 1, true);
   }
 
   /** From where Eq. 7 settles. */
@@ -78,7 +91,7 @@ public:
   /** Whether the first iteration, from the solution itself, closed the motion: then no other is as near to it. */
   bool found_at_once() const { return iterations_ == 1 && shooting_.converged; }
 
-private:
+  /** Why no motion was found. */
   std::string reason() const
   {
     return std::isfinite(nearest_)
@@ -89,6 +102,7 @@ private:
                : "no motion of its period was found from it: " + shooting_.reason;
   }
 
+private:
   bool closes(const State& start, State& state, double speed_weight,
               bool quasi_newton = false)
   {
@@ -193,23 +207,21 @@ State disturbed(const Parameters& parameters, const State& state)
   return rotor_stator::state_of(vector_of(state) + 1e-6 * state_scales(parameters));
 }
 
-/** The motion that the machine settles on from there, which has the solution's period: if it is near the
-    solution too, and shooting found no other or one that is further away, the solution stands for it. */
-void compare_with_settled(const Parameters& parameters, const PeriodicMotion& solution,
-                          const OperationBudget& budget, Shootings& shootings,
-                          Verdict& verdict)
+/** Of the motions within reach the nearest one; `reason` if there is none. */
+Verdict own_motion(const std::vector<Verdict>& motions, const std::string& reason)
 {
-  Verdict settled{.from_there = verdict.from_there, .evaluations = verdict.evaluations};
-  bool is_closed = false;
-  try {
-    is_closed = shootings.from(verdict.from_there, budget.part(0.5), settled.state);
-    if (is_closed) measure(parameters, solution, budget, settled);
-  } catch (const NoSolution&) {
-    is_closed = false;
+  if (motions.empty()) return {.reason = reason};
+  Verdict own = *std::ranges::min_element(motions, {}, &Verdict::distance_rms);
+  for (const Verdict& other : motions) {
+    const bool opposite = (own.floquet.stable() && other.floquet.unstable()) ||
+                          (own.floquet.unstable() && other.floquet.stable());
+    if (opposite && other.distance_rms < as_near * own.distance_rms)
+      return {.reason = format(
+                  "of two motions of its period near it one is %s, %.3g rms away, the "
+                  "other one %s, %.3g",
+                  own.word(), own.distance_rms, other.word(), other.distance_rms)};
   }
-  verdict.evaluations = settled.evaluations;
-  if (is_closed && (!verdict.found() || settled.distance_rms < verdict.distance_rms))
-    verdict = settled;
+  return own;
 }
 
 /** The machine's multipliers, point after point of a branch. */
@@ -236,8 +248,8 @@ struct Along {
     const OperationBudget part = budget.part(std::min(1.0, share));
     Shootings shootings(parameters, solution, part);
     Verdict verdict;
-    verdict.reason = shootings.run(verdict.state, starts_near(point));
-    if (!verdict.found()) throw NoSolution(verdict.reason);
+    if (!shootings.run(verdict.state, starts_near(point)))
+      throw NoSolution(shootings.reason());
     add_multipliers(parameters, solution.omega, part, verdict);
     found.push_back({point.arc, solution.omega, verdict.state});
     motion_found = true;
@@ -309,28 +321,45 @@ Verdict verdict_through(const Parameters& parameters, double omega, const State&
 Verdict verdict_on(const Parameters& parameters, const PeriodicMotion& solution,
                    const OperationBudget& budget, int turns)
 {
+  if (!std::isfinite(1 / solution.omega))
+    return {.reason = "the period of rotation is too long to be integrated"};
   const Parameters longer = over_turns(parameters, turns);
-  Verdict verdict;
-  if (!std::isfinite(1 / solution.omega)) {
-    verdict.reason = "the period of rotation is too long to be integrated";
-    return verdict;
-  }
   /** The rest is for the integration from there, and for the multipliers. */
   Shootings shootings(longer, solution, budget.part(0.5));
-  try {
-    verdict.reason = shootings.run(verdict.state);
-    if (verdict.found()) measure(longer, solution, budget, verdict);
-  } catch (const NoSolution& error) {
-    verdict.reason = error.what();
-  }
+  std::vector<Verdict> motions;  // within reach
+  std::string reason;
+  double evaluations = 0;
+  const auto add = [&](const std::function<bool(State&)>& close) {
+    Verdict motion;
+    try {
+      if (!close(motion.state)) throw NoSolution(shootings.reason());
+      measure(longer, solution, budget, motion);
+      motions.push_back(motion);
+    } catch (const NoSolution& error) {
+      reason = error.what();
+    }
+    evaluations += motion.evaluations;
+  };
+
+  add([&](State& state) { return shootings.run(state); });
+  if (!motions.empty() && motions[0].distance > surely_its_own)
+    add([&](State& state) { return shootings.from_more_harmonics(state); });
+  Verdict verdict = own_motion(motions, reason);
   if (!verdict.floquet.stable()) {
     add_settled(parameters, turns * solution.omega,
                 verdict.found() ? verdict.state : state_of(parameters, solution), budget,
                 verdict);
-    if (verdict.from_there.period == turns && !shootings.found_at_once())
-      compare_with_settled(longer, solution, budget, shootings, verdict);
+    if (verdict.from_there.period == turns && !shootings.found_at_once()) {
+      const Verdict first = verdict;
+      add([&](State& state) {
+        return shootings.from(first.from_there, budget.part(0.5), state);
+      });
+      verdict = own_motion(motions, first.reason);
+      verdict.from_there = first.from_there;
+      verdict.lost = first.lost;
+    }
   }
-  verdict.evaluations += shootings.evaluations();
+  verdict.evaluations = evaluations + shootings.evaluations();
   return verdict;
 }
 

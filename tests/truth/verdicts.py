@@ -141,7 +141,27 @@ class Verdicts(Case):
             for frequency in (1.37 + 0.61 * number, 15.83 + 0.61 * number, 31.27 + 1.17 * number):
                 decided += self.judged(file, round(frequency, 2))
         self.assertGreaterEqual(len(decided), 30)
-        self.assertGreaterEqual(sum(decided), 0.95 * len(decided))
+        # Six harmonics lie as near to a stable as to an unstable motion in one case in ten.
+        self.assertGreaterEqual(sum(decided), 0.85 * len(decided))
+
+    def test_nearer_of_two_motions_is_judged(self):
+        """Motions 0.1 to 2 % apart whose disturbances grow a thousandfold in a turn, beside stable ones: which of them
+        shooting closes from few harmonics is a matter of rounding. Without a second start one solution in five is stable."""
+        machines = [("stator 6.259 293.6 0.02524 rotor 31.21 70.33 0.09603 0.08679 bearing 8 3.678e10 9.78e-5", 83.79),
+                    ("stator 13.37 332.9 0.03622 rotor 5.313 204.5 0.03911 0.01384 bearing 12 3.63e10 5.589e-5", 55.57)]
+        for words, frequency in machines:
+            _, *stator, _, m, w, xi, unbalance, _, balls, stiffness, clearance = words.split()
+            body = "mass_kg = {}\nnatural_frequency_rad_per_s = {}\ndamping_ratio = {}\n".format
+            file = self.file("near.toml", f"title = 'near'\n[stator]\n{body(*stator)}[rotor]\n{body(m, w, xi)}unbalance_kg_m = {unbalance}\n"
+                             f"[bearing]\nballs = {balls}\ncontact_stiffness_N_per_m1p5 = {stiffness}\n"
+                             f"radial_clearance_m = {clearance}\ncage_speed_ratio = 0.5\n[gravity]\nacceleration_m_per_s2 = 0\n")
+            _, state, _ = self.orbit(file, frequency, "--harmonics", 80)
+            self.assertGreater(abs(self.judge.machine(file, frequency, state)["multiplier"]), 100)
+            for m in (10, 12, 14, 16, 20):
+                with self.subTest(frequency=frequency, m=m):
+                    self.assertEqual(self.orbit(file, frequency, "--harmonics", m)[0], "unstable")
+        # One stable and one unstable motion, 0.35 % and 0.40 % away: neither is this solution's own.
+        self.assertEqual(self.orbit(SETS[1], 25.75, "--harmonics", 6)[0], "undecided")
 
     def test_stable_is_not_said_where_nothing_T_periodic_attracts(self):
         for number, frequency, m in FALSELY_STABLE:

@@ -1,0 +1,31 @@
+/** The page knows machines of two masses only: bodies given by matrices come from files, which a page cannot read,
+    and their code is a fifth of the module. */
+#include <cstdlib>
+
+#include "balance/large_problem.hpp"
+#include "integration/exponential.hpp"
+#include "io/errors.hpp"
+#include "io/toml_file.hpp"
+
+namespace rotor_stator {
+
+void read_large_machine(StrictToml& root, Parameters&)
+{
+  throw BadInput(root.file() + ": bodies given by matrices need the program explore");
+}
+
+/** Without such bodies none of these is called. */
+void put_large_bodies(const Parameters&, const TorusLine&, Problem&) { abort(); }
+Eigen::MatrixXd large_start_samples(const Parameters&, double, int) { abort(); }
+Eigen::MatrixXd coordinate_series(const Parameters&, const PeriodicMotion&) { abort(); }
+State large_static_start(const Parameters&) { abort(); }
+Eigen::VectorXd large_state_scales(const Parameters&) { abort(); }
+ExponentialStepper::ExponentialStepper(const Parameters&, double, int, double,
+                                       OperationBudget)
+{
+  abort();
+}
+void ExponentialStepper::advance(long, State&) { abort(); }
+Eigen::MatrixXd ExponentialStepper::derivative(long, const State&) { abort(); }
+
+}  // namespace rotor_stator
