@@ -382,13 +382,22 @@ public:
     });
   }
 
-  /** Estimated with more harmonics; where that does not settle, against the motion of Eq. 7. */
+  /** Estimated with more harmonics; where that does not settle, against the motion of Eq. 7 found from the solution; where
+      there is none, against what rk4 settles on from there. */
   double error()
   {
     const ErrorEstimate estimate = motion::estimate_error(machine, solution(), budget_);
     if (estimate.settled) return estimate.larger();
-    floquet();
-    return std::max(verdict().distance, verdict().distance_rms);
+    if (verdict().found()) return std::max(verdict().distance, verdict().distance_rms);
+    const motion::Settled& there = verdict().from_there;
+    if (there.period == 0 && !there.aperiodic) throw NoSolution(verdict().reason);
+    const TimeStepper stepper = make_stepper(
+        machine, omega(),
+        {.method = "rk4", .intervals_per_period = instants, .budget = budget_});
+    State state = there.state;
+    const motion::Motion settled =
+        motion::recorded(stepper, instants, state, 0, std::max(1, there.period) * 40);
+    return motion::rms_difference(motion::motion_of(solution(), instants), settled);
   }
 
   const Parameters machine;
@@ -538,7 +547,8 @@ const std::vector<Quantity> quantities{
      [](auto& p) -> Cell { return p.chosen().motion.harmonics.count(); }},
     {"error", "-",
      "of the solution, the larger of the largest displacement's and the rms about the mean, estimated with more "
-     "harmonics or, where that does not settle, against the motion behind stability",
+     "harmonics or, where that does not settle, against the motion behind stability or that on which the machine "
+     "settles from the solution",
      solution, [](auto& p) -> Cell { return p.error(); }},
     {"periodic", "-",
      "1 if rk4 from the solution, or from the static load, settles on the period of "

@@ -155,6 +155,22 @@ class Values(Case):
                                delta=1e-6)
         self.refused("turns is of rk4", "map", self.machine, "--y", "frequency=13:45:2", "--quantity", "turns")
 
+    def test_error_where_nothing_closes(self):
+        """A stiff loose bearing at 30 Hz, whose contact vibrates without a period: the error of six harmonics is their
+        distance from what the machine does, here over forty turns of another method from rest (means over forty scatter by 5 %).
+        Would catch an error against a motion that has not settled, and one that is left out."""
+        machine = self.file("loose.toml", MACHINE.replace("= 1e11", "= 1e12").replace("= 2e-5", "= 8.333333e-5"))
+        self.assertNotEqual(machine.read_text(encoding="utf-8"), MACHINE)
+        table = self.table("map", machine, "--y", "frequency=30:31:1", "--harmonics", 6, "--quantity", "error")
+        six = self.table("orbit", machine, "--frequency", 30, "--no-stability", "--points", 256)
+        long = self.table("orbit", machine, "--frequency", 30, "--method", "rk8pd", "--periods", 40, "--points", 256)
+        self.assertIn("# regime: aperiodic", long.header)
+        names = ["x_s", "y_s", "x_r", "y_r"]
+        true = np.array([long[name] - long[name].mean() for name in names])
+        off = np.array([np.tile(six[name], 40) - long[name] for name in names])
+        off -= off.mean(axis=1, keepdims=True)
+        self.assertAlmostEqual(table["error"] / (np.linalg.norm(off) / np.linalg.norm(true)), 1, delta=0.2)
+
     def test_period_against_attractors(self):
         """At 20 Hz two turns, at 30 Hz one."""
         table = self.table("map", self.machine, "--y", "frequency=20:30:2", "--quantity", "period,lyapunov")
