@@ -1,5 +1,6 @@
 """Read a table, start and finish a figure: what every figure drawn by Python needs."""
 
+import gzip
 import re
 import subprocess
 import sys
@@ -22,7 +23,8 @@ class Table:
     """The columns of a tab-separated table by name, and its `#` lines."""
 
     def __init__(self, path):
-        self._read(Path(path).read_text(encoding="utf-8").splitlines())
+        data = Path(path).read_bytes()
+        self._read((gzip.decompress(data) if str(path).endswith(".gz") else data).decode().splitlines())
 
     @classmethod
     def of(cls, text):

@@ -10,6 +10,11 @@ on the period map, eigenvalues by Eigen. One line in, one line out:
 
     converged closure largest_multiplier its_change real imaginary  y_1 …
 
+    settle transient observed instants  machine … f[Hz] periods  y_1 … y_8      what becomes of a state
+
+    K exponent[1/s] its_error  x_s y_s x_r y_r  x_s … K periods close to 1e-5, 0: none up to 16; the
+                                                    last periods, at most 32, at their instants
+
 The state is x_s, y_s, x_r, y_r, then their rates; for the springs q_1, q_2, then their rates. The change is
 that of the modulus between two tolerances of the integration. */
 #include <Eigen/Dense>
@@ -113,8 +118,11 @@ struct Map {
   bool whole = true;
 };
 
-/** One period by the pair of Fehlberg. */
-Map period_map(const Equation& equation, const Vector& start, double tolerance)
+/** Advances z over `length` from t by the pair of Fehlberg, at local errors of which `worst` is below the tolerance;
+    h is the first and then the next step. False if that does not get there. */
+template <class Rate, class Worst>
+bool advance(const Rate& find_rate, const Worst& find_worst, double tolerance, double t,
+             double length, double& h, Vector& z)
 {
   static const double a[6][5] = {{},
                                  {1. / 4},
@@ -127,33 +135,49 @@ Map period_map(const Equation& equation, const Vector& start, double tolerance)
                               28561. / 56430, -9. / 50, 2. / 55};
   static const double e[6] = {1. / 360,       0,       -128. / 4275,
                               -2197. / 75240, 1. / 50, 2. / 55};
-  const auto n = equation.size.size();
-  Vector z(n + n * n), trial, error, k[6];
-  z << start, Matrix::Identity(n, n).reshaped();
-  double t = 0, h = equation.period / 1000;
-  for (long steps = 0; t < equation.period && steps < 2000000; ++steps) {
-    h = std::min(h, equation.period - t);
+  static thread_local Vector trial, error, k[6];
+  const double end = t + length;
+  for (long steps = 0; t < end && steps < 2000000; ++steps) {
+    const double left = end - t, step = std::min(h, left);
     for (int i = 0; i < 6; ++i) {
       trial = z;
-      for (int j = 0; j < i; ++j) trial += h * a[i][j] * k[j];
-      variational(equation, t + c[i] * h, trial, k[i]);
+      for (int j = 0; j < i; ++j) trial += step * a[i][j] * k[j];
+      find_rate(t + c[i] * step, trial, k[i]);
     }
     trial = z, error = Vector::Zero(z.size());
-    for (int i = 0; i < 6; ++i) trial += h * b[i] * k[i], error += h * e[i] * k[i];
-    double worst = (error.head(n).array() / equation.size.array()).abs().maxCoeff();
-    const Eigen::Map<const Matrix> phi(trial.data() + n, n, n),
-        change(error.data() + n, n, n);
+    for (int i = 0; i < 6; ++i) trial += step * b[i] * k[i], error += step * e[i] * k[i];
+    const double worst = find_worst(trial, error);
+    if (!(worst < 1e300)) return false;
+    if (worst <= tolerance) t = step == left ? end : t + step, z = trial;
+    h = step * std::clamp(0.9 * std::pow(tolerance / (worst + 1e-300), 0.2), 0.2, 5.0);
+  }
+  return t == end;
+}
+
+/** One period. */
+Map period_map(const Equation& equation, const Vector& start, double tolerance)
+{
+  const auto n = equation.size.size();
+  Vector z(n + n * n);
+  z << start, Matrix::Identity(n, n).reshaped();
+  const auto worst = [&](const Vector& next, const Vector& error) {
     const auto scaled = [&](const auto& m) {
       return (equation.size.cwiseInverse().asDiagonal() * m * equation.size.asDiagonal())
           .cwiseAbs()
           .maxCoeff();
     };
-    worst = std::max(worst, 1e-2 * scaled(change) / (1 + scaled(phi)));
-    if (!(worst < 1e300)) return {start, Matrix::Identity(n, n), false};
-    if (worst <= tolerance) t += h, z = trial;
-    h *= std::clamp(0.9 * std::pow(tolerance / (worst + 1e-300), 0.2), 0.2, 5.0);
-  }
-  return {z.head(n), Eigen::Map<const Matrix>(z.data() + n, n, n), t >= equation.period};
+    const Eigen::Map<const Matrix> phi(next.data() + n, n, n),
+        change(error.data() + n, n, n);
+    return std::max((error.head(n).array() / equation.size.array()).abs().maxCoeff(),
+                    1e-2 * scaled(change) / (1 + scaled(phi)));
+  };
+  const auto rate = [&](double t, const Vector& at, Vector& rate) {
+    variational(equation, t, at, rate);
+  };
+  double h = equation.period / 1000;
+  if (!advance(rate, worst, tolerance, 0, equation.period, h, z))
+    return {start, Matrix::Identity(n, n), false};
+  return {z.head(n), Eigen::Map<const Matrix>(z.data() + n, n, n)};
 }
 
 std::complex<double> largest(const Matrix& phi)
@@ -198,6 +222,76 @@ void judge(const Equation& equation, Vector y)
   std::fflush(stdout);
 }
 
+/** A state and its neighbour, whose distance is set back once per period: where they settle, and how fast they part. */
+void settle(const Equation& equation, Vector y, int transient, int observed, int instants)
+{
+  const int kept = std::min(32, transient + observed);
+  constexpr int most = 16;
+  constexpr double apart = 1e-6, tolerance = 1e-8;
+  const auto n = y.size();
+  const auto& s = equation.size;
+  Vector f(n), z(2 * n);
+  Matrix unused(n, n);
+  const auto rate = [&](double t, const Vector& at, Vector& out) {
+    out.resize(2 * n);
+    for (int half : {0, 1}) {
+      equation.evaluate(t, at.segment(half * n, n), f, unused);
+      out.segment(half * n, n) = f;
+    }
+  };
+  const auto worst = [&](const Vector&, const Vector& error) {
+    return std::max((error.head(n).array() / s.array()).abs().maxCoeff(),
+                    (error.tail(n).array() / s.array()).abs().maxCoeff());
+  };
+  z << y, y + apart * s;
+  std::vector<Vector> section, motion;
+  std::vector<double> growth;
+  double h = equation.period / 1000;
+  for (int period = 0; period < transient + observed; ++period) {
+    for (int k = 0; k < instants; ++k) {
+      if (period >= transient + observed - kept) motion.push_back(z.head(4));
+      if (!advance(rate, worst, tolerance,
+                   (period + 1.0 * k / instants) * equation.period,
+                   equation.period / instants, h, z)) {
+        std::printf("-1 0 0\n");
+        std::fflush(stdout);
+        return;
+      }
+    }
+    const Vector away = ((z.tail(n) - z.head(n)).array() / s.array()).matrix();
+    if (period >= transient)
+      growth.push_back(std::log(away.norm() / (apart * std::sqrt(n))));
+    z.tail(n) = z.head(n) + apart * std::sqrt(n) / away.norm() * (z.tail(n) - z.head(n));
+    if (period >= transient) section.push_back((z.head(n).array() / s.array()).matrix());
+  }
+  int closed = 0;
+  double size = 0;
+  for (const Vector& at : motion) size = std::max(size, at.cwiseAbs().maxCoeff());
+  for (int k = 1; k <= most && closed == 0 && observed >= kept + most; ++k) {
+    double open = 0;
+    for (std::size_t i = section.size() - kept; i < section.size(); ++i)
+      open = std::max(
+          open,
+          ((section[i] - section[i - k]).array() * s.array()).head(4).abs().maxCoeff());
+    if (open < 1e-5 * size) closed = k;
+  }
+  /** The error from the means of ten parts. */
+  const int part = observed / 10;
+  double mean = 0, squares = 0;
+  for (int i = 0; i < 10 && part > 0; ++i) {
+    double sum = 0;
+    for (int k = 0; k < part; ++k) sum += growth[static_cast<std::size_t>(i * part + k)];
+    sum /= part * equation.period;
+    mean += sum / 10, squares += sum * sum / 10;
+  }
+  std::printf("%d %.9g %.3g", closed, mean,
+              std::sqrt(std::max(0.0, squares - mean * mean) / 9));
+  for (const Vector& at : motion)
+    for (double value : at) std::printf(" %.12g", value);
+  std::printf("\n");
+  std::fflush(stdout);
+}
+
 }  // namespace
 
 int main()
@@ -206,6 +300,9 @@ int main()
     std::istringstream in(line);
     std::string kind;
     in >> kind;
+    int transient = 0, observed = 0, instants = 0;
+    const bool settles = kind == "settle";
+    if (settles) in >> transient >> observed >> instants >> kind;
     const Equation equation = kind == "machine" ? machine(in) : springs(in);
     Vector y(equation.size.size());
     for (double& value : y) in >> value;
@@ -213,6 +310,9 @@ int main()
       std::fprintf(stderr, "not a case: %s\n", line.c_str());
       return 2;
     }
-    judge(equation, y);
+    if (settles)
+      settle(equation, y, transient, observed, instants);
+    else
+      judge(equation, y);
   }
 }
