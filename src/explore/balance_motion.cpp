@@ -5,6 +5,7 @@
 
 #include "balance/fourier_transform.hpp"
 #include "io/errors.hpp"
+#include "model/large_machine.hpp"
 #include "motion/adaptive.hpp"
 #include "motion/other_starts.hpp"
 #include "motion/quasi_periodic.hpp"
@@ -12,13 +13,15 @@
 
 namespace rotor_stator::explore {
 
-void note_verdict(Table& table, const motion::Verdict& verdict, int turns,
-                  const char* whose)
+void note_verdict(Table& table, const Parameters& parameters,
+                  const motion::Verdict& verdict, int turns, const char* whose)
 {
+  const bool is_reduced = parameters.large && !parameters.large->reductions.empty();
   const Floquet& motion = verdict.floquet;
   if (verdict.found())
-    table.note(format("stability: %s; largest Floquet multiplier %.9g +- %.2g, of %s",
-                      verdict.word(), motion.largest(), motion.uncertainty(), whose));
+    table.note(format("stability: %s; largest Floquet multiplier %.9g +- %.2g, of %s%s",
+                      verdict.word(), motion.largest(), motion.uncertainty(), whose,
+                      is_reduced ? ", with the reduced bodies" : ""));
   else
     table.note("stability: undecided; " + verdict.reason);
   if (verdict.distance > 0)
@@ -237,7 +240,8 @@ PeriodicMotion solution_of(const Parameters& parameters, const MotionRequest& re
   if (std::isfinite(1 / request.frequency))
     table.note(format("base period: %.15g s", 1 / request.frequency));
   if (request.stability) {
-    note_verdict(table, motion::verdict_on(parameters, at.motion, budget, turns), turns,
+    note_verdict(table, parameters,
+                 motion::verdict_on(parameters, at.motion, budget, turns), turns,
                  "the motion of Eq. 7 found from the solution");
   } else {
     note_no_verdict(table);

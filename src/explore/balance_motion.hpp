@@ -18,8 +18,8 @@ FoundMotion balance_motion(const Parameters& parameters, const MotionRequest& re
                            const OperationBudget& budget, Table& table);
 
 /** What stands behind a verdict on the motion `whose`, in the header's lines. */
-void note_verdict(Table& table, const motion::Verdict& verdict, int turns,
-                  const char* whose);
+void note_verdict(Table& table, const Parameters& parameters,
+                  const motion::Verdict& verdict, int turns, const char* whose);
 void note_no_verdict(Table& table);
 
 }  // namespace rotor_stator::explore

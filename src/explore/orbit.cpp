@@ -26,6 +26,14 @@ void require_range(double from, double to)
   if (from >= to) throw BadInput(format("--from %g: must be below --to %g", from, to));
 }
 
+Parameters machine_of(const MotionRequest& request)
+{
+  return read_parameters(request.parameter_file,
+                         {.from = request.frequency,
+                          .to = request.frequency,
+                          .harmonics = std::max(64, request.harmonics.value_or(0))});
+}
+
 int checked_samples(int harmonics, const std::optional<int>& samples)
 {
   if (samples && *samples <= 2 * harmonics)
@@ -94,7 +102,7 @@ FoundMotion closed_motion(const Parameters& parameters, const MotionRequest& req
                parameters.file.c_str(), *request.tolerance, request.frequency, error));
   table.note(format("base period: %.15g s", 1 / request.frequency));
   if (request.stability)
-    note_verdict(table,
+    note_verdict(table, parameters,
                  motion::verdict_through(parameters, omega, closed.state, budget, turns),
                  turns, "this motion");
   else
@@ -235,7 +243,7 @@ const std::vector<Column> contact_columns{
 
 Exploration explore_orbit(const MotionRequest& request)
 {
-  const Parameters parameters = read_parameters(request.parameter_file);
+  const Parameters parameters = machine_of(request);
   auto columns = orbit_columns;
   const auto add = [&](const std::string& name, const char* unit, const char* meaning) {
     columns.insert(columns.end() - 1, {name, unit, meaning});
@@ -286,7 +294,7 @@ Exploration explore_orbit(const MotionRequest& request)
 
 Exploration explore_contact(const MotionRequest& request)
 {
-  const Parameters parameters = read_parameters(request.parameter_file);
+  const Parameters parameters = machine_of(request);
   const Bearing& bearing = parameters.bearing;
   auto columns = contact_columns;
   if (bearing.pressure == 0) columns.pop_back();

@@ -57,6 +57,9 @@ Exploration explore_contact(const MotionRequest& request);
 /**
 ## What the other commands need too */
 
+/** The machine at the request's speed. Throws BadInput. */
+Parameters machine_of(const MotionRequest& request);
+
 /** A motion and its lines; those of a time method are left out. */
 struct FoundMotion {
   motion::Motion motion;

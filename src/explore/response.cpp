@@ -79,11 +79,14 @@ void take_any_cage(const ResponseRequest& request, Task& task)
 
 Task task_of(const ResponseRequest& request)
 {
-  Parameters parameters = read_parameters(request.parameter_file);
+  require_range(request.from, request.to);
+  Parameters parameters = read_parameters(
+      request.parameter_file, {.from = request.from,
+                               .to = request.to,
+                               .harmonics = std::max(64, request.harmonics.value_or(0))});
   if (request.method == "shooting" || request.save || request.restart ||
       request.isolated > 0)
     require_two_masses(parameters, "--method shooting, --save, --restart or --isolated");
-  require_range(request.from, request.to);
   if (request.at && (*request.at < request.from || *request.at > request.to))
     throw BadInput(
         format("--at %g: must be in %g...%g", *request.at, request.from, request.to));

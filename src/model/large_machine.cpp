@@ -6,11 +6,13 @@
 #include <algorithm>
 #include <cmath>
 #include <filesystem>
+#include <numbers>
 
 #include "io/errors.hpp"
 #include "io/matrix_market.hpp"
 #include "model/catalogue.hpp"
 #include "model/hertz.hpp"
+#include "model/reduction.hpp"
 
 namespace rotor_stator {
 
@@ -19,13 +21,12 @@ namespace {
 using Complex = std::complex<double>;
 using Triplets = std::vector<Eigen::Triplet<double, int>>;
 
-/** Matrices of this size are kept as they are. */
-constexpr int most_kept = 400;
+/** Larger bodies are reduced. */
+constexpr int most_kept = 200;
 
 /** A body that moves in its own degrees of freedom, counted from 0. */
-struct LinearBody {
+struct LinearBody : BodyMatrices {
   std::string name;
-  SparseMatrix m, c, g, k;
   std::vector<int> vertical = {};
   Eigen::VectorXd load = {};                 ///< beside the weight [N]
   Eigen::VectorXcd unbalance = {};           ///< [kg m]
@@ -93,8 +94,7 @@ LinearBody read_matrices(StrictToml& table, const std::string& name, bool has_we
       std::filesystem::path(table.file()).parent_path() / table.string("matrices");
   if (!std::filesystem::is_directory(folder))
     table.fail("matrices", "names no folder: " + folder.string());
-  LinearBody body{
-      .name = name, .m = read_one(folder, {"M", 1, true}, 0), .c = {}, .g = {}, .k = {}};
+  LinearBody body{{read_one(folder, {"M", 1, true}, 0), {}, {}, {}}, name};
   const int n = body.size();
   require_mass(body.m, (folder / "M.mtx").string());
   body.k = read_one(folder, {"K", 1, true}, n);
@@ -124,15 +124,13 @@ LinearBody single_mass(const Body& body, const std::string& name, double unbalan
 {
   SparseMatrix one(2, 2);
   one.setIdentity();
-  return {.name = name,
-          .m = body.mass * one,
-          .c = body.damping() * one,
-          .g = SparseMatrix(2, 2),
-          .k = body.stiffness() * one,
-          .vertical = {1},
-          .load = Eigen::Vector2d(body.load.x, body.load.y),
-          .unbalance = unbalance * Eigen::Vector2cd(1, Complex(0, -1)),
-          .joint = {0, 1}};
+  return {
+      {body.mass * one, body.damping() * one, SparseMatrix(2, 2), body.stiffness() * one},
+      name,
+      {1},
+      Eigen::Vector2d(body.load.x, body.load.y),
+      unbalance * Eigen::Vector2cd(1, Complex(0, -1)),
+      {0, 1}};
 }
 
 /** A single mass that vibrates about as the body does: in the shape that one force on all bearings gives it. */
@@ -327,9 +325,51 @@ LargeMachine machine_of(const Assembly& all, double gravity, double spring)
   return machine;
 }
 
+/** Puts coordinates that the bearings, loads and outputs need in the place of a body's own; their number and errors go
+    into `machine`. */
+void reduce_body(Assembly& all, int body, const ReductionRange& range, double gravity,
+                 double spring, std::vector<std::string>& notes, double& error)
+{
+  LinearBody& own = all.bodies[body];
+  BodyPorts ports{.joints = {},
+                  .kept = {},
+                  .load = own.load - gravity * (own.m * own.upright()),
+                  .unbalance = own.unbalance,
+                  .spring = spring};
+  const auto kept = [&](int dof) {
+    const auto at = std::ranges::find(ports.kept, dof);
+    const auto place = static_cast<int>(at - ports.kept.begin());
+    if (at == ports.kept.end()) ports.kept.push_back(dof);
+    return place;
+  };
+  const int begin = all.first(body), more = all.size() - begin - own.size();
+  for (auto& place : all.places)
+    for (int axis : {0, 1}) {
+      int& dof = place[2 * body + axis];
+      dof = begin + kept(dof - begin);
+    }
+  ports.joints = ports.kept;
+  for (int& dof : own.output) dof = kept(dof);
+  const ReducedBody small = reduce(own, ports, range, own.name);
+  notes.push_back(format(
+      "%s: %d degrees of freedom reduced to %ld, error of the receptances %.2g at %d "
+      "random points of 0...%.4g Hz",
+      own.name.c_str(), own.size(), static_cast<long>(small.basis.cols()), small.error,
+      small.points, small.highest / (2 * std::numbers::pi)));
+  error = std::max(error, small.error);
+  const int change = static_cast<int>(small.basis.cols()) - own.size();
+  static_cast<BodyMatrices&>(own) = small.matrices;
+  own.vertical.clear();
+  own.load = small.basis.transpose() * ports.load;
+  own.unbalance = small.basis.transpose() * ports.unbalance;
+  if (more > 0)
+    for (auto& place : all.places)
+      for (int axis : {2, 3}) place[axis] += change;
+}
+
 }  // namespace
 
-void read_large_machine(StrictToml& root, Parameters& parameters)
+void read_large_machine(StrictToml& root, Parameters& parameters, const ModelRange& asked)
 {
   StrictToml tables[] = {root.table("stator"), root.table("rotor")};
   const double gravity = parameters.gravity;
@@ -348,10 +388,6 @@ void read_large_machine(StrictToml& root, Parameters& parameters)
     if (!bearing.is_plain())
       root.fail("bearing",
                 "of bodies given by matrices takes no contact damping and no defect");
-  if (all.size() > most_kept)
-    throw BadInput(format("%s: %d degrees of freedom; at most %d",
-                          parameters.file.c_str(), all.size(), most_kept));
-
   /** The spring is that of a ball that carries all weights and loads. */
   double weight = 0;
   for (const LinearBody& body : all.bodies) {
@@ -363,15 +399,27 @@ void read_large_machine(StrictToml& root, Parameters& parameters)
       hertz_penetration(k_h, std::max(weight, hertz_force(k_h, 1e-6)));
   const double spring = hertz_stiffness(k_h, penetration);
 
+  if (tables[1].has("matrices"))
+    parameters.unbalance = all.bodies[1].unbalance.cwiseAbs().sum() / 2;
+  double passages = 0;
+  for (const Bearing& bearing : bearings_of(parameters))
+    passages = std::max(passages, passages_per_turn(bearing));
+  const double from = angular(0.9 * asked.from), to = angular(1.1 * asked.to);
+  const ReductionRange range{from, to,
+                             to * std::max(16 * passages, 1.0 * asked.harmonics)};
+  std::vector<std::string> notes;
+  double error = 0;
+  for (int body : {0, 1})
+    if (all.bodies[body].size() > most_kept)
+      reduce_body(all, body, range, gravity, spring, notes, error);
+
   std::vector<std::array<int, 2>> joints[2];
   for (const auto& place : all.places)
     for (int body : {0, 1})
       joints[body].push_back(
           {place[2 * body] - all.first(body), place[2 * body + 1] - all.first(body)});
-  if (tables[1].has("matrices")) {
+  if (tables[1].has("matrices"))
     parameters.rotor = equivalent(all.bodies[1], joints[1], spring);
-    parameters.unbalance = all.bodies[1].unbalance.cwiseAbs().sum() / 2;
-  }
   if (tables[0].has("matrices"))
     parameters.stator = equivalent(all.bodies[0], joints[0], spring);
   if (all.is_rigid) {
@@ -382,8 +430,10 @@ void read_large_machine(StrictToml& root, Parameters& parameters)
     all.bodies[0].vertical.clear();
   }
   all.require_held(spring);
-  parameters.large =
-      std::make_shared<const LargeMachine>(machine_of(all, gravity, spring));
+  LargeMachine machine = machine_of(all, gravity, spring);
+  machine.reductions = std::move(notes);
+  machine.reduction_error = error;
+  parameters.large = std::make_shared<const LargeMachine>(std::move(machine));
 }
 
 Eigen::MatrixXcd LargeMachine::dynamic_stiffness(std::complex<double> k, double frequency,

@@ -34,7 +34,9 @@ struct LargeMachine {
   int shown;                   ///< coordinates that are shown, at least four
   std::vector<std::array<int, 4>> places;  ///< of x_s, y_s, x_r, y_r at each bearing
   std::vector<std::pair<std::string, int>>
-      outputs;  ///< further columns, and their coordinates
+      outputs;                               ///< further columns, and their coordinates
+  std::vector<std::string> reductions = {};  ///< lines for headers
+  double reduction_error = 0;                ///< of their receptances, relative
 
   int bearings() const { return static_cast<int>(places.size()); }
   Eigen::MatrixXd held_stiffness() const  ///< K + k_0 D Dᵀ
@@ -48,7 +50,8 @@ struct LargeMachine {
 };
 
 /** Reads bodies of which at least one has `matrices`, and the bearings, [bearing] or [[bearing]]. Throws BadInput. */
-void read_large_machine(StrictToml& root, Parameters& parameters);
+void read_large_machine(StrictToml& root, Parameters& parameters,
+                        const ModelRange& asked);
 
 /** What carries the constant loads and the unbalance without any contact but k_0: displacements of all coordinates, at
     rest and as complex amplitudes at the speed ω [m]. */

@@ -51,12 +51,12 @@ bool read_rigid(StrictToml& table, double rotor_mass, Body& stator)
 
 }  // namespace
 
-Parameters read_parameters(const std::string& file)
+Parameters read_parameters(const std::string& file, const ModelRange& range)
 {
-  return read_parameters(StrictToml(file));
+  return read_parameters(StrictToml(file), range);
 }
 
-Parameters read_parameters(StrictToml root)
+Parameters read_parameters(StrictToml root, const ModelRange& range)
 {
   Parameters parameters{};
   parameters.file = root.file();
@@ -74,7 +74,7 @@ Parameters read_parameters(StrictToml root)
   StrictToml gravity = root.table("gravity");
   parameters.gravity = gravity.number("acceleration_m_per_s2", Range::not_negative);
   if (stator.has(matrices) || rotor.has(matrices)) {
-    read_large_machine(root, parameters);
+    read_large_machine(root, parameters, range);
     read_rigid(stator, parameters.rotor.mass, parameters.stator);
   } else {
     StrictToml bearing = root.table("bearing");
@@ -186,10 +186,12 @@ void describe(Table& table, const Parameters& parameters)
                 : "");
   };
   table.note("parameters: " + parameters.file + " (" + parameters.title + ")");
-  if (const auto& large = parameters.large)
-    table.note(format("  bodies: %ld degrees of freedom, all kept; k_0 = %.6g N/m",
-                      static_cast<long>(large->mass.rows()), large->spring));
-  else
+  if (const auto& large = parameters.large) {
+    table.note(format("  bodies: %ld degrees of freedom, %s; k_0 = %.6g N/m",
+                      static_cast<long>(large->mass.rows()),
+                      large->reductions.empty() ? "all kept" : "reduced", large->spring));
+    for (const std::string& line : large->reductions) table.note("  " + line);
+  } else
     table.note("  " + body("stator", parameters.stator) + "; " +
                body("rotor", parameters.rotor));
   table.note(format("  m_e e = %.15g kg m; g = %.15g m/s^2", parameters.unbalance,

@@ -99,9 +99,15 @@ struct Parameters {
   std::shared_ptr<const LargeMachine> large = {};  ///< bodies given by matrices
 };
 
+/** Speeds [Hz] and harmonics at which the coordinates of large bodies must be right. */
+struct ModelRange {
+  double from = 1, to = 100;
+  int harmonics = 64;
+};
+
 /** Reads and checks a parameter file. Throws BadInput with file, line and key. */
-Parameters read_parameters(const std::string& file);
-Parameters read_parameters(StrictToml root);
+Parameters read_parameters(const std::string& file, const ModelRange& range = {});
+Parameters read_parameters(StrictToml root, const ModelRange& range = {});
 
 /** Those of the data sets that a key of a scene names. */
 Parameters read_parameters(SceneFile& scene, const std::string& key);

@@ -11,6 +11,7 @@
 #include "balance/newton.hpp"
 #include "integration/time_stepper.hpp"
 #include "io/errors.hpp"
+#include "model/large_machine.hpp"
 #include "stability/lyapunov.hpp"
 #include "stability/shooting.hpp"
 
@@ -181,6 +182,10 @@ void add_multipliers(const Parameters& parameters, double omega,
   Floquet& floquet = verdict.floquet;
   floquet.multipliers = multipliers_of(next.derivative);
   floquet.change = largest_move(floquet.multipliers, multipliers_of(first.derivative));
+  /** Receptances that are wrong by ε move no exponent by more than ε times the contact's frequency. */
+  if (parameters.large)
+    floquet.change += parameters.large->reduction_error * contact_frequency(parameters) *
+                      angular(1) / omega;
   floquet.settled = floquet.change <= 0.1;
 }
 
