@@ -191,8 +191,8 @@ $(claims): data/%/claims.tsv: figures/claims.py $(judging) $(python_tables) data
 
 data/generated/article.tsv: paper/article_values.py paper/article_results.py $(judging) $(python_tables) data/scenes/validity.toml \
   data/set1.toml data/set1-as-printed.toml paper/deviations.md $(tables) data/generated/claims.tsv \
-  data/generated/as-printed/fig03_response.tsv data/generated/as-printed/tab01_parameters.tsv build/environment.txt \
-  $(wildcard data/reference/*.tsv)
+  data/generated/as-printed/fig03_response.tsv data/generated/as-printed/tab01_parameters.tsv build/environment.txt build/explore \
+  $(wildcard data/reference/*.tsv data/rotors/*.toml data/live/*.toml)
 	$(whole) $(PYTHON) $< > $$new; mv $$new $@
 
 # A text with the numbers of the table of the same name.

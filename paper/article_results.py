@@ -8,15 +8,13 @@ import tomllib
 from pathlib import Path
 
 import numpy as np
-from tables import Table
+from tables import Table, explore
 
 GENERATED, KEPT = Path("data/generated"), Path("data/reference")
 METHODS = {"aft": "harmonic balance", "rk4": "Runge-Kutta of order 4", "rkf45": "Runge-Kutta-Fehlberg",
            "rk8pd": "Runge-Kutta of order 8", "msadams": "Adams", "msbdf": "BDF", "bsimp": "Bulirsch-Stoer",
            "shooting-rk4": "shooting by Runge-Kutta of order 4",
            "shooting-rk8pd": "shooting by Runge-Kutta of order 8"}
-FRENCH = {"reproduced": "reproduite", "partly": "reproduite en partie", "not reproduced": "non reproduite",
-          "not tested": "non examinée"}
 
 
 def times(seconds):
@@ -35,19 +33,15 @@ def power(error):
 
 def costs(add):
     """Each range and error: the methods in the order of their time, and those that do not reach it."""
-    table = Table(KEPT / "tab02_equal_error.tsv")
-    missed = re.findall(r"^# not reached: (\S+), (\S+) Hz, target (\S+);", table.header, re.MULTILINE)
-    lines = []
+    table, lines = Table(KEPT / "tab02_equal_error.tsv"), []
     for reach in dict.fromkeys(table["range"]):
         for target in sorted(set(table["target"]), reverse=True):
             rows = table.where("range", reach).where("target", target)
-            order = ", ".join(f"{METHODS.get(rows['method'][k], rows['method'][k])} {times(rows['cpu_s'][k])} "
-                              f"({100 * rows['error_force'][k]:.2g} %)" for k in np.argsort(rows["cpu_s"]))
-            without = [METHODS.get(name, name) for name, at, error in missed
-                       if at == reach and np.isclose(float(error), target)]
-            lines.append(f"- {reach} Hz, error {power(target)}: {order}."
-                         + (f" Not reached within the bound on time by {', '.join(without)}." if without else ""))
-    add("cost.list", r"\n".join(lines), "-", "CPU of the sweep at equal error, methods in order")
+            best = rows["cpu_s"].argmin()
+            cells = [timed(rows, name) for name in ("aft", "shooting-rk4", "rk4")]
+            lines.append([reach, power(target), *cells, METHODS[rows["method"][best]]])
+    add("table.costs", markdown(["speeds [Hz]", "error", "harmonic balance", "shooting, RK4", "RK4", "fastest of all"], lines), "-",
+        "CPU time of the sweep at equal error, with the error of the force")
     low, high = dict.fromkeys(table["range"])
     for reach, name in ((low, "low"), (high, "high")):
         for rival in ("rk4", "shooting-rk4"):
@@ -65,6 +59,18 @@ def costs(add):
              for m, ratio, error, other, paper in zip(timing["harmonics"], timing["ratio"], timing["error"],
                                                       rivals["error"], timing["paper_cpu"])]
     add("cost.paper", "; ".join(words), "-", "Runge-Kutta's time over that of harmonic balance")
+
+
+def timed(rows, method):
+    """CPU time and error of the force of a method, or that it does not reach the error."""
+    rows = rows.where("method", method)
+    return f"{times(rows.first('cpu_s'))} ({100 * rows.first('error_force'):.2g} %)" if len(rows) else "not reached"
+
+
+def markdown(names, lines):
+    """A table of Markdown as one value, its columns as wide as their longest cell."""
+    dashes = ["-" * min(30, max(5, *(len(str(cell)) for cell in column))) for column in zip(names, *lines)]
+    return r"\n".join("| " + " | ".join(map(str, line)) + " |" for line in (names, dashes, *lines))
 
 
 def faster(ratio):
@@ -93,8 +99,6 @@ def peers(add):
     ours = re.findall(r"^# run (\w+): harmonic balance, m = (\d+), .*?folds: (\d+),", header, re.MULTILINE)
     for run, folds, low, high in runs:
         counts = ", ".join(f"{count} with {m} harmonics" for name, m, count in ours if name == run)
-        end = re.search(rf"^# run {run}: .*?; ended at (\S+) Hz: ([^;]*);", header, re.MULTILINE)
-        add(f"auto.{run}_end", f"{float(end[1]):.1f} Hz ({end[2]})", "-", "where AUTO-07p ended, and why")
         far = re.search(rf"^# run {run}: distance .* largest (\S+) at", header, re.MULTILINE)
         add(f"auto.{run}_distance", float(far[1]), "-", "largest difference of amplitudes over the largest one")
         add(f"auto.{run}", f"{folds} folds between {float(low):.0f} and {float(high):.0f} Hz, harmonic balance "
@@ -128,35 +132,6 @@ def truth(add):
         add(f"truth.adaptive_m_{number}", chosen["m"][good].max() if good.any() else 0, "-", "its largest m")
 
 
-def stability(add):
-    """The branches in the order of the table's header, one line each."""
-    table, lines = Table(KEPT / "stability.tsv"), []
-    for curve in np.unique(table["curve"]):
-        rows = table.where("curve", curve)
-        decided = rows["stable"] >= 0
-        unstable = (rows["stable"][decided] == 0).mean() if decided.any() else 0
-        kinds = [f"{(rows['bifurcation'] == kind).sum()} {name}" for kind, name in
-                 (("fold", "folds"), ("plus-one", "multipliers through one"),
-                  ("period-doubling", "period doublings"), ("neimark-sacker", "Neimark-Sacker points"))]
-        examined = (rows["stable"] > -2).sum()
-        lines.append(f"- data set {rows.first('set'):.0f}, {rows.first('harmonics'):.0f} harmonics, from "
-                     f"{rows['f'][0]:.3g} to {rows['f'][-1]:.3g} Hz: of {examined} points examined "
-                     f"{decided.sum()} have a verdict, {100 * unstable:.2g} % of them unstable; {', '.join(kinds)}.")
-    add("stability.list", r"\n".join(lines), "-", "stability along the followed branches")
-    one = table.where("set", 1)
-    one = one.rows((one["bifurcation"] != "-") & (one["bifurcation"] != "fold"))
-    few, more = (one.where("harmonics", m) for m in np.unique(one["harmonics"])[:2])
-    same = [np.abs(more["f"][more["bifurcation"] == kind] / f - 1).min(initial=1)
-            for f, kind in zip(few["f"], few["bifurcation"])]
-    add("stability.count", len(few), "-", "bifurcations of set 1 along the branch with fewest harmonics")
-    add("stability.same", sum(off < 1e-6 for off in same), "-", "of them at the same speed along the next one")
-    others = [f for f, off in zip(few["f"], same) if off >= 1e-6]
-    add("stability.first", min(others, default=0), "Hz", "the first of the others")
-    add("stability.last", max(others, default=0), "Hz", "the last of them")
-    add("stability.fewer", few.first("harmonics"), "-", "harmonics of that branch")
-    add("stability.more", more.first("harmonics"), "-", "harmonics of the next one")
-
-
 def judged(add):
     """How often the multipliers of m harmonics are right, and what a verdict on the machine costs."""
     table = Table(KEPT / "verdicts.tsv")
@@ -165,14 +140,20 @@ def judged(add):
         for m in np.unique(table["m"]).astype(int):
             rows = found.where("set", number).where("m", m)
             known = rows.rows(rows["machine_stable"] >= 0)
-            words = []
-            for method, name in (("series", "along the series"), ("hill", "Hill's method")):
-                said, truth = known[f"{method}_stable"], known["machine_stable"]
-                words.append(f"{name} {((said == 1) & (truth == 0)).sum()} false \"stable\", "
-                             f"{((said == 0) & (truth == 1)).sum()} false \"unstable\"")
-            lines.append(f"- data set {number}, {m} harmonics: {len(known)} of {len(rows)} solutions decided, "
-                         f"{(known['machine_stable'] == 0).sum()} of them unstable; {'; '.join(words)}.")
-    add("verdicts.list", r"\n".join(lines), "-", "false verdicts by the multipliers of m harmonics")
+            stable = known["machine_stable"] == 1
+            said = [known[f"{method}_stable"] == word for method in ("series", "hill") for word in (1, 0)]
+            wrong = [(one & (~stable if k % 2 == 0 else stable)).sum() for k, one in enumerate(said)]
+            lines.append([number, m, len(rows), stable.sum(), (~stable).sum(), *wrong])
+            for method, false in zip(("series", "hill"), wrong[::2]):
+                add(f"verdicts.{method}_{number}_{m}", false, "-", 'unstable motions that the method calls "stable"')
+            add(f"verdicts.unstable_{number}_{m}", (~stable).sum(), "-", "unstable motions of the machine")
+    add("table.verdicts", markdown(
+        ["set", "m", "solutions", "machine stable", "machine unstable", 'series: false "stable"', 'series: false "unstable"',
+         'Hill: false "stable"', 'Hill: false "unstable"'], lines), "-", "false verdicts by the multipliers of m harmonics")
+    near = found.where("set", 1).where("m", 6)
+    k = np.abs(near["f"] - 20).argmin()
+    for key, column in (("f", "f"), ("machine", "machine"), ("series", "series"), ("distance", "distance")):
+        add(f"verdicts.near20_{key}", near[column][k], "-", f"{column} of the solution of set 1 nearest to 20 Hz, m = 6")
     add("verdicts.speeds", len(np.unique(table["f"])), "-", "speeds of each set")
     add("verdicts.hill", int(re.search(r"Hill's method with m harmonics, at most (\d+)", table.header)[1]), "-",
         "largest number of harmonics of Hill's method")
@@ -183,49 +164,121 @@ def judged(add):
     add("verdicts.most", found["evaluations"].max(), "-", "the most of them")
 
 
-def estimates(add):
-    table = Table(KEPT / "adaptive.tsv")
-    known = table.rows((table["reached"] == 1) & (table["effectivity"] > 0))
-    add("adaptive.asked", len(table), "-", "errors asked for")
-    add("adaptive.claimed", (table["reached"] == 1).sum(), "-", "estimates below the error asked for")
-    add("adaptive.known", len(known), "-", "of them with a known true error")
-    add("adaptive.true", (known["error"] <= known["tolerance"]).sum(), "-", "of these truly within it")
-    for share, name in ((0.05, "low"), (0.5, "middle"), (0.95, "high")):
-        add(f"adaptive.{name}", np.quantile(known["effectivity"], share), "-", "estimate over true error")
-    add("adaptive.cost", np.median(table["ratio"][table["ratio"] > 0]), "-",
-        "median cost over that of the best fixed number of harmonics")
-    add("adaptive.compared", (table["ratio"] > 0).sum(), "-", "cases of that comparison")
-    add("adaptive.dear", (table["ratio"] > 2).sum(), "-", "of them above 2")
-    add("adaptive.dearest", table["ratio"].max(), "-", "largest ratio")
-
-
-def hard(add):
-    table, lines = Table(KEPT / "hard_cases.tsv"), []
-    for method in dict.fromkeys(table["method"]):
-        rows = table.where("method", method)
-        verdict, other = rows["verdict"], (rows["verdict"] == "solved") & (rows["regime"] != "T-periodic")
-        counts = ", ".join(f"{(verdict == name).sum()} {word}" for name, word in
-                           (("solved", "solved and confirmed"), ("refused", "refused with a reason"),
-                            ("silent error", "silently wrong"), ("unconfirmed", "unconfirmed")))
-        name = {"aft predictor": "harmonic balance with the paper's predictor",
-                "aft arc length": "harmonic balance by arc length"}.get(method, METHODS.get(method, method))
-        more = f" ({other.sum()} of those solved are motions without the period T)" if other.any() else ""
-        lines.append(f"- {name}: {counts}{more}.")
-    add("hard.list", r"\n".join(lines), "-", "how the hard cases end")
-
-
 def verdicts(add):
-    """Each claim's verdict and our words on it; those that are not reproduced as a list."""
+    """Each claim's verdict, and the claims whose verdict changes within the masses that the text admits."""
     table = Table(GENERATED / "claims.tsv")
-    lines = []
-    for key, claim, ours, verdict in zip(*(table[name] for name in ("id", "claim", "ours", "verdict"))):
+    for key, verdict in zip(table["id"], table["verdict"]):
         add(f"{key}.verdict", verdict, "-", f"verdict on {key}")
-        add(f"{key}.verdict_fr", FRENCH[verdict], "-", f"verdict on {key}, in French")
-        if verdict in ("not reproduced", "partly"):
-            lines.append(f"- {key}, {claim}: {verdict}. {ours[0].upper()}{ours[1:]}.")
-    add("claims.open", r"\n".join(lines), "-", "claims that are not, or only partly, reproduced")
+    changing = [key for key, words in zip(table["id"], table["range"])
+                if len(set(re.findall(r"(not reproduced|partly|reproduced) for m_s", words))) > 1]
+    add("claims.changing", ", ".join(changing), "-", "claims whose verdict depends on the masses")
+
+
+def settings(add):
+    """What the programs take for T-periodic and for the same motion."""
+    for key, file, name in (("spread", "attractor", "closed"), ("near", "verdict", "same_motion")):
+        text = Path(f"src/motion/{file}.hpp").read_text()
+        add(f"settings.{key}", float(re.search(rf"double {name} = ([\d.e-]+);", text)[1]), "-", f"{name} of src/motion/{file}.hpp")
+
+
+def parameters(add):
+    """All parameters of the model, from the files of both data sets and of the printed reading."""
+    files = [tomllib.loads(Path(f"data/{name}.toml").read_text()) for name in ("set1", "set2", "set1-as-printed")]
+    rows = [("mass of the stator", "$m_s$", "kg", "stator", "mass_kg", 1, "bounded by the text (D-13)"),
+            ("mass of the rotor", "$m_r$", "kg", "rotor", "mass_kg", 1, "bounded by the text (D-13)"),
+            ("natural frequency of the stator", "$\\omega_0^s$", "rad/s", "stator", "natural_frequency_rad_per_s", 1,
+             "Table 1, exchanged (D-09)"),
+            ("natural frequency of the rotor", "$\\omega_0^r$", "rad/s", "rotor", "natural_frequency_rad_per_s", 1,
+             "Table 1, exchanged (D-09)"),
+            ("damping ratio of the stator", "$\\xi_s$", "-", "stator", "damping_ratio", 1, "Table 1"),
+            ("damping ratio of the rotor", "$\\xi_r$", "-", "rotor", "damping_ratio", 1, "Table 1"),
+            ("unbalance", "$m_e e$", "kg m", "rotor", "unbalance_kg_m", 1, "Table 1"),
+            ("number of balls", "$n$", "-", "bearing", "balls", 1, "§2.4"),
+            ("contact stiffness", "$K_H$", "N/m^1.5^", "bearing", "contact_stiffness_N_per_m1p5", 1, "Table 1"),
+            ("radial clearance", "$\\delta$", "µm", "bearing", "radial_clearance_m", 1e6, "Table 1"),
+            ("cage over rotor speed", "$\\omega_{cage}/\\omega$", "-", "bearing", "cage_speed_ratio", 1, "not printed (D-11)"),
+            ("gravity", "$g$", "m/s^2^", "gravity", "acceleration_m_per_s2", 1, "not printed")]
+    add("table.parameters", markdown(
+        ["parameter", "symbol", "unit", "set 1", "set 2", "set 1, printed reading", "source"],
+        [[words, symbol, unit, *(scientific(factor * file[part][key]) for file in files), source]
+         for words, symbol, unit, part, key, factor, source in rows]), "-", "the parameters of the model")
+
+
+def scientific(value):
+    """1e11 as a power of ten, other numbers as they are."""
+    return f"10^{np.log10(value):g}^" if value > 1e6 else f"{value:g}"
+
+
+def accuracy(add):
+    """What six harmonics get right at a low and at a high speed, and the passing of the balls at the lowest."""
+    panels = Table(GENERATED / "fig06_orbits.tsv")
+    for name, f in (("slow", panels["f"].min()), ("fast", 45)):
+        rows = panels.where("f", f)
+        for key, column in (("f", "f"), ("rms", "difference_rms"), ("force", "difference_force")):
+            add(f"accuracy.{name}_{key}", rows.first(column), "-", f"{column} of Fig. 6 at {f:g} Hz")
+    fixed = Table(KEPT / "validity.tsv").where("adaptive", 0)
+    for number in (1, 2):
+        rows = fixed.where("set", number)
+        rows = rows.where("f", rows["f"].min())
+        for m in (6, 7, 8, 10, 16):
+            for key, column in (("rms", "distance"), ("force", "distance_force")):
+                add(f"passage.{key}_{number}_{m}", rows.where("m", m).first(column), "-", f"{column} at the lowest speed")
+    add("passage.f", rows.first("f"), "Hz", "the lowest speed")
+
+
+def cages(add):
+    """Other cage ratios beside 1/2, and two machines whose balls do not pass a whole number of times a turn."""
+    table = Table(KEPT / "cage.tsv")
+    others = table.rows(table["c"] != 0.5)
+    add("cage.least", others["c"].min(), "-", "smallest of the other cage ratios")
+    add("cage.most", others["c"].max(), "-", "largest of them")
+    for number in (1, 2):
+        rows = table.where("set", number)
+        half, ratios = rows.where("c", 0.5), [c for c in np.unique(rows["c"]) if c != 0.5]
+        off = np.concatenate([np.abs(rows.where("c", c)["amplitude"] / half["amplitude"] - 1) for c in ratios])
+        found = [rows.where("c", c)["found"].mean() for c in ratios]
+        stable = [(rows.where("c", c)["stable"] == 1).mean() for c in ratios]
+        for key, value in (("median", np.median(off)), ("largest", off.max()), ("found_least", min(found)),
+                           ("found_most", max(found)), ("stable_least", min(stable)), ("stable_most", max(stable)),
+                           ("stable_half", (half["stable"] == 1).mean())):
+            add(f"cage.{key}_{number}", value, "-", "amplitudes and solutions at other cage ratios, beside 1/2")
+    asked(add, "catalogue", "data/live/bearing-6205.toml", 45,
+          passages=r"BPFO = n c = (\S+),", harmonics=r"; (\d+) harmonics,", unknowns=r", (\d+) unknowns", error=r"# error: (\S+) of",
+          rate=r"part by (\S+) \+- \S+ a turn", stability=r"# stability: (\w+)")
+
+
+def asked(add, name, machine, f, **patterns):
+    """What the header of an orbit says of it."""
+    header = explore("orbit", machine, "--frequency", f, "--tolerance", 1e-3, "--points", 8).stdout
+    add(f"{name}.f", f, "Hz", f"speed asked for of {machine}")
+    for key, pattern in patterns.items():
+        found = re.search(pattern, header)[1]
+        try:
+            add(f"{name}.{key}", float(found), "-", f"{key} of {machine}")
+        except ValueError:
+            add(f"{name}.{key}", found, "-", f"{key} of {machine}")
+
+
+def maps(add):
+    """Clearance against contact stiffness."""
+    table = Table(KEPT / "clearance_stiffness.tsv")
+    for key, column, factor, unit in (("delta", "delta", 1e6, "µm"), ("K_H", "K_H", 1, "N/m^1.5"), ("peak", "f_peak", 1, "Hz"),
+                                      ("force", "largest_force", 1e-3, "kN")):
+        add(f"map.{key}_least", factor * table[column].min(), unit, f"least {column}")
+        add(f"map.{key}_most", factor * table[column].max(), unit, f"largest {column}")
+    speeds = float(re.search(r"(\d+) speeds from", table.header)[1])
+    add("map.machines", len(table), "-", "machines")
+    add("map.missed", table["missed"].sum() / (len(table) * speeds), "-", "share of speeds without a solution")
+    add("map.missed_most", table["missed"].max(), "-", "most speeds without a solution of one machine")
+    add("map.speeds", speeds, "-", "speeds of each machine")
+
+
+def large(add):
+    """A flexible shaft, condensed to its bearing."""
+    asked(add, "shaft", "data/rotors/overhung.toml", 30, size=r"bodies: (\d+) degrees", m=r"m = (\d+),", error=r"# error: (\S+) of",
+          multiplier=r"multiplier (\S+) \+-", stability=r"# stability: (\w+)", distance=r"# distance: (\S+) of")
 
 
 def add_all(add):
-    for part in (costs, growth, peers, truth, stability, judged, estimates, hard, verdicts):
+    for part in (settings, parameters, accuracy, cages, maps, large, costs, growth, peers, truth, judged, verdicts):
         part(add)

@@ -69,7 +69,7 @@ def as_pdf(text, output):
                             str(drawing)], check=True)
         text = FIGURE.sub(lambda match: f"]({folder}/{Path(match[1]).name}.pdf)", text)
         pandoc(text, "--standalone", "--pdf-engine", "lualatex", "--include-in-header",
-               "paper/article.tex", "--variable", "geometry:margin=25mm", "--variable",
+               "paper/article.tex", "--variable", "geometry:margin=19mm", "--variable",
                "fontsize=10pt", "--variable", "colorlinks=true", "--output", str(output))
 
 

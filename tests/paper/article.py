@@ -1,6 +1,7 @@
-"""The article's source holds no typed number: no digit outside generated values, equations, headings,
-code, the notation table, and references to equations, figures, tables, sections, claims and deviations.
-Every reference that it cites is in references.bib with its DOI.
+"""The article's source holds no typed number: no digit outside generated values, equations, headings, code and references to
+equations, figures, tables, sections, data sets, claims and deviations, and no number in words with a unit. At least twenty
+cited references have a DOI; the others say that none was confirmed. A caption says what its figure shows: eight words or more,
+and every figure and table has one.
 
 Usage: tests/paper/article.py   (from the project's root)
 """
@@ -17,30 +18,50 @@ ALLOWED = [
     r"`[^`]*`", r"<!--.*?-->",
     r"\[@[^\]]*\]", r"\]\([^)]*\)",           # citations, links
     r"\b(?:Eqs?|Figs?|Figures?)\.? \d+(?:[a-f]?(?:(?:,| and| to) \d+[a-f]?)*)",
+    r"\b[Ss]et [12]\b", r"\bc = 1/2",               # the two data sets; the paper's cage
     r"§\d(?:\.\d)?", r"\bTable \d", r"\bD-\d\d\b", r"\bC\d+\b",
     r"\^1\.5\^",                              # the unit of K_H
     r"\bAUTO-07p\b",
 ]
 
 
-def without_doi(text):
-    """Cited keys whose entry is missing or has no DOI."""
+WORDS = "two three four five six seven eight nine ten twelve fifteen twenty thirty forty fifty sixty eighty hundred thousand".split()
+UNITS = "%|per cent|Hz|mm|µm|kg|N|kN|s|seconds|degrees(?! of)|harmonics|times (?:faster|slower)"
+TYPED = re.compile(rf"\b(?:{'|'.join(WORDS)})[ -](?:{UNITS})(?!\w)", re.IGNORECASE)
+
+
+def references(text):
+    """Cited keys that are missing, or have neither DOI nor a note; and too few with one."""
     entries = {entry[1]: entry[0] for entry in
                re.finditer(r"^@\w+\{(\w+),.*?^\}", REFERENCES.read_text(encoding="utf-8"),
                            re.MULTILINE | re.DOTALL)}
-    for key in sorted(set(re.findall(r"(?<=@)\w+", " ".join(re.findall(r"\[@[^\]]*\]", text))))):
-        if not re.search(r"^\s*doi\s*=", entries.get(key, ""), re.MULTILINE):
-            yield f"{REFERENCES}: {key} is cited and has no DOI"
+    cited = sorted(set(re.findall(r"(?<=@)\w+", " ".join(re.findall(r"\[@[^\]]*\]", text)))))
+    with_doi = [key for key in cited if re.search(r"^\s*doi\s*=", entries.get(key, ""), re.MULTILINE)]
+    for key in cited:
+        if key not in with_doi and "no DOI confirmed" not in entries.get(key, ""):
+            yield f"{REFERENCES}: {key} is cited and has neither DOI nor note"
+    if len(with_doi) < 20:
+        yield f"{SOURCE}: {len(with_doi)} references with a DOI"
+
+
+def captions(text):
+    """Figures whose caption is too short to stand alone, and tables without one."""
+    for caption in re.findall(r"^!\[(.*)\]\(figures/", text, re.MULTILINE):
+        if len(caption.split()) < 8:
+            yield f"{SOURCE}: caption '{caption}'"
+    for table, after in re.findall(r"^(<!-- table:.*|\{\{table\..*)\n\n(..)", text, re.MULTILINE):
+        if after != ": ":
+            yield f"{SOURCE}: no caption after {table}"
 
 
 def main():
     text = SOURCE.read_text(encoding="utf-8")
-    bare = list(without_doi(text))
+    bare = [*references(text), *captions(text)]
     blank = lambda match: re.sub(r"[^\n]", " ", match[0])  # noqa: E731
     for pattern in ALLOWED:
         text = re.sub(pattern, blank, text, flags=re.MULTILINE)
     faults = [f"{SOURCE}:{number}: {line.strip()}"
-              for number, line in enumerate(text.splitlines(), 1) if re.search(r"\d", line)]
+              for number, line in enumerate(text.splitlines(), 1) if re.search(r"\d", line) or TYPED.search(line)]
     for fault in [*faults, *bare]:
         print(fault, file=sys.stderr)
     words = len(re.findall(r"\w+", text))
