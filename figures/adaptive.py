@@ -39,7 +39,7 @@ def draw_effectivity(axes, table, styles):
         rows = table.where("tolerance", tolerance)
         scatter(axes, rows, ("error", "effectivity"), colour, marker)
     axes.set(xscale="log", yscale="log", ylim=(LEAST / 2, MOST * 2), xlabel="true error [-]",
-             ylabel="estimate / true error [-]", title="(a) effectivity")
+             ylabel="estimate / true error [-]", title=f"(a) effectivity; grey: {LEAST:g} to {MOST:g}")
 
 
 def draw_cost(axes, table, styles):
@@ -48,7 +48,7 @@ def draw_cost(axes, table, styles):
     for tolerance, colour, marker in styles:
         scatter(axes, table.where("tolerance", tolerance), ("f", "ratio"), colour, marker)
     axes.set(yscale="log", xlabel="speed [Hz]", ylabel="cost / cost of the best fixed m [-]",
-             title="(b) cost")
+             title=f"(b) cost; line: {TWICE:g} times")
     axes.yaxis.set_major_formatter("{x:g}")
 
 
@@ -79,7 +79,7 @@ def legend_of(styles):
     marks = [plt.Line2D([], [], color="black", marker=marker, mfc=face, ms=ms, ls="", label=label)
              for marker, face, ms, label in (("o", "black", 5, "data set 1 in (a), (b)"),
                                              ("o", "none", 5, "data set 2 in (a), (b)"),
-                                             ("x", "none", 6, "tolerance not reached"))]
+                                             ("x", "none", 6, "(c), (d): not reached"))]
     return [handle for pair in zip_longest(tolerances, marks) for handle in pair if handle]
 
 

@@ -43,6 +43,8 @@ def draw(table):
         draw_difference(panels[0], rows, "amplitude")
         draw_difference(panels[1], rows, "ball_load")
         draw_shares(panels[2], rows)
+        for letter, axes in zip("abc" if number == 1 else "def", panels):
+            axes.set_title(f"({letter})", loc="left")
         panels[0].set(ylabel=f"data set {number}\namplitude, relative difference [-]")
         panels[1].set(ylabel="ball load, relative difference [-]")
     grid[0][0].legend(fontsize=10, loc="upper right")

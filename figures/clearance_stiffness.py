@@ -2,7 +2,8 @@
 
 What (a) to (c) show is taken over the speeds with a solution; (a) is the top of a parabola through the
 largest amplitude and its neighbours on the grid of speeds; grey in (b): contact is never lost. The
-circles are the two data sets of the paper.
+circles are the two data sets of the paper. Dots: more than a quarter of the speeds has no solution, so that what is
+shown there is that of the others.
 Usage: /usr/bin/python3 figures/clearance_stiffness.py data/reference/clearance_stiffness.tsv
        clearance_stiffness.svg
 """
@@ -73,8 +74,11 @@ def draw(table):
     bar.ax.yaxis.set_major_formatter("{x:g}")
     bar.ax.yaxis.set_minor_formatter("")
     draw_map(missed, table, table["missed"], f"(d) speeds without a solution, of {count:g}", vmin=0)
+    few = table.rows(table["missed"] > count / 4)
     for axes in grid.flat:
         mark_sets(axes)
+        if axes is not missed:
+            axes.plot(1e6 * few["delta"], few["K_H"], ".", ms=2, color="white", mec="black", mew=0.3, zorder=1)
     figure.supxlabel("radial clearance δ [µm]")
     figure.supylabel("contact stiffness $K_H$ [N/m$^{1.5}$]")
     return figure

@@ -1,7 +1,7 @@
 """The body of Figures 7 and 9: which balls are loaded, and how much, over two periods.
 
 Above, one panel per speed as in the paper: black where a ball is in contact. Below, the same panels
-with the force of each ball in colour, white without contact, each on a scale of its own since the
+with the force of each ball in colour, white without contact, on one logarithmic scale for all panels since the
 forces grow by an order of magnitude up to the resonance. Both are drawn as areas, one path for each
 colour, so that the maps stay drawings at any size.
 """
@@ -11,7 +11,7 @@ from string import ascii_lowercase
 import matplotlib.pyplot as plt
 import numpy as np
 from matplotlib.cm import ScalarMappable
-from matplotlib.colors import Normalize
+from matplotlib.colors import LogNorm, Normalize
 from matplotlib.patches import PathPatch
 from matplotlib.path import Path
 from matplotlib.ticker import MaxNLocator, MultipleLocator
@@ -64,20 +64,16 @@ def draw_contact(axes, panel, title):
     axes.set_title(heading_of(panel, title))
 
 
-def fill_force(axes, panel):
-    """Q in colour with its bar, white where it is zero."""
+def fill_force(axes, panel, norm=None):
+    """Q in colour, white where it is zero, with a bar of its own unless a scale is given."""
     force, ends = force_map(panel)
-    largest = force.max() or 1
-    colours = ScalarMappable(Normalize(0, largest), plt.get_cmap(lut=COLOURS))
-    level = np.minimum(COLOURS * force / largest, COLOURS - 1).astype(int)
+    colours = ScalarMappable(norm or Normalize(0, force.max() or 1), plt.get_cmap(lut=COLOURS))
+    level = np.clip(COLOURS * np.ma.filled(colours.norm(np.maximum(force, 1e-30)), 0), 0, COLOURS - 1).astype(int)
     for step in range(COLOURS):
         fill(axes, (force > 0) & (level == step), ends, colours.cmap(step))
-    axes.figure.colorbar(colours, ax=axes, pad=0.03, label="Q [N]", ticks=MaxNLocator(4))
-
-
-def draw_force(axes, panel, title):
-    fill_force(axes, panel)
-    axes.set_title(title)
+    if norm is None:
+        axes.figure.colorbar(colours, ax=axes, pad=0.03, label="Q [N]", ticks=MaxNLocator(4))
+    return colours
 
 
 def draw_block(figure, panels, columns, draw_panel, heading):
@@ -95,6 +91,7 @@ def draw_block(figure, panels, columns, draw_panel, heading):
     figure.suptitle(heading)
     figure.supxlabel("time over period t/T [-]")
     figure.supylabel("ball j")
+    return grid
 
 
 def draw(table):
@@ -108,6 +105,12 @@ def draw(table):
                f"Contact (black), none (white), δ = {1e6 * table.number('delta'):g} µm, by harmonic balance with "
                f"{table.number('harmonic balance: m'):g} harmonics unless said\n"
                "rms error: of the displacements about their means; force: largest error of the bearing's force")
-    draw_block(below, panels, columns, draw_force,
-               "Force of each ball in the same panels (white: no contact)")
+    scale = LogNorm(table["Q"].max() / 100, table["Q"].max())
+
+    def draw_force(axes, panel, title):
+        fill_force(axes, panel, scale)
+        axes.set_title(title)
+
+    grid = draw_block(below, panels, columns, draw_force, "Force of each ball in the same panels (white: no contact)")
+    below.colorbar(ScalarMappable(scale, plt.get_cmap(lut=COLOURS)), ax=grid, pad=0.02, extend="min", label="Q [N]")
     return figure

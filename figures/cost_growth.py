@@ -12,8 +12,8 @@ KINDS = (("harmonics", "harmonics m"), ("balls", "balls n"), ("speeds", "speeds"
 
 def draw_kind(axes, sizes, values, exponent, fitted):
     """The measured values, and the fitted line over the sizes it is fitted to."""
-    axes.plot(sizes, values, "o", color="C0", ms=5)
-    if exponent != 0:
+    axes.plot(sizes, values, "o-", color="C0", ms=5, lw=0.8)
+    if exponent != 0 and (np.diff(values[fitted]) > 0).all():  # no power describes what rises and falls
         x = sizes[fitted]
         log_a = np.mean(np.log(values[fitted]) - exponent * np.log(x))
         axes.plot(x, np.exp(log_a) * x**exponent, color="C1", label=f"exponent {exponent:.2f}")

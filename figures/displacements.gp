@@ -2,13 +2,15 @@
 #
 # Loaded by fig04_displacements.gp and fig05_displacements.gp with `table` and `output` set.
 # Left, x and y over two periods; right, both orbits and the rotor's motion relative to the stator.
-# Harmonic balance, one period in the table and drawn twice, is in colour; time integration is a
-# thin line over it, so that a coloured edge without it, or the reverse, shows where they differ.
+# Harmonic balance, one period in the table and drawn twice, is a thin line in colour over the integrated motion, a
+# broad line in a pale shade.
 
 height = 960
 load 'figures/style.gp'
 from_top(units) = 1 - units / (1.0 * height)
 
+set style line rotor_time  lc rgb '#A8CDE6' lw 6 dt 1
+set style line stator_time lc rgb '#F3C4A3' lw 6 dt 1
 balance = 1; integrated = 2
 of(source, value) = column("source") == source ? value : NaN
 shown(value) = value
@@ -42,32 +44,34 @@ set key at screen 0.53, from_top(87) center top vertical maxrows 2 Left reverse 
 
 # Left: x(t) and y(t). The first panel names the curves.
 set xrange [0 : 2]
-set xlabel "time over period t/T [-]"
+set xlabel "time over period t/T [-]" offset 0, 0.5
 do for [d in "x y"] {
   r = d."_r"
   b = d."_s"
   name(text) = d eq "x" ? text : ""
-  set ylabel d." [".unit(largest)."]"
+  set ylabel d." [".unit(largest)."]" offset 1.2, 0
+  set label 2 d eq "x" ? "(a)" : "(b)" at graph 0.03, 0.94 front
   plot \
-    for [k = 1 : 2 * found] table using (of(balance, column("t_over_T") + k - 1)):(scaled(r)) \
-      with lines ls rotor title k == 1 ? name("rotor, harmonic balance") : "", \
-    for [k = 1 : 2 * found] table using (of(balance, column("t_over_T") + k - 1)):(scaled(b)) \
-      with lines ls stator title k == 1 ? name("stator, harmonic balance") : "", \
     table using (of(integrated, column("t_over_T"))):(scaled(r)) \
       with lines ls rotor_time title name("rotor, time integration"), \
     table using (of(integrated, column("t_over_T"))):(scaled(b)) \
-      with lines ls stator_time title name("stator, time integration")
+      with lines ls stator_time title name("stator, time integration"), \
+    for [k = 1 : 2 * found] table using (of(balance, column("t_over_T") + k - 1)):(scaled(r)) \
+      with lines ls rotor title k == 1 ? name("rotor, harmonic balance") : "", \
+    for [k = 1 : 2 * found] table using (of(balance, column("t_over_T") + k - 1)):(scaled(b)) \
+      with lines ls stator title k == 1 ? name("stator, harmonic balance") : ""
   unset label 1
 }
 
 # Right, above: the orbits.
 orbit = found ? closed_orbit(panel) : table
 eval orbit_axes
+set label 2 "(c)"
 plot \
+  table using (of(integrated, scaled("x_r"))):(scaled("y_r")) with lines ls rotor_time lw 3 notitle, \
+  table using (of(integrated, scaled("x_s"))):(scaled("y_s")) with lines ls stator_time lw 3 notitle, \
   orbit using (of(balance, scaled("x_r"))):(scaled("y_r")) with lines ls rotor notitle, \
-  orbit using (of(balance, scaled("x_s"))):(scaled("y_s")) with lines ls stator notitle, \
-  table using (of(integrated, scaled("x_r"))):(scaled("y_r")) with lines ls rotor_time notitle, \
-  table using (of(integrated, scaled("x_s"))):(scaled("y_s")) with lines ls stator_time notitle
+  orbit using (of(balance, scaled("x_s"))):(scaled("y_s")) with lines ls stator notitle
 
 # Right, below: a contact needs a relative motion outside the circle of the clearance. Integration
 # is drawn as points, since the samples of the table are too far apart to join them there. The key
@@ -77,15 +81,16 @@ set xrange [-span : span]
 set yrange [-span : span]
 set xtics tic_step(2 * span)
 set ytics tic_step(2 * span)
-set xlabel "x of rotor − x of stator [µm]"
-set ylabel "y of rotor − y of stator [µm]"
+set xlabel "x of rotor − x of stator [µm]" offset 0, 0.5
+set ylabel "y of rotor − y of stator [µm]" offset 1, 0
+set label 2 "(d)"
 set object 1 circle at 0, 0 size delta_um fs empty border rgb '#000000'
 set key at graph 0.46, 1.025 center bottom vertical maxrows 2 Left reverse width -5
 plot \
+  table using (of(integrated, relative_um("x"))):(relative_um("y")) \
+    with points pt 7 ps 0.35 lc rgb '#777777' notitle, \
   orbit using (of(balance, relative_um("x"))):(relative_um("y")) \
     with lines ls relative title found ? "harmonic balance" : "", \
-  table using (of(integrated, relative_um("x"))):(relative_um("y")) \
-    with points ls rotor_time ps 0.25 notitle, \
-  keyentry with points ls rotor_time ps 0.4 title "time integration", \
+  keyentry with points pt 7 ps 0.5 lc rgb '#777777' title "time integration", \
   keyentry with points pt 6 lw 1 ps 1.6 lc rgb '#000000' title sprintf("clearance δ = %g µm", delta_um)
 unset multiplot

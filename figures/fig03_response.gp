@@ -4,9 +4,10 @@
 # Usage: gnuplot -e "table='data/generated/fig03_response.tsv'; output='fig03_response.svg'" \
 #        figures/fig03_response.gp
 # Harmonic balance with the speed rising lies over the same with the speed falling, so that the pale
-# curve shows where they differ; a gap is a speed without solution. Markers are time integration.
+# curve shows where they differ; a gap is a speed without solution. Markers are time integration. Below, what the
+# stator moves for a unit of the rotor's motion: near the peak both curves above are one.
 
-height = 900
+height = 1180
 load 'figures/style.gp'
 
 up = 1; down = 2; integrated = 3
@@ -33,15 +34,16 @@ title_of(s) = sprintf("data set %d, δ = %g µm: harmonic balance, m = %g", \
 # The curves are named above the panels, by the first panel alone: a row for each body.
 first = 0
 name(text) = first ? text : ""
-set key at screen 0.53, 0.995 center top vertical maxrows 2 Left reverse width 1
+# Lines are harmonic balance, marks time integration.
+set key at screen 0.53, 0.995 center top vertical maxrows 2 Left reverse width -4 font ',14'
 
-set multiplot layout 2, int(F_max_x) margins 0.105, 0.985, 0.075, 0.885 spacing 0.045, 0.03
+letter(row, s) = sprintf("(%s)", "abcdefgh"[2 * row + s - 2 : 2 * row + s - 2])
+set multiplot layout 3, int(F_max_x) margins 0.105, 0.985, 0.06, 0.91 spacing 0.045, 0.025
 do for [row = 1 : 2] {
   direction = word("x y", row)
   r = "amp_".direction."_r"
   b = "amp_".direction."_s"
-  set xlabel row == 2 ? "speed of rotation f [Hz]" : ""
-  set format x row == 2 ? "%g" : ""
+  set format x ""
   do for [s = 1 : F_max_x] {
     first = s == 1 && row == 1
     # The peak of harmonic balance, if any: integrated amplitudes count as the least.
@@ -58,8 +60,9 @@ do for [row = 1 : 2] {
       unset label 1
     }
     set label 2 time_sum_x == 0 ? "" : \
-      sprintf("time integration: not T-periodic\nat %d of %d speeds (open markers)", \
+      sprintf("not T-periodic at\n%d of %d speeds", \
               time_sum_x, time_records) at graph 0.97, 0.13 right
+    set label 3 letter(row, s) at graph 0.03, 0.93
     plot \
       table using (point(s, down)):(mm(r)) with lines ls rotor_down \
         title name("rotor, speed down"), \
@@ -69,12 +72,30 @@ do for [row = 1 : 2] {
         title name("rotor, speed up"), \
       table using (point(s, up)):(mm(b)) with lines ls stator \
         title name("stator, speed up"), \
-      table using (marker(s, 1)):(mm(r)) with points ls rotor_time ps 0.25 \
-        title name("rotor, time integration"), \
-      table using (marker(s, 1)):(mm(b)) with points ls stator_time ps 0.25 \
-        title name("stator, time integration"), \
-      table using (marker(s, 0)):(mm(r)) with points ls rotor_time pt 6 ps 0.35 notitle, \
-      table using (marker(s, 0)):(mm(b)) with points ls stator_time pt 4 ps 0.35 notitle
+      table using (marker(s, 1)):(mm(r)) with points ls rotor_time ps 0.3 \
+        title name("rotor, T-periodic"), \
+      table using (marker(s, 1)):(mm(b)) with points ls stator_time ps 0.3 \
+        title name("stator, T-periodic"), \
+      table using (marker(s, 0)):(mm(r)) with points ls rotor_time pt 6 ps 0.45 \
+        title name("rotor, not T-periodic"), \
+      table using (marker(s, 0)):(mm(b)) with points ls stator_time pt 4 ps 0.45 \
+        title name("stator, not T-periodic")
   }
+}
+unset logscale y
+unset label
+set yrange [0 : 1.1]
+set format x "%g"
+set xlabel "speed of rotation f [Hz]" offset 0, 0.4
+set key at graph 0.97, 0.32 right top maxrows 2 width 0
+do for [s = 1 : F_max_x] {
+  set ylabel s == 1 ? "x of stator over x of rotor [-]" : "" offset 0.8, 0
+  set format y s == 1 ? "%g" : ""
+  set label 3 letter(3, s) at graph 0.03, 0.93
+  plot \
+    table using (point(s, up)):(column("amp_x_s") / column("amp_x_r")) with lines ls relative \
+      title s == 1 ? "harmonic balance" : "", \
+    table using (point(s, integrated)):(column("amp_x_s") / column("amp_x_r")) with points pt 6 ps 0.4 lc rgb '#404040' \
+      title s == 1 ? "time integration" : ""
 }
 unset multiplot

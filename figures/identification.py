@@ -38,7 +38,7 @@ def draw_losses(axes, rows, reading):
     lost = rows.rows(rows["contact"] < 1)
     axes.plot(lost["m_s"], lost["f"], **LOSS)
     axes.plot(used_mass(reading), np.interp(used_mass(reading), masses, rows["f_loss"][first]), **USED)
-    axes.set(ylim=(0, 32), title=f"{READINGS[reading]}\naccepted: $m_s$ = {masses[0]:.3g} to {masses[-1]:.3g} kg")
+    axes.set(ylim=(0, 32), title=f"({'ab'[reading]}) {READINGS[reading]}\naccepted: $m_s$ = {masses[0]:.3g} to {masses[-1]:.3g} kg")
 
 
 def draw_verdicts(axes, accepted, claims, families):

@@ -26,5 +26,5 @@ orbit_axes = "\
   set yrange [centre_y - half : centre_y + half]; \
   set xtics tic_step(2 * half); \
   set ytics tic_step(2 * half); \
-  set xlabel 'x ['.unit(largest).']' offset 0, 0.4; \
-  set ylabel 'y ['.unit(largest).']'"
+  set xlabel 'x ['.unit(largest).']' offset 0, 0.6; \
+  set ylabel 'y ['.unit(largest).']' offset 1.2, 0"

@@ -15,6 +15,7 @@ STYLES = {"cvode-adams": ("C0", "o", "CVODE, Adams"), "cvode-bdf": ("C5", "s", "
           "cvode-bdf2": ("C4", "P", "CVODE, BDF of order 2"),
           "scipy-dop853": ("C1", "^", "SciPy, DOP853"), "scipy-lsoda": ("C2", "D", "SciPy, LSODA"),
           "scipy-radau": ("C3", "v", "SciPy, Radau")}
+SHOWN = ((1, 6), (1, 16), (1, 45), (2, 45))  # data set and speed [Hz]
 ERRORS = (("error", "error of displacement [-]"), ("error_force", "error of force [-]"))
 
 
@@ -72,13 +73,12 @@ def draw_branch(axes, auto, response):
 
 def draw(peers):
     """Two rows of costs, a column for each speed, over the branch."""
-    cases = sorted(set(zip(peers["set"], peers["frequency"])))
     figure = plt.figure(figsize=(10, 9.5), layout="constrained")
     names, above, below = figure.subfigures(3, 1, height_ratios=(0.2, 2, 1.1))
-    grid = above.subplots(2, len(cases), sharex=True, sharey="row")
+    grid = above.subplots(2, len(SHOWN), sharex=True, sharey="row")
     for row, (error, label) in zip(grid, ERRORS):
         row[0].set_ylabel(label)
-        for axes, (number, frequency) in zip(row, cases):
+        for axes, (number, frequency) in zip(row, SHOWN):
             rows = peers.rows((peers["set"] == number) & (peers["frequency"] == frequency))
             draw_costs(axes, rows, error)
             if error == "error":

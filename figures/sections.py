@@ -1,9 +1,8 @@
 """Poincaré sections of the attractors against speed, and the largest Lyapunov exponent below.
 
 One point per period of rotation: the relative displacement at phase 0 over the clearance. A single point at a
-speed is a T-periodic motion, K points a KT-periodic one, a band of dots one that does not repeat. The table of
-`sections` has one colour for each direction in speed: they differ where attractors coexist. The table of
-`explore attractors --section` has one for each period.
+speed is a T-periodic motion, K points a KT-periodic one, a band of dots one that does not repeat. Motions of one
+kind have one mark; several at a speed are attractors that coexist.
 Usage: /usr/bin/python3 figures/sections.py TABLE.tsv OUTPUT.svg
 """
 
@@ -14,8 +13,6 @@ import matplotlib.pyplot as plt
 import numpy as np
 from tables import run
 
-UP, DOWN = 1, 2
-CLOSED = (1, 2)  # T-periodic, kT-periodic
 
 
 @dataclass
@@ -25,7 +22,6 @@ class Group:
     rows: object  # with the columns f, exponent, exponent_error
     u: np.ndarray  # of the section, one for each row
     style: dict
-    shift: float = 0  # in speed, so that neither of two groups hides the other
     closed: np.ndarray | bool = False  # rows whose exponent is drawn without error bars
 
 
@@ -33,7 +29,7 @@ def draw_groups(above, below, groups):
     """Sections above, exponents below, these once for each speed and motion with three standard errors."""
     for group in groups:
         rows, style = group.rows, {"mew": 0, "ls": "", **group.style}
-        above.plot(rows["f"] + group.shift, group.u, label=group.label, **style)
+        above.plot(rows["f"], group.u, label=group.label, **style)
         keys = np.stack([rows["f"], rows["exponent"]])
         _, first = np.unique(keys, axis=1, return_index=True)
         part = rows.rows(first)
@@ -43,12 +39,18 @@ def draw_groups(above, below, groups):
     below.axhline(0, color="#404040", lw=0.75)
 
 
-def by_direction(rows, clearance):
+# The verdicts of the table of `sections`: label, number, style.
+VERDICTS = (("chaotic", 4, {"marker": ".", "ms": 2.6, "color": "#8a8a8a"}), ("quasi-periodic", 3, {"marker": ".", "ms": 4, "color": "C3"}),
+            ("undecided", 0, {"marker": "x", "ms": 4, "color": "black", "mew": 1}), ("T-periodic", 1, {"marker": "o", "ms": 3, "color": "C0"}),
+            ("several periods", 2, {"marker": "^", "ms": 7, "color": "C1", "mec": "black", "mew": 0.6}))
+
+
+def by_verdict(rows, clearance):
     """The groups of the table of `sections`."""
-    for origin, colour, label, shift in ((UP, "C0", "up in speed", -0.06), (DOWN, "C1", "down in speed", 0.06)):
-        part = rows.where("origin", origin)
-        yield Group(label, part, part["u_x"] / clearance, {"marker": ".", "ms": 2.4, "color": colour}, shift,
-                    np.isin(part["verdict"], CLOSED))
+    for label, number, style in VERDICTS:
+        part = rows.where("verdict", number)
+        if len(part) > 0:
+            yield Group(label, part, part["u_x"] / clearance, style, number in (1, 2))
 
 
 # The periods of explore's table: label, chosen rows, marker, its size, colour.
@@ -105,13 +107,16 @@ def draw_sets(table):
     for number, clearance in enumerate(clearances, 1):
         rows = table.where("set", number)
         above, below = grid[:, number - 1]
-        draw_groups(above, below, by_direction(rows, clearance))
+        draw_groups(above, below, by_verdict(rows, clearance))
         below.set_xlim(0, rows["f"].max() + 1)
-        above.set_title(f"data set {number}, δ = {1e6 * clearance:g} µm")
+        above.set_title(f"({'ab'[number - 1]}) data set {number}, δ = {1e6 * clearance:g} µm")
+        below.set_title(f"({'cd'[number - 1]})", loc="left")
         below.set_xlabel("speed of rotation [Hz]")
     grid[0, 0].set_ylabel("section: $(x_r - x_s)/δ$ at phase 0 [-]")
     grid[1, 0].set_ylabel("largest Lyapunov exponent [1/s]")
-    grid[0, 0].legend(loc="upper left", markerscale=5, handletextpad=0.2)
+    legend = grid[0, 1].legend(loc="lower left", handletextpad=0.2)
+    for handle in legend.get_lines():
+        handle.set_markersize(10 if handle.get_marker() == "." else 7)
     return figure
 
 

@@ -51,13 +51,13 @@ x_r = 15
 
 set xrange [0 : F_max_y]
 set logscale y
-set yrange [1e-4 : 2.5e3 * A_max]
+set yrange [5e-8 : 2.5e3 * A_max]
+set ytics (1e-4, 1e-3, 1e-2, 1e-1, 1, 10)
 set format y '10^{%T}'
-set key at screen 0.53, 0.998 center top vertical maxrows 3 Left reverse font ',14' samplen 2
-set style line 31 pt 2 ps 0.35 lc rgb '#000000'
-set style line 32 pt 6 ps 0.6 lc rgb '#009E73'
-set style line 33 pt 8 ps 0.7 lc rgb '#CC79A7'
-set style line 34 pt 4 ps 0.4 lc rgb '#777777'
+set key at screen 0.53, 0.998 center top vertical maxrows 2 Left reverse font ',14' samplen 2
+kinds = "fold period-doubling neimark-sacker plus-one"
+array names[4] = ["folds of m harmonics", "period doublings", "Neimark-Sacker points", "multiplier 1"]
+height_of(k) = 5e-5 / 7 ** k
 
 set multiplot layout words(ms), sets margins 0.095, 0.985, 0.06, 0.895 spacing 0.045, 0.025
 do for [k = 1 : words(ms)] {
@@ -71,7 +71,8 @@ do for [k = 1 : words(ms)] {
     set ylabel s == 1 ? "half peak-to-peak of x [mm]" : "" offset 0.8, 0
     set format y s == 1 ? '10^{%T}' : ""
     set title k == 1 ? sprintf("data set %d, δ = %g µm", s, 1e6 * clearance(s)) : "" offset 0, -0.6
-    set label 1 "m = ".m at graph 0.03, 0.92 front
+    set label 1 sprintf("(%s) m = %s", "abcdefgh"[2 * k + s - 2 : 2 * k + s - 2], m) at graph 0.03, 0.95 front
+    do for [j = 1 : 4] { set label 1 + j names[j] at 59, 2.4 * height_of(j - 1) right font ',12' front }
     plot \
       keyentry with lines ls 11 title "rotor, stable", \
       keyentry with lines ls 21 title "rotor, unstable", \
@@ -80,10 +81,6 @@ do for [k = 1 : words(ms)] {
       keyentry with lines ls 23 title "no motion found", \
       keyentry with points ls 41 title "T-periodic motion", \
       keyentry with lines ls 43 title "other motions", \
-      keyentry with points ls 31 title "fold of m harmonics", \
-      keyentry with points ls 32 title "period doubling", \
-      keyentry with points ls 33 title "Neimark-Sacker", \
-      keyentry with points ls 34 title "multiplier 1", \
       others(s, x_r) using 1:(1e3*$2):(0):(1e3*($3 - $2)) with vectors ls 43 nohead notitle, \
       others(s, x_r) using 1:(1e3*$2) with points ls 43 notitle, \
       others(s, x_s) using 1:(1e3*$2):(0):(1e3*($3 - $2)) with vectors ls 43 nohead notitle, \
@@ -96,10 +93,7 @@ do for [k = 1 : words(ms)] {
       rows(s, m, 0) using "f":(mm("amp_x_r")) with lines ls 21 notitle, \
       rows(s, m, 1) using "f":(mm("amp_x_s")) with lines ls 12 notitle, \
       rows(s, m, 0) using "f":(mm("amp_x_s")) with lines ls 22 notitle, \
-      marks(s, m, "fold") using "f":(mm("amp_x_r")) with points ls 31 notitle, \
-      marks(s, m, "period-doubling") using "f":(mm("amp_x_r")) with points ls 32 notitle, \
-      marks(s, m, "neimark-sacker") using "f":(mm("amp_x_r")) with points ls 33 notitle, \
-      marks(s, m, "plus-one") using "f":(mm("amp_x_r")) with points ls 34 notitle
+      for [j = 1 : 4] marks(s, m, word(kinds, j)) using "f":(height_of(j - 1)) with points pt '|' lc rgb '#000000' notitle
   }
 }
 unset multiplot

@@ -19,15 +19,15 @@ set tics nomirror scale 0.6 textcolor rgb '#000000'
 set grid lc rgb '#d9d9d9' lw 0.7 lt 1
 set key samplen 2.5 spacing 1.15
 
-# Colours of Okabe and Ito. Rotor solid, stator dashed, as in the paper; time integration grey.
+# Colours of Okabe and Ito. Rotor solid, stator dashed, as in the paper; time integration in darker shades of the same.
 rotor = 1; stator = 2; relative = 3
 rotor_time = 4; stator_time = 5
 rotor_down = 6; stator_down = 7
 set style line rotor       lc rgb '#0072B2' lw 2.2 dt 1 pt 7
 set style line stator      lc rgb '#D55E00' lw 2.2 dt (6,3) pt 5
 set style line relative    lc rgb '#009E73' lw 2.2 dt 1
-set style line rotor_time  lc rgb '#404040' lw 1 dt 1 pt 7
-set style line stator_time lc rgb '#777777' lw 1 dt (6,3) pt 5
+set style line rotor_time  lc rgb '#003C63' lw 1.2 dt 1 pt 7
+set style line stator_time lc rgb '#A04000' lw 1.2 dt (6,3) pt 5
 set style line rotor_down  lc rgb '#9CCFF2' lw 8 dt 1 pt 7
 set style line stator_down lc rgb '#F9D28A' lw 5 dt 1 pt 5
 

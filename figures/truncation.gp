@@ -3,15 +3,14 @@
 # Paper: §3.3, claims C2 and C3.
 # Usage: gnuplot -e "table='data/reference/validity.tsv'; output='truncation.svg'" \
 #        figures/truncation.gp
-# Above, the largest distance over the speeds at which harmonic balance finds a solution; below, the
-# number of speeds at which it finds none, so that few harmonics are not favoured by what they miss.
+# Above, the largest error over the speeds with a T-periodic attractor at which harmonic balance finds a solution;
+# below, the number of those speeds at which it finds none, so that few harmonics are not favoured by what they miss.
 
 height = 800
 load 'figures/style.gp'
 
-all = 1; periodic = 2; force = 3; missing = 4; limit = 5; paper = 6
-set style line all      lc rgb '#0072B2' lw 2.2 dt 1 pt 7
-set style line periodic lc rgb '#009E73' lw 2.2 dt (6,3) pt 5
+periodic = 2; force = 3; missing = 4; limit = 5; paper = 6
+set style line periodic lc rgb '#0072B2' lw 2.2 dt 1 pt 7
 set style line force    lc rgb '#D55E00' lw 1.6 dt 1 pt 9
 set style line missing  lc rgb '#777777'
 set style line limit    lc rgb '#404040' lw 1 dt (2,3)
@@ -21,14 +20,12 @@ set style fill solid noborder
 # The rows of the solutions with fixed m.
 fixed = sprintf("< awk -F'\\t' '/^#/ || $3 != 1' '%s'", table)
 
-# The rows of a set ($1) by m ($4): m, the largest distance over all found ($5), over the speeds with a
-# T-periodic attractor ($15), of the force, the least of these, and the number not found.
+# The rows of a set ($1) with a T-periodic attractor ($15) by m ($4): m, the largest error of the displacements ($6) and
+# of the force ($7) over those found ($5), and the number not found.
 by_harmonics(s) = sprintf("< awk -F'\\t' -v OFS='\\t' 'function most(a, b) { return a > b ? a : b } \
-  BEGIN { print \"m\", \"all\", \"periodic\", \"force\", \"least\", \"missing\" } \
-  $1 == %d && $3 == 0 { seen[$4]; if (!$5) { missing[$4]++; next } all[$4] = most(all[$4], $6); \
-    if ($15) same[$4] = most(same[$4], $6); force[$4] = most(force[$4], $7) } \
-  END { for (m = 1; m in seen; m++) { least = m in same ? same[m] : m in all ? all[m] : 1; \
-    print m, all[m], same[m], force[m], least, missing[m] + 0 } }' '%s'", s, table)
+  BEGIN { print \"m\", \"periodic\", \"force\", \"missing\" } \
+  $1 == %d && $3 == 0 && $15 { seen[$4]; if (!$5) { missing[$4]++; next } same[$4] = most(same[$4], $6); force[$4] = most(force[$4], $7) } \
+  END { for (m = 1; m in seen; m++) print m, same[m], force[m], missing[m] + 0 }' '%s'", s, table)
 
 # The limits and the paper's number of harmonics, from the rules of the claims.
 claims = 'data/claims.toml'
@@ -43,7 +40,7 @@ most_missed = 1
 least = real(word(limits, words(limits)))
 array title_of[sets]
 do for [s = 1 : sets] {
-  stats by_harmonics(s) using "least":"missing" name 'R' nooutput
+  stats by_harmonics(s) using "periodic":"missing" name 'R' nooutput
   least = min(least, R_min_x)
   most_missed = max(most_missed, R_max_y)
   stats fixed using (column("set") == s && column("m") == M_min_x ? column("periodic") : NaN) \
@@ -78,21 +75,20 @@ do for [s = 1 : sets] {
   set ylabel s == 1 ? "largest rms error about the mean [-]" : "" offset 0.5, 0
   do for [i = 1 : words(limits)] {
     set label i sprintf("%g %%", 100 * word(limits, i)) at graph 1, first real(word(limits, i)) \
-      left offset 0.3, 0
+      right offset -0.4, 0.5
   }
+  set label 9 s == 1 ? "(a)" : "(b)" at graph 0.03, 0.94
   paper_m = of_paper(word("C2 C3", s))
   set arrow 1 from paper_m, graph 0 rto 0, graph 1 nohead back ls paper
   plot \
     for [value in limits] real(value) with lines ls limit notitle, \
-    rows using "m":"all" with linespoints ls all ps 0.9 \
-      title name("displacement, all speeds solved"), \
-    rows using "m":"periodic" with linespoints ls periodic ps 0.5 \
-      title name("displacement, T-periodic speeds solved"), \
-    rows using "m":"force" with linespoints ls force ps 0.8 \
-      title name("force, all speeds solved"), \
-    keyentry with lines ls paper title name("harmonics needed, paper")
+    rows using "m":"periodic" with linespoints ls periodic ps 0.8 title name("displacements"), \
+    rows using "m":"force" with linespoints ls force ps 0.8 title name("force"), \
+    keyentry with lines ls limit title name("limits of the verdicts"), \
+    keyentry with lines ls paper title name("harmonics that suffice in the paper")
   unset label
   unset arrow
+  set label 9 s == 1 ? "(c)" : "(d)" at graph 0.03, 0.88
 
   set tmargin at screen 0.33
   set bmargin at screen 0.085
@@ -102,7 +98,7 @@ do for [s = 1 : sets] {
   set ytics tic_step(most_missed)
   set xlabel "number of harmonics m" offset 0, 0.3
   set format x "%g"
-  set ylabel s == 1 ? "speeds unsolved [-]" : "" offset 0.5, 0
+  set ylabel s == 1 ? "of them unsolved [-]" : "" offset 0.5, 0
   plot rows using (column("m")):(column("missing")):(0.7) with boxes ls missing notitle
 }
 unset multiplot

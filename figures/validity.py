@@ -63,7 +63,7 @@ def draw(table):
                                 layout="constrained")
     for number, (axes, clearance) in enumerate(zip(grid, clearances), 1):
         draw_set(axes, table.where("set", number), tolerance)
-        axes.set(yscale="log", xlim=(0, 61), title=f"data set {number}, δ = {1e6 * clearance:g} µm",
+        axes.set(yscale="log", xlim=(0, 61), title=f"({'ab'[number - 1]}) data set {number}, δ = {1e6 * clearance:g} µm",
                  ylabel="rms error about the mean [-]")
     grid[-1].set_xlabel("speed of rotation [Hz]")
     shaded, *methods = grid[-1].get_legend_handles_labels()[0]

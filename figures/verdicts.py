@@ -49,7 +49,7 @@ def draw(table):
     figure.subplots_adjust(left=0.08, right=0.99, bottom=0.07, top=0.8, wspace=0.06)
     for number, (axes, clearance) in enumerate(zip(grid, clearances), 1):
         draw_set(axes, table.where("set", number))
-        axes.set_title(f"data set {number}, δ = {1e6 * clearance:g} µm", pad=16)
+        axes.set_title(f"({'ab'[number - 1]}) data set {number}, δ = {1e6 * clearance:g} µm", pad=16)
     grid[0].set(ylim=(0, 100), ylabel="share of the solutions [%]")
     figure.legend(*grid[0].get_legend_handles_labels(), ncols=4, loc="upper center")
     return figure

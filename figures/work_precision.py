@@ -13,7 +13,7 @@ import numpy as np
 from matplotlib.ticker import LogLocator
 from tables import Table, run
 
-SHOWN = ((6, "set1"), (16, "set1"), (45, "set1"), (45, "set2"))
+SHOWN = ((6, "set1"), (45, "set1"), (45, "set2"))
 START = "below"
 SPLIT_AT = 1e-3
 LEGEND = 0.12  # of the height
@@ -104,9 +104,9 @@ def draw_split(axes, rows):
 def draw(table):
     """Rows: displacement, force, split; columns: speeds."""
     figure, grid = plt.subplots(3, len(SHOWN), figsize=(10, 10), layout="constrained")
-    for column, (frequency, data_set) in zip(grid.T, SHOWN):
+    for letter, column, (frequency, data_set) in zip("abc", grid.T, SHOWN):
         rows = rows_of(table, frequency, data_set)
-        column[0].set_title(f"{frequency:g} Hz, set {data_set[-1]}")
+        column[0].set_title(f"({letter}) {frequency:g} Hz, set {data_set[-1]}")
         for axes, name in zip(column, ("error", "error_force")):
             draw_fronts(axes, rows, name)
             draw_peers(axes, frequency, data_set, name)
@@ -120,11 +120,11 @@ def draw(table):
         low = min(axes.get_ylim()[0] for axes in row)
         high = max(axes.get_ylim()[1] for axes in row)
         for axes in row:
-            axes.set_ylim(low, min(high, 3))
+            axes.set(xlim=(5e-3, 1e3), ylim=(low, min(high, 3)))
     grid[0, 0].set_ylabel("error of displacement [-]")
     grid[1, 0].set_ylabel("error of force [-]")
     grid[2, 0].set_ylabel(f"displacement to {SPLIT_AT:g}")
-    handles, labels = grid[0, 2].get_legend_handles_labels()
+    handles, labels = grid[0, 1].get_legend_handles_labels()
     bars, parts = grid[2, 0].get_legend_handles_labels()
     figure.get_layout_engine().set(rect=(0.02, LEGEND, 0.97, 1 - LEGEND))
     figure.legend(handles + bars, labels + parts, loc="lower center", ncols=4, frameon=False)
