@@ -204,7 +204,7 @@ data/generated/cage.md: studies/cage.py data/reference/cage.tsv figures/tables.p
 
 book: build/book/.built  ## programs, figures and texts as pages, with a search: build/book/index.html
 build/book/.built: $(wildcard paper/book/* *.md paper/*.md paper/references.bib studies/*.py peers/*.py data/reference/*.tsv build/live/index.html) \
-  $(sources) $(untimed) $(timings) $(claims)
+  $(sources) $(untimed) $(timings) $(claims) data/generated/article.tsv
 	mkdir -p build/book-pages && $(PYTHON) -m sphinx -q -W --keep-going -c paper/book -d build/book-pages/.trees build/book-pages $(@D) && touch $@
 live: build/live/index.html  ## the solver as a page for the browser, one file: build/live/index.html
 include live/live.mk

@@ -4,7 +4,7 @@ Files: no replacement character, no link that leads nowhere, a text for every pi
 module, a complete page for every figure, links from equations and names to where they stand and back. Browser: on every
 page all mathematics is set, nothing is wider than the window, no message of the browser and no request but to the pages;
 the search finds what is there; text has contrast and pictures a text (axe-core, where npm has it). Two locales more give
-the same bytes. Screenshots of some pages, two widths, light and dark, stand in build/screenshots.
+the same bytes. The animation moves, and shows the motion of the table. Screenshots of some pages, two widths, light and dark, stand in build/screenshots.
 
 Usage: tests/book.py   (from the project's root, after `make all`)
 """
@@ -24,8 +24,12 @@ from html.parser import HTMLParser
 from pathlib import Path
 from urllib.parse import unquote, urlsplit
 
+import numpy as np
 from selenium import webdriver
 from selenium.webdriver.chrome.service import Service
+
+sys.path.insert(0, "figures")
+from tables import Table  # noqa: E402
 
 BUILD, BOOK, ARTICLE = Path("build"), Path("build/book"), Path("build/paper/article.html")
 SHOTS, AXE = BUILD / "screenshots", BUILD / "npm/node_modules/axe-core/axe.min.js"
@@ -269,6 +273,37 @@ class Browser(unittest.TestCase):
             self.assertEqual(self.js("return [...document.images].filter(i => !i.naturalWidth).length"), 0)
             self.assertGreater(self.js("return [...document.querySelectorAll('math')].filter("
                                        "m => m.getBoundingClientRect().height > 5).length"), 10)
+
+    def test_animation(self):
+        """The picture of Fig. 7 stands still for who wants less motion, moves otherwise, and shows the table's motion: its ball loads
+        sum to the force that the table of Fig. 6 holds (a wrong ball, sign or clearance would not). Without a script it is there too."""
+        for wish, moves in (("reduce", False), ("no-preference", True)):
+            self.driver.execute_cdp_cmd("Emulation.setEmulatedMedia", {"features": [{"name": "prefers-reduced-motion", "value": wish}]})
+            self.open("fig07_contact.html")
+            first = self.js("return document.getElementById('instant').value")
+            seen = self.driver.execute_async_script("setTimeout(() => arguments[0](document.getElementById('instant').value), 700)")
+            self.assertEqual(seen != first, moves)
+        self.js("document.getElementById('play').click()")
+        self.assertEqual(self.js("return document.getElementById('play').textContent"), "Play")
+        self.js("""const speed = document.getElementById('speed'), instant = document.getElementById('instant');
+            speed.value = 0; speed.onchange(); instant.value = 32; instant.oninput();""")
+        self.assertIn("t/T = 0.50", self.js("return document.getElementById('now').value"))
+        table = Table("data/generated/fig06_orbits.tsv")
+        facts = self.js("return FACTS")
+        for motion in facts["motions"]:
+            rows = table.where("f", motion["f"])
+            rows = rows.where("source", rows.first("shown"))
+            for frame in (0, 10, 32):
+                row = frame * 128 // facts["frames"]
+                angle = 2 * np.pi * (facts["cage"] * frame / facts["frames"] + np.arange(16) / 16)
+                force = np.array([np.cos(angle), np.sin(angle)]) @ motion["Q"][frame]
+                np.testing.assert_allclose(force, [rows["F_x"][row], rows["F_y"][row]], rtol=1e-3, atol=3)
+        self.assertGreater(len({ball.get_attribute("fill") for ball in self.driver.find_elements("css selector", "#motion .ball")}), 1)
+        still = re.search(r'<figure id="motion">(.*?)<div', self.page("fig07_contact"), re.DOTALL)[1]
+        self.assertEqual(still.count('class="ball"'), 16)
+
+    def page(self, name):
+        return (BOOK / f"{name}.html").read_text(encoding="utf-8")
 
     def test_screenshots(self):
         for scheme in ("light", "dark"):

@@ -10,8 +10,11 @@ from pathlib import Path
 from pygments import highlight
 from pygments.formatters import HtmlFormatter
 from pygments.lexers import get_lexer_for_filename
+from paper.book.animation import moving
+from paper.include import read_values, render
 
-BOOK, SHOWN = (tomllib.loads(Path(f"paper/book/{name}.toml").read_text("utf-8")) for name in ("chapters", "figures"))
+BOOK, SHOWN = (tomllib.loads(render(Path(f"paper/book/{name}.toml").read_text("utf-8"), read_values("data/generated/article.tsv"), name))
+               for name in ("chapters", "figures"))
 PAGES = {page: [Path(file) for file in files] for page, files in BOOK["text"].items()}
 for source in sorted([*Path("src").rglob("*.?pp"), *Path("studies").glob("*.py")], reverse=True):  # x.hpp before x.cpp
     PAGES.setdefault("-".join(source.with_suffix("").parts[1:]), []).append(source)
@@ -104,7 +107,7 @@ def page_text(page):
     for name in reversed([name for name in FIGURES if FIGURES[name]["page"] == page]):
         heading, _, told = parts[0].partition("\n")
         parts[0] = Path("paper/book/figure.md").read_text("utf-8").format(**FIGURES[name] | {
-            "heading": heading, "name": name, "told": told, "differs": prose(FIGURES[name]["differs"], Path("x"), page)})
+            "heading": heading, "name": name, "moving": moving(name), "told": told, "differs": prose(FIGURES[name]["differs"], Path("x"), page)})
     return "\n\n".join(parts)
 
 
