@@ -18,6 +18,7 @@ from tables import run
 
 READINGS = ("exchanged: stator 500, rotor 150 rad/s", "as printed: stator 150, rotor 500 rad/s")
 PARAMETERS = ("data/set1.toml", "data/set1-as-printed.toml")
+HATCHES = {"reproduced": "", "partly": "//", "not reproduced": "xx"}  # readable in grey too
 COLOURS = {"reproduced": "C2", "partly": "C4", "not reproduced": "C1"}
 USED = {"marker": "o", "ms": 9, "mfc": "white", "mec": "black", "mew": 1.2, "ls": ""}
 LOSS = {"marker": "o", "ms": 3, "mfc": "C1", "mec": "none", "ls": ""}
@@ -52,7 +53,8 @@ def draw_verdicts(axes, accepted, claims, families):
             half = np.sqrt(masses[1] / masses[0])
             bottom = row - 0.42 + 0.84 * line / len(families)
             axes.barh(np.full(masses.size, bottom), masses * (half - 1 / half), 0.84 / len(families) - 0.03, masses / half,
-                      align="edge", color=[COLOURS[verdicts[family][mass]] for mass in masses])
+                      align="edge", color=[COLOURS[verdicts[family][mass]] for mass in masses],
+                      hatch=[HATCHES[verdicts[family][mass]] for mass in masses], edgecolor="white", lw=0)
     axes.set_yticks(range(len(claims)), [claim["id"] for claim in claims])
     axes.set(ylim=(len(claims) - 0.5, -0.5), xscale="log", xlabel="mass of the stator $m_s$ [kg]")
     axes.xaxis.set_major_locator(LogLocator(subs=(1, 2, 3, 4, 5, 6)))
@@ -82,7 +84,7 @@ def draw(table):
     grid[1, 0].set_ylabel("claim")
     marks = [plt.Line2D([], [], color="C0", label="closed form"), plt.Line2D([], [], **LOSS, label="integrated"),
              plt.Line2D([], [], **USED, label="masses used"),
-             *(plt.Rectangle((0, 0), 1, 1, color=colour, label=name) for name, colour in COLOURS.items())]
+             *(plt.Rectangle((0, 0), 1, 1, fc=colour, ec="white", hatch=HATCHES[name], label=name) for name, colour in COLOURS.items())]
     key.legend(handles=marks, loc="upper center", ncols=len(marks), frameon=False, handlelength=1.4, columnspacing=1.2)
     key.text(0.5, 0.15, family_words(families), ha="center", fontsize=11)
     return figure

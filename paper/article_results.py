@@ -154,6 +154,7 @@ def judged(add):
     k = np.abs(near["f"] - 20).argmin()
     for key, column in (("f", "f"), ("machine", "machine"), ("series", "series"), ("distance", "distance")):
         add(f"verdicts.near20_{key}", near[column][k], "-", f"{column} of the solution of set 1 nearest to 20 Hz, m = 6")
+    add("verdicts.m_most", found["m"].max(), "-", "most harmonics of the table")
     add("verdicts.speeds", len(np.unique(table["f"])), "-", "speeds of each set")
     add("verdicts.hill", int(re.search(r"Hill's method with m harmonics, at most (\d+)", table.header)[1]), "-",
         "largest number of harmonics of Hill's method")
@@ -211,11 +212,11 @@ def scientific(value):
 
 def accuracy(add):
     """What six harmonics get right at a low and at a high speed, and the passing of the balls at the lowest."""
-    panels = Table(GENERATED / "fig06_orbits.tsv")
-    for name, f in (("slow", panels["f"].min()), ("fast", 45)):
-        rows = panels.where("f", f)
+    panels, large = Table(GENERATED / "fig06_orbits.tsv"), Table(GENERATED / "fig08_orbits.tsv")
+    for name, table, f in (("slow", panels, panels["f"].min()), ("fast", panels, 45), ("large", large, 45)):
+        rows = table.where("f", f)
         for key, column in (("f", "f"), ("rms", "difference_rms"), ("force", "difference_force")):
-            add(f"accuracy.{name}_{key}", rows.first(column), "-", f"{column} of Fig. 6 at {f:g} Hz")
+            add(f"accuracy.{name}_{key}", rows.first(column), "-", f"{column} of Fig. 6 or 8 at {f:g} Hz")
     fixed = Table(KEPT / "validity.tsv").where("adaptive", 0)
     for number in (1, 2):
         rows = fixed.where("set", number)

@@ -32,13 +32,13 @@ def number_or_words(cell):
 
 
 def written(value, style):
-    """A number in a format, its power of ten without a plus sign and leading zeros: 1.5e10; or words."""
+    """A number in a format, its power of ten without a plus sign and leading zeros: 1.5e10; 1 %; or words."""
     if isinstance(value, str):
         return value
     if value == 0:
         return "0"
     return re.sub(r"e([+-])0*(\d)", lambda m: f"e{'-' if m[1] == '-' else ''}{m[2]}",
-                  format(value, style))
+                  format(value, style)).replace("%", " %")
 
 
 def render(text, values, name):

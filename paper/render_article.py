@@ -13,12 +13,15 @@ import tempfile
 import tomllib
 from pathlib import Path
 
+from include import read_values, render
+
 EQUATION, TAG = re.compile(r"\$\$(.+?)\$\$", re.DOTALL), re.compile(r"\\tag\{([^}]*)\}")
 DEVIATION = re.compile(r"\bD-(\d\d)\b")
 TABLE = re.compile(r"^<!-- table: (\S+) (.*?) -->$", re.MULTILINE)
 FIGURE = re.compile(r"\]\((figures/(?:as-printed/)?\w+)\.svg\)")
 DRAWN = Path("figures/generated")
-SHOWN = tomllib.loads(Path("paper/book/figures.toml").read_text(encoding="utf-8"))
+SHOWN = tomllib.loads(render(Path("paper/book/figures.toml").read_text(encoding="utf-8"), read_values("data/generated/article.tsv"),
+                             "paper/book/figures.toml"))
 
 
 def table_rows(match):
