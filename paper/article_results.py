@@ -54,6 +54,8 @@ def costs(add):
     timing = Table(GENERATED / "tab02_timing.tsv")
     rivals, timing = timing.where("method", "rk4"), timing.where("method", "aft")
     slow = rivals.first("paper_cpu")
+    add("cost.force_least", timing["error_force"].min(), "-", "least error of the force of the timed sweeps of harmonic balance")
+    add("cost.force_most", timing["error_force"].max(), "-", "largest of them")
     words = [f"with {m:.0f} harmonics {ratio:.2g} at an error of {power(error)}, Runge-Kutta {power(other)} "
              f"(the paper: {slow / paper:.1f})"
              for m, ratio, error, other, paper in zip(timing["harmonics"], timing["ratio"], timing["error"],
