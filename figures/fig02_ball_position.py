@@ -30,12 +30,11 @@ def name_displacement(axes, table, inner):
           polar(0.45 * inner.first("radius"), 5.2))
 
 
-def name_cage(axes, outer):
-    """The direction in which the cage carries the balls, outside the ring."""
-    radius = 1.25 * outer
-    axes.add_patch(Arc((0, 0), 2 * radius, 2 * radius, theta1=110, theta2=140, linewidth=2))
-    arrow(axes, polar(radius, 2.42), polar(radius, 2.46), linewidth=2)
-    axes.text(*polar(1.4 * outer, 2.2), r"$ω_{\mathrm{cage}}$", ha="center", va="center")
+def name_turning(axes, radius, begin, text):
+    """A speed of rotation [rad/s] as an arc with an arrow, its symbol beside it."""
+    axes.add_patch(Arc((0, 0), 2 * radius, 2 * radius, theta1=degrees(begin), theta2=degrees(begin + 0.5), linewidth=2))
+    arrow(axes, polar(radius, begin + 0.5), polar(radius, begin + 0.54), linewidth=2)
+    axes.text(*polar(1.13 * radius, begin + 0.25), text, ha="center", va="center")
 
 
 def draw(table):
@@ -48,7 +47,10 @@ def draw(table):
     outer = table.where("part", OUTER).first("radius")
     name_angle(axes, marked, 0.45 * inner.first("radius"))
     name_displacement(axes, table, inner)
-    name_cage(axes, outer)
+    name_turning(axes, 1.25 * outer, 1.92, r"$ω_{\mathrm{cage}}$")
+    name_turning(axes, 0.6 * inner.first("radius"), 2.5, "$ω$")
+    one = table.where("ball", 1)
+    label(axes, "ball 1", (one.first("x"), one.first("y")), polar(1.5 * outer, one.first("theta") - 0.05))
     label(axes, f"ball $j$ = {marked.first('ball'):g}\n"
                 f"$Δ_j$ − δ = {1e6 * marked.first('penetration'):.2g} µm",
           (marked.first("x"), marked.first("y")), polar(1.55 * outer, marked.first("theta") - 0.15))

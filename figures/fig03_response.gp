@@ -73,9 +73,9 @@ do for [row = 1 : 2] {
       table using (point(s, up)):(mm(b)) with lines ls stator \
         title name("stator, speed up"), \
       table using (marker(s, 1)):(mm(r)) with points ls rotor_time ps 0.3 \
-        title name("rotor, T-periodic"), \
+        title name("rotor, integrated"), \
       table using (marker(s, 1)):(mm(b)) with points ls stator_time ps 0.3 \
-        title name("stator, T-periodic"), \
+        title name("stator, integrated"), \
       table using (marker(s, 0)):(mm(r)) with points ls rotor_time pt 6 ps 0.45 \
         title name("rotor, not T-periodic"), \
       table using (marker(s, 0)):(mm(b)) with points ls stator_time pt 4 ps 0.45 \

@@ -57,7 +57,9 @@ def still(motion, delta, n):
 
 
 def moving(name):
-    """The block of the page of Fig. 7; nothing for other figures."""
+    """The block of the page of Fig. 7, a link to it from Fig. 6, nothing for other figures."""
+    if name == "fig06_orbits":
+        return '<p><a href="fig07_contact.html#motion">These motions as an animation</a>, with the balls coloured by load.</p>\n'
     if name != "fig07_contact":
         return ""
     table = Table("data/generated/fig06_orbits.tsv")
