@@ -270,6 +270,10 @@ def maps(add):
         add(f"map.{key}_least", factor * table[column].min(), unit, f"least {column}")
         add(f"map.{key}_most", factor * table[column].max(), unit, f"largest {column}")
     speeds = float(re.search(r"(\d+) speeds from", table.header)[1])
+    band = np.where(table["f_loss_first"] < 0, 0, table["f_loss_last"] - table["f_loss_first"])
+    few = table["missed"] > speeds / 4
+    for key, chosen in (("few", few), ("other", ~few)):
+        add(f"map.band_{key}", np.median(band[chosen]), "Hz", "median width of the band of lost contact")
     add("map.machines", len(table), "-", "machines")
     add("map.missed", table["missed"].sum() / (len(table) * speeds), "-", "share of speeds without a solution")
     add("map.missed_most", table["missed"].max(), "-", "most speeds without a solution of one machine")
