@@ -217,8 +217,7 @@ Eigen::VectorXd quasi_static_start(const Parameters& parameters, double omega,
 
 Eigen::MatrixXd body_series(const Parameters& parameters, const PeriodicMotion& motion)
 {
-  if (parameters.large)
-    return coordinate_series(parameters, motion).topRows(parameters.large->shown);
+  if (parameters.large) return shown_series(parameters, motion);
   const auto columns = motion.harmonics.coefficients();
   const Eigen::Map<const Eigen::MatrixXd> u(motion.x.data(), 2, columns);
   Eigen::MatrixXd bodies(4, columns);

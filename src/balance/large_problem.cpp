@@ -44,28 +44,87 @@ HarmonicAlone harmonic_of(const Parameters& p, double omega, Harmonic h)
           slope};
 }
 
-LinearBlock large_block(const Parameters& p, double omega, Harmonic h)
+/** The first coordinates, which are shown, as unit forces on the joints (held by k) and the loads move them; derivatives
+    with respect to ω. */
+struct Answers {
+  Eigen::MatrixXcd to_forces, to_forces_slope;
+  Eigen::VectorXcd driven, driven_slope;
+  Complex spring;
+};
+
+Answers exact_answers(const Parameters& p, double omega, Harmonic h)
 {
   const LargeMachine& machine = *p.large;
   const HarmonicAlone at = harmonic_of(p, omega, h);
-  const Eigen::MatrixXcd d = machine.joints.cast<Complex>();
-  const Eigen::MatrixXcd x = at.factors.solve(d);
+  const auto n = machine.mass.rows();
+  const Eigen::MatrixXcd x = at.factors.solve(machine.joints.cast<Complex>());
   const Eigen::VectorXcd driven = at.factors.solve(at.load);
-  const Eigen::MatrixXcd left = at.factors.transpose().solve(d);  // S⁻ᵀ D
+  const Eigen::MatrixXcd left =  // S⁻ᵀ
+      at.factors.transpose().solve(Eigen::MatrixXcd::Identity(n, machine.shown));
 
   /** -∂S/∂ω. */
   Eigen::MatrixXcd slope =
       Complex(0, -1) * (at.order * (machine.damping + at.speed * machine.gyroscopic) +
                         at.frequency * rotor_speed(p, 1) * machine.gyroscopic);
   slope += 2 * at.frequency * at.order * machine.mass;
-  const SmallMatrix receptance = d.transpose() * x;
-  const SmallMatrix receptance_slope = left.transpose() * slope * x;
+  return {x.topRows(machine.shown), left.transpose() * slope * x,
+          driven.head(machine.shown), left.transpose() * (at.load_slope + slope * driven),
+          at.spring};
+}
+
+constexpr double fit_error = 1e-9;
+
+/** The same from a fit over the machine's range of speeds, where it has one. */
+Answers answers_of(const Parameters& p, double omega, Harmonic h)
+{
+  const LargeMachine& machine = *p.large;
+  const double order = order_of(h, p.bearing), per_omega = rotor_speed(p, 1);
+  const double ratio = order / per_omega, speed = per_omega * omega;
+  if (!machine.fits || speed < machine.slowest || speed > machine.fastest)
+    return exact_answers(p, omega, h);
+  const Complex spring = machine.spring * Complex(1, (ratio > 0) - (ratio < 0));
+  const auto d = machine.joints.cols();
+  Eigen::VectorXcd load = ratio == 0 ? machine.load.cast<Complex>() : machine.unbalance;
+  const double size_of_load = load.norm();
+  load.normalize();  // as large as a unit force
+  const RationalFit& fit = machine.fits->of(ratio, [&] {
+    Eigen::MatrixXcd inputs(machine.mass.rows(), d + 1);
+    inputs << machine.joints.cast<Complex>(), load;
+    const auto sampled = [&](double at) -> Eigen::VectorXcd {
+      const Eigen::MatrixXcd z = machine.dynamic_stiffness(spring, ratio * at, at);
+      return z.partialPivLu().solve(inputs).topRows(machine.shown).reshaped();
+    };
+    return RationalFit(sampled, machine.slowest, machine.fastest, fit_error);
+  });
+  if (!fit.covers(speed)) return exact_answers(p, omega, h);
+  const auto [value, slope] = fit.at(speed);
+  const Eigen::Index size = d * machine.shown;
+  Answers answers{value.head(size).reshaped(machine.shown, d),
+                  per_omega * slope.head(size).reshaped(machine.shown, d),
+                  Eigen::VectorXcd::Zero(machine.shown),
+                  Eigen::VectorXcd::Zero(machine.shown), spring};
+  const auto unit = value.tail(machine.shown), unit_slope = slope.tail(machine.shown);
+  if (h == Harmonic{0, 0}) answers.driven = size_of_load * unit;
+  if (h == Harmonic{static_cast<double>(p.turns), 0}) {
+    answers.driven = size_of_load * speed * speed * unit;
+    answers.driven_slope =
+        size_of_load * per_omega * speed * (2 * unit + speed * unit_slope);
+  }
+  return answers;
+}
+
+LinearBlock large_block(const Parameters& p, double omega, Harmonic h)
+{
+  const Answers at = answers_of(p, omega, h);
+  const Eigen::MatrixXd d = p.large->joints.topRows(p.large->shown);
+  const SmallMatrix receptance = d.transpose() * at.to_forces;
+  const SmallMatrix slope = d.transpose() * at.to_forces_slope;
   return {.a = SmallMatrix::Identity(d.cols(), d.cols()) - at.spring * receptance,
           .b = receptance,
-          .c = d.transpose() * driven,
-          .a_slope = -at.spring * receptance_slope,
-          .b_slope = receptance_slope,
-          .c_slope = left.transpose() * (at.load_slope + slope * driven)};
+          .c = d.transpose() * at.driven,
+          .a_slope = -at.spring * slope,
+          .b_slope = slope,
+          .c_slope = d.transpose() * at.driven_slope};
 }
 
 /** Where the period of the passing balls is one for all bearings. */
@@ -141,6 +200,22 @@ Eigen::MatrixXd large_start_samples(const Parameters& parameters, double omega,
   for (Eigen::Index k = 0; k < samples; ++k)
     u.row(k) = quasi_static_contacts(parameters, u.row(k).transpose());
   return u;
+}
+
+Eigen::MatrixXd shown_series(const Parameters& parameters, const PeriodicMotion& motion)
+{
+  const auto columns = motion.harmonics.coefficients();
+  const Eigen::Map<const Eigen::MatrixXd> u(motion.x.data(),
+                                            parameters.large->joints.cols(), columns);
+  Eigen::MatrixXd series(parameters.large->shown, columns);
+  for (int h = 0; h <= motion.harmonics.count(); ++h) {
+    const Answers at = answers_of(parameters, motion.omega, motion.harmonics.list()[h]);
+    const Eigen::VectorXcd q = at.driven - at.to_forces * (amplitude(motion.force, h) -
+                                                           at.spring * amplitude(u, h));
+    series.col(h == 0 ? 0 : 2 * h - 1) = q.real();
+    if (h > 0) series.col(2 * h) = -q.imag();
+  }
+  return series;
 }
 
 Eigen::MatrixXd coordinate_series(const Parameters& parameters,

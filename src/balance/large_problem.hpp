@@ -24,6 +24,9 @@ void put_large_bodies(const Parameters& parameters, const TorusLine& line,
 Eigen::MatrixXd large_start_samples(const Parameters& parameters, double omega,
                                     int samples);
 
+/** Series of the coordinates that are shown [m]. */
+Eigen::MatrixXd shown_series(const Parameters& parameters, const PeriodicMotion& motion);
+
 /** Series of all n coordinates along `motion` [m], n × (2m+1). */
 Eigen::MatrixXd coordinate_series(const Parameters& parameters,
                                   const PeriodicMotion& motion);

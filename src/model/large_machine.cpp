@@ -433,6 +433,11 @@ void read_large_machine(StrictToml& root, Parameters& parameters, const ModelRan
   LargeMachine machine = machine_of(all, gravity, spring);
   machine.reductions = std::move(notes);
   machine.reduction_error = error;
+  if (asked.from < asked.to) {
+    machine.slowest = from;
+    machine.fastest = to;
+    machine.fits = std::make_shared<RationalFits>();
+  }
   parameters.large = std::make_shared<const LargeMachine>(std::move(machine));
 }
 

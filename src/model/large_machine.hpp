@@ -20,6 +20,7 @@ bearings carry a body. */
 #include <utility>
 #include <vector>
 
+#include "model/rational_fit.hpp"
 #include "model/rotor_stator.hpp"
 
 namespace rotor_stator {
@@ -37,6 +38,8 @@ struct LargeMachine {
       outputs;                               ///< further columns, and their coordinates
   std::vector<std::string> reductions = {};  ///< lines for headers
   double reduction_error = 0;                ///< of their receptances, relative
+  double slowest = 0, fastest = 0;  ///< speeds [rad/s] over which responses are fitted
+  std::shared_ptr<RationalFits> fits = {};  ///< by the ratio of frequency and speed
 
   int bearings() const { return static_cast<int>(places.size()); }
   Eigen::MatrixXd held_stiffness() const  ///< K + k_0 D Dᵀ
