@@ -184,7 +184,7 @@ $(intervals): data/%/truth_intervals.tsv: figures/truth_intervals.py $$(subst ge
 	$(whole) $(PYTHON) $(wordlist 1,3,$^) > $$new; mv $$new $@
 
 $(claims): data/%/claims.tsv: figures/claims.py $(judging) $(python_tables) data/reference/clearance_stiffness.tsv \
-  data/reference/identification.tsv data/reference/tab02_equal_error.tsv data/%/tab01_parameters.tsv \
+  data/reference/identification.tsv data/reference/tab02_equal_error.tsv data/reference/large.tsv data/%/tab01_parameters.tsv \
   $$(subst generated,reference,data/$$*/validity.tsv) data/%/fig03_response.tsv data/%/fig07_contact.tsv \
   data/%/fig09_contact.tsv data/%/regimes.tsv data/%/tab02_timing.tsv | $(timings)
 	$(whole) $(PYTHON) $< $(@D) $$new; mv $$new $@
