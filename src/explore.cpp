@@ -16,6 +16,7 @@ or one of the time integrators. A table on stdout, errors on stderr. */
 #include <CLI/CLI.hpp>
 
 #include "explore/attractors.hpp"
+#include "explore/campbell.hpp"
 #include "explore/check.hpp"
 #include "explore/map.hpp"
 #include "explore/orbit.hpp"
@@ -350,6 +351,18 @@ int main(int argc, char** argv)
   MapRequest mapped;
   CLI::App* beams = command("shaft", "matrices of a shaft of beam elements, in files");
   ShaftRequest shaft;
+  CLI::App* whirl =
+      command("campbell", "whirl frequencies against speed, critical speeds");
+  CampbellRequest campbell;
+  add_table_options(*whirl, campbell);
+  add_range_options(*whirl, campbell);
+  add_number(*whirl, "--count", campbell.count, 2, 10000,
+             "speeds from --from to --to, evenly spaced")
+      ->required();
+  add_number(*whirl, "--modes", campbell.modes, 1, 1000, "of lowest frequency");
+  whirl->add_flag("--critical", campbell.critical,
+                  "the critical speeds instead of the frequencies");
+  whirl->add_option("--plot", campbell.plot, "file of the figure: .svg, .png or .pdf");
   add_table_options(*beams, shaft);
   beams->add_option("--to", shaft.folder, "folder for M.mtx, C.mtx, G.mtx and K.mtx")
       ->required();
@@ -370,6 +383,8 @@ int main(int argc, char** argv)
       return 0;
     }
     if (beams->parsed()) return finish(shaft, "", [&] { return explore_shaft(shaft); });
+    if (whirl->parsed())
+      return finish(campbell, "campbell.py", [&] { return explore_campbell(campbell); });
     if (check->parsed())
       return finish(checked, "", [&] { return explore_check(checked); });
     if (settled->parsed())

@@ -21,8 +21,8 @@ namespace {
 using Complex = std::complex<double>;
 using Triplets = std::vector<Eigen::Triplet<double, int>>;
 
-/** Larger bodies are reduced. */
-constexpr int most_kept = 200;
+/** Larger bodies are reduced, unless all their degrees of freedom are asked for, of which there may be so many. */
+constexpr int most_kept = 80, most_asked = 2100;
 
 /** A body that moves in its own degrees of freedom, counted from 0. */
 struct LinearBody : BodyMatrices {
@@ -31,6 +31,7 @@ struct LinearBody : BodyMatrices {
   Eigen::VectorXd load = {};                 ///< beside the weight [N]
   Eigen::VectorXcd unbalance = {};           ///< [kg m]
   std::vector<int> joint = {}, output = {};  ///< x and y
+  bool keeps_all = false;
 
   int size() const { return static_cast<int>(m.rows()); }
 
@@ -100,6 +101,9 @@ LinearBody read_matrices(StrictToml& table, const std::string& name, bool has_we
   body.k = read_one(folder, {"K", 1, true}, n);
   body.c = read_one(folder, {"C", 1, false}, n);
   body.g = read_one(folder, {"G", -1, false}, n);
+  body.keeps_all = table.has("all_dofs") && table.flag("all_dofs");
+  if (body.keeps_all && n > most_asked)
+    table.fail("all_dofs", format("is for at most %d degrees of freedom", most_asked));
   body.load = Eigen::VectorXd::Zero(n);
   body.unbalance = Eigen::VectorXcd::Zero(n);
   if (table.has("bearing_dofs")) body.joint = read_dofs(table, "bearing_dofs", n, true);
@@ -410,7 +414,7 @@ void read_large_machine(StrictToml& root, Parameters& parameters, const ModelRan
   std::vector<std::string> notes;
   double error = 0;
   for (int body : {0, 1})
-    if (all.bodies[body].size() > most_kept)
+    if (!all.bodies[body].keeps_all && all.bodies[body].size() > most_kept)
       reduce_body(all, body, range, gravity, spring, notes, error);
 
   std::vector<std::array<int, 2>> joints[2];
@@ -483,9 +487,17 @@ Eigen::VectorXd quasi_static_contacts(const Parameters& parameters,
   return u;
 }
 
-State large_static_start(const Parameters& parameters)
+namespace {
+
+/** At rest, the bearings holding the constant loads: all displacements, and the stiffness of the contacts, 2b × 2b.
+    Forces are means over so many angles of the cage between two balls, from the cage's phase on. */
+struct AtRest {
+  Eigen::VectorXd q;
+  Eigen::MatrixXd stiffness;
+};
+
+AtRest at_rest(const Parameters& parameters, const LargeMachine& machine, int angles)
 {
-  const LargeMachine& machine = *parameters.large;
   const Eigen::MatrixXd& d = machine.joints;
   const Eigen::LDLT<Eigen::MatrixXd> held(machine.held_stiffness());
   const Eigen::VectorXd alone = held.solve(machine.load);
@@ -498,13 +510,18 @@ State large_static_start(const Parameters& parameters)
   Eigen::MatrixXd slope(c.size(), c.size());
   const auto open = [&](const Eigen::VectorXd& u) -> Eigen::VectorXd {
     slope.setZero();
-    for (int b = 0; b < machine.bearings(); ++b) {
-      const auto [f, s] =
-          BallBearing(bearings[b])
-              .reaction(Direction::of(bearings[b].cage_phase), {u[2 * b], u[2 * b + 1]});
-      force.segment<2>(2 * b) << f.x, f.y;
-      slope.block<2, 2>(2 * b, 2 * b) << s.xx, s.xy, s.xy, s.yy;
-    }
+    force.setZero();
+    for (int b = 0; b < machine.bearings(); ++b)
+      for (int k = 0; k < angles; ++k) {
+        const double cage =
+            bearings[b].cage_phase + angular(1) * k / bearings[b].balls / angles;
+        const auto [f, s] = BallBearing(bearings[b])
+                                .reaction(Direction::of(cage), {u[2 * b], u[2 * b + 1]});
+        Eigen::Matrix2d one;
+        one << s.xx, s.xy, s.xy, s.yy;
+        force.segment<2>(2 * b) += Eigen::Vector2d(f.x, f.y) / angles;
+        slope.block<2, 2>(2 * b, 2 * b) += one / angles;
+      }
     force -= machine.spring * u;
     slope.diagonal().array() -= machine.spring;
     return u - c + h * force;
@@ -523,7 +540,33 @@ State large_static_start(const Parameters& parameters)
     u -= length * change;
   }
   open(u);
-  const Eigen::VectorXd q = alone - held.solve(d * force);
+  slope.diagonal().array() += machine.spring;
+  return {alone - held.solve(d * force), slope};
+}
+
+}  // namespace
+
+LargeMachine matrices_of(const Parameters& parameters)
+{
+  if (parameters.large) return *parameters.large;
+  Body stator = parameters.stator;
+  if (stator.rigid) stator.mass = 1;  // which nothing moves
+  Assembly all{.bodies = {single_mass(stator, "stator", 0),
+                          single_mass(parameters.rotor, "rotor", parameters.unbalance)},
+               .is_rigid = stator.rigid,
+               .places = {{0, 1, 2, 3}}};
+  return machine_of(all, parameters.gravity, scales(parameters).stiffness);
+}
+
+Eigen::MatrixXd mean_contact_stiffness(const Parameters& parameters,
+                                       const LargeMachine& machine)
+{
+  return at_rest(parameters, machine, 64).stiffness;
+}
+
+State large_static_start(const Parameters& parameters)
+{
+  const Eigen::VectorXd q = at_rest(parameters, *parameters.large, 1).q;
   Eigen::VectorXd y = Eigen::VectorXd::Zero(2 * q.size());
   y.head(q.size()) = q;
   return state_of(y);

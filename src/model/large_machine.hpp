@@ -76,6 +76,14 @@ JointForces rigid_joint_forces(const LargeMachine& machine, double speed);
 Eigen::VectorXd quasi_static_contacts(const Parameters& parameters,
                                       const Eigen::VectorXd& forces);
 
+/** The matrices of any machine: its own, or those of two masses. */
+LargeMachine matrices_of(const Parameters& parameters);
+
+/** Where the bearings carry the constant loads: the derivative of their forces, means over the cage's angles, 2b × 2b
+    [N/m]. */
+Eigen::MatrixXd mean_contact_stiffness(const Parameters& parameters,
+                                       const LargeMachine& machine);
+
 /** At rest, the bearings holding the constant loads. */
 State large_static_start(const Parameters& parameters);
 

@@ -22,7 +22,7 @@ using Complex = std::complex<double>;
 using ComplexSparse = Eigen::SparseMatrix<Complex>;
 
 constexpr double wanted = 1e-8, worst = 1e-6;  ///< errors of the receptances
-constexpr int right_in_a_row = 8, most_points = 60;
+constexpr int right_in_a_row = 8, most_points = 200;
 constexpr double most_memory = 12e9;  ///< [bytes] of the factors
 
 /** Reverse Cuthill and McKee: the degrees of freedom of a long body from one end to the other, which keeps the factors

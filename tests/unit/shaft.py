@@ -82,6 +82,82 @@ class Shaft(Case):
                 for value, printed in zip(found, published):
                     self.assertLess(abs(value - printed), 0.1 if printed > 1000 else 0.01)
 
+    def campbell(self, text, rpm, dofs, extra=""):
+        """A machine whose bearing does not touch: the shaft on its own supports."""
+        self.lines("shaft", self.file("shaft.toml", text), "--to", "shaft")
+        own = self.file("machine.toml", f"""title = "on its supports"
+[stator]
+rigid = true
+[rotor]
+matrices = "shaft"
+bearing_dofs = {dofs[0]}
+output_dofs = {dofs[1]}
+[bearing]
+balls = 8
+contact_stiffness_N_per_m1p5 = 1e10
+radial_clearance_m = 1e-3
+cage_speed_ratio = 0.4
+[gravity]
+acceleration_m_per_s2 = 0
+{extra}""")
+        return own, self.table("campbell", own, "--from", 1e-3, "--to", rpm / 60, "--count", 41, "--modes", 6)
+
+    def test_campbell_of_published_shafts(self):
+        """Radians for hertz, the sign of G, a stator that is held among the modes: each would show."""
+        for text, dofs, published, whirl in [
+                (two_disks(6, 1e6, 1e6), ([9, 10], [17, 18]), [85.39, 87.80, 251.78, 294.71, 600.18], [-1, 1, -1, 1, -1]),
+                (OVERHUNG, ([5, 6], [25, 26]), [76.19, 103.91, 565.99, 634.23, 647.75, 1174.2], [-1, 1])]:
+            own, table = self.campbell(text, 4000, dofs)
+            last = table.rows(table["f"] > 66.66)
+            for value, printed in zip(2 * np.pi * last["frequency"], published):
+                self.assertLess(abs(value - printed), 0.1 if printed > 1000 else 0.01)
+            self.assertEqual(list(last["whirl"][:len(whirl)]), whirl)
+            self.assertLess(abs(last["damping"]).max(), 1e-6)
+
+            # A critical speed is one at which the matrices have a mode of that frequency.
+            critical = self.table("campbell", own, "--from", 1, "--to", 30, "--count", 9, "--modes", 6, "--critical")
+            self.assertGreater(len(critical), 3)
+            for speed, line, mode, frequency in zip(*(critical[name] for name in ("f", "line", "mode", "frequency"))):
+                self.assertAlmostEqual(frequency / speed, {"1X": 1, "BPFO": 3.2}[line], places=6)
+                found, _ = self.whirl(text, 60 * speed)
+                self.assertAlmostEqual(found[int(mode) - 1] / (2 * np.pi), frequency, places=4)
+
+    def test_campbell_with_the_mean_contact(self):
+        """A rotor that hangs in its bearing alone vibrates on the slope of the mean force that carries it."""
+        own = self.file("machine.toml", """title = "in its bearing"
+[stator]
+rigid = true
+[rotor]
+mass_kg = 20
+natural_frequency_rad_per_s = 0
+damping_ratio = 0
+unbalance_kg_m = 0
+[bearing]
+balls = 8
+contact_stiffness_N_per_m1p5 = 1e10
+radial_clearance_m = 1e-5
+cage_speed_ratio = 0.375
+[gravity]
+acceleration_m_per_s2 = 9.81
+""")
+        angles = 2 * np.pi / 8 * (np.arange(8)[:, None] + np.arange(64) / 64)
+
+        def mean_force(x, y):
+            pressed = np.maximum(0, np.cos(angles) * x + np.sin(angles) * y - 1e-5)
+            ball = 1e10 * pressed**1.5
+            return np.array([(ball * np.cos(angles)).sum(0).mean(), (ball * np.sin(angles)).sum(0).mean()])
+
+        low, high = -1e-3, 0.0
+        for _ in range(80):
+            middle = (low + high) / 2
+            low, high = (middle, high) if mean_force(0, middle)[1] < -20 * 9.81 else (low, middle)
+        h = 1e-10
+        slopes = [(mean_force(h, low)[0] - mean_force(-h, low)[0]) / (2 * h),
+                  (mean_force(0, low + h)[1] - mean_force(0, low - h)[1]) / (2 * h)]
+        table = self.table("campbell", own, "--from", 1, "--to", 2, "--count", 2)
+        np.testing.assert_allclose(table["frequency"][:2], np.sqrt(np.sort(slopes) / 20) / (2 * np.pi), rtol=1e-5)
+        self.assertEqual(list(table["whirl"]), [0] * 4)
+
     def test_forward_whirl_becomes_faster(self):
         """The other sign of G only exchanges the two, which the frequencies do not show."""
         _, forward = self.whirl(two_disks(6, 1e6, 1e6), 4000)
