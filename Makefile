@@ -92,7 +92,7 @@ timings := $(filter %/tab02_timing.tsv,$(tables) $(tables_printed))
 untimed := $(filter-out $(timings),$(tables) $(tables_printed)) $(figures) $(figures_printed) $(patsubst %,data/generated/%.md,deviations cage)
 studies := $(filter $(programs) $(mapped) $(scripted),$(kept))
 maps := $(filter-out $(kept),$(mapped))
-costs := $(filter tab02% work_precision cost_growth,$(studies))
+costs := $(filter tab02% work_precision cost_growth large,$(studies))
 sources := $(shell find src data/bearings -type f) CMakeLists.txt CMakePresets.json
 
 shown := $(tables_printed) $(figures_printed)

@@ -40,7 +40,7 @@ INPUTS = [f"figures/{FIGURE}.gp", "figures/style.gp", f"data/scenes/{FIGURE}.tom
 
 OUTCOME = """\
 **Claims.** Of the paper's {{claims.count:.0f}} claims, {{claims.reproduced:.0f}} are reproduced,
-{{claims.partly:.0f}} partly and {{claims.not reproduced:.0f}} not; {{claims.not tested:.0f}} is not tested. The paper prints
+{{claims.partly:.0f}} partly and {{claims.not reproduced:.0f}} not. The paper prints
 neither masses nor cage: {{claims.changing:.0f}} of these verdicts change within those that its text admits.
 
 **Resonance.** Rotor peak: {{peak.mm_set_1:.1f}} mm at {{peak.f_set_1:.1f}} Hz (set 1),

@@ -14,7 +14,7 @@ Both axes are logarithmic, so the slope of a line is the exponent of a power law
 larger sizes only, where the fixed cost of a solution no longer counts. An exponent of one means that twice
 the size costs twice as much. A dense factorisation would have the exponent three against harmonics; the
 iterative solver with one block per harmonic avoids it. Steps in the memory are the allocator's pages.
-Claim C12 itself is not tested: the number of degrees of freedom stays at four.
+The number of degrees of freedom stays at four here; studies/large.py has the cost against it.
 
 Each size runs in a process of its own, so that the memory of one does not count for the next. The CPU time
 is the median of several repetitions by one thread.

@@ -21,6 +21,7 @@ OF_LARGEST = 0.02
 # The columns that are compared, where not all are; the columns that name a row, where rows may be missing.
 COLUMNS = {"attractors": ["set"], "validity": ["found", "distance", "periodic"],
            "identification": ["reading", "set", "m_s", "m_r", "f_loss", "f", "periodic", "turns", "amp_x_r"],
+           "large": ["n", "r"],
            "hard_cases": ["case", "method", "status", "verdict", "regime"]}
 KEY = {"attractors": ["set", "f", "origin", "verdict"]}
 # The column of the kinds whose CPU times are shown.

@@ -3,6 +3,7 @@ integration of all degrees of freedom written here.
 
 Usage: tests/unit/large.py   (from the project's root)
 """
+import subprocess
 import sys
 import tomllib
 import unittest
@@ -159,6 +160,21 @@ class Large(Case):
             rows.append([line for line in lines if not line.startswith("#")])
         for other in rows[1:]:
             self.assertEqual(rows[0], other)
+
+    def test_matrices_of_calculix(self):
+        """An upper triangle that is read as the whole matrix would be refused or give another motion."""
+        own = self.file("own.toml", self.paper_machine("set1"))
+        before = self.table("orbit", own, "--frequency", 45, "--points", 4)
+        k, m = 40 * 150.0**2, 40
+        self.file("job.sti", f"1 1 {k}\n1 2 0.\n2 2 {k}\n")
+        self.file("job.mas", f"1 1 {m}\n2 2 {m}\n")
+        self.file("job.dof", "7.1\n7.2\n")
+        printed = subprocess.run([sys.executable, "peers/calculix.py", self.folder / "job", self.folder / "rotor"],
+                                 check=True, capture_output=True, encoding="utf-8").stdout
+        self.assertEqual(printed.splitlines()[1:], ["1\t7\t1", "2\t7\t2"])
+        self.assertIn("symmetric\n2 2 3\n1 1 900000.0\n2 1 0.\n", (self.folder / "rotor/K.mtx").read_text(encoding="utf-8"))
+        after = self.table("orbit", own, "--frequency", 45, "--points", 4)
+        np.testing.assert_allclose(after["x_r"], before["x_r"], rtol=1e-9)
 
     def test_refused(self):
         good = self.paper_machine("set1")
