@@ -22,7 +22,11 @@ def draw(table):
     cost.set(ylabel="CPU time [s]")
     memory.plot(beams["n"], beams["memory"] / 1e6, "o-", ms=5, lw=1, color="C0")
     memory.plot(bricks["n"], bricks["memory"] / 1e6, "o", ms=7, mfc="none", color="C0")
-    memory.set(ylabel="peak memory of the branch [MB]")
+    for label, fill in (("beams", "C0"), ("bricks", "none"), ("paper's machine", "0.8")):
+        memory.plot([], [], "o", ms=6, mfc=fill, color="C0", label=label)
+    memory.plot(paper["n"], paper["memory"] / 1e6, "o", ms=7, mfc="0.8", color="C0")
+    memory.legend(frameon=False, fontsize=8, loc="upper left")
+    memory.set(ylabel="peak memory of the branch [MB]", ylim=(10, 1e4))
     for rows, fill in ((beams, None), (bricks, "none"), (paper, "0.8")):
         error.plot(rows["n"], rows["error"], "o", ms=6, mfc=fill, color="C0")
     reduced = beams.rows(beams["reduction_error"] > 0)
@@ -31,7 +35,8 @@ def draw(table):
     error.annotate("solution against integration", (4, 1.7 * error.get_lines()[0].get_ydata().max()), color="C0")
     error.annotate("receptances by the reduction", (4, 0.2 * reduced["reduction_error"].min()), color="C1")
     error.set(ylabel="relative error", ylim=(1e-12, 1))
-    for axes in (cost, memory, error):
+    for letter, axes in zip("abc", (cost, memory, error)):
+        axes.set_title(f"({letter})", loc="left")
         axes.set(xscale="log", yscale="log", xlabel="degrees of freedom", xlim=(2, 3e5))
         axes.set_xticks(10.0 ** np.arange(1, 6))
         axes.grid(color="0.9", lw=0.6)

@@ -9,7 +9,7 @@
 
 namespace rotor_stator {
 
-void read_large_machine(StrictToml& root, Parameters&)
+void read_large_machine(StrictToml& root, Parameters&, const ModelRange&)
 {
   throw BadInput(root.file() + ": bodies given by matrices need the program explore");
 }
@@ -17,6 +17,7 @@ void read_large_machine(StrictToml& root, Parameters&)
 /** Without such bodies none of these is called. */
 void put_large_bodies(const Parameters&, const TorusLine&, Problem&) { abort(); }
 Eigen::MatrixXd large_start_samples(const Parameters&, double, int) { abort(); }
+Eigen::MatrixXd shown_series(const Parameters&, const PeriodicMotion&) { abort(); }
 Eigen::MatrixXd coordinate_series(const Parameters&, const PeriodicMotion&) { abort(); }
 State large_static_start(const Parameters&) { abort(); }
 Eigen::VectorXd large_state_scales(const Parameters&) { abort(); }

@@ -227,9 +227,7 @@ struct Assembly {
     for (int i = 0; i < size(); ++i) {
       const int dof = factors.permutationPinv().indices()[i];
       const bool is_rotor = dof >= first(1);
-      if (factors.info() == Eigen::Success &&
-          factors.vectorD()[i] > rounding * held.coeff(dof, dof))
-        continue;
+      if (factors.vectorD()[i] > rounding * held.coeff(dof, dof)) continue;
       throw BadInput(format(
           "%s: K is singular, and no bearing holds what it leaves free: found at degree "
           "of freedom %d (torsion and axial motion must be held too)",

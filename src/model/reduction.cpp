@@ -285,8 +285,7 @@ void require_held(const HeldBody& body, const BodyPorts& ports, const std::strin
       factors(held);
   constexpr double rounding = 1e-12;
   for (int i = 0; i < held.rows(); ++i)
-    if (factors.info() != Eigen::Success ||
-        !(factors.vectorD()[i] > rounding * held.coeff(i, i)))
+    if (!(factors.vectorD()[i] > rounding * held.coeff(i, i)))
       throw BadInput(format(
           "%s: K is singular, and no bearing holds what it leaves free: found at degree "
           "of freedom %d (torsion and axial motion must be held too)",
