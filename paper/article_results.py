@@ -179,9 +179,10 @@ def verdicts(add):
 
 def settings(add):
     """What the programs take for T-periodic and for the same motion."""
-    for key, file, name in (("spread", "attractor", "closed"), ("near", "verdict", "same_motion")):
-        text = Path(f"src/motion/{file}.hpp").read_text()
-        add(f"settings.{key}", float(re.search(rf"double {name} = ([\d.e-]+);", text)[1]), "-", f"{name} of src/motion/{file}.hpp")
+    for key, file, name in (("spread", "motion/attractor.hpp", "closed"), ("near", "motion/verdict.hpp", "same_motion"),
+                            ("kept", "model/large_machine.cpp", "most_kept"), ("receptance", "model/reduction.cpp", "wanted")):
+        text = Path(f"src/{file}").read_text()
+        add(f"settings.{key}", float(re.search(rf"\b{name} = ([\d.e-]+)[;,]", text)[1]), "-", f"{name} of src/{file}")
 
 
 def parameters(add):
