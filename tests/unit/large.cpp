@@ -183,9 +183,9 @@ TEST_CASE("A rational fit finds sharp poles, and their slopes")
 {
   const std::complex<double> i(0, 1);
   const auto f = [&](double x) -> Eigen::VectorXcd {
-    return Eigen::Vector2cd(
-        1.0 / (x * x - 4.0 + 0.01 * i * x) + 0.3 / (x - 1.234 + 1e-3 * i),
-        std::exp(0.1 * x) / (x + 1.0));
+    std::complex<double> many = 0;  // more poles than the first samples can tell
+    for (int k = 1; k < 20; ++k) many += 0.1 / (x - 0.25 * k + 2e-3 * i);
+    return Eigen::Vector2cd(many + 0.3 / (x - 1.234 + 1e-3 * i), std::exp(0.1 * x));
   };
   const RationalFit fit(f, 0.1, 5, 1e-9);
   REQUIRE(fit.covers(3));
@@ -195,7 +195,7 @@ TEST_CASE("A rational fit finds sharp poles, and their slopes")
     const double x = 0.1 + 4.9 * (k + 0.37) / 500;
     const auto [value, slope] = fit.at(x);
     const Eigen::VectorXcd by_difference = (f(x + step) - f(x - step)) / (2 * step);
-    CHECK((value - f(x)).norm() < 1e-8 * largest);
+    CHECK((value - f(x)).norm() < 1e-7 * largest);
     CHECK((slope - by_difference).norm() < 1e-4 * by_difference.norm() + 1e-5 * largest);
   }
 }
