@@ -1,15 +1,15 @@
 /**
 # The ball bearing (Eqs 3 to 6)
 
-Ball j stands at
+The cage carries the balls round; each is pressed by the motion of the rotor towards it. Ball j stands at
 
 $$\theta_j = \omega_{cage}\, t + 2\pi (j-1)/n \tag{3}$$
 
-and is squeezed by
+and the rotor (inner ring) approaches it by
 
 $$\Delta_j = \cos\theta_j\,(x_r - x_s) + \sin\theta_j\,(y_r - y_s), \tag{4}$$
 
-the approach of the rotor (inner ring) to it; the paper prints the opposite order, which
+which squeezes the ball once it exceeds the clearance; the paper prints the opposite order, which
 would be a negative stiffness (D-01). Its force Q_j (Eq. 5) is summed over the balls (Eq.
 6):
 
@@ -18,7 +18,7 @@ $$F = \sum_j Q_j\,(\cos\theta_j, \sin\theta_j), \tag{6}$$
 acting as +F on the stator and -F on the rotor. Only the relative motion u = (x_r - x_s,
 y_r - y_s) enters.
 
-With contact damping (Hunt and Crossley 1975) the force of a loaded ball is Q_j (1 + λ dΔ_j/dt), but never
+With contact damping (Hunt and Crossley 1975) the force of a loaded ball is $Q_j (1 + \lambda\, d\Delta_j/dt)$, but never
 negative. A spall lets a ball lose h of its deflection while it passes,
 
 $$h = h_0 \cos^4(\pi\alpha/w), \qquad |\alpha| < w/2,$$
@@ -32,7 +32,6 @@ back: one sine and one cosine of the cage angle serve all balls. */
 #pragma once
 
 #include <Eigen/Core>
-#include <algorithm>
 #include <array>
 #include <cmath>
 #include <vector>
@@ -121,12 +120,14 @@ public:
   {
     if (u.x * u.x + u.y * u.y <= clearance_squared_) return {0, 0};
     const Vec2 v = into_frame(cage, u);
+    /** By value: references would send the four through memory. */
+    const auto larger = [](double a, double b) { return a > b ? a : b; };
     Vec2 sum{0, 0};
     for (const Four& ball : fours_) {
       double p[4];
       for (int j = 0; j < 4; ++j)
         p[j] = ball.cos[j] * v.x + ball.sin[j] * v.y - clearance_;
-      if (std::max(std::max(p[0], p[1]), std::max(p[2], p[3])) <= 0) continue;
+      if (larger(larger(p[0], p[1]), larger(p[2], p[3])) <= 0) continue;
       for (int j = 0; j < 4; ++j) {
         if (p[j] <= 0) continue;
         const double q = p[j] * std::sqrt(p[j]);

@@ -1,9 +1,12 @@
 /**
 # Hertz contact of a ball with its races (Eqs 1, 2 and 5)
 
-A ball pressed by the penetration $p > 0$ answers with the force Q; ball j of a bearing, approached by Δ_j, with Q_j:
+A ball pressed by the penetration $p > 0$ answers with the force Q; ball j of a bearing, approached by Δ_j,
+with Q_j. Eq. 2, which gives the contact stiffness K_H, stands further down.
 
-$$Q = K_H\, p^{3/2}, \tag{1}$$ $$Q_j = K_H \max(0, \Delta_j - \delta)^{3/2}. \tag{5}$$ */
+$$Q = K_H\, p^{3/2}, \tag{1}$$
+
+$$Q_j = K_H \max(0, \Delta_j - \delta)^{3/2}. \tag{5}$$ */
 #pragma once
 
 #include <cmath>

@@ -47,6 +47,12 @@ struct LargeMachine {
     return stiffness + spring * joints * joints.transpose();
   }
 
+  /** k of the added spring for a vibration of so many times the speed: k_0(1 ± i), so that S is never singular. */
+  std::complex<double> damped_spring(double order) const
+  {
+    return {spring, spring * ((order > 0) - (order < 0))};
+  }
+
   /** K + k D Dᵀ - Ω² M + iΩ (C + ωG) at the frequency Ω and the speed ω, for a spring k. */
   Eigen::MatrixXcd dynamic_stiffness(std::complex<double> k, double frequency,
                                      double speed) const;

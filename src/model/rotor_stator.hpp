@@ -1,6 +1,8 @@
 /**
 # Rotor and stator (Eq. 7)
 
+The equations of motion of both bodies, joined by the force F of the bearing:
+
 $$\begin{aligned}
 m_s \ddot{x}_s + c_s \dot{x}_s + k_s x_s &= F_x \\
 m_s \ddot{y}_s + c_s \dot{y}_s + k_s y_s &= F_y - m_s g \\
