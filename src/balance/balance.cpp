@@ -368,6 +368,39 @@ void Balance::apply_jacobian(const Eigen::VectorXd& x, double omega,
   combine(series, product_series_, product);
 }
 
+void Balance::factor_in_time(const Eigen::VectorXd& x, double omega)
+{
+  residual(x, omega);
+  if (!in_time_) in_time_.emplace(*problem_.bodies);
+  in_time_->factor(stiffness_samples_, omega);
+  const int samples = in_time_->samples();
+  spend(100.0 * samples);
+  if (!time_transform_ || time_transform_->samples() != samples) {
+    time_transform_.emplace(samples);
+    time_images_ = harmonics_.images(problem_.line, samples);
+  }
+  const int size = 2 * problem_.dofs;
+  b_inverse_.resize(size, size * (m_ + 1));
+  for (int h = 0; h <= m_; ++h)
+    b_inverse_.middleCols(h * size, size) =
+        RealBlock(b_.middleCols(h * size, size)).inverse();
+}
+
+/** (A + B J) z = r is (B⁻¹A + J) z = B⁻¹r, where B⁻¹A is the dynamic stiffness of both bodies in series. */
+void Balance::solve_in_time(const Eigen::VectorXd& r, Eigen::VectorXd& z)
+{
+  const int d = problem_.dofs, two = 2 * d;
+  spend(12.0 * in_time_->samples() + 2 * d * time_transform_->operations());
+  product_series_.col(0).noalias() = b_inverse_.topLeftCorner(d, d) * r.head(d);
+  for (int h = 1; h <= m_; ++h)
+    product_series_.middleCols(2 * h - 1, 2).reshaped().noalias() =
+        b_inverse_.middleCols(h * two, two) * r.segment((2 * h - 1) * d, two);
+  time_transform_->to_samples(product_series_, product_force_, time_images_);
+  in_time_->solve(product_force_, product_samples_);
+  time_transform_->to_series(product_samples_, product_series_, time_images_);
+  z = product_series_.reshaped();
+}
+
 /** What one harmonic of q adds to the same one of the force, by the slopes from `first_column` on. */
 RealBlock Balance::force_block(Eigen::Index first_column, int h) const
 {

@@ -1,7 +1,8 @@
 /**
 # Harmonic balance by alternating frequency and time (Eqs 8 to 16)
 
-A system with d nonlinear unknowns q(t) gives, for each harmonic h, one linear block
+The coefficients of a periodic motion are solved for, and its force is evaluated in time. A system with d
+nonlinear unknowns q(t) gives, for each harmonic h, one linear block
 
 $$A_h(\omega)\, q_h + B_h(\omega)\, f_h(q) = c_h(\omega),$$
 
@@ -37,8 +38,10 @@ the samples. */
 #include <Eigen/Core>
 #include <functional>
 #include <memory>
+#include <optional>
 #include <type_traits>
 
+#include "balance/equations_in_time.hpp"
 #include "balance/fourier_transform.hpp"
 #include "balance/periodic_motion.hpp"
 
@@ -96,6 +99,9 @@ struct Problem {
 
   /** Where the samples lie, with two frequencies. */
   TorusLine line = {};
+
+  /** Stator and rotor, where f is the force between them, of one frequency and without damping. */
+  std::optional<std::array<PointBody, 2>> bodies = {};
 };
 
 /** The block of M q̈ + D q̇ + K q + f(q) = Re(F e^{iωt}) for real d × d matrices and a
@@ -171,6 +177,10 @@ public:
   void apply_jacobian(const Eigen::VectorXd& x, double omega, const Eigen::VectorXd& v,
                       Eigen::VectorXd& product);
 
+  /** An approximate inverse of ∂R/∂X at (X, ω) by the equations of motion at the samples, of a problem with bodies. */
+  void factor_in_time(const Eigen::VectorXd& x, double omega);
+  void solve_in_time(const Eigen::VectorXd& r, Eigen::VectorXd& z);
+
   /** The diagonal block of ∂R/∂X of the harmonic `h` ≥ 1 of the list, 2d × 2d. */
   RealBlock diagonal_block(const Eigen::VectorXd& x, double omega, int h);
 
@@ -220,6 +230,10 @@ private:
   Eigen::VectorXd orders_;  ///< with a moving force
   Eigen::MatrixXd rate_series_, rate_samples_, damping_jacobian_;
   Eigen::MatrixXd product_samples_, product_force_, product_series_;
+  std::optional<EquationsInTime> in_time_;
+  std::optional<FourierTransform> time_transform_;
+  Images time_images_;
+  Eigen::MatrixXd b_inverse_;  ///< B_h⁻¹ like b_, for the equations in time
   Eigen::MatrixXcd spectra_;   ///< κ_p of each stiffness series
   Eigen::VectorXcd extended_;  ///< conj κ_p of one of them, the middle one p = 0
   Eigen::VectorXd residual_, speed_derivative_;

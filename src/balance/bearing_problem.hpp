@@ -2,7 +2,7 @@
 # Rotor and stator as a harmonic-balance problem
 
 Each body is linear, so its displacement follows from the bearing's force harmonic by
-harmonic, and the four unknowns per harmonic condense exactly to the two of the relative
+harmonic. The four unknowns per harmonic condense exactly to the two of the relative
 motion u = x_r - x_s:
 
 $$u_h + (G_s + G_r)\,F_h(u) = G_r f_r - G_s f_s, \qquad G(\Omega) = 1/Z(\Omega),\ \Omega =

@@ -1,7 +1,8 @@
 /**
 # Between the Fourier series and its samples (Eqs 9 and 13)
 
-A motion with m harmonics is the series
+A periodic motion is known by its coefficients or by its samples, and either follows from the other. With m
+harmonics it is the series
 
 $$x(\varphi) = X_0 + \sum_{i=1}^{m} X_{2i-1}\cos i\varphi + X_{2i}\sin i\varphi, \tag{9}$$
 

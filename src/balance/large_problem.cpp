@@ -26,8 +26,7 @@ HarmonicAlone harmonic_of(const Parameters& p, double omega, Harmonic h)
   const LargeMachine& machine = *p.large;
   const double order = order_of(h, p.bearing), frequency = order * omega;
   const double speed = rotor_speed(p, omega), per_omega = rotor_speed(p, 1);
-  const double sign = (frequency > 0) - (frequency < 0);
-  const Complex spring = machine.spring * Complex(1, sign);
+  const Complex spring = machine.damped_spring(order);
   Eigen::VectorXcd load = Eigen::VectorXcd::Zero(machine.load.size()), slope = load;
   if (h == Harmonic{0, 0}) load = machine.load;
   if (h == Harmonic{static_cast<double>(p.turns), 0}) {
@@ -82,7 +81,7 @@ Answers answers_of(const Parameters& p, double omega, Harmonic h)
   const double ratio = order / per_omega, speed = per_omega * omega;
   if (!machine.fits || speed < machine.slowest || speed > machine.fastest)
     return exact_answers(p, omega, h);
-  const Complex spring = machine.spring * Complex(1, (ratio > 0) - (ratio < 0));
+  const Complex spring = machine.damped_spring(ratio);
   const auto d = machine.joints.cols();
   Eigen::VectorXcd load = ratio == 0 ? machine.load.cast<Complex>() : machine.unbalance;
   const double size_of_load = load.norm();
@@ -202,40 +201,49 @@ Eigen::MatrixXd large_start_samples(const Parameters& parameters, double omega,
   return u;
 }
 
-Eigen::MatrixXd shown_series(const Parameters& parameters, const PeriodicMotion& motion)
+namespace {
+
+/** Of q_h = `answer`(h, push), where push(k) are the amplitudes of the bearings' forces with the spring k taken off. */
+template <class Answer>
+Eigen::MatrixXd series_of(const PeriodicMotion& motion, Eigen::Index joints,
+                          Eigen::Index rows, Answer answer)
 {
   const auto columns = motion.harmonics.coefficients();
-  const Eigen::Map<const Eigen::MatrixXd> u(motion.x.data(),
-                                            parameters.large->joints.cols(), columns);
-  Eigen::MatrixXd series(parameters.large->shown, columns);
+  const Eigen::Map<const Eigen::MatrixXd> u(motion.x.data(), joints, columns);
+  Eigen::MatrixXd series(rows, columns);
   for (int h = 0; h <= motion.harmonics.count(); ++h) {
-    const Answers at = answers_of(parameters, motion.omega, motion.harmonics.list()[h]);
-    const Eigen::VectorXcd q = at.driven - at.to_forces * (amplitude(motion.force, h) -
-                                                           at.spring * amplitude(u, h));
+    const auto push = [&](Complex spring) -> Eigen::VectorXcd {
+      return amplitude(motion.force, h) - spring * amplitude(u, h);
+    };
+    const Eigen::VectorXcd q = answer(motion.harmonics.list()[h], push);
     series.col(h == 0 ? 0 : 2 * h - 1) = q.real();
     if (h > 0) series.col(2 * h) = -q.imag();
   }
   return series;
 }
 
+}  // namespace
+
+Eigen::MatrixXd shown_series(const Parameters& parameters, const PeriodicMotion& motion)
+{
+  const LargeMachine& machine = *parameters.large;
+  return series_of(motion, machine.joints.cols(), machine.shown,
+                   [&](Harmonic h, auto push) -> Eigen::VectorXcd {
+                     const Answers at = answers_of(parameters, motion.omega, h);
+                     return at.driven - at.to_forces * push(at.spring);
+                   });
+}
+
 Eigen::MatrixXd coordinate_series(const Parameters& parameters,
                                   const PeriodicMotion& motion)
 {
   const LargeMachine& machine = *parameters.large;
-  const auto columns = motion.harmonics.coefficients();
-  const auto d = machine.joints.cols(), n = machine.joints.rows();
-  const Eigen::Map<const Eigen::MatrixXd> u(motion.x.data(), d, columns);
-  Eigen::MatrixXd series(n, columns);
-  for (int h = 0; h <= motion.harmonics.count(); ++h) {
-    const HarmonicAlone at =
-        harmonic_of(parameters, motion.omega, motion.harmonics.list()[h]);
-    const Eigen::VectorXcd push =
-        amplitude(motion.force, h) - at.spring * amplitude(u, h);
-    const Eigen::VectorXcd q = at.factors.solve(at.load - machine.joints * push);
-    series.col(h == 0 ? 0 : 2 * h - 1) = q.real();
-    if (h > 0) series.col(2 * h) = -q.imag();
-  }
-  return series;
+  const Eigen::MatrixXd& d = machine.joints;
+  return series_of(motion, d.cols(), d.rows(),
+                   [&](Harmonic h, auto push) -> Eigen::VectorXcd {
+                     const HarmonicAlone at = harmonic_of(parameters, motion.omega, h);
+                     return at.factors.solve(at.load - d * push(at.spring));
+                   });
 }
 
 }  // namespace rotor_stator

@@ -1,7 +1,7 @@
 /**
 # Bodies given by matrices as a harmonic-balance problem
 
-Per harmonic of frequency Ω all n unknowns condense exactly to the relative displacements u = Dᵀq of the b bearings,
+However large the bodies, the balance has two unknowns per harmonic and bearing. Per harmonic of frequency Ω all n unknowns condense exactly to the relative displacements u = Dᵀq of the b bearings,
 
 $$(I - k H)\, u_h + H F_h(u) = D^T S^{-1} p_h, \qquad H = D^T S^{-1} D,\qquad
 S = K + k D D^T - \Omega^2 M + i\Omega\,(C + \omega G),$$

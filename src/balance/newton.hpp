@@ -1,8 +1,13 @@
 /**
-# Newton's method, globalised (Eqs 14, 15, 17 and 18)
+# Newton's method, globalised (Eqs 10, 14, 15, 17 and 18)
 
-The step follows from the linearised balance at a fixed speed (Eq. 10; the paper's Eq. 15 does
-not follow from it, D-06):
+Newton's method solves the balance, with steps that are shortened where the residual would grow. The balance,
+linearised about the coefficients X and the speed ω, is
+
+$$A X + F_{NL} - F + (A + J)\,\Delta X + Q\,\Delta\omega = 0. \tag{10}$$
+
+The step follows from it at a fixed speed, Δω = 0, with R of Eq. 16 (the paper's Eq. 15 does not follow
+from it, D-06):
 
 $$X \leftarrow X + \lambda \Delta X, \tag{14}$$
 

@@ -72,6 +72,13 @@ constexpr double weak_coupling = 1;
 /** Past this share of all harmonics the dense block takes them all. */
 constexpr double most_low_share = 0.8;
 
+/** A dense block of more harmonics costs more than the equations in time. */
+constexpr int most_dense = 64;
+
+/** What a step by them may leave, of what another iterated step may: it is then as good as a dense one, after which
+    Newton's error is that of δ₂². */
+constexpr double in_time_goal = 0.01;
+
 /** The dense block and its factors stay below 0.3 GB. */
 constexpr int most_low_unknowns = 4200;
 
@@ -121,7 +128,14 @@ void StepSolver::factor(Balance& balance, const Eigen::VectorXd& x, double omega
   if (low_ >= most_low_share * m) low_ = m;
   if (holds_) low_ = m;
   low_ = std::min(low_, largest_low(balance));
-  is_complete_ = low_ == m;
+  in_time_ = balance.problem().bodies && !holds_ && !stalls_in_time_ && low_ > most_dense;
+  is_complete_ = low_ == m && !in_time_;
+  if (in_time_) {
+    balance.factor_in_time(x, omega);
+    factored_ = true;
+    ++factorisations_;
+    return;
+  }
   balance.jacobian(x, omega, low_, low_jacobian_);
   low_factors_.compute(low_jacobian_);
   high_inverses_.resize(two, two * (m - low_));
@@ -133,8 +147,10 @@ void StepSolver::factor(Balance& balance, const Eigen::VectorXd& x, double omega
   ++factorisations_;
 }
 
-void StepSolver::precondition(const Eigen::VectorXd& r, Eigen::VectorXd& z) const
+void StepSolver::precondition(Balance& balance, const Eigen::VectorXd& r,
+                              Eigen::VectorXd& z) const
 {
+  if (in_time_) return balance.solve_in_time(r, z);
   const auto low = low_jacobian_.rows();
   z.resize(r.size());
   for (const Part& part : parts_) {
@@ -158,23 +174,29 @@ void StepSolver::iterate(Balance& balance, const Eigen::VectorXd& x, double omeg
                          Eigen::VectorXd& step)
 {
   const auto n = static_cast<double>(residual.size());
-  const auto low = static_cast<double>(low_jacobian_.rows());
+  const auto low = in_time_ ? 0.0 : static_cast<double>(low_jacobian_.rows());
   int known = 0;  // those that the next one is made orthogonal to, twice
   const auto apply = [&](const Eigen::VectorXd& v, Eigen::VectorXd& product) {
     balance.spend(1.5 * low * low + 5.0 * n * ++known);
     balance.apply_jacobian(x, omega, v, product);
   };
+  if (in_time_) goal *= in_time_goal;
   const auto report = gmres_.solve(
       std::ref(apply),  // a copy would be allocated
-      [&](const Eigen::VectorXd& v, Eigen::VectorXd& z) { precondition(v, z); }, residual,
-      goal, most_linear_iterations, step);
+      [&](const Eigen::VectorXd& v, Eigen::VectorXd& z) { precondition(balance, v, z); },
+      residual, goal, most_linear_iterations, step);
   step = -step;
   linear_iterations_ += report.iterations;
   stalled_ = !(report.residual <= goal);
   if (report.iterations > many_linear_iterations) factored_ = false;
   if (!stalled_ || !are_new) return;
-  /** Factors of this very point were not enough: a larger block, if there is one. */
+  /** Factors of this very point were not enough: dense ones, or a larger block, if there is one. */
   if (!parts_.empty()) return;
+  if (in_time_) {
+    stalls_in_time_ = true;
+    factored_ = false;
+    return;
+  }
   least_low_ = 2 * low_;
   factored_ = low_ >= largest_low(balance);
 }
@@ -214,7 +236,7 @@ StepKind StepSolver::step(Balance& balance, const Eigen::VectorXd& x, double ome
   const bool are_new = !factored_;
   if (are_new) factor(balance, x, omega);
   if (is_complete_ && (are_new || takes_chords())) {
-    precondition(residual, step);
+    precondition(balance, residual, step);
     step = -step;
     return last_ = are_new ? StepKind::fresh : StepKind::chord;
   }

@@ -1,5 +1,5 @@
 /**
-# GMRES
+# Linear equations of a Newton step (GMRES)
 
 The generalised minimal residual method of Saad and Schultz (1986), preconditioned from the
 right, so that its residual is that of the equations. Eigen's own (unsupported) takes a relative
@@ -41,7 +41,7 @@ private:
 };
 
 /**
-## The linear equations of a Newton step
+## The equations and their preconditioner
 
 What is expensive is kept from step to step and from speed to speed: the LU factors of the low
 harmonics' block of the Jacobian, where the contact couples everything, and beyond them one
@@ -51,7 +51,10 @@ whole Jacobian. A step then is either
 - fresh: the factors are those of the present point and hold all harmonics;
 - a chord: older factors of all harmonics, where there are few;
 - iterated: GMRES on the present Jacobian, preconditioned by the factors, old or new. Its cost
-  per iteration is that of the transforms, m log m. */
+  per iteration is that of the transforms, m log m.
+
+Where the contact couples more than 64 harmonics, and the problem knows its bodies, the preconditioner is that of the
+equations in time (equations_in_time.hpp): the whole step then costs m log m. */
 
 enum class StepKind { fresh, chord, iterated };
 
@@ -107,7 +110,7 @@ private:
   bool chord_pays(double decrease) const;
   void factor(Balance& balance, const Eigen::VectorXd& x, double omega);
   void factor_parts(Balance& balance, const Eigen::VectorXd& x, double omega);
-  void precondition(const Eigen::VectorXd& r, Eigen::VectorXd& z) const;
+  void precondition(Balance& balance, const Eigen::VectorXd& r, Eigen::VectorXd& z) const;
   void iterate(Balance& balance, const Eigen::VectorXd& x, double omega,
                const Eigen::VectorXd& residual, double goal, bool are_new,
                Eigen::VectorXd& step);
@@ -120,6 +123,8 @@ private:
   double entering_contraction_ = 0;  ///< of the last first step with older factors
   int low_ = 0;                      ///< harmonics in the dense block
   bool holds_ = false;               ///< it is to hold all of them
+  bool in_time_ = false;             ///< instead the equations of motion at the samples
+  bool stalls_in_time_ = false;      ///< which GMRES with them once did
   int least_low_ = 16;               ///< grows when GMRES stalls
   Eigen::MatrixXd low_jacobian_;
   Eigen::PartialPivLU<Eigen::MatrixXd> low_factors_;

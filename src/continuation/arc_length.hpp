@@ -1,8 +1,8 @@
 /**
-# Has the branch been here before?
+# Pseudo-arc-length continuation
 
-A step that passes an earlier point of its branch has closed a loop, or has hopped onto a leg that was
-followed already. A point that lies near a step is corrected from the step's cubic in the plane across
+A response curve is followed by its arc length, so that it may turn back where it folds. A step that passes
+an earlier point of the branch has closed a loop, or has hopped onto a leg that was followed already. A point that lies near a step is corrected from the step's cubic in the plane across
 the point's own tangent: the same solution comes out, or another. */
 #pragma once
 
@@ -65,7 +65,7 @@ private:
 };
 
 /**
-## Pseudo-arc-length continuation
+## The steps
 
 A step along the branch's tangent, then Newton on the balance and the condition of the
 extended balance. The step follows the corrector (Allgower and Georg 2003, section 6.1; Den Heijer

@@ -1,7 +1,7 @@
 /**
 # The paper's predictor (Eqs 19 to 21)
 
-The last four solutions (X_i, ω_i) are points on a curve whose arc length is measured by
+The solution at the next speed is predicted by a cubic through the last four. These solutions (X_i, ω_i) are points on a curve whose arc length is measured by
 chords,
 
 $$\delta s_{i+1} = \sqrt{\|X_{i+1} - X_i\|^2 / \ell^2 + (\omega_{i+1} - \omega_i)^2 /

@@ -26,12 +26,11 @@ void require_range(double from, double to)
   if (from >= to) throw BadInput(format("--from %g: must be below --to %g", from, to));
 }
 
-Parameters machine_of(const MotionRequest& request)
+Parameters machine_of(const Request& request, double from, double to)
 {
-  return read_parameters(request.parameter_file,
-                         {.from = request.frequency,
-                          .to = request.frequency,
-                          .harmonics = std::max(64, request.harmonics.value_or(0))});
+  return read_parameters(
+      request.parameter_file,
+      {.from = from, .to = to, .harmonics = std::max(64, request.harmonics.value_or(0))});
 }
 
 int checked_samples(int harmonics, const std::optional<int>& samples)
@@ -243,7 +242,7 @@ const std::vector<Column> contact_columns{
 
 Exploration explore_orbit(const MotionRequest& request)
 {
-  const Parameters parameters = machine_of(request);
+  const Parameters parameters = machine_of(request, request.frequency, request.frequency);
   auto columns = orbit_columns;
   const auto add = [&](const std::string& name, const char* unit, const char* meaning) {
     columns.insert(columns.end() - 1, {name, unit, meaning});
@@ -294,7 +293,7 @@ Exploration explore_orbit(const MotionRequest& request)
 
 Exploration explore_contact(const MotionRequest& request)
 {
-  const Parameters parameters = machine_of(request);
+  const Parameters parameters = machine_of(request, request.frequency, request.frequency);
   const Bearing& bearing = parameters.bearing;
   auto columns = contact_columns;
   if (bearing.pressure == 0) columns.pop_back();

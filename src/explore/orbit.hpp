@@ -57,8 +57,8 @@ Exploration explore_contact(const MotionRequest& request);
 /**
 ## What the other commands need too */
 
-/** The machine at the request's speed. Throws BadInput. */
-Parameters machine_of(const MotionRequest& request);
+/** The machine, right at these speeds [Hz] and the request's harmonics. Throws BadInput. */
+Parameters machine_of(const Request& request, double from, double to);
 
 /** A motion and its lines; those of a time method are left out. */
 struct FoundMotion {

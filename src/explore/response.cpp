@@ -80,10 +80,7 @@ void take_any_cage(const ResponseRequest& request, Task& task)
 Task task_of(const ResponseRequest& request)
 {
   require_range(request.from, request.to);
-  Parameters parameters = read_parameters(
-      request.parameter_file, {.from = request.from,
-                               .to = request.to,
-                               .harmonics = std::max(64, request.harmonics.value_or(0))});
+  Parameters parameters = machine_of(request, request.from, request.to);
   if (request.method == "shooting" || request.save || request.restart ||
       request.isolated > 0)
     require_two_masses(parameters, "--method shooting, --save, --restart or --isolated");

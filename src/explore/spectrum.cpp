@@ -95,7 +95,7 @@ Exploration explore_spectrum(const MotionRequest& asked)
 {
   Table table("Lines of the motion of rotor and stator", line_columns);
   table.choose(asked.columns, line_columns.size(), asked.plot.has_value());
-  const Parameters parameters = machine_of(asked);
+  const Parameters parameters = machine_of(asked, asked.frequency, asked.frequency);
   if (asked.overlay) {
     for (const char* name : {"f", "amplitude"}) NumberTable(*asked.overlay).at(0, name);
     table.note("measured: " + *asked.overlay);
