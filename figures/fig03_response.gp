@@ -24,7 +24,7 @@ stats table using (max(mm("amp_x_s"), mm("amp_y_s"))):(max(mm("amp_x_r"), mm("am
 stats table using "set":"f" name 'F' nooutput
 least = min(low_min_x, low_min_y)
 set xrange [0 : F_max_y]
-set yrange [least / 2 : 5 * max(high_max_x, high_max_y)]
+set yrange [least / 2 : 15 * max(high_max_x, high_max_y)]
 set logscale y
 set format y '10^{%T}'
 

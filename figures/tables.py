@@ -1,6 +1,5 @@
 """Read a table, start and finish a figure: what every figure drawn by Python needs."""
 
-import gzip
 import re
 import subprocess
 import sys
@@ -23,8 +22,7 @@ class Table:
     """The columns of a tab-separated table by name, and its `#` lines."""
 
     def __init__(self, path):
-        data = Path(path).read_bytes()
-        self._read((gzip.decompress(data) if str(path).endswith(".gz") else data).decode().splitlines())
+        self._read(Path(path).read_text(encoding="utf-8").splitlines())
 
     @classmethod
     def of(cls, text):
@@ -56,6 +54,14 @@ class Table:
     def where(self, name, value):
         """The rows in which a column has a value."""
         return self.rows(self[name] == value)
+
+    def first_rows(self, most):
+        """The first rows as Markdown, a line for each column with its name, unit, values and meaning, and how many they are."""
+        def written(value):
+            return value if isinstance(value, str) else re.sub(r"e([+-])0*", lambda sign: "e" + sign[1].strip("+"), f"{value:.4g}")
+        lines = [" | ".join([f"| `{name}`", re.sub(r"\^(-?[\d.]+)", r"<sup>\1</sup>", unit), *map(written, self[name][:most]), f"{meaning} |"])
+                 for name, unit, meaning in re.findall(r"^# column: (\S+) \[(.*?)\] ?(.*)", self.header, re.MULTILINE)]
+        return {"grid": "\n".join([lines[0], re.sub("[^|]+", "---", lines[0]), *lines[1:]]), "rows": len(self), "shown": min(most, len(self))}
 
     def first(self, name):
         """A column's value in the first row, for columns that are constant in the rows."""

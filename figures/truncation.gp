@@ -67,7 +67,7 @@ do for [s = 1 : sets] {
   set bmargin at screen 0.36
   set title title_of[s] offset 0, -0.6
   set logscale y
-  set yrange [least / 2 : 2 * greatest]
+  set yrange [least / 2 : 8 * greatest]
   set ytics autofreq
   set xlabel ""
   set format x ""
@@ -75,7 +75,7 @@ do for [s = 1 : sets] {
   set ylabel s == 1 ? "largest rms error about the mean [-]" : "" offset 0.5, 0
   do for [i = 1 : words(limits)] {
     set label i sprintf("%g %%", 100 * word(limits, i)) at graph 1, first real(word(limits, i)) \
-      right offset -0.4, 0.5
+      right offset -0.4, -0.5
   }
   set label 9 s == 1 ? "(a)" : "(b)" at graph 0.03, 0.94
   paper_m = of_paper(word("C2 C3", s))
