@@ -4,9 +4,9 @@
 Paper: §3.3, Fig. 3; data set 2 is added.   Run: `build/fig03_response >
 data/generated/fig03_response.tsv`
 
-The figure shows how strongly rotor and stator vibrate at each speed of rotation, horizontally
-(above) and vertically (below), with the small clearance (left) and the large one (right). The
-amplitude of a displacement is half the difference between its largest and its smallest value in
+The figure shows how strongly rotor and stator vibrate at each speed of rotation, with the small
+clearance (left) and the large one (right). The first row is the horizontal motion x, the second the
+vertical motion y, the third the amplitude of the stator's x over that of the rotor's. The amplitude of a displacement is half the difference between its largest and its smallest value in
 one turn; the paper does not define it (D-10).
 
 The peak is the resonance of both bodies moving as one: the unbalance presses them together, and

@@ -11,8 +11,8 @@ The paper chose this speed to show that both methods agree on a complicated moti
 The force of the unbalance is about as large as the weight here. It nearly lifts the rotor off the
 balls below it once in every turn; contact is lost and met again several times (claim C5). After
 each impact the bodies vibrate against each other on the springs of the contact, many times faster
-than the rotor turns. These vibrations are the ripples of the thin lines; six harmonics of the
-speed of rotation are too slow to follow them.
+than the rotor turns. These vibrations are the ripples of the thick pale lines, the integrated
+motion; six harmonics of the speed of rotation are too slow to follow them.
 
 Left: displacements over two periods of rotation T. Upper right: the paths of both centres. Lower
 right: the motion of the rotor relative to the stator, which decides on contact; inside the circle

@@ -17,7 +17,7 @@ balls for almost a period, where the line is flat, and passes quickly over the o
 steep. At 13.4 Hz the line breaks into short contacts: the rotor bounces (claim C5). The height of
 the line is the number of balls that share the load at one instant.
 
-Below, the same panels show the force of each ball in colour. Each has a scale of its own, because
+Below, the same panels show the force of each ball in colour. All share one logarithmic scale, because
 the forces at 45 Hz are more than ten times those at 3 Hz (claim C7).
 
 A panel shows the solution of harmonic balance where the motion found by time integration repeats
@@ -25,8 +25,9 @@ after one turn and the rms error of the displacements about their means is at mo
 Its title gives this error and that of the bearing's force, the largest difference between both methods over the
 largest force. At 3 Hz the rms error is larger, and the panel shows the integrated motion. Where the
 motion does not repeat, the panel shows the integrated motion too, and two other periods would give
-another picture. Both motions are computed as
-for Figure 6; the force of each ball is Eq. 5. */
+another picture. Both motions are computed as for Figure 6, at more instants of the period: the largest
+error of the force is found among them, and differs a little from that of Figure 6 at the same speed.
+The force of each ball is Eq. 5. */
 #include "figures/contact.hpp"
 #include "io/program.hpp"
 

@@ -5,7 +5,8 @@ Beside the paper, which takes the periodic solution for the motion.   Run: `buil
 data/generated/sections.tsv`
 
 The figure shows at which speeds the motion of the machine repeats after one turn. With the small
-clearance it does, except in a narrow band around 13 Hz. With the large clearance it does not
+clearance it does, except in a band around 13 Hz and at a few other speeds, among them 20 and 54 Hz; the
+[results](../paper/results.md) list those of a start from rest. With the large clearance it does not
 over most of the range below 38 Hz, and harmonic balance with this period cannot represent it
 there.
 
@@ -23,7 +24,7 @@ quasi-periodic. If it is positive, neighbouring motions separate exponentially a
 chaotic. Bars show three standard errors, which an exponent must exceed to count as different
 from zero.
 
-The starting states come from the table of `attractors`, where the exponents and the searches
+The starting states come from the table `attractors`, where the exponents and the searches
 from other starts are explained. */
 #include "io/parallel.hpp"
 #include "io/program.hpp"

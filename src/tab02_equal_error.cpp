@@ -1,5 +1,5 @@
 /**
-# What equal error costs
+# Computing time at equal error
 
 Paper: §3.3, 9.0, 8.2 and 7.5 times faster than RK4 (claim C9).
 
@@ -11,7 +11,7 @@ header, with the least error that it reaches. Speeds at which the motion has not
 left out and listed, since no error of a periodic motion is defined there. The two ranges lie below and
 above the transition at 25 Hz.
 
-The figure adds other people's programs: the integrators of SUNDIALS and of SciPy, which call the same
+Other people's programs stand with the figure `peers`: the integrators of SUNDIALS and of SciPy, which call the same
 force, and AUTO-07p, which follows the response by collocation. SciPy's are called from Python, which costs
 them more per evaluation than the C++ programs; the header of their table has both numbers. AUTO's curve
 agrees with ours to drawing accuracy, and has folds that few harmonics do not show.

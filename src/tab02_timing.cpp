@@ -18,8 +18,8 @@ the CPU time with its extremes, and the ratio of the medians.
 
 Two things keep the ratio small. Errors of a few per cent, which the worst speed near the transition
 decides, are cheap for a time integrator too. And Runge-Kutta is written with the same care as the
-balance: four evaluations of the force per step, tabulated angles, and nothing else. The equal-error
-table shows how the ratio changes with the error and the range of speeds.
+balance: four evaluations of the force per step, tabulated angles, and nothing else. The table
+`tab02_equal_error` shows how the ratio changes with the error and the range of speeds.
 
 Modelled: the displacements of rotor and stator at each speed, by each method; nothing per ball. */
 #include "costs/timing.hpp"

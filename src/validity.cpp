@@ -12,10 +12,9 @@ of the suspension is much larger than the vibration at low speeds, and would hid
 number of harmonics up to 16 is solved from several starts, the known attractors among them; the solution nearest to an
 attractor counts, so that the errors are those of the best solution found.
 
-The first figure keeps the worst speed: the error against the number of harmonics, of displacement and of force. It
+Only speeds with a T-periodic attractor count; the titles give their number. The first figure keeps the worst speed: the error against the number of harmonics, of displacement and of force. It
 falls in steps, at 8 and at 16 harmonics: 8 balls pass a fixed direction in a turn, so that the bearing excites harmonics 8,
-16, and so on, which fewer harmonics cannot follow. The
-worst error can also stay large because no attractor has the period T; the dashed curve leaves those speeds out. The bars below count the speeds without any solution.
+16, and so on, which fewer harmonics cannot follow. The bars below count the speeds without any solution.
 
 The second figure shows the same against speed; grey marks speeds at which no attractor has the period of
 rotation, where a periodic solution can be exact but unstable, and the machine does not follow it. There

@@ -1,5 +1,5 @@
 /**
-# How the cost of harmonic balance grows
+# Growth of the cost (code)
 
 With the number of harmonics (one solution, from that at the speed below), of balls and of speeds (one
 sweep each). Each size runs in a process of its own, whose peak of memory is reported above that of one

@@ -1,5 +1,5 @@
 /**
-# What equal error costs, every method at its best setting (§3.3)
+# Computing time at equal error (§3.3, code)
 
 All settings of the scene file are run once. Within a group of equal accuracy, where the cheaper ones
 come first, the search stops when a run costs clearly more than the cheapest that has reached every

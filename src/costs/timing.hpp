@@ -1,5 +1,5 @@
 /**
-# Table 2: harmonic balance against classical RK4 at equal error (§3.3)
+# Table 2: harmonic balance against Runge-Kutta (§3.3, code)
 
 Both go through the same speeds, T-periodic or not. RK4 takes the state from speed to speed, and the first
 from the static load; of its settings those with the fewest steps are the cheapest. */

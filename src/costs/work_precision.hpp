@@ -1,5 +1,5 @@
 /**
-# Work against precision
+# Work against precision (code)
 
 One periodic motion at each of a few speeds, by every method at many settings, from nothing (the static
 load, quasi-static contact) and from the known motion at a speed a little below. The force inside harmonic

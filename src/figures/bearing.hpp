@@ -1,5 +1,5 @@
 /**
-# The drawing of the bearing (Figs 1 and 2)
+# The drawing of the bearing (Figs 1 and 2, code)
 
 Clearance and displacement are micrometres against centimetres, so both are drawn enlarged, by
 factors of the scene file that the figure states. A data set that gives the cage's speed ratio

@@ -1,5 +1,7 @@
 /**
-# Table 1 with what the paper leaves out */
+# Table 1 with what the paper leaves out (code)
+
+The columns of the table, and the speeds that follow from the parameters alone. */
 #pragma once
 
 #include "model/parameters.hpp"

@@ -1,5 +1,5 @@
 /**
-# Panels, with the table of the orbits (Figs 4, 5, 6 and 8)
+# Panels, with the table of the orbits (Figs 4, 5, 6 and 8, code)
 
 A panel belongs to one speed and holds two motions: the periodic solution of harmonic balance,
 and the motion that time integration settles on. Where the second repeats with the period of

@@ -1,5 +1,7 @@
 /**
-# The table of the regimes, by which most claims are judged */
+# The table of the regimes, by which most claims are judged (code)
+
+The columns of the table, and the motion at each speed. */
 #pragma once
 
 #include "motion/regime.hpp"

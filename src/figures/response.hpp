@@ -1,5 +1,5 @@
 /**
-# The table of the frequency response (Fig. 3)
+# The table of the frequency response (Fig. 3, code)
 
 The amplitude is half the peak-to-peak value over the period; the paper does not say which it draws
 (D-10), nor over what range (D-19). */

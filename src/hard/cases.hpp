@@ -1,5 +1,5 @@
 /**
-# Hard cases
+# Hard cases (code)
 
 Machines and speeds where a solver may fail: no clearance, hardly any damping, one ball, grazing, the
 fold of a branch. The list is data/hard_cases.toml; a group there is one machine or several, at one

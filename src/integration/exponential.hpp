@@ -1,7 +1,7 @@
 /**
 # Bodies given by matrices in time
 
-The stiff part of the equations is linear and is solved exactly: with the spring k_0 in every bearing the machine has
+The stiff part of the equations is linear and is solved exactly. With the spring k_0 in every bearing the machine has
 the modes λ, and in their coordinates
 
 $$\dot y = \Lambda y + \beta\, g(t), \qquad g = F(u, t) - k_0 u,\qquad u = u_p(t) + D_u y,$$

@@ -25,7 +25,7 @@ struct NoSolution : std::runtime_error {
 };
 
 /**
-## Words */
+## Messages: numbers and lists as words */
 
 /** printf-style formatting of one message. */
 std::string format(const char* pattern, ...) __attribute__((format(printf, 1, 2)));

@@ -1,4 +1,6 @@
-/** # Files that a user names for output */
+/** # Files that a user names for output
+
+A file is checked before anything is computed, so that no long run ends at a name that cannot be written. */
 #pragma once
 
 #include <string>

@@ -1,5 +1,7 @@
 /**
-# Independent pieces of work, several at a time */
+# Independent pieces of work, several at a time
+
+The threads share the work; the results do not depend on their number. */
 #pragma once
 
 #include <cstddef>

@@ -1,7 +1,7 @@
 /**
-# Where a table comes from
+# Tables and their headers
 
-Stamped when the library is compiled. A new commit alone triggers no rebuild. */
+The source of a table is stamped when the library is compiled. A new commit alone triggers no rebuild. */
 #pragma once
 
 #include <concepts>
@@ -20,7 +20,7 @@ std::string source_revision();
 std::string compiler();
 
 /**
-## Tables
+## What a table says about itself
 
 Tab-separated text that describes itself: `#` lines say what was computed, from which
 source with which compiler and parameters; `# column:` lines give name, unit and meaning;

@@ -1,7 +1,7 @@
 /**
 # The bearing's motion to a tolerance
 
-`balance/adaptive_balance.hpp` for the rotor and the stator: the error is that of the four displacements,
+The number of harmonics follows from an error that is asked for. This is `balance/adaptive_balance.hpp` for the rotor and the stator: the error is that of the four displacements,
 the largest difference over the period over the largest displacement, and the rms about the mean. */
 #pragma once
 

@@ -1,5 +1,5 @@
 /**
-# Scene: the regime of a motion
+# Regime of a motion: contact and shape
 
 What claims C4 to C7, C10 and C13 speak of, as numbers per speed: whether contact is
 permanent, whether the orbits have one harmonic or many, how often a ball is passed, how

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <functional>
+#include <initializer_list>
 #include <limits>
 #include <utility>
 #include <vector>
@@ -52,17 +53,13 @@ public:
   bool run(State& state, std::vector<State> starts = {})
   {
     starts.push_back(start_);
-    for (double speed_weight : {5, 20, 1})
-      for (const State& start : starts)
-        if (closes(start, state, speed_weight)) return true;
+    if (closes_any(starts, state, {5, 20, 1})) return true;
     std::vector<State> raised;
     for (PeriodicMotion more = solution_; raise(more);) {
       raised.push_back(state_of(parameters_, more));
       if (closes(raised.back(), state, 5)) return true;
     }
-    for (double speed_weight : {20, 1})
-      for (const State& start : raised)
-        if (closes(start, state, speed_weight)) return true;
+    if (closes_any(raised, state, {20, 1})) return true;
     starts.insert(starts.end(), raised.begin(), raised.end());
     for (const State& start : starts)
       if (closes(start, state, 1, true)) return true;
@@ -75,9 +72,7 @@ public:
     PeriodicMotion more = solution_;
     if (!raise(more)) return false;
     const State start = state_of(parameters_, more);
-    for (double speed_weight : {5, 20, 1})
-      if (closes(start, state, speed_weight)) return true;
-    return closes(start, state, 1, true);
+    return closes_any({start}, state, {5, 20, 1}) || closes(start, state, 1, true);
   }
 
   /** From where Eq. 7 settles. */
@@ -104,6 +99,15 @@ public:
   }
 
 private:
+  bool closes_any(const std::vector<State>& starts, State& state,
+                  std::initializer_list<double> speed_weights)
+  {
+    for (double speed_weight : speed_weights)
+      for (const State& start : starts)
+        if (closes(start, state, speed_weight)) return true;
+    return false;
+  }
+
   bool closes(const State& start, State& state, double speed_weight,
               bool quasi_newton = false)
   {

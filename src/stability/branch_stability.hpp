@@ -1,5 +1,8 @@
 /**
-# What happens to the multipliers along a branch
+# Stability and bifurcations along a branch
+
+Where the Floquet multipliers leave or enter the unit circle, the solution gains or loses its stability. The
+bifurcations that are told apart:
 
 - A fold, where the tangent's speed component vanishes (the branch has located it already);
 - a multiplier passes +1, where Π (1 - μ_i) changes its sign. For an exact motion that is a fold, or the
@@ -28,7 +31,7 @@ enum class Bifurcation { none, fold, plus_one, period_doubling, neimark_sacker }
 const char* name_of(Bifurcation bifurcation);
 
 /**
-## Stability along a branch
+## The test functions and the stretches between bifurcations
 
 At every point of a branch its Floquet multipliers, and between two points the bifurcations, located on
 the branch. Where multipliers move far between two points, or more than one thing happens, points are

@@ -1,7 +1,7 @@
 /**
 # The largest Lyapunov exponent
 
-The mean rate at which two neighbouring motions part,
+The exponent tells whether a motion is chaotic. It is the mean rate at which two neighbouring motions part,
 
 $$\lambda = \lim_{t \to \infty} \frac{1}{t} \ln \frac{|\delta(t)|}{|\delta(0)|},$$
 

@@ -1,7 +1,7 @@
 /**
 # The period map and its derivative
 
-P takes a state over one period T = 2π/ω of Eq. 7; its derivative Φ solves the variational
+The period map P takes a state over one period T = 2π/ω of Eq. 7. Its derivative Φ solves the variational
 equations
 
 $$\dot{\delta q} = \delta v, \qquad M\, \dot{\delta v} = -(K + k(t))\,\delta q - C\,\delta v,$$

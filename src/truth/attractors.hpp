@@ -1,5 +1,5 @@
 /**
-# The attractors of a machine, speed by speed
+# The attractors of a machine, speed by speed (code)
 
 Each data set is followed up and down in speed, the state carried on from speed to speed, and started
 at every speed from the harmonic-balance solutions with few and with many harmonics; at some speeds it

@@ -1,5 +1,5 @@
 /**
-# Where a harmonic-balance solution is true (claims C2, C3 and C14)
+# Where a harmonic-balance solution is true (claims C2, C3 and C14, code)
 
 Per speed, how far the solutions with m = 1, 2, … harmonics, and the one with as many as a
 tolerance asks for, are from the nearest attractor's motion. Solutions with fixed m are looked for from the
