@@ -5,7 +5,7 @@
   part("controls").innerHTML = `<label>speed <select id="speed">${FACTS.motions.map((motion, k) =>
     `<option value="${k}"${k === FACTS.first ? " selected" : ""}>${motion.f} Hz</option>`).join("")}</select></label>
     <button id="play" type="button">Play</button>
-    <label>turns <input id="instant" type="range" min="0" max="${2 * FACTS.frames - 1}" value="0"></label> <output id="now"></output>`;
+    <label>turns <input id="instant" type="range" min="0" max="${2 * FACTS.frames - 1}" value="0"></label> <output id="now" style="display: block; min-height: 3.2em"></output>`;
   let motion, span, load, timer;
   const place = (name, x, y) => { part(name).setAttribute("cx", x); part(name).setAttribute("cy", y); };
   function show() {

@@ -1,16 +1,14 @@
-"""An extension of Sphinx: every program, module, study and text is a page. Comments with a heading or an equation become text, the
-other lines stand below with their numbers. Equations, deviations, claims and names are links to where they stand; the pages marks and
-names-* list who uses them. A page that would be the same is left as it is."""
+"""An extension of Sphinx: every program, module, study and text is a page. Comments with a heading or an equation become text, the other
+lines stand below. Equations, figures, deviations, claims and names are links; the pages marks and names-* list who uses them."""
 import inspect
 import re
 import tomllib
 from collections import defaultdict
+from fnmatch import filter as matching
 from pathlib import Path
 
-from pygments import highlight
-from pygments.formatters import HtmlFormatter
-from pygments.lexers import get_lexer_for_filename
-from paper.book.animation import moving
+from pygments import formatters, highlight, lexers
+from paper.book.animation import Table, moving
 from paper.include import read_values, render
 
 BOOK, SHOWN = (tomllib.loads(render(Path(f"paper/book/{name}.toml").read_text("utf-8"), read_values("data/generated/article.tsv"), name))
@@ -19,24 +17,26 @@ PAGES = {page: [Path(file) for file in files] for page, files in BOOK["text"].it
 for source in sorted([*Path("src").rglob("*.?pp"), *Path("studies").glob("*.py")], reverse=True):  # x.hpp before x.cpp
     PAGES.setdefault("-".join(source.with_suffix("").parts[1:]), []).append(source)
 TEXTS = {file.name: page for page, files in PAGES.items() for file in files if file.suffix == ".md"}
-FIGURES = {name: {"page": name, "alt": name, "time": "a while", "command": f"make figures/generated/{name}.svg",
-                  "table": max(Path("data").glob(f"[gr]e*/{name}.tsv"), default=""),  # reference/ before generated/
-                  "script": next(Path("figures").glob(f"{name}.*")), "differs": "The paper has no such figure.", **SHOWN.get(name, {})}
-           for name in sorted(drawing.stem for drawing in Path("figures/generated").glob("*.svg"))}
+TEMPLATES = {file.stem: file.read_text("utf-8") for file in Path("paper/book").glob("*.md")}
+FIGURES = {name: {"name": name, "page": name, "script": next(Path("figures").glob(f"{name}.*"), None),
+                  "table": max(Path("data").glob(f"[gr]e*/{name}.tsv"), default=""), **SHOWN["default"], **SHOWN.get(name, {})}
+           for name in sorted({*SHOWN, *(drawing.stem for drawing in Path("figures/generated").glob("*.svg"))} - {"default"})}
 PROSE = re.compile(r'(^/\*\*(?=\s*#|(?:(?!\*/).)*?\$\$).*?\*/[ \t]*\n|\A""".*?"""\n)', re.M | re.S)
-MARK = r"\bEqs?\. ?\d+|\bEqs \d+(?:(?:, | and | to |-)\d+)*|\bD-\d\d\b|(?<!class )\bC(?:1[0-4]|[1-9])\b"
+MARK = r"\b(?:figure|table)\s`\w+`|\b(?:Eq|Fig|Figure|Table)s?\.? \d+(?:(?:, | and | to |-)\d+)*|\bD-\d\d\b|(?<!class )\bC(?:1[0-4]|[1-9])\b"
 INLINE = re.compile(  # what has no name stays as it is
     r"^ *(?P<fence>`{3,}).*?^ *(?P=fence)$|^(?:    |#)[^\n]*|\$\$.*?\$\$|\$[^$\n]+\$|<[^>\n]*>|"
+    rf"(?P<open>\[)?(?P<mark>{MARK})(?(open)\]\([^)]*\))|"
     r"(?P<words>\[[^]]*\])\((?P<path>(?!http)[^)#]+)(?P<place>[^)]*)\)|\]\([^)]*\)|"
-    rf"`(?P<name>\w{{4,}})`|`[^`]*`|(?P<mark>{MARK})|(?<![\w\\])(?P<letter>[A-Za-zΑ-Ωα-ω])_(?P<index>\w+)", re.S | re.M)
-BLOCKS = ((r'^/\*\* ?|\s*\*/\s*\Z|"""\s*\Z', ""), (r'\A"""(.*?)\.?$', r"# \1"),
-          (r'^```\{\.(\w+) \w+="([^"]+)"\}$', r"```{code-block} \1\n:caption: \2"),
+    rf"`(?P<name>\w{{4,}})`|`[^`]*`|(?<![\w\\])(?P<letter>[A-Za-zΑ-Ωα-ω])_(?P<index>\w+)", re.S | re.M)
+BLOCKS = ((r'^/\*\* ?|\s*\*/\s*\Z|"""\s*\Z|<!-- not in the book -->[^>]*>', ""),
+          (r"^# Rotor, stator and a ball .*", "# Overview"), (r'^```\{\.(\w+) \w+="([^"]+)"\}$', r"```{code-block} \1\n:caption: \2"),
           (r"\$\$([^$]*)\\tag\{(\d+)\}([^$]*)\$\$", r'\n<div id="eq-\2"></div>\n\n\\begin{equation*}\1\3\\tag{\2}\\end{equation*}'
            r'\n\n<p class="cited"><a href="marks.html#\2">Where it is used</a></p>\n\n'),
           (r"^## (D-\d\d) .*$", r'<div id="\1"></div>\n\n\g<0>\n\n<p class="cited"><a href="marks.html#\1">Where it is cited</a></p>'),
           (r'^\| <a href="results.html#(C\d+)">(?=(?:.*\|){6})', r'| <a id="\1" href="marks.html#\1">'))
+FIRST = re.compile(r"(?<=\n\n)(?!Paper:|Beside the )[A-Z](?:(?!\n\n).)+?\.(?=\s+[A-Z$`<(]|\s*\n\n|\s*\Z)|\Z", re.S)  # sentence of a page
 CODE = re.compile(
-    r'(?P<mark>\bEq\. \d+|\bD-\d\d\b)|(?<!\.</span>)(?<!-&gt;</span>)(?<!std</span><span class="o">::</span>)'
+    r'(?P<mark>\b(?:Eq|Fig|Figure|Table)s?\.? \d+(?:(?:, | and | to |-)\d+)*|\bD-\d\d\b)|(?<!\.</span>)(?<!-&gt;</span>)(?<!std</span><span class="o">::</span>)'
     r'<span class="n[cf]?">(?:(?P<call>[a-z]\w+)</span>(?=<span class="p">\()|(?P<type>[A-Z]\w+)</span>)')
 MARKED = re.compile(r"\\tag\{(\d+)\}()|^(?:## |\| )(?=D-\d\d|C\d+ (?:.*\|){6})([CD][-\d]+)[ |]+([^|\n]*)", re.M)
 DECLARED = re.compile(
@@ -63,14 +63,20 @@ def named(name, text, page, here=None):
 
 
 def marked(text, page):
-    return re.sub(r"(?:Eqs?\.? ?)?(\d+)" if text[0] == "E" else "(.+)", lambda found: named(found[1], found[0], page), text)
+    """Links to each equation, figure or table of a list, to a deviation or a claim."""
+    def linked(found):
+        name = found[1] or found[2] or found[3]
+        for other in matching(PAGES, {"F": f"fig0{name}_*", "T": f"tab0{name}_*"}.get(text[0], name))[:1]:
+            return found[0] if other == page else f'<a href="{other}.html">{found[0].strip("`")}</a>'
+        return named(name, found[0], page)
+    return re.sub(r"([CD]-?\d+)|(?:[A-Z]\w+\.? )?(\d+)|`(\w+)`", linked, text)
 
 
 def code(file, text, first, page):
     """Lines with their numbers."""
     def linked(found, n):
         return marked(found[0], page) if found["mark"] else named(found["call"] or found["type"], found[0], page, f"hpp-{n}")
-    kind, shown = file.suffix[1:], highlight(text.strip("\n"), get_lexer_for_filename(file.name), HtmlFormatter(nowrap=True))
+    kind, shown = file.suffix[1:], highlight(text.strip("\n"), lexers.get_lexer_for_filename(file.name), formatters.HtmlFormatter(nowrap=True))
     lines = [f'<a class="line" id="{kind}-{n}" href="#{kind}-{n}" data-line="{n}" aria-label="line {n}"></a>'
              + (line if kind == "py" else CODE.sub(lambda found: linked(found, n), line))
              for n, line in enumerate(shown.rstrip("\n").split("\n"), first + len(text) - len(text.lstrip("\n")))]
@@ -84,9 +90,9 @@ def prose(text, file, page):
             name, known = Path(found["path"]).name, [file.parent / found["path"], *Path("figures/generated").glob(Path(found["path"]).name)]
             return f"{found['words']}({TEXTS[name] + '.md' if name in TEXTS else f'../../{known[-1]}'}{found['place']})"
         if found["mark"] or found["name"]:
-            return marked(found[0], page) if found["mark"] else named(found["name"], found[0], page)
+            return marked(found["mark"], page) if found["mark"] else named(found["name"], found[0], page)
         return f"{found['letter']}<sub>{found['index']}</sub>" if found["letter"] else found[0]
-    text = INLINE.sub(linked, inspect.cleandoc(text))
+    text = INLINE.sub(linked, re.sub(r'\A"""(.*?)\.?$', r"# \1", inspect.cleandoc(text), flags=re.M))
     for pattern, shown in BLOCKS:
         text = re.sub(pattern, shown, text.strip(), flags=re.M)
     return text
@@ -96,18 +102,18 @@ def page_text(page):
     """Text and code of its files in their order; where it shows a figure, the picture first, then how it was made."""
     parts = []
     for file in PAGES[page]:
-        line, heading, text = 1, f"## {file}\n\n", file.read_text("utf-8")
+        line, heading, text = 1, "## {}\n\n".format(re.sub("(?<=[/_])", "\u200b", str(file))), file.read_text("utf-8")  # breaks there
         for k, piece in enumerate(["", text] if file.suffix == ".md" else PROSE.split(text)):
-            if k % 2:
-                parts.append(prose(piece, file, page))
-            elif piece.strip():
-                parts.append(heading + code(file, piece, line, page))
-                heading = ""
+            if piece.strip():
+                parts.append(prose(piece, file, page) if k % 2 else heading + code(file, piece, line, page))
+                heading *= k % 2
             line += piece.count("\n")
     for name in reversed([name for name in FIGURES if FIGURES[name]["page"] == page]):
         heading, _, told = parts[0].partition("\n")
-        parts[0] = Path("paper/book/figure.md").read_text("utf-8").format(**FIGURES[name] | {
-            "heading": heading, "name": name, "moving": moving(name), "told": told, "differs": prose(FIGURES[name]["differs"], Path("x"), page)})
+        shown = FIGURES[name] | {key: prose(FIGURES[name][key], Path("x"), page) for key in ("caption", "differs")}
+        rows = {} if shown["script"] else Table(shown["table"]).first_rows(6)
+        picture = TEMPLATES["table" if rows else "drawing"].format(**shown, **rows)
+        parts[0] = TEMPLATES["figure"].format(heading=heading, picture=picture, moving=moving(name), told=told, **shown)
     return "\n\n".join(parts)
 
 
@@ -122,16 +128,16 @@ def write(app):
         rows["marks" if mark else f"names-{page.split('-')[0]}"].append(
             f'| <a id="{name}" href="{page}.html#{place}">{"Eq. " * name.isdigit()}{name}</a> | {told or titles[page]} | {users} |')
     for page, listed in rows.items():
-        title = f"# {'Names of ' + page[6:] if page[6:] else 'Equations, claims and deviations'}: where they are used\n\n"
-        made[page] = title + "| | what it is | used in |\n|---|---|---|\n" + "\n".join(listed)
+        made[page] = TEMPLATES["names"].format(of=f"Names of {page[6:]}" if page[6:] else "Equations, claims and deviations", rows="\n".join(listed))
     left = sorted(made)
     for number, chapter in enumerate(BOOK["chapter"], 1):
-        pages = [page for page in [*chapter["pages"], *left] if page in chapter["pages"] or page.startswith(tuple(chapter["rest_of"]))]
-        pages = [page for page in dict.fromkeys(pages) if page in left]
+        pages = dict.fromkeys(page for entry in chapter["pages"] for page in ([entry] if entry[0] == "#" else matching(left, entry)))
         left = [page for page in left if page not in pages]
-        made[f"chapter-{number}"] = f"# {chapter['title']}\n\n{chapter['introduction']}\n```{{toctree}}\n" + "\n".join(pages) + "\n```"
+        listed = "\n".join(page if page[0] == "#" else f"- []({page}.md). {FIRST.search(made[page])[0]}" for page in pages)
+        made[f"chapter-{number:02}"] = TEMPLATES["chapter"].format(
+            title=chapter["title"], introduction=prose(chapter["introduction"], Path("x"), ""), listed=listed, pages="\n".join(filter(made.get, pages)))
     live = '- <a href="../live/index.html">The live page</a> computes motions in the browser' * Path("build/live/index.html").exists()
-    made["index"] = Path("paper/book/index.md").read_text("utf-8").format(chapters="\n".join(page for page in made if page[:8] == "chapter-"), live=live)
+    made["index"] = TEMPLATES["index"].format(live=live, **FIGURES["fig03_response"])
     contents = {"contents": "\n".join(page + re.search(r"^# .+", text, re.M)[0] for page, text in made.items())}
     for file, text in ((Path(app.srcdir, f"{page}.md"), text) for page, text in {**contents, **made}.items()):
         if not file.exists() or file.read_text("utf-8") != text:
@@ -146,8 +152,8 @@ def complete(app, error):
     normal, style, spy, script = ((theme / file).read_text("utf-8") for file in (
         "/usr/share/javascript/normalize.css/normalize.css", "styles/furo.css", "scripts/gumshoe-patched.js", "scripts/furo.js"))
     dark = re.search(r'body\[data-theme="dark"\] (\{.*?\})', style, re.S)[1]
-    (static / "styles/furo.css").write_text(normal + style.partition("\n")[2] + (
-        f'@media screen and (prefers-color-scheme: dark) {{ body:not([data-theme="light"]) {dark} }}\n'), "utf-8")
+    (static / "styles/furo.css").write_text(f"""{normal}{style.partition(chr(10))[2]}
+@media screen and (prefers-color-scheme: dark) {{ body:not([data-theme="light"]) {dark} }}""", "utf-8")
     (static / "scripts/furo.js").write_text(spy + script.partition("\n")[2], "utf-8")
 
 
