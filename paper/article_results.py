@@ -11,6 +11,7 @@ import numpy as np
 from tables import Table, explore
 
 GENERATED, KEPT = Path("data/generated"), Path("data/reference")
+ACCURATE = tomllib.loads(Path("data/claims.toml").read_text())["regimes"]["accurate"]
 METHODS = {"aft": "harmonic balance", "rk4": "Runge-Kutta of order 4", "rkf45": "Runge-Kutta-Fehlberg",
            "rk8pd": "Runge-Kutta of order 8", "msadams": "Adams", "msbdf": "BDF", "bsimp": "Bulirsch-Stoer",
            "shooting-rk4": "shooting by Runge-Kutta of order 4",
@@ -21,6 +22,10 @@ def times(seconds):
     """A CPU time in a unit that suits it."""
     unit, factor = ("s", 1) if seconds >= 1 else ("ms", 1e3) if seconds >= 1e-3 else ("µs", 1e6)
     return f"{seconds * factor:.2g} {unit}" if seconds * factor < 99.5 else f"{seconds * factor:.0f} {unit}"
+
+
+def listed(words):
+    return f"{', '.join(words[:-1])} and {words[-1]}"
 
 
 def power(error):
@@ -37,11 +42,12 @@ def costs(add):
     for reach in dict.fromkeys(table["range"]):
         for target in sorted(set(table["target"]), reverse=True):
             rows = table.where("range", reach).where("target", target)
-            best = rows["cpu_s"].argmin()
-            cells = [timed(rows, name) for name in ("aft", "shooting-rk4", "rk4")]
-            lines.append([reach, power(target), *cells, METHODS[rows["method"][best]]])
-    add("table.costs", markdown(["speeds [Hz]", "error", "harmonic balance", "shooting, RK4", "RK4", "fastest of all"], lines), "-",
-        "CPU time of the sweep at equal error, with the error of the force")
+            best = rows["method"][rows["cpu_s"].argmin()]
+            for method in dict.fromkeys(("aft", "shooting-rk4", "rk4", best)):
+                lines.append([reach, power(target), METHODS[method] + (", fastest of all" if method == best else ""),
+                              *timed(rows.where("method", method))])
+    add("table.costs", markdown(["speeds [Hz]", "error allowed", "method", "setting", "CPU time", "evaluations", "error reached", "error of the force"],
+                                lines), "-", "CPU time of the sweep at no more than a given error")
     low, high = dict.fromkeys(table["range"])
     for reach, name in ((low, "low"), (high, "high")):
         for rival in ("rk4", "shooting-rk4"):
@@ -49,9 +55,24 @@ def costs(add):
             add(f"cost.{name}_{rival.split('-')[0]}",
                 " and ".join(faster(rows.where("target", target).first("ratio")) + f" at {power(target)}"
                              for target in (0.01, 0.001)), "-", f"harmonic balance beside {rival}, {reach} Hz")
+        for target, key in ((0.01, "1"), (0.001, "01")):
+            rows = table.where("range", reach).where("target", target)
+            ours, rk4 = rows.where("method", "aft"), rows.where("method", "rk4")
+            add(f"cost.{name}_evaluations_{key}", ours.first("evaluations") / rk4.first("evaluations"), "-",
+                "evaluations of the force by harmonic balance over those by RK4")
+            add(f"cost.{name}_m_{key}", re.match(r"m\D*(\d+)", ours.first("setting"))[1], "-", "its harmonics")
+            add(f"cost.{name}_force_{key}", ours.first("error_force"), "-", "its error of the force")
     add("cost.low_to", float(low.split("-")[1]), "Hz", "end of the lower range")
     add("cost.high_from", float(high.split("-")[0]), "Hz", "begin of the upper range")
+    shares = Table(KEPT / "work_precision.tsv").where("method", "aft")
+    shares = shares.rows((shares["case"] <= 3) & [re.match(r"m=(48|96) ", setting) is not None for setting in shares["setting"]])
+    add("cost.algebra", np.median(1 - shares["force_share"] - shares["transform_share"]), "-",
+        "share of the CPU time that is neither force nor transform, 6 to 16 Hz, 48 and 96 harmonics")
     timing = Table(GENERATED / "tab02_timing.tsv")
+    sweep = timing.where("method", "rk4").where("harmonics", 6).first("cpu_s") / 119
+    study = Table(KEPT / "clearance_stiffness.tsv")
+    add("cost.study", sweep * len(study) * float(re.search(r"(\d+) speeds from", study.header)[1]), "s",
+        "CPU time of the study of clearance and stiffness by RK4, at the time of the sweep a speed")
     rivals, timing = timing.where("method", "rk4"), timing.where("method", "aft")
     slow = rivals.first("paper_cpu")
     add("cost.force_least", timing["error_force"].min(), "-", "least error of the force of the timed sweeps of harmonic balance")
@@ -63,16 +84,20 @@ def costs(add):
     add("cost.paper", "; ".join(words), "-", "Runge-Kutta's time over that of harmonic balance")
 
 
-def timed(rows, method):
-    """CPU time and error of the force of a method, or that it does not reach the error."""
-    rows = rows.where("method", method)
-    return f"{times(rows.first('cpu_s'))} ({100 * rows.first('error_force'):.2g} %)" if len(rows) else "not reached"
+def timed(row):
+    """Setting, CPU time, evaluations and both errors of a method, or that it does not reach the error."""
+    if not len(row):
+        return ["", "not reached", "", "", ""]
+    return [f"`{row.first('setting')}`", times(row.first("cpu_s")), f"{row.first('evaluations'):.2g}".replace("e+0", "e"),
+            power(row.first("error")), f"{100 * row.first('error_force'):.2g} %"]
 
 
 def markdown(names, lines):
-    """A table of Markdown as one value, its columns as wide as their longest cell."""
-    dashes = ["-" * min(30, max(5, *(len(str(cell)) for cell in column))) for column in zip(names, *lines)]
-    return r"\n".join("| " + " | ".join(map(str, line)) + " |" for line in (names, dashes, *lines))
+    """A table of Markdown as one value, its columns as wide as their longest word or, where longer, their cells in the mean, up to 90."""
+    columns = [[str(cell) for cell in column] for column in zip(names, *lines)]
+    widths = [max(5, *(len(word) + 3 for cell in column for word in cell.split()), min(90, sum(map(len, column)) // len(column)))
+              for column in columns]
+    return r"\n".join("| " + " | ".join(map(str, line)) + " |" for line in (names, ["-" * width for width in widths], *lines))
 
 
 def faster(ratio):
@@ -102,9 +127,22 @@ def peers(add):
     for run, folds, low, high in runs:
         counts = ", ".join(f"{count} with {m} harmonics" for name, m, count in ours if name == run)
         far = re.search(rf"^# run {run}: distance .* largest (\S+) at", header, re.MULTILINE)
+        add(f"auto.{run}_speeds", float(re.search(rf"^# run {run}: distance .* at (\d+) speeds", header, re.MULTILINE)[1]), "-", "compared speeds")
+        add(f"auto.{run}_high", float(high), "Hz", "its highest speed")
+        add(f"auto.{run}_at", float(re.search(rf"^# run {run}: distance .* largest \S+ at (\S+) Hz", header, re.MULTILINE)[1]), "Hz", "speed of the largest")
         add(f"auto.{run}_distance", float(far[1]), "-", "largest difference of amplitudes over the largest one")
         add(f"auto.{run}", f"{folds} folds between {float(low):.0f} and {float(high):.0f} Hz, harmonic balance "
             f"over the same speeds {counts}", "-", "folds by AUTO-07p and by harmonic balance")
+
+
+def outside(add):
+    """How near SUNDIALS and SciPy come to the reference of their table, at worst over its motions."""
+    header = Table(KEPT / "peers.tsv").header
+    lines = re.findall(r"^# set \d, \S+ Hz: nearest to the reference: (.*)$", header, re.MULTILINE)
+    found = [dict(part.split(" ") for part in line.split(", ")) for line in lines]
+    add("outside.motions", len(found), "-", "motions compared")
+    for key in ("cvode-adams", "cvode-bdf", "scipy-dop853", "scipy-lsoda"):
+        add(f"outside.{key}", max(float(one[key]) for one in found), "-", "largest over the motions of its least error")
 
 
 def truth(add):
@@ -120,18 +158,71 @@ def truth(add):
         for share, name in ((1, "only"), (0.5, "beside"), (0, "none")):
             add(f"truth.{name}_{number}", count[rows["T_periodic"] == share].sum() / count.sum(), "-",
                 "share of the speeds with only T-periodic attractors, with others beside, with others alone")
+        none = count[rows["T_periodic"] == 0].sum() / count.sum()
+        add(f"truth.fr_none_{number}", f"{100 * none:.0f} %", "-", "the last of them in French")
         single = Table(KEPT / "attractors.tsv").where("set", number)
         add(f"truth.exponent_{number}", single["exponent"].max(), "1/s", "largest Lyapunov exponent")
         validity = Table(KEPT / "validity.tsv").where("set", number).where("periodic", 1)
         wanted = 6 if number == 1 else 10
         fixed = validity.where("adaptive", 0).where("m", wanted)
         near = (fixed["found"] == 1) & (fixed["distance"] <= limit)
+        every = Table(KEPT / "validity.tsv").where("set", number)
+        name, missed = f"C{number + 1}", fixed["f"][(fixed["found"] == 0) | (fixed["distance"] > ACCURATE)]
+        add(f"{name}.speeds", len(fixed), "-", "speeds with a T-periodic attractor")
+        add(f"{name}.all", len(np.unique(every["f"])), "-", "all speeds")
+        add(f"{name}.missed", len(missed), "-", "of them with an rms error above the limit")
+        add(f"{name}.where", listed([f"{f:g}" for f in missed]), "Hz", "these speeds")
+        add(f"{name}.limit", ACCURATE, "-", "the limit of the rule")
+        for key, column in (("largest", "distance_largest"), ("rms", "distance"), ("force", "distance_force")):
+            add(f"{name}.{key}", fixed[column].max(), "-", f"largest {column} at these speeds")
+        add(f"truth.count_{number}", near.sum(), "-", "speeds within the limit")
         add(f"truth.near_{number}", near.mean(), "-", "share of these speeds within the limit with the paper's m")
         chosen = validity.where("adaptive", 1)
         good = (chosen["found"] == 1) & (chosen["distance"] >= 0) & (chosen["distance"] <= limit)
+        told = chosen.rows((chosen["found"] == 1) & (chosen["estimate"] > 0) & (chosen["distance"] >= 0))
+        ratio = told["estimate"] / np.maximum(told["distance"], told["distance_largest"])
+        low = told.rows(ratio < 0.5)
+        for key, value in (("low", len(low)), ("low_unstable", (low["stable"] == 0).sum()), ("count", len(told)), ("half", (ratio >= 0.5).sum()), ("two", ((ratio >= 0.5) & (ratio <= 2)).sum()),
+                           ("least", ratio.min()), ("asked", len(chosen))):
+            add(f"estimate.{key}_{number}", value, "-", "estimate over distance to the nearest attractor: speeds, at least half, within 2, least; asked for")
         add(f"truth.adaptive_{number}", good.mean() if len(chosen) else 0, "-", "the same, m chosen")
         add(f"truth.tight_{number}", (good & (chosen["distance"] <= tight)).mean(), "-", "share within that")
         add(f"truth.adaptive_m_{number}", chosen["m"][good].max() if good.any() else 0, "-", "its largest m")
+
+
+def beside_chaos(add):
+    """Solutions with the paper's harmonics where no motion of set 2 repeats, at the higher of these speeds."""
+    rows = Table(KEPT / "validity.tsv").where("set", 2).where("adaptive", 0).where("m", 10).where("periodic", 0).where("found", 1)
+    rows = rows.rows((rows["f"] >= 24.5) & (rows["f"] <= 37.5))
+    for key, value in (("from", rows["f"].min()), ("to", rows["f"].max()), ("rms", rows["distance"].max()),
+                       ("force_least", rows["distance_force"].min()), ("force_most", rows["distance_force"].max())):
+        add(f"chaos.{key}", value, "-", "solutions with 10 harmonics of set 2 beside chaotic motion: speeds, rms errors")
+
+
+def contact(add):
+    """The natural frequency of rotor against stator on the contact's stiffness at rest."""
+    values = Table(GENERATED / "deviations.tsv")
+    masses = Table(GENERATED / "tab01_parameters.tsv").where("set", 1)
+    stiffness = float(values["value"][list(values["key"]).index("D-01.stiffness_ours")])
+    f = np.sqrt(stiffness * (1 / masses.first("m_s") + 1 / masses.first("m_r"))) / (2 * np.pi)
+    add("contact.f", f, "Hz", "contact's frequency of set 1 at rest")
+    for speed in (3, 45):
+        add(f"contact.harmonic_{speed}", f / speed, "-", f"the same as a harmonic of {speed} Hz")
+
+
+def needed(add):
+    """The smallest number of harmonics with a given rms error at single speeds of set 1."""
+    rows = Table(KEPT / "validity.tsv").where("set", 1).where("adaptive", 0)
+    most = rows["m"].max()
+    for key, column in (("displacement", "distance"), ("force", "distance_force")):
+        for limit in (0.1, 0.01):
+            words = []
+            for f in (3, 6, 16, 45):
+                one = rows.where("f", f)
+                right = one["m"][(one["found"] == 1) & (one[column] <= limit)]
+                words.append(f"{right.min():.0f}" if len(right) else f"more than {most:.0f}")
+            add(f"needed.{key}_{100 * limit:.0f}", listed(words), "-", f"harmonics for an rms error of {limit} at 3, 6, 16 and 45 Hz")
+    add("needed.speeds", listed(["3", "6", "16", "45"]), "Hz", "these speeds")
 
 
 def judged(add):
@@ -152,6 +243,23 @@ def judged(add):
     add("table.verdicts", markdown(
         ["set", "m", "solutions", "machine stable", "machine unstable", 'series: false "stable"', 'series: false "unstable"',
          'Hill: false "stable"', 'Hill: false "unstable"'], lines), "-", "false verdicts by the multipliers of m harmonics")
+    known = found.rows(found["machine_stable"] >= 0)
+    for limit in (0.01, 0.05):
+        add(f"verdicts.beyond_{100 * limit:.0f}", (known["distance"] > limit).sum(), "-", f"decided, with an rms distance above {limit}")
+    add("verdicts.count", len(known), "-", "verdicts reached")
+    counts = np.unique(table["m"])
+    for number in (1, 2):
+        rows = found.where("set", number)
+        speeds = [f for f in np.unique(table["f"]) if all((rows.where("m", m)["f"] == f).any() for m in counts)]
+        add(f"verdicts.common_{number}", len(speeds), "-", "speeds with a solution for every number of harmonics")
+        for word, machine, series in (("stable", 0, 1), ("unstable", 1, 0)):
+            cells = []
+            for m in counts:
+                part = known.where("set", number).where("m", m)
+                part = part.rows(np.isin(part["f"], speeds) & (part["machine_stable"] == machine))
+                cells.append(f"{(part['series_stable'] == series).sum()} of {len(part)}")
+            add(f"verdicts.false_{word}_{number}", listed(cells), "-", f"motions falsely called {word} there, for each number of harmonics")
+    add("verdicts.m", listed([f"{m:.0f}" for m in counts]), "-", "numbers of harmonics")
     near = found.where("set", 1).where("m", 6)
     k = np.abs(near["f"] - 20).argmin()
     for key, column in (("f", "f"), ("machine", "machine"), ("series", "series"), ("distance", "distance")):
@@ -174,6 +282,22 @@ def verdicts(add):
         add(f"{key}.verdict", verdict, "-", f"verdict on {key}")
     changing = [key for key, words in zip(table["id"], table["range"])
                 if len(set(re.findall(r"(not reproduced|partly|reproduced) for m_s", words))) > 1]
+    printed = Table(GENERATED / "as-printed/claims.tsv")
+    other = [f"{key} ({word})" for key, word, ours in zip(printed["id"], printed["verdict"], table["verdict"]) if word != ours]
+    add("printed.differ", listed(other), "-", "claims with another verdict under the printed frequencies")
+    add("printed.count", len(other), "-", "their number")
+    built_in = np.isin(table["id"], ("C1", "C4", "C5", "C6", "C10"))
+    add("claims.built_in", (built_in & (table["verdict"] == "reproduced")).sum(), "-", "reproduced claims that the masses or the cage were chosen by")
+    rules = [(claim["id"], claim["meaning"], *(f"{claim[key][0]:g} to {claim[key][1]:g}" for key in ("reproduced", "partly")))
+             for claim in tomllib.loads(Path("data/claims.toml").read_text())["claim"]]
+    ranges = [f"{float(low):.3g} to {float(high):.3g}" if low != "-" else "-" for low, high in zip(table["low"], table["high"])]
+    add("table.rules", markdown(["claim", "quantity", "reproduced", "partly", "found for all admitted machines"],
+                                [[*rule, own] for rule, own in zip(rules, ranges)]), "-", "the rules of the verdicts")
+    titles = re.findall(r"^## (D-\d\d) (.*)$", Path("paper/deviations.md").read_text(), re.MULTILINE)
+    half = (len(titles) + 1) // 2
+    pairs = [[*one, *two] for one, two in zip(titles[:half], [*titles[half:], ("", "")])]
+    add("table.deviations", markdown(["", "departure", "", "departure"], pairs), "-", "the departures from the paper")
+    add("code.version", re.search(r"VERSION (\d\S+) LANGUAGES", Path("CMakeLists.txt").read_text())[1], "-", "version of the programs")
     add("claims.changing", ", ".join(changing), "-", "claims whose verdict depends on the masses")
 
 
@@ -191,15 +315,15 @@ def parameters(add):
     rows = [("mass of the stator", "$m_s$", "kg", "stator", "mass_kg", 1, "bounded by the text (D-13)"),
             ("mass of the rotor", "$m_r$", "kg", "rotor", "mass_kg", 1, "bounded by the text (D-13)"),
             ("natural frequency of the stator", "$\\omega_0^s$", "rad/s", "stator", "natural_frequency_rad_per_s", 1,
-             "Table 1, exchanged (D-09)"),
+             "the paper's Table 1, exchanged (D-09)"),
             ("natural frequency of the rotor", "$\\omega_0^r$", "rad/s", "rotor", "natural_frequency_rad_per_s", 1,
-             "Table 1, exchanged (D-09)"),
-            ("damping ratio of the stator", "$\\xi_s$", "-", "stator", "damping_ratio", 1, "Table 1"),
-            ("damping ratio of the rotor", "$\\xi_r$", "-", "rotor", "damping_ratio", 1, "Table 1"),
-            ("unbalance", "$m_e e$", "kg m", "rotor", "unbalance_kg_m", 1, "Table 1"),
-            ("number of balls", "$n$", "-", "bearing", "balls", 1, "§2.4"),
-            ("contact stiffness", "$K_H$", "N/m^1.5^", "bearing", "contact_stiffness_N_per_m1p5", 1, "Table 1"),
-            ("radial clearance", "$\\delta$", "µm", "bearing", "radial_clearance_m", 1e6, "Table 1"),
+             "the paper's Table 1, exchanged (D-09)"),
+            ("damping ratio of the stator", "$\\xi_s$", "-", "stator", "damping_ratio", 1, "the paper's Table 1"),
+            ("damping ratio of the rotor", "$\\xi_r$", "-", "rotor", "damping_ratio", 1, "the paper's Table 1"),
+            ("unbalance", "$m_e e$", "kg m", "rotor", "unbalance_kg_m", 1, "the paper's Table 1"),
+            ("number of balls", "$n$", "-", "bearing", "balls", 1, "its §2.4"),
+            ("contact stiffness", "$K_H$", "N/m^1.5^", "bearing", "contact_stiffness_N_per_m1p5", 1, "the paper's Table 1"),
+            ("radial clearance", "$\\delta$", "µm", "bearing", "radial_clearance_m", 1e6, "the paper's Table 1"),
             ("cage over rotor speed", "$\\omega_{cage}/\\omega$", "-", "bearing", "cage_speed_ratio", 1, "not printed (D-11)"),
             ("gravity", "$g$", "m/s^2^", "gravity", "acceleration_m_per_s2", 1, "not printed")]
     add("table.parameters", markdown(
@@ -242,10 +366,13 @@ def cages(add):
         off = np.concatenate([np.abs(rows.where("c", c)["amplitude"] / half["amplitude"] - 1) for c in ratios])
         found = [rows.where("c", c)["found"].mean() for c in ratios]
         stable = [(rows.where("c", c)["stable"] == 1).mean() for c in ratios]
-        for key, value in (("median", np.median(off)), ("largest", off.max()), ("found_least", min(found)),
+        load = np.concatenate([np.abs(rows.where("c", c)["ball_load"] / half["ball_load"] - 1) for c in ratios])
+        for key, value in (("load_median", np.median(load)), ("load_largest", load.max()), ("found_half", half["found"].mean()),
+                           ("median", np.median(off)), ("largest", off.max()), ("found_least", min(found)),
                            ("found_most", max(found)), ("stable_least", min(stable)), ("stable_most", max(stable)),
                            ("stable_half", (half["stable"] == 1).mean())):
             add(f"cage.{key}_{number}", value, "-", "amplitudes and solutions at other cage ratios, beside 1/2")
+    add("cage.tolerance", float(re.search(r"--tolerance (\S+)", table.header)[1]), "-", "tolerance of harmonic balance")
     asked(add, "catalogue", "data/live/bearing-6205.toml", 45,
           passages=r"BPFO = n c = (\S+),", harmonics=r"; (\d+) harmonics,", unknowns=r", (\d+) unknowns", error=r"# error: (\S+) of",
           rate=r"part by (\S+) \+- \S+ a turn", stability=r"# stability: (\w+)")
@@ -282,11 +409,21 @@ def maps(add):
 
 
 def large(add):
-    """A flexible shaft, condensed to its bearing."""
+    """A flexible shaft, condensed to its bearing; beams and bricks that are reduced first."""
+    table = Table(KEPT / "large.tsv")
+    full = table["n"] == table["integrated"]
+    for key, value in (("full", table["n"][full].max()), ("reduced_from", table["n"][~full].min()), ("error", table["error"].max()),
+                       ("reduction", table["reduction_error"].max())):
+        add(f"large.{key}", value, "-", "most degrees of freedom integrated in full, fewest reduced, largest errors")
+    for kind in ("beam", "brick"):
+        rows = table.where("kind", kind)
+        add(f"large.{kind}_n", rows["n"][-1], "-", "degrees of freedom of the largest body")
+        add(f"large.{kind}_s", rows["branch_s"][-1], "s", "CPU time of its response curve")
     asked(add, "shaft", "data/rotors/overhung.toml", 30, size=r"bodies: (\d+) degrees", m=r"m = (\d+),", error=r"# error: (\S+) of",
           multiplier=r"multiplier (\S+) \+-", stability=r"# stability: (\w+)", distance=r"# distance: (\S+) of")
 
 
 def add_all(add):
-    for part in (settings, parameters, accuracy, cages, maps, large, costs, growth, peers, truth, judged, verdicts):
+    for part in (settings, parameters, accuracy, cages, maps, large, costs, growth, peers, outside, truth,
+                 beside_chaos, contact, needed, judged, verdicts):
         part(add)

@@ -56,11 +56,14 @@ def response():
         add(f"peak.mm_set_{number}", 1e3 * up["amp_x_r"][peak], "mm", "largest amp_x_r")
         add(f"loss.first_set_{number}", lost.min(), "Hz", "first speed that loses contact")
         add(f"loss.last_set_{number}", lost.max(), "Hz", "last speed that loses contact")
+        begun = Table(GENERATED / "regimes.tsv").where("set", number)
+        begun = begun["f"][begun["contact"] < 1]
+        add(f"loss.begun_first_set_{number}", begun.min(), "Hz", "the same where integration begins on the harmonic-balance solution")
+        add(f"loss.begun_last_set_{number}", begun.max(), "Hz", "its last speed")
         add(f"peak.fr_set_{number}", f"{up['f'][peak]:.1f}".replace(".", ","), "Hz", "the same in French")
         aperiodic = (time["periodic"] == 0).mean()
         add(f"aperiodic.share_set_{number}", aperiodic, "-",
             "share of the speeds whose integrated motion is not T-periodic")
-        add(f"aperiodic.fr_set_{number}", f"{100 * aperiodic:.0f} %", "-", "the same in French")
 
 
 def displacements():
@@ -74,6 +77,8 @@ def displacements():
             "the integrated motion")
     for name in ("fig06", "fig08"):
         table = Table(GENERATED / f"{name}_orbits.tsv")
+        if name == "fig06":
+            add("fig06.spread", table.where("f", Table(GENERATED / "fig04_displacements.tsv").first("f")).first("spread"), "-", "spread at the speed of Fig. 4, another stretch of time")
         closed = [table.where("panel", panel).first("periodic") == 1 for panel in sorted(set(table["panel"]))]
         add(f"{name}.panels", len(closed), "-", "panels")
         add(f"{name}.open", len(closed) - sum(closed), "-", "of them with a motion that is not T-periodic")

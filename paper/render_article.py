@@ -30,7 +30,8 @@ def table_rows(match):
              if line and not line.startswith("#")]
     chosen = [lines[0].index(name) for name in match[2].split()]
     rows = [[line[k].replace("|", r"\|") for k in chosen] for line in lines]
-    widths = [min(40, max(len(row[k]) for row in rows)) for k in range(len(chosen))]
+    widths = [max(min(90, sum(len(row[k]) for row in rows) // len(rows)), *(len(word) + 3 for row in rows for word in row[k].split()))
+              for k in range(len(chosen))]
     rows.insert(1, ["-" * width for width in widths])
     return "\n".join("| " + " | ".join(row) + " |" for row in rows)
 
@@ -72,7 +73,7 @@ def as_pdf(text, output):
                             str(drawing)], check=True)
         text = FIGURE.sub(lambda match: f"]({folder}/{Path(match[1]).name}.pdf)", text)
         pandoc(text, "--standalone", "--pdf-engine", "lualatex", "--include-in-header",
-               "paper/article.tex", "--variable", "geometry:margin=19mm", "--variable",
+               "paper/article.tex", "--variable", "geometry:margin=16mm", "--variable",
                "fontsize=10pt", "--variable", "colorlinks=true", "--output", str(output))
 
 
