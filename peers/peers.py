@@ -1,4 +1,6 @@
-"""Cost against error of the outside integrators: writes peers.tsv.
+"""SUNDIALS, SciPy and AUTO-07p on the same equations.
+
+This program computes cost against error of the outside integrators; AUTO-07p has a program of its own.
 
 Usage: OMP_NUM_THREADS=1 /usr/bin/python3 peers/peers.py data/scenes/peers.toml > peers.tsv
 First every pair of tolerance and transient is tried once, on all processors, and its errors and

@@ -1,4 +1,4 @@
-"""AUTO-07p on the same equations: writes peers_auto.tsv.
+"""AUTO-07p follows the response curve.
 
 Usage: OMP_NUM_THREADS=1 /usr/bin/python3 peers/peers_auto.py data/scenes/peers_auto.toml > table
 Compiles peers/auto/motion.f90 with the machine's numbers, links it with AUTO's objects as AUTO's

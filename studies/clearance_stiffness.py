@@ -1,4 +1,8 @@
-"""The table of the parametric study under the names that figure and claims read.
+"""Parametric study of clearance and contact stiffness (C11).
+
+The paper announces such studies and shows none. Response curves of many machines are computed by `explore map`, over
+clearance and contact stiffness (studies/clearance_stiffness.yaml); this program gives its columns the names that figure
+and claims read.
 
 Usage: studies/clearance_stiffness.py MAP.tsv > clearance_stiffness.tsv
 """

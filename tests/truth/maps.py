@@ -167,7 +167,7 @@ def checked(count, seed=2004):
     judge = subprocess.Popen([JUDGE], stdin=subprocess.PIPE, stdout=subprocess.PIPE, encoding="utf-8")
     with tempfile.TemporaryDirectory() as folder:
         for number, (name, (keys, check)) in enumerate(MAPS.items(), 1):
-            table = Table(KEPT / f"{name}.tsv.gz")
+            table = Table(KEPT / f"{name}.tsv")
             names = list(table.columns)
             for k in sorted(random.Random(seed).sample(range(len(table)), count)):
                 row = {column: table[column][k] for column in names}
