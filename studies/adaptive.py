@@ -12,8 +12,8 @@ what not knowing costs, and the line at two is what it may cost. Panels (c) and 
 cross is a tolerance that was not reached.
 
 Each error is the larger of the largest difference over the largest displacement and the rms about the mean. Where shooting
-from its own starts closes none of the solutions' motions, a solution with four times as many harmonics as the ladder has stands
-for the exact motion; where the exact motion is not a solution's own, the distance that its verdict prints is the error.
+from its own starts closes none of the solutions' motions, the nearest of three solutions with three to five times as many
+harmonics as the ladder has stands for the exact motion; where the exact motion is not a solution's own, the distance that its verdict prints is the error.
 
 Usage: studies/adaptive.py data/scenes/adaptive.toml > adaptive.tsv   (from the project's root)
 """
@@ -29,6 +29,7 @@ from tables import Table, displacement_errors, explore, print_columns, print_hea
 
 POINTS = 2048
 FAR = 10  # times the estimate: another motion
+FINER = (3, 4, 5)  # times the harmonics of the ladder: several, since several motions may lie near each other
 COLUMNS = [
     ("set", "-", "data set"), ("f", "Hz", "speed of rotation"), ("tolerance", "-", "wanted error of displacement"),
     ("reached", "-", "1 when the estimate is below the tolerance"),
@@ -102,8 +103,9 @@ def rows_of(machine, speed, tolerances, most):
     rows = [chosen(machine, speed, tolerance, exact) for tolerance in tolerances]
     finest = [row["own_branch"] for row in rows if row["reached"]][-1:]
     if finest == [1] or exact is None:  # shooting found another motion, or none
-        exact = orbit(machine, speed, "--harmonics", 4 * most, "--points", POINTS, "--no-stability")
-        rows = [chosen(machine, speed, tolerance, exact) for tolerance in tolerances]
+        finer = [orbit(machine, speed, "--harmonics", k * most, "--points", POINTS, "--no-stability") for k in FINER]
+        judged = [(exact, [chosen(machine, speed, tolerance, exact) for tolerance in tolerances]) for exact in finer]
+        exact, rows = min(judged, key=lambda pair: (pair[0] is None, pair[1][-1]["own_branch"], pair[1][-1]["error"]))
     if exact is not None:
         add_best_fixed(machine, speed, exact, most, rows)
     return rows
