@@ -21,6 +21,8 @@ namespace rotor_stator::motion {
 namespace {
 
 constexpr double local_error = 1e-11, finer = 1e-13, nearly_closed = 1e-8;
+/** Far from a motion a cheap integration shows Newton the way as well. */
+constexpr double rough_error = 1e-6, roughly_closed = 1e-5, nearly_roughly_closed = 1e-3;
 /** A motion so near is the solution's own [of the largest displacement]; of two, one `as_near` times as far is not. */
 constexpr double surely_its_own = 5e-4, as_near = 2;
 constexpr int most_harmonics = 192, points = 256;  // of each turn
@@ -113,15 +115,19 @@ private:
   {
     state = start;
     ++iterations_;
-    shooting_ = shoot(parameters_, solution_.omega, state,
-                      {.tolerance = local_error,
-                       .periodicity_residual = 1e-9,
-                       .most_maps = 60,
-                       .speed_weight = speed_weight,
-                       .quasi_newton = quasi_newton,
-                       .final_derivative = false,
-                       .budget = budget_});
-    evaluations_ += static_cast<double>(shooting_.evaluations);
+    ShootingSettings settings{.tolerance = rough_error,
+                              .periodicity_residual = roughly_closed,
+                              .most_maps = 60,
+                              .speed_weight = speed_weight,
+                              .quasi_newton = quasi_newton,
+                              .final_derivative = false,
+                              .budget = budget_};
+    if (!shoot_from(state, settings) &&
+        shooting_.periodicity_residual > nearly_roughly_closed)
+      return false;
+    settings.tolerance = local_error;
+    settings.periodicity_residual = 1e-9;
+    shoot_from(state, settings);
     /** A motion whose disturbances grow fast closes no better than its integration: the change of the multipliers
         says what that leaves open. */
     if (!(shooting_.converged || shooting_.periodicity_residual <= nearly_closed))
@@ -130,6 +136,13 @@ private:
         (vector_of(state) - vector_of(start_)).head<4>().cwiseAbs().maxCoeff() / size_;
     nearest_ = std::min(nearest_, away);
     return away <= reach();
+  }
+
+  bool shoot_from(State& state, const ShootingSettings& settings)
+  {
+    shooting_ = shoot(parameters_, solution_.omega, state, settings);
+    evaluations_ += static_cast<double>(shooting_.evaluations);
+    return shooting_.converged;
   }
 
   /** A motion ten times as far away as the estimated error is another one. */
