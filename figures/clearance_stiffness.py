@@ -14,18 +14,13 @@ from pathlib import Path
 
 import matplotlib.pyplot as plt
 import numpy as np
+from map import edges_of, over_keys
 from matplotlib.colors import LogNorm
 from matplotlib.ticker import LogLocator
 from tables import run
 
 NEVER = -1
 SETS = ("data/set1.toml", "data/set2.toml")
-
-
-def edges_of(values):
-    """Borders of the cells around values."""
-    middles = (values[1:] + values[:-1]) / 2
-    return np.array([2 * values[0] - middles[0], *middles, 2 * values[-1] - middles[-1]])
 
 
 def speeds_of(table):
@@ -38,11 +33,8 @@ def speeds_of(table):
 def draw_map(axes, table, values, title, **colours):
     """Values in colour, grey where masked; returns the colour bar."""
     delta, stiffness = np.unique(table["delta"]), np.unique(table["K_H"])
-    cells = np.ma.masked_all((stiffness.size, delta.size))
-    rows = np.searchsorted(stiffness, table["K_H"])
-    cells[rows, np.searchsorted(delta, table["delta"])] = values
-    x, y = 1e6 * edges_of(delta), np.exp(edges_of(np.log(stiffness)))
-    image = axes.pcolormesh(x, y, cells, rasterized=True, **colours)
+    cells = np.ma.masked_invalid(over_keys(table, np.ma.filled(values.astype(float), np.nan), ["delta", "K_H"]))
+    image = axes.pcolormesh(1e6 * edges_of(delta), edges_of(stiffness), cells, rasterized=True, **colours)
     axes.set(yscale="log", title=title, facecolor="#bbbbbb",
              xlim=1e6 * delta[[0, -1]], ylim=stiffness[[0, -1]])
     return axes.figure.colorbar(image, ax=axes, pad=0.02)

@@ -6,7 +6,7 @@ Usage: /usr/bin/python3 figures/map.py TABLE.tsv OUTPUT.svg
 import matplotlib.pyplot as plt
 import numpy as np
 from matplotlib.colors import BoundaryNorm, ListedColormap
-from tables import run
+from tables import cells_as_numbers, run
 
 CLASSES = {"stability": ["stable", "unstable", "undecided"]}
 PERIODS = {-2: "undecided", -1: "quasi-periodic", 0: "aperiodic"}
@@ -36,13 +36,6 @@ def is_logarithmic(values):
     return np.ptp(ratios) < 1e-6 * ratios.mean() and np.ptp(steps) > 1e-6 * abs(steps).mean()
 
 
-def numbers(column):
-    """A column with NaN where the result is missing."""
-    if column.dtype.kind != "U":
-        return column
-    return np.array([np.nan if cell == "-" else float(cell) for cell in column])
-
-
 def classes_of(name, column):
     """Number of the class of each row, NaN without a result, and the names; None for a quantity that is measured."""
     if name in CLASSES:
@@ -50,10 +43,18 @@ def classes_of(name, column):
         return np.array([names.index(cell) if cell in names else np.nan for cell in column]), names
     if name != "period":
         return None
-    values = numbers(column)
+    values = cells_as_numbers(column)
     known = np.unique(values[np.isfinite(values)])
     place = np.where(np.isfinite(values), np.searchsorted(known, values), np.nan)
     return place, [PERIODS.get(k, f"period {k:g}") for k in known]
+
+
+def over_keys(table, values, keys):
+    """A number for each row as an array, a row for each value of the second key; NaN where there is no row."""
+    x, y = (np.unique(table[key]) for key in keys)
+    cells = np.full((y.size, x.size), np.nan)
+    cells[np.searchsorted(y, table[keys[1]]), np.searchsorted(x, table[keys[0]])] = values
+    return cells
 
 
 def edges_of(values):
@@ -94,7 +95,7 @@ def draw(table):
                                 squeeze=False, layout="constrained")
     for axes, name in zip(grid.flat, quantities):
         classes = classes_of(name, table[name])
-        values, names = classes if classes else (numbers(table[name]), None)
+        values, names = classes if classes else (cells_as_numbers(table[name]), None)
         axes.set_title(described(table, name))
         if y is None:
             order = np.argsort(table[keys[0]])
@@ -102,13 +103,12 @@ def draw(table):
             if names:
                 axes.set_yticks(range(len(names)), names)
         else:
-            cells = np.full((y.size, x.size), np.nan)
-            cells[np.searchsorted(y, table[keys[1]]), np.searchsorted(x, table[keys[0]])] = values
-            draw_cells(axes, x, y, cells, names)
+            draw_cells(axes, x, y, over_keys(table, values, keys), names)
             axes.set(ylabel=described(table, keys[1]), yscale="log" if is_logarithmic(y) else "linear")
         axes.set_xscale("log" if is_logarithmic(x) else "linear")
     grid.flat[-1].set_xlabel(described(table, keys[0]))
     return figure
 
 
-run(draw)
+if __name__ == "__main__":
+    run(draw)

@@ -18,6 +18,11 @@ def numbers_or_words(column):
         return column
 
 
+def cells_as_numbers(column):
+    """A column with NaN where the result is missing, -."""
+    return column if column.dtype.kind != "U" else np.array([np.nan if cell == "-" else float(cell) for cell in column])
+
+
 class Table:
     """The columns of a tab-separated table by name, and its `#` lines."""
 
