@@ -35,7 +35,7 @@ packages := $(sort $(if $(filter-out list clean adopt format,$(goals)),cmake g++
   $(if $(with_pages),furo libjs-mathjax pandoc python3-myst-parser python3-sphinx-copybutton python3-sphinxcontrib.bibtex) \
   $(if $(filter test sanitize,$(goals)),catch2 chromium chromium-driver python3-hypothesis python3-selenium) \
   $(if $(filter pdf,$(goals)),librsvg2-bin lmodern texlive-fonts-recommended texlive-latex-recommended texlive-luatex) \
-  $(if $(filter studies maps test sanitize $(basename $(notdir $(wildcard studies/*.yaml))),$(goals)),snakemake) \
+  $(if $(filter studies test sanitize $(basename $(notdir $(wildcard studies/*.yaml))),$(goals)),snakemake) \
   $(if $(filter peers,$(goals)),auto-07p gfortran libsundials-dev python3-scipy) \
   $(if $(filter live,$(goals)),emscripten) $(if $(filter png,$(goals)),librsvg2-bin) $(if $(filter bench,$(goals)),libbenchmark-dev) \
   $(if $(filter format,$(goals)),clang-format-14))
@@ -89,10 +89,12 @@ figures_printed := $(patsubst %,figures/generated/as-printed/%.svg,$(filter $(pa
 claims := data/generated/claims.tsv data/generated/as-printed/claims.tsv
 intervals := $(claims:claims.tsv=truth_intervals.tsv)
 timings := $(filter %/tab02_timing.tsv,$(tables) $(tables_printed))
-untimed := $(filter-out $(timings),$(tables) $(tables_printed)) $(figures) $(figures_printed) $(patsubst %,data/generated/%.md,deviations cage)
+untimed := $(filter-out $(timings),$(tables) $(tables_printed)) $(figures) $(figures_printed) $(patsubst %,data/generated/%.md,deviations $(with_page))
 studies := $(filter $(programs) $(mapped) $(scripted),$(kept))
-maps := $(filter-out $(kept),$(mapped))
-costs := $(filter tab02% work_precision cost_growth large,$(studies))
+unkept := $(filter-out $(kept),$(mapped))
+maps := $(filter-out $(basename $(notdir $(wildcard studies/*.py))),$(filter $(kept),$(mapped)))
+with_page := cage map_scaling
+costs := $(filter tab02% work_precision cost_growth large map_scaling,$(studies))
 sources := $(shell find src data/bearings -type f) CMakeLists.txt CMakePresets.json
 
 shown := $(tables_printed) $(figures_printed)
@@ -100,7 +102,7 @@ ifeq ($(READING),exchanged)
 shown := $(patsubst %,data/generated/%.tsv,$(paper) truth_intervals) data/generated/deviations.md \
   $(patsubst %,figures/generated/%.svg,$(filter $(paper) $(kept_printed),$(scripts)) truncation)
 endif
-.PHONY: deps all figures timing claims studies truth maps $(maps) $(studies) adopt peers book article pdf png readme golden \
+.PHONY: deps all figures timing claims studies truth maps $(unkept) $(studies) adopt peers book article pdf png readme golden \
   live test sanitize bench format dist list clean
 
 all: $(untimed) $(timings) $(claims) build/book/.built build/paper/article.html  ## figures, tables and claims of both readings, pages, article
@@ -170,6 +172,7 @@ figures/generated/%.svg: figures/$$(*F).py figures/rotor_stator.mplstyle figures
 # What else some of them read.
 figures/generated/identification.svg: figures/claim_quantities.py figures/claim_ranges.py
 figures/generated/identification.svg figures/generated/clearance_stiffness.svg: data/set1.toml data/set2.toml data/set1-as-printed.toml
+$(patsubst %,figures/generated/%.svg,clearance_stiffness $(maps)): figures/map.py data/set1.toml
 figures/generated/stability.svg: data/reference/attractors.tsv
 figures/generated/work_precision.svg figures/generated/peers.svg: data/reference/peers.tsv data/reference/peers_auto.tsv data/generated/fig03_response.tsv
 
@@ -189,7 +192,7 @@ $(claims): data/%/claims.tsv: figures/claims.py $(judging) $(python_tables) data
   data/%/fig09_contact.tsv data/%/regimes.tsv data/%/tab02_timing.tsv | $(timings)
 	$(whole) $(PYTHON) $< $(@D) $$new; mv $$new $@
 
-data/generated/article.tsv: paper/article_values.py paper/article_results.py $(judging) $(python_tables) data/scenes/validity.toml \
+data/generated/article.tsv: paper/article_values.py paper/article_results.py studies/map_scaling.py $(judging) $(python_tables) data/scenes/validity.toml \
   data/set1.toml data/set1-as-printed.toml paper/deviations.md $(tables) data/generated/claims.tsv \
   data/generated/as-printed/fig03_response.tsv data/generated/as-printed/tab01_parameters.tsv build/environment.txt build/explore \
   $(wildcard data/reference/*.tsv data/rotors/*.toml data/live/*.toml)
@@ -199,8 +202,9 @@ data/generated/article.tsv: paper/article_values.py paper/article_results.py $(j
 data/generated/deviations.md data/generated/article.md: data/generated/%.md: paper/include.py paper/%.md data/generated/%.tsv
 	$(whole) $(PYTHON) $^ > $$new; mv $$new $@
 
-data/generated/cage.md: studies/cage.py data/reference/cage.tsv figures/tables.py
-	$(whole) $(PYTHON) $< data/reference/cage.tsv > $$new; mv $$new $@
+$(with_page:%=data/generated/%.md): data/generated/%.md: studies/%.py data/reference/%.tsv figures/tables.py
+	$(whole) $(PYTHON) $< data/reference/$*.tsv > $$new; mv $$new $@
+data/generated/map_scaling.md: $(patsubst %,data/reference/%.tsv,$(maps) map_checks)
 
 book: build/book/.built  ## programs, figures and texts as pages, with a search: build/book/index.html
 build/book/.built: $(wildcard paper/book/* *.md paper/*.md paper/references.bib studies/*.py peers/*.py data/reference/*.tsv build/live/index.html) \
@@ -218,9 +222,9 @@ build/paper/article.pdf: data/generated/article.md paper/article.tex build/paper
 	$(PYTHON) paper/render_article.py $< $@
 
 # Long studies, computed anew and compared with the tables kept in data/reference.
-studies: $(studies) timing  ## the long studies and all timings (an hour)
-maps: $(maps)  ## maps that nobody has published, by studies/*.yaml (7 hours of one core; all cores are used)
-$(maps): %: build/explore
+studies: $(studies) timing  ## the long studies, the two maps and all timings (three hours)
+maps: $(maps:%=figures/generated/%.svg)  ## two maps that nobody has published, drawn from their kept tables
+$(unkept): %: build/explore
 	snakemake --snakefile studies/Snakefile --profile studies/local build/studies/$@/map.tsv
 truth: attractors validity stability verdicts adaptive  ## where the periodic solution is true (15 minutes)
 timing: $(timings) $(costs)  ## the tables of cost, alone on the machine (10 minutes)

@@ -114,7 +114,8 @@ def draw_sets(table):
         below.set_xlabel("speed of rotation [Hz]")
     grid[0, 0].set_ylabel("section: $(x_r - x_s)/δ$ at phase 0 [-]")
     grid[1, 0].set_ylabel("largest Lyapunov exponent [1/s]")
-    legend = grid[0, 1].legend(loc="lower left", handletextpad=0.2)
+    named = {label: handle for axes in grid[0] for handle, label in zip(*axes.get_legend_handles_labels())}
+    legend = grid[0, 1].legend(named.values(), named.keys(), loc="lower left", handletextpad=0.2)
     for handle in legend.get_lines():
         handle.set_markersize(10 if handle.get_marker() == "." else 7)
     return figure

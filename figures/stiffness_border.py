@@ -1,5 +1,5 @@
 """Clearance against contact stiffness: peak, its speed, permanent contact, and the error of six harmonics against what the
-machine does. White lines in (d): errors of 1 % and 10 %; the circle is data set 1; grey: no result.
+machine does. White line in (d): an error of 1 %; the circle is data set 1; grey: no result.
 Usage: /usr/bin/python3 figures/stiffness_border.py data/reference/stiffness_border.tsv stiffness_border.svg
 """
 
@@ -13,8 +13,7 @@ from matplotlib.colors import LogNorm
 from tables import cells_as_numbers, run
 
 X, Y = KEYS = ["bearing.radial_clearance_m", "bearing.contact_stiffness_N_per_m1p5"]
-BORDERS = (1, 10)  # %
-LEAST = 1e-3       # %: smaller errors are drawn as this
+BORDER, LEAST = 1, 1e-3  # %; smaller errors are drawn as this
 
 
 def draw_map(axes, table, values, title, **colours):
@@ -36,10 +35,10 @@ def draw(table):
     columns = {name: cells_as_numbers(table[name]) for name in ("peak", "peak_frequency", "permanent", "machine_error")}
     draw_map(peak, table, 1e3 * columns["peak"], "(a) largest amplitude of $x_r$ [mm]")
     draw_map(speed, table, columns["peak_frequency"], "(b) its speed [Hz]")
-    draw_map(permanent, table, 100 * columns["permanent"], "(c) speeds with permanent contact [%]", vmin=0, vmax=100)
+    draw_map(permanent, table, 100 * columns["permanent"], "(c) speeds with permanent contact [%]")
     drawn = draw_map(error, table, np.maximum(100 * columns["machine_error"], LEAST), "(d) error of six harmonics at 30 Hz [%]",
                      norm=LogNorm())
-    error.contour(*drawn, BORDERS, colors="white", linewidths=1)
+    error.contour(*drawn, [BORDER], colors="white", linewidths=1)
     figure.supxlabel("radial clearance δ [µm]")
     figure.supylabel("contact stiffness $K_H$ [N/m$^{1.5}$]")
     return figure

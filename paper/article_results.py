@@ -7,6 +7,7 @@ import re
 import tomllib
 from pathlib import Path
 
+import map_scaling
 import numpy as np
 from tables import Table, explore
 
@@ -172,6 +173,9 @@ def truth(add):
         add(f"{name}.all", len(np.unique(every["f"])), "-", "all speeds")
         add(f"{name}.missed", len(missed), "-", "of them with an rms error above the limit")
         add(f"{name}.where", listed([f"{f:g}" for f in missed]), "Hz", "these speeds")
+        most = every.where("f", missed[-1]).where("adaptive", 0).where("found", 1)
+        for key, value, unit in (("last", missed[-1], "Hz"), ("last_rms", most["distance"][-1], "-"), ("last_m", most["m"][-1], "-")):
+            add(f"{name}.{key}", value, unit, "the last of them, and the most harmonics with a solution there")
         add(f"{name}.limit", ACCURATE, "-", "the limit of the rule")
         for key, column in (("largest", "distance_largest"), ("rms", "distance"), ("force", "distance_force")):
             add(f"{name}.{key}", fixed[column].max(), "-", f"largest {column} at these speeds")
@@ -206,8 +210,18 @@ def contact(add):
     stiffness = float(values["value"][list(values["key"]).index("D-01.stiffness_ours")])
     f = np.sqrt(stiffness * (1 / masses.first("m_s") + 1 / masses.first("m_r"))) / (2 * np.pi)
     add("contact.f", f, "Hz", "contact's frequency of set 1 at rest")
-    for speed in (3, 45):
-        add(f"contact.harmonic_{speed}", f / speed, "-", f"the same as a harmonic of {speed} Hz")
+    add("contact.harmonic_3", f / 3, "-", "the same as a harmonic of 3 Hz")
+    bodies, g = tomllib.loads(Path("data/set1.toml").read_text()), masses.first("g")
+    (m_s, k_s, c_s), (m_r, k_r, c_r) = (
+        (m, m * w**2, 2 * xi * m * w) for m, w, xi in ([bodies[body][key] for key in ("mass_kg", "natural_frequency_rad_per_s", "damping_ratio")]
+                                                      for body in ("stator", "rotor")))
+    w = 2 * np.pi * 45
+    static = g * abs(m_r * k_s - m_s * k_r) / (k_s + k_r)
+    turning = bodies["rotor"]["unbalance_kg_m"] * w**2 * abs((k_s - m_s * w**2 + 1j * c_s * w)
+                                                            / (k_s + k_r - (m_s + m_r) * w**2 + 1j * (c_s + c_r) * w))
+    for key, value, unit in (("static", static / 1e3, "kN"), ("turning_45", turning / 1e3, "kN"),
+                             ("f_45", f * (turning / static)**(1 / 6), "Hz"), ("harmonic_45", f * (turning / static)**(1 / 6) / 45, "-")):
+        add(f"contact.{key}", value, unit, "F_0, F_1 at 45 Hz, and the contact's frequency under it: a stiffness that goes like F^(1/3)")
 
 
 def needed(add):
@@ -247,6 +261,15 @@ def judged(add):
     for limit in (0.01, 0.05):
         add(f"verdicts.beyond_{100 * limit:.0f}", (known["distance"] > limit).sum(), "-", f"decided, with an rms distance above {limit}")
     add("verdicts.count", len(known), "-", "verdicts reached")
+    for number in (1, 2):
+        add(f"verdicts.decided_{number}", (found.where("set", number)["machine_stable"] >= 0).mean(), "-", "share with a verdict on the machine")
+    false = (known["series_stable"] >= 0) & (known["series_stable"] != known["machine_stable"])
+    add("verdicts.false", false.sum(), "-", "false verdicts of the series")
+    add("verdicts.false_near", (false & (known["distance"] <= 0.01)).sum(), "-", "of them with an rms distance of at most 1 %")
+    finest = known.where("m", known["m"].max())
+    add("verdicts.most_count", len(finest), "-", "verdicts on solutions with the most harmonics")
+    add("verdicts.most_unstable", (finest["machine_stable"] == 0).sum(), "-", "of them unstable")
+    add("verdicts.most_hill", ((finest["hill_stable"] >= 0) & (finest["hill_stable"] != finest["machine_stable"])).sum(), "-", "false ones by Hill's method")
     counts = np.unique(table["m"])
     for number in (1, 2):
         rows = found.where("set", number)
@@ -408,6 +431,18 @@ def maps(add):
     add("map.speeds", speeds, "-", "speeds of each machine")
 
 
+def two_maps(add):
+    """Clearance against speed and against stiffness, and how random points of them were checked."""
+    for key, name, said in (("speed", "clearance_speed", map_scaling.of_speeds), ("stiffness", "stiffness_border", map_scaling.of_stiffness)):
+        for quantity, value in said(Table(KEPT / f"{name}.tsv")).items():
+            add(f"two.{key}_{quantity}", value, "-", f"{quantity} of the map {name}")
+    checks = Table(KEPT / "map_checks.tsv")
+    for number, key in ((1, "speed"), (2, "stiffness")):
+        agrees = checks.where("map", number)["agrees"]
+        add(f"two.{key}_checked", (agrees >= 0).sum(), "-", "random points compared with the judge")
+        add(f"two.{key}_agree", (agrees > 0).sum(), "-", "of them agree")
+
+
 def large(add):
     """A flexible shaft, condensed to its bearing; beams and bricks that are reduced first."""
     table = Table(KEPT / "large.tsv")
@@ -424,6 +459,6 @@ def large(add):
 
 
 def add_all(add):
-    for part in (settings, parameters, accuracy, cages, maps, large, costs, growth, peers, outside, truth,
+    for part in (settings, parameters, accuracy, cages, maps, two_maps, large, costs, growth, peers, outside, truth,
                  beside_chaos, contact, needed, judged, verdicts):
         part(add)

@@ -9,7 +9,7 @@ from pathlib import Path
 
 import numpy as np
 
-sys.path.insert(0, "figures")
+sys.path[:0] = ["figures", "studies"]
 import claim_quantities as quantities  # noqa: E402
 from article_results import add_all  # noqa: E402
 from project import source_line  # noqa: E402
@@ -35,6 +35,7 @@ def paper_values():
             add(f"paper.m_{int(claim['id'][1]) - 1}", float(claim["paper"]), "-", f"harmonics that suffice in the paper, {claim['id']}")
     for name, speed in zip(("from", "to"), text["loss_hz"]):
         add(f"paper.loss_{name}", speed, "Hz", "its transition")
+    add("paper.loss_width", text["loss_hz"][1] - text["loss_hz"][0], "Hz", "its width")
 
 
 def claim_counts():
@@ -56,6 +57,7 @@ def response():
         add(f"peak.mm_set_{number}", 1e3 * up["amp_x_r"][peak], "mm", "largest amp_x_r")
         add(f"loss.first_set_{number}", lost.min(), "Hz", "first speed that loses contact")
         add(f"loss.last_set_{number}", lost.max(), "Hz", "last speed that loses contact")
+        add(f"loss.width_set_{number}", np.ptp(lost), "Hz", "between both")
         begun = Table(GENERATED / "regimes.tsv").where("set", number)
         begun = begun["f"][begun["contact"] < 1]
         add(f"loss.begun_first_set_{number}", begun.min(), "Hz", "the same where integration begins on the harmonic-balance solution")

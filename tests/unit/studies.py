@@ -19,6 +19,7 @@ for folder in ("tests", "figures", "studies"):  # a study may be called like its
     sys.path.insert(0, folder)
 import adaptive  # noqa: E402
 import identification  # noqa: E402
+import map_scaling  # noqa: E402
 import sampling  # noqa: E402
 import sensitivity  # noqa: E402
 import verdicts  # noqa: E402
@@ -169,6 +170,36 @@ class Adaptive(unittest.TestCase):
         self.assertLess(row["error"], 1e-3)
         self.assertEqual(row["own_branch"], 0)
         self.assertGreater(row["m_fixed"], 0)
+
+
+class Maps(unittest.TestCase):
+    """What the page says of the maps, for maps of which it is known."""
+
+    def test_border(self):
+        """An error of (δ/20 µm)² (K_H/1e11) per cent has its border at 20 µm for 1e11, at 6.3 µm for 1e12, and is 250 % in the
+        corner; a point without result counts neither way. Would catch keys that are mixed up, and missing cells taken for right ones."""
+        rows = [f"{delta:.9g}\t{level:.9g}\t0.01\t50\t0.5\t{'-' if delta == 0 else 0.01 * (delta / 2e-5)**2 * level / 1e11:}\tok"
+                for level in np.geomspace(1e10, 1e12, 21) for delta in np.linspace(0, 1e-4, 1001)]
+        names = [map_scaling.DELTA, map_scaling.STIFFNESS, "peak", "peak_frequency", "permanent", "machine_error", "status"]
+        said = map_scaling.of_stiffness(Table.of("\n".join(["# frequency: 30 Hz", "\t".join(names), *rows])))
+        self.assertAlmostEqual(said["first_um"], 6.4, delta=0.01)
+        self.assertAlmostEqual(said["worst"], 2.5)
+        self.assertAlmostEqual(said["open"], 1 / 1001)
+
+    def test_shares(self):
+        """Ten points: the shares add to one, and the loss of contact is counted among the aperiodic ones alone."""
+        cells = [(10, 1e-5, 1, 1), (20, 1e-5, 2, 1), (30, 1e-5, 1, 0.9), (10, 2e-5, 0, 1), (20, 2e-5, 0, 0.5), (30, 2e-5, 0, 0.5),
+                 (10, 3e-5, -1, 1), (20, 3e-5, -2, 0.5), (30, 3e-5, 0, 0.5), (40, 3e-5, 8, 0.5)]
+        rows = ["\t".join(f"{cell:g}" for cell in row) + "\tok" for row in cells]
+        said = map_scaling.of_speeds(Table.of("\n".join(["\t".join([map_scaling.X, map_scaling.DELTA, "period", "loaded", "status"]), *rows])))
+        for name, value in {"once": 0.2, "more": 0.2, "aperiodic": 0.4, "quasi": 0.1, "open": 0.1, "first_um": 20, "unlost": 0.25,
+                            "lost_closed": 2 / 6, "band_hz": 20}.items():
+            self.assertAlmostEqual(said[name], value, msg=name)
+
+    def test_page_on_paper(self):
+        """A thousand million points of a tenth of a second on 100 cores in shards of ten minutes: 1e8 s of work, 11.6 days."""
+        self.assertEqual(map_scaling.written(1e8 / 100), "12 days")
+        self.assertEqual([map_scaling.written(s) for s in (30, 90, 7200, 3.2e8)], ["30 s", "1.5 minutes", "2 hours", "10 years"])
 
 
 class Sampling(unittest.TestCase):
