@@ -88,12 +88,12 @@ figures := $(patsubst %,figures/generated/%.svg,$(filter $(computed) $(kept),$(s
 figures_printed := $(patsubst %,figures/generated/as-printed/%.svg,$(filter $(paired) $(kept_printed),$(scripts)) truncation)
 claims := data/generated/claims.tsv data/generated/as-printed/claims.tsv
 intervals := $(claims:claims.tsv=truth_intervals.tsv)
+described := cage map_scaling
 timings := $(filter %/tab02_timing.tsv,$(tables) $(tables_printed))
-untimed := $(filter-out $(timings),$(tables) $(tables_printed)) $(figures) $(figures_printed) $(patsubst %,data/generated/%.md,deviations $(with_page))
+untimed := $(filter-out $(timings),$(tables) $(tables_printed)) $(figures) $(figures_printed) $(patsubst %,data/generated/%.md,deviations $(described))
 studies := $(filter $(programs) $(mapped) $(scripted),$(kept))
 unkept := $(filter-out $(kept),$(mapped))
 maps := $(filter-out $(basename $(notdir $(wildcard studies/*.py))),$(filter $(kept),$(mapped)))
-with_page := cage map_scaling
 costs := $(filter tab02% work_precision cost_growth large map_scaling,$(studies))
 sources := $(shell find src data/bearings -type f) CMakeLists.txt CMakePresets.json
 
@@ -202,7 +202,7 @@ data/generated/article.tsv: paper/article_values.py paper/article_results.py stu
 data/generated/deviations.md data/generated/article.md: data/generated/%.md: paper/include.py paper/%.md data/generated/%.tsv
 	$(whole) $(PYTHON) $^ > $$new; mv $$new $@
 
-$(with_page:%=data/generated/%.md): data/generated/%.md: studies/%.py data/reference/%.tsv figures/tables.py
+$(described:%=data/generated/%.md): data/generated/%.md: studies/%.py data/reference/%.tsv figures/tables.py
 	$(whole) $(PYTHON) $< data/reference/$*.tsv > $$new; mv $$new $@
 data/generated/map_scaling.md: $(patsubst %,data/reference/%.tsv,$(maps) map_checks)
 
