@@ -13,7 +13,7 @@ from matplotlib.colors import BoundaryNorm, ListedColormap
 from tables import cells_as_numbers, run
 
 X, Y = KEYS = ["frequency", "bearing.radial_clearance_m"]
-NAMES = ["undecided", "quasi-\nperiodic", "aperiodic", "K = 1", "K = 2", "K = 3", "K = 4", "K above 4"]
+NAMES = ["undecided", "quasi-periodic", "aperiodic", "K = 1", "K = 2", "K = 3", "K = 4", "K above 4"]
 COLOURS = ["white", "#CC79A7", "#303030", "#CFE3F1", "#56B4E9", "#E69F00", "#009E73", "#D55E00"]
 
 
@@ -35,7 +35,7 @@ def draw_map(axes, table, values, title, **colours):
 
 def draw(table):
     """Three maps, one above the other."""
-    figure, (period, chaos, contact) = plt.subplots(3, 1, figsize=(10, 12), sharex=True, layout="constrained")
+    figure, (period, chaos, contact) = plt.subplots(3, 1, figsize=(10, 9), sharex=True, layout="constrained")
     periods, rates, loaded = (cells_as_numbers(table[name]) for name in ("period", "lyapunov", "loaded"))
     draw_map(period, table, classes(periods), "(a) turns K after which the motion repeats itself", cmap=ListedColormap(COLOURS),
              norm=BoundaryNorm(np.arange(len(NAMES) + 1) - 0.5, len(NAMES))).set_ticks(range(len(NAMES)), labels=NAMES)

@@ -184,7 +184,7 @@ def on_paper(costs, tables, per_shard, files_of_a_shard):
             for cores in ON_PAPER["cores"]:
                 work = -(-shards // cores) * ON_PAPER["shard_s"]
                 yield (f"| {name} | {power(points)} | {cores} | {written(work)} | {written(shards * per_shard)} | {shards} | "
-                       f"{shards * files_of_a_shard:.2g} | {points * size / 1e9:.2g} |")
+                       f"{shards * files_of_a_shard:.0f} | {points * size / 1e9:.2g} |")
 
 
 def page(folder):
@@ -199,7 +199,7 @@ def page(folder):
     lines = ["# Two maps of the machine, and what larger ones would cost", ""]
     for number, (name, table) in enumerate(tables.items(), 1):
         values = said[name](table)
-        lines += [f"## {titles[name]}", "", f"![{titles[name]}](figures/{name}.svg)", "", SENTENCES[name].format(**values), "",
+        lines += [f"## {titles[name]}", "", SENTENCES[name].format(**values), "",
                   f"*Cost and check.* {len(table)} points of {cost_of(costs, name):.2g} s, {written(len(table) * cost_of(costs, name))} "
                   f"of one core; at {values['open']:.2%} there is no result. {agreement(checks, number)}.", ""]
     one = threads["median_s"][0]
