@@ -35,7 +35,7 @@ def draw(table):
     columns = {name: cells_as_numbers(table[name]) for name in ("peak", "peak_frequency", "permanent", "machine_error")}
     draw_map(peak, table, 1e3 * columns["peak"], "(a) largest amplitude of $x_r$ [mm]")
     draw_map(speed, table, columns["peak_frequency"], "(b) its speed [Hz]")
-    draw_map(permanent, table, 100 * columns["permanent"], "(c) speeds with permanent contact [%]")
+    draw_map(permanent, table, 100 * columns["permanent"], "(c) solved speeds with permanent contact [%]")
     drawn = draw_map(error, table, np.maximum(100 * columns["machine_error"], LEAST), "(d) error of six harmonics at 30 Hz [%]",
                      norm=LogNorm())
     error.contour(*drawn, [BORDER], colors="white", linewidths=1)

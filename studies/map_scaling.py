@@ -114,15 +114,17 @@ def of_speeds(table):
     """What the map over clearance and speed says."""
     period, loaded = cells_as_numbers(table["period"]), cells_as_numbers(table["loaded"])
     aperiodic, lost = period == 0, loaded < 1
+    widest = table[X][(loaded <= 0.999) & (table[DELTA] == table[DELTA].max())]
     return {"points": len(table), "once": np.mean(period == 1), "more": np.mean(period > 1), "aperiodic": np.mean(aperiodic),
             "quasi": np.mean(period == -1), "open": np.mean(~(period >= -1)), "first_um": 1e6 * table[DELTA][aperiodic].min(),
             "unlost": np.mean(~lost[aperiodic]), "tip_hz": np.median(table[X][lost & (table[DELTA] <= 5e-6)]),
-            "band_hz": np.ptp(table[X][lost & (table[DELTA] == table[DELTA].max())]), "lost_closed": np.mean(period[lost] > 0)}
+            "band_from": widest.min(), "band_to": widest.max(), "lost_closed": np.mean(period[lost] > 0)}
 
 
 def of_stiffness(table):
     """What the map over clearance and stiffness says."""
     columns = {name: cells_as_numbers(table[name]) for name in ("permanent", "peak_frequency", "peak", "machine_error")}
+    columns["peak_mm"] = 1e3 * columns.pop("peak")
     error = columns.pop("machine_error")
     known = np.isfinite(error)
     ends = {f"{name}_{end}": value for name, column in columns.items()
@@ -132,19 +134,20 @@ def of_stiffness(table):
 
 
 SENTENCES = {
-    "clearance_speed": """The motion from rest repeats itself turn by turn at {once:.0%} of the points, after more turns at {more:.1%};
+    "clearance_speed": """The motion from rest, by Runge-Kutta integration, repeats itself turn by turn at {once:.0%} of the points, after more turns at {more:.1%};
 it is aperiodic at {aperiodic:.0%}, quasi-periodic at {quasi:.1%}, and not decided at {open:.1%}.
 
-Aperiodic motion begins at a clearance of {first_um:.3g} µm and does not need a loss of contact: at {unlost:.0%} of the aperiodic points
+Aperiodic motion begins at a clearance of {first_um:.3g} µm, the first step of the map, and does not need a loss of contact: at {unlost:.0%} of the aperiodic points
 a ball is loaded at every instant. Contact is lost in one tongue alone. Its tip, without
-clearance, is at {tip_hz:.1f} Hz, where gravity and unbalance are equal; at the largest clearance it is {band_hz:.0f} Hz wide. Of the motions that lose contact {lost_closed:.0%} are periodic all the same. The paper shows panels at a few speeds for two
+clearance, is at {tip_hz:.1f} Hz, where gravity and unbalance are equal; at the largest clearance it reaches from {band_from:.1f} to {band_to:.1f} Hz (speeds
+that lose it for a thousandth of the time or more). Of the motions that lose contact {lost_closed:.0%} are periodic all the same. The paper shows panels at a few speeds for two
 clearances, from which neither can be seen.""",
-    "stiffness_border": """The peak lies between {peak_frequency_least:.1f} and {peak_frequency_most:.1f} Hz and is {peak_least:.4f} to
-{peak_most:.4f} m high: it is that of both bodies as one, whatever joins them. The share of speeds with permanent contact goes from
+    "stiffness_border": """The peak lies between {peak_frequency_least:.1f} and {peak_frequency_most:.1f} Hz and is {peak_mm_least:.1f} to
+{peak_mm_most:.1f} mm high: it is that of both bodies as one, whatever joins them. The share of the solved speeds with permanent contact goes from
 {permanent_least:.0%} to {permanent_most:.0%}.
 
-At {f_hz:.0f} Hz six harmonics are within {limit:.0%} of what the machine does at {right:.0%} of the points, at every point with a clearance
-below {first_um:.0f} µm, and within {worst:.1%} everywhere. Their border of validity is no line: besides the corner of stiff contacts and
+At {f_hz:.0f} Hz six harmonics are within {limit:.0%} of what the machine does at {right:.0%} of the points, at every point that has
+a result and a clearance below {first_um:.0f} µm, and within {worst:.1%} at all that have one. Their border of validity is no line: besides the corner of stiff contacts and
 large clearances it has islands, and between them the error falls to a tenth and less along curves on which clearance and stiffness
 change together. Neither alone says whether six harmonics are enough; the paper gives one number of harmonics for each of two clearances."""}
 
@@ -152,8 +155,8 @@ change together. Neither alone says whether six harmonics are enough; the paper 
 def agreement(checks, number):
     """How the independent check ended."""
     agrees = checks.where("map", number)["agrees"]
-    return (f"{(agrees == 1).sum()} of {len(agrees)} random points agree with the judge, at {(agrees == 2).sum()} it settles on "
-            f"another of several motions, {(agrees == 0).sum()} disagree, {(agrees == -1).sum()} had no result to be compared")
+    return (f"{(agrees == 1).sum()} of {len(agrees)} random points agree with a program that shares no code (tests/truth/judge.cpp), at "
+            f"{(agrees == 2).sum()} it comes to another of several motions, {(agrees == 0).sum()} disagree, {(agrees == -1).sum()} had no result to be compared")
 
 
 def cost_of(costs, name):
@@ -184,7 +187,7 @@ def on_paper(costs, tables, per_shard, files_of_a_shard):
             for cores in ON_PAPER["cores"]:
                 work = -(-shards // cores) * ON_PAPER["shard_s"]
                 yield (f"| {name} | {power(points)} | {cores} | {written(work)} | {written(shards * per_shard)} | {shards} | "
-                       f"{shards * files_of_a_shard:.0f} | {points * size / 1e9:.2g} |")
+                       f"{shards * files_of_a_shard:.0f} | {points * size / 1e9:.3g} |")
 
 
 def page(folder):
@@ -205,9 +208,9 @@ def page(folder):
     one = threads["median_s"][0]
     lines += [
         "## Threads, memory and shards", "",
-        f"Measured on {cores} cores, elapsed, with points of {1e3 * one / threads['points'][0]:.2g} ms, so that what is not a "
-        "point's own shows. A row of the first column has the same points for any number of threads; in the second the points "
-        "grow with the threads. The efficiency of more threads than cores is that of the cores.", "",
+        f"Measured on {cores} cores, elapsed, with points of {1e3 * one / threads['points'][0]:.2g} ms, short ones, so that "
+        "overhead is seen. First the same points for any number of threads, with the efficiency t(1) / (min(threads, cores) t); then "
+        "so many points for each thread, with the same times the number of threads.", "",
         "| threads | same points [s] | efficiency | points of each thread [s] | efficiency |", "|---|---|---|---|---|"]
     for k, count in enumerate(threads["count"]):
         used = min(count, cores)

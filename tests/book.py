@@ -19,6 +19,7 @@ import subprocess
 import sys
 import tempfile
 import threading
+import tomllib
 import unittest
 from html import unescape
 from html.parser import HTMLParser
@@ -34,8 +35,14 @@ from tables import Table  # noqa: E402
 
 BUILD, BOOK, ARTICLE = Path("build"), Path("build/book"), Path("build/paper/article.html")
 SHOTS, AXE = BUILD / "screenshots", BUILD / "npm/node_modules/axe-core/axe.min.js"
+FIGURES = tomllib.loads(Path("paper/book/figures.toml").read_text(encoding="utf-8"))
 SHOWN = ["index.html", "chapter-08.html", "fig06_orbits.html", "model-rotor_stator.html", "results.html", "search.html?q=clearance"]
 NARROW, WIDE = 400, 1400
+
+
+def page_of(figure):
+    """The page that shows a figure: its own, unless it says another."""
+    return FIGURES.get(figure, {}).get("page", figure)
 
 
 class Links(HTMLParser):
@@ -98,9 +105,14 @@ class Files(unittest.TestCase):
 
     def test_every_figure_has_a_complete_page(self):
         for figure in sorted(Path("figures/generated").glob("*.svg")):
-            page = self.page({"truncation": "validity"}.get(figure.stem, figure.stem))
+            page = self.page(page_of(figure.stem))
             for part in (f'src="_images/{figure.name}"', "How it was computed", "make</span>", "What differs from the paper", "(D-\\d\\d|paper)"):
                 self.assertRegex(page, part, figure.stem)
+
+    def test_the_example_of_the_guide_is_whole(self):
+        """A page's own comment marks are taken away, those of a program that it shows are not."""
+        shown = unescape(re.sub(r"<[^>]*>", "", self.page("guide")))
+        self.assertRegex(shown, r"/\*\*\n# Two masses and a unilateral spring(?s:.*?)\*/\n#include")
 
     def test_every_table_without_figure_is_shown(self):
         """All its columns with their values in the first row, and the file: a page that only speaks of its table would have neither."""
@@ -229,7 +241,7 @@ class Browser(unittest.TestCase):
             self.show(width)
             for figure in sorted(Path("figures/generated").glob("*.svg")):
                 with self.subTest(figure.stem, width=width):
-                    self.open({"truncation": "validity"}.get(figure.stem, figure.stem) + ".html")
+                    self.open(page_of(figure.stem) + ".html")
                     left, right, natural, page = self.js("""
                       const image = document.querySelector(`img[src="_images/${arguments[0]}"]`), box = image.getBoundingClientRect();
                       return [box.left, box.right, image.naturalWidth, document.documentElement.scrollWidth];""", figure.name)

@@ -28,7 +28,7 @@ INLINE = re.compile(  # what has no name stays as it is
     rf"(?P<open>\[)?(?P<mark>{MARK})(?(open)\]\([^)]*\))|"
     r"(?P<words>\[[^]]*\])\((?P<path>(?!http)[^)#]+)(?P<place>[^)]*)\)|\]\([^)]*\)|"
     rf"`(?P<name>\w{{4,}})`|`[^`]*`|(?<![\w\\])(?P<letter>[A-Za-zΑ-Ωα-ω])_(?P<index>\w+)", re.S | re.M)
-BLOCKS = ((r'^/\*\* ?|\s*\*/\s*\Z|"""\s*\Z|<!-- not in the book -->[^>]*>', ""),
+BLOCKS = ((r'\A/\*\* ?|\s*\*/\s*\Z|"""\s*\Z|<!-- not in the book -->[^>]*>', ""),
           (r"^# Rotor, stator and a ball .*", "# Overview"), (r'^```\{\.(\w+) \w+="([^"]+)"\}$', r"```{code-block} \1\n:caption: \2"),
           (r"\$\$([^$]*)\\tag\{(\d+)\}([^$]*)\$\$", r'\n<div id="eq-\2"></div>\n\n\\begin{equation*}\1\3\\tag{\2}\\end{equation*}'
            r'\n\n<p class="cited"><a href="marks.html#\2">Where it is used</a></p>\n\n'),

@@ -193,7 +193,7 @@ class Maps(unittest.TestCase):
         rows = ["\t".join(f"{cell:g}" for cell in row) + "\tok" for row in cells]
         said = map_scaling.of_speeds(Table.of("\n".join(["\t".join([map_scaling.X, map_scaling.DELTA, "period", "loaded", "status"]), *rows])))
         for name, value in {"once": 0.2, "more": 0.2, "aperiodic": 0.4, "quasi": 0.1, "open": 0.1, "first_um": 20, "unlost": 0.25,
-                            "lost_closed": 2 / 6, "band_hz": 20}.items():
+                            "lost_closed": 2 / 6, "band_from": 20, "band_to": 40}.items():
             self.assertAlmostEqual(said[name], value, msg=name)
 
     def test_page_on_paper(self):
