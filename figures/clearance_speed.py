@@ -8,13 +8,14 @@ from pathlib import Path
 
 import matplotlib.pyplot as plt
 import numpy as np
-from map import edges_of, over_keys
-from matplotlib.colors import BoundaryNorm, ListedColormap
+from map import draw_classes, draw_grid, over_keys
 from tables import cells_as_numbers, run
 
 X, Y = KEYS = ["frequency", "bearing.radial_clearance_m"]
 NAMES = ["undecided", "quasi-periodic", "aperiodic", "K = 1", "K = 2", "K = 3", "K = 4", "K above 4"]
 COLOURS = ["white", "#CC79A7", "#303030", "#CFE3F1", "#56B4E9", "#E69F00", "#009E73", "#D55E00"]
+TITLES = ["(a) turns K after which the motion repeats itself", "(b) largest Lyapunov exponent of aperiodic motion [1/turn]; grey: other motion",
+          "(c) share of the time without contact [%]; grey: contact is never lost"]
 
 
 def classes(periods):
@@ -22,26 +23,19 @@ def classes(periods):
     return np.where(np.isnan(periods), 0, np.clip(periods, -2, 5) + 2)
 
 
-def draw_map(axes, table, values, title, **colours):
-    """Values in colour over both keys, grey where there are none."""
-    x, y = np.unique(table[X]), 1e6 * np.unique(table[Y])
-    image = axes.pcolormesh(edges_of(x), edges_of(y), np.ma.masked_invalid(over_keys(table, values, KEYS)), rasterized=True,
-                            **colours)
-    axes.set(title=title, ylabel="radial clearance δ [µm]", facecolor="#bbbbbb")
-    clearance = tomllib.loads(Path("data/set1.toml").read_text(encoding="utf-8"))["bearing"]["radial_clearance_m"]
-    axes.axhline(1e6 * clearance, color="black", ls=(0, (6, 4)), lw=1)
-    return axes.figure.colorbar(image, ax=axes, pad=0.02)
-
-
 def draw(table):
     """Three maps, one above the other."""
-    figure, (period, chaos, contact) = plt.subplots(3, 1, figsize=(10, 9), sharex=True, layout="constrained")
+    figure, panels = plt.subplots(3, 1, figsize=(10, 9), sharex=True, layout="constrained")
+    period, chaos, contact = panels
     periods, rates, loaded = (cells_as_numbers(table[name]) for name in ("period", "lyapunov", "loaded"))
-    draw_map(period, table, classes(periods), "(a) turns K after which the motion repeats itself", cmap=ListedColormap(COLOURS),
-             norm=BoundaryNorm(np.arange(len(NAMES) + 1) - 0.5, len(NAMES))).set_ticks(range(len(NAMES)), labels=NAMES)
-    draw_map(chaos, table, np.where(periods == 0, rates, np.nan), "(b) largest Lyapunov exponent of aperiodic motion [1/turn]; grey: other motion",
-             vmin=0)
-    draw_map(contact, table, np.where(loaded < 1, 100 * (1 - loaded), np.nan), "(c) share of the time without contact [%]; grey: contact is never lost", vmin=0)
+    x, y = np.unique(table[X]), 1e6 * np.unique(table[Y])
+    draw_classes(period, x, y, over_keys(table, classes(periods), KEYS), NAMES, COLOURS)
+    draw_grid(chaos, x, y, over_keys(table, np.where(periods == 0, rates, np.nan), KEYS), vmin=0)
+    draw_grid(contact, x, y, over_keys(table, np.where(loaded < 1, 100 * (1 - loaded), np.nan), KEYS), vmin=0)
+    clearance = tomllib.loads(Path("data/set1.toml").read_text(encoding="utf-8"))["bearing"]["radial_clearance_m"]
+    for axes, title in zip(panels, TITLES):
+        axes.set(title=title, ylabel="radial clearance δ [µm]", facecolor="#bbbbbb")
+        axes.axhline(1e6 * clearance, color="black", ls=(0, (6, 4)), lw=1)
     contact.set_xlabel("speed of rotation [Hz]")
     return figure
 

@@ -14,7 +14,7 @@ from pathlib import Path
 
 import matplotlib.pyplot as plt
 import numpy as np
-from map import edges_of, over_keys
+from map import draw_grid, over_keys
 from matplotlib.colors import LogNorm
 from matplotlib.ticker import LogLocator
 from tables import run
@@ -32,12 +32,11 @@ def speeds_of(table):
 
 def draw_map(axes, table, values, title, **colours):
     """Values in colour, grey where masked; returns the colour bar."""
-    delta, stiffness = np.unique(table["delta"]), np.unique(table["K_H"])
-    cells = np.ma.masked_invalid(over_keys(table, np.ma.filled(values.astype(float), np.nan), ["delta", "K_H"]))
-    image = axes.pcolormesh(1e6 * edges_of(delta), edges_of(stiffness), cells, rasterized=True, **colours)
+    x, y = 1e6 * np.unique(table["delta"]), np.unique(table["K_H"])
+    bar = draw_grid(axes, x, y, over_keys(table, np.ma.filled(values.astype(float), np.nan), ["delta", "K_H"]), **colours)
     axes.set(yscale="log", title=title, facecolor="#bbbbbb",
-             xlim=1e6 * delta[[0, -1]], ylim=stiffness[[0, -1]])
-    return axes.figure.colorbar(image, ax=axes, pad=0.02)
+             xlim=x[[0, -1]], ylim=y[[0, -1]])
+    return bar
 
 
 def mark_sets(axes):

@@ -67,19 +67,27 @@ def edges_of(values):
     return np.array([2 * values[0] - middles[0], *middles, 2 * values[-1] - middles[-1]])
 
 
+def draw_grid(axes, x, y, cells, **colours):
+    """Colours over two keys, nothing where a cell is NaN; the bar of the colours."""
+    image = axes.pcolormesh(edges_of(x), edges_of(y), np.ma.masked_invalid(cells), rasterized=True, **colours)
+    return axes.figure.colorbar(image, ax=axes, pad=0.02)
+
+
+def draw_classes(axes, x, y, cells, names, colours):
+    """Numbers of classes in colours; beside them the names."""
+    bar = draw_grid(axes, x, y, cells, cmap=ListedColormap(colours), norm=BoundaryNorm(np.arange(len(names) + 1) - 0.5, len(names)))
+    bar.set_ticks(range(len(names)), labels=names)
+
+
 def draw_cells(axes, x, y, cells, names):
     """Colours over two keys; beside them the scale, or the names of the classes."""
-    grid = np.ma.masked_invalid(cells)
-    if names is None:
-        image = axes.pcolormesh(edges_of(x), edges_of(y), grid, rasterized=True)
-        if min(grid.shape) > 1 and grid.count() > 3 and np.ptp(grid.compressed()) > 0:
-            axes.contour(x, y, grid, 8, colors="white", linewidths=0.6)
-        axes.figure.colorbar(image, ax=axes, pad=0.02)
+    if names is not None:
+        draw_classes(axes, x, y, cells, names, [plt.get_cmap("tab10")(k % MOST_COLOURS) for k in range(len(names))])
         return
-    colours = ListedColormap([plt.get_cmap("tab10")(k % MOST_COLOURS) for k in range(len(names))])
-    image = axes.pcolormesh(edges_of(x), edges_of(y), grid, rasterized=True, cmap=colours,
-                            norm=BoundaryNorm(np.arange(len(names) + 1) - 0.5, len(names)))
-    axes.figure.colorbar(image, ax=axes, pad=0.02, ticks=range(len(names))).set_ticklabels(names)
+    draw_grid(axes, x, y, cells)
+    known = cells[np.isfinite(cells)]
+    if min(cells.shape) > 1 and known.size > 3 and np.ptp(known) > 0:
+        axes.contour(x, y, np.ma.masked_invalid(cells), 8, colors="white", linewidths=0.6)
 
 
 def draw(table):

@@ -8,7 +8,7 @@ from pathlib import Path
 
 import matplotlib.pyplot as plt
 import numpy as np
-from map import edges_of, over_keys
+from map import draw_grid, over_keys
 from matplotlib.colors import LogNorm
 from tables import cells_as_numbers, run
 
@@ -19,12 +19,11 @@ BORDER, LEAST = 1, 1e-3  # %; smaller errors are drawn as this
 def draw_map(axes, table, values, title, **colours):
     """Values in colour over both keys, grey where there are none; their array."""
     x, y = 1e6 * np.unique(table[X]), np.unique(table[Y])
-    cells = np.ma.masked_invalid(over_keys(table, values, KEYS))
-    image = axes.pcolormesh(edges_of(x), edges_of(y), cells, rasterized=True, **colours)
+    cells = over_keys(table, values, KEYS)
+    draw_grid(axes, x, y, cells, **colours)
     bearing = tomllib.loads(Path("data/set1.toml").read_text(encoding="utf-8"))["bearing"]
     axes.plot(1e6 * bearing["radial_clearance_m"], bearing["contact_stiffness_N_per_m1p5"], "o", ms=9, mfc="white", mec="black")
     axes.set(yscale="log", title=title, facecolor="#bbbbbb", xlim=x[[0, -1]], ylim=y[[0, -1]])
-    axes.figure.colorbar(image, ax=axes, pad=0.02)
     return x, y, cells
 
 

@@ -211,13 +211,11 @@ def contact(add):
     f = np.sqrt(stiffness * (1 / masses.first("m_s") + 1 / masses.first("m_r"))) / (2 * np.pi)
     add("contact.f", f, "Hz", "contact's frequency of set 1 at rest")
     add("contact.harmonic_3", f / 3, "-", "the same as a harmonic of 3 Hz")
-    bodies, g = tomllib.loads(Path("data/set1.toml").read_text()), masses.first("g")
-    (m_s, k_s, c_s), (m_r, k_r, c_r) = (
-        (m, m * w**2, 2 * xi * m * w) for m, w, xi in ([bodies[body][key] for key in ("mass_kg", "natural_frequency_rad_per_s", "damping_ratio")]
-                                                      for body in ("stator", "rotor")))
+    (m_s, k_s, c_s), (m_r, k_r, c_r) = ((m, m * w**2, 2 * xi * m * w) for m, w, xi in (
+        [masses.first(f"{name}_{body}") for name in ("m", "omega_0", "xi")] for body in "sr"))
     w = 2 * np.pi * 45
-    static = g * abs(m_r * k_s - m_s * k_r) / (k_s + k_r)
-    turning = bodies["rotor"]["unbalance_kg_m"] * w**2 * abs((k_s - m_s * w**2 + 1j * c_s * w)
+    static = masses.first("g") * abs(m_r * k_s - m_s * k_r) / (k_s + k_r)
+    turning = masses.first("m_e_e") * w**2 * abs((k_s - m_s * w**2 + 1j * c_s * w)
                                                             / (k_s + k_r - (m_s + m_r) * w**2 + 1j * (c_s + c_r) * w))
     for key, value, unit in (("static", static / 1e3, "kN"), ("turning_45", turning / 1e3, "kN"),
                              ("f_45", f * (turning / static)**(1 / 6), "Hz"), ("harmonic_45", f * (turning / static)**(1 / 6) / 45, "-")):
@@ -433,8 +431,8 @@ def maps(add):
 
 def two_maps(add):
     """Clearance against speed and against stiffness, and how random points of them were checked."""
-    for key, name, said in (("speed", "clearance_speed", map_scaling.of_speeds), ("stiffness", "stiffness_border", map_scaling.of_stiffness)):
-        for quantity, value in said(Table(KEPT / f"{name}.tsv")).items():
+    for key, name in (("speed", "clearance_speed"), ("stiffness", "stiffness_border")):
+        for quantity, value in map_scaling.MAPS[name].values_of(Table(KEPT / f"{name}.tsv")).items():
             add(f"two.{key}_{quantity}", value, "-", f"{quantity} of the map {name}")
     checks = Table(KEPT / "map_checks.tsv")
     for number, key in ((1, "speed"), (2, "stiffness")):

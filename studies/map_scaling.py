@@ -16,7 +16,9 @@ import sys
 import tempfile
 import time
 import tomllib
+from collections.abc import Callable
 from pathlib import Path
+from typing import NamedTuple
 
 import numpy as np
 
@@ -28,8 +30,6 @@ COLUMNS = [
     ("count", "-", "threads, points, shards, or the line of the map"), ("points", "-", "of the map that was timed"),
     ("median_s", "s", "elapsed; of a map's line CPU time"), ("least_s", "s", "of the repetitions"), ("most_s", "s", "likewise"),
     ("memory", "byte", "peak; 0: not watched"), ("files", "-", "that Snakemake leaves")]
-MAPS = {"clearance_speed": ("period", "lyapunov", "loaded"),
-        "stiffness_border": ("peak", "peak_frequency", "permanent", "machine_error")}
 
 
 def timed(words, watched=False):
@@ -133,23 +133,29 @@ def of_stiffness(table):
             "open": np.mean(~known), "first_um": 1e6 * table[DELTA][known & (error > BORDER)].min(), "worst": error[known].max(), **ends}
 
 
-SENTENCES = {
-    "clearance_speed": """The motion from rest, by Runge-Kutta integration, repeats itself turn by turn at {once:.0%} of the points, after more turns at {more:.1%};
+class LargeMap(NamedTuple):
+    title: str
+    values_of: Callable  # of its table
+    text: str            # with these values
+
+
+MAPS = {
+    "clearance_speed": LargeMap("Clearance against speed", of_speeds, """The motion from rest, by Runge-Kutta integration, repeats itself turn by turn at {once:.0%} of the points, after more turns at {more:.1%};
 it is aperiodic at {aperiodic:.0%}, quasi-periodic at {quasi:.1%}, and not decided at {open:.1%}.
 
 Aperiodic motion begins at a clearance of {first_um:.3g} µm, the first step of the map, and does not need a loss of contact: at {unlost:.0%} of the aperiodic points
 a ball is loaded at every instant. Contact is lost in one tongue alone. Its tip, without
 clearance, is at {tip_hz:.1f} Hz, where gravity and unbalance are equal; at the largest clearance it reaches from {band_from:.1f} to {band_to:.1f} Hz (speeds
 that lose it for a thousandth of the time or more). Of the motions that lose contact {lost_closed:.0%} are periodic all the same. The paper shows panels at a few speeds for two
-clearances, from which neither can be seen.""",
-    "stiffness_border": """The peak lies between {peak_frequency_least:.1f} and {peak_frequency_most:.1f} Hz and is {peak_mm_least:.1f} to
+clearances, from which neither can be seen."""),
+    "stiffness_border": LargeMap("Clearance against contact stiffness", of_stiffness, """The peak lies between {peak_frequency_least:.1f} and {peak_frequency_most:.1f} Hz and is {peak_mm_least:.1f} to
 {peak_mm_most:.1f} mm high: it is that of both bodies as one, whatever joins them. The share of the solved speeds with permanent contact goes from
 {permanent_least:.0%} to {permanent_most:.0%}.
 
 At {f_hz:.0f} Hz six harmonics are within {limit:.0%} of what the machine does at {right:.0%} of the points, at every point that has
 a result and a clearance below {first_um:.0f} µm, and within {worst:.1%} at all that have one. Their border of validity is no line: besides the corner of stiff contacts and
 large clearances it has islands, and between them the error falls to a tenth and less along curves on which clearance and stiffness
-change together. Neither alone says whether six harmonics are enough; the paper gives one number of harmonics for each of two clearances."""}
+change together. Neither alone says whether six harmonics are enough; the paper gives one number of harmonics for each of two clearances.""")}
 
 
 def agreement(checks, number):
@@ -197,12 +203,10 @@ def page(folder):
     threads, weak, memory, shards = (costs.where("kind", kind) for kind in ("threads", "weak", "memory", "shards"))
     cores = int(costs.number("cores"))
     per_shard, files_of_a_shard = (np.diff(shards[name])[0] / np.diff(shards["count"])[0] for name in ("median_s", "files"))
-    said = {"clearance_speed": of_speeds, "stiffness_border": of_stiffness}
-    titles = {"clearance_speed": "Clearance against speed", "stiffness_border": "Clearance against contact stiffness"}
     lines = ["# Two maps of the machine, and what larger ones would cost", ""]
     for number, (name, table) in enumerate(tables.items(), 1):
-        values = said[name](table)
-        lines += [f"## {titles[name]}", "", SENTENCES[name].format(**values), "",
+        values = MAPS[name].values_of(table)
+        lines += [f"## {MAPS[name].title}", "", MAPS[name].text.format(**values), "",
                   f"*Cost and check.* {len(table)} points of {cost_of(costs, name):.2g} s, {written(len(table) * cost_of(costs, name))} "
                   f"of one core; at {values['open']:.2%} there is no result. {agreement(checks, number)}.", ""]
     one = threads["median_s"][0]

@@ -160,6 +160,7 @@ def check_stiffness(judged, row):
     error = rms(np.tile(q, (len(true) // INSTANTS, 1)) - true) / rms(true)
     peak = -1 if there is None else float(np.ptp(there[1][:, 2]) / 2)
     value = float(row["machine_error"])
+
     def same(said):
         return abs(said - error) < 0.2 * error + 1e-4
 
