@@ -86,36 +86,85 @@ struct Choosing {
     return false;
   }
 
-  /** The same from the lines of what Eq. 7 settles on, of whole orders or also of halves. */
+  /** The same from the lines of what Eq. 7 settles on, of whole orders or also of halves; then from those of a later and
+      longer record, which tells more of them apart. */
   void from_settled()
   {
+    constexpr double near = 10;  // tolerances; further off, a longer record does not help
     std::string why;
-    for (const int turns : {1, 2}) {
-      take_lines(
-          joined(up_to(2 * highest_order, 8, bearing, turns), of_passages(bearing)),
-          turns);
-      solve_on_largest();
-      if (!result.reached) {
-        why = result.end;
-        result.motion = finer;
-        measure();
+    for (const bool is_longer : {false, true}) {
+      if (is_longer && !(result.motion.error->larger() < near * settings.tolerance))
+        break;
+      if (is_longer) settled.go_on();
+      for (const int turns : {1, 2}) {
+        const int passages = is_longer ? 16 : 8;
+        take_lines(turns == 1 ? lines_with({}, passages) : lines_with_halves(passages),
+                   turns);
+        solve_on_largest();
+        if (!result.reached) {
+          why = result.end;
+          result.motion = finer;
+          measure();
+        }
+        if (result.reached) return drop_small();
       }
-      if (result.reached) return drop_small();
     }
     result.end = why + format("; with all %d lines of time integration it is %.2g",
                               finer.harmonics.count(), result.motion.error->larger());
   }
 
-  void take_lines(const Harmonics& all, int turns)
+  struct SettledLines {
+    Harmonics harmonics;
+    Eigen::MatrixXd series;  ///< of the relative motions [m]
+
+    /** Sum of the squares of those that are not whole. */
+    double halves() const
+    {
+      double squares = 0;
+      for (int h = 1; h <= harmonics.count(); ++h) {
+        const auto [k_1, k_2] = harmonics.list()[static_cast<std::size_t>(h)];
+        if (k_1 != std::round(k_1) || k_2 != std::round(k_2))
+          squares += series.middleCols(2 * h - 1, 2).squaredNorm();
+      }
+      return squares;
+    }
+  };
+
+  /** At whole pairs, and at those moved by `half`. */
+  SettledLines lines_with(Harmonic half, int passages) const
+  {
+    constexpr double beyond_contact = 1.3, most = 120;
+    const double contact = contact_frequency(parameters) / omega;
+    const double order =
+        std::max(2 * highest_order, std::min(beyond_contact * contact, most));
+    const Harmonics all =
+        joined(up_to(order, passages, bearing, half), of_passages(bearing));
+    return {all, settled.lines(all).reshaped(dofs, all.coefficients())};
+  }
+
+  /** A torus that has doubled has lines at all whole pairs moved by one half: that where they are largest. */
+  SettledLines lines_with_halves(int passages) const
+  {
+    std::vector<SettledLines> kinds;
+    for (const Harmonic half : {Harmonic{0.5, 0}, Harmonic{0, 0.5}, Harmonic{0.5, 0.5}})
+      kinds.push_back(lines_with(half, passages));
+    return *std::ranges::max_element(kinds, {}, &SettledLines::halves);
+  }
+
+  /** Those that the tolerance may notice. */
+  void take_lines(const SettledLines& lines, int turns)
   {
     constexpr int samples = 4096;
+    constexpr double unnoticed = 0.03;
+    const Harmonics all =
+        chosen(unnoticed * settings.tolerance, lines.harmonics, lines.series);
     const TorusLine line = line_without_images(all, all, samples, turns);
     Balance balance(bearing_problem(parameters, line, budget), all);
     finer = {.omega = omega,
              .harmonics = all,
              .samples = line.samples,
              .line = line,
-             .x = settled.lines(all),
+             .x = project(lines.series.reshaped(), dofs, lines.harmonics, all),
              .start = "the lines of time integration"};
     finer.newton = {.end = NewtonEnd::not_begun,
                     .delta_1 = balance.residual(finer.x, omega).norm() /

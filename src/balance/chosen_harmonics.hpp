@@ -22,6 +22,9 @@ struct SettledOn {
   /** Coefficients of its relative motion on a set of harmonics; empty where there are none. */
   std::function<Eigen::VectorXd(const Harmonics& harmonics)> lines;
 
+  /** Integrates further; the lines are then those of a longer record. */
+  std::function<void()> go_on;
+
   /** The error of a solution against it. */
   std::function<ErrorEstimate(const PeriodicMotion& solution)> error;
 

@@ -1,5 +1,6 @@
 #include "balance/step_solver.hpp"
 
+#include <algorithm>
 #include <cmath>
 #include <functional>
 
@@ -112,7 +113,7 @@ void StepSolver::factor_parts(Balance& balance, const Eigen::VectorXd& x, double
       for (int k = 0; k < (h == 0 ? d : 2 * d); ++k)
         part.unknowns.push_back((h == 0 ? 0 : (2 * h - 1) * d) + k);
     balance.jacobian(x, omega, part.places, low_jacobian_);
-    part.factors.compute(low_jacobian_);
+    part.factors.compute(low_jacobian_.cast<float>());
   }
   is_complete_ = parts_.size() == 1;
   factored_ = true;
@@ -154,8 +155,8 @@ void StepSolver::precondition(Balance& balance, const Eigen::VectorXd& r,
   const auto low = low_jacobian_.rows();
   z.resize(r.size());
   for (const Part& part : parts_) {
-    const Eigen::VectorXd own = r(part.unknowns);
-    z(part.unknowns) = part.factors.solve(own).eval();
+    const Eigen::VectorXf own = r(part.unknowns).cast<float>();
+    z(part.unknowns) = part.factors.solve(own).cast<double>();
   }
   if (!parts_.empty()) return;
   z.head(low) = low_factors_.solve(r.head(low));
@@ -188,7 +189,10 @@ void StepSolver::iterate(Balance& balance, const Eigen::VectorXd& x, double omeg
   step = -step;
   linear_iterations_ += report.iterations;
   stalled_ = !(report.residual <= goal);
-  if (report.iterations > many_linear_iterations) factored_ = false;
+  /** Where new factors of parts need as many, age is not the reason. */
+  if (are_new) least_iterations_ = parts_.empty() ? 0 : report.iterations;
+  if (report.iterations > std::max(many_linear_iterations, 2 * least_iterations_))
+    factored_ = false;
   if (!stalled_ || !are_new) return;
   /** Factors of this very point were not enough: dense ones, or a larger block, if there is one. */
   if (!parts_.empty()) return;

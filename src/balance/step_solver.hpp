@@ -131,9 +131,10 @@ private:
   Eigen::MatrixXd high_inverses_;  ///< 2d × 2d blocks side by side
   struct Part {
     std::vector<int> places, unknowns;
-    Eigen::PartialPivLU<Eigen::MatrixXd> factors = {};
+    Eigen::PartialPivLU<Eigen::MatrixXf> factors = {};  ///< they precondition only
   };
   std::vector<Part> parts_;  ///< instead of all that, where there are any
+  int least_iterations_ = 0;  ///< of GMRES, with new factors of parts
   Gmres gmres_;
   long factorisations_ = 0, linear_iterations_ = 0;
 };

@@ -103,16 +103,16 @@ Harmonics joined(const Harmonics& first, const Harmonics& others)
   return Harmonics(std::move(list));
 }
 
-Harmonics up_to(double order, int passages, const Bearing& bearing, int parts)
+Harmonics up_to(double order, int passages, const Bearing& bearing, Harmonic half)
 {
   std::set<std::pair<double, double>> pairs;
-  const double part = 1.0 / parts;
-  for (double k_2 = -passages; k_2 <= passages; k_2 += part) {
-    const double passing = k_2 * passages_per_turn(bearing);
-    for (double k_1 = part * std::ceil(parts * (-order - passing));
-         k_1 + passing <= order; k_1 += part)
-      pairs.insert({k_1, k_2});
-  }
+  for (const Harmonic moved : {Harmonic{}, half})
+    for (double k_2 = moved.k_2 - passages; k_2 <= passages; ++k_2) {
+      const double passing = k_2 * passages_per_turn(bearing);
+      const double lowest = std::ceil(-order - passing - moved.k_1);
+      for (double k_1 = moved.k_1 + lowest; k_1 + passing <= order; ++k_1)
+        pairs.insert({k_1, k_2});
+    }
   return ascending(pairs, bearing);
 }
 

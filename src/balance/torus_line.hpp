@@ -41,8 +41,8 @@ Harmonics sidebands(const Bearing& bearing, int orders, int passages);
     zone, and much that is slow. */
 Harmonics of_passages(const Bearing& bearing);
 
-/** All up to an order, with |k_2| ≤ `passages`; whole numbers, or with `parts` = 2 halves. */
-Harmonics up_to(double order, int passages, const Bearing& bearing, int parts = 1);
+/** All up to an order, with |k_2| ≤ `passages`: whole numbers and, where `half` is not (0, 0), those moved by it. */
+Harmonics up_to(double order, int passages, const Bearing& bearing, Harmonic half = {});
 
 /** `first`, then what else `others` have. */
 Harmonics joined(const Harmonics& first, const Harmonics& others);

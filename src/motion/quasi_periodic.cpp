@@ -14,8 +14,6 @@ namespace rotor_stator::motion {
 
 namespace {
 
-constexpr int window_turns = 160;
-
 /** Turns until the slower of both suspensions has damped a disturbance to 1e-5. Throws NoSolution when they are too
     many. */
 long settling_turns(const Parameters& parameters, double omega)
@@ -30,8 +28,9 @@ long settling_turns(const Parameters& parameters, double omega)
   return std::lround(std::ceil(std::min(most, seconds / checked_period(omega, seconds))));
 }
 
-/** Those whose orders differ by more than a main lobe, the smallest |k_2| first; as places in the list. */
-std::vector<int> distinct(const Harmonics& harmonics, const Bearing& bearing)
+/** Those whose orders differ by more than half a main lobe, the smallest |k_2| first; as places in the list. */
+std::vector<int> distinct(const Harmonics& harmonics, const Bearing& bearing,
+                          double main_lobe)
 {
   std::vector<int> places;
   for (int h = 1; h <= harmonics.count(); ++h) places.push_back(h);
@@ -40,14 +39,63 @@ std::vector<int> distinct(const Harmonics& harmonics, const Bearing& bearing)
   std::vector<double> orders{0};
   std::erase_if(places, [&](int h) {
     const double order = order_of(at(h), bearing);
-    const bool is_near = std::ranges::any_of(orders, [&](double other) {
-      return std::abs(order - other) < 4.0 / window_turns;
-    });
+    const bool is_near = std::ranges::any_of(
+        orders, [&](double other) { return std::abs(order - other) < main_lobe / 2; });
     if (!is_near) orders.push_back(order);
     return is_near;
   });
   return places;
 }
+
+/** The integral over a record with a window of Blackman and Harris, at any frequency: from a transform so fine that a
+    polynomial of degree 7 through its nearest values has it to 1e-8. */
+class FineTransform {
+public:
+  explicit FineTransform(const Eigen::VectorXd& samples) : n_(samples.size())
+  {
+    Eigen::VectorXd padded = Eigen::VectorXd::Zero(finer * n_);
+    double sum = 0;
+    for (Eigen::Index k = 0; k < n_; ++k) {
+      const double weight =
+          blackman_harris(static_cast<double>(k) / static_cast<double>(n_));
+      padded[k] = weight * samples[k];
+      sum += weight;
+    }
+    FourierTransform transform(static_cast<int>(padded.size()));
+    values_ = transform.spectrum(padded) * (static_cast<double>(padded.size()) / sum);
+    for (Eigen::Index p = 0; p < values_.size(); ++p)
+      values_[p] *= std::polar(1.0, half_record(static_cast<double>(p)));
+  }
+
+  /** Of e^{-iφ}, φ going round `turns` times in the record; 0 where the samples do not resolve it. */
+  std::complex<double> operator()(double turns) const
+  {
+    constexpr double weights[] = {1, -7, 21, -35, 35, -21, 7, -1};
+    const double at = turns * finer;
+    const auto first = static_cast<Eigen::Index>(std::floor(at)) - 3;
+    if (first + 8 > values_.size()) return 0;
+    std::complex<double> above = 0;
+    double below = 0;
+    for (int k = 0; k < 8; ++k) {
+      const Eigen::Index p = first + k;
+      const auto value = p < 0 ? std::conj(values_[-p]) : values_[p];
+      const double distance = at - static_cast<double>(p);
+      if (std::abs(distance) < 1e-9) return value * std::polar(1.0, -half_record(at));
+      above += weights[k] / distance * value;
+      below += weights[k] / distance;
+    }
+    return above / below * std::polar(1.0, -half_record(at));
+  }
+
+private:
+  static constexpr int finer = 8;
+
+  /** Counted from the middle of the record the values are smooth. */
+  static double half_record(double at) { return std::numbers::pi * at / finer; }
+
+  Eigen::Index n_;
+  Eigen::VectorXcd values_;
+};
 
 /** What Eq. 7 settles on from rest, by rk4. */
 class SettledMotion {
@@ -57,20 +105,33 @@ public:
   {
   }
 
-  /** Its lines, by integrals with a window of Blackman and Harris. Of lines that these cannot tell apart the one with the
-      smallest |k_2| is taken. */
+  /** Of lines that the window cannot tell apart the one with the smallest |k_2| is taken. */
   Eigen::VectorXd lines(const Harmonics& harmonics)
   {
     integrate();
-    Eigen::MatrixXd series =
-        Eigen::MatrixXd::Zero(weighted_.cols(), harmonics.coefficients());
-    series.col(0) = weighted_.colwise().sum().transpose();
-    for (int h : distinct(harmonics, parameters_.bearing)) {
+    const auto dofs = static_cast<Eigen::Index>(transforms_.size());
+    Eigen::MatrixXd series = Eigen::MatrixXd::Zero(dofs, harmonics.coefficients());
+    for (Eigen::Index i = 0; i < dofs; ++i)
+      series(i, 0) = transforms_[static_cast<std::size_t>(i)](0).real();
+    for (int h : distinct(harmonics, parameters_.bearing, 8.0 / turns_)) {
       const double order =
           order_of(harmonics.list()[static_cast<std::size_t>(h)], parameters_.bearing);
-      put_amplitude(series, h, line(order));
+      const double since = std::fmod(order * static_cast<double>(first_), 1.0);
+      const auto wave = std::polar(2.0, -2 * std::numbers::pi * since);
+      for (Eigen::Index i = 0; i < dofs; ++i) {
+        const auto line = wave * transforms_[static_cast<std::size_t>(i)](order * turns_);
+        series(i, 2 * h - 1) = line.real();
+        series(i, 2 * h) = -line.imag();
+      }
     }
     return series.reshaped();
+  }
+
+  void go_on()
+  {
+    constexpr int longer = 1280;
+    integrate();
+    advance(0, longer);
   }
 
   /** The distance of a solution from the next turns, integrated with small steps. */
@@ -91,48 +152,38 @@ private:
   void integrate()
   {
     if (turn_ > 0) return;
-    first_ = settling_turns(parameters_, omega_);
+    constexpr int turns = 160;
     state_ = static_start(parameters_);
-    const bool is_fast = contact_frequency(parameters_) < 8 * omega_;
-    const int points_per_turn = is_fast ? 64 : 128;
-    const TimeStepper stepper = make_stepper(
-        parameters_, omega_,
-        {.method = "rk4", .intervals_per_period = points_per_turn, .budget = budget_});
-    for (long k = 0; k < first_ * points_per_turn; ++k) stepper.advance(k, state_);
-    const Motion motion =
-        recorded(stepper, points_per_turn, state_, first_, window_turns);
-    turn_ = first_ + window_turns;
-    const auto n = static_cast<Eigen::Index>(motion.size());
-    weighted_ = relative_samples(parameters_, motion);
-    double sum = 0;
-    for (Eigen::Index k = 0; k < n; ++k) {
-      const double weight =
-          blackman_harris(static_cast<double>(k) / static_cast<double>(n));
-      weighted_.row(k) *= weight;
-      sum += weight;
-    }
-    weighted_ /= sum;
+    advance(settling_turns(parameters_, omega_), turns);
   }
 
-  SmallVector line(double order) const
+  /** Over so many turns, and then the record. */
+  void advance(long before, int turns)
   {
-    constexpr double turn = 2 * std::numbers::pi;
-    const auto step = std::polar(
-        1.0, -turn * order * window_turns / static_cast<double>(weighted_.rows()));
-    std::complex<double> wave =
-        std::polar(1.0, -turn * std::fmod(order * static_cast<double>(first_), 1.0));
-    Eigen::VectorXcd amplitude = Eigen::VectorXcd::Zero(weighted_.cols());
-    for (Eigen::Index k = 0; k < weighted_.rows(); ++k, wave *= step)
-      amplitude += 2.0 * wave * weighted_.row(k).transpose();
-    return amplitude;
+    /** Twice as many as the highest order that is looked for. */
+    const double contact = contact_frequency(parameters_) / omega_;
+    const int points = contact < 8 ? 64 : contact < 40 ? 128 : 256;
+    const TimeStepper stepper = make_stepper(
+        parameters_, omega_,
+        {.method = "rk4", .intervals_per_period = points, .budget = budget_});
+    first_ = turn_ + before;
+    for (long k = turn_ * points; k < first_ * points; ++k) stepper.advance(k, state_);
+    const Motion motion = recorded(stepper, points, state_, first_, turns);
+    turns_ = turns;
+    turn_ = first_ + turns;
+    const Eigen::MatrixXd samples = relative_samples(parameters_, motion);
+    transforms_.clear();
+    for (const auto& column : samples.colwise())
+      transforms_.emplace_back(Eigen::VectorXd(column));
   }
 
   const Parameters& parameters_;
   double omega_;
   OperationBudget budget_;
-  long first_ = 0, turn_ = 0;  ///< the window, from t = 0 [turns]
-  State state_ = {};           ///< at its end
-  Eigen::MatrixXd weighted_;   ///< relative motions times the window [m]
+  long first_ = 0, turn_ = 0;              ///< of the record, from t = 0 [turns]
+  int turns_ = 0;                          ///< that it holds
+  State state_ = {};                       ///< at its end
+  std::vector<FineTransform> transforms_;  ///< of the relative motions [m]
 };
 
 }  // namespace
@@ -143,24 +194,25 @@ Motion motion_of(const Parameters& parameters, const PeriodicMotion& solution, i
   constexpr double turn = 2 * std::numbers::pi;
   const auto n = static_cast<Eigen::Index>(points) * turns;
   Eigen::MatrixXd samples = solution.bodies.col(0).transpose().replicate(n, 1);
-  Eigen::MatrixX2d rates = Eigen::MatrixX2d::Zero(n, 2);  // of u
+  Eigen::MatrixX2d rates = Eigen::MatrixX2d::Zero(n, 2), wave(n, 2);  // of u; cos, sin
   const double passages = passages_per_turn(parameters.bearing);
   for (int h = 1; h <= solution.harmonics.count(); ++h) {
     const auto& [k_1, k_2] = solution.harmonics.list()[static_cast<std::size_t>(h)];
-    const Eigen::RowVectorXd cosine = solution.bodies.col(2 * h - 1).transpose(),
-                             sine = solution.bodies.col(2 * h).transpose();
-    const double frequency = (k_1 + k_2 * passages) * solution.omega;
-    for (Eigen::Index k = 0; k < n; ++k) {
-      const double at = static_cast<double>(k % points) / points;
-      const double since = static_cast<double>(first + k / points) + at;
-      const double angle =
-          turn * (k_1 * (at + static_cast<double>((first + k / points) % 2)) +
-                  k_2 * std::fmod(passages * since, 2.0));
-      samples.row(k) += std::cos(angle) * cosine + std::sin(angle) * sine;
-      const Eigen::RowVector4d rate =
-          frequency * (std::cos(angle) * sine - std::sin(angle) * cosine).head<4>();
-      rates.row(k) += rate.tail<2>() - rate.head<2>();
+    const double order = k_1 + k_2 * passages;
+    const auto step = std::polar(1.0, turn * order / points);
+    for (long since = first; since < first + turns; ++since) {
+      auto now = std::polar(
+          1.0, turn * (k_1 * static_cast<double>(since % 2) +
+                       k_2 * std::fmod(passages * static_cast<double>(since), 2.0)));
+      for (int k = 0; k < points; ++k, now *= step)
+        wave.row((since - first) * points + k) << now.real(), now.imag();
     }
+    const Eigen::MatrixX2d pair = solution.bodies.middleCols(2 * h - 1, 2);
+    samples += wave.lazyProduct(pair.transpose());
+    const Eigen::Matrix2d u = pair.middleRows<2>(2) - pair.topRows<2>();
+    Eigen::Matrix2d slopes;  // of cos and sin
+    slopes << u.col(1).transpose(), -u.col(0).transpose();
+    rates += wave.lazyProduct(order * solution.omega * slopes);
   }
   Motion motion = motion_of_samples(samples, points, first);
   motion.omega = solution.omega;
@@ -186,9 +238,11 @@ TorusVerdict verdict_on_torus(const Parameters& parameters,
   constexpr double standard_errors = 3;
   const auto turns = std::clamp(settling_turns(parameters, solution.omega), 256L, 2048L);
   TorusVerdict verdict{.turns = static_cast<int>(turns)};
-  const TimeStepper stepper =
-      make_stepper(parameters, solution.omega,
-                   {.method = "rk4", .intervals_per_period = points, .budget = budget});
+  /** Twice the default step errs by (2π/20)⁴/120, 1e-4, in a period of the contact's vibration. */
+  const double step = (tolerance >= 1e-3 ? 2 : 1) * default_step(parameters);
+  const TimeStepper stepper = make_stepper(
+      parameters, solution.omega,
+      {.method = "rk4", .intervals_per_period = points, .step = step, .budget = budget});
   TrajectoryPair pair(stepper, points, state_scales(parameters),
                       state_of(parameters, solution));
   const Motion exact = motion_of(parameters, solution, points, verdict.turns);
@@ -217,6 +271,7 @@ SettledOn settled_torus(const Parameters& parameters, double omega,
 {
   const auto settled = std::make_shared<SettledMotion>(parameters, omega, budget);
   return {[=](const Harmonics& harmonics) { return settled->lines(harmonics); },
+          [=] { settled->go_on(); },
           [=](const PeriodicMotion& solution) { return settled->error(solution); }};
 }
 

@@ -88,6 +88,15 @@ class Motion(Case):
             for word in words:
                 self.assertIn(word, header)
 
+    def test_a_torus_that_doubles_late(self):
+        """With 7 balls the motion from rest leaves the torus of whole orders after some hundred turns; k_1 alone is then halved."""
+        seven = MACHINE.replace("balls = 16", "balls = 7").replace("cage_speed_ratio = 0.5", "cage_speed_ratio = 0.3917")
+        header = self.orbit(self.file("seven.toml", seven), 105).header
+        self.assertIn("stays on", header)
+        harmonics = re.search("# harmonics .*: (.*)", header).group(1)
+        self.assertRegex(harmonics, r"\.5,")
+        self.assertNotRegex(harmonics, r"\.5\)")
+
     def test_a_cage_that_repeats_after_two_turns_and_a_rotor_without_unbalance(self):
         half = MACHINE.replace("cage_speed_ratio = 0.5", "cage_speed_ratio = 0.40625")
         table = self.orbit(self.file("half.toml", half), 45, "--periods", 4)

@@ -70,6 +70,24 @@ TEST_CASE("A motion with two frequencies is the one that integration settles on"
   }
 }
 
+/** Catches a transform that is read between its values, or a record whose start is wrong. */
+TEST_CASE("The lines of time integration are those of harmonic balance")
+{
+  const Parameters parameters = machine(1, 16, 0.43);
+  const double omega = hertz(45.4);
+  const AdaptiveMotion found =
+      find_quasi_periodic(parameters, omega, {.tolerance = 1e-4});
+  REQUIRE(found.reached);
+  const PeriodicMotion& solution = found.motion;
+  const Eigen::MatrixXd vibration = solution.bodies.rightCols(solution.bodies.cols() - 1);
+  const SettledOn settled = settled_torus(parameters, omega);
+  for (const bool is_longer : {false, true}) {
+    if (is_longer) settled.go_on();
+    const Eigen::VectorXd lines = settled.lines(solution.harmonics);
+    CHECK((lines - solution.x).norm() < 1e-4 * vibration.norm());
+  }
+}
+
 /** Both are the same torus, one of them closed. Catches a z or an N that mixes harmonics, and phases that
     depend on the turn. */
 TEST_CASE("Where a whole number of balls passes in two turns both ways find one motion")
