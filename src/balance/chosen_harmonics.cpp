@@ -90,11 +90,11 @@ struct Choosing {
       longer record, which tells more of them apart. */
   void from_settled()
   {
-    constexpr double near = 10;  // tolerances; further off, a longer record does not help
+    constexpr double chaos =
+        0.03;  // so far from all lines, a longer record does not help
     std::string why;
     for (const bool is_longer : {false, true}) {
-      if (is_longer && !(result.motion.error->larger() < near * settings.tolerance))
-        break;
+      if (is_longer && !(result.motion.error->larger() < chaos)) break;
       if (is_longer) settled.go_on();
       for (const int turns : {1, 2}) {
         const int passages = is_longer ? 16 : 8;

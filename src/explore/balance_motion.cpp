@@ -234,9 +234,14 @@ PeriodicMotion solution_of(const Parameters& parameters, const MotionRequest& re
   else if (request.tolerance)
     table.note(
         format("error: %.3g of the largest displacement, %.3g rms about the mean, "
-               "estimated with m = %d, N = %d; tolerance %g",
+               "%s; tolerance %g",
                at.motion.error->displacement, at.motion.error->rms,
-               at.motion.error->harmonics, at.motion.error->samples, *request.tolerance));
+               at.motion.error->harmonics > 0
+                   ? format("estimated with m = %d, N = %d", at.motion.error->harmonics,
+                            at.motion.error->samples)
+                         .c_str()
+                   : "against the motion integrated from rest",
+               *request.tolerance));
   if (std::isfinite(1 / request.frequency))
     table.note(format("base period: %.15g s", 1 / request.frequency));
   if (request.stability) {

@@ -2,7 +2,10 @@
 
 #include "balance/bearing_problem.hpp"
 #include "io/errors.hpp"
+#include "motion/attractor.hpp"
 #include "motion/other_starts.hpp"
+#include "motion/subharmonic.hpp"
+#include "stability/shooting.hpp"
 
 namespace rotor_stator::motion {
 
@@ -20,21 +23,59 @@ ObservedProblem observed_bearing(const Parameters& parameters,
           }};
 }
 
+/** From the motion of period T on which integration from rest settles; none where there is none. */
+std::optional<AdaptiveMotion> near_settled(const Parameters& parameters, double omega,
+                                           const AdaptiveSettings& settings,
+                                           const OperationBudget& budget)
+{
+  constexpr int first = 8;
+  Settled rest = settle(parameters, omega, static_start(parameters), budget);
+  if (rest.period != 1 ||
+      !shoot(parameters, omega, rest.state,
+             {.quasi_newton = false, .final_derivative = false, .budget = budget})
+           .converged)
+    return {};
+  for (int m = first; m <= settings.most_harmonics; m *= 2) {
+    AdaptiveMotion at{solved_near({parameters,
+                                   omega,
+                                   m,
+                                   default_samples(m),
+                                   {.tolerance = level_tolerance(settings)},
+                                   budget},
+                                  1, rest.state)};
+    at.force_samples = at.motion.force_samples;
+    at.reached = at.motion.found() && at.motion.error->larger() <= settings.tolerance;
+    at.end = "the distance from the motion is below the tolerance";
+    if (at.reached) return at;
+  }
+  return {};
+}
+
 }  // namespace
 
 AdaptiveMotion solve_adaptively(const Parameters& parameters, double omega,
                                 const AdaptiveSettings& settings,
                                 const OperationBudget& budget)
 {
+  constexpr double most = 0.7;  // the rest is for the motion from rest
+  const OperationBudget share = parameters.large ? budget : budget.part(most);
   const auto cold = [&](int m, int n, bool thorough, const NewtonSettings& newton) {
-    PeriodicMotion motion = find_near_contact({parameters, omega, m, n, newton, budget});
+    PeriodicMotion motion = find_near_contact({parameters, omega, m, n, newton, share});
     if (motion.found() || !thorough) return motion;
     const long cost = motion.force_samples;
-    motion = search_periodic({parameters, omega, m, n, settings.newton, budget});
+    motion = search_periodic({parameters, omega, m, n, settings.newton, share});
     motion.force_samples = cost;
     return motion;
   };
-  return solve_adaptively(observed_bearing(parameters, budget), omega, cold, settings);
+  AdaptiveMotion at;
+  try {
+    at = solve_adaptively(observed_bearing(parameters, share), omega, cold, settings);
+  } catch (const NoSolution& none) {
+    if (parameters.large) throw;
+    at.end = none.what();
+  }
+  if (at.reached || parameters.large) return at;
+  return near_settled(parameters, omega, settings, budget).value_or(std::move(at));
 }
 
 ErrorEstimate estimate_error(const Parameters& parameters, const PeriodicMotion& motion,

@@ -12,7 +12,8 @@ namespace rotor_stator::motion {
 
 /** Chooses m and N for the tolerance at speed `omega` [rad/s]. Newton starts from quasi-static contact;
     when that fails with several m, from whatever `search_periodic` finds, whose evaluations are not
-    counted. */
+    counted. Where no m is enough and integration from rest settles on a motion of period T, from that motion; the
+    error is then the distance from it. */
 AdaptiveMotion solve_adaptively(const Parameters& parameters, double omega,
                                 const AdaptiveSettings& settings,
                                 const OperationBudget& budget = {});

@@ -155,8 +155,8 @@ std::vector<State> states_of(Sources& from, int turns)
   return hunt.found;
 }
 
-/** The solution of harmonic balance with the motion of Eq. 7 through `state` as its start, and its distance from
-    that. */
+}  // namespace
+
 PeriodicMotion solved_near(const Search& search, int turns, const State& state)
 {
   const Parameters longer = over_turns(search.parameters, turns);
@@ -168,7 +168,9 @@ PeriodicMotion solved_near(const Search& search, int turns, const State& state)
   Balance balance(bearing_problem(longer, n, search.budget), m);
   PeriodicMotion motion =
       solve(balance, omega, relative_series(longer, exact, m), search.newton);
-  motion.start = format("the motion of period %d T that shooting found", turns);
+  motion.start = turns > 1
+                     ? format("the motion of period %d T that shooting found", turns)
+                     : "time integration";
   if (!motion.found()) return motion;
   if (repeats_sooner(motion, turns)) motion.newton.end = NewtonEnd::no_decrease;
   motion.bodies = body_series(longer, motion);
@@ -176,8 +178,6 @@ PeriodicMotion solved_near(const Search& search, int turns, const State& state)
   motion.error = error_against(exact, series, n);
   return motion;
 }
-
-}  // namespace
 
 std::vector<State> subharmonic_states(const Search& search, int turns)
 {

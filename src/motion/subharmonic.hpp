@@ -22,6 +22,10 @@ namespace rotor_stator::motion {
     `search`; those on one motion count as one. Empty when none was found. */
 std::vector<State> subharmonic_states(const Search& search, int turns);
 
+/** The solution of harmonic balance with the motion of Eq. 7 of period KT through `state` as its start, and its distance
+    from that. */
+PeriodicMotion solved_near(const Search& search, int turns, const State& state);
+
 /** The solution of harmonic balance with the orders h/K up to m = `search.harmonics` that Newton finds from the
     first motion of period KT, K ≤ 8, that leads to one: its ω is a K-th of the speed. Its error is the distance from the
     motion of Eq. 7, over the largest displacement or rms about the mean, whichever is larger; with a
