@@ -199,9 +199,9 @@ std::function<void()> add_response_options(CLI::App& command, ResponseRequest& r
   add_range_options(command, request);
   command.add_option("--direction", request.direction,
                      "up: from --from to --to; down: from --to to --from");
-  aft.push_back(command.add_flag(
+  command.add_flag(
       "--stability", request.stability,
-      "Floquet multipliers of each point, and the bifurcations between"));
+      "Floquet multipliers of each point and, with aft, the bifurcations between");
   command.add_option(
       "--harmonics-of", request.harmonics_of,
       "x_s, y_s, x_r or y_r: its harmonics at each point, complex amplitudes");

@@ -543,6 +543,16 @@ Exploration shooting_response(const ResponseRequest& request, const Task& task)
   table.note(format("folds: %d, of the machine", branch.folds));
   table.note(format("work: %ld evaluations of the force", branch.evaluations));
   table.note((branch.covered ? "ended: " : "incomplete: ") + branch.end);
+  int undecided = 0;
+  std::string why;
+  const auto add_multipliers = [&](StablePoint& at, const State& there) {
+    try {
+      at.floquet =
+          motion::multipliers_through(machine, at.point.motion.omega, there, task.budget);
+    } catch (const NoSolution& none) {
+      if (undecided++ == 0) why = none.what();
+    }
+  };
   bool touches = false;
   for (const ShootingBranchPoint& point : branch.points) {
     const motion::Motion motion =
@@ -554,12 +564,23 @@ Exploration shooting_response(const ResponseRequest& request, const Task& task)
     at.point.motion.omega = point.omega;
     at.point.motion.newton.iterations = point.newton;
     at.point.arc = point.arc;
+    if (request.stability) add_multipliers(at, point.state);
     table.row(fields, Row{at, Eigen::Map<const Eigen::Vector4d>(amplitude.data()), 1,
                           task, motion, motion::series_of(motion, task.harmonics)});
   }
+  if (request.stability)
+    table.note(
+        "stability of the machine: by the period map of rk8pd through each point; "
+        "bifurcations are not located");
+  if (undecided > 0)
+    table.note(format("undecided: %d of %zu points: %s", undecided, branch.points.size(),
+                      why.c_str()));
   conclude(table, machine, touches, task.budget);
-  return {std::move(table),
-          branch.covered ? "" : stopped_at(task, branch.points.back().omega, branch.end)};
+  const bool is_missing = undecided > 0 && task.budget.used_up();
+  return {std::move(table), !branch.covered
+                                ? stopped_at(task, branch.points.back().omega, branch.end)
+                            : is_missing ? task.parameters.file + ": " + why
+                                         : ""};
 }
 
 }  // namespace

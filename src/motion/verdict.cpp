@@ -340,6 +340,22 @@ Verdict verdict_through(const Parameters& parameters, double omega, const State&
   return verdict;
 }
 
+Floquet multipliers_through(const Parameters& parameters, double omega,
+                            const State& state, const OperationBudget& budget)
+{
+  Verdict verdict{.state = state};
+  const Shooting closed = shoot(parameters, omega, verdict.state,
+                                {.tolerance = local_error,
+                                 .periodicity_residual = 1e-8,
+                                 .speed_weight = 5,
+                                 .quasi_newton = false,
+                                 .final_derivative = false,
+                                 .budget = budget});
+  if (!closed.converged) throw NoSolution(closed.reason);
+  add_multipliers(parameters, omega, budget, verdict);
+  return verdict.floquet;
+}
+
 Verdict verdict_on(const Parameters& parameters, const PeriodicMotion& solution,
                    const OperationBudget& budget, int turns)
 {

@@ -59,6 +59,11 @@ Verdict verdict_on(const Parameters& parameters, const PeriodicMotion& solution,
 Verdict verdict_through(const Parameters& parameters, double omega, const State& state,
                         const OperationBudget& budget = {}, int turns = 1);
 
+/** The multipliers alone, of the motion that shooting closes from `state`. Throws NoSolution when it closes none or
+    `budget` is used up. */
+Floquet multipliers_through(const Parameters& parameters, double omega,
+                            const State& state, const OperationBudget& budget = {});
+
 /** The multipliers behind the verdicts along a branch, and the machine's bifurcations: at points no further apart than
     0.4 % of the joint resonance, since they change over less speed than the curve of few harmonics does. Shooting begins
     with the linear extrapolation of the two motions nearest along the branch. A point may cost 4 % of `budget`, at

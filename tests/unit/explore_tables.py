@@ -312,6 +312,14 @@ class Shooting(Case):
             near = np.interp(at, series["f"], series[name])
             self.assertLess(np.max(np.abs(times[name][1:-1] / near - 1)), 5e-3)
 
+    def test_multipliers_along_the_branch_are_those_of_the_orbit(self):
+        for reach in ((20.1, 20.2), (40, 42)):
+            branch = self.table("response", self.machine, "--from", reach[0], "--to", reach[1], "--method", "shooting", "--stability")
+            for row in (0, len(branch["f"]) // 2, -1):
+                word, number, error = self.multiplier(self.orbit(branch["f"][row], "--harmonics", 64))
+                self.assertEqual(branch["verdict"][row], word)
+                self.assertLess(abs(branch["multiplier"][row] - number), error + branch["multiplier_change"][row])
+
     def test_a_branch_turns_back_where_an_attractor_ends(self):
         """The kept study has two T-periodic attractors of set 1 at 34.25 Hz and one at 34.5 Hz."""
         result = self.run_explore("response", self.machine, "--from", 28, "--to", 60, "--method", "shooting")
@@ -332,7 +340,7 @@ class Shooting(Case):
                                ("orbit --frequency 30 --method shooting --step 1e-5", "--step: is for"),
                                ("orbit --frequency 30 --method auto --samples 64", "--samples: is for"),
                                ("response --from 30 --to 40 --method rk4", "must be one of aft, shooting"),
-                               ("response --from 30 --to 40 --method shooting --stability", "--stability: is for")]:
+                               ("response --from 30 --to 40 --method shooting --save x", "--save: is for")]:
             with self.subTest(options):
                 command, *rest = options.split()
                 self.refused(words, command, self.machine, *rest)
