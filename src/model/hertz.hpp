@@ -6,7 +6,9 @@ with Q_j. Eq. 2, which gives the contact stiffness K_H, stands further down.
 
 $$Q = K_H\, p^{3/2}, \tag{1}$$
 
-$$Q_j = K_H \max(0, \Delta_j - \delta)^{3/2}. \tag{5}$$ */
+$$Q_j = K_H \max(0, \Delta_j - \delta)^{3/2}. \tag{5}$$
+
+Here stands the force of a given penetration; Δ_j - δ, and which balls have any, are the bearing's (ball_bearing.hpp). */
 #pragma once
 
 #include <cmath>
