@@ -93,10 +93,12 @@ def explore(*words):
     return result
 
 
-def displacement_errors(orbit, exact):
-    """Of two tables of `explore orbit` with the same points: the rms difference about the means over that of the exact one about
-    its mean, and the largest difference over the largest displacement."""
-    a, b = (np.array([table[name] for name in ("x_s", "y_s", "x_r", "y_r")]) for table in (orbit, exact))
+def displacement_errors(orbit, exact, names=("x_s", "y_s", "x_r", "y_r")):
+    """Of two tables with the columns of `explore orbit` and the same points per period, the first repeated as often as the second
+    is longer: the rms difference about the means over that of the exact one about its mean, and the largest difference over the
+    largest displacement."""
+    a, b = (np.array([table[name] for name in names]) for table in (orbit, exact))
+    a = np.tile(a, b.shape[1] // a.shape[1])
     centred = [q - q.mean(axis=1, keepdims=True) for q in (a, b)]
     return np.linalg.norm(centred[0] - centred[1]) / np.linalg.norm(centred[1]), abs(a - b).max() / abs(b).max()
 

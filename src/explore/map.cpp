@@ -697,7 +697,12 @@ std::string header_of(const Task& task, const std::vector<Quantity>& chosen)
   if (!task.sweep.empty())
     table.note(format("sweep: %zu speeds from %.15g to %.15g Hz", task.sweep.size(),
                       task.sweep.front(), task.sweep.back()));
-  if (request.method != "aft")
+  const auto from_rest = [](const Quantity& q) { return q.source == rest; };
+  if (std::ranges::any_of(chosen, from_rest))
+    table.note("motion from rest: rk4, as explore attractors settles it");
+  if (std::ranges::all_of(chosen, from_rest))
+    ;  // no other motion is asked for
+  else if (request.method != "aft")
     table.note(format(
         "method: %s, longest step %g s (0: from K_H), at most %g s from rest, then %d periods",
         request.method.c_str(), request.step, request.longest, request.periods));
