@@ -17,7 +17,8 @@ direction in a turn, so that the bearing excites harmonics 8, 16, and so on, whi
 count the speeds without any solution.
 
 The second figure shows the same against speed; grey marks speeds at which no attractor has the period of rotation, where a
-periodic solution can be exact but unstable, and the machine does not follow it. There more harmonics do not help.
+periodic solution can be exact but unstable, and the machine does not follow it. There more harmonics do not help: only the
+numbers of harmonics that the figure draws are solved, without a verdict.
 
 Points are full where the machine is stable: where shooting finds a motion of Eq. 7 from the solution, with all multipliers
 inside the unit circle.
@@ -41,7 +42,8 @@ STABILITY = {"stable": 1, "unstable": 0, "undecided": -1}
 COLUMNS = [
     ("set", "-", "data set"), ("f", "Hz", "speed of rotation"),
     ("adaptive", "-", "1 if m was chosen for the tolerance, 0 if m is fixed"),
-    ("m", "-", "harmonics; 0 for an adaptive solution that was not found"), ("found", "-", "1 if a solution was found"),
+    ("m", "-", "harmonics; 0 for an adaptive solution that was not found"),
+    ("found", "-", "1 if a solution was found; an adaptive one is looked for at the speeds with a T-periodic attractor"),
     ("distance", "-", "rms about the mean of the displacements' difference to the nearest attractor's motion, over that motion's "
      "rms about its mean; -1 when not found"), ("distance_force", "-", "the same of the bearing's force; -1"),
     ("nearest_periodic", "-", "1 if the nearest attractor has the period of rotation"),
@@ -82,7 +84,7 @@ def stability(solution):
 
 def with_closed(known, machine, speed):
     """The attractors, with the stable motion that shooting finds if it is another one."""
-    closed = orbit(machine, speed, "--method", "shooting")
+    closed = orbit(machine, speed, "--method", "shooting", "--budget", 2e7)
     if closed is None or stability(closed) < 1 or any(displacement_errors(closed, motion)[0] < SAME for _, motion in known):
         return known
     return [*known, (1, closed)]
@@ -102,13 +104,14 @@ def row_of(solution, known, is_adaptive):
 
 
 def rows_at(machine, speed, known, scene):
-    """(adaptive, cells from m on) of all solutions at one speed."""
-    known = with_closed(known, machine, speed)
-    for m in range(1, scene["most_harmonics"] + 1):
-        verdict = [] if m in scene["examined_harmonics"] else ["--no-stability"]
+    """(adaptive, cells from m on) of all solutions at one speed; where none can be true, of the examined ones without verdict."""
+    known, examined = with_closed(known, machine, speed), scene["examined_harmonics"]
+    is_periodic = any(period == 1 for period, _ in known)
+    for m in range(1, scene["most_harmonics"] + 1) if is_periodic else examined:
+        verdict = [] if is_periodic and m in examined else ["--no-stability"]
         _, *row = row_of(orbit(machine, speed, "--harmonics", m, *verdict), known, False)
         yield [0, m, *row]
-    yield [1, *row_of(orbit(machine, speed, "--tolerance", scene["tolerance"]), known, True)]
+    yield [1, *row_of(orbit(machine, speed, "--tolerance", scene["tolerance"]) if is_periodic else None, known, True)]
 
 
 def main(file, reading=""):
@@ -121,8 +124,8 @@ def main(file, reading=""):
         found = [pool.map(lambda f, machine=machine, known=known: list(rows_at(machine, f, known[f], scene)), speeds)
                  for machine, (_, known) in zip(machines, settled)]
     print_header("Distance of harmonic-balance solutions to the nearest attractor", [table for table, _ in settled],
-                 f"modelled: solutions with m = 1 to {scene['most_harmonics']}; adaptive: tolerance {scene['tolerance']:g}; verdicts by "
-                 "shooting",
+                 f"modelled: solutions with m = 1 to {scene['most_harmonics']}, without T-periodic attractor those with m in "
+                 f"{scene['examined_harmonics']} alone; adaptive: tolerance {scene['tolerance']:g}; verdicts by shooting",
                  f"attractors: from rest, from the speeds below and above, from {scene['random_starts']} random states, by shooting")
     print_columns(COLUMNS)
     for number, part in enumerate(found, 1):
