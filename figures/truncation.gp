@@ -43,7 +43,7 @@ do for [s = 1 : sets] {
   stats by_harmonics(s) using "periodic":"missing" name 'R' nooutput
   least = min(least, R_min_x)
   most_missed = max(most_missed, R_max_y)
-  stats table using (column("set") == s && column("adaptive") ? column("periodic") : NaN) name 'T' nooutput
+  stats table using (column("set") == s && column("adaptive") == 1 ? column("periodic") : NaN) name 'T' nooutput
   title_of[s] = sprintf("data set %d, δ = %g µm: T-periodic\nattractor at %d of %d speeds", \
                         s, 1e6 * clearance(s), T_sum, T_records)
 }
