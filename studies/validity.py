@@ -68,7 +68,7 @@ def attractors(machine, scene, speeds):
 
 def orbit(machine, speed, *options):
     """The orbit at the instants of the attractors' motions; None without a solution."""
-    result = explore("orbit", machine, "--frequency", speed, "--points", 128, *options)
+    result = explore("orbit", machine, "--frequency", speed, "--points", 256, *options)
     return Table.of(result.stdout) if result.returncode == 0 else None
 
 

@@ -23,7 +23,7 @@ using motion::AttractorSettings;
 constexpr int section_points = 200;    // of a motion that does not close
 constexpr int most_runs = 200000;      // each keeps its state and statistics
 constexpr int amplitude_points = 512;  // per period of one that does
-constexpr int motion_points = 128, motion_periods = 16;  // of --motions
+constexpr int motion_points = 256, motion_periods = 16;  // of --motions
 
 /** The request, checked, with the machine and the settings that belong to it. */
 struct Task {

@@ -395,14 +395,14 @@ class Attractors(Case):
         """Two turns at 20 Hz with their force, begun at one of two points; sixteen of a motion that does not close."""
         self.at(20, "--starts", 0, "--motions", "motions.tsv")
         found = Table(self.folder / "motions.tsv")
-        np.testing.assert_allclose(found["t_over_T"], np.arange(256) / 128)
-        orbit = self.table("orbit", self.machine, "--frequency", 20, "--method", "rk8pd", "--points", 128, "--periods", 2)
-        shift = -128 * int(np.argmin(distances(orbit.rows([0, 128]), found, 0)))
+        np.testing.assert_allclose(found["t_over_T"], np.arange(512) / 256)
+        orbit = self.table("orbit", self.machine, "--frequency", 20, "--method", "rk8pd", "--points", 256, "--periods", 2)
+        shift = -256 * int(np.argmin(distances(orbit.rows([0, 256]), found, 0)))
         for names, near in ((["x_s", "y_s", "x_r", "y_r"], 1e-5), (["F_x", "F_y"], 1e-3)):
             one, other = (np.array([table[name] for name in names]) for table in (found, orbit))
             self.assertLess(abs(one - np.roll(other, shift, axis=1)).max() / abs(other).max(), near)
         self.at(13.4, "--starts", 0, "--motions", "motions.tsv")
-        self.assertEqual(len(Table(self.folder / "motions.tsv")), 16 * 128)
+        self.assertEqual(len(Table(self.folder / "motions.tsv")), 16 * 256)
 
     def test_the_subharmonic_orbit_is_the_same_motion(self):
         """1e-4 of the largest displacement: what the truncation of the orbit leaves."""
