@@ -93,6 +93,12 @@ def explore(*words):
     return result
 
 
+def said(table, pattern):
+    """The words of a header's line that a pattern has groups for; none where there is no such line."""
+    found = re.search(pattern, table.header)
+    return found.groups() if found else ()
+
+
 def displacement_errors(orbit, exact, names=("x_s", "y_s", "x_r", "y_r")):
     """Of two tables with the columns of `explore orbit` and the same points per period, the first repeated as often as the second
     is longer: the rms difference about the means over that of the exact one about its mean, and the largest difference over the

@@ -26,7 +26,6 @@ inside the unit circle.
 Usage: studies/validity.py data/scenes/validity.toml [as-printed] > validity.tsv   (from the project's root)
 """
 import os
-import re
 import sys
 import tempfile
 import tomllib
@@ -34,7 +33,7 @@ from concurrent.futures import ThreadPoolExecutor
 from pathlib import Path
 
 sys.path.insert(1, str(Path(__file__).parents[1] / "figures"))
-from tables import Table, displacement_errors, explore, print_columns, print_header  # noqa: E402
+from tables import Table, displacement_errors, explore, print_columns, print_header, said  # noqa: E402
 
 FORCE = ("F_x", "F_y")
 SAME = 1e-3  # rms distance of two motions on one attractor
@@ -72,14 +71,8 @@ def orbit(machine, speed, *options):
     return Table.of(result.stdout) if result.returncode == 0 else None
 
 
-def said(table, pattern, nothing):
-    """The words of a header's line that a pattern has groups for."""
-    found = re.search(pattern, table.header)
-    return found.groups() if found else nothing
-
-
 def stability(solution):
-    return STABILITY.get(*said(solution, r"# stability: (\w+)", ["not asked for"]), -1)
+    return STABILITY.get("".join(said(solution, r"# stability: (\w+)")), -1)
 
 
 def with_closed(known, machine, speed):
@@ -100,9 +93,9 @@ def row_of(solution, known, is_adaptive):
     periodic = int(any(period == 1 for period, _ in known))
     if solution is None:
         return [0, 0, -1, -1, 0, -1, -1, periodic, -1]
-    m, = said(solution, r"# method: aft, m = (\d+)", [])
+    m, = said(solution, r"# method: aft, m = (\d+)")
     distance, largest, period, nearest = nearest_to(solution, known)
-    estimate = max(map(float, said(solution, r"# error: (\S+) of .*?, (\S+) rms", [-1]))) if is_adaptive else -1
+    estimate = max(map(float, said(solution, r"# error: (\S+) of .*?, (\S+) rms")), default=-1) if is_adaptive else -1
     return [int(m), 1, distance, displacement_errors(solution, nearest, FORCE)[0], int(period == 1), stability(solution), estimate,
             periodic, largest]
 
