@@ -77,15 +77,15 @@ computed := $(filter-out $(kept),$(filter $(programs) $(scripted),$(scenes)))
 
 # The paper's figures and tables, and what its claims are judged by: in the printed reading too, if all data
 # sets of the scene have one (data/NAME-as-printed.toml beside data/NAME.toml).
-paper := $(filter fig0% tab0% regimes sections,$(computed))
+paper := $(filter fig0% tab0% regimes,$(computed))
 sets := $(basename $(notdir $(wildcard data/*.toml)))
 unpaired := $(filter-out %-as-printed $(patsubst %-as-printed,%,$(filter %-as-printed,$(sets))),$(sets))
 paired := $(filter-out $(basename $(notdir $(shell grep -l $(unpaired:%=-e '"%"') data/scenes/*.toml))),$(paper))
 
 tables := $(patsubst %,data/generated/%.tsv,$(computed) sensitivity_derivatives truth_intervals)
 tables_printed := $(patsubst %,data/generated/as-printed/%.tsv,$(paired) truth_intervals)
-figures := $(patsubst %,figures/generated/%.svg,$(filter $(computed) $(kept),$(scripts)) truncation)
-figures_printed := $(patsubst %,figures/generated/as-printed/%.svg,$(filter $(paired) $(kept_printed),$(scripts)) truncation)
+figures := $(patsubst %,figures/generated/%.svg,$(filter $(computed) $(kept),$(scripts)) sections truncation)
+figures_printed := $(patsubst %,figures/generated/as-printed/%.svg,$(filter $(paired) $(kept_printed),$(scripts)) sections truncation)
 claims := data/generated/claims.tsv data/generated/as-printed/claims.tsv
 intervals := $(claims:claims.tsv=truth_intervals.tsv)
 described := cage map_scaling
@@ -100,7 +100,7 @@ sources := $(shell find src data/bearings -type f) CMakeLists.txt CMakePresets.j
 shown := $(tables_printed) $(figures_printed)
 ifeq ($(READING),exchanged)
 shown := $(patsubst %,data/generated/%.tsv,$(paper) truth_intervals) data/generated/deviations.md \
-  $(patsubst %,figures/generated/%.svg,$(filter $(paper) $(kept_printed),$(scripts)) truncation)
+  $(patsubst %,figures/generated/%.svg,$(filter $(paper) $(kept_printed),$(scripts)) sections truncation)
 endif
 .PHONY: deps all figures timing claims studies truth maps $(unkept) $(studies) adopt peers book article pdf png readme golden \
   live test sanitize bench format dist list clean
@@ -133,13 +133,12 @@ python_tables := figures/tables.py figures/project.py CMakeLists.txt data/claims
 # known. What is written is moved into place when it is complete.
 whole = @echo $@; mkdir -p $(@D); new=$@.$$BASHPID.tmp; trap 'rm -f $$new' EXIT;
 
-# The data sets that a scene names, and the kept attractors for the programs that start from their states.
+# The data sets that a scene names.
 parameters = $(patsubst %,data/%$(if $(filter as-printed,$(*D)),-as-printed).toml, \
   $(shell sed -nE '/parameters = /s/[^"]*"([^"]*)"[^"]*/\1 /gp' data/scenes/$(*F).toml))
-attractors = $(if $(filter sections validity,$(*F)),$(subst generated,reference,$(@D))/attractors.tsv)
 
-data/generated/%.tsv: build/$$(*F) data/scenes/$$(*F).toml $$(parameters) $$(attractors)
-	$(whole) $(alone) $< $(word 2,$^) $(if $(filter as-printed,$(*D)),--reading as-printed) $(attractors:%=--attractors %) > $$new; mv $$new $@
+data/generated/%.tsv: build/$$(*F) data/scenes/$$(*F).toml $$(parameters)
+	$(whole) $(alone) $< $(word 2,$^) $(if $(filter as-printed,$(*D)),--reading as-printed) > $$new; mv $$new $@
 
 data/generated/sensitivity_derivatives.tsv: figures/sensitivity_derivatives.py data/reference/sensitivity.tsv $(python_tables)
 	$(whole) $(PYTHON) $(wordlist 1,2,$^) > $$new; mv $$new $@
@@ -147,8 +146,9 @@ data/generated/sensitivity_derivatives.tsv: figures/sensitivity_derivatives.py d
 data/generated/identification.tsv: data/claims.toml data/set1-as-printed.toml data/set2-as-printed.toml
 
 # Studies by explore: those without a kept table belong to `all`. Snakemake deals the lines of a map to jobs, and keeps the shards that are done.
-$(scripted:%=data/generated/%.tsv): data/generated/%.tsv: studies/%.py data/scenes/%.toml $$(parameters) build/explore figures/tables.py
-	$(whole) $(PYTHON) $(wordlist 1,2,$^) > $$new; mv $$new $@
+$(scripted:%=data/generated/%.tsv) $(scripted:%=data/generated/as-printed/%.tsv): data/generated/%.tsv: studies/$$(*F).py \
+  data/scenes/$$(*F).toml $$(parameters) build/explore figures/tables.py
+	$(whole) $(PYTHON) $(wordlist 1,2,$^) $(filter as-printed,$(*D)) > $$new; mv $$new $@
 
 $(patsubst %,data/generated/%.tsv,$(filter $(kept),$(mapped))): data/generated/%.tsv: studies/%.yaml studies/Snakefile build/explore
 	snakemake --snakefile studies/Snakefile --profile studies/local $@
@@ -158,8 +158,8 @@ $(timings) $(costs:%=data/generated/%.tsv): private alone = flock build/.timing
 $(timings): | $(filter-out $(timings),$(if $(filter figures,$(goals)),$(shown)) $(if $(with_pages)$(filter claims,$(goals)),$(untimed)))
 $(costs:%=data/generated/%.tsv): | $(if $(filter studies,$(goals)),$(filter-out $(costs),$(studies)))
 
-# Drawn from the kept table if there is one. truncation is a second drawing of validity.
-source = $(or $(wildcard data/reference/$(subst truncation,validity,$*).tsv),data/generated/$*.tsv)
+# Drawn from the kept table if there is one. sections is the drawing of attractors, truncation a second one of validity.
+source = $(or $(wildcard data/reference/$(subst sections,attractors,$(subst truncation,validity,$*)).tsv),data/generated/$*.tsv)
 
 figures/generated/%.svg: figures/$$(*F).gp figures/style.gp figures/orbit_axes.gp figures/orbits.gp \
   figures/displacements.gp data/claims.toml $$(source)

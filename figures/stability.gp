@@ -40,14 +40,14 @@ marks(s, m, kind) = sprintf("< awk -F'\\t' '/^#/ || !NF { next } !names { names 
 
 # Attractors: speed and amplitude of those with the period of rotation; speed and least and largest amplitude
 # of the others. The column is that of amp_x_s or amp_x_r.
-periodic(s, column) = sprintf("< echo f; awk -F'\\t' -v OFS='\\t' '/^#/ || $1 != %d || $6 != 1 { next } \
+periodic(s, column) = sprintf("< echo f; awk -F'\\t' -v OFS='\\t' '/^#/ || $1 != %d || $4 != 1 { next } \
   { print $2, $%d }' '%s' | sort -u", s, column, attractors)
-others(s, column) = sprintf("< echo f; awk -F'\\t' -v OFS='\\t' '/^#/ || $1 != %d || $6 == 1 { next } \
+others(s, column) = sprintf("< echo f; awk -F'\\t' -v OFS='\\t' '/^#/ || $1 != %d || $4 == 1 { next } \
   !($2 in low) || $%d < low[$2] { low[$2] = $%d } !($2 in high) || $%d > high[$2] { high[$2] = $%d } \
   END { for (f in low) print f, low[f], high[f] }' '%s' | sort -n", \
   s, column, column, column, column, attractors)
-x_s = 13
-x_r = 15
+x_s = 12
+x_r = 14
 
 set xrange [0 : F_max_y]
 set logscale y

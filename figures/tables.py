@@ -93,10 +93,18 @@ def explore(*words):
     return result
 
 
-def displacement_errors(orbit, exact):
-    """Of two tables of `explore orbit` with the same points: the rms difference about the means over that of the exact one about
-    its mean, and the largest difference over the largest displacement."""
-    a, b = (np.array([table[name] for name in ("x_s", "y_s", "x_r", "y_r")]) for table in (orbit, exact))
+def said(table, pattern):
+    """The words of a header's line that a pattern has groups for; none where there is no such line."""
+    found = re.search(pattern, table.header)
+    return found.groups() if found else ()
+
+
+def displacement_errors(orbit, exact, names=("x_s", "y_s", "x_r", "y_r")):
+    """Of two tables with the columns of `explore orbit` and the same points per period, the first repeated as often as the second
+    is longer: the rms difference about the means over that of the exact one about its mean, and the largest difference over the
+    largest displacement."""
+    a, b = (np.array([table[name] for name in names]) for table in (orbit, exact))
+    a = np.tile(a, b.shape[1] // a.shape[1])
     centred = [q - q.mean(axis=1, keepdims=True) for q in (a, b)]
     return np.linalg.norm(centred[0] - centred[1]) / np.linalg.norm(centred[1]), abs(a - b).max() / abs(b).max()
 

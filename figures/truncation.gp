@@ -20,11 +20,11 @@ set style fill solid noborder
 # The rows of the solutions with fixed m.
 fixed = sprintf("< awk -F'\\t' '/^#/ || $3 != 1' '%s'", table)
 
-# The rows of a set ($1) with a T-periodic attractor ($15) by m ($4): m, the largest error of the displacements ($6) and
+# The rows of a set ($1) with a T-periodic attractor ($11) by m ($4): m, the largest error of the displacements ($6) and
 # of the force ($7) over those found ($5), and the number not found.
 by_harmonics(s) = sprintf("< awk -F'\\t' -v OFS='\\t' 'function most(a, b) { return a > b ? a : b } \
   BEGIN { print \"m\", \"periodic\", \"force\", \"missing\" } \
-  $1 == %d && $3 == 0 && $15 { seen[$4]; if (!$5) { missing[$4]++; next } same[$4] = most(same[$4], $6); force[$4] = most(force[$4], $7) } \
+  $1 == %d && $3 == 0 && $11 { seen[$4]; if (!$5) { missing[$4]++; next } same[$4] = most(same[$4], $6); force[$4] = most(force[$4], $7) } \
   END { for (m = 1; m in seen; m++) print m, same[m], force[m], missing[m] + 0 }' '%s'", s, table)
 
 # The limits and the paper's number of harmonics, from the rules of the claims.
@@ -43,8 +43,7 @@ do for [s = 1 : sets] {
   stats by_harmonics(s) using "periodic":"missing" name 'R' nooutput
   least = min(least, R_min_x)
   most_missed = max(most_missed, R_max_y)
-  stats fixed using (column("set") == s && column("m") == M_min_x ? column("periodic") : NaN) \
-    name 'T' nooutput
+  stats table using (column("set") == s && column("adaptive") == 1 ? column("periodic") : NaN) name 'T' nooutput
   title_of[s] = sprintf("data set %d, δ = %g µm: T-periodic\nattractor at %d of %d speeds", \
                         s, 1e6 * clearance(s), T_sum, T_records)
 }

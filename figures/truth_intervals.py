@@ -10,8 +10,7 @@ import numpy as np
 from project import source_line
 from tables import Table, print_columns
 
-PERIODIC = 1
-WORDS = {0: "undecided", 1: "T", 3: "quasi-periodic", 4: "chaotic"}
+WORDS = {-2: "undecided", -1: "quasi-periodic", 0: "chaotic", 1: "T"}
 LIMIT = min(tomllib.loads(Path("data/claims.toml").read_text(encoding="utf-8"))
             ["regimes"]["distance_limits"])
 COLUMNS = [
@@ -28,12 +27,7 @@ COLUMNS = [
 
 def kinds_at(rows):
     """The kinds of the attractors at a speed."""
-    found = set()
-    for number in np.unique(rows["attractor"]):
-        one = rows.where("attractor", number)
-        verdict = int(one.first("verdict"))
-        found.add(f"{int(one.first('period'))}T" if verdict == 2 else WORDS[verdict])
-    return sorted(found)
+    return sorted({WORDS.get(period, f"{period}T") for period in rows["period"].astype(int)})
 
 
 def intervals_of(rows):
@@ -51,7 +45,7 @@ def intervals_of(rows):
 
 def close(rows):
     """Where a solution is within the limit of a T-periodic attractor."""
-    return (rows["found"] == 1) & (rows["nearest_verdict"] == PERIODIC) & (rows["distance"] <= LIMIT)
+    return (rows["found"] == 1) & (rows["nearest_periodic"] == 1) & (rows["distance"] <= LIMIT)
 
 
 def harmonics_for(rows):

@@ -162,7 +162,7 @@ def truth(add):
         none = count[rows["T_periodic"] == 0].sum() / count.sum()
         add(f"truth.fr_none_{number}", f"{100 * none:.0f} %", "-", "the last of them in French")
         single = Table(KEPT / "attractors.tsv").where("set", number)
-        add(f"truth.exponent_{number}", single["exponent"].max(), "1/s", "largest Lyapunov exponent")
+        add(f"truth.exponent_{number}", (single["f"] * single["lyapunov"]).max(), "1/s", "largest Lyapunov exponent")
         validity = Table(KEPT / "validity.tsv").where("set", number).where("periodic", 1)
         wanted = 6 if number == 1 else 10
         fixed = validity.where("adaptive", 0).where("m", wanted)

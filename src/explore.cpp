@@ -245,6 +245,8 @@ void add_attractors_options(CLI::App& command, AttractorsRequest& request)
   add_number(command, "--seed", request.seed, 0, largest_seed, "of the random states");
   command.add_option("--section", request.section,
                      "file for the points of the Poincare sections");
+  command.add_option("--motions", request.motions,
+                     "file for the motions themselves, with the bearing's force");
 }
 
 /** What is returned throws BadInput for an option that the method would ignore. */
@@ -389,7 +391,8 @@ int main(int argc, char** argv)
       return finish(checked, "", [&] { return explore_check(checked); });
     if (settled->parsed())
       return finish(attractors, "sections.py",
-                    [&] { return explore_attractors(attractors); }, {attractors.section});
+                    [&] { return explore_attractors(attractors); },
+                    {attractors.section, attractors.motions});
     if (branch->parsed())
       return finish(response, "response.py", [&] { return explore_response(response); },
                     {response.save, response.waterfall});

@@ -18,14 +18,13 @@ harmonics as the ladder has stands for the exact motion; where the exact motion 
 Usage: studies/adaptive.py data/scenes/adaptive.toml > adaptive.tsv   (from the project's root)
 """
 import os
-import re
 import sys
 import tomllib
 from concurrent.futures import ThreadPoolExecutor
 from pathlib import Path
 
 sys.path.insert(1, str(Path(__file__).parents[1] / "figures"))
-from tables import Table, displacement_errors, explore, print_columns, print_header  # noqa: E402
+from tables import Table, displacement_errors, explore, print_columns, print_header, said  # noqa: E402
 
 POINTS = 2048
 FAR = 10  # times the estimate: another motion
@@ -48,12 +47,6 @@ def orbit(machine, speed, *options):
     """The orbit; None without a solution."""
     result = explore("orbit", machine, "--frequency", speed, "--columns", "x_s,y_s,x_r,y_r", *options)
     return Table.of(result.stdout) if result.returncode == 0 else None
-
-
-def said(table, pattern):
-    """The words of a header's line that a pattern has groups for; none where there is no such line."""
-    found = re.search(pattern, table.header)
-    return found.groups() if found else ()
 
 
 def over(a, b):

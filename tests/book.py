@@ -116,7 +116,7 @@ class Files(unittest.TestCase):
 
     def test_every_table_without_figure_is_shown(self):
         """All its columns with their values in the first row, and the file: a page that only speaks of its table would have neither."""
-        for page in ("tab01_parameters", "tab02_timing", "tab02_equal_error", "regimes", "attractors", "deviations"):
+        for page in ("tab01_parameters", "tab02_timing", "tab02_equal_error", "regimes", "deviations"):
             text, file = self.page(page), next(Path("data").glob(f"[gr]e*/{page}.tsv"))
             names, first = [line.split("\t") for line in file.read_text(encoding="utf-8").splitlines() if line[:1] != "#"][:2]
             for name, cell in zip(names, first):

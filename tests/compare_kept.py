@@ -26,7 +26,7 @@ COLUMNS = {"attractors": ["set"], "validity": ["found", "distance", "periodic"],
            "map_scaling": ["kind", "count", "points"],
            "verdicts": ["set", "f", "m", "found", "machine_stable", "distance", "series_stable", "hill_stable"],
            "hard_cases": ["case", "method", "status", "verdict", "regime"]}
-KEY = {"attractors": ["set", "f", "origin", "verdict"]}
+KEY = {"attractors": ["set", "f", "period", "point"]}
 # The column of the kinds whose CPU times are shown.
 TIMED = {"tab02_timing": "method", "tab02_equal_error": "method", "work_precision": "method",
          "cost_growth": "against"}

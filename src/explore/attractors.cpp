@@ -23,6 +23,7 @@ using motion::AttractorSettings;
 constexpr int section_points = 200;    // of a motion that does not close
 constexpr int most_runs = 200000;      // each keeps its state and statistics
 constexpr int amplitude_points = 512;  // per period of one that does
+constexpr int motion_points = 256, motion_periods = 16;  // of --motions
 
 /** The request, checked, with the machine and the settings that belong to it. */
 struct Task {
@@ -71,6 +72,7 @@ Task task_of(const AttractorsRequest& request)
       passages_per_turn(asked.bearing) / passages_per_turn(machine.bearing);
   std::vector<std::string> inputs{request.parameter_file};
   if (request.section) require_writable("--section", *request.section, inputs);
+  if (request.motions) require_writable("--motions", *request.motions, inputs);
   const int most_starts = most_runs / request.count - 3;
   if (request.starts > most_starts)
     throw BadInput(format("--starts %d: must be in 0...%d with --count %d",
@@ -201,6 +203,7 @@ struct Found : Attractor {
   int undecided = 0;                   ///< of them
   std::vector<double> exponents = {};  ///< of the motions of these starts [1/s]
   std::vector<Displacements> section = {};
+  std::vector<std::pair<Displacements, Vec2>> motion = {};  ///< with its force [N]
   bool touches = false;
 
   int starts() const { return from[0] + from[1] + from[2] + from[3]; }
@@ -215,17 +218,23 @@ struct Found : Attractor {
   }
 };
 
-/** The section, and amplitudes on fine points. Throws NoSolution when the budget is used up. */
+/** The section, amplitudes on fine points and what --motions asks for. Throws NoSolution when the budget is used up. */
 void look_closer(const Task& task, Found& found)
 {
-  const int points = found.closed() ? amplitude_points : 4;
+  const bool is_written = task.request.motions.has_value();
+  const int points = found.closed() ? amplitude_points : is_written ? motion_points : 4;
   const motion::Motion motion = motion::motion_along(
       found, task.machine, angular(found.frequency), points, section_points, task.budget);
   if (found.closed()) found.amplitude = half_peak_to_peak(motion);
   for (std::size_t k = 0; k < motion.size(); k += static_cast<std::size_t>(points))
     found.section.push_back(displacements(motion.positions[k]));
-  found.touches = std::ranges::any_of(motion::bearing_forces(task.machine, motion),
-                                      [](Vec2 f) { return f.x != 0 || f.y != 0; });
+  const std::vector<Vec2> forces = motion::bearing_forces(task.machine, motion);
+  found.touches =
+      std::ranges::any_of(forces, [](Vec2 f) { return f.x != 0 || f.y != 0; });
+  if (!is_written) return;
+  const int periods = found.closed() ? found.period : motion_periods;
+  for (int k = 0; k < periods * points; k += points / motion_points)
+    found.motion.emplace_back(displacements(motion.positions[k]), forces[k]);
 }
 
 /** Of a closed motion from its multipliers: where they do not call it stable, the machine does not settle on it.
@@ -336,6 +345,31 @@ std::string section_text(const Task& task, const std::vector<Found>& all)
   return table.text();
 }
 
+const std::vector<Column> motion_columns{
+    {"f", "Hz", "speed of rotation"},
+    {"motion", "-", "number of the motion at this speed"},
+    {"t_over_T", "-", "time over the base period, from phase 0"},
+    {"x_s", "m", "stator"},
+    {"y_s", "m", "stator"},
+    {"x_r", "m", "rotor"},
+    {"y_r", "m", "rotor"},
+    {"F_x", "N", "Eq. 6, on the stator"},
+    {"F_y", "N", "Eq. 6, on the stator"}};
+
+std::string motion_text(const Task& task, const std::vector<Found>& all)
+{
+  Table table("Motions on the attractors", motion_columns);
+  describe(table, task.asked);
+  table.note(format("periods: K of a motion that closes, %d of another", motion_periods));
+  for (const Found& found : all) {
+    double k = 0;
+    for (const auto& [q, force] : found.motion)
+      table.row({found.speed(), found.number, k++ / motion_points, q[0], q[1], q[2], q[3],
+                 force.x, force.y});
+  }
+  return table.text();
+}
+
 void note(Table& table, const Task& task)
 {
   const AttractorSettings& s = task.settings;
@@ -429,6 +463,7 @@ Exploration explore_attractors(const AttractorsRequest& request)
   std::string section;
   if (request.section || request.plot) section = section_text(task, all);
   if (request.section) write_file(*request.section, section);
+  if (request.motions) write_file(*request.motions, motion_text(task, all));
   return {std::move(table), missing, section};
 }
 

@@ -14,7 +14,7 @@ struct AttractorsRequest : Request {
   int count = 0;            ///< speeds, evenly spaced, both edges among them
   int starts = 3;           ///< random states at each speed
   int seed = 1;
-  std::optional<std::string> section;  ///< file
+  std::optional<std::string> section, motions;  ///< files
 };
 
 /** Throws BadInput for options that contradict each other, NoSolution when nothing was found. */

@@ -676,6 +676,19 @@ Task task_of(const MapRequest& request)
 /**
 ## The table, line by line */
 
+std::string method_of(const Task& task)
+{
+  const MapRequest& request = task.request;
+  if (request.method != "aft")
+    return format(
+        "%s, longest step %g s (0: from K_H), at most %g s from rest, then %d periods",
+        request.method.c_str(), request.step, request.longest, request.periods);
+  if (request.tolerance && !request.harmonics)
+    return format("aft, m chosen for a tolerance of %g", *request.tolerance);
+  return format("aft, m = %d, N = %d, relative tolerance of Newton %g", task.harmonics,
+                task.samples, request.newton_tolerance);
+}
+
 std::string header_of(const Task& task, const std::vector<Quantity>& chosen)
 {
   const MapRequest& request = task.request;
@@ -697,15 +710,10 @@ std::string header_of(const Task& task, const std::vector<Quantity>& chosen)
   if (!task.sweep.empty())
     table.note(format("sweep: %zu speeds from %.15g to %.15g Hz", task.sweep.size(),
                       task.sweep.front(), task.sweep.back()));
-  if (request.method != "aft")
-    table.note(format(
-        "method: %s, longest step %g s (0: from K_H), at most %g s from rest, then %d periods",
-        request.method.c_str(), request.step, request.longest, request.periods));
-  else if (request.tolerance && !request.harmonics)
-    table.note(format("method: aft, m chosen for a tolerance of %g", *request.tolerance));
-  else
-    table.note(format("method: aft, m = %d, N = %d, relative tolerance of Newton %g",
-                      task.harmonics, task.samples, request.newton_tolerance));
+  const auto from_rest = [](const Quantity& q) { return q.source == rest; };
+  if (std::ranges::any_of(chosen, from_rest))
+    table.note("motion from rest: rk4, as explore attractors settles it");
+  if (!std::ranges::all_of(chosen, from_rest)) table.note("method: " + method_of(task));
   if (request.tolerance && request.harmonics)
     table.note(format("harmonics: for a tolerance of %g", *request.tolerance));
   table.note(format("budget: %g evaluations of the force for each point",

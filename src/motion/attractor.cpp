@@ -207,7 +207,6 @@ Attractor attractor_from(const Parameters& machine, double omega, const State& s
   seen.summarise(attractor);
   attractor.state = seen.motion.state();
   attractor.first_period = turns == 1 ? 0 : settled.periods + std::ssize(seen.periods);
-  attractor.seconds = seen.seconds() + static_cast<double>(settled.periods) * period;
   return attractor;
 }
 

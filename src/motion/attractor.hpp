@@ -3,7 +3,7 @@
 
 A motion of Eq. 7 is followed until its Poincaré section (one point per period) closes after K periods, or is
 seen not to. Then it is observed beside a neighbour, whose distance gives the largest Lyapunov exponent, until
-there is enough to judge by. Verdicts, the study of the attractors and `explore attractors` all ask here. */
+there is enough to judge by. Verdicts and `explore attractors` ask here. */
 #pragma once
 
 #include <cstdint>
@@ -63,7 +63,6 @@ struct Attractor : SectionJudgement {
   std::array<double, 4> rms;        ///< about the mean [m]
   std::array<double, 4> amplitude;  ///< half peak-to-peak [m]
   State state;                      ///< at phase 0 [m, m/s]
-  double seconds;                   ///< integrated in all [s]
   long first_period = 0;  ///< periods since t = 0 at the state, for the cage's angle
 
   bool periodic() const { return verdict == Verdict::periodic; }

@@ -245,9 +245,7 @@ double relative_difference(const Motion& motion, const Motion& reference)
   return difference / size;
 }
 
-/** Rows are instants; `samples` is repeated as often as `exact` is longer. */
-static double rms_about_the_mean(const Eigen::MatrixXd& samples,
-                                 const Eigen::MatrixXd& exact)
+double rms_difference(const Motion& motion, const Motion& reference)
 {
   const auto centred = [](const Eigen::MatrixXd& q) -> Eigen::MatrixXd {
     return q.rowwise() - q.colwise().mean();
@@ -257,29 +255,12 @@ static double rms_about_the_mean(const Eigen::MatrixXd& samples,
     const double plain = q.norm();
     return std::isfinite(plain) ? plain : q.stableNorm();
   };
+  const Eigen::MatrixXd samples = displacement_samples(motion),
+                        exact = displacement_samples(reference);
   const Eigen::Index times = exact.rows() / samples.rows();
   const double size = norm(centred(exact));
   const double off = norm(centred(samples.replicate(times, 1) - exact));
   return size > 0 ? off / size : off > 0 ? std::numeric_limits<double>::infinity() : 0;
-}
-
-double rms_difference(const Motion& motion, const Motion& reference)
-{
-  return rms_about_the_mean(displacement_samples(motion),
-                            displacement_samples(reference));
-}
-
-double rms_force_difference(const Parameters& parameters, const Motion& motion,
-                            const Motion& reference)
-{
-  const auto samples = [&](const Motion& m) {
-    const auto forces = bearing_forces(parameters, m);
-    Eigen::MatrixXd rows(std::ssize(forces), 2);
-    for (Eigen::Index row = 0; const Vec2& force : forces)
-      rows.row(row++) << force.x, force.y;
-    return rows;
-  };
-  return rms_about_the_mean(samples(motion), samples(reference));
 }
 
 double relative_force_difference(const Parameters& parameters, const Motion& motion,

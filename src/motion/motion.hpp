@@ -144,10 +144,6 @@ double relative_difference(const Motion& motion, const Motion& reference);
     sag [-]. */
 double rms_difference(const Motion& motion, const Motion& reference);
 
-/** The same of the bearing's force. */
-double rms_force_difference(const Parameters& parameters, const Motion& motion,
-                            const Motion& reference);
-
 /** For the bearing's force: largest |F - F_ref| over the largest |F_ref| [-]. */
 double relative_force_difference(const Parameters& parameters, const Motion& motion,
                                  const Motion& reference);

@@ -49,9 +49,6 @@ struct Floquet {
   bool stable() const { return settled && largest() + uncertainty() < 1; }
   bool unstable() const { return settled && largest() - uncertainty() > 1; }
 
-  /** 1 stable, 0 unstable, -1 undecided: for tables. */
-  int stable_number() const { return stable() ? 1 : unstable() ? 0 : -1; }
-
   /** "stable", "unstable", or "undecided" within the uncertainty. */
   const char* verdict() const
   {

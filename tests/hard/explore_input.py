@@ -102,7 +102,7 @@ class Folder:
             if (self.path / name).read_bytes() != content:
                 return f"{name} was changed"
         more = {file.name for file in self.path.iterdir()} - files.keys()
-        asked = {name for option, name in zip(arguments, arguments[1:]) if option in ("--save", "--section")}
+        asked = {name for option, name in zip(arguments, arguments[1:]) if option in ("--save", "--section", "--motions")}
         if more - asked:
             return f"left behind: {sorted(more)}"
         if more and status == 2:
@@ -292,7 +292,7 @@ def attractors_options(draw, extreme):
     start = decade(dice, -4 if extreme else 0, 4 if extreme else 1.5)
     end = start * (1 + decade(dice, -3, 4 if extreme else 0.5))
     options = draw(chosen({"--starts": (2, whole(0, 1)), "--seed": (4, whole(0, 9)),
-                           "--section": (4, st.just("saved.tsv"))}))
+                           "--section": (4, st.just("saved.tsv")), "--motions": (4, st.just("motions.tsv"))}))
     return [["--from", repr(start)], ["--to", repr(end)], ["--count", draw(whole(0, 1))], *options]
 
 
@@ -335,7 +335,7 @@ def options_spoilt(draw, options):
         name, value = options[at]
         which = draw(st.sampled_from(["value"] * 4 + ["missing", "twice", "misspelt", "unknown", "foreign"]))
         if which == "value":
-            options[at] = [name, draw(st.sampled_from(odd.SAVES) if name in ("--save", "--section") else WORDS)]
+            options[at] = [name, draw(st.sampled_from(odd.SAVES) if name in ("--save", "--section", "--motions") else WORDS)]
         elif which == "missing" and len(options) > 1:
             del options[at]
         elif which == "twice":

@@ -7,15 +7,12 @@
 
 #include "io/errors.hpp"
 #include "io/number_table.hpp"
-#include "io/table.hpp"
+#include "motion/attractor.hpp"
 #include "stability/eigenvalues.hpp"
 #include "stability/period_map.hpp"
 #include "support/cases.hpp"
-#include "truth/attractors.hpp"
-#include "truth/validity.hpp"
 
 using namespace rotor_stator;
-using namespace rotor_stator::truth;
 using namespace rotor_stator::motion;
 using namespace rotor_stator::tests;
 
@@ -23,8 +20,11 @@ namespace {
 
 AttractorSettings settings()
 {
-  SceneFile file(SOURCE_DIR "/data/scenes/attractors.toml", "exchanged");
-  return read_attractor_scene(file).settings;
+  return {.stepper = {.method = "rk4", .intervals_per_period = 64},
+          .longest = 6,
+          .least = 5,
+          .chaotic = 10,
+          .most = 100};
 }
 
 }  // namespace
@@ -196,18 +196,15 @@ TEST_CASE("Coexisting motions at 25 and 25.25 Hz are two attractors, whatever th
 TEST_CASE(
     "The distance of a motion to itself is zero, to rest one, and blind to the mean")
 {
-  const Parameters parameters = set_1();
   Motion motion{8, 0, {}}, rest{8, 0, std::vector<Bodies>(8)};
   for (int k = 0; k < 8; ++k)
     motion.positions.push_back({{1e-5 * k, -1e-5}, {2e-5, 4e-5 * (k % 3)}});
-  CHECK(distance_of(parameters, motion, motion).displacement == 0);
-  CHECK(distance_of(parameters, motion, motion).force == 0);
-  CHECK(distance_of(parameters, rest, motion).displacement == Approx(1));
-  CHECK(distance_of(parameters, rest, motion).force == Approx(1));
+  CHECK(rms_difference(motion, motion) == 0);
+  CHECK(rms_difference(rest, motion) == Approx(1));
   Motion sagging = motion;
   for (Bodies& q : sagging.positions) q.stator.y -= 1e-3, q.rotor.y -= 1e-3;
-  CHECK(distance_of(parameters, sagging, motion).displacement == Approx(0).margin(1e-12));
-  CHECK(distance_of(parameters, sagging, motion).largest > 10);
+  CHECK(rms_difference(sagging, motion) == Approx(0).margin(1e-12));
+  CHECK(relative_difference(sagging, motion) > 10);
 }
 
 TEST_CASE("A table of numbers is read back, and a damaged one refused with its line")

@@ -111,6 +111,8 @@ class Values(Case):
                 ("--count 3 --plot no/such/folder.svg", "its folder does not exist"),
                 ("--count 3 --section no/such/file", "its folder does not exist"),
                 ("--count 3 --section machine.toml", "is the input"),
+                ("--count 3 --motions machine.toml", "is the input"),
+                ("--count 3 --section same.tsv --motions same.tsv", "is the file of two options"),
                 ("--count 3 --section same.svg --plot same.svg", "is the file of two options"),
                 ("--count 3 --to 10", "--from 10: must be below --to 10")]:
             with self.subTest(options):

@@ -175,6 +175,10 @@ class Values(Case):
         """At 20 Hz two turns, at 30 Hz one."""
         table = self.table("map", self.machine, "--y", "frequency=20:30:2", "--quantity", "period,lyapunov")
         self.assertEqual(list(table["period"]), [2, 1])
+        self.assertIn("# motion from rest: rk4", table.header)
+        self.assertNotIn("aft", table.header)
+        balanced = self.table("map", self.machine, "--y", "frequency=30:30:1", "--quantity", "period,amplitude")
+        self.assertIn("# method: aft, m = 6", balanced.header)
         for k, frequency in enumerate((20, 30)):
             known = self.table("attractors", self.machine, "--from", frequency, "--to", frequency + 1, "--count", 1,
                                "--starts", 0)

@@ -18,10 +18,12 @@ import numpy as np
 for folder in ("tests", "figures", "studies"):  # a study may be called like its figure
     sys.path.insert(0, folder)
 import adaptive  # noqa: E402
+import attractors  # noqa: E402
 import identification  # noqa: E402
 import map_scaling  # noqa: E402
 import sampling  # noqa: E402
 import sensitivity  # noqa: E402
+import validity  # noqa: E402
 import verdicts  # noqa: E402
 from sensitivity_derivatives import derivative  # noqa: E402
 from tables import displacement_errors  # noqa: E402
@@ -219,6 +221,63 @@ class Sampling(unittest.TestCase):
         """The even numbers without a factor above 7, up to 40."""
         self.assertEqual(sorted({sampling.fast_size(k) for k in range(1, 41)}),
                          [2, 4, 6, 8, 10, 12, 14, 16, 18, 20, 24, 28, 30, 32, 36, 40])
+
+
+def table_of(header="", **columns):
+    """A table with these columns."""
+    rows = ["\t".join(columns), *("\t".join(f"{cell:.12g}" for cell in row) for row in zip(*columns.values()))]
+    return Table.of(header + "\n".join(rows))
+
+
+class Attractors(unittest.TestCase):
+    def test_rows(self):
+        """Two motions at one speed: both points of the first, three of the second, which does not close. Would catch the
+        points of another motion or speed."""
+        motions = table_of(f=[20, 20], **{name: [k, k + 0.5] for k, name in enumerate(attractors.OF_MOTION)} | {"motion": [1, 2]})
+        section = table_of(f=[20] * 7 + [21], motion=[1, 1, 2, 2, 2, 2, 2, 1], **{name: range(8) for name in attractors.OF_POINT})
+        rows = list(attractors.rows_of(motions, section, 3))
+        self.assertEqual([(row[1], row[-5], row[-4]) for row in rows], [(1, 1, 0), (1, 2, 1), (2, 1, 2), (2, 2, 3), (2, 3, 4)])
+        self.assertEqual({len(row) + 1 for row in rows}, {len(attractors.COLUMNS)})
+        self.assertEqual([row[2] for row in rows], [1, 1, 1.5, 1.5, 1.5])
+
+
+class Validity(unittest.TestCase):
+    def motion(self, size, turns=1, shift=0.0, header=""):
+        """A circle, whose centre is shifted, and a force of one harmonic."""
+        t = 2 * np.pi * np.arange(8 * turns) / 8
+        x, y = size * np.cos(t) + shift, size * np.sin(t)
+        return table_of(header, x_s=x, y_s=y, x_r=x, y_r=y, F_x=2 * x, F_y=3 * y)
+
+    def test_row(self):
+        """The nearer of two motions, one over two turns and shifted, which the rms error does not see. Would catch an error over
+        the solution's size or along the first turn alone."""
+        solution = self.motion(1.0, header="# method: aft, m = 6, N = 50\n# stability: unstable; 3\n# error: 0.1 of it, 0.2 rms\n")
+        known = [(1, self.motion(2.0)), (2, self.motion(1.25, 2, 0.5))]
+        row = validity.row_of(solution, known, True)
+        np.testing.assert_allclose(row, [6, 1, 0.2, 0.2, 0, 0, 0.2, 1, 0.75 / 1.75], atol=0.02)
+        self.assertEqual(validity.row_of(solution, known[:1], False)[4:8], [1, 0, -1, 1])
+        self.assertEqual(validity.row_of(solution, known[1:], False)[7], 0)
+        nothing = validity.row_of(None, known, True)
+        self.assertEqual(nothing, [0, 0, -1, -1, 0, -1, -1, 1, -1])
+        self.assertEqual({len(nothing), len(row)}, {len(validity.COLUMNS) - 3})
+
+    def test_kept(self):
+        """Two speeds of set 1 anew, with permanent contact and one motion. Would catch cells in another order, and rows that
+        depend on the speeds around them."""
+        kept = Table("data/reference/validity.tsv").where("set", 1)
+        scene = Path("data/scenes/validity.toml").read_text(encoding="utf-8")
+        for old, new in [(', "set2"', ""), ("from = 1.0, to = 60.0", "from = 45.0, to = 45.5"), ("random_starts = 4", "random_starts = 0")]:
+            self.assertIn(old, scene)
+            scene = scene.replace(old, new)
+        with tempfile.TemporaryDirectory() as folder:
+            file = Path(folder, "validity.toml")
+            file.write_text(scene, encoding="utf-8")
+            table = Table.of(subprocess.run([sys.executable, "studies/validity.py", file], capture_output=True, check=True,
+                                            text=True).stdout)
+        kept = kept.rows((kept["f"] >= 45) & (kept["f"] <= 45.5))
+        self.assertEqual(list(table.columns), list(kept.columns))
+        for name in kept.columns:
+            np.testing.assert_allclose(table[name], kept[name], rtol=1e-4, err_msg=name)
 
 
 class Verdicts(unittest.TestCase):
