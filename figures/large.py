@@ -6,12 +6,13 @@ import matplotlib.pyplot as plt
 import numpy as np
 from tables import run
 
-COSTS = (("branch_s", "branch, 1-100 Hz", "o"), ("solution_s", "solution, 20 harmonics", "s"),
+COSTS = (("reduction_s", "reading, reduction, fits: once", "s"), ("branch_200", "then a branch of 200 points", "o"),
          ("verdict_s", "solution to 0.1 %, verdict", "^"))
 
 
 def draw(table):
     figure, (cost, memory, error) = plt.subplots(1, 3, figsize=(11, 4), layout="constrained")
+    table.columns["branch_200"] = 200 * table["branch_s"] / table["points"]
     beams, bricks, paper = (table.where("kind", kind) for kind in ("beam", "brick", "paper"))
     for k, (name, label, marker) in enumerate(COSTS):
         cost.plot(beams["n"], beams[name], marker + "-", ms=5, lw=1, color=f"C{k}", label=label)

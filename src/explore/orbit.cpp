@@ -195,9 +195,10 @@ Computed computed(const Parameters& parameters, const MotionRequest& request,
   checked_samples(request.harmonics.value_or(usual_harmonics), request.samples);
   if (request.tolerance && request.samples && !request.harmonics)
     throw BadInput("--samples: chosen with m for --tolerance; give --harmonics too");
-  if (parameters.large && !is_periodic(request.method) && request.method != "exponential")
+  if (parameters.large &&
+      std::ranges::find(time_methods(), request.method) != time_methods().end())
     throw BadInput("--method " + request.method +
-                   ": bodies given by matrices take aft, shooting, auto or exponential");
+                   ": bodies given by matrices take aft, shooting, auto or gauss");
   describe(table, parameters);
   table.note(format("frequency: %.15g Hz", request.frequency));
   Computed at{.budget = budget_of(request, 3, parameters)};

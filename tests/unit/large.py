@@ -220,8 +220,8 @@ class Large(Case):
             with self.subTest(new=new):
                 self.assertIn(old, good)
                 self.refused(words, "orbit", self.file("bad.toml", good.replace(old, new)), *run[2:])
-        self.refused("exponential", *run, "--method", "rk4")
-        self.refused("exponential", "orbit", self.machine, *run[2:], "--method", "exponential")
+        self.refused("gauss", *run, "--method", "rk4")
+        self.refused("gauss", "orbit", self.machine, *run[2:], "--method", "gauss")
         self.refused("matrices", "check", run[1], "--from", 1, "--to", 2)
 
     def shaft(self, elements, bearings, spring, name="shaft"):
@@ -299,7 +299,7 @@ radial_clearance_m = {b["clearance"]}
         own = self.file("shaft.toml", text)
         speed = ["--frequency", 60, "--points", 100]
         orbit = self.table("orbit", own, *speed, "--harmonics", 20)
-        settled = self.table("orbit", own, *speed, "--method", "exponential", "--longest", 1)
+        settled = self.table("orbit", own, *speed, "--method", "gauss", "--longest", 1)
         for name in ["x_s", "y_r", "F_y", "F_y_2", "x_r_2", "y_r_out"]:
             self.assertLess(rms(orbit[name], settled[name]), 0.03, name)
         contact = self.table("contact", own, *speed, "--harmonics", 20)
@@ -312,7 +312,7 @@ radial_clearance_m = {b["clearance"]}
         self.assertEqual(lines["name"][0], "1X")
         other = self.file("other.toml", text.replace("cage_speed_ratio = 0.3\n", "cage_speed_ratio = 0.4\n"))
         self.refused("more than two frequencies", "orbit", other, *speed)
-        self.lines("orbit", other, *speed, "--method", "exponential", "--longest", 0.2)
+        self.lines("orbit", other, *speed, "--method", "gauss", "--longest", 0.2)
 
     def test_one_bearing_against_integration(self):
         """A wrong G, phase, output or cage angle would show, and a truncation that is not seen at the bearing."""
