@@ -33,7 +33,7 @@ def draw(table):
     reduced = beams.rows(beams["reduction_error"] > 0)
     error.plot(reduced["n"], reduced["reduction_error"], "+", ms=8, color="C1")
     error.plot(bricks["n"], bricks["reduction_error"], "+", ms=8, color="C1")
-    error.annotate("solution against integration", (4, 1.7 * error.get_lines()[0].get_ydata().max()), color="C0")
+    error.annotate("solution against integration", (4, 3 * error.get_lines()[0].get_ydata().max()), color="C0")
     error.annotate("receptances by the reduction", (4, 0.2 * reduced["reduction_error"].min()), color="C1")
     error.set(ylabel="relative error", ylim=(1e-12, 1))
     for letter, axes in zip("abc", (cost, memory, error)):
@@ -42,7 +42,7 @@ def draw(table):
         axes.set_xticks(10.0 ** np.arange(1, 6))
         axes.grid(color="0.9", lw=0.6)
     cost.legend(frameon=False, fontsize=8, loc="upper left")
-    cost.set_ylim(3e-3, 3e3)
+    cost.set_ylim(1e-3, 3e3)
     return figure
 
 

@@ -255,7 +255,7 @@ std::function<void()> add_map_options(CLI::App& command, MapRequest& request)
   for (const Column& one : map_quantities())
     known +=
         (known.empty() ? "" : "; ") + one.name + " [" + one.unit + "] " + one.meaning;
-  std::string methods = "aft (harmonic balance)";
+  std::string methods = "aft (harmonic balance), gauss (of bodies given by matrices)";
   for (const std::string& name : time_methods()) methods += ", " + name;
   auto aft = add_balance_options(command, request, "by --tolerance");
   command.get_option("--budget")
@@ -291,7 +291,7 @@ std::function<void()> add_map_options(CLI::App& command, MapRequest& request)
       "table of the same map that was interrupted: its whole lines are taken over");
   return [=, &request] {
     const std::string& method = request.method;
-    require_method(method, {"aft"});
+    require_method(method, {"aft", "gauss"});
     for (const CLI::Option* option : aft)
       refuse(option, method == "aft", "for --method aft", method);
     refuse(step, method == "rk4", "for --method rk4", method);
