@@ -3,9 +3,11 @@ integration of all degrees of freedom written here.
 
 Usage: tests/unit/large.py   (from the project's root)
 """
+import importlib.util
 import subprocess
 import sys
 import tomllib
+import types
 import unittest
 from pathlib import Path
 
@@ -177,6 +179,23 @@ class Large(Case):
         self.assertIn("symmetric\n2 2 3\n1 1 900000.0\n2 1 0.\n", (self.folder / "rotor/K.mtx").read_text(encoding="utf-8"))
         after = self.table("orbit", own, "--frequency", 45, "--points", 4)
         np.testing.assert_allclose(after["x_r"], before["x_r"], rtol=1e-9)
+
+    def test_matrices_of_ross(self):
+        """Methods as those of ROSS's Rotor. A transposed G would turn the whirl round; it is the only matrix that shows it."""
+        spec = importlib.util.spec_from_file_location("from_ross", "peers/from_ross.py")
+        script = importlib.util.module_from_spec(spec)
+        spec.loader.exec_module(script)
+        own = self.file("own.toml", self.paper_machine("set1"))
+        k, m, g = np.diag([9e5, 8e5]), 40 * np.eye(2), np.array([[0, 7.0], [-7, 0]])
+        rotor = types.SimpleNamespace(M=lambda _: m, K=lambda _: k, C=lambda _: 0 * m, G=lambda: g)
+        tables = []
+        for write in [lambda: self.folder_of("rotor", m, 0 * m, g, k), lambda: script.write(rotor, self.folder / "rotor")]:
+            write()
+            tables.append(self.table("orbit", own, "--frequency", 45, "--points", 4, "--no-stability"))
+        np.testing.assert_allclose(tables[1]["x_r"], tables[0]["x_r"], rtol=1e-12)
+        self.folder_of("rotor", m, 0 * m, -g, k)
+        turned = self.table("orbit", own, "--frequency", 45, "--points", 4, "--no-stability")
+        self.assertGreater(abs(turned["x_r"] - tables[0]["x_r"]).max(), 1e-6 * abs(turned["x_r"]).max())
 
     def test_refused(self):
         good = self.paper_machine("set1")
