@@ -3,7 +3,7 @@
 #include <cstdlib>
 
 #include "balance/large_problem.hpp"
-#include "integration/exponential.hpp"
+#include "integration/gauss.hpp"
 #include "io/errors.hpp"
 #include "io/toml_file.hpp"
 
@@ -21,12 +21,12 @@ Eigen::MatrixXd shown_series(const Parameters&, const PeriodicMotion&) { abort()
 Eigen::MatrixXd coordinate_series(const Parameters&, const PeriodicMotion&) { abort(); }
 State large_static_start(const Parameters&) { abort(); }
 Eigen::VectorXd large_state_scales(const Parameters&) { abort(); }
-ExponentialStepper::ExponentialStepper(const Parameters&, double, int, double,
-                                       OperationBudget)
+GaussStepper::GaussStepper(const Parameters&, double, int, double,
+                           OperationBudget)
 {
   abort();
 }
-void ExponentialStepper::advance(long, State&) { abort(); }
-Eigen::MatrixXd ExponentialStepper::derivative(long, const State&) { abort(); }
+void GaussStepper::advance(long, State&) { abort(); }
+Eigen::MatrixXd GaussStepper::derivative(long, const State&) { abort(); }
 
 }  // namespace rotor_stator

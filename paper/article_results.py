@@ -448,10 +448,12 @@ def large(add):
     for key, value in (("full", table["n"][full].max()), ("reduced_from", table["n"][~full].min()), ("error", table["error"].max()),
                        ("reduction", table["reduction_error"].max())):
         add(f"large.{key}", value, "-", "most degrees of freedom integrated in full, fewest reduced, largest errors")
+    a_point = table["branch_s"] / table["points"]
+    add("large.branch_ratio", a_point.max() / a_point[0], "-", "CPU time of a point of the branch over that of the paper's machine, largest")
     for kind in ("beam", "brick"):
         rows = table.where("kind", kind)
         add(f"large.{kind}_n", rows["n"][-1], "-", "degrees of freedom of the largest body")
-        add(f"large.{kind}_s", rows["branch_s"][-1], "s", "CPU time of its response curve")
+        add(f"large.{kind}_s", rows["reduction_s"][-1], "s", "CPU time of its reading, reduction and fits")
     asked(add, "shaft", "data/rotors/overhung.toml", 30, size=r"bodies: (\d+) degrees", m=r"m = (\d+),", error=r"# error: (\S+) of",
           multiplier=r"multiplier (\S+) \+-", stability=r"# stability: (\w+)", distance=r"# distance: (\S+) of")
 

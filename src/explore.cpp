@@ -126,8 +126,8 @@ void refuse(const CLI::Option* option, bool used, const char* where,
 std::function<void()> add_motion_options(CLI::App& command, MotionRequest& request)
 {
   std::string methods =
-      "aft (harmonic balance), shooting, auto (the cheaper of both), exponential (of "
-      "bodies given by matrices)";
+      "aft (harmonic balance), shooting, auto (the cheaper of both), gauss "
+      "(of bodies given by matrices)";
   for (const std::string& name : time_methods()) methods += ", " + name;
   const bool is_spectrum = command.get_name() == "spectrum";
   const auto aft = add_balance_options(
@@ -164,7 +164,7 @@ std::function<void()> add_motion_options(CLI::App& command, MotionRequest& reque
   return [=, &request] {
     const std::string& method = request.method;
     auto others = periodic_methods;
-    others.emplace_back("exponential");
+    others.emplace_back("gauss");
     require_method(method, others);
     const bool finds_periodic = is_periodic(method);
     for (const CLI::Option* option : aft)
@@ -220,6 +220,7 @@ std::function<void()> add_response_options(CLI::App& command, ResponseRequest& r
   aft.push_back(restart);
   CLI::Option* isolated = add_number(command, "--isolated", request.isolated, 0, 10000,
                                      "look for isolated branches at so many speeds");
+  aft.push_back(command.add_flag("--times", request.times, "CPU time on stderr"));
   add_number(command, "--seed", request.seed, 0, largest_seed,
              "of the random starts of --isolated")
       ->needs(isolated);
@@ -256,7 +257,7 @@ std::function<void()> add_map_options(CLI::App& command, MapRequest& request)
   for (const Column& one : map_quantities())
     known +=
         (known.empty() ? "" : "; ") + one.name + " [" + one.unit + "] " + one.meaning;
-  std::string methods = "aft (harmonic balance)";
+  std::string methods = "aft (harmonic balance), gauss (of bodies given by matrices)";
   for (const std::string& name : time_methods()) methods += ", " + name;
   auto aft = add_balance_options(command, request, "by --tolerance");
   command.get_option("--budget")
@@ -292,7 +293,7 @@ std::function<void()> add_map_options(CLI::App& command, MapRequest& request)
       "table of the same map that was interrupted: its whole lines are taken over");
   return [=, &request] {
     const std::string& method = request.method;
-    require_method(method, {"aft"});
+    require_method(method, {"aft", "gauss"});
     for (const CLI::Option* option : aft)
       refuse(option, method == "aft", "for --method aft", method);
     refuse(step, method == "rk4", "for --method rk4", method);

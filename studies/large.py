@@ -1,13 +1,15 @@
 """How the cost of harmonic balance grows with the degrees of freedom (claim C12).
 
 An overhung shaft in one bearing with clearance is divided into more and more beam elements; a shaft of brick elements
-and the paper's machine stand beside it. Each row is a run of `explore` in a process of its own: CPU time of one thread,
-reading and reduction included, and the peak of its memory. The judge integrates all degrees of freedom where there are
-few, the reduced ones above, until the motion repeats itself.
+and the paper's machine stand beside it. Each cell is a run of `explore` in a process of its own: CPU time of one thread
+and the peak of its memory. A branch is timed without reading, reduction and the fits of the receptances, which come once
+and have their own column. The judge integrates all degrees of freedom, of the largest bodies the reduced ones, until the
+motion repeats itself.
 
 Usage: studies/large.py data/scenes/large.toml > large.tsv   (from the project's root, alone on the machine)
 """
 import os
+import re
 import statistics
 import subprocess
 import sys
@@ -25,9 +27,10 @@ COLUMNS = [
     ("kind", "-", "paper: data set 1; beam: Timoshenko elements; brick: eight-node elements"),
     ("n", "-", "degrees of freedom of rotor and stator"), ("r", "-", "after the reduction"),
     ("reduction_error", "-", "of the receptances at random points, relative; 0 without reduction"),
-    ("solution_s", "s", "CPU of one solution with 20 harmonics, no verdict; all CPU times with reading and reduction"),
-    ("branch_s", "s", "CPU of the branch with 6 harmonics"), ("points", "-", "of the branch"),
-    ("verdict_s", "s", "CPU of a solution to the tolerance, with its verdict"),
+    ("reduction_s", "s", "CPU of what a branch needs once: reading, reduction, fits of the receptances"),
+    ("branch_s", "s", "CPU of the branch with 6 harmonics, after that"), ("points", "-", "of the branch"),
+    ("solution_s", "s", "CPU of one solution with 20 harmonics, no verdict; with reading and reduction"),
+    ("verdict_s", "s", "CPU of a solution to the tolerance, with its verdict; with reading and reduction"),
     ("integration_s", "s", "CPU of integration from rest until the motion repeats itself; -1: none"),
     ("integrated", "-", "degrees of freedom that are integrated"),
     ("memory", "byte", "peak of the branch's process; about 35 MB are those of the Python that starts it"),
@@ -35,23 +38,24 @@ COLUMNS = [
 
 
 def run(*words):
-    """The table, CPU seconds and the peak of memory; ends the program where explore does not succeed."""
-    with tempfile.TemporaryFile("w+", encoding="utf-8") as out:
-        child = subprocess.Popen(["build/explore", *map(str, words)], stdout=out)
+    """The table, CPU seconds, the peak of memory and the log; ends the program where explore does not succeed."""
+    with tempfile.TemporaryFile("w+", encoding="utf-8") as out, tempfile.TemporaryFile("w+", encoding="utf-8") as log:
+        child = subprocess.Popen(["build/explore", *map(str, words)], stdout=out, stderr=log)
         _, status, usage = os.wait4(child.pid, 0)
         child.returncode = os.waitstatus_to_exitcode(status)
         if child.returncode:
             sys.exit(f"explore {' '.join(map(str, words))}: status {child.returncode}")
         out.seek(0)
-        return out.read(), usage.ru_utime + usage.ru_stime, 1024 * usage.ru_maxrss
+        log.seek(0)
+        return out.read(), usage.ru_utime + usage.ru_stime, 1024 * usage.ru_maxrss, log.read()
 
 
 def median_run(repetitions, *words):
-    """The same, its CPU time the median; what takes long is run once."""
+    """The table, the median of the CPU times, the memory and all logs; what takes long is run once."""
     runs = [run(*words)]
     while len(runs) < repetitions and runs[0][1] < 20:
         runs.append(run(*words))
-    return runs[0][0], statistics.median(cpu for _, cpu, _ in runs), runs[0][2]
+    return runs[0][0], statistics.median(one[1] for one in runs), runs[0][2], [one[3] for one in runs]
 
 
 def machine(title, folder, joint, output, vertical, whole):
@@ -155,18 +159,20 @@ def row(scene, kind, file, whole, degrees):
     """The cells of one machine; `whole`: the same with all degrees of freedom kept, or none."""
     speed = ["--frequency", scene["frequency_hz"]]
     solution = median_run(scene["repetitions"], "orbit", file, *speed, "--harmonics", 20, "--no-stability")
-    branch = median_run(scene["repetitions"], "response", file, "--from", scene["from_hz"], "--to", scene["to_hz"])
+    branch = median_run(scene["repetitions"], "response", file, "--from", scene["from_hz"], "--to", scene["to_hz"], "--times")
+    once, alone = (statistics.median(float(seconds) for seconds in part)
+                   for part in zip(*(re.search(r"cpu: (\S+) s .*; (\S+) s", log).groups() for log in branch[3])))
     judged = median_run(scene["repetitions"], "orbit", file, *speed, "--tolerance", scene["tolerance"])
     header, kept, error = judged[0], degrees, 0
     if "reduced to" in header:
         kept = 2 + int(header.split("reduced to ")[1].split(",")[0])
         error = float(branch[0].split("receptances ")[1].split()[0])
-    method = ["--method", "rk8pd"] if kind == "paper" else ["--method", "exponential"]
+    method = ["--method", "rk8pd"] if kind == "paper" else ["--method", "gauss", "--local-error", scene["local_error"]]
     settled = run("orbit", whole or file, *speed, *method, "--longest", 5)
     found, exact = Table.of(header), Table.of(settled[0])
     off = displacement_errors(found, exact)[0]
     points = len(Table.of(branch[0]))
-    return [kind, degrees, kept, f"{error:.2g}", *(f"{cpu:.3g}" for cpu in (solution[1], branch[1])), points,
+    return [kind, degrees, kept, f"{error:.2g}", f"{once:.3g}", f"{alone:.3g}", points, f"{solution[1]:.3g}",
             f"{judged[1]:.3g}", f"{settled[1]:.3g}", degrees if whole or kept == degrees else kept, branch[2], f"{off:.3g}"], branch[0]
 
 

@@ -135,7 +135,7 @@ void require_one_passage(const Parameters& parameters)
       throw BadInput(
           format("%s: bearing: n*omega_cage/omega is %.9g at the first and %.9g at "
                  "another one: more than two frequencies, which only --method "
-                 "exponential follows",
+                 "gauss follows",
                  parameters.file.c_str(), first, passages_per_turn(bearing)));
 }
 
@@ -167,6 +167,12 @@ void put_large_bodies(const Parameters& parameters, const TorusLine& line,
     }
   };
   problem.operations *= parameters.large->bearings();
+}
+
+void fit_receptances(const Parameters& parameters, double omega, int harmonics)
+{
+  for (int h = 0; h <= harmonics; ++h)
+    answers_of(parameters, omega, {static_cast<double>(h), 0});
 }
 
 Eigen::MatrixXd large_start_samples(const Parameters& parameters, double omega,

@@ -20,6 +20,9 @@ namespace rotor_stator {
 void put_large_bodies(const Parameters& parameters, const TorusLine& line,
                       Problem& problem);
 
+/** Makes the fits of the harmonics 0 … m, for a branch from `omega` on; the first solution would make them otherwise. */
+void fit_receptances(const Parameters& parameters, double omega, int harmonics);
+
 /** `quasi_static_start` for them. */
 Eigen::MatrixXd large_start_samples(const Parameters& parameters, double omega,
                                     int samples);

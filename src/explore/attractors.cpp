@@ -62,9 +62,8 @@ AttractorSettings settings_of(const Parameters& machine)
 
 Task task_of(const AttractorsRequest& request)
 {
-  const Parameters asked = read_parameters(request.parameter_file);
-  require_two_masses(asked, "attractors");
   require_range(request.from, request.to);
+  const Parameters asked = machine_of(request, request.from, request.to);
   const bool is_still = !turns_visibly(asked);  // only the passing balls move it
   const Parameters machine =
       is_still && !has_rotation_period(asked.bearing) ? over_passage(asked) : asked;

@@ -164,7 +164,17 @@ struct Task {
         changes.emplace_back(keys[k], values[k]);
       else if (frequency = values[k]; !(frequency > 0))
         throw BadInput(format("%s: must be > 0, got %g", speed, frequency));
-    return {read_parameters(file.with(changes)), frequency};
+    return {read(changes, frequency), frequency};
+  }
+
+  /** Large bodies are reduced for the speed of the point or those of --sweep. */
+  Parameters read(const std::vector<std::pair<std::string, double>>& changes,
+                  double frequency) const
+  {
+    ModelRange range{.harmonics = std::max(64, harmonics)};
+    if (frequency > 0) range.from = range.to = frequency;
+    if (!sweep.empty()) range.from = sweep.front(), range.to = sweep.back();
+    return read_parameters(file.with(changes), range);
   }
 
   bool has_speed() const { return std::ranges::find(keys, speed) != keys.end(); }
@@ -474,6 +484,7 @@ enum Source { solution, motion_of_method, rest, settled, sweeps };
 struct Quantity : Column {
   Source source;
   Cell (*value)(Point& point);
+  bool of_two_masses = false;
 };
 
 template <auto measure>
@@ -537,15 +548,15 @@ const std::vector<Quantity> quantities{
     {"evaluations", "-", "of the force, for the verdict of stability", solution,
      [](auto& p) -> Cell { return p.verdict().evaluations; }},
     {"series", "-", "largest modulus of the multipliers along the m harmonics", solution,
-     [](auto& p) -> Cell { return p.series().largest(); }},
+     [](auto& p) -> Cell { return p.series().largest(); }, true},
     {"series_uncertainty", "-", "of series", solution,
-     [](auto& p) -> Cell { return p.series().uncertainty(); }},
+     [](auto& p) -> Cell { return p.series().uncertainty(); }, true},
     {"series_stability", "word", "what they say: stable, unstable, undecided", solution,
-     [](auto& p) -> Cell { return std::string(p.series().verdict()); }},
+     [](auto& p) -> Cell { return std::string(p.series().verdict()); }, true},
     {"liouville", "-", "relative error of the product of the multipliers of series",
-     solution, [](auto& p) -> Cell { return p.series().liouville; }},
+     solution, [](auto& p) -> Cell { return p.series().liouville; }, true},
     {"hill", "-", "largest modulus by Hill's method, with m harmonics but at most 32",
-     solution, [](auto& p) -> Cell { return p.hill(); }},
+     solution, [](auto& p) -> Cell { return p.hill(); }, true},
     {"lyapunov", "1/base period", "largest Lyapunov exponent of the motion from rest",
      rest, [](auto& p) -> Cell { return p.settled().lyapunov; }},
     {"loaded", "-", "share of the time of the motion from rest with a loaded ball", rest,
@@ -634,6 +645,11 @@ std::vector<Quantity> chosen_quantities(const Task& task)
   if (const std::string timed = of(settled);
       task.request.method != "rk4" && !timed.empty())
     throw BadInput("--method " + task.request.method + ": " + timed + " is of rk4");
+  const Parameters machine = task.machine(task.grid.values(task.grid.first, 0)).first;
+  require_method_of(machine, task.request.method);
+  for (const Quantity& one : chosen)
+    if (one.source == settled || one.of_two_masses)
+      require_two_masses(machine, ("--quantity " + one.name).c_str());
   return chosen;
 }
 
@@ -700,8 +716,7 @@ std::string header_of(const Task& task, const std::vector<Quantity>& chosen)
   columns.push_back(
       {"status", "word", "ok, or why a quantity is missing, which is then -"});
   Table table("Map of a machine", columns);
-  const Parameters base = read_parameters(task.file.with({}));
-  require_two_masses(base, "map");
+  const Parameters base = task.read({}, request.frequency.value_or(0));
   describe(table, base);
   for (const auto& [name, text] : {std::pair{"x", request.x}, {"y", request.y}})
     if (!text.empty()) table.note(format("%s: ", name) + text);

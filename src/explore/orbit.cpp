@@ -26,6 +26,17 @@ void require_range(double from, double to)
   if (from >= to) throw BadInput(format("--from %g: must be below --to %g", from, to));
 }
 
+void require_method_of(const Parameters& parameters, const std::string& method)
+{
+  const bool is_of_masses =
+      std::ranges::find(time_methods(), method) != time_methods().end();
+  if (parameters.large && is_of_masses)
+    throw BadInput("--method " + method +
+                   ": bodies given by matrices take aft, shooting, auto or gauss");
+  if (!parameters.large && method == "gauss")
+    throw BadInput("--method gauss: is for bodies given by matrices");
+}
+
 Parameters machine_of(const Request& request, double from, double to)
 {
   return read_parameters(
@@ -195,9 +206,7 @@ Computed computed(const Parameters& parameters, const MotionRequest& request,
   checked_samples(request.harmonics.value_or(usual_harmonics), request.samples);
   if (request.tolerance && request.samples && !request.harmonics)
     throw BadInput("--samples: chosen with m for --tolerance; give --harmonics too");
-  if (parameters.large && !is_periodic(request.method) && request.method != "exponential")
-    throw BadInput("--method " + request.method +
-                   ": bodies given by matrices take aft, shooting, auto or exponential");
+  require_method_of(parameters, request.method);
   describe(table, parameters);
   table.note(format("frequency: %.15g Hz", request.frequency));
   Computed at{.budget = budget_of(request, 3, parameters)};

@@ -60,6 +60,9 @@ Exploration explore_contact(const MotionRequest& request);
 /** The machine, right at these speeds [Hz] and the request's harmonics. Throws BadInput. */
 Parameters machine_of(const Request& request, double from, double to);
 
+/** Throws BadInput for a time method that does not integrate such bodies. */
+void require_method_of(const Parameters& parameters, const std::string& method);
+
 /** A motion and its lines; those of a time method are left out. */
 struct FoundMotion {
   motion::Motion motion;

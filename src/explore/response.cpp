@@ -2,9 +2,11 @@
 
 #include <algorithm>
 #include <cmath>
+#include <ctime>
 #include <limits>
 
 #include "balance/bearing_problem.hpp"
+#include "balance/large_problem.hpp"
 #include "continuation/arc_length.hpp"
 #include "explore/branch_file.hpp"
 #include "explore/spectrum.hpp"
@@ -589,6 +591,9 @@ Exploration explore_response(const ResponseRequest& request)
 {
   Task task = task_of(request);
   if (request.method == "shooting") return shooting_response(request, task);
+  if (task.parameters.large && !task.has_two_frequencies)
+    fit_receptances(task.parameters, task.range().from, task.harmonics);
+  const std::clock_t read = std::clock();
   PeriodicMotion found;
   TorusLine line{};
   if (task.has_two_frequencies) {
@@ -659,6 +664,10 @@ Exploration explore_response(const ResponseRequest& request)
                                           task.upwards, all));
   if (request.waterfall) write_file(*request.waterfall, lines.text());
   conclude(table, task.machine, added.touches, task.budget);
+  if (request.times)
+    std::fprintf(stderr, "cpu: %.5f s machine, its reduction and fits; %.5f s branch\n",
+                 static_cast<double>(read) / CLOCKS_PER_SEC,
+                 static_cast<double>(std::clock() - read) / CLOCKS_PER_SEC);
   return {std::move(table), unfinished(task, main, beside.missing, added.missing)};
 }
 

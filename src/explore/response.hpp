@@ -25,6 +25,7 @@ struct ResponseRequest : Request {
   std::string harmonics_of = {};         ///< a displacement, or empty
   std::optional<std::string> waterfall;  ///< file
   bool stability = false;  ///< multipliers at each point, and the bifurcations
+  bool times = false;      ///< CPU seconds on stderr
   /** Sees the points of the main branch while it is followed: speed [Hz], half peak-to-peak [m]. */
   std::function<void(double f, const Eigen::VectorXd& amplitude)> watch = {};
 };

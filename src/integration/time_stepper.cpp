@@ -6,7 +6,7 @@
 #include <map>
 #include <numbers>
 
-#include "integration/exponential.hpp"
+#include "integration/gauss.hpp"
 #include "integration/rk4.hpp"
 #include "io/errors.hpp"
 
@@ -217,7 +217,7 @@ TimeStepper make_stepper(const Parameters& parameters, double omega,
   const OperationBudget budget =
       settings.budget.bounded() ? settings.budget : OperationBudget(1e9 * price);
   if (parameters.large)
-    return wrap(std::make_shared<ExponentialStepper>(
+    return wrap(std::make_shared<GaussStepper>(
         parameters, omega, settings.intervals_per_period,
         settings.method == "rk4" ? 1e-8 : settings.tolerance, budget));
   if (settings.method != "rk4")

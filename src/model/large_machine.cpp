@@ -497,7 +497,7 @@ struct AtRest {
 AtRest at_rest(const Parameters& parameters, const LargeMachine& machine, int angles)
 {
   const Eigen::MatrixXd& d = machine.joints;
-  const Eigen::LDLT<Eigen::MatrixXd> held(machine.held_stiffness());
+  const Eigen::SimplicialLDLT<SparseMatrix> held(machine.held_stiffness().sparseView());
   const Eigen::VectorXd alone = held.solve(machine.load);
   const Eigen::MatrixXd h = d.transpose() * held.solve(d);
   const Eigen::VectorXd c = d.transpose() * alone;

@@ -62,20 +62,16 @@ void RationalFit::sample(const Function& f, double x)
   values_.conservativeResize(value.size(), k + 1);
   points_[k] = x;
   values_.col(k) = value;
-}
-
-/** Of the components, none below a tenth of the largest one. */
-Eigen::ArrayXd RationalFit::sizes() const
-{
-  const Eigen::ArrayXd largest = values_.cwiseAbs().rowwise().maxCoeff();
-  return largest.max(0.1 * largest.maxCoeff()).max(1e-300);
+  if (k == 0) largest_.setZero(value.size());
+  largest_ = largest_.cwiseMax(value.cwiseAbs());
+  sizes_ = largest_.array().max(0.1 * largest_.maxCoeff()).max(1e-300);
 }
 
 /** The largest error of a component at a sample, over its size. */
 double RationalFit::miss(Eigen::Index sample) const
 {
   const Eigen::VectorXcd off = at(points_[sample]).value - values_.col(sample);
-  return (off.array().abs() / sizes()).maxCoeff();
+  return std::sqrt((off.array().abs2() / sizes_.square()).maxCoeff());
 }
 
 void RationalFit::fit(double tolerance)
@@ -103,7 +99,7 @@ void RationalFit::fit(double tolerance)
 void RationalFit::find_weights()
 {
   const Eigen::MatrixXcd mix =
-      combinations(values_.rows()) * sizes().inverse().matrix().asDiagonal();
+      combinations(values_.rows()) * sizes_.inverse().matrix().asDiagonal();
   const Eigen::MatrixXcd mixed = mix * values_, held = mix * supported_;
   const Eigen::Index functions = mixed.rows(), columns = support_.size();
   weights_.setOnes(columns);

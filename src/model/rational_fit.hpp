@@ -40,7 +40,6 @@ private:
   void sample(const Function& f, double x);
   void fit(double tolerance);
   void find_weights();
-  Eigen::ArrayXd sizes() const;
   double miss(Eigen::Index sample) const;
 
   double from_, to_;
@@ -48,6 +47,8 @@ private:
   Eigen::VectorXd points_, support_;
   Eigen::MatrixXcd values_, supported_;  ///< a column for each point
   Eigen::VectorXcd weights_;
+  Eigen::VectorXd largest_;  ///< of each component
+  Eigen::ArrayXd sizes_;     ///< the same, none below a tenth of the largest one
 };
 
 /** Fits that are made when they are first needed. */

@@ -273,14 +273,15 @@ State random_state(const Parameters& machine, double omega, std::uint64_t seed)
   const double amplitude = machine.unbalance * omega * omega / joined;
   const Eigen::VectorXd scales = state_scales(machine);
   Eigen::VectorXd y = vector_of(static_start(machine));
+  const Eigen::Index speeds = y.size() / 2;
   for (int i = 0; i < 2; ++i) {
     const double position = random() * amplitude, speed = random() * amplitude * omega;
     for (int body : {0, 2}) {
       y[body + i] += position;
-      y[4 + body + i] += speed;
+      y[speeds + body + i] += speed;
     }
     y[2 + i] += random() * scales[2 + i];
-    y[6 + i] += random() * scales[6 + i];
+    y[speeds + 2 + i] += random() * scales[speeds + 2 + i];
   }
   return rotor_stator::state_of(y);
 }

@@ -3,8 +3,9 @@
 #include <gsl/gsl_errno.h>
 #include <algorithm>
 
-#include "integration/exponential.hpp"
+#include "integration/gauss.hpp"
 #include "integration/time_stepper.hpp"
+#include "io/errors.hpp"
 
 namespace rotor_stator {
 
@@ -41,15 +42,14 @@ int derivative(double t, const double y[], double dydt[], void* data)
 }
 
 /** The same of bodies given by matrices. Steps for the derivative need not be as small as those for the state. */
-PeriodMap exponential_period_map(const Parameters& parameters, double omega,
-                                 const State& start, double tolerance,
-                                 const OperationBudget& budget)
+PeriodMap large_period_map(const Parameters& parameters, double omega, const State& start,
+                           double tolerance, const OperationBudget& budget)
 {
   constexpr double coarser = 1e4;
-  ExponentialStepper state(parameters, omega, 1, tolerance, budget);
+  GaussStepper state(parameters, omega, 1, tolerance, budget);
   PeriodMap map{.end = start, .derivative = {}, .evaluations = 0};
   state.advance(0, map.end);
-  ExponentialStepper varied(parameters, omega, 1, coarser * tolerance, budget);
+  GaussStepper varied(parameters, omega, 1, coarser * tolerance, budget);
   map.derivative = varied.derivative(0, start);
   map.evaluations = state.evaluations() + varied.evaluations();
   return map;
@@ -76,7 +76,7 @@ PeriodMap period_map(const Parameters& parameters, double omega, const State& st
                      const OperationBudget& budget)
 {
   if (parameters.large)
-    return exponential_period_map(parameters, omega, start, tolerance, budget);
+    return large_period_map(parameters, omega, start, tolerance, budget);
   Variation variation{{parameters, omega},
                       DisturbanceRates(parameters),
                       {budget, with_variations * evaluation_price(parameters, method)}};

@@ -3,16 +3,18 @@ integration of all degrees of freedom written here.
 
 Usage: tests/unit/large.py   (from the project's root)
 """
+import importlib.util
 import subprocess
 import sys
 import tomllib
+import types
 import unittest
 from pathlib import Path
 
 import numpy as np
 
 sys.path.insert(0, str(Path(__file__).parents[1]))
-from support.explore import Case  # noqa: E402
+from support.explore import EXPLORE, Case  # noqa: E402
 
 NAMES = ["x_s", "y_s", "x_r", "y_r"]
 GRAVITY = 9.81
@@ -178,6 +180,23 @@ class Large(Case):
         after = self.table("orbit", own, "--frequency", 45, "--points", 4)
         np.testing.assert_allclose(after["x_r"], before["x_r"], rtol=1e-9)
 
+    def test_matrices_of_ross(self):
+        """Methods as those of ROSS's Rotor. A transposed G would turn the whirl round; it is the only matrix that shows it."""
+        spec = importlib.util.spec_from_file_location("from_ross", "peers/from_ross.py")
+        script = importlib.util.module_from_spec(spec)
+        spec.loader.exec_module(script)
+        own = self.file("own.toml", self.paper_machine("set1"))
+        k, m, g = np.diag([9e5, 8e5]), 40 * np.eye(2), np.array([[0, 7.0], [-7, 0]])
+        rotor = types.SimpleNamespace(M=lambda _: m, K=lambda _: k, C=lambda _: 0 * m, G=lambda: g)
+        tables = []
+        for write in [lambda: self.folder_of("rotor", m, 0 * m, g, k), lambda: script.write(rotor, self.folder / "rotor")]:
+            write()
+            tables.append(self.table("orbit", own, "--frequency", 45, "--points", 4, "--no-stability"))
+        np.testing.assert_allclose(tables[1]["x_r"], tables[0]["x_r"], rtol=1e-12)
+        self.folder_of("rotor", m, 0 * m, -g, k)
+        turned = self.table("orbit", own, "--frequency", 45, "--points", 4, "--no-stability")
+        self.assertGreater(abs(turned["x_r"] - tables[0]["x_r"]).max(), 1e-6 * abs(turned["x_r"]).max())
+
     def test_refused(self):
         good = self.paper_machine("set1")
         run = ["orbit", self.file("own.toml", good), "--frequency", 45, "--points", 4]
@@ -220,8 +239,8 @@ class Large(Case):
             with self.subTest(new=new):
                 self.assertIn(old, good)
                 self.refused(words, "orbit", self.file("bad.toml", good.replace(old, new)), *run[2:])
-        self.refused("exponential", *run, "--method", "rk4")
-        self.refused("exponential", "orbit", self.machine, *run[2:], "--method", "exponential")
+        self.refused("gauss", *run, "--method", "rk4")
+        self.refused("gauss", "orbit", self.machine, *run[2:], "--method", "gauss")
         self.refused("matrices", "check", run[1], "--from", 1, "--to", 2)
 
     def shaft(self, elements, bearings, spring, name="shaft"):
@@ -299,7 +318,7 @@ radial_clearance_m = {b["clearance"]}
         own = self.file("shaft.toml", text)
         speed = ["--frequency", 60, "--points", 100]
         orbit = self.table("orbit", own, *speed, "--harmonics", 20)
-        settled = self.table("orbit", own, *speed, "--method", "exponential", "--longest", 1)
+        settled = self.table("orbit", own, *speed, "--method", "gauss", "--longest", 1)
         for name in ["x_s", "y_r", "F_y", "F_y_2", "x_r_2", "y_r_out"]:
             self.assertLess(rms(orbit[name], settled[name]), 0.03, name)
         contact = self.table("contact", own, *speed, "--harmonics", 20)
@@ -308,11 +327,38 @@ radial_clearance_m = {b["clearance"]}
         branch = self.table("response", own, "--from", 60, "--to", 61, "--harmonics", 20)
         for name in NAMES:
             self.assertAlmostEqual(branch[f"amp_{name}"][0], np.ptp(orbit[name]) / 2, delta=1e-3 * np.ptp(orbit[name]))
+        logged = subprocess.run([EXPLORE, "response", own, "--from", "60", "--to", "61", "--times"],
+                                check=True, capture_output=True, encoding="utf-8").stderr
+        self.assertRegex(logged, r"^cpu: \d+\.\d+ s machine, its reduction and fits; \d+\.\d+ s branch\n$")
         lines = self.table("spectrum", own, "--frequency", 60, "--harmonics", 20)
         self.assertEqual(lines["name"][0], "1X")
         other = self.file("other.toml", text.replace("cage_speed_ratio = 0.3\n", "cage_speed_ratio = 0.4\n"))
         self.refused("more than two frequencies", "orbit", other, *speed)
-        self.lines("orbit", other, *speed, "--method", "exponential", "--longest", 0.2)
+        self.lines("orbit", other, *speed, "--method", "gauss", "--longest", 0.2)
+
+    def test_map_and_attractors(self):
+        """The machine of a point, its start from the point before and its verdict are those of orbit; a settled motion is
+        the same one, and its exponent the logarithm of the multiplier."""
+        bearing = {"balls": 8, "cage": 0.375, "phase": 0, "stiffness": 1e10, "clearance": 1e-5}
+        text = self.shaft(4, [(4, bearing)], 4e6)[0].replace("[[bearing]]", "[bearing]").replace("stator_dofs = [1, 2]\n", "")
+        text = text.replace("rotor_dofs = [17, 18]\n", "").replace("cage_phase_rad = 0\n", "")
+        own = self.file("shaft.toml", text.replace("output_dofs", "bearing_dofs = [17, 18]\noutput_dofs"))
+        found = self.table("map", own, "--x", "frequency=40:50:2", "--y", "bearing.radial_clearance_m=1e-5:1.2e-5:2",
+                           "--quantity", "amplitude,multiplier", "--harmonics", 20)
+        self.assertEqual(list(found["status"]), ["ok"] * 4)
+        wide = self.file("wide.toml", own.read_text(encoding="utf-8").replace("1e-05", "1.2e-05"))
+        for row, (machine, speed) in enumerate([(own, 40), (own, 50), (wide, 40), (wide, 50)]):
+            orbit = self.table("orbit", machine, "--frequency", speed, "--harmonics", 20)
+            self.assertAlmostEqual(np.ptp(orbit["x_r"]) / 2, found["amplitude"][row], delta=1e-3 * found["amplitude"][row])
+            multiplier = float(orbit.header.split("Floquet multiplier ")[1].split()[0])
+            self.assertAlmostEqual(multiplier, found["multiplier"][row], delta=1e-3)
+        settled = self.table("attractors", own, "--from", 40, "--to", 50, "--count", 2)
+        self.assertEqual(list(settled["period"]), [1, 1])
+        for row in [0, 1]:
+            self.assertAlmostEqual(settled["amp_x_r"][row], found["amplitude"][row], delta=0.03 * found["amplitude"][row])
+            self.assertAlmostEqual(settled["lyapunov"][row], np.log(found["multiplier"][row]), delta=2e-3)
+        self.refused("hill knows no bodies given by matrices", "map", own, "--x", "frequency=40:50:2", "--quantity", "hill")
+        self.refused("or gauss", "map", own, "--x", "frequency=40:50:2", "--quantity", "amplitude", "--method", "rk4")
 
     def test_one_bearing_against_integration(self):
         """A wrong G, phase, output or cage angle would show, and a truncation that is not seen at the bearing."""

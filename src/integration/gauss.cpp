@@ -1,0 +1,235 @@
+#include "integration/gauss.hpp"
+
+#include <Eigen/Eigenvalues>
+#include <Eigen/LU>
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <numbers>
+
+#include "io/errors.hpp"
+
+namespace rotor_stator {
+
+namespace {
+
+using Complex = std::complex<double>;
+
+/** A and c = A1 of the rule, whose b are both 1/2, with an eigenvalue λ of Aᵀ. S = [s, s̄] holds its eigenvectors,
+    t the first row of S⁻¹: the stages are 2 Re(x tᵀ) for the solution x of λ. */
+struct GaussRule {
+  Eigen::Matrix2d a;
+  Eigen::Vector2d c;
+  Complex lambda;
+  Eigen::Vector2cd s, t;
+};
+
+const GaussRule& gauss_rule()
+{
+  static const GaussRule known = [] {
+    const double d = std::sqrt(3.0) / 6;
+    GaussRule rule;
+    rule.a << 0.25, 0.25 - d, 0.25 + d, 0.25;
+    rule.c << 0.5 - d, 0.5 + d;
+    const Eigen::EigenSolver<Eigen::Matrix2d> parts(rule.a.transpose());
+    rule.lambda = parts.eigenvalues()[0];
+    rule.s = parts.eigenvectors().col(0);
+    rule.t = parts.eigenvectors().inverse().row(0).transpose();
+    return rule;
+  }();
+  return known;
+}
+
+}  // namespace
+
+GaussStepper::GaussStepper(const Parameters& parameters, double omega, int intervals,
+                           double tolerance, OperationBudget budget)
+    : cages_(bearings_of(parameters)), omega_(omega),
+      turns_(parameters.turns * parameters.speed_ratio),
+      speed_(rotor_speed(parameters, omega)), length_(scales(parameters).length),
+      interval_(2 * std::numbers::pi / omega / intervals),
+      tolerance_(std::max(tolerance, 2e-14)), budget_(std::move(budget))
+{
+  const double quarter = 0.5 * std::numbers::pi / contact_frequency(parameters);
+  first_ = now_ =
+      std::clamp(static_cast<int>(std::ceil(std::log2(interval_ / quarter))), 0, 40);
+  const LargeMachine& machine = *parameters.large;
+  mass_ = machine.mass.sparseView();
+  damping_ = (machine.damping + speed_ * machine.gyroscopic).sparseView();
+  stiffness_ = machine.stiffness.sparseView();
+  joints_ = machine.joints.sparseView();
+  rest_ = machine.load;
+  unbalance_ = speed_ * speed_ * machine.unbalance;
+  double balls = 0;
+  for (const Bearing& bearing : cages_) {
+    bearings_.emplace_back(bearing);
+    balls += bearing.balls;
+  }
+  price_ = (2000 + 80 * static_cast<double>(rest_.size()) + 10 * balls) /
+           operations_per_evaluation(parameters.bearing.balls);
+}
+
+GaussStepper::Level& GaussStepper::level(int k)
+{
+  auto& known = levels_[k];
+  if (known) return *known;
+  auto made = std::make_unique<Level>();
+  const double h = made->step = std::ldexp(interval_, -k);
+  const auto& [a, c, lambda, s, t] = gauss_rule();
+  const Complex by_rate = h * lambda;
+  Sparse z = mass_.cast<Complex>() + by_rate * damping_.cast<Complex>();
+  z += by_rate * by_rate * stiffness_.cast<Complex>();
+  made->factors.compute(z);
+  if (made->factors.info() != Eigen::Success)
+    throw NoSolution("the matrices of the bodies have no factors: " +
+                     made->factors.lastErrorMessage());
+  made->to_forces = made->factors.solve(Eigen::MatrixXcd(joints_.cast<Complex>()));
+  const auto d = joints_.cols();
+  const Eigen::MatrixXcd at_joints =
+      joints_.cast<Complex>().transpose() * made->to_forces;
+  const Eigen::Vector2cd by_stage = a * a * t;
+  made->receptance.resize(2 * d, 2 * d);
+  for (int i : {0, 1})
+    for (int j : {0, 1})
+      made->receptance.block(i * d, j * d, d, d) =
+          2 * h * h * (s[j] * by_stage[i] * at_joints).real();
+  known = std::move(made);
+  return *known;
+}
+
+Eigen::VectorXd GaussStepper::load(double phase) const
+{
+  return rest_ + (std::polar(1.0, turns_ * phase) * unbalance_).real();
+}
+
+/** Forces of the bearings at both stages, 4b, and their derivative by blocks of two. */
+Eigen::VectorXd GaussStepper::reaction(const double* phases, const Eigen::VectorXd& u,
+                                       Eigen::MatrixXd& stiffness)
+{
+  Eigen::VectorXd force(u.size());
+  stiffness.setZero(u.size(), u.size());
+  for (Eigen::Index k = 0, stage = 0; stage < 2; ++stage)
+    for (std::size_t b = 0; b < bearings_.size(); ++b, k += 2) {
+      const Direction cage = Direction::of(cages_[b].cage_angle(phases[stage]));
+      const auto [f, s] = bearings_[b].reaction(cage, {u[k], u[k + 1]});
+      force.segment<2>(k) << f.x, f.y;
+      stiffness.block<2, 2>(k, k) << s.xx, s.xy, s.xy, s.yy;
+    }
+  evaluations_ += 2;
+  return force;
+}
+
+/** The stages without the bearings' forces, of states in the columns of `y`; loads at both stages drive the first one. */
+Eigen::MatrixXcd GaussStepper::unforced(const Level& level, const double* phases,
+                                        const Eigen::MatrixXd& y) const
+{
+  const auto& [a, c, lambda, s, t] = gauss_rule();
+  const auto n = rest_.size();
+  const Eigen::MatrixXd v = y.bottomRows(n);
+  Eigen::MatrixXcd x = -s.sum() * (stiffness_ * y.topRows(n) + damping_ * v);
+  x -= level.step * s.cwiseProduct(c.cast<Complex>()).sum() * (stiffness_ * v);
+  if (phases) x.col(0) += load(phases[0]) * s[0] + load(phases[1]) * s[1];
+  return level.factors.solve(x);
+}
+
+/** The motion in the first column of `y`, displacements and speeds, and its disturbances in the others. False where
+    Newton does not converge. */
+bool GaussStepper::step(Level& level, double phase, Eigen::MatrixXd& y)
+{
+  const Eigen::Index n = rest_.size(), d = joints_.cols(), others = y.cols() - 1;
+  budget_.spend(price_ * static_cast<double>(y.cols()));
+  const auto& [a, c, lambda, s, t] = gauss_rule();
+  const double h = level.step;
+  const double phases[] = {phase + omega_ * h * c[0], phase + omega_ * h * c[1]};
+  Eigen::MatrixXcd x(n, y.cols());
+  x.col(0) = unforced(level, phases, y.col(0));
+  constexpr Eigen::Index most_dense = 200;
+  if (others > 0 && n <= most_dense) {
+    if (level.all.size() == 0)
+      level.all = unforced(level, nullptr, Eigen::MatrixXd::Identity(2 * n, 2 * n));
+    x.rightCols(others).noalias() = level.all * y.rightCols(others);
+  } else if (others > 0) {
+    x.rightCols(others) = unforced(level, nullptr, y.rightCols(others));
+  }
+
+  const Eigen::MatrixXd joints_q = joints_.transpose() * y.topRows(n),
+                        joints_v = joints_.transpose() * y.bottomRows(n);
+  const Eigen::MatrixXcd joints_x = joints_.cast<Complex>().transpose() * x;
+  const Eigen::Vector2cd by_stage = a * a * t;
+  Eigen::MatrixXd free(2 * d, y.cols()), force(2 * d, y.cols()), stiffness, slope;
+  for (int i : {0, 1})
+    free.middleRows(i * d, d) =
+        joints_q + h * c[i] * joints_v + 2 * h * h * (by_stage[i] * joints_x).real();
+  Eigen::VectorXd u = free.col(0), change;
+  constexpr int most_iterations = 12;
+  constexpr double rounding = 1e-12;
+  for (int iteration = 0;; ++iteration) {
+    if (iteration == most_iterations) return false;
+    force.col(0) = reaction(phases, u, stiffness);
+    slope = level.receptance * stiffness;
+    slope.diagonal().array() += 1;
+    change =
+        slope.partialPivLu().solve(u - free.col(0) + level.receptance * force.col(0));
+    u -= change;
+    if (!u.allFinite()) return false;
+    if (change.cwiseAbs().maxCoeff() <= rounding * length_) break;
+  }
+  force.rightCols(others) =
+      stiffness * slope.partialPivLu().solve(free.rightCols(others));
+  x -= level.to_forces * (force.topRows(d) * s[0] + force.bottomRows(d) * s[1]);
+  const Complex to_speed = t.sum() / 2.0, to_place = (a * t).sum() / 2.0;
+  y.topRows(n) += h * y.bottomRows(n) + 2 * h * h * (to_place * x).real();
+  y.bottomRows(n) += 2 * h * (to_speed * x).real();
+  return true;
+}
+
+/** One interval. The motion alone chooses the steps 2⁻ᵏ of it, by the difference between one and its halves. */
+void GaussStepper::integrate(long interval, Eigen::MatrixXd& y)
+{
+  constexpr int finest = 16;  ///< halvings below the first step
+  const auto n = rest_.size();
+  for (double passed = 0; passed < 1;) {
+    const double phase = omega_ * interval_ * (static_cast<double>(interval) + passed);
+    Level &whole = level(now_), &half = level(now_ + 1);
+    const double middle = phase + omega_ * half.step;
+    Eigen::MatrixXd coarse = y.leftCols(1), fine = coarse;
+    double error = std::numeric_limits<double>::infinity();
+    if (step(whole, phase, coarse) && step(half, phase, fine) && step(half, middle, fine))
+      error = (joints_.transpose() * (fine - coarse).topRows(n)).cwiseAbs().maxCoeff() /
+              length_;
+    if (!(error <= tolerance_) && now_ < first_ + finest) {
+      ++now_;
+      continue;
+    }
+    if (!std::isfinite(error))
+      throw NoSolution(format("time integration diverged at t = %.9g s", phase / omega_));
+    if (y.cols() > 1) {
+      step(half, phase, y);
+      step(half, middle, y);
+    } else {
+      y = fine;
+    }
+    const double length = std::ldexp(1.0, -now_);
+    passed += length;
+    if (now_ > first_ && std::fmod(passed, 2 * length) == 0 && error < tolerance_ / 50)
+      --now_;
+  }
+}
+
+void GaussStepper::advance(long interval, State& state)
+{
+  Eigen::MatrixXd y = vector_of(state);
+  integrate(interval, y);
+  state = state_of(y.col(0));
+}
+
+Eigen::MatrixXd GaussStepper::derivative(long interval, const State& start)
+{
+  const Eigen::Index size = 2 * rest_.size();
+  Eigen::MatrixXd y(size, size + 1);
+  y << vector_of(start), Eigen::MatrixXd::Identity(size, size);
+  integrate(interval, y);
+  return y.rightCols(size);
+}
+
+}  // namespace rotor_stator

@@ -1,0 +1,74 @@
+/**
+# All degrees of freedom of bodies given by matrices, however many
+
+Gauss's implicit Runge-Kutta rule of two stages has order 4 and takes any step with the stiff part of the equations
+(Hairer and Wanner, Solving Ordinary Differential Equations II, IV.5 and IV.8). The accelerations W of both stages of a
+step h solve
+
+$$M W + C\,(v 1^T + h W A^T) + K\,(q 1^T + h v (A1)^T + h^2 W (A^2)^T) = P - D F,$$
+
+C with ωG. One complex eigenvector of Aᵀ, of the eigenvalue λ, parts the stages: a single sparse system
+M + hλ C + h²λ² K, factored once for each step size, answers the loads and the unit forces of the bearings. What is
+left for each step are 4 unknowns a bearing, solved by Newton. */
+#pragma once
+
+#include <Eigen/SparseLU>
+#include <map>
+#include <memory>
+#include <vector>
+
+#include "io/budget.hpp"
+#include "io/matrix_market.hpp"
+#include "model/large_machine.hpp"
+
+namespace rotor_stator {
+
+class GaussStepper {
+public:
+  /** P = `intervals` per base period. `tolerance`: of u in a step, over its size. */
+  GaussStepper(const Parameters& parameters, double omega, int intervals,
+               double tolerance, OperationBudget budget = {});
+
+  /** Advances over output interval `interval`, counted from t = 0. Throws NoSolution when the budget is used up. */
+  void advance(long interval, State& state);
+
+  /** The derivative of that map at `start`, 2n × 2n. */
+  Eigen::MatrixXd derivative(long interval, const State& start);
+
+  /** Of the forces of all bearings. */
+  long evaluations() const { return evaluations_; }
+
+private:
+  using Sparse = Eigen::SparseMatrix<std::complex<double>>;
+
+  /** What belongs to a step size. */
+  struct Level {
+    double step;  ///< [s]
+    Eigen::SparseLU<Sparse> factors;
+    Eigen::MatrixXcd to_forces;  ///< answers to unit forces on the joints, n × 2b
+    Eigen::MatrixXd receptance;  ///< u of both stages per force there, 4b × 4b
+    Eigen::MatrixXcd all;  ///< `unforced` of few coordinates, n × 2n; made when needed
+  };
+  Level& level(int k);
+  Eigen::MatrixXcd unforced(const Level& level, const double* phases,
+                            const Eigen::MatrixXd& y) const;
+  Eigen::VectorXd load(double phase) const;
+  Eigen::VectorXd reaction(const double* phases, const Eigen::VectorXd& u,
+                           Eigen::MatrixXd& stiffness);
+  bool step(Level& level, double phase, Eigen::MatrixXd& y);
+  void integrate(long interval, Eigen::MatrixXd& y);
+
+  std::vector<BallBearing> bearings_;
+  std::vector<Bearing> cages_;
+  double omega_, turns_, speed_, length_, interval_, tolerance_;  ///< interval_ [s]
+  SparseMatrix mass_, damping_, stiffness_, joints_;
+  Eigen::VectorXd rest_;
+  Eigen::VectorXcd unbalance_;
+  int first_, now_;  ///< k of the longest step and of the present one
+  std::map<int, std::unique_ptr<Level>> levels_;
+  OperationBudget budget_;
+  double price_;
+  long evaluations_ = 0;
+};
+
+}  // namespace rotor_stator
