@@ -30,13 +30,14 @@ long settling_turns(const Parameters& parameters, double omega)
   return std::lround(std::ceil(std::min(most, seconds / checked_period(omega, seconds))));
 }
 
-/** Those whose orders differ by more than a main lobe, the smallest |k_2| first; as places in the list. */
+/** Those whose orders differ by more than a main lobe, the smallest |k_1| + |k_2| first; as places in the list. */
 std::vector<int> distinct(const Harmonics& harmonics, const Bearing& bearing)
 {
   std::vector<int> places;
   for (int h = 1; h <= harmonics.count(); ++h) places.push_back(h);
   const auto at = [&](int h) { return harmonics.list()[static_cast<std::size_t>(h)]; };
-  std::ranges::stable_sort(places, {}, [&](int h) { return std::abs(at(h).k_2); });
+  std::ranges::stable_sort(
+      places, {}, [&](int h) { return std::abs(at(h).k_1) + std::abs(at(h).k_2); });
   std::vector<double> orders{0};
   std::erase_if(places, [&](int h) {
     const double order = order_of(at(h), bearing);
@@ -58,7 +59,7 @@ public:
   }
 
   /** Its lines, by integrals with a window of Blackman and Harris. Of lines that these cannot tell apart the one with the
-      smallest |k_2| is taken. */
+      smallest |k_1| + |k_2| is taken. */
   Eigen::VectorXd lines(const Harmonics& harmonics)
   {
     integrate();
