@@ -52,11 +52,13 @@ struct Choosing {
   double highest_order =
       std::max(8.0, std::min(0.5 * contact_frequency(parameters) / omega + 4, 30.0));
   int least_samples = settings.tolerance >= 1e-3 ? 1024 : 4096;
+  /** A flexible shaft gives way to the contact at more orders than a mass does. */
+  Harmonics passing = of_passages(bearing, parameters.large ? 32 : 16);
   Harmonics medium = up_to(highest_order, 4, bearing);
   Harmonics large =
       joined(joined(joined(up_to(1.3 * highest_order, 6, bearing), medium),
                     joined(up_to(1.5, 12, bearing), sidebands(bearing, 12, 4))),
-             of_passages(bearing));
+             passing);
   TorusLine finest = line_without_images(large, large, 4 * least_samples);
   const int dofs = 2 * static_cast<int>(1 + parameters.further.size());
   AdaptiveMotion result = {};
@@ -137,8 +139,7 @@ struct Choosing {
     const double contact = contact_frequency(parameters) / omega;
     const double order =
         std::max(2 * highest_order, std::min(beyond_contact * contact, most));
-    const Harmonics all =
-        joined(up_to(order, passages, bearing, half), of_passages(bearing));
+    const Harmonics all = joined(up_to(order, passages, bearing, half), passing);
     return {all, settled.lines(all).reshaped(dofs, all.coefficients())};
   }
 
@@ -175,7 +176,7 @@ struct Choosing {
 
   void solve_on_largest()
   {
-    constexpr int most = 120;
+    const int most = parameters.large ? 300 : 120;  // a shaft's lines are more
     const Harmonics kept = chosen(0, finer.harmonics, finer.bodies, most);
     if (solve_on(kept, project(finer.x, dofs, finer.harmonics, kept), "time integration"))
       measure();

@@ -73,10 +73,10 @@ Harmonics sidebands(const Bearing& bearing, int orders, int passages)
   return ascending(pairs, bearing);
 }
 
-Harmonics of_passages(const Bearing& bearing)
+Harmonics of_passages(const Bearing& bearing, int passages)
 {
   constexpr double most_waves = 600, highest = 10;
-  constexpr int passages = 16, turns = 3;
+  constexpr int turns = 3;
   const int n = bearing.balls;
   const bool is_damaged = !bearing.is_damaged(Defect::Surface::none);
   const bool is_inner = bearing.is_damaged(Defect::Surface::inner_race);

@@ -36,10 +36,10 @@ Parameters over_passage(Parameters parameters);
     orders, none negative. */
 Harmonics sidebands(const Bearing& bearing, int orders, int passages);
 
-/** Multiples of BPFO with three orders of the speed on both sides, up to the sixteenth or as far as the width of a
+/** Multiples of BPFO with three orders of the speed on both sides, up to that of `passages` or as far as the width of a
     spall of the outer race asks for; where the inner race is damaged those of BPFI with the sidebands of the loaded
     zone, and much that is slow. */
-Harmonics of_passages(const Bearing& bearing);
+Harmonics of_passages(const Bearing& bearing, int passages = 16);
 
 /** All up to an order, with |k_2| ≤ `passages`: whole numbers and, where `half` is not (0, 0), those moved by it. */
 Harmonics up_to(double order, int passages, const Bearing& bearing, Harmonic half = {});
