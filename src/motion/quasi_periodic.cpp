@@ -30,20 +30,16 @@ long settling_turns(const Parameters& parameters, double omega)
   return std::lround(std::ceil(std::min(most, seconds / checked_period(omega, seconds))));
 }
 
-/** Those whose orders differ by more than a main lobe, as places in the list: the smallest |k_2| first; of a flexible
-    shaft, which vibrates at many passages and few turns, the smallest |k_1| + |k_2|. */
-std::vector<int> distinct(const Harmonics& harmonics, const Parameters& parameters)
+/** Those whose orders differ by more than a main lobe, the smallest |k_2| first; as places in the list. */
+std::vector<int> distinct(const Harmonics& harmonics, const Bearing& bearing)
 {
-  const double of_turns = parameters.large ? 1 : 0;
   std::vector<int> places;
   for (int h = 1; h <= harmonics.count(); ++h) places.push_back(h);
   const auto at = [&](int h) { return harmonics.list()[static_cast<std::size_t>(h)]; };
-  std::ranges::stable_sort(places, {}, [&](int h) {
-    return of_turns * std::abs(at(h).k_1) + std::abs(at(h).k_2);
-  });
+  std::ranges::stable_sort(places, {}, [&](int h) { return std::abs(at(h).k_2); });
   std::vector<double> orders{0};
   std::erase_if(places, [&](int h) {
-    const double order = order_of(at(h), parameters.bearing);
+    const double order = order_of(at(h), bearing);
     const bool is_near = std::ranges::any_of(orders, [&](double other) {
       return std::abs(order - other) < 4.0 / window_turns;
     });
@@ -61,15 +57,15 @@ public:
   {
   }
 
-  /** Its lines, by integrals with a window of Blackman and Harris. Of lines that these cannot tell apart one is
-      taken. */
+  /** Its lines, by integrals with a window of Blackman and Harris. Of lines that these cannot tell apart the one with the
+      smallest |k_2| is taken. */
   Eigen::VectorXd lines(const Harmonics& harmonics)
   {
     integrate();
     Eigen::MatrixXd series =
         Eigen::MatrixXd::Zero(weighted_.cols(), harmonics.coefficients());
     series.col(0) = weighted_.colwise().sum().transpose();
-    for (int h : distinct(harmonics, parameters_)) {
+    for (int h : distinct(harmonics, parameters_.bearing)) {
       const double order =
           order_of(harmonics.list()[static_cast<std::size_t>(h)], parameters_.bearing);
       put_amplitude(series, h, line(order));
