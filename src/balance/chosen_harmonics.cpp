@@ -176,7 +176,7 @@ struct Choosing {
 
   void solve_on_largest()
   {
-    const int most = parameters.large ? 300 : 120;  // a shaft's lines are more
+    constexpr int most = 120;
     const Harmonics kept = chosen(0, finer.harmonics, finer.bodies, most);
     if (solve_on(kept, project(finer.x, dofs, finer.harmonics, kept), "time integration"))
       measure();

@@ -28,21 +28,17 @@ long settling_turns(const Parameters& parameters, double omega)
   return std::lround(std::ceil(std::min(most, seconds / checked_period(omega, seconds))));
 }
 
-/** Those whose orders differ by more than half a main lobe, as places in the list: the smallest |k_2| first; of a flexible
-    shaft, which vibrates at many passages and few turns, the smallest |k_1| + |k_2|. */
-std::vector<int> distinct(const Harmonics& harmonics, const Parameters& parameters,
+/** Those whose orders differ by more than half a main lobe, the smallest |k_2| first; as places in the list. */
+std::vector<int> distinct(const Harmonics& harmonics, const Bearing& bearing,
                           double main_lobe)
 {
-  const double of_turns = parameters.large ? 1 : 0;
   std::vector<int> places;
   for (int h = 1; h <= harmonics.count(); ++h) places.push_back(h);
   const auto at = [&](int h) { return harmonics.list()[static_cast<std::size_t>(h)]; };
-  std::ranges::stable_sort(places, {}, [&](int h) {
-    return of_turns * std::abs(at(h).k_1) + std::abs(at(h).k_2);
-  });
+  std::ranges::stable_sort(places, {}, [&](int h) { return std::abs(at(h).k_2); });
   std::vector<double> orders{0};
   std::erase_if(places, [&](int h) {
-    const double order = order_of(at(h), parameters.bearing);
+    const double order = order_of(at(h), bearing);
     const bool is_near = std::ranges::any_of(
         orders, [&](double other) { return std::abs(order - other) < main_lobe / 2; });
     if (!is_near) orders.push_back(order);
@@ -109,7 +105,7 @@ public:
   {
   }
 
-  /** Of lines that the window cannot tell apart one is taken. */
+  /** Of lines that the window cannot tell apart the one with the smallest |k_2| is taken. */
   Eigen::VectorXd lines(const Harmonics& harmonics)
   {
     integrate();
@@ -117,7 +113,7 @@ public:
     Eigen::MatrixXd series = Eigen::MatrixXd::Zero(dofs, harmonics.coefficients());
     for (Eigen::Index i = 0; i < dofs; ++i)
       series(i, 0) = transforms_[static_cast<std::size_t>(i)](0).real();
-    for (int h : distinct(harmonics, parameters_, 8.0 / turns_)) {
+    for (int h : distinct(harmonics, parameters_.bearing, 8.0 / turns_)) {
       const double order =
           order_of(harmonics.list()[static_cast<std::size_t>(h)], parameters_.bearing);
       const double since = std::fmod(order * static_cast<double>(first_), 1.0);

@@ -361,9 +361,8 @@ radial_clearance_m = {b["clearance"]}
         self.refused("or gauss", "map", own, "--x", "frequency=40:50:2", "--quantity", "amplitude", "--method", "rk4")
 
     def test_two_frequencies(self):
-        """A shaft's contacts vibrate at high multiples of the passing balls; where 14 passages nearly make 43 turns, a line that
-        is given to the wrong one of two such orders leaves a tenth of the motion unexplained. The lines of the solution, which
-        integration confirms, are those of the integrated motion."""
+        """A shaft's contacts vibrate at high multiples of the passing balls: without those above 16 no solution is found. The lines
+        of the solution, which integration confirms, are those of the integrated motion."""
         run = ["spectrum", Path("data/rotors/two_disks.toml").resolve(), "--frequency", 45]
         found = self.table(*run)
         self.assertIn("regime: quasi-periodic", found.header)
