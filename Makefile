@@ -91,7 +91,7 @@ intervals := $(claims:claims.tsv=truth_intervals.tsv)
 described := cage map_scaling
 timings := $(filter %/tab02_timing.tsv,$(tables) $(tables_printed))
 untimed := $(filter-out $(timings),$(tables) $(tables_printed)) $(figures) $(figures_printed) $(patsubst %,data/generated/%.md,deviations $(described))
-studies := $(filter $(programs) $(mapped) $(scripted),$(kept))
+studies := $(filter $(programs) tab02_equal_error_mean $(mapped) $(scripted),$(kept))
 unkept := $(filter-out $(kept),$(mapped))
 maps := $(filter-out $(basename $(notdir $(wildcard studies/*.py))),$(filter $(kept),$(mapped)))
 costs := $(filter tab02% work_precision cost_growth large map_scaling,$(studies))
@@ -139,6 +139,9 @@ parameters = $(patsubst %,data/%$(if $(filter as-printed,$(*D)),-as-printed).tom
 
 data/generated/%.tsv: build/$$(*F) data/scenes/$$(*F).toml $$(parameters)
 	$(whole) $(alone) $< $(word 2,$^) $(if $(filter as-printed,$(*D)),--reading as-printed) > $$new; mv $$new $@
+
+data/generated/tab02_equal_error_mean.tsv: build/tab02_equal_error data/scenes/tab02_equal_error.toml data/set1.toml
+	$(whole) $(alone) $< $(word 2,$^) --error mean > $$new; mv $$new $@
 
 data/generated/sensitivity_derivatives.tsv: figures/sensitivity_derivatives.py data/reference/sensitivity.tsv $(python_tables)
 	$(whole) $(PYTHON) $(wordlist 1,2,$^) > $$new; mv $$new $@

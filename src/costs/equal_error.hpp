@@ -15,16 +15,18 @@ struct EqualErrorScene {
   Parameters parameters;
   std::vector<double> frequencies;   ///< [Hz]
   std::vector<double> range_ends;    ///< [Hz]: a range ends below or at each
-  std::vector<double> targets;       ///< of displacement [-], loosest first
+  std::vector<double> targets;       ///< of the error [-], loosest first
   std::vector<double> paper_ratios;  ///< printed
   std::vector<Candidates> candidates;
   int repetitions;
   double long_run;  ///< [s]: a single run above it is repeated three times only
   double search;    ///< [s]: a method's search in a range ends when it has used that
   TruthSettings truth;
+  double MotionError::*error = &MotionError::displacement;  ///< that the targets bound
 };
 
-EqualErrorScene read_equal_error(SceneFile& file);
+/** `error`: "largest" or "mean". */
+EqualErrorScene read_equal_error(SceneFile& file, const std::string& error);
 
 /** The T-periodic speeds of each range with their references; no empty range. */
 std::vector<References> periodic_ranges(const EqualErrorScene& scene,

@@ -105,6 +105,7 @@ void MotionError::add(const Parameters& parameters, double frequency,
     displacement = difference;
     worst_frequency = frequency;
   }
+  mean = std::max(mean, motion ? motion::rms_difference(*motion, truth) : infinity);
   force = std::max(
       force,
       motion ? motion::relative_force_difference(parameters, *motion, truth) : infinity);

@@ -67,8 +67,9 @@ References true_motions(const Parameters& parameters,
 
 /** The largest errors over some speeds [-]; infinite where one has no solution. */
 struct MotionError {
-  double displacement = 0, force = 0;
-  double worst_frequency = 0;  ///< where the displacement is worst [Hz]
+  double displacement = 0, force = 0;  ///< largest difference over the largest value
+  double mean = 0;                     ///< of displacement, rms about the mean
+  double worst_frequency = 0;          ///< where the displacement is worst [Hz]
 
   void add(const Parameters& parameters, double frequency,
            const std::optional<motion::Motion>& motion, const motion::Motion& truth);
