@@ -3,7 +3,7 @@
 
 Paper: §3.3, 9.0, 8.2 and 7.5 times faster than RK4 (claim C9).
 
-    make tab02_equal_error tab02_equal_error_mean
+    make tab02_equal_error
 
 Every method solves the sweep of Table 2 at its cheapest setting that stays below an error at every speed.
 Which method is the fastest depends on that error. A method that never stays below it is named in the
@@ -17,8 +17,8 @@ them more per evaluation than the C++ programs; the header of their table has bo
 agrees with ours to drawing accuracy, and has folds that few harmonics do not show.
 
 The error is the largest difference of a displacement over the largest displacement. At low speeds that is mostly the
-static sag of the suspension, and an error of the vibration hides behind it; a second table therefore bounds the
-root mean square of the difference about the mean, over that of the motion.
+static sag of the suspension, and an error of the vibration hides behind it: with `--error mean` the targets bound the
+root mean square of the difference about the mean, over that of the motion, instead.
 
 The CPU time is that of one thread for the whole sweep, the median of several repetitions. The table has the
 least and the largest of them, the setting, and the error that was reached.

@@ -1,6 +1,7 @@
 #include "costs/true_motion.hpp"
 
 #include <algorithm>
+#include <cmath>
 #include <limits>
 
 #include "balance/bearing_problem.hpp"
@@ -99,16 +100,21 @@ void MotionError::add(const Parameters& parameters, double frequency,
                       const motion::Motion& truth)
 {
   constexpr double infinity = std::numeric_limits<double>::infinity();
+  /** A motion that has diverged has no number. */
+  const auto finite = [](double error) {
+    return std::isfinite(error) ? error : infinity;
+  };
   const double difference =
-      motion ? motion::relative_difference(*motion, truth) : infinity;
+      motion ? finite(motion::relative_difference(*motion, truth)) : infinity;
   if (difference > displacement) {
     displacement = difference;
     worst_frequency = frequency;
   }
-  mean = std::max(mean, motion ? motion::rms_difference(*motion, truth) : infinity);
-  force = std::max(
-      force,
-      motion ? motion::relative_force_difference(parameters, *motion, truth) : infinity);
+  mean =
+      std::max(mean, motion ? finite(motion::rms_difference(*motion, truth)) : infinity);
+  force = std::max(force, motion ? finite(motion::relative_force_difference(
+                                       parameters, *motion, truth))
+                                 : infinity);
 }
 
 }  // namespace rotor_stator::costs
