@@ -133,7 +133,7 @@ private:
     std::vector<int> places, unknowns;
     Eigen::PartialPivLU<Eigen::MatrixXf> factors = {};  ///< they precondition only
   };
-  std::vector<Part> parts_;  ///< instead of all that, where there are any
+  std::vector<Part> parts_;   ///< instead of all that, where there are any
   int least_iterations_ = 0;  ///< of GMRES, with new factors of parts
   Gmres gmres_;
   long factorisations_ = 0, linear_iterations_ = 0;
