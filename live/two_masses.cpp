@@ -19,6 +19,7 @@ void put_large_bodies(const Parameters&, const TorusLine&, Problem&) { abort(); 
 Eigen::MatrixXd large_start_samples(const Parameters&, double, int) { abort(); }
 Eigen::MatrixXd shown_series(const Parameters&, const PeriodicMotion&) { abort(); }
 Eigen::MatrixXd coordinate_series(const Parameters&, const PeriodicMotion&) { abort(); }
+void fit_receptances(const Parameters&, double, int) { abort(); }
 State large_static_start(const Parameters&) { abort(); }
 Eigen::VectorXd large_state_scales(const Parameters&) { abort(); }
 GaussStepper::GaussStepper(const Parameters&, double, int, double,
