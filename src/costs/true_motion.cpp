@@ -100,21 +100,22 @@ void MotionError::add(const Parameters& parameters, double frequency,
                       const motion::Motion& truth)
 {
   constexpr double infinity = std::numeric_limits<double>::infinity();
-  /** A motion that has diverged has no number. */
-  const auto finite = [](double error) {
-    return std::isfinite(error) ? error : infinity;
+  /** Infinite where there is no motion, or one that has diverged. */
+  const auto error = [&](auto of) {
+    const double value = motion ? of(*motion) : infinity;
+    return std::isfinite(value) ? value : infinity;
   };
   const double difference =
-      motion ? finite(motion::relative_difference(*motion, truth)) : infinity;
+      error([&](auto& one) { return motion::relative_difference(one, truth); });
   if (difference > displacement) {
     displacement = difference;
     worst_frequency = frequency;
   }
-  mean =
-      std::max(mean, motion ? finite(motion::rms_difference(*motion, truth)) : infinity);
-  force = std::max(force, motion ? finite(motion::relative_force_difference(
-                                       parameters, *motion, truth))
-                                 : infinity);
+  mean = std::max(mean,
+                  error([&](auto& one) { return motion::rms_difference(one, truth); }));
+  force = std::max(force, error([&](auto& one) {
+                     return motion::relative_force_difference(parameters, one, truth);
+                   }));
 }
 
 }  // namespace rotor_stator::costs

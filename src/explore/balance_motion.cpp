@@ -61,6 +61,14 @@ AdaptiveSettings settings_of(const MotionRequest& request)
           .newton = {.tolerance = request.newton_tolerance}};
 }
 
+/** What an error was found with: `harmonics` in words. */
+std::string basis_of(const ErrorEstimate& error, const std::string& harmonics)
+{
+  return error.harmonics > 0
+             ? "estimated with " + harmonics + format(", N = %d", error.samples)
+             : "against the motion integrated from rest";
+}
+
 /** Without a tolerance any error is accepted, and none is estimated. */
 AdaptiveMotion solved(const Parameters& parameters, const MotionRequest& request,
                       const OperationBudget& budget)
@@ -185,15 +193,12 @@ FoundMotion quasi_periodic_motion(const Parameters& parameters,
     list += format(" (%g,%g)", k_1, k_2);
   table.note("harmonics (k_1,k_2) of k_1 omega + k_2 n omega_cage:" + list);
   table.note("newton: from " + solution.start + ", " + solution.newton.reason());
-  const std::string against =
-      solution.error->harmonics > 0
-          ? format("estimated with %d harmonics, N = %d", solution.error->harmonics,
-                   solution.error->samples)
-          : std::string("against the motion integrated from rest");
+  const ErrorEstimate& error = *solution.error;
   table.note(
       format("error: %.2g of the largest displacement, %.2g rms about the mean, %s; "
              "tolerance %g",
-             solution.error->displacement, solution.error->rms, against.c_str(),
+             error.displacement, error.rms,
+             basis_of(error, format("%d harmonics", error.harmonics)).c_str(),
              settings.tolerance));
   if (request.stability) {
     note_torus_verdict(table, judged);
@@ -232,16 +237,12 @@ PeriodicMotion solution_of(const Parameters& parameters, const MotionRequest& re
                "against that motion",
                at.motion.error->larger()));
   else if (request.tolerance)
-    table.note(
-        format("error: %.3g of the largest displacement, %.3g rms about the mean, "
-               "%s; tolerance %g",
-               at.motion.error->displacement, at.motion.error->rms,
-               at.motion.error->harmonics > 0
-                   ? format("estimated with m = %d, N = %d", at.motion.error->harmonics,
-                            at.motion.error->samples)
-                         .c_str()
-                   : "against the motion integrated from rest",
-               *request.tolerance));
+    table.note(format(
+        "error: %.3g of the largest displacement, %.3g rms about the mean, "
+        "%s; tolerance %g",
+        at.motion.error->displacement, at.motion.error->rms,
+        basis_of(*at.motion.error, format("m = %d", at.motion.error->harmonics)).c_str(),
+        *request.tolerance));
   if (std::isfinite(1 / request.frequency))
     table.note(format("base period: %.15g s", 1 / request.frequency));
   if (request.stability) {

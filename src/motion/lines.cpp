@@ -25,11 +25,14 @@ constexpr double window_terms[] = {0.35875, -0.48829, 0.14128, -0.01168};
 
 }  // namespace
 
-double blackman_harris(double share)
+Eigen::VectorXd blackman_harris(Eigen::Index samples)
 {
-  double value = 0;
-  for (int k = 0; k < 4; ++k) value += window_terms[k] * std::cos(k * (turn * share));
-  return value;
+  const double step = turn / static_cast<double>(samples);
+  Eigen::VectorXd window = Eigen::VectorXd::Zero(samples);
+  for (Eigen::Index at = 0; at < samples; ++at)
+    for (int k = 0; k < 4; ++k)
+      window[at] += window_terms[k] * std::cos(k * (step * static_cast<double>(at)));
+  return window / window.sum();
 }
 
 double Line::largest() const
@@ -88,11 +91,8 @@ class Record {
 public:
   explicit Record(const Motion& motion)
       : n_(std::ssize(motion.positions)), samples_(displacement_samples(motion)),
-        weights_(n_), left_(samples_)
+        weights_(blackman_harris(n_)), left_(samples_)
   {
-    for (Eigen::Index k = 0; k < n_; ++k)
-      weights_[k] = blackman_harris(static_cast<double>(k) / static_cast<double>(n_));
-    weights_ /= weights_.sum();
     add(0);
   }
 

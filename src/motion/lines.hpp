@@ -60,7 +60,7 @@ struct LineName {
     torus up to an eighth of that. */
 LineName name_of(double order, const Bearing& bearing, double tolerance, int passages);
 
-/** 4-term window of Blackman and Harris at a share of its length; its side lobes are below -92 dB. */
-double blackman_harris(double share);
+/** 4-term window of Blackman and Harris for a record of `samples`, its sum 1; its side lobes are below -92 dB. */
+Eigen::VectorXd blackman_harris(Eigen::Index samples);
 
 }  // namespace rotor_stator::motion

@@ -51,18 +51,13 @@ std::vector<int> distinct(const Harmonics& harmonics, const Bearing& bearing,
     polynomial of degree 7 through its nearest values has it to 1e-8. */
 class FineTransform {
 public:
-  explicit FineTransform(const Eigen::VectorXd& samples) : n_(samples.size())
+  /** Of samples times the window. */
+  explicit FineTransform(const Eigen::VectorXd& weighted)
   {
-    Eigen::VectorXd padded = Eigen::VectorXd::Zero(finer * n_);
-    double sum = 0;
-    for (Eigen::Index k = 0; k < n_; ++k) {
-      const double weight =
-          blackman_harris(static_cast<double>(k) / static_cast<double>(n_));
-      padded[k] = weight * samples[k];
-      sum += weight;
-    }
+    Eigen::VectorXd padded = Eigen::VectorXd::Zero(finer * weighted.size());
+    padded.head(weighted.size()) = weighted;
     FourierTransform transform(static_cast<int>(padded.size()));
-    values_ = transform.spectrum(padded) * (static_cast<double>(padded.size()) / sum);
+    values_ = transform.spectrum(padded) * static_cast<double>(padded.size());
     for (Eigen::Index p = 0; p < values_.size(); ++p)
       values_[p] *= std::polar(1.0, half_record(static_cast<double>(p)));
   }
@@ -93,7 +88,6 @@ private:
   /** Counted from the middle of the record the values are smooth. */
   static double half_record(double at) { return std::numbers::pi * at / finer; }
 
-  Eigen::Index n_;
   Eigen::VectorXcd values_;
 };
 
@@ -118,11 +112,10 @@ public:
           order_of(harmonics.list()[static_cast<std::size_t>(h)], parameters_.bearing);
       const double since = std::fmod(order * static_cast<double>(first_), 1.0);
       const auto wave = std::polar(2.0, -2 * std::numbers::pi * since);
-      for (Eigen::Index i = 0; i < dofs; ++i) {
-        const auto line = wave * transforms_[static_cast<std::size_t>(i)](order * turns_);
-        series(i, 2 * h - 1) = line.real();
-        series(i, 2 * h) = -line.imag();
-      }
+      SmallVector line(dofs);
+      for (Eigen::Index i = 0; i < dofs; ++i)
+        line[i] = wave * transforms_[static_cast<std::size_t>(i)](order * turns_);
+      put_amplitude(series, h, line);
     }
     return series.reshaped();
   }
@@ -172,9 +165,10 @@ private:
     turns_ = turns;
     turn_ = first_ + turns;
     const Eigen::MatrixXd samples = relative_samples(parameters_, motion);
+    const Eigen::VectorXd window = blackman_harris(samples.rows());
     transforms_.clear();
     for (const auto& column : samples.colwise())
-      transforms_.emplace_back(Eigen::VectorXd(column));
+      transforms_.emplace_back(column.cwiseProduct(window));
   }
 
   const Parameters& parameters_;
