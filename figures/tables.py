@@ -99,6 +99,14 @@ def said(table, pattern):
     return found.groups() if found else ()
 
 
+def larger_error(table, line):
+    """Of the two errors in the line `error` or `distance` of a header; -1 where there is no such line."""
+    return max(map(float, said(table, rf"# {line}: (\S+) of .*?, (\S+) rms")), default=-1)
+
+
+STABILITY = {"stable": 1, "unstable": 0, "undecided": -1}  # in tables of numbers
+
+
 def displacement_errors(orbit, exact, names=("x_s", "y_s", "x_r", "y_r")):
     """Of two tables with the columns of `explore orbit` and the same points per period, the first repeated as often as the second
     is longer: the rms difference about the means over that of the exact one about its mean, and the largest difference over the

@@ -24,7 +24,7 @@ from concurrent.futures import ThreadPoolExecutor
 from pathlib import Path
 
 sys.path.insert(1, str(Path(__file__).parents[1] / "figures"))
-from tables import Table, displacement_errors, explore, print_columns, print_header, said  # noqa: E402
+from tables import Table, displacement_errors, explore, larger_error, print_columns, print_header, said  # noqa: E402
 
 POINTS = 2048
 FAR = 10  # times the estimate: another motion
@@ -63,13 +63,13 @@ def chosen(machine, speed, tolerance, exact):
     m, n = said(solution, r"# method: aft, m = (\d+), N = (\d+)")
     start, = said(solution, r"# newton: from (.*?), ")
     row |= {"reached": 1, "m": int(m), "N": int(n), "searched": int(start != "quasi-static contact"),
-            "estimate": max(map(float, said(solution, r"# error: (\S+) of .*?, (\S+) rms"))),
+            "estimate": larger_error(solution, "error"),
             "cost": float(*said(solution, r"# cost: (\d+)"))}
     if exact is not None:
         row["error"] = max(displacement_errors(solution, exact))
     if exact is None or row["error"] > FAR * row["estimate"]:
         judged = orbit(machine, speed, *asked, "--points", 2)
-        own = max(map(float, said(judged, r"# distance: (\S+) of .*?, (\S+) rms")), default=-1)
+        own = larger_error(judged, "distance")
         if own > 0 and (exact is None or own < row["error"]):
             row |= {"error": own, "own_branch": 1}
     return row | {"effectivity": over(row["estimate"], row["error"])}

@@ -19,10 +19,9 @@ from pathlib import Path
 import numpy as np
 
 sys.path.insert(1, str(Path(__file__).parents[1] / "figures"))
-from tables import Table, explore, print_columns  # noqa: E402
+from tables import STABILITY, Table, explore, print_columns  # noqa: E402
 
 MEASURED = ["amplitude", "contact_share", "ball_load"]
-STABILITY = {"stable": 1, "unstable": 0, "undecided": -1}
 COLUMNS = [
     ("set", "-", "data set"), ("c", "-", "omega_cage/omega"), ("f", "Hz", "speed of rotation"),
     ("amplitude", "m", "half peak-to-peak of x_r over a turn, mean of eight turns; integrated from rest"),

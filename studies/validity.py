@@ -33,11 +33,10 @@ from concurrent.futures import ThreadPoolExecutor
 from pathlib import Path
 
 sys.path.insert(1, str(Path(__file__).parents[1] / "figures"))
-from tables import Table, displacement_errors, explore, print_columns, print_header, said  # noqa: E402
+from tables import STABILITY, Table, displacement_errors, explore, larger_error, print_columns, print_header, said  # noqa: E402
 
 FORCE = ("F_x", "F_y")
 SAME = 1e-3  # rms distance of two motions on one attractor
-STABILITY = {"stable": 1, "unstable": 0, "undecided": -1}
 COLUMNS = [
     ("set", "-", "data set"), ("f", "Hz", "speed of rotation"),
     ("adaptive", "-", "1 if m was chosen for the tolerance, 0 if m is fixed"),
@@ -95,7 +94,7 @@ def row_of(solution, known, is_adaptive):
         return [0, 0, -1, -1, 0, -1, -1, periodic, -1]
     m, = said(solution, r"# method: aft, m = (\d+)")
     distance, largest, period, nearest = nearest_to(solution, known)
-    estimate = max(map(float, said(solution, r"# error: (\S+) of .*?, (\S+) rms")), default=-1) if is_adaptive else -1
+    estimate = larger_error(solution, "error") if is_adaptive else -1
     return [int(m), 1, distance, displacement_errors(solution, nearest, FORCE)[0], int(period == 1), stability(solution), estimate,
             periodic, largest]
 

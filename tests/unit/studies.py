@@ -40,6 +40,20 @@ minutes: 1
 
 
 @unittest.skipUnless(shutil.which("snakemake"), "needs the Debian package snakemake")
+def computed_anew(study, changes):
+    """The table of a study, of its scene with these changes, each of which must have a place there."""
+    scene = Path(f"data/scenes/{study}.toml").read_text(encoding="utf-8")
+    for old, new in changes:
+        if old not in scene:
+            raise AssertionError(f"{old} is not in the scene of {study}")
+        scene = scene.replace(old, new)
+    with tempfile.TemporaryDirectory() as folder:
+        file = Path(folder, f"{study}.toml")
+        file.write_text(scene, encoding="utf-8")
+        return Table.of(subprocess.run([sys.executable, f"studies/{study}.py", file], capture_output=True, check=True,
+                                       text=True).stdout)
+
+
 class Shards(Case):
     """A study in a folder of its own."""
 
@@ -266,15 +280,8 @@ class Validity(unittest.TestCase):
         """Two speeds of set 1 anew, with permanent contact and one motion. Would catch cells in another order, and rows that
         depend on the speeds around them."""
         kept = Table("data/reference/validity.tsv").where("set", 1)
-        scene = Path("data/scenes/validity.toml").read_text(encoding="utf-8")
-        for old, new in [(', "set2"', ""), ("from = 1.0, to = 60.0", "from = 45.0, to = 45.5"), ("random_starts = 4", "random_starts = 0")]:
-            self.assertIn(old, scene)
-            scene = scene.replace(old, new)
-        with tempfile.TemporaryDirectory() as folder:
-            file = Path(folder, "validity.toml")
-            file.write_text(scene, encoding="utf-8")
-            table = Table.of(subprocess.run([sys.executable, "studies/validity.py", file], capture_output=True, check=True,
-                                            text=True).stdout)
+        table = computed_anew("validity", [(', "set2"', ""), ("from = 1.0, to = 60.0", "from = 45.0, to = 45.5"),
+                                           ("random_starts = 4", "random_starts = 0")])
         kept = kept.rows((kept["f"] >= 45) & (kept["f"] <= 45.5))
         self.assertEqual(list(table.columns), list(kept.columns))
         for name in kept.columns:
@@ -297,15 +304,7 @@ class Verdicts(unittest.TestCase):
         """The first two speeds anew, with the fewest harmonics. Would catch quantities in another order, and solutions
         that start from their neighbours."""
         kept = Table("data/reference/verdicts.tsv").where("set", 1).where("m", 6)
-        scene = Path("data/scenes/verdicts.toml").read_text(encoding="utf-8")
-        for old, new in [(", \"set2\"", ""), ("59.73", "1.73"), ("[6, 10, 24, 64]", "[6]")]:
-            self.assertIn(old, scene)
-            scene = scene.replace(old, new)
-        with tempfile.TemporaryDirectory() as folder:
-            file = Path(folder, "verdicts.toml")
-            file.write_text(scene, encoding="utf-8")
-            table = Table.of(subprocess.run([sys.executable, "studies/verdicts.py", file], capture_output=True, check=True,
-                                            text=True).stdout)
+        table = computed_anew("verdicts", [(", \"set2\"", ""), ("59.73", "1.73"), ("[6, 10, 24, 64]", "[6]")])
         self.assertEqual(list(table.columns), list(kept.columns))
         for name in ("f", "machine", "machine_stable", "distance", "series", "series_stable", "hill", "hill_stable"):
             np.testing.assert_allclose(table[name], kept[name][:2], rtol=1e-4, err_msg=name)
