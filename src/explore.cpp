@@ -10,6 +10,7 @@
     build/explore map data/set1.toml --x frequency=10:50:41 \
       --y bearing.radial_clearance_m=0:1e-4:21 --quantity amplitude,stability > map.tsv
     build/explore shaft data/rotors/overhung_shaft.toml --to overhung > nodes.tsv
+    build/explore shape data/rotors/overhung.toml --frequency 30 --nodes nodes.tsv > shape.tsv
 
 The general program for follow-up studies: any parameter file, any speed, harmonic balance
 or one of the time integrators. A table on stdout, errors on stderr. */
@@ -23,6 +24,7 @@ or one of the time integrators. A table on stdout, errors on stderr. */
 #include "explore/plot.hpp"
 #include "explore/response.hpp"
 #include "explore/shaft.hpp"
+#include "explore/shape.hpp"
 #include "explore/spectrum.hpp"
 #include "integration/time_stepper.hpp"
 #include "io/errors.hpp"
@@ -121,7 +123,7 @@ void refuse(const CLI::Option* option, bool used, const char* where,
     throw BadInput(option->get_name() + ": is " + where + ", and --method is " + method);
 }
 
-/** The options of orbit, contact and spectrum. What is returned throws BadInput for an option that the method
+/** The options of orbit, shape, contact and spectrum. What is returned throws BadInput for an option that the method
     would ignore. */
 std::function<void()> add_motion_options(CLI::App& command, MotionRequest& request)
 {
@@ -150,7 +152,7 @@ std::function<void()> add_motion_options(CLI::App& command, MotionRequest& reque
   if (is_spectrum)
     command.add_option("--overlay", request.overlay,
                        "table of a measured spectrum for --plot: f [Hz], amplitude [m]");
-  if (command.get_name() == "orbit")
+  if (command.get_name() == "orbit" || command.get_name() == "shape")
     add_number(command, "--periods", request.periods, 1, 1000, "turns that are printed");
   periodic.push_back(command.add_flag("!--no-stability", request.stability,
                                       "leave out the Floquet multipliers"));
@@ -354,6 +356,8 @@ int main(int argc, char** argv)
   MapRequest mapped;
   CLI::App* beams = command("shaft", "matrices of a shaft of beam elements, in files");
   ShaftRequest shaft;
+  CLI::App* deflected =
+      command("shape", "orbits along a rotor given by matrices, at one speed");
   CLI::App* whirl =
       command("campbell", "whirl frequencies against speed, critical speeds");
   CampbellRequest campbell;
@@ -372,14 +376,20 @@ int main(int argc, char** argv)
   const auto refuse_of_map = add_map_options(*map, mapped);
   const auto refuse_of_orbit = add_motion_options(*orbit, motion);
   const auto refuse_of_contact = add_motion_options(*contact, motion);
+  ShapeRequest shape;
+  const auto refuse_of_shape = add_motion_options(*deflected, shape);
+  deflected
+      ->add_option("--nodes", shape.nodes,
+                   "table of nodes, as shaft prints: z [m], x and y, degrees of freedom")
+      ->required();
   MotionRequest spectrum;
   const auto refuse_of_spectrum = add_motion_options(*lines, spectrum);
   const auto refuse_of_response = add_response_options(*branch, response);
   add_attractors_options(*settled, attractors);
   return guarded([&] {
     if (!parse(app, argc, argv)) return 0;
-    for (const auto& refuse : {refuse_of_orbit, refuse_of_contact, refuse_of_spectrum,
-                               refuse_of_response, refuse_of_map})
+    for (const auto& refuse : {refuse_of_orbit, refuse_of_shape, refuse_of_contact,
+                               refuse_of_spectrum, refuse_of_response, refuse_of_map})
       refuse();
     if (map->parsed()) {
       explore_map(mapped);
@@ -399,6 +409,9 @@ int main(int argc, char** argv)
                     {response.save, response.waterfall});
     if (lines->parsed())
       return finish(spectrum, "spectrum.py", [&] { return explore_spectrum(spectrum); });
+    if (deflected->parsed())
+      return finish(shape, "shape.py", [&] { return explore_shape(shape); },
+                    {shape.nodes});
     if (orbit->parsed())
       return finish(motion, "orbit.py", [&] { return explore_orbit(motion); });
     return finish(motion, "contact.py", [&] { return explore_contact(motion); });

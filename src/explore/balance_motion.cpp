@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "balance/fourier_transform.hpp"
+#include "balance/large_problem.hpp"
 #include "io/errors.hpp"
 #include "model/large_machine.hpp"
 #include "motion/adaptive.hpp"
@@ -53,6 +54,14 @@ void note_no_verdict(Table& table)
 namespace {
 
 using motion::lines_of;
+
+/** The series of all coordinates in the place of those shown, where nodes of the rotor depend on them. */
+PeriodicMotion with_all_coordinates(const Parameters& parameters, PeriodicMotion solution)
+{
+  if (parameters.large && parameters.large->nodes.rows() > 0)
+    solution.bodies = coordinate_series(parameters, solution);
+  return solution;
+}
 
 /** When the tolerance chooses m. */
 AdaptiveSettings settings_of(const MotionRequest& request)
@@ -205,7 +214,8 @@ FoundMotion quasi_periodic_motion(const Parameters& parameters,
   } else {
     note_no_verdict(table);
   }
-  return {motion::motion_of(parameters, solution, request.points, request.periods),
+  return {motion::motion_of(parameters, with_all_coordinates(parameters, solution),
+                            request.points, request.periods),
           lines_of(parameters.bearing, solution)};
 }
 
@@ -252,7 +262,7 @@ PeriodicMotion solution_of(const Parameters& parameters, const MotionRequest& re
   } else {
     note_no_verdict(table);
   }
-  return at.motion;
+  return with_all_coordinates(over_turns(parameters, turns), at.motion);
 }
 
 /** A machine that repeats itself after q turns: harmonics of orders h/q. */

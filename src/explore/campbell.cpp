@@ -118,6 +118,17 @@ std::vector<Column> columns_of(bool critical)
 
 }  // namespace
 
+std::vector<double> natural_frequencies(const Parameters& parameters, std::size_t most)
+{
+  const LargeMachine machine = matrices_of(parameters);
+  const Linear linear(machine, mean_contact_stiffness(parameters, machine),
+                      parameters.stator.rigid);
+  std::vector<double> list;
+  for (const Mode& mode : linear.modes(0))
+    if (list.size() < most) list.push_back(mode.frequency);
+  return list;
+}
+
 Exploration explore_campbell(const CampbellRequest& request)
 {
   require_range(request.from, request.to);

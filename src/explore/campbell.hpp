@@ -25,4 +25,7 @@ struct CampbellRequest : Request {
 /** Throws BadInput for a range that is none. */
 Exploration explore_campbell(const CampbellRequest& request);
 
+/** Damped frequencies [Hz] of the lowest modes without rotation, ascending, at most so many. */
+std::vector<double> natural_frequencies(const Parameters& parameters, std::size_t most);
+
 }  // namespace rotor_stator::explore

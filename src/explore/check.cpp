@@ -4,6 +4,7 @@
 #include <cmath>
 #include <numbers>
 
+#include "explore/campbell.hpp"
 #include "io/errors.hpp"
 #include "model/catalogue.hpp"
 #include "model/rotor_stator.hpp"
@@ -14,31 +15,47 @@ namespace {
 
 constexpr double turn = 2 * std::numbers::pi;
 
-/** At rest, means over the angles of the cage between two balls. */
+/** One bearing at rest, means over the angles of the cage between two balls. */
 struct Rest {
   Vec2 u{0, 0}, stiffness{0, 0};  ///< [m]; of the contact in x and y [N/m]
   double force = 0, loaded = 0;   ///< of the bearing [N]; balls
   double most = 0;                ///< the largest force of a ball at any angle [N]
 };
 
-Rest rest_of(const Parameters& machine)
+/** All bearings. Their cages turn together, each between two of its balls. */
+std::vector<Rest> rest_of(const Parameters& machine)
 {
   constexpr int angles = 64;
   constexpr double share = 1.0 / angles;
-  const BallBearing bearing(machine.bearing);
-  Rest rest;
+  std::vector<Rest> rests(1 + machine.further.size());
   for (int k = 0; k < angles; ++k) {
-    const auto cage = Direction::of(turn * share * k / machine.bearing.balls);
-    const Vec2 u = static_equilibrium(machine, cage);
-    const auto [force, stiffness] = bearing.reaction(cage, u);
-    const auto q = bearing.ball_forces({{1, 0}, cage}, u, {0, 0});
-    rest.u = rest.u + share * u;
-    rest.stiffness = rest.stiffness + share * Vec2{stiffness.xx, stiffness.yy};
-    rest.force += share * std::hypot(force.x, force.y);
-    for (double one : q) rest.loaded += one > 0 ? share : 0;
-    rest.most = std::max(rest.most, std::ranges::max(q));
+    Parameters turned = machine;
+    const auto turn_cage = [&](Bearing& one) {
+      one.cage_phase += turn * share * k / one.balls;
+    };
+    turn_cage(turned.bearing);
+    std::ranges::for_each(turned.further, turn_cage);
+    motion::Motion motion{1, 0, {}};
+    if (machine.large) motion::add(motion, static_start(turned));
+    for (std::size_t b = 0; Rest & rest : rests) {
+      const Bearing own = bearings_of(turned)[b];
+      const BallBearing bearing(own);
+      const auto cage = Direction::of(own.cage_phase);
+      const Vec2 u =
+          machine.large
+              ? motion::at_bearing(turned, motion, b).motion.positions[0].relative()
+              : static_equilibrium(machine, cage);
+      const auto [force, stiffness] = bearing.reaction(cage, u);
+      const auto q = bearing.ball_forces({{1, 0}, cage}, u, {0, 0});
+      rest.u = rest.u + share * u;
+      rest.stiffness = rest.stiffness + share * Vec2{stiffness.xx, stiffness.yy};
+      rest.force += share * std::hypot(force.x, force.y);
+      for (double one : q) rest.loaded += one > 0 ? share : 0;
+      rest.most = std::max(rest.most, std::ranges::max(q));
+      ++b;
+    }
   }
-  return rest;
+  return rests;
 }
 
 /** Frequencies [Hz] of both bodies joined by a spring, ascending, without that of a body which nothing holds. */
@@ -78,32 +95,45 @@ Exploration explore_check(const CheckRequest& request)
                                       {"meaning", "word", "of the value"}});
   table.choose(request.columns, 4, false);
   const Parameters machine = read_parameters(request.parameter_file);
-  require_two_masses(machine, "check");
   require_range(request.from, request.to);
-  const Rest rest = rest_of(machine);
-  const KinematicOrders orders = kinematic_orders(machine.bearing);
-  const double stress = 1e-6 * machine.bearing.pressure * std::cbrt(rest.most);
+  const std::vector<Rest> rests = rest_of(machine);
   describe(table, machine);
-  const double gap = machine.bearing.clearance, ball = machine.bearing.ball_diameter;
-  if (ball > 0 && gap > 0.1 * ball)
-    table.note(
-        format("warning: the clearance of %g m is more than a tenth of the ball", gap));
-  if (stress > 4000)
-    table.note(
-        format("warning: the stress of %.4g N/mm^2 at rest is above 4000", stress));
+  for (std::size_t b = 0; const Bearing& bearing : bearings_of(machine)) {
+    const Rest& rest = rests[b++];
+    const std::string tail = b == 1 ? "" : format("_%zu", b);
+    const KinematicOrders orders = kinematic_orders(bearing);
+    const double stress = 1e-6 * bearing.pressure * std::cbrt(rest.most);
+    const double gap = bearing.clearance, ball = bearing.ball_diameter;
+    if (ball > 0 && gap > 0.1 * ball)
+      table.note(
+          format("warning: the clearance of %g m is more than a tenth of the ball", gap));
+    if (stress > 4000)
+      table.note(
+          format("warning: the stress of %.4g N/mm^2 at rest is above 4000", stress));
+    const auto add = [&](const char* name, double value, const char* unit,
+                         const char* meaning) {
+      table.row({name + tail, value, unit, meaning});
+    };
+    add("BPFO", orders.outer, "1/turn", "balls passing a point of the outer race");
+    add("BPFI", orders.inner, "1/turn", "balls passing a point of the inner race");
+    add("static_force", rest.force, "N", "of the bearing at rest");
+    add("static_x", rest.u.x, "m", "rotor against stator at rest");
+    add("static_y", rest.u.y, "m", "rotor against stator at rest");
+    add("loaded_balls", rest.loaded, "-", "at rest, mean over the cage's angle");
+    add("ball_load", rest.most, "N", "largest force of a ball at rest");
+    if (stress > 0) add("stress", stress, "N/mm^2", "largest pressure of Hertz at rest");
+  }
+  if (machine.large) {
+    for (std::size_t k = 1; double frequency : natural_frequencies(machine, 8))
+      table.row({format("f_%zu", k++), frequency, "Hz",
+                 "natural, damped, with the mean contact stiffness at rest"});
+    return {std::move(table)};
+  }
+  const Rest& rest = rests[0];
   if (never_touches(request, machine))
     table.note(format(
         "warning: nothing touches from %g to %g Hz: the clearance of %g m is never closed",
-        request.from, request.to, gap));
-  table.row({"BPFO", orders.outer, "1/turn", "balls passing a point of the outer race"});
-  table.row({"BPFI", orders.inner, "1/turn", "balls passing a point of the inner race"});
-  table.row({"static_force", rest.force, "N", "of the bearing at rest"});
-  table.row({"static_x", rest.u.x, "m", "rotor against stator at rest"});
-  table.row({"static_y", rest.u.y, "m", "rotor against stator at rest"});
-  table.row({"loaded_balls", rest.loaded, "-", "at rest, mean over the cage's angle"});
-  table.row({"ball_load", rest.most, "N", "largest force of a ball at rest"});
-  if (stress > 0)
-    table.row({"stress", stress, "N/mm^2", "largest pressure of Hertz at rest"});
+        request.from, request.to, machine.bearing.clearance));
   /** A frequency and, in the range, the speed at which the passing balls meet it. */
   const auto add = [&](const std::string& name, double frequency, const char* meaning,
                        double order = 1) {

@@ -37,11 +37,14 @@ void require_method_of(const Parameters& parameters, const std::string& method)
     throw BadInput("--method gauss: is for bodies given by matrices");
 }
 
-Parameters machine_of(const Request& request, double from, double to)
+Parameters machine_of(const Request& request, double from, double to,
+                      const NumberTable* nodes)
 {
-  return read_parameters(
-      request.parameter_file,
-      {.from = from, .to = to, .harmonics = std::max(64, request.harmonics.value_or(0))});
+  return read_parameters(request.parameter_file,
+                         {.from = from,
+                          .to = to,
+                          .harmonics = std::max(64, request.harmonics.value_or(0)),
+                          .nodes = nodes});
 }
 
 int checked_samples(int harmonics, const std::optional<int>& samples)

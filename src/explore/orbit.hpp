@@ -57,8 +57,9 @@ Exploration explore_contact(const MotionRequest& request);
 /**
 ## What the other commands need too */
 
-/** The machine, right at these speeds [Hz] and the request's harmonics. Throws BadInput. */
-Parameters machine_of(const Request& request, double from, double to);
+/** The machine, right at these speeds [Hz], the request's harmonics and the rotor's `nodes`. Throws BadInput. */
+Parameters machine_of(const Request& request, double from, double to,
+                      const NumberTable* nodes = nullptr);
 
 /** Throws BadInput for a time method that does not integrate such bodies. */
 void require_method_of(const Parameters& parameters, const std::string& method);

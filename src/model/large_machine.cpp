@@ -10,6 +10,7 @@
 
 #include "io/errors.hpp"
 #include "io/matrix_market.hpp"
+#include "io/number_table.hpp"
 #include "model/catalogue.hpp"
 #include "model/hertz.hpp"
 #include "model/reduction.hpp"
@@ -31,6 +32,8 @@ struct LinearBody : BodyMatrices {
   Eigen::VectorXd load = {};                 ///< beside the weight [N]
   Eigen::VectorXcd unbalance = {};           ///< [kg m]
   std::vector<int> joint = {}, output = {};  ///< x and y
+  std::vector<int> nodes = {};               ///< x and y of each node that is asked for
+  SparseMatrix at_nodes = {};  ///< their displacements over the body's coordinates
   bool keeps_all = false;
 
   int size() const { return static_cast<int>(m.rows()); }
@@ -87,6 +90,26 @@ std::vector<int> read_dofs(StrictToml& table, const std::string& key, int size,
     table.fail(key, "must be [x, y], two degrees of freedom");
   for (int& dof : dofs) --dof;
   return dofs;
+}
+
+/** The nodes that are asked for. */
+void read_nodes(const NumberTable& table, LinearBody& body)
+{
+  Triplets ones;
+  for (std::size_t row = 0; row < table.rows(); ++row) {
+    for (const char* axis : {"x", "y"}) {
+      const double dof = table.at(row, axis);
+      if (!(dof >= 1 && dof <= body.size() && dof == std::floor(dof)))
+        table.fail(row, format("%s must be a degree of freedom of the rotor, 1...%d",
+                               axis, body.size()));
+      body.nodes.push_back(static_cast<int>(dof) - 1);
+      ones.emplace_back(static_cast<int>(ones.size()), body.nodes.back(), 1);
+    }
+    if (table.at(row, "x") == table.at(row, "y"))
+      table.fail(row, "x and y must be two degrees of freedom");
+  }
+  body.at_nodes.resize(std::ssize(body.nodes), body.size());
+  body.at_nodes.setFromTriplets(ones.begin(), ones.end());
 }
 
 LinearBody read_matrices(StrictToml& table, const std::string& name, bool has_weight)
@@ -324,6 +347,13 @@ LargeMachine machine_of(const Assembly& all, double gravity, double spring)
                        .outputs = outputs_of(all, place_of)};
   for (auto& place : machine.places)
     for (int& dof : place) dof = place_of[dof];
+  const SparseMatrix& at_nodes = all.bodies[1].at_nodes;
+  Triplets entries;
+  for (int j = 0; j < at_nodes.outerSize(); ++j)
+    for (SparseMatrix::InnerIterator it(at_nodes, j); it; ++it)
+      entries.emplace_back(it.row(), place_of[all.first(1) + j], it.value());
+  machine.nodes.resize(at_nodes.rows(), n);
+  machine.nodes.setFromTriplets(entries.begin(), entries.end());
   return machine;
 }
 
@@ -337,7 +367,8 @@ void reduce_body(Assembly& all, int body, const ReductionRange& range, double gr
                   .kept = {},
                   .load = own.load - gravity * (own.m * own.upright()),
                   .unbalance = own.unbalance,
-                  .spring = spring};
+                  .spring = spring,
+                  .nodes = own.nodes};
   const auto kept = [&](int dof) {
     const auto at = std::ranges::find(ports.kept, dof);
     const auto place = static_cast<int>(at - ports.kept.begin());
@@ -362,6 +393,8 @@ void reduce_body(Assembly& all, int body, const ReductionRange& range, double gr
   const int change = static_cast<int>(small.basis.cols()) - own.size();
   static_cast<BodyMatrices&>(own) = small.matrices;
   own.vertical.clear();
+  if (!own.nodes.empty())
+    own.at_nodes = Eigen::MatrixXd(own.at_nodes * small.basis).sparseView();
   own.load = small.basis.transpose() * ports.load;
   own.unbalance = small.basis.transpose() * ports.unbalance;
   if (more > 0)
@@ -386,6 +419,16 @@ void read_large_machine(StrictToml& root, Parameters& parameters, const ModelRan
   }
   if (all.is_rigid) all.bodies[0].vertical.clear();
   read_bearings(root, parameters, all);
+  std::vector<std::pair<int, int>> bearing_nodes;
+  if (asked.nodes && tables[1].has("matrices")) {
+    LinearBody& rotor = all.bodies[1];
+    read_nodes(*asked.nodes, rotor);
+    for (int b = 0; b < std::ssize(all.places); ++b)
+      for (int i = 0; i < std::ssize(rotor.nodes); i += 2)
+        if (all.first(1) + rotor.nodes[i] == all.places[b][2] &&
+            all.first(1) + rotor.nodes[i + 1] == all.places[b][3])
+          bearing_nodes.emplace_back(b, i / 2);
+  }
   for (const Bearing& bearing : bearings_of(parameters))
     if (!bearing.is_plain())
       root.fail("bearing",
@@ -435,6 +478,7 @@ void read_large_machine(StrictToml& root, Parameters& parameters, const ModelRan
   LargeMachine machine = machine_of(all, gravity, spring);
   machine.reductions = std::move(notes);
   machine.reduction_error = error;
+  machine.bearing_nodes = std::move(bearing_nodes);
   if (asked.from < asked.to) {
     machine.slowest = from;
     machine.fastest = to;

@@ -20,6 +20,7 @@ bearings carry a body. */
 #include <utility>
 #include <vector>
 
+#include "io/matrix_market.hpp"
 #include "model/rational_fit.hpp"
 #include "model/rotor_stator.hpp"
 
@@ -40,6 +41,10 @@ struct LargeMachine {
   double reduction_error = 0;                ///< of their receptances, relative
   double slowest = 0, fastest = 0;  ///< speeds [rad/s] over which responses are fitted
   std::shared_ptr<RationalFits> fits = {};  ///< by the ratio of frequency and speed
+  SparseMatrix nodes =
+      {};  ///< x, y of the rotor's nodes asked for, over all coordinates, 2k × n
+  std::vector<std::pair<int, int>> bearing_nodes =
+      {};  ///< bearings and the nodes at which they stand, from 0
 
   int bearings() const { return static_cast<int>(places.size()); }
   Eigen::MatrixXd held_stiffness() const  ///< K + k_0 D Dᵀ

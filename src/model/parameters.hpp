@@ -79,6 +79,7 @@ struct Bearing {
 };
 
 struct LargeMachine;
+class NumberTable;
 
 /** One machine. Where `large` is set, that holds both bodies, and `stator` and `rotor` are single masses that
     vibrate about as they do: sizes for tolerances and steps. */
@@ -99,10 +100,12 @@ struct Parameters {
   std::shared_ptr<const LargeMachine> large = {};  ///< bodies given by matrices
 };
 
-/** Speeds [Hz] and harmonics at which the coordinates of large bodies must be right. */
+/** Speeds [Hz] and harmonics at which the coordinates of large bodies must be right, and places of the rotor where
+    they must be too: columns x and y, degrees of freedom from 1. */
 struct ModelRange {
   double from = 1, to = 100;
   int harmonics = 64;
+  const NumberTable* nodes = nullptr;
 };
 
 /** Reads and checks a parameter file. Throws BadInput with file, line and key. */

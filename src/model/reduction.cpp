@@ -309,6 +309,8 @@ ReducedBody reduce(const BodyMatrices& matrices, const BodyPorts& ports,
     inputs(i, s) = ports.load[dof];
     inputs(i, s + 1) = ports.unbalance[dof];
   }
+  std::vector<int> all = ports.kept;
+  all.insert(all.end(), ports.nodes.begin(), ports.nodes.end());
   Basis basis(body);
   const Eigen::MatrixXcd rest = body.solve(0, 0, inputs.leftCols(s + 1));
   basis.add(rest.real());
@@ -344,10 +346,13 @@ ReducedBody reduce(const BodyMatrices& matrices, const BodyPorts& ports,
       const Eigen::MatrixXd& v = basis.vectors();
       const Eigen::MatrixXcd q =
           basis.solve(frequency, speed, rows(v, ports.joints), v.transpose() * b);
-      const Eigen::MatrixXcd right = rows(exact, ports.kept),
-                             difference = rows(v, ports.kept) * q - right;
-      return (difference.colwise().norm().array() / right.colwise().norm().array())
-          .maxCoeff();
+      const auto off_at = [&](const std::vector<int>& dofs) {
+        const Eigen::MatrixXcd right = rows(exact, dofs),
+                               difference = rows(v, dofs) * q - right;
+        return (difference.colwise().norm().array() / right.colwise().norm().array())
+            .maxCoeff();
+      };
+      return std::max(off_at(ports.kept), off_at(all));
     };
     const double error = off();
     if (joins || error > std::max(wanted, 3 * rounding)) {

@@ -32,11 +32,12 @@ struct ReductionRange {
 
 /** What the body is driven by, and what of it is shown; degrees of freedom counted from 0. */
 struct BodyPorts {
-  std::vector<int> joints;     ///< of bearings
-  std::vector<int> kept;       ///< those first, then outputs: each stays a coordinate
-  Eigen::VectorXd load;        ///< constant [N]
-  Eigen::VectorXcd unbalance;  ///< [kg m]
-  double spring;               ///< k_0 [N/m]
+  std::vector<int> joints;      ///< of bearings
+  std::vector<int> kept;        ///< those first, then outputs: each stays a coordinate
+  Eigen::VectorXd load;         ///< constant [N]
+  Eigen::VectorXcd unbalance;   ///< [kg m]
+  double spring;                ///< k_0 [N/m]
+  std::vector<int> nodes = {};  ///< others whose receptances must be right
 };
 
 struct ReducedBody {

@@ -241,7 +241,6 @@ class Large(Case):
                 self.refused(words, "orbit", self.file("bad.toml", good.replace(old, new)), *run[2:])
         self.refused("gauss", *run, "--method", "rk4")
         self.refused("gauss", "orbit", self.machine, *run[2:], "--method", "gauss")
-        self.refused("matrices", "check", run[1], "--from", 1, "--to", 2)
 
     def shaft(self, elements, bearings, spring, name="shaft"):
         """A shaft with a disk in the middle, weight and unbalance there. `bearings`: (node, parameters), between the shaft
@@ -415,6 +414,136 @@ radial_clearance_m = {b["clearance"]}
                     z = stiffness - (h * w) ** 2 * m + 1j * h * w * (c + w * g)
                     z[end, end] += k
                     np.testing.assert_allclose(chain_solve(z, load)[shown], found[h], rtol=0, atol=1e-6 * size)
+
+    def test_check(self):
+        """The rest of the paper's machine is the same by matrices. Two bearings carry a shaft by the lever rule, and its frequencies
+        are those of all its matrices with the stiffness that campbell prints."""
+        own, paper = [{name: value for name, value in zip(t["name"], t["value"])} for t in [
+            self.table("check", self.file("own.toml", self.paper_machine("set1"))), self.table("check", Path("data/set1.toml").resolve())]]
+        for name in ["BPFO", "BPFI", "static_force", "static_y", "loaded_balls", "ball_load"]:
+            self.assertAlmostEqual(own[name] / paper[name], 1, delta=1e-6, msg=name)
+        left = {"balls": 8, "cage": 0.375, "phase": 0.2, "stiffness": 1e10, "clearance": 1e-5}
+        right = {"balls": 10, "cage": 0.3, "phase": 0, "stiffness": 7e9, "clearance": 1.5e-5}
+        text, whole, joints, weight, _, middle = self.shaft(8, [(2, left), (8, right)], 0)
+        machine = self.file("shaft.toml", text)
+        table = self.table("check", machine)
+        values = dict(zip(table["name"], table["value"]))
+        load, place = -weight[3::4], np.arange(9) / 8
+        share = (load * (place - 0.25)).sum() / 0.75
+        self.assertAlmostEqual(values["static_force_2"] / share, 1, delta=1e-3)
+        self.assertAlmostEqual(values["static_force"] / (load.sum() - share), 1, delta=1e-3)
+        self.assertEqual((values["BPFO"], values["BPFO_2"]), (3, 3))
+        m, c, _, k = whole
+        header = self.table("campbell", machine, "--from", 1, "--to", 2, "--count", 2).header
+        for line, (d, _) in zip([line for line in header.splitlines() if "mean contact" in line], joints):
+            xx, xy, yy = [float(word) for word in line.replace(",", "").split() if word[-1].isdigit() and "." in word]
+            k = k + d @ np.array([[xx, xy], [xy, yy]]) @ d.T
+        n = len(m)
+        values_of_all = np.linalg.eigvals(np.block([[np.zeros((n, n)), np.eye(n)], [-np.linalg.solve(m, k), -np.linalg.solve(m, c)]]))
+        exact = np.sort(values_of_all.imag[values_of_all.imag > 1e-6])[:8] / (2 * np.pi)
+        np.testing.assert_allclose([values[f"f_{i}"] for i in range(1, 9)], exact, rtol=1e-4)
+
+    def nodes(self, elements, every=1):
+        """The table of a shaft's nodes, and the degrees of freedom of x and y from 0."""
+        picked = range(0, elements + 1, every)
+        rows = [f"{node + 1}\t{0.8 * node / elements!r}\t{4 * node + 1}\t{4 * node + 2}\n" for node in picked]
+        own = self.file("nodes.tsv", "node\tz\tx\ty\n" + "".join(rows))
+        return own, [4 * node + axis for node in picked for axis in [0, 1]]
+
+    def test_shape_against_orbit(self):
+        """By every method, at both bearings and the output: a coordinate at another place, or a motion that is not that of
+        orbit, would show."""
+        left = {"balls": 8, "cage": 0.375, "phase": 0, "stiffness": 1e10, "clearance": 1e-5}
+        right = {"balls": 8, "cage": 0.375, "phase": 0.4, "stiffness": 7e9, "clearance": 1.5e-5}
+        text = self.shaft(4, [(1, left), (4, right)], 4e6)[0]
+        own, nodes = self.file("shaft.toml", text), self.nodes(4)[0]
+        slow = self.file("slow.toml", text.replace("ratio = 0.375", "ratio = 0.4375"))  # repeats itself after two turns
+        torus = text.replace("ratio = 0.375", "ratio = 0.3815966")
+        still = self.file("still.toml", torus.replace("kg_m = 2e-3", "kg_m = 0").replace("kg_m = 3e-4", "kg_m = 0"))
+        torus = self.file("torus.toml", torus)
+        for machine, options in [
+                (own, ["--harmonics", 20]), (own, ["--tolerance", 1e-3]),
+                (own, ["--method", "shooting", "--local-error", 1e-6]), (own, ["--method", "gauss", "--local-error", 1e-4, "--longest", 0.05, "--periods", 3]),
+                (slow, ["--harmonics", 4]), (still, ["--harmonics", 8, "--periods", 2]),
+                (torus, ["--tolerance", 0.03, "--periods", 3])]:
+            with self.subTest(machine=machine.name, options=options):
+                run = [machine, "--frequency", 60, "--points", 32, "--no-stability", *options]
+                if "gauss" in options:
+                    run.remove("--no-stability")
+                orbit = self.table("orbit", *run, "--columns", "all")
+                shape = self.table("shape", *run, "--nodes", nodes, "--columns", "all")
+                self.assertEqual(len(shape), 5 * len(orbit))
+                self.assertIn("# bearing 1: node 2, z = 0.2 m\n# bearing 2: node 5, z = 0.8 m\n", shape.header)
+                size = max(abs(shape[axis]).max() for axis in "xy")
+                for node, tail in [(2, ""), (5, "_2"), (3, "_out")]:
+                    at = shape.where("node", node)
+                    for name in ["phase", "t"]:
+                        np.testing.assert_array_equal(at[name], orbit[name])
+                    for axis in "xy":
+                        np.testing.assert_allclose(at[axis], orbit[f"{axis}_r{tail}"], rtol=0, atol=1e-12 * size)
+        own = self.file("own.toml", self.paper_machine("set1"))
+        run = [own, "--frequency", 20, "--points", 16, "--subharmonic", 2, "--no-stability"]
+        shape = self.table("shape", *run, "--nodes", self.file("one.tsv", "z\tx\ty\n0\t1\t2\n"))
+        orbit = self.table("orbit", *run)
+        for axis in "xy":
+            np.testing.assert_allclose(shape[axis], orbit[f"{axis}_r"], rtol=0, atol=1e-12 * abs(orbit["y_r"]).max())
+
+    def test_shape_of_a_reduced_body(self):
+        """As all degrees of freedom of the shaft answer the force that orbit prints; a row of the basis at another node
+        would show. A coarse mesh of which no degree of freedom is left out moves alike."""
+        bearing = {"balls": 8, "cage": 0.375, "phase": 0.3, "stiffness": 1e10, "clearance": 1e-5}
+        elements, harmonics, samples, speed = 250, 20, 256, 45
+        text, whole, _, weight, unbalance, _ = self.shaft(elements, [(elements, bearing)], 4e6)
+        own, (nodes, dofs) = self.file("shaft.toml", text), self.nodes(elements, 2)
+        run = ["--frequency", speed, "--points", samples, "--samples", samples, "--harmonics", harmonics, "--no-stability"]
+        orbit, shape = self.table("orbit", own, *run), self.table("shape", own, *run, "--nodes", nodes)
+        self.assertLess(float(shape.header.split("receptances ")[1].split()[0]), 1e-8)
+        force = np.fft.rfft(np.column_stack([orbit["F_x"], orbit["F_y"]]), axis=0) / samples
+        places = np.array([shape["x"], shape["y"]]).reshape(2, -1, samples).transpose(2, 1, 0).reshape(samples, -1)
+        found, size = np.fft.rfft(places, axis=0) / samples, abs(places).max()
+        end = dofs[-2:]
+        for axis, name in enumerate(["x_r", "y_r"]):
+            np.testing.assert_allclose(places[:, axis - 2], orbit[name], rtol=0, atol=1e-7 * size)
+        m, c, g, stiffness = [a[2:, 2:] for a in whole]
+        w = 2 * np.pi * speed
+        for h in range(harmonics + 1):
+            k = 3e7 * (1 + 1j * (h > 0))  # holds the shaft, and is taken off the force
+            load = weight[2:] * (h == 0) + w**2 * unbalance[2:] / 2 * (h == 1)
+            load[end] -= force[h] - k * found[h, -2:]
+            z = stiffness - (h * w) ** 2 * m + 1j * h * w * (c + w * g)
+            z[end, end] += k
+            np.testing.assert_allclose(chain_solve(z, load)[dofs], found[h], rtol=0, atol=1e-6 * size)
+        coarse = self.file("coarse.toml", self.shaft(10, [(10, bearing)], 4e6, "coarse")[0])
+        rough = self.table("shape", coarse, *run, "--nodes", self.nodes(10, 2)[0])
+        self.assertIn("all kept", rough.header)
+        for node in [0, 2, 4, 6, 8, 10]:
+            for axis in "xy":
+                np.testing.assert_allclose(rough.where("node", node + 1)[axis], shape.where("node", 25 * node + 1)[axis], rtol=0,
+                                           atol=1e-3 * size)
+
+    def test_shape_refused(self):
+        bearing = {"balls": 8, "cage": 0.375, "phase": 0, "stiffness": 1e10, "clearance": 1e-5}
+        own = self.file("shaft.toml", self.shaft(4, [(4, bearing)], 4e6)[0])
+        run = ["--frequency", 45, "--points", 4, "--no-stability"]
+        for text, words in [
+                ("", "not a table"), ("z\tx\ty\n", "rows"), ("x\ty\n1\t2\n", "no column z"), ("z\ty\n1\t2\n", "no column x"),
+                ("z\tx\ty\n0\t1\t2\n0\t1\t1\n", "nodes.tsv:3: x and y"), ("z\tx\ty\n0\t1\t21\n", "nodes.tsv:2: y must be"),
+                ("z\tx\ty\n0\t0\t2\n", "1...20"), ("z\tx\ty\n0\t1.5\t2\n", "1...20"), ("z\tx\ty\nnan\t1\t2\n", "nodes.tsv:2: 'nan'"),
+                ("z\tx\ty\n-\t1\t2\n", "finite"), ("z\tx\ty\n0\t1\n", "2 cells"), ("z\tx\ty\n0\t1\t2", "cut off")]:
+            with self.subTest(text=text):
+                self.refused(words, "shape", own, *run, "--nodes", self.file("nodes.tsv", text))
+        nodes = self.nodes(4)[0]
+        self.refused("--nodes", "shape", own, *run)
+        self.refused("nowhere.tsv", "shape", own, *run, "--nodes", "nowhere.tsv")
+        self.refused("rotor.matrices is missing", "shape", self.machine, *run, "--nodes", nodes)
+        self.refused("gauss", "shape", own, *run[:-1], "--nodes", nodes, "--method", "rk4")
+        self.refused("rows", "shape", own, "--frequency", 45, "--nodes", nodes, "--points", 65536, "--subharmonic", 4)
+        plain = self.table("shape", own, *run, "--nodes", self.file("plain.tsv", "z\tx\ty\n0.5\t5\t6\n0.1\t17\t18\n"))
+        self.assertEqual(list(plain["node"]), [1] * 4 + [2] * 4)
+        self.assertIn("# bearing 1: node 2, z = 0.1 m", plain.header)
+        for suffix in ["svg", "png"]:
+            self.lines("shape", own, *run, "--nodes", nodes, "--plot", f"shape.{suffix}")
+            self.assertGreater((self.folder / f"shape.{suffix}").stat().st_size, 1000)
 
     def test_reduced_body_that_nothing_holds(self):
         """One bearing and no spring leave the shaft free to tilt; a degree of freedom that no force reaches, as torsion may

@@ -1,0 +1,77 @@
+#include "explore/shape.hpp"
+
+#include <algorithm>
+#include <numbers>
+
+#include "io/errors.hpp"
+#include "io/number_table.hpp"
+#include "model/large_machine.hpp"
+
+namespace rotor_stator::explore {
+
+namespace {
+
+/** A table of this length takes about a second and 0.4 GB to write. */
+constexpr std::size_t most_rows = 1 << 20;
+
+const std::vector<Column> columns{
+    {"node", "-", "of the table of nodes, or its row from 1"},
+    {"z", "m", "along the shaft"},
+    {"phase", "rad",
+     "omega t, modulo 2 pi, or 2 pi K with --subharmonic K or --periods K"},
+    {"x", "m", "rotor, at the node"},
+    {"y", "m", "rotor, at the node"},
+    {"t", "s", "time since phase 0"}};
+
+}  // namespace
+
+Exploration explore_shape(const ShapeRequest& request)
+{
+  const NumberTable nodes(request.nodes);
+  const bool is_numbered =
+      std::ranges::find(nodes.names(), "node") != nodes.names().end();
+  const auto number = [&](std::size_t i) {
+    return is_numbered ? nodes.at(i, "node") : static_cast<double>(i + 1);
+  };
+  const auto instants =
+      static_cast<std::size_t>(std::max(request.periods, request.subharmonic)) *
+      request.points;
+  if (instants > most_rows / nodes.rows())
+    throw BadInput(
+        format("--nodes %s: %zu nodes at %zu instants give more than %zu rows: "
+               "--points is too large",
+               request.nodes.c_str(), nodes.rows(), instants, most_rows));
+  for (std::size_t i = 0; i < nodes.rows(); ++i) nodes.at(i, "z");
+  const Parameters parameters =
+      machine_of(request, request.frequency, request.frequency, &nodes);
+  if (!parameters.large || parameters.large->nodes.rows() == 0)
+    throw BadInput(request.parameter_file +
+                   ": rotor.matrices is missing: shape is that of a rotor given by them");
+  const LargeMachine& machine = *parameters.large;
+  Table table("Orbits of a rotor's nodes over one period", columns);
+  table.choose(request.columns, columns.size() - 1, request.plot.has_value());
+  const Computed at = computed(parameters, request, table);
+  table.note("nodes: " + request.nodes);
+  for (const auto& [bearing, i] : machine.bearing_nodes)
+    table.note(format("bearing %d: node %g, z = %.15g m", bearing + 1, number(i),
+                      nodes.at(i, "z")));
+  const motion::Motion& motion = at.found.motion;
+  Eigen::MatrixXd places(machine.nodes.rows(), instants);
+  Eigen::VectorXd q(machine.nodes.cols());
+  for (std::size_t k = 0; k < instants; ++k) {
+    for (int i = 0; i < q.size(); ++i)
+      q[i] = motion::shown_at(motion, k % motion.size(), i);
+    places.col(k) = machine.nodes * q;
+  }
+  for (std::size_t i = 0; i < nodes.rows(); ++i)
+    for (std::size_t k = 0; k < instants; ++k) {
+      const double turns = request.subharmonic * motion.t_over_period(k);
+      const auto place = places.col(k).segment<2>(2 * i);
+      table.row({number(i), nodes.at(i, "z"), 2 * std::numbers::pi * turns, place[0],
+                 place[1], turns / request.frequency});
+    }
+  conclude(table, parameters, at.touches(), at.budget);
+  return {std::move(table)};
+}
+
+}  // namespace rotor_stator::explore
