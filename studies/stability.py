@@ -16,7 +16,7 @@ from concurrent.futures import ThreadPoolExecutor
 from pathlib import Path
 
 sys.path.insert(1, str(Path(__file__).parents[1] / "figures"))
-from tables import Table, explore, print_columns  # noqa: E402
+from tables import Table, explore, print_columns, print_header  # noqa: E402
 
 AMPLITUDES = ("amp_x_s", "amp_y_s", "amp_x_r", "amp_y_r")
 VERDICTS = {"stable": 1, "unstable": 0, "undecided": -1}
@@ -80,11 +80,13 @@ def main(file):
     with ThreadPoolExecutor(os.cpu_count()) as pool:  # the long ones first
         tables = list(pool.map(lambda at: curve(scene, *at), reversed(curves)))[::-1]
     branches = [(number, m, table) for (number, m), found in zip(curves, tables) for table in found if table]
-    print("# Stability along the response curves")
-    print("\n".join(branches[0][2].header.split("\n")[1:3]))
+    sets = {number: table for number, _, table in reversed(branches)}
+    notes = []
     for count, (number, m, table) in enumerate(branches, 1):
-        print(f"# curve {count}: set {number + 1}, m = {m}, from {table['f'][0]:g} Hz")
-        print("\n".join(line for line in table.header.split("\n")[3:] if " +- " not in line and "# column" not in line))
+        notes.append(f"curve {count}: set {number + 1}, m = {m}, from {table['f'][0]:g} Hz")
+        notes += [line[2:] for line in table.header.split("\n")[3:] if " +- " not in line
+                  and not line.startswith(("# column", "# parameters: ", "#   "))]
+    print_header("Stability along the response curves", [sets[number] for number in sorted(sets)], *notes)
     print_columns(COLUMNS)
     for count, (number, m, table) in enumerate(branches, 1):
         for row in rows_of(table):
