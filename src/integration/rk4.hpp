@@ -40,7 +40,7 @@ public:
       is used up. */
   void advance(long interval, State& state);
 
-  /** The same of two states in a plain bearing, in little more than the time of one. */
+  /** The same of two states in a plain bearing, in three quarters of the time. */
   void advance_both(long interval, State& a, State& b);
 
   long evaluations() const { return evaluations_; }
