@@ -44,22 +44,44 @@ Rk4::Rk4(const Parameters& parameters, double omega, int intervals, double longe
   }
 }
 
-void Rk4::advance(long interval, State& state)
+template <class Number>
+void Rk4::advance(long interval, BodiesOf<Number>& q, BodiesOf<Number>& v)
 {
-  const long evaluations = 4L * steps_;
+  constexpr long states = sizeof(Number) / sizeof(double);
+  const long evaluations = 4L * steps_ * states;
   budget_.spend(static_cast<double>(evaluations));
   evaluations_ += evaluations;
   const auto periods = static_cast<double>(interval / intervals_);
   const Direction turns = Direction::of(cage_turn_ * periods);
   const Direction spins = Direction::of(spin_turn_ * periods);
-  const auto acceleration = [&](const Bodies& q, const Bodies& v, const Angles& at) {
+  const auto acceleration = [&](const auto& q_now, const auto& v_now, const Angles& at) {
     const Angles now{at.rotor, turned(at.cage, turns),
                      spin_turn_ > 0 ? turned(at.spin, spins) : at.spin};
-    return system_.acceleration(q, v, now);
+    return system_.acceleration(q_now, v_now, now);
   };
   const Angles* angles = &angles_[2 * steps_ * (interval % intervals_)];
   for (int k = 0; k < steps_; ++k, angles += 2)
-    nystrom_step(h_, angles, state.position, state.velocity, acceleration);
+    nystrom_step(h_, angles, q, v, acceleration);
+}
+
+void Rk4::advance(long interval, State& state)
+{
+  advance(interval, state.position, state.velocity);
+}
+
+void Rk4::advance_both(long interval, State& a, State& b)
+{
+  const auto both = [](const Bodies& p, const Bodies& q) -> BodiesOf<Two> {
+    return {{Two{p.stator.x, q.stator.x}, Two{p.stator.y, q.stator.y}},
+            {Two{p.rotor.x, q.rotor.x}, Two{p.rotor.y, q.rotor.y}}};
+  };
+  const auto one = [](const BodiesOf<Two>& q, int k) -> Bodies {
+    return {{q.stator.x[k], q.stator.y[k]}, {q.rotor.x[k], q.rotor.y[k]}};
+  };
+  BodiesOf<Two> q = both(a.position, b.position), v = both(a.velocity, b.velocity);
+  advance(interval, q, v);
+  a = {.position = one(q, 0), .velocity = one(v, 0)};
+  b = {.position = one(q, 1), .velocity = one(v, 1)};
 }
 
 }  // namespace rotor_stator

@@ -40,6 +40,9 @@ public:
       is used up. */
   void advance(long interval, State& state);
 
+  /** The same of two states in a plain bearing, in three quarters of the time. */
+  void advance_both(long interval, State& a, State& b);
+
   long evaluations() const { return evaluations_; }
   double step() const { return h_; }
 
@@ -47,6 +50,9 @@ public:
   const std::vector<Angles>& angles() const { return angles_; }
 
 private:
+  template <class Number>
+  void advance(long interval, BodiesOf<Number>& q, BodiesOf<Number>& v);
+
   RotorStator system_;
   double cage_turn_, spin_turn_;  ///< after one period [rad]
   int intervals_, steps_;

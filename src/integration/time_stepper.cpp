@@ -224,8 +224,14 @@ TimeStepper make_stepper(const Parameters& parameters, double omega,
     return wrap(std::make_shared<GslStepper>(parameters, omega, settings,
                                              PaidEvaluations{budget, price}));
   const double step = settings.step > 0 ? settings.step : default_step(parameters);
-  return wrap(std::make_shared<Rk4>(parameters, omega, settings.intervals_per_period,
-                                    step, budget));
+  const auto rk4 = std::make_shared<Rk4>(parameters, omega, settings.intervals_per_period,
+                                         step, budget);
+  TimeStepper stepper = wrap(rk4);
+  if (parameters.bearing.is_plain())
+    stepper.advance_both = [rk4](long interval, State& a, State& b) {
+      rk4->advance_both(interval, a, b);
+    };
+  return stepper;
 }
 
 }  // namespace rotor_stator

@@ -35,6 +35,9 @@ struct TimeStepper {
 
   /** Evaluations of Eq. 7 so far. */
   std::function<long()> evaluations;
+
+  /** Two states at once; empty where that is not cheaper. */
+  std::function<void(long interval, State& a, State& b)> advance_both = {};
 };
 
 /** Throws BadInput for a method that is neither one of `others` nor a time method, naming the known

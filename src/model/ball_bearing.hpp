@@ -53,13 +53,15 @@ inline Direction turned(Direction a, Direction b)
 }
 
 /** `v` seen from the frame turned by `d`. */
-inline Vec2 into_frame(Direction d, Vec2 v)
+template <class Number>
+Vec2Of<Number> into_frame(Direction d, Vec2Of<Number> v)
 {
   return {d.cos * v.x + d.sin * v.y, d.cos * v.y - d.sin * v.x};
 }
 
 /** The inverse of `into_frame`. */
-inline Vec2 out_of_frame(Direction d, Vec2 v)
+template <class Number = double>
+Vec2Of<Number> out_of_frame(Direction d, Vec2Of<Number> v)
 {
   return {d.cos * v.x - d.sin * v.y, d.sin * v.x + d.cos * v.y};
 }
@@ -108,6 +110,12 @@ public:
     return is_plain() ? force(at.cage, u) : full_reaction(at, u, rate).force;
   }
 
+  /** The same for two motions in a plain bearing. */
+  Vec2Of<Two> force(const Angles& at, Vec2Of<Two> u, Vec2Of<Two>) const
+  {
+    return force(at.cage, u);
+  }
+
   /** The same with its derivatives. */
   BearingReaction reaction(const Angles& at, Vec2 u, Vec2 rate) const
   {
@@ -116,26 +124,28 @@ public:
   }
 
   /** The same of an undamaged bearing at rest, with the cage (ball 1) turned to `cage`. */
-  Vec2 force(Direction cage, Vec2 u) const
+  template <class Number = double>
+  Vec2Of<Number> force(Direction cage, Vec2Of<Number> u) const
   {
-    if (u.x * u.x + u.y * u.y <= clearance_squared_) return {0, 0};
-    const Vec2 v = into_frame(cage, u);
+    Vec2Of<Number> sum{};
+    if (all_within(u.x * u.x + u.y * u.y, clearance_squared_)) return sum;
+    const Vec2Of<Number> v = into_frame(cage, u);
     /** By value: references would send the four through memory. */
-    const auto larger = [](double a, double b) { return a > b ? a : b; };
-    Vec2 sum{0, 0};
+    const auto larger = [](Number a, Number b) { return a > b ? a : b; };
     for (const Four& ball : fours_) {
-      double p[4];
+      Number p[4];
       for (int j = 0; j < 4; ++j)
         p[j] = ball.cos[j] * v.x + ball.sin[j] * v.y - clearance_;
-      if (larger(larger(p[0], p[1]), larger(p[2], p[3])) <= 0) continue;
+      if (all_within(larger(larger(p[0], p[1]), larger(p[2], p[3])), 0)) continue;
       for (int j = 0; j < 4; ++j) {
-        if (p[j] <= 0) continue;
-        const double q = p[j] * std::sqrt(p[j]);
+        if (all_within(p[j], 0)) continue;
+        const Number q = hertz_power(p[j]);
         sum.x += q * ball.cos[j];
         sum.y += q * ball.sin[j];
       }
     }
-    return out_of_frame(cage, {contact_stiffness_ * sum.x, contact_stiffness_ * sum.y});
+    return out_of_frame<Number>(cage,
+                                {contact_stiffness_ * sum.x, contact_stiffness_ * sum.y});
   }
 
   ElasticReaction reaction(Direction cage, Vec2 u) const;
@@ -146,6 +156,17 @@ public:
   const std::vector<Direction>& balls() const { return balls_; }
 
 private:
+  static bool all_within(double a, double most) { return a <= most; }
+  static bool all_within(Two a, double most) { return a[0] <= most && a[1] <= most; }
+
+  /** Eq. 5 over K_H; of two penetrations one may be negative. */
+  static double hertz_power(double p) { return p * std::sqrt(p); }
+  static Two hertz_power(Two p)
+  {
+    p = p > 0 ? p : Two{};
+    return p * Two{std::sqrt(p[0]), std::sqrt(p[1])};
+  }
+
   /** Directions of four balls, whose penetrations are computed at once: most fours are not loaded,
       and their balls need no branch each. A place without a ball is never loaded. */
   struct Four {

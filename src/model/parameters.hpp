@@ -17,9 +17,14 @@ are in model/catalogue.hpp. */
 namespace rotor_stator {
 
 /** A vector of the x-y plane. */
-struct Vec2 {
-  double x, y;
+template <class Number>
+struct Vec2Of {
+  Number x, y;
 };
+using Vec2 = Vec2Of<double>;
+
+/** A number of each of two motions that go on together. */
+using Two = double __attribute__((vector_size(16)));
 
 /** A body on its own suspension, the same in x and y. */
 struct Body {

@@ -25,11 +25,13 @@ them. */
 namespace rotor_stator {
 
 /** Displacements of both bodies [m], or their speeds [m/s]. */
-struct Bodies {
-  Vec2 stator, rotor;
+template <class Number>
+struct BodiesOf {
+  Vec2Of<Number> stator, rotor;
 
-  Vec2 relative() const { return {rotor.x - stator.x, rotor.y - stator.y}; }
+  Vec2Of<Number> relative() const { return {rotor.x - stator.x, rotor.y - stator.y}; }
 };
+using Bodies = BodiesOf<double>;
 
 /** x_s, y_s, x_r, y_r. */
 using Displacements = std::array<double, 4>;
@@ -68,13 +70,17 @@ public:
   RotorStator(const Parameters& parameters, double omega);
 
   /** Accelerations [m/s²]. */
-  Bodies acceleration(const Bodies& q, const Bodies& v, const Angles& at) const
+  template <class Number>
+  BodiesOf<Number> acceleration(const BodiesOf<Number>& q, const BodiesOf<Number>& v,
+                                const Angles& at) const
   {
     return acceleration(q, v, at.rotor, bearing_.force(at, q.relative(), v.relative()));
   }
 
   /** The same for a bearing force `f` [N] that is known already. */
-  Bodies acceleration(const Bodies& q, const Bodies& v, Direction rotor, Vec2 f) const
+  template <class Number>
+  BodiesOf<Number> acceleration(const BodiesOf<Number>& q, const BodiesOf<Number>& v,
+                                Direction rotor, Vec2Of<Number> f) const
   {
     return {
         {(f.x - c_s_ * v.stator.x - k_s_ * q.stator.x) * per_m_s_ + rest_s_.x,
@@ -157,19 +163,23 @@ State static_start(const Parameters& parameters);
 
 What a time integrator does with slopes. */
 
-inline Vec2 operator+(Vec2 a, Vec2 b)
+template <class Number>
+Vec2Of<Number> operator+(Vec2Of<Number> a, Vec2Of<Number> b)
 {
   return {a.x + b.x, a.y + b.y};
 }
-inline Vec2 operator*(double s, Vec2 a)
+template <class Number>
+Vec2Of<Number> operator*(double s, Vec2Of<Number> a)
 {
   return {s * a.x, s * a.y};
 }
-inline Bodies operator+(const Bodies& a, const Bodies& b)
+template <class Number>
+BodiesOf<Number> operator+(const BodiesOf<Number>& a, const BodiesOf<Number>& b)
 {
   return {a.stator + b.stator, a.rotor + b.rotor};
 }
-inline Bodies operator*(double s, const Bodies& a)
+template <class Number>
+BodiesOf<Number> operator*(double s, const BodiesOf<Number>& a)
 {
   return {s * a.stator, s * a.rotor};
 }

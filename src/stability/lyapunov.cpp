@@ -27,8 +27,12 @@ double TrajectoryPair::advance_one_period(const std::function<void(const State&)
   for (long k = 0; k < intervals_; ++k) {
     if (visit) visit(state_);
     const long interval = periods_ * intervals_ + k;
-    stepper_.advance(interval, state_);
-    stepper_.advance(interval, neighbour_);
+    if (stepper_.advance_both) {
+      stepper_.advance_both(interval, state_, neighbour_);
+    } else {
+      stepper_.advance(interval, state_);
+      stepper_.advance(interval, neighbour_);
+    }
     growth += pull_back();
   }
   ++periods_;

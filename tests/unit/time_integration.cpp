@@ -212,3 +212,31 @@ TEST_CASE(
       system.acceleration(rest.position, rest.velocity, Angles{{1, 0}, {1, 0}});
   for (double value : displacements(a)) CHECK(std::abs(value) < 1e-8);
 }
+
+/** One starts in contact, the other one out of it. Catches a force that is that of the other state, and evaluations that
+    are not counted. */
+TEST_CASE("Two states that RK4 advances at once go where each goes alone")
+{
+  Parameters machine = set_1();
+  machine.bearing.cage_speed_ratio = 0.4173;
+  const StepperSettings settings{.method = "rk4", .intervals_per_period = 8};
+  const TimeStepper alone = make_stepper(machine, hertz(25), settings),
+                    together = make_stepper(machine, hertz(25), settings);
+  State a = static_start(machine), b = a;
+  b.position.rotor = {0, 1e-5};
+  b.position.stator = {0, 0};
+  State a_alone = a, b_alone = b;
+  const Eigen::VectorXd sizes = state_scales(machine);
+  const auto apart = [&](const State& one, const State& other) {
+    return (vector_of(one) - vector_of(other)).cwiseQuotient(sizes).norm();
+  };
+  for (long k = 0; k < 32; ++k) {
+    CHECK(apart(a, b) > 0.01);
+    together.advance_both(k, a, b);
+    alone.advance(k, a_alone);
+    alone.advance(k, b_alone);
+    CHECK(apart(a, a_alone) < 1e-12);
+    CHECK(apart(b, b_alone) < 1e-12);
+  }
+  CHECK(together.evaluations() == alone.evaluations());
+}
