@@ -16,10 +16,9 @@ from concurrent.futures import ThreadPoolExecutor
 from pathlib import Path
 
 sys.path.insert(1, str(Path(__file__).parents[1] / "figures"))
-from tables import Table, explore, print_columns, print_header  # noqa: E402
+from tables import STABILITY, Table, explore, print_columns, print_header  # noqa: E402
 
 AMPLITUDES = ("amp_x_s", "amp_y_s", "amp_x_r", "amp_y_r")
-VERDICTS = {"stable": 1, "unstable": 0, "undecided": -1}
 NOT_EXAMINED = -2
 NEAR, ALIKE = 0.1, 0.03  # [Hz], relative: no eye would miss a point so near the one before
 COLUMNS = [
@@ -60,7 +59,7 @@ def rows_of(table):
             continue
         kept = k
         examined = table["multiplier"][k] >= 0
-        stable = VERDICTS[table["verdict"][k]] if examined else NOT_EXAMINED
+        stable = STABILITY[table["verdict"][k]] if examined else NOT_EXAMINED
         rows.append([f"{table['f'][k]:.12g}", *(f"{table[name][k]:.7g}" for name in AMPLITUDES),
                      f"{table['arc'][k]:.9g}", f"{table['multiplier'][k]:.9g}", f"{table['multiplier_change'][k]:.2g}",
                      str(stable), table["bifurcation"][k], f"{uncertainty:.2g}"])

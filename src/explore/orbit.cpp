@@ -228,25 +228,20 @@ Computed computed(const Parameters& parameters, const MotionRequest& request,
 
 namespace {
 
-/** A table of this length takes about a second and 0.4 GB to write. */
-constexpr int most_contact_rows = 1 << 20;
-
-const std::vector<Column> orbit_columns{
-    {"phase", "rad",
-     "omega t, modulo 2 pi, or 2 pi K with --subharmonic K or --periods K"},
-    {"x_s", "m", "stator"},
-    {"y_s", "m", "stator"},
-    {"x_r", "m", "rotor"},
-    {"y_r", "m", "rotor"},
-    {"F_x", "N", "Eq. 6, on the stator"},
-    {"F_y", "N", "Eq. 6, on the stator"},
-    {"t", "s", "time since phase 0"}};
+const std::vector<Column> orbit_columns{phase_column,
+                                        {"x_s", "m", "stator"},
+                                        {"y_s", "m", "stator"},
+                                        {"x_r", "m", "rotor"},
+                                        {"y_r", "m", "rotor"},
+                                        {"F_x", "N", "Eq. 6, on the stator"},
+                                        {"F_y", "N", "Eq. 6, on the stator"},
+                                        time_column};
 
 const std::vector<Column> contact_columns{
     {"t_over_T", "-", "time over the period, 0 to 2"},
     {"ball", "-", "j of Eq. 3"},
     {"Q", "N", "Eq. 5, force of the ball"},
-    {"t", "s", "time since phase 0"},
+    time_column,
     {"angle", "rad", "theta_j of Eq. 3, modulo 2 pi"},
     {"stress", "N/mm^2", "largest pressure of Hertz on the races"}};
 
@@ -314,7 +309,7 @@ Exploration explore_contact(const MotionRequest& request)
     columns.insert(columns.begin() + 1, {"bearing", "-", "in the order of the file"});
   Table table("Contact of every ball over two periods", std::move(columns));
   table.choose(request.columns, bearings > 1 ? 4 : 3, request.plot.has_value());
-  const int most_points = most_contact_rows / (2 * bearing.balls);
+  const int most_points = most_rows / (2 * bearing.balls);
   if (request.points > most_points)
     throw BadInput(format("--points %d: must be at most %d with %d balls", request.points,
                           most_points, bearing.balls));

@@ -57,6 +57,14 @@ Exploration explore_contact(const MotionRequest& request);
 /**
 ## What the other commands need too */
 
+/** A table of this length takes about a second and 0.4 GB to write. */
+constexpr int most_rows = 1 << 20;
+
+inline const Column phase_column{
+    "phase", "rad",
+    "omega t, modulo 2 pi, or 2 pi K with --subharmonic K or --periods K"};
+inline const Column time_column{"t", "s", "time since phase 0"};
+
 /** The machine, right at these speeds [Hz], the request's harmonics and the rotor's `nodes`. Throws BadInput. */
 Parameters machine_of(const Request& request, double from, double to,
                       const NumberTable* nodes = nullptr);

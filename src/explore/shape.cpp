@@ -11,17 +11,13 @@ namespace rotor_stator::explore {
 
 namespace {
 
-/** A table of this length takes about a second and 0.4 GB to write. */
-constexpr std::size_t most_rows = 1 << 20;
-
 const std::vector<Column> columns{
     {"node", "-", "of the table of nodes, or its row from 1"},
     {"z", "m", "along the shaft"},
-    {"phase", "rad",
-     "omega t, modulo 2 pi, or 2 pi K with --subharmonic K or --periods K"},
+    phase_column,
     {"x", "m", "rotor, at the node"},
     {"y", "m", "rotor, at the node"},
-    {"t", "s", "time since phase 0"}};
+    time_column};
 
 }  // namespace
 
@@ -38,7 +34,7 @@ Exploration explore_shape(const ShapeRequest& request)
       request.points;
   if (instants > most_rows / nodes.rows())
     throw BadInput(
-        format("--nodes %s: %zu nodes at %zu instants give more than %zu rows: "
+        format("--nodes %s: %zu nodes at %zu instants give more than %d rows: "
                "--points is too large",
                request.nodes.c_str(), nodes.rows(), instants, most_rows));
   for (std::size_t i = 0; i < nodes.rows(); ++i) nodes.at(i, "z");
