@@ -11,6 +11,10 @@ header, with the least error that it reaches. Speeds at which the motion has not
 left out and listed, since no error of a periodic motion is defined there. The two ranges lie below and
 above the transition at 25 Hz.
 
+The settings of a method are found by trying, with the true motions at hand. `aft-tolerance` is harmonic balance without that:
+each speed is solved by itself, the number of harmonics is chosen and its error estimated, as by
+`explore orbit --tolerance`.
+
 Other people's programs stand with the figure `peers`: the integrators of SUNDIALS and of SciPy, which call the same
 force, and AUTO-07p, which follows the response by collocation. SciPy's are called from Python, which costs
 them more per evaluation than the C++ programs; the header of their table has both numbers. AUTO's curve

@@ -37,7 +37,7 @@ COLUMNS = [
     ("error", "-", "distance to the exact periodic motion; -1 when none was found"),
     ("effectivity", "-", "estimate over error; -1 without error"),
     ("own_branch", "-", "1: against another exact motion than the other tolerances"),
-    ("searched", "-", "1: quasi-static contact was no start; the search is not in the cost"),
+    ("searched", "-", "1: quasi-static contact was no start; of other starts only a short time integration is in the cost"),
     ("cost", "-", "evaluations of the force times samples; -1 when the tolerance was not reached"),
     ("m_fixed", "-", "cheapest fixed m with at most that error; -1 when none"), ("error_fixed", "-", "its error"),
     ("cost_fixed", "-", "its cost"), ("ratio", "-", "cost over that of the fixed m")]

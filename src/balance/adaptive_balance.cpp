@@ -67,12 +67,12 @@ struct Search {
   }
 
   /** Newton with m harmonics from the finer solution at hand; cold when that fails, and thoroughly
-     so when several m have failed. */
+     so once several m have failed. */
   bool solve_level(int m)
   {
     constexpr int patience = 3;
     const int n = adaptive_samples(m);
-    const bool thorough = failures == patience || m >= settings.most_harmonics;
+    const bool thorough = failures >= patience || m >= settings.most_harmonics;
     const bool solved = (start.size() > 0 && keep(warm(m, n))) ||
                         keep(cold_solve(m, n, thorough, newton));
     failures = solved ? 0 : failures + 1;

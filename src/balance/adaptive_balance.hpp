@@ -48,9 +48,9 @@ Approached approach(Balance& finer, double omega, double newton_tolerance,
 
 /** How far to go. */
 struct AdaptiveSettings {
-  double tolerance = 1e-4;   ///< wanted estimate of both errors [-]
-  int first_harmonics = 8;   ///< m to begin with
-  int most_harmonics = 512;  ///< of the solution, not of its estimate
+  double tolerance = 1e-4;    ///< wanted estimate of both errors [-]
+  int first_harmonics = 8;    ///< m to begin with
+  int most_harmonics = 4096;  ///< of the solution, not of its estimate
   NewtonSettings newton = {};
 };
 
@@ -59,10 +59,11 @@ struct AdaptiveSettings {
 double level_tolerance(const AdaptiveSettings& settings);
 
 struct AdaptiveMotion {
-  PeriodicMotion motion;   ///< the last one, with its error; not found when there is none
-  long force_samples = 0;  ///< evaluations of the force times samples, at all m
-  bool reached = false;    ///< the estimate is settled and below the tolerance
-  std::string end = {};    ///< why it stopped
+  PeriodicMotion motion;  ///< the last one, with its error; not found when there is none
+  long force_samples =
+      0;  ///< evaluations of the force times samples, at all m; with those of short integration
+  bool reached = false;  ///< the estimate is settled and below the tolerance
+  std::string end = {};  ///< why it stopped
 };
 
 /** A solution from no other one, when it is found. What is cheap is tried first, for a few numbers of

@@ -74,7 +74,7 @@ constexpr double weak_coupling = 1;
 constexpr double most_low_share = 0.8;
 
 /** A dense block of more harmonics costs more than the equations in time. */
-constexpr int most_dense = 64;
+constexpr int most_dense = 32;
 
 /** What a step by them may leave, of what another iterated step may: it is then as good as a dense one, after which
     Newton's error is that of δ₂². */
@@ -83,8 +83,8 @@ constexpr double in_time_goal = 0.01;
 /** The dense block and its factors stay below 0.3 GB. */
 constexpr int most_low_unknowns = 4200;
 
-/** With more unknowns than this, an iteration of GMRES costs little beside new factors. */
-constexpr Eigen::Index most_chord_unknowns = 100;
+/** Up to this many unknowns, new factors of all cost less than the iterations of GMRES that they save. */
+constexpr Eigen::Index most_chord_unknowns = 130;
 
 constexpr int most_linear_iterations = 80;
 
@@ -124,10 +124,11 @@ void StepSolver::factor(Balance& balance, const Eigen::VectorXd& x, double omega
 {
   if (!parts_.empty()) return factor_parts(balance, x, omega);
   const int m = balance.harmonics().count(), two = 2 * balance.problem().dofs;
-  low_ = std::max(least_low_,
-                  m > least_low_ ? balance.highest_coupled(x, omega, weak_coupling) : m);
-  if (low_ >= most_low_share * m) low_ = m;
-  if (holds_) low_ = m;
+  low_ = m;
+  if (!holds_ && m > least_low_ && balance.unknowns() > most_chord_unknowns) {
+    low_ = std::max(least_low_, balance.highest_coupled(x, omega, weak_coupling));
+    if (low_ >= most_low_share * m) low_ = m;
+  }
   low_ = std::min(low_, largest_low(balance));
   in_time_ = balance.problem().bodies && !holds_ && !stalls_in_time_ && low_ > most_dense;
   is_complete_ = low_ == m && !in_time_;
@@ -237,6 +238,8 @@ StepKind StepSolver::step(Balance& balance, const Eigen::VectorXd& x, double ome
   if (factored_ && takes_chords() && !chord_pays(goal / residual.norm()))
     factored_ = false;
   stalled_ = false;
+  /** Those in time cost no more than some iterations, and are worth little at another speed. */
+  if (in_time_ && entering_) factored_ = false;
   const bool are_new = !factored_;
   if (are_new) factor(balance, x, omega);
   if (is_complete_ && (are_new || takes_chords())) {

@@ -53,7 +53,7 @@ whole Jacobian. A step then is either
 - iterated: GMRES on the present Jacobian, preconditioned by the factors, old or new. Its cost
   per iteration is that of the transforms, m log m.
 
-Where the contact couples more than 64 harmonics, and the problem knows its bodies, the preconditioner is that of the
+Where the contact couples more than 32 harmonics, and the problem knows its bodies, the preconditioner is that of the
 equations in time (equations_in_time.hpp): the whole step then costs m log m. */
 
 enum class StepKind { fresh, chord, iterated };

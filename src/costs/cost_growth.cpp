@@ -43,7 +43,7 @@ Growth cost_of(const CostGrowthScene& scene, const GrowthKind& kind, int size)
   const bool one_solution = kind.against == "harmonics";
   Task task{.parameters = scene.parameters, .frequencies = {scene.frequency}};
   if (one_solution)
-    task.before = Task::Known{scene.below, {}};
+    task.before = Task::Known{scene.below, static_start(scene.parameters)};
   else {
     if (kind.against == "balls") task.parameters.bearing.balls = size;
     const int speeds = kind.against == "speeds" ? size : scene.sweep_speeds;

@@ -15,9 +15,8 @@ std::string Setting::text() const
   const auto add = [&](bool given, const std::string& word) {
     if (given) words += (words.empty() ? "" : " ") + word;
   };
-  add(harmonics > 0, format(corner + estimate > 0 ? "m>=%d" : "m=%d", harmonics));
+  add(harmonics > 0, format(corner > 0 ? "m>=%d" : "m=%d", harmonics));
   add(corner > 0, format("m*f>=%g", corner));
-  add(estimate > 0, format("estimate<%g", estimate));
   add(samples_per_harmonic > 0, format("N>%dm", samples_per_harmonic));
   add(step > 0, format("step=%g", step));
   add(tolerance > 0, format("tol=%g", tolerance));
@@ -26,12 +25,18 @@ std::string Setting::text() const
   return words;
 }
 
+namespace {
+
+/** The next whole number with at most three binary digits: few different m in a sweep, and fast
+    transforms. */
 int rounded_up(int harmonics)
 {
   int unit = 1;
   while (harmonics > 8 * unit) unit *= 2;
   return (harmonics + unit - 1) / unit * unit;
 }
+
+}  // namespace
 
 int harmonics_at(const Setting& setting, double frequency)
 {
@@ -68,18 +73,31 @@ std::vector<SettingGroup> aft_groups(StrictToml& table)
   std::vector<SettingGroup> groups;
   const auto tolerances = table.numbers("newton_tolerances", Range::positive);
   const auto per_harmonic = table.integers("samples_per_harmonic", 2, 64);
-  const auto add = [&](const Setting& accuracy, const std::vector<int>& harmonics) {
-    const SettingGroup group = each(each({accuracy}, &Setting::harmonics, harmonics),
-                                    &Setting::samples_per_harmonic, per_harmonic);
-    groups.push_back(each(group, &Setting::tolerance, tolerances));
+  std::vector<double> transients{0};
+  if (table.has("transients_s"))
+    transients = table.numbers("transients_s", Range::not_negative);
+  /** A group for each start: which is cheaper depends on the speeds. */
+  const auto add = [&](Setting setting, const std::vector<int>& harmonics) {
+    for (double transient : transients) {
+      setting.transient = transient;
+      const SettingGroup group = each(each({setting}, &Setting::harmonics, harmonics),
+                                      &Setting::samples_per_harmonic, per_harmonic);
+      groups.push_back(each(group, &Setting::tolerance, tolerances));
+    }
   };
-  for (int m : table.integers("harmonics", 1, 1024)) add({.method = "aft"}, {m});
+  for (int m : table.integers("harmonics", 1, 4096)) add({.method = "aft"}, {m});
   if (!table.has("least_harmonics")) return groups;
   const auto least = table.integers("least_harmonics", 1, 1024);
   for (double corner : table.numbers("corners_hz", Range::positive))
     add({.method = "aft", .corner = corner}, least);
-  for (double estimate : table.numbers("estimates", Range::positive))
-    add({.method = "aft", .estimate = estimate}, least);
+  return groups;
+}
+
+std::vector<SettingGroup> tolerance_groups(StrictToml& table)
+{
+  std::vector<SettingGroup> groups;
+  for (double tolerance : table.numbers("tolerances", Range::positive))
+    groups.push_back({{.method = "aft-tolerance", .tolerance = tolerance}});
   return groups;
 }
 
@@ -106,7 +124,7 @@ std::vector<SettingGroup> time_groups(StrictToml& table, const std::string& meth
 
 std::vector<Candidates> read_candidates(StrictToml& toml)
 {
-  std::vector<std::string> known{"aft"};
+  std::vector<std::string> known{"aft", "aft-tolerance"};
   known.insert(known.end(), time_methods().begin(), time_methods().end());
   for (const char* stepper : {"rk4", "rkf45", "rkck", "rk8pd"})
     known.push_back(std::string("shooting-") + stepper);
@@ -118,8 +136,9 @@ std::vector<Candidates> read_candidates(StrictToml& toml)
       toml.fail("methods", "must be some of " + list);
     }
     StrictToml table = toml.table(method);
-    all.push_back(
-        {method, method == "aft" ? aft_groups(table) : time_groups(table, method)});
+    all.push_back({method, method == "aft"             ? aft_groups(table)
+                           : method == "aft-tolerance" ? tolerance_groups(table)
+                                                       : time_groups(table, method)});
     table.refuse_unknown_keys();
   }
   return all;

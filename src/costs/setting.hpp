@@ -14,22 +14,23 @@ namespace rotor_stator::costs {
 
 /** One method at one setting; zero where the method has no such setting.
 
-- *aft*: harmonic balance. The number of harmonics is the same at all speeds, or falls with the speed, or
-  is raised until what the series leaves out is estimated small.
+- *aft*: harmonic balance. The number of harmonics is the same at all speeds, or falls with the speed. Each
+  speed starts from the ones before, or from a transient.
+- *aft-tolerance*: each speed by itself, with harmonics chosen and error estimated as by `explore orbit --tolerance`.
 - *rk4* (fixed step), GSL's steppers: time integration.
 - *shooting-rk4*, *shooting-rk8pd*, …: Newton's method on the period map. */
 struct Setting {
   std::string method;
   int harmonics = 0;             ///< aft: m, the least where `corner` asks for more
   double corner = 0;             ///< aft: m f is at least this [Hz]
-  double estimate = 0;           ///< aft: bound on the estimated truncation error [-]
   int samples_per_harmonic = 0;  ///< aft: N is a fast size above this times m
   int samples = 0;               ///< aft: N itself, instead
   bool paper_sweep = false;  ///< aft: the paper's continuation, continuation/sweep.hpp
-  double tolerance = 0;      ///< aft: Newton's; GSL: local error
-  double step = 0;           ///< rk4 [s]
-  double transient = 0;      ///< time methods, at each speed [s]
-  int recorded = 0;          ///< time integration: intervals of a last period
+  double tolerance =
+      0;            ///< aft: Newton's; aft-tolerance: the one asked for; GSL: local error
+  double step = 0;  ///< rk4 [s]
+  double transient = 0;             ///< at each speed [s]; of aft, that of its start
+  int recorded = 0;                 ///< time integration: intervals of a last period
   double periodicity_residual = 0;  ///< shooting; "closure" in files [-]
 
   bool is_shooting() const { return method.starts_with("shooting-"); }
@@ -37,10 +38,6 @@ struct Setting {
   /** "m=6 N>4m tol=1e-07". */
   std::string text() const;
 };
-
-/** The next whole number with at most three binary digits: few different m in a sweep, and fast
-    transforms. */
-int rounded_up(int harmonics);
 
 /** Number of harmonics and samples of an aft setting at a speed [Hz]. */
 int harmonics_at(const Setting& setting, double frequency);

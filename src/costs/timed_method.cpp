@@ -1,7 +1,6 @@
 #include "costs/timed_method.hpp"
 
 #include <time.h>
-#include <Eigen/LU>
 #include <algorithm>
 #include <cmath>
 #include <map>
@@ -13,6 +12,7 @@
 #include "integration/time_stepper.hpp"
 #include "io/errors.hpp"
 #include "model/rotor_stator.hpp"
+#include "motion/adaptive.hpp"
 #include "stability/shooting.hpp"
 
 namespace rotor_stator::costs {
@@ -66,13 +66,13 @@ class BalanceSweep : public TimedMethod {
 public:
   BalanceSweep(const Task& task, const Setting& setting) : TimedMethod(task, setting)
   {
-    longest_ = setting.estimate > 0 ? most_harmonics : 0;
     for (double frequency : task.frequencies)
-      longest_ = std::max(longest_, 2 * harmonics_at(setting, frequency));
+      longest_ = std::max(longest_, harmonics_at(setting, frequency));
     if (!task.before) return;
     const double frequency = task.before->frequency;
+    integration_.emplace(task.parameters, task.before->state);
     PeriodicMotion known{.omega = angular(frequency)};
-    if (converges_from(harmonics_at(setting, frequency), known)) before_ = known.x;
+    if (finds(harmonics_at(setting, frequency), known)) before_ = known.x;
   }
 
   std::optional<motion::Motion> motion(std::size_t speed, int points) const override
@@ -87,19 +87,19 @@ public:
   {
     Counts counts = counts_;
     for (const auto& [m, balance] : balances_) add(*balance, counts);
+    if (integration_) counts.force_instants += integration_->evaluations();
     counts.force_seconds = *force_seconds_;
     return counts;
   }
 
 private:
-  static constexpr int most_harmonics = 1024;
-
   void begin() override
   {
     balances_.clear();
     bodies_.clear();
     *force_seconds_ = 0;
-    adapted_ = setting_.harmonics;
+    integration_.emplace(task_.parameters, task_.before ? task_.before->state
+                                                        : static_start(task_.parameters));
     SweepSettings settings = sweep_settings(task_.parameters);
     predictor_ = {settings.arc_unknown_scale, settings.speed_scale};
     if (before_.size() > 0) learn(angular(task_.before->frequency), before_);
@@ -118,7 +118,7 @@ private:
   {
     if (setting_.paper_sweep) return;
     const double frequency = task_.frequencies[speed];
-    const int m = setting_.estimate > 0 ? adapted_ : harmonics_at(setting_, frequency);
+    const int m = harmonics_at(setting_, frequency);
     /** Frees the large balances but one, whose factors this speed can use. */
     constexpr int large = 128;
     std::erase_if(balances_, [&](const auto& entry) {
@@ -127,8 +127,9 @@ private:
       return freed;
     });
     PeriodicMotion found{.omega = angular(frequency)};
-    if (!predictor_.empty()) found.x = predictor_.at_speed(found.omega);
-    if (solve_at(m, found)) learn(found.omega, found.x);
+    if (!finds(m, found)) return;
+    learn(found.omega, found.x);
+    bodies_[found.omega] = body_series(task_.parameters, found);
   }
 
   /** The predictor's vectors all have one length. */
@@ -137,104 +138,26 @@ private:
     predictor_.add(resize_harmonics(x, 2, longest_), omega);
   }
 
-  /** From the coefficients of `found`, or cold if there are none; with m harmonics, or half as many
-      more where those have no solution, and with more while the setting's estimate is not reached. */
-  bool solve_at(int m, PeriodicMotion& found)
-  {
-    if (!converges_from(m, found)) {
-      m += (m + 1) / 2;
-      if (!converges_from(m, found)) return false;
-    }
-    while (setting_.estimate > 0) {
-      PeriodicMotion wider = found;
-      const int wanted = std::min(most_harmonics, rounded_up(harmonics_wanted(wider)));
-      adapted_ = std::max(setting_.harmonics, wanted);
-      if (wanted <= m) break;
-      m = wanted;
-      found.x = wider.x;
-      if (!converges_from(m, found)) return false;
-    }
-    return true;
-  }
-
-  /** The least number of harmonics above which the amplitudes are estimated to add up to no more than
-      the setting's part of the motion's size; the estimated ones are added to `motion`.
-
-      The force of a solution with m harmonics has harmonics above m too, which leave a residual R_h
-      there. Newton's step with the diagonal blocks of the Jacobian alone,
-
-      $$u_h \approx -(A + J)_{hh}^{-1} R_h, \qquad h > m,$$
-
-      answers it with the inertia of the bodies and the mean stiffness of the contact: right above the
-      contact mode and of the right size around it. It costs one evaluation of the force and no large
-      linear system: an indicator, not a bound. It looks up to the contact mode, and to 2m at least. */
-  int harmonics_wanted(PeriodicMotion& motion)
-  {
-    const int m = motion.harmonics.count();
-    const int mode =
-        static_cast<int>(std::ceil(contact_frequency(task_.parameters) / motion.omega));
-    const int far = rounded_up(std::max(2 * m, mode));
-    Balance& fine = balance(far);
-    motion.harmonics = fine.harmonics();
-    motion.x = resize_harmonics(motion.x, 2, far);
-    const Eigen::VectorXd residual = fine.residual(motion.x, motion.omega);
-    motion.force = fine.force(motion.x, motion.omega);
-    const Eigen::MatrixXd bodies = body_series(task_.parameters, motion);
-    const double size = bodies.leftCols(3).cwiseAbs().rowwise().sum().maxCoeff();
-    const Eigen::VectorXd x = motion.x;
-    double sum = 0;
-    int wanted = far;
-    for (int h = far; h > 0; --h) {
-      auto u = motion.x.segment<4>((2 * h - 1) * 2);  // cosine, then sine coefficients
-      if (h > m) {
-        const Eigen::Matrix4d block = fine.diagonal_block(x, motion.omega, h);
-        u = -block.partialPivLu().solve(residual.segment<4>((2 * h - 1) * 2));
-      }
-      if (!(sum / size > setting_.estimate)) wanted = h;
-      sum += std::max(std::hypot(u[0], u[2]), std::hypot(u[1], u[3]));
-    }
-    return wanted;
-  }
-
-  /** From the coefficients; without them, or where that fails, from quasi-static contact, which is near
-      with few harmonics only, and then from time integration. */
-  bool converges_from(int m, PeriodicMotion& found)
+  /** From the setting's transient; without one, or where that fails, from the predictor; then from
+      quasi-static contact, which is near with few harmonics only; then from half a second of integration,
+      and from longer ones with half as many harmonics more. */
+  bool finds(int m, PeriodicMotion& found)
   {
     constexpr int few = 12;
-    if (found.x.size() > 0 && converges(m, found)) return true;
-    if (m <= few) {
-      found.x = quasi_static_start(task_.parameters, found.omega, m);
-      if (converges(m, found)) return true;
-    }
-    found.x = start_after_transient(found.omega, m);
-    return converges(m, found);
-  }
-
-  bool converges(int m, PeriodicMotion& found)
-  {
-    found.x = resize_harmonics(found.x, 2, m);
-    if (!rotor_stator::solve(balance(m), found, newton_)) return false;
-    bodies_[found.omega] = body_series(task_.parameters, found);
-    return true;
-  }
-
-  /** Coefficients of the relative motion over one period after half a second of RK4. */
-  Eigen::VectorXd start_after_transient(double omega, int harmonics) const
-  {
-    const double coarse = 4 * default_step(task_.parameters);  // a start needs no more
-    const auto stepper = [&](int intervals) {
-      return make_stepper(
-          task_.parameters, omega,
-          {.method = "rk4", .intervals_per_period = intervals, .step = coarse});
+    const auto from = [&](const Eigen::VectorXd& x) {
+      found.x = resize_harmonics(x, 2, m);
+      return rotor_stator::solve(balance(m), found, newton_);
     };
-    const int points = 2 * harmonics + 2;
-    State state = quasi_static_state(task_.parameters, omega);
-    advance_periods(stepper(1), periods_in(0.5, omega), state);
-    const TimeStepper parts = stepper(points);
-    Eigen::VectorXd x =
-        motion::relative_series(motion::recorded(parts, points, state), harmonics);
-    if (!x.allFinite()) x.setZero();
-    return x;
+    const auto after = [&](double seconds) {
+      return from(integration_->go_on(found.omega, seconds, m));
+    };
+    if ((setting_.transient > 0 && after(setting_.transient)) ||
+        (!predictor_.empty() && from(predictor_.at_speed(found.omega))) ||
+        (m <= few && from(quasi_static_start(task_.parameters, found.omega, m))) ||
+        after(0.5))
+      return true;
+    m += (m + 1) / 2;
+    return after(1) || after(2);
   }
 
   /** One balance for each number of harmonics; of a profiled task the force is timed. */
@@ -269,12 +192,42 @@ private:
   const NewtonSettings newton_{
       .tolerance = setting_.tolerance, .most_iterations = 12, .most_halvings = 4};
   Eigen::VectorXd before_;  ///< the solution that is known, if any
-  int longest_;             ///< harmonics of the predictor's vectors
-  int adapted_ = 0;         ///< harmonics that the estimate asked for last
+  int longest_ = 0;         ///< harmonics of the predictor's vectors
+  std::optional<motion::CoarseIntegration> integration_;  ///< goes on from speed to speed
   LagrangePredictor predictor_{1, 1};
   std::map<int, std::unique_ptr<Balance>> balances_;  ///< by m
   std::map<double, Eigen::MatrixXd> bodies_;          ///< series found, by speed [rad/s]
   std::shared_ptr<double> force_seconds_ = std::make_shared<double>(0);
+};
+
+/** Harmonic balance to a tolerance. */
+class ToleranceSweep : public TimedMethod {
+public:
+  using TimedMethod::TimedMethod;
+
+  std::optional<motion::Motion> motion(std::size_t speed, int points) const override
+  {
+    if (bodies_[speed].size() == 0) return {};
+    return motion::motion_of(bodies_[speed], points);
+  }
+
+private:
+  void begin() override { bodies_.assign(task_.frequencies.size(), {}); }
+
+  void solve(std::size_t speed) override
+  {
+    try {
+      const AdaptiveMotion at =
+          motion::solve_adaptively(task_.parameters, angular(task_.frequencies[speed]),
+                                   {.tolerance = setting_.tolerance});
+      counts_.force_instants += at.force_samples;
+      if (at.reached) bodies_[speed] = at.motion.bodies;
+    } catch (const NoSolution&) {
+      return;  // the integration from rest broke down
+    }
+  }
+
+  std::vector<Eigen::MatrixXd> bodies_;  ///< series found, by speed
 };
 
 /**
@@ -433,6 +386,8 @@ void add(MotionError& error, const TimedMethod& method, const References& sweep,
 std::unique_ptr<TimedMethod> timed_method(const Task& task, const Setting& setting)
 {
   if (setting.is_shooting()) return std::make_unique<ShootingSweep>(task, setting);
+  if (setting.method == "aft-tolerance")
+    return std::make_unique<ToleranceSweep>(task, setting);
   if (setting.method != "aft") return std::make_unique<TransientSweep>(task, setting);
   return std::make_unique<BalanceSweep>(task, setting);
 }

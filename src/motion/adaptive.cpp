@@ -28,14 +28,14 @@ std::optional<AdaptiveMotion> near_settled(const Parameters& parameters, double 
                                            const AdaptiveSettings& settings,
                                            const OperationBudget& budget)
 {
-  constexpr int first = 8;
+  constexpr int first = 8, most = 512;
   Settled rest = settle(parameters, omega, static_start(parameters), budget);
   if (rest.period != 1 ||
       !shoot(parameters, omega, rest.state,
              {.quasi_newton = false, .final_derivative = false, .budget = budget})
            .converged)
     return {};
-  for (int m = first; m <= settings.most_harmonics; m *= 2) {
+  for (int m = first; m <= std::min(most, settings.most_harmonics); m *= 2) {
     AdaptiveMotion at{solved_near({parameters,
                                    omega,
                                    m,
@@ -59,11 +59,27 @@ AdaptiveMotion solve_adaptively(const Parameters& parameters, double omega,
 {
   constexpr double most = 0.7;  // the rest is for the motion from rest
   const OperationBudget share = parameters.large ? budget : budget.part(most);
+  constexpr double short_time = 0.5;  // [s], each time it is asked
+  const int patience = parameters.large ? 1 : 3;
+  std::optional<CoarseIntegration> integration;
+  int failed = 0;  // thorough attempts
   const auto cold = [&](int m, int n, bool thorough, const NewtonSettings& newton) {
-    PeriodicMotion motion = find_near_contact({parameters, omega, m, n, newton, share});
-    if (motion.found() || !thorough) return motion;
-    const long cost = motion.force_samples;
-    motion = search_periodic({parameters, omega, m, n, settings.newton, share});
+    const Search search{parameters, omega, m, n, newton, share};
+    PeriodicMotion motion;
+    long cost = 0;
+    if (thorough && !parameters.large) {
+      if (!integration) integration.emplace(parameters, static_start(parameters), share);
+      cost -= integration->evaluations();
+      motion = find_from(search, "short time integration",
+                         integration->go_on(omega, short_time, m));
+      cost += integration->evaluations() + motion.force_samples;
+    }
+    if (!motion.found()) {
+      motion = find_near_contact(search);
+      cost += motion.force_samples;
+    }
+    if (!motion.found() && thorough && ++failed == patience)
+      motion = search_periodic({parameters, omega, m, n, settings.newton, share});
     motion.force_samples = cost;
     return motion;
   };

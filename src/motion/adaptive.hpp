@@ -11,8 +11,8 @@ the largest difference over the period over the largest displacement, and the rm
 namespace rotor_stator::motion {
 
 /** Chooses m and N for the tolerance at speed `omega` [rad/s]. Newton starts from quasi-static contact;
-    when that fails with several m, from whatever `search_periodic` finds, whose evaluations are not
-    counted. Where no m is enough and integration from rest settles on a motion of period T, from that motion; the
+    when that fails with several m, from short time integration (not of machines given by matrices), and when that has
+    failed too, once from whatever `search_periodic` finds, whose evaluations are not counted. Where no m is enough and integration from rest settles on a motion of period T, from that motion; the
     error is then the distance from it. */
 AdaptiveMotion solve_adaptively(const Parameters& parameters, double omega,
                                 const AdaptiveSettings& settings,

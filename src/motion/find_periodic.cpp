@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numbers>
 #include <utility>
 
 #include "balance/bearing_problem.hpp"
@@ -110,14 +111,51 @@ Eigen::VectorXd integrated_start(const Parameters& parameters, double omega,
   return relative_series(parameters, motion, harmonics);
 }
 
-PeriodicMotion find_near_contact(const Search& search)
+CoarseIntegration::CoarseIntegration(const Parameters& parameters, const State& state,
+                                     OperationBudget budget)
+    : parameters_(parameters), state_(state), budget_(std::move(budget))
+{
+}
+
+Eigen::VectorXd CoarseIntegration::go_on(double omega, double seconds, int harmonics)
+{
+  /** As long as RK4 stays stable. */
+  const double step =
+      (parameters_.bearing.damping > 0 ? 5 : 8) * default_step(parameters_);
+  const auto integrated = [&](int intervals, auto run) {
+    const TimeStepper stepper = make_stepper(parameters_, omega,
+                                             {.method = "rk4",
+                                              .intervals_per_period = intervals,
+                                              .step = step,
+                                              .budget = budget_});
+    run(stepper);
+    evaluations_ += stepper.evaluations();
+  };
+  const int points = 2 * harmonics + 2;
+  const long turns = std::lround(std::ceil(seconds * omega / (2 * std::numbers::pi)));
+  Motion last;
+  integrated(1, [&](const TimeStepper& whole) {
+    for (long k = 0; k < turns; ++k) whole.advance(k, state_);
+  });
+  integrated(points,
+             [&](const TimeStepper& parts) { last = recorded(parts, points, state_); });
+  if (vector_of(state_).allFinite()) return relative_series(parameters_, last, harmonics);
+  state_ = static_start(parameters_);
+  return quasi_static_start(parameters_, omega, harmonics);
+}
+
+PeriodicMotion find_from(const Search& search, const std::string& name, Eigen::VectorXd x)
 {
   Balance balance = balance_of(search);
-  PeriodicMotion motion =
-      solve(balance, search.omega, near_contact(search), search.newton);
-  motion.start = quasi_static_name;
+  PeriodicMotion motion = solve(balance, search.omega, std::move(x), search.newton);
+  motion.start = name;
   if (motion.found()) motion.bodies = body_series(search.parameters, motion);
   return motion;
+}
+
+PeriodicMotion find_near_contact(const Search& search)
+{
+  return find_from(search, quasi_static_name, near_contact(search));
 }
 
 PeriodicMotion find_periodic(const Search& search, const std::vector<Start>& further)

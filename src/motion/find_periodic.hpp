@@ -5,6 +5,7 @@ Found by harmonic balance, from several starts. */
 #pragma once
 
 #include "balance/newton.hpp"
+#include "integration/time_stepper.hpp"
 #include "motion/motion.hpp"
 
 namespace rotor_stator::motion {
@@ -35,7 +36,9 @@ struct Search {
 PeriodicMotion find_periodic(const Search& search,
                              const std::vector<Start>& further = {});
 
-/** From quasi-static contact alone. */
+/** From these coefficients alone, which `name` describes; and from quasi-static contact alone. */
+PeriodicMotion find_from(const Search& search, const std::string& name,
+                         Eigen::VectorXd x);
 PeriodicMotion find_near_contact(const Search& search);
 
 /** A start for Newton: the relative motion [m] of one period after ten seconds of RK4 from rest, as
@@ -43,5 +46,27 @@ PeriodicMotion find_near_contact(const Search& search);
     the same one in the same time at speeds that differ by 1e-11: chaotic motion differs from processor to processor. */
 Eigen::VectorXd integrated_start(const Parameters& parameters, double omega,
                                  int harmonics, const OperationBudget& budget = {});
+
+/** Short time integration as a start: RK4 goes on from where it ended last, with steps that are too long for
+    a result. */
+class CoarseIntegration {
+public:
+  CoarseIntegration(const Parameters& parameters, const State& state,
+                    OperationBudget budget = {});
+
+  /** Coefficients of the relative motion [m] over the period that follows `seconds` at this speed. Where it diverges,
+      those of quasi-static contact, and it begins from the static load again. Throws NoSolution when the budget is
+      used up. */
+  Eigen::VectorXd go_on(double omega, double seconds, int harmonics);
+
+  /** Evaluations of the force. */
+  long evaluations() const { return evaluations_; }
+
+private:
+  Parameters parameters_;
+  State state_;  ///< at phase 0
+  OperationBudget budget_;
+  long evaluations_ = 0;
+};
 
 }  // namespace rotor_stator::motion

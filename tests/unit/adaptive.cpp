@@ -166,6 +166,21 @@ TEST_CASE("A tolerance out of reach ends with where and why")
   CHECK(at.end.find("with 30 harmonics is estimated as") != std::string::npos);
 }
 
+/** At 12 and 23 Hz no number of harmonics converges from quasi-static contact. */
+TEST_CASE("Where quasi-static contact is no start, short time integration is a cheap one")
+{
+  for (double frequency : {12.0, 23.0}) {
+    INFO(frequency << " Hz");
+    const AdaptiveMotion at = adapted(frequency, {.tolerance = 1e-3});
+    REQUIRE(at.reached);
+    CHECK(at.motion.start == "short time integration");
+    CHECK(at.motion.error->harmonics > 0);  // estimated, by no long integration
+    CHECK(at.force_samples < 300000);
+    CHECK(relative_difference(motion_of(at.motion.bodies, 1024),
+                              exact_motion(at.motion, 1024)) < 1e-3 / least_effectivity);
+  }
+}
+
 TEST_CASE("The choice is the same at every call")
 {
   const AdaptiveMotion a = adapted(24, {.tolerance = 1e-4}),

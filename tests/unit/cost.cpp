@@ -163,29 +163,6 @@ TEST_CASE("Harmonic balance: N of the setting, three transforms or more per eval
   CHECK(harmonics_at(setting, 500) == 6);
 }
 
-TEST_CASE("The estimate of what is left out raises the harmonics until the error falls")
-{
-  const Parameters parameters = set_1();
-  const TrueMotion truth = true_motion(parameters, 30, truth_settings());
-  REQUIRE(truth.periodic);
-  const Task task{.parameters = parameters, .frequencies = {30}};
-  double before = 1;
-  for (double estimate : {1e-2, 1e-5, 1e-7}) {
-    const auto aft = timed_method(task, {.method = "aft",
-                                         .harmonics = 2,
-                                         .estimate = estimate,
-                                         .samples_per_harmonic = 8,
-                                         .tolerance = 1e-9});
-    aft->run();
-    const auto found = aft->motion(0, 90);
-    REQUIRE(found);
-    const double error = relative_difference(*found, truth.motion);
-    CHECK(error < before);
-    before = error;
-  }
-  CHECK(before < 1e-5);
-}
-
 namespace {
 
 /** The largest error of a setting over the speeds, apart from the study: the method is run anew and its
@@ -207,6 +184,31 @@ double error_apart(const Parameters& parameters, const std::vector<double>& freq
 }
 
 }  // namespace
+
+TEST_CASE("aft-tolerance keeps the tolerance at every speed of a sweep")
+{
+  const std::vector<double> frequencies{30, 30.5, 31, 45, 45.5};
+  for (double tolerance : {1e-2, 1e-4})
+    CHECK(error_apart(set_1(), frequencies,
+                      {.method = "aft-tolerance", .tolerance = tolerance}) < tolerance);
+}
+
+TEST_CASE("Below the transition a short transient is a start from which Newton converges")
+{
+  Setting setting{
+      .method = "aft", .harmonics = 96, .samples_per_harmonic = 4, .tolerance = 1e-6};
+  const std::vector<double> frequencies{9.5, 10, 10.5};
+  const auto evaluations = [&] {
+    const auto method = timed_method({set_1(), frequencies}, setting);
+    method->run();
+    return method->counts().transforms;
+  };
+  const long predicted = evaluations();
+  setting.transient = 0.5;
+  CHECK(setting.text() == "m=96 N>4m tol=1e-06 transient=0.5");
+  CHECK(error_apart(set_1(), frequencies, setting) < 1e-3);
+  CHECK(evaluations() < predicted);
+}
 
 TEST_CASE("Equal error: what the table calls reached is reached, and aft is its unit")
 {
