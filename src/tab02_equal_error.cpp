@@ -13,7 +13,8 @@ above the transition at 25 Hz.
 
 The settings of a method are found by trying, with the true motions at hand. `aft-tolerance` is harmonic balance without that:
 each speed is solved by itself, the number of harmonics is chosen and its error estimated, as by
-`explore orbit --tolerance`.
+`explore orbit --tolerance`. It may find another stable motion than integration from rest, whose motions are the true ones here: that
+counts as an error.
 
 Other people's programs stand with the figure `peers`: the integrators of SUNDIALS and of SciPy, which call the same
 force, and AUTO-07p, which follows the response by collocation. SciPy's are called from Python, which costs
