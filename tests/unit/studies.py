@@ -186,7 +186,6 @@ class Adaptive(unittest.TestCase):
         row, = adaptive.rows_of(self.MACHINE, 24, [1e-2], 64)
         self.assertLess(row["error"], 1e-3)
         self.assertEqual(row["own_branch"], 0)
-        self.assertGreater(row["m_fixed"], 0)
 
 
 class Maps(unittest.TestCase):
