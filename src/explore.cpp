@@ -198,6 +198,14 @@ std::function<void()> add_response_options(CLI::App& command, ResponseRequest& r
       .add_option("--method", request.method, "aft (harmonic balance), or shooting (rk4)")
       ->capture_default_str();
   aft.push_back(add_subharmonic(command, request));
+  CLI::Option* tolerance =
+      add_number(command, "--tolerance", request.tolerance, 1e-8, 0.1,
+                 "relative error of each solution, at evenly spaced speeds instead of "
+                 "along the branch; with two frequencies, of the five solutions that "
+                 "choose the harmonics");
+  aft.push_back(tolerance);
+  add_number(command, "--count", request.count, 1, 100000, "speeds, with --tolerance")
+      ->needs(tolerance);
   add_range_options(command, request);
   command.add_option("--direction", request.direction,
                      "up: from --from to --to; down: from --to to --from");

@@ -27,14 +27,15 @@ namespace {
 
 /** A complex matrix z as it acts on (cosine, sine) coefficients, q = a - ib: ((Re z, Im z),
     (-Im z, Re z)). */
-template <class Block>
+template <int d, class Block>
 void expand(const SmallMatrix& z, Block block)
 {
-  const auto d = z.rows();
-  block.topLeftCorner(d, d) = z.real();
-  block.topRightCorner(d, d) = z.imag();
-  block.bottomLeftCorner(d, d) = -z.imag();
-  block.bottomRightCorner(d, d) = z.real();
+  for (int j = 0; j < d; ++j)
+    for (int i = 0; i < d; ++i) {
+      block(i, j) = block(d + i, d + j) = z(i, j).real();
+      block(i, d + j) = z(i, j).imag();
+      block(d + i, j) = -z(i, j).imag();
+    }
 }
 
 }  // namespace
@@ -73,12 +74,14 @@ Balance::Balance(Balance&&) noexcept = default;
 void Balance::refresh_blocks(double omega)
 {
   if (omega == omega_) return;
-  const auto size = a_.rows();
   evaluated_ = false;
   for (int h = 0; h <= m_; ++h) {
     const LinearBlock& block = blocks_[h] = problem_.linear(omega, harmonics_.list()[h]);
-    expand(block.a, a_.middleCols(h * size, size));
-    expand(block.b, b_.middleCols(h * size, size));
+    with_dofs(problem_.dofs, [&](auto constant) {
+      constexpr int d = constant, two = 2 * d;
+      expand<d>(block.a, a_.template middleCols<two>(h * two));
+      expand<d>(block.b, b_.template middleCols<two>(h * two));
+    });
     put_amplitude(c_, h, block.c);
   }
   omega_ = omega;
@@ -379,22 +382,22 @@ void Balance::factor_in_time(const Eigen::VectorXd& x, double omega)
     time_transform_.emplace(samples);
     time_images_ = harmonics_.images(problem_.line, samples);
   }
-  const int size = 2 * problem_.dofs;
-  b_inverse_.resize(size, size * (m_ + 1));
-  for (int h = 0; h <= m_; ++h)
-    b_inverse_.middleCols(h * size, size) =
-        RealBlock(b_.middleCols(h * size, size)).inverse();
+  b_inverse_.resize(m_ + 1);
+  for (int h = 0; h <= m_; ++h) b_inverse_[h] = 1.0 / blocks_[h].b(0, 0);
 }
 
 /** (A + B J) z = r is (B⁻¹A + J) z = B⁻¹r, where B⁻¹A is the dynamic stiffness of both bodies in series. */
 void Balance::solve_in_time(const Eigen::VectorXd& r, Eigen::VectorXd& z)
 {
-  const int d = problem_.dofs, two = 2 * d;
-  spend(12.0 * in_time_->samples() + 2 * d * time_transform_->operations());
-  product_series_.col(0).noalias() = b_inverse_.topLeftCorner(d, d) * r.head(d);
-  for (int h = 1; h <= m_; ++h)
-    product_series_.middleCols(2 * h - 1, 2).reshaped().noalias() =
-        b_inverse_.middleCols(h * two, two) * r.segment((2 * h - 1) * d, two);
+  spend(12.0 * in_time_->samples() + 4 * time_transform_->operations());
+  const Eigen::Map<const Eigen::Matrix2Xd> right(r.data(), 2, r.size() / 2);
+  product_series_.col(0) = b_inverse_[0].real() * right.col(0);
+  for (int h = 1; h <= m_; ++h) {
+    const auto cosine = right.col(2 * h - 1), sine = right.col(2 * h);
+    const auto [real, imaginary] = std::pair(b_inverse_[h].real(), b_inverse_[h].imag());
+    product_series_.col(2 * h - 1) = real * cosine + imaginary * sine;
+    product_series_.col(2 * h) = real * sine - imaginary * cosine;
+  }
   time_transform_->to_samples(product_series_, product_force_, time_images_);
   in_time_->solve(product_force_, product_samples_);
   time_transform_->to_series(product_samples_, product_series_, time_images_);

@@ -100,7 +100,8 @@ struct Problem {
   /** Where the samples lie, with two frequencies. */
   TorusLine line = {};
 
-  /** Stator and rotor, where f is the force between them, of one frequency and without damping. */
+  /** Stator and rotor, where f is the force between them, of one frequency and without damping; A_h and B_h are then
+      numbers. */
   std::optional<std::array<PointBody, 2>> bodies = {};
 };
 
@@ -164,6 +165,11 @@ public:
   /** ∂R/∂X and ∂R/∂ω. Throws NoSolution when the dense matrix would not fit. */
   const Eigen::MatrixXd& jacobian(const Eigen::VectorXd& x, double omega);
   const Eigen::VectorXd& speed_derivative(const Eigen::VectorXd& x, double omega);
+
+  /** The force at the samples of the point that was evaluated last, and the linear block of a harmonic of the list
+      there. */
+  const Eigen::MatrixXd& force_samples() const { return force_samples_; }
+  const LinearBlock& block(int h) const { return blocks_[static_cast<std::size_t>(h)]; }
 
   /** Rows and columns of ∂R/∂X of the mean and the first so many harmonics. */
   void jacobian(const Eigen::VectorXd& x, double omega, int harmonics,
@@ -233,9 +239,9 @@ private:
   std::optional<EquationsInTime> in_time_;
   std::optional<FourierTransform> time_transform_;
   Images time_images_;
-  Eigen::MatrixXd b_inverse_;  ///< B_h⁻¹ like b_, for the equations in time
-  Eigen::MatrixXcd spectra_;   ///< κ_p of each stiffness series
-  Eigen::VectorXcd extended_;  ///< conj κ_p of one of them, the middle one p = 0
+  Eigen::VectorXcd b_inverse_;  ///< 1/B_h, for the equations in time
+  Eigen::MatrixXcd spectra_;    ///< κ_p of each stiffness series
+  Eigen::VectorXcd extended_;   ///< conj κ_p of one of them, the middle one p = 0
   Eigen::VectorXd residual_, speed_derivative_;
   Eigen::MatrixXd jacobian_;
   bool evaluated_ = false, has_stiffness_ = false, has_spectra_ = false;

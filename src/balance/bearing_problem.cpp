@@ -14,6 +14,13 @@ namespace {
 
 using Complex = std::complex<double>;
 
+/** Without the standard's care for infinities, which takes longer than the product. */
+Complex times(Complex a, Complex b)
+{
+  return {a.real() * b.real() - a.imag() * b.imag(),
+          a.real() * b.imag() + a.imag() * b.real()};
+}
+
 /** A complex amplitude and its derivative with respect to ω. */
 struct Varying {
   Complex value, slope;
@@ -22,7 +29,7 @@ struct Varying {
   Varying operator-(const Varying& o) const { return {value - o.value, slope - o.slope}; }
   Varying operator*(const Varying& o) const
   {
-    return {value * o.value, slope * o.value + value * o.slope};
+    return {times(value, o.value), times(slope, o.value) + times(value, o.slope)};
   }
   Varying over(const Varying& real) const
   {
@@ -32,8 +39,8 @@ struct Varying {
   }
   Varying modulus() const
   {
-    const double size = std::abs(value);
-    return {size, size > 0 ? (std::conj(value) * slope).real() / size : 0.0};
+    const double size = std::sqrt(std::norm(value));
+    return {size, size > 0 ? times(std::conj(value), slope).real() / size : 0.0};
   }
 };
 
@@ -81,15 +88,19 @@ LinearBlock condensed_block(const Parameters& parameters, double ball_stiffness,
   const auto& [z_s, f_s] = stator;
   const auto& [z_r, f_r] = rotor;
   const Varying product = z_s * z_r, sum = z_s + z_r;
-  const Varying sigma = product.modulus() + Varying{ball_stiffness, 0} * sum.modulus();
+  const Varying both = product.modulus(), either = sum.modulus();
+  const Varying sigma{both.value.real() + ball_stiffness * either.value.real(),
+                      both.slope.real() + ball_stiffness * either.slope.real()};
   const Varying a = product.over(sigma), b = sum.over(sigma);
   LinearBlock block{.a = isotropic(a.value),
                     .b = isotropic(b.value),
-                    .c = SmallVector(2),
+                    .c = SmallVector::Zero(2),
                     .a_slope = isotropic(a.slope),
                     .b_slope = isotropic(b.slope),
-                    .c_slope = SmallVector(2)};
-  for (int axis = 0; axis < 2; ++axis) {
+                    .c_slope = SmallVector::Zero(2)};
+  const bool is_loaded =
+      h == Harmonic{0, 0} || h == Harmonic{static_cast<double>(parameters.turns), 0};
+  for (int axis = 0; is_loaded && axis < 2; ++axis) {
     const Varying c = (z_s * f_r[axis] - z_r * f_s[axis]).over(sigma);
     block.c[axis] = c.value;
     block.c_slope[axis] = c.slope;

@@ -39,18 +39,39 @@ public:
   /** The relative displacement u [m], at these samples, under the load g [N] on the rotor and -g on the stator. */
   void solve(const Eigen::MatrixXd& load, Eigen::MatrixXd& u);
 
-private:
-  using Block = Eigen::Matrix4d;  ///< of x_s, y_s, x_r, y_r
-  using Vector = Eigen::Vector4d;
-
-  /** One sample: S_k⁻¹, S_k⁻¹ times the block after it, that before it, and what the last sample adds. */
-  struct Link {
-    Block inverse, after, before, last;
+  /** 4 × 4 of x_s, y_s, x_r, y_r, row by row: loops of fixed length become vector instructions. */
+  struct Block {
+    double at[16];
+  };
+  struct Vector {
+    double at[4];
   };
 
+  /** What couples a sample with the one before or after it: a number for each body, and the contact, ∂F_i/∂u_j/12 at
+      i + 2j. */
+  struct Neighbour {
+    double stator, rotor;
+    const double* contact;
+  };
+
+private:
+  /** One sample: S_k⁻¹, S_k⁻¹ times the block after it, and what the last sample adds. */
+  struct Link {
+    Block inverse, after, last;
+  };
+  struct Constants {
+    double mass[2], damping[2], spring[2];
+  };
+
+  Neighbour neighbour(std::size_t k, double sign) const;
+  void eliminate();
+  void substitute(const Eigen::MatrixXd& load, Eigen::MatrixXd& u);
+
   std::array<PointBody, 2> bodies_;
-  std::vector<Link> chain_;  ///< all samples but the last
-  Block closing_, after_last_, before_last_;
+  Constants constants_;
+  std::vector<std::array<double, 4>> contact_;  ///< a twelfth of it, at all samples
+  std::vector<Link> chain_;                     ///< all samples but the last
+  Block closing_;
   std::vector<Vector> q_;
 };
 

@@ -21,9 +21,11 @@ struct FourierTransform::Plans {
   Eigen::VectorXd time = Eigen::VectorXd::Zero(samples);
   Eigen::VectorXcd frequency = Eigen::VectorXcd::Zero(samples / 2 + 1);
   Engine engine{{}, Engine::Flag(Engine::HalfSpectrum | Engine::Unscaled)};
-  double operations = samples * (2.5 * std::log2(samples) + 5);
 
   explicit Plans(int n) : samples(n) {}
+  void plan_forward() {}
+  void plan_backward() {}
+  double operations() const { return samples * (2.5 * std::log2(samples) + 5); }
   void forward() { engine.fwd(frequency.data(), time.data(), samples); }
   void backward() { engine.inv(time.data(), frequency.data(), samples); }
 };
@@ -60,23 +62,41 @@ struct FourierTransform::Plans {
   int samples;
   std::unique_ptr<double[], FftwFree> time;
   std::unique_ptr<std::complex<double>[], FftwFree> frequency;
-  Plan to_frequency, to_time;
-  double operations;
+  Plan to_frequency,
+      to_time;  ///< made when they are needed: many serve in one direction only
 
   explicit Plans(int n)
       : samples(n), time(fftw_alloc_real(n)),
         frequency(reinterpret_cast<std::complex<double>*>(fftw_alloc_complex(n / 2 + 1)))
   {
-    auto* spectrum = reinterpret_cast<fftw_complex*>(frequency.get());
+  }
+  fftw_complex* spectrum() { return reinterpret_cast<fftw_complex*>(frequency.get()); }
+  void plan_forward()
+  {
+    if (to_frequency) return;
     const std::lock_guard lock(planner());
-    to_frequency.reset(fftw_plan_dft_r2c_1d(n, time.get(), spectrum, FFTW_ESTIMATE));
-    to_time.reset(fftw_plan_dft_c2r_1d(n, spectrum, time.get(), FFTW_ESTIMATE));
-    double additions, products, both;
-    fftw_flops(to_frequency.get(), &additions, &products, &both);
-    operations = additions + products + 2 * both + 5.0 * n;
+    to_frequency.reset(
+        fftw_plan_dft_r2c_1d(samples, time.get(), spectrum(), FFTW_ESTIMATE));
+  }
+  void plan_backward()
+  {
+    if (to_time) return;
+    const std::lock_guard lock(planner());
+    to_time.reset(fftw_plan_dft_c2r_1d(samples, spectrum(), time.get(), FFTW_ESTIMATE));
   }
   void forward() { fftw_execute(to_frequency.get()); }
   void backward() { fftw_execute(to_time.get()); }
+  double operations()
+  {
+    if (counted > 0) return counted;
+    plan_forward();
+    double additions, products, both;
+    fftw_flops(to_frequency.get(), &additions, &products, &both);
+    return counted = additions + products + 2 * both + 5.0 * samples;
+  }
+
+private:
+  double counted = 0;
 };
 
 #endif
@@ -134,7 +154,7 @@ int FourierTransform::samples() const
 
 double FourierTransform::operations() const
 {
-  return plans_->operations;
+  return plans_->operations();
 }
 
 namespace {
@@ -167,6 +187,7 @@ void FourierTransform::to_samples(const Eigen::Ref<const Eigen::MatrixXd>& serie
   const int n = plans_->samples;
   const auto harmonics = (series.cols() - 1) / 2;
   std::complex<double>* spectrum = &plans_->frequency[0];
+  plans_->plan_backward();
   samples.resize(n, series.rows());
   for (Eigen::Index row = 0; row < series.rows(); ++row) {
     std::fill(spectrum + 1, spectrum + n / 2 + 1, 0.0);
@@ -202,6 +223,7 @@ Eigen::Map<const Eigen::VectorXcd> FourierTransform::spectrum(
     const Eigen::Ref<const Eigen::VectorXd>& column)
 {
   const int n = plans_->samples;
+  plans_->plan_forward();
   std::copy_n(column.data(), n, &plans_->time[0]);
   plans_->forward();
   Eigen::Map<Eigen::VectorXcd> kappa(&plans_->frequency[0], n / 2 + 1);
@@ -229,14 +251,16 @@ Eigen::MatrixXd differentiate(const Eigen::MatrixXd& series)
 
 namespace {
 
-/** The largest value of a periodic sequence, refined by the parabola through its
+/** Half of the largest less the smallest value of a periodic sequence, both refined by the parabola through their
     neighbours. */
-double refined_maximum(const Eigen::VectorXd& samples)
+double refined_half_range(const double* samples, std::ptrdiff_t n)
 {
-  Eigen::Index k;
-  const double top = samples.maxCoeff(&k);
-  const auto n = samples.size();
-  return vertex(samples[(k + n - 1) % n], top, samples[(k + 1) % n]).height;
+  const auto [least, most] = std::minmax_element(samples, samples + n);
+  const auto height = [&](const double* at) {
+    const std::ptrdiff_t k = at - samples;
+    return vertex(samples[(k + n - 1) % n], *at, samples[(k + 1) % n]).height;
+  };
+  return 0.5 * (height(most) - height(least));
 }
 
 }  // namespace
@@ -261,8 +285,7 @@ Eigen::VectorXd half_peak_to_peak(const Eigen::MatrixXd& series,
   transform.to_samples(series, samples);
   Eigen::VectorXd amplitude(series.rows());
   for (Eigen::Index row = 0; row < series.rows(); ++row)
-    amplitude[row] =
-        0.5 * (refined_maximum(samples.col(row)) + refined_maximum(-samples.col(row)));
+    amplitude[row] = refined_half_range(samples.col(row).data(), samples.rows());
   return amplitude;
 }
 

@@ -80,6 +80,9 @@ constexpr int most_dense = 32;
     Newton's error is that of δ₂². */
 constexpr double in_time_goal = 0.01;
 
+/** Of the residual: an answer by them that leaves more is taken further by GMRES. */
+constexpr double good_in_time = 0.3;
+
 /** The dense block and its factors stay below 0.3 GB. */
 constexpr int most_low_unknowns = 4200;
 
@@ -229,6 +232,10 @@ void StepSolver::learn(double contraction)
   if (entering_ && last_ == StepKind::fresh) entering_contraction_ *= 0.9;
   entering_ = false;
   if (last_ == StepKind::chord && !(contraction <= chord_contraction_)) factored_ = false;
+  if (!answered_ || contraction <= good_in_time) return;
+  /** Where new factors left so much, age is not the reason. */
+  answers_in_time_ = !was_new_;
+  factored_ = false;
 }
 
 StepKind StepSolver::step(Balance& balance, const Eigen::VectorXd& x, double omega,
@@ -247,7 +254,14 @@ StepKind StepSolver::step(Balance& balance, const Eigen::VectorXd& x, double ome
     step = -step;
     return last_ = are_new ? StepKind::fresh : StepKind::chord;
   }
-  iterate(balance, x, omega, residual, goal, are_new, step);
+  was_new_ = are_new;
+  answered_ = in_time_ && answers_in_time_;
+  if (answered_) {
+    precondition(balance, residual, step);
+    step = -step;
+  } else {
+    iterate(balance, x, omega, residual, goal, are_new, step);
+  }
   return last_ = StepKind::iterated;
 }
 

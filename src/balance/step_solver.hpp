@@ -54,7 +54,8 @@ whole Jacobian. A step then is either
   per iteration is that of the transforms, m log m.
 
 Where the contact couples more than 32 harmonics, and the problem knows its bodies, the preconditioner is that of the
-equations in time (equations_in_time.hpp): the whole step then costs m log m. */
+equations in time (equations_in_time.hpp): the whole step then costs m log m. Their own answer to the residual is the step as
+long as it leaves less than a third of it; after that GMRES takes it further. */
 
 enum class StepKind { fresh, chord, iterated };
 
@@ -74,7 +75,7 @@ public:
      residual ends the use of its factors. */
   void begin(double chord_contraction)
   {
-    entering_ = true;
+    entering_ = answers_in_time_ = true;
     chord_contraction_ = chord_contraction;
   }
 
@@ -90,9 +91,12 @@ public:
   /** The next step factors the Jacobian anew. */
   void forget() { factored_ = false; }
 
-  /** Whether the next step from the same point would be a better one: the last was a chord, or GMRES
-     stalled and has a larger block to try. */
-  bool retries() const { return !factored_ && (last_ == StepKind::chord || stalled_); }
+  /** Whether the next step from the same point would be a better one: the last was a chord or an answer in time, or
+     GMRES stalled and has a larger block to try. */
+  bool retries() const
+  {
+    return !factored_ && (last_ == StepKind::chord || stalled_ || answered_);
+  }
 
   /** Whether the next step is likely to be a chord: it needs no stiffness. */
   bool expects_chord() const { return factored_ && takes_chords() && !entering_; }
@@ -124,8 +128,11 @@ private:
   int low_ = 0;                      ///< harmonics in the dense block
   bool holds_ = false;               ///< it is to hold all of them
   bool in_time_ = false;             ///< instead the equations of motion at the samples
-  bool stalls_in_time_ = false;      ///< which GMRES with them once did
-  int least_low_ = 16;               ///< grows when GMRES stalls
+  bool answers_in_time_ = true;      ///< their own steps are good enough in this solution
+  bool answered_ = false,
+       was_new_ = false;         ///< the last step was theirs, with new factors
+  bool stalls_in_time_ = false;  ///< which GMRES with them once did
+  int least_low_ = 16;           ///< grows when GMRES stalls
   Eigen::MatrixXd low_jacobian_;
   Eigen::PartialPivLU<Eigen::MatrixXd> low_factors_;
   Eigen::MatrixXd high_inverses_;  ///< 2d × 2d blocks side by side

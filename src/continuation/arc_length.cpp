@@ -148,6 +148,7 @@ struct Walk {
       return shorten();
     }
     positive = next_positive;
+    refusal.clear();
     step = std::min(settings.most_step, step / std::clamp(factor, 0.5, 2.0));
   }
 
@@ -157,11 +158,26 @@ struct Walk {
     return {};
   }
 
+  /** A step along the tangent, moved across it to the cubic through the last two points where that is near. */
+  Eigen::VectorXd predicted(const Eigen::VectorXd& start) const
+  {
+    constexpr double longest = 2.1, near = 0.2;
+    const Eigen::VectorXd along = start + step * last().tangent;
+    const std::size_t n = branch.points.size();
+    if (n < 2 || !refusal.empty()) return along;
+    const BranchPoint& before = branch.points[n - 2];
+    const double length = last().arc - before.arc;
+    if (!(step <= longest * length)) return along;
+    Eigen::VectorXd off = between(before, last(), 1 + step / length, settings) - along;
+    off -= last().tangent * last().tangent.dot(off);
+    return off.norm() <= near * step ? along + off : along;
+  }
+
   /** The corrected point one step ahead, if nothing speaks against it; `factor` is then f. */
   std::optional<BranchPoint> corrected()
   {
     const Eigen::VectorXd &before = last().tangent, start = scaled(last(), settings);
-    auto [motion, y, contraction] = extended.correct(before, start + step * before);
+    auto [motion, y, contraction] = extended.correct(before, predicted(start));
     if (!motion.found()) return refused(motion.newton.reason());
     const Tangent tangent = extended.tangent(motion, before);
     const double length = (y - start).norm();

@@ -1,6 +1,5 @@
 #include "continuation/branch.hpp"
 
-#include <Eigen/LU>
 #include <algorithm>
 #include <cmath>
 
@@ -39,7 +38,7 @@ BranchPoint reversed(BranchPoint point)
 
 ExtendedBalance::ExtendedBalance(Balance& balance, const ArcLengthSettings& settings)
     : balance_(balance), settings_(settings), n_(balance.unknowns()),
-      matrix_(n_ + 1, n_ + 1)
+      matrix_(n_ + 1, n_ + 1), product_(n_)
 {
 }
 
@@ -49,58 +48,96 @@ double ExtendedBalance::last_correction() const
          settings_.arc_unknown_scale;
 }
 
-const Eigen::MatrixXd& ExtendedBalance::bordered(const PeriodicMotion& motion,
-                                                 const Eigen::VectorXd& last_row)
+void ExtendedBalance::factor(const PeriodicMotion& motion,
+                             const Eigen::VectorXd& last_row)
 {
   matrix_.topLeftCorner(n_, n_) =
       balance_.jacobian(motion.x, motion.omega) * settings_.arc_unknown_scale;
   matrix_.topRightCorner(n_, 1) =
       balance_.speed_derivative(motion.x, motion.omega) * settings_.speed_scale;
   matrix_.row(n_) = balance_.problem().residual_scale * last_row.transpose();
-  return matrix_;
+  factors_.compute(matrix_);
+  last_row_ = last_row;
 }
 
-NewtonEnd ExtendedBalance::verdict(const Correction& correction, double length) const
+NewtonEnd ExtendedBalance::verdict(const Correction& correction, double length,
+                                   double ratio) const
 {
   const double residual = correction.motion.newton.delta_1;
   if (!std::isfinite(length)) return NewtonEnd::singular;
-  if (!std::isfinite(residual) || correction.contraction > settings_.most_contraction)
+  if (!std::isfinite(residual) || ratio > settings_.most_contraction)
     return NewtonEnd::no_decrease;
   return residual <= settings_.newton.tolerance && length <= last_correction()
              ? NewtonEnd::converged
              : NewtonEnd::too_many_iterations;
 }
 
+PeriodicMotion ExtendedBalance::motion_at(const Eigen::VectorXd& y) const
+{
+  return {.omega = y[n_] * settings_.speed_scale,
+          .x = y.head(n_) * settings_.arc_unknown_scale};
+}
+
+bool ExtendedBalance::approach(const Eigen::VectorXd& direction, double length,
+                               Eigen::VectorXd& predicted, Eigen::VectorXd& tangent)
+{
+  constexpr double near = 0.02;
+  const PeriodicMotion motion = motion_at(predicted);
+  Eigen::VectorXd right(n_ + 1);
+  right << -balance_.residual(motion.x, motion.omega), 0;
+  factor(motion, direction);
+  const Eigen::VectorXd step = factors_.solve(right);
+  predicted += step;
+  tangent = factors_.solve(Eigen::VectorXd::Unit(n_ + 1, n_)).normalized();
+  return step.norm() <= near * length;
+}
+
 Correction ExtendedBalance::correct(const Eigen::VectorXd& direction,
                                     const Eigen::VectorXd& predicted)
 {
   constexpr int most_corrections = 20;  // contracting by a half each time, fewer
+  constexpr double most_left = 0.1;
   const double unknown_scale =
       balance_.problem().unknown_scale / settings_.arc_unknown_scale;
   Correction correction{.y = predicted};
   PeriodicMotion& motion = correction.motion;
   Eigen::VectorXd& y = correction.y;
-  double& contraction = correction.contraction;
   NewtonReport& report = motion.newton;
   Eigen::VectorXd right(n_ + 1);
   /** The condition is linear: after the first correction it holds to rounding. */
-  const auto evaluate = [&] {
+  using With = Balance::With;
+  const auto evaluate = [&](With with) {
     motion.x = y.head(n_) * settings_.arc_unknown_scale;
     motion.omega = y[n_] * settings_.speed_scale;
-    right << -balance_.residual(motion.x, motion.omega), 0;
+    right << -balance_.residual(motion.x, motion.omega, with), 0;
   };
-  double last = 0;
-  evaluate();
+  double last = 0, ratio = 1;
+  std::vector<Eigen::VectorXd> steps;  // with these factors
+  evaluate(With::stiffness);
   do {
-    const Eigen::VectorXd step = bordered(motion, direction).partialPivLu().solve(right);
+    if (ratio > most_left) {
+      factor(motion, direction);
+      steps.clear();
+    }
+    Eigen::VectorXd step = factors_.solve(right);
+    for (std::size_t k = 0; k < steps.size(); ++k) {
+      const double share = steps[k].dot(step) / steps[k].squaredNorm();
+      if (k + 1 < steps.size())
+        step += share * steps[k + 1];
+      else
+        step /= 1 - share;
+    }
+    steps.push_back(step);
     const double length = step.norm();
     y += step;
-    evaluate();
+    evaluate(With::force);
     ++report.iterations;
     report.delta_1 = right.norm() / balance_.problem().residual_scale;
     report.delta_2 = length / unknown_scale;
-    if (last > last_correction()) contraction = std::max(contraction, length / last);
-    report.end = verdict(correction, length);
+    /** Below that length corrections are rounding. */
+    ratio = last > last_correction() ? length / last : 0;
+    correction.contraction = std::max(correction.contraction, ratio);
+    report.end = verdict(correction, length, ratio);
     last = length;
   } while (report.end == NewtonEnd::too_many_iterations &&
            report.iterations < most_corrections);
@@ -111,14 +148,45 @@ Correction ExtendedBalance::correct(const Eigen::VectorXd& direction,
   return correction;
 }
 
+/** The tangent by factors that are not those of `motion`. False where they are too far from them. */
+bool ExtendedBalance::refine(const PeriodicMotion& motion, Eigen::VectorXd& tangent)
+{
+  constexpr int most = 4;
+  constexpr double small = 1e-6, most_left = 0.1;
+  const double length = settings_.arc_unknown_scale, speed = settings_.speed_scale,
+               scale = balance_.problem().residual_scale;
+  double before = 0;
+  Eigen::VectorXd rest(n_ + 1);
+  for (int k = 0; k < most; ++k) {
+    balance_.apply_jacobian(motion.x, motion.omega, tangent.head(n_), product_);
+    rest.head(n_) =
+        -length * product_ -
+        speed * tangent[n_] * balance_.speed_derivative(motion.x, motion.omega);
+    rest[n_] = 1 - scale * last_row_.dot(tangent);
+    const Eigen::VectorXd step = factors_.solve(rest);
+    const double size = step.norm() / tangent.norm();
+    if (!(size <= (k == 0 ? most_left : most_left * before))) return false;
+    tangent += step;
+    if (size * size <= small) return true;
+    before = size;
+  }
+  return false;
+}
+
 Tangent ExtendedBalance::tangent(const PeriodicMotion& motion,
                                  const Eigen::VectorXd& previous)
 {
   const Eigen::VectorXd right = Eigen::VectorXd::Unit(n_ + 1, n_);
-  const Eigen::PartialPivLU<Eigen::MatrixXd> factors(bordered(motion, previous));
-  const auto negative = (factors.matrixLU().diagonal().array() < 0).count();
-  const bool even_permutation = factors.permutationP().determinant() > 0;
-  return {factors.solve(right).normalized(), (negative % 2 == 0) == even_permutation};
+  Eigen::VectorXd direction;
+  const bool has_row = last_row_.size() == previous.size() && last_row_ == previous;
+  if (has_row) direction = factors_.solve(right);
+  if (!has_row || !refine(motion, direction)) {
+    factor(motion, previous);
+    direction = factors_.solve(right);
+  }
+  const auto negative = (factors_.matrixLU().diagonal().array() < 0).count();
+  const bool even_permutation = factors_.permutationP().determinant() > 0;
+  return {direction.normalized(), (negative % 2 == 0) == even_permutation};
 }
 
 BranchPoint point_of(Balance& balance, double omega, Eigen::VectorXd x, bool upwards,

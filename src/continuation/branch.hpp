@@ -6,6 +6,7 @@ measured. It is a row of solutions with the unit tangent at each; between two of
 cubic with both tangents stands for it. */
 #pragma once
 
+#include <Eigen/LU>
 #include <functional>
 
 #include "continuation/sweep.hpp"
@@ -69,7 +70,7 @@ Eigen::VectorXd scaled(const BranchPoint& point, const ArcLengthSettings& settin
 /** Angle [rad] between two unit vectors, accurate when it is small. */
 double angle(const Eigen::VectorXd& a, const Eigen::VectorXd& b);
 
-/** The cubic through `a` and `b` with both tangents, at 0 ≤ r ≤ 1, scaled. */
+/** The cubic through `a` and `b` with both tangents, scaled: between them at 0 ≤ r ≤ 1, continued beyond b at r > 1. */
 Eigen::VectorXd between(const BranchPoint& a, const BranchPoint& b, double r,
                         const ArcLengthSettings& settings);
 
@@ -83,7 +84,9 @@ n equations in the n+1 scaled unknowns y = (X/ℓ, ω/ω_ref), closed by one lin
 d·(y - y_predicted) = 0. With d near the branch's tangent the bordered Jacobian stays
 regular where the branch folds back in ω (Keller 1977). The corrector is Newton without
 damping: where it does not contract, the step was too long, and a damped Newton would look for
-another solution far away. */
+another solution far away. Its factors are kept while a correction leaves less than a tenth of itself, with Broyden's
+updates from the steps taken (Kelley 1995, section 7.3). They serve the tangent too, which iterations on the Jacobian at the
+solution refine. */
 
 /** Where Newton ended, and how fast it was (Den Heijer and Rheinboldt 1981). */
 struct Correction {
@@ -112,18 +115,27 @@ public:
   /** Newton on the balance and direction·(y - predicted) = 0, from `predicted`. */
   Correction correct(const Eigen::VectorXd& direction, const Eigen::VectorXd& predicted);
 
+  /** One correction only, with the tangent of `predicted`: for a look at a point that is nearly there. False where the
+      correction is not much shorter than `length`. */
+  bool approach(const Eigen::VectorXd& direction, double length,
+                Eigen::VectorXd& predicted, Eigen::VectorXd& tangent);
+
   /** On the side of `previous`. */
   Tangent tangent(const PeriodicMotion& motion, const Eigen::VectorXd& previous);
 
 private:
-  NewtonEnd verdict(const Correction& correction, double length) const;
-  const Eigen::MatrixXd& bordered(const PeriodicMotion& motion,
-                                  const Eigen::VectorXd& last_row);
+  NewtonEnd verdict(const Correction& correction, double length, double ratio) const;
+  void factor(const PeriodicMotion& motion, const Eigen::VectorXd& last_row);
+  PeriodicMotion motion_at(const Eigen::VectorXd& y) const;
+  bool refine(const PeriodicMotion& motion, Eigen::VectorXd& tangent);
 
   Balance& balance_;
   const ArcLengthSettings& settings_;
   Eigen::Index n_;
   Eigen::MatrixXd matrix_;
+  Eigen::PartialPivLU<Eigen::MatrixXd> factors_;
+  Eigen::VectorXd last_row_;  ///< of the matrix that they are of
+  Eigen::VectorXd product_;
 };
 
 /** The solution near `x` at `omega` with its tangent, on the side of higher speeds if `upwards`. Throws

@@ -163,11 +163,15 @@ bool turns_between(ExtendedBalance& extended, const BranchPoint& a, const Branch
       std::min(std::abs(a.speed_direction()), std::abs(b.speed_direction()));
   if (steep > angle(a.tangent, b.tangent)) return false;
   const Eigen::VectorXd direction = (a.tangent + b.tangent).normalized();
-  const PeriodicMotion motion =
-      extended.correct(direction, between(a, b, 0.5, settings)).motion;
-  if (!motion.found()) return true;
-  const BranchPoint middle{motion, 0.5 * (a.arc + b.arc),
-                           extended.tangent(motion, direction).direction};
+  BranchPoint middle{.motion = {}, .arc = 0.5 * (a.arc + b.arc)};
+  Eigen::VectorXd y = between(a, b, 0.5, settings);
+  if (extended.approach(direction, b.arc - a.arc, y, middle.tangent)) {
+    middle.motion.omega = y[y.size() - 1] * settings.speed_scale;
+  } else {
+    middle.motion = extended.correct(direction, between(a, b, 0.5, settings)).motion;
+    if (!middle.motion.found()) return true;
+    middle.tangent = extended.tangent(middle.motion, direction).direction;
+  }
   return middle.speed_direction() * (a.speed_direction() + b.speed_direction()) < 0 ||
          cubic_turns(a, middle, settings.speed_scale) ||
          cubic_turns(middle, b, settings.speed_scale);

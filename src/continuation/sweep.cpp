@@ -9,6 +9,11 @@ namespace rotor_stator {
 
 void LagrangePredictor::add(Eigen::VectorXd x, double omega)
 {
+  const Eigen::Index longest =
+      empty() ? x.size() : std::max(x.size(), points_.back().x.size());
+  x.conservativeResizeLike(Eigen::VectorXd::Zero(longest));
+  for (PeriodicMotion& point : points_)
+    point.x.conservativeResizeLike(Eigen::VectorXd::Zero(longest));
   arc_.push_back(empty() ? 0
                          : arc_.back() +
                                std::hypot((x - points_.back().x).norm() / unknown_scale_,

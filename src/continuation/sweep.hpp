@@ -34,6 +34,7 @@ public:
   {
   }
 
+  /** Of coefficients that differ in number the shorter are filled with zeros. */
   void add(Eigen::VectorXd x, double omega);
   void clear() { points_.clear(), arc_.clear(); }
   bool empty() const { return points_.empty(); }

@@ -212,14 +212,16 @@ public:
   }
 
 private:
-  void begin() override { bodies_.assign(task_.frequencies.size(), {}); }
+  void begin() override
+  {
+    bodies_.assign(task_.frequencies.size(), {});
+    sweep_.emplace(task_.parameters, AdaptiveSettings{.tolerance = setting_.tolerance});
+  }
 
   void solve(std::size_t speed) override
   {
     try {
-      const AdaptiveMotion at =
-          motion::solve_adaptively(task_.parameters, angular(task_.frequencies[speed]),
-                                   {.tolerance = setting_.tolerance});
+      const AdaptiveMotion at = sweep_->solve(angular(task_.frequencies[speed]));
       counts_.force_instants += at.force_samples;
       if (at.reached) bodies_[speed] = at.motion.bodies;
     } catch (const NoSolution&) {
@@ -227,6 +229,7 @@ private:
     }
   }
 
+  std::optional<motion::AdaptiveSweep> sweep_;
   std::vector<Eigen::MatrixXd> bodies_;  ///< series found, by speed
 };
 

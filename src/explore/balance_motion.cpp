@@ -219,6 +219,26 @@ FoundMotion quasi_periodic_motion(const Parameters& parameters,
           lines_of(parameters.bearing, solution)};
 }
 
+/** Those that are not zero, "0-3 10-13". */
+std::string chosen_orders(const PeriodicMotion& motion)
+{
+  const Eigen::Index count = motion.harmonics.count(),
+                     dofs = motion.x.size() / (2 * count + 1);
+  const auto has = [&](Eigen::Index h) {
+    return h <= count &&
+           (h == 0 || !motion.x.segment((2 * h - 1) * dofs, 2 * dofs).isZero(0));
+  };
+  std::string list;
+  for (Eigen::Index first = 0, last = 0; first <= count; first = last + 1) {
+    last = first;
+    if (!has(first)) continue;
+    while (has(last + 1)) ++last;
+    list += (list.empty() ? "" : " ") + std::to_string(first) +
+            (last > first ? "-" + std::to_string(last) : "");
+  }
+  return list;
+}
+
 /** A motion with one frequency, that of the parameters, its solution. */
 PeriodicMotion solution_of(const Parameters& parameters, const MotionRequest& request,
                            const OperationBudget& budget, Table& table)
@@ -234,10 +254,12 @@ PeriodicMotion solution_of(const Parameters& parameters, const MotionRequest& re
   const int turns = request.subharmonic;
   const bool is_chosen = request.tolerance && !request.harmonics && turns == 1;
   const std::string orders = turns > 1 ? format(", orders h/%d", turns) : "";
-  table.note(format(
-      "method: aft%s, m = %d, N = %d, relative tolerance of Newton %g", orders.c_str(),
-      at.motion.harmonics.count() / turns, at.motion.samples / turns,
-      is_chosen ? level_tolerance(settings_of(request)) : request.newton_tolerance));
+  table.note(format("method: aft%s, m = %d, N = %d", orders.c_str(),
+                    at.motion.harmonics.count() / turns, at.motion.samples / turns) +
+             (is_chosen ? ""
+                        : format(", relative tolerance of Newton %g",
+                                 request.newton_tolerance)));
+  if (is_chosen) table.note("orders of the base frequency: " + chosen_orders(at.motion));
   table.note("newton: from " + at.motion.start + ", " + at.motion.newton.reason());
   table.note(format("cost: %ld evaluations of the force times N",
                     std::max(at.force_samples, at.motion.force_samples)));

@@ -395,7 +395,9 @@ public:
   /** Estimated with more harmonics; where that does not settle, against the motion of Eq. 7. */
   double error()
   {
-    const ErrorEstimate estimate = motion::estimate_error(machine, solution(), budget_);
+    const ErrorEstimate estimate =
+        solution().error ? *solution().error
+                         : motion::estimate_error(machine, solution(), budget_);
     if (estimate.settled) return estimate.larger();
     floquet();
     return std::max(verdict().distance, verdict().distance_rms);

@@ -13,6 +13,7 @@
 #include "integration/time_stepper.hpp"
 #include "io/errors.hpp"
 #include "io/output_file.hpp"
+#include "motion/adaptive.hpp"
 #include "motion/closed_motion.hpp"
 #include "motion/contact.hpp"
 #include "motion/motion.hpp"
@@ -114,6 +115,12 @@ Task task_of(const ResponseRequest& request)
   if (request.isolated > most_isolated)
     throw BadInput(format("--isolated %d: must be in 0...%d with %d harmonics",
                           request.isolated, most_isolated, harmonics));
+  if (request.tolerance &&
+      (request.harmonics || request.samples || request.save || request.restart ||
+       request.isolated > 0 || turns > 1 || request.stability || request.waterfall))
+    throw BadInput(
+        "--tolerance: not together with --harmonics, --samples, --save, --restart, "
+        "--isolated, --subharmonic, --stability or --waterfall");
   ArcLengthSettings settings =
       arc_length_settings(parameters, {.tolerance = request.newton_tolerance});
   settings.most_evaluations =
@@ -197,9 +204,11 @@ std::pair<PeriodicMotion, TorusLine> chosen_start(const Task& task)
   std::string end;
   const auto [from, to] = task.range();
   for (int k = 0; k < speeds; ++k) {
-    const AdaptiveMotion at = motion::find_quasi_periodic(
-        task.machine, from + k * (to - from) / (speeds - 1),
-        {.tolerance = 1e-3, .newton = task.settings.newton}, task.budget);
+    const AdaptiveMotion at =
+        motion::find_quasi_periodic(task.machine, from + k * (to - from) / (speeds - 1),
+                                    {.tolerance = task.request.tolerance.value_or(1e-3),
+                                     .newton = task.settings.newton},
+                                    task.budget);
     /** The lines of an integrated motion are no point of a branch. */
     const bool is_solved = at.reached && at.motion.found() && at.motion.line.turns == 1;
     if (k == 0 && !is_solved)
@@ -329,6 +338,12 @@ std::pair<Fields, std::size_t> fields_of(const Task& task, const Harmonics& harm
     fields.push_back(
         {"branch", "-", "1 the branch followed, then those beside it", &Row::branch});
   if (!request.harmonics_of.empty()) add_harmonics(fields, task, harmonics);
+  if (request.tolerance && !task.has_two_frequencies)
+    fields.push_back(
+        {"error", "-",
+         "estimated: the larger of the largest difference of a displacement over the "
+         "largest displacement and the rms about the mean",
+         [](auto& r) { return r.at.point.motion.error->larger(); }});
   const std::size_t usual = fields.size();
   fields.insert(fields.end(), further_fields.begin(), further_fields.end());
   if (const double pressure = task.machine.bearing.pressure; pressure > 0)
@@ -585,12 +600,76 @@ Exploration shooting_response(const ResponseRequest& request, const Task& task)
                                          : ""};
 }
 
+/** Solutions to a tolerance, each on the orders that it needs. */
+Exploration response_to_tolerance(const ResponseRequest& request, const Task& task)
+{
+  const Parameters& parameters = task.parameters;
+  const double tolerance = *request.tolerance;
+  const auto [fields, usual] = fields_of(task, Harmonics(task.harmonics));
+  Table table("Frequency response at evenly spaced speeds", fields);
+  const bool has_further = table.choose(request.columns, usual, request.plot.has_value());
+  describe(table, task.machine);
+  motion::AdaptiveSweep sweep(parameters, {.tolerance = tolerance}, task.budget);
+  std::vector<StablePoint> points;
+  std::string missing;
+  int missed = 0;
+  for (int k = 0; k < request.count; ++k) {
+    const auto [from, to] = task.range();
+    const double omega = from + (to - from) * k / std::max(1, request.count - 1);
+    AdaptiveMotion at = sweep.solve(omega);
+    if (!at.reached) {
+      if (missed++ == 0)
+        missing =
+            format("%s: tolerance %g not reached at %g Hz: ", task.machine.file.c_str(),
+                   tolerance, task.hertz(omega)) +
+            at.end;
+      continue;
+    }
+    double arc = 0;
+    if (!points.empty()) {
+      const PeriodicMotion& last = points.back().point.motion;
+      const int m = std::max(last.harmonics.count(), at.motion.harmonics.count());
+      const Eigen::VectorXd off =
+          resize_harmonics(at.motion.x, 2, m) - resize_harmonics(last.x, 2, m);
+      arc = points.back().point.arc +
+            std::hypot(off.norm() / task.settings.arc_unknown_scale,
+                       (omega - last.omega) / task.settings.speed_scale);
+    }
+    points.push_back({.point = {std::move(at.motion), arc}, .floquet = {}});
+  }
+  if (points.empty()) throw NoSolution(missing);
+  table.note(
+      format("method: aft at %d speeds, orders and samples chosen speed by speed for a "
+             "tolerance of %g, each speed from the paper's predictor",
+             request.count, tolerance));
+  if (missed > 0)
+    table.note(format("incomplete: %d of %d speeds, the first: ", missed, request.count) +
+               missing);
+  bool touches = false;
+  for (const StablePoint& at : points) {
+    const PeriodicMotion& motion = at.point.motion;
+    touches = touches || !motion.force.isZero(0);
+    Row row{at, half_peak_to_peak(motion.bodies), 1, task};
+    if (has_further)
+      row.motion =
+          motion::motion_of(motion, std::max(256, 4 * motion.harmonics.count() + 4));
+    if (!request.harmonics_of.empty())
+      row.series = resize_harmonics(motion.bodies.reshaped(), 4, task.harmonics)
+                       .reshaped(4, 2 * task.harmonics + 1);
+    table.row(fields, row);
+  }
+  conclude(table, task.machine, touches, task.budget);
+  return {std::move(table), missing};
+}
+
 }  // namespace
 
 Exploration explore_response(const ResponseRequest& request)
 {
   Task task = task_of(request);
   if (request.method == "shooting") return shooting_response(request, task);
+  if (request.tolerance && !task.has_two_frequencies)
+    return response_to_tolerance(request, task);
   if (task.parameters.large && !task.has_two_frequencies)
     fit_receptances(task.parameters, task.range().from, task.harmonics);
   const std::clock_t read = std::clock();

@@ -24,6 +24,9 @@ struct ResponseRequest : Request {
   int seed = 1;
   std::string harmonics_of = {};         ///< a displacement, or empty
   std::optional<std::string> waterfall;  ///< file
+  std::optional<double>
+      tolerance;    ///< solutions at evenly spaced speeds, each with its own orders
+  int count = 101;  ///< so many
   bool stability = false;  ///< multipliers at each point, and the bifurcations
   bool times = false;      ///< CPU seconds on stderr
   /** Sees the points of the main branch while it is followed: speed [Hz], half peak-to-peak [m]. */

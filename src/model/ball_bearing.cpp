@@ -4,14 +4,7 @@
 #include <numbers>
 
 #include "model/hertz.hpp"
-
-/** The same operations for wider registers, chosen when the program starts. No sum is reordered
-    and none fused, so the bits do not depend on the choice. */
-#if defined(__x86_64__) && defined(__GLIBC__) && defined(__GNUC__) && !defined(__clang__)
-#define WIDEST_REGISTERS __attribute__((target_clones("avx512f", "avx2", "default")))
-#else
-#define WIDEST_REGISTERS
-#endif
+#include "model/registers.hpp"
 
 namespace rotor_stator {
 
@@ -196,9 +189,6 @@ struct Group {
   double f_x[lanes] = {}, f_y[lanes] = {};
   double xx[lanes] = {}, xy[lanes] = {}, yy[lanes] = {};
 };
-
-#define IN_PLACE \
-  [[gnu::always_inline]] inline  // else compiled once, for the narrowest registers
 
 /** R S Rᵀ. */
 IN_PLACE void put_stiffness(const Group& g, double hertz, const Columns& at,

@@ -53,9 +53,77 @@ std::optional<AdaptiveMotion> near_settled(const Parameters& parameters, double 
 
 }  // namespace
 
+AdaptiveSweep::AdaptiveSweep(const Parameters& parameters,
+                             const AdaptiveSettings& settings,
+                             const OperationBudget& budget)
+    : parameters_(parameters), settings_(settings), budget_(budget),
+      predictor_(scales(parameters).length, joint_resonance(parameters))
+{
+  if (!ChosenOrders::serves(parameters)) return;
+  chosen_.emplace(parameters_, settings, budget_);
+  last_ = static_start(parameters_);
+}
+
+AdaptiveMotion AdaptiveSweep::solve(double omega)
+{
+  AdaptiveMotion at;
+  if (chosen_) at = solve_on_chosen(omega);
+  if (!at.reached) {
+    const long spent = at.force_samples;
+    at = solve_by_levels(parameters_, omega, settings_, budget_);
+    at.force_samples += spent;
+  }
+  if (!chosen_) return at;
+  if (at.reached) {
+    predictor_.add(at.motion.x, omega);
+    last_ = state_of(at.motion);
+  } else {
+    predictor_.clear();
+  }
+  return at;
+}
+
+AdaptiveMotion AdaptiveSweep::solve_on_chosen(double omega)
+{
+  constexpr double seconds = 0.5;  // of integration
+  constexpr int few = 8, many = 48;
+  AdaptiveMotion at;
+  long cost = 0;
+  using From = ChosenOrders::From;
+  const auto reaches = [&](const std::string& start, const Eigen::VectorXd& x,
+                           From from) {
+    at = chosen_->solve(omega, x, from);
+    cost += at.force_samples;
+    at.motion.start = start;
+    return at.reached;
+  };
+  const auto integrated = [&] {
+    CoarseIntegration integration(parameters_, last_, budget_);
+    const Eigen::VectorXd x = integration.go_on(omega, seconds, many);
+    cost += integration.evaluations();
+    return x;
+  };
+  const bool is_first = predictor_.empty();
+  if ((is_first && reaches(quasi_static_name, quasi_static_start(parameters_, omega, few),
+                           From::guess)) ||
+      (!is_first &&
+       reaches(from_predictor, predictor_.at_speed(omega), From::predictor)) ||
+      reaches("short time integration", integrated(), From::integration))
+    at.reached = true;
+  at.force_samples = cost;
+  return at;
+}
+
 AdaptiveMotion solve_adaptively(const Parameters& parameters, double omega,
                                 const AdaptiveSettings& settings,
                                 const OperationBudget& budget)
+{
+  return AdaptiveSweep(parameters, settings, budget).solve(omega);
+}
+
+AdaptiveMotion solve_by_levels(const Parameters& parameters, double omega,
+                               const AdaptiveSettings& settings,
+                               const OperationBudget& budget)
 {
   constexpr double most = 0.7;  // the rest is for the motion from rest
   const OperationBudget share = parameters.large ? budget : budget.part(most);

@@ -5,18 +5,47 @@ The number of harmonics follows from an error that is asked for. This is `balanc
 the largest difference over the period over the largest displacement, and the rms about the mean. */
 #pragma once
 
-#include "balance/adaptive_balance.hpp"
+#include "balance/chosen_orders.hpp"
+#include "continuation/sweep.hpp"
 #include "motion/find_periodic.hpp"
 
 namespace rotor_stator::motion {
+
+/** Solutions of one machine to a tolerance, at one speed after the other. */
+class AdaptiveSweep {
+public:
+  AdaptiveSweep(const Parameters& parameters, const AdaptiveSettings& settings,
+                const OperationBudget& budget = {});
+  AdaptiveSweep(const AdaptiveSweep&) = delete;  // chosen_ refers to parameters_
+
+  /** At speed `omega` [rad/s] from the paper's predictor, from quasi-static contact, and from short time integration, which goes
+      on from the last solution; on chosen orders (balance/chosen_orders.hpp). Where none of these reaches the tolerance, as
+      `solve_by_levels`. */
+  AdaptiveMotion solve(double omega);
+
+private:
+  AdaptiveMotion solve_on_chosen(double omega);
+
+  const Parameters parameters_;
+  AdaptiveSettings settings_;
+  OperationBudget budget_;
+  std::optional<ChosenOrders> chosen_;  ///< of machines that these serve
+  LagrangePredictor predictor_;
+  State last_;  ///< of the last solution, at phase 0
+};
+
+/** Chooses orders and samples for the tolerance at speed `omega` [rad/s] alone. */
+AdaptiveMotion solve_adaptively(const Parameters& parameters, double omega,
+                                const AdaptiveSettings& settings,
+                                const OperationBudget& budget = {});
 
 /** Chooses m and N for the tolerance at speed `omega` [rad/s]. Newton starts from quasi-static contact;
     when that fails with several m, from short time integration (not of machines given by matrices), and when that has
     failed too, once from whatever `search_periodic` finds, whose evaluations are not counted. Where no m is enough and integration from rest settles on a motion of period T, from that motion; the
     error is then the distance from it. */
-AdaptiveMotion solve_adaptively(const Parameters& parameters, double omega,
-                                const AdaptiveSettings& settings,
-                                const OperationBudget& budget = {});
+AdaptiveMotion solve_by_levels(const Parameters& parameters, double omega,
+                               const AdaptiveSettings& settings,
+                               const OperationBudget& budget = {});
 
 /** The solution of a search; `reached` when its error is estimated below the tolerance. */
 AdaptiveMotion find_with_error(const Search& search, double tolerance);

@@ -190,6 +190,20 @@ class Branch(Case):
         self.assertAlmostEqual(table["f"][-1], 60)
         self.assertAlmostEqual(table["f"][table["amp_x_r"].argmax()], 50, delta=1)
 
+    def test_to_a_tolerance_at_evenly_spaced_speeds(self):
+        """Against shooting, which shares neither the orders nor their estimate; down as up."""
+        for direction, speeds in [("up", np.linspace(28, 46, 7)), ("down", np.linspace(46, 28, 7))]:
+            table = self.table("response", self.machine, "--from", 28, "--to", 46, "--tolerance", 1e-3, "--count", 7,
+                               "--direction", direction)
+            self.assertEqual(list(table.columns), ["f", *AMPLITUDES, "arc", "newton", "error"])
+            np.testing.assert_allclose(table["f"], speeds, rtol=1e-12)
+            self.assertLessEqual(max(table["error"]), 1e-3)
+            self.assertTrue(all(np.diff(table["arc"]) > 0))
+        for k, speed in enumerate(speeds):
+            exact = self.table("orbit", self.machine, "--frequency", speed, "--method", "shooting", "--no-stability")
+            for name in AMPLITUDES:
+                self.assertAlmostEqual(table[name][k] / (np.ptp(exact[name[4:]]) / 2), 1, delta=3e-3)
+
     def test_a_branch_that_is_not_covered_is_printed_and_said_to_be(self):
         table, reason = self.cut_off(SET_2, *WHOLE, "--harmonics", 16, "--budget", "2e5")
         self.assertGreater(len(table), 10)

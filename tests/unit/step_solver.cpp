@@ -102,17 +102,24 @@ TEST_CASE("Product, leading part and diagonal blocks are those of the dense Jaco
   }
 }
 
-TEST_CASE("With many harmonics GMRES finds the solution of the dense Jacobian")
+/** Two masses are mostly answered by the equations in time; a problem that does not know its bodies takes GMRES. */
+TEST_CASE(
+    "With many harmonics both kinds of steps find the solution of the dense Jacobian")
 {
   for (const auto& [harmonics, frequency] : {std::pair(64, 55.0), std::pair(256, 30.0)}) {
     INFO("m = " << harmonics);
     const Eigen::VectorXd start = start_with(harmonics, frequency);
-    Balance balance = balance_with(harmonics), other = balance_with(harmonics);
-    const auto motion = solve(balance, hertz(frequency), start);
-    REQUIRE(motion.found());
+    Balance other = balance_with(harmonics);
     const Eigen::VectorXd dense = solve_densely(other, hertz(frequency), start);
-    CHECK(balance.steps().linear_iterations() > 0);
-    CHECK((motion.x - dense).norm() < 1e-9 * dense.norm());
+    for (const bool knows_bodies : {true, false}) {
+      Problem problem = bearing_problem(set_1(), default_samples(harmonics));
+      if (!knows_bodies) problem.bodies.reset();
+      Balance balance(problem, harmonics);
+      const auto motion = solve(balance, hertz(frequency), start);
+      REQUIRE(motion.found());
+      CHECK((knows_bodies || balance.steps().linear_iterations() > 0));
+      CHECK((motion.x - dense).norm() < 1e-9 * dense.norm());
+    }
   }
 }
 
@@ -205,7 +212,7 @@ TEST_CASE("What a solution costs, in iterations, evaluations and factorisations"
     int harmonics, iterations, evaluations, factorisations, linear_iterations;
   };
   for (const Bound& bound : {Bound{6, 6, 9, 2, 0}, Bound{10, 9, 12, 3, 0},
-                             Bound{64, 7, 8, 1, 40}, Bound{1024, 7, 8, 1, 40}}) {
+                             Bound{64, 9, 10, 3, 20}, Bound{1024, 9, 10, 3, 20}}) {
     INFO("m = " << bound.harmonics);
     Balance balance = balance_with(bound.harmonics);
     const NewtonReport report =

@@ -183,7 +183,7 @@ class Adaptive(unittest.TestCase):
     def test_another_motion(self):
         """At 24 Hz shooting alone closes a mirrored motion, and 256 harmonics an unstable one 0.2 % away; the solutions keep
         their own."""
-        row, = adaptive.rows_of(self.MACHINE, 24, [1e-2], 64)
+        row, = adaptive.rows_of(self.MACHINE, 24, [1e-3], 64)
         self.assertLess(row["error"], 1e-3)
         self.assertEqual(row["own_branch"], 0)
 

@@ -1,0 +1,509 @@
+#include "balance/chosen_orders.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <numeric>
+#include <utility>
+
+#include "balance/step_solver.hpp"
+#include "io/errors.hpp"
+
+namespace rotor_stator {
+
+namespace {
+
+using Complex = std::complex<double>;
+
+/** The next number with at most two binary digits: few different ones in a sweep. */
+int rounded_up(int samples)
+{
+  int unit = 16;
+  while (samples > 4 * unit) unit *= 2;
+  return (samples + unit - 1) / unit * unit;
+}
+
+Harmonics harmonics_of(const std::vector<int>& orders)
+{
+  std::vector<Harmonic> list;
+  for (int h : orders) list.push_back({static_cast<double>(h), 0});
+  return Harmonics(std::move(list));
+}
+
+/** Columns of the chosen orders in a series of all up to the highest, zeros between them; and back. */
+Eigen::MatrixXd spread(const Eigen::MatrixXd& few, const std::vector<int>& orders)
+{
+  Eigen::MatrixXd all = Eigen::MatrixXd::Zero(few.rows(), 2 * orders.back() + 1);
+  all.col(0) = few.col(0);
+  for (std::size_t k = 1; k < orders.size(); ++k)
+    all.middleCols(2 * orders[k] - 1, 2) =
+        few.middleCols(2 * static_cast<Eigen::Index>(k) - 1, 2);
+  return all;
+}
+
+Eigen::MatrixXd gathered(const Eigen::MatrixXd& all, const std::vector<int>& orders)
+{
+  Eigen::MatrixXd few =
+      Eigen::MatrixXd::Zero(all.rows(), 2 * static_cast<Eigen::Index>(orders.size()) - 1);
+  few.col(0) = all.col(0);
+  for (std::size_t k = 1; k < orders.size() && 2 * orders[k] < all.cols(); ++k)
+    few.middleCols(2 * static_cast<Eigen::Index>(k) - 1, 2) =
+        all.middleCols(2 * orders[k] - 1, 2);
+  return few;
+}
+
+Eigen::Map<const Eigen::MatrixXd> series_of(const Eigen::VectorXd& x)
+{
+  return {x.data(), 2, x.size() / 2};
+}
+
+/** What u adds to x_s, y_s, x_r, y_r [m] where no further load acts: a factor of each body for each order. */
+class Moved {
+public:
+  void refresh(const Parameters& parameters, double omega, int count)
+  {
+    if (omega == omega_ && stator_.size() == count + 1) return;
+    omega_ = omega;
+    stator_.resize(count + 1);
+    rotor_.resize(count + 1);
+    weight_.resize(4 * count + 2);
+    for (int h = 0; h <= count; ++h) {
+      const Complex z_s = dynamic_stiffness(parameters.stator, h * omega).value,
+                    z_r = dynamic_stiffness(parameters.rotor, h * omega).value;
+      const Complex per = 1.0 / (z_s + z_r);
+      stator_[h] = -z_r * per;
+      rotor_[h] = z_s * per;
+      weight_.segment(h == 0 ? 0 : 4 * h - 2, h == 0 ? 2 : 4)
+          .setConstant(std::sqrt(std::norm(stator_[h]) + std::norm(rotor_[h])));
+    }
+  }
+
+  /** Of both bodies, for each coefficient of u. */
+  const Eigen::VectorXd& weight() const { return weight_; }
+  double norm(const Eigen::VectorXd& u) const { return u.cwiseProduct(weight_).norm(); }
+
+  Eigen::MatrixXd series(const Eigen::VectorXd& u) const
+  {
+    const auto columns = series_of(u);
+    Eigen::MatrixXd series(4, columns.cols());
+    for (int h = 0; 2 * h < columns.cols(); ++h)
+      for (int axis = 0; axis < 2; ++axis) {
+        const Eigen::Index at = h == 0 ? 0 : 2 * h - 1;
+        const Complex of(columns(axis, at), h == 0 ? 0 : -columns(axis, at + 1));
+        const Complex s = stator_[h] * of, r = rotor_[h] * of;
+        series(axis, at) = s.real();
+        series(2 + axis, at) = r.real();
+        if (h == 0) continue;
+        series(axis, at + 1) = -s.imag();
+        series(2 + axis, at + 1) = -r.imag();
+      }
+    return series;
+  }
+
+private:
+  double omega_ = 0;
+  Eigen::VectorXcd stator_, rotor_;
+  Eigen::VectorXd weight_;
+};
+
+/** The largest displacement of an order [m]. */
+double size_of(const Eigen::MatrixXd& bodies, int h)
+{
+  return std::sqrt(bodies.middleCols(2 * h - 1, 2).rowwise().squaredNorm().maxCoeff());
+}
+
+double vibration_of(const Eigen::MatrixXd& bodies)
+{
+  return bodies.rightCols(bodies.cols() - 1).norm();
+}
+
+double over(double off, double size)
+{
+  return size > 0 ? off / size : off > 0 ? std::numeric_limits<double>::infinity() : 0;
+}
+
+/** The least orders without which a motion stays within a part of the tolerance. */
+struct Largest {
+  std::vector<int> orders;
+  double displacement, rms;  ///< of the others, over those of the motion [-]
+
+  Largest(const Eigen::MatrixXd& bodies, double largest, double most)
+      : orders{0}, displacement(0), rms(0)
+  {
+    const int count = static_cast<int>(bodies.cols() / 2);
+    const double vibration = vibration_of(bodies);
+    Eigen::VectorXd sizes(count + 1);
+    for (int h = 1; h <= count; ++h) sizes[h] = size_of(bodies, h);
+    std::vector<int> by_size(static_cast<std::size_t>(count));
+    std::iota(by_size.begin(), by_size.end(), 1);
+    std::ranges::stable_sort(by_size, {}, [&](int h) { return sizes[h]; });
+    double sum = 0, squares = 0;
+    for (int h : by_size) {
+      sum += over(sizes[h], largest);
+      squares += bodies.middleCols(2 * h - 1, 2).squaredNorm();
+      const double root = over(std::sqrt(squares), vibration);
+      if (std::max(sum, root) > most || h == by_size.back()) {
+        orders.push_back(h);
+        continue;
+      }
+      displacement = sum;
+      rms = root;
+    }
+    std::ranges::sort(orders);
+  }
+};
+
+/** Of the tolerance: a part is left for what the estimate leaves out. */
+constexpr double accepted = 0.9;
+
+/** Of the tolerance: orders that together are smaller are left out. */
+constexpr double unnoticed = 0.3;
+
+/** Of the error of half the samples over that of all, at least. */
+constexpr double fall = 2;
+
+/** So many orders beside the mean are solved for by dense factors. */
+constexpr std::size_t few = 16;
+
+}  // namespace
+
+/** What belongs to a number of samples. */
+struct ChosenOrders::Grid {
+  Problem problem;
+  int count;  ///< the highest order that N samples say anything of
+  Balance all;
+  FourierTransform transform, half;
+  Moved moved = {};
+  Gmres gmres = {};
+  Eigen::VectorXd answer, scaled, product;
+  Eigen::MatrixXd instants = {};
+
+  explicit Grid(Problem at)
+      : problem(std::move(at)), count(problem.samples / 3), all(problem, count),
+        transform(problem.samples), half(problem.samples / 2), product(all.unknowns())
+  {
+  }
+
+  double largest(const Eigen::MatrixXd& bodies)
+  {
+    transform.to_samples(bodies, instants);
+    return instants.cwiseAbs().maxCoeff();
+  }
+
+  /** What half of the samples, every second one, would leave out of x, the point that was evaluated last, with orders up to
+      N/6: those above, and what is folded onto those below. */
+  Eigen::MatrixXd left_out_by_half(const Eigen::VectorXd& x)
+  {
+    const int n = problem.samples / 2, resolved = count / 2;
+    Eigen::MatrixXd off(2, 2 * resolved + 1), from_all(2, 2 * resolved + 1);
+    half.to_series(all.force_samples()(Eigen::seqN(0, n, 2), Eigen::all), off);
+    transform.to_series(all.force_samples(), from_all);
+    off -= from_all;
+    Eigen::MatrixXd residual = Eigen::MatrixXd::Zero(2, 2 * count + 1);
+    for (int h = 0; h <= resolved; ++h)
+      put_amplitude(residual, h, all.block(h).b * amplitude(off, h));
+    all.solve_in_time(residual.reshaped(), answer);
+    const Eigen::Index above = x.size() - (4 * resolved + 2);
+    answer.tail(above) -= x.tail(above);
+    return moved.series(answer);
+  }
+};
+
+/** Steps by the equations in time, measured by how far they move the bodies. */
+struct ChosenOrders::Steps {
+  Grid& at;
+  double omega;
+  Eigen::VectorXd x;
+  double size = 0, ratio = 0;  ///< of the next step [m], and over that of the last one
+  bool is_fresh = false;       ///< the factors are those of x
+
+  Steps(Grid& grid, double speed, Eigen::VectorXd start)
+      : at(grid), omega(speed), x(std::move(start))
+  {
+    refactor();
+  }
+
+  void refactor()
+  {
+    at.all.factor_in_time(x, omega);
+    is_fresh = true;
+    answer();
+  }
+
+  void answer()
+  {
+    at.all.solve_in_time(at.all.residual(x, omega), at.answer);
+    size = at.moved.norm(at.answer);
+  }
+
+  /** Whether the step leads to a shorter one. Where that is not much shorter, it comes from new factors, and where they were
+      new from GMRES. */
+  bool take()
+  {
+    constexpr double poor = 0.35;
+    double before = size;
+    if (!move()) {  // by a better one
+      refactor();
+      iterate();
+      before = size;
+      if (!move()) return false;
+    }
+    ratio = size / before;
+    const bool was_fresh = std::exchange(is_fresh, false);
+    if (ratio <= poor) return true;
+    refactor();
+    if (was_fresh) iterate();
+    return true;
+  }
+
+  /** Along the step, halved until the next one is shorter; back where it was if it never is. */
+  bool move()
+  {
+    constexpr int most_halvings = 4;
+    const double before = size;
+    const Eigen::VectorXd start = x, step = at.answer;
+    double length = 1;
+    for (int halvings = 0; halvings <= most_halvings; ++halvings, length /= 2) {
+      x = start - length * step;
+      answer();
+      if (size <= (1 - length / 4) * before) return true;
+    }
+    x = start;
+    return false;
+  }
+
+  /** Newton's own step, to a tenth of what the answer is. */
+  void iterate()
+  {
+    constexpr double goal = 0.1;
+    constexpr int most = 40;
+    const Eigen::VectorXd& weight = at.moved.weight();
+    const auto apply = [&](const Eigen::VectorXd& v, Eigen::VectorXd& result) {
+      at.all.apply_jacobian(x, omega, v.cwiseQuotient(weight), at.product);
+      at.all.solve_in_time(at.product, result);
+      result.array() *= weight.array();
+    };
+    const auto none = [](const Eigen::VectorXd& r, Eigen::VectorXd& z) { z = r; };
+    const Eigen::VectorXd right = at.answer.cwiseProduct(weight);
+    at.gmres.solve(apply, none, right, goal * right.norm(), most, at.scaled);
+    at.answer = at.scaled.cwiseQuotient(weight);
+    size = at.moved.norm(at.answer);
+  }
+};
+
+ChosenOrders::ChosenOrders(const Parameters& parameters, const AdaptiveSettings& settings,
+                           const OperationBudget& budget)
+    : parameters_(parameters), settings_(settings), budget_(budget)
+{
+  NewtonSettings& newton = settings_.newton;
+  newton.tolerance = std::max(newton.tolerance, 1e-2 * settings.tolerance);
+  newton.most_iterations = std::min(newton.most_iterations, 12);
+  newton.most_halvings = std::min(newton.most_halvings, 4);
+}
+
+ChosenOrders::~ChosenOrders() = default;
+
+bool ChosenOrders::serves(const Parameters& parameters)
+{
+  return !parameters.large && parameters.bearing.is_plain() &&
+         has_rotation_period(parameters.bearing);
+}
+
+ChosenOrders::Grid& ChosenOrders::grid(int samples)
+{
+  std::unique_ptr<Grid>& grid = grids_[samples];
+  if (!grid)
+    grid = std::make_unique<Grid>(bearing_problem(parameters_, samples, budget_));
+  return *grid;
+}
+
+AdaptiveMotion ChosenOrders::solve(double omega, const Eigen::VectorXd& x, From from)
+{
+  constexpr int first = 3, most_rounds = 5;
+  result_ = {};
+  /** The contact's frequency must be among the orders of the samples. */
+  const double contact = contact_frequency(parameters_) / omega;
+  const int least =
+      rounded_up(3 * static_cast<int>(std::clamp(1.2 * contact + 2, 8.0, 64.0)));
+  if (from == From::guess || samples_ < least || samples_ >= 2 * least)
+    samples_ = std::max(samples_ / 2, least);
+  std::vector<int> first_orders{0};
+  for (int h = 1; h <= first; ++h) {
+    first_orders.push_back(h);
+    if (parameters_.turns > first) first_orders.push_back(h * parameters_.turns);
+  }
+  std::ranges::sort(first_orders);
+  if (from == From::guess || orders_.empty()) orders_ = first_orders;
+  samples_ = std::max(samples_, rounded_up(3 * orders_.back() + 2));
+  const auto on_few = [&](Eigen::VectorXd& at) {
+    for (int round = 0; round < most_rounds && orders_.size() <= few + 1; ++round) {
+      const std::size_t before = orders_.size();
+      if (solve_on_few(omega, at)) return true;
+      if (orders_.size() == before) break;
+    }
+    return false;
+  };
+  const auto on_all = [&](Eigen::VectorXd& at) {
+    while (!solve_on_all(omega, at)) {
+      if (!result_.motion.found() || grid(samples_).count >= settings_.most_harmonics)
+        return false;
+      samples_ *= 2;
+    }
+    return true;
+  };
+  Eigen::VectorXd start = x;
+  if (from != From::integration && on_few(start)) return std::move(result_);
+  if (on_all(start) || orders_ == first_orders) return std::move(result_);
+  orders_ = first_orders;
+  start = x;
+  on_few(start);
+  return std::move(result_);
+}
+
+/** On the chosen orders, measured at finer samples, where `x` then is the better start. Whether the tolerance is reached. */
+bool ChosenOrders::solve_on_few(double omega, Eigen::VectorXd& x)
+{
+  constexpr int least_samples = 32, most_steps = 4;
+  constexpr double most_left = 0.25, small = 0.02;
+  const int samples = std::max(least_samples, rounded_up(4 * orders_.back() + 2));
+  if (!balance_ || balance_->problem().samples != samples || orders_ != on_)
+    balance_ = std::make_unique<Balance>(grid(samples).problem, harmonics_of(orders_));
+  on_ = orders_;
+  PeriodicMotion motion = rotor_stator::solve(
+      *balance_, omega, gathered(series_of(x), orders_).reshaped(), settings_.newton);
+  result_.force_samples += motion.force_samples;
+  result_.end = format("with %zu orders: ", orders_.size() - 1) + motion.newton.reason();
+  if (!motion.found()) return false;
+  motion.bodies = spread(body_series(parameters_, motion), orders_);
+  motion.force = spread(motion.force, orders_);
+  motion.x = spread(series_of(motion.x), orders_).reshaped();
+  motion.harmonics = Harmonics(orders_.back());
+
+  Grid& at = grid(samples_);
+  const long before = at.all.evaluations();
+  const double largest = at.largest(motion.bodies),
+               vibration = vibration_of(motion.bodies);
+  at.moved.refresh(parameters_, omega, at.count);
+  const Eigen::VectorXd first = resize_harmonics(motion.x, 2, at.count);
+  Steps steps(at, omega, first);
+  bool is_settled = false;
+  for (int k = 0; k < most_steps && !is_settled && steps.take(); ++k)
+    is_settled = steps.size <= std::max(most_left * at.moved.norm(first - steps.x),
+                                        small * settings_.tolerance * vibration);
+  result_.force_samples += (at.all.evaluations() - before) * samples_;
+  result_.end =
+      format("the error with %zu orders cannot be estimated", orders_.size() - 1);
+  if (!is_settled) return false;
+  x = steps.x - at.answer;
+  const Eigen::MatrixXd off = at.moved.series(first - x);
+  double displacement = over(at.largest(off), largest),
+         rms = over(vibration_of(off), vibration);
+  if (samples_ < 2 * samples) {
+    const Eigen::MatrixXd by_half = at.left_out_by_half(steps.x);
+    displacement += over(at.largest(by_half), fall * largest);
+    rms += over(vibration_of(by_half), fall * vibration);
+  }
+  motion.error = {.displacement = displacement,
+                  .rms = rms,
+                  .settled = true,
+                  .harmonics = at.count,
+                  .samples = samples_,
+                  .newton = 1,
+                  .force_samples = 0};
+  result_.reached = std::max(displacement, rms) <= accepted * settings_.tolerance;
+  result_.motion = std::move(motion);
+  result_.end = format("the error with %zu orders is estimated as %.2g",
+                       orders_.size() - 1, result_.motion.error->larger());
+  Eigen::MatrixXd bodies = -off;
+  bodies.leftCols(result_.motion.bodies.cols()) += result_.motion.bodies;
+  const Largest needed(bodies, largest, unnoticed * settings_.tolerance);
+  if (result_.reached) {
+    std::erase_if(orders_,
+                  [&](int h) { return !std::ranges::binary_search(needed.orders, h); });
+    return true;
+  }
+  /** The largest few at once: after a poor solution all look large. */
+  std::vector<int> more;
+  std::ranges::set_difference(needed.orders, orders_, std::back_inserter(more));
+  std::ranges::stable_sort(more, std::greater(),
+                           [&](int h) { return size_of(bodies, h); });
+  more.resize(std::min(more.size(), std::max<std::size_t>(4, orders_.size() / 2)));
+  orders_.insert(orders_.end(), more.begin(), more.end());
+  std::ranges::sort(orders_);
+  return false;
+}
+
+/** On all orders of the samples, of which those are kept that the tolerance may notice. */
+bool ChosenOrders::solve_on_all(double omega, Eigen::VectorXd& x)
+{
+  constexpr int most_steps = 14;
+  constexpr double converged = 0.03;
+  Grid& at = grid(samples_);
+  const long before = at.all.evaluations();
+  at.moved.refresh(parameters_, omega, at.count);
+  Steps steps(at, omega, resize_harmonics(x, 2, at.count));
+  const auto motion_at = [&] {
+    PeriodicMotion motion{.omega = omega,
+                          .harmonics = at.all.harmonics(),
+                          .samples = samples_,
+                          .x = steps.x,
+                          .force = at.all.force(steps.x, omega)};
+    motion.bodies = body_series(parameters_, motion);
+    return motion;
+  };
+  const double enough =
+      converged * settings_.tolerance * vibration_of(motion_at().bodies);
+  bool is_found = false;
+  int taken = 0;
+  for (; taken < most_steps && !is_found && steps.take(); ++taken)
+    is_found = steps.size * steps.ratio <= (1 - steps.ratio) * enough;
+  result_.reached = false;
+  result_.end = format("the steps with %d samples do not converge", samples_);
+  result_.motion = {};
+  if (is_found) {
+    steps.x -= at.answer;
+    x = steps.x;
+    PeriodicMotion motion = motion_at();
+    motion.newton = {
+        .end = NewtonEnd::converged,
+        .iterations = taken + 1,
+        .delta_1 = at.all.residual(x, omega).norm() / at.problem.residual_scale,
+        .delta_2 = at.answer.norm() / at.problem.unknown_scale};
+    const double largest = at.largest(motion.bodies),
+                 vibration = vibration_of(motion.bodies);
+    const Eigen::MatrixXd by_half = at.left_out_by_half(x);
+    const Largest needed(motion.bodies, largest, unnoticed * settings_.tolerance);
+    const double displacement = over(at.largest(by_half), fall * largest),
+                 rms = over(vibration_of(by_half), fall * vibration);
+    motion.error = {.displacement = displacement + needed.displacement +
+                                    converged * settings_.tolerance,
+                    .rms = rms + needed.rms + converged * settings_.tolerance,
+                    .settled = true,
+                    .harmonics = at.count,
+                    .samples = samples_,
+                    .newton = 1,
+                    .force_samples = 0};
+    result_.reached = motion.error->larger() <= accepted * settings_.tolerance;
+    result_.end = format("the error with %zu orders is estimated as %.2g",
+                         needed.orders.size() - 1, motion.error->larger());
+    const std::vector<int>& kept = needed.orders;
+    /** At the next speed the largest of them are tried first. */
+    orders_ = kept;
+    std::ranges::stable_sort(orders_, std::greater(), [&](int h) {
+      return h == 0 ? largest : size_of(motion.bodies, h);
+    });
+    orders_.resize(std::min<std::size_t>(orders_.size(), few + 1));
+    std::ranges::sort(orders_);
+    motion.bodies = spread(gathered(motion.bodies, kept), kept);
+    motion.force = spread(gathered(motion.force, kept), kept);
+    motion.x = spread(gathered(series_of(x), kept), kept).reshaped();
+    motion.harmonics = Harmonics(kept.back());
+    result_.motion = std::move(motion);
+    if (result_.reached && fall * std::max(displacement, rms) < 0.5 * settings_.tolerance)
+      samples_ /= 2;
+  }
+  result_.force_samples += (at.all.evaluations() - before) * at.problem.samples;
+  return result_.reached;
+}
+
+}  // namespace rotor_stator

@@ -1,0 +1,61 @@
+/**
+# Orders chosen by their size
+
+A motion with the period of rotation has orders up to the contact's resonance and beyond, and few of them are large: at
+36 Hz of set 1 four, of which the last is order 15. The balance is solved on orders that are chosen (Grolet and Thouverez
+2012). What they leave out is found by the equations of motion at finer samples (equations_in_time.hpp),
+which answer the residual there at all orders up to a third of the samples: a step of Newton's method but for some
+hundredths, in O(N) operations. It is measured by how far it moves the bodies, since a resonance of the contact hides a
+large error behind a small residual. A second step says what the first one left; where that is more than a quarter, GMRES takes it further.
+
+Where the samples of the solution itself are fine enough for that, half as many, every second one, say what sampling does: the
+spectrum of a Hertz contact falls as k^{-5/2}, so that all samples err by less than a quarter of the difference.
+
+Orders that the tolerance may notice are taken, those far below it dropped, samples doubled where they are too few. From speed
+to speed orders, samples, tables and factors are kept. */
+#pragma once
+
+#include <map>
+
+#include "balance/adaptive_balance.hpp"
+#include "balance/bearing_problem.hpp"
+
+namespace rotor_stator {
+
+/** Of two masses whose bearing is plain. `parameters` must outlive it. */
+class ChosenOrders {
+public:
+  ChosenOrders(const Parameters& parameters, const AdaptiveSettings& settings,
+               const OperationBudget& budget = {});
+  ~ChosenOrders();
+
+  /** Whether the machine is one that this can solve. */
+  static bool serves(const Parameters& parameters);
+
+  /** What a start is: a guess, whose orders mean little; the extrapolation of solutions before, whose orders and samples
+      are kept; or an integrated motion, which has all orders. */
+  enum class From { guess, predictor, integration };
+
+  /** The solution at `omega` [rad/s] from coefficients of any number of harmonics. Its harmonics are all up to the highest order that was chosen, with zeros for those that were not. Not
+      `reached` where no steps converge, or the settings allow no more harmonics. */
+  AdaptiveMotion solve(double omega, const Eigen::VectorXd& x, From from);
+
+private:
+  struct Grid;
+  struct Steps;
+  Grid& grid(int samples);
+  bool solve_on_few(double omega, Eigen::VectorXd& x);
+  bool solve_on_all(double omega, Eigen::VectorXd& x);
+
+  const Parameters& parameters_;
+  AdaptiveSettings settings_;
+  OperationBudget budget_;
+  std::vector<int> orders_;  ///< chosen, ascending, 0 first
+  int samples_ = 0;          ///< by which they are measured
+  std::unique_ptr<Balance> balance_;
+  std::vector<int> on_;                         ///< the orders that this is on
+  std::map<int, std::unique_ptr<Grid>> grids_;  ///< by number of samples
+  AdaptiveMotion result_;
+};
+
+}  // namespace rotor_stator
