@@ -24,6 +24,16 @@ def draw_kind(axes, sizes, values, exponent, fitted):
     axes.grid(color="0.9", lw=0.6)
 
 
+def draw_other_algebra(axes, table):
+    """Newton's equations solved otherwise, beside the usual way."""
+    for name, color, marker, label in (("harmonics, blocks", "C2", "^", "blocks and GMRES"), ("harmonics, dense", "C3", "s", "dense")):
+        rows = table.where("against", name)
+        axes.plot(rows["size"], 1e3 * rows["cpu_s"], marker + ":", color=color, ms=4, lw=0.8, label=label)
+    low, high = axes.get_ylim()
+    axes.set_ylim(low, max(high, 20e3 * table.where("against", "harmonics, dense")["cpu_s"].max()))
+    axes.legend(frameon=False, loc="upper left")
+
+
 def draw(table):
     """Rows: CPU and memory; columns: what grows."""
     figure, grid = plt.subplots(2, len(KINDS), figsize=(10, 7), sharex="col", layout="constrained")
@@ -36,6 +46,8 @@ def draw(table):
         above = rows["memory"] > 0
         draw_kind(memory, sizes[above], rows["memory"][above] / 1e6, rows.first("exponent_memory"),
                   (fitted & (rows["memory"] >= least))[above])
+        if kind == "harmonics":
+            draw_other_algebra(cpu, table)
         memory.set_xlabel(label)
     grid[0, 0].set_ylabel("CPU time [ms]")
     grid[1, 0].set_ylabel("peak memory [MB]")

@@ -12,8 +12,13 @@ process that solves one speed with one harmonic.
 
 Both axes are logarithmic, so the slope of a line is the exponent of a power law. It is fitted to the
 larger sizes only, where the fixed cost of a solution no longer counts. An exponent of one means that twice
-the size costs twice as much. A dense factorisation would have the exponent three against harmonics; the
-iterative solver with one block per harmonic avoids it. Steps in the memory are the allocator's pages.
+the size costs twice as much. Steps in the memory are the allocator's pages.
+
+Against harmonics the first panel shows three ways to solve Newton's equations. Dense factors of all harmonics have the exponent
+three in the end. One block for each harmonic that the contact hardly couples, and GMRES on the whole, avoid that. The equations
+of motion at the samples (`balance/equations_in_time.hpp`) answer a residual in a time that grows like the number of samples, and serve
+from 130 unknowns on. Along branches a fourth saving counts: the factors of a corrector step serve, with Broyden's updates, the steps
+after it and the tangent (`continuation/branch.hpp`).
 The number of degrees of freedom stays at four here; studies/large.py has the cost against it.
 
 Each size runs in a process of its own, so that the memory of one does not count for the next. The CPU time

@@ -31,6 +31,12 @@ CostGrowthScene read_cost_growth(SceneFile& file)
        {std::tuple{"harmonics", 1, 1024}, {"balls", 2, 1024}, {"speeds", 2, 1 << 20}})
     scene.kinds.push_back({kind, toml.integers(kind, least, most),
                            toml.integer("fitted_from_" + std::string(kind), 1, most)});
+  for (const std::string algebra : {"blocks", "dense"}) {
+    const GrowthKind& usual = scene.kinds.front();
+    scene.kinds.push_back({usual.against + ", " + algebra,
+                           toml.integers("harmonics_" + algebra, 1, 1024),
+                           usual.fitted_from});
+  }
   if (scene.below >= scene.frequency) toml.fail("below_hz", "must be below speed_hz");
   if (scene.sweep_to <= scene.sweep_from)
     toml.fail("sweep_to_hz", "must be above sweep_from_hz");
@@ -40,7 +46,8 @@ CostGrowthScene read_cost_growth(SceneFile& file)
 
 Growth cost_of(const CostGrowthScene& scene, const GrowthKind& kind, int size)
 {
-  const bool one_solution = kind.against == "harmonics";
+  const bool one_solution = kind.against.starts_with("harmonics");
+  const std::size_t comma = kind.against.find(", ");
   Task task{.parameters = scene.parameters, .frequencies = {scene.frequency}};
   if (one_solution)
     task.before = Task::Known{scene.below, static_start(scene.parameters)};
@@ -53,10 +60,12 @@ Growth cost_of(const CostGrowthScene& scene, const GrowthKind& kind, int size)
                                  (scene.sweep_to - scene.sweep_from) * k / (speeds - 1));
   }
   const auto setting = [&](int m) {
-    return Setting{.method = "aft",
-                   .harmonics = m,
-                   .samples_per_harmonic = scene.samples_per_harmonic,
-                   .tolerance = scene.newton_tolerance};
+    return Setting{
+        .method = "aft",
+        .harmonics = m,
+        .samples_per_harmonic = scene.samples_per_harmonic,
+        .algebra = comma < kind.against.size() ? kind.against.substr(comma + 2) : "",
+        .tolerance = scene.newton_tolerance};
   };
   const InOwnProcess result = in_own_process([&] {
     const auto method =
@@ -116,7 +125,9 @@ void fit_exponents(std::vector<Growth>& rows, const GrowthKind& kind, double lea
 namespace {
 
 const std::vector<Field<Growth>> growth_fields{
-    {"against", "-", "what grows: harmonics, balls or speeds", &Growth::against},
+    {"against", "-",
+     "what grows: harmonics, balls or speeds; with other algebra for Newton's steps: blocks, dense",
+     &Growth::against},
     {"size", "-", "how many of it", &Growth::size},
     {"cpu_s", "s", "CPU of one thread, median of the repetitions", &Growth::median},
     {"cpu_min_s", "s", "least", &Growth::least},
@@ -140,6 +151,10 @@ Table cost_growth_table(const CostGrowthScene& scene, const std::vector<Growth>&
   table.note(format(
       "against harmonics: one solution at %g Hz from that at %g Hz with the same m",
       scene.frequency, scene.below));
+  table.note(
+      "Newton's steps: dense factors up to 130 unknowns and the equations in time beyond; "
+      "blocks: dense factors of the coupled harmonics, a block for each other one, GMRES; "
+      "dense: dense factors of all");
   table.note(format(
       "against balls: a sweep of %d speeds from %g to %g Hz, m = %d, cage ratio %g",
       scene.sweep_speeds, scene.sweep_from, scene.sweep_to, scene.sweep_harmonics,

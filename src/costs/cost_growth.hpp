@@ -12,7 +12,8 @@ namespace rotor_stator::costs {
 
 /** What grows, and the sizes that it takes. */
 struct GrowthKind {
-  std::string against;  ///< "harmonics", "balls" or "speeds"
+  std::string
+      against;  ///< "harmonics", "balls" or "speeds"; "harmonics, dense" by other algebra
   std::vector<int> sizes;
   int fitted_from;  ///< the least size that is fitted
 };

@@ -16,7 +16,7 @@ namespace rotor_stator::costs {
 
 - *aft*: harmonic balance. The number of harmonics is the same at all speeds, or falls with the speed. Each
   speed starts from the ones before, or from a transient.
-- *aft-tolerance*: each speed by itself, with harmonics chosen and error estimated as by `explore orbit --tolerance`.
+- *aft-tolerance*: orders and samples chosen and their error estimated, as by `explore response --tolerance`.
 - *rk4* (fixed step), GSL's steppers: time integration.
 - *shooting-rk4*, *shooting-rk8pd*, …: Newton's method on the period map. */
 struct Setting {
@@ -25,6 +25,8 @@ struct Setting {
   double corner = 0;             ///< aft: m f is at least this [Hz]
   int samples_per_harmonic = 0;  ///< aft: N is a fast size above this times m
   int samples = 0;               ///< aft: N itself, instead
+  std::string algebra =
+      {};  ///< aft: how Newton's equations are solved; empty: as everywhere
   bool paper_sweep = false;  ///< aft: the paper's continuation, continuation/sweep.hpp
   double tolerance =
       0;            ///< aft: Newton's; aft-tolerance: the one asked for; GSL: local error

@@ -173,7 +173,10 @@ private:
         inner(q, results...);
         *seconds += thread_cpu_seconds() - start;
       };
+    /** What the equations in time replace: GMRES with a block for each harmonic, and dense factors. */
+    if (setting_.algebra == "blocks") problem.bodies.reset();
     balance = std::make_unique<Balance>(problem, m);
+    if (setting_.algebra == "dense") balance->steps().hold();
     return *balance;
   }
 

@@ -11,7 +11,7 @@ belongs to the comparison and is timed for none.
   with coarse steps, which goes on from where it ended last; where that fails too, from more of it with half as
   many harmonics more. With a transient in the setting, that is the
   first start at every speed. Or, as the paper does it, the gap to the last speed is halved where Newton fails.
-- Harmonic balance to a tolerance: motion/adaptive.hpp, each speed by itself.
+- Harmonic balance to a tolerance: motion/adaptive.hpp, each speed from those before.
 - Time integration: a transient in seconds, whole periods, from the static load or from the known state;
   then from speed to speed.
 - Shooting: from speed to speed the state is extrapolated by the same predictor, and Φ is handed on. */
