@@ -1,4 +1,4 @@
-"""Adaptive harmonics: estimate over true error, harmonics chosen, cost against the best fixed number.
+"""Adaptive harmonics: estimate over true error, highest order chosen, cost against the best fixed number.
 
 (a) the grey band is what is asked of the estimate; (b) filled: data set 1, open: data set 2; (c), (d) a
 cross near the upper edge: the tolerance was not reached.
@@ -66,7 +66,7 @@ def draw_harmonics(axes, table, styles, number, title):
             axes.plot(part["f"][piece], m[piece], "-", marker=marker, color=colour, ms=4, lw=1)
         row = top / 1.25 ** styles.index((tolerance, colour, marker))
         axes.plot(part["f"][~reached], np.full((~reached).sum(), row), "x", color=colour, ms=6)
-    axes.set(yscale="log", xlabel="speed [Hz]", ylabel="harmonics m [-]", title=title,
+    axes.set(yscale="log", xlabel="speed [Hz]", ylabel="highest order m [-]", title=title,
              ylim=(table["m"][table["m"] > 0].min() / 1.4, 1.4 * top))
     axes.yaxis.set_major_formatter("{x:g}")
 
@@ -91,8 +91,8 @@ def draw(table):
     styles = styles_of(table)
     draw_effectivity(estimate, table, styles)
     draw_cost(cost, table, styles)
-    draw_harmonics(first, table, styles, 1, "(c) harmonics chosen, data set 1")
-    draw_harmonics(second, table, styles, 2, "(d) harmonics chosen, data set 2")
+    draw_harmonics(first, table, styles, 1, "(c) highest order chosen, data set 1")
+    draw_harmonics(second, table, styles, 2, "(d) highest order chosen, data set 2")
     for axes in (estimate, cost, first, second):
         axes.grid(color="#d9d9d9", lw=0.7)
         axes.set_axisbelow(True)

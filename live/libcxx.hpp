@@ -3,6 +3,7 @@
 #pragma once
 #include <algorithm>
 #include <charconv>
+#include <cstdio>
 #include <cstdlib>
 #include <cstring>
 #include <functional>
@@ -28,6 +29,13 @@ inline from_chars_result from_chars(const char* first, const char* last, double&
   value = strtod(text.c_str(), &end);
   return {first + (end - text.c_str()),
           end == text.c_str() ? errc::invalid_argument : errc()};
+}
+
+inline to_chars_result to_chars(char* first, char* last, double value, chars_format,
+                                int digits)
+{
+  return {first + snprintf(first, static_cast<size_t>(last - first), "%.*g", digits, value),
+          errc()};
 }
 
 namespace ranges {

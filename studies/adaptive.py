@@ -1,14 +1,14 @@
 """Adaptive harmonics: what the error estimate is worth.
 
 Beside the paper: §3.3 asks how many harmonics are enough. Instead of a number of harmonics one may ask for an error. The
-balance then adds harmonics until its own estimate of the error is below the tolerance. Two things can go wrong: the estimate
+balance then chooses orders and samples until its own estimate of the error is below the tolerance. Two things can go wrong: the estimate
 may promise more than it keeps, and the search may cost more than it saves. This table looks at both, at the speeds of both
 data sets where the motion is T-periodic.
 
 Panel (a) of the figure divides the estimate by the true error, the distance to the exact periodic motion found by shooting:
 on the line the estimate is right, below it it is too hopeful; the grey band is what is asked of it. Panel (b) divides the
 cost by that of the cheapest fixed number of harmonics that does as well, a number that nobody knows beforehand: above one is
-what not knowing costs, and the line at two is what it may cost. Panels (c) and (d) show the number chosen, speed by speed; a
+what not knowing costs, and the line at two is what it may cost. Panels (c) and (d) show the highest order chosen, speed by speed; a
 cross is a tolerance that was not reached.
 
 Each error is the larger of the largest difference over the largest displacement and the rms about the mean. Where shooting
@@ -32,7 +32,7 @@ FINER = (3, 4, 5)  # times the harmonics of the ladder: several, since several m
 COLUMNS = [
     ("set", "-", "data set"), ("f", "Hz", "speed of rotation"), ("tolerance", "-", "wanted error of displacement"),
     ("reached", "-", "1 when the estimate is below the tolerance"),
-    ("m", "-", "harmonics chosen; -1 when the tolerance was not reached"), ("N", "-", "samples chosen; -1 likewise"),
+    ("m", "-", "highest order chosen; -1 when the tolerance was not reached"), ("N", "-", "samples chosen; -1 likewise"),
     ("estimate", "-", "estimated error of displacement; -1 likewise"),
     ("error", "-", "distance to the exact periodic motion; -1 when none was found"),
     ("effectivity", "-", "estimate over error; -1 without error"),

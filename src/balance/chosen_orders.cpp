@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <iterator>
 #include <limits>
 #include <numeric>
 #include <utility>
@@ -419,13 +420,15 @@ bool ChosenOrders::solve_on_few(double omega, Eigen::VectorXd& x)
   bodies.leftCols(result_.motion.bodies.cols()) += result_.motion.bodies;
   const Largest needed(bodies, largest, unnoticed * settings_.tolerance);
   if (result_.reached) {
-    std::erase_if(orders_,
-                  [&](int h) { return !std::ranges::binary_search(needed.orders, h); });
+    std::erase_if(orders_, [&](int h) {
+      return !std::binary_search(needed.orders.begin(), needed.orders.end(), h);
+    });
     return true;
   }
   /** The largest few at once: after a poor solution all look large. */
   std::vector<int> more;
-  std::ranges::set_difference(needed.orders, orders_, std::back_inserter(more));
+  std::set_difference(needed.orders.begin(), needed.orders.end(), orders_.begin(),
+                      orders_.end(), std::back_inserter(more));
   std::ranges::stable_sort(more, std::greater(),
                            [&](int h) { return size_of(bodies, h); });
   more.resize(std::min(more.size(), std::max<std::size_t>(4, orders_.size() / 2)));

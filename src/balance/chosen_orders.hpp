@@ -2,17 +2,19 @@
 # Orders chosen by their size
 
 A motion with the period of rotation has orders up to the contact's resonance and beyond, and few of them are large: at
-36 Hz of set 1 four, of which the last is order 15. The balance is solved on orders that are chosen (Grolet and Thouverez
+36 Hz of set 1 four, of which the last is order 15. The balance is solved on few orders that are chosen (Grolet and Thouverez
 2012). What they leave out is found by the equations of motion at finer samples (equations_in_time.hpp),
 which answer the residual there at all orders up to a third of the samples: a step of Newton's method but for some
 hundredths, in O(N) operations. It is measured by how far it moves the bodies, since a resonance of the contact hides a
-large error behind a small residual. A second step says what the first one left; where that is more than a quarter, GMRES takes it further.
+large error behind a small residual. The next step says what is left; where that is more than a third, GMRES takes the step further.
 
-Where the samples of the solution itself are fine enough for that, half as many, every second one, say what sampling does: the
-spectrum of a Hertz contact falls as k^{-5/2}, so that all samples err by less than a quarter of the difference.
+Where more than sixteen orders are needed, or Newton fails on fewer, as at folds that the contact's resonance makes, the same steps go
+on until they converge. That solution has all orders up to a third of the samples. Half of the samples, every second one, and the orders
+up to half of these would leave out the orders above and fold others onto those below; the same equations say how far that moves the
+bodies. The spectrum of a Hertz contact falls as k^{-5/2}, so that all samples leave less than a fifth of it where the contact
+is never lost; one half is taken. Samples are doubled until that is below the tolerance.
 
-Orders that the tolerance may notice are taken, those far below it dropped, samples doubled where they are too few. From speed
-to speed orders, samples, tables and factors are kept. */
+Orders that the tolerance may notice are kept. From speed to speed orders, samples, tables and factors serve again. */
 #pragma once
 
 #include <map>

@@ -164,10 +164,11 @@ IN_PLACE EquationsInTime::Neighbour EquationsInTime::neighbour(std::size_t k,
 WIDEST_REGISTERS void EquationsInTime::eliminate()
 {
   const std::size_t n = contact_.size(), last = n - 1;
-  const auto& [mass, damping, spring] = constants_;
+  const Constants& body = constants_;
   const auto own = [&](std::size_t k) {
     const double* c = contact_[k].data();
-    const double s = 10 * spring[0] - 2 * mass[0], r = 10 * spring[1] - 2 * mass[1];
+    const double s = 10 * body.spring[0] - 2 * body.mass[0],
+                 r = 10 * body.spring[1] - 2 * body.mass[1];
     return Block{{s + 10 * c[0], 10 * c[2], -10 * c[0], -10 * c[2],  //
                   10 * c[1], s + 10 * c[3], -10 * c[1], -10 * c[3],  //
                   -10 * c[0], -10 * c[2], r + 10 * c[0], 10 * c[2],  //
