@@ -320,7 +320,8 @@ ChosenOrders::Grid& ChosenOrders::grid(int samples)
 
 AdaptiveMotion ChosenOrders::solve(double omega, const Eigen::VectorXd& x, From from)
 {
-  constexpr int first = 3, most_rounds = 5, most_failures = 2;
+  constexpr int first = 3, most_rounds = 5, most_failures = 2, many = 1000;
+  constexpr double far = 8;
   result_ = {};
   /** The contact's frequency must be among the orders of the samples. */
   const double contact = contact_frequency(parameters_) / omega;
@@ -347,10 +348,14 @@ AdaptiveMotion ChosenOrders::solve(double omega, const Eigen::VectorXd& x, From 
   /** With more samples where they are too few; from an integrated motion, which is near, also where no steps converge. */
   const auto on_all = [&](Eigen::VectorXd& at) {
     int failures = from == From::integration ? 0 : most_failures;
-    for (; !solve_on_all(omega, at); samples_ *= 2)
-      if ((!result_.motion.found() && failures++ == most_failures) ||
-          grid(samples_).count >= settings_.most_harmonics)
+    for (; !solve_on_all(omega, at); samples_ *= 2) {
+      const bool is_found = result_.motion.found();
+      const bool is_far =
+          is_found && result_.motion.error->larger() > far * settings_.tolerance;
+      if ((!is_found && failures++ == most_failures) ||
+          grid(samples_).count >= (is_far ? many : settings_.most_harmonics))
         return false;
+    }
     return true;
   };
   Eigen::VectorXd start = x;

@@ -73,8 +73,10 @@ constexpr double weak_coupling = 1;
 /** Past this share of all harmonics the dense block takes them all. */
 constexpr double most_low_share = 0.8;
 
-/** A dense block of more harmonics costs more than the equations in time. */
+/** A dense block of more harmonics, whose cube is more than so many times the samples, costs more than the equations in
+    time. */
 constexpr int most_dense = 32;
+constexpr double dense_samples = 100;
 
 /** What a step by them may leave, of what another iterated step may: it is then as good as a dense one, after which
     Newton's error is that of δ₂². */
@@ -133,7 +135,9 @@ void StepSolver::factor(Balance& balance, const Eigen::VectorXd& x, double omega
     if (low_ >= most_low_share * m) low_ = m;
   }
   low_ = std::min(low_, largest_low(balance));
-  in_time_ = balance.problem().bodies && !holds_ && !stalls_in_time_ && low_ > most_dense;
+  in_time_ = balance.problem().bodies && !holds_ && !stalls_in_time_ &&
+             low_ > most_dense &&
+             std::pow(low_, 3) > dense_samples * balance.problem().samples;
   is_complete_ = low_ == m && !in_time_;
   if (in_time_) {
     balance.factor_in_time(x, omega);
