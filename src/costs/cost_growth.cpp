@@ -152,7 +152,8 @@ Table cost_growth_table(const CostGrowthScene& scene, const std::vector<Growth>&
       "against harmonics: one solution at %g Hz from that at %g Hz with the same m",
       scene.frequency, scene.below));
   table.note(
-      "Newton's steps: dense factors up to 130 unknowns and the equations in time beyond; "
+      "Newton's steps: dense factors up to 130 unknowns; beyond, the equations at the samples "
+      "where many harmonics are coupled, else as the line of blocks; "
       "blocks: dense factors of the coupled harmonics, a block for each other one, GMRES; "
       "dense: dense factors of all");
   table.note(format(
