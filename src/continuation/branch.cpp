@@ -127,6 +127,12 @@ Correction ExtendedBalance::correct(const Eigen::VectorXd& direction,
       else
         step /= 1 - share;
     }
+    /** Factors of another point do not tell whether Newton's method fails here. */
+    if (!steps.empty() && !(step.norm() <= settings_.most_contraction * last)) {
+      factor(motion, direction);
+      steps.clear();
+      step = factors_.solve(right);
+    }
     steps.push_back(step);
     const double length = step.norm();
     y += step;
