@@ -128,11 +128,13 @@ class Verdicts(Case):
         return []
 
     def test_no_verdict_is_false(self):
+        every = []
         for number, speeds in SPEEDS.items():
             decided = [verdict for frequency in speeds for options in ([], ["--tolerance", "1e-3"])
                        for verdict in self.judged(SETS[number], frequency, *options)]
             self.assertGreaterEqual(len(decided), len(speeds))
-            self.assertGreaterEqual(sum(decided), 0.95 * len(decided))
+            every += decided
+        self.assertGreaterEqual(sum(every), 0.95 * len(every))
 
     def test_no_verdict_on_random_machines_is_false(self):
         dice, decided = random.Random(20), []
