@@ -112,23 +112,20 @@ Correction ExtendedBalance::correct(const Eigen::VectorXd& direction,
     right << -balance_.residual(motion.x, motion.omega, with), 0;
   };
   double last = 0, ratio = 1;
-  std::vector<Eigen::VectorXd> steps;  // with these factors
+  std::vector<Eigen::VectorXd> steps;  // with these factors: Broyden's updates
   evaluate(With::stiffness);
   do {
-    if (ratio > most_left) {
-      factor(motion, direction);
-      steps.clear();
+    Eigen::VectorXd step;
+    bool needs_factors = ratio > most_left;
+    if (!needs_factors) {
+      step = factors_.solve(right);
+      for (std::size_t k = 0; k + 1 < steps.size(); ++k)
+        step += steps[k].dot(step) / steps[k].squaredNorm() * steps[k + 1];
+      step /= 1 - steps.back().dot(step) / steps.back().squaredNorm();
+      /** Factors of another point do not tell whether Newton's method fails here. */
+      needs_factors = !(step.norm() <= settings_.most_contraction * last);
     }
-    Eigen::VectorXd step = factors_.solve(right);
-    for (std::size_t k = 0; k < steps.size(); ++k) {
-      const double share = steps[k].dot(step) / steps[k].squaredNorm();
-      if (k + 1 < steps.size())
-        step += share * steps[k + 1];
-      else
-        step /= 1 - share;
-    }
-    /** Factors of another point do not tell whether Newton's method fails here. */
-    if (!steps.empty() && !(step.norm() <= settings_.most_contraction * last)) {
+    if (needs_factors) {
       factor(motion, direction);
       steps.clear();
       step = factors_.solve(right);
