@@ -60,9 +60,11 @@ Balance::Balance(Problem problem, Harmonics harmonics)
       m_(harmonics_.count()), images_(harmonics_.images(problem_.line, problem_.samples)),
       transform_(problem_.samples), omega_(std::numeric_limits<double>::quiet_NaN()),
       a_(2 * problem_.dofs, 2 * problem_.dofs * (m_ + 1)), b_(a_.rows(), a_.cols()),
-      c_(problem_.dofs, harmonics_.coefficients()), blocks_(m_ + 1), series_(c_),
-      force_series_(c_), product_series_(c_), residual_(c_.size()),
-      speed_derivative_(c_.size()), steps_(std::make_unique<StepSolver>())
+      c_(problem_.dofs, harmonics_.coefficients()),
+      a_slope_(problem_.dofs, problem_.dofs * (m_ + 1)), b_slope_(a_slope_),
+      c_slope_(problem_.dofs, m_ + 1), series_(c_), force_series_(c_),
+      product_series_(c_), residual_(c_.size()), speed_derivative_(c_.size()),
+      steps_(std::make_unique<StepSolver>())
 {
   if (!is_moving()) return;
   orders_.resize(m_ + 1);
@@ -76,15 +78,25 @@ void Balance::refresh_blocks(double omega)
   if (omega == omega_) return;
   evaluated_ = false;
   for (int h = 0; h <= m_; ++h) {
-    const LinearBlock& block = blocks_[h] = problem_.linear(omega, harmonics_.list()[h]);
+    const LinearBlock block = problem_.linear(omega, harmonics_.list()[h]);
     with_dofs(problem_.dofs, [&](auto constant) {
       constexpr int d = constant, two = 2 * d;
       expand<d>(block.a, a_.template middleCols<two>(h * two));
       expand<d>(block.b, b_.template middleCols<two>(h * two));
+      a_slope_.template middleCols<d>(h * d) = block.a_slope;
+      b_slope_.template middleCols<d>(h * d) = block.b_slope;
     });
     put_amplitude(c_, h, block.c);
+    c_slope_.col(h) = block.c_slope;
   }
   omega_ = omega;
+}
+
+SmallMatrix Balance::b(int h) const
+{
+  const int d = problem_.dofs;
+  return b_.block(0, 2 * h * d, d, d) +
+         std::complex(0.0, 1.0) * b_.block(0, (2 * h + 1) * d, d, d);
 }
 
 /** Of the rate of a series, at the present speed. */
@@ -168,9 +180,8 @@ Eigen::MatrixXd Balance::balancing_force(const Eigen::VectorXd& x, double omega)
 {
   const Eigen::Map<const Eigen::MatrixXd> series(x.data(), c_.rows(), c_.cols());
   Eigen::MatrixXd force(c_.rows(), c_.cols());
-  refresh_blocks(omega);
   for (int h = 0; h <= m_; ++h) {
-    const LinearBlock& block = blocks_[h];
+    const LinearBlock block = problem_.linear(omega, harmonics_.list()[h]);
     const SmallVector rest = block.c - block.a * amplitude(series, h);
     put_amplitude(force, h, block.b.partialPivLu().solve(rest));
   }
@@ -181,18 +192,17 @@ const Eigen::VectorXd& Balance::speed_derivative(const Eigen::VectorXd& x, doubl
 {
   residual(x, omega, is_moving() ? With::stiffness : With::force);
   Eigen::Map<Eigen::MatrixXd> slope(speed_derivative_.data(), c_.rows(), c_.cols());
-  for (int h = 0; h <= m_; ++h) {
-    const LinearBlock& block = blocks_[h];
+  const int d = problem_.dofs;
+  for (int h = 0; h <= m_; ++h)
     put_amplitude(slope, h,
-                  block.a_slope * amplitude(series_, h) +
-                      block.b_slope * amplitude(force_series_, h) - block.c_slope);
-  }
+                  a_slope_.middleCols(h * d, d) * amplitude(series_, h) +
+                      b_slope_.middleCols(h * d, d) * amplitude(force_series_, h) -
+                      c_slope_.col(h));
   if (!is_moving()) return speed_derivative_;
   product_force_ = stiffness_samples_.rightCols(c_.rows());
   transform_.to_series(product_force_, product_series_, images_);
   for (int h = 0; h <= m_; ++h) {
-    const SmallVector sum =
-        amplitude(slope, h) + blocks_[h].b * amplitude(product_series_, h);
+    const SmallVector sum = amplitude(slope, h) + b(h) * amplitude(product_series_, h);
     put_amplitude(slope, h, sum);
   }
   return speed_derivative_;
@@ -383,7 +393,7 @@ void Balance::factor_in_time(const Eigen::VectorXd& x, double omega)
     time_images_ = harmonics_.images(problem_.line, samples);
   }
   b_inverse_.resize(m_ + 1);
-  for (int h = 0; h <= m_; ++h) b_inverse_[h] = 1.0 / blocks_[h].b(0, 0);
+  for (int h = 0; h <= m_; ++h) b_inverse_[h] = 1.0 / b(h)(0, 0);
 }
 
 /** (A + B J) z = r is (B⁻¹A + J) z = B⁻¹r, where B⁻¹A is the dynamic stiffness of both bodies in series. */
@@ -422,17 +432,22 @@ RealBlock Balance::force_block(Eigen::Index first_column, int h) const
   return force;
 }
 
-RealBlock Balance::diagonal_block(const Eigen::VectorXd& x, double omega, int h)
+void Balance::diagonal_blocks(const Eigen::VectorXd& x, double omega, int first,
+                              Eigen::MatrixXd& blocks)
 {
   need_spectra(x, omega);
   const int d = problem_.dofs, two = 2 * d;
-  RealBlock force = force_block(0, h);
-  if (is_moving()) {
-    const RealBlock damping = orders_[h] * omega * force_block(d * d, h);
-    force.leftCols(d) -= damping.rightCols(d);
-    force.rightCols(d) += damping.leftCols(d);
+  blocks.resize(two, two * (m_ + 1 - first));
+  for (int h = first; h <= m_; ++h) {
+    RealBlock force = force_block(0, h);
+    if (is_moving()) {
+      const RealBlock damping = orders_[h] * omega * force_block(d * d, h);
+      force.leftCols(d) -= damping.rightCols(d);
+      force.rightCols(d) += damping.leftCols(d);
+    }
+    blocks.middleCols((h - first) * two, two) =
+        a_.middleCols(h * two, two) + b_.middleCols(h * two, two) * force;
   }
-  return a_.middleCols(h * two, two) + b_.middleCols(h * two, two) * force;
 }
 
 int Balance::highest_coupled(const Eigen::VectorXd& x, double omega, double coupling)

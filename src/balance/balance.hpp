@@ -166,10 +166,9 @@ public:
   const Eigen::MatrixXd& jacobian(const Eigen::VectorXd& x, double omega);
   const Eigen::VectorXd& speed_derivative(const Eigen::VectorXd& x, double omega);
 
-  /** The force at the samples of the point that was evaluated last, and the linear block of a harmonic of the list
-      there. */
+  /** The force at the samples of the point that was evaluated last, and B_h there of a harmonic of the list. */
   const Eigen::MatrixXd& force_samples() const { return force_samples_; }
-  const LinearBlock& block(int h) const { return blocks_[static_cast<std::size_t>(h)]; }
+  SmallMatrix b(int h) const;
 
   /** Rows and columns of ∂R/∂X of the mean and the first so many harmonics. */
   void jacobian(const Eigen::VectorXd& x, double omega, int harmonics,
@@ -187,8 +186,9 @@ public:
   void factor_in_time(const Eigen::VectorXd& x, double omega);
   void solve_in_time(const Eigen::VectorXd& r, Eigen::VectorXd& z);
 
-  /** The diagonal block of ∂R/∂X of the harmonic `h` ≥ 1 of the list, 2d × 2d. */
-  RealBlock diagonal_block(const Eigen::VectorXd& x, double omega, int h);
+  /** The diagonal blocks of ∂R/∂X of the harmonics of the list from `first` ≥ 1 on, each 2d × 2d, side by side. */
+  void diagonal_blocks(const Eigen::VectorXd& x, double omega, int first,
+                       Eigen::MatrixXd& blocks);
 
   /** The last harmonic h of the list that the nonlinear force still decides on: ‖A_h⁻¹ B_h‖ times the
       largest stiffness over the period is at least `coupling` [-]. */
@@ -230,8 +230,8 @@ private:
   double omega_;
   Eigen::MatrixXd a_,
       b_;  ///< A_h and B_h as real 2d × 2d blocks side by side, in the list's order
-  Eigen::MatrixXd c_;                ///< d × (2m+1)
-  std::vector<LinearBlock> blocks_;  ///< what all three are made of
+  Eigen::MatrixXd c_;                             ///< d × (2m+1)
+  Eigen::MatrixXcd a_slope_, b_slope_, c_slope_;  ///< d × d side by side, and d × (m+1)
   Eigen::MatrixXd series_, samples_, force_samples_, stiffness_samples_, force_series_;
   Eigen::VectorXd orders_;  ///< with a moving force
   Eigen::MatrixXd rate_series_, rate_samples_, damping_jacobian_;

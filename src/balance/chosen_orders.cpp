@@ -202,7 +202,7 @@ struct ChosenOrders::Grid {
     off -= from_all;
     Eigen::MatrixXd residual = Eigen::MatrixXd::Zero(2, 2 * count + 1);
     for (int h = 0; h <= resolved; ++h)
-      put_amplitude(residual, h, all.block(h).b * amplitude(off, h));
+      put_amplitude(residual, h, all.b(h) * amplitude(off, h));
     all.solve_in_time(residual.reshaped(), answer);
     const Eigen::Index above = x.size() - (4 * resolved + 2);
     answer.tail(above) -= x.tail(above);

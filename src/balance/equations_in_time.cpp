@@ -4,6 +4,7 @@
 #include <cmath>
 #include <numbers>
 
+#include "balance/fourier_transform.hpp"
 #include "model/registers.hpp"
 
 namespace rotor_stator {
@@ -28,6 +29,14 @@ Eigen::Index refinement(const Eigen::MatrixXd& stiffness, double inverse_mass,
   const double turn =
       fastest * 2 * std::numbers::pi / (omega * static_cast<double>(stiffness.rows()));
   return static_cast<Eigen::Index>(std::clamp(std::ceil(turn / most), 1.0, 4.0));
+}
+
+/** Whole parts of at least two samples, of a size that is fast to transform. */
+Eigen::Index samples_of_parts(Eigen::Index at_least)
+{
+  const auto quarter =
+      static_cast<int>((std::max<Eigen::Index>(at_least, 2 * parts) + 3) / 4);
+  return 4 * fast_transform_size(quarter);  // which is even
 }
 
 template <class Number>
@@ -175,9 +184,7 @@ void EquationsInTime::factor(const Eigen::MatrixXd& stiffness, double omega)
   const Eigen::Index given = stiffness.rows(),
                      times = refinement(stiffness,
                                         1 / bodies_[0].mass + 1 / bodies_[1].mass, omega);
-  const Eigen::Index length =
-                         std::max<Eigen::Index>((times * given + parts - 1) / parts, 2),
-                     n = parts * length;
+  const Eigen::Index n = samples_of_parts(times * given), length = n / parts;
   const double step = 2 * std::numbers::pi / (omega * static_cast<double>(n));
   for (int body = 0; body < 2; ++body) {
     constants_.mass[body] = bodies_[body].mass / (step * step);

@@ -35,7 +35,7 @@ public:
   /** Factors for ∂F_i/∂u_j [N/m] in column i + 2j of `stiffness`, N × 4, over one period at `omega` [rad/s]. */
   void factor(const Eigen::MatrixXd& stiffness, double omega);
 
-  /** How many samples they have: N, or a multiple of it where the contact vibrates faster, rounded up to whole parts. */
+  /** How many samples they have: N, or a multiple of it where the contact vibrates faster, rounded up to whole parts and to a fast transform. */
   int samples() const { return parts * static_cast<int>(contact_.size()); }
 
   /** The relative displacement u [m], at these samples, under the load g [N] on the rotor and -g on the stator. */

@@ -138,7 +138,7 @@ FourierTransform::FourierTransform(int samples)
 
 FourierTransform::~FourierTransform()
 {
-  constexpr int longest = 1 << 13;
+  constexpr int longest = 1 << 14;
   constexpr std::size_t most = 64;
   if (plans_ && plans_->samples <= longest && idle().size() < most)
     idle().emplace(plans_->samples, std::move(plans_));

@@ -147,10 +147,10 @@ void StepSolver::factor(Balance& balance, const Eigen::VectorXd& x, double omega
   }
   balance.jacobian(x, omega, low_, low_jacobian_);
   low_factors_.compute(low_jacobian_);
-  high_inverses_.resize(two, two * (m - low_));
-  for (int h = low_ + 1; h <= m; ++h) {
-    const RealBlock block = balance.diagonal_block(x, omega, h);
-    high_inverses_.middleCols((h - low_ - 1) * two, two) = block.inverse();
+  balance.diagonal_blocks(x, omega, low_ + 1, high_inverses_);
+  for (Eigen::Index k = 0; k < high_inverses_.cols(); k += two) {
+    const RealBlock block = high_inverses_.middleCols(k, two);
+    high_inverses_.middleCols(k, two) = block.inverse();
   }
   factored_ = true;
   ++factorisations_;

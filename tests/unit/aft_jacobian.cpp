@@ -89,8 +89,10 @@ TEST_CASE("AFT Jacobian of a bearing with contact damping and a spall")
     Eigen::VectorXd product(x.size());
     balance.apply_jacobian(x, hertz(16), x, product);
     CHECK((product - jacobian * x).norm() < 1e-12 * product.norm());
-    const RealBlock block = balance.diagonal_block(x, hertz(16), 3);
-    CHECK((block - jacobian.block(10, 10, 4, 4)).norm() < 1e-12 * block.norm());
+    Eigen::MatrixXd blocks;
+    balance.diagonal_blocks(x, hertz(16), 3, blocks);
+    const auto block = jacobian.block(10, 10, 4, 4);
+    CHECK((blocks.leftCols(4) - block).norm() < 1e-12 * block.norm());
   }
   SECTION("two frequencies")
   {
