@@ -60,10 +60,9 @@ Balance::Balance(Problem problem, Harmonics harmonics)
       m_(harmonics_.count()), images_(harmonics_.images(problem_.line, problem_.samples)),
       transform_(problem_.samples), omega_(std::numeric_limits<double>::quiet_NaN()),
       a_(2 * problem_.dofs, 2 * problem_.dofs * (m_ + 1)), b_(a_.rows(), a_.cols()),
-      c_(problem_.dofs, harmonics_.coefficients()),
-      a_slope_(problem_.dofs, problem_.dofs * (m_ + 1)), b_slope_(a_slope_),
-      c_slope_(problem_.dofs, m_ + 1), series_(c_), force_series_(c_),
-      product_series_(c_), residual_(c_.size()), speed_derivative_(c_.size()),
+      a_slope_(a_), b_slope_(a_), c_(problem_.dofs, harmonics_.coefficients()),
+      c_slope_(c_), series_(c_), force_series_(c_), product_series_(c_),
+      residual_(c_.size()), speed_derivative_(c_.size()),
       steps_(std::make_unique<StepSolver>())
 {
   if (!is_moving()) return;
@@ -83,11 +82,11 @@ void Balance::refresh_blocks(double omega)
       constexpr int d = constant, two = 2 * d;
       expand<d>(block.a, a_.template middleCols<two>(h * two));
       expand<d>(block.b, b_.template middleCols<two>(h * two));
-      a_slope_.template middleCols<d>(h * d) = block.a_slope;
-      b_slope_.template middleCols<d>(h * d) = block.b_slope;
+      expand<d>(block.a_slope, a_slope_.template middleCols<two>(h * two));
+      expand<d>(block.b_slope, b_slope_.template middleCols<two>(h * two));
     });
     put_amplitude(c_, h, block.c);
-    c_slope_.col(h) = block.c_slope;
+    put_amplitude(c_slope_, h, block.c_slope);
   }
   omega_ = omega;
 }
@@ -112,8 +111,9 @@ void Balance::rate_samples(const Eigen::Ref<const Eigen::MatrixXd>& series,
   transform_.to_samples(rate_series_, samples, images_);
 }
 
-/** Rows of A q + B f for the coefficients `series` of q and `force` of f. */
-void Balance::combine(const Eigen::Ref<const Eigen::MatrixXd>& series,
+/** Rows of A q + B f for the coefficients `series` of q and `force` of f; A and B by their blocks side by side. */
+void Balance::combine(const Eigen::MatrixXd& a, const Eigen::MatrixXd& b,
+                      const Eigen::Ref<const Eigen::MatrixXd>& series,
                       const Eigen::MatrixXd& force, Eigen::VectorXd& sum) const
 {
   with_dofs(problem_.dofs, [&](auto constant) {
@@ -121,14 +121,14 @@ void Balance::combine(const Eigen::Ref<const Eigen::MatrixXd>& series,
     using Part = Eigen::Matrix<double, two, 1>;
     using Mean = Eigen::Matrix<double, d, 1>;
     sum.template head<d>() =
-        a_.template topLeftCorner<d, d>() * Eigen::Map<const Mean>(series.data()) +
-        b_.template topLeftCorner<d, d>() * Eigen::Map<const Mean>(force.data());
+        a.template topLeftCorner<d, d>() * Eigen::Map<const Mean>(series.data()) +
+        b.template topLeftCorner<d, d>() * Eigen::Map<const Mean>(force.data());
     using Block = Eigen::Map<const Eigen::Matrix<double, two, two>>;
     for (Eigen::Index h = 1; h <= m_; ++h) {
       const Eigen::Index first = (2 * h - 1) * d;
       const Eigen::Map<const Part> q(series.data() + first), f(force.data() + first);
       sum.template segment<two>(first) =
-          Block(&a_(0, h * two)) * q + Block(&b_(0, h * two)) * f;
+          Block(&a(0, h * two)) * q + Block(&b(0, h * two)) * f;
     }
   });
 }
@@ -165,7 +165,7 @@ const Eigen::VectorXd& Balance::residual(const Eigen::VectorXd& x, double omega,
   evaluated_ = true;
   if (known) return residual_;
   transform_.to_series(force_samples_, force_series_, images_);
-  combine(series_, force_series_, residual_);
+  combine(a_, b_, series_, force_series_, residual_);
   residual_ -= c_.reshaped();
   return residual_;
 }
@@ -191,16 +191,12 @@ Eigen::MatrixXd Balance::balancing_force(const Eigen::VectorXd& x, double omega)
 const Eigen::VectorXd& Balance::speed_derivative(const Eigen::VectorXd& x, double omega)
 {
   residual(x, omega, is_moving() ? With::stiffness : With::force);
-  Eigen::Map<Eigen::MatrixXd> slope(speed_derivative_.data(), c_.rows(), c_.cols());
-  const int d = problem_.dofs;
-  for (int h = 0; h <= m_; ++h)
-    put_amplitude(slope, h,
-                  a_slope_.middleCols(h * d, d) * amplitude(series_, h) +
-                      b_slope_.middleCols(h * d, d) * amplitude(force_series_, h) -
-                      c_slope_.col(h));
+  combine(a_slope_, b_slope_, series_, force_series_, speed_derivative_);
+  speed_derivative_ -= c_slope_.reshaped();
   if (!is_moving()) return speed_derivative_;
   product_force_ = stiffness_samples_.rightCols(c_.rows());
   transform_.to_series(product_force_, product_series_, images_);
+  Eigen::Map<Eigen::MatrixXd> slope(speed_derivative_.data(), c_.rows(), c_.cols());
   for (int h = 0; h <= m_; ++h) {
     const SmallVector sum = amplitude(slope, h) + b(h) * amplitude(product_series_, h);
     put_amplitude(slope, h, sum);
@@ -378,7 +374,7 @@ void Balance::apply_jacobian(const Eigen::VectorXd& x, double omega,
                                      .cwiseProduct(product_samples_.col(j));
   }
   transform_.to_series(product_force_, product_series_, images_);
-  combine(series, product_series_, product);
+  combine(a_, b_, series, product_series_, product);
 }
 
 void Balance::factor_in_time(const Eigen::VectorXd& x, double omega)

@@ -210,7 +210,8 @@ private:
   void refresh_blocks(double omega);
   bool at(const Eigen::VectorXd& x, double omega) const;
   void need_spectra(const Eigen::VectorXd& x, double omega);
-  void combine(const Eigen::Ref<const Eigen::MatrixXd>& series,
+  void combine(const Eigen::MatrixXd& a, const Eigen::MatrixXd& b,
+               const Eigen::Ref<const Eigen::MatrixXd>& series,
                const Eigen::MatrixXd& force, Eigen::VectorXd& sum) const;
   std::complex<double> conjugate_kappa(int p, Eigen::Index column) const;
   void extend_spectrum(Eigen::Index column, const Images& images);
@@ -228,10 +229,9 @@ private:
   std::vector<int> first_places_;
   FourierTransform transform_;
   double omega_;
-  Eigen::MatrixXd a_,
-      b_;  ///< A_h and B_h as real 2d × 2d blocks side by side, in the list's order
-  Eigen::MatrixXd c_;                             ///< d × (2m+1)
-  Eigen::MatrixXcd a_slope_, b_slope_, c_slope_;  ///< d × d side by side, and d × (m+1)
+  /** A_h and B_h as real 2d × 2d blocks side by side, in the list's order, c, d × (2m+1), and their derivatives with
+      respect to ω. */
+  Eigen::MatrixXd a_, b_, a_slope_, b_slope_, c_, c_slope_;
   Eigen::MatrixXd series_, samples_, force_samples_, stiffness_samples_, force_series_;
   Eigen::VectorXd orders_;  ///< with a moving force
   Eigen::MatrixXd rate_series_, rate_samples_, damping_jacobian_;

@@ -51,11 +51,16 @@ struct LoadedBody {
   std::array<Varying, 2> load;
 };
 
+Varying impedance(const Body& body, double omega, double order)
+{
+  const auto z = dynamic_stiffness(body, order * omega);
+  return {z.value, order * z.slope};
+}
+
 LoadedBody loaded(const Body& body, double gravity, double unbalance, double omega,
                   int turns, Harmonic h, double order)
 {
-  const auto z = dynamic_stiffness(body, order * omega);
-  LoadedBody loaded{{z.value, order * z.slope}, {}};
+  LoadedBody loaded{impedance(body, omega, order), {}};
   const double moment = unbalance * turns * turns;
   const Varying force{moment * omega * omega, 2 * moment * omega};
   const Vec2 rest = body.static_acceleration(gravity);
@@ -84,9 +89,9 @@ SmallMatrix isotropic(Complex value)
 LinearBlock condensed_block(const Parameters& parameters, double ball_stiffness,
                             double omega, Harmonic h)
 {
-  const auto [stator, rotor] = stator_and_rotor(parameters, omega, h);
-  const auto& [z_s, f_s] = stator;
-  const auto& [z_r, f_r] = rotor;
+  const double order = order_of(h, parameters.bearing);
+  const Varying z_s = impedance(parameters.stator, omega, order),
+                z_r = impedance(parameters.rotor, omega, order);
   const Varying product = z_s * z_r, sum = z_s + z_r;
   const Varying both = product.modulus(), either = sum.modulus();
   const Varying sigma{both.value.real() + ball_stiffness * either.value.real(),
@@ -100,7 +105,10 @@ LinearBlock condensed_block(const Parameters& parameters, double ball_stiffness,
                     .c_slope = SmallVector::Zero(2)};
   const bool is_loaded =
       h == Harmonic{0, 0} || h == Harmonic{static_cast<double>(parameters.turns), 0};
-  for (int axis = 0; is_loaded && axis < 2; ++axis) {
+  if (!is_loaded) return block;
+  const auto [stator, rotor] = stator_and_rotor(parameters, omega, h);
+  for (int axis = 0; axis < 2; ++axis) {
+    const auto &f_s = stator.load, &f_r = rotor.load;
     const Varying c = (z_s * f_r[axis] - z_r * f_s[axis]).over(sigma);
     block.c[axis] = c.value;
     block.c_slope[axis] = c.slope;

@@ -160,11 +160,10 @@ bool ExtendedBalance::refine(const PeriodicMotion& motion, Eigen::VectorXd& tang
                scale = balance_.problem().residual_scale;
   double before = 0;
   Eigen::VectorXd rest(n_ + 1);
+  const Eigen::VectorXd& by_speed = balance_.speed_derivative(motion.x, motion.omega);
   for (int k = 0; k < most; ++k) {
     balance_.apply_jacobian(motion.x, motion.omega, tangent.head(n_), product_);
-    rest.head(n_) =
-        -length * product_ -
-        speed * tangent[n_] * balance_.speed_derivative(motion.x, motion.omega);
+    rest.head(n_) = -length * product_ - speed * tangent[n_] * by_speed;
     rest[n_] = 1 - scale * last_row_.dot(tangent);
     const Eigen::VectorXd step = factors_.solve(rest);
     const double size = step.norm() / tangent.norm();
