@@ -320,8 +320,7 @@ ChosenOrders::Grid& ChosenOrders::grid(int samples)
 
 AdaptiveMotion ChosenOrders::solve(double omega, const Eigen::VectorXd& x, From from)
 {
-  constexpr int first = 3, most_rounds = 5, most_failures = 2, many = 1000;
-  constexpr double far = 8;
+  constexpr int first = 3, most_rounds = 5, most_failures = 2, finer = 4;
   result_ = {};
   /** The contact's frequency must be among the orders of the samples. */
   const double contact = contact_frequency(parameters_) / omega;
@@ -345,15 +344,17 @@ AdaptiveMotion ChosenOrders::solve(double omega, const Eigen::VectorXd& x, From 
     }
     return false;
   };
-  /** With more samples where they are too few; from an integrated motion, which is near, also where no steps converge. */
+  /** With more samples where they are too few, while the error, which falls at least as N^{-2}, may still reach the
+      tolerance; from an integrated motion, which is near, also where no steps converge. */
   const auto on_all = [&](Eigen::VectorXd& at) {
     int failures = from == From::integration ? 0 : most_failures;
     for (; !solve_on_all(omega, at); samples_ *= 2) {
       const bool is_found = result_.motion.found();
-      const bool is_far =
-          is_found && result_.motion.error->larger() > far * settings_.tolerance;
-      if ((!is_found && failures++ == most_failures) ||
-          grid(samples_).count >= (is_far ? many : settings_.most_harmonics))
+      const double more =
+          static_cast<double>(finer) * settings_.most_harmonics / grid(samples_).count;
+      if ((!is_found && failures++ == most_failures) || more <= 1 ||
+          (is_found &&
+           result_.motion.error->larger() > more * more * settings_.tolerance))
         return false;
     }
     return true;
@@ -494,7 +495,8 @@ bool ChosenOrders::solve_on_all(double omega, Eigen::VectorXd& x)
                     .samples = samples_,
                     .newton = 1,
                     .force_samples = 0};
-    result_.reached = motion.error->larger() <= accepted * settings_.tolerance;
+    result_.reached = motion.error->larger() <= accepted * settings_.tolerance &&
+                      needed.orders.back() <= settings_.most_harmonics;
     result_.end = format("the error with %zu orders is estimated as %.2g",
                          needed.orders.size() - 1, motion.error->larger());
     const std::vector<int>& kept = needed.orders;

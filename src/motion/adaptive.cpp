@@ -85,7 +85,6 @@ AdaptiveMotion AdaptiveSweep::solve(double omega)
 
 AdaptiveMotion AdaptiveSweep::solve_on_chosen(double omega)
 {
-  constexpr double seconds = 0.5;  // of integration
   constexpr int few = 8, many = 48;
   AdaptiveMotion at;
   long cost = 0;
@@ -97,21 +96,23 @@ AdaptiveMotion AdaptiveSweep::solve_on_chosen(double omega)
     at.motion.start = start;
     return at.reached;
   };
-  const auto integrated = [&] {
-    CoarseIntegration integration(parameters_, last_, budget_);
-    const Eigen::VectorXd x = integration.go_on(omega, seconds, many);
-    cost += integration.evaluations();
-    return x;
+  const auto finish = [&] {
+    at.force_samples = cost;
+    return std::move(at);
   };
   const bool is_first = predictor_.empty();
-  if ((is_first && reaches(quasi_static_name, quasi_static_start(parameters_, omega, few),
-                           From::guess)) ||
-      (!is_first &&
-       reaches(from_predictor, predictor_.at_speed(omega), From::predictor)) ||
-      reaches("short time integration", integrated(), From::integration))
-    at.reached = true;
-  at.force_samples = cost;
-  return at;
+  if (is_first ? reaches(quasi_static_name, quasi_static_start(parameters_, omega, few),
+                         From::guess)
+               : reaches(from_predictor, predictor_.at_speed(omega), From::predictor))
+    return finish();
+  CoarseIntegration integration(parameters_, last_, budget_);
+  for (const double seconds : {0.1, 0.4}) {
+    cost -= integration.evaluations();
+    const Eigen::VectorXd x = integration.go_on(omega, seconds, many);
+    cost += integration.evaluations();
+    if (reaches("short time integration", x, From::integration)) break;
+  }
+  return finish();
 }
 
 AdaptiveMotion solve_adaptively(const Parameters& parameters, double omega,
