@@ -145,8 +145,9 @@ Task task_of(const ResponseRequest& request)
 
 Where it starts, what it meets, what is beside it. */
 
-/** A saved point, turned and with as many harmonics as are asked for. */
-BranchPoint saved_start(const Task& task, Table& table)
+/** A saved point, turned and with as many harmonics as are asked for: with others Newton's method goes from it to a solution
+    at its speed, unless the branch turns there. */
+BranchPoint saved_start(const Task& task, Balance& balance, Table& table)
 {
   const ResponseRequest& request = task.request;
   const double at = angular(request.at.value_or(0));
@@ -162,6 +163,8 @@ BranchPoint saved_start(const Task& task, Table& table)
     const double speed = point.speed_direction();
     point.tangent = resize_harmonics(point.tangent.head(x.size()), 2, task.harmonics);
     x = resize_harmonics(x, 2, task.harmonics);
+    const PeriodicMotion there = solve(balance, omega, x, task.settings.newton);
+    if (there.found()) x = there.x;
     point.tangent.conservativeResize(x.size() + 1);
     point.tangent[x.size()] = speed;
   }
@@ -699,7 +702,7 @@ Exploration explore_response(const ResponseRequest& request)
           : Balance(bearing_problem(task.parameters, task.samples, task.budget),
                     task.harmonics);
   const BranchPoint start =
-      task.saved ? saved_start(task, table)
+      task.saved ? saved_start(task, balance, table)
                  : point_of(balance, found.omega, found.x, task.upwards, task.settings);
   FourierTransform transform = amplitude_transform(task.harmonics);
   ArcLengthSettings watched = task.settings;
