@@ -147,10 +147,11 @@ std::complex<double> response_in_time(EquationsInTime& equations, int samples, d
 
 }  // namespace
 
-/** Second differences without their correction are off by 2.4e-6 here; damping, which has none, leaves the order. */
+/** Second differences without their correction are off by about 2e-6 here; damping, which has none, leaves the order. Near a
+    stiffness at which a part of the period held at both ends has a resonance, 2e7 N/m here, rounding shows. */
 TEST_CASE("The equations in time have the response of the closed form")
 {
-  const double omega = hertz(6), h = 3, stiffness = 2e7;
+  const double omega = hertz(6), h = 3, stiffness = 2.1e7;
   const auto body = [](const Body& b) {
     return PointBody{b.mass, b.damping(), b.stiffness()};
   };
