@@ -50,7 +50,16 @@ IN_PLACE Block<Number> times(const Block<Number>& a, const Block<Number>& b)
   return c;
 }
 
-/** The contact pushes the bodies apart: rows x_s, y_s of (contact) (X_s - X_r), and the opposite. */
+/** The contact pushes the bodies apart. */
+IN_PLACE Block<Lanes> whole(const Neighbour& n)
+{
+  const Lanes &xx = n.contact[0], &yx = n.contact[1], &xy = n.contact[2],
+              &yy = n.contact[3];
+  return {{n.stator + xx, xy, -xx, -xy, yx, n.stator + yy, -yx, -yy,  //
+           -xx, -xy, n.rotor + xx, xy, -yx, -yy, yx, n.rotor + yy}};
+}
+
+/** Rows x_s, y_s of (contact) (X_s - X_r), and the opposite. */
 IN_PLACE Block<Lanes> times(const Neighbour& n, const Block<Lanes>& x)
 {
   const Lanes* c = n.contact;
@@ -223,11 +232,9 @@ IN_PLACE Neighbour EquationsInTime::neighbour(const Contact& contact, double sig
 IN_PLACE Block<Lanes> EquationsInTime::own(const Contact& contact) const
 {
   const auto& [mass, damping, spring] = constants_;
-  const double s = 10 * spring[0] - 2 * mass[0], r = 10 * spring[1] - 2 * mass[1];
-  const Lanes xx = 10.0 * contact.at[0], yx = 10.0 * contact.at[1],
-              xy = 10.0 * contact.at[2], yy = 10.0 * contact.at[3];
-  return {{s + xx, xy, -xx, -xy, yx, s + yy, -yx, -yy,  //
-           -xx, -xy, r + xx, xy, -yx, -yy, yx, r + yy}};
+  Contact tenfold;
+  for (int i = 0; i < 4; ++i) tenfold.at[i] = 10.0 * contact.at[i];
+  return whole({10 * spring[0] - 2 * mass[0], 10 * spring[1] - 2 * mass[1], tenfold.at});
 }
 
 /** Of the inner samples; then ends_ holds what couples the last ones, not yet eliminated. */
@@ -235,22 +242,6 @@ WIDEST_REGISTERS void EquationsInTime::eliminate()
 {
   const std::size_t last = chain_.size();
   for (int i = 0; i < 4; ++i) hand_on(contact_[last].at[i], contact_before_.at[i]);
-  const Block<Lanes> one{{Lanes{} + 1.0,
-                          {},
-                          {},
-                          {},
-                          {},
-                          Lanes{} + 1.0,
-                          {},
-                          {},  //
-                          {},
-                          {},
-                          Lanes{} + 1.0,
-                          {},
-                          {},
-                          {},
-                          {},
-                          Lanes{} + 1.0}};
   for (std::size_t k = 0; k < last; ++k) {
     Link& link = chain_[k];
     Block<Lanes> diagonal = own(contact_[k]);
@@ -260,7 +251,7 @@ WIDEST_REGISTERS void EquationsInTime::eliminate()
     link.after = times(link.inverse, neighbour(contact_[k + 1], 1));
     link.before_part = times(
         link.inverse,
-        k == 0 ? times(neighbour(contact_before_, -1), one)
+        k == 0 ? whole(neighbour(contact_before_, -1))
                : minus(times(neighbour(contact_[k - 1], -1), chain_[k - 1].before_part)));
   }
   chain_.back().own_part = chain_.back().after;
