@@ -404,9 +404,9 @@ void Balance::solve_in_time(const Eigen::VectorXd& r, Eigen::VectorXd& z)
     product_series_.col(2 * h - 1) = real * cosine + imaginary * sine;
     product_series_.col(2 * h) = real * sine - imaginary * cosine;
   }
-  time_transform_->to_samples(product_series_, product_force_, time_images_);
-  in_time_->solve(product_force_, product_samples_);
-  time_transform_->to_series(product_samples_, product_series_, time_images_);
+  time_transform_->to_samples(product_series_, time_load_, time_images_);
+  in_time_->solve(time_load_, time_samples_);
+  time_transform_->to_series(time_samples_, product_series_, time_images_);
   z = product_series_.reshaped();
 }
 

@@ -239,6 +239,7 @@ private:
   std::optional<EquationsInTime> in_time_;
   std::optional<FourierTransform> time_transform_;
   Images time_images_;
+  Eigen::MatrixXd time_load_, time_samples_;
   Eigen::VectorXcd b_inverse_;  ///< 1/B_h, for the equations in time
   Eigen::MatrixXcd spectra_;    ///< κ_p of each stiffness series
   Eigen::VectorXcd extended_;   ///< conj κ_p of one of them, the middle one p = 0
