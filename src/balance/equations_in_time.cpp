@@ -287,7 +287,8 @@ WIDEST_REGISTERS void EquationsInTime::eliminate_ends()
       subtract(diagonal, times(end.before, ends_[p - 1].after));
       border = minus(times(end.before, ends_[p - 1].last));
     }
-    if (p == last - 1) subtract(border, minus(end.after));
+    if (p == last - 1)
+      for (int i = 0; i < 16; ++i) border.at[i] += end.after.at[i];
     end.inverse = inverse(diagonal);
     end.after = times(end.inverse, end.after);
     end.last = times(end.inverse, border);

@@ -96,23 +96,20 @@ AdaptiveMotion AdaptiveSweep::solve_on_chosen(double omega)
     at.motion.start = start;
     return at.reached;
   };
-  const auto finish = [&] {
-    at.force_samples = cost;
-    return std::move(at);
-  };
   const bool is_first = predictor_.empty();
-  if (is_first ? reaches(quasi_static_name, quasi_static_start(parameters_, omega, few),
-                         From::guess)
-               : reaches(from_predictor, predictor_.at_speed(omega), From::predictor))
-    return finish();
-  CoarseIntegration integration(parameters_, last_, budget_);
-  for (const double seconds : {0.1, 0.4}) {
-    cost -= integration.evaluations();
-    const Eigen::VectorXd x = integration.go_on(omega, seconds, many);
+  if (!(is_first
+            ? reaches(quasi_static_name, quasi_static_start(parameters_, omega, few),
+                      From::guess)
+            : reaches(from_predictor, predictor_.at_speed(omega), From::predictor))) {
+    CoarseIntegration integration(parameters_, last_, budget_);
+    for (const double seconds : {0.1, 0.4})
+      if (reaches("short time integration", integration.go_on(omega, seconds, many),
+                  From::integration))
+        break;
     cost += integration.evaluations();
-    if (reaches("short time integration", x, From::integration)) break;
   }
-  return finish();
+  at.force_samples = cost;
+  return at;
 }
 
 AdaptiveMotion solve_adaptively(const Parameters& parameters, double omega,
