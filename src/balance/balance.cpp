@@ -27,9 +27,10 @@ namespace {
 
 /** A complex matrix z as it acts on (cosine, sine) coefficients, q = a - ib: ((Re z, Im z),
     (-Im z, Re z)). */
-template <int d, class Block>
-void expand(const SmallMatrix& z, Block block)
+template <int d>
+void expand(const SmallMatrix& z, double* to)
 {
+  Eigen::Map<Eigen::Matrix<double, 2 * d, 2 * d>> block(to);
   for (int j = 0; j < d; ++j)
     for (int i = 0; i < d; ++i) {
       block(i, j) = block(d + i, d + j) = z(i, j).real();
@@ -76,14 +77,15 @@ void Balance::refresh_blocks(double omega)
 {
   if (omega == omega_) return;
   evaluated_ = false;
+  LinearBlock block;
   for (int h = 0; h <= m_; ++h) {
-    const LinearBlock block = problem_.linear(omega, harmonics_.list()[h]);
+    problem_.linear(omega, harmonics_.list()[h], block);
     with_dofs(problem_.dofs, [&](auto constant) {
-      constexpr int d = constant, two = 2 * d;
-      expand<d>(block.a, a_.template middleCols<two>(h * two));
-      expand<d>(block.b, b_.template middleCols<two>(h * two));
-      expand<d>(block.a_slope, a_slope_.template middleCols<two>(h * two));
-      expand<d>(block.b_slope, b_slope_.template middleCols<two>(h * two));
+      constexpr int d = constant;
+      expand<d>(block.a, &a_(0, 2 * d * h));
+      expand<d>(block.b, &b_(0, 2 * d * h));
+      expand<d>(block.a_slope, &a_slope_(0, 2 * d * h));
+      expand<d>(block.b_slope, &b_slope_(0, 2 * d * h));
     });
     put_amplitude(c_, h, block.c);
     put_amplitude(c_slope_, h, block.c_slope);
@@ -180,8 +182,9 @@ Eigen::MatrixXd Balance::balancing_force(const Eigen::VectorXd& x, double omega)
 {
   const Eigen::Map<const Eigen::MatrixXd> series(x.data(), c_.rows(), c_.cols());
   Eigen::MatrixXd force(c_.rows(), c_.cols());
+  LinearBlock block;
   for (int h = 0; h <= m_; ++h) {
-    const LinearBlock block = problem_.linear(omega, harmonics_.list()[h]);
+    problem_.linear(omega, harmonics_.list()[h], block);
     const SmallVector rest = block.c - block.a * amplitude(series, h);
     put_amplitude(force, h, block.b.partialPivLu().solve(rest));
   }

@@ -74,8 +74,8 @@ struct Problem {
   double residual_scale;  ///< size of c_h, for the relative tolerance
   double unknown_scale;   ///< size of q [the unit of q]
 
-  /** The block of one harmonic at speed `omega` [rad/s]. */
-  std::function<LinearBlock(double omega, Harmonic h)> linear;
+  /** The block of one harmonic at speed `omega` [rad/s]. It is filled in place: making one costs as much. */
+  std::function<void(double omega, Harmonic h, LinearBlock& block)> linear;
 
   /** The force at all N samples. `q`: N × d; `force`: N × d; `stiffness`, unless it is
      null: N × d², column i + d j holding ∂f_i/∂q_j. */

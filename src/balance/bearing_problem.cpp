@@ -48,19 +48,20 @@ struct Varying {
     of the rotor's turning (cos φ in x and sin φ = Re(-i e^{iφ}) in y). */
 struct LoadedBody {
   Varying z;
-  std::array<Varying, 2> load;
+  std::array<Varying, 2> load = {};
 };
 
-Varying impedance(const Body& body, double omega, double order)
+bool is_loaded(Harmonic h, int turns)
 {
-  const auto z = dynamic_stiffness(body, order * omega);
-  return {z.value, order * z.slope};
+  return h == Harmonic{0, 0} || h == Harmonic{static_cast<double>(turns), 0};
 }
 
 LoadedBody loaded(const Body& body, double gravity, double unbalance, double omega,
                   int turns, Harmonic h, double order)
 {
-  LoadedBody loaded{impedance(body, omega, order), {}};
+  const auto z = dynamic_stiffness(body, order * omega);
+  LoadedBody loaded{{z.value, order * z.slope}};
+  if (!is_loaded(h, turns)) return loaded;
   const double moment = unbalance * turns * turns;
   const Varying force{moment * omega * omega, 2 * moment * omega};
   const Vec2 rest = body.static_acceleration(gravity);
@@ -78,42 +79,36 @@ std::array<LoadedBody, 2> stator_and_rotor(const Parameters& p, double omega, Ha
           loaded(p.rotor, p.gravity, p.unbalance, omega, p.turns, h, order)};
 }
 
-SmallMatrix isotropic(Complex value)
+void put_isotropic(Complex value, SmallMatrix& matrix)
 {
-  SmallMatrix block(2, 2);
-  block(0, 0) = block(1, 1) = value;
-  block(0, 1) = block(1, 0) = 0;
-  return block;
+  matrix.resize(2, 2);
+  matrix(0, 0) = matrix(1, 1) = value;
+  matrix(0, 1) = matrix(1, 0) = 0;
 }
 
-LinearBlock condensed_block(const Parameters& parameters, double ball_stiffness,
-                            double omega, Harmonic h)
+void condense(const Parameters& parameters, double ball_stiffness, double omega,
+              Harmonic h, LinearBlock& block)
 {
-  const double order = order_of(h, parameters.bearing);
-  const Varying z_s = impedance(parameters.stator, omega, order),
-                z_r = impedance(parameters.rotor, omega, order);
+  const auto [stator, rotor] = stator_and_rotor(parameters, omega, h);
+  const Varying &z_s = stator.z, &z_r = rotor.z;
   const Varying product = z_s * z_r, sum = z_s + z_r;
   const Varying both = product.modulus(), either = sum.modulus();
   const Varying sigma{both.value.real() + ball_stiffness * either.value.real(),
                       both.slope.real() + ball_stiffness * either.slope.real()};
   const Varying a = product.over(sigma), b = sum.over(sigma);
-  LinearBlock block{.a = isotropic(a.value),
-                    .b = isotropic(b.value),
-                    .c = SmallVector::Zero(2),
-                    .a_slope = isotropic(a.slope),
-                    .b_slope = isotropic(b.slope),
-                    .c_slope = SmallVector::Zero(2)};
-  const bool is_loaded =
-      h == Harmonic{0, 0} || h == Harmonic{static_cast<double>(parameters.turns), 0};
-  if (!is_loaded) return block;
-  const auto [stator, rotor] = stator_and_rotor(parameters, omega, h);
+  put_isotropic(a.value, block.a);
+  put_isotropic(b.value, block.b);
+  put_isotropic(a.slope, block.a_slope);
+  put_isotropic(b.slope, block.b_slope);
+  block.c.setZero(2);
+  block.c_slope.setZero(2);
+  if (!is_loaded(h, parameters.turns)) return;
   for (int axis = 0; axis < 2; ++axis) {
     const auto &f_s = stator.load, &f_r = rotor.load;
     const Varying c = (z_s * f_r[axis] - z_r * f_s[axis]).over(sigma);
     block.c[axis] = c.value;
     block.c_slope[axis] = c.slope;
   }
-  return block;
 }
 
 }  // namespace
@@ -178,8 +173,8 @@ Problem bearing_problem(const Parameters& parameters, const TorusLine& line,
                   .residual_scale = scale.penetration,
                   .unknown_scale = scale.penetration,
                   .linear =
-                      [parameters, scale](double omega, Harmonic h) {
-                        return condensed_block(parameters, scale.stiffness, omega, h);
+                      [parameters, scale](double omega, Harmonic h, LinearBlock& block) {
+                        condense(parameters, scale.stiffness, omega, h, block);
                       },
                   .force = {},
                   .operations = 5e3 + line.samples * (8 + 1.5 * parameters.bearing.balls),

@@ -146,8 +146,8 @@ void put_large_bodies(const Parameters& parameters, const TorusLine& line,
 {
   require_one_passage(parameters);
   problem.dofs = 2 * parameters.large->bearings();
-  problem.linear = [parameters](double omega, Harmonic h) {
-    return large_block(parameters, omega, h);
+  problem.linear = [parameters](double omega, Harmonic h, LinearBlock& block) {
+    block = large_block(parameters, omega, h);
   };
   std::vector<SampledBearing> bearings;
   for (const Bearing& bearing : bearings_of(parameters))

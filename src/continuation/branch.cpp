@@ -78,17 +78,21 @@ PeriodicMotion ExtendedBalance::motion_at(const Eigen::VectorXd& y) const
           .x = y.head(n_) * settings_.arc_unknown_scale};
 }
 
-bool ExtendedBalance::approach(const Eigen::VectorXd& direction, double length,
-                               Eigen::VectorXd& predicted, Eigen::VectorXd& tangent)
+bool ExtendedBalance::approach(double length, Eigen::VectorXd& predicted,
+                               Eigen::VectorXd& tangent)
 {
-  constexpr double near = 0.02;
+  constexpr double near = 0.02, rough = 1e-2;
   const PeriodicMotion motion = motion_at(predicted);
   Eigen::VectorXd right(n_ + 1);
   right << -balance_.residual(motion.x, motion.omega), 0;
-  factor(motion, direction);
+  const Eigen::VectorXd direction = tangent;
+  if (!refine(motion, rough, tangent)) {
+    factor(motion, direction);
+    tangent = factors_.solve(Eigen::VectorXd::Unit(n_ + 1, n_));
+  }
+  tangent.normalize();
   const Eigen::VectorXd step = factors_.solve(right);
   predicted += step;
-  tangent = factors_.solve(Eigen::VectorXd::Unit(n_ + 1, n_)).normalized();
   return step.norm() <= near * length;
 }
 
@@ -133,7 +137,8 @@ Correction ExtendedBalance::correct(const Eigen::VectorXd& direction,
     steps.push_back(step);
     const double length = step.norm();
     y += step;
-    evaluate(With::force);
+    /** The tangent of the last point needs the stiffness. */
+    evaluate(length <= last_correction() ? With::stiffness : With::force);
     ++report.iterations;
     report.delta_1 = right.norm() / balance_.problem().residual_scale;
     report.delta_2 = length / unknown_scale;
@@ -151,14 +156,16 @@ Correction ExtendedBalance::correct(const Eigen::VectorXd& direction,
   return correction;
 }
 
-/** The tangent by factors that are not those of `motion`. False where they are too far from them. */
-bool ExtendedBalance::refine(const PeriodicMotion& motion, Eigen::VectorXd& tangent)
+/** The tangent, from a guess, by factors that are not those of `motion`. False where they are too far from them. */
+bool ExtendedBalance::refine(const PeriodicMotion& motion, double error,
+                             Eigen::VectorXd& tangent)
 {
   constexpr int most = 4;
-  constexpr double small = 1e-6, most_left = 0.1;
+  constexpr double most_left = 0.1;
   const double length = settings_.arc_unknown_scale, speed = settings_.speed_scale,
                scale = balance_.problem().residual_scale;
   double before = 0;
+  tangent /= scale * last_row_.dot(tangent);
   Eigen::VectorXd rest(n_ + 1);
   const Eigen::VectorXd& by_speed = balance_.speed_derivative(motion.x, motion.omega);
   for (int k = 0; k < most; ++k) {
@@ -169,7 +176,7 @@ bool ExtendedBalance::refine(const PeriodicMotion& motion, Eigen::VectorXd& tang
     const double size = step.norm() / tangent.norm();
     if (!(size <= (k == 0 ? most_left : most_left * before))) return false;
     tangent += step;
-    if (size * size <= small) return true;
+    if (size * size <= error) return true;
     before = size;
   }
   return false;
@@ -178,11 +185,12 @@ bool ExtendedBalance::refine(const PeriodicMotion& motion, Eigen::VectorXd& tang
 Tangent ExtendedBalance::tangent(const PeriodicMotion& motion,
                                  const Eigen::VectorXd& previous)
 {
+  constexpr double small = 1e-6;
   const Eigen::VectorXd right = Eigen::VectorXd::Unit(n_ + 1, n_);
   Eigen::VectorXd direction;
   const bool has_row = last_row_.size() == previous.size() && last_row_ == previous;
   if (has_row) direction = factors_.solve(right);
-  if (!has_row || !refine(motion, direction)) {
+  if (!has_row || !refine(motion, small, direction)) {
     factor(motion, previous);
     direction = factors_.solve(right);
   }

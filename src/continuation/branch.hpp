@@ -115,10 +115,9 @@ public:
   /** Newton on the balance and direction·(y - predicted) = 0, from `predicted`. */
   Correction correct(const Eigen::VectorXd& direction, const Eigen::VectorXd& predicted);
 
-  /** One correction only, with the tangent of `predicted`: for a look at a point that is nearly there. False where the
-      correction is not much shorter than `length`. */
-  bool approach(const Eigen::VectorXd& direction, double length,
-                Eigen::VectorXd& predicted, Eigen::VectorXd& tangent);
+  /** One correction only, by the factors of a point nearby, and the tangent of `predicted` from a guess: for a look at a
+      point that is nearly there. False where the correction is not much shorter than `length`. */
+  bool approach(double length, Eigen::VectorXd& predicted, Eigen::VectorXd& tangent);
 
   /** On the side of `previous`. */
   Tangent tangent(const PeriodicMotion& motion, const Eigen::VectorXd& previous);
@@ -127,7 +126,7 @@ private:
   NewtonEnd verdict(const Correction& correction, double length, double ratio) const;
   void factor(const PeriodicMotion& motion, const Eigen::VectorXd& last_row);
   PeriodicMotion motion_at(const Eigen::VectorXd& y) const;
-  bool refine(const PeriodicMotion& motion, Eigen::VectorXd& tangent);
+  bool refine(const PeriodicMotion& motion, double error, Eigen::VectorXd& tangent);
 
   Balance& balance_;
   const ArcLengthSettings& settings_;

@@ -163,9 +163,9 @@ bool turns_between(ExtendedBalance& extended, const BranchPoint& a, const Branch
       std::min(std::abs(a.speed_direction()), std::abs(b.speed_direction()));
   if (steep > angle(a.tangent, b.tangent)) return false;
   const Eigen::VectorXd direction = (a.tangent + b.tangent).normalized();
-  BranchPoint middle{.motion = {}, .arc = 0.5 * (a.arc + b.arc)};
+  BranchPoint middle{.motion = {}, .arc = 0.5 * (a.arc + b.arc), .tangent = direction};
   Eigen::VectorXd y = between(a, b, 0.5, settings);
-  if (extended.approach(direction, b.arc - a.arc, y, middle.tangent)) {
+  if (extended.approach(b.arc - a.arc, y, middle.tangent)) {
     middle.motion.omega = y[y.size() - 1] * settings.speed_scale;
   } else {
     middle.motion = extended.correct(direction, between(a, b, 0.5, settings)).motion;

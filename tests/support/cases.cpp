@@ -23,9 +23,9 @@ Problem Oscillator::problem(int samples) const
           .residual_scale = 1,
           .unknown_scale = 1,
           .linear =
-              [o = *this](double omega, Harmonic h) {
-                return second_order_block(o.mass, o.damping, o.stiffness, o.load, omega,
-                                          h.k_1);
+              [o = *this](double omega, Harmonic h, LinearBlock& block) {
+                block = second_order_block(o.mass, o.damping, o.stiffness, o.load, omega,
+                                           h.k_1);
               },
           .force = all_samples};
 }

@@ -26,11 +26,11 @@ Problem curve(double (*f)(double), double (*slope)(double),
           .residual_scale = 1,
           .unknown_scale = 1,
           .linear =
-              [=](double omega, Harmonic) {
+              [=](double omega, Harmonic, LinearBlock& block) {
                 const SmallMatrix zero = SmallMatrix::Zero(1, 1);
                 const SmallMatrix one = SmallMatrix::Identity(1, 1);
-                return LinearBlock{zero, one,  SmallVector::Constant(1, c(omega)),
-                                   zero, zero, SmallVector::Constant(1, c_slope(omega))};
+                block = {zero, one,  SmallVector::Constant(1, c(omega)),
+                         zero, zero, SmallVector::Constant(1, c_slope(omega))};
               },
           .force =
               [=](const Eigen::MatrixXd& q, Eigen::MatrixXd& force,

@@ -104,9 +104,10 @@ TEST_CASE("Condensed blocks vary with the speed as differences say")
   const Problem problem = bearing_problem(p, 32);
   const double omega = hertz(33), step = 1e-4;
   for (const double h : {0, 1, 3}) {
-    const LinearBlock at = problem.linear(omega, {h, 0}),
-                      above = problem.linear(omega + step, {h, 0}),
-                      below = problem.linear(omega - step, {h, 0});
+    LinearBlock at, above, below;
+    problem.linear(omega, {h, 0}, at);
+    problem.linear(omega + step, {h, 0}, above);
+    problem.linear(omega - step, {h, 0}, below);
     const auto agrees = [&](const auto& slope, const auto& high, const auto& low,
                             double size) {
       CHECK(((high - low) / (2 * step) - slope).norm() < 1e-6 * size / omega);
