@@ -86,7 +86,7 @@ def own_branch(scene, curve):
     speeds = [row[2] for row in curve["rows"]]
     upwards = curve["run"]["from_hz"] < curve["run"]["to_hz"]
     bounds = {"from": min(speeds), "to": max(speeds), "direction": "up" if upwards else "down",
-              "operations": 1000}
+              "budget": 1e10}
     for harmonics in scene["own_harmonics"]:
         seconds = []
         for _ in range(scene["own_repetitions"]):

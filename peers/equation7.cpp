@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <array>
-#include <bit>
 #include <cmath>
 #include <cstdio>
 #include <exception>
@@ -10,29 +9,22 @@
 
 namespace rotor_stator {
 
-using Flat = std::array<double, Equation7::size>;
-
 void Equation7::derivative(double t, const double* y, double* dydt)
 {
   ++evaluations;
-  const double phase = system.omega() * t;
-  Flat flat;
-  std::copy_n(y, size, flat.begin());
-  const State state = std::bit_cast<State>(flat);
-  const State slope{state.velocity,
-                    system.acceleration(state, system.rotor_direction(phase),
-                                        system.cage_direction(phase))};
-  const Flat result = std::bit_cast<Flat>(slope);
-  std::copy(result.begin(), result.end(), dydt);
+  const Bodies velocity = bodies_at(y + 4);
+  put(velocity, dydt);
+  put(system.acceleration(bodies_at(y), velocity, angles(t)), dydt + 4);
 }
 
 void Equation7::jacobian(double t, const double* y, double* dfdy)
 {
   ++jacobians;
-  const Vec2 u{y[2] - y[0], y[3] - y[1]};
-  const Stiffness2 s =
-      system.bearing().reaction(system.cage_direction(system.omega() * t), u).stiffness;
-  const double slope[2][2] = {{s.xx, s.xy}, {s.xy, s.yy}};
+  const Slopes2 s =
+      system.bearing()
+          .reaction(angles(t), bodies_at(y).relative(), bodies_at(y + 4).relative())
+          .stiffness;
+  const double slope[2][2] = {{s.xx, s.xy}, {s.yx, s.yy}};
   const Body* bodies[2] = {&parameters.stator, &parameters.rotor};
   const auto at = [&](int i, int j) -> double& { return dfdy[j * size + i]; };
 
@@ -97,17 +89,16 @@ void equation7_sizes(const Equation7* equation, double* y)
 
 void equation7_static_start(const Equation7* equation, double* y)
 {
-  const Flat flat = std::bit_cast<Flat>(static_start(equation->parameters));
-  std::copy(flat.begin(), flat.end(), y);
+  const Eigen::VectorXd start = vector_of(static_start(equation->parameters));
+  std::copy(start.begin(), start.end(), y);
 }
 
 void equation7_forces(const Equation7* equation, int n, const double* t, const double* y,
                       double* forces)
 {
-  const RotorStator& system = equation->system;
   for (int k = 0; k < n; ++k, y += Equation7::size) {
-    const Vec2 f = system.bearing().force(system.cage_direction(system.omega() * t[k]),
-                                          {y[2] - y[0], y[3] - y[1]});
+    const Vec2 f = equation->system.bearing().force(
+        equation->angles(t[k]), bodies_at(y).relative(), bodies_at(y + 4).relative());
     forces[2 * k] = f.x;
     forces[2 * k + 1] = f.y;
   }
@@ -116,7 +107,7 @@ void equation7_forces(const Equation7* equation, int n, const double* t, const d
 void equation7_derivatives(Equation7* equation, int rounds, int n, const double* t,
                            const double* y)
 {
-  Flat slope;
+  std::array<double, Equation7::size> slope;
   volatile double sink = 0;  // keeps the loop from being dropped
   for (int round = 0; round < rounds; ++round)
     for (int k = 0; k < n; ++k) {

@@ -21,6 +21,8 @@ struct Equation7 {
 
   Equation7(const Parameters& p, double omega) : parameters(p), system(p, omega) {}
 
+  Angles angles(double t) const { return system.bearing().angles(system.omega() * t); }
+
   /** dy/dt [m/s, m/s²] at the time t [s]. */
   void derivative(double t, const double* y, double* dydt);
 

@@ -328,13 +328,14 @@ AdaptiveMotion ChosenOrders::solve(double omega, const Eigen::VectorXd& x, From 
       rounded_up(3 * static_cast<int>(std::clamp(1.2 * contact + 2, 8.0, 64.0)));
   if (from == From::guess || samples_ < least || samples_ >= 2 * least)
     samples_ = std::max(samples_ / 2, least);
-  std::vector<int> first_orders{0};
-  for (int h = 1; h <= first; ++h) {
-    first_orders.push_back(h);
-    if (parameters_.turns > first) first_orders.push_back(h * parameters_.turns);
+  if (from == From::guess || orders_.empty()) {
+    orders_ = {0};
+    for (int h = 1; h <= first; ++h) {
+      orders_.push_back(h);
+      if (parameters_.turns > first) orders_.push_back(h * parameters_.turns);
+    }
+    std::ranges::sort(orders_);
   }
-  std::ranges::sort(first_orders);
-  if (from == From::guess || orders_.empty()) orders_ = first_orders;
   samples_ = std::max(samples_, rounded_up(3 * orders_.back() + 2));
   const auto on_few = [&](Eigen::VectorXd& at) {
     for (int round = 0; round < most_rounds && orders_.size() <= few + 1; ++round) {
@@ -360,11 +361,7 @@ AdaptiveMotion ChosenOrders::solve(double omega, const Eigen::VectorXd& x, From 
     return true;
   };
   Eigen::VectorXd start = x;
-  if (from != From::integration && on_few(start)) return std::move(result_);
-  if (on_all(start) || orders_ == first_orders) return std::move(result_);
-  orders_ = first_orders;
-  start = x;
-  on_few(start);
+  if (from == From::integration || !on_few(start)) on_all(start);
   return std::move(result_);
 }
 

@@ -263,7 +263,7 @@ class Branch(Case):
         self.refused("another machine", "response", SET_2, *WHOLE, "--restart", "branch.tsv")
 
     def test_a_search_for_isolated_branches_that_was_cut_off_says_so(self):
-        table, reason = self.cut_off(SET_2, *WHOLE, "--isolated", 10, "--budget", "5.5e7")
+        table, reason = self.cut_off(SET_2, *WHOLE, "--isolated", 10, "--budget", "4e7")
         self.assertIn("cut off", reason)
         self.assertIn("# incomplete: the budget cut off", table.header)
 

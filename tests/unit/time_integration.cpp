@@ -2,6 +2,7 @@
 #include <cmath>
 #include "support/catch.hpp"
 
+#include "../peers/equation7.hpp"
 #include "balance/bearing_problem.hpp"
 #include "integration/steady_state.hpp"
 #include "integration/time_stepper.hpp"
@@ -239,4 +240,41 @@ TEST_CASE("Two states that RK4 advances at once go where each goes alone")
     CHECK(apart(b, b_alone) < 1e-12);
   }
   CHECK(together.evaluations() == alone.evaluations());
+}
+
+TEST_CASE("Other programs are given Eq. 7 and its derivative")
+{
+  const Parameters parameters = set_1();
+  Equation7 equation(parameters, hertz(30));
+  constexpr int size = Equation7::size;
+  using Row = Eigen::Matrix<double, size, 1>;
+  const auto slope = [&](double t, const Row& y) {
+    Row dydt;
+    equation.derivative(t, y.data(), dydt.data());
+    return dydt;
+  };
+  constexpr int steps = 4096;
+  const double step = equation.system.period() / steps;
+  Row y = vector_of(static_start(parameters));
+  for (int k = 0; k < steps; ++k) {
+    const double t = k * step;
+    const Row a = slope(t, y), b = slope(t + step / 2, y + step / 2 * a),
+              c = slope(t + step / 2, y + step / 2 * b),
+              d = slope(t + step, y + step * c);
+    y += step / 6 * (a + 2 * b + 2 * c + d);
+  }
+  State state = static_start(parameters);
+  make_stepper(parameters, hertz(30), {.intervals_per_period = 1}).advance(0, state);
+  Row scale;
+  equation.sizes(scale.data());
+  CHECK((y - vector_of(state)).cwiseQuotient(scale).norm() < 1e-4);
+
+  Eigen::Matrix<double, size, size> jacobian, differences;
+  equation.jacobian(0, y.data(), jacobian.data());
+  for (int k = 0; k < size; ++k) {
+    const Row off = 1e-6 * scale[k] * Row::Unit(k);
+    differences.col(k) = (slope(0, y + off) - slope(0, y - off)) / (2e-6 * scale[k]);
+  }
+  for (int i = 0; i < size; ++i)
+    CHECK((jacobian - differences).row(i).norm() < 1e-6 * differences.row(i).norm());
 }
