@@ -24,7 +24,7 @@ constexpr int parts = EquationsInTime::parts;
 Eigen::Index refinement(const Eigen::MatrixXd& stiffness, double inverse_mass,
                         double omega)
 {
-  constexpr double most = 2.2;
+  constexpr double most = 1.4;
   const double fastest = std::sqrt(inverse_mass * stiffness.rowwise().norm().maxCoeff());
   const double turn =
       fastest * 2 * std::numbers::pi / (omega * static_cast<double>(stiffness.rows()));

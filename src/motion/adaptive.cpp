@@ -135,10 +135,10 @@ AdaptiveMotion solve_by_levels(const Parameters& parameters, double omega,
     long cost = 0;
     if (thorough && !parameters.large) {
       if (!integration) integration.emplace(parameters, static_start(parameters), share);
-      cost -= integration->evaluations();
+      const long before = integration->evaluations();
       motion = find_from(search, "short time integration",
                          integration->go_on(omega, short_time, m));
-      cost += integration->evaluations() + motion.force_samples;
+      cost = integration->evaluations() - before + motion.force_samples;
     }
     if (!motion.found()) {
       motion = find_near_contact(search);
