@@ -24,8 +24,8 @@ JUDGE = Path(os.environ.get("BUILD", "build"), "tests", "judge").resolve()
 SETS = {number: Path(f"data/set{number}.toml").resolve() for number in (1, 2)}
 SAME, NEAR_ONE = 0.05, 0.002  # of the largest displacement; of the modulus
 # Where six harmonics are right about themselves and wrong about the machine, and some where they are right.
-SPEEDS = {1: [1.03, 6.18, 10.3, 15.45, 19.57, 20, 24.72, 25.75, 30.9, 40.17, 50.47, 53.9, 54],
-          2: [21.63, 22.66, 27.81, 31.93, 40.17, 45.32, 49.44, 53.56, 57.68]}
+SPEEDS = {1: [1.03, 6.18, 10.3, 15.45, 19.57, 20, 24.72, 25.75, 30.9, 35.02, 40.17, 45.32, 50.47, 53.9, 54, 57.68],
+          2: [21.63, 22.66, 27.81, 31.93, 37.08, 40.17, 43.26, 45.32, 49.44, 53.56, 57.68]}
 
 # Solutions with few harmonics that are stable about themselves, at speeds without a T-periodic attractor: set, speed, m.
 FALSELY_STABLE = [(1, 12.5, 6), (1, 12.5, 8), (1, 13, 6), (1, 13, 10), (1, 13.5, 6), (1, 13.5, 10), (1, 14, 6),
