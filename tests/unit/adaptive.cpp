@@ -219,7 +219,7 @@ TEST_CASE("Along a sweep the estimate is the error, and within the tolerance")
   }
 }
 
-/** At 12 and 23 Hz no number of harmonics converges from quasi-static contact. */
+/** At 12 and 18 Hz chosen orders lead nowhere from quasi-static contact. */
 TEST_CASE("Where quasi-static contact is no start, short time integration is a cheap one")
 {
   for (double frequency : {12.0, 18.0}) {
