@@ -321,7 +321,9 @@ ChosenOrders::Grid& ChosenOrders::grid(int samples)
 AdaptiveMotion ChosenOrders::solve(double omega, const Eigen::VectorXd& x, From from)
 {
   constexpr int first = 3, most_rounds = 5, most_failures = 2, finer = 4;
+  constexpr double far = 10;
   result_ = {};
+  settings_.newton.by_next_step = from == From::predictor;
   /** The contact's frequency must be among the orders of the samples. */
   const double contact = contact_frequency(parameters_) / omega;
   const int least =
@@ -338,38 +340,43 @@ AdaptiveMotion ChosenOrders::solve(double omega, const Eigen::VectorXd& x, From 
   }
   samples_ = std::max(samples_, rounded_up(3 * orders_.back() + 2));
   const auto on_few = [&](Eigen::VectorXd& at) {
+    OnFew end = OnFew::more_orders;
     for (int round = 0; round < most_rounds && orders_.size() <= few + 1; ++round) {
       const std::size_t before = orders_.size();
-      if (solve_on_few(omega, at)) return true;
-      if (orders_.size() == before) break;
+      end = solve_on_few(omega, at);
+      if (end != OnFew::more_orders || orders_.size() == before) break;
     }
-    return false;
+    return end;
   };
-  /** With more samples where they are too few, while the error, which falls at least as N^{-2}, may still reach the
-      tolerance; from an integrated motion, which is near, also where no steps converge. */
+  /** With more samples where they are too few, while the error, which falls at least as N^{-2} and mostly as N^{-5/2}, may
+      still reach the tolerance; from an integrated motion, which is near, also where no steps converge. */
   const auto on_all = [&](Eigen::VectorXd& at) {
     int failures = from == From::integration ? 0 : most_failures;
-    for (; !solve_on_all(omega, at); samples_ *= 2) {
+    while (!solve_on_all(omega, at)) {
       const bool is_found = result_.motion.found();
+      const double error = is_found ? result_.motion.error->larger() : 0;
       const double more =
           static_cast<double>(finer) * settings_.most_harmonics / grid(samples_).count;
       if ((!is_found && failures++ == most_failures) || more <= 1 ||
-          (is_found &&
-           result_.motion.error->larger() > more * more * settings_.tolerance))
+          error > more * more * settings_.tolerance)
         return false;
+      samples_ *= error > far * settings_.tolerance ? 4 : 2;
     }
     return true;
   };
   Eigen::VectorXd start = x;
-  if (from == From::integration || !on_few(start)) on_all(start);
+  const OnFew end = from == From::integration ? OnFew::more_orders : on_few(start);
+  /** From a predictor that fails on few orders steps on all do not converge either: mostly the solution has jumped. */
+  const bool is_hopeless = end == OnFew::not_found && from == From::predictor;
+  if (end != OnFew::reached && !is_hopeless) on_all(start);
   return std::move(result_);
 }
 
-/** On the chosen orders, measured at finer samples, where `x` then is the better start. Whether the tolerance is reached. */
-bool ChosenOrders::solve_on_few(double omega, Eigen::VectorXd& x)
+/** On the chosen orders, measured at finer samples, where `x` then is the better start. */
+ChosenOrders::OnFew ChosenOrders::solve_on_few(double omega, Eigen::VectorXd& x)
 {
   constexpr int least_samples = 32, most_steps = 4;
-  constexpr double most_left = 0.25, small = 0.02;
+  constexpr double most_left = 0.25, small = 0.02, ratio_before_steps = 0.7;
   const int samples = std::max(least_samples, rounded_up(4 * orders_.back() + 2));
   if (!balance_ || balance_->problem().samples != samples || orders_ != on_)
     balance_ = std::make_unique<Balance>(grid(samples).problem, harmonics_of(orders_));
@@ -377,8 +384,11 @@ bool ChosenOrders::solve_on_few(double omega, Eigen::VectorXd& x)
   PeriodicMotion motion = rotor_stator::solve(
       *balance_, omega, gathered(series_of(x), orders_).reshaped(), settings_.newton);
   result_.force_samples += motion.force_samples;
-  result_.end = format("with %zu orders: ", orders_.size() - 1) + motion.newton.reason();
-  if (!motion.found()) return false;
+  if (!motion.found()) {
+    result_.end =
+        format("with %zu orders: ", orders_.size() - 1) + motion.newton.reason();
+    return OnFew::not_found;
+  }
   motion.bodies = spread(body_series(parameters_, motion), orders_);
   motion.force = spread(motion.force, orders_);
   motion.x = spread(series_of(motion.x), orders_).reshaped();
@@ -387,27 +397,53 @@ bool ChosenOrders::solve_on_few(double omega, Eigen::VectorXd& x)
   Grid& at = grid(samples_);
   const long before = at.all.evaluations();
   const double largest = at.largest(motion.bodies),
-               vibration = vibration_of(motion.bodies);
+               vibration = vibration_of(motion.bodies),
+               most = accepted * settings_.tolerance;
   at.moved.refresh(parameters_, omega, at.count);
   const Eigen::VectorXd first = resize_harmonics(motion.x, 2, at.count);
   Steps steps(at, omega, first);
-  bool is_settled = false;
-  for (int k = 0; k < most_steps && !is_settled && steps.take(); ++k)
-    is_settled = steps.size <= std::max(most_left * at.moved.norm(first - steps.x),
-                                        small * settings_.tolerance * vibration);
-  result_.force_samples += (at.all.evaluations() - before) * samples_;
-  result_.end =
-      format("the error with %zu orders cannot be estimated", orders_.size() - 1);
-  if (!is_settled) return false;
-  x = steps.x - at.answer;
-  const Eigen::MatrixXd off = at.moved.series(first - x);
-  double displacement = over(at.largest(off), largest),
-         rms = over(vibration_of(off), vibration);
-  if (samples_ < 2 * samples) {
+  Eigen::MatrixXd off;
+  double displacement = 0, rms = 0;
+  const auto measure = [&] {
+    off = at.moved.series(first - steps.x + at.answer);
+    displacement = over(at.largest(off), largest);
+    rms = over(vibration_of(off), vibration);
+    if (samples_ >= 2 * samples) return;
+    const Eigen::VectorXd answer = at.answer;
     const Eigen::MatrixXd by_half = at.left_out_by_half(steps.x);
+    at.answer = answer;
     displacement += over(at.largest(by_half), fall * largest);
     rms += over(vibration_of(by_half), fall * vibration);
+  };
+  /** Whether the error is below the tolerance even if each further step is `ratio` times the one before: then none is taken,
+      and the estimate is so much larger. */
+  const auto is_clear = [&](double ratio) {
+    if (ratio > ratio_before_steps) return false;
+    const double step = steps.size, moved = at.moved.norm(first - steps.x + at.answer),
+                 doubt = 1 + over(step * ratio / (1 - ratio), moved);
+    if (doubt * moved > most * vibration) return false;
+    measure();
+    displacement *= doubt;
+    rms *= doubt;
+    return std::max(displacement, rms) <= most;
+  };
+  bool is_settled = is_clear(ratio_before_steps);
+  int taken = 0;
+  for (; taken < most_steps && !is_settled && steps.take(); ++taken) {
+    is_settled = steps.size <= std::max(most_left * at.moved.norm(first - steps.x),
+                                        small * settings_.tolerance * vibration);
+    if (is_settled)
+      measure();
+    else
+      is_settled = is_clear(steps.ratio);
   }
+  result_.force_samples += (at.all.evaluations() - before) * samples_;
+  if (!is_settled) {
+    result_.end =
+        format("the error with %zu orders cannot be estimated", orders_.size() - 1);
+    return OnFew::not_estimated;
+  }
+  x = steps.x - at.answer;
   motion.error = {.displacement = displacement,
                   .rms = rms,
                   .settled = true,
@@ -415,7 +451,7 @@ bool ChosenOrders::solve_on_few(double omega, Eigen::VectorXd& x)
                   .samples = samples_,
                   .newton = 1,
                   .force_samples = 0};
-  result_.reached = std::max(displacement, rms) <= accepted * settings_.tolerance;
+  result_.reached = std::max(displacement, rms) <= most;
   result_.motion = std::move(motion);
   result_.end = format("the error with %zu orders is estimated as %.2g",
                        orders_.size() - 1, result_.motion.error->larger());
@@ -426,18 +462,20 @@ bool ChosenOrders::solve_on_few(double omega, Eigen::VectorXd& x)
     std::erase_if(orders_, [&](int h) {
       return !std::binary_search(needed.orders.begin(), needed.orders.end(), h);
     });
-    return true;
+    return OnFew::reached;
   }
-  /** The largest few at once: after a poor solution all look large. */
+  /** The largest few at once: after a poor solution all look large. All where one step was enough and so many are needed
+      that they take the steps on all orders. */
   std::vector<int> more;
   std::set_difference(needed.orders.begin(), needed.orders.end(), orders_.begin(),
                       orders_.end(), std::back_inserter(more));
   std::ranges::stable_sort(more, std::greater(),
                            [&](int h) { return size_of(bodies, h); });
-  more.resize(std::min(more.size(), std::max<std::size_t>(4, orders_.size() / 2)));
+  if (taken > 1 || needed.orders.size() <= few + few / 2)
+    more.resize(std::min(more.size(), std::max<std::size_t>(4, orders_.size() / 2)));
   orders_.insert(orders_.end(), more.begin(), more.end());
   std::ranges::sort(orders_);
-  return false;
+  return OnFew::more_orders;
 }
 
 /** On all orders of the samples, of which those are kept that the tolerance may notice. */

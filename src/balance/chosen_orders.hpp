@@ -46,7 +46,8 @@ private:
   struct Grid;
   struct Steps;
   Grid& grid(int samples);
-  bool solve_on_few(double omega, Eigen::VectorXd& x);
+  enum class OnFew { reached, more_orders, not_estimated, not_found };
+  OnFew solve_on_few(double omega, Eigen::VectorXd& x);
   bool solve_on_all(double omega, Eigen::VectorXd& x);
 
   const Parameters& parameters_;

@@ -59,26 +59,34 @@ struct Iteration {
     report.delta_1 = norm / balance.problem().residual_scale;
   }
 
-  /** Moves along the step, halved until the residual decreases; a chord step is taken whole, and
-      must decrease it more. False, and back at the start, if it does not. */
+  /** Moves along the step, halved until the residual decreases, or the next step with the same factors; a chord step is
+      taken whole, and must decrease it more. False, and back at the start, if it does not. */
   bool move(StepKind kind)
   {
     if (!std::isfinite(report.delta_2)) {
       steps.learn(std::numeric_limits<double>::infinity());
       return false;
     }
+    constexpr double far = 8;
     const bool chord = kind == StepKind::chord;
-    const double slope = chord ? 1 - settings.chord_contraction : 1e-4;
-    const int most_halvings = chord ? 0 : settings.most_halvings;
-    const double before = norm;
+    const bool by_next = settings.by_next_step && kind == StepKind::fresh;
+    const double slope = chord ? 1 - settings.chord_contraction : by_next ? 0.25 : 1e-4;
+    const double least = chord ? 1 : std::exp2(-settings.most_halvings);
+    const double before = norm, whole = by_next ? step.norm() : norm;
     const double goal = settings.tolerance * balance.problem().residual_scale;
     start = x;
-    double length = 1;
-    for (int halvings = 0; halvings <= most_halvings; ++halvings, length /= 2) {
+    for (double length = 1; length >= least;) {
       x = start + length * step;
       evaluate();
-      if (halvings == 0) steps.learn(norm / before);
-      if (norm <= goal || norm <= (1 - slope * length) * before) return true;
+      if (length == 1) steps.learn(norm / before);
+      if (norm <= goal) return true;
+      double size = norm;
+      if (by_next) {
+        steps.solve_again(balance, residual, steps.vectors.next);
+        size = steps.vectors.next.norm();
+      }
+      if (size <= (1 - slope * length) * whole) return true;
+      length /= by_next && size > far * whole ? 4 : 2;
     }
     x = start;
     evaluate();
@@ -116,6 +124,24 @@ PeriodicMotion solve(Balance& balance, double omega, Eigen::VectorXd x,
   PeriodicMotion motion{.omega = omega, .x = std::move(x)};
   solve(balance, motion, settings);
   return motion;
+}
+
+bool solve_from_few(const std::function<Balance&(int harmonics)>& balance, int harmonics,
+                    PeriodicMotion& motion, const NewtonSettings& settings)
+{
+  constexpr int few = 64;
+  PeriodicMotion first{.omega = motion.omega};
+  if (harmonics > 2 * few) {
+    Balance& on_few = balance(few);
+    first.x = resize_harmonics(motion.x, on_few.problem().dofs, few);
+    if (solve(on_few, first, settings)) motion.x = std::move(first.x);
+  }
+  Balance& on_all = balance(harmonics);
+  motion.x = resize_harmonics(motion.x, on_all.problem().dofs, harmonics);
+  solve(on_all, motion, settings);
+  motion.newton.iterations += first.newton.iterations;
+  motion.force_samples += first.force_samples;
+  return motion.found();
 }
 
 }  // namespace rotor_stator

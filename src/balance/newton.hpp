@@ -13,7 +13,8 @@ $$X \leftarrow X + \lambda \Delta X, \tag{14}$$
 
 $$(A + J)\,\Delta X = -R. \tag{15}$$
 
-λ is 1 and halved until the residual decreases. Both criteria of the paper are reported,
+λ is 1 and halved until the residual decreases, or, as Deuflhard (2011) prefers, until the next step with the same factors is
+shorter than ΔX, which no scale of the equations changes. Both criteria of the paper are reported,
 relative to the problem's scales (D-22):
 
 $$\delta_1 = \|R\|, \tag{17}$$
@@ -38,6 +39,10 @@ struct NewtonSettings {
   /** A chord step, with the Jacobian of an earlier point, is kept when it leaves at most this
      part of the residual; otherwise Newton's own step is taken. 0: always Newton's. */
   double chord_contraction = 0.1;
+
+  /** Steps with new factors are measured by the next step, not by the residual: where a resonance of the contact hides a
+      large error behind a small residual. */
+  bool by_next_step = false;
 };
 
 /** Newton on the balance at the speed of `motion`, from its coefficients, which become the solution
@@ -48,6 +53,12 @@ bool solve(Balance& balance, PeriodicMotion& motion, const NewtonSettings& setti
 /** The same from `x` at speed `omega` [rad/s]. */
 PeriodicMotion solve(Balance& balance, double omega, Eigen::VectorXd x,
                      const NewtonSettings& settings = {});
+
+/** From a start whose high harmonics mean little, of any number of them, to the solution on `harmonics`. With more than 128
+    the first 64 are solved for first: Newton goes most of its way there, in steps that cost less than half. `balance` gives
+    the balance on so many harmonics. */
+bool solve_from_few(const std::function<Balance&(int harmonics)>& balance, int harmonics,
+                    PeriodicMotion& motion, const NewtonSettings& settings = {});
 
 /** The linear residual [-] that a step may leave: so small that the iteration stays quadratic, and no
     smaller than the tolerance asks. */

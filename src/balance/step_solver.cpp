@@ -73,10 +73,8 @@ constexpr double weak_coupling = 1;
 /** Past this share of all harmonics the dense block takes them all. */
 constexpr double most_low_share = 0.8;
 
-/** A dense block of more harmonics, whose cube is more than so many times the samples, costs more than the equations in
-    time. */
-constexpr int most_dense = 32;
-constexpr double dense_samples = 100;
+/** A dense block of more harmonics costs more than the equations in time. */
+constexpr int most_dense = 24;
 
 /** What a step by them may leave, of what another iterated step may: it is then as good as a dense one, after which
     Newton's error is that of δ₂². */
@@ -135,9 +133,7 @@ void StepSolver::factor(Balance& balance, const Eigen::VectorXd& x, double omega
     if (low_ >= most_low_share * m) low_ = m;
   }
   low_ = std::min(low_, largest_low(balance));
-  in_time_ = balance.problem().bodies && !holds_ && !stalls_in_time_ &&
-             low_ > most_dense &&
-             std::pow(low_, 3) > dense_samples * balance.problem().samples;
+  in_time_ = balance.problem().bodies && !holds_ && !stalls_in_time_ && low_ > most_dense;
   is_complete_ = low_ == m && !in_time_;
   if (in_time_) {
     balance.factor_in_time(x, omega);
@@ -236,10 +232,7 @@ void StepSolver::learn(double contraction)
   if (entering_ && last_ == StepKind::fresh) entering_contraction_ *= 0.9;
   entering_ = false;
   if (last_ == StepKind::chord && !(contraction <= chord_contraction_)) factored_ = false;
-  if (!answered_ || contraction <= good_in_time) return;
-  /** Where new factors left so much, age is not the reason. */
-  answers_in_time_ = !was_new_;
-  factored_ = false;
+  if (answered_ && contraction > good_in_time) answers_in_time_ = factored_ = false;
 }
 
 StepKind StepSolver::step(Balance& balance, const Eigen::VectorXd& x, double omega,
@@ -249,8 +242,8 @@ StepKind StepSolver::step(Balance& balance, const Eigen::VectorXd& x, double ome
   if (factored_ && takes_chords() && !chord_pays(goal / residual.norm()))
     factored_ = false;
   stalled_ = false;
-  /** Those in time cost no more than some iterations, and are worth little at another speed. */
-  if (in_time_ && entering_) factored_ = false;
+  /** Those in time cost no more than some iterations, and save more. */
+  if (in_time_) factored_ = false;
   const bool are_new = !factored_;
   if (are_new) factor(balance, x, omega);
   if (is_complete_ && (are_new || takes_chords())) {
@@ -258,7 +251,6 @@ StepKind StepSolver::step(Balance& balance, const Eigen::VectorXd& x, double ome
     step = -step;
     return last_ = are_new ? StepKind::fresh : StepKind::chord;
   }
-  was_new_ = are_new;
   answered_ = in_time_ && answers_in_time_;
   if (answered_) {
     precondition(balance, residual, step);

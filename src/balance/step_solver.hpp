@@ -53,15 +53,15 @@ whole Jacobian. A step then is either
 - iterated: GMRES on the present Jacobian, preconditioned by the factors, old or new. Its cost
   per iteration is that of the transforms, m log m.
 
-Where the contact couples more than 32 harmonics, and the problem knows its bodies, the preconditioner is that of the
-equations in time (equations_in_time.hpp): the whole step then costs m log m. Their own answer to the residual is the step as
-long as it leaves less than a third of it; after that GMRES takes it further. */
+Where the contact couples more than 24 harmonics, and the problem knows its bodies, the preconditioner is that of the
+equations in time (equations_in_time.hpp), made anew for each step: the whole step then costs m log m. Their own answer to the
+residual is the step as long as it leaves less than a third of it; after that GMRES takes it further. */
 
 enum class StepKind { fresh, chord, iterated };
 
 /** Vectors of Newton's iteration, kept so that they are allocated once. */
 struct NewtonVectors {
-  Eigen::VectorXd residual, step, start;
+  Eigen::VectorXd residual, step, start, next;
 };
 
 class StepSolver {
@@ -77,6 +77,13 @@ public:
   {
     entering_ = answers_in_time_ = true;
     chord_contraction_ = chord_contraction;
+  }
+
+  /** The same with the factors of the last step, but for the sign. */
+  void solve_again(Balance& balance, const Eigen::VectorXd& residual,
+                   Eigen::VectorXd& step) const
+  {
+    precondition(balance, residual, step);
   }
 
   /** What the last step, whole, left of the residual [-]. */
@@ -129,10 +136,9 @@ private:
   bool holds_ = false;               ///< it is to hold all of them
   bool in_time_ = false;             ///< instead the equations of motion at the samples
   bool answers_in_time_ = true;      ///< their own steps are good enough in this solution
-  bool answered_ = false,
-       was_new_ = false;         ///< the last step was theirs, with new factors
-  bool stalls_in_time_ = false;  ///< which GMRES with them once did
-  int least_low_ = 16;           ///< grows when GMRES stalls
+  bool answered_ = false;            ///< the last step was theirs
+  bool stalls_in_time_ = false;      ///< which GMRES with them once did
+  int least_low_ = 16;               ///< grows when GMRES stalls
   Eigen::MatrixXd low_jacobian_;
   Eigen::PartialPivLU<Eigen::MatrixXd> low_factors_;
   Eigen::MatrixXd high_inverses_;  ///< 2d × 2d blocks side by side

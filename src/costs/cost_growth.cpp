@@ -152,10 +152,11 @@ Table cost_growth_table(const CostGrowthScene& scene, const std::vector<Growth>&
       "against harmonics: one solution at %g Hz from that at %g Hz with the same m",
       scene.frequency, scene.below));
   table.note(
-      "Newton's steps: dense factors up to 130 unknowns; beyond, the equations at the samples "
-      "where many harmonics are coupled, else as the line of blocks; "
+      "Newton's steps: dense factors up to 24 harmonics; beyond, the equations at the samples "
+      "where more than 24 are coupled, else as the line of blocks; "
       "blocks: dense factors of the coupled harmonics, a block for each other one, GMRES; "
-      "dense: dense factors of all");
+      "dense: dense factors of all; "
+      "more than 128 harmonics begin with the solution on 64 of them");
   table.note(format(
       "against balls: a sweep of %d speeds from %g to %g Hz, m = %d, cage ratio %g",
       scene.sweep_speeds, scene.sweep_from, scene.sweep_to, scene.sweep_harmonics,

@@ -145,11 +145,13 @@ private:
   {
     constexpr int few = 12;
     const auto from = [&](const Eigen::VectorXd& x) {
-      found.x = resize_harmonics(x, 2, m);
-      return rotor_stator::solve(balance(m), found, newton_);
+      found.x = x;
+      return solve_from_few([this](int count) -> Balance& { return balance(count); }, m,
+                            found, newton_);
     };
     const auto after = [&](double seconds) {
-      return from(integration_->go_on(found.omega, seconds, m));
+      found.x = integration_->go_on(found.omega, seconds, m);
+      return rotor_stator::solve(balance(m), found, newton_);
     };
     if ((setting_.transient > 0 && after(setting_.transient)) ||
         (!predictor_.empty() && from(predictor_.at_speed(found.omega))) ||

@@ -2,6 +2,8 @@
 
 #include <algorithm>
 #include <cmath>
+#include <functional>
+#include <map>
 #include <numbers>
 #include <utility>
 
@@ -22,6 +24,28 @@ Balance balance_of(const Search& search)
   return {bearing_problem(search.parameters, search.samples, search.budget),
           search.harmonics};
 }
+
+/** Balances of a search on its harmonics or fewer, each made when it is first asked for. */
+class Balances {
+public:
+  explicit Balances(const Search& search) : search_(search) {}
+
+  Balance& operator()(int harmonics)
+  {
+    auto& balance = balances_[harmonics];
+    if (!balance) {
+      Search search = search_;
+      if (std::exchange(search.harmonics, harmonics) != harmonics)
+        search.samples = std::min(search.samples, default_samples(harmonics));
+      balance = std::make_unique<Balance>(balance_of(search));
+    }
+    return *balance;
+  }
+
+private:
+  const Search& search_;
+  std::map<int, std::unique_ptr<Balance>> balances_;
+};
 
 /** The solution with half as many harmonics, found in the same way from quasi-static
     contact. */
@@ -155,7 +179,12 @@ PeriodicMotion find_from(const Search& search, const std::string& name, Eigen::V
 
 PeriodicMotion find_near_contact(const Search& search)
 {
-  return find_from(search, quasi_static_name, near_contact(search));
+  Balances balances(search);
+  PeriodicMotion motion{
+      .omega = search.omega, .x = near_contact(search), .start = quasi_static_name};
+  if (solve_from_few(std::ref(balances), search.harmonics, motion, search.newton))
+    motion.bodies = body_series(search.parameters, motion);
+  return motion;
 }
 
 PeriodicMotion find_periodic(const Search& search, const std::vector<Start>& further)
@@ -168,7 +197,7 @@ PeriodicMotion find_periodic(const Search& search, const std::vector<Start>& fur
                                               search.harmonics, search.budget);
                     }});
   starts.push_back({"a neighbouring speed", [&] { return from_a_neighbour(search); }});
-  Balance balance = balance_of(search);
+  Balances balances(search);
   PeriodicMotion motion{
       .omega = search.omega, .harmonics = search.harmonics, .samples = search.samples};
   for (const Start& start : starts) {
@@ -179,7 +208,11 @@ PeriodicMotion find_periodic(const Search& search, const std::vector<Start>& fur
     }
     if (motion.x.size() == 0) continue;
     motion.start = start.name;
-    if (!solve(balance, motion, search.newton)) continue;
+    const bool is_found =
+        start.name == quasi_static_name
+            ? solve_from_few(std::ref(balances), search.harmonics, motion, search.newton)
+            : solve(balances(search.harmonics), motion, search.newton);
+    if (!is_found) continue;
     motion.bodies = body_series(search.parameters, motion);
     break;
   }

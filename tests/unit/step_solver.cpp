@@ -215,7 +215,7 @@ TEST_CASE("What a solution costs, in iterations, evaluations and factorisations"
     int harmonics, iterations, evaluations, factorisations, linear_iterations;
   };
   for (const Bound& bound : {Bound{6, 6, 9, 2, 0}, Bound{10, 9, 12, 3, 0},
-                             Bound{64, 9, 10, 3, 20}, Bound{1024, 9, 10, 3, 25}}) {
+                             Bound{64, 7, 8, 7, 12}, Bound{1024, 7, 8, 7, 6}}) {
     INFO("m = " << bound.harmonics);
     Balance balance = balance_with(bound.harmonics);
     const NewtonReport report =
