@@ -328,7 +328,9 @@ AdaptiveMotion ChosenOrders::solve(double omega, const Eigen::VectorXd& x, From 
   const double contact = contact_frequency(parameters_) / omega;
   const int least =
       rounded_up(3 * static_cast<int>(std::clamp(1.2 * contact + 2, 8.0, 64.0)));
-  if (from == From::guess || samples_ < least || samples_ >= 2 * least)
+  if (from == From::guess)
+    samples_ = least;
+  else if (samples_ < least || samples_ >= 2 * least)
     samples_ = std::max(samples_ / 2, least);
   if (from == From::guess || orders_.empty()) {
     orders_ = {0};

@@ -79,7 +79,7 @@ EqualErrorRow cheapest(const EqualErrorScene& scene, const References& range,
   std::vector<Measurement> good = tried;
   std::erase_if(good, [&](auto& m) { return !(m.*scene.error <= target); });
   std::ranges::sort(good, {}, &Measurement::median);
-  constexpr std::size_t few = 2;
+  constexpr std::size_t few = 4;
   good.resize(std::min(good.size(), few));
   for (Measurement& m : good) {
     const int most = m.median > scene.long_run ? 3 : scene.repetitions;

@@ -97,15 +97,19 @@ AdaptiveMotion AdaptiveSweep::solve_on_chosen(double omega)
     return at.reached;
   };
   const bool is_first = predictor_.empty();
+  const auto from_guess = [&] {
+    return reaches(quasi_static_name, quasi_static_start(parameters_, omega, few),
+                   From::guess);
+  };
   if (!(is_first
-            ? reaches(quasi_static_name, quasi_static_start(parameters_, omega, few),
-                      From::guess)
+            ? from_guess()
             : reaches(from_predictor, predictor_.at_speed(omega), From::predictor))) {
     CoarseIntegration integration(parameters_, last_, budget_);
-    for (const double seconds : {0.1, 0.4})
-      if (reaches("short time integration", integration.go_on(omega, seconds, many),
-                  From::integration))
-        break;
+    const auto after = [&](double seconds) {
+      return reaches("short time integration", integration.go_on(omega, seconds, many),
+                     From::integration);
+    };
+    if (!after(0.1) && !after(0.4) && !is_first) from_guess();
     cost += integration.evaluations();
   }
   at.force_samples = cost;

@@ -18,9 +18,9 @@ public:
                 const OperationBudget& budget = {});
   AdaptiveSweep(const AdaptiveSweep&) = delete;  // chosen_ refers to parameters_
 
-  /** At speed `omega` [rad/s] from the paper's predictor, from quasi-static contact, and from short time integration, which goes
-      on from the last solution; on chosen orders (balance/chosen_orders.hpp). Where none of these reaches the tolerance, as
-      `solve_by_levels`. */
+  /** At speed `omega` [rad/s] from the paper's predictor, from short time integration, which goes on from the last solution,
+      and from quasi-static contact, at the first speed from that first; on chosen orders (balance/chosen_orders.hpp). Where
+      none of these reaches the tolerance, as `solve_by_levels`. */
   AdaptiveMotion solve(double omega);
 
 private:
