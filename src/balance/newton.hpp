@@ -56,7 +56,7 @@ PeriodicMotion solve(Balance& balance, double omega, Eigen::VectorXd x,
 
 /** From a start whose high harmonics mean little, of any number of them, to the solution on `harmonics`. With more than 128
     the first 64 are solved for first: Newton goes most of its way there, in steps that cost less than half. `balance` gives
-    the balance on so many harmonics. */
+    the balance on so many harmonics; the report counts the iterations on both. */
 bool solve_from_few(const std::function<Balance&(int harmonics)>& balance, int harmonics,
                     PeriodicMotion& motion, const NewtonSettings& settings = {});
 
