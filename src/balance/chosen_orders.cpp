@@ -203,10 +203,11 @@ struct ChosenOrders::Grid {
     Eigen::MatrixXd residual = Eigen::MatrixXd::Zero(2, 2 * count + 1);
     for (int h = 0; h <= resolved; ++h)
       put_amplitude(residual, h, all.b(h) * amplitude(off, h));
-    all.solve_in_time(residual.reshaped(), answer);
+    Eigen::VectorXd off_by;
+    all.solve_in_time(residual.reshaped(), off_by);
     const Eigen::Index above = x.size() - (4 * resolved + 2);
-    answer.tail(above) -= x.tail(above);
-    return moved.series(answer);
+    off_by.tail(above) -= x.tail(above);
+    return moved.series(off_by);
   }
 };
 
@@ -341,12 +342,15 @@ AdaptiveMotion ChosenOrders::solve(double omega, const Eigen::VectorXd& x, From 
     std::ranges::sort(orders_);
   }
   samples_ = std::max(samples_, rounded_up(3 * orders_.back() + 2));
+  int rounds = 0;
   const auto on_few = [&](Eigen::VectorXd& at) {
     OnFew end = OnFew::more_orders;
-    for (int round = 0; round < most_rounds && orders_.size() <= few + 1; ++round) {
+    while (end == OnFew::more_orders && rounds < most_rounds &&
+           orders_.size() <= few + 1) {
       const std::size_t before = orders_.size();
       end = solve_on_few(omega, at);
-      if (end != OnFew::more_orders || orders_.size() == before) break;
+      ++rounds;
+      if (orders_.size() == before && end == OnFew::more_orders) return OnFew::needs_all;
     }
     return end;
   };
@@ -362,14 +366,15 @@ AdaptiveMotion ChosenOrders::solve(double omega, const Eigen::VectorXd& x, From 
       if ((!is_found && failures++ == most_failures) || more <= 1 ||
           error > more * more * settings_.tolerance)
         return false;
-      samples_ *= error > far * settings_.tolerance ? 4 : 2;
+      samples_ *= error > far * settings_.tolerance && more >= 4 ? 4 : 2;
     }
     return true;
   };
   Eigen::VectorXd start = x;
-  const OnFew end = from == From::integration ? OnFew::more_orders : on_few(start);
-  /** From a predictor that fails on few orders steps on all do not converge either: mostly the solution has jumped. */
-  const bool is_hopeless = end == OnFew::not_found && from == From::predictor;
+  const OnFew end = from == From::integration ? OnFew::needs_all : on_few(start);
+  /** From a predictor that fails at once on few orders steps on all do not converge either: mostly the solution has jumped. */
+  const bool is_hopeless =
+      end == OnFew::not_found && rounds == 1 && from == From::predictor;
   if (end != OnFew::reached && !is_hopeless) on_all(start);
   return std::move(result_);
 }
@@ -411,22 +416,20 @@ ChosenOrders::OnFew ChosenOrders::solve_on_few(double omega, Eigen::VectorXd& x)
     displacement = over(at.largest(off), largest);
     rms = over(vibration_of(off), vibration);
     if (samples_ >= 2 * samples) return;
-    const Eigen::VectorXd answer = at.answer;
     const Eigen::MatrixXd by_half = at.left_out_by_half(steps.x);
-    at.answer = answer;
     displacement += over(at.largest(by_half), fall * largest);
     rms += over(vibration_of(by_half), fall * vibration);
   };
   /** Whether the error is below the tolerance even if each further step is `ratio` times the one before: then none is taken,
-      and the estimate is so much larger. */
+      and the estimate is so much larger, in displacement by the part by which all orders together are. */
   const auto is_clear = [&](double ratio) {
-    if (ratio > ratio_before_steps) return false;
-    const double step = steps.size, moved = at.moved.norm(first - steps.x + at.answer),
-                 doubt = 1 + over(step * ratio / (1 - ratio), moved);
-    if (doubt * moved > most * vibration) return false;
+    if (!(ratio <= ratio_before_steps)) return false;
+    const double further = steps.size * ratio / (1 - ratio),
+                 moved = at.moved.norm(first - steps.x + at.answer);
+    if (!(moved + further <= most * vibration)) return false;
     measure();
-    displacement *= doubt;
-    rms *= doubt;
+    displacement *= 1 + over(further, moved);
+    rms += over(further, vibration);
     return std::max(displacement, rms) <= most;
   };
   bool is_settled = is_clear(ratio_before_steps);
@@ -466,15 +469,14 @@ ChosenOrders::OnFew ChosenOrders::solve_on_few(double omega, Eigen::VectorXd& x)
     });
     return OnFew::reached;
   }
-  /** The largest few at once: after a poor solution all look large. All where one step was enough and so many are needed
-      that they take the steps on all orders. */
+  if (taken <= 1 && needed.orders.size() > few + few / 2) return OnFew::needs_all;
+  /** The largest few at once: after a poor solution all look large. */
   std::vector<int> more;
   std::set_difference(needed.orders.begin(), needed.orders.end(), orders_.begin(),
                       orders_.end(), std::back_inserter(more));
   std::ranges::stable_sort(more, std::greater(),
                            [&](int h) { return size_of(bodies, h); });
-  if (taken > 1 || needed.orders.size() <= few + few / 2)
-    more.resize(std::min(more.size(), std::max<std::size_t>(4, orders_.size() / 2)));
+  more.resize(std::min(more.size(), std::max<std::size_t>(4, orders_.size() / 2)));
   orders_.insert(orders_.end(), more.begin(), more.end());
   std::ranges::sort(orders_);
   return OnFew::more_orders;

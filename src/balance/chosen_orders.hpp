@@ -6,14 +6,15 @@ A motion with the period of rotation has orders up to the contact's resonance an
 2012). What they leave out is found by the equations of motion at finer samples (equations_in_time.hpp),
 which answer the residual there at all orders up to a third of the samples: a step of Newton's method but for some
 hundredths, in O(N) operations. It is measured by how far it moves the bodies, since a resonance of the contact hides a
-large error behind a small residual. Where steps that leave 0.7 each would together stay within the tolerance, the error is
-clear at once. Otherwise the next step says what is left; where that is more than a third, GMRES takes the step further.
+large error behind a small residual. Where further steps, each 0.7 of the one before, would together stay within the tolerance, the
+error is clear at once. Otherwise the next step says what is left, and its length replaces the 0.7; where that is more than a third,
+GMRES takes the step further.
 
-Where more than sixteen orders are needed, or Newton fails on fewer after a guess, as at folds that the contact's resonance makes,
-the same steps go on until they converge. That solution has all orders up to a third of the samples. Half of the samples, every second one, and the orders
+Where more than sixteen orders are needed, or Newton fails on fewer but not at once from a predictor, the same steps go on until they
+converge. That solution has all orders up to a third of the samples. Half of the samples, every second one, and the orders
 up to half of these would leave out the orders above and fold others onto those below; the same equations say how far that moves the
 bodies. The spectrum of a Hertz contact falls as k^{-5/2}, so that all samples leave less than a fifth of it where the contact
-is never lost; one half is taken. Samples are doubled until that is below the tolerance.
+is never lost; one half is taken. Samples are doubled, far from it quadrupled, until that is below the tolerance.
 
 Orders that the tolerance may notice are kept. From speed to speed orders, samples, tables and factors serve again. */
 #pragma once
@@ -47,7 +48,7 @@ private:
   struct Grid;
   struct Steps;
   Grid& grid(int samples);
-  enum class OnFew { reached, more_orders, not_estimated, not_found };
+  enum class OnFew { reached, more_orders, needs_all, not_estimated, not_found };
   OnFew solve_on_few(double omega, Eigen::VectorXd& x);
   bool solve_on_all(double omega, Eigen::VectorXd& x);
 

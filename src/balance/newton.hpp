@@ -13,8 +13,9 @@ $$X \leftarrow X + \lambda \Delta X, \tag{14}$$
 
 $$(A + J)\,\Delta X = -R. \tag{15}$$
 
-λ is 1 and halved until the residual decreases, or, as Deuflhard (2011) prefers, until the next step with the same factors is
-shorter than ΔX, which no scale of the equations changes. Both criteria of the paper are reported,
+λ is 1 and halved until the residual decreases, or by the natural monotonicity test (Deuflhard 2011), which no scale of the
+equations changes: until the next step with the same factors is at most (1 - λ/4) ΔX long, and quartered where it is
+more than eight times as long. Both criteria of the paper are reported,
 relative to the problem's scales (D-22):
 
 $$\delta_1 = \|R\|, \tag{17}$$
@@ -25,6 +26,8 @@ The iteration has converged when δ₁ ≤ tolerance and δ₂ ≤ √tolerance:
 is quadratic, so a last step of √tolerance leaves an error of the order of the tolerance.
 */
 #pragma once
+
+#include <functional>
 
 #include "balance/balance.hpp"
 
@@ -40,8 +43,8 @@ struct NewtonSettings {
      part of the residual; otherwise Newton's own step is taken. 0: always Newton's. */
   double chord_contraction = 0.1;
 
-  /** Steps with new factors are measured by the next step, not by the residual: where a resonance of the contact hides a
-      large error behind a small residual. */
+  /** Steps by new dense factors are measured by the next step, not by the residual: where a resonance of the contact hides
+      a large error behind a small residual. */
   bool by_next_step = false;
 };
 
@@ -54,8 +57,8 @@ bool solve(Balance& balance, PeriodicMotion& motion, const NewtonSettings& setti
 PeriodicMotion solve(Balance& balance, double omega, Eigen::VectorXd x,
                      const NewtonSettings& settings = {});
 
-/** From a start whose high harmonics mean little, of any number of them, to the solution on `harmonics`. With more than 128
-    the first 64 are solved for first: Newton goes most of its way there, in steps that cost less than half. `balance` gives
+/** From a start, which may have any number of harmonics and of which the high ones mean little, to the solution on
+    `harmonics`. With more than 128 the first 64 are solved for first: Newton goes most of its way there, in steps that cost less than half. `balance` gives
     the balance on so many harmonics; the report counts the iterations on both. */
 bool solve_from_few(const std::function<Balance&(int harmonics)>& balance, int harmonics,
                     PeriodicMotion& motion, const NewtonSettings& settings = {});

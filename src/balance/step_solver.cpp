@@ -74,7 +74,7 @@ constexpr double weak_coupling = 1;
 constexpr double most_low_share = 0.8;
 
 /** A dense block of more harmonics costs more than the equations in time. */
-constexpr int most_dense = 24;
+constexpr int most_dense = 32;
 
 /** What a step by them may leave, of what another iterated step may: it is then as good as a dense one, after which
     Newton's error is that of δ₂². */
@@ -242,7 +242,7 @@ StepKind StepSolver::step(Balance& balance, const Eigen::VectorXd& x, double ome
   if (factored_ && takes_chords() && !chord_pays(goal / residual.norm()))
     factored_ = false;
   stalled_ = false;
-  /** Those in time cost no more than some iterations, and save more. */
+  /** Factors in time are made anew: they cost as much as a few iterations of GMRES and save more. */
   if (in_time_) factored_ = false;
   const bool are_new = !factored_;
   if (are_new) factor(balance, x, omega);

@@ -53,7 +53,7 @@ whole Jacobian. A step then is either
 - iterated: GMRES on the present Jacobian, preconditioned by the factors, old or new. Its cost
   per iteration is that of the transforms, m log m.
 
-Where the contact couples more than 24 harmonics, and the problem knows its bodies, the preconditioner is that of the
+Where the contact couples more than 32 harmonics, and the problem knows its bodies, the preconditioner is that of the
 equations in time (equations_in_time.hpp), made anew for each step: the whole step then costs m log m. Their own answer to the
 residual is the step as long as it leaves less than a third of it; after that GMRES takes it further. */
 
@@ -71,19 +71,19 @@ public:
   StepKind step(Balance& balance, const Eigen::VectorXd& x, double omega,
                 const Eigen::VectorXd& residual, double goal, Eigen::VectorXd& step);
 
+  /** The negative of the step for another residual, with the factors of the last one. */
+  void solve_again(Balance& balance, const Eigen::VectorXd& residual,
+                   Eigen::VectorXd& step) const
+  {
+    precondition(balance, residual, step);
+  }
+
   /** A new solution begins. A chord step that leaves more than `chord_contraction` of the
      residual ends the use of its factors. */
   void begin(double chord_contraction)
   {
     entering_ = answers_in_time_ = true;
     chord_contraction_ = chord_contraction;
-  }
-
-  /** The same with the factors of the last step, but for the sign. */
-  void solve_again(Balance& balance, const Eigen::VectorXd& residual,
-                   Eigen::VectorXd& step) const
-  {
-    precondition(balance, residual, step);
   }
 
   /** What the last step, whole, left of the residual [-]. */

@@ -13,7 +13,7 @@ namespace rotor_stator::costs {
 /** What grows, and the sizes that it takes. */
 struct GrowthKind {
   std::string
-      against;  ///< "harmonics", "balls" or "speeds"; "harmonics, dense" by other algebra
+      against;  ///< "harmonics", "balls" or "speeds"; "harmonics, dense": found otherwise
   std::vector<int> sizes;
   int fitted_from;  ///< the least size that is fitted
 };

@@ -3,7 +3,7 @@
 
 All settings of the scene file are run once. Within a group of equal accuracy, where the cheaper ones
 come first, the search stops when a run costs clearly more than the cheapest that has reached every
-target; it ends once the method has used its time. The two cheapest that reach a target are then
+target; it ends once the method has used its time. The four cheapest that reach a target are then
 repeated, and the one with the least median is the row. */
 #pragma once
 

@@ -144,14 +144,18 @@ private:
   bool finds(int m, PeriodicMotion& found)
   {
     constexpr int few = 12;
+    const auto at_once = [&](const Eigen::VectorXd& x) {
+      found.x = resize_harmonics(x, 2, m);
+      return rotor_stator::solve(balance(m), found, newton_);
+    };
     const auto from = [&](const Eigen::VectorXd& x) {
+      if (!setting_.algebra.empty()) return at_once(x);
       found.x = x;
       return solve_from_few([this](int count) -> Balance& { return balance(count); }, m,
                             found, newton_);
     };
     const auto after = [&](double seconds) {
-      found.x = integration_->go_on(found.omega, seconds, m);
-      return rotor_stator::solve(balance(m), found, newton_);
+      return at_once(integration_->go_on(found.omega, seconds, m));
     };
     if ((setting_.transient > 0 && after(setting_.transient)) ||
         (!predictor_.empty() && from(predictor_.at_speed(found.omega))) ||

@@ -9,7 +9,7 @@ belongs to the comparison and is timed for none.
 - Harmonic balance: a speed starts from the paper's predictor; without one, or where Newton fails from
   it, from quasi-static contact if the harmonics are few, and then from half a second of time integration
   with coarse steps, which goes on from where it ended last; where that fails too, from more of it with half as
-  many harmonics more. With a transient in the setting, that is the
+  many harmonics more. More than 128 harmonics begin with a solution on 64. With a transient in the setting, that is the
   first start at every speed. Or, as the paper does it, the gap to the last speed is halved where Newton fails.
 - Harmonic balance to a tolerance: motion/adaptive.hpp, each speed from those before.
 - Time integration: a transient in seconds, whole periods, from the static load or from the known state;

@@ -18,9 +18,9 @@ public:
                 const OperationBudget& budget = {});
   AdaptiveSweep(const AdaptiveSweep&) = delete;  // chosen_ refers to parameters_
 
-  /** At speed `omega` [rad/s] from the paper's predictor, from short time integration, which goes on from the last solution,
-      and from quasi-static contact, at the first speed from that first; on chosen orders (balance/chosen_orders.hpp). Where
-      none of these reaches the tolerance, as `solve_by_levels`. */
+  /** At speed `omega` [rad/s], on chosen orders (balance/chosen_orders.hpp), from the first of these that reaches the
+      tolerance: the paper's predictor; short time integration, which goes on from the last solution; quasi-static contact, which
+      is the first start without a solution before. Where none does, as `solve_by_levels`. */
   AdaptiveMotion solve(double omega);
 
 private:

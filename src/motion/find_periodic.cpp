@@ -35,8 +35,10 @@ public:
     auto& balance = balances_[harmonics];
     if (!balance) {
       Search search = search_;
-      if (std::exchange(search.harmonics, harmonics) != harmonics)
+      if (harmonics != search.harmonics) {
+        search.harmonics = harmonics;
         search.samples = std::min(search.samples, default_samples(harmonics));
+      }
       balance = std::make_unique<Balance>(balance_of(search));
     }
     return *balance;
@@ -209,7 +211,7 @@ PeriodicMotion find_periodic(const Search& search, const std::vector<Start>& fur
     if (motion.x.size() == 0) continue;
     motion.start = start.name;
     const bool is_found =
-        start.name == quasi_static_name
+        &start == &starts.front()
             ? solve_from_few(std::ref(balances), search.harmonics, motion, search.newton)
             : solve(balances(search.harmonics), motion, search.newton);
     if (!is_found) continue;
