@@ -342,18 +342,6 @@ AdaptiveMotion ChosenOrders::solve(double omega, const Eigen::VectorXd& x, From 
     std::ranges::sort(orders_);
   }
   samples_ = std::max(samples_, rounded_up(3 * orders_.back() + 2));
-  int rounds = 0;
-  const auto on_few = [&](Eigen::VectorXd& at) {
-    OnFew end = OnFew::more_orders;
-    while (end == OnFew::more_orders && rounds < most_rounds &&
-           orders_.size() <= few + 1) {
-      const std::size_t before = orders_.size();
-      end = solve_on_few(omega, at);
-      ++rounds;
-      if (orders_.size() == before && end == OnFew::more_orders) return OnFew::needs_all;
-    }
-    return end;
-  };
   /** With more samples where they are too few, while the error, which falls at least as N^{-2} and mostly as N^{-5/2}, may
       still reach the tolerance; from an integrated motion, which is near, also where no steps converge. */
   const auto on_all = [&](Eigen::VectorXd& at) {
@@ -371,7 +359,11 @@ AdaptiveMotion ChosenOrders::solve(double omega, const Eigen::VectorXd& x, From 
     return true;
   };
   Eigen::VectorXd start = x;
-  const OnFew end = from == From::integration ? OnFew::needs_all : on_few(start);
+  OnFew end = from == From::integration ? OnFew::needs_all : OnFew::more_orders;
+  int rounds = 0;
+  for (; end == OnFew::more_orders && rounds < most_rounds && orders_.size() <= few + 1;
+       ++rounds)
+    end = solve_on_few(omega, start);
   /** From a predictor that fails at once on few orders steps on all do not converge either: mostly the solution has jumped. */
   const bool is_hopeless =
       end == OnFew::not_found && rounds == 1 && from == From::predictor;
@@ -446,7 +438,7 @@ ChosenOrders::OnFew ChosenOrders::solve_on_few(double omega, Eigen::VectorXd& x)
   if (!is_settled) {
     result_.end =
         format("the error with %zu orders cannot be estimated", orders_.size() - 1);
-    return OnFew::not_estimated;
+    return OnFew::needs_all;
   }
   x = steps.x - at.answer;
   motion.error = {.displacement = displacement,
@@ -469,11 +461,12 @@ ChosenOrders::OnFew ChosenOrders::solve_on_few(double omega, Eigen::VectorXd& x)
     });
     return OnFew::reached;
   }
-  if (taken <= 1 && needed.orders.size() > few + few / 2) return OnFew::needs_all;
-  /** The largest few at once: after a poor solution all look large. */
   std::vector<int> more;
   std::set_difference(needed.orders.begin(), needed.orders.end(), orders_.begin(),
                       orders_.end(), std::back_inserter(more));
+  if (more.empty() || (taken <= 1 && needed.orders.size() > few + few / 2))
+    return OnFew::needs_all;
+  /** The largest few at once: after a poor solution all look large. */
   std::ranges::stable_sort(more, std::greater(),
                            [&](int h) { return size_of(bodies, h); });
   more.resize(std::min(more.size(), std::max<std::size_t>(4, orders_.size() / 2)));

@@ -48,7 +48,7 @@ private:
   struct Grid;
   struct Steps;
   Grid& grid(int samples);
-  enum class OnFew { reached, more_orders, needs_all, not_estimated, not_found };
+  enum class OnFew { reached, more_orders, needs_all, not_found };
   OnFew solve_on_few(double omega, Eigen::VectorXd& x);
   bool solve_on_all(double omega, Eigen::VectorXd& x);
 

@@ -126,19 +126,19 @@ PeriodicMotion solve(Balance& balance, double omega, Eigen::VectorXd x,
   return motion;
 }
 
-bool solve_from_few(const std::function<Balance&(int harmonics)>& balance, int harmonics,
+bool solve_from_few(Balance& balance,
+                    const std::function<Balance&(int harmonics)>& on_few,
                     PeriodicMotion& motion, const NewtonSettings& settings)
 {
   constexpr int few = 64;
+  const int harmonics = balance.harmonics().count(), dofs = balance.problem().dofs;
   PeriodicMotion first{.omega = motion.omega};
   if (harmonics > 2 * few) {
-    Balance& on_few = balance(few);
-    first.x = resize_harmonics(motion.x, on_few.problem().dofs, few);
-    if (solve(on_few, first, settings)) motion.x = std::move(first.x);
+    first.x = resize_harmonics(motion.x, dofs, few);
+    if (solve(on_few(few), first, settings)) motion.x = std::move(first.x);
   }
-  Balance& on_all = balance(harmonics);
-  motion.x = resize_harmonics(motion.x, on_all.problem().dofs, harmonics);
-  solve(on_all, motion, settings);
+  motion.x = resize_harmonics(motion.x, dofs, harmonics);
+  solve(balance, motion, settings);
   motion.newton.iterations += first.newton.iterations;
   motion.force_samples += first.force_samples;
   return motion.found();

@@ -57,10 +57,11 @@ bool solve(Balance& balance, PeriodicMotion& motion, const NewtonSettings& setti
 PeriodicMotion solve(Balance& balance, double omega, Eigen::VectorXd x,
                      const NewtonSettings& settings = {});
 
-/** From a start, which may have any number of harmonics and of which the high ones mean little, to the solution on
-    `harmonics`. With more than 128 the first 64 are solved for first: Newton goes most of its way there, in steps that cost less than half. `balance` gives
-    the balance on so many harmonics; the report counts the iterations on both. */
-bool solve_from_few(const std::function<Balance&(int harmonics)>& balance, int harmonics,
+/** From a start, which may have any number of harmonics and of which the high ones mean little, to the solution of
+    `balance`. With more than 128 harmonics the first 64 are solved for first, on the balance that `on_few` gives: Newton
+    goes most of its way there, in steps that cost less than half. The report counts the iterations on both. */
+bool solve_from_few(Balance& balance,
+                    const std::function<Balance&(int harmonics)>& on_few,
                     PeriodicMotion& motion, const NewtonSettings& settings = {});
 
 /** The linear residual [-] that a step may leave: so small that the iteration stays quadratic, and no

@@ -151,8 +151,8 @@ private:
     const auto from = [&](const Eigen::VectorXd& x) {
       if (!setting_.algebra.empty()) return at_once(x);
       found.x = x;
-      return solve_from_few([this](int count) -> Balance& { return balance(count); }, m,
-                            found, newton_);
+      const auto on_few = [this](int count) -> Balance& { return balance(count); };
+      return solve_from_few(balance(m), on_few, found, newton_);
     };
     const auto after = [&](double seconds) {
       return at_once(integration_->go_on(found.omega, seconds, m));

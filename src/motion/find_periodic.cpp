@@ -2,9 +2,8 @@
 
 #include <algorithm>
 #include <cmath>
-#include <functional>
-#include <map>
 #include <numbers>
+#include <optional>
 #include <utility>
 
 #include "balance/bearing_problem.hpp"
@@ -25,29 +24,18 @@ Balance balance_of(const Search& search)
           search.harmonics};
 }
 
-/** Balances of a search on its harmonics or fewer, each made when it is first asked for. */
-class Balances {
-public:
-  explicit Balances(const Search& search) : search_(search) {}
-
-  Balance& operator()(int harmonics)
-  {
-    auto& balance = balances_[harmonics];
-    if (!balance) {
-      Search search = search_;
-      if (harmonics != search.harmonics) {
-        search.harmonics = harmonics;
-        search.samples = std::min(search.samples, default_samples(harmonics));
-      }
-      balance = std::make_unique<Balance>(balance_of(search));
-    }
-    return *balance;
-  }
-
-private:
-  const Search& search_;
-  std::map<int, std::unique_ptr<Balance>> balances_;
-};
+/** From quasi-static contact, where only low harmonics mean much. */
+bool solve_near_contact(const Search& search, Balance& balance, PeriodicMotion& motion)
+{
+  std::optional<Balance> few;
+  const auto on_few = [&](int harmonics) -> Balance& {
+    Search at = search;
+    at.harmonics = harmonics;
+    at.samples = std::min(search.samples, default_samples(harmonics));
+    return few.emplace(balance_of(at));
+  };
+  return solve_from_few(balance, on_few, motion, search.newton);
+}
 
 /** The solution with half as many harmonics, found in the same way from quasi-static
     contact. */
@@ -181,10 +169,10 @@ PeriodicMotion find_from(const Search& search, const std::string& name, Eigen::V
 
 PeriodicMotion find_near_contact(const Search& search)
 {
-  Balances balances(search);
+  Balance balance = balance_of(search);
   PeriodicMotion motion{
       .omega = search.omega, .x = near_contact(search), .start = quasi_static_name};
-  if (solve_from_few(std::ref(balances), search.harmonics, motion, search.newton))
+  if (solve_near_contact(search, balance, motion))
     motion.bodies = body_series(search.parameters, motion);
   return motion;
 }
@@ -199,7 +187,7 @@ PeriodicMotion find_periodic(const Search& search, const std::vector<Start>& fur
                                               search.harmonics, search.budget);
                     }});
   starts.push_back({"a neighbouring speed", [&] { return from_a_neighbour(search); }});
-  Balances balances(search);
+  Balance balance = balance_of(search);
   PeriodicMotion motion{
       .omega = search.omega, .harmonics = search.harmonics, .samples = search.samples};
   for (const Start& start : starts) {
@@ -210,10 +198,9 @@ PeriodicMotion find_periodic(const Search& search, const std::vector<Start>& fur
     }
     if (motion.x.size() == 0) continue;
     motion.start = start.name;
-    const bool is_found =
-        &start == &starts.front()
-            ? solve_from_few(std::ref(balances), search.harmonics, motion, search.newton)
-            : solve(balances(search.harmonics), motion, search.newton);
+    const bool is_found = &start == &starts.front()
+                              ? solve_near_contact(search, balance, motion)
+                              : solve(balance, motion, search.newton);
     if (!is_found) continue;
     motion.bodies = body_series(search.parameters, motion);
     break;
