@@ -174,8 +174,9 @@ bool GaussStepper::step(Level& level, double phase, Eigen::MatrixXd& y)
     if (!u.allFinite()) return false;
     if (change.cwiseAbs().maxCoeff() <= rounding * length_) break;
   }
-  force.rightCols(others) =
-      stiffness * slope.partialPivLu().solve(free.rightCols(others));
+  if (others > 0)
+    force.rightCols(others) =
+        stiffness * slope.partialPivLu().solve(free.rightCols(others));
   x -= level.to_forces * (force.topRows(d) * s[0] + force.bottomRows(d) * s[1]);
   const Complex to_speed = t.sum() / 2.0, to_place = (a * t).sum() / 2.0;
   y.topRows(n) += h * y.bottomRows(n) + 2 * h * h * (to_place * x).real();
