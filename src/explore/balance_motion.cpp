@@ -139,8 +139,12 @@ JudgedTorus judged(const Parameters& parameters, const MotionRequest& request,
     if (!leaves()) break;
     const bool is_from_settled = best.at.motion.error->harmonics == 0;
     if (settled_only && is_from_settled) continue;
-    JudgedTorus other = found(settled_only ? 1 : 0.3, settled_only);
-    if (other.verdict && other.verdict->stays) best = std::move(other);
+    try {
+      JudgedTorus other = found(settled_only ? 1 : 0.3, settled_only);
+      if (other.verdict && other.verdict->stays) best = std::move(other);
+    } catch (const NoSolution&) {
+      break;  // the budget is used up, the first solution is not
+    }
   }
   constexpr double near = 0.05;
   if (leaves() && best.verdict->away < near && !best.verdict->unstable()) {
