@@ -185,25 +185,27 @@ Eigen::MatrixXd subtract(const Eigen::MatrixXd& series, const Eigen::MatrixXd& r
   return difference;
 }
 
-double ratio(double off, double size)
+}  // namespace
+
+double over(double off, double size)
 {
   return size > 0 ? off / size : off > 0 ? infinite : 0;
 }
 
-}  // namespace
+double vibration(const Eigen::MatrixXd& series)
+{
+  return series.rightCols(series.cols() - 1).norm();
+}
 
 double series_difference(const Eigen::MatrixXd& series, const Eigen::MatrixXd& reference)
 {
-  return ratio(largest(subtract(series, reference)), largest(reference));
+  return over(largest(subtract(series, reference)), largest(reference));
 }
 
 double rms_series_difference(const Eigen::MatrixXd& series,
                              const Eigen::MatrixXd& reference)
 {
-  const auto vibration = [](const Eigen::MatrixXd& of) {
-    return of.rightCols(of.cols() - 1).norm();
-  };
-  return ratio(vibration(subtract(series, reference)), vibration(reference));
+  return over(vibration(subtract(series, reference)), vibration(reference));
 }
 
 namespace {
@@ -279,7 +281,7 @@ Refined estimate_error(const ObservedProblem& observed, const PeriodicMotion& co
       fast_transform_size(std::max(8 * coarse.harmonics.count(), 2 * coarse.samples));
   Balance balance(observed.problem(n), m);
   Refined refined{
-      {infinite, infinite, false, m, n, 0, 0},
+      {infinite, infinite, false, m, n, 0},
       {.omega = coarse.omega, .harmonics = balance.harmonics(), .samples = n}};
   ErrorEstimate& estimate = refined.estimate;
   PeriodicMotion& finer = refined.finer;
@@ -287,7 +289,6 @@ Refined estimate_error(const ObservedProblem& observed, const PeriodicMotion& co
   const Approached approached =
       approach(balance, coarse.omega, newton_tolerance, finer.x);
   estimate.settled = approached.settled;
-  estimate.newton = approached.steps;
   estimate.force_samples = balance.evaluations() * n;
   if (!estimate.settled) return refined;
   finer.force = balance.force(finer.x, coarse.omega);

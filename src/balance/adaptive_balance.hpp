@@ -87,6 +87,12 @@ void each_group(const Eigen::MatrixXd& reference, Work work)
   }
 }
 
+/** A share; infinite of nothing. */
+double over(double off, double size);
+
+/** √2 rms of all rows of a series about their means. */
+double vibration(const Eigen::MatrixXd& series);
+
 /** The largest difference of two observed series over rows and period, over the largest value of
     `reference` [-]; they may differ in their numbers of harmonics. */
 double series_difference(const Eigen::MatrixXd& series, const Eigen::MatrixXd& reference);

@@ -166,8 +166,10 @@ public:
   const Eigen::MatrixXd& jacobian(const Eigen::VectorXd& x, double omega);
   const Eigen::VectorXd& speed_derivative(const Eigen::VectorXd& x, double omega);
 
-  /** The force at the samples of the point that was evaluated last, and B_h there of a harmonic of the list. */
+  /** The force at the samples of the point that was evaluated last, the stiffness at those of the last derivative, and B_h
+      of a harmonic of the list. */
   const Eigen::MatrixXd& force_samples() const { return force_samples_; }
+  const Eigen::MatrixXd& stiffness_samples() const { return stiffness_samples_; }
   SmallMatrix b(int h) const;
 
   /** Rows and columns of ∂R/∂X of the mean and the first so many harmonics. */

@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
-#include <numeric>
 
 #include "balance/step_solver.hpp"
 #include "io/errors.hpp"
@@ -17,12 +16,6 @@ Eigen::MatrixXd project_series(const Eigen::MatrixXd& series, const Harmonics& f
 {
   const auto rows = static_cast<int>(series.rows());
   return project(series.reshaped(), rows, from, to).reshaped(rows, to.coefficients());
-}
-
-/** rms of a series about its mean, but for a factor. */
-double vibration(const Eigen::MatrixXd& series)
-{
-  return series.rightCols(series.cols() - 1).norm();
 }
 
 /** The places of those with the same |k_2|: the contact turns with its load, so that a harmonic is
@@ -261,7 +254,6 @@ struct Choosing {
                         .settled = finer.found(),
                         .harmonics = finer.harmonics.count(),
                         .samples = finest.samples,
-                        .newton = finer.newton.iterations,
                         .force_samples = 0};
     if (error.settled) {
       const Eigen::MatrixXd off =

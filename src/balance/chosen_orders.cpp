@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <cmath>
 #include <iterator>
-#include <limits>
 #include <numeric>
 #include <utility>
 
@@ -113,16 +112,6 @@ double size_of(const Eigen::MatrixXd& bodies, int h)
   return std::sqrt(bodies.middleCols(2 * h - 1, 2).rowwise().squaredNorm().maxCoeff());
 }
 
-double vibration_of(const Eigen::MatrixXd& bodies)
-{
-  return bodies.rightCols(bodies.cols() - 1).norm();
-}
-
-double over(double off, double size)
-{
-  return size > 0 ? off / size : off > 0 ? std::numeric_limits<double>::infinity() : 0;
-}
-
 /** The least orders without which a motion stays within a part of the tolerance. */
 struct Largest {
   std::vector<int> orders;
@@ -132,7 +121,7 @@ struct Largest {
       : orders{0}, displacement(0), rms(0)
   {
     const int count = static_cast<int>(bodies.cols() / 2);
-    const double vibration = vibration_of(bodies);
+    const double total = vibration(bodies);
     Eigen::VectorXd sizes(count + 1);
     for (int h = 1; h <= count; ++h) sizes[h] = size_of(bodies, h);
     std::vector<int> by_size(static_cast<std::size_t>(count));
@@ -142,7 +131,7 @@ struct Largest {
     for (int h : by_size) {
       sum += over(sizes[h], largest);
       squares += bodies.middleCols(2 * h - 1, 2).squaredNorm();
-      const double root = over(std::sqrt(squares), vibration);
+      const double root = over(std::sqrt(squares), total);
       if (std::max(sum, root) > most || h == by_size.back()) {
         orders.push_back(h);
         continue;
@@ -295,7 +284,8 @@ struct ChosenOrders::Steps {
 
 ChosenOrders::ChosenOrders(const Parameters& parameters, const AdaptiveSettings& settings,
                            const OperationBudget& budget)
-    : parameters_(parameters), settings_(settings), budget_(budget)
+    : parameters_(parameters), settings_(settings), budget_(budget),
+      contact_(contact_frequency(parameters))
 {
   NewtonSettings& newton = settings_.newton;
   newton.tolerance = std::max(newton.tolerance, 1e-2 * settings.tolerance);
@@ -325,10 +315,7 @@ AdaptiveMotion ChosenOrders::solve(double omega, const Eigen::VectorXd& x, From 
   constexpr double far = 10;
   result_ = {};
   settings_.newton.by_next_step = from == From::predictor;
-  /** The contact's frequency must be among the orders of the samples. */
-  const double contact = contact_frequency(parameters_) / omega;
-  const int least =
-      rounded_up(3 * static_cast<int>(std::clamp(1.2 * contact + 2, 8.0, 64.0)));
+  const int least = least_samples(omega);
   if (from == From::guess)
     samples_ = least;
   else if (samples_ < least || samples_ >= 2 * least)
@@ -371,12 +358,29 @@ AdaptiveMotion ChosenOrders::solve(double omega, const Eigen::VectorXd& x, From 
   return std::move(result_);
 }
 
+int ChosenOrders::least_samples(double omega) const
+{
+  const int turns = parameters_.turns;
+  const Bearing& bearing = parameters_.bearing;
+  const double passing = bearing.balls * (turns - bearing.cage_speed_ratio),
+               most = std::max(1.2 * contact_ / omega, passing) + 2;
+  return rounded_up(3 * static_cast<int>(std::clamp(most, 8.0, 64.0 * turns)));
+}
+
+bool ChosenOrders::has_contact_among_orders(const Grid& at, double omega)
+{
+  const Eigen::MatrixXd& stiffness = at.all.stiffness_samples();
+  contact_ = std::sqrt(std::max(stiffness.col(0).mean(), stiffness.col(3).mean()) *
+                       (1 / parameters_.stator.mass + 1 / parameters_.rotor.mass));
+  return at.problem.samples >= least_samples(omega);
+}
+
 /** On the chosen orders, measured at finer samples, where `x` then is the better start. */
 ChosenOrders::OnFew ChosenOrders::solve_on_few(double omega, Eigen::VectorXd& x)
 {
-  constexpr int least_samples = 32, most_steps = 4;
+  constexpr int fewest = 32, most_steps = 4;
   constexpr double most_left = 0.25, small = 0.02, ratio_before_steps = 0.7;
-  const int samples = std::max(least_samples, rounded_up(4 * orders_.back() + 2));
+  const int samples = std::max(fewest, rounded_up(4 * orders_.back() + 2));
   if (!balance_ || balance_->problem().samples != samples || orders_ != on_)
     balance_ = std::make_unique<Balance>(grid(samples).problem, harmonics_of(orders_));
   on_ = orders_;
@@ -395,22 +399,27 @@ ChosenOrders::OnFew ChosenOrders::solve_on_few(double omega, Eigen::VectorXd& x)
 
   Grid& at = grid(samples_);
   const long before = at.all.evaluations();
-  const double largest = at.largest(motion.bodies),
-               vibration = vibration_of(motion.bodies),
+  const double largest = at.largest(motion.bodies), total = vibration(motion.bodies),
                most = accepted * settings_.tolerance;
   at.moved.refresh(parameters_, omega, at.count);
   const Eigen::VectorXd first = resize_harmonics(motion.x, 2, at.count);
   Steps steps(at, omega, first);
+  if (!has_contact_among_orders(at, omega)) {
+    result_.force_samples += (at.all.evaluations() - before) * samples_;
+    x = motion.x;
+    samples_ = least_samples(omega);
+    return OnFew::more_orders;
+  }
   Eigen::MatrixXd off;
   double displacement = 0, rms = 0;
   const auto measure = [&] {
     off = at.moved.series(first - steps.x + at.answer);
     displacement = over(at.largest(off), largest);
-    rms = over(vibration_of(off), vibration);
+    rms = over(vibration(off), total);
     if (samples_ >= 2 * samples) return;
     const Eigen::MatrixXd by_half = at.left_out_by_half(steps.x);
     displacement += over(at.largest(by_half), fall * largest);
-    rms += over(vibration_of(by_half), fall * vibration);
+    rms += over(vibration(by_half), fall * total);
   };
   /** Whether the error is below the tolerance even if each further step is `ratio` times the one before: then none is taken,
       and the estimate is so much larger, in displacement by the part by which all orders together are. */
@@ -418,17 +427,17 @@ ChosenOrders::OnFew ChosenOrders::solve_on_few(double omega, Eigen::VectorXd& x)
     if (!(ratio <= ratio_before_steps)) return false;
     const double further = steps.size * ratio / (1 - ratio),
                  moved = at.moved.norm(first - steps.x + at.answer);
-    if (!(moved + further <= most * vibration)) return false;
+    if (!(moved + further <= most * total)) return false;
     measure();
     displacement *= 1 + over(further, moved);
-    rms += over(further, vibration);
+    rms += over(further, total);
     return std::max(displacement, rms) <= most;
   };
   bool is_settled = is_clear(ratio_before_steps);
   int taken = 0;
   for (; taken < most_steps && !is_settled && steps.take(); ++taken) {
     is_settled = steps.size <= std::max(most_left * at.moved.norm(first - steps.x),
-                                        small * settings_.tolerance * vibration);
+                                        small * settings_.tolerance * total);
     if (is_settled)
       measure();
     else
@@ -446,7 +455,6 @@ ChosenOrders::OnFew ChosenOrders::solve_on_few(double omega, Eigen::VectorXd& x)
                   .settled = true,
                   .harmonics = at.count,
                   .samples = samples_,
-                  .newton = 1,
                   .force_samples = 0};
   result_.reached = std::max(displacement, rms) <= most;
   result_.motion = std::move(motion);
@@ -493,8 +501,7 @@ bool ChosenOrders::solve_on_all(double omega, Eigen::VectorXd& x)
     motion.bodies = body_series(parameters_, motion);
     return motion;
   };
-  const double enough =
-      converged * settings_.tolerance * vibration_of(motion_at().bodies);
+  const double enough = converged * settings_.tolerance * vibration(motion_at().bodies);
   /** Twice in a row: one step may be short by chance, while another part of the error fades slowly. */
   int taken = 0, short_ones = 0;
   for (; taken < most_steps && short_ones < 2 && steps.take(); ++taken)
@@ -513,21 +520,20 @@ bool ChosenOrders::solve_on_all(double omega, Eigen::VectorXd& x)
         .iterations = taken + 1,
         .delta_1 = at.all.residual(x, omega).norm() / at.problem.residual_scale,
         .delta_2 = at.answer.norm() / at.problem.unknown_scale};
-    const double largest = at.largest(motion.bodies),
-                 vibration = vibration_of(motion.bodies);
+    const double largest = at.largest(motion.bodies), total = vibration(motion.bodies);
     const Eigen::MatrixXd by_half = at.left_out_by_half(x);
     const Largest needed(motion.bodies, largest, unnoticed * settings_.tolerance);
     const double displacement = over(at.largest(by_half), fall * largest),
-                 rms = over(vibration_of(by_half), fall * vibration);
+                 rms = over(vibration(by_half), fall * total);
     motion.error = {.displacement = displacement + needed.displacement +
                                     converged * settings_.tolerance,
                     .rms = rms + needed.rms + converged * settings_.tolerance,
                     .settled = true,
                     .harmonics = at.count,
                     .samples = samples_,
-                    .newton = 1,
                     .force_samples = 0};
-    result_.reached = motion.error->larger() <= accepted * settings_.tolerance &&
+    result_.reached = has_contact_among_orders(at, omega) &&
+                      motion.error->larger() <= accepted * settings_.tolerance &&
                       needed.orders.back() <= settings_.most_harmonics;
     result_.end = format("the error with %zu orders is estimated as %.2g",
                          needed.orders.size() - 1, motion.error->larger());

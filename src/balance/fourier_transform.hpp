@@ -18,10 +18,8 @@ parentheses (D-21). */
 #pragma once
 
 #include <Eigen/Core>
-#include <complex>
 #include <map>
 #include <memory>
-#include <vector>
 
 #include "balance/periodic_motion.hpp"
 

@@ -87,7 +87,6 @@ struct ErrorEstimate {
   double rms;    ///< rms difference about the mean, over the rms about the mean [-]
   bool settled;  ///< the last step is small: the estimate can be relied on
   int harmonics, samples;  ///< m' and N' of the finer discretisation
-  int newton;              ///< steps taken there
   long force_samples;      ///< evaluations of the force times N'
 
   /** The larger of the two errors, which a tolerance bounds. */

@@ -6,7 +6,6 @@ an earlier point of the branch has closed a loop, or has hopped onto a leg that 
 the point's own tangent: the same solution comes out, or another. */
 #pragma once
 
-#include <functional>
 #include <map>
 #include <optional>
 

@@ -123,21 +123,6 @@ BranchPoint point_between(Balance& balance, const BranchPoint& a, const BranchPo
   return point;
 }
 
-std::vector<BranchPoint> points_at(Balance& balance, const Branch& branch, double omega,
-                                   const ArcLengthSettings& settings)
-{
-  std::vector<BranchPoint> found;
-  for (std::size_t k = 0; k < branch.points.size(); ++k) {
-    const BranchPoint& a = branch.points[k];
-    if (a.motion.omega == omega) found.push_back(a);
-    if (k + 1 == branch.points.size()) break;
-    const BranchPoint& b = branch.points[k + 1];
-    if ((a.motion.omega - omega) * (b.motion.omega - omega) < 0)
-      found.push_back(point_between(balance, a, b, omega, settings));
-  }
-  return found;
-}
-
 namespace {
 
 /** By the cubic of the speed: both its extrema are inside the step. */

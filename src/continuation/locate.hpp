@@ -30,10 +30,6 @@ BranchPoint locate(Balance& balance, const BranchPoint& a, const BranchPoint& b,
 BranchPoint point_between(Balance& balance, const BranchPoint& a, const BranchPoint& b,
                           double omega, const ArcLengthSettings& settings);
 
-/** All solutions of the branch at speed `omega` [rad/s], in the order of the branch. */
-std::vector<BranchPoint> points_at(Balance& balance, const Branch& branch, double omega,
-                                   const ArcLengthSettings& settings);
-
 /**
 ## Folds inside a step
 

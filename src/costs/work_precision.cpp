@@ -1,7 +1,6 @@
 #include "costs/work_precision.hpp"
 
 #include <algorithm>
-#include <cmath>
 
 #include "balance/fourier_transform.hpp"
 #include "io/errors.hpp"

@@ -1,6 +1,5 @@
 #include "deviations/balance.hpp"
 
-#include <cmath>
 
 #include "balance/bearing_problem.hpp"
 #include "balance/fourier_transform.hpp"

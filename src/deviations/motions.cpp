@@ -1,6 +1,5 @@
 #include "deviations/motions.hpp"
 
-#include <algorithm>
 #include <cmath>
 #include <numbers>
 

@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <array>
 #include <atomic>
-#include <cmath>
 #include <numbers>
 
 #include "balance/torus_line.hpp"

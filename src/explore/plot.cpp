@@ -4,7 +4,6 @@
 #include <spawn.h>
 #include <sys/wait.h>
 #include <unistd.h>
-#include <array>
 #include <cstdlib>
 #include <filesystem>
 #include <fstream>

@@ -157,6 +157,7 @@ bool GaussStepper::step(Level& level, double phase, Eigen::MatrixXd& y)
   const Eigen::MatrixXcd joints_x = joints_.cast<Complex>().transpose() * x;
   const Eigen::Vector2cd by_stage = a * a * t;
   Eigen::MatrixXd free(2 * d, y.cols()), force(2 * d, y.cols()), stiffness, slope;
+  Eigen::PartialPivLU<Eigen::MatrixXd> factors;
   for (int i : {0, 1})
     free.middleRows(i * d, d) =
         joints_q + h * c[i] * joints_v + 2 * h * h * (by_stage[i] * joints_x).real();
@@ -168,15 +169,14 @@ bool GaussStepper::step(Level& level, double phase, Eigen::MatrixXd& y)
     force.col(0) = reaction(phases, u, stiffness);
     slope = level.receptance * stiffness;
     slope.diagonal().array() += 1;
-    change =
-        slope.partialPivLu().solve(u - free.col(0) + level.receptance * force.col(0));
+    factors.compute(slope);
+    change = factors.solve(u - free.col(0) + level.receptance * force.col(0));
     u -= change;
     if (!u.allFinite()) return false;
     if (change.cwiseAbs().maxCoeff() <= rounding * length_) break;
   }
   if (others > 0)
-    force.rightCols(others) =
-        stiffness * slope.partialPivLu().solve(free.rightCols(others));
+    force.rightCols(others) = stiffness * factors.solve(free.rightCols(others));
   x -= level.to_forces * (force.topRows(d) * s[0] + force.bottomRows(d) * s[1]);
   const Complex to_speed = t.sum() / 2.0, to_place = (a * t).sum() / 2.0;
   y.topRows(n) += h * y.bottomRows(n) + 2 * h * h * (to_place * x).real();

@@ -2,7 +2,6 @@
 
 #include <gsl/gsl_errno.h>
 #include <algorithm>
-#include <cmath>
 #include <map>
 #include <numbers>
 

@@ -1,7 +1,6 @@
 #include "io/program.hpp"
 
 #include <CLI/CLI.hpp>
-#include <algorithm>
 #include <charconv>
 #include <csignal>
 #include <cstdio>

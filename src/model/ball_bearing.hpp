@@ -32,7 +32,6 @@ back: one sine and one cosine of the cage angle serve all balls. */
 #pragma once
 
 #include <Eigen/Core>
-#include <array>
 #include <cmath>
 #include <vector>
 

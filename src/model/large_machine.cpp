@@ -496,13 +496,6 @@ Eigen::MatrixXcd LargeMachine::dynamic_stiffness(std::complex<double> k, double 
   return z + k * (joints * joints.transpose());
 }
 
-FreeMotion held_motion(const LargeMachine& machine, double speed)
-{
-  const Eigen::MatrixXcd z = machine.dynamic_stiffness(machine.spring, speed, speed);
-  return {machine.held_stiffness().ldlt().solve(machine.load),
-          z.partialPivLu().solve(speed * speed * machine.unbalance)};
-}
-
 JointForces rigid_joint_forces(const LargeMachine& machine, double speed)
 {
   const Eigen::MatrixXd& d = machine.joints;

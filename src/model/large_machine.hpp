@@ -67,14 +67,6 @@ struct LargeMachine {
 void read_large_machine(StrictToml& root, Parameters& parameters,
                         const ModelRange& asked);
 
-/** What carries the constant loads and the unbalance without any contact but k_0: displacements of all coordinates, at
-    rest and as complex amplitudes at the speed ω [m]. */
-struct FreeMotion {
-  Eigen::VectorXd rest;
-  Eigen::VectorXcd whirl;
-};
-FreeMotion held_motion(const LargeMachine& machine, double speed);
-
 /** The bearings' forces [N] that would keep all u = 0 under the constant loads, 2b, and their amplitudes from the
     unbalance at the speed ω. */
 struct JointForces {

@@ -14,7 +14,6 @@ linearised error at all other samples. Samples are added between two others wher
 #include <functional>
 #include <map>
 #include <mutex>
-#include <optional>
 
 namespace rotor_stator {
 
@@ -32,9 +31,6 @@ public:
     Eigen::VectorXcd value, slope;
   };
   At at(double x) const;
-
-  Eigen::Index samples() const { return values_.cols(); }
-  Eigen::Index poles() const { return weights_.size() - 1; }
 
 private:
   void sample(const Function& f, double x);

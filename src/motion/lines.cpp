@@ -97,7 +97,6 @@ public:
   }
 
   std::size_t size() const { return bins_.size(); }
-  const std::vector<double>& bins() const { return bins_; }
 
   /** One more line, whose amplitude the next `fit` finds. */
   void add(double bin)

@@ -15,7 +15,6 @@ multiple of X may be h/K, K ≤ 8, where n c is whole. A line without such a nam
 a ball is damaged, 2sBSF + jFTF + hX is a name too, if its 2s + |j|/2 + |h| is smaller. */
 #pragma once
 
-#include <optional>
 #include <string>
 #include <vector>
 

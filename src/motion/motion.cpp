@@ -153,7 +153,6 @@ ErrorEstimate error_against(const Motion& exact, const Motion& solution, int sam
           .settled = true,
           .harmonics = 0,
           .samples = samples,
-          .newton = 0,
           .force_samples = 0};
 }
 

@@ -4,7 +4,7 @@
 #include <cmath>
 #include <functional>
 #include <initializer_list>
-#include <limits>
+#include <optional>
 #include <utility>
 #include <vector>
 
@@ -89,18 +89,32 @@ public:
   /** Whether the first iteration, from the solution itself, closed the motion: then no other is as near to it. */
   bool found_at_once() const { return iterations_ == 1 && shooting_.converged; }
 
+  /** Refuses a motion that is too far away over the period, where the error was estimated. */
+  void must_be_near(const Verdict& motion)
+  {
+    const double away = std::max(motion.distance, motion.distance_rms);
+    if (!reach() || away <= *reach()) return;
+    refuse("", away);
+    throw NoSolution(reason());
+  }
+
   /** Why no motion was found. */
   std::string reason() const
   {
-    return std::isfinite(nearest_)
-               ? format(
-                     "the motion of its period found from it is another one, at phase 0 "
-                     "%.2g of the largest displacement away",
-                     nearest_)
-               : "no motion of its period was found from it: " + shooting_.reason;
+    return refused_.empty()
+               ? "no motion of its period was found from it: " + shooting_.reason
+               : refused_;
   }
 
 private:
+  void refuse(const char* where, double away)
+  {
+    refused_ = format(
+        "the motion of its period found from it is too far away to be its own, "
+        "%s%.2g of the largest displacement",
+        where, away);
+  }
+
   bool closes_any(const std::vector<State>& starts, State& state,
                   std::initializer_list<double> speed_weights)
   {
@@ -134,8 +148,9 @@ private:
       return false;
     const double away =
         (vector_of(state) - vector_of(start_)).head<4>().cwiseAbs().maxCoeff() / size_;
-    nearest_ = std::min(nearest_, away);
-    return away <= reach();
+    const bool is_near = away <= reach().value_or(same_motion);
+    if (!is_near) refuse("at phase 0 ", away);
+    return is_near;
   }
 
   bool shoot_from(State& state, const ShootingSettings& settings)
@@ -145,12 +160,12 @@ private:
     return shooting_.converged;
   }
 
-  /** A motion ten times as far away as the estimated error is another one. */
-  double reach() const
+  /** Three times the estimated error: a motion farther away is another one, or the estimate is wrong. */
+  std::optional<double> reach() const
   {
     const auto& error = solution_.error;
-    if (!error || !error->settled) return same_motion;
-    return std::clamp(10 * error->larger(), 1e-3, same_motion);
+    if (!error || !error->settled) return {};
+    return std::clamp(3 * error->larger(), 1e-3, same_motion);
   }
 
   /** Four times as many harmonics where Newton finds a solution with them, else as many as it finds one with; false
@@ -185,8 +200,7 @@ private:
   Shooting shooting_;
   int iterations_ = 0;
   double evaluations_ = 0;
-  double nearest_ =
-      std::numeric_limits<double>::infinity();  ///< motion found, at phase 0
+  std::string refused_;  ///< why the last motion found that was refused was
 };
 
 /** The multipliers of the motion through `state`, and their uncertainty. */
@@ -367,20 +381,23 @@ Verdict verdict_on(const Parameters& parameters, const PeriodicMotion& solution,
   std::vector<Verdict> motions;  // within reach
   std::string reason;
   double evaluations = 0;
+  double distance = 0;  // of the last motion closed
   const auto add = [&](const std::function<bool(State&)>& close) {
     Verdict motion;
     try {
       if (!close(motion.state)) throw NoSolution(shootings.reason());
       measure(longer, solution, budget, motion);
+      shootings.must_be_near(motion);
       motions.push_back(motion);
     } catch (const NoSolution& error) {
       reason = error.what();
     }
     evaluations += motion.evaluations;
+    distance = motion.distance;
   };
 
   add([&](State& state) { return shootings.run(state); });
-  if (!motions.empty() && motions[0].distance > surely_its_own)
+  if (distance > surely_its_own)
     add([&](State& state) { return shootings.from_more_harmonics(state); });
   Verdict verdict = own_motion(motions, reason);
   if (!verdict.floquet.stable()) {

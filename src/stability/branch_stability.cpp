@@ -142,6 +142,8 @@ struct Walk {
     return point;
   }
 
+  static bool is_stable(const StablePoint& point) { return unstable_count(point) == 0; }
+
   /** From point a of the branch, the last one found, to point b > a, whose multipliers are `next`. */
   void pass(const Branch& branch, std::size_t a, std::size_t b, StablePoint next)
   {
@@ -157,16 +159,11 @@ struct Walk {
     result.points.push_back(std::move(next));
   }
 
-  static bool is_stable(const StablePoint& point) { return unstable_count(point) == 0; }
-
   /** What happens between the last point and `next`, then `next`. */
   void go_to(StablePoint next, int halvings)
   {
     const StablePoint last = result.points.back();
-    const bool worth_a_look =
-        last.examined() && next.examined() &&
-        (settings.among_unstable || is_stable(last) || is_stable(next));
-    if (!worth_a_look) {
+    if (!last.examined() || !next.examined()) {
       result.points.push_back(std::move(next));
       return;
     }

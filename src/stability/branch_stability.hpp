@@ -57,7 +57,6 @@ struct BranchStabilitySettings {
   double most_move = 0.5;         ///< of a multiplier between points, over max(1, |μ|)
   int most_halvings = 6;          ///< of a step of the branch
   std::vector<bool> chosen = {};  ///< points of the branch to examine; empty: all
-  bool among_unstable = true;     ///< look between two unstable points too
   double widest =
       std::numeric_limits<double>::infinity();  ///< most speed between points [rad/s]
 };

@@ -12,7 +12,6 @@ answer depends on. */
 #pragma once
 
 #include <Eigen/Core>
-#include <array>
 #include <string>
 
 #include "integration/rk4.hpp"

@@ -1,7 +1,6 @@
 #include "stability/shooting.hpp"
 
 #include <Eigen/LU>
-#include <cmath>
 #include <functional>
 #include <memory>
 

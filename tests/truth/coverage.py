@@ -29,22 +29,42 @@ def drawn(seed):
 
 
 def distance(header):
-    """Of the solution from the machine's motion: the larger of the two errors, or None where none was found."""
+    """Of the solution from the machine's motion: the larger of the two errors, or None where none was found. A motion that
+    the verdict refuses as another one, because it is far away for the estimated error, counts: the estimate may be wrong."""
     found = re.search(r"# distance: (\S+) of .*?, (\S+) rms", header)
     if found:
         return max(map(float, found.groups()))
-    found = re.search(r"# from the solution: .* within (\S+) of", header)
+    found = (re.search(r"# from the solution: .* within (\S+) of", header) or
+             re.search(r"too far away to be its own, (?:at phase 0 )?(\S+) of", header))
     return float(found.group(1)) if found else None
 
 
+# Found among seeds 10000 to 15999. The samples did not reach the contact's resonance, or the balls that pass along the rotor:
+BEYOND = [10078, 10234, 11123, 11177, 12502, 12650, 12883, 14628, 15508]
+# The budget ended while a second solution was looked for, and the first one was lost:
+LOST = [11720, 12623]
+
+
 class Coverage(Case):
+    def answer_of(self, seed):
+        machine, speed = drawn(seed)
+        tolerance = TOLERANCES[seed % 3]
+        result = self.run_explore("orbit", self.file("random.toml", written(entries(machine))), "--frequency", speed,
+                                  "--points", 2, "--tolerance", tolerance)
+        return tolerance, result
+
+    def test_machines_that_were_wrong_once(self):
+        for seed in BEYOND + LOST:
+            with self.subTest(seed=seed):
+                tolerance, result = self.answer_of(seed)
+                self.assertEqual(result.returncode, 0, result.stderr)
+                if seed in BEYOND:
+                    self.assertLessEqual(distance(result.stdout), tolerance)
+
     def test_at_least_99_per_cent(self):
         beyond, judged, unanswered = [], 0, 0
         for seed in range(COUNT):
-            machine, speed = drawn(seed)
-            tolerance = TOLERANCES[seed % 3]
-            result = self.run_explore("orbit", self.file("random.toml", written(entries(machine))), "--frequency", speed,
-                                      "--points", 2, "--tolerance", tolerance)
+            tolerance, result = self.answer_of(seed)
             self.assertIn(result.returncode, (0, 3), result.stderr)
             if result.returncode == 3:
                 self.assertRegex(result.stderr, "not reached at .* Hz: ")

@@ -239,9 +239,23 @@ TEST_CASE("locate finds where a quantity has a value, and refuses what has no ze
     ++found;
   }
   CHECK(found == 2);
-  CHECK(points_at(balance, branch, 2.3, plain).size() == 2);
-  for (const BranchPoint& point : points_at(balance, branch, 2.3, plain))
+}
+
+TEST_CASE("The points of a branch at a speed lie on both sides of it")
+{
+  Balance balance(circle(1), 0);
+  const Branch branch =
+      follow_branch(balance, point_of(balance, 2, at(1), true, plain), {0.5, 3.5}, plain);
+  int found = 0;
+  for (std::size_t k = 1; k < branch.points.size(); ++k) {
+    const BranchPoint &a = branch.points[k - 1], &b = branch.points[k];
+    if ((a.motion.omega - 2.3) * (b.motion.omega - 2.3) >= 0) continue;
+    const BranchPoint point = point_between(balance, a, b, 2.3, plain);
+    CHECK(point.motion.omega == 2.3);
     CHECK(std::abs(point.motion.x[0]) == Approx(std::sqrt(0.91)));
+    ++found;
+  }
+  CHECK(found == 2);
 }
 
 TEST_CASE("A step that passes an earlier point knows which way it goes")
