@@ -487,7 +487,7 @@ ChosenOrders::OnFew ChosenOrders::solve_on_few(double omega, Eigen::VectorXd& x)
 bool ChosenOrders::solve_on_all(double omega, Eigen::VectorXd& x)
 {
   constexpr int most_steps = 14;
-  constexpr double converged = 0.03;
+  constexpr double converged = 0.03, fast = 0.2;
   Grid& at = grid(samples_);
   const long before = at.all.evaluations();
   at.moved.refresh(parameters_, omega, at.count);
@@ -502,12 +502,19 @@ bool ChosenOrders::solve_on_all(double omega, Eigen::VectorXd& x)
     return motion;
   };
   const double enough = converged * settings_.tolerance * vibration(motion_at().bodies);
-  /** Twice in a row: one step may be short by chance, while another part of the error fades slowly. */
+  /** A step with old factors may be short by chance, or blind to a part of the error. Two short ones in a row tell where
+      steps shrink fast, elsewhere Newton's own step. */
   int taken = 0, short_ones = 0;
-  for (; taken < most_steps && short_ones < 2 && steps.take(); ++taken)
-    short_ones =
-        steps.size * steps.ratio <= (1 - steps.ratio) * enough ? short_ones + 1 : 0;
-  const bool is_found = short_ones == 2;
+  bool is_found = false;
+  for (; taken < most_steps && !is_found && steps.take(); ++taken) {
+    const bool is_short = steps.size * steps.ratio <= (1 - steps.ratio) * enough;
+    short_ones = is_short ? short_ones + 1 : 0;
+    is_found = short_ones == 2;
+    if (!is_short || steps.ratio <= fast) continue;
+    steps.refactor();
+    steps.iterate();
+    is_found = steps.size <= enough;
+  }
   result_.reached = false;
   result_.end = format("the steps with %d samples do not converge", samples_);
   result_.motion = {};
