@@ -166,12 +166,6 @@ public:
   const Eigen::MatrixXd& jacobian(const Eigen::VectorXd& x, double omega);
   const Eigen::VectorXd& speed_derivative(const Eigen::VectorXd& x, double omega);
 
-  /** The force at the samples of the point that was evaluated last, the stiffness at those of the last derivative, and B_h
-      of a harmonic of the list. */
-  const Eigen::MatrixXd& force_samples() const { return force_samples_; }
-  const Eigen::MatrixXd& stiffness_samples() const { return stiffness_samples_; }
-  SmallMatrix b(int h) const;
-
   /** Rows and columns of ∂R/∂X of the mean and the first so many harmonics. */
   void jacobian(const Eigen::VectorXd& x, double omega, int harmonics,
                 Eigen::MatrixXd& jacobian);
@@ -209,6 +203,9 @@ public:
   StepSolver& steps() { return *steps_; }
 
 private:
+  /** B_h at the point that was evaluated last, of a harmonic of the list. */
+  SmallMatrix b(int h) const;
+
   void refresh_blocks(double omega);
   bool at(const Eigen::VectorXd& x, double omega) const;
   void need_spectra(const Eigen::VectorXd& x, double omega);

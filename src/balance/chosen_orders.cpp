@@ -23,6 +23,14 @@ int rounded_up(int samples)
   return (samples + unit - 1) / unit * unit;
 }
 
+/** The samples that measure what `samples` leave out. */
+int finer_samples(int samples)
+{
+  int unit = 16;
+  while (samples > 4 * unit) unit *= 2;
+  return samples / unit == 4 ? 7 * unit : 5 * unit;
+}
+
 Harmonics harmonics_of(const std::vector<int>& orders)
 {
   std::vector<Harmonic> list;
@@ -149,8 +157,11 @@ constexpr double accepted = 0.9;
 /** Of the tolerance: orders that together are smaller are left out. */
 constexpr double unnoticed = 0.3;
 
-/** Of the error of half the samples over that of all, at least. */
-constexpr double fall = 2;
+/** What the finer samples leave out, of what they add. */
+constexpr double beyond = 0.5;
+
+/** Of the error at half the samples over that at all, at most. */
+constexpr double fall = 8;
 
 /** So many orders beside the mean are solved for by dense factors. */
 constexpr std::size_t few = 16;
@@ -162,7 +173,7 @@ struct ChosenOrders::Grid {
   Problem problem;
   int count;  ///< the highest order that N samples say anything of
   Balance all;
-  FourierTransform transform, half;
+  FourierTransform transform;
   Moved moved = {};
   Gmres gmres = {};
   Eigen::VectorXd answer, scaled, product;
@@ -170,7 +181,7 @@ struct ChosenOrders::Grid {
 
   explicit Grid(Problem at)
       : problem(std::move(at)), count(problem.samples / 3), all(problem, count),
-        transform(problem.samples), half(problem.samples / 2), product(all.unknowns())
+        transform(problem.samples), product(all.unknowns())
   {
   }
 
@@ -180,23 +191,15 @@ struct ChosenOrders::Grid {
     return instants.cwiseAbs().maxCoeff();
   }
 
-  /** What half of the samples, every second one, would leave out of x, the point that was evaluated last, with orders up to
-      N/6: those above, and what is folded onto those below. */
-  Eigen::MatrixXd left_out_by_half(const Eigen::VectorXd& x)
+  /** One step from x, which may have fewer orders, as the bodies move. */
+  Eigen::MatrixXd step_from(const Eigen::VectorXd& x, const Parameters& parameters,
+                            double omega)
   {
-    const int n = problem.samples / 2, resolved = count / 2;
-    Eigen::MatrixXd off(2, 2 * resolved + 1), from_all(2, 2 * resolved + 1);
-    half.to_series(all.force_samples()(Eigen::seqN(0, n, 2), Eigen::all), off);
-    transform.to_series(all.force_samples(), from_all);
-    off -= from_all;
-    Eigen::MatrixXd residual = Eigen::MatrixXd::Zero(2, 2 * count + 1);
-    for (int h = 0; h <= resolved; ++h)
-      put_amplitude(residual, h, all.b(h) * amplitude(off, h));
-    Eigen::VectorXd off_by;
-    all.solve_in_time(residual.reshaped(), off_by);
-    const Eigen::Index above = x.size() - (4 * resolved + 2);
-    off_by.tail(above) -= x.tail(above);
-    return moved.series(off_by);
+    moved.refresh(parameters, omega, count);
+    const Eigen::VectorXd start = resize_harmonics(x, 2, count);
+    all.factor_in_time(start, omega);
+    all.solve_in_time(all.residual(start, omega), answer);
+    return moved.series(answer);
   }
 };
 
@@ -284,8 +287,7 @@ struct ChosenOrders::Steps {
 
 ChosenOrders::ChosenOrders(const Parameters& parameters, const AdaptiveSettings& settings,
                            const OperationBudget& budget)
-    : parameters_(parameters), settings_(settings), budget_(budget),
-      contact_(contact_frequency(parameters))
+    : parameters_(parameters), settings_(settings), budget_(budget)
 {
   NewtonSettings& newton = settings_.newton;
   newton.tolerance = std::max(newton.tolerance, 1e-2 * settings.tolerance);
@@ -315,10 +317,17 @@ AdaptiveMotion ChosenOrders::solve(double omega, const Eigen::VectorXd& x, From 
   constexpr double far = 10;
   result_ = {};
   settings_.newton.by_next_step = from == From::predictor;
-  const int least = least_samples(omega);
+  /** To begin with, the contact's frequency and the passing of a ball along the rotor are among the orders of the samples. */
+  const int turns = parameters_.turns;
+  const Bearing& bearing = parameters_.bearing;
+  const double contact = contact_frequency(parameters_) / omega,
+               passing = bearing.balls * (turns - bearing.cage_speed_ratio),
+               highest = std::max(1.2 * contact, passing) + 2;
+  const int least =
+      rounded_up(3 * static_cast<int>(std::clamp(highest, 8.0, 64.0 * turns)));
   if (from == From::guess)
     samples_ = least;
-  else if (samples_ < least || samples_ >= 2 * least)
+  else if (samples_ >= 2 * least || (from == From::integration && samples_ < least))
     samples_ = std::max(samples_ / 2, least);
   if (from == From::guess || orders_.empty()) {
     orders_ = {0};
@@ -358,23 +367,6 @@ AdaptiveMotion ChosenOrders::solve(double omega, const Eigen::VectorXd& x, From 
   return std::move(result_);
 }
 
-int ChosenOrders::least_samples(double omega) const
-{
-  const int turns = parameters_.turns;
-  const Bearing& bearing = parameters_.bearing;
-  const double passing = bearing.balls * (turns - bearing.cage_speed_ratio),
-               most = std::max(1.2 * contact_ / omega, passing) + 2;
-  return rounded_up(3 * static_cast<int>(std::clamp(most, 8.0, 64.0 * turns)));
-}
-
-bool ChosenOrders::has_contact_among_orders(const Grid& at, double omega)
-{
-  const Eigen::MatrixXd& stiffness = at.all.stiffness_samples();
-  contact_ = std::sqrt(std::max(stiffness.col(0).mean(), stiffness.col(3).mean()) *
-                       (1 / parameters_.stator.mass + 1 / parameters_.rotor.mass));
-  return at.problem.samples >= least_samples(omega);
-}
-
 /** On the chosen orders, measured at finer samples, where `x` then is the better start. */
 ChosenOrders::OnFew ChosenOrders::solve_on_few(double omega, Eigen::VectorXd& x)
 {
@@ -404,22 +396,18 @@ ChosenOrders::OnFew ChosenOrders::solve_on_few(double omega, Eigen::VectorXd& x)
   at.moved.refresh(parameters_, omega, at.count);
   const Eigen::VectorXd first = resize_harmonics(motion.x, 2, at.count);
   Steps steps(at, omega, first);
-  if (!has_contact_among_orders(at, omega)) {
-    result_.force_samples += (at.all.evaluations() - before) * samples_;
-    x = motion.x;
-    samples_ = least_samples(omega);
-    return OnFew::more_orders;
-  }
   Eigen::MatrixXd off;
-  double displacement = 0, rms = 0;
+  double displacement = 0, rms = 0, sampled = 0;
   const auto measure = [&] {
-    off = at.moved.series(first - steps.x + at.answer);
-    displacement = over(at.largest(off), largest);
-    rms = over(vibration(off), total);
-    if (samples_ >= 2 * samples) return;
-    const Eigen::MatrixXd by_half = at.left_out_by_half(steps.x);
-    displacement += over(at.largest(by_half), fall * largest);
-    rms += over(vibration(by_half), fall * total);
+    Grid& finer = grid(finer_samples(samples_));
+    off = finer.step_from(steps.x, parameters_, omega);
+    result_.force_samples += finer.problem.samples;
+    Eigen::MatrixXd sampling = off;
+    sampling.leftCols(2 * at.count + 1) -= at.moved.series(at.answer);
+    off.leftCols(2 * at.count + 1) += at.moved.series(first - steps.x);
+    sampled = over(vibration(sampling), total);
+    displacement = over(finer.largest(off) + beyond * finer.largest(sampling), largest);
+    rms = over(vibration(off), total) + beyond * sampled;
   };
   /** Whether the error is below the tolerance even if each further step is `ratio` times the one before: then none is taken,
       and the estimate is so much larger, in displacement by the part by which all orders together are. */
@@ -460,10 +448,11 @@ ChosenOrders::OnFew ChosenOrders::solve_on_few(double omega, Eigen::VectorXd& x)
   result_.motion = std::move(motion);
   result_.end = format("the error with %zu orders is estimated as %.2g",
                        orders_.size() - 1, result_.motion.error->larger());
-  Eigen::MatrixXd bodies = -off;
+  Eigen::MatrixXd bodies = -off.leftCols(2 * at.count + 1);
   bodies.leftCols(result_.motion.bodies.cols()) += result_.motion.bodies;
   const Largest needed(bodies, largest, unnoticed * settings_.tolerance);
   if (result_.reached) {
+    if (fall * sampled < settings_.tolerance && samples_ >= 2 * fewest) samples_ /= 2;
     std::erase_if(orders_, [&](int h) {
       return !std::binary_search(needed.orders.begin(), needed.orders.end(), h);
     });
@@ -528,10 +517,12 @@ bool ChosenOrders::solve_on_all(double omega, Eigen::VectorXd& x)
         .delta_1 = at.all.residual(x, omega).norm() / at.problem.residual_scale,
         .delta_2 = at.answer.norm() / at.problem.unknown_scale};
     const double largest = at.largest(motion.bodies), total = vibration(motion.bodies);
-    const Eigen::MatrixXd by_half = at.left_out_by_half(x);
+    Grid& finer = grid(finer_samples(samples_));
+    const Eigen::MatrixXd off = finer.step_from(x, parameters_, omega);
+    result_.force_samples += finer.problem.samples;
     const Largest needed(motion.bodies, largest, unnoticed * settings_.tolerance);
-    const double displacement = over(at.largest(by_half), fall * largest),
-                 rms = over(vibration(by_half), fall * total);
+    const double displacement = over((1 + beyond) * finer.largest(off), largest),
+                 rms = over((1 + beyond) * vibration(off), total);
     motion.error = {.displacement = displacement + needed.displacement +
                                     converged * settings_.tolerance,
                     .rms = rms + needed.rms + converged * settings_.tolerance,
@@ -539,8 +530,7 @@ bool ChosenOrders::solve_on_all(double omega, Eigen::VectorXd& x)
                     .harmonics = at.count,
                     .samples = samples_,
                     .force_samples = 0};
-    result_.reached = has_contact_among_orders(at, omega) &&
-                      motion.error->larger() <= accepted * settings_.tolerance &&
+    result_.reached = motion.error->larger() <= accepted * settings_.tolerance &&
                       needed.orders.back() <= settings_.most_harmonics;
     result_.end = format("the error with %zu orders is estimated as %.2g",
                          needed.orders.size() - 1, motion.error->larger());
@@ -557,8 +547,6 @@ bool ChosenOrders::solve_on_all(double omega, Eigen::VectorXd& x)
     motion.x = spread(gathered(series_of(x), kept), kept).reshaped();
     motion.harmonics = Harmonics(kept.back());
     result_.motion = std::move(motion);
-    if (result_.reached && fall * std::max(displacement, rms) < 0.5 * settings_.tolerance)
-      samples_ /= 2;
   }
   result_.force_samples += (at.all.evaluations() - before) * at.problem.samples;
   return result_.reached;

@@ -11,13 +11,12 @@ error is clear at once. Otherwise the next step says what is left, and its lengt
 GMRES takes the step further.
 
 Where more than sixteen orders are needed, or Newton fails on fewer but not at once from a predictor, the same steps go on until they
-converge. That solution has all orders up to a third of the samples. Half of the samples, every second one, and the orders
-up to half of these would leave out the orders above and fold others onto those below; the same equations say how far that moves the
-bodies. The spectrum of a Hertz contact falls as k^{-5/2}, so that all samples leave less than a fifth of it where the contact
-is never lost; one half is taken. Samples are doubled, far from it quadrupled, until that is below the tolerance. This says
-nothing while a resonance or a forced order lies above what the samples reach: the error is then flat. The third of the
-samples therefore holds the frequency of the bodies on the mean stiffness of the contact, as the solution itself gives it, with a
-fifth and two orders to spare, and the passing of a ball along the rotor, order n (1 - c).
+converge. That solution has all orders up to a third of the samples.
+
+What the samples leave out, the orders above and what is folded onto those below, is one more step, at finer samples: 5/3 or 7/4
+times as many (5/2 of 32), so that the two have no image in common below five times their number. Twice as many could share the
+one that matters: a whirl over 20 balls excites order 101, which falls on order 5 of 48 samples and of 96. The spectrum of a
+Hertz contact falls as k^{-5/2}, so that the finer samples leave less than a third of it; one half is added. Samples are doubled, far from it quadrupled, until the sum is below the tolerance.
 
 Orders that the tolerance may notice are kept. From speed to speed orders, samples, tables and factors serve again. */
 #pragma once
@@ -55,17 +54,11 @@ private:
   OnFew solve_on_few(double omega, Eigen::VectorXd& x);
   bool solve_on_all(double omega, Eigen::VectorXd& x);
 
-  /** So many that the contact's frequency and the passing balls are among the orders that they say anything of. */
-  int least_samples(double omega) const;
-  /** Whether they are as many, with the stiffness at the point where a derivative was last evaluated. */
-  bool has_contact_among_orders(const Grid& at, double omega);
-
   const Parameters& parameters_;
   AdaptiveSettings settings_;
   OperationBudget budget_;
   std::vector<int> orders_;  ///< chosen, ascending, 0 first
   int samples_ = 0;          ///< by which they are measured
-  double contact_;           ///< frequency of the bodies on the mean stiffness [rad/s]
   std::unique_ptr<Balance> balance_;
   std::vector<int> on_;                         ///< the orders that this is on
   std::map<int, std::unique_ptr<Grid>> grids_;  ///< by number of samples

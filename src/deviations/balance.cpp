@@ -1,6 +1,5 @@
 #include "deviations/balance.hpp"
 
-
 #include "balance/bearing_problem.hpp"
 #include "balance/fourier_transform.hpp"
 #include "continuation/arc_length.hpp"

@@ -20,7 +20,6 @@ the series of the disturbance then converges as slowly as that of the force, not
 displacement. Here the method checks the monodromy matrix, it does not replace it. */
 #pragma once
 
-
 #include "stability/floquet.hpp"
 
 namespace rotor_stator {
