@@ -171,10 +171,6 @@ double largest(const Eigen::MatrixXd& series)
   return sample_series(series, points).cwiseAbs().maxCoeff();
 }
 
-}  // namespace
-
-namespace {
-
 /** Two series may differ in their numbers of harmonics. */
 Eigen::MatrixXd subtract(const Eigen::MatrixXd& series, const Eigen::MatrixXd& reference)
 {

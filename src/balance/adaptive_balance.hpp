@@ -87,7 +87,7 @@ void each_group(const Eigen::MatrixXd& reference, Work work)
   }
 }
 
-/** A share; infinite of nothing. */
+/** off/size; infinite where only the size is 0. */
 double over(double off, double size);
 
 /** √2 rms of all rows of a series about their means. */

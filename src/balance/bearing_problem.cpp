@@ -1,5 +1,6 @@
 #include "balance/bearing_problem.hpp"
 
+#include <array>
 #include <cmath>
 #include <numbers>
 #include <tuple>

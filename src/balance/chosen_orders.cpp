@@ -15,20 +15,26 @@ namespace {
 
 using Complex = std::complex<double>;
 
-/** The next number with at most two binary digits: few different ones in a sweep. */
-int rounded_up(int samples)
+/** The power of two of which `samples` are at most four. */
+int unit_of(int samples)
 {
   int unit = 16;
   while (samples > 4 * unit) unit *= 2;
+  return unit;
+}
+
+/** The next number with at most two binary digits: few different ones in a sweep. */
+int rounded_up(int samples)
+{
+  const int unit = unit_of(samples);
   return (samples + unit - 1) / unit * unit;
 }
 
 /** The samples that measure what `samples` leave out. */
 int finer_samples(int samples)
 {
-  int unit = 16;
-  while (samples > 4 * unit) unit *= 2;
-  return samples / unit == 4 ? 7 * unit : 5 * unit;
+  const int unit = unit_of(samples);
+  return samples == 4 * unit ? 7 * unit : 5 * unit;
 }
 
 Harmonics harmonics_of(const std::vector<int>& orders)
@@ -157,10 +163,10 @@ constexpr double accepted = 0.9;
 /** Of the tolerance: orders that together are smaller are left out. */
 constexpr double unnoticed = 0.3;
 
-/** What the finer samples leave out, of what they add. */
+/** The error of the finer samples is taken to be this part of what they add. */
 constexpr double beyond = 0.5;
 
-/** Of the error at half the samples over that at all, at most. */
+/** Halving the samples is taken to multiply their error by at most this. */
 constexpr double fall = 8;
 
 /** So many orders beside the mean are solved for by dense factors. */
@@ -191,14 +197,16 @@ struct ChosenOrders::Grid {
     return instants.cwiseAbs().maxCoeff();
   }
 
-  /** One step from x, which may have fewer orders, as the bodies move. */
-  Eigen::MatrixXd step_from(const Eigen::VectorXd& x, const Parameters& parameters,
-                            double omega)
+  /** What a coarser grid leaves out at x, its last point: one step from x, without the one that it leads to itself. */
+  Eigen::MatrixXd left_out_by(Grid& coarse, const Eigen::VectorXd& x,
+                              const Parameters& parameters, double omega)
   {
     moved.refresh(parameters, omega, count);
     const Eigen::VectorXd start = resize_harmonics(x, 2, count);
     all.factor_in_time(start, omega);
-    all.solve_in_time(all.residual(start, omega), answer);
+    Eigen::VectorXd residual = all.residual(start, omega);
+    residual.head(x.size()) -= coarse.all.residual(x, omega);
+    all.solve_in_time(residual, answer);
     return moved.series(answer);
   }
 };
@@ -266,8 +274,8 @@ struct ChosenOrders::Steps {
     return false;
   }
 
-  /** Newton's own step, to a tenth of what the answer is. */
-  void iterate()
+  /** Newton's own step, to a tenth of what the answer is; false where GMRES does not find it. */
+  bool iterate()
   {
     constexpr double goal = 0.1;
     constexpr int most = 40;
@@ -279,9 +287,11 @@ struct ChosenOrders::Steps {
     };
     const auto none = [](const Eigen::VectorXd& r, Eigen::VectorXd& z) { z = r; };
     const Eigen::VectorXd right = at.answer.cwiseProduct(weight);
-    at.gmres.solve(apply, none, right, goal * right.norm(), most, at.scaled);
+    const double enough = goal * right.norm();
+    const auto report = at.gmres.solve(apply, none, right, enough, most, at.scaled);
     at.answer = at.scaled.cwiseQuotient(weight);
     size = at.moved.norm(at.answer);
+    return report.residual <= enough;
   }
 };
 
@@ -361,13 +371,19 @@ AdaptiveMotion ChosenOrders::solve(double omega, const Eigen::VectorXd& x, From 
        ++rounds)
     end = solve_on_few(omega, start);
   /** From a predictor that fails at once on few orders steps on all do not converge either: mostly the solution has jumped. */
-  const bool is_hopeless =
-      end == OnFew::not_found && rounds == 1 && from == From::predictor;
-  if (end != OnFew::reached && !is_hopeless) on_all(start);
+  if (end == OnFew::not_found && rounds == 1 && from == From::predictor) {
+    constexpr int harmonics = 8;
+    const long spent = result_.force_samples;
+    AdaptiveMotion anew =
+        solve(omega, quasi_static_start(parameters_, omega, harmonics), From::guess);
+    anew.force_samples += spent;
+    return anew;
+  }
+  if (end != OnFew::reached) on_all(start);
   return std::move(result_);
 }
 
-/** On the chosen orders, measured at finer samples, where `x` then is the better start. */
+/** On the chosen orders, measured at `samples_`, where `x` then is the better start. */
 ChosenOrders::OnFew ChosenOrders::solve_on_few(double omega, Eigen::VectorXd& x)
 {
   constexpr int fewest = 32, most_steps = 4;
@@ -389,8 +405,8 @@ ChosenOrders::OnFew ChosenOrders::solve_on_few(double omega, Eigen::VectorXd& x)
   motion.x = spread(series_of(motion.x), orders_).reshaped();
   motion.harmonics = Harmonics(orders_.back());
 
-  Grid& at = grid(samples_);
-  const long before = at.all.evaluations();
+  Grid &at = grid(samples_), &finer = grid(finer_samples(samples_));
+  const long before = at.all.evaluations(), finer_before = finer.all.evaluations();
   const double largest = at.largest(motion.bodies), total = vibration(motion.bodies),
                most = accepted * settings_.tolerance;
   at.moved.refresh(parameters_, omega, at.count);
@@ -399,15 +415,14 @@ ChosenOrders::OnFew ChosenOrders::solve_on_few(double omega, Eigen::VectorXd& x)
   Eigen::MatrixXd off;
   double displacement = 0, rms = 0, sampled = 0;
   const auto measure = [&] {
-    Grid& finer = grid(finer_samples(samples_));
-    off = finer.step_from(steps.x, parameters_, omega);
-    result_.force_samples += finer.problem.samples;
-    Eigen::MatrixXd sampling = off;
-    sampling.leftCols(2 * at.count + 1) -= at.moved.series(at.answer);
-    off.leftCols(2 * at.count + 1) += at.moved.series(first - steps.x);
-    sampled = over(vibration(sampling), total);
-    displacement = over(finer.largest(off) + beyond * finer.largest(sampling), largest);
-    rms = over(vibration(off), total) + beyond * sampled;
+    const Eigen::MatrixXd sampling = finer.left_out_by(at, steps.x, parameters_, omega);
+    off = sampling;
+    off.leftCols(2 * at.count + 1) += at.moved.series(first - steps.x + at.answer);
+    const double sampled_most = over(beyond * finer.largest(sampling), largest),
+                 sampled_rms = over(beyond * vibration(sampling), total);
+    sampled = std::max(sampled_most, sampled_rms);
+    displacement = over(finer.largest(off), largest) + sampled_most;
+    rms = over(vibration(off), total) + sampled_rms;
   };
   /** Whether the error is below the tolerance even if each further step is `ratio` times the one before: then none is taken,
       and the estimate is so much larger, in displacement by the part by which all orders together are. */
@@ -431,7 +446,9 @@ ChosenOrders::OnFew ChosenOrders::solve_on_few(double omega, Eigen::VectorXd& x)
     else
       is_settled = is_clear(steps.ratio);
   }
-  result_.force_samples += (at.all.evaluations() - before) * samples_;
+  result_.force_samples +=
+      (at.all.evaluations() - before) * samples_ +
+      (finer.all.evaluations() - finer_before) * finer.problem.samples;
   if (!is_settled) {
     result_.end =
         format("the error with %zu orders cannot be estimated", orders_.size() - 1);
@@ -441,8 +458,8 @@ ChosenOrders::OnFew ChosenOrders::solve_on_few(double omega, Eigen::VectorXd& x)
   motion.error = {.displacement = displacement,
                   .rms = rms,
                   .settled = true,
-                  .harmonics = at.count,
-                  .samples = samples_,
+                  .harmonics = finer.count,
+                  .samples = finer.problem.samples,
                   .force_samples = 0};
   result_.reached = std::max(displacement, rms) <= most;
   result_.motion = std::move(motion);
@@ -452,12 +469,14 @@ ChosenOrders::OnFew ChosenOrders::solve_on_few(double omega, Eigen::VectorXd& x)
   bodies.leftCols(result_.motion.bodies.cols()) += result_.motion.bodies;
   const Largest needed(bodies, largest, unnoticed * settings_.tolerance);
   if (result_.reached) {
-    if (fall * sampled < settings_.tolerance && samples_ >= 2 * fewest) samples_ /= 2;
+    if (fall * sampled < 0.25 * settings_.tolerance && samples_ >= 2 * fewest)
+      samples_ /= 2;
     std::erase_if(orders_, [&](int h) {
       return !std::binary_search(needed.orders.begin(), needed.orders.end(), h);
     });
     return OnFew::reached;
   }
+  if (sampled > 0.25 * most) samples_ *= 2;
   std::vector<int> more;
   std::set_difference(needed.orders.begin(), needed.orders.end(), orders_.begin(),
                       orders_.end(), std::back_inserter(more));
@@ -477,8 +496,8 @@ bool ChosenOrders::solve_on_all(double omega, Eigen::VectorXd& x)
 {
   constexpr int most_steps = 14;
   constexpr double converged = 0.03, fast = 0.2;
-  Grid& at = grid(samples_);
-  const long before = at.all.evaluations();
+  Grid &at = grid(samples_), &finer = grid(finer_samples(samples_));
+  const long before = at.all.evaluations(), finer_before = finer.all.evaluations();
   at.moved.refresh(parameters_, omega, at.count);
   Steps steps(at, omega, resize_harmonics(x, 2, at.count));
   const auto motion_at = [&] {
@@ -491,8 +510,8 @@ bool ChosenOrders::solve_on_all(double omega, Eigen::VectorXd& x)
     return motion;
   };
   const double enough = converged * settings_.tolerance * vibration(motion_at().bodies);
-  /** A step with old factors may be short by chance, or blind to a part of the error. Two short ones in a row tell where
-      steps shrink fast, elsewhere Newton's own step. */
+  /** A step with old factors may be short by chance, or blind to a part of the error. Where steps shrink fast, two short ones
+      in a row are enough; elsewhere Newton's own step must be short. */
   int taken = 0, short_ones = 0;
   bool is_found = false;
   for (; taken < most_steps && !is_found && steps.take(); ++taken) {
@@ -500,9 +519,8 @@ bool ChosenOrders::solve_on_all(double omega, Eigen::VectorXd& x)
     short_ones = is_short ? short_ones + 1 : 0;
     is_found = short_ones == 2;
     if (!is_short || steps.ratio <= fast) continue;
-    steps.refactor();
-    steps.iterate();
-    is_found = steps.size <= enough;
+    if (!steps.is_fresh) steps.refactor();
+    is_found = steps.iterate() && steps.size <= enough;
   }
   result_.reached = false;
   result_.end = format("the steps with %d samples do not converge", samples_);
@@ -517,9 +535,7 @@ bool ChosenOrders::solve_on_all(double omega, Eigen::VectorXd& x)
         .delta_1 = at.all.residual(x, omega).norm() / at.problem.residual_scale,
         .delta_2 = at.answer.norm() / at.problem.unknown_scale};
     const double largest = at.largest(motion.bodies), total = vibration(motion.bodies);
-    Grid& finer = grid(finer_samples(samples_));
-    const Eigen::MatrixXd off = finer.step_from(x, parameters_, omega);
-    result_.force_samples += finer.problem.samples;
+    const Eigen::MatrixXd off = finer.left_out_by(at, x, parameters_, omega);
     const Largest needed(motion.bodies, largest, unnoticed * settings_.tolerance);
     const double displacement = over((1 + beyond) * finer.largest(off), largest),
                  rms = over((1 + beyond) * vibration(off), total);
@@ -527,8 +543,8 @@ bool ChosenOrders::solve_on_all(double omega, Eigen::VectorXd& x)
                                     converged * settings_.tolerance,
                     .rms = rms + needed.rms + converged * settings_.tolerance,
                     .settled = true,
-                    .harmonics = at.count,
-                    .samples = samples_,
+                    .harmonics = finer.count,
+                    .samples = finer.problem.samples,
                     .force_samples = 0};
     result_.reached = motion.error->larger() <= accepted * settings_.tolerance &&
                       needed.orders.back() <= settings_.most_harmonics;
@@ -548,7 +564,9 @@ bool ChosenOrders::solve_on_all(double omega, Eigen::VectorXd& x)
     motion.harmonics = Harmonics(kept.back());
     result_.motion = std::move(motion);
   }
-  result_.force_samples += (at.all.evaluations() - before) * at.problem.samples;
+  result_.force_samples +=
+      (at.all.evaluations() - before) * at.problem.samples +
+      (finer.all.evaluations() - finer_before) * finer.problem.samples;
   return result_.reached;
 }
 

@@ -10,13 +10,14 @@ large error behind a small residual. Where further steps, each 0.7 of the one be
 error is clear at once. Otherwise the next step says what is left, and its length replaces the 0.7; where that is more than a third,
 GMRES takes the step further.
 
-Where more than sixteen orders are needed, or Newton fails on fewer but not at once from a predictor, the same steps go on until they
-converge. That solution has all orders up to a third of the samples.
+Where more than sixteen orders are needed, or Newton fails on fewer, the same steps go on until they converge; but a predictor
+that fails at once gives way to quasi-static contact. That solution has all orders up to a third of the samples.
 
-What the samples leave out, the orders above and what is folded onto those below, is one more step, at finer samples: 5/3 or 7/4
-times as many (5/2 of 32), so that the two have no image in common below five times their number. Twice as many could share the
-one that matters: a whirl over 20 balls excites order 101, which falls on order 5 of 48 samples and of 96. The spectrum of a
-Hertz contact falls as k^{-5/2}, so that the finer samples leave less than a third of it; one half is added. Samples are doubled, far from it quadrupled, until the sum is below the tolerance.
+What the samples leave out, the orders above and the aliases among those below, is one more step, at finer samples: 5/3 or 7/4
+times as many (5/2 of 32), whose aliases differ. Twice as many could share the one that matters: a whirl over 20 balls excites
+order 101, which falls on order 5 of 48 samples and of 96. The spectrum of a Hertz contact falls as k^{-5/2}: what the finer
+samples leave out themselves is then 0.39 of the step, or less; one half is added. Samples are doubled, far from it quadrupled,
+until the sum is below the tolerance.
 
 Orders that the tolerance may notice are kept. From speed to speed orders, samples, tables and factors serve again. */
 #pragma once

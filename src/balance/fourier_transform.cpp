@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <complex>
 #include <mutex>
 #include <numeric>
 #ifdef ROTOR_STATOR_EIGEN_FFT

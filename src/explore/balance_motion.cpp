@@ -143,7 +143,7 @@ JudgedTorus judged(const Parameters& parameters, const MotionRequest& request,
       JudgedTorus other = found(settled_only ? 1 : 0.3, settled_only);
       if (other.verdict && other.verdict->stays) best = std::move(other);
     } catch (const NoSolution&) {
-      continue;  // none, or the budget is used up: the first solution is not lost
+      // none, or the budget is used up: the first solution is not lost
     }
   }
   constexpr double near = 0.05;

@@ -4,7 +4,7 @@
 #include <cmath>
 #include <functional>
 #include <initializer_list>
-#include <optional>
+#include <limits>
 #include <utility>
 #include <vector>
 
@@ -89,31 +89,36 @@ public:
   /** Whether the first iteration, from the solution itself, closed the motion: then no other is as near to it. */
   bool found_at_once() const { return iterations_ == 1 && shooting_.converged; }
 
-  /** Refuses a motion that is too far away over the period, where the error was estimated. */
+  /** Throws where the motion is farther away over the period than the estimated error allows. */
   void must_be_near(const Verdict& motion)
   {
-    const double away = std::max(motion.distance, motion.distance_rms);
-    if (!reach() || away <= *reach()) return;
-    refuse("", away);
-    throw NoSolution(reason());
+    const auto& error = solution_.error;
+    if (!error || !error->settled) return;
+    if (motion.distance > allowed(error->displacement))
+      throw NoSolution(too_far(motion.distance, "of the largest displacement"));
+    if (motion.distance_rms > allowed(error->rms))
+      throw NoSolution(too_far(motion.distance_rms, "rms about the mean"));
   }
 
   /** Why no motion was found. */
   std::string reason() const
   {
-    return refused_.empty()
-               ? "no motion of its period was found from it: " + shooting_.reason
-               : refused_;
+    return std::isfinite(nearest_)
+               ? too_far(nearest_, "of the largest displacement at phase 0")
+               : "no motion of its period was found from it: " + shooting_.reason;
   }
 
 private:
-  void refuse(const char* where, double away)
+  static std::string too_far(double away, const char* measure)
   {
-    refused_ = format(
+    return format(
         "the motion of its period found from it is too far away to be its own, "
-        "%s%.2g of the largest displacement",
-        where, away);
+        "%.2g %s",
+        away, measure);
   }
+
+  /** Three times the estimated error: a motion farther away is another one, or the estimate is wrong. */
+  static double allowed(double error) { return std::max(3 * error, 1e-3); }
 
   bool closes_any(const std::vector<State>& starts, State& state,
                   std::initializer_list<double> speed_weights)
@@ -148,9 +153,8 @@ private:
       return false;
     const double away =
         (vector_of(state) - vector_of(start_)).head<4>().cwiseAbs().maxCoeff() / size_;
-    const bool is_near = away <= reach().value_or(same_motion);
-    if (!is_near) refuse("at phase 0 ", away);
-    return is_near;
+    nearest_ = std::min(nearest_, away);
+    return away <= reach();
   }
 
   bool shoot_from(State& state, const ShootingSettings& settings)
@@ -160,12 +164,11 @@ private:
     return shooting_.converged;
   }
 
-  /** Three times the estimated error: a motion farther away is another one, or the estimate is wrong. */
-  std::optional<double> reach() const
+  double reach() const
   {
     const auto& error = solution_.error;
-    if (!error || !error->settled) return {};
-    return std::clamp(3 * error->larger(), 1e-3, same_motion);
+    if (!error || !error->settled) return same_motion;
+    return std::min(allowed(error->larger()), same_motion);
   }
 
   /** Four times as many harmonics where Newton finds a solution with them, else as many as it finds one with; false
@@ -200,7 +203,8 @@ private:
   Shooting shooting_;
   int iterations_ = 0;
   double evaluations_ = 0;
-  std::string refused_;  ///< why the last motion found that was refused was
+  double nearest_ =
+      std::numeric_limits<double>::infinity();  ///< motion found, at phase 0
 };
 
 /** The multipliers of the motion through `state`, and their uncertainty. */
@@ -220,7 +224,7 @@ void add_multipliers(const Parameters& parameters, double omega,
   floquet.settled = floquet.change <= 0.1;
 }
 
-/** The same, and the distance of the solution from the motion. */
+/** The distance of the solution from the motion. */
 void measure(const Parameters& parameters, const PeriodicMotion& solution,
              const OperationBudget& budget, Verdict& verdict)
 {
@@ -234,7 +238,6 @@ void measure(const Parameters& parameters, const PeriodicMotion& solution,
   verdict.distance = relative_difference(judged, exact);
   verdict.distance_rms = rms_difference(judged, exact);
   verdict.evaluations += static_cast<double>(stepper.evaluations());
-  add_multipliers(parameters, solution.omega, budget, verdict);
 }
 
 /** All components by 1e-6 of their size. */
@@ -381,19 +384,20 @@ Verdict verdict_on(const Parameters& parameters, const PeriodicMotion& solution,
   std::vector<Verdict> motions;  // within reach
   std::string reason;
   double evaluations = 0;
-  double distance = 0;  // of the last motion closed
+  double distance = 0;  // of the solution from the last motion closed
   const auto add = [&](const std::function<bool(State&)>& close) {
     Verdict motion;
     try {
       if (!close(motion.state)) throw NoSolution(shootings.reason());
       measure(longer, solution, budget, motion);
+      distance = motion.distance;
       shootings.must_be_near(motion);
+      add_multipliers(longer, solution.omega, budget, motion);
       motions.push_back(motion);
     } catch (const NoSolution& error) {
-      reason = error.what();
+      if (reason.empty()) reason = error.what();
     }
     evaluations += motion.evaluations;
-    distance = motion.distance;
   };
 
   add([&](State& state) { return shootings.run(state); });
@@ -404,7 +408,8 @@ Verdict verdict_on(const Parameters& parameters, const PeriodicMotion& solution,
     add_settled(parameters, turns * solution.omega,
                 verdict.found() ? verdict.state : state_of(parameters, solution), budget,
                 verdict);
-    if (verdict.from_there.period == turns && !shootings.found_at_once()) {
+    const bool is_nearest = !motions.empty() && shootings.found_at_once();
+    if (verdict.from_there.period == turns && !is_nearest) {
       const Verdict first = verdict;
       add([&](State& state) {
         return shootings.from(first.from_there, budget.part(0.5), state);

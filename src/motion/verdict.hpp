@@ -8,9 +8,9 @@ fails, the same solution is given more harmonics and shooting begins again; then
 solution, and shooting begins where that settles. The motion counts as the solution's own if at phase 0, where
 shooting begins, its displacements differ by at most 5 % of the largest displacement, static sag included.
 Where the sag is much larger than the vibration, below about 5 Hz here, this excludes little, and few harmonics cannot
-follow the passing balls, which are harmonic n ω_cage/ω. Where the error of the solution was estimated, three times
-that (at least 0.1 %) takes the place of the 5 %, at phase 0 and over the whole period. The rms distance about the mean is therefore printed
-beside the verdict. A motion more than 0.05 % away may not be the only one within reach, and which of them shooting
+follow the passing balls, which are harmonic n ω_cage/ω. The rms distance about the mean is therefore printed
+beside the verdict. Where the error of the solution was estimated, three times that, at least 0.1 %, is the most that a
+motion of its own may be away over the period, in the largest difference and in the rms; at phase 0 the 5 % hold too. A motion more than 0.05 % away may not be the only one within reach, and which of them shooting
 closes is then a matter of rounding: the solution is given more harmonics there too. The nearest of all
 motions found counts, that on which the machine settles included; a stable and an unstable one of which neither is
 twice as far away as the other leave the verdict `undecided`.

@@ -2,6 +2,7 @@
 
 #include <gsl/gsl_errno.h>
 #include <algorithm>
+#include <array>
 
 #include "integration/gauss.hpp"
 #include "integration/time_stepper.hpp"

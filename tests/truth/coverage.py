@@ -35,12 +35,12 @@ def distance(header):
     if found:
         return max(map(float, found.groups()))
     found = (re.search(r"# from the solution: .* within (\S+) of", header) or
-             re.search(r"too far away to be its own, (?:at phase 0 )?(\S+) of", header))
+             re.search(r"too far away to be its own, (\S+) ", header))
     return float(found.group(1)) if found else None
 
 
-# Found among seeds 10000 to 16999, when the error was estimated by half of the samples: these have an image in common with all
-# of them, or a resonance of the contact lies above both.
+# Their errors, estimated from every second sample, came out too small (seeds 10000 to 16999): all samples and half of them put an
+# order that matters in the same place, or neither reaches a resonance of the contact.
 BEYOND = [10078, 10234, 11048, 11123, 11177, 12502, 12650, 12883, 13196, 14449, 14628, 15038, 15508, 16464, 16501, 16892, 16913]
 # Another motion, 1.7 to 3.5 % away, was judged in place of the solution's own:
 OTHER = [11274, 11652, 13419]
@@ -62,17 +62,22 @@ class Coverage(Case):
                 tolerance, result = self.answer_of(seed)
                 self.assertEqual(result.returncode, 0, result.stderr)
                 if seed in BEYOND:
-                    self.assertLessEqual(distance(result.stdout), tolerance)
+                    off = distance(result.stdout)
+                    self.assertIsNotNone(off, result.stdout)
+                    self.assertLessEqual(off, tolerance)
 
     def test_no_verdict_on_another_motion(self):
         for seed in OTHER:
             with self.subTest(seed=seed):
                 _, result = self.answer_of(seed)
                 self.assertEqual(result.returncode, 0, result.stderr)
-                self.assertIn("# stability: ", result.stdout)
-                for errors in re.findall(r"# distance: (\S+) of .*?, (\S+) rms", result.stdout):
-                    estimated = re.search(r"# error: (\S+) of .*?, (\S+) rms", result.stdout).groups()
-                    self.assertLessEqual(max(map(float, errors)), max(1e-3, 3 * max(map(float, estimated))))
+                estimated = re.search(r"# error: (\S+) of .*?, (\S+) rms", result.stdout).groups()
+                judged = re.search(r"# distance: (\S+) of .*?, (\S+) rms", result.stdout)
+                if judged is None:
+                    self.assertIn("# stability: undecided; ", result.stdout)
+                else:
+                    for off, error in zip(judged.groups(), estimated):
+                        self.assertLessEqual(float(off), max(1e-3, 3 * float(error)))
 
     def test_at_least_99_per_cent(self):
         beyond, judged, unanswered = [], 0, 0

@@ -241,7 +241,7 @@ TEST_CASE("locate finds where a quantity has a value, and refuses what has no ze
   CHECK(found == 2);
 }
 
-TEST_CASE("The points of a branch at a speed lie on both sides of it")
+TEST_CASE("Every passage of a branch through a speed is found between two of its points")
 {
   Balance balance(circle(1), 0);
   const Branch branch =
