@@ -169,6 +169,10 @@ constexpr double beyond = 0.5;
 /** Halving the samples is taken to multiply their error by at most this. */
 constexpr double fall = 8;
 
+/** Of the tolerance, for the error of the finer samples: with more the samples are doubled, and not halved where they would come
+    to more. */
+constexpr double most_sampled = 0.25;
+
 /** So many orders beside the mean are solved for by dense factors. */
 constexpr std::size_t few = 16;
 
@@ -321,6 +325,21 @@ ChosenOrders::Grid& ChosenOrders::grid(int samples)
   return *grid;
 }
 
+ChosenOrders::Grid& ChosenOrders::finer_than(const Grid& at)
+{
+  return grid(finer_samples(at.problem.samples));
+}
+
+Eigen::MatrixXd ChosenOrders::left_out_by(Grid& at, const Eigen::VectorXd& x,
+                                          double omega)
+{
+  Grid& finer = finer_than(at);
+  const long before = finer.all.evaluations();
+  Eigen::MatrixXd bodies = finer.left_out_by(at, x, parameters_, omega);
+  result_.force_samples += (finer.all.evaluations() - before) * finer.problem.samples;
+  return bodies;
+}
+
 AdaptiveMotion ChosenOrders::solve(double omega, const Eigen::VectorXd& x, From from)
 {
   constexpr int first = 3, most_rounds = 5, most_failures = 2, finer = 4;
@@ -371,15 +390,8 @@ AdaptiveMotion ChosenOrders::solve(double omega, const Eigen::VectorXd& x, From 
        ++rounds)
     end = solve_on_few(omega, start);
   /** From a predictor that fails at once on few orders steps on all do not converge either: mostly the solution has jumped. */
-  if (end == OnFew::not_found && rounds == 1 && from == From::predictor) {
-    constexpr int harmonics = 8;
-    const long spent = result_.force_samples;
-    AdaptiveMotion anew =
-        solve(omega, quasi_static_start(parameters_, omega, harmonics), From::guess);
-    anew.force_samples += spent;
-    return anew;
-  }
-  if (end != OnFew::reached) on_all(start);
+  has_jumped_ = end == OnFew::not_found && rounds == 1 && from == From::predictor;
+  if (end != OnFew::reached && !has_jumped_) on_all(start);
   return std::move(result_);
 }
 
@@ -405,8 +417,8 @@ ChosenOrders::OnFew ChosenOrders::solve_on_few(double omega, Eigen::VectorXd& x)
   motion.x = spread(series_of(motion.x), orders_).reshaped();
   motion.harmonics = Harmonics(orders_.back());
 
-  Grid &at = grid(samples_), &finer = grid(finer_samples(samples_));
-  const long before = at.all.evaluations(), finer_before = finer.all.evaluations();
+  Grid& at = grid(samples_);
+  const long before = at.all.evaluations();
   const double largest = at.largest(motion.bodies), total = vibration(motion.bodies),
                most = accepted * settings_.tolerance;
   at.moved.refresh(parameters_, omega, at.count);
@@ -415,7 +427,8 @@ ChosenOrders::OnFew ChosenOrders::solve_on_few(double omega, Eigen::VectorXd& x)
   Eigen::MatrixXd off;
   double displacement = 0, rms = 0, sampled = 0;
   const auto measure = [&] {
-    const Eigen::MatrixXd sampling = finer.left_out_by(at, steps.x, parameters_, omega);
+    const Eigen::MatrixXd sampling = left_out_by(at, steps.x, omega);
+    Grid& finer = finer_than(at);
     off = sampling;
     off.leftCols(2 * at.count + 1) += at.moved.series(first - steps.x + at.answer);
     const double sampled_most = over(beyond * finer.largest(sampling), largest),
@@ -446,15 +459,14 @@ ChosenOrders::OnFew ChosenOrders::solve_on_few(double omega, Eigen::VectorXd& x)
     else
       is_settled = is_clear(steps.ratio);
   }
-  result_.force_samples +=
-      (at.all.evaluations() - before) * samples_ +
-      (finer.all.evaluations() - finer_before) * finer.problem.samples;
+  result_.force_samples += (at.all.evaluations() - before) * samples_;
   if (!is_settled) {
     result_.end =
         format("the error with %zu orders cannot be estimated", orders_.size() - 1);
     return OnFew::needs_all;
   }
   x = steps.x - at.answer;
+  const Grid& finer = finer_than(at);
   motion.error = {.displacement = displacement,
                   .rms = rms,
                   .settled = true,
@@ -469,14 +481,14 @@ ChosenOrders::OnFew ChosenOrders::solve_on_few(double omega, Eigen::VectorXd& x)
   bodies.leftCols(result_.motion.bodies.cols()) += result_.motion.bodies;
   const Largest needed(bodies, largest, unnoticed * settings_.tolerance);
   if (result_.reached) {
-    if (fall * sampled < 0.25 * settings_.tolerance && samples_ >= 2 * fewest)
+    if (fall * sampled < most_sampled * settings_.tolerance && samples_ >= 2 * fewest)
       samples_ /= 2;
     std::erase_if(orders_, [&](int h) {
       return !std::binary_search(needed.orders.begin(), needed.orders.end(), h);
     });
     return OnFew::reached;
   }
-  if (sampled > 0.25 * most) samples_ *= 2;
+  if (sampled > most_sampled * most) samples_ *= 2;
   std::vector<int> more;
   std::set_difference(needed.orders.begin(), needed.orders.end(), orders_.begin(),
                       orders_.end(), std::back_inserter(more));
@@ -496,8 +508,8 @@ bool ChosenOrders::solve_on_all(double omega, Eigen::VectorXd& x)
 {
   constexpr int most_steps = 14;
   constexpr double converged = 0.03, fast = 0.2;
-  Grid &at = grid(samples_), &finer = grid(finer_samples(samples_));
-  const long before = at.all.evaluations(), finer_before = finer.all.evaluations();
+  Grid& at = grid(samples_);
+  const long before = at.all.evaluations();
   at.moved.refresh(parameters_, omega, at.count);
   Steps steps(at, omega, resize_harmonics(x, 2, at.count));
   const auto motion_at = [&] {
@@ -535,7 +547,8 @@ bool ChosenOrders::solve_on_all(double omega, Eigen::VectorXd& x)
         .delta_1 = at.all.residual(x, omega).norm() / at.problem.residual_scale,
         .delta_2 = at.answer.norm() / at.problem.unknown_scale};
     const double largest = at.largest(motion.bodies), total = vibration(motion.bodies);
-    const Eigen::MatrixXd off = finer.left_out_by(at, x, parameters_, omega);
+    const Eigen::MatrixXd off = left_out_by(at, x, omega);
+    Grid& finer = finer_than(at);
     const Largest needed(motion.bodies, largest, unnoticed * settings_.tolerance);
     const double displacement = over((1 + beyond) * finer.largest(off), largest),
                  rms = over((1 + beyond) * vibration(off), total);
@@ -564,9 +577,7 @@ bool ChosenOrders::solve_on_all(double omega, Eigen::VectorXd& x)
     motion.harmonics = Harmonics(kept.back());
     result_.motion = std::move(motion);
   }
-  result_.force_samples +=
-      (at.all.evaluations() - before) * at.problem.samples +
-      (finer.all.evaluations() - finer_before) * finer.problem.samples;
+  result_.force_samples += (at.all.evaluations() - before) * at.problem.samples;
   return result_.reached;
 }
 

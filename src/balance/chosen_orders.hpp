@@ -11,7 +11,7 @@ error is clear at once. Otherwise the next step says what is left, and its lengt
 GMRES takes the step further.
 
 Where more than sixteen orders are needed, or Newton fails on fewer, the same steps go on until they converge; but a predictor
-that fails at once gives way to quasi-static contact. That solution has all orders up to a third of the samples.
+that fails at once is given up. That solution has all orders up to a third of the samples.
 
 What the samples leave out, the orders above and the aliases among those below, is one more step, at finer samples: 5/3 or 7/4
 times as many (5/2 of 32), whose aliases differ. Twice as many could share the one that matters: a whirl over 20 balls excites
@@ -47,10 +47,15 @@ public:
       `reached` where no steps converge, or the settings allow no more harmonics. */
   AdaptiveMotion solve(double omega, const Eigen::VectorXd& x, From from);
 
+  /** Whether the last start was a predictor that failed at once on few orders. */
+  bool has_jumped() const { return has_jumped_; }
+
 private:
   struct Grid;
   struct Steps;
   Grid& grid(int samples);
+  Grid& finer_than(const Grid& at);
+  Eigen::MatrixXd left_out_by(Grid& at, const Eigen::VectorXd& x, double omega);
   enum class OnFew { reached, more_orders, needs_all, not_found };
   OnFew solve_on_few(double omega, Eigen::VectorXd& x);
   bool solve_on_all(double omega, Eigen::VectorXd& x);
@@ -60,6 +65,7 @@ private:
   OperationBudget budget_;
   std::vector<int> orders_;  ///< chosen, ascending, 0 first
   int samples_ = 0;          ///< by which they are measured
+  bool has_jumped_ = false;
   std::unique_ptr<Balance> balance_;
   std::vector<int> on_;                         ///< the orders that this is on
   std::map<int, std::unique_ptr<Grid>> grids_;  ///< by number of samples

@@ -101,15 +101,17 @@ AdaptiveMotion AdaptiveSweep::solve_on_chosen(double omega)
     return reaches(quasi_static_name, quasi_static_start(parameters_, omega, few),
                    From::guess);
   };
-  if (!(is_first
-            ? from_guess()
-            : reaches(from_predictor, predictor_.at_speed(omega), From::predictor))) {
+  bool is_found =
+      !is_first && reaches(from_predictor, predictor_.at_speed(omega), From::predictor);
+  const bool begins_anew = is_first || (!is_found && chosen_->has_jumped());
+  if (begins_anew) is_found = from_guess();
+  if (!is_found) {
     CoarseIntegration integration(parameters_, last_, budget_);
     const auto after = [&](double seconds) {
       return reaches("short time integration", integration.go_on(omega, seconds, many),
                      From::integration);
     };
-    if (!after(0.1) && !after(0.4) && !is_first) from_guess();
+    if (!after(0.1) && !after(0.4) && !begins_anew) from_guess();
     cost += integration.evaluations();
   }
   at.force_samples = cost;

@@ -90,7 +90,7 @@ public:
   bool found_at_once() const { return iterations_ == 1 && shooting_.converged; }
 
   /** Throws where the motion is farther away over the period than the estimated error allows. */
-  void must_be_near(const Verdict& motion)
+  void must_be_near(const Verdict& motion) const
   {
     const auto& error = solution_.error;
     if (!error || !error->settled) return;
@@ -384,13 +384,12 @@ Verdict verdict_on(const Parameters& parameters, const PeriodicMotion& solution,
   std::vector<Verdict> motions;  // within reach
   std::string reason;
   double evaluations = 0;
-  double distance = 0;  // of the solution from the last motion closed
+  /** The distance of the solution from the motion that was closed, 0 where none was. */
   const auto add = [&](const std::function<bool(State&)>& close) {
     Verdict motion;
     try {
       if (!close(motion.state)) throw NoSolution(shootings.reason());
       measure(longer, solution, budget, motion);
-      distance = motion.distance;
       shootings.must_be_near(motion);
       add_multipliers(longer, solution.omega, budget, motion);
       motions.push_back(motion);
@@ -398,10 +397,10 @@ Verdict verdict_on(const Parameters& parameters, const PeriodicMotion& solution,
       if (reason.empty()) reason = error.what();
     }
     evaluations += motion.evaluations;
+    return motion.distance;
   };
 
-  add([&](State& state) { return shootings.run(state); });
-  if (distance > surely_its_own)
+  if (add([&](State& state) { return shootings.run(state); }) > surely_its_own)
     add([&](State& state) { return shootings.from_more_harmonics(state); });
   Verdict verdict = own_motion(motions, reason);
   if (!verdict.floquet.stable()) {

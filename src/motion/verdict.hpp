@@ -10,10 +10,11 @@ shooting begins, its displacements differ by at most 5 % of the largest displace
 Where the sag is much larger than the vibration, below about 5 Hz here, this excludes little, and few harmonics cannot
 follow the passing balls, which are harmonic n ω_cage/ω. The rms distance about the mean is therefore printed
 beside the verdict. Where the error of the solution was estimated, three times that, at least 0.1 %, is the most that a
-motion of its own may be away over the period, in the largest difference and in the rms; at phase 0 the 5 % hold too. A motion more than 0.05 % away may not be the only one within reach, and which of them shooting
-closes is then a matter of rounding: the solution is given more harmonics there too. The nearest of all
-motions found counts, that on which the machine settles included; a stable and an unstable one of which neither is
-twice as far away as the other leave the verdict `undecided`.
+motion of its own may be away over the period, in the largest difference and in the rms; at phase 0 the 5 % hold too. A motion
+more than 0.05 % away may not be the only one within reach, and which of them shooting closes is then a matter of rounding:
+the solution is given more harmonics there too. The nearest of all motions found counts, that on which the
+machine settles included; a stable and an unstable one of which neither is twice as far away as the other leave the verdict
+`undecided`.
 
 Its multipliers are the eigenvalues of the period map's derivative. They are computed twice: at the state found,
 and one period later with a local error a hundred times smaller. The two maps differ by the error of the

@@ -28,12 +28,18 @@ def drawn(seed):
     return machine, round(dice.uniform(18, 140), 3)
 
 
+def both(name, header):
+    """The largest and the rms error of a line of the header, or None."""
+    found = re.search(rf"# {name}: (\S+) of .*?, (\S+) rms", header)
+    return found and [float(number) for number in found.groups()]
+
+
 def distance(header):
     """Of the solution from the machine's motion: the larger of the two errors, or None where none was found. A motion that
     the verdict refuses as another one, because it is far away for the estimated error, counts: the estimate may be wrong."""
-    found = re.search(r"# distance: (\S+) of .*?, (\S+) rms", header)
-    if found:
-        return max(map(float, found.groups()))
+    errors = both("distance", header)
+    if errors:
+        return max(errors)
     found = (re.search(r"# from the solution: .* within (\S+) of", header) or
              re.search(r"too far away to be its own, (\S+) ", header))
     return float(found.group(1)) if found else None
@@ -71,13 +77,12 @@ class Coverage(Case):
             with self.subTest(seed=seed):
                 _, result = self.answer_of(seed)
                 self.assertEqual(result.returncode, 0, result.stderr)
-                estimated = re.search(r"# error: (\S+) of .*?, (\S+) rms", result.stdout).groups()
-                judged = re.search(r"# distance: (\S+) of .*?, (\S+) rms", result.stdout)
+                judged = both("distance", result.stdout)
                 if judged is None:
                     self.assertIn("# stability: undecided; ", result.stdout)
                 else:
-                    for off, error in zip(judged.groups(), estimated):
-                        self.assertLessEqual(float(off), max(1e-3, 3 * float(error)))
+                    for off, error in zip(judged, both("error", result.stdout)):
+                        self.assertLessEqual(off, max(1e-3, 3 * error))
 
     def test_at_least_99_per_cent(self):
         beyond, judged, unanswered = [], 0, 0
