@@ -2,9 +2,10 @@
 # Methods against the clock
 
 A task is a row of speeds of one machine, to be solved in order for the motion of period T. A timed
-method is one method at one setting. Its `run` does all the work anew and is what is timed: plans and
-tables, the start, the transient or the iteration, at every speed. Writing the motions down afterwards
-belongs to the comparison and is timed for none.
+method is one method at one setting. Its `run` does all the work anew and is what is timed: tables, the
+start, the transient or the iteration, at every speed. Writing the motions down afterwards belongs to the
+comparison and is timed for none. Fourier transforms are planned once in a process: the first of the
+repetitions pays for the lengths that no run before it had, and the median does not show it.
 
 - Harmonic balance: a speed starts from the paper's predictor; without one, or where Newton fails from
   it, from quasi-static contact if the harmonics are few, and then from half a second of time integration
@@ -86,7 +87,7 @@ MotionError error_up_to(double bound, const References& sweep, const Setting& se
 
 /** For headers of tables: what is timed. */
 inline constexpr const char* what_is_timed =
-    "timed: the whole solution on one thread, tables and plans, start, transient or iteration; "
-    "writing the motion down is timed for none";
+    "timed: the whole solution on one thread, tables, start, transient or iteration; Fourier "
+    "transforms are planned once in a process, in the first run that needs them; writing the motion down is timed for none";
 
 }  // namespace rotor_stator::costs
