@@ -13,9 +13,9 @@ The upper row shows the error of displacement, the lower row that of the force. 
 the force has higher harmonics that hardly move the bodies. The bars show where the time goes at an error
 of a thousandth: into the bearing's force, into Fourier transforms, or into linear algebra and the rest.
 
-The CPU time includes tables, the start, the transient or the iterations; Fourier transforms are planned once in a
-process, which a single solution pays beside it. The reference is shooting with a far tighter tolerance, compared with harmonic balance with very
-many harmonics; the header says how well they agree.
+The CPU time includes tables, the start, the transient or the iterations, but not the planning of Fourier
+transforms, which a process does once. The reference is shooting with a far tighter tolerance, compared with
+harmonic balance with very many harmonics; the header says how well they agree.
 
 Each motion is computed twice: from nothing, and from the known motion at a speed a little below. The second
 is what a sweep over the speeds costs at each of its steps. Repetitions are timed one after the other.

@@ -4,8 +4,8 @@
 A task is a row of speeds of one machine, to be solved in order for the motion of period T. A timed
 method is one method at one setting. Its `run` does all the work anew and is what is timed: tables, the
 start, the transient or the iteration, at every speed. Writing the motions down afterwards belongs to the
-comparison and is timed for none. Fourier transforms are planned once in a process: the first of the
-repetitions pays for the lengths that no run before it had, and the median does not show it.
+comparison and is timed for none. A process plans the Fourier transforms of a length once, in the first run
+that needs it: the median of the repetitions does not show it.
 
 - Harmonic balance: a speed starts from the paper's predictor; without one, or where Newton fails from
   it, from quasi-static contact if the harmonics are few, and then from half a second of time integration
@@ -88,6 +88,7 @@ MotionError error_up_to(double bound, const References& sweep, const Setting& se
 /** For headers of tables: what is timed. */
 inline constexpr const char* what_is_timed =
     "timed: the whole solution on one thread, tables, start, transient or iteration; Fourier "
-    "transforms are planned once in a process, in the first run that needs them; writing the motion down is timed for none";
+    "transforms are planned once in a process, in the first run that needs them; "
+    "writing the motion down is timed for none";
 
 }  // namespace rotor_stator::costs
