@@ -24,25 +24,6 @@ double order_of(Harmonic h, const Bearing& bearing)
   return h.k_1 + h.k_2 * passages_per_turn(bearing);
 }
 
-int turns_to_repeat(const Bearing& bearing)
-{
-  for (int q = 1; q <= 8; ++q) {
-    Bearing longer = bearing;
-    longer.cage_speed_ratio *= q;
-    if (has_rotation_period(longer)) return q;
-  }
-  return 0;
-}
-
-Parameters over_passage(Parameters parameters)
-{
-  parameters.speed_ratio = 1 / passages_per_turn(parameters.bearing);
-  parameters.bearing.cage_speed_ratio = 1.0 / parameters.bearing.balls;
-  for (Bearing& further : parameters.further)
-    further.cage_speed_ratio *= parameters.speed_ratio;
-  return parameters;
-}
-
 namespace {
 
 /** One of each pair of opposite ones, that of positive order, ascending after the mean. */

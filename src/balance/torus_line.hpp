@@ -15,7 +15,7 @@ of k_1 and k_2: the line then closes after two turns. */
 #pragma once
 
 #include "balance/periodic_motion.hpp"
-#include "model/parameters.hpp"
+#include "model/base_period.hpp"
 
 namespace rotor_stator {
 
@@ -24,12 +24,6 @@ Bearing on(const TorusLine& line, Bearing bearing);
 
 /** k_1 + k_2 n ω_cage/ω, the frequency over the speed. */
 double order_of(Harmonic h, const Bearing& bearing);
-
-/** The fewest turns q ≤ 8 in which a whole number of balls passes, 0 where none is. */
-int turns_to_repeat(const Bearing& bearing);
-
-/** The machine without unbalance, where only the passing balls move anything: its base frequency is n ω_cage. */
-Parameters over_passage(Parameters parameters);
 
 /** The orders a of the speed, |a| ≤ `orders`, and their sidebands a + k·BPFO + l·BPFI with |k| + |l| ≤
     `passages`, where BPFO = (0, 1) and BPFI = (n, -1): the first of a load at rest, the second of one that turns. Ascending

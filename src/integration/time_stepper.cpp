@@ -6,7 +6,7 @@
 #include <numbers>
 
 #include "integration/gauss.hpp"
-#include "integration/rk4.hpp"
+#include "time/rk4.hpp"
 #include "io/errors.hpp"
 
 namespace rotor_stator {
@@ -228,7 +228,7 @@ TimeStepper make_stepper(const Parameters& parameters, double omega,
   TimeStepper stepper = wrap(rk4);
   if (parameters.bearing.is_plain())
     stepper.advance_both = [rk4](long interval, State& a, State& b) {
-      rk4->advance_both(interval, a, b);
+      rk4->advance(interval, a, b);
     };
   return stepper;
 }

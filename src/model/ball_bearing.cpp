@@ -15,11 +15,10 @@ BallBearing::BallBearing(const Bearing& bearing, double omega, int turns)
       contact_stiffness_(bearing.contact_stiffness), clearance_(bearing.clearance),
       clearance_squared_(bearing.clearance * bearing.clearance)
 {
-  fours_.resize((bearing.balls + 3) / 4);
   for (int j = 0; j < bearing.balls; ++j) {
     balls_.push_back(Direction::of(2 * std::numbers::pi * j / bearing.balls));
-    fours_[j / 4].cos[j % 4] = balls_[j].cos;
-    fours_[j / 4].sin[j % 4] = balls_[j].sin;
+    cosines_.push_back(balls_.back().cos);
+    sines_.push_back(balls_.back().sin);
   }
 }
 

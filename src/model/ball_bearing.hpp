@@ -35,34 +35,84 @@ back: one sine and one cosine of the cage angle serve all balls. */
 #include <cmath>
 #include <vector>
 
+#include "model/lanes.hpp"
 #include "model/parameters.hpp"
 
 namespace rotor_stator {
 
 /** A direction, by its cosine and sine. */
-struct Direction {
-  double cos, sin;
-  static Direction of(double angle) { return {std::cos(angle), std::sin(angle)}; }
+template <class Number>
+struct DirectionOf {
+  Number cos, sin;
+  static DirectionOf of(Number angle) { return {std::cos(angle), std::sin(angle)}; }
 };
+using Direction = DirectionOf<double>;
 
 /** A direction turned further by another. */
-inline Direction turned(Direction a, Direction b)
+template <class Number>
+IN_PLACE DirectionOf<Number> turned(DirectionOf<Number> a, DirectionOf<Number> b)
 {
   return {a.cos * b.cos - a.sin * b.sin, a.sin * b.cos + a.cos * b.sin};
 }
 
 /** `v` seen from the frame turned by `d`. */
 template <class Number>
-Vec2Of<Number> into_frame(Direction d, Vec2Of<Number> v)
+IN_PLACE Vec2Of<Number> into_frame(DirectionOf<Number> d, Vec2Of<Number> v)
 {
   return {d.cos * v.x + d.sin * v.y, d.cos * v.y - d.sin * v.x};
 }
 
 /** The inverse of `into_frame`. */
 template <class Number = double>
-Vec2Of<Number> out_of_frame(Direction d, Vec2Of<Number> v)
+IN_PLACE Vec2Of<Number> out_of_frame(DirectionOf<Number> d, Vec2Of<Number> v)
 {
   return {d.cos * v.x - d.sin * v.y, d.sin * v.x + d.cos * v.y};
+}
+
+/** The balls of a bearing at the cage angle 0: n cosines and sines. */
+struct BallRing {
+  int count;
+  const double *cos, *sin;
+};
+
+/** What Eqs 4 to 6 ask of an undamaged bearing, of one motion or of several side by side. */
+template <class Number>
+struct Contacts {
+  Number stiffness;   ///< K_H [N/m^{3/2}]
+  Number clearance;   ///< δ [m]
+  Number damping;     ///< λ of Hunt and Crossley [s/m]
+  Number cage_speed;  ///< ω_cage [rad/s]
+};
+
+/** Eq. 6 of an undamaged bearing: the force [N] on the stator for the relative displacement u [m] and its rate [m/s],
+    which matters where the contact is damped. */
+template <bool is_damped, class Number>
+IN_PLACE Vec2Of<Number> bearing_force(const BallRing& balls,
+                                      const Contacts<Number>& contacts,
+                                      DirectionOf<Number> cage, Vec2Of<Number> u,
+                                      Vec2Of<Number> rate)
+{
+  Vec2Of<Number> sum{};
+  if (!any_positive(u.x * u.x + u.y * u.y - contacts.clearance * contacts.clearance))
+    return sum;
+  const Vec2Of<Number> v = into_frame(cage, u);
+  Vec2Of<Number> w{};
+  if constexpr (is_damped)
+    w = into_frame(cage, Vec2Of<Number>{rate.x + contacts.cage_speed * u.y,
+                                        rate.y - contacts.cage_speed * u.x});
+  for (int j = 0; j < balls.count; ++j) {
+    const double c = balls.cos[j], s = balls.sin[j];
+    const Number near = c * v.x + s * v.y - contacts.clearance;  // Eq. 4
+    if (!any_positive(near)) continue;
+    const Number pressed = positive(near);
+    Number q = pressed * root(pressed);  // Eq. 5 over K_H
+    if constexpr (is_damped)
+      q = q * positive(1 + contacts.damping * (c * w.x + s * w.y));
+    sum.x += q * c;
+    sum.y += q * s;
+  }
+  return out_of_frame(
+      cage, Vec2Of<Number>{contacts.stiffness * sum.x, contacts.stiffness * sum.y});
 }
 
 /** What turns in a bearing. */
@@ -109,12 +159,6 @@ public:
     return is_plain() ? force(at.cage, u) : full_reaction(at, u, rate).force;
   }
 
-  /** The same for two motions in a plain bearing. */
-  Vec2Of<Two> force(const Angles& at, Vec2Of<Two> u, Vec2Of<Two>) const
-  {
-    return force(at.cage, u);
-  }
-
   /** The same with its derivatives. */
   BearingReaction reaction(const Angles& at, Vec2 u, Vec2 rate) const
   {
@@ -123,28 +167,19 @@ public:
   }
 
   /** The same of an undamaged bearing at rest, with the cage (ball 1) turned to `cage`. */
-  template <class Number = double>
-  Vec2Of<Number> force(Direction cage, Vec2Of<Number> u) const
+  Vec2 force(Direction cage, Vec2 u) const
   {
-    Vec2Of<Number> sum{};
-    if (all_within(u.x * u.x + u.y * u.y, clearance_squared_)) return sum;
-    const Vec2Of<Number> v = into_frame(cage, u);
-    /** By value: references would send the four through memory. */
-    const auto larger = [](Number a, Number b) { return a > b ? a : b; };
-    for (const Four& ball : fours_) {
-      Number p[4];
-      for (int j = 0; j < 4; ++j)
-        p[j] = ball.cos[j] * v.x + ball.sin[j] * v.y - clearance_;
-      if (all_within(larger(larger(p[0], p[1]), larger(p[2], p[3])), 0)) continue;
-      for (int j = 0; j < 4; ++j) {
-        if (all_within(p[j], 0)) continue;
-        const Number q = hertz_power(p[j]);
-        sum.x += q * ball.cos[j];
-        sum.y += q * ball.sin[j];
-      }
-    }
-    return out_of_frame<Number>(cage,
-                                {contact_stiffness_ * sum.x, contact_stiffness_ * sum.y});
+    return bearing_force<false>(ring(), contacts(), cage, u, {});
+  }
+
+  double first_ball() const { return bearing_.cage_phase; }  ///< its angle at t = 0 [rad]
+  BallRing ring() const
+  {
+    return {static_cast<int>(cosines_.size()), cosines_.data(), sines_.data()};
+  }
+  Contacts<double> contacts() const
+  {
+    return {contact_stiffness_, clearance_, bearing_.damping, cage_speed_};
   }
 
   ElasticReaction reaction(Direction cage, Vec2 u) const;
@@ -155,23 +190,6 @@ public:
   const std::vector<Direction>& balls() const { return balls_; }
 
 private:
-  static bool all_within(double a, double most) { return a <= most; }
-  static bool all_within(Two a, double most) { return a[0] <= most && a[1] <= most; }
-
-  /** Eq. 5 over K_H; of two penetrations one may be negative. */
-  static double hertz_power(double p) { return p * std::sqrt(p); }
-  static Two hertz_power(Two p)
-  {
-    p = p > 0 ? p : Two{};
-    return p * Two{std::sqrt(p[0]), std::sqrt(p[1])};
-  }
-
-  /** Directions of four balls, whose penetrations are computed at once: most fours are not loaded,
-      and their balls need no branch each. A place without a ball is never loaded. */
-  struct Four {
-    double cos[4]{}, sin[4]{};
-  };
-
   struct Contact {
     std::size_t ball;
     Direction direction;
@@ -195,7 +213,7 @@ private:
   double turns_, omega_, rotor_speed_, cage_speed_;  ///< [rad/s]
   Direction place_;                                  ///< of the spall's middle
   std::vector<Direction> balls_;                     ///< at cage angle 0
-  std::vector<Four> fours_;                          ///< the same
+  std::vector<double> cosines_, sines_;              ///< theirs
   double contact_stiffness_;
   double clearance_;
   double clearance_squared_;

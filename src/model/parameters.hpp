@@ -23,9 +23,6 @@ struct Vec2Of {
 };
 using Vec2 = Vec2Of<double>;
 
-/** A number of each of two motions that go on together. */
-using Two = double __attribute__((vector_size(16)));
-
 /** A body on its own suspension, the same in x and y. */
 struct Body {
   double mass;  ///< m [kg], not in the paper (D-13)

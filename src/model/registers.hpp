@@ -7,6 +7,7 @@ the bits do not depend on the choice. */
 
 #if defined(__x86_64__) && defined(__GLIBC__) && defined(__GNUC__) && !defined(__clang__)
 #define WIDEST_REGISTERS __attribute__((target_clones("avx512f", "avx2", "default")))
+#define HAS_WIDE_REGISTERS
 #else
 #define WIDEST_REGISTERS
 #endif

@@ -8,15 +8,29 @@
 
 namespace rotor_stator {
 
+/** Eq. 7 of the machine at the base frequency `omega`. */
+static Equation7<double> equation_7(const Parameters& parameters, double omega)
+{
+  const Body &s = parameters.stator, &r = parameters.rotor;
+  const double speed = parameters.turns * omega;
+  const Vec2 rest_s = s.static_acceleration(parameters.gravity);
+  const Vec2 rest_r = r.static_acceleration(parameters.gravity);
+  return {.k_s = s.stiffness(),
+          .c_s = s.damping(),
+          .per_m_s = 1 / s.mass,
+          .k_r = r.stiffness(),
+          .c_r = r.damping(),
+          .per_m_r = 1 / r.mass,
+          .unbalance = parameters.unbalance * speed * speed,
+          .rest_s_x = rest_s.x,
+          .rest_s_y = rest_s.y,
+          .rest_r_x = rest_r.x,
+          .rest_r_y = rest_r.y};
+}
+
 RotorStator::RotorStator(const Parameters& parameters, double omega)
     : bearing_(parameters.bearing, omega, parameters.turns), omega_(omega),
-      unbalance_(parameters.unbalance * (parameters.turns * omega) *
-                 (parameters.turns * omega)),
-      rest_s_(parameters.stator.static_acceleration(parameters.gravity)),
-      rest_r_(parameters.rotor.static_acceleration(parameters.gravity)),
-      k_s_(parameters.stator.stiffness()), c_s_(parameters.stator.damping()),
-      per_m_s_(1 / parameters.stator.mass), k_r_(parameters.rotor.stiffness()),
-      c_r_(parameters.rotor.damping()), per_m_r_(1 / parameters.rotor.mass)
+      equation_(equation_7(parameters, omega))
 {
 }
 
@@ -211,6 +225,22 @@ Vec2 static_equilibrium(const Parameters& parameters, Direction cage)
   const double k_s = parameters.stator.stiffness(), k_r = parameters.rotor.stiffness();
   return equilibrium(parameters, static_joint_force(parameters), cage,
                      k_s / (k_s + k_r) * k_r);
+}
+
+State rest_state(const Parameters& parameters, Direction cage)
+{
+  if (parameters.large) return large_static_start(parameters);
+  const double k_s = parameters.stator.stiffness(), k_r = parameters.rotor.stiffness();
+  const Vec2 u = static_equilibrium(parameters, cage);
+  const Vec2 force = static_joint_force(parameters) + -(k_s / (k_s + k_r) * k_r) * u;
+  if (k_s > 0) {
+    const Vec2 f = force + static_load(parameters.stator, parameters.gravity);
+    const Vec2 s{f.x / k_s, f.y / k_s};
+    return {.position = {.stator = s, .rotor = s + u}, .velocity = {}};
+  }
+  const Vec2 f = static_load(parameters.rotor, parameters.gravity) + -1.0 * force;
+  const Vec2 r{f.x / k_r, f.y / k_r};
+  return {.position = {.stator = r + -1.0 * u, .rotor = r}, .velocity = {}};
 }
 
 State static_start(const Parameters& parameters)

@@ -29,7 +29,10 @@ template <class Number>
 struct BodiesOf {
   Vec2Of<Number> stator, rotor;
 
-  Vec2Of<Number> relative() const { return {rotor.x - stator.x, rotor.y - stator.y}; }
+  IN_PLACE Vec2Of<Number> relative() const
+  {
+    return {rotor.x - stator.x, rotor.y - stator.y};
+  }
 };
 using Bodies = BodiesOf<double>;
 
@@ -63,43 +66,56 @@ inline void put(const Bodies& bodies, double* y)
   std::copy(q.begin(), q.end(), y);
 }
 
-/** Eq. 7 at one rotor speed: everything that does not change along a motion. */
+/** Eq. 7 at one rotor speed without its bearing, of one motion or of several side by side: what does not change along a
+    motion. */
+template <class Number>
+struct Equation7 {
+  Number k_s, c_s, per_m_s, k_r, c_r, per_m_r;   ///< [N/m], [N s/m], [1/kg]
+  Number unbalance;                              ///< m_e e ω² [N]
+  Number rest_s_x, rest_s_y, rest_r_x, rest_r_y; ///< static accelerations [m/s²]
+
+  /** Accelerations [m/s²] for the bearing's force `f` [N] on the stator. */
+  IN_PLACE BodiesOf<Number> acceleration(const BodiesOf<Number>& q,
+                                         const BodiesOf<Number>& v,
+                                         DirectionOf<Number> rotor,
+                                         Vec2Of<Number> f) const
+  {
+    return {{(f.x - c_s * v.stator.x - k_s * q.stator.x) * per_m_s + rest_s_x,
+             (f.y - c_s * v.stator.y - k_s * q.stator.y) * per_m_s + rest_s_y},
+            {(unbalance * rotor.cos - f.x - c_r * v.rotor.x - k_r * q.rotor.x) * per_m_r +
+                 rest_r_x,
+             (unbalance * rotor.sin - f.y - c_r * v.rotor.y - k_r * q.rotor.y) * per_m_r +
+                 rest_r_y}};
+  }
+};
+
+/** Eq. 7 at one rotor speed with its bearing. */
 class RotorStator {
 public:
   /** `omega` is the base frequency [rad/s], the rotor's speed where that turns once per period. */
   RotorStator(const Parameters& parameters, double omega);
 
   /** Accelerations [m/s²]. */
-  template <class Number>
-  BodiesOf<Number> acceleration(const BodiesOf<Number>& q, const BodiesOf<Number>& v,
-                                const Angles& at) const
+  Bodies acceleration(const Bodies& q, const Bodies& v, const Angles& at) const
   {
     return acceleration(q, v, at.rotor, bearing_.force(at, q.relative(), v.relative()));
   }
 
   /** The same for a bearing force `f` [N] that is known already. */
-  template <class Number>
-  BodiesOf<Number> acceleration(const BodiesOf<Number>& q, const BodiesOf<Number>& v,
-                                Direction rotor, Vec2Of<Number> f) const
+  Bodies acceleration(const Bodies& q, const Bodies& v, Direction rotor, Vec2 f) const
   {
-    return {
-        {(f.x - c_s_ * v.stator.x - k_s_ * q.stator.x) * per_m_s_ + rest_s_.x,
-         (f.y - c_s_ * v.stator.y - k_s_ * q.stator.y) * per_m_s_ + rest_s_.y},
-        {(unbalance_ * rotor.cos - f.x - c_r_ * v.rotor.x - k_r_ * q.rotor.x) * per_m_r_ +
-             rest_r_.x,
-         (unbalance_ * rotor.sin - f.y - c_r_ * v.rotor.y - k_r_ * q.rotor.y) * per_m_r_ +
-             rest_r_.y}};
+    return equation_.acceleration(q, v, rotor, f);
   }
 
   double omega() const { return omega_; }
   double period() const;
   const BallBearing& bearing() const { return bearing_; }
+  const Equation7<double>& equation() const { return equation_; }
 
 private:
   BallBearing bearing_;
-  double omega_, unbalance_;
-  Vec2 rest_s_, rest_r_;  ///< static accelerations [m/s²]
-  double k_s_, c_s_, per_m_s_, k_r_, c_r_, per_m_r_;
+  double omega_;
+  Equation7<double> equation_;
 };
 
 /** Dynamic stiffness Z(Ω) = K - mΩ² + i c Ω of a body alone [N/m], and dZ/dΩ. */
@@ -154,6 +170,9 @@ Vec2 quasi_static_contact(const Bearing& bearing, Vec2 force);
 /** The relative displacement [m] at rest with ball 1 at the angle `cage`. */
 Vec2 static_equilibrium(const Parameters& parameters, Direction cage);
 
+/** Both bodies at rest in static equilibrium with ball 1 at the angle `cage`; without displacement where none is unique. */
+State rest_state(const Parameters& parameters, Direction cage);
+
 /** A state at rest with the bearing carrying the static load: where time integration starts. The load stands on
     one ball; where the bearing alone carries a body, on those that balance it with ball 1 at angle 0. */
 State static_start(const Parameters& parameters);
@@ -164,22 +183,22 @@ State static_start(const Parameters& parameters);
 What a time integrator does with slopes. */
 
 template <class Number>
-Vec2Of<Number> operator+(Vec2Of<Number> a, Vec2Of<Number> b)
+IN_PLACE Vec2Of<Number> operator+(Vec2Of<Number> a, Vec2Of<Number> b)
 {
   return {a.x + b.x, a.y + b.y};
 }
-template <class Number>
-Vec2Of<Number> operator*(double s, Vec2Of<Number> a)
+template <class Factor, class Number>
+IN_PLACE Vec2Of<Number> operator*(Factor s, Vec2Of<Number> a)
 {
   return {s * a.x, s * a.y};
 }
 template <class Number>
-BodiesOf<Number> operator+(const BodiesOf<Number>& a, const BodiesOf<Number>& b)
+IN_PLACE BodiesOf<Number> operator+(const BodiesOf<Number>& a, const BodiesOf<Number>& b)
 {
   return {a.stator + b.stator, a.rotor + b.rotor};
 }
-template <class Number>
-BodiesOf<Number> operator*(double s, const BodiesOf<Number>& a)
+template <class Factor, class Number>
+IN_PLACE BodiesOf<Number> operator*(Factor s, const BodiesOf<Number>& a)
 {
   return {s * a.stator, s * a.rotor};
 }

@@ -151,10 +151,10 @@ PeriodMap Rk4PeriodMap::map(const State& start)
   Varied q{start.position, Disturbances::Zero()}, v{start.velocity, Disturbances::Zero()};
   q.disturbances.topRows<4>().setIdentity();
   v.disturbances.bottomRows<4>().setIdentity();
-  const auto& angles = rk4_.angles();
-  for (std::size_t k = 0; k + 2 < angles.size(); k += 2)
-    nystrom_step(rk4_.step(), &angles[k], q, v, acceleration);
-  const long evaluations = 2 * (static_cast<long>(angles.size()) - 1);
+  rk4_.each_step(0, [&](const Angles* at) {
+    nystrom_step(rk4_.step(), at, q, v, acceleration);
+  });
+  const long evaluations = 4L * rk4_.steps_per_interval();
   evaluations_ += evaluations;
   Matrix8 derivative;
   derivative << q.disturbances.transpose(), v.disturbances.transpose();

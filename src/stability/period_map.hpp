@@ -14,8 +14,8 @@ answer depends on. */
 #include <Eigen/Core>
 #include <string>
 
-#include "integration/rk4.hpp"
 #include "model/rotor_stator.hpp"
+#include "time/rk4.hpp"
 
 namespace rotor_stator {
 

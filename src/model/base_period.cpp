@@ -1,0 +1,81 @@
+#include "model/base_period.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include "io/errors.hpp"
+
+namespace rotor_stator {
+
+std::string BasePeriod::words() const
+{
+  switch (kind) {
+    case Kind::turn: return "turn";
+    case Kind::turns: return format("turns %d", turns);
+    case Kind::passing: return "passing";
+    case Kind::two: break;
+  }
+  return "two";
+}
+
+int turns_to_repeat(const Bearing& bearing)
+{
+  for (int q = 1; q <= 8; ++q) {
+    Bearing longer = bearing;
+    longer.cage_speed_ratio *= q;
+    if (has_rotation_period(longer)) return q;
+  }
+  return 0;
+}
+
+/** The least q ≤ 8 that is one of all bearings, 0 where there is none. */
+static int turns_of_all(const std::vector<Bearing>& bearings)
+{
+  for (int q = 1; q <= 8; ++q)
+    if (std::ranges::all_of(bearings, [q](Bearing bearing) {
+          bearing.cage_speed_ratio *= q;
+          return has_rotation_period(bearing);
+        }))
+      return q;
+  return 0;
+}
+
+/** Whether a passing of the first bearing is a whole number of those of all others. */
+static bool has_passing(const std::vector<Bearing>& bearings)
+{
+  const double first = passages_per_turn(bearings.front());
+  return first > 0 && std::ranges::all_of(bearings, [first](const Bearing& bearing) {
+           const double ratio = passages_per_turn(bearing) / first;
+           return !bearing.is_damaged(Defect::Surface::ball) &&
+                  std::abs(ratio - std::round(ratio)) < 1e-9;
+         });
+}
+
+BasePeriod base_period(const Parameters& parameters)
+{
+  using Kind = BasePeriod::Kind;
+  const std::vector<Bearing> bearings = bearings_of(parameters);
+  if (!turns_visibly(parameters) && has_passing(bearings))
+    return {Kind::passing, 1, passages_per_turn(parameters.bearing)};
+  const int q = turns_of_all(bearings);
+  if (q == 0) return {Kind::two, 1, 1};
+  return {q == 1 ? Kind::turn : Kind::turns, q, 1.0 / q};
+}
+
+Parameters over_passage(Parameters parameters)
+{
+  parameters.speed_ratio = 1 / passages_per_turn(parameters.bearing);
+  parameters.bearing.cage_speed_ratio = 1.0 / parameters.bearing.balls;
+  for (Bearing& further : parameters.further)
+    further.cage_speed_ratio *= parameters.speed_ratio;
+  return parameters;
+}
+
+Based over(const BasePeriod& base, const Parameters& parameters, double rotor_speed)
+{
+  const double omega = rotor_speed * base.per_turn;
+  if (base.kind == BasePeriod::Kind::passing) return {over_passage(parameters), omega};
+  return {over_turns(parameters, base.turns), omega};
+}
+
+}  // namespace rotor_stator

@@ -1,0 +1,88 @@
+/**
+# Numbers side by side
+
+`Lanes<8>` is a row of eight doubles that a processor adds, multiplies and takes roots of at once, as far as its
+registers are wide. What is written once for a `Number` then serves one motion (double) or several of them (lanes), with
+the same bits for each: no sum is reordered and no product fused.
+
+    template <class Number>
+    IN_PLACE Number hertz_force(Number k, Number penetration)
+    {
+      const Number p = positive(penetration);
+      return k * p * root(p);
+    }
+
+Functions of lanes are `IN_PLACE`, a part of the function that is compiled for the registers at hand: a call would
+compile them for the narrowest ones. */
+#pragma once
+
+#include <cmath>
+
+#include "model/registers.hpp"
+
+namespace rotor_stator {
+
+template <int count>
+using Lanes [[gnu::vector_size(count * sizeof(double))]] = double;
+
+/** How many motions a number belongs to. */
+template <class Number>
+inline constexpr int lanes_in = static_cast<int>(sizeof(Number) / sizeof(double));
+
+/** p where it is positive, else 0. */
+template <class Number>
+IN_PLACE Number positive(Number p)
+{
+  if constexpr (lanes_in<Number> == 1) {
+    return p > 0 ? p : 0;
+  } else {
+    Number row;
+    for (int l = 0; l < lanes_in<Number>; ++l) row[l] = p[l] > 0 ? p[l] : 0;
+    return row;
+  }
+}
+
+template <class Number>
+IN_PLACE Number root(Number p)
+{
+  if constexpr (lanes_in<Number> == 1) {
+    return std::sqrt(p);
+  } else {
+    Number row;
+    for (int l = 0; l < lanes_in<Number>; ++l) row[l] = __builtin_sqrt(p[l]);
+    return row;
+  }
+}
+
+/** Whether p is positive in any lane. */
+template <class Number>
+IN_PLACE bool any_positive(Number p)
+{
+  if constexpr (lanes_in<Number> == 1) {
+    return p > 0;
+  } else {
+    double largest = p[0];
+    for (int l = 1; l < lanes_in<Number>; ++l) largest = largest > p[l] ? largest : p[l];
+    return largest > 0;
+  }
+}
+
+/** Writes a number into lane `l`, and reads it. */
+template <class Number>
+IN_PLACE void put_lane(Number& row, int l, double value)
+{
+  if constexpr (lanes_in<Number> == 1)
+    row = value;
+  else
+    row[l] = value;
+}
+template <class Number>
+IN_PLACE double lane(const Number& row, int l)
+{
+  if constexpr (lanes_in<Number> == 1)
+    return row;
+  else
+    return row[l];
+}
+
+}  // namespace rotor_stator

@@ -1,0 +1,284 @@
+#include "time/rk4.hpp"
+
+#include <algorithm>
+#include <bit>
+#include <cmath>
+#include <numbers>
+
+#include "io/errors.hpp"
+
+namespace rotor_stator {
+
+namespace {
+
+constexpr double most_steps_per_period = 3e7;
+
+/** The fewest steps per output interval that are not longer than `longest_step` [s]. */
+int steps_in_interval(double period, int intervals, double longest_step)
+{
+  const double steps = std::ceil(period / intervals / longest_step - 1e-9);
+  if (!(steps * intervals <= most_steps_per_period))
+    throw NoSolution(
+        format("rk4 would need steps of %.3g s in a period of %.3g s, more than %.3g",
+               longest_step, period, most_steps_per_period));
+  return std::max(1, static_cast<int>(steps));
+}
+
+Angles turned_by(double rotor, double cage, double spin)
+{
+  constexpr double turn = 2 * std::numbers::pi;
+  return {Direction::of(turn * rotor), Direction::of(turn * cage),
+          spin > 0 ? Direction::of(turn * spin) : Direction{1, 0}};
+}
+
+}  // namespace
+
+Rk4::Rk4(const Parameters& parameters, double omega, int intervals, double longest_step,
+         OperationBudget budget)
+    : system_(parameters, omega), rotor_turns_(parameters.turns),
+      cage_turns_(parameters.bearing.cage_speed_ratio),
+      spin_turns_(parameters.bearing.defect.spin), intervals_(intervals),
+      steps_(steps_in_interval(system_.period(), intervals, longest_step)),
+      h_(system_.period() / (static_cast<double>(intervals) * steps_)),
+      is_damaged_(!parameters.bearing.is_damaged(Defect::Surface::none)),
+      is_damped_(parameters.bearing.damping > 0), budget_(std::move(budget))
+{
+  const double half = 0.5 / (static_cast<double>(intervals) * steps_);
+  half_ = turned_by(rotor_turns_ * half, cage_turns_ * half, spin_turns_ * half);
+}
+
+/** So many steps after the start of an interval: whole turns of the periods before are taken off first. */
+Angles Rk4::angles(long interval, int steps) const
+{
+  const long part = ((interval % intervals_) + intervals_) % intervals_;
+  const auto periods = static_cast<double>((interval - part) / intervals_);
+  const double share = (static_cast<double>(part) * steps_ + steps) /
+                       (static_cast<double>(intervals_) * steps_);
+  const auto turns = [&](double per_period) {
+    return std::fmod(per_period * periods, 1.0) + per_period * share;
+  };
+  const double first = system_.bearing().first_ball() / (2 * std::numbers::pi);
+  return turned_by(turns(rotor_turns_), turns(cage_turns_) + first, turns(spin_turns_));
+}
+
+void Rk4::spend()
+{
+  const long evaluations = 4L * steps_;
+  budget_.spend(static_cast<double>(evaluations));
+  evaluations_ += evaluations;
+}
+
+/**
+## Motions side by side
+
+A row holds one number of each motion. Lanes without a motion repeat the last one. */
+template <class Number>
+struct Rk4::Row {
+  BallRing balls;
+  Contacts<Number> contacts;
+  Equation7<Number> equation;
+  DirectionOf<Number> half_rotor, half_cage, rotor, cage;
+  BodiesOf<Number> q, v;
+  Number h;
+
+  void put(int l, const Rk4& flow, const State& state)
+  {
+    const Equation7<double>& e = flow.system_.equation();
+    const Contacts<double> c = flow.system_.bearing().contacts();
+    const auto each = [l]<class To, class From>(To& row, const From& value) {
+      constexpr auto count = sizeof(From) / sizeof(double);
+      auto to = std::bit_cast<std::array<Number, count>>(row);
+      const auto from = std::bit_cast<std::array<double, count>>(value);
+      for (std::size_t i = 0; i < count; ++i) put_lane(to[i], l, from[i]);
+      row = std::bit_cast<To>(to);
+    };
+    each(equation, e);
+    each(contacts, c);
+    each(half_rotor, flow.half_.rotor);
+    each(half_cage, flow.half_.cage);
+    each(q, state.position);
+    each(v, state.velocity);
+    put_lane(h, l, flow.h_);
+  }
+  void turn_to(int l, const Angles& at)
+  {
+    put_lane(rotor.cos, l, at.rotor.cos);
+    put_lane(rotor.sin, l, at.rotor.sin);
+    put_lane(cage.cos, l, at.cage.cos);
+    put_lane(cage.sin, l, at.cage.sin);
+  }
+  void get(int l, State& state) const
+  {
+    const auto bodies = [l](const BodiesOf<Number>& row) -> Bodies {
+      return {{lane(row.stator.x, l), lane(row.stator.y, l)},
+              {lane(row.rotor.x, l), lane(row.rotor.y, l)}};
+    };
+    state.position = bodies(q);
+    state.velocity = bodies(v);
+  }
+
+  template <bool is_damped>
+  IN_PLACE BodiesOf<Number> acceleration(const BodiesOf<Number>& q_now,
+                                         const BodiesOf<Number>& v_now) const
+  {
+    const Vec2Of<Number> force = bearing_force<is_damped>(
+        balls, contacts, cage, q_now.relative(), v_now.relative());
+    return equation.acceleration(q_now, v_now, rotor, force);
+  }
+  IN_PLACE void turn_half_a_step()
+  {
+    rotor = turned(rotor, half_rotor);
+    cage = turned(cage, half_cage);
+  }
+
+  template <bool is_damped>
+  IN_PLACE void advance(int steps)
+  {
+    const Number half = 0.5 * h, sixth = h / 6;
+    for (int k = 0; k < steps; ++k) {
+      const auto a_1 = acceleration<is_damped>(q, v);
+      turn_half_a_step();
+      const auto v_2 = v + half * a_1;
+      const auto a_2 = acceleration<is_damped>(q + half * v, v_2);
+      const auto v_3 = v + half * a_2;
+      const auto a_3 = acceleration<is_damped>(q + half * v_2, v_3);
+      turn_half_a_step();
+      const auto v_4 = v + h * a_3;
+      const auto a_4 = acceleration<is_damped>(q + h * v_3, v_4);
+      q = q + sixth * (v + 2.0 * v_2 + 2.0 * v_3 + v_4);
+      v = v + sixth * (a_1 + 2.0 * a_2 + 2.0 * a_3 + a_4);
+    }
+  }
+};
+
+namespace {
+
+/** One function for each kind of registers: what it calls is a part of it. */
+template <bool is_damped, class Row>
+void advance_plain(Row& row, int steps)
+{
+  row.template advance<is_damped>(steps);
+}
+
+#ifdef HAS_WIDE_REGISTERS
+template <bool is_damped, class Row>
+__attribute__((target("avx2"))) void advance_avx2(Row& row, int steps)
+{
+  row.template advance<is_damped>(steps);
+}
+
+template <bool is_damped, class Row>
+__attribute__((target("avx512f"))) void advance_avx512(Row& row, int steps)
+{
+  row.template advance<is_damped>(steps);
+}
+#endif
+
+Registers registers_of_processor()
+{
+#ifdef HAS_WIDE_REGISTERS
+  if (__builtin_cpu_supports("avx512f")) return Registers::avx512;
+  if (__builtin_cpu_supports("avx2")) return Registers::avx2;
+#endif
+  return Registers::plain;
+}
+
+Registers& registers_in_use()
+{
+  static Registers in_use = registers_of_processor();
+  return in_use;
+}
+
+template <bool is_damped, class Row>
+void advance_row(Row& row, int steps)
+{
+#ifdef HAS_WIDE_REGISTERS
+  if (registers_in_use() == Registers::avx512)
+    return advance_avx512<is_damped>(row, steps);
+  if (registers_in_use() == Registers::avx2) return advance_avx2<is_damped>(row, steps);
+#endif
+  advance_plain<is_damped>(row, steps);
+}
+
+}  // namespace
+
+Registers widest_registers()
+{
+  return registers_in_use();
+}
+
+void use_registers(Registers widest)
+{
+  registers_in_use() = std::min(widest, registers_of_processor());
+}
+
+/** Lanes that have arrived go on unseen until the last one has. */
+template <class Number>
+void Rk4::advance_lanes(std::span<const Passage> passages)
+{
+  constexpr int width = lanes_in<Number>;
+  const auto last = passages.size() - 1;
+  Row<Number> row{};
+  row.balls = passages[0].flow->system_.bearing().ring();
+  std::array<int, width> done{};
+  bool is_damped = false;
+  for (int l = 0; l < width; ++l) {
+    const Passage& one = passages[std::min<std::size_t>(l, last)];
+    row.put(l, *one.flow, *one.state);
+    is_damped = is_damped || one.flow->is_damped_;
+  }
+  for (const Passage& one : passages) one.flow->spend();
+  for (bool is_under_way = true; is_under_way;) {
+    int steps = fresh;
+    for (int l = 0; l < width; ++l) {
+      const Passage& one = passages[std::min<std::size_t>(l, last)];
+      const int left = one.flow->steps_ - done[l];
+      if (left <= 0) continue;
+      if (done[l] % fresh == 0) row.turn_to(l, one.flow->angles(one.interval, done[l]));
+      steps = std::min({steps, left, fresh - done[l] % fresh});
+    }
+    is_damped ? advance_row<true>(row, steps) : advance_row<false>(row, steps);
+    is_under_way = false;
+    for (int l = 0; l < width; ++l) {
+      const Passage& one = passages[std::min<std::size_t>(l, last)];
+      const int left = one.flow->steps_ - done[l];
+      done[l] += steps;
+      if (left == steps && l <= static_cast<int>(last)) row.get(l, *one.state);
+      is_under_way = is_under_way || left > steps;
+    }
+  }
+}
+
+void Rk4::advance(long interval, State& state)
+{
+  const Passage alone{this, interval, &state};
+  if (!is_damaged_) return advance_lanes<double>({&alone, 1});
+  spend();
+  const auto acceleration = [&](const Bodies& q, const Bodies& v, const Angles& at) {
+    return system_.acceleration(q, v, at);
+  };
+  each_step(interval, [&](const Angles* at) {
+    nystrom_step(h_, at, state.position, state.velocity, acceleration);
+  });
+}
+
+void Rk4::advance(long interval, State& a, State& b)
+{
+  const Passage both[] = {{this, interval, &a}, {this, interval, &b}};
+  if (is_damaged_) return Flow::advance(interval, a, b);
+  advance_lanes<Lanes<2>>(both);
+}
+
+void advance_together(std::span<const Rk4::Passage> passages)
+{
+  if (passages.size() > 4)
+    Rk4::advance_lanes<Lanes<8>>(passages);
+  else if (passages.size() > 2)
+    Rk4::advance_lanes<Lanes<4>>(passages);
+  else if (passages.size() > 1)
+    Rk4::advance_lanes<Lanes<2>>(passages);
+  else if (!passages.empty())
+    Rk4::advance_lanes<double>(passages);
+}
+
+}  // namespace rotor_stator

@@ -1,0 +1,85 @@
+/**
+# What a machine does after a start
+
+Eq. 7 is integrated from a state, with a neighbour beside it that is pulled back to its first distance after every
+interval (Benettin). What the distance would have become says two things: the transient is over when it has shrunk to
+1e-9, and its mean growth λ is the largest Lyapunov exponent, which with the Poincaré section decides the kind of the
+motion.
+
+- `rest`: all speeds and changes are below 1e-12 of clearance plus static deflection.
+- `periodic`: the section, one point in each base period, closes after K ≤ 16 of them.
+- `quasi-periodic`: λ + 3s < 0 where two frequencies drive; or |λ| ≤ 3s, 3s below 0.1/s and a section that does not close.
+- `chaotic`: λ - 3s > 0.
+- `undecided`: everything else, with the reason.
+
+    const BasePeriod base = base_period(parameters);
+    const auto [machine, omega] = over(base, parameters, angular(25));
+    const Settled settled = settle(machine, omega, base, from_rest(machine, omega), {}, budget);
+
+The machine is one counted over its base period. λ comes with its standard error s, that of the means of ten batches of the
+later half of all that was integrated. */
+#pragma once
+
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "io/budget.hpp"
+#include "model/base_period.hpp"
+#include "stability/lyapunov.hpp"
+#include "time/flow.hpp"
+
+namespace rotor_stator {
+
+enum class Kind { undecided, rest, periodic, quasi_periodic, chaotic };
+const char* word(Kind kind);
+
+/** A state at the start of base period `period`, counted from t = 0. */
+struct Instant {
+  State state;
+  long period = 0;
+};
+
+struct SettleRule {
+  double step = 0;        ///< longest of rk4 [s]; 0: `default_step`
+  double closed = 1e-6;   ///< spread of a closed section, over the vibration [-]
+  int most_period = 16;   ///< K
+  double longest = 60;    ///< after t = 0 [s]
+};
+
+struct Settled {
+  Kind kind = Kind::undecided;
+  int period = 0;         ///< K of a closed section, else 0
+  Exponent lyapunov{0};   ///< λ and its standard error [1/s]
+  bool contracts = false; ///< λ + 3s < 0
+  double remainder = 1;   ///< what the contraction leaves of the start's distance [-]
+  Instant at;             ///< the motion: at t = 0, where its neighbours contract or it closes
+  Instant before;         ///< the same motion earlier: neighbours have come 1e-5 nearer since
+  double amplitude = 0;   ///< half peak-to-peak of the largest displacement in the last base periods [m]
+  double seconds = 0;     ///< integrated
+  double evaluations = 0; ///< of Eq. 7
+  std::string reason = {};  ///< why it is undecided
+};
+
+/** Throws NoSolution when the integration breaks down. A budget that ends leaves what is known, undecided. */
+Settled settle(const Parameters& machine, double omega, const BasePeriod& base,
+               const Instant& start, const SettleRule& rule = {},
+               const OperationBudget& budget = {});
+
+/** At rest in static equilibrium with ball 1 at the angle that it has there, so long before t = 0 that a linear machine
+    has forgotten its start: 25 over its slowest decay rate, 4 to 25 s, in whole turns. */
+Instant from_rest(const Parameters& machine, double omega);
+
+/** The slowest decay rate and the lowest natural frequency [1/s] of both bodies joined by a loaded contact; a frequency
+    of 0 is left out. */
+struct SlowestMode {
+  double decay, frequency;
+};
+SlowestMode slowest_mode(const Parameters& machine);
+
+/** A flow of fixed step: rk4, or Gauss's rule for large bodies, with `intervals` in a base period. */
+std::unique_ptr<Flow> fixed_step_flow(const Parameters& machine, double omega,
+                                      int intervals, double step,
+                                      const OperationBudget& budget);
+
+}  // namespace rotor_stator
