@@ -1,6 +1,6 @@
-"""How often the multipliers of m harmonics are right about the machine, by two methods.
+"""How often the multipliers of m harmonics are right about the machine.
 
-Of the solutions on which the machine's verdict is known, the share that the method judges rightly, calls stable though
+Of the solutions on which the machine's verdict is known, the share that they judge rightly, calls stable though
 the machine is not, or unstable though it is stable. The number above a bar counts these solutions.
 Usage: /usr/bin/python3 figures/verdicts.py data/reference/verdicts.tsv verdicts.svg
 """
@@ -11,33 +11,29 @@ import matplotlib.pyplot as plt
 import numpy as np
 from tables import run
 
-METHODS = {"series": "along the series", "hill": "Hill"}
 OUTCOMES = [("right", "C0", ""), ("false stable", "C1", "//"), ("false unstable", "C2", "xx"), ("undecided", "#bbbbbb", "")]
 
 
-def outcomes(rows, method):
+def outcomes(rows):
     """How many of the solutions with a verdict on the machine end in each way."""
     known = rows.rows(rows["machine_stable"] >= 0)
-    truth, said = known["machine_stable"], known[f"{method}_stable"]
+    truth, said = known["machine_stable"], known["series_stable"]
     return [int((said == truth).sum()), int(((said == 1) & (truth == 0)).sum()),
             int(((said == 0) & (truth == 1)).sum()), int((said < 0).sum())]
 
 
 def draw_set(axes, rows):
-    """Two bars for each number of harmonics."""
+    """A bar for each number of harmonics."""
     harmonics = np.unique(rows["m"]).astype(int)
     for at, m in enumerate(harmonics):
-        for side, (method, name) in zip((-0.2, 0.2), METHODS.items()):
-            counts = outcomes(rows.where("m", m), method)
-            below = 0
-            for count, (label, colour, hatch) in zip(counts, OUTCOMES):
-                share = 100 * count / max(1, sum(counts))
-                axes.bar(at + side, share, 0.36, bottom=below, color=colour, hatch=hatch, edgecolor="white", lw=0.5,
-                         label=label if at == 0 and side < 0 else None)
-                below += share
-            axes.annotate(f"{sum(counts)}", (at + side, 100), xytext=(0, 2), textcoords="offset points", ha="center",
-                          fontsize=9)
-            axes.annotate(name, (at + side, 50), rotation=90, ha="center", va="center", fontsize=9, color="white")
+        counts = outcomes(rows.where("m", m))
+        below = 0
+        for count, (label, colour, hatch) in zip(counts, OUTCOMES):
+            share = 100 * count / max(1, sum(counts))
+            axes.bar(at, share, 0.6, bottom=below, color=colour, hatch=hatch, edgecolor="white", lw=0.5,
+                     label=label if at == 0 else None)
+            below += share
+        axes.annotate(f"{sum(counts)}", (at, 100), xytext=(0, 2), textcoords="offset points", ha="center", fontsize=9)
     axes.set_xticks(range(len(harmonics)), [f"m = {m}" for m in harmonics])
     axes.tick_params(axis="x", length=0)
 

@@ -252,15 +252,13 @@ def judged(add):
             rows = found.where("set", number).where("m", m)
             known = rows.rows(rows["machine_stable"] >= 0)
             stable = known["machine_stable"] == 1
-            said = [known[f"{method}_stable"] == word for method in ("series", "hill") for word in (1, 0)]
-            wrong = [(one & (~stable if k % 2 == 0 else stable)).sum() for k, one in enumerate(said)]
+            wrong = [((known["series_stable"] == 1) & ~stable).sum(), ((known["series_stable"] == 0) & stable).sum()]
             lines.append([number, m, len(rows), stable.sum(), (~stable).sum(), *wrong])
-            for method, false in zip(("series", "hill"), wrong[::2]):
-                add(f"verdicts.{method}_{number}_{m}", false, "-", 'unstable motions that the method calls "stable"')
+            add(f"verdicts.series_{number}_{m}", wrong[0], "-", 'unstable motions that the series calls "stable"')
             add(f"verdicts.unstable_{number}_{m}", (~stable).sum(), "-", "unstable motions of the machine")
     add("table.verdicts", markdown(
-        ["set", "m", "solutions", "machine stable", "machine unstable", 'series: false "stable"', 'series: false "unstable"',
-         'Hill: false "stable"', 'Hill: false "unstable"'], lines), "-", "false verdicts by the multipliers of m harmonics")
+        ["set", "m", "solutions", "machine stable", "machine unstable", 'series: false "stable"', 'series: false "unstable"'],
+        lines), "-", "false verdicts by the multipliers of m harmonics")
     known = found.rows(found["machine_stable"] >= 0)
     for limit in (0.01, 0.05):
         add(f"verdicts.beyond_{100 * limit:.0f}", (known["distance"] > limit).sum(), "-", f"decided, with an rms distance above {limit}")
@@ -273,7 +271,6 @@ def judged(add):
     finest = known.where("m", known["m"].max())
     add("verdicts.most_count", len(finest), "-", "verdicts on solutions with the most harmonics")
     add("verdicts.most_unstable", (finest["machine_stable"] == 0).sum(), "-", "of them unstable")
-    add("verdicts.most_hill", ((finest["hill_stable"] >= 0) & (finest["hill_stable"] != finest["machine_stable"])).sum(), "-", "false ones by Hill's method")
     counts = np.unique(table["m"])
     for number in (1, 2):
         rows = found.where("set", number)
@@ -293,8 +290,6 @@ def judged(add):
         add(f"verdicts.near20_{key}", near[column][k], "-", f"{column} of the solution of set 1 nearest to 20 Hz, m = 6")
     add("verdicts.m_most", found["m"].max(), "-", "most harmonics of the table")
     add("verdicts.speeds", len(np.unique(table["f"])), "-", "speeds of each set")
-    add("verdicts.hill", int(re.search(r"Hill's method with m harmonics, at most (\d+)", table.header)[1]), "-",
-        "largest number of harmonics of Hill's method")
     add("verdicts.solutions", len(found), "-", "solutions judged")
     add("verdicts.decided", (found["machine_stable"] >= 0).mean(), "-", "share with a verdict on the machine")
     add("verdicts.alone", (found["machine"] < 0).sum(), "-", "solutions without a motion of the machine near them")

@@ -12,8 +12,8 @@ left out and listed, since no error of a periodic motion is defined there. The t
 above the transition at 25 Hz.
 
 The settings of a method are found by trying, with the true motions at hand. `aft-tolerance` is harmonic balance without that:
-orders and samples are chosen and their error estimated speed by speed, as by `explore response --tolerance`
-(`balance/chosen_orders.hpp`). It may find another stable motion than integration from rest, whose motions are the true ones here: that
+harmonics and samples are chosen and their error estimated speed by speed, as by `explore response --tolerance`
+(`motion/adaptive.hpp`). It may find another stable motion than integration from rest, whose motions are the true ones here: that
 counts as an error.
 
 Other people's programs stand with the figure `peers`: the integrators of SUNDIALS and of SciPy, which call the same

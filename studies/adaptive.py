@@ -1,7 +1,7 @@
 """Adaptive harmonics: what the error estimate is worth.
 
 Beside the paper: §3.3 asks how many harmonics are enough. Instead of a number of harmonics one may ask for an error. The
-balance then chooses orders and samples until its own estimate of the error is below the tolerance. Two things can go wrong: the estimate
+balance then chooses harmonics and samples until its own estimate of the error is below the tolerance. Two things can go wrong: the estimate
 may promise more than it keeps, and the search may cost more than it saves. This table looks at both, at the speeds of both
 data sets where the motion is T-periodic.
 

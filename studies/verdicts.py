@@ -2,8 +2,8 @@
 
 Paper: §3.3, where six or ten harmonics are said to suffice; stability is not mentioned. A solution of harmonic balance satisfies
 equations that are truncated at m harmonics. Its Floquet multipliers, the factors by which small disturbances change over a
-period, can be computed for the truncated series: by integrating disturbances along it, or by Hill's method, which expands the
-disturbances in harmonics. This study counts how often they agree with the machine.
+period, can be computed for the truncated series, by integrating disturbances along it. This study counts how often they
+agree with the machine.
 
 The machine's multipliers are those of a motion of Eq. 7 itself, with nothing truncated, which shooting finds from the solution.
 Each bar of the figure covers the solutions for which that motion was found and its stability decided. "False stable": the method
@@ -11,10 +11,7 @@ says stable, the machine's motion is unstable. "False unstable": the reverse. Th
 right to a per cent. The multipliers depend on the stiffness of the contact, which grows as the square root of the penetration,
 with infinite slope where contact begins; its series converges more slowly than that of the displacements.
 
-The product of all multipliers is known exactly (Liouville's formula) and checks the integration along the series, not the
-series. Hill's method takes as many harmonics as the solution, at most 32. So few do not hold the fastest vibration of the
-contact, and the method can choose wrong ones among the exponents that it computes. It gives no uncertainty, so its verdict is
-never "undecided". Speeds avoid the half hertz on which other studies stand.
+Speeds avoid the half hertz on which other studies stand.
 
 Usage: studies/verdicts.py data/scenes/verdicts.toml > verdicts.tsv   (from the project's root)
 """
@@ -34,11 +31,9 @@ COLUMNS = [
     ("distance", "-", "of the solution from that motion, rms about the mean; -1"),
     ("evaluations", "-", "of the force, for the verdict"),
     ("series", "-", "largest modulus by disturbances along the m harmonics; -1"),
-    ("series_change", "-", "of it at the last refinement; -1"), ("series_stable", "-", "1 stable, 0 unstable, -1 undecided"),
-    ("liouville", "-", "relative error of the product of all eight; -1"),
-    ("hill", "-", "largest modulus by Hill's method; -1"), ("hill_stable", "-", "1 stable, 0 unstable, -1 no solution")]
+    ("series_change", "-", "of it at the last refinement; -1"), ("series_stable", "-", "1 stable, 0 unstable, -1 undecided")]
 QUANTITIES = ["multiplier", "uncertainty", "stability", "distance", "evaluations", "series", "series_uncertainty",
-              "series_stability", "liouville", "hill"]
+              "series_stability"]
 
 
 def row(cells):
@@ -47,8 +42,7 @@ def row(cells):
     words = {name: STABILITY.get(cell, "-1" if cell == "-" else cell) for name, cell in cells.items()}
     if not found:
         words["evaluations"] = "0"
-    hill = -1 if cells["hill"] == "-" else int(float(cells["hill"]) < 1)
-    return [str(int(found)), *words.values(), str(hill)]
+    return [str(int(found)), *words.values()]
 
 
 def main(file):
@@ -66,7 +60,7 @@ def main(file):
         tables.append(table)
     print_header("Verdicts on the machine and on its m harmonics", tables,
                  f"modelled: harmonic balance; shooting with at most {scene['most_evaluations']:g} evaluations; disturbances "
-                 "along the series; Hill's method with m harmonics, at most 32")
+                 "along the series")
     print_columns(COLUMNS)
     for key in sorted(rows):
         print("\t".join([*(f"{value:.12g}" for value in key), *rows[key]]))

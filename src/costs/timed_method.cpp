@@ -221,24 +221,17 @@ public:
   }
 
 private:
-  void begin() override
-  {
-    bodies_.assign(task_.frequencies.size(), {});
-    sweep_.emplace(task_.parameters, AdaptiveSettings{.tolerance = setting_.tolerance});
-  }
+  void begin() override { bodies_.assign(task_.frequencies.size(), {}); }
 
   void solve(std::size_t speed) override
   {
-    try {
-      const AdaptiveMotion at = sweep_->solve(angular(task_.frequencies[speed]));
-      counts_.force_instants += at.force_samples;
-      if (at.reached) bodies_[speed] = at.motion.bodies;
-    } catch (const NoSolution&) {
-      return;  // the integration from rest broke down
-    }
+    const AdaptiveMotion at =
+        motion::solve_adaptively(task_.parameters, angular(task_.frequencies[speed]),
+                                 {.tolerance = setting_.tolerance});
+    counts_.force_instants += at.force_samples;
+    if (at.reached) bodies_[speed] = at.motion.bodies;
   }
 
-  std::optional<motion::AdaptiveSweep> sweep_;
   std::vector<Eigen::MatrixXd> bodies_;  ///< series found, by speed
 };
 

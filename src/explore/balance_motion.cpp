@@ -95,14 +95,19 @@ AdaptiveMotion solved(const Parameters& parameters, const MotionRequest& request
     at.reached = true;
     return at;
   }
-  if (!request.tolerance) {
-    AdaptiveMotion at{motion::search_periodic(search)};
-    at.reached = at.motion.found();
-    at.end = at.motion.newton.reason();
-    return at;
-  }
-  if (request.harmonics) return motion::find_with_error(search, *request.tolerance);
-  return motion::solve_adaptively(parameters, omega, settings_of(request), budget);
+  if (request.tolerance && !request.harmonics)
+    return motion::solve_adaptively(parameters, omega, settings_of(request), budget);
+  AdaptiveMotion at{motion::search_periodic(search)};
+  at.reached = at.motion.found();
+  at.end = at.motion.newton.reason();
+  if (!request.tolerance || !at.reached) return at;
+  const ErrorEstimate& error =
+      at.motion.error.emplace(motion::estimate_error(parameters, at.motion, budget));
+  at.reached = error.settled && error.larger() <= *request.tolerance;
+  at.end = format("the error with %d harmonics ", m) +
+           (error.settled ? format("is estimated as %.2g", error.larger())
+                          : "cannot be estimated");
+  return at;
 }
 
 /** A solution with two frequencies, and what the machine says of it. */
@@ -223,26 +228,6 @@ FoundMotion quasi_periodic_motion(const Parameters& parameters,
           lines_of(parameters.bearing, solution)};
 }
 
-/** Those that are not zero, "0-3 10-13". */
-std::string chosen_orders(const PeriodicMotion& motion)
-{
-  const Eigen::Index count = motion.harmonics.count(),
-                     dofs = motion.x.size() / (2 * count + 1);
-  const auto has = [&](Eigen::Index h) {
-    return h <= count &&
-           (h == 0 || !motion.x.segment((2 * h - 1) * dofs, 2 * dofs).isZero(0));
-  };
-  std::string list;
-  for (Eigen::Index first = 0, last = 0; first <= count; first = last + 1) {
-    last = first;
-    if (!has(first)) continue;
-    while (has(last + 1)) ++last;
-    list += (list.empty() ? "" : " ") + std::to_string(first) +
-            (last > first ? "-" + std::to_string(last) : "");
-  }
-  return list;
-}
-
 /** A motion with one frequency, that of the parameters, its solution. */
 PeriodicMotion solution_of(const Parameters& parameters, const MotionRequest& request,
                            const OperationBudget& budget, Table& table)
@@ -263,7 +248,6 @@ PeriodicMotion solution_of(const Parameters& parameters, const MotionRequest& re
              (is_chosen ? ""
                         : format(", relative tolerance of Newton %g",
                                  request.newton_tolerance)));
-  if (is_chosen) table.note("orders of the base frequency: " + chosen_orders(at.motion));
   table.note("newton: from " + at.motion.start + ", " + at.motion.newton.reason());
   table.note(format("cost: %ld evaluations of the force times N",
                     std::max(at.force_samples, at.motion.force_samples)));

@@ -23,7 +23,7 @@
 #include "motion/other_starts.hpp"
 #include "motion/regime.hpp"
 #include "motion/verdict.hpp"
-#include "stability/hill.hpp"
+#include "stability/floquet.hpp"
 
 namespace rotor_stator::explore {
 
@@ -33,8 +33,7 @@ const char* const script = "map.py";
 const char* const speed = "frequency";  // the key that no parameter file has
 constexpr int instants = 512, swept_instants = 128, timed_instants = 64;  // of a period
 constexpr int most_points = 10'000'000;
-constexpr int most_of_hill = 32;  // harmonics of a disturbance
-constexpr double seconds = 5;     // that a point may take, about
+constexpr double seconds = 5;  // that a point may take, about
 
 /**
 ## Where the points are */
@@ -312,17 +311,7 @@ public:
   /** What the m harmonics say of themselves. */
   const Floquet& series()
   {
-    return series_([&] { return rotor_stator::floquet(machine, solution()); });
-  }
-
-  /** The largest multiplier by Hill's method: of the two best choices of exponents, that of least |Im lambda|. */
-  double hill()
-  {
-    const int harmonics = std::min(solution().harmonics.count(), most_of_hill);
-    return std::abs(hill_multipliers(vibration_of(machine),
-                                     stiffness_along(machine, solution()), 1 / frequency,
-                                     harmonics, HillChoice::least_imaginary)
-                        .front());
+    return series_([&] { return series_multipliers(machine, solution()); });
   }
 
   const SettledMotion& settled()
@@ -555,10 +544,6 @@ const std::vector<Quantity> quantities{
      [](auto& p) -> Cell { return p.series().uncertainty(); }, true},
     {"series_stability", "word", "what they say: stable, unstable, undecided", solution,
      [](auto& p) -> Cell { return std::string(p.series().verdict()); }, true},
-    {"liouville", "-", "relative error of the product of the multipliers of series",
-     solution, [](auto& p) -> Cell { return p.series().liouville; }, true},
-    {"hill", "-", "largest modulus by Hill's method, with m harmonics but at most 32",
-     solution, [](auto& p) -> Cell { return p.hill(); }, true},
     {"lyapunov", "1/base period", "largest Lyapunov exponent of the motion from rest",
      rest, [](auto& p) -> Cell { return p.settled().lyapunov; }},
     {"loaded", "-", "share of the time of the motion from rest with a loaded ball", rest,

@@ -603,7 +603,7 @@ Exploration shooting_response(const ResponseRequest& request, const Task& task)
                                          : ""};
 }
 
-/** Solutions to a tolerance, each on the orders that it needs. */
+/** Solutions to a tolerance, each with the harmonics that it needs. */
 Exploration response_to_tolerance(const ResponseRequest& request, const Task& task)
 {
   const Parameters& parameters = task.parameters;
@@ -612,14 +612,14 @@ Exploration response_to_tolerance(const ResponseRequest& request, const Task& ta
   Table table("Frequency response at evenly spaced speeds", fields);
   const bool has_further = table.choose(request.columns, usual, request.plot.has_value());
   describe(table, task.machine);
-  motion::AdaptiveSweep sweep(parameters, {.tolerance = tolerance}, task.budget);
   std::vector<StablePoint> points;
   std::string missing;
   int missed = 0;
   for (int k = 0; k < request.count; ++k) {
     const auto [from, to] = task.range();
     const double omega = from + (to - from) * k / std::max(1, request.count - 1);
-    AdaptiveMotion at = sweep.solve(omega);
+    AdaptiveMotion at = motion::solve_adaptively(parameters, omega,
+                                                 {.tolerance = tolerance}, task.budget);
     if (!at.reached) {
       if (missed++ == 0)
         missing =
@@ -641,10 +641,10 @@ Exploration response_to_tolerance(const ResponseRequest& request, const Task& ta
     points.push_back({.point = {std::move(at.motion), arc}, .floquet = {}});
   }
   if (points.empty()) throw NoSolution(missing);
-  table.note(
-      format("method: aft at %d speeds, orders and samples chosen speed by speed for a "
-             "tolerance of %g, each speed from the paper's predictor",
-             request.count, tolerance));
+  table.note(format(
+      "method: aft at %d speeds, harmonics and samples chosen speed by speed for a "
+      "tolerance of %g",
+      request.count, tolerance));
   if (missed > 0)
     table.note(format("incomplete: %d of %d speeds, the first: ", missed, request.count) +
                missing);

@@ -87,9 +87,8 @@ void check_by_refinement(const HardCase& hard, const Answer& answer, Check& chec
 /** The multipliers of the motion with 2m harmonics, and how far those with m are from them. */
 void check_balance(const HardCase& hard, const Answer& answer, Check& check)
 {
-  const FloquetSettings settings{};
-  const Floquet fine = floquet(hard.machine, answer.finer, settings);
-  const Floquet coarse = floquet(hard.machine, answer.solution, settings);
+  const Floquet fine = series_multipliers(hard.machine, answer.finer);
+  const Floquet coarse = series_multipliers(hard.machine, answer.solution);
   set_stability(fine.largest(), fine.change + std::abs(fine.largest() - coarse.largest()),
                 check);
   if (!check_by_shooting(hard, answer, check)) check_by_refinement(hard, answer, check);

@@ -1,5 +1,6 @@
 #include "support/cases.hpp"
 
+#include <Eigen/LU>
 #include <cmath>
 #include <complex>
 #include <numbers>
@@ -66,11 +67,14 @@ Oscillator two_masses_unilateral()
           }};
 }
 
-PeriodicStiffness stiffness_along(const Oscillator& oscillator, const Eigen::VectorXd& x)
+Eigen::MatrixXd monodromy(const Oscillator& oscillator, const Eigen::VectorXd& x,
+                          double omega, int steps)
 {
+  constexpr double jump = 10;  // no smooth stiffness changes by so much in a step
   const auto d = oscillator.mass.rows();
   const Eigen::MatrixXd series = x.reshaped(d, x.size() / d);
-  const auto at = [oscillator, series, d](double phase, double* k) {
+  const Eigen::MatrixXd per_mass = oscillator.mass.inverse();
+  const auto stiffness = [&](double phase) -> Eigen::MatrixXd {
     const std::complex<double> turn = std::polar(1.0, phase);
     std::complex<double> power = 1;
     Eigen::VectorXd q = series.col(0);
@@ -78,9 +82,47 @@ PeriodicStiffness stiffness_along(const Oscillator& oscillator, const Eigen::Vec
       power *= turn;
       q += power.real() * series.col(h) + power.imag() * series.col(h + 1);
     }
-    Eigen::Map<Eigen::MatrixXd>(k, d, d) = oscillator.law(q).stiffness;
+    return oscillator.law(q).stiffness;
   };
-  return {.at = at};
+  Eigen::MatrixXd phi = Eigen::MatrixXd::Identity(2 * d, 2 * d);
+  const auto rate = [&](const Eigen::MatrixXd& k, const Eigen::MatrixXd& y) {
+    Eigen::MatrixXd slope(2 * d, 2 * d);
+    slope << y.bottomRows(d), -per_mass * ((oscillator.stiffness + k) * y.topRows(d) +
+                                           oscillator.damping * y.bottomRows(d));
+    return slope;
+  };
+  const auto step = [&](double a, double b) {
+    const double h = (b - a) / omega, inside = 1e-9 * (b - a);
+    const Eigen::MatrixXd begin = stiffness(a + inside), middle = stiffness((a + b) / 2),
+                          end = stiffness(b - inside);
+    const Eigen::MatrixXd s_1 = rate(begin, phi), s_2 = rate(middle, phi + h / 2 * s_1),
+                          s_3 = rate(middle, phi + h / 2 * s_2),
+                          s_4 = rate(end, phi + h * s_3);
+    phi += h / 6 * (s_1 + 2 * s_2 + 2 * s_3 + s_4);
+  };
+  for (int k = 0; k < steps; ++k) {
+    const double a = 2 * std::numbers::pi * k / steps,
+                 b = 2 * std::numbers::pi * (k + 1) / steps;
+    const Eigen::MatrixXd before = stiffness(a);
+    double low = a, high = b;
+    if ((stiffness(b) - before).norm() > jump)
+      while (high - low > 1e-13)
+        ((stiffness((low + high) / 2) - before).norm() > jump ? high : low) =
+            (low + high) / 2;
+    step(a, high);
+    if (high < b) step(high, b);
+  }
+  return phi;
+}
+
+Floquet floquet(const Oscillator& oscillator, const Eigen::VectorXd& x, double omega,
+                int steps, double tolerance)
+{
+  Floquet result{.multipliers = multipliers_of(monodromy(oscillator, x, omega, steps))};
+  result.change = largest_move(
+      result.multipliers, multipliers_of(monodromy(oscillator, x, omega, steps / 2)));
+  result.settled = result.change <= tolerance;
+  return result;
 }
 
 double harmonic_amplitude(const Eigen::VectorXd& x, int dofs, int row, int h)

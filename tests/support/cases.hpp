@@ -7,7 +7,7 @@ through the seam of balance/balance.hpp. M q̈ + D q̇ + K q + f(q) = F cos Ωt.
 
 #include "balance/balance.hpp"
 #include "model/parameters.hpp"
-#include "stability/monodromy.hpp"
+#include "stability/floquet.hpp"
 
 namespace rotor_stator::tests {
 
@@ -31,8 +31,15 @@ Oscillator duffing();
 Oscillator two_masses_cubic();
 Oscillator two_masses_unilateral();
 
-/** The stiffness of an oscillator's force along the solution `x`. */
-PeriodicStiffness stiffness_along(const Oscillator& oscillator, const Eigen::VectorXd& x);
+/** The derivative of the period map of an oscillator with d masses, linearised along the series `x` at
+    `omega`, by RK4 with so many steps; they end where the stiffness jumps, which none straddles. 2d × 2d,
+    displacements first. */
+Eigen::MatrixXd monodromy(const Oscillator& oscillator, const Eigen::VectorXd& x,
+                          double omega, int steps);
+
+/** Its multipliers, and their change from half as many steps. */
+Floquet floquet(const Oscillator& oscillator, const Eigen::VectorXd& x, double omega,
+                int steps = 1000, double tolerance = 1e-6);
 
 /** The amplitude of harmonic `h` of variable `row` in the coefficients `x` with d
     variables. */

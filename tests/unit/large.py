@@ -356,7 +356,7 @@ radial_clearance_m = {b["clearance"]}
         for row in [0, 1]:
             self.assertAlmostEqual(settled["amp_x_r"][row], found["amplitude"][row], delta=0.03 * found["amplitude"][row])
             self.assertAlmostEqual(settled["lyapunov"][row], np.log(found["multiplier"][row]), delta=2e-3)
-        self.refused("hill knows no bodies given by matrices", "map", own, "--x", "frequency=40:50:2", "--quantity", "hill")
+        self.refused("series knows no bodies given by matrices", "map", own, "--x", "frequency=40:50:2", "--quantity", "series")
         self.refused("or gauss", "map", own, "--x", "frequency=40:50:2", "--quantity", "amplitude", "--method", "rk4")
 
     def test_two_frequencies(self):
