@@ -59,14 +59,14 @@ def main(file):
         for m in scene["harmonics"]:
             # each speed is a line of its own, so that no solution starts from its neighbour
             result = explore("map", f"data/{name}.toml", "--y", f"frequency={speeds['from']}:{speeds['to']}:{count}",
-                             "--harmonics", m, "--budget", scene["most_evaluations"], "--quantity", ",".join(QUANTITIES))
+                             "--method", "aft", "--harmonics", m, "--budget", scene["most_evaluations"], "--quantity", ",".join(QUANTITIES))
             table = Table.of(result.stdout)
             for k, frequency in enumerate(table["frequency"]):
                 rows[number, frequency, m] = row({name: str(table[name][k]) for name in QUANTITIES})
         tables.append(table)
     print_header("Verdicts on the machine and on its m harmonics", tables,
                  f"modelled: harmonic balance; shooting with at most {scene['most_evaluations']:g} evaluations; disturbances "
-                 "along the series; Hill's method with m harmonics, at most 32")
+                 "along the series; Hill's method with m harmonics, at most so many", hill_harmonics=32)
     print_columns(COLUMNS)
     for key in sorted(rows):
         print("\t".join([*(f"{value:.12g}" for value in key), *rows[key]]))
