@@ -30,7 +30,7 @@ endif
 goals := $(or $(filter-out deps,$(MAKECMDGOALS)),all)
 with_pages := $(filter all book article pdf test sanitize readme dist,$(goals))
 packages := $(sort $(if $(filter-out list clean adopt format,$(goals)),cmake g++ git libcli11-dev libeigen3-dev \
-    libfftw3-dev libgsl-dev libtomlplusplus-dev ninja-build pkg-config) \
+    libfftw3-dev libgsl-dev libtomlplusplus-dev ninja-build nlohmann-json3-dev pkg-config) \
   $(if $(filter-out list clean adopt format bench build/%,$(goals)),gnuplot-nox python3-matplotlib) \
   $(if $(with_pages),furo libjs-mathjax pandoc python3-myst-parser python3-sphinx-copybutton python3-sphinxcontrib.bibtex) \
   $(if $(filter test sanitize,$(goals)),catch2 chromium chromium-driver python3-hypothesis python3-selenium) \

@@ -35,7 +35,7 @@ def label(axes, text, point, place, **style):
 
 def draw_rings(axes, table):
     """Stator outside its race, rotor inside its own."""
-    thickness = 1.2 * table.number("R_b")
+    thickness = 1.2 * table.value("drawn_ball_radius")
     for part, colour, outside in ((OUTER, STATOR, thickness), (INNER, ROTOR, 0)):
         race = table.where("part", part)
         axes.add_patch(Annulus((race.first("x"), race.first("y")), race.first("radius") + outside,

@@ -4,7 +4,6 @@ Usage: figures/claims.py TABLES_DIR OUTPUT.tsv    one reading's claims.tsv
        figures/claims.py --print FILE.tsv...      a readable table of one or more of them
        figures/claims.py --check DIR STORED.tsv   recompute, and compare with the stored verdicts
 """
-import re
 import sys
 from pathlib import Path
 
@@ -194,7 +193,7 @@ class Evidence:
     def study_ratio(self):
         aft, rk4 = (rows.where("harmonics", 6) for rows in self.pairs())
         study = self.table("clearance_stiffness")
-        points, speeds = study["delta"].size, int(re.search(r"(\d+) speeds", study.header)[1])
+        points, speeds = study["delta"].size, int(study.value("sweep_count"))
         solved = 1 - study["missed"].sum() / (points * speeds)
         ratio = rk4.first("evaluations") / aft.first("evaluations")
         return ratio * solved, (f"{ratio * solved:.1f} times: {ratio:.1f} times the evaluations for a sweep, and the "

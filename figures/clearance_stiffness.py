@@ -25,9 +25,8 @@ SETS = ("data/set1.toml", "data/set2.toml")
 
 def speeds_of(table):
     """Number of speeds of a sweep and the distance between them [Hz]."""
-    found = re.search(r"(\d+) speeds from ([\d.]+) to ([\d.]+) Hz", table.header)
-    count = int(found[1])
-    return count, (float(found[3]) - float(found[2])) / (count - 1)
+    count, first, last = (table.value(f"sweep_{key}") for key in ("count", "from", "to"))
+    return int(count), (last - first) / (count - 1)
 
 
 def draw_map(axes, table, values, title, **colours):

@@ -12,7 +12,7 @@ from tables import run
 def draw(table):
     figure, axes = plt.subplots(figsize=(10, 5), layout="constrained")
     fill_force(axes, table)
-    axes.set_title(f"Force of each ball at {table.number('frequency'):g} Hz, white: no contact")
+    axes.set_title(f"Force of each ball at {table.value('frequency'):g} Hz, white: no contact")
     axes.set(xlabel="turns [-]", ylabel="ball j")
     axes.yaxis.set_major_locator(MaxNLocator(9, integer=True))
     return figure

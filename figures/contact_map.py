@@ -53,7 +53,7 @@ def heading_of(panel, title):
         return f"{title}\n{rms}, force {100 * panel.first('difference_force'):.2g} %"
     reason = ("not T-periodic" if panel.first("periodic") == 0
               else "no solution found" if panel.first("found") == 0
-              else f"{panel.number('harmonic balance: m'):g} harmonics: {rms}")
+              else f"{panel.value('harmonics'):g} harmonics: {rms}")
     return f"{title}, time integration\n{reason}"
 
 
@@ -102,8 +102,8 @@ def draw(table):
     figure = plt.figure(figsize=(10, 1.5 + 4.7 * rows), layout="constrained")
     above, below = figure.subfigures(2, 1, hspace=0.03)
     draw_block(above, panels, columns, draw_contact,
-               f"Contact (black), none (white), δ = {1e6 * table.number('delta'):g} µm, by harmonic balance with "
-               f"{table.number('harmonic balance: m'):g} harmonics unless said\n"
+               f"Contact (black), none (white), δ = {1e6 * table.value('clearance'):g} µm, by harmonic balance with "
+               f"{table.value('harmonics'):g} harmonics unless said\n"
                "rms error: of the displacements about their means; force: largest error of the bearing's force")
     scale = LogNorm(table["Q"].max() / 100, table["Q"].max())
 

@@ -38,11 +38,11 @@ def draw_other_algebra(axes, table):
 def draw(table):
     """Rows: CPU and memory; columns: what grows."""
     figure, grid = plt.subplots(2, len(KINDS), figsize=(10, 7), sharex="col", layout="constrained")
-    least = table.number("bytes")
+    least = table.value("fitted_from_bytes")
     for (cpu, memory), (kind, label) in zip(grid.T, KINDS):
         rows = table.where("against", kind)
         sizes = rows["size"]
-        fitted = sizes >= table.number(kind)
+        fitted = sizes >= table.value(f"fitted_from_{kind}")
         draw_kind(cpu, sizes, 1e3 * rows["cpu_s"], rows.first("exponent_cpu"), fitted)
         above = rows["memory"] > 0
         draw_kind(memory, sizes[above], rows["memory"][above] / 1e6, rows.first("exponent_memory"),

@@ -28,8 +28,8 @@ def name_lengths(axes, inner, ball):
 
 def draw(table):
     """The sketch, with the names of its parts and lengths."""
-    figure, axes = sketch(table, f"Radial clearance δ = {1e6 * table.number('delta'):g} µm, "
-                                 f"drawn {table.number('clearance_factor'):g} times larger;\n"
+    figure, axes = sketch(table, f"Radial clearance δ = {1e6 * table.value('clearance'):g} µm, "
+                                 f"drawn {table.value('clearance_factor'):g} times larger;\n"
                                  "radii for illustration: the data set fixes only the cage's speed")
     inner = table.where("part", INNER).first("radius")
     outer = table.where("part", OUTER).first("radius")

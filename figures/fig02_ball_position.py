@@ -24,7 +24,7 @@ def name_angle(axes, marked, radius):
 def name_displacement(axes, table, inner):
     """u, between the centres of the two rings."""
     u = inner.first("x"), inner.first("y")
-    size = 1e6 * (u[0] ** 2 + u[1] ** 2) ** 0.5 / table.number("displacement_factor")
+    size = 1e6 * (u[0] ** 2 + u[1] ** 2) ** 0.5 / table.value("displacement_factor")
     axes.plot(*zip((0, 0), u), color="C3", linewidth=3, marker="o", markersize=5)
     label(axes, f"displacement $u$\nof the inner ring,\n|$u$| = {size:.3g} µm", u,
           polar(0.45 * inner.first("radius"), 5.2))
@@ -40,9 +40,9 @@ def name_turning(axes, radius, begin, text):
 def draw(table):
     """The sketch, with the angle and the penetration of the marked ball."""
     figure, axes = sketch(
-        table, f"Clearance δ = {1e6 * table.number('delta'):g} µm drawn "
-               f"{table.number('clearance_factor'):g} times larger, displacement $u$ "
-               f"{table.number('displacement_factor'):g} times")
+        table, f"Clearance δ = {1e6 * table.value('clearance'):g} µm drawn "
+               f"{table.value('clearance_factor'):g} times larger, displacement $u$ "
+               f"{table.value('displacement_factor'):g} times")
     inner, marked = table.where("part", INNER), table.where("part", MARKED)
     outer = table.where("part", OUTER).first("radius")
     name_angle(axes, marked, 0.45 * inner.first("radius"))

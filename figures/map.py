@@ -21,11 +21,9 @@ def described(table, name):
 
 
 def keys_and_quantities(table):
-    """The keys are the columns whose meaning says so."""
-    names = [name for name in table.columns if name != "status"]
-    is_key = [f"# column: {name} [see key]" in table.header
-              or f"# column: {name} [Hz] speed of rotation" in table.header for name in names]
-    return ([name for name, key in zip(names, is_key) if key], [name for name, key in zip(names, is_key) if not key])
+    """The names of both kinds of columns."""
+    keys, = table.members("keys")
+    return keys, [name for name in table.columns if name not in (*keys, "status")]
 
 
 def is_logarithmic(values):

@@ -40,7 +40,7 @@ def draw(table):
         draw_orbit(axes, micro[f"x_{body}"], micro[f"y_{body}"], quarter, colour, name)
     draw_orbit(right, u, v, quarter, RELATIVE, "rotor against stator")
     panels[0].set_ylabel("y [µm]")
-    clearance = 1e6 * table.number("delta")
+    clearance = 1e6 * table.value("clearance")
     if 0 < clearance < 20 * np.hypot(u, v).max():
         angle = np.linspace(0, 2 * np.pi, 200)
         right.plot(clearance * np.cos(angle), clearance * np.sin(angle), "--", color="#404040", lw=1)
@@ -57,7 +57,7 @@ def draw(table):
     force.set_ylabel("force on the stator [N]")
     force.set(xlabel="turns [-]", xlim=(0, max(phase[-1], phase[1] if len(phase) > 1 else 1)))
     below.align_ylabels()
-    above.suptitle(f"Motion at {table.number('frequency'):g} Hz")
+    above.suptitle(f"Motion at {table.value('frequency'):g} Hz")
     return figure
 
 

@@ -91,7 +91,7 @@ def outcome_values():
         unstable = verdicts.where("m", m)
         values |= {f"{name}.unstable": len(unstable), f"{name}.false": (unstable["series_stable"] == 1).sum()}
     table = Table(KEPT / "tab02_equal_error.tsv")
-    values["paper.ratio"] = float(re.search(r"10 harmonics: (\S+) ", table.header)[1])
+    values["paper.ratio"] = table.members("paper_ratios")[0][0]
     rk4 = table.where("method", "rk4")
     for name, span in zip(("below", "above"), dict.fromkeys(rk4["range"])):
         rows = rk4.where("range", span)

@@ -6,8 +6,6 @@ kind have one mark; several at a speed are attractors that coexist.
 Usage: /usr/bin/python3 figures/sections.py TABLE.tsv OUTPUT.svg
 """
 
-import re
-
 import matplotlib.pyplot as plt
 import numpy as np
 from tables import run
@@ -53,7 +51,7 @@ def enlarge_marks(legend):
 
 def draw_machine(table):
     """What explore found: one machine."""
-    clearance = table.number("delta")
+    clearance = table.value("clearance")
     figure, (above, below) = plt.subplots(2, 1, figsize=(10, 7.5), sharex=True, layout="constrained",
                                           height_ratios=(3, 2))
     unit, size = ("δ", clearance) if clearance > 0 else ("1 µm", 1e-6)
@@ -69,7 +67,7 @@ def draw_machine(table):
 
 def draw_sets(table):
     """One column per data set: section above, exponent below."""
-    clearances = [float(x) for x in re.findall(r"delta = (\S+) m", table.header)]
+    clearances = [clearance for clearance, in table.members("clearance")]
     figure, grid = plt.subplots(2, len(clearances), figsize=(10, 7.5), sharex=True, sharey="row",
                                 layout="constrained", height_ratios=(3, 2), squeeze=False)
     for number, clearance in enumerate(clearances, 1):

@@ -3,8 +3,6 @@
 Where the orbits would be lost beside the static displacement, it is drawn about the mean at each node, as the axes say.
 Usage: /usr/bin/python3 figures/shape.py TABLE.tsv OUTPUT.svg
 """
-import re
-
 import matplotlib.pyplot as plt
 import numpy as np
 from matplotlib.ticker import MaxNLocator
@@ -42,7 +40,7 @@ def draw(table):
     floor = centre[1] - half
     axes.plot(z[[0, -1]], [0, 0], [0, 0], "--", color=GREY, lw=1,
               label="mean at each node" if is_small else "shaft at rest without loads")
-    for place in map(float, re.findall(r"^# bearing \d+: node \S+, z = (\S+) m", table.header, re.M)):
+    for place in (z_bearing for _, _, z_bearing in table.members("bearing")):
         x, y = (np.interp(place, z, paths[:, 0, axis]) for axis in (0, 1))
         axes.plot([place, place], [x, x], [floor, y], color="k", lw=1)
         axes.plot([place], [x], [floor], "^", ms=9, mfc="w", color="k", label="bearing")
@@ -68,7 +66,7 @@ def draw(table):
         artist.set_clip_on(False)
     entries = dict(zip(*reversed(axes.get_legend_handles_labels())))
     figure.legend(entries.values(), entries.keys(), loc="upper center", bbox_to_anchor=(0.5, 0.95), ncols=3, frameon=False)
-    figure.suptitle(f"Rotor at {table.number('frequency'):g} Hz", y=0.99)
+    figure.suptitle(f"Rotor at {table.value('frequency'):g} Hz", y=0.99)
     return figure
 
 

@@ -1,15 +1,13 @@
 """The lines of a motion: amplitudes of rotor and stator against the order, the largest with their names.
 
 Each stem is a line of the table of `explore spectrum`; its height is the larger of the amplitudes in x and y.
-A measured spectrum that the header names, a table with the columns f [Hz] and amplitude [m], is drawn over both.
-Usage: /usr/bin/python3 figures/spectrum.py TABLE.tsv OUTPUT.svg
+A measured spectrum, a table with the columns f [Hz] and amplitude [m], is drawn over both.
+Usage: /usr/bin/python3 figures/spectrum.py TABLE.tsv OUTPUT.svg [MEASURED.tsv]
 """
-
-import re
 
 import matplotlib.pyplot as plt
 import numpy as np
-from tables import ROTOR, STATOR, Table, run
+from tables import ROTOR, STATOR, run
 
 MOST_NAMES = 24
 NEAR = 0.018  # of the width: names that would overlap
@@ -24,9 +22,7 @@ def chosen(names, orders, heights, width):
     return places[:MOST_NAMES]
 
 
-def draw(table):
-    named = re.search(r"^# measured: (.*)$", table.header, re.MULTILINE)
-    measured = Table(named[1]) if named else None
+def draw(table, measured=None):
     bodies = table.bodies()
     figure, grid = plt.subplots(len(bodies), 1, figsize=(10, 1 + 3.25 * len(bodies)), sharex=True, sharey=True,
                                 layout="constrained", squeeze=False)
@@ -50,12 +46,12 @@ def draw(table):
                           fontsize=10)
         axes.set_ylabel(f"amplitude of the {name} [m]")
         if measured is not None:
-            axes.plot(measured["f"] / table.number("frequency"), measured["amplitude"], color="#808080", lw=0.9,
+            axes.plot(measured["f"] / table.value("frequency"), measured["amplitude"], color="#808080", lw=0.9,
                       zorder=0, label="measured")
             axes.legend(loc="upper right", frameon=False)
     grid[0].set(yscale="log", ylim=(bottom, top * (top / bottom) ** 0.2), xlim=(0, width))
     grid[-1].set_xlabel("frequency over speed [-]")
-    figure.suptitle(f"Lines of the motion at {table.number('frequency'):g} Hz, larger of x and y")
+    figure.suptitle(f"Lines of the motion at {table.value('frequency'):g} Hz, larger of x and y")
     return figure
 
 

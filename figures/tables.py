@@ -23,8 +23,31 @@ def cells_as_numbers(column):
     return column if column.dtype.kind != "U" else np.array([np.nan if cell == "-" else float(cell) for cell in column])
 
 
+KEY = re.compile(r"# (?!(?:source|compiler|parameters|column|note|row)\b)([a-z]\w*): (\S+(?: [\d.]+)?)")
+MEMBER = re.compile(r"# row (\S+): (.*)")
+
+# Where the tables that are still kept from version 0.1.0 say what is a key or a list now. It goes when they are kept anew.
+OLD = {"clearance": r"delta = (\S+) m", "speeds": r"(\d+) speeds from", "sweep_count": r"(\d+) speeds from", "sweep_from": r"speeds from (\S+)",
+       "sweep_to": r"speeds from \S+ to (\S+)", "tolerance": r"adaptive: tolerance ([\d.e-]+)|--tolerance (\S+)",
+       "hill_harmonics": r"Hill's method with m harmonics, at most (\d+)", "cores": r"cores: (\d+)", "frequency": r"frequency: (\S+) Hz",
+       "fitted_from_harmonics": r"harmonics = (\d+)", "fitted_from_balls": r", balls = (\d+)", "fitted_from_speeds": r", speeds = (\d+)",
+       "fitted_from_bytes": r"bytes = (\S+) on", "paper_ratios": r"8 and 10 harmonics: (\S+) (\S+) (\S+)",
+       "case": r"case (\d+): (\S+) Hz, (\S+);", "nearest": r"(cvode-\S+|scipy-\S+) ([\d.e-]+)(?=,|\n)",
+       "accepted": r"# accepted, (\S+): m_s = (\S+) \.\.\. (\S+) kg; loss of contact at (\S+) Hz: (\S+) kg",
+       "run": r"# run (\w+): from [^:]*: (\d+) points, (\d+) folds, from (\S+) to (\S+) Hz;",
+       "distance": r"# run (\w+): distance .* at (\d+) speeds: median (\S+), largest (\S+) at (\S+) Hz",
+       "balance": r"# run (\w+): harmonic balance, m = (\d+), .*?: (\d+) points, folds: (\d+)"}
+
+
+def number_or_word(text):
+    try:
+        return float(text)
+    except ValueError:
+        return text
+
+
 class Table:
-    """The columns of a tab-separated table by name, and its `#` lines."""
+    """A tab-separated table: columns by name as numpy arrays, the keys of its `#` lines by `value`, the lists by `members`."""
 
     def __init__(self, path):
         self._read(Path(path).read_text(encoding="utf-8").splitlines())
@@ -42,6 +65,35 @@ class Table:
         cells = np.array([row.split("\t") for row in rows[1:]])
         self.columns = {name: numbers_or_words(column)
                         for name, column in zip(rows[0].split("\t"), cells.T)}
+
+    def keys(self):
+        """All keys with their values, numbers or words."""
+        found = (KEY.fullmatch(line) for line in self.header.split("\n"))
+        return {match[1]: number_or_word(match[2]) for match in found if match}
+
+    def value(self, key, *default):
+        """The value of a key, a number or a word; `default` where the header has none."""
+        keys = self.keys()
+        if key in keys:
+            return keys[key]
+        old = self._old(key)
+        if old:
+            return old[0][0]
+        if default:
+            return default[0]
+        raise KeyError(f"the header of the table has no key {key}")
+
+    def members(self, name):
+        """The members of a list, each a list of numbers and words."""
+        found = (MEMBER.fullmatch(line) for line in self.header.split("\n"))
+        rows = [match[2].split() for match in found if match and match[1] == name]
+        return [[number_or_word(word) for word in row] for row in rows] or self._old(name)
+
+    def _old(self, name):
+        """What a table of version 0.1.0 says in a sentence."""
+        if "# schema: " in self.header or name not in OLD:
+            return []
+        return [[number_or_word(word) for word in match.groups() if word] for match in re.finditer(OLD[name], self.header)]
 
     def __getitem__(self, name):
         return self.columns[name]
@@ -74,14 +126,16 @@ class Table:
 
     def bodies(self):
         """r, s: rotor and stator, without a stator that is held."""
-        return "r" if "stator: rigid" in self.header else "rs"
+        return "r" if self.value("stator") == "rigid" else "rs"
 
-    def number(self, name):
-        """The number that the header gives after `name = ` or `name: `."""
-        found = re.search(rf"\b{re.escape(name)}\s*[=:]\s*([-+.\deE]+)", self.header)
-        if found is None:
-            raise ValueError(f"the header of the table says nothing of {name}")
-        return float(found[1])
+    def error(self, name):
+        """The larger of the two numbers `NAME_largest` and `NAME_rms`; -1 without them."""
+        return max(self.value(f"{name}_largest", -1), self.value(f"{name}_rms", -1))
+
+
+def read(path):
+    """The table in a file: `read(path)["f"]` is a column, `read(path).value("regime")` a key of its header."""
+    return Table(path)
 
 
 def explore(*words):
@@ -91,17 +145,6 @@ def explore(*words):
     if result.returncode == 2:
         sys.exit(result.stderr)
     return result
-
-
-def said(table, pattern):
-    """The words of a header's line that a pattern has groups for; none where there is no such line."""
-    found = re.search(pattern, table.header)
-    return found.groups() if found else ()
-
-
-def larger_error(table, line):
-    """Of the two errors in the line `error` or `distance` of a header; -1 where there is no such line."""
-    return max(map(float, said(table, rf"# {line}: (\S+) of .*?, (\S+) rms")), default=-1)
 
 
 STABILITY = {"stable": 1, "unstable": 0, "undecided": -1}  # in tables of numbers
@@ -117,14 +160,24 @@ def displacement_errors(orbit, exact, names=("x_s", "y_s", "x_r", "y_r")):
     return np.linalg.norm(centred[0] - centred[1]) / np.linalg.norm(centred[1]), abs(a - b).max() / abs(b).max()
 
 
-def print_header(title, tables, *notes):
-    """The `#` lines of a table made from others: what it is, their source and compiler, the parameters of each, notes."""
+def print_header(title, tables, *notes, rows=(), **keys):
+    """The `#` lines of a table made from others: what it is, their source and compiler, the parameters of each with the clearance,
+    keys, members of lists (name, cells) and notes."""
     lines = [table.header.split("\n") for table in tables]
-    print(f"# {title}", *lines[0][1:3], sep="\n")
+    print(f"# {title}", *lines[0][1:3], "# schema: 2", sep="\n")
     for part in lines:
         print(*(line for line in part if line.startswith(("# parameters: ", "#   "))), sep="\n")
+    clearances = [("clearance", [table.value("clearance")]) for table in tables if table.value("clearance", None) is not None]
+    for key, value in keys.items():
+        print(f"# {key}: {written(value)}")
+    for name, cells in [*clearances, *rows]:
+        print(f"# row {name}:", *map(written, cells))
     for note in notes:
-        print(f"# {note}")
+        print(f"# note: {note}")
+
+
+def written(value):
+    return f"{value:.12g}" if isinstance(value, (int, float)) else value
 
 
 def print_columns(columns):
@@ -135,15 +188,15 @@ def print_columns(columns):
 
 
 def run(draw):
-    """Call draw(table) with the style of the project; save the figure that it returns as SVG,
+    """Call draw(table), or draw(table, overlay), with the style of the project; save the figure that it returns as SVG,
     or as the PNG or PDF that the name of the output says. No dates: the same table gives the same bytes."""
     import matplotlib.pyplot as plt  # here, since tests read tables and draw nothing
 
-    if len(sys.argv) != 3:
-        sys.exit(f"usage: {sys.argv[0]} TABLE.tsv OUTPUT.svg")
+    if len(sys.argv) < 3:
+        sys.exit(f"usage: {sys.argv[0]} TABLE.tsv OUTPUT.svg [OVERLAY.tsv]")
     plt.switch_backend("svg")
     plt.style.use(Path(__file__).with_name("rotor_stator.mplstyle"))
-    figure = draw(Table(sys.argv[1]))
+    figure = draw(*map(read, [sys.argv[1], *sys.argv[3:]]))
     suffix = Path(sys.argv[2]).suffix[1:]
     form = suffix if suffix in ("png", "pdf") else "svg"
     figure.savefig(sys.argv[2], format=form, metadata={"svg": {"Date": None}, "png": {},

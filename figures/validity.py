@@ -5,7 +5,6 @@ Grey: no attractor has the period of rotation, so no periodic solution can be th
 Usage: /usr/bin/python3 figures/validity.py data/reference/validity.tsv validity.svg
 """
 
-import re
 import tomllib
 from pathlib import Path
 
@@ -57,8 +56,8 @@ def point(face, label):
 
 def draw(table):
     """One panel per data set."""
-    clearances = [float(x) for x in re.findall(r"delta = (\S+) m", table.header)]
-    tolerance = float(re.search(r"adaptive: tolerance ([\d.e-]+)", table.header)[1])
+    clearances = [clearance for clearance, in table.members("clearance")]
+    tolerance = table.value("tolerance")
     figure, grid = plt.subplots(len(clearances), 1, figsize=(10, 9), sharex=True, sharey=True,
                                 layout="constrained")
     for number, (axes, clearance) in enumerate(zip(grid, clearances), 1):

@@ -5,8 +5,6 @@ the machine is not, or unstable though it is stable. The number above a bar coun
 Usage: /usr/bin/python3 figures/verdicts.py data/reference/verdicts.tsv verdicts.svg
 """
 
-import re
-
 import matplotlib.pyplot as plt
 import numpy as np
 from tables import run
@@ -40,7 +38,7 @@ def draw_set(axes, rows):
 
 def draw(table):
     """One panel per data set."""
-    clearances = [float(x) for x in re.findall(r"delta = (\S+) m", table.header)]
+    clearances = [clearance for clearance, in table.members("clearance")]
     figure, grid = plt.subplots(1, len(clearances), figsize=(10, 4.8), sharey=True)
     figure.subplots_adjust(left=0.08, right=0.99, bottom=0.07, top=0.8, wspace=0.06)
     for number, (axes, clearance) in enumerate(zip(grid, clearances), 1):

@@ -5,7 +5,6 @@ data/reference/peers.tsv are drawn as small crosses where they are there.
 Usage: /usr/bin/python3 figures/work_precision.py data/reference/work_precision.tsv work_precision.svg
 """
 
-import re
 from pathlib import Path
 
 import matplotlib.pyplot as plt
@@ -43,9 +42,8 @@ def front(cpu, error):
 
 def number_of(table, frequency, data_set):
     """The case of the header with this speed and data set."""
-    found = re.search(rf"case (\d+): {frequency:g} Hz, data/{data_set}(?:-as-printed)?\.toml",
-                      table.header)
-    return int(found[1])
+    return next(case for case, f, file, *_ in table.members("case")
+                if f == frequency and Path(file).stem in (data_set, f"{data_set}-as-printed"))
 
 
 def rows_of(table, frequency, data_set):

@@ -13,6 +13,7 @@ build/model/bearing_catalogue.hpp: data/bearings/deep_groove.toml CMakeLists.txt
 	@mkdir -p build; cmake --preset release > build/configure.log; touch $@
 build/live/include/.stamped: build/model/bearing_catalogue.hpp $(sources)
 	@mkdir -p $(@D); ln -sfn $$(pkg-config --variable=includedir tomlplusplus)/toml++ $(@D)/toml++
+	ln -sfn $$(pkg-config --variable=includedir tomlplusplus)/nlohmann $(@D)/nlohmann
 	sh src/io/stamp_revision.sh $$(sed -nE 's/^project.rotor_stator VERSION ([0-9.]+).*/\1/p' CMakeLists.txt) \
 	  "$(live_flags)" $(@D)/source_revision.hpp; touch $@
 build/live/include/source_revision.hpp: build/live/include/.stamped

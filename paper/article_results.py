@@ -78,7 +78,7 @@ def costs(add):
     timing = Table(GENERATED / "tab02_timing.tsv")
     sweep = timing.where("method", "rk4").where("harmonics", 6).first("cpu_s") / 119
     study = Table(KEPT / "clearance_stiffness.tsv")
-    add("cost.study", sweep * len(study) * float(re.search(r"(\d+) speeds from", study.header)[1]), "s",
+    add("cost.study", sweep * len(study) * study.value("sweep_count"), "s",
         "CPU time of the study of clearance and stiffness by RK4, at the time of the sweep a speed")
     rivals, timing = timing.where("method", "rk4"), timing.where("method", "aft")
     slow = rivals.first("paper_cpu")
@@ -116,7 +116,7 @@ def growth(add):
     for kind in ("harmonics", "balls", "speeds"):
         add(f"growth.{kind}", table.where("against", kind).first("exponent_cpu"), "-",
             f"exponent of the CPU time against {kind}")
-    begin = float(re.search(r"exponents from harmonics = (\d+)", table.header)[1])
+    begin = table.value("fitted_from_harmonics")
     rows = table.where("against", "harmonics")
     size, cpu = np.log(rows["size"]), np.log(rows["cpu_s"])
     few = rows["size"] <= begin
@@ -127,29 +127,26 @@ def growth(add):
 
 def peers(add):
     """AUTO-07p beside harmonic balance, from the header of its table."""
-    header = Table(KEPT / "peers_auto.tsv").header
-    runs = re.findall(r"^# run (\w+): from [^:]*: \d+ points, (\d+) folds, from (\S+) to (\S+) Hz;",
-                      header, re.MULTILINE)
-    ours = re.findall(r"^# run (\w+): harmonic balance, m = (\d+), .*?folds: (\d+),", header, re.MULTILINE)
-    for run, folds, low, high in runs:
-        counts = ", ".join(f"{count} with {m} harmonics" for name, m, count in ours if name == run)
-        far = re.search(rf"^# run {run}: distance .* largest (\S+) at", header, re.MULTILINE)
-        add(f"auto.{run}_speeds", float(re.search(rf"^# run {run}: distance .* at (\d+) speeds", header, re.MULTILINE)[1]), "-", "compared speeds")
-        add(f"auto.{run}_high", float(high), "Hz", "its highest speed")
-        add(f"auto.{run}_at", float(re.search(rf"^# run {run}: distance .* largest \S+ at (\S+) Hz", header, re.MULTILINE)[1]), "Hz", "speed of the largest")
-        add(f"auto.{run}_distance", float(far[1]), "-", "largest difference of amplitudes over the largest one")
-        add(f"auto.{run}", f"{folds} folds between {float(low):.0f} and {float(high):.0f} Hz, harmonic balance "
+    table = Table(KEPT / "peers_auto.tsv")
+    distances = {run: rest for run, *rest in table.members("distance")}
+    for run, _, folds, low, high in table.members("run"):
+        counts = ", ".join(f"{count:.0f} with {m:.0f} harmonics" for name, m, _, count in table.members("balance") if name == run)
+        speeds, _, largest, at = distances[run]
+        add(f"auto.{run}_speeds", speeds, "-", "compared speeds")
+        add(f"auto.{run}_high", high, "Hz", "its highest speed")
+        add(f"auto.{run}_at", at, "Hz", "speed of the largest")
+        add(f"auto.{run}_distance", largest, "-", "largest difference of amplitudes over the largest one")
+        add(f"auto.{run}", f"{folds:.0f} folds between {low:.0f} and {high:.0f} Hz, harmonic balance "
             f"over the same speeds {counts}", "-", "folds by AUTO-07p and by harmonic balance")
 
 
 def outside(add):
     """How near SUNDIALS and SciPy come to the reference of their table, at worst over its motions."""
-    header = Table(KEPT / "peers.tsv").header
-    lines = re.findall(r"^# set \d, \S+ Hz: nearest to the reference: (.*)$", header, re.MULTILINE)
-    found = [dict(part.split(" ") for part in line.split(", ")) for line in lines]
-    add("outside.motions", len(found), "-", "motions compared")
+    found = Table(KEPT / "peers.tsv").members("nearest")
+    add("outside.motions", sum(method == "cvode-adams" for *_, method, _ in found), "-", "motions compared")
     for key in ("cvode-adams", "cvode-bdf", "scipy-dop853", "scipy-lsoda"):
-        add(f"outside.{key}", max(float(one[key]) for one in found), "-", "largest over the motions of its least error")
+        add(f"outside.{key}", max(error for *_, method, error in found if method == key), "-",
+            "largest over the motions of its least error")
 
 
 def truth(add):
@@ -394,22 +391,20 @@ def cages(add):
                            ("found_most", max(found)), ("stable_least", min(stable)), ("stable_most", max(stable)),
                            ("stable_half", (half["stable"] == 1).mean())):
             add(f"cage.{key}_{number}", value, "-", "amplitudes and solutions at other cage ratios, beside 1/2")
-    add("cage.tolerance", float(re.search(r"--tolerance (\S+)", table.header)[1]), "-", "tolerance of harmonic balance")
-    asked(add, "catalogue", "data/live/bearing-6205.toml", 45,
-          passages=r"BPFO = n c = (\S+),", harmonics=r"; (\d+) harmonics,", unknowns=r", (\d+) unknowns", error=r"# error: (\S+) of",
-          rate=r"part by (\S+) \+- \S+ a turn", stability=r"# stability: (\w+)")
+    add("cage.tolerance", table.value("tolerance"), "-", "tolerance of harmonic balance")
+    table = asked(add, "catalogue", "data/live/bearing-6205.toml", 45,
+                  {"harmonics": "harmonics", "unknowns": "unknowns", "error": "error_largest", "stability": "stability"})
+    add("catalogue.passages", table.value("balls") * table.value("cage_speed_ratio"), "-", "balls that pass in a turn")
+    add("catalogue.rate", table.value("lyapunov") / 45, "-", "growth of a neighbour's distance in a turn")
 
 
-def asked(add, name, machine, f, **patterns):
+def asked(add, name, machine, f, keys):
     """What the header of an orbit says of it."""
-    header = explore("orbit", machine, "--frequency", f, "--tolerance", 1e-3, "--points", 8).stdout
+    table = Table.of(explore("orbit", machine, "--frequency", f, "--method", "aft", "--tolerance", 1e-3, "--points", 8).stdout)
     add(f"{name}.f", f, "Hz", f"speed asked for of {machine}")
-    for key, pattern in patterns.items():
-        found = re.search(pattern, header)[1]
-        try:
-            add(f"{name}.{key}", float(found), "-", f"{key} of {machine}")
-        except ValueError:
-            add(f"{name}.{key}", found, "-", f"{key} of {machine}")
+    for key, source in keys.items():
+        add(f"{name}.{key}", table.value(source), "-", f"{key} of {machine}")
+    return table
 
 
 def maps(add):
@@ -419,7 +414,7 @@ def maps(add):
                                       ("force", "largest_force", 1e-3, "kN")):
         add(f"map.{key}_least", factor * table[column].min(), unit, f"least {column}")
         add(f"map.{key}_most", factor * table[column].max(), unit, f"largest {column}")
-    speeds = float(re.search(r"(\d+) speeds from", table.header)[1])
+    speeds = table.value("sweep_count")
     band = np.where(table["f_loss_first"] < 0, 0, table["f_loss_last"] - table["f_loss_first"])
     few = table["missed"] > speeds / 4
     for key, chosen in (("few", few), ("other", ~few)):
@@ -455,8 +450,9 @@ def large(add):
         rows = table.where("kind", kind)
         add(f"large.{kind}_n", rows["n"][-1], "-", "degrees of freedom of the largest body")
         add(f"large.{kind}_s", rows["reduction_s"][-1], "s", "CPU time of its reading, reduction and fits")
-    asked(add, "shaft", "data/rotors/overhung.toml", 30, size=r"bodies: (\d+) degrees", m=r"m = (\d+),", error=r"# error: (\S+) of",
-          multiplier=r"multiplier (\S+) \+-", stability=r"# stability: (\w+)", distance=r"# distance: (\S+) of")
+    asked(add, "shaft", "data/rotors/overhung.toml", 30,
+          {"size": "degrees_of_freedom", "m": "harmonics", "error": "error_largest", "multiplier": "multiplier", "stability": "stability",
+           "distance": "distance_largest"})
 
 
 def add_all(add):

@@ -110,11 +110,11 @@ def regimes():
 
 def identification():
     """The masses that the text admits, and what follows from those that are used."""
-    header = Table(KEPT / "identification.tsv").header
+    accepted = {reading: rest for reading, *rest in Table(KEPT / "identification.tsv").members("accepted")}
     for name, folder, file in (("exchanged", GENERATED, "exchanged"), ("printed", GENERATED / "as-printed", "as-printed")):
-        found = re.search(rf"# accepted, {file}: m_s = (\S+) \.\.\. (\S+) kg; loss of contact at \S+ Hz: (\S+) kg", header)
-        for key, value in zip(("from", "to", "best"), found.groups()):
-            add(f"identification.{key}_{name}", float(value), "kg", "accepted mass of the stator, or the best guess")
+        least, most, _, best = accepted[file]
+        for key, value in (("from", least), ("to", most), ("best", best)):
+            add(f"identification.{key}_{name}", value, "kg", "accepted mass of the stator, or the best guess")
         used = Table(folder / "tab01_parameters.tsv")
         for key, column, factor, unit in (("used", "m_s", 1, "kg"), ("e", "e", 1e3, "mm"), ("loss", "f_loss", 1, "Hz"),
                                           ("again", "f_gravity", 1, "Hz")):

@@ -3,7 +3,7 @@
 import subprocess
 
 import numpy as np
-from explore import child_seconds, explore
+from explore import child_seconds, explore, provenance
 
 FOLD, USER = 5, -4
 AMPLITUDES = ("amp_x_s", "amp_y_s", "amp_x_r", "amp_y_r")
@@ -69,15 +69,14 @@ def describe(scene, curve, amplitudes):
     """What AUTO did in one run, and how far it is from harmonic balance."""
     run, rows = curve["run"], curve["rows"]
     speeds, folds = [row[2] for row in rows], sum(row[1] == FOLD for row in rows)
-    yield (f"run {run['name']}: from {run['from_hz']:g} Hz, NTST = {run['mesh']}, NCOL = 4: "
-           f"{len(rows)} points, {folds} folds, from {min(speeds):.6g} to {max(speeds):.6g} Hz; "
+    yield f"row run: {run['name']} {len(rows)} {folds} {min(speeds):.6g} {max(speeds):.6g}"
+    yield (f"note: run {run['name']}: from {run['from_hz']:g} Hz, NTST = {run['mesh']}, NCOL = 4; "
            f"ended at {speeds[-1]:.6g} Hz: {curve['end']}; {spread(curve['seconds'])}")
     met = nearest(curve, scene, amplitudes)
     if met:
         worst = max(met, key=met.get)
-        yield (f"run {run['name']}: distance to harmonic balance, m = "
-               f"{scene['compared_harmonics']}, at {len(met)} speeds: median "
-               f"{np.median(list(met.values())):.2g}, largest {met[worst]:.2g} at {worst:g} Hz")
+        yield (f"row distance: {run['name']} {len(met)} {np.median(list(met.values())):.2g} "
+               f"{met[worst]:.2g} {worst:g}")
 
 
 def own_branch(scene, curve):
@@ -94,16 +93,20 @@ def own_branch(scene, curve):
             table, failed = explore("response", scene["parameters"], may_stop=True,
                                     harmonics=harmonics, **bounds)
             seconds.append(child_seconds() - before)
-        folds = next(line[2:] for line in table.header if line.startswith("# folds"))
-        yield (f"run {curve['run']['name']}: harmonic balance, m = {harmonics}, over the same "
-               f"speeds: {len(table['f'])} points, {folds}, "
+        yield (f"row balance: {curve['run']['name']} {harmonics} {len(table['f'])} "
+               f"{table.value('folds'):g}")
+        yield (f"note: run {curve['run']['name']}: m = {harmonics} over the same speeds: "
                f"{'stopped early' if failed else 'all of them'}; {spread(seconds)}")
 
 
 def table_text(scene, curves, amplitudes, start):
     """The whole table; `start` is any explored table of the machine, for its provenance."""
-    lines = ["AUTO-07p along the response curve", *(line[2:] for line in start.provenance()),
-             f"auto-07p {version()}, gfortran {gfortran()} -O2; one thread"]
+    lines = ["AUTO-07p along the response curve", *(line[2:] for line in provenance(start)),
+             f"note: auto-07p {version()}, gfortran {gfortran()} -O2; one thread",
+             f"compared_harmonics: {scene['compared_harmonics']}",
+             "note: row run: name, points, folds, least and highest speed [Hz]; row distance to "
+             "harmonic balance: run, speeds, median, largest and its speed [Hz]; row balance: "
+             "run, m, points, folds"]
     for curve in curves:
         lines += [*describe(scene, curve, amplitudes), *own_branch(scene, curve)]
     lines += [f"column: {name} [{unit}] {meaning}" for name, unit, meaning in COLUMNS]

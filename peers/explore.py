@@ -2,10 +2,13 @@
 
 import resource
 import subprocess
-from io import StringIO
+import sys
 
 import numpy as np
 from equation7 import ROOT
+
+sys.path.insert(1, str(ROOT / "figures"))
+from tables import Table  # noqa: E402
 
 
 class Failed(SystemExit):
@@ -18,24 +21,10 @@ def child_seconds():
     return usage.ru_utime + usage.ru_stime
 
 
-class Table:
-    """An explored table: its `#` lines, and its columns by name."""
-
-    def __init__(self, text):
-        lines = text.splitlines()
-        self.header = [line for line in lines if line.startswith("#")]
-        body = [line for line in lines if line and not line.startswith("#")]
-        numbers = np.loadtxt(StringIO("\n".join(body[1:])), delimiter="\t", ndmin=2)
-        self.columns = dict(zip(body[0].split("\t"), numbers.T))
-
-    def __getitem__(self, name):
-        return self.columns[name]
-
-    def provenance(self):
-        """The header's lines from the source to the parameters."""
-        first = next(k for k, line in enumerate(self.header) if line.startswith("# source"))
-        last = max(k for k, line in enumerate(self.header) if line.startswith("#   "))
-        return self.header[first:last + 1]
+def provenance(table):
+    """The header's lines from the source to the parameters."""
+    return [line for line in table.header.split("\n")
+            if line.startswith(("# source", "# compiler", "# schema", "# parameters", "#   "))]
 
 
 def explore(command, parameter_file, may_stop=False, **options):
@@ -46,10 +35,10 @@ def explore(command, parameter_file, may_stop=False, **options):
         words += ["--" + name.replace("_", "-"), str(value)]
     done = subprocess.run(words, cwd=ROOT, stdout=subprocess.PIPE, text=True, check=False)
     if may_stop and done.stdout:
-        return Table(done.stdout), done.returncode != 0
+        return Table.of(done.stdout), done.returncode != 0
     if done.returncode:
         raise Failed(done.returncode)
-    return Table(done.stdout)
+    return Table.of(done.stdout)
 
 
 def orbit(parameter_file, frequency, harmonics, points):

@@ -6,6 +6,7 @@ from ctypes import create_string_buffer
 import numpy as np
 import scipy
 from equation7 import LIBRARY, Case
+from explore import provenance
 
 COLUMNS = (
     ("set", "-", "data set"),
@@ -53,34 +54,34 @@ def agreement(speed, tried):
     for (other, method, _), trials in tried.items():
         if other is speed and trials:
             best[method] = min(best.get(method, np.inf), min(trial[3] for trial in trials))
-    return ", ".join(f"{method} {error:.1e}" for method, error in sorted(best.items()))
+    return best
 
 
 def header(scene, speeds, missed, tried):
     """The lines that say what was done."""
     compiled, interpreted = call_costs(speeds[0])
     yield "Cost against error of outside integrators at single speeds"
-    yield from (line[2:] for line in speeds[0].reference.provenance()[:2])
-    yield (f"SUNDIALS {sundials_version()}, SciPy {scipy.__version__}, NumPy {np.__version__}; "
+    yield from (line[2:] for line in provenance(speeds[0].reference)[:3])
+    yield (f"note: SUNDIALS {sundials_version()}, SciPy {scipy.__version__}, NumPy {np.__version__}; "
            "dense Jacobians, one thread")
     for file in dict.fromkeys(speed.file for speed in speeds):
         speed = next(speed for speed in speeds if speed.file == file)
-        yield from (line[2:] for line in speed.reference.provenance()[2:])
-    yield (f"reference: harmonic balance, m = {scene['reference_harmonics']}; errors at "
+        yield from (line[2:] for line in provenance(speed.reference)[3:])
+    yield (f"note: reference: harmonic balance, m = {scene['reference_harmonics']}; errors at "
            f"{scene['points']} instants of the period")
-    yield (f"one evaluation of Eq. 7: {1e9 * compiled:.0f} ns from C++ (CVODE), "
+    yield (f"note: one evaluation of Eq. 7: {1e9 * compiled:.0f} ns from C++ (CVODE), "
            f"{1e9 * interpreted:.0f} ns from Python (SciPy)")
     asked = [", ".join(f"{e:g}" for e in scene[key]) for key in ("errors", "errors_force")]
-    yield (f"rows: for each error asked for (displacement {asked[0]}; force {asked[1]}) the pair "
+    yield (f"note: rows: for each error asked for (displacement {asked[0]}; force {asked[1]}) the pair "
            "of tolerance and transient that reaches it with the fewest evaluations; "
            f"tried transients up to {max(scene['transients_s']):g} s, tolerances down to " +
            ", ".join(f"{min(values):g} ({method})"
                      for method, values in scene["tolerances"].items()))
     for speed in speeds:
-        yield (f"set {speed.entry['set']}, {speed.frequency:g} Hz: nearest to the reference: " +
-               agreement(speed, tried))
+        for method, error in sorted(agreement(speed, tried).items()):
+            yield f"row nearest: {speed.entry['set']} {speed.frequency:g} {method} {error:.1e}"
     for speed, method, start, errors in missed:
-        yield (f"not reached: set {speed.entry['set']}, {speed.frequency:g} Hz, {method}, "
+        yield (f"note: not reached: set {speed.entry['set']}, {speed.frequency:g} Hz, {method}, "
                f"{start} start: " + ", ".join(errors))
     yield from (f"column: {name} [{unit}] {meaning}" for name, unit, meaning in COLUMNS)
 

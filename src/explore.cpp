@@ -327,9 +327,10 @@ int finish(const Request& request, const std::string& script,
   const Exploration found = explored();
   std::string undrawn;
   if (request.plot)
-    undrawn = plot(
-        *request.plot, script,
-        found.drawn.empty() ? found.table.text(TableFormat::tsv, true) : found.drawn);
+    undrawn =
+        plot(*request.plot, script,
+             found.drawn.empty() ? found.table.text(TableFormat::tsv, true) : found.drawn,
+             request.overlay);
   write(found.table.text(request.format));
   if (!found.unfinished.empty()) throw NoSolution(found.unfinished);
   if (!undrawn.empty()) throw NoSolution(undrawn);

@@ -24,9 +24,10 @@ from concurrent.futures import ThreadPoolExecutor
 from pathlib import Path
 
 sys.path.insert(1, str(Path(__file__).parents[1] / "figures"))
-from tables import Table, displacement_errors, explore, larger_error, print_columns, print_header, said  # noqa: E402
+from tables import Table, displacement_errors, explore, print_columns, print_header  # noqa: E402
 
 POINTS = 2048
+NEAREST_START = "quasi-static-contact"
 FAR = 10  # times the estimate: another motion
 FINER = (3, 4, 5)  # times the harmonics of the ladder: several, since several motions may lie near each other
 COLUMNS = [
@@ -56,20 +57,18 @@ def over(a, b):
 def chosen(machine, speed, tolerance, exact):
     """The cells for one tolerance, but for the first three and the fixed m."""
     row = dict.fromkeys((name for name, *_ in COLUMNS[3:]), -1) | {"reached": 0, "own_branch": 0, "searched": 0}
-    asked = ["--tolerance", tolerance, "--budget", 1e12]
+    asked = ["--method", "aft", "--tolerance", tolerance, "--budget", 1e12]
     solution = orbit(machine, speed, *asked, "--points", POINTS, "--no-stability")
     if solution is None:
         return row
-    m, n = said(solution, r"# method: aft, m = (\d+), N = (\d+)")
-    start, = said(solution, r"# newton: from (.*?), ")
-    row |= {"reached": 1, "m": int(m), "N": int(n), "searched": int(start != "quasi-static contact"),
-            "estimate": larger_error(solution, "error"),
-            "cost": float(*said(solution, r"# cost: (\d+)"))}
+    row |= {"reached": 1, "m": int(solution.value("harmonics")), "N": int(solution.value("samples")),
+            "searched": int(solution.value("start") != NEAREST_START), "estimate": solution.error("error"),
+            "cost": solution.value("force_samples")}
     if exact is not None:
         row["error"] = max(displacement_errors(solution, exact))
     if exact is None or row["error"] > FAR * row["estimate"]:
         judged = orbit(machine, speed, *asked, "--points", 2)
-        own = larger_error(judged, "distance")
+        own = judged.error("distance")
         if own > 0 and (exact is None or own < row["error"]):
             row |= {"error": own, "own_branch": 1}
     return row | {"effectivity": over(row["estimate"], row["error"])}
@@ -81,9 +80,9 @@ def add_best_fixed(machine, speed, exact, most, rows):
     compared = [row for row in rows if row["error"] > 0 and not row["own_branch"]]
     least, error, m = min((row["error"] for row in compared), default=1), 2, 4
     while m <= most and error > least:
-        fixed = orbit(machine, speed, "--harmonics", m, "--points", POINTS, "--no-stability")
-        if fixed is not None and said(fixed, r"# newton: from (.*?), ") == ("quasi-static contact",):
-            error, cost = max(displacement_errors(fixed, exact)), float(*said(fixed, r"# cost: (\d+)"))
+        fixed = orbit(machine, speed, "--method", "aft", "--harmonics", m, "--points", POINTS, "--no-stability")
+        if fixed is not None and fixed.value("start") == NEAREST_START:
+            error, cost = max(displacement_errors(fixed, exact)), fixed.value("force_samples")
             for row in compared:
                 if error <= row["error"] and (row["m_fixed"] < 0 or cost < row["cost_fixed"]):
                     row |= {"m_fixed": m, "error_fixed": error, "cost_fixed": cost, "ratio": over(row["cost"], cost)}
@@ -96,7 +95,7 @@ def rows_of(machine, speed, tolerances, most):
     rows = [chosen(machine, speed, tolerance, exact) for tolerance in tolerances]
     finest = [row["own_branch"] for row in rows if row["reached"]][-1:]
     if finest == [1] or exact is None:  # shooting found another motion, or none
-        finer = [orbit(machine, speed, "--harmonics", k * most, "--points", POINTS, "--no-stability") for k in FINER]
+        finer = [orbit(machine, speed, "--method", "aft", "--harmonics", k * most, "--points", POINTS, "--no-stability") for k in FINER]
         judged = [(exact, [chosen(machine, speed, tolerance, exact) for tolerance in tolerances]) for exact in finer]
         exact, rows = min(judged, key=lambda pair: (pair[0] is None, pair[1][-1]["own_branch"], pair[1][-1]["error"]))
     if exact is not None:

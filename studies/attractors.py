@@ -67,9 +67,10 @@ def main(file, reading=""):
                              "--starts", scene["random_starts"], "--seed", scene["seed"], "--budget", 1e15, "--section", section)
             tables.append(Table.of(result.stdout))
             rows += [[number, *row] for row in rows_of(tables[-1], Table(section), scene["points"])]
-    methods = [line[2:] for line in tables[0].header.split("\n") if line.startswith(("# starts:", "# method:", "# period:", "# same"))]
-    print_header("Attractors: their motions and Poincare sections", tables, *methods,
-                 f"points: K of a motion that closes, {scene['points']} of another")
+    print_header("Attractors: their motions and Poincare sections", tables,
+                 "starts: at each speed from rest, from the motions at the speeds below and above, and from random states",
+                 "points: K of a motion that closes, at most so many of another",
+                 **{key: tables[0].value(key) for key in ("method", "step", "base", "speeds", "starts", "seed")}, points=scene["points"])
     print_columns(COLUMNS)
     for row in rows:
         print("\t".join(f"{cell:.9g}" for cell in row))

@@ -44,11 +44,11 @@ def integrated(scene, name, ratio):
 
 def solution(machine, speed, tolerance):
     """found, stable, frequencies."""
-    result = explore("orbit", machine, "--frequency", speed, "--tolerance", tolerance, "--points", 2)
+    result = explore("orbit", machine, "--frequency", speed, "--method", "aft", "--tolerance", tolerance, "--points", 2)
     if result.returncode:
         return [0, -1, 0]
-    word = re.search(r"^# stability: (\w+)", result.stdout, re.M).group(1)
-    return [1, STABILITY[word], 2 if "two frequencies" in result.stdout else 1]
+    table = Table.of(result.stdout)
+    return [1, STABILITY[table.value("stability")], 2 if table.value("base") == "two" else 1]
 
 
 def span(values, scale=1, digits=3):
@@ -144,10 +144,10 @@ def main(file):
 
         cases = [(name, ratio) for name in scene["parameters"] for ratio in scene["cage_speed_ratios"]]
         parts = list(pool.map(lambda case: of_ratio(*case), cases))
-    print("\n".join(parts[0][1].header.split("\n")[1:3]))
+    print("\n".join(parts[0][1].header.split("\n")[1:4]))
     print(f"# parameters: data/{'.toml, data/'.join(scene['parameters'])}.toml with bearing.cage_speed_ratio = c")
-    print(f"# method: rk4 from rest, transient of at most {scene['settling_s']:g} s; harmonic balance with --tolerance "
-          f"{scene['tolerance']:g}")
+    print(f"# tolerance: {scene['tolerance']:g}")
+    print(f"# note: rk4 from rest, transient of at most {scene['settling_s']:g} s; harmonic balance to the tolerance")
     print_columns(COLUMNS)
     for (name, _), (rows, _) in zip(cases, parts):
         for row in rows:

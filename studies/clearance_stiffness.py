@@ -26,10 +26,8 @@ COLUMNS = [
 
 def main(file):
     table = Table(file)
-    kept = [line for line in table.header.split("\n") if not line.startswith(("# Map", "# column"))]
+    kept = [line for line in table.header.split("\n") if not line.startswith(("# Map", "# row keys", "# column"))]
     print("# Clearance against contact stiffness", *kept, sep="\n")
-    print("# modelled: sweeps up, m = 6, {} speeds from {} to {} Hz".format(
-        *(kept[next(k for k, line in enumerate(kept) if line.startswith("# sweep: "))].split()[k] for k in (2, 5, 7))))
     print_columns([column[:3] for column in COLUMNS])
     for cells in zip(*(table[source] for *_, source in COLUMNS)):
         print("\t".join(str(cell) if isinstance(cell, str) else f"{cell:.15g}" for cell in cells))

@@ -129,17 +129,18 @@ def rows_of(base, machines, scene):
 def main(file):
     scene = tomllib.loads(Path(file).read_text(encoding="utf-8"))
     text = tomllib.loads(Path("data/claims.toml").read_text(encoding="utf-8"))["accepted"]
-    found, notes = [], []
+    found, accepted = [], []
     for reading, suffix in READINGS.items():
         bases = [Base(f"data/{name}{suffix}.toml") for name in scene["parameters"]]
         low, high, shown = (bases[0].mass_losing_at(text["paper_peak_hz"], loss)
                             for loss in (*text["loss_hz"], text["paper_loss_hz"]))
-        notes.append(f"accepted, {reading}: m_s = {low:.4g} ... {high:.4g} kg; loss of contact at {text['paper_loss_hz']:g} Hz: "
-                     f"{shown:.4g} kg")
+        accepted.append(("accepted", [reading, *(float(f"{mass:.4g}") for mass in (low, high)), text["paper_loss_hz"], float(f"{shown:.4g}")]))
         found += [rows_of(base, candidates(base, text, scene["grid"]["masses"]), scene) for base in bases]
     print_header("Motions of the machines that the paper's text admits", [table for table, _ in found],
                  f"modelled: rk4 at {len(np.unique(found[0][0]['frequency']))} speeds, at most {scene['regime']['longest_s']:g} s "
-                 "each; masses and cage as in the rows; [accepted] of data/claims.toml", *notes)
+                 "each; masses and cage as in the rows; [accepted] of data/claims.toml",
+                 "row accepted: reading, least and largest mass of the stator [kg], speed of loss of contact [Hz], mass with that",
+                 rows=accepted)
     print_columns(COLUMNS)
     for number, (_, rows) in enumerate(found):
         reading, data_set = divmod(number, len(scene["parameters"]))

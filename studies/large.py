@@ -9,7 +9,6 @@ motion repeats itself.
 Usage: studies/large.py data/scenes/large.toml > large.tsv   (from the project's root, alone on the machine)
 """
 import os
-import re
 import statistics
 import subprocess
 import sys
@@ -158,20 +157,17 @@ def bricks(folder, counts):
 def row(scene, kind, file, whole, degrees):
     """The cells of one machine; `whole`: the same with all degrees of freedom kept, or none."""
     speed = ["--frequency", scene["frequency_hz"]]
-    solution = median_run(scene["repetitions"], "orbit", file, *speed, "--harmonics", 20, "--no-stability")
-    branch = median_run(scene["repetitions"], "response", file, "--from", scene["from_hz"], "--to", scene["to_hz"], "--times")
-    once, alone = (statistics.median(float(seconds) for seconds in part)
-                   for part in zip(*(re.search(r"cpu: (\S+) s .*; (\S+) s", log).groups() for log in branch[3])))
-    judged = median_run(scene["repetitions"], "orbit", file, *speed, "--tolerance", scene["tolerance"])
-    header, kept, error = judged[0], degrees, 0
-    if "reduced to" in header:
-        kept = 2 + int(header.split("reduced to ")[1].split(",")[0])
-        error = float(branch[0].split("receptances ")[1].split()[0])
+    solution = median_run(scene["repetitions"], "orbit", file, *speed, "--method", "aft", "--harmonics", 20, "--no-stability")
+    branch = median_run(scene["repetitions"], "response", file, "--from", scene["from_hz"], "--to", scene["to_hz"], "--harmonics", 6, "--times")
+    logs = [dict(line.split(": ") for line in log.splitlines()) for log in branch[3]]
+    once, alone = (statistics.median(float(log[key]) for log in logs) for key in ("cpu_machine_s", "cpu_branch_s"))
+    judged = median_run(scene["repetitions"], "orbit", file, *speed, "--method", "aft", "--tolerance", scene["tolerance"])
+    found, along = Table.of(judged[0]), Table.of(branch[0])
+    kept, error = int(found.value("degrees_of_freedom", degrees)), along.value("reduction_error", 0)
     method = ["--method", "rk8pd"] if kind == "paper" else ["--method", "gauss", "--local-error", scene["local_error"]]
     settled = run("orbit", whole or file, *speed, *method, "--longest", 5)
-    found, exact = Table.of(header), Table.of(settled[0])
-    off = displacement_errors(found, exact)[0]
-    points = len(Table.of(branch[0]))
+    off = displacement_errors(found, Table.of(settled[0]))[0]
+    points = len(along)
     return [kind, degrees, kept, f"{error:.2g}", f"{once:.3g}", f"{alone:.3g}", points, f"{solution[1]:.3g}",
             f"{judged[1]:.3g}", f"{settled[1]:.3g}", degrees if whole or kept == degrees else kept, branch[2], f"{off:.3g}"], branch[0]
 

@@ -99,7 +99,8 @@ def measure(scene):
         study = yaml.safe_load(Path("studies", f"{name}.yaml").read_text(encoding="utf-8"))
         rows += [of_a_line(name, study, place) for place in scene["lines"]]
     print_header("Cost of maps", [Table.of(explore("check", f"data/{scene['parameters'][0]}.toml").stdout)],
-                 f"cores: {len(os.sched_getaffinity(0))}; repetitions of threads and weak: {scene['repetitions']}, of others 1")
+                 "repetitions of the kinds threads and weak, 1 of the others",
+                 cores=len(os.sched_getaffinity(0)), repetitions=scene["repetitions"])
     print_columns(COLUMNS)
     for cells in rows:
         print("\t".join(cell if isinstance(cell, str) else f"{cell:.6g}" for cell in cells))
@@ -129,7 +130,7 @@ def of_stiffness(table):
     known = np.isfinite(error)
     ends = {f"{name}_{end}": value for name, column in columns.items()
             for end, value in (("least", np.nanmin(column)), ("most", np.nanmax(column)))}
-    return {"points": len(table), "f_hz": table.number("frequency"), "limit": BORDER, "right": np.mean(error[known] <= BORDER),
+    return {"points": len(table), "f_hz": table.value("frequency"), "limit": BORDER, "right": np.mean(error[known] <= BORDER),
             "open": np.mean(~known), "first_um": 1e6 * table[DELTA][known & (error > BORDER)].min(), "worst": error[known].max(), **ends}
 
 
@@ -201,7 +202,7 @@ def page(folder):
     costs, checks = (Table(folder / f"{name}.tsv") for name in ("map_scaling", "map_checks"))
     tables = {name: Table(folder / f"{name}.tsv") for name in MAPS}
     threads, weak, memory, shards = (costs.where("kind", kind) for kind in ("threads", "weak", "memory", "shards"))
-    cores = int(costs.number("cores"))
+    cores = int(costs.value("cores"))
     per_shard, files_of_a_shard = (np.diff(shards[name])[0] / np.diff(shards["count"])[0] for name in ("median_s", "files"))
     lines = ["# Two maps of the machine, and what larger ones would cost", ""]
     for number, (name, table) in enumerate(tables.items(), 1):

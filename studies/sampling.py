@@ -86,7 +86,7 @@ def rows_of(machine, speed, m, scene):
     """The cells from m on of one motion and number of harmonics."""
     exact = orbit(machine, speed, scene["reference_harmonics"])
     fine = orbit(machine, speed, m, "--samples", fast_size(scene["fine_over_m"] * m + 1))
-    usual = int(orbit(machine, speed, m).number("N"))
+    usual = int(orbit(machine, speed, m).value("samples"))
     truncation, rows = errors(fine, exact), []
     for samples in sorted({usual, *(fast_size(over * m + 1) for over in scene["samples_over_m"])}):
         coarse = orbit(machine, speed, m, "--samples", samples)

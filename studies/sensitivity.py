@@ -91,7 +91,7 @@ class Study:
     def method(self, model, by_balance):
         """The options that say how."""
         if by_balance:
-            return ["--harmonics", self.scene["harmonics"], "--samples", model.samples]
+            return ["--method", "aft", "--harmonics", self.scene["harmonics"], "--samples", model.samples]
         return ["--method", "rk4", "--step", model.step, "--longest", self.time["longest_s"]]
 
     def response(self, model, quantity, speeds, by_balance):
@@ -179,8 +179,7 @@ class Study:
                            self.scene["orbit_periods"])
         sizes = [mean_and_error((crests(table[name], points) + crests(-table[name], points)) / 2)
                  for name in ("x_r", "y_r")]
-        spread = next(line for line in table.header.split("\n") if line.startswith("# Poincare spread")).split()
-        return *sizes, float(spread[3]), int("+-" not in spread)
+        return *sizes, table.value("spread"), int("spread_uncertainty" not in table.keys())
 
     def row(self, parameter, value):
         """The cells after the unit."""
@@ -217,9 +216,10 @@ def main(file):
     with ThreadPoolExecutor(os.cpu_count()) as pool:
         rows = list(pool.map(lambda point: study.row(*point[:2]), points))
     print("# Sensitivity to the parameters that the paper leaves out")
-    print("\n".join(study.header.split("\n")[1:7]))
-    print(f"#   harmonic balance: m = {study.scene['harmonics']}, N = {study.scene['samples']}")
-    print(f"# modelled: {file}; one parameter at a time, the others at their defaults")
+    print(*(line for line in study.header.split("\n")[1:] if line.startswith(("# source", "# compiler", "# schema", "# param", "#   "))),
+          sep="\n")
+    print(f"# harmonics: {study.scene['harmonics']}\n# samples: {study.scene['samples']}")
+    print(f"# note: modelled: {file}; one parameter at a time, the others at their defaults")
     print_columns(COLUMNS)
     for (name, value, unit), cells in zip(points, rows):
         print("\t".join(cell if isinstance(cell, str) else f"{cell:.15g}" for cell in (name, value, unit, *cells)))

@@ -19,6 +19,7 @@ sys.path.insert(1, str(Path(__file__).parents[1] / "figures"))
 from tables import STABILITY, Table, explore, print_columns, print_header  # noqa: E402
 
 AMPLITUDES = ("amp_x_s", "amp_y_s", "amp_x_r", "amp_y_r")
+OF_CURVE = ("direction", "samples", "folds", "ended", "undecided_points", "bifurcations_not_located", "evaluations")
 NOT_EXAMINED = -2
 NEAR, ALIKE = 0.1, 0.03  # [Hz], relative: no eye would miss a point so near the one before
 COLUMNS = [
@@ -49,8 +50,7 @@ def dispensable(table, k, before):
 
 def rows_of(table):
     """The cells from f on."""
-    uncertainties = iter(float(line.split("+- ")[1].split()[0]) for line in table.header.split("\n")
-                         if " +- " in line and line.startswith(("# plus-one:", "# period-doubling:", "# neimark-sacker:")))
+    uncertainties = (uncertainty for *_, uncertainty in table.members("bifurcation"))
     rows, kept = [], None
     for k in range(len(table)):
         of_machine = table["bifurcation"][k] not in ("-", "fold")
@@ -70,7 +70,7 @@ def curve(scene, number, m):
     """The branches of one data set with m harmonics: up, and down where the first does not reach the end."""
     file = f"data/{scene['parameters'][number]}.toml"
     up = followed(file, scene, m, "up")
-    return [up] if up is not None and "# ended: the end of the range" in up.header else [up, followed(file, scene, m, "down")]
+    return [up] if up is not None and up.value("ended") == "yes" else [up, followed(file, scene, m, "down")]
 
 
 def main(file):
@@ -80,12 +80,10 @@ def main(file):
         tables = list(pool.map(lambda at: curve(scene, *at), reversed(curves)))[::-1]
     branches = [(number, m, table) for (number, m), found in zip(curves, tables) for table in found if table]
     sets = {number: table for number, _, table in reversed(branches)}
-    notes = []
-    for count, (number, m, table) in enumerate(branches, 1):
-        notes.append(f"curve {count}: set {number + 1}, m = {m}, from {table['f'][0]:g} Hz")
-        notes += [line[2:] for line in table.header.split("\n")[3:] if " +- " not in line
-                  and not line.startswith(("# column", "# parameters: ", "#   "))]
-    print_header("Stability along the response curves", [sets[number] for number in sorted(sets)], *notes)
+    curves = [("curve", [count, number + 1, m, float(table["f"][0]), *(table.value(key) for key in OF_CURVE)])
+              for count, (number, m, table) in enumerate(branches, 1)]
+    print_header("Stability along the response curves", [sets[number] for number in sorted(sets)],
+                 f"row curve: number, set, m, first speed [Hz], {', '.join(OF_CURVE)}", rows=curves)
     print_columns(COLUMNS)
     for count, (number, m, table) in enumerate(branches, 1):
         for row in rows_of(table):

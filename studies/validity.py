@@ -33,7 +33,7 @@ from concurrent.futures import ThreadPoolExecutor
 from pathlib import Path
 
 sys.path.insert(1, str(Path(__file__).parents[1] / "figures"))
-from tables import STABILITY, Table, displacement_errors, explore, larger_error, print_columns, print_header, said  # noqa: E402
+from tables import STABILITY, Table, displacement_errors, explore, print_columns, print_header  # noqa: E402
 
 FORCE = ("F_x", "F_y")
 SAME = 1e-3  # rms distance of two motions on one attractor
@@ -71,7 +71,7 @@ def orbit(machine, speed, *options):
 
 
 def stability(solution):
-    return STABILITY.get("".join(said(solution, r"# stability: (\w+)")), -1)
+    return STABILITY[solution.value("stability", "undecided")]
 
 
 def with_closed(known, machine, speed):
@@ -92,10 +92,9 @@ def row_of(solution, known, is_adaptive):
     periodic = int(any(period == 1 for period, _ in known))
     if solution is None:
         return [0, 0, -1, -1, 0, -1, -1, periodic, -1]
-    m, = said(solution, r"# method: aft, m = (\d+)")
     distance, largest, period, nearest = nearest_to(solution, known)
-    estimate = larger_error(solution, "error") if is_adaptive else -1
-    return [int(m), 1, distance, displacement_errors(solution, nearest, FORCE)[0], int(period == 1), stability(solution), estimate,
+    estimate = solution.error("error") if is_adaptive else -1
+    return [int(solution.value("harmonics")), 1, distance, displacement_errors(solution, nearest, FORCE)[0], int(period == 1), stability(solution), estimate,
             periodic, largest]
 
 
@@ -103,13 +102,13 @@ def rows_at(machine, speed, known, scene):
     """(adaptive, cells from m on) of all solutions at one speed; where none can be true, of the examined ones without verdict."""
     known, examined, tolerance = with_closed(known, machine, speed), scene["examined_harmonics"], scene["tolerance"]
     is_periodic = any(period == 1 for period, _ in known)
-    adaptive = orbit(machine, speed, "--tolerance", tolerance) if is_periodic else None
+    adaptive = orbit(machine, speed, "--method", "aft", "--tolerance", tolerance) if is_periodic else None
     if adaptive and stability(adaptive) == 1 and nearest_to(adaptive, known)[0] > 2 * tolerance:  # an attractor that is not known
-        finer = orbit(machine, speed, "--tolerance", tolerance / 100, "--no-stability")
+        finer = orbit(machine, speed, "--method", "aft", "--tolerance", tolerance / 100, "--no-stability")
         known = [*known, (1, finer)] if finer else known
     for m in range(1, scene["most_harmonics"] + 1) if is_periodic else examined:
         verdict = [] if is_periodic and m in examined else ["--no-stability"]
-        _, *row = row_of(orbit(machine, speed, "--harmonics", m, *verdict), known, False)
+        _, *row = row_of(orbit(machine, speed, "--method", "aft", "--harmonics", m, *verdict), known, False)
         yield [0, m, *row]
     yield [1, *row_of(adaptive, known, True)]
 
@@ -125,9 +124,10 @@ def main(file, reading=""):
                  for machine, (_, known) in zip(machines, settled)]
     print_header("Distance of harmonic-balance solutions to the nearest attractor", [table for table, _ in settled],
                  f"modelled: solutions with m = 1 to {scene['most_harmonics']}, without T-periodic attractor those with m in "
-                 f"{scene['examined_harmonics']} alone; adaptive: tolerance {scene['tolerance']:g}; verdicts by shooting",
+                 f"{scene['examined_harmonics']} alone; adaptive: for the tolerance; verdicts by shooting",
                  f"attractors: from rest, from the speeds below and above, from {scene['random_starts']} random states; by shooting; "
-                 "a stable adaptive solution that is near none of these, with a hundredth of the tolerance")
+                 "a stable adaptive solution that is near none of these, with a hundredth of the tolerance",
+                 tolerance=scene["tolerance"])
     print_columns(COLUMNS)
     for number, part in enumerate(found, 1):
         for speed, rows in zip(speeds, part):

@@ -53,7 +53,7 @@ def main(file):
         for m in scene["harmonics"]:
             # each speed is a line of its own, so that no solution starts from its neighbour
             result = explore("map", f"data/{name}.toml", "--y", f"frequency={speeds['from']}:{speeds['to']}:{count}",
-                             "--harmonics", m, "--budget", scene["most_evaluations"], "--quantity", ",".join(QUANTITIES))
+                             "--method", "aft", "--harmonics", m, "--budget", scene["most_evaluations"], "--quantity", ",".join(QUANTITIES))
             table = Table.of(result.stdout)
             for k, frequency in enumerate(table["frequency"]):
                 rows[number, frequency, m] = row({name: str(table[name][k]) for name in QUANTITIES})

@@ -18,7 +18,7 @@ SIZE = 360
 
 def motions(table):
     """Of each panel: speed, displacements [µm] and ball loads [N] over two turns, in one of which the cage makes half a turn."""
-    n, K, delta, c = (table.number(name) for name in ("n", "K_H", "delta", "omega_cage/omega"))
+    n, K, delta, c = (table.value(name) for name in ("balls", "contact_stiffness", "clearance", "cage_speed_ratio"))
     for panel in np.unique(table["panel"]):
         rows = table.where("panel", panel)
         rows = rows.where("source", rows.first("shown"))
@@ -63,14 +63,14 @@ def moving(name):
     if name != "fig07_contact":
         return ""
     table = Table("data/generated/fig06_orbits.tsv")
-    data, n, delta = list(motions(table)), int(table.number("n")), 1e6 * table.number("delta")
+    data, n, delta = list(motions(table)), int(table.value("balls")), 1e6 * table.value("clearance")
     first = next(k for k, motion in enumerate(data) if motion["f"] == 45)
     told = (f"Left: the bearing in the frame of its outer ring (stator, orange); the inner ring (rotor, blue) moves in the clearance of "
             f"{delta:g} µm, which is drawn far too large, as 1/{OUTER / GAP:.0f} of the outer ring's radius. An overlap is the elastic approach. Balls: white "
             "without load, from yellow to dark with the load, relative to the largest load at that speed. Right: orbits of rotor (solid) "
             "and stator (dashed), at the scale that fits them.")
     facts = {"motions": data, "first": first, "frames": FRAMES, "delta": delta, "gap": GAP, "ball": BALL, "outer": OUTER, "size": SIZE,
-             "cage": table.number("omega_cage/omega"), "colours": COLOURS}
+             "cage": table.value("cage_speed_ratio"), "colours": COLOURS}
     return (f'```````{{raw}} html\n<figure id="motion">{still(data[first], delta, n)}<div id="controls"></div>'
             f"<figcaption>{told}</figcaption></figure>\n<script>const FACTS = {json.dumps(facts, separators=(',', ':'))};\n"
             + Path("paper/book/animation.js").read_text("utf-8") + "</script>\n```````\n")

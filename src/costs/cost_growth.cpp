@@ -168,10 +168,9 @@ Table cost_growth_table(const CostGrowthScene& scene, const std::vector<Growth>&
   table.note(format("N above %d m; Newton's tolerance %g; %d repetitions",
                     scene.samples_per_harmonic, scene.newton_tolerance,
                     scene.repetitions));
-  table.note(
-      format("exponents from harmonics = %d, balls = %d, speeds = %d, bytes = %g on",
-             scene.kinds[0].fitted_from, scene.kinds[1].fitted_from,
-             scene.kinds[2].fitted_from, scene.least_memory));
+  for (int k = 0; const char* kind : {"harmonics", "balls", "speeds"})
+    table.value(format("fitted_from_%s", kind), scene.kinds[k++].fitted_from);
+  table.value("fitted_from_bytes", scene.least_memory);
   for (const Growth& row : rows) table.row(growth_fields, row);
   return table;
 }

@@ -140,19 +140,18 @@ Table equal_error_table(const EqualErrorScene& scene, const References& referenc
       "CPU time of the same sweep at equal error, every method at its best setting",
       equal_error_fields);
   describe(table, scene.parameters);
-  table.note(format(
-      "modelled: speeds of %g to %g Hz with T-periodic motion, in order; %d repetitions",
-      scene.frequencies.front(), scene.frequencies.back(), scene.repetitions));
-  table.note(std::string("the targets bound ") +
-             (scene.error == &MotionError::mean ? "error_mean" : "error"));
+  table.value("from", scene.frequencies.front());
+  table.value("to", scene.frequencies.back());
+  table.value("repetitions", scene.repetitions);
+  table.value("bounded", scene.error == &MotionError::mean ? "error_mean" : "error");
+  table.note(
+      "speeds with T-periodic motion, in order; bounded: the column of the targets");
   table.note(
       format("the search of a method in a range ends after %g s of CPU", scene.search));
   table.note(what_is_timed);
   references.describe(table, scene.truth);
-  std::string ratios;
-  for (double ratio : scene.paper_ratios) ratios += format(" %g", ratio);
-  table.note("the paper's ratios of RK4 to harmonic balance with 6, 8 and 10 harmonics:" +
-             ratios);
+  table.row_line("paper_ratios", {scene.paper_ratios.begin(), scene.paper_ratios.end()});
+  table.note("paper_ratios: RK4 to harmonic balance with 6, 8 and 10 harmonics");
   for (const EqualErrorRow& row : rows)
     if (row.reached)
       table.row(equal_error_fields, row);

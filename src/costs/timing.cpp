@@ -125,9 +125,10 @@ Table timing_table(const TimingScene& scene, const References& references,
   Table table("CPU time of the same sweep at equal error (paper: section 3.3)",
               timing_fields);
   describe(table, scene.parameters);
-  table.note(format("modelled: %zu speeds from %g to %g Hz; %d repetitions",
-                    scene.frequencies.size(), scene.frequencies.front(),
-                    scene.frequencies.back(), scene.repetitions));
+  table.value("speeds", scene.frequencies.size());
+  table.value("from", scene.frequencies.front());
+  table.value("to", scene.frequencies.back());
+  table.value("repetitions", scene.repetitions);
   references.describe(table, scene.truth);
   for (std::size_t k = 0; k < balances.size(); ++k) {
     const int m = balances[k].setting.harmonics;

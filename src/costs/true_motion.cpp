@@ -89,10 +89,12 @@ void References::describe(Table& table, const TruthSettings& settings) const
              "from time integration by %s with Poincare spread below %.2g",
              settings.tolerance, periodicity_residual,
              settings.settling.stepper.method.c_str(), spread));
-  std::string list;
+  std::vector<Cell> list;
   for (std::size_t k = 0; k < frequencies.size(); ++k)
-    if (!motions[k]) list += format(" %g", frequencies[k]);
-  table.note("not T-periodic, no reference [Hz]:" + (list.empty() ? " none" : list));
+    if (!motions[k]) list.emplace_back(frequencies[k]);
+  table.row_line("not_periodic", list);
+  table.note(
+      "not_periodic: speeds [Hz] without a T-periodic motion, which have no reference");
 }
 
 void MotionError::add(const Parameters& parameters, double frequency,

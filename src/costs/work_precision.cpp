@@ -164,17 +164,17 @@ Table work_precision_table(const WorkPrecisionScene& scene,
 {
   Table table("Work against precision: one periodic motion, every method",
               work_precision_fields);
-  table.note(format("known motion below: %g Hz below the speed; %d repetitions",
-                    scene.below, scene.repetitions));
+  table.value("below", scene.below);
+  table.value("repetitions", scene.repetitions);
+  table.note("below: the motion known is so many Hz below the speed");
   table.note(what_is_timed);
   table.note(format(
       "reference: shooting by rk8pd, tolerance %g; agreement: with harmonic balance, m = %d",
       scene.truth.tolerance, scene.reference_harmonics));
   for (const WorkCase& c : cases)
-    table.note(
-        format("case %zu: %g Hz, %s; Poincare spread %.2g, closure %.2g, agreement %.2g",
-               c.number, c.truth.frequency, c.parameters.file.c_str(), c.truth.spread,
-               c.truth.periodicity_residual, c.agreement));
+    table.row_line("case", {c.number, c.truth.frequency, one_word(c.parameters.file),
+                            c.truth.spread, c.truth.periodicity_residual, c.agreement});
+  table.note("row case: number, speed, file, Poincare spread, closure, agreement");
   for (const WorkPoint& point : points) table.row(work_precision_fields, point);
   return table;
 }

@@ -91,8 +91,8 @@ Table evidence_table(const DeviationScene& scene)
 {
   Table table("Evidence for the deviations from the printed paper (paper/deviations.md)",
               fields);
-  describe(table, scene.machine);
-  describe(table, scene.printed);
+  describe(table, scene.machine, false);
+  describe(table, scene.printed, false);
   return table;
 }
 

@@ -372,13 +372,17 @@ void note(Table& table, const Task& task)
 {
   const AttractorSettings& s = task.settings;
   describe(table, task.asked);
-  table.note(format(
-      "starts: at each of %zu speeds from rest, from the motion at the speed below, from that "
-      "at the speed above, and from %d random states (seed %d)",
-      task.speeds.size(), task.request.starts, task.request.seed));
-  table.note(format("method: rk4, steps of at most %.4g s; base period: that of %s",
-                    default_step(task.machine),
-                    task.passages == 1 ? "rotation" : "the passing balls"));
+  table.value("method", "rk4");
+  table.value("step", default_step(task.machine), 4);
+  table.value("base", task.passages != 1                           ? "passing"
+                      : turns_to_repeat(task.machine.bearing) == 0 ? "two"
+                                                                   : "turn");
+  table.value("speeds", task.speeds.size());
+  table.value("starts", task.request.starts);
+  table.value("seed", task.request.seed);
+  table.note(
+      "starts: at each speed from rest, from the motion at the speed below, from that at the "
+      "speed above, and from random states");
   table.note(format(
       "transient: until the section's spread is below %g, at most %.3g s; then observed for "
       "%.3g s if the section closes, %.3g s if aperiodic, %.3g s else",
@@ -455,7 +459,7 @@ Exploration explore_attractors(const AttractorsRequest& request)
       all.push_back(std::move(found));
     }
   note(table, task);
-  if (!missing.empty()) table.note("incomplete: " + missing);
+  put_complete(table, missing);
   for (const Found& found : all) table.row(fields, found);
   conclude(table, task.machine, std::ranges::any_of(all, &Found::touches), task.budget);
   std::string section;

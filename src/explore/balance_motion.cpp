@@ -15,40 +15,57 @@
 namespace rotor_stator::explore {
 
 void note_verdict(Table& table, const Parameters& parameters,
-                  const motion::Verdict& verdict, int turns, const char* whose)
+                  const motion::Verdict& verdict, int turns)
 {
-  const bool is_reduced = parameters.large && !parameters.large->reductions.empty();
-  const Floquet& motion = verdict.floquet;
-  if (verdict.found())
-    table.note(format("stability: %s; largest Floquet multiplier %.9g +- %.2g, of %s%s",
-                      verdict.word(), motion.largest(), motion.uncertainty(), whose,
-                      is_reduced ? ", with the reduced bodies" : ""));
-  else
-    table.note("stability: undecided; " + verdict.reason);
+  table.value("stability", verdict.word());
+  if (verdict.found()) {
+    table.value("multiplier", verdict.floquet.largest(), 9);
+    table.value("multiplier_uncertainty", verdict.floquet.uncertainty(), 2);
+    if (parameters.large && !parameters.large->reductions.empty())
+      table.note("multiplier: with the reduced bodies");
+  } else
+    table.note("stability: " + verdict.reason);
   if (verdict.distance > 0)
-    table.note(
-        format("distance: %.3g of the largest displacement, %.3g rms about the mean",
-               verdict.distance, verdict.distance_rms));
+    put_difference(table, "distance", verdict.distance, verdict.distance_rms,
+                   "from the motion of Eq. 7 whose multipliers these are");
   if (verdict.distance_rms > 0.1)
     table.note(
         format("warning: the solution is not accurate, its rms error about the mean "
                "is %.2g %%; more harmonics or --tolerance help",
                100 * verdict.distance_rms));
-  table.note("regime: " + verdict.regime(turns));
+  put_regime(table, verdict.settled(turns).period);
   const motion::Settled& there = verdict.from_there;
-  if (there.periods > 0)
+  if (there.periods > 0) {
+    table.value("regime_from_there", there.regime());
+    if (there.period > 0) table.value("period_from_there", there.period);
     table.note(
-        format("from the solution, disturbed by 1e-6: %s after %ld periods, "
-               "spread %.2g",
-               there.regime().c_str(), there.periods, there.spread));
+        format("from the solution, disturbed by 1e-6: a section of spread %.2g after "
+               "%ld periods%s",
+               there.spread, there.periods,
+               there.aperiodic ? ", which stays open; no exponent was measured" : ""));
+  }
   if (!verdict.lost.empty()) table.note("from the solution: " + verdict.lost);
-  table.note(format("verdict: %.3g evaluations of the force", verdict.evaluations));
+  table.value("verdict_evaluations", verdict.evaluations, 3);
 }
 
 void note_no_verdict(Table& table)
 {
   table.note("stability is not tested");
-  table.note("regime: undecided");
+  put_regime(table, 0);
+}
+
+void put_base(Table& table, const std::string& base, double frequency)
+{
+  table.value("base", base);
+  if (std::isfinite(1 / frequency)) table.value("base_period", 1 / frequency);
+}
+
+void put_difference(Table& table, const std::string& name, double largest, double rms,
+                    const std::string& meaning)
+{
+  if (std::isfinite(largest)) table.value(name + "_largest", largest, 3);
+  if (std::isfinite(rms)) table.value(name + "_rms", rms, 3);
+  table.note(name + ": " + meaning);
 }
 
 namespace {
@@ -76,6 +93,12 @@ std::string basis_of(const ErrorEstimate& error, const std::string& harmonics)
   return error.harmonics > 0
              ? "estimated with " + harmonics + format(", N = %d", error.samples)
              : "against the motion integrated from rest";
+}
+
+void put_newton(Table& table, const PeriodicMotion& solution)
+{
+  table.value("start", one_word(solution.start));
+  table.note("newton: from " + solution.start + ", " + solution.newton.reason());
 }
 
 /** Without a tolerance any error is accepted, and none is estimated. */
@@ -162,24 +185,24 @@ JudgedTorus judged(const Parameters& parameters, const MotionRequest& request,
   return best;
 }
 
-void note_torus_verdict(Table& table, const JudgedTorus& judged)
+void note_torus_verdict(Table& table, const JudgedTorus& judged, double frequency)
 {
   if (!judged.verdict) {
-    table.note("stability: undecided; " + judged.undecided);
-    table.note("regime: undecided");
-    return;
+    table.value("stability", "undecided");
+    return put_regime(table, 0, "undecided", judged.undecided);
   }
   const motion::TorusVerdict& verdict = *judged.verdict;
-  table.note(
-      format("stability: %s; neighbouring motions of Eq. 7 from the solution part by "
-             "%.3g +- %.2g a turn",
-             verdict.word(), verdict.rate, verdict.uncertainty));
+  table.value("stability", verdict.word());
+  table.value("lyapunov", verdict.rate * frequency, 3);
+  table.value("lyapunov_uncertainty", verdict.uncertainty * frequency, 2);
+  table.value("stays", verdict.stays ? "yes" : "no");
+  table.value("distance_largest", verdict.away, 3);
   table.note(
       format("from the solution: integration %s it, within %.2g of the largest "
              "displacement over %d turns",
              verdict.stays ? "stays on" : "leaves", verdict.away, verdict.turns));
-  table.note(verdict.stable() ? "regime: quasi-periodic" : "regime: undecided");
-  table.note(format("verdict: %.3g evaluations of the force", verdict.evaluations));
+  put_regime(table, 0, verdict.stable() ? "quasi-periodic" : "undecided");
+  table.value("verdict_evaluations", verdict.evaluations, 3);
 }
 
 /** A motion with the frequencies of rotation and of the passing balls, on chosen harmonics. */
@@ -201,25 +224,26 @@ FoundMotion quasi_periodic_motion(const Parameters& parameters,
                             request.frequency, at.end.c_str()));
   const PeriodicMotion& solution = at.motion;
   const double passages = passages_per_turn(parameters.bearing);
-  table.note(
-      format("method: aft, two frequencies: omega and n omega_cage = %.9g omega; %d "
-             "harmonics, %ld unknowns, z = %d, N = %d, relative tolerance of Newton %g",
-             passages, solution.harmonics.count(), static_cast<long>(solution.x.size()),
-             solution.line.z, solution.samples, level_tolerance(settings)));
-  std::string list;
+  table.value("method", "aft");
+  put_base(table, "two", 0);
+  table.value("tolerance", settings.tolerance);
+  table.value("harmonics", solution.harmonics.count());
+  table.value("samples", solution.samples);
+  table.value("unknowns", solution.x.size());
+  table.note(format(
+      "two frequencies: omega and n omega_cage = %.9g omega; z = %d, relative tolerance of "
+      "Newton %g; row harmonics: k_1,k_2 of k_1 omega + k_2 n omega_cage",
+      passages, solution.line.z, level_tolerance(settings)));
+  std::vector<Cell> list;
   for (const auto& [k_1, k_2] : solution.harmonics.list())
-    list += format(" (%g,%g)", k_1, k_2);
-  table.note("harmonics (k_1,k_2) of k_1 omega + k_2 n omega_cage:" + list);
-  table.note("newton: from " + solution.start + ", " + solution.newton.reason());
+    list.emplace_back(format("%g,%g", k_1, k_2));
+  table.row_line("harmonics", list);
+  put_newton(table, solution);
   const ErrorEstimate& error = *solution.error;
-  table.note(
-      format("error: %.2g of the largest displacement, %.2g rms about the mean, %s; "
-             "tolerance %g",
-             error.displacement, error.rms,
-             basis_of(error, format("%d harmonics", error.harmonics)).c_str(),
-             settings.tolerance));
+  put_difference(table, "error", error.displacement, error.rms,
+                 basis_of(error, format("%d harmonics", error.harmonics)));
   if (request.stability) {
-    note_torus_verdict(table, judged);
+    note_torus_verdict(table, judged, request.frequency);
   } else {
     note_no_verdict(table);
   }
@@ -230,7 +254,8 @@ FoundMotion quasi_periodic_motion(const Parameters& parameters,
 
 /** A motion with one frequency, that of the parameters, its solution. */
 PeriodicMotion solution_of(const Parameters& parameters, const MotionRequest& request,
-                           const OperationBudget& budget, Table& table)
+                           const OperationBudget& budget, Table& table,
+                           const std::string& base = "turn")
 {
   const AdaptiveMotion at = solved(parameters, request, budget);
   const std::string wanted =
@@ -241,34 +266,22 @@ PeriodicMotion solution_of(const Parameters& parameters, const MotionRequest& re
     throw NoSolution(format("%s: %s at %g Hz: %s", parameters.file.c_str(),
                             wanted.c_str(), request.frequency, at.end.c_str()));
   const int turns = request.subharmonic;
-  const bool is_chosen = request.tolerance && !request.harmonics && turns == 1;
-  const std::string orders = turns > 1 ? format(", orders h/%d", turns) : "";
-  table.note(format("method: aft%s, m = %d, N = %d", orders.c_str(),
-                    at.motion.harmonics.count() / turns, at.motion.samples / turns) +
-             (is_chosen ? ""
-                        : format(", relative tolerance of Newton %g",
-                                 request.newton_tolerance)));
-  table.note("newton: from " + at.motion.start + ", " + at.motion.newton.reason());
-  table.note(format("cost: %ld evaluations of the force times N",
-                    std::max(at.force_samples, at.motion.force_samples)));
-  if (turns > 1)
-    table.note(
-        format("error: %.2g of the largest displacement or rms about the mean, "
-               "against that motion",
-               at.motion.error->larger()));
-  else if (request.tolerance)
-    table.note(format(
-        "error: %.3g of the largest displacement, %.3g rms about the mean, "
-        "%s; tolerance %g",
-        at.motion.error->displacement, at.motion.error->rms,
-        basis_of(*at.motion.error, format("m = %d", at.motion.error->harmonics)).c_str(),
-        *request.tolerance));
-  if (std::isfinite(1 / request.frequency))
-    table.note(format("base period: %.15g s", 1 / request.frequency));
+  table.value("method", "aft");
+  put_base(table, base, request.frequency);
+  if (request.tolerance && std::isfinite(*request.tolerance))
+    table.value("tolerance", *request.tolerance);
+  table.value("harmonics", at.motion.harmonics.count() / turns);
+  table.value("samples", at.motion.samples / turns);
+  if (turns > 1) table.note(format("orders h/%d of the speed", turns));
+  put_newton(table, at.motion);
+  table.value("force_samples", std::max(at.force_samples, at.motion.force_samples));
+  if (const auto& error = at.motion.error; error && (turns > 1 || request.tolerance))
+    put_difference(table, "error", error->displacement, error->rms,
+                   turns > 1 ? "against the motion that shooting closes"
+                             : basis_of(*error, format("m = %d", error->harmonics)));
   if (request.stability) {
     note_verdict(table, parameters,
-                 motion::verdict_on(parameters, at.motion, budget, turns), turns,
-                 "the motion of Eq. 7 found from the solution");
+                 motion::verdict_on(parameters, at.motion, budget, turns), turns);
   } else {
     note_no_verdict(table);
   }
@@ -286,8 +299,8 @@ FoundMotion motion_of_turns(const Parameters& parameters, MotionRequest request,
   if (request.harmonics || !request.tolerance)
     request.harmonics = q * request.harmonics.value_or(usual_harmonics);
   if (request.samples) *request.samples *= q;
-  const PeriodicMotion solution =
-      solution_of(over_turns(parameters, q), request, budget, table);
+  const PeriodicMotion solution = solution_of(over_turns(parameters, q), request, budget,
+                                              table, format("turns %d", q));
   motion::Motion motion = motion::motion_of(solution, q * request.points);
   motion.points_per_period = request.points;
   motion.omega *= q;
@@ -300,7 +313,8 @@ FoundMotion motion_of_passages(const Parameters& parameters, MotionRequest reque
 {
   table.note("no unbalance: one frequency, n omega_cage");
   request.frequency *= passages_per_turn(parameters.bearing);
-  PeriodicMotion solution = solution_of(over_passage(parameters), request, budget, table);
+  PeriodicMotion solution =
+      solution_of(over_passage(parameters), request, budget, table, "passing");
   std::vector<Harmonic> list = solution.harmonics.list();
   for (Harmonic& h : list) h = {0, h.k_1};
   solution.harmonics = Harmonics(std::move(list));

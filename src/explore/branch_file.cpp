@@ -11,29 +11,26 @@ namespace rotor_stator::explore {
 
 namespace {
 
-const std::string format_line = "format: branch of harmonic balance, version 1";
+const std::string what = "Branch of harmonic balance";
 
 std::string exact(double number)
 {
   return format("%.17g", number);
 }
 
-/** All values of a machine on one line. */
-std::string machine(const Parameters& p)
+/** All values of a machine. */
+std::vector<Cell> machine(const Parameters& p)
 {
-  std::string line;
-  for (double value :
-       {p.stator.mass, p.stator.natural_frequency, p.stator.damping_ratio, p.rotor.mass,
-        p.rotor.natural_frequency, p.rotor.damping_ratio, p.unbalance, p.gravity,
-        static_cast<double>(p.bearing.balls), p.bearing.contact_stiffness,
-        p.bearing.clearance, p.bearing.cage_speed_ratio})
-    line.append(line.empty() ? "" : " ").append(exact(value));
+  std::vector<Cell> cells;
   for (const Body* body : {&p.stator, &p.rotor})
-    if (body->damper != 0 || body->load.x != 0 || body->load.y != 0)
-      line += format(" %s: damper %.17g load %.17g %.17g",
-                     body == &p.rotor ? "rotor" : "stator", body->damper, body->load.x,
-                     body->load.y);
-  return line;
+    for (double value : {body->mass, body->natural_frequency, body->damping_ratio,
+                         body->damper, body->load.x, body->load.y})
+      cells.emplace_back(exact(value));
+  for (double value :
+       {p.unbalance, p.gravity, static_cast<double>(p.bearing.balls),
+        p.bearing.contact_stiffness, p.bearing.clearance, p.bearing.cage_speed_ratio})
+    cells.emplace_back(exact(value));
+  return cells;
 }
 
 std::vector<Column> columns_of(int harmonics)
@@ -60,12 +57,12 @@ std::vector<Column> columns_of(int harmonics)
 std::string branch_text(const Parameters& parameters, int harmonics, int samples,
                         bool upwards, const std::vector<const Branch*>& branches)
 {
-  Table table(format_line, columns_of(harmonics));
+  Table table(what, columns_of(harmonics));
   describe(table, parameters);
-  table.note("machine: " + machine(parameters));
-  table.note(format("harmonics: %d", harmonics));
-  table.note(format("samples: %d", samples));
-  table.note(std::string("direction: ") + (upwards ? "up" : "down"));
+  table.row_line("machine", machine(parameters));
+  table.value("harmonics", harmonics);
+  table.value("samples", samples);
+  table.value("direction", upwards ? "up" : "down");
   for (std::size_t k = 0; k < branches.size(); ++k)
     for (const BranchPoint& point : branches[k]->points) {
       std::vector<Cell> row{k + 1, exact(point.motion.omega), exact(point.arc),
@@ -78,8 +75,11 @@ std::string branch_text(const Parameters& parameters, int harmonics, int samples
 
 SavedBranch read_branch(const std::string& file, const Parameters& parameters, int number)
 {
-  const NumberTable table(file, "# " + format_line);
-  if (table.header("machine") != machine(parameters))
+  const NumberTable table(file, "# " + what);
+  std::string values;
+  for (const Cell& cell : machine(parameters))
+    values += (values.empty() ? "" : " ") + cell.text();
+  if (table.header("row machine") != values)
     table.fail("the branch is of another machine than " + parameters.file);
   const std::string direction = table.header("direction");
   if (direction != "up" && direction != "down")

@@ -146,12 +146,10 @@ Exploration explore_campbell(const CampbellRequest& request)
   table.choose(request.columns, columns.size(), request.plot.has_value());
   describe(table, parameters);
   for (Eigen::Index k = 0; k < stiffness.rows(); k += 2)
-    table.note(format("bearing %ld: mean contact stiffness xx %.6g, xy %.6g, yy %.6g N/m",
-                      static_cast<long>(k / 2 + 1), stiffness(k, k), stiffness(k, k + 1),
-                      stiffness(k + 1, k + 1)) +
-               (stiffness(k, k) + stiffness(k + 1, k + 1) > 0
-                    ? ""
-                    : "; no ball touches at rest"));
+    table.row_line("bearing", {k / 2 + 1, stiffness(k, k), stiffness(k, k + 1),
+                               stiffness(k + 1, k + 1)});
+  table.note(
+      "row bearing: mean contact stiffness xx, xy, yy [N/m], 0: no contact at rest");
   struct Order {
     double value;
     std::string name;
@@ -162,8 +160,7 @@ Exploration explore_campbell(const CampbellRequest& request)
         std::abs(value - orders.back().value) > 1e-9)
       orders.push_back(
           {value, orders.size() == 1 ? "BPFO" : "BPFO_" + std::to_string(orders.size())});
-  for (const auto& [value, name] : orders)
-    table.note(format("line %s: %.12g times the speed", name.c_str(), value));
+  for (const auto& [value, name] : orders) table.row_line("order", {name, value});
   std::vector<double> speeds;
   std::vector<std::vector<Mode>> modes;
   for (int k = 0; k < request.count; ++k) {
@@ -190,8 +187,7 @@ Exploration explore_campbell(const CampbellRequest& request)
         if (request.critical)
           table.row({at, name, i + 1, mode.frequency, mode.damping, word(mode.whirl)});
         else
-          table.note(format("critical speed: %.9g Hz, %s, mode %zu, %s", at, name.c_str(),
-                            i + 1, word(mode.whirl)));
+          table.row_line("critical_speed", {at, name, i + 1, word(mode.whirl)});
       }
   return {std::move(table)};
 }

@@ -679,17 +679,19 @@ Task task_of(const MapRequest& request)
 /**
 ## The table, line by line */
 
-std::string method_of(const Task& task)
+void put_method(Table& table, const Task& task)
 {
   const MapRequest& request = task.request;
+  table.value("method", request.method);
   if (request.method != "aft")
-    return format(
-        "%s, longest step %g s (0: from K_H), at most %g s from rest, then %d periods",
-        request.method.c_str(), request.step, request.longest, request.periods);
+    return table.note(
+        format("longest step %g s (0: from K_H), at most %g s from rest, then %d periods",
+               request.step, request.longest, request.periods));
   if (request.tolerance && !request.harmonics)
-    return format("aft, m chosen for a tolerance of %g", *request.tolerance);
-  return format("aft, m = %d, N = %d, relative tolerance of Newton %g", task.harmonics,
-                task.samples, request.newton_tolerance);
+    return table.note("harmonics: chosen for the tolerance");
+  table.value("harmonics", task.harmonics);
+  table.value("samples", task.samples);
+  table.note(format("relative tolerance of Newton %g", request.newton_tolerance));
 }
 
 std::string header_of(const Task& task, const std::vector<Quantity>& chosen)
@@ -705,21 +707,23 @@ std::string header_of(const Task& task, const std::vector<Quantity>& chosen)
   Table table("Map of a machine", columns);
   const Parameters base = task.read({}, request.frequency.value_or(0));
   describe(table, base);
+  table.row_line("keys", {task.keys.begin(), task.keys.end()});
   for (const auto& [name, text] : {std::pair{"x", request.x}, {"y", request.y}})
-    if (!text.empty()) table.note(format("%s: ", name) + text);
-  if (request.list) table.note("list: " + *request.list);
-  if (request.frequency) table.note(format("frequency: %.15g Hz", *request.frequency));
-  if (!task.sweep.empty())
-    table.note(format("sweep: %zu speeds from %.15g to %.15g Hz", task.sweep.size(),
-                      task.sweep.front(), task.sweep.back()));
+    if (!text.empty()) table.note(format("--%s ", name) + text);
+  if (request.list) table.note("--list " + *request.list);
+  if (request.frequency) table.value("frequency", *request.frequency);
+  if (!task.sweep.empty()) {
+    table.value("sweep_count", task.sweep.size());
+    table.value("sweep_from", task.sweep.front());
+    table.value("sweep_to", task.sweep.back());
+  }
   const auto from_rest = [](const Quantity& q) { return q.source == rest; };
   if (std::ranges::any_of(chosen, from_rest))
     table.note("motion from rest: rk4, as explore attractors settles it");
-  if (!std::ranges::all_of(chosen, from_rest)) table.note("method: " + method_of(task));
-  if (request.tolerance && request.harmonics)
-    table.note(format("harmonics: for a tolerance of %g", *request.tolerance));
-  table.note(format("budget: %g evaluations of the force for each point",
-                    budget_of(request.budget, seconds, base).left()));
+  if (!std::ranges::all_of(chosen, from_rest)) put_method(table, task);
+  if (request.tolerance) table.value("tolerance", *request.tolerance);
+  table.value("budget", budget_of(request.budget, seconds, base).most(), 6);
+  table.note("budget: evaluations of the force for each point");
   return table.text();
 }
 
@@ -814,8 +818,13 @@ private:
     std::string found(header.size(), '\0');
     in.read(found.data(), static_cast<std::streamsize>(found.size()));
     found.resize(static_cast<std::size_t>(in.gcount()));
-    if (!header.starts_with(found))
-      throw BadInput("--resume " + file + ": was made with other settings");
+    if (!header.starts_with(found)) {
+      const std::string writer = writer_of_other_schema(file);
+      throw BadInput("--resume " + file +
+                     (writer.empty()
+                          ? ": was made with other settings"
+                          : ": was written by " + writer + ", start this map anew"));
+    }
     const std::size_t lines = whole_lines(in, file);
     print(header);
     in.clear();

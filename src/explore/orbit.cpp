@@ -78,11 +78,28 @@ OperationBudget budget_of(const Request& request, double seconds,
 void conclude(Table& table, const Parameters& parameters, bool touches,
               const OperationBudget& budget)
 {
+  table.value("contact", touches ? "yes" : "no");
   if (!touches)
     table.note(
         format("warning: no ball touches its race: the clearance of %g m is never closed",
                parameters.bearing.clearance));
-  table.note("budget: " + budget.spent());
+  /** Three digits do not depend on the order in which threads have spent. */
+  table.value("evaluations", budget.spent(), 3);
+  table.value("budget", budget.most(), 3);
+}
+
+void put_regime(Table& table, int period, const std::string& otherwise,
+                const std::string& why)
+{
+  table.value("regime", period > 0 ? "periodic" : otherwise);
+  if (period > 0) table.value("period", period);
+  if (!why.empty()) table.note("regime: " + why);
+}
+
+void put_complete(Table& table, const std::string& missing)
+{
+  table.value("complete", missing.empty() ? "yes" : "no");
+  if (!missing.empty()) table.note("incomplete: " + missing);
 }
 
 namespace {
@@ -99,25 +116,24 @@ FoundMotion closed_motion(const Parameters& parameters, const MotionRequest& req
   motion::ClosedMotion closed =
       motion::closed_motion(search, turns, request.points, request.local_error);
   const double error = std::max(closed.distance, closed.distance_rms);
+  table.value("method", "shooting");
+  table.value("start", one_word(closed.start));
   table.note(
-      format("method: shooting by rk8pd, local error %g, from %s: closed to %.2g of "
-             "the sizes of the state after %d periods",
-             request.local_error, closed.start.c_str(), closed.periodicity_residual,
-             closed.maps));
-  table.note(
-      format("error: %.2g of the largest displacement, %.2g rms about the mean, "
-             "against a hundredth of the local error",
-             closed.distance, closed.distance_rms));
+      format("shooting by rk8pd, local error %g: closed to %.2g of the sizes of the "
+             "state after %d periods",
+             request.local_error, closed.periodicity_residual, closed.maps));
+  put_difference(table, "error", closed.distance, closed.distance_rms,
+                 "against a hundredth of the local error");
   if (request.tolerance && !(error <= *request.tolerance))
     throw NoSolution(
         format("%s: tolerance %g not reached at %g Hz, error %.2g: "
                "--local-error is too large",
                parameters.file.c_str(), *request.tolerance, request.frequency, error));
-  table.note(format("base period: %.15g s", 1 / request.frequency));
+  put_base(table, "turn", request.frequency);
   if (request.stability)
     note_verdict(table, parameters,
                  motion::verdict_through(parameters, omega, closed.state, budget, turns),
-                 turns, "this motion");
+                 turns);
   else
     note_no_verdict(table);
   motion::Lines lines = motion::lines_of_closed(closed.motion, turns);
@@ -143,17 +159,21 @@ FoundMotion cheaper_motion(const Parameters& parameters, MotionRequest request,
   const auto first = is_slow ? closed_motion : balance_motion;
   const auto second = is_slow ? balance_motion : closed_motion;
   try {
-    return first(parameters, request, budget.part(0.5), table);
+    Table attempt = table;
+    FoundMotion found = first(parameters, request, budget.part(0.5), attempt);
+    table = std::move(attempt);
+    return found;
   } catch (const NoSolution& error) {
     table.note(std::string("method auto: the other, since that failed: ") + error.what());
   }
   return second(parameters, request, budget, table);
 }
 
-/** What a time method settled on: T-periodic, kT-periodic or not, and the same with finer steps where those that
-    were asked for are coarse, which damps what a machine does. */
-std::string measured_regime(const Parameters& parameters, const MotionRequest& request,
-                            SteadySettings settings, const SteadyState& steady)
+/** What a time method settled on: T-periodic, kT-periodic or not, and the same with finer
+    steps where those that were asked for are coarse, which damps what a machine does. */
+void put_measured_regime(Table& table, const Parameters& parameters,
+                         const MotionRequest& request, SteadySettings settings,
+                         const SteadyState& steady)
 {
   const double omega = angular(request.frequency), step = default_step(parameters);
   const State& state = steady.states.front();
@@ -166,14 +186,19 @@ std::string measured_regime(const Parameters& parameters, const MotionRequest& r
     const double off = motion::rms_difference(motion::motion_of(steady, request.points),
                                               motion::motion_of(fine, request.points));
     if (fine.periodic != steady.periodic)
-      return format("undecided; %s with finer steps, spread %.2g",
-                    fine.periodic ? "periodic" : "aperiodic", fine.spread);
+      return put_regime(table, 0, "undecided",
+                        format("%s with finer steps, spread %.2g",
+                               fine.periodic ? "periodic" : "open", fine.spread));
     if (fine.periodic && off > motion::same_motion)
-      return format("undecided; finer steps give another motion, %.2g away", off);
+      return put_regime(table, 0, "undecided",
+                        format("finer steps give another motion, %.2g away", off));
   }
-  if (steady.periodic) return "periodic";
-  if (!has_rotation_period(parameters.bearing)) return "aperiodic";
-  return motion::settle(parameters, omega, state, stepper.budget).regime();
+  if (steady.periodic) return put_regime(table, 1);
+  if (!has_rotation_period(parameters.bearing))
+    return put_regime(table, 0, "undecided", "two frequencies or chaos, not examined");
+  const auto settled = motion::settle(parameters, omega, state, stepper.budget);
+  put_regime(table, settled.period, "undecided",
+             settled.aperiodic ? "the section stays open, no exponent was measured" : "");
 }
 
 FoundMotion integrated_motion(const Parameters& parameters, const MotionRequest& request,
@@ -188,11 +213,12 @@ FoundMotion integrated_motion(const Parameters& parameters, const MotionRequest&
                                 .shown_periods = request.periods};
   const SteadyState steady =
       steady_state(parameters, angular(request.frequency), settings);
-  table.note(format("method: %s, %g s from rest, %ld evaluations of Eq. 7",
-                    request.method.c_str(), steady.seconds, steady.evaluations));
-  table.note(format("Poincare spread: %.3g", steady.spread) +
-             (steady.periodic ? "" : format(" +- %.1g", steady.spread_error)));
-  table.note("regime: " + measured_regime(parameters, request, settings, steady));
+  table.value("method", request.method);
+  table.value("transient", steady.seconds);
+  table.value("integration_evaluations", steady.evaluations);
+  table.value("spread", steady.spread, 3);
+  if (!steady.periodic) table.value("spread_uncertainty", steady.spread_error, 1);
+  put_measured_regime(table, parameters, request, settings, steady);
   return {motion::motion_of(steady, request.points), {}};
 }
 
@@ -211,7 +237,7 @@ Computed computed(const Parameters& parameters, const MotionRequest& request,
     throw BadInput("--samples: chosen with m for --tolerance; give --harmonics too");
   require_method_of(parameters, request.method);
   describe(table, parameters);
-  table.note(format("frequency: %.15g Hz", request.frequency));
+  table.value("frequency", request.frequency);
   Computed at{.budget = budget_of(request, 3, parameters)};
   if (request.method == "aft")
     at.found = balance_motion(parameters, request, at.budget, table);

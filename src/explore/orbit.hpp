@@ -103,8 +103,16 @@ OperationBudget budget_of(const Request& request, double seconds,
 OperationBudget budget_of(const std::optional<double>& evaluations, double seconds,
                           const Parameters& parameters);
 
-/** Says in the table's header whether any ball touched, and what was spent. */
+/** Whether any ball touched, and what was spent. */
 void conclude(Table& table, const Parameters& parameters, bool touches,
               const OperationBudget& budget);
+
+/** The keys `regime` and `period`: a motion that closes after `period` base periods; 0:
+    `otherwise`, and why. */
+void put_regime(Table& table, int period, const std::string& otherwise = "undecided",
+                const std::string& why = "");
+
+/** The key `complete`, and what is missing. */
+void put_complete(Table& table, const std::string& missing);
 
 }  // namespace rotor_stator::explore

@@ -85,7 +85,8 @@ bool run_python(const std::vector<std::string>& arguments, const path& log)
 }
 
 /** All or nothing. Throws NoSolution when it cannot. */
-void draw(const std::string& file, const std::string& script, const std::string& table)
+void draw(const std::string& file, const std::string& script, const std::string& table,
+          const std::optional<std::string>& overlay)
 {
   const TemporaryFolder temporary;
   const path log = temporary.folder / "log";
@@ -93,7 +94,9 @@ void draw(const std::string& file, const std::string& script, const std::string&
   const path figure =
       (temporary.folder / "figure").concat(path(file).extension().string());
   write_file(data, table);
-  if (!run_python({script_file(script), data, figure}, log)) {
+  std::vector<std::string> words{script_file(script), data, figure};
+  if (overlay) words.push_back(*overlay);
+  if (!run_python(words, log)) {
     std::string why = content_of(log);
     while (!why.empty() && why.back() == '\n') why.pop_back();
     throw NoSolution("--plot: " + script + ": " +
@@ -119,10 +122,10 @@ void require_plot(const std::string& file, const std::string& script,
 }
 
 std::string plot(const std::string& file, const std::string& script,
-                 const std::string& table)
+                 const std::string& table, const std::optional<std::string>& overlay)
 {
   try {
-    draw(file, script, table);
+    draw(file, script, table, overlay);
   } catch (const NoSolution& error) {
     return error.what();
   }

@@ -4,6 +4,7 @@
 Drawn by a script of the folder figures, in the source tree or installed, with Matplotlib. */
 #pragma once
 
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -14,8 +15,10 @@ namespace rotor_stator::explore {
 void require_plot(const std::string& file, const std::string& script,
                   const std::vector<std::string>& inputs);
 
-/** Draws a table by `script` into `file`, all or nothing; returns why it could not, empty otherwise. */
+/** Draws a table by `script` into `file`, with the measured table `overlay` if there is one,
+    all or nothing; returns why it could not, empty otherwise. */
 std::string plot(const std::string& file, const std::string& script,
-                 const std::string& table);
+                 const std::string& table,
+                 const std::optional<std::string>& overlay = {});
 
 }  // namespace rotor_stator::explore

@@ -168,8 +168,9 @@ BranchPoint saved_start(const Task& task, Balance& balance, Table& table)
     point.tangent.conservativeResize(x.size() + 1);
     point.tangent[x.size()] = speed;
   }
-  table.note(format("start: %s at %.12g Hz, %d harmonics", request.restart->c_str(),
-                    frequency, task.saved->harmonics));
+  table.value("start", "restart");
+  table.value("start_frequency", frequency);
+  table.value("start_harmonics", task.saved->harmonics);
   return point;
 }
 
@@ -373,17 +374,6 @@ motion::Motion samples_at(const Task& task, PeriodicMotion motion)
              : motion::motion_of(motion, std::max(256, 4 * task.harmonics + 4));
 }
 
-std::string summary(const Task& task, const Branch& branch)
-{
-  const auto [low, high] = std::ranges::minmax_element(
-      branch.points, {}, [](auto& p) { return p.motion.omega; });
-  return format(
-      "%.9g to %.9g Hz, %zu points, %zu folds, %ld evaluations of the force, %s",
-      task.hertz(low->motion.omega), task.hertz(high->motion.omega), branch.points.size(),
-      branch.folds.size(), branch.evaluations,
-      ((branch.covered ? "ended: " : "incomplete: ") + branch.end).c_str());
-}
-
 /** The branches beside the followed one, and what was not looked at. */
 struct Others {
   std::vector<IsolatedBranch> found;
@@ -405,11 +395,17 @@ Others others(const Task& task, Balance& balance, const Branch& main, Table& tab
       isolated_branches(balance, main, starts.candidates, task.range(), task.settings),
       {}};
   int number = 1;
-  for (const IsolatedBranch& other : others.found)
+  for (const auto& [branch, candidate] : others.found) {
+    const auto [low, high] = std::ranges::minmax_element(
+        branch.points, {}, [](auto& p) { return p.motion.omega; });
+    table.row_line("branch",
+                   {++number, task.hertz(low->motion.omega),
+                    task.hertz(high->motion.omega), branch.points.size(),
+                    branch.folds.size(), branch.covered ? "complete" : "incomplete"});
     table.note(format("branch %d: off the branches before it, found at %g Hz from %s; %s",
-                      ++number, task.hertz(other.candidate.omega),
-                      other.candidate.start.c_str(),
-                      summary(task, other.branch).c_str()));
+                      number, task.hertz(candidate.omega), candidate.start.c_str(),
+                      branch.end.c_str()));
+  }
   if (task.budget.used_up())
     others.missing =
         "the budget is used up, more with --budget: not every start was followed";
@@ -417,38 +413,28 @@ Others others(const Task& task, Balance& balance, const Branch& main, Table& tab
     others.missing =
         format("the budget cut off %d of %d time integrations, more with --budget",
                starts.cut_off, task.request.isolated);
-  if (!others.missing.empty()) table.note("incomplete: " + others.missing);
-  if (others.found.empty())
-    table.note(format("no other branch found from %zu starts", starts.candidates.size()));
+  table.value("other_branches", others.found.size());
+  table.value("other_starts", starts.candidates.size());
   return others;
 }
 
 /** One line in all, then one line per bifurcation. */
-void note(Table& table, const Task& task, const std::string& prefix,
+void note(Table& table, const Task& task, std::size_t number,
           const BranchStability& stability)
 {
-  const auto count = [&](Bifurcation kind) {
-    return std::ranges::count(stability.points, kind, &StablePoint::bifurcation);
-  };
-  table.note(
-      prefix +
-      format(
-          "stability of the machine: %td plus-one, %td period doublings, %td Neimark-Sacker "
-          "points, %d not located",
-          count(Bifurcation::plus_one), count(Bifurcation::period_doubling),
-          count(Bifurcation::neimark_sacker), stability.missed));
+  const std::string tail = number == 1 ? "" : format("_%zu", number);
+  table.value("undecided_points" + tail, stability.failed);
+  table.value("bifurcations_not_located" + tail, stability.missed);
   if (stability.failed > 0) {
     const auto first = std::ranges::find(stability.points, false, &StablePoint::examined);
-    table.note(prefix + format("undecided: %d of %zu points, the first at %.6g Hz: %s",
-                               stability.failed, stability.points.size(),
-                               task.hertz(first->point.motion.omega),
-                               stability.failure.c_str()));
+    table.note(format("branch %zu, undecided points: the first at %.6g Hz: %s", number,
+                      task.hertz(first->point.motion.omega), stability.failure.c_str()));
   }
   for (const StablePoint& p : stability.points)
     if (p.bifurcation != Bifurcation::none && p.bifurcation != Bifurcation::fold)
-      table.note(prefix + format("%s: %.9g +- %.2g Hz", name_of(p.bifurcation),
-                                 task.hertz(p.point.motion.omega),
-                                 task.hertz(p.uncertainty)));
+      table.row_line("bifurcation",
+                     {number, name_of(p.bifurcation), task.hertz(p.point.motion.omega),
+                      *decimal(format("%.2g", task.hertz(p.uncertainty)))});
 }
 
 /** What was not computed and why; empty when nothing is missing. */
@@ -480,11 +466,8 @@ void add_branch(Table& table, const Task& task, Balance& balance, const Branch& 
   if (task.request.stability) {
     stability = motion::machine_stability(task.parameters, balance, branch, task.settings,
                                           task.budget);
-    const std::string prefix =
-        task.request.isolated > 0 ? format("branch %zu, ", number) : "";
-    note(table, task, prefix, stability);
+    note(table, task, number, stability);
     const std::string missing = missing_in(stability, task.budget);
-    if (!missing.empty()) table.note("incomplete: " + prefix + missing);
     if (added.missing.empty()) added.missing = missing;
   } else {
     for (const BranchPoint& point : branch.points)
@@ -531,6 +514,23 @@ std::string unfinished(const Task& task, const Branch& branch,
   return stopped_at(task, branch.points.back().motion.omega, branch.end);
 }
 
+/** The branch that was followed, as keys. */
+void put_branch(Table& table, const Task& task, const std::string& base,
+                std::size_t folds, long evaluations)
+{
+  table.value("kind", "branch");
+  table.value("base", base);
+  table.value("direction", task.upwards ? "up" : "down");
+  table.value("folds", folds);
+  table.value("branch_evaluations", evaluations);
+}
+
+void put_end(Table& table, bool is_whole, const std::string& end)
+{
+  table.value("ended", is_whole ? "yes" : "no");
+  table.note("end of the branch: " + end);
+}
+
 /** The same branch by a time method. */
 Exploration shooting_response(const ResponseRequest& request, const Task& task)
 {
@@ -555,14 +555,12 @@ Exploration shooting_response(const ResponseRequest& request, const Task& task)
   const auto [fields, usual] = fields_of(task, Harmonics(task.harmonics));
   Table table("Frequency response along the branch", fields);
   table.choose(request.columns, usual, request.plot.has_value());
-  table.note("start: " + start);
+  table.value("start", one_word(start));
   describe(table, machine);
-  table.note(
-      format("method: shooting by rk4, steps of at most %.4g s, pseudo-arc-length %s",
-             default_step(machine), task.upwards ? "up" : "down"));
-  table.note(format("folds: %d, of the machine", branch.folds));
-  table.note(format("work: %ld evaluations of the force", branch.evaluations));
-  table.note((branch.covered ? "ended: " : "incomplete: ") + branch.end);
+  table.value("method", "shooting");
+  put_branch(table, task, "turn", branch.folds, branch.evaluations);
+  table.value("step", default_step(machine), 4);
+  put_end(table, branch.covered, branch.end);
   int undecided = 0;
   std::string why;
   const auto add_multipliers = [&](StablePoint& at, const State& there) {
@@ -588,19 +586,16 @@ Exploration shooting_response(const ResponseRequest& request, const Task& task)
     table.row(fields, Row{at, Eigen::Map<const Eigen::Vector4d>(amplitude.data()), 1,
                           task, motion, motion::series_of(motion, task.harmonics)});
   }
-  if (request.stability)
-    table.note(
-        "stability of the machine: by the period map of rk8pd through each point; "
-        "bifurcations are not located");
-  if (undecided > 0)
-    table.note(format("undecided: %d of %zu points: %s", undecided, branch.points.size(),
-                      why.c_str()));
-  conclude(table, machine, touches, task.budget);
+  if (request.stability) table.value("undecided_points", undecided);
+  if (undecided > 0) table.note("undecided points: " + why);
   const bool is_missing = undecided > 0 && task.budget.used_up();
-  return {std::move(table), !branch.covered
-                                ? stopped_at(task, branch.points.back().omega, branch.end)
-                            : is_missing ? task.parameters.file + ": " + why
-                                         : ""};
+  const std::string missing =
+      !branch.covered ? stopped_at(task, branch.points.back().omega, branch.end)
+      : is_missing    ? task.parameters.file + ": " + why
+                      : "";
+  put_complete(table, missing);
+  conclude(table, machine, touches, task.budget);
+  return {std::move(table), missing};
 }
 
 /** Solutions to a tolerance, each with the harmonics that it needs. */
@@ -641,13 +636,13 @@ Exploration response_to_tolerance(const ResponseRequest& request, const Task& ta
     points.push_back({.point = {std::move(at.motion), arc}, .floquet = {}});
   }
   if (points.empty()) throw NoSolution(missing);
-  table.note(format(
-      "method: aft at %d speeds, harmonics and samples chosen speed by speed for a "
-      "tolerance of %g",
-      request.count, tolerance));
-  if (missed > 0)
-    table.note(format("incomplete: %d of %d speeds, the first: ", missed, request.count) +
-               missing);
+  table.value("method", "aft");
+  table.value("kind", "sweep");
+  table.value("tolerance", tolerance);
+  table.value("speeds", request.count);
+  table.value("missed_speeds", missed);
+  table.note("harmonics and samples chosen for each speed, from the paper's predictor");
+  if (missed > 0) table.note("missed speeds: the first: " + missing);
   bool touches = false;
   for (const StablePoint& at : points) {
     const PeriodicMotion& motion = at.point.motion;
@@ -661,6 +656,7 @@ Exploration response_to_tolerance(const ResponseRequest& request, const Task& ta
                        .reshaped(4, 2 * task.harmonics + 1);
     table.row(fields, row);
   }
+  put_complete(table, missing);
   conclude(table, task.machine, touches, task.budget);
   return {std::move(table), missing};
 }
@@ -690,12 +686,9 @@ Exploration explore_response(const ResponseRequest& request)
       task, task.has_two_frequencies ? found.harmonics : Harmonics(task.harmonics));
   Table table("Frequency response along the branch", fields);
   const bool has_further = table.choose(request.columns, usual, request.plot.has_value());
-  if (!task.saved) table.note("start: " + found.start);
+  if (!task.saved) table.value("start", one_word(found.start));
   if (found.error && !task.has_two_frequencies)
-    table.note(
-        format("error at the start: %.2g of the largest displacement or rms about "
-               "the mean, against that motion",
-               found.error->larger()));
+    table.value("start_error", found.error->larger(), 2);
   Balance balance =
       task.has_two_frequencies
           ? Balance(bearing_problem(task.parameters, line, task.budget), found.harmonics)
@@ -713,23 +706,20 @@ Exploration explore_response(const ResponseRequest& request)
   const Branch main = follow_branch(balance, start, task.range(), watched);
   describe(table, task.machine);
   const int turns = task.parameters.turns;
-  if (task.has_two_frequencies)
-    table.note(format(
-        "method: aft, two frequencies: omega and n omega_cage = %.9g omega; "
-        "%d harmonics chosen at five speeds, z = %d, N = %d, relative "
-        "tolerance %g, pseudo-arc-length %s",
-        passages_per_turn(task.machine.bearing), found.harmonics.count(), line.z,
-        line.samples, task.request.newton_tolerance, task.upwards ? "up" : "down"));
-  else
-    table.note(format(
-        "method: aft%s, m = %d, N = %d, relative tolerance %g, pseudo-arc-length %s",
-        turns > 1 ? format(", orders h/%d", turns).c_str() : "", task.harmonics / turns,
-        task.samples / turns, task.request.newton_tolerance,
-        task.upwards ? "up" : "down"));
-  table.note(format("folds: %zu, of the m harmonics", main.folds.size()));
-  table.note(format("work: %ld evaluations of the force at %d instants", main.evaluations,
-                    task.samples));
-  table.note((is_whole(task, main) ? "ended: " : "incomplete: ") + main.end);
+  const bool two = task.has_two_frequencies;
+  table.value("method", "aft");
+  table.value("harmonics", two ? found.harmonics.count() : task.harmonics / turns);
+  table.value("samples", two ? line.samples : task.samples / turns);
+  put_branch(table, task,
+             two                                         ? "two"
+             : task.passages != 1                        ? "passing"
+             : turns_to_repeat(task.machine.bearing) > 1 ? format("turns %d", turns)
+                                                         : "turn",
+             main.folds.size(), main.evaluations);
+  if (two) table.note(format("harmonics chosen at five speeds, z = %d", line.z));
+  table.note(
+      format("pseudo-arc-length, relative tolerance %g", task.request.newton_tolerance));
+  put_end(table, is_whole(task, main), main.end);
 
   Others beside;
   if (request.isolated > 0) beside = others(task, balance, main, table);
@@ -745,9 +735,10 @@ Exploration explore_response(const ResponseRequest& request)
     write_file(*request.save, branch_text(task.parameters, task.harmonics, task.samples,
                                           task.upwards, all));
   if (request.waterfall) write_file(*request.waterfall, lines.text());
+  put_complete(table, unfinished(task, main, beside.missing, added.missing));
   conclude(table, task.machine, added.touches, task.budget);
   if (request.times)
-    std::fprintf(stderr, "cpu: %.5f s machine, its reduction and fits; %.5f s branch\n",
+    std::fprintf(stderr, "cpu_machine_s: %.5f\ncpu_branch_s: %.5f\n",
                  static_cast<double>(read) / CLOCKS_PER_SEC,
                  static_cast<double>(std::clock() - read) / CLOCKS_PER_SEC);
   return {std::move(table), unfinished(task, main, beside.missing, added.missing)};

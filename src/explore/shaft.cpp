@@ -220,9 +220,9 @@ Exploration explore_shaft(const ShaftRequest& request)
                {"dx_dz", "-", "degree of freedom of the slope of x"},
                {"dy_dz", "-", "degree of freedom of the slope of y"}});
   table.choose(request.columns, 6, false);
-  table.note("shaft: " + request.parameter_file + " (" + title + ")");
-  table.note(format("matrices: M, C, G, K of %zu degrees of freedom in %s",
-                    4 * shaft.z.size(), request.folder.c_str()));
+  table.parameters(request.parameter_file + " (" + title + ")", {});
+  table.value("degrees_of_freedom", 4 * shaft.z.size());
+  table.note("matrices: M, C, G, K in " + request.folder);
   for (std::size_t i = 0; i < shaft.z.size(); ++i)
     table.row({i + 1, shaft.z[i], 4 * i + 1, 4 * i + 2, 4 * i + 3, 4 * i + 4});
   return {std::move(table)};

@@ -49,8 +49,7 @@ Exploration explore_shape(const ShapeRequest& request)
   const Computed at = computed(parameters, request, table);
   table.note("nodes: " + request.nodes);
   for (const auto& [bearing, i] : machine.bearing_nodes)
-    table.note(format("bearing %d: node %g, z = %.15g m", bearing + 1, number(i),
-                      nodes.at(i, "z")));
+    table.row_line("bearing", {bearing + 1, number(i), nodes.at(i, "z")});
   const motion::Motion& motion = at.found.motion;
   Eigen::MatrixXd places(machine.nodes.rows(), instants);
   Eigen::VectorXd q(machine.nodes.cols());

@@ -34,8 +34,8 @@ MotionRequest with_defaults(MotionRequest request, const Parameters& parameters)
 
 void note_names(Table& table, const motion::Lines& lines)
 {
-  table.note(format("mean: x_s = %.15g m, y_s = %.15g m, x_r = %.15g m, y_r = %.15g m",
-                    lines.mean[0], lines.mean[1], lines.mean[2], lines.mean[3]));
+  for (int k = 0; const char* name : {"mean_x_s", "mean_y_s", "mean_x_r", "mean_y_r"})
+    table.value(name, lines.mean[k++]);
   table.note(format("rows: amplitudes down to %g of the largest, largest first", least));
   table.note(
       "name: sum of multiples of X (rotation), BPFO and BPFI with the smallest sum of their "
@@ -49,11 +49,12 @@ motion::Lines lines_of(const Parameters& parameters, const MotionRequest& reques
 {
   if (is_periodic(request.method)) return std::move(at.found.lines);
   motion::Lines lines = motion::lines_of_recorded(parameters.bearing, at.found.motion);
-  table.note(
-      format("lines: least squares over %d turns, window of Blackman and Harris, at most "
-             "200; lines nearer than %.3g of the speed may be taken for one; rest, in no "
-             "line: %.2g rms of that about the mean",
-             request.periods, 4.0 / request.periods, lines.rest));
+  table.note(format(
+      "lines: least squares over %d turns, window of Blackman and Harris, at most "
+      "200; lines nearer than %.3g of the speed may be taken for one; unexplained: "
+      "rms of the rest, in no line, over that about the mean",
+      request.periods, 4.0 / request.periods));
+  table.value("unexplained", lines.rest, 2);
   return lines;
 }
 
@@ -98,7 +99,7 @@ Exploration explore_spectrum(const MotionRequest& asked)
   const Parameters parameters = machine_of(asked, asked.frequency, asked.frequency);
   if (asked.overlay) {
     for (const char* name : {"f", "amplitude"}) NumberTable(*asked.overlay).at(0, name);
-    table.note("measured: " + *asked.overlay);
+    table.note("overlay: " + *asked.overlay);
   }
   const MotionRequest request = with_defaults(asked, parameters);
   const int turns = std::max(request.periods, request.subharmonic);

@@ -65,10 +65,10 @@ Table bearing_table(const BearingScene& scene)
   Table table("Bearing geometry (Figs 1, 2)", fields);
   describe(table, scene.machine);
   table.note("modelled: geometry alone");
-  table.note(format("clearance_factor: %.15g", scene.clearance_factor));
-  table.note(format("displacement_factor: %.15g", scene.displacement_factor));
-  table.note(format("drawn radii: R = %.15g m, R_b = %.15g m", scene.inner_race_radius,
-                    scene.ball_radius));
+  table.value("clearance_factor", scene.clearance_factor);
+  table.value("displacement_factor", scene.displacement_factor);
+  table.value("drawn_inner_radius", scene.inner_race_radius);
+  table.value("drawn_ball_radius", scene.ball_radius);
   return table;
 }
 

@@ -84,8 +84,8 @@ void describe(Table& table, const PanelScene& scene)
 {
   const SteadySettings& integration = scene.time_integration;
   describe(table, scene.machine);
-  table.note(format("harmonic balance: m = %d, N = %d, relative tolerance %g",
-                    scene.harmonics, scene.samples, NewtonSettings{}.tolerance));
+  table.value("harmonics", scene.harmonics);
+  table.value("samples", scene.samples);
   table.note(
       format("time integration: %s from rest until the Poincare spread is below %g or "
              "for %g s; periodic below %g",

@@ -66,7 +66,7 @@ RegimeScene read_regimes(SceneFile& file)
 Table regime_table(const RegimeScene& scene)
 {
   Table table("Regimes of the motion", fields);
-  for (const Parameters& machine : scene.machines) describe(table, machine);
+  for (const Parameters& machine : scene.machines) describe(table, machine, false);
   table.note(format(
       "modelled: rk4 from the 6-harmonic solution or the static load, at most %g s; then "
       "two periods, %d instants each; where they do not repeat, the means over %g s",

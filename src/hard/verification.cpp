@@ -235,17 +235,16 @@ Table hard_table(const HardCases& hard, const std::vector<Verification>& ends)
              "finds more than %g times it (and %g), or more than %g",
              hard.rule.accuracy, hard.rule.most_error_ratio, hard.rule.least_error,
              hard.rule.most_error));
-  table.note(format("cases: %zu", hard.cases.size()));
+  table.value("cases", hard.cases.size());
+  table.note("row method: name, cases solved, refused, silent errors, unconfirmed");
   for (const Method& method : methods) {
     const auto ended = [&](const char* verdict) {
       return std::count_if(ends.begin(), ends.end(), [&](const Verification& v) {
         return v.method == &method && v.verdict == verdict;
       });
     };
-    table.note(method.name +
-               format(": %zd solved, %zd refused, %zd silent errors, %zd unconfirmed",
-                      ended("solved"), ended("refused"), ended("silent error"),
-                      ended("unconfirmed")));
+    table.row_line("method", {one_word(method.name), ended("solved"), ended("refused"),
+                              ended("silent error"), ended("unconfirmed")});
   }
   for (const Verification& end : ends) table.row(fields, end);
   return table;

@@ -11,12 +11,6 @@ double OperationBudget::left() const
   return account_ ? account_->left : std::numeric_limits<double>::infinity();
 }
 
-std::string OperationBudget::spent() const
-{
-  return format("%.3g of %.3g evaluations of the force", account_->most - account_->left,
-                account_->most);
-}
-
 const OperationBudget::Account* OperationBudget::short_of(double evaluations) const
 {
   for (Account* account = account_.get(); account; account = account->parent.get()) {

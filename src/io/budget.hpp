@@ -43,8 +43,9 @@ public:
 
   bool bounded() const { return account_ != nullptr; }
 
-  /** "1.2e+06 of 8.2e+07 evaluations of the force", of a bounded account. */
-  std::string spent() const;
+  /** What was spent of a bounded account, and what it began with [evaluations]. */
+  double spent() const { return account_->most - account_->left; }
+  double most() const { return account_->most; }
 
   /** What is left; infinite without a bound. */
   double left() const;

@@ -5,6 +5,7 @@
 #include <sstream>
 
 #include "io/errors.hpp"
+#include "io/table.hpp"
 #include "io/toml_file.hpp"
 
 namespace rotor_stator {
@@ -23,14 +24,29 @@ constexpr std::uintmax_t most_bytes = 1'000'000'000;
 
 }  // namespace
 
+std::string writer_of_other_schema(const std::string& file)
+{
+  std::ifstream in = open_file(file, "a table", std::uintmax_t{1} << 60);
+  const std::string source = "# source: ";
+  std::string writer;
+  for (std::string line; std::getline(in, line) && line.starts_with('#');) {
+    if (line == format("# schema: %d", schema)) return "";
+    if (line.starts_with(source)) writer = line.substr(source.size());
+  }
+  return printable(writer);
+}
+
 NumberTable::NumberTable(const std::string& file, const std::string& first_line)
     : file_(file)
 {
   std::ifstream in = open_file(file, "a table", most_bytes);
   std::string line(first_line.empty() ? 0 : first_line.size() + 1, ' ');
   in.read(line.data(), static_cast<std::streamsize>(line.size()));
-  if (!first_line.empty() && line != first_line + "\n")
-    throw BadInput(file + ":1: '" + first_line + "' is expected");
+  if (!first_line.empty() && line != first_line + "\n") {
+    const std::string writer = writer_of_other_schema(file);
+    throw BadInput(file + ":1: '" + first_line + "' is expected" +
+                   (writer.empty() ? "" : "; it was written by " + writer));
+  }
   in.clear();
   for (int number = first_line.empty() ? 1 : 2; std::getline(in, line); ++number) {
     if (in.eof())

@@ -12,6 +12,10 @@ tabs. */
 
 namespace rotor_stator {
 
+/** The program that wrote a table whose `#` lines have another schema (`Table`), as
+    "rotor_stator 0.1.0 e3918e7"; empty where they have this one, or say nothing. */
+std::string writer_of_other_schema(const std::string& file);
+
 class NumberTable {
 public:
   /** Throws BadInput with file and line when it is missing, empty, cut off, longer than 1 GB or not such a

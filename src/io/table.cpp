@@ -3,9 +3,9 @@
 #include <algorithm>
 #include <charconv>
 #include <cmath>
-#include <map>
-#include <regex>
+#include <nlohmann/json.hpp>
 #include <sstream>
+#include <stdexcept>
 #include <utility>
 
 #include "io/errors.hpp"
@@ -46,31 +46,20 @@ std::string joined(const std::vector<std::string>& words, char separator = '\t')
   return line;
 }
 
-/** In quotes; the sign doubled or escaped, and within JSON the backslash too. */
-std::string quoted(const std::string& word, bool is_json = true)
+/** As csv quotes a word that holds a comma or quotes. */
+std::string quoted(const std::string& word)
 {
   std::string out = "\"";
-  for (char c : word) {
-    if (c == '"' || (is_json && c == '\\')) out += is_json ? '\\' : '"';
-    out += c;
-  }
+  for (char c : word) out += c == '"' ? "\"\"" : std::string(1, c);
   return out + "\"";
 }
 
-/** The numbers of a header line by name: "rotor: m = 40 kg" gives rotor.m, "budget: 8 of" gives budget. */
-void add_values(const std::string& line, std::map<std::string, std::string>& values)
+/** One of "rest", "45", "turns 2". */
+bool is_value(const std::string& text)
 {
-  static const std::regex pattern(
-      R"((?:^|[;,]) *(?:([^:;,=]+): )?(?:([^:;,=]+) = )?([-+.0-9e]*)[^:;,=]*)");
-  std::string whose;
-  for (std::sregex_iterator at(line.begin(), line.end(), pattern), end; at != end; ++at) {
-    const std::string name = (*at)[2];
-    if ((*at)[1].matched) whose = (*at)[1];
-    const auto number = decimal((*at)[3]);
-    if (!number || (name.empty() && !(*at)[1].matched)) continue;
-    values.emplace(whose + (whose.empty() || name.empty() ? "" : ".") + name,
-                   fifteen_digits(*number));
-  }
+  const auto blank = text.find(' ');
+  return !text.empty() && text.find_first_of("\t\n") == std::string::npos &&
+         (blank == std::string::npos || decimal(text.substr(blank + 1)));
 }
 
 }  // namespace
@@ -85,18 +74,30 @@ std::string Cell::text(TableFormat form) const
 {
   if (const auto* number = std::get_if<double>(&value_)) return fifteen_digits(*number);
   const std::string word = printable(std::get<std::string>(value_));
-  if (form == TableFormat::json) return quoted(word);
   const bool is_plain =
       form == TableFormat::tsv || word.find_first_of(",\"") == std::string::npos;
-  return is_plain ? word : quoted(word, false);
+  return is_plain ? word : quoted(word);
 }
 
-Table::Table(std::string what, std::vector<Column> columns) : columns_(std::move(columns))
+bool Cell::is_number() const
+{
+  return std::holds_alternative<double>(value_);
+}
+
+std::string one_word(std::string text)
+{
+  std::ranges::replace(text, ' ', '-');
+  return text;
+}
+
+Table::Table(const std::string& what, std::vector<Column> columns)
+    : columns_(std::move(columns))
 {
   choose("all", 0, false);
-  note(what);
-  note("source: " + source_revision());
-  note("compiler: " + compiler());
+  line(what);
+  line("source: " + source_revision());
+  line("compiler: " + compiler());
+  line(format("schema: %d", schema));
 }
 
 bool Table::choose(const std::string& names, std::size_t usual, bool is_drawn)
@@ -126,9 +127,46 @@ bool Table::choose(const std::string& names, std::size_t usual, bool is_drawn)
   return *std::max_element(drawn_.begin(), drawn_.end()) >= usual;
 }
 
-void Table::note(const std::string& line)
+void Table::line(const std::string& text)
 {
-  header_.push_back("# " + printable(line) + "\n");
+  (rows_.empty() ? head_ : foot_) += "# " + printable(text) + "\n";
+}
+
+void Table::parameters(const std::string& source, const std::vector<std::string>& details)
+{
+  line("parameters: " + source);
+  for (const std::string& detail : details) line("  " + detail);
+}
+
+void Table::value(const std::string& key, const Cell& value)
+{
+  if (!value.is_finite()) throw NoSolution("the value of " + key + " is not finite");
+  const bool is_new = std::ranges::find(values_, key, &KeyValue::first) == values_.end();
+  if (!is_new || !is_value(value.text()))
+    throw std::logic_error("header: " + key + ": " + value.text());
+  values_.emplace_back(key, value);
+  line(key + ": " + value.text());
+}
+
+void Table::value(const std::string& key, double number, int digits)
+{
+  value(key, std::stod(format("%.*g", digits, number)));
+}
+
+void Table::row_line(const std::string& name, const std::vector<Cell>& cells)
+{
+  std::vector<std::string> words;
+  for (const Cell& cell : cells) {
+    if (!cell.is_finite()) throw NoSolution("a value of " + name + " is not finite");
+    words.push_back(cell.text());
+  }
+  lists_.emplace_back(name, cells);
+  line("row " + name + ": " + joined(words, ' '));
+}
+
+void Table::note(const std::string& sentence)
+{
+  line("note: " + sentence);
 }
 
 void Table::row(std::vector<Cell> cells)
@@ -147,18 +185,14 @@ void Table::gap()
 std::string Table::body(TableFormat format, const std::vector<std::size_t>& places) const
 {
   const char separator = format == TableFormat::tsv ? '\t' : ',';
-  const bool is_json = format == TableFormat::json;
   std::vector<std::string> names;
   for (std::size_t k : places) names.push_back(columns_[k].name);
-  std::string out = is_json ? "" : joined(names, separator) + "\n";
+  std::string out = joined(names, separator) + "\n";
   for (const auto& row : rows_) {
     std::vector<std::string> words;
     for (std::size_t k : places)
       if (k < row.size()) words.push_back(row[k].text(format));
-    if (format != TableFormat::tsv && words.empty()) continue;
-    if (is_json)
-      out += (out.empty() ? "\n[" : ",\n[") + joined(words, ',') + "]";
-    else
+    if (format == TableFormat::tsv || !words.empty())
       out += joined(words, separator) + "\n";
   }
   return out;
@@ -166,35 +200,46 @@ std::string Table::body(TableFormat format, const std::vector<std::size_t>& plac
 
 std::string Table::json() const
 {
-  std::vector<std::string> lines, values, columns;
-  std::map<std::string, std::string> numbers;
-  for (const std::string& line : header_) {
-    lines.push_back(quoted(line.substr(2, line.size() - 3)));
-    add_values(line.substr(2, line.size() - 3), numbers);
+  using Json = nlohmann::ordered_json;
+  const auto of = [](const Cell& cell) {
+    return cell.is_number() ? Json::parse(cell.text()) : Json(cell.text());
+  };
+  const auto list_of = [&](const std::vector<Cell>& cells) {
+    Json list = Json::array();
+    for (const Cell& cell : cells) list.push_back(of(cell));
+    return list;
+  };
+  Json header = Json::array(), values = Json::object(), lists = values, columns = header,
+       rows = header;
+  std::istringstream lines(head_ + foot_);
+  for (std::string line; std::getline(lines, line);) header.push_back(line.substr(2));
+  for (const auto& [key, value] : values_) values[key] = of(value);
+  for (const auto& [name, cells] : lists_) lists[name].push_back(list_of(cells));
+  for (std::size_t k : printed_)
+    columns.push_back({{"name", columns_[k].name},
+                       {"unit", columns_[k].unit},
+                       {"meaning", columns_[k].meaning}});
+  for (const auto& row : rows_) {
+    std::vector<Cell> cells;
+    for (std::size_t k : printed_)
+      if (k < row.size()) cells.push_back(row[k]);
+    if (!cells.empty()) rows.push_back(list_of(cells));
   }
-  for (const auto& [name, value] : numbers) values.push_back(quoted(name) + ": " + value);
-  for (std::size_t k : printed_) {
-    const auto& [name, unit, meaning] = columns_[k];
-    columns.push_back("{\"name\": " + quoted(name) + ", \"unit\": " + quoted(unit) +
-                      ", \"meaning\": " + quoted(meaning) + "}");
-  }
-  return "{\"header\": [" + joined(lines, ',') + "],\n\"values\": {" +
-         joined(values, ',') + "},\n\"columns\": [" + joined(columns, ',') +
-         "],\n\"rows\": [" + body(TableFormat::json, printed_) + "]}\n";
+  const Json whole{{"schema", schema}, {"header", header},   {"values", values},
+                   {"lists", lists},   {"columns", columns}, {"rows", rows}};
+  return whole.dump(-1, ' ', false, Json::error_handler_t::replace) + "\n";
 }
 
 std::string Table::text(TableFormat format, bool is_drawn) const
 {
   if (format == TableFormat::json) return json();
   const auto& places = is_drawn ? drawn_ : printed_;
-  std::string out;
-  if (format == TableFormat::tsv) {
-    for (const std::string& line : header_) out += line;
-    for (std::size_t k : places)
-      out += "# column: " + columns_[k].name + " [" + columns_[k].unit + "] " +
-             columns_[k].meaning + "\n";
-  }
-  return out + body(format, places);
+  if (format == TableFormat::csv) return body(format, places);
+  std::string out = head_;
+  for (std::size_t k : places)
+    out += "# column: " + columns_[k].name + " [" + columns_[k].unit + "] " +
+           columns_[k].meaning + "\n";
+  return out + body(format, places) + foot_;
 }
 
 }  // namespace rotor_stator

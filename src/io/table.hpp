@@ -7,6 +7,7 @@ The source of a table is stamped when the library is compiled. A new commit alon
 #include <concepts>
 #include <functional>
 #include <string>
+#include <utility>
 #include <variant>
 #include <vector>
 
@@ -22,17 +23,27 @@ std::string compiler();
 /**
 ## What a table says about itself
 
-Tab-separated text that describes itself: `#` lines say what was computed, from which
-source with which compiler and parameters; `# column:` lines give name, unit and meaning;
-then one row of names and the numbers. There are no dates and no host names: the same
-source gives the same bytes. */
+Tab-separated text that describes itself. `#` lines stand before and after the rows:
+
+    # Orbit of rotor and stator            what it is, source, compiler, `# parameters:`
+    # frequency: 45                        a key and its value, a number or one word
+    # row panel: 1 20 periodic             a list, a line for each of its members
+    # note: no ball touches its race       a sentence, which no program reads
+    # column: x_r [m] rotor                then one row of names and the numbers
+
+Titles and names of files stand in `# parameters:` and notes alone. What is known only
+after the rows stands in the footer. There are no dates and no host names: the same source
+gives the same bytes. */
+
+/** Of these lines and of the JSON; version 0.1.0 wrote sentences, schema 1. */
+constexpr int schema = 2;
 
 struct Column {
   std::string name, unit, meaning;
 };
 
-/** How a table is written: with its `#` lines; names and rows alone; all of it as one object, with the numbers of the
-    header by name. */
+/** How a table is written: with its `#` lines; names and rows alone; all of it as one
+    object, with the keys in `values` and the members of lists in `lists`. */
 enum class TableFormat { tsv, csv, json };
 
 /** A number or a word. */
@@ -45,6 +56,7 @@ public:
   template <class Enum>
   requires std::is_enum_v<Enum> Cell(Enum number) : value_(static_cast<double>(number)) {}
 
+  bool is_number() const;
   bool is_finite() const;
   std::string text(
       TableFormat format = TableFormat::tsv) const;  ///< 15 significant digits
@@ -52,6 +64,9 @@ public:
 private:
   std::variant<double, std::string> value_;
 };
+
+/** `text` as one word of a header: "quasi-static contact" as "quasi-static-contact". */
+std::string one_word(std::string text);
 
 /** A column with where its value stands in a row of type `Row`. */
 template <class Row>
@@ -62,12 +77,12 @@ struct Field : Column {
 class Table {
 public:
   /** `what` is the first line of the header. */
-  Table(std::string what, std::vector<Column> columns);
+  Table(const std::string& what, std::vector<Column> columns);
 
   /** Columns from a list of fields. */
   template <class Row>
-  Table(std::string what, const std::vector<Field<Row>>& fields)
-      : Table(std::move(what), std::vector<Column>(fields.begin(), fields.end()))
+  Table(const std::string& what, const std::vector<Field<Row>>& fields)
+      : Table(what, std::vector<Column>(fields.begin(), fields.end()))
   {
   }
 
@@ -75,8 +90,14 @@ public:
       is drawn from the usual ones too. Whether others are wanted. Throws BadInput for another name. */
   bool choose(const std::string& names, std::size_t usual, bool is_drawn);
 
-  /** One more `#` line. */
-  void note(const std::string& line);
+  /** Lines of the header before the first row, of the footer after it: what was modelled;
+      a key; a member of a list; a sentence. Throw NoSolution for a number that is not
+      finite, std::logic_error for a key set twice or a value of several words. */
+  void parameters(const std::string& source, const std::vector<std::string>& details);
+  void value(const std::string& key, const Cell& value);
+  void value(const std::string& key, double number, int digits);
+  void row_line(const std::string& name, const std::vector<Cell>& cells);
+  void note(const std::string& sentence);
 
   /** Throws NoSolution if a number is not finite: no NaN is ever printed as a result. */
   void row(std::vector<Cell> cells);
@@ -98,10 +119,15 @@ public:
   std::string text(TableFormat format = TableFormat::tsv, bool is_drawn = false) const;
 
 private:
+  using KeyValue = std::pair<std::string, Cell>;
+
+  void line(const std::string& text);
   std::string body(TableFormat format, const std::vector<std::size_t>& places) const;
   std::string json() const;
 
-  std::vector<std::string> header_;
+  std::string head_, foot_;
+  std::vector<KeyValue> values_;
+  std::vector<std::pair<std::string, std::vector<Cell>>> lists_;
   std::vector<Column> columns_;
   std::vector<std::size_t> printed_, drawn_;  ///< their places
   std::vector<bool> wanted_;

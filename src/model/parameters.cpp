@@ -173,7 +173,7 @@ std::vector<Parameters> read_parameter_list(SceneFile& scene, const std::string&
   return list;
 }
 
-void describe(Table& table, const Parameters& parameters)
+void describe(Table& table, const Parameters& parameters, bool with_keys)
 {
   const auto body = [](const std::string& name, const Body& b) {
     if (b.rigid) return name + ": rigid";
@@ -185,38 +185,55 @@ void describe(Table& table, const Parameters& parameters)
                 ? format(", load = (%.15g, %.15g) N", b.load.x, b.load.y)
                 : "");
   };
-  table.note("parameters: " + parameters.file + " (" + parameters.title + ")");
+  std::vector<std::string> lines;
   if (const auto& large = parameters.large) {
-    table.note(format("  bodies: %ld degrees of freedom, %s; k_0 = %.6g N/m",
-                      static_cast<long>(large->mass.rows()),
-                      large->reductions.empty() ? "all kept" : "reduced", large->spring));
-    for (const std::string& line : large->reductions) table.note("  " + line);
+    lines.push_back(format("bodies: %ld degrees of freedom, %s; k_0 = %.6g N/m",
+                           static_cast<long>(large->mass.rows()),
+                           large->reductions.empty() ? "all kept" : "reduced",
+                           large->spring));
+    lines.insert(lines.end(), large->reductions.begin(), large->reductions.end());
   } else
-    table.note("  " + body("stator", parameters.stator) + "; " +
-               body("rotor", parameters.rotor));
-  table.note(format("  m_e e = %.15g kg m; g = %.15g m/s^2", parameters.unbalance,
-                    parameters.gravity));
-  for (const Bearing& bearing : bearings_of(parameters))
-    table.note(format("  bearing: n = %d, K_H = %.15g N/m^1.5, delta = %.15g m, "
-                      "omega_cage/omega = %.15g",
-                      bearing.balls, bearing.contact_stiffness, bearing.clearance,
-                      bearing.cage_speed_ratio) +
-               (bearing.cage_phase != 0
-                    ? format(", cage phase = %.15g rad", bearing.cage_phase)
-                    : ""));
+    lines.push_back(body("stator", parameters.stator) + "; " +
+                    body("rotor", parameters.rotor));
+  lines.push_back(format("m_e e = %.15g kg m; g = %.15g m/s^2", parameters.unbalance,
+                         parameters.gravity));
+  const std::vector<Bearing> bearings = bearings_of(parameters);
+  for (const Bearing& bearing : bearings)
+    lines.push_back(format("bearing: n = %d, K_H = %.15g N/m^1.5, delta = %.15g m, "
+                           "omega_cage/omega = %.15g",
+                           bearing.balls, bearing.contact_stiffness, bearing.clearance,
+                           bearing.cage_speed_ratio) +
+                    (bearing.cage_phase != 0
+                         ? format(", cage phase = %.15g rad", bearing.cage_phase)
+                         : ""));
   const Bearing& bearing = parameters.bearing;
   if (bearing.damping > 0)
-    table.note(format("  contact damping: lambda = %.15g s/m", bearing.damping));
-  if (!bearing.is_damaged(Defect::Surface::none)) {
-    const char* const surfaces[] = {"", "outer race", "inner race", "ball"};
-    table.note(format("  defect: %s, depth %.15g m, width %.15g rad, angle %.15g rad",
-                      surfaces[static_cast<int>(bearing.defect.surface)],
-                      bearing.defect.depth, bearing.defect.width, bearing.defect.place) +
-               (bearing.is_damaged(Defect::Surface::ball)
-                    ? format(", ball %d", bearing.defect.ball)
-                    : ""));
+    lines.push_back(format("contact damping: lambda = %.15g s/m", bearing.damping));
+  const char* const surfaces[] = {"none", "outer_race", "inner_race", "ball"};
+  const char* const surface = surfaces[static_cast<int>(bearing.defect.surface)];
+  if (!bearing.is_damaged(Defect::Surface::none))
+    lines.push_back(format("defect: %s, depth %.15g m, width %.15g rad, angle %.15g rad",
+                           surface, bearing.defect.depth, bearing.defect.width,
+                           bearing.defect.place) +
+                    (bearing.is_damaged(Defect::Surface::ball)
+                         ? format(", ball %d", bearing.defect.ball)
+                         : ""));
+  lines.insert(lines.end(), parameters.derived.begin(), parameters.derived.end());
+  table.parameters(parameters.file + " (" + parameters.title + ")", lines);
+  if (!with_keys) return;
+  table.value("stator", parameters.stator.rigid ? "rigid" : "moving");
+  if (const auto& large = parameters.large) {
+    table.value("degrees_of_freedom", large->mass.rows());
+    table.value("reduction_error", large->reduction_error);
   }
-  for (const std::string& line : parameters.derived) table.note("  " + line);
+  if (!bearing.is_damaged(Defect::Surface::none)) table.value("defect", surface);
+  for (std::size_t k = 0; k < bearings.size(); ++k) {
+    const std::string tail = k == 0 ? "" : format("_%zu", k + 1);
+    table.value("balls" + tail, bearings[k].balls);
+    table.value("contact_stiffness" + tail, bearings[k].contact_stiffness);
+    table.value("clearance" + tail, bearings[k].clearance);
+    table.value("cage_speed_ratio" + tail, bearings[k].cage_speed_ratio);
+  }
 }
 
 double angular(double hertz)

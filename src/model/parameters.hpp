@@ -118,8 +118,9 @@ Parameters read_parameters(StrictToml root, const ModelRange& range = {});
 Parameters read_parameters(SceneFile& scene, const std::string& key);
 std::vector<Parameters> read_parameter_list(SceneFile& scene, const std::string& key);
 
-/** The `#` lines of a machine: its file and its values. */
-void describe(Table& table, const Parameters& parameters);
+/** The `#` lines of a machine: its file and its values, and the keys of a table that has
+    one machine only. */
+void describe(Table& table, const Parameters& parameters, bool with_keys = true);
 
 /** ω [rad/s] of a frequency [Hz]. */
 double angular(double hertz);

@@ -21,12 +21,6 @@ double apart(const Parameters& parameters, const State& a, const State& b)
       .maxCoeff();
 }
 
-std::string Settled::regime() const
-{
-  if (period > 1) return format("periodic %d", period);
-  return period == 1 ? "periodic" : aperiodic ? "aperiodic" : "undecided";
-}
-
 Settled settle(const Parameters& parameters, double omega, const State& state,
                const OperationBudget& budget, const State* away_from,
                const SettleRule& rule)

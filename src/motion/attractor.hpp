@@ -24,8 +24,8 @@ struct Settled {
   long periods = 0;        ///< integrated
   State state = {};        ///< at their end
 
-  /** "periodic", "periodic K", "aperiodic" or "undecided". */
-  std::string regime() const;
+  /** An open section may be that of two frequencies or of chaos: no exponent is measured. */
+  const char* regime() const { return period > 0 ? "periodic" : "undecided"; }
 };
 
 /** When a motion has settled. */

@@ -29,11 +29,6 @@ constexpr int most_harmonics = 192, points = 256;  // of each turn
 
 }  // namespace
 
-std::string Verdict::regime(int turns) const
-{
-  return floquet.stable() ? Settled{.period = turns}.regime() : from_there.regime();
-}
-
 namespace {
 
 /** The shootings behind one verdict, one after the other until one closes a motion near the solution. */

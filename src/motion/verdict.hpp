@@ -47,8 +47,11 @@ struct Verdict {
   /** "stable", "unstable" or "undecided". */
   const char* word() const { return found() ? floquet.verdict() : "undecided"; }
 
-  /** "periodic", "periodic K" of a stable motion, else what the machine does from there. */
-  std::string regime(int turns = 1) const;
+  /** The motion itself where it is stable, else what integration comes to from there. */
+  Settled settled(int turns = 1) const
+  {
+    return floquet.stable() ? Settled{.period = turns} : from_there;
+  }
 };
 
 /** Judges a solution of harmonic balance that has the series of both bodies. What `budget` does not pay for
