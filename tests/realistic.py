@@ -34,6 +34,7 @@ EXPLORE = Path(os.environ.get("BUILD", "build"), "explore").resolve()
 TOLERANCE = 1e-3  # to which a motion must be right where it prints a smaller error
 FOLLOWED = 256    # base periods through which a printed state must be continued
 THIN = 64         # instants of each that are compared then
+LONGEST = 300     # of a command [s]
 METHOD = []       # options besides those of the question
 COLUMNS = ("name f status regime period judge judge_period judge_exponent agree "
            "difference allowed seconds note")
@@ -41,10 +42,13 @@ COLUMNS = ("name f status regime period judge judge_period judge_exponent agree 
 
 def ask(command, file, *options):
     """Status, output and seconds of a command; the status is 4 where it printed something
-    that is no number."""
+    that is no number, 5 where it did not end."""
     start = time.monotonic()
-    result = subprocess.run([EXPLORE, command, file, *map(str, options)],
-                            capture_output=True, text=True, timeout=600)
+    try:
+        result = subprocess.run([EXPLORE, command, file, *map(str, options)],
+                                capture_output=True, text=True, timeout=LONGEST)
+    except subprocess.TimeoutExpired:
+        return 5, "", LONGEST
     status = 4 if NO_NUMBER.search(result.stdout) else result.returncode
     return status, result.stdout, time.monotonic() - start
 
