@@ -115,6 +115,40 @@ def of_another_kind(dice, machine):
     return machine
 
 
+def realistic_machine(dice):
+    """A rotor in a bearing of the catalogue, in a sprung housing, and its speed [Hz]."""
+    def between(low, high):
+        return float(f"{math.exp(dice.uniform(math.log(low), math.log(high))):.4g}")
+
+    def damped(mass, hertz):
+        """By a ratio, or by a damper that has such a ratio at that frequency."""
+        ratio = between(0.01, 0.1)
+        if hertz and one_in(dice, 2):
+            return {"damping_ratio": ratio}
+        damper = 4 * math.pi * ratio * mass * (hertz or 50)
+        return {"damping_N_s_per_m": float(f"{damper:.4g}")}
+
+    speed, mass = round(dice.uniform(10, 100), 2), between(2, 100)
+    housing, housing_hertz = float(f"{mass * between(0.3, 3):.4g}"), between(30, 250)
+    rotor_hertz = dice.choice([0, between(5, 60)])
+    grade = dice.choice([2.5, 6.3, 16])  # mm/s
+    unbalance = mass * grade * 1e-3 / (2 * math.pi * speed)
+    machine = {
+        "stator": {"mass_kg": housing,
+                   "natural_frequency_rad_per_s": round(2 * math.pi * housing_hertz, 3),
+                   **damped(housing, housing_hertz)},
+        "rotor": {"mass_kg": mass,
+                  "natural_frequency_rad_per_s": round(2 * math.pi * rotor_hertz, 3),
+                  **damped(mass, rotor_hertz),
+                  "unbalance_kg_m": float(f"{unbalance:.4g}")},
+        "bearing": {"designation": dice.choice(DESIGNATIONS),
+                    "internal_clearance": dice.choice(["C2", "CN", "C3", "C4"])},
+        "gravity": {"acceleration_m_per_s2": 9.81}}
+    if one_in(dice, 2):
+        machine["bearing"]["contact_damping_s_per_m"] = between(0.05, 0.5)
+    return machine, speed
+
+
 def value_text(value):
     """As TOML and as Python would read it back."""
     return str(value).lower() if isinstance(value, bool) else f'"{value}"' if isinstance(value, str) else repr(value)

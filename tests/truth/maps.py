@@ -64,8 +64,10 @@ class Judged:
 
     def settled(self, frequency, state, transient, observed):
         """Period, exponent, its error, the last turns as instants x 4."""
-        answer = self.ask("settle", transient, observed, INSTANTS, "machine", *self.words(frequency), *state)
-        return int(answer[0]), answer[1], answer[2], answer[3:].reshape(-1, 4)
+        kept = min(32, transient + observed)
+        answer = self.ask("settle", 0, transient, observed, transient + observed - kept, kept, INSTANTS, 1e-8,
+                          "machine", *self.words(frequency), *state)
+        return int(answer[0]), answer[[1, 3]].mean(), np.hypot(answer[2], answer[4]) / 2, answer[21:].reshape(-1, 4)
 
     def deflections(self, q, frequency):
         """Of each ball at each instant [m], negative without contact."""

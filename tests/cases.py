@@ -1,0 +1,172 @@
+"""Cases that people met, and what is right there: the motion by default, its kind, its
+amplitude, its error.
+
+Machines are in cases/. Numbers come from integrations, shooting and closed forms written
+apart from this project; where a motion is compared instant by instant, from the judge
+(truth/judge.cpp), which shares no code with src.
+
+Usage: tests/cases.py (from the project's root)
+"""
+import math
+import sys
+import tomllib
+import unittest
+from pathlib import Path
+
+import numpy as np
+
+sys.path[:0] = [str(Path(__file__).parent), str(Path(__file__).parent / "truth")]
+from independent import NAMES, Model  # noqa: E402
+from support.explore import Case  # noqa: E402
+from support.keys import keys_of, number  # noqa: E402
+from tables import Table  # noqa: E402
+
+CASES = Path("tests/cases").resolve()
+
+
+def machine(name):
+    return CASES / f"{name}.toml"
+
+
+def half_span(column):
+    return np.ptp(column) / 2
+
+
+class Cases(Case):
+    def asked(self, command, name, *options):
+        """Keys and table of a command that answers."""
+        text = "\n".join(self.lines(command, machine(name), *options))
+        return keys_of(text), Table.of(text)
+
+    def errors_hold(self, name, frequency, tolerance, turns, factor=1.5):
+        """What is printed of a motion with two frequencies, beside the judge's, which
+        starts from rest long before: its errors are those that are printed, or below the
+        tolerance."""
+        keys, table = self.asked("orbit", name, "--frequency", frequency, "--tolerance",
+                                 tolerance, "--periods", turns, "--points", 64)
+        model = Model(tomllib.loads(machine(name).read_text(encoding="utf-8")), frequency)
+        before = math.ceil(60 * frequency)
+        theirs = model.judged(model.settle(model.rest(-before / frequency), -before,
+                                           before, turns, turns, 64)).rows
+        held = np.zeros(len(table))
+        ours = np.stack([table.columns.get(of, held) for of in NAMES], axis=1)
+        apart, size = ours - theirs, np.linalg.norm(theirs - theirs.mean(axis=0))
+        found = {"error_largest": abs(apart).max() / abs(theirs).max(),
+                 "error_rms": np.linalg.norm(apart - apart.mean(axis=0)) / size}
+        for key, error in found.items():
+            self.assertLessEqual(number(keys, key), tolerance)
+            self.assertLessEqual(error, factor * max(number(keys, key), 1e-5),
+                                 (name, key))
+
+    def test_passing_balls_alone(self):
+        """A balanced rotor on eight balls: amplitudes by Runge-Kutta, 12,288 steps a
+        turn."""
+        amplitudes = {25: 3.65835e-6, 30: 4.89086e-6, 33: 6.95581e-6, 80: 5.15938e-7,
+                      100: 3.00318e-7}
+        for frequency, amplitude in amplitudes.items():
+            with self.subTest(frequency=frequency):
+                for how in [["--method", "aft", "--tolerance", "1e-4"], []]:
+                    keys, table = self.asked("orbit", "passing_6306", "--frequency",
+                                             frequency, *how)
+                    self.assertEqual(keys["base"], "passing")
+                    # From rest the motion at 33 Hz is another one that does not repeat.
+                    if how or frequency != 33:
+                        self.assertEqual((keys["regime"], keys["stability"]),
+                                         ("periodic", "stable"))
+                        self.assertAlmostEqual(half_span(table["x_r"]) / amplitude, 1,
+                                               delta=2e-4)
+
+    def test_one_word_for_a_kind(self):
+        """3.585 balls pass in a turn: two frequencies with the unbalance, one without
+        it."""
+        for name, regime, period in [("motor", "quasi-periodic", -1),
+                                     ("motor_balanced", "periodic", 1)]:
+            for method in ("auto", "aft", "rk4", "rk8"):
+                with self.subTest(name=name, method=method):
+                    keys, _ = self.asked("orbit", name, "--frequency", 50, "--method",
+                                         method)
+                    self.assertEqual((keys["regime"], keys["stability"]),
+                                     (regime, "stable"))
+            _, table = self.asked("attractors", name, "--from", 50, "--to", 51,
+                                  "--count", 2, "--starts", 1)
+            self.assertEqual(list(table["period"]), [period, period])
+            self.assertTrue((table["lyapunov"] < 0).all())
+
+    def test_rest_is_one_motion(self):
+        """Disturbances decay by exp(-xi omega_0 t)."""
+        for name, speeds in [("jeffcott_at_rest", (10, 30, 50)), ("set1_at_rest", (45,))]:
+            for speed in speeds:
+                with self.subTest(name=name, speed=speed):
+                    keys, table = self.asked("orbit", name, "--frequency", speed)
+                    self.assertEqual((keys["regime"], keys["stability"]),
+                                     ("rest", "stable"))
+                    self.assertEqual(max(abs(table[of]).max() for of in ("x_r", "y_r")),
+                                     0)
+                    if "multiplier" in keys and name == "jeffcott_at_rest":
+                        rate = 0.02 * 628.318530717959
+                        decay = math.exp(-rate * number(keys, "base_period"))
+                        self.assertAlmostEqual(number(keys, "multiplier"), decay,
+                                               delta=1e-4)
+        _, table = self.asked("attractors", "jeffcott_at_rest", "--from", 10, "--to", 50,
+                              "--count", 3)
+        self.assertEqual(list(table["f"]), [10, 30, 50])
+        self.assertEqual(abs(table["amp_x_r"]).max(), 0)
+
+    def test_one_meaning_of_amplitude(self):
+        """Half of largest less smallest over 256 turns, by Runge-Kutta."""
+        right, speeds = 1.262981e-6, ["--from", 50, "--to", 51, "--count", 2]
+        _, orbit = self.asked("orbit", "motor", "--frequency", 50, "--periods", 256)
+        _, response = self.asked("response", "motor", *speeds)
+        _, of_map = self.asked("map", "motor", "--x", "frequency=50:51:2", "--quantity",
+                               "amplitude")
+        _, attractors = self.asked("attractors", "motor", *speeds, "--starts", 1)
+        for name, value in [("orbit", half_span(orbit["x_r"])),
+                            ("response", response["amp_x_r"][0]),
+                            ("map", of_map["amplitude"][0]),
+                            ("attractors", attractors["amp_x_r"][0])]:
+            with self.subTest(name):
+                self.assertAlmostEqual(value / right, 1, delta=1e-3)
+
+    def test_a_catalogue_bearing_over_the_speed(self):
+        _, table = self.asked("map", "motor", "--x", "frequency=10:400:4", "--quantity",
+                              "amplitude,ball_load")
+        self.assertEqual(len(table), 4)
+        self.assertTrue((np.array(table["amplitude"], float) > 0).all())
+        self.assertTrue((np.array(table["ball_load"], float) > 0).all())
+        for first in (10, 40):
+            _, table = self.asked("response", "motor", "--from", first, "--to", 400)
+            np.testing.assert_allclose(np.array(table["f"], float),
+                                       np.linspace(first, 400, 101))
+            self.assertTrue((np.array(table["amp_x_r"], float) > 0).all())
+
+    def test_errors_of_two_frequencies_hold(self):
+        self.errors_hold("spall_of_the_inner_race", 60.6, 1e-2, 100)
+        self.errors_hold("long_transient", 86.58, 1e-3, 100)
+
+    def test_the_nearest_motion_is_judged(self):
+        """An unstable motion (multiplier 1.4538) is nearer than a stable one."""
+        keys, _ = self.asked("orbit", "two_motions", "--frequency", 40.953,
+                             "--harmonics", 11)
+        self.assertIn(keys["stability"], ("unstable", "undecided"))
+
+    def test_strongly_unstable_motions(self):
+        """Within 1e-6 of motions whose disturbances grow 32,177 and 17,565 times a turn,
+        by another shooting."""
+        for name, frequency in [("grows_32177", 71.23), ("grows_17565", 77.32)]:
+            with self.subTest(name):
+                keys, _ = self.asked("orbit", name, "--frequency", frequency,
+                                     "--harmonics", 500)
+                self.assertIn(keys["stability"], ("unstable", "undecided"))
+
+    def test_a_soft_mounting_far_above_its_resonances(self):
+        """Variational equations along the motion: -1.6e-4 a turn at 300 Hz and -1.6e-5 at
+        3,000 Hz."""
+        for frequency, words in [(300, {"stable"}), (3000, {"stable", "undecided"})]:
+            with self.subTest(frequency=frequency):
+                keys, _ = self.asked("orbit", "soft_mounting", "--frequency", frequency)
+                self.assertIn(keys["stability"], words)
+                self.assertNotEqual(keys["regime"], "chaotic")
+
+
+if __name__ == "__main__":
+    unittest.main()
