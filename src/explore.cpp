@@ -128,8 +128,8 @@ void refuse(const CLI::Option* option, bool used, const char* where,
 std::function<void()> add_motion_options(CLI::App& command, MotionRequest& request)
 {
   std::string methods =
-      "aft (harmonic balance), shooting, auto (the cheaper of both), gauss "
-      "(of bodies given by matrices)";
+      "auto (what the machine does from rest; aft with --harmonics), aft (harmonic "
+      "balance), shooting, gauss (of bodies given by matrices)";
   for (const std::string& name : time_methods()) methods += ", " + name;
   const bool is_spectrum = command.get_name() == "spectrum";
   const auto aft = add_balance_options(
@@ -143,10 +143,10 @@ std::function<void()> add_motion_options(CLI::App& command, MotionRequest& reque
       add_number(command, "--points", request.points, is_spectrum ? 32 : 1, most_points,
                  is_spectrum ? "P, samples per period of shooting and the time methods"
                              : "P, rows per period");
-  std::vector<CLI::Option*> periodic{add_number(
-      command, "--tolerance", request.tolerance, 1e-8, 0.1,
-      "relative error of displacement, the largest and the rms about the mean; without "
-      "--harmonics, m is chosen (default with two frequencies and of auto: 1e-3)")};
+  std::vector<CLI::Option*> periodic;
+  add_number(command, "--tolerance", request.tolerance, 1e-8, 0.1,
+             "relative error of displacement, the largest and the rms about the mean; with "
+             "--method aft and without --harmonics, m is chosen");
   if (command.get_name() != "contact")
     periodic.push_back(add_subharmonic(command, request));
   if (is_spectrum)
@@ -154,8 +154,8 @@ std::function<void()> add_motion_options(CLI::App& command, MotionRequest& reque
                        "table of a measured spectrum for --plot: f [Hz], amplitude [m]");
   if (command.get_name() == "orbit" || command.get_name() == "shape")
     add_number(command, "--periods", request.periods, 1, 1000, "turns that are printed");
-  periodic.push_back(command.add_flag("!--no-stability", request.stability,
-                                      "leave out the Floquet multipliers"));
+  command.add_flag("!--no-stability", request.stability,
+                   "leave out stability and, of a motion in time, the error");
   const auto step = add_number(command, "--step", request.step, 0.0, largest,
                                "longest step of rk4 [s] (default: from K_H)");
   const auto local_error =
@@ -164,20 +164,23 @@ std::function<void()> add_motion_options(CLI::App& command, MotionRequest& reque
   const auto longest = add_number(command, "--longest", request.longest, 1e-3, 1e5,
                                   "longest transient of the time methods [s]");
   return [=, &request] {
-    const std::string& method = request.method;
+    std::string& method = request.method;
+    const bool asks_balance =
+        std::ranges::any_of(aft, [](const auto* option) { return option->count() > 0; });
+    if (method == "auto" && asks_balance) method = "aft";
     auto others = periodic_methods;
-    others.emplace_back("gauss");
+    others.insert(others.end(), {"auto", "gauss"});
     require_method(method, others);
-    const bool finds_periodic = is_periodic(method);
+    const bool is_balance = method == "aft", is_auto = method == "auto";
     for (const CLI::Option* option : aft)
-      refuse(option, method == "aft", "for --method aft", method);
+      refuse(option, is_balance, "for --method aft", method);
     for (const CLI::Option* option : periodic)
-      refuse(option, finds_periodic, "for the methods aft, shooting and auto", method);
-    refuse(step, method == "rk4", "for --method rk4", method);
-    refuse(local_error, method != "aft" && method != "rk4",
+      refuse(option, is_periodic(method), "for the methods aft and shooting", method);
+    refuse(step, method == "rk4" || is_auto, "for --method rk4", method);
+    refuse(local_error, !is_balance && method != "rk4",
            "for shooting and the time methods but rk4", method);
-    refuse(longest, !finds_periodic, "for the time methods", method);
-    refuse(points, !is_spectrum || method != "aft", "for shooting and the time methods",
+    refuse(longest, !is_periodic(method), "for the time methods", method);
+    refuse(points, !is_spectrum || !is_balance, "for shooting and the time methods",
            method);
   };
 }

@@ -6,6 +6,7 @@
 
 #include "balance/fourier_transform.hpp"
 #include "explore/balance_motion.hpp"
+#include "explore/settled_motion.hpp"
 #include "integration/time_stepper.hpp"
 #include "io/errors.hpp"
 #include "io/progress.hpp"
@@ -140,88 +141,6 @@ FoundMotion closed_motion(const Parameters& parameters, const MotionRequest& req
   return {std::move(closed.motion), std::move(lines)};
 }
 
-/** Of the two methods for periodic motions, the one that costs less at the same error (`tab02_equal_error`): below
-    half the joint resonance, where contact is lost and found again, shooting; above it harmonic balance. Where that
-    one finds nothing, the other. */
-FoundMotion cheaper_motion(const Parameters& parameters, MotionRequest request,
-                           const OperationBudget& budget, Table& table)
-{
-  if (!request.tolerance) request.tolerance = 1e-3;
-  const double half = joint_resonance(parameters) / angular(2);
-  const bool is_slow = request.frequency < half;
-  const bool can_shoot = has_rotation_period(parameters.bearing);
-  table.note(can_shoot
-                 ? format("method auto: %s, cheaper at equal error %s %.4g Hz, half the "
-                          "joint resonance",
-                          is_slow ? "shooting" : "aft", is_slow ? "below" : "above", half)
-                 : "method auto: aft, the force has not the period of rotation");
-  if (!can_shoot) return balance_motion(parameters, request, budget, table);
-  const auto first = is_slow ? closed_motion : balance_motion;
-  const auto second = is_slow ? balance_motion : closed_motion;
-  try {
-    Table attempt = table;
-    FoundMotion found = first(parameters, request, budget.part(0.5), attempt);
-    table = std::move(attempt);
-    return found;
-  } catch (const NoSolution& error) {
-    table.note(std::string("method auto: the other, since that failed: ") + error.what());
-  }
-  return second(parameters, request, budget, table);
-}
-
-/** What a time method settled on: T-periodic, kT-periodic or not, and the same with finer
-    steps where those that were asked for are coarse, which damps what a machine does. */
-void put_measured_regime(Table& table, const Parameters& parameters,
-                         const MotionRequest& request, SteadySettings settings,
-                         const SteadyState& steady)
-{
-  const double omega = angular(request.frequency), step = default_step(parameters);
-  const State& state = steady.states.front();
-  StepperSettings& stepper = settings.stepper;
-  constexpr double coarse = 1e-8;
-  if (stepper.method == "rk4" ? stepper.step > step : stepper.tolerance > coarse) {
-    stepper.step = std::min(stepper.step / 2, step);
-    stepper.tolerance = 0.01 * coarse;
-    const SteadyState fine = steady_state(parameters, omega, state, settings);
-    const double off = motion::rms_difference(motion::motion_of(steady, request.points),
-                                              motion::motion_of(fine, request.points));
-    if (fine.periodic != steady.periodic)
-      return put_regime(table, 0, "undecided",
-                        format("%s with finer steps, spread %.2g",
-                               fine.periodic ? "periodic" : "open", fine.spread));
-    if (fine.periodic && off > motion::same_motion)
-      return put_regime(table, 0, "undecided",
-                        format("finer steps give another motion, %.2g away", off));
-  }
-  if (steady.periodic) return put_regime(table, 1);
-  if (!has_rotation_period(parameters.bearing))
-    return put_regime(table, 0, "undecided", "two frequencies or chaos, not examined");
-  const auto settled = motion::settle(parameters, omega, state, stepper.budget);
-  put_regime(table, settled.period, "undecided",
-             settled.aperiodic ? "the section stays open, no exponent was measured" : "");
-}
-
-FoundMotion integrated_motion(const Parameters& parameters, const MotionRequest& request,
-                              const OperationBudget& budget, Table& table)
-{
-  const SteadySettings settings{.stepper = {.method = request.method,
-                                            .intervals_per_period = request.points,
-                                            .step = request.step,
-                                            .tolerance = request.local_error,
-                                            .budget = budget},
-                                .longest = request.longest,
-                                .shown_periods = request.periods};
-  const SteadyState steady =
-      steady_state(parameters, angular(request.frequency), settings);
-  table.value("method", request.method);
-  table.value("transient", steady.seconds);
-  table.value("integration_evaluations", steady.evaluations);
-  table.value("spread", steady.spread, 3);
-  if (!steady.periodic) table.value("spread_uncertainty", steady.spread_error, 1);
-  put_measured_regime(table, parameters, request, settings, steady);
-  return {motion::motion_of(steady, request.points), {}};
-}
-
 }  // namespace
 
 bool Computed::touches() const
@@ -230,7 +149,7 @@ bool Computed::touches() const
 }
 
 Computed computed(const Parameters& parameters, const MotionRequest& request,
-                  Table& table)
+                  int open_periods, Table& table)
 {
   checked_samples(request.harmonics.value_or(usual_harmonics), request.samples);
   if (request.tolerance && request.samples && !request.harmonics)
@@ -238,17 +157,22 @@ Computed computed(const Parameters& parameters, const MotionRequest& request,
   require_method_of(parameters, request.method);
   describe(table, parameters);
   table.value("frequency", request.frequency);
-  Computed at{.budget = budget_of(request, 3, parameters)};
+  const bool is_settled = !is_periodic(request.method);
+  const double seconds = !is_settled ? 3 : parameters.large ? 1 : 10;
+  Computed at{.budget = budget_of(request, seconds, parameters)};
   if (request.method == "aft")
     at.found = balance_motion(parameters, request, at.budget, table);
   else if (request.method == "shooting")
     at.found = closed_motion(parameters, request, at.budget, table);
-  else if (request.method == "auto")
-    at.found = cheaper_motion(parameters, request, at.budget, table);
   else
-    at.found = integrated_motion(parameters, request, at.budget, table);
-  at.forces = motion::bearing_forces(over_turns(parameters, request.subharmonic),
-                                     at.found.motion);
+    at.found = settled_motion(parameters, request, open_periods, at.budget, table);
+  if (!is_settled) {
+    at.found.machine = over_turns(parameters, request.subharmonic);
+    at.found.base_frequency = request.frequency;
+    at.found.base_periods = request.subharmonic;
+    at.found.closes_after = request.subharmonic;
+  }
+  at.forces = motion::bearing_forces(at.found.machine, at.found.motion);
   return at;
 }
 
@@ -289,22 +213,21 @@ Exploration explore_orbit(const MotionRequest& request)
   for (const auto& [name, place] : outputs) add(name, "m", "of a body given by matrices");
   Table table("Orbit of rotor and stator over one period", columns);
   table.choose(request.columns, columns.size() - 1, request.plot.has_value());
-  const Computed at = computed(parameters, request, table);
+  const Computed at = computed(parameters, request, request.periods, table);
   const motion::Motion& motion = at.found.motion;
   std::vector<std::vector<Vec2>> further;
   for (std::size_t b = 1; b < bearings; ++b) {
-    const auto one =
-        motion::at_bearing(over_turns(parameters, request.subharmonic), motion, b);
+    const auto one = motion::at_bearing(at.found.machine, motion, b);
     further.push_back(motion::bearing_forces(one.parameters, one.motion));
   }
   const auto rows =
-      static_cast<std::size_t>(std::max(request.periods, request.subharmonic)) *
+      static_cast<std::size_t>(std::max(request.periods, at.found.closes_after)) *
       request.points;
   for (std::size_t k = 0; k < rows; ++k) {
     const std::size_t same = k % motion.size();
     const auto& [stator, rotor] = motion.positions[same];
-    const double turns = request.subharmonic * motion.t_over_period(k);
-    std::vector<Cell> row{2 * std::numbers::pi * turns,
+    const double periods = at.found.base_periods * motion.t_over_period(k);
+    std::vector<Cell> row{2 * std::numbers::pi * periods,
                           stator.x,
                           stator.y,
                           rotor.x,
@@ -317,7 +240,7 @@ Exploration explore_orbit(const MotionRequest& request)
     }
     for (const auto& [name, place] : outputs)
       row.emplace_back(motion::shown_at(motion, same, place));
-    row.emplace_back(turns / request.frequency);
+    row.emplace_back(periods / at.found.base_frequency);
     table.row(std::move(row));
   }
   conclude(table, parameters, at.touches(), at.budget);
@@ -341,9 +264,9 @@ Exploration explore_contact(const MotionRequest& request)
                           most_points, bearing.balls));
   MotionRequest two = request;
   two.periods = 2;
-  const Computed at = computed(parameters, two, table);
+  const Computed at = computed(parameters, two, 2, table);
   for (std::size_t b = 0; b < bearings; ++b) {
-    const auto [one, motion] = motion::at_bearing(parameters, at.found.motion, b);
+    const auto [one, motion] = motion::at_bearing(at.found.machine, at.found.motion, b);
     const auto evolution = motion::contact_evolution(one, motion);
     for (std::size_t k = 0; k < evolution.t_over_period.size(); ++k)
       for (std::size_t j = 0; j < evolution.ball_force[k].size(); ++j) {
@@ -352,7 +275,7 @@ Exploration explore_contact(const MotionRequest& request)
                              static_cast<double>(j) / one.bearing.balls;
         std::vector<Cell> row{turns};
         if (bearings > 1) row.emplace_back(b + 1);
-        for (double value : {static_cast<double>(j + 1), q, turns / request.frequency,
+        for (double value : {static_cast<double>(j + 1), q, turns / at.found.base_frequency,
                              angular(angle - std::floor(angle)),
                              1e-6 * one.bearing.pressure * std::cbrt(q)})
           row.emplace_back(value);

@@ -28,18 +28,18 @@ struct Request {
   std::optional<std::string> plot = {}, overlay = {};  ///< files
 };
 
-/** Those that find periodic motions: harmonic balance, shooting, and the cheaper of the two. */
-inline const std::vector<std::string> periodic_methods{"aft", "shooting", "auto"};
+/** Those that find a periodic motion, stable or not: harmonic balance and shooting. */
+inline const std::vector<std::string> periodic_methods{"aft", "shooting"};
 bool is_periodic(const std::string& method);
 
 struct MotionRequest : Request {
   double frequency = 0;             ///< [Hz]
-  std::string method = "aft";       ///< one of `periodic_methods`, or a time method
+  std::string method = "auto";  ///< what the machine does from rest; or one of `periodic_methods`, or a time method
   std::optional<double> tolerance;  ///< of displacement, relative
   int points = 256;                 ///< P
   double local_error = 1e-11;       ///< GSL's methods, relative
   double step = 0;                  ///< rk4 [s]; 0: from K_H
-  double longest = 30;              ///< transient at most [s]
+  double longest = 60;              ///< transient at most after t = 0 [s]
   int periods = 1;                  ///< turns that are printed
   bool stability = true;            ///< Floquet multipliers in the header (aft)
 };
@@ -72,10 +72,16 @@ Parameters machine_of(const Request& request, double from, double to,
 /** Throws BadInput for a time method that does not integrate such bodies. */
 void require_method_of(const Parameters& parameters, const std::string& method);
 
-/** A motion and its lines; those of a time method are left out. */
+/** A motion, the machine counted over its period, and its lines, which a record leaves out. */
 struct FoundMotion {
   motion::Motion motion;
   motion::Lines lines = {};
+  Parameters machine = {};
+  double base_frequency = 0;   ///< of the base period [Hz]
+  double turns_of_period = 1;  ///< turns of the rotor in one base period
+  int base_periods = 1;        ///< in one period of the motion's points
+  int closes_after = 0;        ///< K base periods, exactly; 0 for a record
+  bool has_statistics = false; ///< whether its means are in the header
 };
 
 /** A motion, the bearing's force at its instants, and what it has cost. */
@@ -87,9 +93,10 @@ struct Computed {
   bool touches() const;
 };
 
-/** The motion that is asked for; how it was found goes to the table's header. */
+/** The motion that is asked for, `open_periods` of one that does not close; how it was found goes to the table's
+    header. */
 Computed computed(const Parameters& parameters, const MotionRequest& request,
-                  Table& table);
+                  int open_periods, Table& table);
 
 /** Throws BadInput unless --from is below --to. */
 void require_range(double from, double to);

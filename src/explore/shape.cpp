@@ -29,7 +29,7 @@ Exploration explore_shape(const ShapeRequest& request)
   const auto number = [&](std::size_t i) {
     return is_numbered ? nodes.at(i, "node") : static_cast<double>(i + 1);
   };
-  const auto instants =
+  auto instants =
       static_cast<std::size_t>(std::max(request.periods, request.subharmonic)) *
       request.points;
   if (instants > most_rows / nodes.rows())
@@ -46,11 +46,13 @@ Exploration explore_shape(const ShapeRequest& request)
   const LargeMachine& machine = *parameters.large;
   Table table("Orbits of a rotor's nodes over one period", columns);
   table.choose(request.columns, columns.size() - 1, request.plot.has_value());
-  const Computed at = computed(parameters, request, table);
+  const Computed at = computed(parameters, request, request.periods, table);
   table.note("nodes: " + request.nodes);
   for (const auto& [bearing, i] : machine.bearing_nodes)
     table.row_line("bearing", {bearing + 1, number(i), nodes.at(i, "z")});
   const motion::Motion& motion = at.found.motion;
+  instants = static_cast<std::size_t>(std::max(request.periods, at.found.closes_after)) *
+             request.points;
   Eigen::MatrixXd places(machine.nodes.rows(), instants);
   Eigen::VectorXd q(machine.nodes.cols());
   for (std::size_t k = 0; k < instants; ++k) {
@@ -60,10 +62,10 @@ Exploration explore_shape(const ShapeRequest& request)
   }
   for (std::size_t i = 0; i < nodes.rows(); ++i)
     for (std::size_t k = 0; k < instants; ++k) {
-      const double turns = request.subharmonic * motion.t_over_period(k);
+      const double periods = at.found.base_periods * motion.t_over_period(k);
       const auto place = places.col(k).segment<2>(2 * i);
-      table.row({number(i), nodes.at(i, "z"), 2 * std::numbers::pi * turns, place[0],
-                 place[1], turns / request.frequency});
+      table.row({number(i), nodes.at(i, "z"), 2 * std::numbers::pi * periods, place[0],
+                 place[1], periods / at.found.base_frequency});
     }
   conclude(table, parameters, at.touches(), at.budget);
   return {std::move(table)};

@@ -23,7 +23,6 @@ int recorded_turns(double frequency)
 /** What stands for the defaults of orbit: turns enough to tell lines apart, and harmonics up to three times BPFO. */
 MotionRequest with_defaults(MotionRequest request, const Parameters& parameters)
 {
-  if (!is_periodic(request.method)) request.periods = recorded_turns(request.frequency);
   const bool is_free = !request.harmonics && !request.tolerance && !request.samples &&
                        request.subharmonic == 1;
   if (request.method == "aft" && is_free && turns_to_repeat(parameters.bearing) > 0)
@@ -32,10 +31,10 @@ MotionRequest with_defaults(MotionRequest request, const Parameters& parameters)
   return request;
 }
 
-void note_names(Table& table, const motion::Lines& lines)
+void note_names(Table& table, const motion::Lines& lines, bool has_means)
 {
   for (int k = 0; const char* name : {"mean_x_s", "mean_y_s", "mean_x_r", "mean_y_r"})
-    table.value(name, lines.mean[k++]);
+    if (!has_means) table.value(name, lines.mean[k++]);
   table.note(format("rows: amplitudes down to %g of the largest, largest first", least));
   table.note(
       "name: sum of multiples of X (rotation), BPFO and BPFI with the smallest sum of their "
@@ -44,16 +43,18 @@ void note_names(Table& table, const motion::Lines& lines)
 }
 
 /** Those that harmonic balance or shooting have found, or read from the record. */
-motion::Lines lines_of(const Parameters& parameters, const MotionRequest& request,
-                       Computed& at, Table& table)
+motion::Lines lines_of(const MotionRequest& request, Computed& at, Table& table)
 {
-  if (is_periodic(request.method)) return std::move(at.found.lines);
-  motion::Lines lines = motion::lines_of_recorded(parameters.bearing, at.found.motion);
+  if (at.found.closes_after > 0) return std::move(at.found.lines);
+  const FoundMotion& found = at.found;
+  motion::Lines lines = motion::lines_of_recorded(found.machine.bearing, found.motion);
+  for (motion::Line& line : lines.lines) line.order /= found.turns_of_period;
+  const int turns = static_cast<int>(found.motion.size()) / request.points;
   table.note(format(
-      "lines: least squares over %d turns, window of Blackman and Harris, at most "
+      "lines: least squares over %d base periods, window of Blackman and Harris, at most "
       "200; lines nearer than %.3g of the speed may be taken for one; unexplained: "
       "rms of the rest, in no line, over that about the mean",
-      request.periods, 4.0 / request.periods));
+      turns, 4.0 / turns));
   table.value("unexplained", lines.rest, 2);
   return lines;
 }
@@ -102,20 +103,21 @@ Exploration explore_spectrum(const MotionRequest& asked)
     table.note("overlay: " + *asked.overlay);
   }
   const MotionRequest request = with_defaults(asked, parameters);
-  const int turns = std::max(request.periods, request.subharmonic);
+  const bool is_recorded = !is_periodic(request.method);
+  const int turns = is_recorded ? recorded_turns(request.frequency) : request.subharmonic;
   if (request.points > most_samples / turns)
     throw BadInput(format("--points %d: must be at most %d with %d turns", request.points,
                           most_samples / turns, turns));
-  Computed at = computed(parameters, request, table);
+  Computed at = computed(parameters, request, turns, table);
   if (request.method != "aft")
     table.note(
         format("samples of shooting and time methods: %d per turn, orders up to %d; "
                "higher ones are folded onto these",
                request.points, request.points / 2));
-  const motion::Lines lines = lines_of(parameters, request, at, table);
-  note_names(table, lines);
+  const motion::Lines lines = lines_of(request, at, table);
+  note_names(table, lines, at.found.has_statistics);
   if (!add_lines(table, parameters.bearing, request.frequency, lines,
-                 is_periodic(request.method) ? 128 : 16, least))
+                 at.found.closes_after > 0 ? 128 : 16, least))
     throw NoSolution(parameters.file + ": the motion has no line, nothing moves");
   conclude(table, parameters, at.touches(), at.budget);
   return {std::move(table)};

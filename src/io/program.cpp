@@ -53,6 +53,10 @@ int guarded(const std::function<int()>& work)
     return complain(error.what(), 3);
   } catch (const std::bad_alloc&) {
     return complain("out of memory: ask for fewer harmonics, samples or points", 3);
+  } catch (const std::filesystem::filesystem_error& error) {
+    return complain(error.what(), 2);
+  } catch (const std::exception& error) {
+    return complain(std::string("internal error, please report it: ") + error.what(), 3);
   }
 }
 

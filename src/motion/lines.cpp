@@ -73,11 +73,11 @@ Lines lines_of(const Bearing& bearing, const PeriodicMotion& solution, int turns
   return lines_of(solution.bodies, orders);
 }
 
-Lines lines_of_closed(const Motion& motion, int turns)
+Lines lines_of_closed(const Motion& motion, double turns)
 {
   const int m = (motion.points_per_period - 1) / 2;
   std::vector<double> orders;
-  for (int h = 0; h <= m; ++h) orders.push_back(static_cast<double>(h) / turns);
+  for (int h = 0; h <= m; ++h) orders.push_back(h / turns);
   return lines_of(series_of(motion, m), orders);
 }
 

@@ -39,7 +39,7 @@ struct Lines {
 Lines lines_of(const Bearing& bearing, const PeriodicMotion& solution, int turns = 1);
 
 /** Of a motion that closes after `turns` turns, its one period: by Fourier transform. */
-Lines lines_of_closed(const Motion& motion, int turns);
+Lines lines_of_closed(const Motion& motion, double turns);
 
 /** Of a motion recorded over many turns: its peaks, then all amplitudes together by least squares, weighted by a window
     of Blackman and Harris, then the peaks of what is left, until none is above 1e-6 of the largest. A peak within a

@@ -241,7 +241,8 @@ double relative_difference(const Motion& motion, const Motion& reference)
       size = std::max(size, std::abs(b[i]));
     }
   }
-  return difference / size;
+  return size > 0 ? difference / size
+         : difference > 0 ? std::numeric_limits<double>::infinity() : 0;
 }
 
 double rms_difference(const Motion& motion, const Motion& reference)
@@ -272,7 +273,8 @@ double relative_force_difference(const Parameters& parameters, const Motion& mot
     difference = larger(difference, std::hypot(a[k].x - b[k].x, a[k].y - b[k].y));
     size = std::max(size, std::hypot(b[k].x, b[k].y));
   }
-  return difference / size;
+  return size > 0 ? difference / size
+         : difference > 0 ? std::numeric_limits<double>::infinity() : 0;
 }
 
 }  // namespace rotor_stator::motion

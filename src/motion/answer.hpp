@@ -1,0 +1,79 @@
+/**
+# What the machine does: the one answer
+
+Eq. 7 is integrated from rest until it has settled (`settle`). A motion that closes is then closed by shooting, which
+gives its multipliers; its error is what closing it again with a hundredth of the local error changes. A motion whose
+neighbours contract is recorded at the same instants with half the step, and the difference is its error. Of a chaotic
+motion the record is one of many: it has no error.
+
+    const Answer answer = motion::answer(parameters, {.omega = angular(25)}, budget);
+    // answer.kind, answer.motion, answer.stability, answer.error
+
+Solutions of harmonic balance are asked for by their number of harmonics, and judged in motion/verdict.hpp. */
+#pragma once
+
+#include <optional>
+#include <string>
+
+#include "motion/motion.hpp"
+#include "time/settle.hpp"
+
+namespace rotor_stator::motion {
+
+struct Request {
+  double omega;                 ///< speed of the rotor [rad/s]
+  std::string method = "auto";  ///< or the stepper of the record, which is then not closed
+  std::optional<double> tolerance = {};  ///< of the error, largest and rms [-]
+  int points = 256;                      ///< P, of a base period
+  int periods = 1;                       ///< recorded of a motion that is not closed, at least K
+  double step = 0;                       ///< longest of rk4 [s]; 0: `default_step`
+  double local_error = 1e-11;            ///< of shooting and of steppers with error control
+  double longest = 60;                   ///< transient after t = 0 [s]
+  bool is_measured = true;               ///< whether error and stability are wanted
+};
+
+/** Of displacement: the largest difference over the largest displacement; rms about the mean over that of the motion. */
+struct Error {
+  double largest = 0, rms = 0;
+  double larger() const { return std::max(largest, rms); }
+};
+
+struct Answer {
+  BasePeriod base;
+  Parameters machine = {};  ///< counted over its base period
+  double omega = 0;         ///< base frequency [rad/s]
+  rotor_stator::Settled settled;  ///< kind, K, λ, state
+  Motion motion = {};       ///< from t = 0, or from base period `motion.first_period`
+  std::optional<Error> error = {};
+  std::string stability = "undecided";
+  double multiplier = 0, uncertainty = 0;  ///< largest modulus of a closed motion; 0 unknown
+  std::string method = {};  ///< shooting, or what recorded the motion
+  std::string how = {};     ///< how it was found, in a sentence
+  double evaluations = 0;   ///< of Eq. 7
+
+  Kind kind() const { return settled.kind; }
+  int period() const { return settled.period; }
+
+  /** K as the tables print it: 0 chaotic, -1 quasi-periodic, -2 undecided; 1 at rest. */
+  int period_number() const;
+};
+
+/** Throws NoSolution when the integration breaks down or the tolerance cannot be met. A budget that ends before the kind is
+    known leaves it undecided, with the reason in `settled`. */
+Answer answer(const Parameters& parameters, const Request& request,
+              const OperationBudget& budget = {});
+
+/** The same from a state at the start of a base period, from the machine that is counted over it. */
+Answer answer_from(const Parameters& parameters, const Instant& start,
+                   const Request& request, const OperationBudget& budget = {});
+
+/** What is reported of x_s, y_s, x_r, y_r [m], with standard errors, which a motion that closes has not: over its K base
+    periods, over 256 base periods of another one, at every second step. */
+struct Observation {
+  Displacements amplitude{};  ///< half of the largest less the smallest value
+  Displacements mean{}, rms{};  ///< rms about the mean
+  Displacements amplitude_error{}, mean_error{}, rms_error{};
+};
+Observation observe(const Answer& answer, const OperationBudget& budget = {});
+
+}  // namespace rotor_stator::motion
