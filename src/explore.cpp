@@ -196,28 +196,32 @@ void add_range_options(CLI::App& command, Ranged& request)
 /** What is returned throws BadInput for an option that the method would ignore. */
 std::function<void()> add_response_options(CLI::App& command, ResponseRequest& request)
 {
-  auto aft = add_balance_options(command, request, "the saved branch's");
+  const auto balance = add_balance_options(command, request, "the saved branch's");
+  std::vector<CLI::Option*> aft = balance, branch;
   command
-      .add_option("--method", request.method, "aft (harmonic balance), or shooting (rk4)")
+      .add_option("--method", request.method,
+                  "auto (what the machine does, speed by speed), or a branch of periodic "
+                  "solutions: aft (harmonic balance), shooting (rk4)")
       ->capture_default_str();
   aft.push_back(add_subharmonic(command, request));
   CLI::Option* tolerance =
       add_number(command, "--tolerance", request.tolerance, 1e-8, 0.1,
-                 "relative error of each solution, at evenly spaced speeds instead of "
-                 "along the branch; with two frequencies, of the five solutions that "
-                 "choose the harmonics");
+                 "of --method aft: relative error of each solution, at evenly spaced "
+                 "speeds instead of along the branch; with two frequencies, of the five "
+                 "solutions that choose the harmonics");
   aft.push_back(tolerance);
-  add_number(command, "--count", request.count, 1, 100000, "speeds, with --tolerance")
-      ->needs(tolerance);
+  CLI::Option* count = add_number(command, "--count", request.count, 1, 100000,
+                                  "speeds, evenly spaced (101; 21 of large bodies)");
   add_range_options(command, request);
   command.add_option("--direction", request.direction,
-                     "up: from --from to --to; down: from --to to --from");
-  command.add_flag(
+                     "rest: each speed from rest; up, down: from the motion or solution "
+                     "at the speed before");
+  branch.push_back(command.add_flag(
       "--stability", request.stability,
-      "Floquet multipliers of each point and, with aft, the bifurcations between");
-  command.add_option(
+      "Floquet multipliers of each point and, with aft, the bifurcations between"));
+  branch.push_back(command.add_option(
       "--harmonics-of", request.harmonics_of,
-      "x_s, y_s, x_r or y_r: its harmonics at each point, complex amplitudes");
+      "x_s, y_s, x_r or y_r: its harmonics at each point, complex amplitudes"));
   aft.push_back(command.add_option("--waterfall", request.waterfall,
                                    "file for the lines of each point, with their names"));
   aft.push_back(command.add_option("--save", request.save,
@@ -230,7 +234,6 @@ std::function<void()> add_response_options(CLI::App& command, ResponseRequest& r
   add_number(command, "--branch", request.branch, 1, 1000000,
              "number of the branch to restart")
       ->needs(restart);
-  aft.push_back(restart);
   CLI::Option* isolated = add_number(command, "--isolated", request.isolated, 0, 10000,
                                      "look for isolated branches at so many speeds");
   aft.push_back(command.add_flag("--times", request.times, "CPU time on stderr"));
@@ -238,12 +241,34 @@ std::function<void()> add_response_options(CLI::App& command, ResponseRequest& r
              "of the random starts of --isolated")
       ->needs(isolated);
   aft.push_back(isolated);
-  return [aft, &request] {
-    const std::string& method = request.method;
-    if (method != "aft" && method != "shooting")
-      throw BadInput("--method " + method + ": must be one of aft, shooting");
+  CLI::Option* resume =
+      command.add_option("--resume", request.resume,
+                         "table of the same sweep that was interrupted: its rows are kept");
+  CLI::Option* longest = add_number(command, "--longest", request.longest, 1e-3, 1e5,
+                                    "longest transient of a sweep after t = 0 [s]");
+  return [=, &request] {
+    std::string& method = request.method;
+    const auto is_given = [](const CLI::Option* option) { return option->count() > 0; };
+    if (method == "auto" && (std::ranges::any_of(balance, is_given) || is_given(restart)))
+      method = "aft";
+    if (method != "auto" && method != "aft" && method != "shooting")
+      throw BadInput("--method " + method + ": must be one of auto, aft, shooting");
+    const bool is_sweep = method == "auto";
+    for (const auto& list : {aft, branch})
+      for (const CLI::Option* option : list)
+        if (is_sweep && is_given(option))
+          throw BadInput(option->get_name() +
+                         ": is of a branch of solutions; give --harmonics M" +
+                         (option == tolerance ? " or --method aft" : "") +
+                         ", --method shooting or --restart FILE too");
     for (const CLI::Option* option : aft)
       refuse(option, method == "aft", "for --method aft", method);
+    refuse(restart, method == "aft", "for --method aft", method);
+    refuse(resume, is_sweep, "for a sweep, without --method", method);
+    refuse(longest, is_sweep, "for a sweep, without --method", method);
+    if (is_given(count) && !is_sweep && !is_given(tolerance))
+      throw BadInput("--count: of a branch needs --tolerance; without --harmonics and "
+                     "--method it is the number of speeds");
   };
 }
 
@@ -334,7 +359,7 @@ int finish(const Request& request, const std::string& script,
         plot(*request.plot, script,
              found.drawn.empty() ? found.table.text(TableFormat::tsv, true) : found.drawn,
              request.overlay);
-  write(found.table.text(request.format));
+  if (!found.is_written) write(found.table.text(request.format));
   if (!found.unfinished.empty()) throw NoSolution(found.unfinished);
   if (!undrawn.empty()) throw NoSolution(undrawn);
   return 0;
@@ -356,7 +381,7 @@ int main(int argc, char** argv)
   CLI::App* check = command("check", "what a machine is, before anything is computed");
   CLI::App* orbit = command("orbit", "displacements and force over one period");
   CLI::App* contact = command("contact", "force of every ball over two periods");
-  CLI::App* branch = command("response", "amplitudes along the branch, arc length");
+  CLI::App* branch = command("response", "amplitudes against speed: what the machine does, or a branch");
   CLI::App* lines =
       command("spectrum", "lines of the motion, with names such as BPFO-1X");
   CLI::App* settled =

@@ -48,6 +48,7 @@ struct Exploration {
   Table table;
   std::string unfinished = {};  ///< why a branch stopped early; empty when it did not
   std::string drawn = {};       ///< the table of the figure, where it is another one
+  bool is_written = false;      ///< row by row, on stdout
 };
 
 /** Throw BadInput for options that contradict each other, NoSolution when nothing was found. */

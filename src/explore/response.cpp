@@ -9,6 +9,7 @@
 #include "balance/large_problem.hpp"
 #include "continuation/arc_length.hpp"
 #include "explore/branch_file.hpp"
+#include "explore/settled_response.hpp"
 #include "explore/spectrum.hpp"
 #include "integration/time_stepper.hpp"
 #include "io/errors.hpp"
@@ -610,9 +611,10 @@ Exploration response_to_tolerance(const ResponseRequest& request, const Task& ta
   std::vector<StablePoint> points;
   std::string missing;
   int missed = 0;
-  for (int k = 0; k < request.count; ++k) {
+  const int count = request.count.value_or(101);
+  for (int k = 0; k < count; ++k) {
     const auto [from, to] = task.range();
-    const double omega = from + (to - from) * k / std::max(1, request.count - 1);
+    const double omega = from + (to - from) * k / std::max(1, count - 1);
     AdaptiveMotion at = motion::solve_adaptively(parameters, omega,
                                                  {.tolerance = tolerance}, task.budget);
     if (!at.reached) {
@@ -639,7 +641,7 @@ Exploration response_to_tolerance(const ResponseRequest& request, const Task& ta
   table.value("method", "aft");
   table.value("kind", "sweep");
   table.value("tolerance", tolerance);
-  table.value("speeds", request.count);
+  table.value("speeds", count);
   table.value("missed_speeds", missed);
   table.note("harmonics and samples chosen for each speed, from the paper's predictor");
   if (missed > 0) table.note("missed speeds: the first: " + missing);
@@ -665,6 +667,7 @@ Exploration response_to_tolerance(const ResponseRequest& request, const Task& ta
 
 Exploration explore_response(const ResponseRequest& request)
 {
+  if (request.method == "auto") return explore_settled_response(request);
   Task task = task_of(request);
   if (request.method == "shooting") return shooting_response(request, task);
   if (request.tolerance && !task.has_two_frequencies)

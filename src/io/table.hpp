@@ -118,11 +118,25 @@ public:
   /** For a figure with all columns. */
   std::string text(TableFormat format = TableFormat::tsv, bool is_drawn = false) const;
 
+  /** From now on what is added goes to `write` at once, as tab-separated text or CSV: a run that is killed keeps its
+      rows. `text` still has all of it. */
+  void stream(std::function<void(const std::string&)> write, TableFormat format);
+
+  /** The lines after the rows, to the stream. */
+  void end_stream() const;
+
+  /** All before the rows, of the printed columns; how many these are; and a row of them alone. */
+  std::string beginning() const { return beginning(TableFormat::tsv, printed_); }
+  std::size_t printed() const { return printed_.size(); }
+  void printed_row(const std::vector<Cell>& cells);
+
 private:
   using KeyValue = std::pair<std::string, Cell>;
 
   void line(const std::string& text);
-  std::string body(TableFormat format, const std::vector<std::size_t>& places) const;
+  std::string beginning(TableFormat format, const std::vector<std::size_t>& places) const;
+  std::string row_text(const std::vector<Cell>& row, TableFormat format,
+                       const std::vector<std::size_t>& places) const;
   std::string json() const;
 
   std::string head_, foot_;
@@ -132,6 +146,8 @@ private:
   std::vector<std::size_t> printed_, drawn_;  ///< their places
   std::vector<bool> wanted_;
   std::vector<std::vector<Cell>> rows_;  ///< an empty row is a gap
+  std::function<void(const std::string&)> write_ = {};  ///< where rows go at once
+  TableFormat format_ = TableFormat::tsv;
 };
 
 }  // namespace rotor_stator

@@ -209,36 +209,39 @@ void rest(Answer& answer, const Request& request)
 
 }  // namespace
 
-Answer answer_from(const Parameters& parameters, const Instant& start,
-                   const Request& request, const OperationBudget& budget)
+Answer settled_answer(const Parameters& parameters, const Request& request,
+                      const OperationBudget& budget, const State* start)
 {
   Answer found{.base = base_period(parameters), .settled = {}};
   const Based based = over(found.base, parameters, request.omega);
   found.machine = based.machine;
   found.omega = based.omega;
-  found.settled = settle(based.machine, based.omega, found.base, start,
-                         {.step = request.step, .longest = request.longest},
-                         budget.part(0.7));
+  Instant first = from_rest(based.machine, based.omega);
+  if (start) first.state = *start;
+  found.settled = settle(based.machine, based.omega, found.base, first,
+                         {.step = request.step, .longest = request.longest}, budget);
   found.evaluations = found.settled.evaluations;
-  if (found.kind() == Kind::rest) {
-    rest(found, request);
-    return found;
-  }
-  const bool is_closed = found.kind() == Kind::periodic && request.method == "auto" &&
-                         close(found, request, budget);
-  if (!is_closed) record(found, request, budget);
-  if (request.tolerance && found.error && !(found.error->larger() <= *request.tolerance))
-    throw NoSolution(format("%s: tolerance %g not reached at %g Hz, error %.2g",
-                            parameters.file.c_str(), *request.tolerance,
-                            request.omega / angular(1), found.error->larger()));
   return found;
+}
+
+void complete(Answer& answer, const Request& request, const OperationBudget& budget)
+{
+  if (answer.kind() == Kind::rest) return rest(answer, request);
+  const bool is_closed = answer.kind() == Kind::periodic && request.method == "auto" &&
+                         close(answer, request, budget);
+  if (!is_closed) record(answer, request, budget);
+  if (request.tolerance && answer.error && !(answer.error->larger() <= *request.tolerance))
+    throw NoSolution(format("%s: tolerance %g not reached at %g Hz, error %.2g",
+                            answer.machine.file.c_str(), *request.tolerance,
+                            request.omega / angular(1), answer.error->larger()));
 }
 
 Answer answer(const Parameters& parameters, const Request& request,
               const OperationBudget& budget)
 {
-  const Based based = over(base_period(parameters), parameters, request.omega);
-  return answer_from(parameters, from_rest(based.machine, based.omega), request, budget);
+  Answer found = settled_answer(parameters, request, budget.part(0.7));
+  complete(found, request, budget);
+  return found;
 }
 
 namespace {
