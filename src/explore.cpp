@@ -295,9 +295,11 @@ std::function<void()> add_map_options(CLI::App& command, MapRequest& request)
   for (const Column& one : map_quantities())
     known +=
         (known.empty() ? "" : "; ") + one.name + " [" + one.unit + "] " + one.meaning;
-  std::string methods = "aft (harmonic balance), gauss (of bodies given by matrices)";
+  std::string methods =
+      "auto (what the machine does from rest; aft with --harmonics), aft (harmonic "
+      "balance), gauss (of bodies given by matrices)";
   for (const std::string& name : time_methods()) methods += ", " + name;
-  auto aft = add_balance_options(command, request, "by --tolerance");
+  const auto aft = add_balance_options(command, request, "by --tolerance");
   command.get_option("--budget")
       ->description(
           "most evaluations of the force at each point (default: those of 5 s, 1.4e8 with 16 balls)");
@@ -315,14 +317,12 @@ std::function<void()> add_map_options(CLI::App& command, MapRequest& request)
       "--sweep", request.sweep,
       "A:B[:COUNT], range of speeds of the quantities over one [Hz] (101)");
   command.add_option("--method", request.method, methods)->capture_default_str();
-  aft.push_back(add_number(command, "--tolerance", request.tolerance, 1e-8, 0.1,
-                           "relative error for which m is chosen"));
+  add_number(command, "--tolerance", request.tolerance, 1e-8, 0.1,
+             "relative error; with --method aft m is chosen for it");
   const auto step = add_number(command, "--step", request.step, 0.0, largest,
                                "longest step of rk4 [s] (default: from K_H)");
   const auto longest = add_number(command, "--longest", request.longest, 1e-3, 1e5,
-                                  "longest transient of the time methods, from rest [s]");
-  const auto periods = add_number(command, "--periods", request.periods, 2, 10000,
-                                  "that the time methods observe");
+                                  "longest transient of the time methods after t = 0 [s]");
   add_number(command, "--threads", request.threads, 1, 1024,
              "lines at a time (default: OMP_NUM_THREADS, or all cores)");
   command.add_option("--lines", request.lines, "A:B, only the lines with A <= index < B");
@@ -330,13 +330,15 @@ std::function<void()> add_map_options(CLI::App& command, MapRequest& request)
       "--resume", request.resume,
       "table of the same map that was interrupted: its whole lines are taken over");
   return [=, &request] {
-    const std::string& method = request.method;
-    require_method(method, {"aft", "gauss"});
+    std::string& method = request.method;
+    if (method == "auto" &&
+        std::ranges::any_of(aft, [](const auto* option) { return option->count() > 0; }))
+      method = "aft";
+    require_method(method, {"auto", "aft", "gauss"});
     for (const CLI::Option* option : aft)
       refuse(option, method == "aft", "for --method aft", method);
-    refuse(step, method == "rk4", "for --method rk4", method);
+    refuse(step, method == "rk4" || method == "auto", "for --method rk4", method);
     refuse(longest, method != "aft", "for the time methods", method);
-    refuse(periods, method != "aft", "for the time methods", method);
   };
 }
 

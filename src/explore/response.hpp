@@ -18,7 +18,7 @@ struct ResponseRequest : Request {
   double from = 0, to = 0;     ///< [Hz]
   std::string direction;       ///< "rest", "up", "down", or empty: rest; of a branch the saved one's, or up
   std::optional<std::string> resume;  ///< file of an interrupted sweep
-  double longest = 60;                ///< transient at most after t = 0 [s]
+  double longest = 0;                ///< 0: as settle chooses; transient at most after t = 0 [s]
   std::optional<std::string> save, restart;  ///< files
   int branch = 1;                            ///< number in the file `restart`
   std::optional<double> at;                  ///< speed to restart from [Hz]

@@ -139,25 +139,25 @@ public:
       smaller steps, or a local error smaller by its square. */
   Motion operator()(double finer)
   {
-    const bool has_step = request_.method == "auto" || request_.method == "rk4";
-    const double step =
-        request_.step > 0 ? request_.step : default_step(answer_.machine);
-    const TimeStepper stepper =
-        make_stepper(answer_.machine, answer_.omega,
-                     {.method = has_step ? "rk4" : request_.method,
-                      .intervals_per_period = request_.points,
-                      .step = step / finer,
-                      .tolerance = request_.local_error / (finer * finer),
-                      .budget = budget_});
+    const auto stepper = [&](int intervals) {
+      const bool has_step = request_.method == "auto" || request_.method == "rk4";
+      const double step =
+          request_.step > 0 ? request_.step : step_at(answer_.machine, answer_.omega);
+      return make_stepper(answer_.machine, answer_.omega,
+                          {.method = has_step ? "rk4" : request_.method,
+                           .intervals_per_period = intervals,
+                           .step = step / finer,
+                           .tolerance = request_.local_error / (finer * finer),
+                           .budget = budget_});
+    };
     const rotor_stator::Settled& settled = answer_.settled;
     const Instant& from = settled.contracts ? settled.before : settled.at;
     State state = from.state;
-    for (long k = from.period * request_.points; k < settled.at.period * request_.points; ++k)
-      stepper.advance(k, state);
-    Motion motion =
-        recorded(stepper, request_.points, state, settled.at.period, periods_);
+    const TimeStepper whole = stepper(1), parts = stepper(request_.points);
+    for (long k = from.period; k < settled.at.period; ++k) whole.advance(k, state);
+    Motion motion = recorded(parts, request_.points, state, settled.at.period, periods_);
     motion.omega = answer_.omega;
-    evaluations_ += static_cast<double>(stepper.evaluations());
+    evaluations_ += static_cast<double>(whole.evaluations() + parts.evaluations());
     return motion;
   }
   double evaluations() const { return evaluations_; }
@@ -282,7 +282,7 @@ Observation observe(const Answer& answer, const OperationBudget& budget)
   const std::size_t count = is_closed ? std::max(1, answer.period()) : observed;
   const double period = 2 * std::numbers::pi / answer.omega;
   const int intervals = static_cast<int>(
-      std::clamp(std::ceil(period / (2 * default_step(answer.machine))), 64.0, 1e6));
+      std::clamp(std::ceil(period / (2 * step_at(answer.machine, answer.omega))), 64.0, 1e6));
   const auto flow = fixed_step_flow(answer.machine, answer.omega, intervals, 0, budget);
   State state = answer.settled.at.state;
   long k = answer.settled.at.period * intervals;

@@ -28,7 +28,7 @@ struct Request {
   int periods = 1;                       ///< recorded of a motion that is not closed, at least K
   double step = 0;                       ///< longest of rk4 [s]; 0: `default_step`
   double local_error = 1e-11;            ///< of shooting and of steppers with error control
-  double longest = 60;                   ///< transient after t = 0 [s]
+  double longest = 0;                   ///< 0: as settle chooses; transient after t = 0 [s]
   bool is_measured = true;               ///< whether error and stability are wanted
 };
 
