@@ -302,11 +302,12 @@ private:
   double length_, least_;  ///< [m], [s]
 };
 
-/** Whether that takes less than a few times what has been integrated; else the motion begins where it was reached. */
-bool can_be_put_on_zero(const Settled& s, double omega)
+/** Whether that takes at most so many evaluations; else the motion begins where it was reached. */
+bool can_be_put_on_zero(const Settled& s)
 {
+  constexpr double most = 1e8, motions = 2;
   const double seconds = 2 * forgotten / s.lyapunov.value;
-  return seconds < 2 * s.seconds && seconds * omega < 1e7;
+  return seconds * s.evaluations / (motions * s.seconds) < most;
 }
 
 /** A motion that has contracted after t = 0, put on t = 0: from its state so much earlier that the jump of the phases is
@@ -357,7 +358,7 @@ Settled settle(const Parameters& machine, double omega, const BasePeriod& base,
     }
     settled.evaluations = static_cast<double>(pair.evaluations());
     if (base.is_driven_twice() && settled.contracts && settled.at.period != 0 &&
-        settled.kind == Kind::quasi_periodic && can_be_put_on_zero(settled, omega))
+        settled.kind == Kind::quasi_periodic && can_be_put_on_zero(settled))
       put_on_zero(machine, omega, rule, budget, settled);
   } catch (const NoSolution& ended) {
     if (!budget.used_up()) throw;
