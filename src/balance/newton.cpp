@@ -132,15 +132,18 @@ bool solve_from_few(Balance& balance,
 {
   constexpr int few = 64;
   const int harmonics = balance.harmonics().count(), dofs = balance.problem().dofs;
-  PeriodicMotion first{.omega = motion.omega};
+  long spent = 0;
+  int iterations = 0;
   if (harmonics > 2 * few) {
-    first.x = resize_harmonics(motion.x, dofs, few);
-    if (solve(on_few(few), first, settings)) motion.x = std::move(first.x);
+    motion.x = resize_harmonics(motion.x, dofs, few);
+    if (!solve(on_few(few), motion, settings)) return false;
+    spent = motion.force_samples;
+    iterations = motion.newton.iterations;
   }
   motion.x = resize_harmonics(motion.x, dofs, harmonics);
   solve(balance, motion, settings);
-  motion.newton.iterations += first.newton.iterations;
-  motion.force_samples += first.force_samples;
+  motion.newton.iterations += iterations;
+  motion.force_samples += spent;
   return motion.found();
 }
 
