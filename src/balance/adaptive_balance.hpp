@@ -43,8 +43,9 @@ struct Approached {
   int steps;
   Eigen::VectorXd next;  ///< the next step
 };
-Approached approach(Balance& finer, double omega, double newton_tolerance,
-                    Eigen::VectorXd& x, bool until_stall = false);
+Approached approach(Balance& finer, BalanceSolver& solver, double omega,
+                    double newton_tolerance, Eigen::VectorXd& x,
+                    bool until_stall = false);
 
 /** How far to go. */
 struct AdaptiveSettings {
