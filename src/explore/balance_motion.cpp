@@ -25,6 +25,7 @@ void note_verdict(Table& table, const Parameters& parameters,
       table.note("multiplier: with the reduced bodies");
   } else
     table.note("stability: " + verdict.reason);
+  if (verdict.refused > 0) table.value("distance_refused", verdict.refused, 2);
   if (verdict.distance > 0)
     put_difference(table, "distance", verdict.distance, verdict.distance_rms,
                    "from the motion of Eq. 7 whose multipliers these are");

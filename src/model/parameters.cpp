@@ -233,6 +233,12 @@ void describe(Table& table, const Parameters& parameters, bool with_keys)
     table.value("contact_stiffness" + tail, bearings[k].contact_stiffness);
     table.value("clearance" + tail, bearings[k].clearance);
     table.value("cage_speed_ratio" + tail, bearings[k].cage_speed_ratio);
+    if (bearings[k].ball_diameter == 0) continue;
+    const KinematicOrders orders = kinematic_orders(bearings[k]);
+    table.value("ball_diameter" + tail, bearings[k].ball_diameter);
+    table.value("bpfo" + tail, orders.outer);
+    table.value("bpfi" + tail, orders.inner);
+    if (orders.cage < 0.5) table.value("bsf" + tail, orders.spin);
   }
 }
 

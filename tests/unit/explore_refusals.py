@@ -323,10 +323,9 @@ class Options(Case):
         """It bounds all commands, and is named with what was reached."""
         self.refused("the budget of 1e+04 evaluations of the force is used up; more with --budget",
                      "orbit", self.machine, *ORBIT, "--method", "rk4", "--budget", "1e4", status=3)
-        lines = self.lines("orbit", self.machine, *ORBIT, "--method", "rk4", "--budget", "1e7")
-        counted = next(int(m[1]) for line in lines if (m := re.search("rest, ([0-9]+) evaluations", line)))
-        self.assertIn(f"# budget: {counted:.3g} of 1e+07",
-                      next(line for line in lines if line.startswith("# budget")))
+        table = self.table("orbit", self.machine, *ORBIT, "--method", "rk4", "--budget", "1e7")
+        counted, spent, budget = (table.value(key) for key in ("integration_evaluations", "evaluations", "budget"))
+        self.assertEqual((spent, budget), (float(f"{counted:.3g}"), 1e7))
         result = self.run_explore("response", self.machine, "--from", "1", "--to", "60", "--budget", "3e5")
         self.assertEqual(result.returncode, 3)
         self.assertRegex(result.stderr, r"stopped at [0-9.]+ Hz, before --to 60 Hz: the budget .* --budget")

@@ -19,6 +19,7 @@ from support.explore import MACHINE, Case, Table  # noqa: E402
 KEPT = Path("data/reference/attractors.tsv").resolve()
 SET_2 = Path("data/set2.toml").resolve()
 WHOLE = ["--from", "1", "--to", "60"]
+TO_1E_3 = ["--method", "aft", "--tolerance", 1e-3]  # with two frequencies or one
 AMPLITUDES = ["amp_x_s", "amp_y_s", "amp_x_r", "amp_y_r"]
 
 # Fourteen balls of finite size (14 c = 6) between other masses.
@@ -60,8 +61,10 @@ class Motion(Case):
         np.testing.assert_allclose(three["phase"], 2 * math.pi * np.arange(192) / 64, rtol=1e-12)
         np.testing.assert_array_equal(three["x_r"][:64], one["x_r"])
         self.assertGreater(abs(three["F_x"][64:128] - three["F_x"][:64]).max(), 1)
-        for words in ["two frequencies", "harmonics (k_1,k_2)", "(13,-1)", "unknowns, z = ", "# error: ", "# regime: "]:
-            self.assertIn(words, one.header)
+        self.assertEqual((one.value("base"), one.value("method")), ("two", "aft"))
+        self.assertIn("13,-1", one.members("harmonics")[0])
+        self.assertEqual(one.value("harmonics"), len(one.members("harmonics")[0]))
+        self.assertTrue({"error_largest", "error_rms", "regime"} <= one.keys().keys())
         balls = self.table("contact", odd, "--points", 64, "--frequency", 45)
         ball, turn = np.array(balls["ball"]), np.array(balls["t_over_T"])
         angle = 2 * math.pi * (0.43 * turn + (ball - 1) / 16)
@@ -81,44 +84,42 @@ class Motion(Case):
 
     def test_verdict_on_two_frequencies(self):
         """At 98.6 Hz with c = 0.4173 the torus has doubled, and integration leaves the one that has not."""
-        for cage, frequency, words in [(0.43, 45.4, ["stability: stable", "regime: quasi-periodic", "stays on"]),
-                                       (0.4173, 98.6, ["stability: stable", ",-0.5)", "stays on"])]:
+        for cage, frequency, is_doubled in [(0.43, 45.4, False), (0.4173, 98.6, True)]:
             odd = self.file("odd.toml", MACHINE.replace("cage_speed_ratio = 0.5", f"cage_speed_ratio = {cage}"))
-            header = self.orbit(odd, frequency).header
-            for word in words:
-                self.assertIn(word, header)
+            table = self.orbit(odd, frequency, *TO_1E_3)
+            self.assertEqual([table.value(key) for key in ("stability", "regime", "stays")], ["stable", "quasi-periodic", "yes"])
+            self.assertEqual(any(pair.endswith(",-0.5") for pair in table.members("harmonics")[0]), is_doubled)
 
     def test_a_tolerance_where_quasi_static_contact_leads_nowhere(self):
         """At 26 Hz of set 1, where steps from there converge to nothing."""
-        header = self.orbit(self.file("set1.toml", MACHINE), 26, "--tolerance", 1e-3).header
-        self.assertIn("newton: from short time integration, converged", header)
-        self.assertIn("stability: stable", header)
-        said, true = (max(float(number) for number in re.search(line, header).groups())
-                      for line in (r"# error: (\S+) of .*?, (\S+) rms", r"# distance: (\S+) of .*?, (\S+) rms"))
+        table = self.orbit(self.file("set1.toml", MACHINE), 26, *TO_1E_3)
+        self.assertEqual((table.value("start"), table.value("stability")), ("short-time-integration", "stable"))
+        said, true = table.error("error"), table.error("distance")
         self.assertLess(true, 1e-3)
         self.assertTrue(0.3 < said / true < 10, (said, true))
 
     def test_a_torus_that_doubles_late(self):
         """With 7 balls the motion from rest leaves the torus of whole orders after some hundred turns; k_1 alone is then halved."""
         seven = MACHINE.replace("balls = 16", "balls = 7").replace("cage_speed_ratio = 0.5", "cage_speed_ratio = 0.3917")
-        header = self.orbit(self.file("seven.toml", seven), 105).header
-        self.assertIn("stays on", header)
-        harmonics = re.search("# harmonics .*: (.*)", header).group(1)
-        self.assertRegex(harmonics, r"\.5,")
-        self.assertNotRegex(harmonics, r"\.5\)")
+        table = self.orbit(self.file("seven.toml", seven), 105, *TO_1E_3)
+        self.assertEqual(table.value("stays"), "yes")
+        first, second = zip(*(pair.split(",") for pair in table.members("harmonics")[0]))
+        self.assertTrue(any(k.endswith(".5") for k in first))
+        self.assertFalse(any(k.endswith(".5") for k in second))
 
     def test_a_cage_that_repeats_after_two_turns_and_a_rotor_without_unbalance(self):
         half = MACHINE.replace("cage_speed_ratio = 0.5", "cage_speed_ratio = 0.40625")
-        table = self.orbit(self.file("half.toml", half), 45, "--periods", 4)
-        self.assertIn("= 13/2: one frequency", table.header)
-        self.assertIn(f"# base period: {2 / 45:.15g} s", table.header)
+        table = self.orbit(self.file("half.toml", half), 45, "--harmonics", 6, "--periods", 4)
+        self.assertEqual(table.value("base"), "turns 2")
+        self.assertAlmostEqual(table.value("base_period"), 2 / 45, delta=1e-15)
         np.testing.assert_array_equal(table["x_r"][128:], table["x_r"][:128])
         self.assertGreater(abs(table["x_r"][64:128] - table["x_r"][:64]).max(), 1e-9)
         odd = MACHINE.replace("cage_speed_ratio = 0.5", "cage_speed_ratio = 0.43").replace(
             "unbalance_kg_m = 0.05", "unbalance_kg_m = 0.0")
         still = self.file("still.toml", odd)
-        header = self.orbit(still, 45).header
-        self.assertIn(f"# base period: {1 / (45 * 16 * 0.43):.14g}", header)
+        table = self.orbit(still, 45, "--harmonics", 6)
+        self.assertEqual(table.value("base"), "passing")
+        self.assertAlmostEqual(table.value("base_period"), 1 / (45 * 16 * 0.43), delta=1e-15)
         # In another direction every ball passes at another time, and the motion is the same.
         exact = self.orbit(still, 90, "--method", "rk8pd", "--periods", 25)
         series = self.orbit(still, 90, "--harmonics", 40, "--periods", 25)
@@ -128,9 +129,9 @@ class Motion(Case):
         table = self.orbit(self.machine, 45)
         self.assertEqual(list(table.columns), ["phase", "x_s", "y_s", "x_r", "y_r", "F_x", "F_y"])
         np.testing.assert_allclose(table["phase"], 2 * math.pi * np.arange(64) / 64, rtol=1e-12)
-        self.assertIn("# regime: periodic\n", table.header)
+        self.assertEqual((table.value("regime"), table.value("period")), ("periodic", 1))
         aperiodic = self.orbit(self.machine, 13.4, "--method", "rk4", "--longest", 5)
-        self.assertIn("# regime: aperiodic\n", aperiodic.header)
+        self.assertEqual((aperiodic.value("regime"), aperiodic.value("period", None)), ("undecided", None))
 
     def test_contact_of_every_ball_over_two_periods(self):
         table = self.table("contact", self.machine, "--frequency", 45, "--points", 32)
@@ -150,7 +151,7 @@ class Motion(Case):
         file = self.file("another.toml", ANOTHER)
         for frequency in (12, 45):
             exact = self.orbit(file, frequency, "--method", "rk8pd")
-            self.assertIn("# regime: periodic\n", exact.header)
+            self.assertEqual(exact.value("regime"), "periodic")
             for harmonics, bound in ((10, 4e-3), (64, 5e-4), (256, 3e-6)):
                 with self.subTest(frequency=frequency, harmonics=harmonics):
                     balance = self.orbit(file, frequency, "--harmonics", harmonics)
@@ -202,7 +203,7 @@ class Branch(Case):
         table, reason = self.cut_off(SET_2, *WHOLE, "--harmonics", 16, "--budget", "2e5")
         self.assertGreater(len(table), 10)
         why = "the budget of 2e+05 evaluations of the force is used up; more with --budget"
-        self.assertIn("# incomplete: " + why, table.header)
+        self.assertEqual((table.value("complete"), table.value("ended")), ("no", "no"))
         self.assertIn("the branch stopped at", reason)
         self.assertIn("before --to 60 Hz: " + why, reason)
 
@@ -234,10 +235,12 @@ class Branch(Case):
         self.response("--save", "branch.tsv")
         saved = (self.folder / "branch.tsv").read_text(encoding="utf-8")
         last = saved.rstrip("\n").rindex("\n") + 1
-        form = "changed.tsv:1: '# format: branch of harmonic balance"
+        form = "changed.tsv:1: '# Branch of harmonic balance' is expected"
+        old = "# format: branch of harmonic balance, version 1\n# source: rotor_stator 0.1.0 0123456789ab\n# compiler: g++\n"
         for content, words in [
                 ("", form), ("f\tamp\n1\t2\n", form), ("# a table\n", form),
-                (saved.replace("# machine: 20 ", "# machine: 21 "), "another machine"),
+                (old, "written by rotor_stator 0.1.0 0123456789ab"),
+                (saved.replace("# row machine: 20 ", "# row machine: 21 "), "another machine"),
                 (saved.replace("# harmonics: 6", "# harmonics: 7"), "the names of the columns"),
                 (saved.replace("# harmonics: 6", "# harmonics: many"),
                  "# harmonics: many: must be in 1...4096"),
@@ -259,12 +262,13 @@ class Branch(Case):
     def test_a_search_for_isolated_branches_that_was_cut_off_says_so(self):
         table, reason = self.cut_off(SET_2, *WHOLE, "--isolated", 10, "--budget", "4e7")
         self.assertIn("cut off", reason)
-        self.assertIn("# incomplete: the budget cut off", table.header)
+        self.assertEqual(table.value("complete"), "no")
 
     def test_a_branch_beside_the_followed_one_is_reported_and_printed(self):
         table = self.table("response", SET_2, *WHOLE, "--isolated", 10, "--seed", 2)
-        self.assertIn("# branch 2: off the branches before it", table.header)
-        self.assertIn("the branch is closed", table.header)
+        number, low, high, points, _, word = table.members("branch")[0]
+        self.assertEqual((number, points, word), (2, (table["branch"] == 2).sum(), "complete"))
+        self.assertEqual((low, high), (table.where("branch", 2)["f"].min(), table.where("branch", 2)["f"].max()))
         self.assertEqual(list(np.unique(table["branch"])), [1, 2])
         main, other = table.where("branch", 1), table.where("branch", 2)
         # It begins and ends at the same point, and that is no row of the first branch.
@@ -279,9 +283,7 @@ class Shooting(Case):
         return self.table("orbit", self.machine, "--points", 64, "--frequency", frequency, *options)
 
     def multiplier(self, table):
-        word, number, error = re.search(r"# stability: (\w+); largest Floquet multiplier (\S+) \+- (\S+),",
-                                        table.header).groups()
-        return word, float(number), float(error)
+        return [table.value(key) for key in ("stability", "multiplier", "multiplier_uncertainty")]
 
     def test_it_closes_the_motion_that_integration_settles_on(self):
         for frequency in (6, 45):
@@ -289,7 +291,7 @@ class Shooting(Case):
                 settled = self.orbit(frequency, "--method", "rk8pd")
                 closed = self.orbit(frequency, "--method", "shooting")
                 self.assertLess(difference(closed, settled), 1e-7)
-                self.assertIn("# regime: periodic\n", closed.header)
+                self.assertEqual(closed.value("regime"), "periodic")
 
     def test_unstable_motions_and_those_of_two_turns_are_the_balance_s(self):
         for turns in ([], ["--subharmonic", 2]):
@@ -306,8 +308,7 @@ class Shooting(Case):
         for frequency, method in [(6, "shooting"), (45, "aft")]:
             with self.subTest(frequency):
                 table = self.orbit(frequency, "--method", "auto", "--tolerance", 1e-4, "--no-stability")
-                self.assertIn(f"# method auto: {method},", table.header)
-                self.assertIn(f"# method: {method}", table.header)
+                self.assertEqual(table.value("method"), method)
                 self.assertLess(difference(table, self.orbit(frequency, "--method", "rk8pd")), 1e-4)
 
     def test_the_branch_is_that_of_many_harmonics(self):
@@ -334,7 +335,7 @@ class Shooting(Case):
         self.assertEqual(result.returncode, 3)
         self.assertIn("came back", result.stderr)
         table = Table.of(result.stdout)
-        self.assertIn("# folds: 1, of the machine", table.header)
+        self.assertEqual(table.value("folds"), 1)
         kept = Table(KEPT).where("set", 1)
         for low, high, count in [(34.25, max(table["f"]), 2), (max(table["f"]), 34.5, 1)]:
             self.assertLess(low, high)
@@ -360,10 +361,8 @@ class Stability(Case):
 
     def orbit_at(self, frequency):
         """Verdict and largest multiplier, from a start of its own."""
-        header = self.table("orbit", self.machine, "--points", 1, "--frequency", repr(float(frequency))).header
-        found = re.search(r"^# stability: (\w+); largest Floquet multiplier ([\d.e+-]+)", header, re.MULTILINE)
-        self.assertIsNotNone(found, header)
-        return found[1], float(found[2])
+        table = self.table("orbit", self.machine, "--points", 1, "--frequency", repr(float(frequency)), "--harmonics", 6)
+        return table.value("stability"), table.value("multiplier")
 
     def test_each_verdict_is_that_of_the_orbit_there(self):
         table = self.along("--from", 19.9, "--to", 20.6)
@@ -379,8 +378,7 @@ class Stability(Case):
     def test_a_period_doubling_is_right_to_1e_3_in_speed(self):
         table = self.along("--from", 19.9, "--to", 20.6)
         doublings = table["f"][table["bifurcation"] == "period-doubling"]
-        for frequency in doublings:
-            self.assertRegex(table.header, rf"# period-doubling: {frequency:.9g} \+- [0-9.e-]+ Hz\n")
+        self.assertEqual([f for _, kind, f, _ in table.members("bifurcation") if kind == "period-doubling"], list(doublings))
         # It ends a stretch of unstable motions, which the series of six harmonics does not show.
         self.assertEqual(len(doublings), 1)
         for frequency in doublings:
@@ -453,15 +451,15 @@ class Attractors(Case):
         section = Table(self.folder / "section.tsv")
         for turn in (0, 1):
             self.assertLess(min(distances(section, orbit, turn)), 1e-4)
-        multiplier = float(re.search(r"multiplier ([\d.e+-]+)", orbit.header)[1])
+        multiplier = orbit.value("multiplier")
         self.assertAlmostEqual(table["lyapunov"][0], math.log(multiplier) / 2, delta=1e-4)
 
     def test_the_exponent_of_a_stable_orbit_is_that_of_its_multiplier(self):
         """Both are of Eq. 7 without truncation: 1e-5 per turn leaves room for steps alone."""
         for frequency in (30, 45):
             with self.subTest(frequency=frequency):
-                header = self.table("orbit", self.machine, "--points", 1, "--frequency", frequency).header
-                multiplier = float(re.search(r"multiplier ([\d.e+-]+)", header)[1])
+                orbit = self.table("orbit", self.machine, "--points", 1, "--frequency", frequency, "--harmonics", 6)
+                multiplier = orbit.value("multiplier")
                 table = self.at(frequency)
                 np.testing.assert_array_equal(table["period"], [1])
                 self.assertAlmostEqual(table["lyapunov"][0], math.log(multiplier), delta=1e-5)
@@ -505,7 +503,7 @@ class Attractors(Case):
                 self.assertEqual((one.returncode, one.stdout, one.stderr), (status, three.stdout, three.stderr))
         self.assertIn("machine.toml: partial, ", one.stderr)
         self.assertIn("the budget is used up, more with --budget", one.stderr)
-        self.assertIn("# incomplete: ", one.stdout)
+        self.assertEqual(Table.of(one.stdout).value("complete"), "no")
         self.assertTrue(0 < Table.of(one.stdout)["starts"].sum() < 28)
 
     def test_the_plot_is_drawn_in_every_format_and_twice_alike(self):
