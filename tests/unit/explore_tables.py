@@ -57,7 +57,7 @@ class Motion(Case):
     def test_any_cage(self):
         """Set 1 with c = 0.43: more turns are the same motion, further on; contact adds up to the force of the orbit."""
         odd = self.file("odd.toml", MACHINE.replace("cage_speed_ratio = 0.5", "cage_speed_ratio = 0.43"))
-        one, three = self.orbit(odd, 45), self.orbit(odd, 45, "--periods", 3)
+        one, three = self.orbit(odd, 45, *TO_1E_3), self.orbit(odd, 45, *TO_1E_3, "--periods", 3)
         np.testing.assert_allclose(three["phase"], 2 * math.pi * np.arange(192) / 64, rtol=1e-12)
         np.testing.assert_array_equal(three["x_r"][:64], one["x_r"])
         self.assertGreater(abs(three["F_x"][64:128] - three["F_x"][:64]).max(), 1)
@@ -65,7 +65,7 @@ class Motion(Case):
         self.assertIn("13,-1", one.members("harmonics")[0])
         self.assertEqual(one.value("harmonics"), len(one.members("harmonics")[0]))
         self.assertTrue({"error_largest", "error_rms", "regime"} <= one.keys().keys())
-        balls = self.table("contact", odd, "--points", 64, "--frequency", 45)
+        balls = self.table("contact", odd, "--points", 64, "--frequency", 45, *TO_1E_3)
         ball, turn = np.array(balls["ball"]), np.array(balls["t_over_T"])
         angle = 2 * math.pi * (0.43 * turn + (ball - 1) / 16)
         force = (np.array(balls["Q"]) * np.cos(angle)).reshape(-1, 16).sum(axis=1)
@@ -73,11 +73,11 @@ class Motion(Case):
 
     def test_response_of_any_cage(self):
         """The last row against the orbit at that speed, over 200 turns where the motion does not repeat."""
-        for old, new, turns in [("cage_speed_ratio = 0.5", "cage_speed_ratio = 0.43", 200),
-                                ("cage_speed_ratio = 0.5", "cage_speed_ratio = 0.40625", 2)]:
+        for old, new, turns, how in [("cage_speed_ratio = 0.5", "cage_speed_ratio = 0.43", 200, TO_1E_3),
+                                     ("cage_speed_ratio = 0.5", "cage_speed_ratio = 0.40625", 2, ["--harmonics", 6])]:
             odd = self.file("odd.toml", MACHINE.replace(old, new))
-            branch = self.table("response", odd, "--from", 50, "--to", 60)
-            orbit = self.orbit(odd, 60, "--periods", turns)
+            branch = self.table("response", odd, "--from", 50, "--to", 60, *how)
+            orbit = self.orbit(odd, 60, *how, "--periods", turns)
             self.assertAlmostEqual(branch["f"][-1], 60)
             for name in ["x_s", "y_s", "x_r", "y_r"]:
                 self.assertAlmostEqual(branch["amp_" + name][-1] / (np.ptp(orbit[name]) / 2), 1, delta=1e-3)
@@ -126,7 +126,7 @@ class Motion(Case):
         self.assertLess(difference(series, exact), 1e-5)
 
     def test_orbit_columns_phases_and_regime(self):
-        table = self.orbit(self.machine, 45)
+        table = self.orbit(self.machine, 45, "--harmonics", 6)
         self.assertEqual(list(table.columns), ["phase", "x_s", "y_s", "x_r", "y_r", "F_x", "F_y"])
         np.testing.assert_allclose(table["phase"], 2 * math.pi * np.arange(64) / 64, rtol=1e-12)
         self.assertEqual((table.value("regime"), table.value("period")), ("periodic", 1))
@@ -134,7 +134,7 @@ class Motion(Case):
         self.assertEqual((aperiodic.value("regime"), aperiodic.value("period", None)), ("undecided", None))
 
     def test_contact_of_every_ball_over_two_periods(self):
-        table = self.table("contact", self.machine, "--frequency", 45, "--points", 32)
+        table = self.table("contact", self.machine, "--frequency", 45, "--points", 32, "--harmonics", 6)
         self.assertEqual(list(table.columns), ["t_over_T", "ball", "Q"])
         self.assertEqual(len(table), 2 * 32 * 16)
         self.assertAlmostEqual(table["t_over_T"][-1], 2 - 1 / 32)
@@ -160,7 +160,8 @@ class Motion(Case):
 
 class Branch(Case):
     def response(self, *options):
-        return self.table("response", self.machine, *WHOLE, *options)
+        how = [] if {"--harmonics", "--restart"} & set(options) else ["--harmonics", 6]
+        return self.table("response", self.machine, *WHOLE, *how, *options)
 
     def cut_off(self, *options):
         """A table that ends before its end, and why."""
@@ -188,7 +189,7 @@ class Branch(Case):
     def test_to_a_tolerance_at_evenly_spaced_speeds(self):
         """Against shooting, which shares neither the orders nor their estimate; down as up."""
         for direction, speeds in [("up", np.linspace(28, 46, 7)), ("down", np.linspace(46, 28, 7))]:
-            table = self.table("response", self.machine, "--from", 28, "--to", 46, "--tolerance", 1e-3, "--count", 7,
+            table = self.table("response", self.machine, "--from", 28, "--to", 46, *TO_1E_3, "--count", 7,
                                "--direction", direction)
             self.assertEqual(list(table.columns), ["f", *AMPLITUDES, "arc", "newton", "error"])
             np.testing.assert_allclose(table["f"], speeds, rtol=1e-12)
@@ -228,7 +229,7 @@ class Branch(Case):
         for first, then in (("--from 29 --to 30 --direction up", "--from 30 --to 31"),
                             ("--from 26 --to 27 --direction down", "--from 25 --to 26")):
             with self.subTest(first):
-                self.table("response", self.machine, *first.split(), "--save", "branch.tsv")
+                self.table("response", self.machine, *first.split(), "--harmonics", 6, "--save", "branch.tsv")
                 self.table("response", self.machine, *then.split(), "--restart", "branch.tsv")
 
     def test_what_is_no_saved_branch_of_this_machine_is_refused_by_line(self):
@@ -260,12 +261,12 @@ class Branch(Case):
         self.refused("another machine", "response", SET_2, *WHOLE, "--restart", "branch.tsv")
 
     def test_a_search_for_isolated_branches_that_was_cut_off_says_so(self):
-        table, reason = self.cut_off(SET_2, *WHOLE, "--isolated", 10, "--budget", "4e7")
+        table, reason = self.cut_off(SET_2, *WHOLE, "--harmonics", 6, "--isolated", 10, "--budget", "4e7")
         self.assertIn("cut off", reason)
         self.assertEqual(table.value("complete"), "no")
 
     def test_a_branch_beside_the_followed_one_is_reported_and_printed(self):
-        table = self.table("response", SET_2, *WHOLE, "--isolated", 10, "--seed", 2)
+        table = self.table("response", SET_2, *WHOLE, "--harmonics", 6, "--isolated", 10, "--seed", 2)
         number, low, high, points, _, word = table.members("branch")[0]
         self.assertEqual((number, points, word), (2, (table["branch"] == 2).sum(), "complete"))
         self.assertEqual((low, high), (table.where("branch", 2)["f"].min(), table.where("branch", 2)["f"].max()))
@@ -388,7 +389,7 @@ class Stability(Case):
                     self.assertLess((multiplier - 1) * side, 0)
 
     def test_what_the_budget_does_not_allow_is_said(self):
-        result = self.run_explore("response", self.machine, *WHOLE, "--stability", "--budget", "2.7e7")
+        result = self.run_explore("response", self.machine, *WHOLE, "--harmonics", 6, "--stability", "--budget", "2.7e7")
         self.assertEqual(result.returncode, 3)
         self.assertIn("points are undecided", result.stderr)
         self.assertIn("used up", result.stderr)
@@ -446,7 +447,7 @@ class Attractors(Case):
     def test_the_subharmonic_orbit_is_the_same_motion(self):
         """1e-4 of the largest displacement: what the truncation of the orbit leaves."""
         table = self.at(20.25, "--starts", 0, "--section", "section.tsv")
-        orbit = self.table("orbit", self.machine, "--frequency", 20.25, "--subharmonic", 2,
+        orbit = self.table("orbit", self.machine, "--frequency", 20.25, "--method", "aft", "--subharmonic", 2,
                            "--points", 1)
         section = Table(self.folder / "section.tsv")
         for turn in (0, 1):

@@ -138,7 +138,7 @@ class Large(Case):
     def test_the_papers_machine(self):
         """Another sign of a force, a wrong weight, a spring k_0 that does not cancel, a verdict that forgets a
         coordinate: each would show."""
-        options = ["--newton-tolerance", "1e-13"]
+        options = ["--harmonics", 6, "--newton-tolerance", "1e-13"]
         for name, speeds in [("set1", [20, 30, 45, 90]), ("set2", [45, 90])]:
             own = self.file("own.toml", self.paper_machine(name))
             for speed in speeds:
@@ -159,7 +159,7 @@ class Large(Case):
         own, rows = self.file("own.toml", text), []
         for kind in ["general", "upper", "lower", "array"]:
             self.folder_of("shaft", *(matrix[2:, 2:] for matrix in whole), kind)
-            lines = self.lines("orbit", own, "--frequency", 45, "--points", 4, "--no-stability")
+            lines = self.lines("orbit", own, "--frequency", 45, "--harmonics", 6, "--points", 4, "--no-stability")
             rows.append([line for line in lines if not line.startswith("#")])
         for other in rows[1:]:
             self.assertEqual(rows[0], other)
@@ -297,7 +297,7 @@ radial_clearance_m = {b["clearance"]}
         own = self.file("shaft.toml", text)
         for s, speed in enumerate(speeds):
             with self.subTest(speed=speed):
-                table = self.table("orbit", own, "--frequency", speed, "--points", 100, "--tolerance", 1e-3)
+                table = self.table("orbit", own, "--frequency", speed, "--points", 100, "--method", "aft", "--tolerance", 1e-3)
                 self.assertEqual(table.value("stability"), "stable")
                 for b, (node, _) in enumerate(bearings):
                     tail = "" if b == 0 else f"_{b + 1}"
@@ -325,7 +325,7 @@ radial_clearance_m = {b["clearance"]}
         branch = self.table("response", own, "--from", 60, "--to", 61, "--harmonics", 20)
         for name in NAMES:
             self.assertAlmostEqual(branch[f"amp_{name}"][0], np.ptp(orbit[name]) / 2, delta=1e-3 * np.ptp(orbit[name]))
-        logged = subprocess.run([EXPLORE, "response", own, "--from", "60", "--to", "61", "--times"],
+        logged = subprocess.run([EXPLORE, "response", own, "--from", "60", "--to", "61", "--harmonics", "6", "--times"],
                                 check=True, capture_output=True, encoding="utf-8").stderr
         self.assertRegex(logged, r"^cpu_machine_s: \d+\.\d+\ncpu_branch_s: \d+\.\d+\n$")
         lines = self.table("spectrum", own, "--frequency", 60, "--harmonics", 20)
@@ -361,7 +361,7 @@ radial_clearance_m = {b["clearance"]}
         """A shaft's contacts vibrate at high multiples of the passing balls: without those above 16 no solution is found. The lines
         of the solution, which integration confirms, are those of the integrated motion."""
         run = ["spectrum", Path("data/rotors/two_disks.toml").resolve(), "--frequency", 45]
-        found = self.table(*run)
+        found = self.table(*run, "--method", "aft", "--tolerance", 1e-3)
         self.assertEqual((found.value("regime"), found.value("stability")), ("quasi-periodic", "stable"))
         settled = self.table(*run, "--method", "gauss", "--longest", 3)
         for name in ["BPFO", "1X", "2BPFO", "4BPFO", "BPFO+1X", "9BPFO-1X"]:
@@ -459,10 +459,10 @@ radial_clearance_m = {b["clearance"]}
         still = self.file("still.toml", torus.replace("kg_m = 2e-3", "kg_m = 0").replace("kg_m = 3e-4", "kg_m = 0"))
         torus = self.file("torus.toml", torus)
         for machine, options in [
-                (own, ["--harmonics", 20]), (own, ["--tolerance", 1e-3]),
+                (own, ["--harmonics", 20]), (own, ["--method", "aft", "--tolerance", 1e-3]),
                 (own, ["--method", "shooting", "--local-error", 1e-6]), (own, ["--method", "gauss", "--local-error", 1e-4, "--longest", 0.05, "--periods", 3]),
                 (slow, ["--harmonics", 4]), (still, ["--harmonics", 8, "--periods", 2]),
-                (torus, ["--tolerance", 0.03, "--periods", 3])]:
+                (torus, ["--method", "aft", "--tolerance", 0.03, "--periods", 3])]:
             with self.subTest(machine=machine.name, options=options):
                 run = [machine, "--frequency", 60, "--points", 32, "--no-stability", *options]
                 if "gauss" in options:
@@ -479,7 +479,7 @@ radial_clearance_m = {b["clearance"]}
                     for axis in "xy":
                         np.testing.assert_allclose(at[axis], orbit[f"{axis}_r{tail}"], rtol=0, atol=1e-12 * size)
         own = self.file("own.toml", self.paper_machine("set1"))
-        run = [own, "--frequency", 20, "--points", 16, "--subharmonic", 2, "--no-stability"]
+        run = [own, "--frequency", 20, "--points", 16, "--method", "aft", "--subharmonic", 2, "--no-stability"]
         shape = self.table("shape", *run, "--nodes", self.file("one.tsv", "z\tx\ty\n0\t1\t2\n"))
         orbit = self.table("orbit", *run)
         for axis in "xy":
@@ -521,7 +521,7 @@ radial_clearance_m = {b["clearance"]}
     def test_shape_refused(self):
         bearing = {"balls": 8, "cage": 0.375, "phase": 0, "stiffness": 1e10, "clearance": 1e-5}
         own = self.file("shaft.toml", self.shaft(4, [(4, bearing)], 4e6)[0])
-        run = ["--frequency", 45, "--points", 4, "--no-stability"]
+        run = ["--frequency", 45, "--points", 4, "--harmonics", 6, "--no-stability"]
         for text, words in [
                 ("", "not a table"), ("z\tx\ty\n", "rows"), ("x\ty\n1\t2\n", "no column z"), ("z\ty\n1\t2\n", "no column x"),
                 ("z\tx\ty\n0\t1\t2\n0\t1\t1\n", "nodes.tsv:3: x and y"), ("z\tx\ty\n0\t1\t21\n", "nodes.tsv:2: y must be"),
@@ -533,8 +533,8 @@ radial_clearance_m = {b["clearance"]}
         self.refused("--nodes", "shape", own, *run)
         self.refused("nowhere.tsv", "shape", own, *run, "--nodes", "nowhere.tsv")
         self.refused("rotor.matrices is missing", "shape", self.machine, *run, "--nodes", nodes)
-        self.refused("gauss", "shape", own, *run[:-1], "--nodes", nodes, "--method", "rk4")
-        self.refused("rows", "shape", own, "--frequency", 45, "--nodes", nodes, "--points", 65536, "--subharmonic", 4)
+        self.refused("gauss", "shape", own, *run[:4], "--nodes", nodes, "--method", "rk4")
+        self.refused("rows", "shape", own, "--frequency", 45, "--nodes", nodes, "--points", 65536, "--method", "aft", "--subharmonic", 4)
         plain = self.table("shape", own, *run, "--nodes", self.file("plain.tsv", "z\tx\ty\n0.5\t5\t6\n0.1\t17\t18\n"))
         self.assertEqual(list(plain["node"]), [1] * 4 + [2] * 4)
         self.assertEqual(plain.members("bearing"), [[1, 2, 0.1]])

@@ -43,7 +43,8 @@ class Machines(Case):
     def orbit(self, text, frequency=45, *options):
         """Without a verdict."""
         if "--method" not in options:
-            options = ["--no-stability", *options]
+            how = [] if "--harmonics" in options else ["--method", "aft"] if "--tolerance" in options else ["--harmonics", 6]
+            options = ["--no-stability", *how, *options]
         return self.table("orbit", self.file("own.toml", text), "--frequency", frequency, "--points", 64, *options)
 
     def assert_same_motion(self, a, b, tolerance):
@@ -105,7 +106,7 @@ class Machines(Case):
         """m_e e ω²/|k - m ω² + i c ω| around the sag, closed form; the verdict is that of the rotor alone."""
         wide = replaced(RIGID, "bearing", "radial_clearance_m", "radial_clearance_m = 0.05")
         rotor, omega = VALUES["rotor"], 2 * math.pi * 45
-        table = self.table("orbit", self.file("wide.toml", wide), "--frequency", 45, "--points", 64)
+        table = self.table("orbit", self.file("wide.toml", wide), "--frequency", 45, "--points", 64, "--harmonics", 6)
         k, c = STIFFNESS["rotor"], 2 * rotor["damping_ratio"] * rotor["mass_kg"] * rotor["natural_frequency_rad_per_s"]
         amplitude = rotor["unbalance_kg_m"] * omega**2 / abs(k - rotor["mass_kg"] * omega**2 + 1j * c * omega)
         self.assertAlmostEqual(table["x_r"].max() / amplitude, 1, delta=2e-3)
@@ -160,11 +161,11 @@ acceleration_m_per_s2 = 9.81
 
     def test_attractors_and_response_take_them(self):
         rigid = self.file("rigid.toml", RIGID)
-        table = self.table("response", rigid, "--from", 44, "--to", 46)
+        table = self.table("response", rigid, "--from", 44, "--to", 46, "--harmonics", 6)
         self.assertLess(table["amp_x_s"].max(), 1e-13)
         self.lines("attractors", rigid, "--from", 45, "--to", 46, "--count", 1, "--starts", 0)
         branch = self.folder / "branch.tsv"
-        self.lines("response", self.machine, "--from", 44, "--to", 46, "--save", branch)
+        self.lines("response", self.machine, "--from", 44, "--to", 46, "--harmonics", 6, "--save", branch)
         loaded = self.file("loaded.toml", MACHINE.replace("[rotor]", "[rotor]\nload_N = [1, 0]"))
         self.refused("another machine", "response", loaded, "--from", 44, "--to", 46, "--restart", branch)
 
@@ -191,7 +192,7 @@ acceleration_m_per_s2 = 9.81
         self.assertEqual(list(torus["period"]), [-1])
         self.assertEqual(torus.value("base"), "two")
         self.assertLess(torus["lyapunov"][0] + 3 * torus["lyapunov_uncertainty"][0], 0)
-        orbit = self.table("orbit", own, "--frequency", 45, "--tolerance", 1e-3, "--points", 64, "--periods", 60)
+        orbit = self.table("orbit", own, "--frequency", 45, "--method", "aft", "--tolerance", 1e-3, "--points", 64, "--periods", 60)
         for name in NAMES:
             self.assertAlmostEqual(torus["amp_" + name][0] / (np.ptp(orbit[name]) / 2), 1, delta=3e-3)
         self.assertEqual(list(attractors(0.4, 45)[1]["period"]), [5])
