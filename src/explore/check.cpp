@@ -135,9 +135,8 @@ Exploration explore_check(const CheckRequest& request)
   }
   const Rest& rest = rests[0];
   if (never_touches(request, machine))
-    warn(
-        format("nothing touches from %g to %g Hz: the clearance of %g m is never closed",
-               request.from, request.to, machine.bearing.clearance));
+    warn(format("nothing touches from %g to %g Hz: the clearance of %g m is never closed",
+                request.from, request.to, machine.bearing.clearance));
   /** A frequency and, in the range, the speed at which the passing balls meet it. */
   const auto add = [&](const std::string& name, double frequency, const char* meaning,
                        double order = 1) {
