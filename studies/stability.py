@@ -19,7 +19,7 @@ sys.path.insert(1, str(Path(__file__).parents[1] / "figures"))
 from tables import STABILITY, Table, explore, print_columns, print_header  # noqa: E402
 
 AMPLITUDES = ("amp_x_s", "amp_y_s", "amp_x_r", "amp_y_r")
-OF_CURVE = ("direction", "samples", "folds", "ended", "undecided_points", "bifurcations_not_located", "evaluations")
+OF_CURVE = ("direction", "samples", "folds", "complete", "undecided_points", "bifurcations_not_located", "evaluations")
 NOT_EXAMINED = -2
 NEAR, ALIKE = 0.1, 0.03  # [Hz], relative: no eye would miss a point so near the one before
 COLUMNS = [
@@ -70,7 +70,7 @@ def curve(scene, number, m):
     """The branches of one data set with m harmonics: up, and down where the first does not reach the end."""
     file = f"data/{scene['parameters'][number]}.toml"
     up = followed(file, scene, m, "up")
-    return [up] if up is not None and up.value("ended") == "yes" else [up, followed(file, scene, m, "down")]
+    return [up] if up is not None and up.value("complete") == "yes" else [up, followed(file, scene, m, "down")]
 
 
 def main(file):

@@ -525,12 +525,6 @@ void put_branch(Table& table, const Task& task, const std::string& base,
   table.value("branch_evaluations", evaluations);
 }
 
-void put_end(Table& table, bool is_whole, const std::string& end)
-{
-  table.value("ended", is_whole ? "yes" : "no");
-  table.note("end of the branch: " + end);
-}
-
 /** The same branch by a time method. */
 Exploration shooting_response(const ResponseRequest& request, const Task& task)
 {
@@ -560,7 +554,7 @@ Exploration shooting_response(const ResponseRequest& request, const Task& task)
   table.value("method", "shooting");
   put_branch(table, task, "turn", branch.folds, branch.evaluations);
   table.value("step", default_step(machine), 4);
-  put_end(table, branch.covered, branch.end);
+  table.note("end of the branch: " + branch.end);
   int undecided = 0;
   std::string why;
   const auto add_multipliers = [&](StablePoint& at, const State& there) {
@@ -719,7 +713,7 @@ Exploration explore_response(const ResponseRequest& request)
   if (two) table.note(format("harmonics chosen at five speeds, z = %d", line.z));
   table.note(
       format("pseudo-arc-length, relative tolerance %g", task.request.newton_tolerance));
-  put_end(table, is_whole(task, main), main.end);
+  table.note("end of the branch: " + main.end);
 
   Others beside;
   if (request.isolated > 0) beside = others(task, balance, main, table);

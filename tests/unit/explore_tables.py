@@ -204,7 +204,7 @@ class Branch(Case):
         table, reason = self.cut_off(SET_2, *WHOLE, "--harmonics", 16, "--budget", "2e5")
         self.assertGreater(len(table), 10)
         why = "the budget of 2e+05 evaluations of the force is used up; more with --budget"
-        self.assertEqual((table.value("complete"), table.value("ended")), ("no", "no"))
+        self.assertEqual(table.value("complete"), "no")
         self.assertIn("the branch stopped at", reason)
         self.assertIn("before --to 60 Hz: " + why, reason)
 
