@@ -34,11 +34,8 @@ set style line stator_down lc rgb '#F9D28A' lw 5 dt 1 pt 5
 max(a, b) = a > b ? a : b
 min(a, b) = a < b ? a : b
 
-# The number of a key of the table, or the first one of the n-th member of a list. Gnuplot reads no "2e-05" from a
-# string, so awk writes it without exponent.
-value_of(key, n) = real(word(system(sprintf( \
-  "awk '$1 == \"#\" && ($2 == \"%s:\" || $2 == \"row\" && $3 == \"%s:\") { printf \"%%.12f \", $2 == \"row\" ? $4 : $3 }' '%s'", \
-  key, key, table)), n))
+# The number of a key of the table, or the first one of the n-th member of a list.
+value_of(key, n) = real(word(system(sprintf("/usr/bin/python3 figures/tables.py '%s' %s", table, key)), n))
 clearance(n) = value_of("clearance", n)
 harmonics(n) = value_of("harmonics", n)
 
