@@ -380,9 +380,6 @@ void note(Table& table, const Task& task)
   table.value("speeds", task.speeds.size());
   table.value("starts", task.request.starts);
   table.value("seed", task.request.seed);
-  table.note(
-      "starts: at each speed from rest, from the motion at the speed below, from that at the "
-      "speed above, and from random states");
   table.note(format(
       "transient: until the section's spread is below %g, at most %.3g s; then observed for "
       "%.3g s if the section closes, %.3g s if aperiodic, %.3g s else",

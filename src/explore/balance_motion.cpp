@@ -96,12 +96,6 @@ std::string basis_of(const ErrorEstimate& error, const std::string& harmonics)
              : "against the motion integrated from rest";
 }
 
-void put_newton(Table& table, const PeriodicMotion& solution)
-{
-  table.value("start", one_word(solution.start));
-  table.note("newton: from " + solution.start + ", " + solution.newton.reason());
-}
-
 /** Without a tolerance any error is accepted, and none is estimated. */
 AdaptiveMotion solved(const Parameters& parameters, const MotionRequest& request,
                       const OperationBudget& budget)
@@ -189,8 +183,10 @@ void note_torus_verdict(Table& table, const JudgedTorus& judged, double frequenc
   }
   const motion::TorusVerdict& verdict = *judged.verdict;
   table.value("stability", verdict.word());
-  table.value("lyapunov", verdict.rate * frequency, 3);
-  table.value("lyapunov_uncertainty", verdict.uncertainty * frequency, 2);
+  if (std::isfinite(verdict.rate) && std::isfinite(verdict.uncertainty)) {
+    table.value("lyapunov", verdict.rate * frequency, 3);
+    table.value("lyapunov_uncertainty", verdict.uncertainty * frequency, 2);
+  }
   table.value("stays", verdict.stays ? "yes" : "no");
   table.value("distance_largest", verdict.away, 3);
   table.note(
@@ -234,7 +230,8 @@ FoundMotion quasi_periodic_motion(const Parameters& parameters,
   for (const auto& [k_1, k_2] : solution.harmonics.list())
     list.emplace_back(format("%g,%g", k_1, k_2));
   table.row_line("harmonics", list);
-  put_newton(table, solution);
+  table.value("start", one_word(solution.start));
+  table.note("newton: " + solution.newton.reason());
   const ErrorEstimate& error = *solution.error;
   put_difference(table, "error", error.displacement, error.rms,
                  basis_of(error, format("%d harmonics", error.harmonics)));
@@ -291,7 +288,8 @@ PeriodicMotion solution_of(const Parameters& parameters, const MotionRequest& re
   table.value("samples", at.motion.samples / turns);
   if (turns > 1) table.note(format("orders h/%d of the speed", turns));
   if (is_chosen) add_orders(table, at.motion);
-  put_newton(table, at.motion);
+  table.value("start", one_word(at.motion.start));
+  table.note("newton: " + at.motion.newton.reason());
   table.value("force_samples", std::max(at.force_samples, at.motion.force_samples));
   if (const auto& error = at.motion.error; error && (turns > 1 || request.tolerance))
     put_difference(table, "error", error->displacement, error->rms,

@@ -418,13 +418,12 @@ Others others(const Task& task, Balance& balance, const Branch& main, Table& tab
   return others;
 }
 
-/** One line in all, then one line per bifurcation. */
+/** Of a branch: points without a verdict, bifurcations seen and not located; then one line
+    for each bifurcation. */
 void note(Table& table, const Task& task, std::size_t number,
           const BranchStability& stability)
 {
-  const std::string tail = number == 1 ? "" : format("_%zu", number);
-  table.value("undecided_points" + tail, stability.failed);
-  table.value("bifurcations_not_located" + tail, stability.missed);
+  table.row_line("undecided", {number, stability.failed, stability.missed});
   if (stability.failed > 0) {
     const auto first = std::ranges::find(stability.points, false, &StablePoint::examined);
     table.note(format("branch %zu, undecided points: the first at %.6g Hz: %s", number,
@@ -580,7 +579,7 @@ Exploration shooting_response(const ResponseRequest& request, const Task& task)
     table.row(fields, Row{at, Eigen::Map<const Eigen::Vector4d>(amplitude.data()), 1,
                           task, motion, motion::series_of(motion, task.harmonics)});
   }
-  if (request.stability) table.value("undecided_points", undecided);
+  if (request.stability) table.row_line("undecided", {1, undecided, 0});
   if (undecided > 0) table.note("undecided points: " + why);
   const bool is_missing = undecided > 0 && task.budget.used_up();
   const std::string missing =
