@@ -118,6 +118,16 @@ class Formats(Case):
         rows = list(csv.DictReader(io.StringIO("\n".join(self.lines(*arguments, "--format", "csv")))))
         np.testing.assert_array_equal([float(row["x_r"]) for row in rows], table["x_r"])
 
+    def test_a_title_is_no_value(self):
+        """Titles with words of headers. Would catch a reader that takes the first match in the whole header."""
+        words = "stator: rigid, frequency: 99, delta = 7, clearance: 7"
+        own = self.file("own.toml", MACHINE.replace("Data set 1", words))
+        usual, odd = (self.table("orbit", machine, *AT_45, *SIX) for machine in (self.machine, own))
+        self.assertIn(words, odd.header)
+        self.assertEqual((odd.keys(), odd.bodies()), (usual.keys(), "rs"))
+        whole = json.loads("\n".join(self.lines("orbit", own, *AT_45, *SIX, "--format", "json")))
+        self.assertEqual((whole["values"]["frequency"], whole["values"]["clearance"]), (45, 2e-5))
+
     def test_figure_keeps_the_chosen_columns(self):
         """The figure needs columns that are not printed."""
         table = self.table("orbit", self.machine, *AT_45, *SIX, "--columns", "t", "--plot", "orbit.svg")
