@@ -223,8 +223,8 @@ FoundMotion quasi_periodic_motion(const Parameters& parameters,
   table.value("samples", solution.samples);
   table.value("unknowns", solution.x.size());
   table.note(format(
-      "two frequencies: omega and n omega_cage = %.9g omega; z = %d, relative tolerance of "
-      "Newton %g; row harmonics: k_1,k_2 of k_1 omega + k_2 n omega_cage",
+      "two frequencies: omega and n omega_cage = %.9g omega; z = %d, relative tolerance "
+      "of Newton %g; row harmonics: k_1,k_2 of k_1 omega + k_2 n omega_cage",
       passages, solution.line.z, level_tolerance(settings)));
   std::vector<Cell> list;
   for (const auto& [k_1, k_2] : solution.harmonics.list())

@@ -418,8 +418,8 @@ Others others(const Task& task, Balance& balance, const Branch& main, Table& tab
   return others;
 }
 
-/** Of a branch: points without a verdict, bifurcations seen and not located; then one line
-    for each bifurcation. */
+/** Of a branch: points without a verdict, bifurcations seen and not located; then one
+    line for each bifurcation. */
 void note(Table& table, const Task& task, std::size_t number,
           const BranchStability& stability)
 {

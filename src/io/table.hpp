@@ -93,8 +93,9 @@ public:
   bool choose(const std::string& names, std::size_t usual, bool is_drawn);
 
   /** Lines of the header before the first row, of the footer after it: what was modelled;
-      its values in words; a key; a member of a list; a sentence. Throw NoSolution for a number that is not
-      finite, std::logic_error for a key set twice or a value of several words. */
+      its values in words; a key; a member of a list; a sentence. Throw NoSolution for a
+      number that is not finite, std::logic_error for a key set twice or a value of several
+      words. */
   void parameters(const std::string& source) { line("parameters: " + source); }
   void detail(const std::string& text) { line("  " + text); }
   void value(const std::string& key, const Cell& value);
