@@ -419,13 +419,12 @@ Others others(const Task& task, Balance& balance, const Branch& main, Table& tab
   return others;
 }
 
-/** One line in all, then one line per bifurcation. */
+/** Of a branch: points without a verdict, bifurcations seen and not located; then one
+    line for each bifurcation. */
 void note(Table& table, const Task& task, std::size_t number,
           const BranchStability& stability)
 {
-  const std::string tail = number == 1 ? "" : format("_%zu", number);
-  table.value("undecided_points" + tail, stability.failed);
-  table.value("bifurcations_not_located" + tail, stability.missed);
+  table.row_line("undecided", {number, stability.failed, stability.missed});
   if (stability.failed > 0) {
     const auto first = std::ranges::find(stability.points, false, &StablePoint::examined);
     table.note(format("branch %zu, undecided points: the first at %.6g Hz: %s", number,
@@ -526,12 +525,6 @@ void put_branch(Table& table, const Task& task, const std::string& base,
   table.value("branch_evaluations", evaluations);
 }
 
-void put_end(Table& table, bool is_whole, const std::string& end)
-{
-  table.value("ended", is_whole ? "yes" : "no");
-  table.note("end of the branch: " + end);
-}
-
 /** The same branch by a time method. */
 Exploration shooting_response(const ResponseRequest& request, const Task& task)
 {
@@ -561,7 +554,7 @@ Exploration shooting_response(const ResponseRequest& request, const Task& task)
   table.value("method", "shooting");
   put_branch(table, task, "turn", branch.folds, branch.evaluations);
   table.value("step", default_step(machine), 4);
-  put_end(table, branch.covered, branch.end);
+  table.note("end of the branch: " + branch.end);
   int undecided = 0;
   std::string why;
   const auto add_multipliers = [&](StablePoint& at, const State& there) {
@@ -587,7 +580,7 @@ Exploration shooting_response(const ResponseRequest& request, const Task& task)
     table.row(fields, Row{at, Eigen::Map<const Eigen::Vector4d>(amplitude.data()), 1,
                           task, motion, motion::series_of(motion, task.harmonics)});
   }
-  if (request.stability) table.value("undecided_points", undecided);
+  if (request.stability) table.row_line("undecided", {1, undecided, 0});
   if (undecided > 0) table.note("undecided points: " + why);
   const bool is_missing = undecided > 0 && task.budget.used_up();
   const std::string missing =
@@ -722,7 +715,7 @@ Exploration explore_response(const ResponseRequest& request)
   if (two) table.note(format("harmonics chosen at five speeds, z = %d", line.z));
   table.note(
       format("pseudo-arc-length, relative tolerance %g", task.request.newton_tolerance));
-  put_end(table, is_whole(task, main), main.end);
+  table.note("end of the branch: " + main.end);
 
   Others beside;
   if (request.isolated > 0) beside = others(task, balance, main, table);

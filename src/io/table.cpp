@@ -132,12 +132,6 @@ void Table::line(const std::string& text)
   (rows_.empty() && !write_ ? head_ : foot_) += "# " + printable(text) + "\n";
 }
 
-void Table::parameters(const std::string& source, const std::vector<std::string>& details)
-{
-  line("parameters: " + source);
-  for (const std::string& detail : details) line("  " + detail);
-}
-
 void Table::value(const std::string& key, const Cell& value)
 {
   if (!value.is_finite()) throw NoSolution("the value of " + key + " is not finite");
@@ -146,11 +140,6 @@ void Table::value(const std::string& key, const Cell& value)
     throw std::logic_error("header: " + key + ": " + value.text());
   values_.emplace_back(key, value);
   line(key + ": " + value.text());
-}
-
-void Table::value(const std::string& key, double number, int digits)
-{
-  value(key, std::stod(format("%.*g", digits, number)));
 }
 
 void Table::row_line(const std::string& name, const std::vector<Cell>& cells)
@@ -162,11 +151,6 @@ void Table::row_line(const std::string& name, const std::vector<Cell>& cells)
   }
   lists_.emplace_back(name, cells);
   line("row " + name + ": " + joined(words, ' '));
-}
-
-void Table::note(const std::string& sentence)
-{
-  line("note: " + sentence);
 }
 
 void Table::row(std::vector<Cell> cells)

@@ -11,6 +11,8 @@ The source of a table is stamped when the library is compiled. A new commit alon
 #include <variant>
 #include <vector>
 
+#include "io/errors.hpp"
+
 namespace rotor_stator {
 
 /** Name and version of the project and the revision of its source, with "-dirty" after
@@ -91,13 +93,18 @@ public:
   bool choose(const std::string& names, std::size_t usual, bool is_drawn);
 
   /** Lines of the header before the first row, of the footer after it: what was modelled;
-      a key; a member of a list; a sentence. Throw NoSolution for a number that is not
-      finite, std::logic_error for a key set twice or a value of several words. */
-  void parameters(const std::string& source, const std::vector<std::string>& details);
+      its values in words; a key; a member of a list; a sentence. Throw NoSolution for a
+      number that is not finite, std::logic_error for a key set twice or a value of several
+      words. */
+  void parameters(const std::string& source) { line("parameters: " + source); }
+  void detail(const std::string& text) { line("  " + text); }
   void value(const std::string& key, const Cell& value);
-  void value(const std::string& key, double number, int digits);
+  void value(const std::string& key, double number, int digits)
+  {
+    value(key, std::stod(format("%.*g", digits, number)));
+  }
   void row_line(const std::string& name, const std::vector<Cell>& cells);
-  void note(const std::string& sentence);
+  void note(const std::string& sentence) { line("note: " + sentence); }
 
   /** Throws NoSolution if a number is not finite: no NaN is ever printed as a result. */
   void row(std::vector<Cell> cells);

@@ -24,7 +24,7 @@ struct Settled {
   long periods = 0;        ///< integrated
   State state = {};        ///< at their end
 
-  /** An open section may be that of two frequencies or of chaos: no exponent is measured. */
+  /** An open section may be of two frequencies or of chaos: no exponent is measured. */
   const char* regime() const { return period > 0 ? "periodic" : "undecided"; }
 };
 

@@ -95,10 +95,13 @@ public:
       throw NoSolution(too_far(motion.distance_rms, "rms about the mean"));
   }
 
+  /** Distance of the nearest motion closed, at phase 0; 0 without one. */
+  double nearest() const { return std::isfinite(nearest_) ? nearest_ : 0; }
+
   /** Why no motion was found. */
   std::string reason() const
   {
-    return std::isfinite(nearest_)
+    return nearest() > 0
                ? too_far(nearest_, "of the largest displacement at phase 0")
                : "no motion of its period was found from it: " + shooting_.reason;
   }
@@ -378,7 +381,7 @@ Verdict verdict_on(const Parameters& parameters, const PeriodicMotion& solution,
   Shootings shootings(longer, solution, budget.part(0.5));
   std::vector<Verdict> motions;  // within reach
   std::string reason;
-  double evaluations = 0;
+  double evaluations = 0, refused = 0;
   /** The distance of the solution from the motion that was closed, 0 where none was. */
   const auto add = [&](const std::function<bool(State&)>& close) {
     Verdict motion;
@@ -389,7 +392,10 @@ Verdict verdict_on(const Parameters& parameters, const PeriodicMotion& solution,
       add_multipliers(longer, solution.omega, budget, motion);
       motions.push_back(motion);
     } catch (const NoSolution& error) {
-      if (reason.empty()) reason = error.what();
+      if (reason.empty()) {
+        reason = error.what();
+        refused = motion.distance > 0 ? motion.distance : shootings.nearest();
+      }
     }
     evaluations += motion.evaluations;
     return motion.distance;
@@ -413,6 +419,7 @@ Verdict verdict_on(const Parameters& parameters, const PeriodicMotion& solution,
       verdict.lost = first.lost;
     }
   }
+  if (!verdict.found()) verdict.refused = refused;
   verdict.evaluations = evaluations + shootings.evaluations();
   return verdict;
 }

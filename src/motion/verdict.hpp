@@ -33,6 +33,7 @@ inline constexpr double same_motion = 0.05;
 
 struct Verdict {
   std::string reason = {};  ///< why nothing is known; empty when a motion was found
+  double refused = 0;       ///< distance of one that is too far away to be its own [-]
   Floquet floquet = {};     ///< of the motion found
   State state = {};         ///< of the motion found, at phase 0
   double distance =
