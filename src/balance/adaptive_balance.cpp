@@ -149,11 +149,15 @@ double level_tolerance(const AdaptiveSettings& settings)
 
 AdaptiveMotion solve_adaptively(const ObservedProblem& observed, double omega,
                                 const ColdSolve& cold_solve,
-                                const AdaptiveSettings& settings)
+                                const AdaptiveSettings& settings,
+                                const Eigen::VectorXd& neighbour)
 {
   NewtonSettings newton = limited(settings.newton, few_iterations, few_halvings);
   newton.tolerance = level_tolerance(settings);
-  return Search{observed, omega, cold_solve, settings, newton}.run();
+  Search search{observed, omega, cold_solve, settings, newton};
+  search.start = neighbour;
+  if (neighbour.size() > 0) search.result.motion.start = "the solution before";
+  return search.run();
 }
 
 /**

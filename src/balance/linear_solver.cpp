@@ -7,8 +7,8 @@
 
 namespace rotor_stator {
 
-/** Gram-Schmidt, twice: the product loses its parts along the basis and becomes its column
-    k+1. */
+/** Gram-Schmidt, twice: the product loses its parts along the basis and becomes its
+    column k+1. */
 void Gmres::orthogonalise(int k)
 {
   const auto known = basis_.leftCols(k + 1);
@@ -68,19 +68,22 @@ Gmres::Report Gmres::solve(const Operator& apply, const Operator& precondition,
 
 namespace {
 
-/** Harmonics whose coupling through the contact is weaker than this leave the dense block. */
+/** Harmonics whose coupling through the contact is weaker than this leave the dense
+    block. */
 constexpr double weak_coupling = 1;
 
 /** Past this share of all harmonics the dense block takes them all. */
 constexpr double most_low_share = 0.8;
 
-/** Above so many harmonics the mean stiffness is near enough, and a larger block costs more than it saves. */
+/** Above so many harmonics the mean stiffness is near enough, and a larger block costs
+    more than it saves. */
 constexpr int most_low = 128;
 
 /** The dense block and its factors stay below 0.3 GB. */
 constexpr int most_low_unknowns = 4200;
 
-/** Up to this many unknowns new factors of all cost less than the iterations of GMRES that they save. */
+/** Up to this many unknowns new factors of all cost less than the iterations of GMRES
+    that they save. */
 constexpr Eigen::Index most_direct_unknowns = 130;
 
 constexpr int most_iterations = 80;

@@ -3,9 +3,10 @@
 
 ## GMRES
 
-The generalised minimal residual method of Saad and Schultz (1986), preconditioned from the
-right, so that its residual is that of the equations. Eigen's own (unsupported) takes a relative
-tolerance only, allocates at each call and wants the operator dressed as a sparse matrix. */
+The generalised minimal residual method of Saad and Schultz (1986), preconditioned from
+the right, so that its residual is that of the equations. Eigen's own (unsupported) takes
+a relative tolerance only, allocates at each call and wants the operator dressed as a
+sparse matrix. */
 #pragma once
 
 #include <Eigen/Core>
@@ -47,16 +48,16 @@ private:
 
     BalanceSolver solver(balance);
     solver.omega = omega;
-    solver.solve(x, balance.residual(x, omega), goal, step);  // (A + B J) step = residual, at X and ω
+    solver.solve(x, balance.residual(x, omega), goal, step);  // (A + B J) step = R
 
-With few harmonics the Jacobian is factored whole. With more, GMRES solves with its product, m log m
-operations an iteration. What preconditions it are the factors of a dense block, of the low harmonics,
-which the contact couples, and above it one small inverse per harmonic, with the contact's mean
-stiffness, where inertia decides. Factors are kept from call to call until they need too many
-iterations. */
+With few harmonics the Jacobian is factored whole. With more, GMRES solves with its
+product, m log m operations an iteration. What preconditions it are the factors of a dense
+block, of the low harmonics, which the contact couples, and above it one small inverse per
+harmonic, with the contact's mean stiffness, where inertia decides. Factors are kept from
+call to call until they need too many iterations. */
 
-/** How a solution was found: by the factors of this point; by those of an earlier one, which leaves an
-    error of their distance; by GMRES; or not, by GMRES. */
+/** How a solution was found: by the factors of this point; by those of an earlier one,
+    which leaves an error of their distance; by GMRES; or not, by GMRES. */
 enum class Solved { directly, by_old_factors, iteratively, poorly };
 
 /** J s = b at the points that an iteration passes. */
@@ -80,8 +81,8 @@ public:
   {
   }
 
-  /** Preconditions by a dense block for each of these sets of places in the list of harmonics, which
-      together are all of them. */
+  /** Preconditions by a dense block for each of these sets of places in the list of
+      harmonics, which together are all of them. */
   BalanceSolver(Balance& balance, const std::vector<std::vector<int>>& blocks);
 
   double omega = 0;  ///< of the balance [rad/s]

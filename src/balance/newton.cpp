@@ -61,8 +61,8 @@ NewtonReport newton(Equations& equations, LinearSolver& solver, Eigen::VectorXd&
       return report;
     }
     report.delta_1 = norm / equations.residual_scale;
-    /** After Newton's own step the error is of the order of δ₂²; after another one it is what its contraction
-        leaves of δ₂, or what so small a residual allows. */
+    /** After Newton's own step the error is of the order of δ₂²; after another one it is
+        what its contraction leaves of δ₂, or what so small a residual allows. */
     if (report.delta_1 <= tolerance && report.delta_2 <= std::sqrt(tolerance) &&
         (how == Solved::directly || report.delta_1 <= 0.1 * tolerance ||
          norm / before * report.delta_2 <= 0.1 * tolerance)) {

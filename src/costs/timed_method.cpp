@@ -229,17 +229,23 @@ public:
   }
 
 private:
-  void begin() override { bodies_.assign(task_.frequencies.size(), {}); }
+  void begin() override
+  {
+    bodies_.assign(task_.frequencies.size(), {});
+    before_.resize(0);
+  }
 
   void solve(std::size_t speed) override
   {
     const AdaptiveMotion at =
         motion::solve_adaptively(task_.parameters, angular(task_.frequencies[speed]),
-                                 {.tolerance = setting_.tolerance});
+                                 {.tolerance = setting_.tolerance}, {}, before_);
     counts_.force_instants += at.force_samples;
+    before_ = at.reached ? at.motion.x : Eigen::VectorXd();
     if (at.reached) bodies_[speed] = at.motion.bodies;
   }
 
+  Eigen::VectorXd before_;               ///< the last solution
   std::vector<Eigen::MatrixXd> bodies_;  ///< series found, by speed
 };
 

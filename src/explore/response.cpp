@@ -601,6 +601,7 @@ Exploration response_to_tolerance(const ResponseRequest& request, const Task& ta
   Table table("Frequency response at evenly spaced speeds", fields);
   const bool has_further = table.choose(request.columns, usual, request.plot.has_value());
   describe(table, task.machine);
+  constexpr double seconds_each = 1;  // without a budget of the user's
   std::vector<StablePoint> points;
   std::string missing;
   int missed = 0;
@@ -608,8 +609,12 @@ Exploration response_to_tolerance(const ResponseRequest& request, const Task& ta
   for (int k = 0; k < count; ++k) {
     const auto [from, to] = task.range();
     const double omega = from + (to - from) * k / std::max(1, count - 1);
-    AdaptiveMotion at = motion::solve_adaptively(parameters, omega,
-                                                 {.tolerance = tolerance}, task.budget);
+    const OperationBudget share =
+        request.budget ? task.budget
+                       : budget_of(std::optional<double>(), seconds_each, parameters);
+    AdaptiveMotion at = motion::solve_adaptively(
+        parameters, omega, {.tolerance = tolerance}, share,
+        points.empty() ? Eigen::VectorXd() : points.back().point.motion.x);
     if (!at.reached) {
       if (missed++ == 0)
         missing =
