@@ -11,6 +11,7 @@
 #include "stability/period_map.hpp"
 #include "stability/shooting.hpp"
 #include "support/cases.hpp"
+#include "time/gsl.hpp"
 
 using namespace rotor_stator;
 using namespace rotor_stator::tests;
