@@ -1,46 +1,16 @@
 #include "stability/period_map.hpp"
 
-#include <gsl/gsl_errno.h>
 #include <algorithm>
-#include <array>
 
 #include "integration/gauss.hpp"
 #include "integration/time_stepper.hpp"
 #include "io/errors.hpp"
+#include "time/gsl.hpp"
+#include "time/rk8.hpp"
 
 namespace rotor_stator {
 
 namespace {
-
-constexpr int equations = 8 + 8 * 8;
-constexpr double with_variations = 3;  ///< evaluations of Eq. 7 that take as long
-
-/** What GSL's callback sees. */
-struct Variation {
-  RotorStator system;
-  DisturbanceRates rates;
-  PaidEvaluations evaluations;
-};
-
-/** State first, then the displacements and the speeds of the disturbances. */
-int derivative(double t, const double y[], double dydt[], void* data)
-{
-  auto& variation = *static_cast<Variation*>(data);
-  const RotorStator& system = variation.system;
-  if (!variation.evaluations.pay()) return GSL_EBADFUNC;
-  const double phase = system.omega() * t;
-  const Bodies q_now = bodies_at(y), v_now = bodies_at(y + 4);
-  const Angles at = system.bearing().angles(phase);
-  const BearingReaction bearing =
-      system.bearing().reaction(at, q_now.relative(), v_now.relative());
-  std::copy_n(y + 4, 4, dydt);
-  put(system.acceleration(q_now, v_now, at.rotor, bearing.force), dydt + 4);
-
-  const Eigen::Map<const Disturbances> q(y + 8), v(y + 40);
-  Eigen::Map<Disturbances>(dydt + 8) = v;
-  Eigen::Map<Disturbances>(dydt + 40) = variation.rates.acceleration(bearing, q, v);
-  return Eigen::Map<Vector8>(dydt).allFinite() ? GSL_SUCCESS : GSL_EBADFUNC;
-}
 
 /** The same of bodies given by matrices. Steps for the derivative need not be as small as those for the state. */
 PeriodMap large_period_map(const Parameters& parameters, double omega, const State& start,
@@ -56,20 +26,6 @@ PeriodMap large_period_map(const Parameters& parameters, double omega, const Sta
   return map;
 }
 
-/** Error scales: those of the state; the variations are given so much room that they never
-    decide the step. */
-std::array<double, equations> error_scales(const Parameters& parameters)
-{
-  constexpr double room = 1e6;
-  const Vector8 sizes = state_scales(parameters);
-  std::array<double, equations> scale;
-  for (int i = 0; i < 8; ++i) {
-    scale[i] = sizes[i];
-    for (int j = 0; j < 8; ++j) scale[8 + 8 * i + j] = room * sizes[i] / sizes[j];
-  }
-  return scale;
-}
-
 }  // namespace
 
 PeriodMap period_map(const Parameters& parameters, double omega, const State& start,
@@ -78,21 +34,16 @@ PeriodMap period_map(const Parameters& parameters, double omega, const State& st
 {
   if (parameters.large)
     return large_period_map(parameters, omega, start, tolerance, budget);
-  Variation variation{{parameters, omega},
-                      DisturbanceRates(parameters),
-                      {budget, with_variations * evaluation_price(parameters, method)}};
-  gsl_odeiv2_system system{derivative, nullptr, equations, &variation};
-  const double period = variation.system.period();
-  GslDriver driver(system, method, std::min(period, default_step(parameters)), tolerance,
-                   error_scales(parameters).data());
-  std::array<double, equations> y{};
-  Eigen::Map<Vector8>(y.data()) = vector_of(start);
-  Eigen::Map<Matrix8> disturbances(y.data() + 8);  // the transpose of Φ
-  disturbances.setIdentity();
-  driver.advance(0, period, y.data(), variation.evaluations);
-  return {.end = {bodies_at(y.data()), bodies_at(y.data() + 4)},
-          .derivative = disturbances.transpose(),
-          .evaluations = variation.evaluations.count};
+  if (method == "rk8") {
+    Rk8 rk8(parameters, omega, 1, tolerance, budget);
+    PeriodMap map{.end = start, .derivative = {}, .evaluations = 0};
+    Matrix8 derivative = Matrix8::Identity();
+    rk8.advance(0, map.end, derivative);
+    map.derivative = derivative;
+    map.evaluations = rk8.evaluations();
+    return map;
+  }
+  return gsl_period_map(parameters, omega, start, tolerance, method, budget);
 }
 
 PeriodMapTwice period_map_twice(const Parameters& parameters, double omega,
@@ -100,7 +51,7 @@ PeriodMapTwice period_map_twice(const Parameters& parameters, double omega,
                                 const OperationBudget& budget)
 {
   const auto map = [&](const State& from, double error) {
-    return period_map(parameters, omega, from, error, "rk8pd", budget);
+    return period_map(parameters, omega, from, error, "rk8", budget);
   };
   const PeriodMap first = map(start, tolerance);
   return {first, map(first.end, finer)};
@@ -151,9 +102,8 @@ PeriodMap Rk4PeriodMap::map(const State& start)
   Varied q{start.position, Disturbances::Zero()}, v{start.velocity, Disturbances::Zero()};
   q.disturbances.topRows<4>().setIdentity();
   v.disturbances.bottomRows<4>().setIdentity();
-  rk4_.each_step(0, [&](const Angles* at) {
-    nystrom_step(rk4_.step(), at, q, v, acceleration);
-  });
+  rk4_.each_step(
+      0, [&](const Angles* at) { nystrom_step(rk4_.step(), at, q, v, acceleration); });
   const long evaluations = 4L * rk4_.steps_per_interval();
   evaluations_ += evaluations;
   Matrix8 derivative;

@@ -7,8 +7,8 @@ equations
 $$\dot{\delta q} = \delta v, \qquad M\, \dot{\delta v} = -(K + k(t))\,\delta q - C\,\delta v,$$
 
 where k(t) is the bearing's stiffness on the motion itself. Both are integrated together, 72
-equations, by one of GSL's explicit steppers; the step is chosen by the state alone, which is what the
-answer depends on. */
+equations, by rk8 or one of GSL's explicit steppers; the step is chosen by the state alone, which is
+what the answer depends on. */
 #pragma once
 
 #include <Eigen/Core>
@@ -19,8 +19,6 @@ answer depends on. */
 
 namespace rotor_stator {
 
-using Matrix8 = Eigen::Matrix<double, 8, 8>;
-
 struct PeriodMap {
   State end;
   Eigen::MatrixXd derivative;  ///< Φ
@@ -30,7 +28,7 @@ struct PeriodMap {
 /** From `start` at phase 0. `tolerance`: local error per step, over the size of each component.
     Throws NoSolution when the integration breaks down or the budget is used up. */
 PeriodMap period_map(const Parameters& parameters, double omega, const State& start,
-                     double tolerance, const std::string& method = "rk8pd",
+                     double tolerance, const std::string& method = "rk8",
                      const OperationBudget& budget = {});
 
 /** The map from `start`, and from where that leads with the smaller local error `finer`: their derivatives
