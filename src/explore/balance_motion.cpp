@@ -33,16 +33,21 @@ void note_verdict(Table& table, const Parameters& parameters,
         format("warning: the solution is not accurate, its rms error about the mean "
                "is %.2g %%; more harmonics or --tolerance help",
                100 * verdict.distance_rms));
-  put_regime(table, verdict.settled(turns).period);
-  const motion::Settled& there = verdict.from_there;
-  if (there.periods > 0) {
-    table.value("regime_from_there", there.regime());
+  const Settled& there = verdict.from_there;
+  if (!verdict.stable())
+    put_regime(table, there.period, word(there.kind), there.reason);
+  else if (verdict.moves)
+    put_regime(table, turns);
+  else
+    put_regime(table, 0, word(Kind::rest));
+  if (there.seconds > 0) {
+    table.value("regime_from_there", word(there.kind));
     if (there.period > 0) table.value("period_from_there", there.period);
     table.note(
-        format("from the solution, disturbed by 1e-6: a section of spread %.2g after "
-               "%ld periods%s",
-               there.spread, there.periods,
-               there.aperiodic ? ", which stays open; no exponent was measured" : ""));
+        format("from the solution, disturbed by 1e-3 of the sizes: %s after %.3g s, "
+               "neighbours part by %.3g +- %.1g/s",
+               word(there.kind), there.seconds, there.lyapunov.value,
+               3 * there.lyapunov.error));
   }
   if (!verdict.lost.empty()) table.note("from the solution: " + verdict.lost);
   table.value("verdict_evaluations", verdict.evaluations, 3);
@@ -281,7 +286,7 @@ PeriodicMotion solution_of(const Parameters& parameters, const MotionRequest& re
                              : basis_of(*error, format("m = %d", error->harmonics)));
   if (request.stability) {
     note_verdict(table, parameters,
-                 motion::verdict_on(parameters, at.motion, budget, turns), turns);
+                 motion::judge(parameters, at.motion, budget, turns), turns);
   } else {
     note_no_verdict(table);
   }

@@ -21,55 +21,46 @@ double apart(const Parameters& parameters, const State& a, const State& b)
       .maxCoeff();
 }
 
-Settled settle(const Parameters& parameters, double omega, const State& state,
-               const OperationBudget& budget, const State* away_from,
-               const SettleRule& rule)
-{
-  constexpr double open = 1e-4, left = 1e-3;
-  const double step = rule.step > 0 ? rule.step : 0.5 * default_step(parameters);
-  const TimeStepper stepper = make_stepper(
-      parameters, omega,
-      {.method = "rk4", .intervals_per_period = 1, .step = step, .budget = budget});
-  const double size = state_scales(parameters)[0];
-  Settled settled{.state = state};
-  std::vector<double> least;
-  for (int blocks = 0; blocks < rule.most_blocks; ++blocks) {
-    std::vector<Displacements> section;
-    double nearest = std::numeric_limits<double>::infinity();
-    for (long k = 0; k < rule.block; ++k) {
-      stepper.advance(settled.periods++, settled.state);
-      if (k < rule.block - 3 * rule.most_period) continue;
-      section.push_back(displacements(settled.state.position));
-      if (away_from)
-        nearest = std::min(nearest, apart(parameters, settled.state, *away_from));
-    }
-    if (!vector_of(settled.state).allFinite())
-      throw NoSolution(
-          format("time integration diverged after %ld periods", settled.periods));
-    const SectionJudgement judged = judge_section(
-        section, size, {}, {.periodic = rule.closed, .most_period = rule.most_period});
-    settled.spread = judged.spread_k;
-    if (settled.spread <= rule.closed && nearest > left) {
-      settled.period = judged.period;
-      return settled;
-    }
-    least.push_back(settled.spread);
-    if (least.size() < 4) continue;
-    /** Neither closed nor on the way to it over the last three blocks. */
-    const auto [low, high] = std::minmax_element(least.end() - 3, least.end());
-    settled.aperiodic =
-        *low > open && *low > 0.3 * *high && least.back() > 0.7 * *(least.end() - 3);
-    if (settled.aperiodic) break;
-  }
-  return settled;
-}
-
 namespace {
 
 /** The fewest periods [s] that are not shorter than `seconds`, at least one. */
 long periods_in(double seconds, double period)
 {
   return std::max(1L, std::lround(std::ceil(seconds / period)));
+}
+
+/** A state after the transient, and the periods that it took. */
+struct Forgotten {
+  State state;
+  long periods = 0;
+};
+
+/** Integrates block after block until the section closes, or is seen to stay open. Throws NoSolution when the
+    integration diverges. */
+Forgotten after_transient(const TimeStepper& stepper, const State& start, double size,
+                          const VerdictRule& rule, long block, long most_blocks)
+{
+  constexpr double open = 1e-4;
+  Forgotten at{start};
+  std::vector<double> least;
+  for (long blocks = 0; blocks < most_blocks; ++blocks) {
+    std::vector<Displacements> section;
+    for (long k = 0; k < block; ++k) {
+      stepper.advance(at.periods++, at.state);
+      if (k >= block - 3 * rule.most_period)
+        section.push_back(displacements(at.state.position));
+    }
+    if (!vector_of(at.state).allFinite())
+      throw NoSolution(format("time integration diverged after %ld periods", at.periods));
+    least.push_back(judge_section(section, size, {}, rule).spread_k);
+    if (least.back() <= rule.periodic) break;
+    if (least.size() < 4) continue;
+    /** Neither closed nor on the way to it over the last three blocks. */
+    const auto [low, high] = std::minmax_element(least.end() - 3, least.end());
+    if (*low > open && *low > 0.3 * *high && least.back() > 0.7 * *(least.end() - 3))
+      break;
+  }
+  return at;
 }
 
 /** Sums and extremes of the displacements over instants. */
@@ -171,15 +162,16 @@ Attractor attractor_from(const Parameters& machine, double omega, const State& s
   };
   const long block = repeated(
       std::max(periods_in(settings.block, period), 3L * settings.rule.most_period));
-  const Settled settled =
-      settle(machine, omega, start, stepper.budget, nullptr,
-             {.closed = settings.settled,
-              .most_period = settings.rule.most_period,
-              .block = block,
-              .most_blocks = static_cast<int>(
-                  periods_in(settings.longest / static_cast<double>(block), period)),
-              .step = stepper.step > 0 ? stepper.step : default_step(machine)});
   const Eigen::VectorXd sizes = state_scales(machine);
+  const Forgotten settled = after_transient(
+      make_stepper(machine, omega,
+                   {.method = "rk4",
+                    .intervals_per_period = 1,
+                    .step = stepper.step > 0 ? stepper.step : default_step(machine),
+                    .budget = stepper.budget}),
+      start, sizes[0],
+      {.periodic = settings.settled, .most_period = settings.rule.most_period}, block,
+      periods_in(settings.longest / static_cast<double>(block), period));
   Observation seen{settings,
                    period,
                    1e-6 * sizes[0],

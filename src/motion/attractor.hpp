@@ -3,7 +3,7 @@
 
 A motion of Eq. 7 is followed until its Poincaré section (one point per period) closes after K periods, or is
 seen not to. Then it is observed beside a neighbour, whose distance gives the largest Lyapunov exponent, until
-there is enough to judge by. Verdicts and `explore attractors` ask here. */
+there is enough to judge by. `explore attractors` asks here. */
 #pragma once
 
 #include <cstdint>
@@ -15,34 +15,6 @@ namespace rotor_stator::motion {
 
 /** The largest difference of two states, over the sizes of their components [-]. */
 double apart(const Parameters& parameters, const State& a, const State& b);
-
-/** What Eq. 7 makes of a state, period after period. */
-struct Settled {
-  int period = 0;  ///< K where the section closes after K periods; 0 where it does not
-  bool aperiodic = false;  ///< it goes on without closing, and comes no closer to it
-  double spread = 0;       ///< of the section, of the least order [-]
-  long periods = 0;        ///< integrated
-  State state = {};        ///< at their end
-
-  /** An open section may be that of two frequencies or of chaos: no exponent is measured. */
-  const char* regime() const { return period > 0 ? "periodic" : "undecided"; }
-};
-
-/** When a motion has settled. */
-struct SettleRule {
-  double closed = 1e-6;  ///< largest spread of a closed section [-]
-  int most_period = 8;   ///< K
-  long block = 200;      ///< periods between two looks at the section, at least 3 K
-  int most_blocks = 6;
-  double step = 0;  ///< longest of rk4 [s]; 0: half its default
-};
-
-/** Integrates from `state` at phase 0 by rk4 until the section closes, stays open, or the rule's blocks are over.
-    Near `away_from`, if given, a section that closes says nothing: the motion has not left it yet. Throws
-    NoSolution when it diverges or `budget` is used up. */
-Settled settle(const Parameters& parameters, double omega, const State& state,
-               const OperationBudget& budget = {}, const State* away_from = nullptr,
-               const SettleRule& rule = {});
 
 struct AttractorSettings {
   StepperSettings stepper;  ///< of fixed step

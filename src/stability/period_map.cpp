@@ -44,14 +44,15 @@ int derivative(double t, const double y[], double dydt[], void* data)
 
 /** The same of bodies given by matrices. Steps for the derivative need not be as small as those for the state. */
 PeriodMap large_period_map(const Parameters& parameters, double omega, const State& start,
-                           double tolerance, const OperationBudget& budget)
+                           double tolerance, const OperationBudget& budget,
+                           const Segment& segment)
 {
   constexpr double coarser = 1e4;
-  GaussStepper state(parameters, omega, 1, tolerance, budget);
+  GaussStepper state(parameters, omega, segment.of, tolerance, budget);
   PeriodMap map{.end = start, .derivative = {}, .evaluations = 0};
-  state.advance(0, map.end);
-  GaussStepper varied(parameters, omega, 1, coarser * tolerance, budget);
-  map.derivative = varied.derivative(0, start);
+  state.advance(segment.number, map.end);
+  GaussStepper varied(parameters, omega, segment.of, coarser * tolerance, budget);
+  map.derivative = varied.derivative(segment.number, start);
   map.evaluations = state.evaluations() + varied.evaluations();
   return map;
 }
@@ -74,22 +75,23 @@ std::array<double, equations> error_scales(const Parameters& parameters)
 
 PeriodMap period_map(const Parameters& parameters, double omega, const State& start,
                      double tolerance, const std::string& method,
-                     const OperationBudget& budget)
+                     const OperationBudget& budget, const Segment& segment)
 {
   if (parameters.large)
-    return large_period_map(parameters, omega, start, tolerance, budget);
+    return large_period_map(parameters, omega, start, tolerance, budget, segment);
   Variation variation{{parameters, omega},
                       DisturbanceRates(parameters),
                       {budget, with_variations * evaluation_price(parameters, method)}};
   gsl_odeiv2_system system{derivative, nullptr, equations, &variation};
-  const double period = variation.system.period();
-  GslDriver driver(system, method, std::min(period, default_step(parameters)), tolerance,
+  const double length = variation.system.period() / segment.of;
+  const double from = length * static_cast<double>(segment.number);
+  GslDriver driver(system, method, std::min(length, default_step(parameters)), tolerance,
                    error_scales(parameters).data());
   std::array<double, equations> y{};
   Eigen::Map<Vector8>(y.data()) = vector_of(start);
   Eigen::Map<Matrix8> disturbances(y.data() + 8);  // the transpose of Φ
   disturbances.setIdentity();
-  driver.advance(0, period, y.data(), variation.evaluations);
+  driver.advance(from, from + length, y.data(), variation.evaluations);
   return {.end = {bodies_at(y.data()), bodies_at(y.data() + 4)},
           .derivative = disturbances.transpose(),
           .evaluations = variation.evaluations.count};

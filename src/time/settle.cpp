@@ -262,6 +262,8 @@ private:
   void close(const Pair& pair, Settled& s) const
   {
     const auto& all = pair.section();
+    constexpr long fewest = 4;
+    if (std::ssize(all) < fewest) return;
     const auto window = std::min<long>(std::ssize(all), 3L * rule_.most_period + 1);
     const std::vector<Displacements> last(all.end() - window, all.end());
     const double size = std::max(pair.half_range(), 1e-9 * length_);
