@@ -6,7 +6,9 @@
 #include <numbers>
 
 #include "balance/bearing_problem.hpp"
+#include "balance/fourier_transform.hpp"
 #include "balance/large_problem.hpp"
+#include "balance/newton.hpp"
 #include "integration/time_stepper.hpp"
 #include "io/errors.hpp"
 #include "model/large_machine.hpp"
@@ -74,6 +76,7 @@ public:
     return add(close(parameters_, omega_, motion,
                      {.local_error = rough_error,
                       .closed = roughly_closed,
+                      .most_maps = alone ? 10 : 20,
                       .budget = budget_,
                       .alone = alone}));
   }
@@ -153,14 +156,20 @@ public:
   void run(const std::vector<Eighths>& further = {})
   {
     Eighths motion = start_;
-    const Closing own = closer_.roughly(motion);
-    reason_ = own.reason;
+    Closing own = closer_.roughly(motion);
     if (own.first.size() > 0) own_distance_ = distance_of(own.first);
+    if (!own.closed) {
+      motion = raised();
+      const double away = apart(motion, start_, closer_.size());
+      own = closer_.roughly(motion);
+      if (own.closed) own_distance_ = away + distance_of(own.first);
+    }
+    reason_ = own.reason;
     if (own.closed) add(motion);
     for (Eighths other : further)
       if (closer_.roughly(other).closed) add(other);
     /** Where Newton converges at once no other motion is as near. */
-    if (motions_.size() == 1 && own.contraction < quick && !std::getenv("JALL")) return;
+    if (motions_.size() == 1 && own.contraction < (getenv("JQ") ? atof(getenv("JQ")) : quick) && !std::getenv("JALL")) return;
     for (int k = 0; k < eighths && !budget_.used_up(); ++k) {
       motion = start_;
       if (closer_.roughly(motion, k).closed) add(motion);
@@ -209,7 +218,7 @@ public:
   {
     constexpr double as_near = 2;
     Verdict verdict{.reason = motions_.empty() ? reason_ : ""};
-    verdict.evaluations = closer_.evaluations();
+    verdict.evaluations = evaluations_ + closer_.evaluations();
     if (motions_.empty()) return verdict;
     const ClosedMotion& own =
         *std::ranges::min_element(motions_, {}, &ClosedMotion::distance_rms);
@@ -237,6 +246,21 @@ private:
   static constexpr int instants = 256;  ///< of each turn
   static constexpr double quick = 0.1, most_distance = 0.5;
 
+  /** The same solution with four times as many harmonics, where Newton finds it. */
+  Eighths raised()
+  {
+    const int m = 4 * solution_.harmonics.count(), most = 192 * parameters_.turns;
+    if (m > most) return start_;
+    Balance balance(
+        bearing_problem(parameters_, fast_transform_size(8 * m + 1), budget_), m);
+    PeriodicMotion more = solve(balance, solution_.omega,
+                                resize_harmonics(solution_.x, balance.problem().dofs, m));
+    evaluations_ += static_cast<double>(more.force_samples);
+    if (!more.found()) return start_;
+    more.bodies = body_series(parameters_, more);
+    return eighths_of(parameters_, more);
+  }
+
   /** The displacements of a correction of all eight states, as `apart` measures them. */
   double distance_of(const Eigen::VectorXd& correction) const
   {
@@ -254,7 +278,7 @@ private:
   Closer closer_;
   Eighths start_;
   Motion judged_;
-  double own_distance_ = 0;
+  double own_distance_ = 0, evaluations_ = 0;
   std::vector<ClosedMotion> motions_;
   std::string reason_;
 };

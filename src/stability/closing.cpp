@@ -133,6 +133,7 @@ private:
         continue;
       }
       const double left = norm(lu.solve(next.open)) / size;
+      if (std::getenv("JDEBUG")) fprintf(stderr, "    %d size %.3g length %.3g left %.3g\n", maps_, size, length, left);
       if (!(left <= 1 - length / 2)) continue;
       if (is_first && length == 1) report_.contraction = left;
       length_ = length;
