@@ -27,7 +27,7 @@ def draw_kind(axes, sizes, values, exponent, fitted):
 def draw_other_algebra(axes, table):
     """Newton's equations solved otherwise, beside the usual way."""
     for name, color, marker, label in (("harmonics, whole", "C4", "v", "without the start on 64"),
-                                       ("harmonics, blocks", "C2", "^", "blocks and GMRES"), ("harmonics, dense", "C3", "s", "dense")):
+                                       ("harmonics, dense", "C3", "s", "dense")):
         rows = table.where("against", name)
         axes.plot(rows["size"], 1e3 * rows["cpu_s"], marker + ":", color=color, ms=4, lw=0.8, label=label)
     low, high = axes.get_ylim()

@@ -5,7 +5,8 @@
 # period T and the rms error of harmonic balance about the mean is at most 10 %, with that motion in grey
 # below it; elsewhere it shows the integrated motion over several periods, and says why.
 
-rows = int(ceil(system(sprintf("grep -c '^# panel' '%s'", table)) / 3.0))
+panels = int(system(sprintf("awk -F'\t' '$1 + 0 > most { most = $1 } END { print most }' '%s'", table)))
+rows = int(ceil(panels / 3.0))
 height = 150 + 362 * rows
 load 'figures/style.gp'
 

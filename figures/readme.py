@@ -117,9 +117,9 @@ def outcome():
 # -- README: what explore prints -------------------------------------------------------------------
 
 COMMANDS = {  # the comment, the lines of the header that are shown, the first rows that are shown
-    "orbit my.toml --frequency 45": ("one period of the motion", "stability", 2),
-    "contact my.toml --frequency 45": ("force of every ball, two periods", None, 2),
-    "response my.toml --from 1 --to 60": ("amplitudes against speed", None, 2),
+    "orbit my.toml --frequency 45 --harmonics 6": ("one period of the motion", "stability|multiplier|regime", 2),
+    "contact my.toml --frequency 45 --harmonics 6": ("force of every ball, two periods", None, 2),
+    "response my.toml --from 1 --to 60 --harmonics 6": ("amplitudes against speed", None, 2),
 }
 
 
@@ -134,7 +134,7 @@ def explore():
     """The commands with the first lines that they print, for a copy of the first data set."""
     lines = ["```console", "$ cp data/set1.toml my.toml"]
     for command, (comment, header, rows) in COMMANDS.items():
-        lines.append(f"$ {f'build/explore {command}':<47} # {comment}")
+        lines.append(f"$ {f'build/explore {command}':<61} # {comment}")
         printed = subprocess.run(["build/explore", *command.replace("my.toml", "data/set1.toml").split()],
                                  text=True, check=True, capture_output=True).stdout.splitlines()
         lines += [line for line in printed if header and re.match(f"# ({header}):", line)]

@@ -28,7 +28,7 @@ set format y "10^{%T}"
 set key at screen 0.53, 0.995 center top vertical maxrows 2 Left reverse width -1
 what(row) = row == 1 ? "displacement" : "force"
 panel_title(k) = system(sprintf( \
-  "sed -nE 's/^# panel %d: [^0-9]*([0-9]).* at ([^ ]*) Hz/data set \\1, \\2 Hz/p' '%s'", k, table))
+  "sed -nE 's/^# row panel: %d [^0-9]*([0-9])[^ ]* ([^ ]*)$/data set \\1, \\2 Hz/p' '%s'", k, table))
 width = 0.885 / panels
 
 set label 1 "samples per period over harmonics, N/m [-]" at screen 0.53, 0.035 center

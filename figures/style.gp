@@ -34,12 +34,10 @@ set style line stator_down lc rgb '#F9D28A' lw 5 dt 1 pt 5
 max(a, b) = a > b ? a : b
 min(a, b) = a < b ? a : b
 
-# The number that matches \(...\) in the table's header, where it stands for the n-th time. Gnuplot
-# reads no "2e-05" from a string, so awk writes it without exponent.
-header(pattern, n) = real(word(system(sprintf( \
-  "sed -n 's/^#.*%s.*/\\1/p' '%s' | awk '{ printf \"%%.12f \", $1 }'", pattern, table)), n))
-clearance(n) = header("delta = \\([^ ]*\\) m,", n)
-harmonics(n) = header("harmonic balance: m = \\([0-9]*\\),", n)
+# The number of a key of the table, or the first one of the n-th member of a list.
+value_of(key, n) = real(word(system(sprintf("/usr/bin/python3 figures/tables.py '%s' %s", table, key)), n))
+clearance(n) = value_of("clearance", n)
+harmonics(n) = value_of("harmonics", n)
 
 # The rows of a panel ($1) from harmonic balance ($3), the first once more at the end to close it.
 closed_orbit(panel) = sprintf("< awk -F'\\t' '/^#/ || !NF { next } !names { names = $0; print } \

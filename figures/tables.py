@@ -1,4 +1,7 @@
-"""Read a table, start and finish a figure: what every figure drawn by Python needs."""
+"""Read a table, start and finish a figure: what every figure drawn by Python needs.
+
+Gnuplot asks for the value of a key, or the first cells of a list's members: /usr/bin/python3 figures/tables.py TABLE.tsv KEY
+"""
 
 import re
 import subprocess
@@ -29,7 +32,7 @@ MEMBER = re.compile(r"# row (\S+): (.*)")
 # Where the tables that are still kept from version 0.1.0 say what is a key or a list now. It goes when they are kept anew.
 OLD = {"clearance": r"delta = (\S+) m", "speeds": r"(\d+) speeds from", "sweep_count": r"(\d+) speeds from", "sweep_from": r"speeds from (\S+)",
        "sweep_to": r"speeds from \S+ to (\S+)", "tolerance": r"adaptive: tolerance ([\d.e-]+)|--tolerance (\S+)",
-       "hill_harmonics": r"Hill's method with m harmonics, at most (\d+)", "cores": r"cores: (\d+)", "frequency": r"frequency: (\S+) Hz",
+       "hill_harmonics": r"Hill's method with m harmonics, at most (\d+)", "cores": r"cores: (\d+)", "harmonics": r"harmonic balance: m = (\d+)", "frequency": r"frequency: (\S+) Hz",
        "fitted_from_harmonics": r"harmonics = (\d+)", "fitted_from_balls": r", balls = (\d+)", "fitted_from_speeds": r", speeds = (\d+)",
        "fitted_from_bytes": r"bytes = (\S+) on", "paper_ratios": r"8 and 10 harmonics: (\S+) (\S+) (\S+)",
        "case": r"case (\d+): (\S+) Hz, (\S+);", "nearest": r"(cvode-\S+|scipy-\S+) ([\d.e-]+)(?=,|\n)",
@@ -201,3 +204,8 @@ def run(draw):
     form = suffix if suffix in ("png", "pdf") else "svg"
     figure.savefig(sys.argv[2], format=form, metadata={"svg": {"Date": None}, "png": {},
                                                        "pdf": {"CreationDate": None}}[form])
+
+
+if __name__ == "__main__":
+    asked = Table(sys.argv[1])
+    print(*(f"{first:.12f}" for first, *_ in asked.members(sys.argv[2]) or [[asked.value(sys.argv[2])]]))

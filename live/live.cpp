@@ -107,6 +107,7 @@ EMSCRIPTEN_KEEPALIVE int live_run(const char* what, const char* file, const char
   MotionRequest request;
   request.parameter_file = file;
   request.frequency = frequency;
+  request.method = "aft";
   request.harmonics = harmonics;
   try {
     answer(what, request, from, to);

@@ -195,8 +195,12 @@ function begin(machine) {
   return ++turn;
 }
 
-// What the header of a table says of a key.
-const notesOf = (text) => (key) => text.split("\n").find((line) => line.startsWith(`# ${key}: `))?.slice(key.length + 4);
+// The values of a table's keys, as text; undefined without one.
+const keysOf = (text) => (key) => text.split("\n").find((line) => line.startsWith(`# ${key}: `))?.slice(key.length + 4);
+
+// Two errors or distances in words, where the table has them.
+const errorsOf = (value, name) => value(`${name}_rms`) &&
+  `${value(`${name}_largest`)} of the largest displacement, ${value(`${name}_rms`)} rms about the mean`;
 
 function showVerdict(word, text) {
   $("verdict").className = word;
@@ -239,7 +243,7 @@ function showNothing({ status, text }) {
 async function showError(mine) {
   const { status, text } = await engines.quick.ask(question("error"));
   if (mine !== turn || status === -1) return;
-  $("error-state").textContent = status === 0 ? notesOf(text)("error")?.replace("; tolerance inf", "") ?? "–"
+  $("error-state").textContent = status === 0 ? errorsOf(keysOf(text), "error") ?? "–"
     : `not known: ${text.replace(/^.* Hz: /, "")}`;
 }
 
@@ -247,8 +251,13 @@ async function judge(mine) {
   const { status, text } = await engines.judge.ask(question("verdict"));
   if (mine !== turn || status === -1) return;
   if (status !== 0) return showVerdict("undecided", `undecided; ${text}`);
-  const note = notesOf(text), further = ["regime", "distance", "warning"].filter(note).map((key) => `${key}: ${note(key)}`);
-  showVerdict(note("stability").split(";")[0], [note("stability"), ...further].join(". "));
+  const value = keysOf(text), distance = errorsOf(value, "distance"), word = value("stability"), period = value("period");
+  const parts = [word,
+    value("multiplier") && `largest multiplier ${value("multiplier")} ± ${value("multiplier_uncertainty")}`,
+    value("lyapunov") && `Lyapunov exponent ${value("lyapunov")} ± ${value("lyapunov_uncertainty")} 1/s`,
+    `regime: ${value("regime")}${period > 1 ? ` with ${period} base periods` : ""}`, distance && `distance: ${distance}`,
+    value("contact") === "no" && "no ball touches its race"];
+  showVerdict(word, parts.filter(Boolean).join("; "));
   $("notes").textContent = text.replace(/^=.*\n?/gm, "");
 }
 
@@ -552,7 +561,7 @@ function openLink() {
 
 function showCommand() {
   const isChanged = state.toml !== state.original, turns = Math.round(shown.motion?.rows / shown.motion?.perTurn) || 1;
-  const how = (shown.motion?.chosen ? "" : ` --harmonics ${state.m}`) + (turns > 1 ? ` --periods ${turns}` : "");
+  const how = (shown.motion?.chosen ? " --method aft --tolerance 1e-3" : ` --harmonics ${state.m}`) + (turns > 1 ? ` --periods ${turns}` : "");
   $("command").textContent = `build/explore orbit ${isChanged ? state.name : state.path} --frequency ${state.f}${how}`;
   $("command-note").hidden = !isChanged;
 }

@@ -14,12 +14,10 @@ Both axes are logarithmic, so the slope of a line is the exponent of a power law
 larger sizes only, where the fixed cost of a solution no longer counts. An exponent of one means that twice
 the size costs twice as much. Steps in the memory are the allocator's pages.
 
-Against harmonics the first panel shows four ways to find the solution. Dense factors of all harmonics have the exponent
-three in the end. One block for each harmonic that the contact hardly couples, and GMRES on the whole, avoid that. The equations
-of motion at the samples (`balance/equations_in_time.hpp`) answer a residual in a time that grows like the number of samples. The solver
-takes all dense up to 130 unknowns, the equations at the samples where more than 32 harmonics are coupled, and the blocks otherwise
-(`balance/step_solver.hpp`). More than 128 harmonics begin with the solution on the first 64, from which one or two steps
-lead to the end (`balance/newton.hpp`); the other three take all at once.
+Against harmonics the first panel shows three ways to find the solution. Dense factors of all harmonics have the exponent
+three in the end. A dense block of the harmonics that the contact couples, one small block for each other one, and GMRES on the
+whole avoid that (`balance/linear_solver.hpp`). More than 128 harmonics begin with the solution on the first 64, from which one
+or two steps lead to the end (`balance/newton.hpp`); the other two ways take all at once.
 Along branches a further saving counts: the factors of a corrector step serve, with Broyden's updates, the steps
 after it and the tangent (`continuation/branch.hpp`).
 The number of degrees of freedom stays at four here; studies/large.py has the cost against it.

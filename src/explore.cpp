@@ -2,15 +2,16 @@
 # explore: one's own machine
 
     build/explore check data/set1.toml
-    build/explore orbit data/set1.toml --frequency 45 --tolerance 1e-4 > orbit.tsv
+    build/explore orbit data/set1.toml --frequency 45 --harmonics 10 > orbit.tsv
     build/explore contact data/set1.toml --frequency 45 --method rk8pd > contact.tsv
-    build/explore spectrum data/set1.toml --frequency 45 --plot spectrum.svg > spectrum.tsv
+    build/explore spectrum data/set1.toml --frequency 45 --harmonics 24 > spectrum.tsv
     build/explore response data/set1.toml --from 1 --to 60 --harmonics 10 > response.tsv
     build/explore attractors data/set1.toml --from 18 --to 22 --count 17 > attractors.tsv
     build/explore map data/set1.toml --x frequency=10:50:41 \
-      --y bearing.radial_clearance_m=0:1e-4:21 --quantity amplitude,stability > map.tsv
+      --y bearing.radial_clearance_m=0:1e-4:21 --quantity amplitude --harmonics 6 > map.tsv
     build/explore shaft data/rotors/overhung_shaft.toml --to overhung > nodes.tsv
-    build/explore shape data/rotors/overhung.toml --frequency 30 --nodes nodes.tsv > shape.tsv
+    build/explore shape data/rotors/overhung.toml --frequency 30 --harmonics 6 \
+      --nodes nodes.tsv > shape.tsv
 
 The general program for follow-up studies: any parameter file, any speed, harmonic balance
 or one of the time integrators. A table on stdout, errors on stderr. */
@@ -196,28 +197,32 @@ void add_range_options(CLI::App& command, Ranged& request)
 /** What is returned throws BadInput for an option that the method would ignore. */
 std::function<void()> add_response_options(CLI::App& command, ResponseRequest& request)
 {
-  auto aft = add_balance_options(command, request, "the saved branch's");
+  const auto balance = add_balance_options(command, request, "the saved branch's");
+  std::vector<CLI::Option*> aft = balance, branch;
   command
-      .add_option("--method", request.method, "aft (harmonic balance), or shooting (rk4)")
+      .add_option("--method", request.method,
+                  "auto (what the machine does, speed by speed), or a branch of periodic "
+                  "solutions: aft (harmonic balance), shooting (rk4)")
       ->capture_default_str();
   aft.push_back(add_subharmonic(command, request));
   CLI::Option* tolerance =
       add_number(command, "--tolerance", request.tolerance, 1e-8, 0.1,
-                 "relative error of each solution, at evenly spaced speeds instead of "
-                 "along the branch; with two frequencies, of the five solutions that "
-                 "choose the harmonics");
+                 "of --method aft: relative error of each solution, at evenly spaced "
+                 "speeds instead of along the branch; with two frequencies, of the five "
+                 "solutions that choose the harmonics");
   aft.push_back(tolerance);
-  add_number(command, "--count", request.count, 1, 100000, "speeds, with --tolerance")
-      ->needs(tolerance);
+  CLI::Option* count = add_number(command, "--count", request.count, 1, 100000,
+                                  "speeds, evenly spaced (101; 21 of large bodies)");
   add_range_options(command, request);
   command.add_option("--direction", request.direction,
-                     "up: from --from to --to; down: from --to to --from");
-  command.add_flag(
+                     "rest: each speed from rest; up, down: from the motion or solution "
+                     "at the speed before");
+  branch.push_back(command.add_flag(
       "--stability", request.stability,
-      "Floquet multipliers of each point and, with aft, the bifurcations between");
-  command.add_option(
+      "Floquet multipliers of each point and, with aft, the bifurcations between"));
+  branch.push_back(command.add_option(
       "--harmonics-of", request.harmonics_of,
-      "x_s, y_s, x_r or y_r: its harmonics at each point, complex amplitudes");
+      "x_s, y_s, x_r or y_r: its harmonics at each point, complex amplitudes"));
   aft.push_back(command.add_option("--waterfall", request.waterfall,
                                    "file for the lines of each point, with their names"));
   aft.push_back(command.add_option("--save", request.save,
@@ -230,7 +235,6 @@ std::function<void()> add_response_options(CLI::App& command, ResponseRequest& r
   add_number(command, "--branch", request.branch, 1, 1000000,
              "number of the branch to restart")
       ->needs(restart);
-  aft.push_back(restart);
   CLI::Option* isolated = add_number(command, "--isolated", request.isolated, 0, 10000,
                                      "look for isolated branches at so many speeds");
   aft.push_back(command.add_flag("--times", request.times, "CPU time on stderr"));
@@ -238,12 +242,34 @@ std::function<void()> add_response_options(CLI::App& command, ResponseRequest& r
              "of the random starts of --isolated")
       ->needs(isolated);
   aft.push_back(isolated);
-  return [aft, &request] {
-    const std::string& method = request.method;
-    if (method != "aft" && method != "shooting")
-      throw BadInput("--method " + method + ": must be one of aft, shooting");
+  CLI::Option* resume =
+      command.add_option("--resume", request.resume,
+                         "table of the same sweep that was interrupted: its rows are kept");
+  CLI::Option* longest = add_number(command, "--longest", request.longest, 1e-3, 1e5,
+                                    "longest transient of a sweep after t = 0 [s]");
+  return [=, &request] {
+    std::string& method = request.method;
+    const auto is_given = [](const CLI::Option* option) { return option->count() > 0; };
+    if (method == "auto" && (std::ranges::any_of(balance, is_given) || is_given(restart)))
+      method = "aft";
+    if (method != "auto" && method != "aft" && method != "shooting")
+      throw BadInput("--method " + method + ": must be one of auto, aft, shooting");
+    const bool is_sweep = method == "auto";
+    for (const auto& list : {aft, branch})
+      for (const CLI::Option* option : list)
+        if (is_sweep && is_given(option))
+          throw BadInput(option->get_name() +
+                         ": is of a branch of solutions; give --harmonics M" +
+                         (option == tolerance ? " or --method aft" : "") +
+                         ", --method shooting or --restart FILE too");
     for (const CLI::Option* option : aft)
       refuse(option, method == "aft", "for --method aft", method);
+    refuse(restart, method == "aft", "for --method aft", method);
+    refuse(resume, is_sweep, "for a sweep, without --method", method);
+    refuse(longest, is_sweep, "for a sweep, without --method", method);
+    if (is_given(count) && !is_sweep && !is_given(tolerance))
+      throw BadInput("--count: of a branch needs --tolerance; without --harmonics and "
+                     "--method it is the number of speeds");
   };
 }
 
@@ -270,9 +296,11 @@ std::function<void()> add_map_options(CLI::App& command, MapRequest& request)
   for (const Column& one : map_quantities())
     known +=
         (known.empty() ? "" : "; ") + one.name + " [" + one.unit + "] " + one.meaning;
-  std::string methods = "aft (harmonic balance), gauss (of bodies given by matrices)";
+  std::string methods =
+      "auto (what the machine does from rest; aft with --harmonics), aft (harmonic "
+      "balance), gauss (of bodies given by matrices)";
   for (const std::string& name : time_methods()) methods += ", " + name;
-  auto aft = add_balance_options(command, request, "by --tolerance");
+  const auto aft = add_balance_options(command, request, "by --tolerance");
   command.get_option("--budget")
       ->description(
           "most evaluations of the force at each point (default: those of 5 s, 1.4e8 with 16 balls)");
@@ -290,14 +318,12 @@ std::function<void()> add_map_options(CLI::App& command, MapRequest& request)
       "--sweep", request.sweep,
       "A:B[:COUNT], range of speeds of the quantities over one [Hz] (101)");
   command.add_option("--method", request.method, methods)->capture_default_str();
-  aft.push_back(add_number(command, "--tolerance", request.tolerance, 1e-8, 0.1,
-                           "relative error for which m is chosen"));
+  add_number(command, "--tolerance", request.tolerance, 1e-8, 0.1,
+             "relative error; with --method aft m is chosen for it");
   const auto step = add_number(command, "--step", request.step, 0.0, largest,
                                "longest step of rk4 [s] (default: from K_H)");
   const auto longest = add_number(command, "--longest", request.longest, 1e-3, 1e5,
-                                  "longest transient of the time methods, from rest [s]");
-  const auto periods = add_number(command, "--periods", request.periods, 2, 10000,
-                                  "that the time methods observe");
+                                  "longest transient of the time methods after t = 0 [s]");
   add_number(command, "--threads", request.threads, 1, 1024,
              "lines at a time (default: OMP_NUM_THREADS, or all cores)");
   command.add_option("--lines", request.lines, "A:B, only the lines with A <= index < B");
@@ -305,13 +331,15 @@ std::function<void()> add_map_options(CLI::App& command, MapRequest& request)
       "--resume", request.resume,
       "table of the same map that was interrupted: its whole lines are taken over");
   return [=, &request] {
-    const std::string& method = request.method;
-    require_method(method, {"aft", "gauss"});
+    std::string& method = request.method;
+    if (method == "auto" &&
+        std::ranges::any_of(aft, [](const auto* option) { return option->count() > 0; }))
+      method = "aft";
+    require_method(method, {"auto", "aft", "gauss"});
     for (const CLI::Option* option : aft)
       refuse(option, method == "aft", "for --method aft", method);
-    refuse(step, method == "rk4", "for --method rk4", method);
+    refuse(step, method == "rk4" || method == "auto", "for --method rk4", method);
     refuse(longest, method != "aft", "for the time methods", method);
-    refuse(periods, method != "aft", "for the time methods", method);
   };
 }
 
@@ -334,7 +362,7 @@ int finish(const Request& request, const std::string& script,
         plot(*request.plot, script,
              found.drawn.empty() ? found.table.text(TableFormat::tsv, true) : found.drawn,
              request.overlay);
-  write(found.table.text(request.format));
+  if (!found.is_written) write(found.table.text(request.format));
   if (!found.unfinished.empty()) throw NoSolution(found.unfinished);
   if (!undrawn.empty()) throw NoSolution(undrawn);
   return 0;
@@ -356,7 +384,7 @@ int main(int argc, char** argv)
   CLI::App* check = command("check", "what a machine is, before anything is computed");
   CLI::App* orbit = command("orbit", "displacements and force over one period");
   CLI::App* contact = command("contact", "force of every ball over two periods");
-  CLI::App* branch = command("response", "amplitudes along the branch, arc length");
+  CLI::App* branch = command("response", "amplitudes against speed: what the machine does, or a branch");
   CLI::App* lines =
       command("spectrum", "lines of the motion, with names such as BPFO-1X");
   CLI::App* settled =

@@ -57,7 +57,7 @@ def row(kind, count, points, runs, measure=0, files=0):
 def short_map(scene, points, threads):
     lines = points // int(scene["x"].rsplit(":", 1)[1])
     return ["build/explore", "map", f"data/{scene['parameters'][0]}.toml", "--x", scene["x"], "--y", f"{scene['y']}:{lines}",
-            "--quantity", scene["quantity"], "--threads", str(threads), "--quiet"]
+            "--quantity", scene["quantity"], "--harmonics", "6", "--threads", str(threads), "--quiet"]
 
 
 def sharded(scene, shards):
@@ -67,7 +67,7 @@ def sharded(scene, shards):
         shutil.copytree("data", Path(folder, "data"))
         Path(folder, "studies", "short.yaml").write_text(
             f"machine: data/{scene['parameters'][0]}.toml\nx: frequency=20:50:2\ny: {scene['y']}:{shards}\n"
-            f"quantities: [{scene['quantity']}]\nshards: {shards}\nminutes: 1\n", encoding="utf-8")
+            f"quantities: [{scene['quantity']}]\noptions: --harmonics 6\nshards: {shards}\nminutes: 1\n", encoding="utf-8")
         run = timed(["env", "-C", folder, f"EXPLORE={Path('build/explore').resolve()}", "snakemake", "--snakefile",
                      "studies/Snakefile", "--cores", "2", "build/studies/short/map.tsv"])
         left = [path for part in (".snakemake", "build") for path in Path(folder, part).rglob("*") if path.is_file()]

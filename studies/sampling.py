@@ -102,11 +102,10 @@ def main(file):
     with ThreadPoolExecutor(os.cpu_count()) as pool:
         found = list(pool.map(lambda case: rows_of(*motions[case[0]], case[1], scene), cases))
     tables = [table for table, _ in found[::len(scene["harmonics"])]]
-    titles = (tomllib.loads(Path(machine).read_text(encoding="utf-8"))["title"] for machine, _ in motions)
     print_header("Error of sampling the force, against the error of truncating the series", tables,
-                 *(f"panel {k}: {title} at {speed:g} Hz" for k, (title, (_, speed)) in enumerate(zip(titles, motions), 1)),
                  f"modelled: harmonic balance; finely sampled: N = {scene['fine_over_m']} m; reference: m = "
-                 f"{scene['reference_harmonics']}")
+                 f"{scene['reference_harmonics']}",
+                 rows=[("panel", [k, name, speed]) for k, (name, speed) in enumerate(zip(scene["parameters"], scene["speeds_hz"]), 1)])
     print_columns(COLUMNS)
     for (panel, _), (_, rows) in zip(cases, found):
         for row in rows:

@@ -19,7 +19,7 @@ sys.path.insert(1, str(Path(__file__).parents[1] / "figures"))
 from tables import STABILITY, Table, explore, print_columns, print_header  # noqa: E402
 
 AMPLITUDES = ("amp_x_s", "amp_y_s", "amp_x_r", "amp_y_r")
-OF_CURVE = ("direction", "samples", "folds", "ended", "undecided_points", "bifurcations_not_located", "evaluations")
+OF_CURVE = ("direction", "samples", "folds", "complete", "evaluations")
 NOT_EXAMINED = -2
 NEAR, ALIKE = 0.1, 0.03  # [Hz], relative: no eye would miss a point so near the one before
 COLUMNS = [
@@ -70,7 +70,7 @@ def curve(scene, number, m):
     """The branches of one data set with m harmonics: up, and down where the first does not reach the end."""
     file = f"data/{scene['parameters'][number]}.toml"
     up = followed(file, scene, m, "up")
-    return [up] if up is not None and up.value("ended") == "yes" else [up, followed(file, scene, m, "down")]
+    return [up] if up is not None and up.value("complete") == "yes" else [up, followed(file, scene, m, "down")]
 
 
 def main(file):
@@ -80,10 +80,11 @@ def main(file):
         tables = list(pool.map(lambda at: curve(scene, *at), reversed(curves)))[::-1]
     branches = [(number, m, table) for (number, m), found in zip(curves, tables) for table in found if table]
     sets = {number: table for number, _, table in reversed(branches)}
-    curves = [("curve", [count, number + 1, m, float(table["f"][0]), *(table.value(key) for key in OF_CURVE)])
+    curves = [("curve", [count, number + 1, m, float(table["f"][0]), *(table.value(key) for key in OF_CURVE), *table.members("undecided")[0][1:]])
               for count, (number, m, table) in enumerate(branches, 1)]
     print_header("Stability along the response curves", [sets[number] for number in sorted(sets)],
-                 f"row curve: number, set, m, first speed [Hz], {', '.join(OF_CURVE)}", rows=curves)
+                 f"row curve: number, set, m, first speed [Hz], {', '.join(OF_CURVE)}, undecided points, bifurcations not located",
+                 rows=curves)
     print_columns(COLUMNS)
     for count, (number, m, table) in enumerate(branches, 1):
         for row in rows_of(table):

@@ -50,7 +50,7 @@ def main(build):
         run("cmake", "-S", outside, "-B", outside / "build", f"-DCMAKE_PREFIX_PATH={prefix}")
         run("cmake", "--build", outside / "build")
         print(run(outside / "build" / "outside", machine), end="")
-        table = run(prefix / "bin" / "explore", "orbit", machine, "--frequency", 45, cwd=folder)
+        table = run(prefix / "bin" / "explore", "orbit", machine, "--frequency", 45, "--harmonics", 6, cwd=folder)
         if "\nphase\t" not in table:
             sys.exit("the installed explore prints no orbit")
         run(prefix / "bin" / "explore", "attractors", machine, "--from", 45, "--to", 46, "--count", 1,

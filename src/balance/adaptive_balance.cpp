@@ -3,7 +3,6 @@
 #include <cmath>
 #include <limits>
 
-#include "balance/step_solver.hpp"
 #include "io/errors.hpp"
 
 namespace rotor_stator {
@@ -150,11 +149,15 @@ double level_tolerance(const AdaptiveSettings& settings)
 
 AdaptiveMotion solve_adaptively(const ObservedProblem& observed, double omega,
                                 const ColdSolve& cold_solve,
-                                const AdaptiveSettings& settings)
+                                const AdaptiveSettings& settings,
+                                const Eigen::VectorXd& neighbour)
 {
   NewtonSettings newton = limited(settings.newton, few_iterations, few_halvings);
   newton.tolerance = level_tolerance(settings);
-  return Search{observed, omega, cold_solve, settings, newton}.run();
+  Search search{observed, omega, cold_solve, settings, newton};
+  search.start = neighbour;
+  if (neighbour.size() > 0) search.result.motion.start = "the solution before";
+  return search.run();
 }
 
 /**
@@ -210,11 +213,13 @@ namespace {
     with the factor, often above a hundred, by which a resonance of the contact magnifies it. */
 struct Approach {
   Balance& balance;
+  BalanceSolver& solver;
   double omega, tolerance;
   Eigen::VectorXd& x;
   bool until_stall = false;
   Eigen::VectorXd start = x, next = {};
   int steps = 0;
+  Solved how = Solved::directly;
 
   static constexpr double most_left = 0.2;
   static constexpr int most_evaluations = 12, most_halvings = 3;
@@ -226,8 +231,7 @@ struct Approach {
     Eigen::VectorXd last;  // the step to x
     for (int halvings = 0; balance.evaluations() < most_evaluations;) {
       const double residual = find_step(before), size = next.norm();
-      if (!std::isfinite(size) || (until_stall && balance.steps().stalled()))
-        return false;
+      if (!std::isfinite(size) || (until_stall && how == Solved::poorly)) return false;
       if (!(residual <= residual_before)) {
         if (++halvings > most_halvings) return false;
         last /= 2;
@@ -247,24 +251,27 @@ struct Approach {
     return false;
   }
 
-  /** Newton's step from x, or a chord step with the factors at hand; returns the residual. */
+  /** Newton's step from x, or one with the factors at hand; returns the residual. */
   double find_step(double size_before)
   {
     const Eigen::VectorXd& residual = balance.residual(x, omega);
-    StepSolver& solver = balance.steps();
-    solver.step(balance, x, omega, residual,
-                linear_goal(balance, residual.norm(), tolerance), next);
-    solver.learn(next.norm() / size_before);
-    return residual.norm();
+    const double norm = residual.norm();
+    const BalanceEquations equations(balance, omega);
+    solver.omega = omega;
+    how = solver.solve(x, residual, linear_goal(equations, norm, tolerance), next);
+    next = -next;
+    if (how <= Solved::by_old_factors && !(next.norm() <= 0.1 * size_before))
+      solver.refresh();
+    return norm;
   }
 };
 
 }  // namespace
 
-Approached approach(Balance& finer, double omega, double newton_tolerance,
-                    Eigen::VectorXd& x, bool until_stall)
+Approached approach(Balance& finer, BalanceSolver& solver, double omega,
+                    double newton_tolerance, Eigen::VectorXd& x, bool until_stall)
 {
-  Approach way{finer, omega, newton_tolerance, x, until_stall};
+  Approach way{finer, solver, omega, newton_tolerance, x, until_stall};
   const bool settled = way.arrives();
   return {settled, way.steps, std::move(way.next)};
 }
@@ -282,8 +289,9 @@ Refined estimate_error(const ObservedProblem& observed, const PeriodicMotion& co
   ErrorEstimate& estimate = refined.estimate;
   PeriodicMotion& finer = refined.finer;
   finer.x = resize_harmonics(coarse.x, balance.problem().dofs, m);
+  BalanceSolver solver(balance);
   const Approached approached =
-      approach(balance, coarse.omega, newton_tolerance, finer.x);
+      approach(balance, solver, coarse.omega, newton_tolerance, finer.x);
   estimate.settled = approached.settled;
   estimate.force_samples = balance.evaluations() * n;
   if (!estimate.settled) return refined;

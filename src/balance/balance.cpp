@@ -5,7 +5,6 @@
 #include <limits>
 #include <numeric>
 
-#include "balance/step_solver.hpp"
 #include "io/errors.hpp"
 
 namespace rotor_stator {
@@ -63,15 +62,12 @@ Balance::Balance(Problem problem, Harmonics harmonics)
       a_(2 * problem_.dofs, 2 * problem_.dofs * (m_ + 1)), b_(a_.rows(), a_.cols()),
       a_slope_(a_), b_slope_(a_), c_(problem_.dofs, harmonics_.coefficients()),
       c_slope_(c_), series_(c_), force_series_(c_), product_series_(c_),
-      residual_(c_.size()), speed_derivative_(c_.size()),
-      steps_(std::make_unique<StepSolver>())
+      residual_(c_.size()), speed_derivative_(c_.size())
 {
   if (!is_moving()) return;
   orders_.resize(m_ + 1);
   for (int h = 0; h <= m_; ++h) orders_[h] = problem_.order(harmonics_.list()[h]);
 }
-Balance::~Balance() = default;
-Balance::Balance(Balance&&) noexcept = default;
 
 void Balance::refresh_blocks(double omega)
 {
@@ -378,39 +374,6 @@ void Balance::apply_jacobian(const Eigen::VectorXd& x, double omega,
   }
   transform_.to_series(product_force_, product_series_, images_);
   combine(a_, b_, series, product_series_, product);
-}
-
-void Balance::factor_in_time(const Eigen::VectorXd& x, double omega)
-{
-  residual(x, omega);
-  if (!in_time_) in_time_.emplace(*problem_.bodies);
-  in_time_->factor(stiffness_samples_, omega);
-  const int samples = in_time_->samples();
-  spend(100.0 * samples);
-  if (!time_transform_ || time_transform_->samples() != samples) {
-    time_transform_.emplace(samples);
-    time_images_ = harmonics_.images(problem_.line, samples);
-  }
-  b_inverse_.resize(m_ + 1);
-  for (int h = 0; h <= m_; ++h) b_inverse_[h] = 1.0 / b(h)(0, 0);
-}
-
-/** (A + B J) z = r is (B⁻¹A + J) z = B⁻¹r, where B⁻¹A is the dynamic stiffness of both bodies in series. */
-void Balance::solve_in_time(const Eigen::VectorXd& r, Eigen::VectorXd& z)
-{
-  spend(12.0 * in_time_->samples() + 4 * time_transform_->operations());
-  const Eigen::Map<const Eigen::Matrix2Xd> right(r.data(), 2, r.size() / 2);
-  product_series_.col(0) = b_inverse_[0].real() * right.col(0);
-  for (int h = 1; h <= m_; ++h) {
-    const auto cosine = right.col(2 * h - 1), sine = right.col(2 * h);
-    const auto [real, imaginary] = std::pair(b_inverse_[h].real(), b_inverse_[h].imag());
-    product_series_.col(2 * h - 1) = real * cosine + imaginary * sine;
-    product_series_.col(2 * h) = real * sine - imaginary * cosine;
-  }
-  time_transform_->to_samples(product_series_, time_load_, time_images_);
-  in_time_->solve(time_load_, time_samples_);
-  time_transform_->to_series(time_samples_, product_series_, time_images_);
-  z = product_series_.reshaped();
 }
 
 /** What one harmonic of q adds to the same one of the force, by the slopes from `first_column` on. */

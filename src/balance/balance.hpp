@@ -41,7 +41,6 @@ the samples. */
 #include <optional>
 #include <type_traits>
 
-#include "balance/equations_in_time.hpp"
 #include "balance/fourier_transform.hpp"
 #include "balance/periodic_motion.hpp"
 
@@ -99,10 +98,6 @@ struct Problem {
 
   /** Where the samples lie, with two frequencies. */
   TorusLine line = {};
-
-  /** Stator and rotor, where f is the force between them, of one frequency and without damping; A_h and B_h are then
-      numbers. */
-  std::optional<std::array<PointBody, 2>> bodies = {};
 };
 
 /** The block of M q̈ + D q̇ + K q + f(q) = Re(F e^{iωt}) for real d × d matrices and a
@@ -133,16 +128,12 @@ void with_dofs(int dofs, Work work)
   }
 }
 
-class StepSolver;
-
 /** The balance of a problem on a set of harmonics. Every quantity is one of the point (X, ω) that it is
     asked for; what was computed at the last point is not computed again. */
 class Balance {
 public:
   /** N = problem.samples must be at least 2m+1; among chosen harmonics no one an image of another. */
   Balance(Problem problem, Harmonics harmonics);
-  ~Balance();
-  Balance(Balance&&) noexcept;
 
   const Problem& problem() const { return problem_; }
   const Harmonics& harmonics() const { return harmonics_; }
@@ -178,10 +169,6 @@ public:
   void apply_jacobian(const Eigen::VectorXd& x, double omega, const Eigen::VectorXd& v,
                       Eigen::VectorXd& product);
 
-  /** An approximate inverse of ∂R/∂X at (X, ω) by the equations of motion at the samples, of a problem with bodies. */
-  void factor_in_time(const Eigen::VectorXd& x, double omega);
-  void solve_in_time(const Eigen::VectorXd& r, Eigen::VectorXd& z);
-
   /** The diagonal blocks of ∂R/∂X of the harmonics of the list from `first` ≥ 1 on, each 2d × 2d, side by side. */
   void diagonal_blocks(const Eigen::VectorXd& x, double omega, int first,
                        Eigen::MatrixXd& blocks);
@@ -198,9 +185,6 @@ public:
   {
     if (problem_.spend) problem_.spend(operations);
   }
-
-  /** What Newton keeps from one solution to the next. */
-  StepSolver& steps() { return *steps_; }
 
 private:
   /** B_h at the point that was evaluated last, of a harmonic of the list. */
@@ -235,18 +219,12 @@ private:
   Eigen::VectorXd orders_;  ///< with a moving force
   Eigen::MatrixXd rate_series_, rate_samples_, damping_jacobian_;
   Eigen::MatrixXd product_samples_, product_force_, product_series_;
-  std::optional<EquationsInTime> in_time_;
-  std::optional<FourierTransform> time_transform_;
-  Images time_images_;
-  Eigen::MatrixXd time_load_, time_samples_;
-  Eigen::VectorXcd b_inverse_;  ///< 1/B_h, for the equations in time
-  Eigen::MatrixXcd spectra_;    ///< κ_p of each stiffness series
-  Eigen::VectorXcd extended_;   ///< conj κ_p of one of them, the middle one p = 0
+  Eigen::MatrixXcd spectra_;   ///< κ_p of each stiffness series
+  Eigen::VectorXcd extended_;  ///< conj κ_p of one of them, the middle one p = 0
   Eigen::VectorXd residual_, speed_derivative_;
   Eigen::MatrixXd jacobian_;
   bool evaluated_ = false, has_stiffness_ = false, has_spectra_ = false;
   long evaluations_ = 0;
-  std::unique_ptr<StepSolver> steps_;
 };
 
 }  // namespace rotor_stator

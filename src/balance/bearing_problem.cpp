@@ -143,11 +143,6 @@ auto moving_force(const Parameters& parameters, const TorusLine& line)
 
 }  // namespace
 
-static PointBody point_body(const Body& body)
-{
-  return {body.mass, body.damping(), body.stiffness()};
-}
-
 Problem bearing_problem(const Parameters& parameters, int samples,
                         const OperationBudget& budget)
 {
@@ -158,10 +153,7 @@ Problem bearing_problem(const Parameters& parameters, int samples,
                "force has not the period of rotation; use a time method",
                parameters.file.c_str(), passages_per_turn(parameters.bearing)));
   const int z = static_cast<int>(std::lround(passages_per_turn(parameters.bearing)));
-  Problem problem = bearing_problem(parameters, TorusLine{z, samples}, budget);
-  if (!parameters.large && parameters.bearing.is_plain())
-    problem.bodies = {point_body(parameters.stator), point_body(parameters.rotor)};
-  return problem;
+  return bearing_problem(parameters, TorusLine{z, samples}, budget);
 }
 
 Problem bearing_problem(const Parameters& parameters, const TorusLine& line,

@@ -4,7 +4,7 @@
 #include <cmath>
 #include <limits>
 
-#include "balance/step_solver.hpp"
+#include "balance/newton.hpp"
 #include "io/errors.hpp"
 
 namespace rotor_stator {
@@ -206,10 +206,11 @@ struct Choosing {
     const TorusLine line = line_without_images(
         kept, large, std::max(least_samples, 16 * kept.count()), finer.line.turns);
     Balance balance(bearing_problem(parameters, line, budget), kept);
-    balance.steps().hold();
     NewtonSettings newton = settings.newton;
     newton.tolerance = level_tolerance(settings);
-    PeriodicMotion motion = solve(balance, omega, x, newton);
+    BalanceSolver solver(balance, true);
+    PeriodicMotion motion{.omega = omega, .x = x};
+    solve(balance, solver, motion, newton);
     result.force_samples += motion.force_samples;
     motion.start = start;
     result.reached = false;
@@ -227,11 +228,11 @@ struct Choosing {
     const PeriodicMotion& coarse = result.motion;
     Balance balance(bearing_problem(parameters, finest, budget),
                     joined(coarse.harmonics, large));
-    balance.steps().divide(by_passages(balance.harmonics()));
+    BalanceSolver solver(balance, by_passages(balance.harmonics()));
     finer = {.omega = omega, .harmonics = balance.harmonics(), .samples = finest.samples};
     finer.x = project(coarse.x, dofs, coarse.harmonics, finer.harmonics);
     const Approached approached =
-        approach(balance, omega, level_tolerance(settings), finer.x, true);
+        approach(balance, solver, omega, level_tolerance(settings), finer.x, true);
     result.force_samples += balance.evaluations() * finest.samples;
     if (approached.settled) {
       finer.force = balance.force(finer.x, omega);

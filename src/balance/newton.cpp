@@ -1,121 +1,97 @@
 #include "balance/newton.hpp"
 
+#include <algorithm>
 #include <cmath>
-#include <limits>
-
-#include "balance/step_solver.hpp"
 
 namespace rotor_stator {
 
-double linear_goal(const Balance& balance, double residual, double tolerance)
+BalanceEquations::BalanceEquations(Balance& balance, double omega)
+    : balance_(balance), omega_(omega)
 {
-  const double scale = balance.problem().residual_scale;
+  residual_scale = balance.problem().residual_scale;
+  unknown_scale = balance.problem().unknown_scale;
+}
+
+double linear_goal(const Equations& equations, double residual, double tolerance)
+{
+  const double scale = equations.residual_scale;
   return std::max(std::min(1e-2, residual / scale) * residual, 0.1 * tolerance * scale);
 }
 
-namespace {
-
-/** The iteration for one solution. Everything that it needs is kept by the balance's step solver. */
-struct Iteration {
-  Balance& balance;
-  PeriodicMotion& motion;
-  const NewtonSettings& settings;
-  StepSolver& steps = balance.steps();
-  Eigen::VectorXd &residual = steps.vectors.residual, &step = steps.vectors.step;
-  Eigen::VectorXd &start = steps.vectors.start, &x = motion.x;
-  NewtonReport& report = motion.newton;
-  double norm = 0;
-
-  void run()
-  {
-    report = {};
-    steps.begin(settings.chord_contraction);
-    evaluate();
-    while (report.iterations < settings.most_iterations) {
-      const double before = norm;
-      const double goal = linear_goal(balance, norm, settings.tolerance);
-      const StepKind kind = steps.step(balance, x, motion.omega, residual, goal, step);
-      report.delta_2 = step.norm() / balance.problem().unknown_scale;
-      ++report.iterations;
-      if (!move(kind)) {
-        if (steps.retries()) continue;
-        report.end =
-            std::isfinite(report.delta_2) ? NewtonEnd::no_decrease : NewtonEnd::singular;
-        return;
-      }
-      if (has_converged(kind, norm / before)) {
-        report.end = NewtonEnd::converged;
-        return;
-      }
+NewtonReport newton(Equations& equations, LinearSolver& solver, Eigen::VectorXd& x,
+                    const NewtonSettings& settings)
+{
+  constexpr double good = 0.1;  // what a step by old factors may leave of the residual
+  const double tolerance = settings.tolerance;
+  NewtonReport report;
+  Eigen::VectorXd step, start;
+  double norm = equations.residual(x).norm();
+  while (report.iterations < settings.most_iterations) {
+    if (!std::isfinite(norm)) {
+      report.end = NewtonEnd::singular;
+      return report;
     }
-  }
-
-  void evaluate()
-  {
-    using With = Balance::With;
-    residual = balance.residual(x, motion.omega,
-                                steps.expects_chord() ? With::force : With::stiffness);
-    norm = residual.norm();
-    report.delta_1 = norm / balance.problem().residual_scale;
-  }
-
-  /** Moves along the step, halved until the residual decreases, or the next step with the same factors; a chord step is
-      taken whole, and must decrease it more. False, and back at the start, if it does not. */
-  bool move(StepKind kind)
-  {
+    const double before = norm, goal = linear_goal(equations, norm, tolerance);
+    const Solved how = solver.solve(x, equations.residual(x), goal, step);
+    const bool is_chord = how == Solved::by_old_factors;
+    report.delta_1 = norm / equations.residual_scale;
+    report.delta_2 = step.norm() / equations.unknown_scale;
+    ++report.iterations;
     if (!std::isfinite(report.delta_2)) {
-      steps.learn(std::numeric_limits<double>::infinity());
-      return false;
+      report.end = NewtonEnd::singular;
+      return report;
     }
-    constexpr double far = 8;
-    const bool chord = kind == StepKind::chord;
-    const bool by_next = settings.by_next_step && kind == StepKind::fresh;
-    const double slope = chord ? 1 - settings.chord_contraction : by_next ? 0.25 : 1e-4;
-    const double least = chord ? 1 : std::exp2(-settings.most_halvings);
-    const double before = norm, whole = by_next ? step.norm() : norm;
-    const double goal = settings.tolerance * balance.problem().residual_scale;
     start = x;
-    for (double length = 1; length >= least;) {
-      x = start + length * step;
-      evaluate();
-      if (length == 1) steps.learn(norm / before);
-      if (norm <= goal) return true;
-      double size = norm;
-      if (by_next) {
-        steps.solve_again(balance, residual, steps.vectors.next);
-        size = steps.vectors.next.norm();
-      }
-      if (size <= (1 - slope * length) * whole) return true;
-      length /= by_next && size > far * whole ? 4 : 2;
+    const double shortest = is_chord ? 1 : std::exp2(-settings.most_halvings);
+    const double slope = is_chord ? 1 - good : 1e-4;
+    bool moves = false;
+    for (double length = 1; !moves && length >= shortest; length /= 2) {
+      x = start - length * step;
+      norm = equations.residual(x).norm();
+      moves = norm <= tolerance * equations.residual_scale ||
+              norm <= (1 - slope * length) * before;
     }
-    x = start;
-    evaluate();
-    return false;
+    const bool is_direct = is_chord || how == Solved::directly;
+    if (is_direct && !(norm <= good * before)) solver.refresh();
+    if (!moves) {
+      x = start;
+      norm = before;
+      if (is_chord) continue;
+      report.end = NewtonEnd::no_decrease;
+      return report;
+    }
+    report.delta_1 = norm / equations.residual_scale;
+    /** After Newton's own step the error is of the order of δ₂²; after another one it is
+        what its contraction leaves of δ₂, or what so small a residual allows. */
+    if (report.delta_1 <= tolerance && report.delta_2 <= std::sqrt(tolerance) &&
+        (how == Solved::directly || report.delta_1 <= 0.1 * tolerance ||
+         norm / before * report.delta_2 <= 0.1 * tolerance)) {
+      report.end = NewtonEnd::converged;
+      return report;
+    }
   }
+  return report;
+}
 
-  /** After Newton's own step the error is of the order of δ₂²; after another step it is what its
-      contraction leaves of δ₂, or what so small a residual allows. */
-  bool has_converged(StepKind kind, double contraction) const
-  {
-    const double tolerance = settings.tolerance;
-    if (report.delta_1 > tolerance || report.delta_2 > std::sqrt(tolerance)) return false;
-    return kind == StepKind::fresh || report.delta_1 <= 0.1 * tolerance ||
-           contraction * report.delta_2 <= 0.1 * tolerance;
-  }
-};
-
-}  // namespace
-
-bool solve(Balance& balance, PeriodicMotion& motion, const NewtonSettings& settings)
+bool solve(Balance& balance, BalanceSolver& solver, PeriodicMotion& motion,
+           const NewtonSettings& settings)
 {
   const long before = balance.evaluations();
-  Iteration{balance, motion, settings}.run();
+  BalanceEquations equations(balance, motion.omega);
+  solver.omega = motion.omega;
+  motion.newton = newton(equations, solver, motion.x, settings);
   motion.force = balance.force(motion.x, motion.omega);
   motion.harmonics = balance.harmonics();
   motion.samples = balance.problem().samples;
   motion.line = balance.problem().line;
   motion.force_samples = (balance.evaluations() - before) * motion.samples;
   return motion.found();
+}
+
+bool solve(Balance& balance, PeriodicMotion& motion, const NewtonSettings& settings)
+{
+  BalanceSolver solver(balance);
+  return solve(balance, solver, motion, settings);
 }
 
 PeriodicMotion solve(Balance& balance, double omega, Eigen::VectorXd x,
@@ -132,15 +108,18 @@ bool solve_from_few(Balance& balance,
 {
   constexpr int few = 64;
   const int harmonics = balance.harmonics().count(), dofs = balance.problem().dofs;
-  PeriodicMotion first{.omega = motion.omega};
+  long spent = 0;
+  int iterations = 0;
   if (harmonics > 2 * few) {
-    first.x = resize_harmonics(motion.x, dofs, few);
-    if (solve(on_few(few), first, settings)) motion.x = std::move(first.x);
+    motion.x = resize_harmonics(motion.x, dofs, few);
+    if (!solve(on_few(few), motion, settings)) return false;
+    spent = motion.force_samples;
+    iterations = motion.newton.iterations;
   }
   motion.x = resize_harmonics(motion.x, dofs, harmonics);
   solve(balance, motion, settings);
-  motion.newton.iterations += first.newton.iterations;
-  motion.force_samples += first.force_samples;
+  motion.newton.iterations += iterations;
+  motion.force_samples += spent;
   return motion.found();
 }
 

@@ -1,22 +1,21 @@
 /**
 # Newton's method, globalised (Eqs 10, 14, 15, 17 and 18)
 
-Newton's method solves the balance, with steps that are shortened where the residual would grow. The balance,
-linearised about the coefficients X and the speed ω, is
+Newton's method solves the balance, with steps that are shortened where the residual would
+grow. The balance, linearised about the coefficients X and the speed ω, is
 
 $$A X + F_{NL} - F + (A + J)\,\Delta X + Q\,\Delta\omega = 0. \tag{10}$$
 
-The step follows from it at a fixed speed, Δω = 0, with R of Eq. 16 (the paper's Eq. 15 does not follow
-from it, D-06):
+The step follows from it at a fixed speed, Δω = 0, with R of Eq. 16 (the paper's Eq. 15
+does not follow from it, D-06):
 
 $$X \leftarrow X + \lambda \Delta X, \tag{14}$$
 
 $$(A + J)\,\Delta X = -R. \tag{15}$$
 
-λ is 1 and halved until the residual decreases, or by the natural monotonicity test (Deuflhard 2011), which no scale of the
-equations changes: until the next step with the same factors is at most (1 - λ/4) ΔX long, and quartered where it is
-more than eight times as long. Both criteria of the paper are reported,
-relative to the problem's scales (D-22):
+λ is 1 and halved until the residual decreases. A step by the factors of an earlier point
+is taken whole, and only if it leaves a tenth of the residual. Both criteria of the paper
+are reported, relative to the problem's scales (D-22):
 
 $$\delta_1 = \|R\|, \tag{17}$$
 
@@ -29,7 +28,7 @@ is quadratic, so a last step of √tolerance leaves an error of the order of the
 
 #include <functional>
 
-#include "balance/balance.hpp"
+#include "balance/linear_solver.hpp"
 
 namespace rotor_stator {
 
@@ -38,34 +37,60 @@ struct NewtonSettings {
   double tolerance = 1e-10;  ///< relative to the problem's scales
   int most_iterations = 40;
   int most_halvings = 12;
-
-  /** A chord step, with the Jacobian of an earlier point, is kept when it leaves at most this
-     part of the residual; otherwise Newton's own step is taken. 0: always Newton's. */
-  double chord_contraction = 0.1;
-
-  /** Steps by new dense factors are measured by the next step, not by the residual: where a resonance of the contact hides
-      a large error behind a small residual. */
-  bool by_next_step = false;
 };
 
-/** Newton on the balance at the speed of `motion`, from its coefficients, which become the solution
-    or the best ones reached; the force there and the report are written beside them. True when it
-    has converged. */
+/** F(x) = 0. */
+class Equations {
+public:
+  virtual ~Equations() = default;
+
+  /** F at x; valid until it is asked for at another point. */
+  virtual const Eigen::VectorXd& residual(const Eigen::VectorXd& x) = 0;
+
+  double residual_scale = 1, unknown_scale = 1;  ///< sizes of F and x
+};
+
+/** The balance at one speed. */
+class BalanceEquations : public Equations {
+public:
+  BalanceEquations(Balance& balance, double omega);
+  const Eigen::VectorXd& residual(const Eigen::VectorXd& x) override
+  {
+    return balance_.residual(x, omega_);
+  }
+
+private:
+  Balance& balance_;
+  double omega_;
+};
+
+/** Newton's method from `x`, which becomes the solution or the best point reached. */
+NewtonReport newton(Equations& equations, LinearSolver& solver, Eigen::VectorXd& x,
+                    const NewtonSettings& settings = {});
+
+/** The linear residual [-] that a step may leave: so small that the iteration stays
+    quadratic, and no smaller than the tolerance asks. */
+double linear_goal(const Equations& equations, double residual, double tolerance);
+
+/** Newton on the balance at the speed of `motion`, from its coefficients, which become
+    the solution or the best ones reached; the force there and the report are written
+    beside them. True when it has converged. `solver` may have factors of a neighbouring
+    speed. */
+bool solve(Balance& balance, BalanceSolver& solver, PeriodicMotion& motion,
+           const NewtonSettings& settings = {});
 bool solve(Balance& balance, PeriodicMotion& motion, const NewtonSettings& settings = {});
 
 /** The same from `x` at speed `omega` [rad/s]. */
 PeriodicMotion solve(Balance& balance, double omega, Eigen::VectorXd x,
                      const NewtonSettings& settings = {});
 
-/** From a start, which may have any number of harmonics and of which the high ones mean little, to the solution of
-    `balance`. With more than 128 harmonics the first 64 are solved for first, on the balance that `on_few` gives: Newton
-    goes most of its way there, in steps that cost less than half. The report counts the iterations on both. */
+/** From a start, which may have any number of harmonics and of which the high ones mean
+    little, to the solution of `balance`. With more than 128 harmonics the first 64 are
+    solved for first, on the balance that `on_few` gives: Newton goes most of its way
+    there, in steps that cost less than half. Where that fails, so does this. The report
+    counts the iterations on both. */
 bool solve_from_few(Balance& balance,
                     const std::function<Balance&(int harmonics)>& on_few,
                     PeriodicMotion& motion, const NewtonSettings& settings = {});
-
-/** The linear residual [-] that a step may leave: so small that the iteration stays quadratic, and no
-    smaller than the tolerance asks. */
-double linear_goal(const Balance& balance, double residual, double tolerance);
 
 }  // namespace rotor_stator

@@ -87,6 +87,7 @@ struct Sweep {
   const ColdStart& cold_start;
   const SweepSettings& settings;
   LagrangePredictor predictor{settings.arc_unknown_scale, settings.speed_scale};
+  BalanceSolver solver{balance};  ///< keeps its factors from speed to speed
   double last_omega = 0;
 
   PeriodicMotion solve_at(double omega)
@@ -110,7 +111,7 @@ struct Sweep {
     const long force_samples = motion.force_samples;
     motion.omega = omega;
     motion.x = std::move(x);
-    solve(balance, motion, settings.newton);
+    solve(balance, solver, motion, settings.newton);
     motion.newton.iterations += iterations;
     motion.force_samples += force_samples;
     if (!motion.found()) return false;

@@ -32,7 +32,7 @@ CostGrowthScene read_cost_growth(SceneFile& file)
        {std::tuple{"harmonics", 1, 1024}, {"balls", 2, 1024}, {"speeds", 2, 1 << 20}})
     scene.kinds.push_back({kind, toml.integers(kind, least, most),
                            toml.integer("fitted_from_" + std::string(kind), 1, most)});
-  for (const std::string algebra : {"whole", "blocks", "dense"}) {
+  for (const std::string algebra : {"whole", "dense"}) {
     const GrowthKind& usual = scene.kinds.front();
     scene.kinds.push_back({usual.against + ", " + algebra,
                            toml.integers("harmonics_" + algebra, 1, 1024),
@@ -127,7 +127,7 @@ namespace {
 
 const std::vector<Field<Growth>> growth_fields{
     {"against", "-",
-     "what grows: harmonics, balls or speeds; harmonics otherwise: whole, blocks, dense",
+     "what grows: harmonics, balls or speeds; harmonics otherwise: whole, dense",
      &Growth::against},
     {"size", "-", "how many of it", &Growth::size},
     {"cpu_s", "s", "CPU of one thread, median of the repetitions", &Growth::median},
@@ -153,12 +153,10 @@ Table cost_growth_table(const CostGrowthScene& scene, const std::vector<Growth>&
       "against harmonics: one solution at %g Hz from that at %g Hz with the same m",
       scene.frequency, scene.below));
   table.note(
-      "Newton's steps: dense factors up to 130 unknowns; beyond, the equations at the samples "
-      "where more than 32 harmonics are coupled, else as the line of blocks; "
-      "blocks: dense factors of the coupled harmonics, a block for each other one, GMRES; "
-      "dense: dense factors of all; "
-      "more than 128 harmonics begin with the solution on 64 of them; "
-      "whole: without that, as blocks and dense");
+      "Newton's steps: dense factors up to 130 unknowns; beyond, GMRES with dense factors "
+      "of the coupled harmonics and a block for each other one; dense: dense factors of "
+      "all; more than 128 harmonics begin with the solution on 64 of them; whole: without "
+      "that, as dense");
   table.note(format(
       "against balls: a sweep of %d speeds from %g to %g Hz, m = %d, cage ratio %g",
       scene.sweep_speeds, scene.sweep_from, scene.sweep_to, scene.sweep_harmonics,

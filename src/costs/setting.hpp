@@ -26,7 +26,7 @@ struct Setting {
   int samples_per_harmonic = 0;  ///< aft: N is a fast size above this times m
   int samples = 0;               ///< aft: N itself, instead
   std::string algebra =
-      {};  ///< aft: "blocks" or "dense" factors; "whole": as everywhere, but all harmonics at once
+      {};  ///< aft: "dense" factors; "whole": as everywhere, but all harmonics at once
   bool paper_sweep = false;  ///< aft: the paper's continuation, continuation/sweep.hpp
   double tolerance =
       0;            ///< aft: Newton's; aft-tolerance: the one asked for; GSL: local error

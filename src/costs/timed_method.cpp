@@ -7,7 +7,7 @@
 #include <numbers>
 
 #include "balance/bearing_problem.hpp"
-#include "balance/step_solver.hpp"
+#include "balance/newton.hpp"
 #include "continuation/sweep.hpp"
 #include "integration/time_stepper.hpp"
 #include "io/errors.hpp"
@@ -86,13 +86,23 @@ public:
   Counts counts() const override
   {
     Counts counts = counts_;
-    for (const auto& [m, balance] : balances_) add(*balance, counts);
+    for (const auto& [m, solved] : balances_) add(*solved, counts);
     if (integration_) counts.force_instants += integration_->evaluations();
     counts.force_seconds = *force_seconds_;
     return counts;
   }
 
 private:
+  /** A balance, and the factors that it keeps from speed to speed. */
+  struct Solver {
+    Balance balance;
+    BalanceSolver solver;
+    Solver(const Problem& problem, int m, bool is_dense)
+        : balance(problem, m), solver(balance, is_dense)
+    {
+    }
+  };
+
   void begin() override
   {
     balances_.clear();
@@ -146,7 +156,8 @@ private:
     constexpr int few = 12;
     const auto at_once = [&](const Eigen::VectorXd& x) {
       found.x = resize_harmonics(x, 2, m);
-      return rotor_stator::solve(balance(m), found, newton_);
+      Balance& at = balance(m);
+      return rotor_stator::solve(at, balances_[m]->solver, found, newton_);
     };
     const auto from = [&](const Eigen::VectorXd& x) {
       if (!setting_.algebra.empty()) return at_once(x);
@@ -169,8 +180,8 @@ private:
   /** One balance for each number of harmonics; of a profiled task the force is timed. */
   Balance& balance(int m)
   {
-    auto& balance = balances_[m];
-    if (balance) return *balance;
+    auto& known = balances_[m];
+    if (known) return known->balance;
     Problem problem = bearing_problem(task_.parameters, samples_for(setting_, m));
     if (task_.profiled)
       problem.force = [inner = problem.force, seconds = force_seconds_](
@@ -179,19 +190,16 @@ private:
         inner(q, results...);
         *seconds += thread_cpu_seconds() - start;
       };
-    /** What the equations in time replace: GMRES with a block for each harmonic, and dense factors. */
-    if (setting_.algebra == "blocks") problem.bodies.reset();
-    balance = std::make_unique<Balance>(problem, m);
-    if (setting_.algebra == "dense") balance->steps().hold();
-    return *balance;
+    known = std::make_unique<Solver>(problem, m, setting_.algebra == "dense");
+    return known->balance;
   }
 
-  static void add(Balance& balance, Counts& counts)
+  static void add(const Solver& solved, Counts& counts)
   {
+    const Balance& balance = solved.balance;
     const long samples = balance.problem().samples;
-    const long transforms =
-        4 * (balance.evaluations() + balance.steps().factorisations() +
-             balance.steps().linear_iterations());
+    const long transforms = 4 * (balance.evaluations() + solved.solver.factorisations() +
+                                 solved.solver.iterations());
     counts.force_instants += balance.evaluations() * samples;
     counts.transforms += transforms;
     counts.transformed += transforms * samples;
@@ -204,8 +212,8 @@ private:
   int longest_ = 0;         ///< harmonics of the predictor's vectors
   std::optional<motion::CoarseIntegration> integration_;  ///< goes on from speed to speed
   LagrangePredictor predictor_{1, 1};
-  std::map<int, std::unique_ptr<Balance>> balances_;  ///< by m
-  std::map<double, Eigen::MatrixXd> bodies_;          ///< series found, by speed [rad/s]
+  std::map<int, std::unique_ptr<Solver>> balances_;  ///< by m
+  std::map<double, Eigen::MatrixXd> bodies_;         ///< series found, by speed [rad/s]
   std::shared_ptr<double> force_seconds_ = std::make_shared<double>(0);
 };
 
@@ -221,17 +229,23 @@ public:
   }
 
 private:
-  void begin() override { bodies_.assign(task_.frequencies.size(), {}); }
+  void begin() override
+  {
+    bodies_.assign(task_.frequencies.size(), {});
+    before_.resize(0);
+  }
 
   void solve(std::size_t speed) override
   {
     const AdaptiveMotion at =
         motion::solve_adaptively(task_.parameters, angular(task_.frequencies[speed]),
-                                 {.tolerance = setting_.tolerance});
+                                 {.tolerance = setting_.tolerance}, {}, before_);
     counts_.force_instants += at.force_samples;
+    before_ = at.reached ? at.motion.x : Eigen::VectorXd();
     if (at.reached) bodies_[speed] = at.motion.bodies;
   }
 
+  Eigen::VectorXd before_;               ///< the last solution
   std::vector<Eigen::MatrixXd> bodies_;  ///< series found, by speed
 };
 

@@ -20,15 +20,4 @@ struct AttractorsRequest : Request {
 /** Throws BadInput for options that contradict each other, NoSolution when nothing was found. */
 Exploration explore_attractors(const AttractorsRequest& request);
 
-/** What a machine settles on from rest, as in the row of `explore attractors` for one speed [Hz]. */
-struct SettledMotion {
-  int period;       ///< K; 0 aperiodic, -1 quasi-periodic, -2 undecided
-  double lyapunov;  ///< [1/base period]
-  double contact;   ///< share of the time with at least one loaded ball [-]
-};
-
-/** Throws NoSolution when the integration breaks down or `budget` is used up. */
-SettledMotion settled_from_rest(const Parameters& machine, double frequency,
-                                const OperationBudget& budget);
-
 }  // namespace rotor_stator::explore

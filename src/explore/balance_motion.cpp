@@ -25,6 +25,7 @@ void note_verdict(Table& table, const Parameters& parameters,
       table.note("multiplier: with the reduced bodies");
   } else
     table.note("stability: " + verdict.reason);
+  if (verdict.refused > 0) table.value("distance_refused", verdict.refused, 2);
   if (verdict.distance > 0)
     put_difference(table, "distance", verdict.distance, verdict.distance_rms,
                    "from the motion of Eq. 7 whose multipliers these are");
@@ -98,12 +99,6 @@ std::string basis_of(const ErrorEstimate& error, const std::string& harmonics)
   return error.harmonics > 0
              ? "estimated with " + harmonics + format(", N = %d", error.samples)
              : "against the motion integrated from rest";
-}
-
-void put_newton(Table& table, const PeriodicMotion& solution)
-{
-  table.value("start", one_word(solution.start));
-  table.note("newton: from " + solution.start + ", " + solution.newton.reason());
 }
 
 /** Without a tolerance any error is accepted, and none is estimated. */
@@ -198,8 +193,10 @@ void note_torus_verdict(Table& table, const JudgedTorus& judged, double frequenc
   }
   const motion::TorusVerdict& verdict = *judged.verdict;
   table.value("stability", verdict.word());
-  table.value("lyapunov", verdict.rate * frequency, 3);
-  table.value("lyapunov_uncertainty", verdict.uncertainty * frequency, 2);
+  if (std::isfinite(verdict.rate) && std::isfinite(verdict.uncertainty)) {
+    table.value("lyapunov", verdict.rate * frequency, 3);
+    table.value("lyapunov_uncertainty", verdict.uncertainty * frequency, 2);
+  }
   table.value("stays", verdict.stays ? "yes" : "no");
   table.value("distance_largest", verdict.away, 3);
   table.note(
@@ -236,14 +233,15 @@ FoundMotion quasi_periodic_motion(const Parameters& parameters,
   table.value("samples", solution.samples);
   table.value("unknowns", solution.x.size());
   table.note(format(
-      "two frequencies: omega and n omega_cage = %.9g omega; z = %d, relative tolerance of "
-      "Newton %g; row harmonics: k_1,k_2 of k_1 omega + k_2 n omega_cage",
+      "two frequencies: omega and n omega_cage = %.9g omega; z = %d, relative tolerance "
+      "of Newton %g; row harmonics: k_1,k_2 of k_1 omega + k_2 n omega_cage",
       passages, solution.line.z, level_tolerance(settings)));
   std::vector<Cell> list;
   for (const auto& [k_1, k_2] : solution.harmonics.list())
     list.emplace_back(format("%g,%g", k_1, k_2));
   table.row_line("harmonics", list);
-  put_newton(table, solution);
+  table.value("start", one_word(solution.start));
+  table.note("newton: " + solution.newton.reason());
   const ErrorEstimate& error = *solution.error;
   put_difference(table, "error", error.displacement, error.rms,
                  basis_of(error, format("%d harmonics", error.harmonics)));
@@ -278,7 +276,8 @@ PeriodicMotion solution_of(const Parameters& parameters, const MotionRequest& re
   table.value("harmonics", at.motion.harmonics.count() / turns);
   table.value("samples", at.motion.samples / turns);
   if (turns > 1) table.note(format("orders h/%d of the speed", turns));
-  put_newton(table, at.motion);
+  table.value("start", one_word(at.motion.start));
+  table.note("newton: " + at.motion.newton.reason());
   table.value("force_samples", std::max(at.force_samples, at.motion.force_samples));
   if (const auto& error = at.motion.error; error && (turns > 1 || request.tolerance))
     put_difference(table, "error", error->displacement, error->rms,

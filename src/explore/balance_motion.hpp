@@ -25,8 +25,8 @@ void note_no_verdict(Table& table);
 /** `base` with its period, where a frequency [Hz] has one. */
 void put_base(Table& table, const std::string& base, double frequency);
 
-/** `NAME_largest` and `NAME_rms` of a difference of displacements, and what it is. The rms is
-    left out where nothing moves about the mean. */
+/** `NAME_largest` and `NAME_rms` of a difference of displacements, and what it is. The rms
+    is left out where nothing moves about the mean. */
 void put_difference(Table& table, const std::string& name, double largest, double rms,
                     const std::string& meaning);
 

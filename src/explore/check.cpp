@@ -98,6 +98,11 @@ Exploration explore_check(const CheckRequest& request)
   require_range(request.from, request.to);
   const std::vector<Rest> rests = rest_of(machine);
   describe(table, machine);
+  int warnings = 0;
+  const auto warn = [&](const std::string& text) {
+    ++warnings;
+    table.note("warning: " + text);
+  };
   for (std::size_t b = 0; const Bearing& bearing : bearings_of(machine)) {
     const Rest& rest = rests[b++];
     const std::string tail = b == 1 ? "" : format("_%zu", b);
@@ -105,11 +110,9 @@ Exploration explore_check(const CheckRequest& request)
     const double stress = 1e-6 * bearing.pressure * std::cbrt(rest.most);
     const double gap = bearing.clearance, ball = bearing.ball_diameter;
     if (ball > 0 && gap > 0.1 * ball)
-      table.note(
-          format("warning: the clearance of %g m is more than a tenth of the ball", gap));
+      warn(format("the clearance of %g m is more than a tenth of the ball", gap));
     if (stress > 4000)
-      table.note(
-          format("warning: the stress of %.4g N/mm^2 at rest is above 4000", stress));
+      warn(format("the stress of %.4g N/mm^2 at rest is above 4000", stress));
     const auto add = [&](const char* name, double value, const char* unit,
                          const char* meaning) {
       table.row({name + tail, value, unit, meaning});
@@ -127,13 +130,13 @@ Exploration explore_check(const CheckRequest& request)
     for (std::size_t k = 1; double frequency : natural_frequencies(machine, 8))
       table.row({format("f_%zu", k++), frequency, "Hz",
                  "natural, damped, with the mean contact stiffness at rest"});
+    table.value("warnings", warnings);
     return {std::move(table)};
   }
   const Rest& rest = rests[0];
   if (never_touches(request, machine))
-    table.note(format(
-        "warning: nothing touches from %g to %g Hz: the clearance of %g m is never closed",
-        request.from, request.to, machine.bearing.clearance));
+    warn(format("nothing touches from %g to %g Hz: the clearance of %g m is never closed",
+                request.from, request.to, machine.bearing.clearance));
   /** A frequency and, in the range, the speed at which the passing balls meet it. */
   const auto add = [&](const std::string& name, double frequency, const char* meaning,
                        double order = 1) {
@@ -158,6 +161,7 @@ Exploration explore_check(const CheckRequest& request)
   if (!lost.empty())
     table.row({"contact_loss", lost.front() / turn, "Hz",
                "speed at which the unbalance lifts the static load, at u = 0"});
+  table.value("warnings", warnings);
   return {std::move(table)};
 }
 

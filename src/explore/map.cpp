@@ -10,7 +10,6 @@
 #include "balance/bearing_problem.hpp"
 #include "balance/fourier_transform.hpp"
 #include "continuation/sweep.hpp"
-#include "explore/attractors.hpp"
 #include "explore/balance_motion.hpp"
 #include "explore/plot.hpp"
 #include "io/errors.hpp"
@@ -19,6 +18,7 @@
 #include "io/parallel.hpp"
 #include "io/program.hpp"
 #include "motion/adaptive.hpp"
+#include "motion/answer.hpp"
 #include "motion/contact.hpp"
 #include "motion/other_starts.hpp"
 #include "motion/regime.hpp"
@@ -32,7 +32,7 @@ namespace {
 const char* const script = "map.py";
 const char* const speed = "frequency";  // the key that no parameter file has
 constexpr int instants = 512, swept_instants = 128, timed_instants = 64;  // of a period
-constexpr int most_points = 10'000'000;
+constexpr int most_points = 10'000'000, recorded_periods = 64;
 constexpr double seconds = 5;  // that a point may take, about
 
 /**
@@ -173,7 +173,7 @@ struct Task {
     ModelRange range{.harmonics = std::max(64, harmonics)};
     if (frequency > 0) range.from = range.to = frequency;
     if (!sweep.empty()) range.from = sweep.front(), range.to = sweep.back();
-    return read_parameters(file.with(changes), range);
+    return read_parameters(file.with(changes, given_instead), range);
   }
 
   bool has_speed() const { return std::ranges::find(keys, speed) != keys.end(); }
@@ -252,31 +252,42 @@ public:
     });
   }
 
-  /** Of a time method the periods that are observed. */
-  const motion::Motion& motion()
+  bool is_balance() const { return task_.request.method == "aft"; }
+
+  /** What the machine does from rest, by the method that is asked for. */
+  const motion::Answer& answer()
   {
-    return motion_([&] {
+    return answer_([&] {
       const MapRequest& asked = task_.request;
-      if (asked.method == "aft") return motion::motion_of(solution(), instants);
-      const SteadySettings settings{.stepper = {.method = asked.method,
-                                                .intervals_per_period = timed_instants,
-                                                .step = asked.step,
-                                                .budget = budget_},
-                                    .longest = asked.longest,
-                                    .shown_periods = asked.periods};
-      return motion::motion_of(steady_state(machine, omega(), settings), timed_instants);
+      return motion::answer(machine,
+                            {.omega = omega(),
+                             .method = is_balance() ? "auto" : asked.method,
+                             .tolerance = is_balance() ? std::nullopt : asked.tolerance,
+                             .periods = recorded_periods,
+                             .step = asked.step,
+                             .longest = asked.longest},
+                            budget_);
     });
   }
 
-  /** Half peak-to-peak of x_r [m]; of a time method the mean over the periods. */
+  const motion::Observation& observed()
+  {
+    return observed_([&] { return observe(answer(), budget_); });
+  }
+
+  /** One period of a solution, the record of a motion in time; and the machine that counts its periods. */
+  const motion::Motion& motion()
+  {
+    if (!is_balance()) return answer().motion;
+    return motion_([&] { return motion::motion_of(solution(), instants); });
+  }
+  const Parameters& moving() { return is_balance() ? machine : answer().machine; }
+
+  /** Half peak-to-peak of x_r [m]. */
   double amplitude()
   {
-    if (task_.request.method == "aft") return half_peak_to_peak(solution().bodies)[2];
-    return motion::mean_over(motion(), 1,
-                             [](const motion::Motion& period) {
-                               return motion::half_peak_to_peak(period)[2];
-                             })
-        .value;
+    return is_balance() ? half_peak_to_peak(solution().bodies)[2]
+                        : observed().amplitude[2];
   }
 
   /** [Hz] */
@@ -291,6 +302,7 @@ public:
 
   double mean()
   {
+    if (!is_balance()) return observed().mean[1 + 2];
     double sum = 0;
     for (const Bodies& at : motion().positions) sum += at.rotor.y;
     return sum / static_cast<double>(motion().size());
@@ -299,6 +311,19 @@ public:
   const motion::Verdict& verdict()
   {
     return verdict_([&] { return motion::judge(machine, solution(), budget_); });
+  }
+
+  std::string stability()
+  {
+    return is_balance() ? verdict().word() : answer().stability;
+  }
+
+  /** The largest multiplier and its uncertainty. */
+  std::pair<double, double> multiplier()
+  {
+    if (is_balance()) return {floquet().largest(), floquet().uncertainty()};
+    if (!(answer().multiplier > 0)) throw NoSolution("the motion does not close");
+    return {answer().multiplier, answer().uncertainty};
   }
 
   /** The multipliers of a motion that was found. */
@@ -314,10 +339,12 @@ public:
     return series_([&] { return series_multipliers(machine, solution()); });
   }
 
-  const SettledMotion& settled()
+  /** λ of the motion from rest [1/base period], and its share of the time with a loaded ball. */
+  double lyapunov()
   {
-    return settled_([&] { return settled_from_rest(machine, frequency, budget_); });
+    return answer().settled.lyapunov.value * angular(1) / answer().omega;
   }
+  double loaded() { return motion::contact_share(answer().machine, answer().motion); }
 
   const Settled& regime()
   {
@@ -452,7 +479,8 @@ private:
   Once<motion::Motion> motion_;
   Once<motion::Verdict> verdict_;
   Once<Floquet> series_;
-  Once<SettledMotion> settled_;
+  Once<motion::Answer> answer_;
+  Once<motion::Observation> observed_;
   Once<Settled> regime_;
   Once<Swept> swept_;
 };
@@ -463,7 +491,7 @@ private:
 double largest_force(Point& point)
 {
   double largest = 0;
-  for (const Vec2 force : motion::bearing_forces(point.machine, point.motion()))
+  for (const Vec2 force : motion::bearing_forces(point.moving(), point.motion()))
     largest = std::max(largest, std::hypot(force.x, force.y));
   return largest;
 }
@@ -518,21 +546,21 @@ const std::vector<Quantity> quantities{
      [](auto& p) -> Cell { return p.missed(); }},
     {"contact_share", "-", "share of the period with at least one loaded ball",
      motion_of_method,
-     [](auto& p) -> Cell { return motion::contact_share(p.machine, p.motion()); }},
+     [](auto& p) -> Cell { return motion::contact_share(p.moving(), p.motion()); }},
     {"ball_load", "N", "largest force on a ball, over two periods", motion_of_method,
-     [](auto& p) -> Cell { return motion::largest_ball_load(p.machine, p.motion()); }},
+     [](auto& p) -> Cell { return motion::largest_ball_load(p.moving(), p.motion()); }},
     {"force", "N", "largest force of the bearing, Eq. 6", motion_of_method,
      [](auto& p) -> Cell { return largest_force(p); }},
     {"stability", "word",
-     "of the motion of Eq. 7 found from the solution: stable, unstable, undecided",
-     solution, [](auto& p) -> Cell { return std::string(p.verdict().word()); }},
+     "of the motion, or of that of Eq. 7 found from the solution: stable, unstable, undecided",
+     motion_of_method, [](auto& p) -> Cell { return p.stability(); }},
     {"period", "-",
      "K of the motion from rest; 0 aperiodic, -1 quasi-periodic, -2 undecided", rest,
-     [](auto& p) -> Cell { return p.settled().period; }},
-    {"multiplier", "-", "largest modulus of the multipliers behind stability", solution,
-     [](auto& p) -> Cell { return p.floquet().largest(); }},
-    {"uncertainty", "-", "of multiplier", solution,
-     [](auto& p) -> Cell { return p.floquet().uncertainty(); }},
+     [](auto& p) -> Cell { return p.answer().period_number(); }},
+    {"multiplier", "-", "largest modulus of the multipliers behind stability",
+     motion_of_method, [](auto& p) -> Cell { return p.multiplier().first; }},
+    {"uncertainty", "-", "of multiplier", motion_of_method,
+     [](auto& p) -> Cell { return p.multiplier().second; }},
     {"distance", "-",
      "of the solution from the motion behind stability, rms about the mean", solution,
      [](auto& p) -> Cell { return p.floquet(), p.verdict().distance_rms; }},
@@ -544,10 +572,13 @@ const std::vector<Quantity> quantities{
      [](auto& p) -> Cell { return p.series().uncertainty(); }, true},
     {"series_stability", "word", "what they say: stable, unstable, undecided", solution,
      [](auto& p) -> Cell { return std::string(p.series().verdict()); }, true},
+    {"regime", "word",
+     "of the motion from rest: rest, periodic, quasi-periodic, chaotic, undecided", rest,
+     [](auto& p) -> Cell { return word(p.answer().kind()); }},
     {"lyapunov", "1/base period", "largest Lyapunov exponent of the motion from rest",
-     rest, [](auto& p) -> Cell { return p.settled().lyapunov; }},
+     rest, [](auto& p) -> Cell { return p.lyapunov(); }},
     {"loaded", "-", "share of the time of the motion from rest with a loaded ball", rest,
-     [](auto& p) -> Cell { return p.settled().contact; }},
+     [](auto& p) -> Cell { return p.loaded(); }},
     {"harmonics", "-", "m that --tolerance needs, 1e-3 without it", solution,
      [](auto& p) -> Cell { return p.chosen().motion.harmonics.count(); }},
     {"error", "-",
@@ -630,7 +661,7 @@ std::vector<Quantity> chosen_quantities(const Task& task)
     throw BadInput("--method " + task.request.method + ": " + balanced +
                    " is of harmonic balance, aft");
   if (const std::string timed = of(settled);
-      task.request.method != "rk4" && !timed.empty())
+      task.request.method != "rk4" && task.request.method != "auto" && !timed.empty())
     throw BadInput("--method " + task.request.method + ": " + timed + " is of rk4");
   const Parameters machine = task.machine(task.grid.values(task.grid.first, 0)).first;
   require_method_of(machine, task.request.method);
@@ -685,8 +716,8 @@ void put_method(Table& table, const Task& task)
   table.value("method", request.method);
   if (request.method != "aft")
     return table.note(
-        format("longest step %g s (0: from K_H), at most %g s from rest, then %d periods",
-               request.step, request.longest, request.periods));
+        format("longest step %g s (0: from K_H), transient at most %g s after t = 0",
+               request.step, request.longest));
   if (request.tolerance && !request.harmonics)
     return table.note("harmonics: chosen for the tolerance");
   table.value("harmonics", task.harmonics);
@@ -719,7 +750,7 @@ std::string header_of(const Task& task, const std::vector<Quantity>& chosen)
   }
   const auto from_rest = [](const Quantity& q) { return q.source == rest; };
   if (std::ranges::any_of(chosen, from_rest))
-    table.note("motion from rest: rk4, as explore attractors settles it");
+    table.note("motion from rest: as explore orbit settles it");
   if (!std::ranges::all_of(chosen, from_rest)) put_method(table, task);
   if (request.tolerance) table.value("tolerance", *request.tolerance);
   table.value("budget", budget_of(request.budget, seconds, base).most(), 6);

@@ -14,10 +14,9 @@ struct MapRequest : Request {
   std::string x, y;                 ///< KEY=from:to:count[:log], or empty
   std::optional<std::string> list;  ///< table whose rows stand for the lines of y
   std::vector<std::string> quantities;
-  std::string method = "aft";                  ///< or a time method, from rest
+  std::string method = "auto";  ///< what the machine does from rest; aft; or a time method
   double step = 0;                             ///< rk4 [s]; 0: from K_H
-  double longest = 30;                         ///< transient at most of a time method [s]
-  int periods = 8;                             ///< that a time method is observed
+  double longest = 0;                         ///< 0: as settle chooses; transient at most after t = 0 [s]
   std::optional<double> frequency, tolerance;  ///< [Hz]; relative
   std::string sweep;                           ///< A:B[:COUNT] [Hz], or empty
   std::string lines;                  ///< A:B: those with A ≤ index < B, or empty

@@ -39,7 +39,7 @@ struct MotionRequest : Request {
   int points = 256;                 ///< P
   double local_error = 1e-11;       ///< GSL's methods, relative
   double step = 0;                  ///< rk4 [s]; 0: from K_H
-  double longest = 60;              ///< transient at most after t = 0 [s]
+  double longest = 0;              ///< 0: as settle chooses; transient at most after t = 0 [s]
   int periods = 1;                  ///< turns that are printed
   bool stability = true;            ///< Floquet multipliers in the header (aft)
 };
@@ -48,6 +48,7 @@ struct Exploration {
   Table table;
   std::string unfinished = {};  ///< why a branch stopped early; empty when it did not
   std::string drawn = {};       ///< the table of the figure, where it is another one
+  bool is_written = false;      ///< row by row, on stdout
 };
 
 /** Throw BadInput for options that contradict each other, NoSolution when nothing was found. */

@@ -15,8 +15,8 @@ namespace rotor_stator::explore {
 void require_plot(const std::string& file, const std::string& script,
                   const std::vector<std::string>& inputs);
 
-/** Draws a table by `script` into `file`, with the measured table `overlay` if there is one,
-    all or nothing; returns why it could not, empty otherwise. */
+/** Draws a table by `script` into `file`, with the measured table `overlay` if there is
+    one, all or nothing; returns why it could not, empty otherwise. */
 std::string plot(const std::string& file, const std::string& script,
                  const std::string& table,
                  const std::optional<std::string>& overlay = {});

@@ -9,6 +9,7 @@
 #include "balance/large_problem.hpp"
 #include "continuation/arc_length.hpp"
 #include "explore/branch_file.hpp"
+#include "explore/settled_response.hpp"
 #include "explore/spectrum.hpp"
 #include "integration/time_stepper.hpp"
 #include "io/errors.hpp"
@@ -418,13 +419,12 @@ Others others(const Task& task, Balance& balance, const Branch& main, Table& tab
   return others;
 }
 
-/** One line in all, then one line per bifurcation. */
+/** Of a branch: points without a verdict, bifurcations seen and not located; then one
+    line for each bifurcation. */
 void note(Table& table, const Task& task, std::size_t number,
           const BranchStability& stability)
 {
-  const std::string tail = number == 1 ? "" : format("_%zu", number);
-  table.value("undecided_points" + tail, stability.failed);
-  table.value("bifurcations_not_located" + tail, stability.missed);
+  table.row_line("undecided", {number, stability.failed, stability.missed});
   if (stability.failed > 0) {
     const auto first = std::ranges::find(stability.points, false, &StablePoint::examined);
     table.note(format("branch %zu, undecided points: the first at %.6g Hz: %s", number,
@@ -525,12 +525,6 @@ void put_branch(Table& table, const Task& task, const std::string& base,
   table.value("branch_evaluations", evaluations);
 }
 
-void put_end(Table& table, bool is_whole, const std::string& end)
-{
-  table.value("ended", is_whole ? "yes" : "no");
-  table.note("end of the branch: " + end);
-}
-
 /** The same branch by a time method. */
 Exploration shooting_response(const ResponseRequest& request, const Task& task)
 {
@@ -560,7 +554,7 @@ Exploration shooting_response(const ResponseRequest& request, const Task& task)
   table.value("method", "shooting");
   put_branch(table, task, "turn", branch.folds, branch.evaluations);
   table.value("step", default_step(machine), 4);
-  put_end(table, branch.covered, branch.end);
+  table.note("end of the branch: " + branch.end);
   int undecided = 0;
   std::string why;
   const auto add_multipliers = [&](StablePoint& at, const State& there) {
@@ -586,7 +580,7 @@ Exploration shooting_response(const ResponseRequest& request, const Task& task)
     table.row(fields, Row{at, Eigen::Map<const Eigen::Vector4d>(amplitude.data()), 1,
                           task, motion, motion::series_of(motion, task.harmonics)});
   }
-  if (request.stability) table.value("undecided_points", undecided);
+  if (request.stability) table.row_line("undecided", {1, undecided, 0});
   if (undecided > 0) table.note("undecided points: " + why);
   const bool is_missing = undecided > 0 && task.budget.used_up();
   const std::string missing =
@@ -607,14 +601,20 @@ Exploration response_to_tolerance(const ResponseRequest& request, const Task& ta
   Table table("Frequency response at evenly spaced speeds", fields);
   const bool has_further = table.choose(request.columns, usual, request.plot.has_value());
   describe(table, task.machine);
+  constexpr double seconds_each = 1;  // without a budget of the user's
   std::vector<StablePoint> points;
   std::string missing;
   int missed = 0;
-  for (int k = 0; k < request.count; ++k) {
+  const int count = request.count.value_or(101);
+  for (int k = 0; k < count; ++k) {
     const auto [from, to] = task.range();
-    const double omega = from + (to - from) * k / std::max(1, request.count - 1);
-    AdaptiveMotion at = motion::solve_adaptively(parameters, omega,
-                                                 {.tolerance = tolerance}, task.budget);
+    const double omega = from + (to - from) * k / std::max(1, count - 1);
+    const OperationBudget share =
+        request.budget ? task.budget
+                       : budget_of(std::optional<double>(), seconds_each, parameters);
+    AdaptiveMotion at = motion::solve_adaptively(
+        parameters, omega, {.tolerance = tolerance}, share,
+        points.empty() ? Eigen::VectorXd() : points.back().point.motion.x);
     if (!at.reached) {
       if (missed++ == 0)
         missing =
@@ -639,7 +639,7 @@ Exploration response_to_tolerance(const ResponseRequest& request, const Task& ta
   table.value("method", "aft");
   table.value("kind", "sweep");
   table.value("tolerance", tolerance);
-  table.value("speeds", request.count);
+  table.value("speeds", count);
   table.value("missed_speeds", missed);
   table.note("harmonics and samples chosen for each speed, from the paper's predictor");
   if (missed > 0) table.note("missed speeds: the first: " + missing);
@@ -665,6 +665,7 @@ Exploration response_to_tolerance(const ResponseRequest& request, const Task& ta
 
 Exploration explore_response(const ResponseRequest& request)
 {
+  if (request.method == "auto") return explore_settled_response(request);
   Task task = task_of(request);
   if (request.method == "shooting") return shooting_response(request, task);
   if (request.tolerance && !task.has_two_frequencies)
@@ -719,7 +720,7 @@ Exploration explore_response(const ResponseRequest& request)
   if (two) table.note(format("harmonics chosen at five speeds, z = %d", line.z));
   table.note(
       format("pseudo-arc-length, relative tolerance %g", task.request.newton_tolerance));
-  put_end(table, is_whole(task, main), main.end);
+  table.note("end of the branch: " + main.end);
 
   Others beside;
   if (request.isolated > 0) beside = others(task, balance, main, table);

@@ -220,7 +220,7 @@ Exploration explore_shaft(const ShaftRequest& request)
                {"dx_dz", "-", "degree of freedom of the slope of x"},
                {"dy_dz", "-", "degree of freedom of the slope of y"}});
   table.choose(request.columns, 6, false);
-  table.parameters(request.parameter_file + " (" + title + ")", {});
+  table.parameters(request.parameter_file + " (" + title + ")");
   table.value("degrees_of_freedom", 4 * shaft.z.size());
   table.note("matrices: M, C, G, K in " + request.folder);
   for (std::size_t i = 0; i < shaft.z.size(); ++i)

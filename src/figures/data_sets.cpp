@@ -49,7 +49,7 @@ Table data_set_table(const std::vector<Parameters>& machines)
 {
   Table table("Data sets (Table 1), with what the paper leaves out", fields);
   for (const Parameters& machine : machines)
-    table.parameters(machine.file + " (" + machine.title + ")", {});
+    table.parameters(machine.file + " (" + machine.title + ")");
   table.note("modelled: nothing; the values of the parameter files");
   return table;
 }

@@ -75,10 +75,10 @@ Table response_table(const ResponseScene& scene)
   Table table("Frequency response (Fig. 3)", fields);
   for (const DataSet& set : scene.sets) {
     describe(table, set.machine, false);
-    table.row_line("harmonics",
-                   {set.number, set.harmonics, default_samples(set.harmonics)});
+    table.row_line("clearance", {set.machine.bearing.clearance});
+    table.row_line("harmonics", {set.harmonics, default_samples(set.harmonics)});
   }
-  table.note("row harmonics: data set, m, N");
+  table.note("rows of each data set; harmonics: m, N");
   table.note("modelled: amplitudes of the m-harmonic solution; time integration by " +
              scene.time_integration.stepper.method + " from rest at each of its speeds");
   return table;

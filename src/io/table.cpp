@@ -129,13 +129,7 @@ bool Table::choose(const std::string& names, std::size_t usual, bool is_drawn)
 
 void Table::line(const std::string& text)
 {
-  (rows_.empty() ? head_ : foot_) += "# " + printable(text) + "\n";
-}
-
-void Table::parameters(const std::string& source, const std::vector<std::string>& details)
-{
-  line("parameters: " + source);
-  for (const std::string& detail : details) line("  " + detail);
+  (rows_.empty() && !write_ ? head_ : foot_) += "# " + printable(text) + "\n";
 }
 
 void Table::value(const std::string& key, const Cell& value)
@@ -146,11 +140,6 @@ void Table::value(const std::string& key, const Cell& value)
     throw std::logic_error("header: " + key + ": " + value.text());
   values_.emplace_back(key, value);
   line(key + ": " + value.text());
-}
-
-void Table::value(const std::string& key, double number, int digits)
-{
-  value(key, std::stod(format("%.*g", digits, number)));
 }
 
 void Table::row_line(const std::string& name, const std::vector<Cell>& cells)
@@ -164,17 +153,13 @@ void Table::row_line(const std::string& name, const std::vector<Cell>& cells)
   line("row " + name + ": " + joined(words, ' '));
 }
 
-void Table::note(const std::string& sentence)
-{
-  line("note: " + sentence);
-}
-
 void Table::row(std::vector<Cell> cells)
 {
   for (std::size_t k = 0; k < cells.size(); ++k)
     if (!cells[k].is_finite())
       throw NoSolution("the result " + columns_.at(k).name + " is not finite");
   rows_.push_back(std::move(cells));
+  if (write_) write_(row_text(rows_.back(), format_, printed_));
 }
 
 void Table::gap()
@@ -182,20 +167,47 @@ void Table::gap()
   if (!rows_.empty() && !rows_.back().empty()) rows_.emplace_back();
 }
 
-std::string Table::body(TableFormat format, const std::vector<std::size_t>& places) const
+std::string Table::beginning(TableFormat format,
+                             const std::vector<std::size_t>& places) const
 {
-  const char separator = format == TableFormat::tsv ? '\t' : ',';
+  std::string out = format == TableFormat::tsv ? head_ : "";
   std::vector<std::string> names;
-  for (std::size_t k : places) names.push_back(columns_[k].name);
-  std::string out = joined(names, separator) + "\n";
-  for (const auto& row : rows_) {
-    std::vector<std::string> words;
-    for (std::size_t k : places)
-      if (k < row.size()) words.push_back(row[k].text(format));
-    if (format == TableFormat::tsv || !words.empty())
-      out += joined(words, separator) + "\n";
+  for (std::size_t k : places) {
+    names.push_back(columns_[k].name);
+    if (format == TableFormat::tsv)
+      out += "# column: " + columns_[k].name + " [" + columns_[k].unit + "] " +
+             columns_[k].meaning + "\n";
   }
-  return out;
+  return out + joined(names, format == TableFormat::tsv ? '\t' : ',') + "\n";
+}
+
+std::string Table::row_text(const std::vector<Cell>& row, TableFormat format,
+                            const std::vector<std::size_t>& places) const
+{
+  std::vector<std::string> words;
+  for (std::size_t k : places)
+    if (k < row.size()) words.push_back(row[k].text(format));
+  if (format == TableFormat::csv && words.empty()) return "";
+  return joined(words, format == TableFormat::tsv ? '\t' : ',') + "\n";
+}
+
+void Table::stream(std::function<void(const std::string&)> write, TableFormat format)
+{
+  write_ = std::move(write);
+  format_ = format;
+  write_(beginning(format, printed_));
+}
+
+void Table::printed_row(const std::vector<Cell>& cells)
+{
+  std::vector<Cell> whole(columns_.size(), 0);
+  for (std::size_t k = 0; k < cells.size(); ++k) whole[printed_[k]] = cells[k];
+  row(std::move(whole));
+}
+
+void Table::end_stream() const
+{
+  if (format_ == TableFormat::tsv) write_(foot_);
 }
 
 std::string Table::json() const
@@ -234,12 +246,9 @@ std::string Table::text(TableFormat format, bool is_drawn) const
 {
   if (format == TableFormat::json) return json();
   const auto& places = is_drawn ? drawn_ : printed_;
-  if (format == TableFormat::csv) return body(format, places);
-  std::string out = head_;
-  for (std::size_t k : places)
-    out += "# column: " + columns_[k].name + " [" + columns_[k].unit + "] " +
-           columns_[k].meaning + "\n";
-  return out + body(format, places) + foot_;
+  std::string out = beginning(format, places);
+  for (const auto& row : rows_) out += row_text(row, format, places);
+  return format == TableFormat::tsv ? out + foot_ : out;
 }
 
 }  // namespace rotor_stator

@@ -11,6 +11,8 @@ The source of a table is stamped when the library is compiled. A new commit alon
 #include <variant>
 #include <vector>
 
+#include "io/errors.hpp"
+
 namespace rotor_stator {
 
 /** Name and version of the project and the revision of its source, with "-dirty" after
@@ -91,13 +93,18 @@ public:
   bool choose(const std::string& names, std::size_t usual, bool is_drawn);
 
   /** Lines of the header before the first row, of the footer after it: what was modelled;
-      a key; a member of a list; a sentence. Throw NoSolution for a number that is not
-      finite, std::logic_error for a key set twice or a value of several words. */
-  void parameters(const std::string& source, const std::vector<std::string>& details);
+      its values in words; a key; a member of a list; a sentence. Throw NoSolution for a
+      number that is not finite, std::logic_error for a key set twice or a value of several
+      words. */
+  void parameters(const std::string& source) { line("parameters: " + source); }
+  void detail(const std::string& text) { line("  " + text); }
   void value(const std::string& key, const Cell& value);
-  void value(const std::string& key, double number, int digits);
+  void value(const std::string& key, double number, int digits)
+  {
+    value(key, std::stod(format("%.*g", digits, number)));
+  }
   void row_line(const std::string& name, const std::vector<Cell>& cells);
-  void note(const std::string& sentence);
+  void note(const std::string& sentence) { line("note: " + sentence); }
 
   /** Throws NoSolution if a number is not finite: no NaN is ever printed as a result. */
   void row(std::vector<Cell> cells);
@@ -118,11 +125,25 @@ public:
   /** For a figure with all columns. */
   std::string text(TableFormat format = TableFormat::tsv, bool is_drawn = false) const;
 
+  /** From now on what is added goes to `write` at once, as tab-separated text or CSV: a run that is killed keeps its
+      rows. `text` still has all of it. */
+  void stream(std::function<void(const std::string&)> write, TableFormat format);
+
+  /** The lines after the rows, to the stream. */
+  void end_stream() const;
+
+  /** All before the rows, of the printed columns; how many these are; and a row of them alone. */
+  std::string beginning() const { return beginning(TableFormat::tsv, printed_); }
+  std::size_t printed() const { return printed_.size(); }
+  void printed_row(const std::vector<Cell>& cells);
+
 private:
   using KeyValue = std::pair<std::string, Cell>;
 
   void line(const std::string& text);
-  std::string body(TableFormat format, const std::vector<std::size_t>& places) const;
+  std::string beginning(TableFormat format, const std::vector<std::size_t>& places) const;
+  std::string row_text(const std::vector<Cell>& row, TableFormat format,
+                       const std::vector<std::size_t>& places) const;
   std::string json() const;
 
   std::string head_, foot_;
@@ -132,6 +153,8 @@ private:
   std::vector<std::size_t> printed_, drawn_;  ///< their places
   std::vector<bool> wanted_;
   std::vector<std::vector<Cell>> rows_;  ///< an empty row is a gap
+  std::function<void(const std::string&)> write_ = {};  ///< where rows go at once
+  TableFormat format_ = TableFormat::tsv;
 };
 
 }  // namespace rotor_stator

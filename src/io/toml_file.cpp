@@ -193,10 +193,13 @@ toml::node& inner(toml::node& at, const std::string& word)
 }
 
 /** Whole numbers become integers, which are read as numbers too. */
-void set_number(toml::node& at, const std::string& key, double value)
+void set_number(toml::node& at, const std::string& key, double value,
+                const std::vector<std::pair<std::string, std::string>>& instead)
 {
   if (const auto dot = key.find('.'); dot != std::string::npos)
-    return set_number(inner(at, key.substr(0, dot)), key.substr(dot + 1), value);
+    return set_number(inner(at, key.substr(0, dot)), key.substr(dot + 1), value, instead);
+  for (const auto& [one, other] : instead)
+    if (toml::table* table = at.as_table(); table && one == key) table->erase(other);
   const auto place = [&](auto number) {
     if (toml::table* table = at.as_table()) {
       table->insert_or_assign(key, number);
@@ -216,11 +219,12 @@ void set_number(toml::node& at, const std::string& key, double value)
 }  // namespace
 
 StrictToml StrictToml::with(
-    const std::vector<std::pair<std::string, double>>& values) const
+    const std::vector<std::pair<std::string, double>>& values,
+    const std::vector<std::pair<std::string, std::string>>& instead) const
 {
   StrictToml changed(std::make_shared<Content>(
       Content{content_->file, content_->path, content_->table, {}, {}}));
-  for (const auto& [key, value] : values) set_number(changed.content_->table, key, value);
+  for (const auto& [key, value] : values) set_number(changed.content_->table, key, value, instead);
   return changed;
 }
 

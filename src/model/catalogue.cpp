@@ -237,12 +237,6 @@ Bearing read_bearing(StrictToml& table, std::vector<std::string>& derived)
         format("%s: D = %.15g m, d_m = %.15g m",
                has_count ? "dimensions" : table.string(designation_key).c_str(),
                diameters.ball, diameters.pitch));
-  if (derived.empty()) return bearing;
-  const KinematicOrders orders = kinematic_orders(bearing);
-  derived.push_back(
-      format("per turn: FTF = %.6g", orders.cage) +
-      (orders.cage < 0.5 ? format(", BSF = %.6g", orders.spin) : "") +
-      format(", BPFO = n c = %.6g, BPFI = %.6g", orders.outer, orders.inner));
   return bearing;
 }
 

@@ -185,41 +185,40 @@ void describe(Table& table, const Parameters& parameters, bool with_keys)
                 ? format(", load = (%.15g, %.15g) N", b.load.x, b.load.y)
                 : "");
   };
-  std::vector<std::string> lines;
+  table.parameters(parameters.file + " (" + parameters.title + ")");
   if (const auto& large = parameters.large) {
-    lines.push_back(format("bodies: %ld degrees of freedom, %s; k_0 = %.6g N/m",
-                           static_cast<long>(large->mass.rows()),
-                           large->reductions.empty() ? "all kept" : "reduced",
-                           large->spring));
-    lines.insert(lines.end(), large->reductions.begin(), large->reductions.end());
+    table.detail(format("bodies: %ld degrees of freedom, %s; k_0 = %.6g N/m",
+                        static_cast<long>(large->mass.rows()),
+                        large->reductions.empty() ? "all kept" : "reduced",
+                        large->spring));
+    for (const std::string& line : large->reductions) table.detail(line);
   } else
-    lines.push_back(body("stator", parameters.stator) + "; " +
-                    body("rotor", parameters.rotor));
-  lines.push_back(format("m_e e = %.15g kg m; g = %.15g m/s^2", parameters.unbalance,
-                         parameters.gravity));
+    table.detail(body("stator", parameters.stator) + "; " +
+                 body("rotor", parameters.rotor));
+  table.detail(format("m_e e = %.15g kg m; g = %.15g m/s^2", parameters.unbalance,
+                      parameters.gravity));
   const std::vector<Bearing> bearings = bearings_of(parameters);
   for (const Bearing& bearing : bearings)
-    lines.push_back(format("bearing: n = %d, K_H = %.15g N/m^1.5, delta = %.15g m, "
-                           "omega_cage/omega = %.15g",
-                           bearing.balls, bearing.contact_stiffness, bearing.clearance,
-                           bearing.cage_speed_ratio) +
-                    (bearing.cage_phase != 0
-                         ? format(", cage phase = %.15g rad", bearing.cage_phase)
-                         : ""));
+    table.detail(format("bearing: n = %d, K_H = %.15g N/m^1.5, delta = %.15g m, "
+                        "omega_cage/omega = %.15g",
+                        bearing.balls, bearing.contact_stiffness, bearing.clearance,
+                        bearing.cage_speed_ratio) +
+                 (bearing.cage_phase != 0
+                      ? format(", cage phase = %.15g rad", bearing.cage_phase)
+                      : ""));
   const Bearing& bearing = parameters.bearing;
   if (bearing.damping > 0)
-    lines.push_back(format("contact damping: lambda = %.15g s/m", bearing.damping));
+    table.detail(format("contact damping: lambda = %.15g s/m", bearing.damping));
   const char* const surfaces[] = {"none", "outer_race", "inner_race", "ball"};
   const char* const surface = surfaces[static_cast<int>(bearing.defect.surface)];
   if (!bearing.is_damaged(Defect::Surface::none))
-    lines.push_back(format("defect: %s, depth %.15g m, width %.15g rad, angle %.15g rad",
-                           surface, bearing.defect.depth, bearing.defect.width,
-                           bearing.defect.place) +
-                    (bearing.is_damaged(Defect::Surface::ball)
-                         ? format(", ball %d", bearing.defect.ball)
-                         : ""));
-  lines.insert(lines.end(), parameters.derived.begin(), parameters.derived.end());
-  table.parameters(parameters.file + " (" + parameters.title + ")", lines);
+    table.detail(format("defect: %s, depth %.15g m, width %.15g rad, angle %.15g rad",
+                        surface, bearing.defect.depth, bearing.defect.width,
+                        bearing.defect.place) +
+                 (bearing.is_damaged(Defect::Surface::ball)
+                      ? format(", ball %d", bearing.defect.ball)
+                      : ""));
+  for (const std::string& line : parameters.derived) table.detail(line);
   if (!with_keys) return;
   table.value("stator", parameters.stator.rigid ? "rigid" : "moving");
   if (const auto& large = parameters.large) {
@@ -233,6 +232,12 @@ void describe(Table& table, const Parameters& parameters, bool with_keys)
     table.value("contact_stiffness" + tail, bearings[k].contact_stiffness);
     table.value("clearance" + tail, bearings[k].clearance);
     table.value("cage_speed_ratio" + tail, bearings[k].cage_speed_ratio);
+    if (bearings[k].ball_diameter == 0) continue;
+    const KinematicOrders orders = kinematic_orders(bearings[k]);
+    table.value("ball_diameter" + tail, bearings[k].ball_diameter);
+    table.value("bpfo" + tail, orders.outer);
+    table.value("bpfi" + tail, orders.inner);
+    if (orders.cage < 0.5) table.value("bsf" + tail, orders.spin);
   }
 }
 

@@ -110,6 +110,12 @@ struct ModelRange {
   const NumberTable* nodes = nullptr;
 };
 
+/** Pairs of keys of which a table takes one: a study of the first drops the second. */
+inline const std::vector<std::pair<std::string, std::string>> given_instead{
+    {"radial_clearance_m", "internal_clearance"},
+    {"damping_ratio", "damping_N_s_per_m"},
+    {"damping_N_s_per_m", "damping_ratio"}};
+
 /** Reads and checks a parameter file. Throws BadInput with file, line and key. */
 Parameters read_parameters(const std::string& file, const ModelRange& range = {});
 Parameters read_parameters(StrictToml root, const ModelRange& range = {});

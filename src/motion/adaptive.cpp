@@ -24,7 +24,8 @@ ObservedProblem observed_bearing(const Parameters& parameters,
 
 AdaptiveMotion solve_adaptively(const Parameters& parameters, double omega,
                                 const AdaptiveSettings& settings,
-                                const OperationBudget& budget)
+                                const OperationBudget& budget,
+                                const Eigen::VectorXd& neighbour)
 {
   constexpr double short_time = 0.5;  // [s], each time it is asked
   const int patience = parameters.large ? 1 : 3;
@@ -51,7 +52,8 @@ AdaptiveMotion solve_adaptively(const Parameters& parameters, double omega,
     return motion;
   };
   try {
-    return solve_adaptively(observed_bearing(parameters, budget), omega, cold, settings);
+    return solve_adaptively(observed_bearing(parameters, budget), omega, cold, settings,
+                            neighbour);
   } catch (const NoSolution& none) {
     AdaptiveMotion ended;
     ended.end = none.what();

@@ -139,25 +139,25 @@ public:
       smaller steps, or a local error smaller by its square. */
   Motion operator()(double finer)
   {
-    const bool has_step = request_.method == "auto" || request_.method == "rk4";
-    const double step =
-        request_.step > 0 ? request_.step : default_step(answer_.machine);
-    const TimeStepper stepper =
-        make_stepper(answer_.machine, answer_.omega,
-                     {.method = has_step ? "rk4" : request_.method,
-                      .intervals_per_period = request_.points,
-                      .step = step / finer,
-                      .tolerance = request_.local_error / (finer * finer),
-                      .budget = budget_});
+    const auto stepper = [&](int intervals) {
+      const bool has_step = request_.method == "auto" || request_.method == "rk4";
+      const double step =
+          request_.step > 0 ? request_.step : step_at(answer_.machine, answer_.omega);
+      return make_stepper(answer_.machine, answer_.omega,
+                          {.method = has_step ? "rk4" : request_.method,
+                           .intervals_per_period = intervals,
+                           .step = step / finer,
+                           .tolerance = request_.local_error / (finer * finer),
+                           .budget = budget_});
+    };
     const Settled& settled = answer_.settled;
     const Instant& from = settled.contracts ? settled.before : settled.at;
     State state = from.state;
-    for (long k = from.period * request_.points; k < settled.at.period * request_.points; ++k)
-      stepper.advance(k, state);
-    Motion motion =
-        recorded(stepper, request_.points, state, settled.at.period, periods_);
+    const TimeStepper whole = stepper(1), parts = stepper(request_.points);
+    for (long k = from.period; k < settled.at.period; ++k) whole.advance(k, state);
+    Motion motion = recorded(parts, request_.points, state, settled.at.period, periods_);
     motion.omega = answer_.omega;
-    evaluations_ += static_cast<double>(stepper.evaluations());
+    evaluations_ += static_cast<double>(whole.evaluations() + parts.evaluations());
     return motion;
   }
   double evaluations() const { return evaluations_; }
@@ -209,36 +209,39 @@ void rest(Answer& answer, const Request& request)
 
 }  // namespace
 
-Answer answer_from(const Parameters& parameters, const Instant& start,
-                   const Request& request, const OperationBudget& budget)
+Answer settled_answer(const Parameters& parameters, const Request& request,
+                      const OperationBudget& budget, const State* start)
 {
   Answer found{.base = base_period(parameters), .settled = {}};
   const Based based = over(found.base, parameters, request.omega);
   found.machine = based.machine;
   found.omega = based.omega;
-  found.settled = settle(based.machine, based.omega, found.base, start,
-                         {.step = request.step, .longest = request.longest},
-                         budget.part(0.7));
+  Instant first = from_rest(based.machine, based.omega);
+  if (start) first.state = *start;
+  found.settled = settle(based.machine, based.omega, found.base, first,
+                         {.step = request.step, .longest = request.longest}, budget);
   found.evaluations = found.settled.evaluations;
-  if (found.kind() == Kind::rest) {
-    rest(found, request);
-    return found;
-  }
-  const bool is_closed = found.kind() == Kind::periodic && request.method == "auto" &&
-                         close(found, request, budget);
-  if (!is_closed) record(found, request, budget);
-  if (request.tolerance && found.error && !(found.error->larger() <= *request.tolerance))
-    throw NoSolution(format("%s: tolerance %g not reached at %g Hz, error %.2g",
-                            parameters.file.c_str(), *request.tolerance,
-                            request.omega / angular(1), found.error->larger()));
   return found;
+}
+
+void complete(Answer& answer, const Request& request, const OperationBudget& budget)
+{
+  if (answer.kind() == Kind::rest) return rest(answer, request);
+  const bool is_closed = answer.kind() == Kind::periodic && request.method == "auto" &&
+                         close(answer, request, budget);
+  if (!is_closed) record(answer, request, budget);
+  if (request.tolerance && answer.error && !(answer.error->larger() <= *request.tolerance))
+    throw NoSolution(format("%s: tolerance %g not reached at %g Hz, error %.2g",
+                            answer.machine.file.c_str(), *request.tolerance,
+                            request.omega / angular(1), answer.error->larger()));
 }
 
 Answer answer(const Parameters& parameters, const Request& request,
               const OperationBudget& budget)
 {
-  const Based based = over(base_period(parameters), parameters, request.omega);
-  return answer_from(parameters, from_rest(based.machine, based.omega), request, budget);
+  Answer found = settled_answer(parameters, request, budget.part(0.7));
+  complete(found, request, budget);
+  return found;
 }
 
 namespace {
@@ -279,7 +282,7 @@ Observation observe(const Answer& answer, const OperationBudget& budget)
   const std::size_t count = is_closed ? std::max(1, answer.period()) : observed;
   const double period = 2 * std::numbers::pi / answer.omega;
   const int intervals = static_cast<int>(
-      std::clamp(std::ceil(period / (2 * default_step(answer.machine))), 64.0, 1e6));
+      std::clamp(std::ceil(period / (2 * step_at(answer.machine, answer.omega))), 64.0, 1e6));
   const auto flow = fixed_step_flow(answer.machine, answer.omega, intervals, 0, budget);
   State state = answer.settled.at.state;
   long k = answer.settled.at.period * intervals;

@@ -28,7 +28,7 @@ struct Request {
   int periods = 1;                       ///< recorded of a motion that is not closed, at least K
   double step = 0;                       ///< longest of rk4 [s]; 0: `default_step`
   double local_error = 1e-11;            ///< of shooting and of steppers with error control
-  double longest = 60;                   ///< transient after t = 0 [s]
+  double longest = 0;                   ///< 0: as settle chooses; transient after t = 0 [s]
   bool is_measured = true;               ///< whether error and stability are wanted
 };
 
@@ -63,9 +63,11 @@ struct Answer {
 Answer answer(const Parameters& parameters, const Request& request,
               const OperationBudget& budget = {});
 
-/** The same from a state at the start of a base period, from the machine that is counted over it. */
-Answer answer_from(const Parameters& parameters, const Instant& start,
-                   const Request& request, const OperationBudget& budget = {});
+/** Its two halves: what the machine settles on from rest or from `start`, a state of the machine at the start of one of its
+    base periods, so long before t = 0 as a start from rest; and that motion itself, with error and stability. */
+Answer settled_answer(const Parameters& parameters, const Request& request,
+                      const OperationBudget& budget = {}, const State* start = nullptr);
+void complete(Answer& answer, const Request& request, const OperationBudget& budget = {});
 
 /** What is reported of x_s, y_s, x_r, y_r [m], with standard errors, which a motion that closes has not: over its K base
     periods, over 256 base periods of another one, at every second step. */

@@ -192,6 +192,7 @@ public:
       fprintf(stderr, "own %.3g away %.3g\n", own_distance_, away);
     if (!(away <= near * own_distance_ + floor)) {
       reason_ = "the motion of its period found from it is too far away to be its own";
+      refused_ = away * closer_.size() / largest_displacement(judged_);
       return;
     }
     try {
@@ -219,7 +220,10 @@ public:
     constexpr double as_near = 2;
     Verdict verdict{.reason = motions_.empty() ? reason_ : ""};
     verdict.evaluations = evaluations_ + closer_.evaluations();
-    if (motions_.empty()) return verdict;
+    if (motions_.empty()) {
+      verdict.refused = refused_;
+      return verdict;
+    }
     const ClosedMotion& own =
         *std::ranges::min_element(motions_, {}, &ClosedMotion::distance_rms);
     for (const ClosedMotion& other : motions_)
@@ -248,7 +252,7 @@ private:
 
   /** The same solution with four times as many harmonics, where Newton finds it. */
   Eighths raised()
-  {
+  try {
     const int m = 4 * solution_.harmonics.count(), most = 192 * parameters_.turns;
     if (m > most) return start_;
     Balance balance(
@@ -259,6 +263,8 @@ private:
     if (!more.found()) return start_;
     more.bodies = body_series(parameters_, more);
     return eighths_of(parameters_, more);
+  } catch (const NoSolution&) {
+    return start_;
   }
 
   /** The displacements of a correction of all eight states, as `apart` measures them. */
@@ -278,7 +284,7 @@ private:
   Closer closer_;
   Eighths start_;
   Motion judged_;
-  double own_distance_ = 0, evaluations_ = 0;
+  double own_distance_ = 0, refused_ = 0, evaluations_ = 0;
   std::vector<ClosedMotion> motions_;
   std::string reason_;
 };

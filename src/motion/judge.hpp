@@ -19,6 +19,7 @@ namespace rotor_stator::motion {
 
 struct Verdict {
   std::string reason = {};  ///< why nothing is known; empty when a motion was found
+  double refused = 0;  ///< distance of one that is too far away to be its own, rms [-]
   Floquet floquet = {};     ///< of the motion found
   State state = {};         ///< of the motion found, at phase 0
   bool moves = true;        ///< the motion found is not at rest

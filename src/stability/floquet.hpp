@@ -1,10 +1,10 @@
 /**
 # Floquet multipliers of a periodic motion
 
-The eigenvalues of the period map's derivative say how small disturbances grow over one period: the
-motion is stable when all of them lie inside the unit circle. They belong to the linearisation along
-the motion that is given: along a truncated series they may differ from those of the exact motion far
-more than the amplitudes do. */
+The eigenvalues of the period map's derivative say how small disturbances grow over one
+period: the motion is stable when all of them lie inside the unit circle. They belong to
+the linearisation along the motion that is given: along a truncated series they may differ
+from those of the exact motion far more than the amplitudes do. */
 #pragma once
 
 #include <Eigen/Core>
@@ -39,20 +39,21 @@ struct Floquet {
   }
 };
 
-/** The multipliers of both bodies (Eq. 7), with the bearing's stiffness along the series of `motion`
-    instead of along a motion of Eq. 7. The disturbances are those of the period map by RK4
-    (period_map.hpp); its steps are halved until no multiplier changes by more than 1e-5. Throws
-    NoSolution where they overflow or a period is too long. */
+/** The multipliers of both bodies (Eq. 7), with the bearing's stiffness along the series
+    of `motion` instead of along a motion of Eq. 7. The disturbances are those of the
+    period map by RK4 (period_map.hpp); its steps are halved until no multiplier changes
+    by more than 1e-5. Throws NoSolution where they overflow or a period is too long. */
 Floquet series_multipliers(const Parameters& parameters, const PeriodicMotion& motion);
 
 /** Largest modulus first, of a conjugate pair the upper half first. */
 void sort_by_modulus(Multipliers& multipliers);
 
-/** The eigenvalues of a period map's derivative, sorted. Throws NoSolution when it is not finite. */
+/** The eigenvalues of a period map's derivative, sorted. Throws NoSolution when it is not
+    finite. */
 Multipliers multipliers_of(const Eigen::MatrixXd& phi);
 
-/** The largest distance |Δμ|/max(1, |μ|) of a multiplier to its nearest partner among as many
-    others. */
+/** The largest distance |Δμ|/max(1, |μ|) of a multiplier to its nearest partner among as
+    many others. */
 double largest_move(const Multipliers& a, Multipliers b);
 
 }  // namespace rotor_stator

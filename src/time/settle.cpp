@@ -54,7 +54,21 @@ std::unique_ptr<Flow> fixed_step_flow(const Parameters& machine, double omega,
   if (machine.large)
     return std::make_unique<GaussFlow>(machine, omega, intervals, 1e-8, budget);
   return std::make_unique<Rk4>(machine, omega, intervals,
-                               step > 0 ? step : default_step(machine), budget);
+                               step > 0 ? step : step_at(machine, omega), budget);
+}
+
+/** A contact of Hertz is stiffer with the third root of its force, and vibrates faster with the sixth. */
+double step_at(const Parameters& machine, double omega)
+{
+  constexpr double much = 30;
+  const double step = default_step(machine);
+  if (machine.large) return step;
+  double force = 0;
+  for (const double phase : {0.0, 0.5, 1.0, 1.5})
+    force = std::max(force, std::hypot(rigid_joint_force(machine, omega, phase).x,
+                                       rigid_joint_force(machine, omega, phase).y));
+  const double ratio = force / (much * scales(machine).load);
+  return std::isfinite(ratio) && ratio > 1 ? step / std::pow(ratio, 1.0 / 6) : step;
 }
 
 /** Eigenvalues of one direction: x_s, x_r and their speeds. */
@@ -290,6 +304,14 @@ private:
   double length_, least_;  ///< [m], [s]
 };
 
+/** Whether that takes at most so many evaluations; else the motion begins where it was reached. */
+bool can_be_put_on_zero(const Settled& s)
+{
+  constexpr double most = 1e8, motions = 2;
+  const double seconds = 2 * forgotten / s.lyapunov.value;
+  return seconds * s.evaluations / (motions * s.seconds) < most;
+}
+
 /** A motion that has contracted after t = 0, put on t = 0: from its state so much earlier that the jump of the phases is
     forgotten. */
 void put_on_zero(const Parameters& machine, double omega, const SettleRule& rule,
@@ -310,26 +332,35 @@ void put_on_zero(const Parameters& machine, double omega, const SettleRule& rule
   s.evaluations += static_cast<double>(flow->evaluations());
 }
 
+/** Sixty seconds, or those in which the slowest linear mode decays to e^-40, at most a thousand. */
+SettleRule with_longest(SettleRule rule, const Parameters& machine)
+{
+  if (rule.longest > 0) return rule;
+  rule.longest = std::clamp(40 / slowest_mode(machine).decay, 60.0, 1000.0);
+  return rule;
+}
+
 }  // namespace
 
 Settled settle(const Parameters& machine, double omega, const BasePeriod& base,
                const Instant& start, const SettleRule& rule, const OperationBudget& budget)
 {
   Pair pair(machine, omega, start, rule.step, budget);
-  const Judge judge(machine, omega, base, rule);
+  const SettleRule whole = with_longest(rule, machine);
+  const Judge judge(machine, omega, base, whole);
   Settled settled;
   try {
     while (pair.at().period < 0 || pair.growths().empty()) pair.advance();
     settled = judge(pair);
     const double began = pair.seconds();
-    while (settled.kind == Kind::undecided && pair.seconds() - began < rule.longest) {
+    while (settled.kind == Kind::undecided && pair.seconds() - began < whole.longest) {
       const auto more = std::max<std::size_t>(16, pair.growths().size() / 8);
       for (std::size_t k = 0; k < more; ++k) pair.advance();
       settled = judge(pair);
     }
     settled.evaluations = static_cast<double>(pair.evaluations());
     if (base.is_driven_twice() && settled.contracts && settled.at.period != 0 &&
-        settled.kind == Kind::quasi_periodic)
+        settled.kind == Kind::quasi_periodic && can_be_put_on_zero(settled))
       put_on_zero(machine, omega, rule, budget, settled);
   } catch (const NoSolution& ended) {
     if (!budget.used_up()) throw;

@@ -44,7 +44,7 @@ struct SettleRule {
   double step = 0;        ///< longest of rk4 [s]; 0: `default_step`
   double closed = 1e-6;   ///< spread of a closed section, over the vibration [-]
   int most_period = 16;   ///< K
-  double longest = 60;    ///< after t = 0 [s]
+  double longest = 0;     ///< after t = 0 [s]; 0: 60, or what the slowest decay asks for
 };
 
 struct Settled {
@@ -76,6 +76,10 @@ struct SlowestMode {
   double decay, frequency;
 };
 SlowestMode slowest_mode(const Parameters& machine);
+
+/** The step [s] of rk4 at a base frequency: `default_step`, and less where the force at that speed presses the contact much
+    more than the loads do by which that is chosen. */
+double step_at(const Parameters& machine, double omega);
 
 /** A flow of fixed step: rk4, or Gauss's rule for large bodies, with `intervals` in a base period. */
 std::unique_ptr<Flow> fixed_step_flow(const Parameters& machine, double omega,

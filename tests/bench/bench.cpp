@@ -10,7 +10,7 @@ the same matrix. Everything on data set 1, at its solution at 30 Hz, with the de
 #include <Eigen/LU>
 
 #include "balance/bearing_problem.hpp"
-#include "balance/step_solver.hpp"
+#include "balance/newton.hpp"
 #include "continuation/sweep.hpp"
 #include "io/toml_file.hpp"
 #include "motion/find_periodic.hpp"
@@ -117,17 +117,17 @@ void factorisation(benchmark::State& state)
 void iterate(benchmark::State& state, bool fresh)
 {
   Solved solved(state);
-  StepSolver& steps = solved.balance.steps();
+  BalanceSolver solver(solved.balance);
+  solver.omega = omega;
   const double scale = solved.balance.problem().residual_scale;
   const Eigen::VectorXd points[] = {(1 + 1e-6) * solved.x, (1 + 2e-6) * solved.x};
   Eigen::VectorXd residual, step;
   long k = 0;
   for (auto _ : state) {
     const Eigen::VectorXd& x = points[++k % 2];
-    if (fresh) steps.forget();
-    steps.begin(1);
+    if (fresh) solver.refresh();
     residual = solved.balance.residual(x, omega);
-    steps.step(solved.balance, x, omega, residual, 1e-4 * scale, step);
+    solver.solve(x, residual, 1e-4 * scale, step);
     benchmark::DoNotOptimize(step.data());
   }
 }
@@ -146,7 +146,6 @@ void solution(benchmark::State& state)
   Solved solved(state);
   const auto start = find_periodic({parameters(), omega, 6}).x;
   for (auto _ : state) {
-    solved.balance.steps().forget();
     benchmark::DoNotOptimize(
         solve(solved.balance, omega, resize_harmonics(start, 2, solved.harmonics)));
   }

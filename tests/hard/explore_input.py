@@ -444,8 +444,8 @@ class Explore(unittest.TestCase):
 
     def test_a_good_question_is_answered(self):
         tally = Counter()
-        self.ask(tally, ["orbit", "machine.toml", "--frequency", "45"], budget=None)
-        self.ask(tally, ["response", "machine.toml", "--from", "40", "--to", "41", "--save", "saved.tsv"])
+        self.ask(tally, ["orbit", "machine.toml", "--frequency", "45", "--harmonics", "6"], budget=None)
+        self.ask(tally, ["response", "machine.toml", "--from", "40", "--to", "41", "--harmonics", "6", "--save", "saved.tsv"])
         self.assertEqual(tally, {0: 2})
 
     def test_spoilt_parameter_files(self):
@@ -477,7 +477,7 @@ class Explore(unittest.TestCase):
     def test_spoilt_branches_to_restart(self):
         tally = Counter()
         words = ["response", "machine.toml", "--from", "40", "--to", "41"]
-        self.ask(tally, [*words, "--save", "saved.tsv"])
+        self.ask(tally, [*words, "--harmonics", "6", "--save", "saved.tsv"])
         saved = (self.folder.path / "saved.tsv").read_bytes()
 
         @examples(400)

@@ -15,7 +15,8 @@ sys.path.insert(0, str(Path(__file__).parents[1]))
 from support.explore import EXPLORE, MACHINE, Case, Table  # noqa: E402
 
 CLEARANCE = "bearing.radial_clearance_m"
-GRID = ["--x", "frequency=20:50:5", "--y", f"{CLEARANCE}=0:1e-4:7", "--quantity", "amplitude,contact_share"]
+SIX = ["--harmonics", 6]
+GRID = [*SIX, "--x", "frequency=20:50:5", "--y", f"{CLEARANCE}=0:1e-4:7", "--quantity", "amplitude,contact_share"]
 
 
 def rows(text):
@@ -56,7 +57,7 @@ class Bytes(Case):
     def test_killed_and_resumed(self):
         """Killed while it works; what was written is whole lines and at most one that is cut off."""
         options = [EXPLORE, "map", self.machine, "--x", "frequency=10:50:21", "--y", f"{CLEARANCE}=0:1e-4:41",
-                   "--quantity", "amplitude", "--threads", "2"]
+                   "--quantity", "amplitude", "--harmonics", "6", "--threads", "2"]
         whole = subprocess.run(options, stdout=subprocess.PIPE, check=True, cwd=self.folder, encoding="utf-8").stdout
         part = self.folder / "part.tsv"
         with part.open("w") as out, subprocess.Popen(options, stdout=out, cwd=self.folder) as running:
@@ -76,22 +77,21 @@ class Values(Case):
         """Amplitude, mean, contact, forces and verdict of three rows, from the table of `orbit` at the same machine.
         Would catch a key that changes another value, and a quantity of another column."""
         names = "amplitude,mean,contact_share,ball_load,force,stability,multiplier"
-        table = self.table("map", self.machine, "--x", "rotor.mass_kg=40:50:2", "--y", f"{CLEARANCE}=2e-5:4e-5:2",
+        table = self.table("map", self.machine, "--x", "rotor.mass_kg=40:50:2", "--y", f"{CLEARANCE}=2e-5:4e-5:2", *SIX,
                            "--frequency", 45, "--quantity", names)
         self.assertEqual(list(table.columns), ["rotor.mass_kg", CLEARANCE, *names.split(","), "status"])
         for k in range(4):
             machine = self.file("one.toml", MACHINE.replace("mass_kg = 40.0", f"mass_kg = {table['rotor.mass_kg'][k]}")
                                 .replace("2e-5", str(table[CLEARANCE][k])))
-            orbit = self.table("orbit", machine, "--frequency", 45, "--points", 512)
-            contact = self.table("contact", machine, "--frequency", 45, "--points", 512)
+            orbit = self.table("orbit", machine, "--frequency", 45, "--points", 512, *SIX)
+            contact = self.table("contact", machine, "--frequency", 45, "--points", 512, *SIX)
             force = np.hypot(orbit["F_x"], orbit["F_y"])
             for name, value in [("amplitude", np.ptp(orbit["x_r"]) / 2), ("mean", orbit["y_r"].mean()),
                                 ("contact_share", (force > 0).mean()), ("force", force.max()),
                                 ("ball_load", contact["Q"].max())]:
                 self.assertAlmostEqual(table[name][k] / value, 1, delta=1e-4, msg=name)
-            self.assertIn(f"# stability: {table['stability'][k]}; largest Floquet multiplier", orbit.header)
-            largest = float(orbit.header.split("Floquet multiplier ")[1].split()[0])
-            self.assertAlmostEqual(table["multiplier"][k], largest, delta=1e-5)
+            self.assertEqual(orbit.value("stability"), table["stability"][k])
+            self.assertAlmostEqual(table["multiplier"][k], orbit.value("multiplier"), delta=1e-5)
 
     def test_time_method(self):
         """At 45 Hz, where 32 harmonics are exact, rk4 gives the same numbers; also with a cage for which there is no period."""
@@ -103,13 +103,12 @@ class Values(Case):
         self.assertEqual(time_method["status"][1], "ok")
 
     def test_chosen_harmonics_and_error(self):
-        table = self.table("map", self.machine, "--y", "frequency=30:45:2", "--tolerance", 1e-3,
+        table = self.table("map", self.machine, "--y", "frequency=30:45:2", "--method", "aft", "--tolerance", 1e-3,
                            "--quantity", "harmonics,error")
         for k in range(2):
-            header = self.table("orbit", self.machine, "--frequency", table["frequency"][k], "--tolerance", 1e-3).header
-            self.assertIn(f"m = {table['harmonics'][k]:g}, N", header)
-            errors = header.split("# error: ")[1].split()
-            self.assertAlmostEqual(table["error"][k] / max(float(errors[0]), float(errors[5])), 1, delta=0.1)
+            orbit = self.table("orbit", self.machine, "--frequency", table["frequency"][k], "--method", "aft", "--tolerance", 1e-3)
+            self.assertEqual(orbit.value("harmonics"), table["harmonics"][k])
+            self.assertAlmostEqual(table["error"][k] / orbit.error("error"), 1, delta=0.1)
 
     def test_multipliers_of_the_harmonics(self):
         """With 64 harmonics at 45 Hz the series is the machine; the distance is that of `orbit`. At 20 Hz the
@@ -117,10 +116,9 @@ class Values(Case):
         table = self.table("map", self.machine, "--y", "frequency=20:45:2", "--harmonics", 6, "--quantity",
                            "stability,series_stability,distance,evaluations")
         self.assertEqual((table["stability"][0], table["series_stability"][0]), ("unstable", "stable"))
-        header = self.table("orbit", self.machine, "--frequency", 45, "--harmonics", 6).header
-        distance = float(header.split("# distance: ")[1].split()[5])
-        self.assertAlmostEqual(table["distance"][1] / distance, 1, delta=0.01)
-        self.assertIn(f"# verdict: {table['evaluations'][1]:.3g} ", header)
+        orbit = self.table("orbit", self.machine, "--frequency", 45, "--harmonics", 6)
+        self.assertAlmostEqual(table["distance"][1] / orbit.value("distance_rms"), 1, delta=0.01)
+        self.assertAlmostEqual(orbit.value("verdict_evaluations") / table["evaluations"][1], 1, delta=6e-3)
         table = self.table("map", self.machine, "--y", "frequency=45:46:1", "--harmonics", 64, "--quantity",
                            "multiplier,uncertainty,series,series_uncertainty")
         self.assertAlmostEqual(table["series"][0], table["multiplier"][0], delta=2e-4)
@@ -134,7 +132,7 @@ class Values(Case):
         table = Table.of(self.run_explore("map", self.machine, "--y", "frequency=13:45:2", "--method", "rk4", "--longest", 5,
                                           "--quantity", names).stdout)
         rk4, six = (self.table("orbit", self.machine, "--frequency", 45, "--points", 64, *options)
-                    for options in (["--method", "rk4"], ["--no-stability"]))
+                    for options in (["--method", "rk4"], [*SIX, "--no-stability"]))
         contact = self.table("contact", self.machine, "--frequency", 45, "--points", 64, "--method", "rk4")
         errors = [q - q.mean() for q in (six["x_r"] - rk4["x_r"], six["y_r"] - rk4["y_r"], six["x_s"] - rk4["x_s"],
                                          six["y_s"] - rk4["y_s"])]
@@ -160,9 +158,9 @@ class Values(Case):
         machine = self.file("loose.toml", MACHINE.replace("= 1e11", "= 1e12").replace("= 2e-5", "= 8.333333e-5"))
         self.assertNotEqual(machine.read_text(encoding="utf-8"), MACHINE)
         table = self.table("map", machine, "--y", "frequency=30:31:1", "--harmonics", 6, "--quantity", "machine_error")
-        six = self.table("orbit", machine, "--frequency", 30, "--no-stability", "--points", 256)
+        six = self.table("orbit", machine, "--frequency", 30, *SIX, "--no-stability", "--points", 256)
         long = self.table("orbit", machine, "--frequency", 30, "--method", "rk8pd", "--periods", 40, "--points", 256)
-        self.assertIn("# regime: aperiodic", long.header)
+        self.assertEqual(long.value("regime"), "undecided")
         names = ["x_s", "y_s", "x_r", "y_r"]
         true = np.array([long[name] - long[name].mean() for name in names])
         off = np.array([np.tile(six[name], 40) - long[name] for name in names])
@@ -173,10 +171,9 @@ class Values(Case):
         """At 20 Hz two turns, at 30 Hz one."""
         table = self.table("map", self.machine, "--y", "frequency=20:30:2", "--quantity", "period,lyapunov")
         self.assertEqual(list(table["period"]), [2, 1])
-        self.assertIn("# motion from rest: rk4", table.header)
-        self.assertNotIn("aft", table.header)
-        balanced = self.table("map", self.machine, "--y", "frequency=30:30:1", "--quantity", "period,amplitude")
-        self.assertIn("# method: aft, m = 6", balanced.header)
+        self.assertIsNone(table.value("method", None))
+        balanced = self.table("map", self.machine, "--y", "frequency=30:30:1", *SIX, "--quantity", "period,amplitude")
+        self.assertEqual((balanced.value("method"), balanced.value("harmonics")), ("aft", 6))
         for k, frequency in enumerate((20, 30)):
             known = self.table("attractors", self.machine, "--from", frequency, "--to", frequency + 1, "--count", 1,
                                "--starts", 0)
@@ -184,9 +181,9 @@ class Values(Case):
 
     def test_peak_against_response(self):
         """Of the finest response, and its place; by a sweep of 101 speeds. In permanent contact above 20 Hz."""
-        table = self.table("map", self.machine, "--y", f"{CLEARANCE}=1e-5:2e-5:2",
+        table = self.table("map", self.machine, "--y", f"{CLEARANCE}=1e-5:2e-5:2", *SIX,
                            "--sweep", "40:60", "--quantity", "peak,peak_frequency,permanent")
-        branch = self.table("response", self.machine, "--from", 40, "--to", 60)
+        branch = self.table("response", self.machine, "--from", 40, "--to", 60, *SIX)
         top = branch["amp_x_r"].argmax()
         self.assertAlmostEqual(table["peak"][1] / branch["amp_x_r"][top], 1, delta=2e-3)
         self.assertAlmostEqual(table["peak_frequency"][1], branch["f"][top], delta=0.2)
@@ -195,20 +192,20 @@ class Values(Case):
     def test_list(self):
         """Rows of a table are points, or with --x lines: the same numbers as those of a grid."""
         points = self.file("points.tsv", f"rotor.mass_kg\t{CLEARANCE}\n40\t2e-05\n45\t3e-05\n")
-        some = self.table("map", self.machine, "--list", points, "--frequency", 45, "--quantity", "amplitude")
+        some = self.table("map", self.machine, "--list", points, "--frequency", 45, *SIX, "--quantity", "amplitude")
         self.assertEqual(list(some["rotor.mass_kg"]), [40, 45])
-        lines = self.table("map", self.machine, "--list", points, "--x", "frequency=45:50:3", "--quantity", "amplitude")
+        lines = self.table("map", self.machine, "--list", points, "--x", "frequency=45:50:3", *SIX, "--quantity", "amplitude")
         self.assertEqual(list(lines["frequency"]), [45, 47.5, 50] * 2)
         np.testing.assert_allclose(lines["amplitude"][::3], some["amplitude"], rtol=1e-12)
 
     def test_logarithmic(self):
-        table = self.table("map", self.machine, "--x", "bearing.contact_stiffness_N_per_m1p5=1e9:1e12:4:log",
+        table = self.table("map", self.machine, "--x", "bearing.contact_stiffness_N_per_m1p5=1e9:1e12:4:log", *SIX,
                            "--frequency", 45, "--quantity", "amplitude")
         np.testing.assert_allclose(table["bearing.contact_stiffness_N_per_m1p5"], [1e9, 1e10, 1e11, 1e12], rtol=1e-14)
 
     def test_a_point_without_a_result(self):
         """Nine balls do not repeat with the rotation; the map goes on, and says how many."""
-        result = self.run_explore("map", self.machine, "--x", "bearing.balls=8:10:3", "--frequency", 45,
+        result = self.run_explore("map", self.machine, "--x", "bearing.balls=8:10:3", "--frequency", 45, *SIX,
                                   "--quantity", "amplitude")
         table = Table.of(result.stdout)
         self.assertEqual((result.returncode, result.stderr), (0, "1 of 3 points have no result: see their status\n"))
@@ -266,19 +263,21 @@ class Refusals(Case):
 
     def test_a_table_of_another_map(self):
         """Other quantities, other values of a key, other lines, and no map at all."""
-        usual = ["map", self.machine, "--x", "frequency=40:45:2", "--y", f"{CLEARANCE}=0:1e-4:3", "--quantity"]
+        usual = ["map", self.machine, *SIX, "--x", "frequency=40:45:2", "--y", f"{CLEARANCE}=0:1e-4:3", "--quantity"]
         part = self.file("part.tsv", "".join(f"{line}\n" for line in self.lines(*usual, "amplitude")))
         self.refused("other settings", *usual, "mean", "--resume", part)
-        self.refused("other settings", *usual, "amplitude", "--harmonics", 7, "--resume", part)
+        self.refused("other settings", *usual, "amplitude", "--samples", 64, "--resume", part)
         self.refused("holds other points", *usual, "amplitude", "--lines", "1:3", "--resume", part)
         self.refused("holds other points", *usual, "amplitude", "--lines", "0:2", "--resume", part)
         self.refused("no such file", *usual, "amplitude", "--resume", "none.tsv")
+        old = self.file("old.tsv", "# Map of a machine\n# source: rotor_stator 0.1.0 0123456789ab\n# compiler: g++\n# x: frequency=40:45:2\n")
+        self.refused("old.tsv: was written by rotor_stator 0.1.0 0123456789ab", *usual, "amplitude", "--resume", old)
 
 
 class Figure(Case):
     def test_drawn(self):
         """A map with classes and one over a single key."""
-        for options in (GRID + ["--quantity", "stability"], ["--x", "frequency=20:50:5", "--quantity", "amplitude"]):
+        for options in (GRID + ["--quantity", "stability"], [*SIX, "--x", "frequency=20:50:5", "--quantity", "amplitude"]):
             result = self.run_explore("map", self.machine, *options, "--plot", "map.svg")
             self.assertEqual((result.returncode, result.stderr), (0, ""))
             self.assertIn("</svg>", (self.folder / "map.svg").read_text(encoding="utf-8"))

@@ -34,6 +34,7 @@ STUDY = """machine: {machine}
 x: frequency=20:50:5
 y: bearing.radial_clearance_m=0:1e-4:7
 quantities: [amplitude, contact_share]
+options: --harmonics 6
 shards: {shards}
 minutes: 1
 """
@@ -61,7 +62,7 @@ class Shards(Case):
         super().setUp()
         shutil.copytree("studies", self.folder / "studies")
         whole = self.lines("map", self.machine, "--x", "frequency=20:50:5", "--y", "bearing.radial_clearance_m=0:1e-4:7",
-                           "--quantity", "amplitude,contact_share")
+                           "--quantity", "amplitude,contact_share", "--harmonics", 6)
         self.whole = "".join(f"{line}\n" for line in whole)
 
     def study(self, shards, program=EXPLORE, **how):
@@ -265,7 +266,7 @@ class Validity(unittest.TestCase):
     def test_row(self):
         """The nearer of two motions, one over two turns and shifted, which the rms error does not see. Would catch an error over
         the solution's size or along the first turn alone."""
-        solution = self.motion(1.0, header="# method: aft, m = 6, N = 50\n# stability: unstable; 3\n# error: 0.1 of it, 0.2 rms\n")
+        solution = self.motion(1.0, header="# harmonics: 6\n# stability: unstable\n# error_largest: 0.1\n# error_rms: 0.2\n")
         known = [(1, self.motion(2.0)), (2, self.motion(1.25, 2, 0.5))]
         row = validity.row_of(solution, known, True)
         np.testing.assert_allclose(row, [6, 1, 0.2, 0.2, 0, 0, 0.2, 1, 0.75 / 1.75], atol=0.02)
@@ -358,7 +359,7 @@ class Stability(unittest.TestCase):
         names = "f amp_x_s amp_y_s amp_x_r amp_y_r arc multiplier multiplier_change verdict bifurcation".split()
         rows = [(20.0, 0.9, "stable", "-"), (20.05, -1, "undecided", "-"), (20.06, -1, "undecided", "fold"),
                 (20.1, 1.0, "undecided", "period-doubling"), (20.3, -1, "undecided", "-"), (20.4, 1.0, "undecided", "plus-one")]
-        text = "# period-doubling: 20.1 +- 1e-05 Hz\n# plus-one: 20.4 +- 0.002 Hz\n" + "\t".join(names) + "\n"
+        text = "# row bifurcation: 1 period-doubling 20.1 1e-05\n# row bifurcation: 1 plus-one 20.4 0.002\n" + "\t".join(names) + "\n"
         text += "".join(f"{f}\t1\t1\t1\t1\t{f}\t{mu}\t1e-6\t{verdict}\t{kind}\n" for f, mu, verdict, kind in rows)
         found = rows_of(Table.of(text))
         self.assertEqual([row[0] for row in found], ["20", "20.06", "20.1", "20.3", "20.4"])
