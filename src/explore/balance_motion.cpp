@@ -44,11 +44,10 @@ void note_verdict(Table& table, const Parameters& parameters,
   if (there.seconds > 0) {
     table.value("regime_from_there", word(there.kind));
     if (there.period > 0) table.value("period_from_there", there.period);
-    table.note(
-        format("from the solution, disturbed by 1e-3 of the sizes: %s after %.3g s, "
-               "neighbours part by %.3g +- %.1g/s",
-               word(there.kind), there.seconds, there.lyapunov.value,
-               3 * there.lyapunov.error));
+    table.note(format(
+        "from the solution, disturbed by 1e-3 of the sizes: %s after %.3g s, "
+        "neighbours part by %.3g +- %.1g/s",
+        word(there.kind), there.seconds, there.lyapunov.value, 3 * there.lyapunov.error));
   }
   if (!verdict.lost.empty()) table.note("from the solution: " + verdict.lost);
   table.value("verdict_evaluations", verdict.evaluations, 3);
@@ -175,17 +174,17 @@ JudgedTorus judged(const Parameters& parameters, const MotionRequest& request,
     }
   }
   constexpr double near = 0.05;
-  if (leaves() && best.verdict->away < near && !best.verdict->unstable()) {
+  if (leaves() && best.verdict->larger() < near && !best.verdict->unstable()) {
     best.at.reached = false;
     best.at.end = format(
-        "integration from the solution with %d harmonics comes to a motion %.2g of "
-        "the largest displacement away",
-        best.at.motion.harmonics.count(), best.verdict->away);
+        "integration from the solution with %d harmonics comes to a motion %.2g "
+        "away, of the largest displacement or rms about the mean",
+        best.at.motion.harmonics.count(), best.verdict->larger());
   }
   return best;
 }
 
-void note_torus_verdict(Table& table, const JudgedTorus& judged, double frequency)
+void note_torus_verdict(Table& table, const JudgedTorus& judged)
 {
   if (!judged.verdict) {
     table.value("stability", "undecided");
@@ -193,17 +192,16 @@ void note_torus_verdict(Table& table, const JudgedTorus& judged, double frequenc
   }
   const motion::TorusVerdict& verdict = *judged.verdict;
   table.value("stability", verdict.word());
-  if (std::isfinite(verdict.rate) && std::isfinite(verdict.uncertainty)) {
-    table.value("lyapunov", verdict.rate * frequency, 3);
-    table.value("lyapunov_uncertainty", verdict.uncertainty * frequency, 2);
+  if (std::isfinite(verdict.rate()) && std::isfinite(verdict.uncertainty)) {
+    table.value("lyapunov", verdict.rate(), 3);
+    table.value("lyapunov_uncertainty", verdict.uncertainty, 2);
   }
   table.value("stays", verdict.stays ? "yes" : "no");
-  table.value("distance_largest", verdict.away, 3);
-  table.note(
-      format("from the solution: integration %s it, within %.2g of the largest "
-             "displacement over %d turns",
-             verdict.stays ? "stays on" : "leaves", verdict.away, verdict.turns));
-  put_regime(table, 0, verdict.stable() ? "quasi-periodic" : "undecided");
+  put_difference(table, "distance", verdict.away, verdict.away_rms,
+                 format("from where integration from the solution is after %.3g s, over "
+                        "100 turns",
+                        verdict.settled.seconds));
+  put_regime(table, 0, word(verdict.settled.kind), verdict.settled.reason);
   table.value("verdict_evaluations", verdict.evaluations, 3);
 }
 
@@ -242,11 +240,17 @@ FoundMotion quasi_periodic_motion(const Parameters& parameters,
   table.row_line("harmonics", list);
   table.value("start", one_word(solution.start));
   table.note("newton: " + solution.newton.reason());
-  const ErrorEstimate& error = *solution.error;
-  put_difference(table, "error", error.displacement, error.rms,
-                 basis_of(error, format("%d harmonics", error.harmonics)));
+  ErrorEstimate error = *solution.error;
+  std::string basis = basis_of(error, format("%d harmonics", error.harmonics));
+  /** What integration shows of a stable motion bounds what was estimated. */
+  if (judged.verdict && judged.verdict->stays) {
+    error.displacement = std::max(error.displacement, judged.verdict->away);
+    error.rms = std::max(error.rms, judged.verdict->away_rms);
+    basis += ", at least the distance from integration";
+  }
+  put_difference(table, "error", error.displacement, error.rms, basis);
   if (request.stability) {
-    note_torus_verdict(table, judged, request.frequency);
+    note_torus_verdict(table, judged);
   } else {
     note_no_verdict(table);
   }
@@ -284,8 +288,8 @@ PeriodicMotion solution_of(const Parameters& parameters, const MotionRequest& re
                    turns > 1 ? "against the motion that shooting closes"
                              : basis_of(*error, format("m = %d", error->harmonics)));
   if (request.stability) {
-    note_verdict(table, parameters,
-                 motion::judge(parameters, at.motion, budget, turns), turns);
+    note_verdict(table, parameters, motion::judge(parameters, at.motion, budget, turns),
+                 turns);
   } else {
     note_no_verdict(table);
   }

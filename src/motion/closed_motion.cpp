@@ -60,9 +60,9 @@ struct Closing {
              }},
             {"time integration", [&] {
                const Instant rest{static_start(parameters), 0};
-               return std::vector{settle(parameters, search.omega, BasePeriod{}, rest,
-                                         {}, search.budget)
-                                      .at.state};
+               return std::vector{
+                   settle(parameters, search.omega, BasePeriod{}, rest, {}, search.budget)
+                       .at.state};
              }}};
   }
 };

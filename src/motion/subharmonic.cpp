@@ -9,8 +9,8 @@
 #include "integration/time_stepper.hpp"
 #include "io/errors.hpp"
 #include "motion/attractor.hpp"
-#include "motion/other_starts.hpp"
 #include "motion/judge.hpp"
+#include "motion/other_starts.hpp"
 #include "stability/eigenvalues.hpp"
 #include "stability/shooting.hpp"
 

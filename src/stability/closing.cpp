@@ -49,8 +49,7 @@ public:
       }
       motion[static_cast<std::size_t>(first_)] = unscaled(part(y_, 0));
       report_.derivative = Eigen::MatrixXd::Identity(n_, n_);
-      for (const auto& slope : at.slopes)
-        report_.derivative = slope * report_.derivative;
+      for (const auto& slope : at.slopes) report_.derivative = slope * report_.derivative;
       report_.derivative =
           sizes_.asDiagonal() * report_.derivative * sizes_.cwiseInverse().asDiagonal();
     } catch (const NoSolution& none) {
@@ -87,8 +86,9 @@ private:
           mapped.slopes.emplace_back(Eigen::MatrixXd::Identity(n_, n_));
       for (int k = first_ + i * each; k < first_ + (i + 1) * each; ++k) {
         mapped.passed.push_back(state);
-        const PeriodMap next = period_map(parameters_, omega_, state, settings_.local_error,
-                                          "rk8pd", settings_.budget, {k, eighths});
+        const PeriodMap next =
+            period_map(parameters_, omega_, state, settings_.local_error, "rk8pd",
+                       settings_.budget, {k, eighths});
         report_.evaluations += next.evaluations;
         slope = sizes_.cwiseInverse().asDiagonal() * next.derivative *
                 sizes_.asDiagonal() * slope;
@@ -113,7 +113,8 @@ private:
     const Eigen::PartialPivLU<Eigen::MatrixXd> lu(jacobian);
     const Eigen::VectorXd step = lu.solve(-at.open);
     const double size = norm(step);
-    if (!std::isfinite(size)) throw NoSolution("the derivative of the period map is singular");
+    if (!std::isfinite(size))
+      throw NoSolution("the derivative of the period map is singular");
     const bool is_first = report_.first.size() == 0;
     if (is_first) report_.first = step;
     if (size <= settings_.closed) {
@@ -133,7 +134,6 @@ private:
         continue;
       }
       const double left = norm(lu.solve(next.open)) / size;
-      if (std::getenv("JDEBUG")) fprintf(stderr, "    %d size %.3g length %.3g left %.3g\n", maps_, size, length, left);
       if (!(left <= 1 - length / 2)) continue;
       if (is_first && length == 1) report_.contraction = left;
       length_ = length;
@@ -141,7 +141,8 @@ private:
       at = std::move(next);
       return false;
     }
-    throw NoSolution(format("no correction closes the motion better (last one %.1e)", size));
+    throw NoSolution(
+        format("no correction closes the motion better (last one %.1e)", size));
   }
 
   const Parameters& parameters_;

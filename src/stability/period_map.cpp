@@ -153,9 +153,8 @@ PeriodMap Rk4PeriodMap::map(const State& start)
   Varied q{start.position, Disturbances::Zero()}, v{start.velocity, Disturbances::Zero()};
   q.disturbances.topRows<4>().setIdentity();
   v.disturbances.bottomRows<4>().setIdentity();
-  rk4_.each_step(0, [&](const Angles* at) {
-    nystrom_step(rk4_.step(), at, q, v, acceleration);
-  });
+  rk4_.each_step(
+      0, [&](const Angles* at) { nystrom_step(rk4_.step(), at, q, v, acceleration); });
   const long evaluations = 4L * rk4_.steps_per_interval();
   evaluations_ += evaluations;
   Matrix8 derivative;
