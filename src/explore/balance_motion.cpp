@@ -34,16 +34,20 @@ void note_verdict(Table& table, const Parameters& parameters,
         format("warning: the solution is not accurate, its rms error about the mean "
                "is %.2g %%; more harmonics or --tolerance help",
                100 * verdict.distance_rms));
-  put_regime(table, verdict.settled(turns).period);
-  const motion::Settled& there = verdict.from_there;
-  if (there.periods > 0) {
-    table.value("regime_from_there", there.regime());
+  const Settled& there = verdict.from_there;
+  if (!verdict.stable())
+    put_regime(table, there.period, word(there.kind), there.reason);
+  else if (verdict.moves)
+    put_regime(table, turns);
+  else
+    put_regime(table, 0, word(Kind::rest));
+  if (there.seconds > 0) {
+    table.value("regime_from_there", word(there.kind));
     if (there.period > 0) table.value("period_from_there", there.period);
-    table.note(
-        format("from the solution, disturbed by 1e-6: a section of spread %.2g after "
-               "%ld periods%s",
-               there.spread, there.periods,
-               there.aperiodic ? ", which stays open; no exponent was measured" : ""));
+    table.note(format(
+        "from the solution, disturbed by 1e-3 of the sizes: %s after %.3g s, "
+        "neighbours part by %.3g +- %.1g/s",
+        word(there.kind), there.seconds, there.lyapunov.value, 3 * there.lyapunov.error));
   }
   if (!verdict.lost.empty()) table.note("from the solution: " + verdict.lost);
   table.value("verdict_evaluations", verdict.evaluations, 3);
@@ -170,17 +174,17 @@ JudgedTorus judged(const Parameters& parameters, const MotionRequest& request,
     }
   }
   constexpr double near = 0.05;
-  if (leaves() && best.verdict->away < near && !best.verdict->unstable()) {
+  if (leaves() && best.verdict->larger() < near && !best.verdict->unstable()) {
     best.at.reached = false;
     best.at.end = format(
-        "integration from the solution with %d harmonics comes to a motion %.2g of "
-        "the largest displacement away",
-        best.at.motion.harmonics.count(), best.verdict->away);
+        "integration from the solution with %d harmonics comes to a motion %.2g "
+        "away, of the largest displacement or rms about the mean",
+        best.at.motion.harmonics.count(), best.verdict->larger());
   }
   return best;
 }
 
-void note_torus_verdict(Table& table, const JudgedTorus& judged, double frequency)
+void note_torus_verdict(Table& table, const JudgedTorus& judged)
 {
   if (!judged.verdict) {
     table.value("stability", "undecided");
@@ -188,17 +192,16 @@ void note_torus_verdict(Table& table, const JudgedTorus& judged, double frequenc
   }
   const motion::TorusVerdict& verdict = *judged.verdict;
   table.value("stability", verdict.word());
-  if (std::isfinite(verdict.rate) && std::isfinite(verdict.uncertainty)) {
-    table.value("lyapunov", verdict.rate * frequency, 3);
-    table.value("lyapunov_uncertainty", verdict.uncertainty * frequency, 2);
+  if (std::isfinite(verdict.rate()) && std::isfinite(verdict.uncertainty)) {
+    table.value("lyapunov", verdict.rate(), 3);
+    table.value("lyapunov_uncertainty", verdict.uncertainty, 2);
   }
   table.value("stays", verdict.stays ? "yes" : "no");
-  table.value("distance_largest", verdict.away, 3);
-  table.note(
-      format("from the solution: integration %s it, within %.2g of the largest "
-             "displacement over %d turns",
-             verdict.stays ? "stays on" : "leaves", verdict.away, verdict.turns));
-  put_regime(table, 0, verdict.stable() ? "quasi-periodic" : "undecided");
+  put_difference(table, "distance", verdict.away, verdict.away_rms,
+                 format("from where integration from the solution is after %.3g s, over "
+                        "100 turns",
+                        verdict.settled.seconds));
+  put_regime(table, 0, word(verdict.settled.kind), verdict.settled.reason);
   table.value("verdict_evaluations", verdict.evaluations, 3);
 }
 
@@ -237,11 +240,17 @@ FoundMotion quasi_periodic_motion(const Parameters& parameters,
   table.row_line("harmonics", list);
   table.value("start", one_word(solution.start));
   table.note("newton: " + solution.newton.reason());
-  const ErrorEstimate& error = *solution.error;
-  put_difference(table, "error", error.displacement, error.rms,
-                 basis_of(error, format("%d harmonics", error.harmonics)));
+  ErrorEstimate error = *solution.error;
+  std::string basis = basis_of(error, format("%d harmonics", error.harmonics));
+  /** What integration shows of a stable motion bounds what was estimated. */
+  if (judged.verdict && judged.verdict->stays) {
+    error.displacement = std::max(error.displacement, judged.verdict->away);
+    error.rms = std::max(error.rms, judged.verdict->away_rms);
+    basis += ", at least the distance from integration";
+  }
+  put_difference(table, "error", error.displacement, error.rms, basis);
   if (request.stability) {
-    note_torus_verdict(table, judged, request.frequency);
+    note_torus_verdict(table, judged);
   } else {
     note_no_verdict(table);
   }
@@ -250,20 +259,55 @@ FoundMotion quasi_periodic_motion(const Parameters& parameters,
           lines_of(parameters.bearing, solution)};
 }
 
+/** How far a solution is from the motion of Eq. 7 that was found near it; 0 where none was. */
+double error_of(const motion::Verdict& verdict)
+{
+  return verdict.found() ? std::max(verdict.distance, verdict.distance_rms) : 0;
+}
+
+/** A solution is as wrong as its motion is away, whatever more harmonics say of it: a finer one is taken until that is
+    within the tolerance. */
+void bring_near(const Parameters& parameters, const MotionRequest& request,
+                const OperationBudget& budget, AdaptiveMotion& at,
+                motion::Verdict& verdict)
+{
+  if (request.harmonics) return;
+  for (const double share : {0.3, 0.1, 0.03, 0.01}) {
+    if (error_of(verdict) <= *request.tolerance) return;
+    AdaptiveSettings finer = settings_of(request);
+    finer.tolerance *= share;
+    AdaptiveMotion next = motion::solve_adaptively(parameters, angular(request.frequency),
+                                                   finer, budget);
+    if (!next.reached) return;
+    at = std::move(next);
+    verdict = motion::judge(parameters, at.motion, budget);
+  }
+}
+
 /** A motion with one frequency, that of the parameters, its solution. */
 PeriodicMotion solution_of(const Parameters& parameters, const MotionRequest& request,
                            const OperationBudget& budget, Table& table,
                            const std::string& base = "turn")
 {
-  const AdaptiveMotion at = solved(parameters, request, budget);
-  const std::string wanted =
-      request.tolerance
-          ? format("tolerance %g not reached", *request.tolerance)
-          : format("no solution found with %d harmonics", at.motion.harmonics.count());
-  if (!at.reached)
-    throw NoSolution(format("%s: %s at %g Hz: %s", parameters.file.c_str(),
-                            wanted.c_str(), request.frequency, at.end.c_str()));
+  AdaptiveMotion at = solved(parameters, request, budget);
   const int turns = request.subharmonic;
+  const auto refuse = [&](const std::string& end) {
+    const std::string wanted =
+        request.tolerance
+            ? format("tolerance %g not reached", *request.tolerance)
+            : format("no solution found with %d harmonics", at.motion.harmonics.count());
+    throw NoSolution(format("%s: %s at %g Hz: %s", parameters.file.c_str(),
+                            wanted.c_str(), request.frequency, end.c_str()));
+  };
+  if (!at.reached) refuse(at.end);
+  motion::Verdict verdict;
+  if (request.stability) {
+    verdict = motion::judge(parameters, at.motion, budget, turns);
+    if (request.tolerance && turns == 1 && verdict.found())
+      bring_near(parameters, request, budget, at, verdict);
+    if (request.tolerance && turns == 1 && error_of(verdict) > *request.tolerance)
+      refuse(format("the nearest motion of Eq. 7 is %.2g away", error_of(verdict)));
+  }
   table.value("method", "aft");
   put_base(table, base, request.frequency);
   if (request.tolerance && std::isfinite(*request.tolerance))
@@ -274,13 +318,16 @@ PeriodicMotion solution_of(const Parameters& parameters, const MotionRequest& re
   table.value("start", one_word(at.motion.start));
   table.note("newton: " + at.motion.newton.reason());
   table.value("force_samples", std::max(at.force_samples, at.motion.force_samples));
-  if (const auto& error = at.motion.error; error && (turns > 1 || request.tolerance))
+  if (request.tolerance && turns == 1 && verdict.found() && verdict.distance > 0)
+    put_difference(table, "error", verdict.distance, verdict.distance_rms,
+                   "against the nearest motion of Eq. 7");
+  else if (const auto& error = at.motion.error;
+           error && (turns > 1 || request.tolerance))
     put_difference(table, "error", error->displacement, error->rms,
                    turns > 1 ? "against the motion that shooting closes"
                              : basis_of(*error, format("m = %d", error->harmonics)));
   if (request.stability) {
-    note_verdict(table, parameters,
-                 motion::verdict_on(parameters, at.motion, budget, turns), turns);
+    note_verdict(table, parameters, verdict, turns);
   } else {
     note_no_verdict(table);
   }

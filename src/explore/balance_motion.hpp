@@ -6,7 +6,7 @@ verdict go to the table's header. */
 #pragma once
 
 #include "explore/orbit.hpp"
-#include "motion/verdict.hpp"
+#include "motion/judge.hpp"
 
 namespace rotor_stator::explore {
 

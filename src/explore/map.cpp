@@ -22,7 +22,7 @@
 #include "motion/contact.hpp"
 #include "motion/other_starts.hpp"
 #include "motion/regime.hpp"
-#include "motion/verdict.hpp"
+#include "motion/judge.hpp"
 #include "stability/floquet.hpp"
 
 namespace rotor_stator::explore {
@@ -310,7 +310,7 @@ public:
 
   const motion::Verdict& verdict()
   {
-    return verdict_([&] { return motion::verdict_on(machine, solution(), budget_); });
+    return verdict_([&] { return motion::judge(machine, solution(), budget_); });
   }
 
   std::string stability()
@@ -424,14 +424,14 @@ public:
   double machine_error()
   {
     if (verdict().found()) return verdict().distance_rms;
-    const auto& there = verdict().from_there;
-    if (there.period == 0 && !there.aperiodic) throw NoSolution(verdict().reason);
+    const rotor_stator::Settled& there = verdict().from_there;
+    if (there.kind == Kind::undecided) throw NoSolution(verdict().reason);
     const TimeStepper stepper = make_stepper(
         machine, omega(),
         {.method = "rk4", .intervals_per_period = instants, .budget = budget_});
-    State state = there.state;
-    const motion::Motion settled =
-        motion::recorded(stepper, instants, state, 0, std::max(1, there.period) * 40);
+    State state = there.at.state;
+    const motion::Motion settled = motion::recorded(
+        stepper, instants, state, there.at.period, std::max(1, there.period) * 40);
     return motion::rms_difference(motion::motion_of(solution(), instants), settled);
   }
 

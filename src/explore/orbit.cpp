@@ -13,7 +13,7 @@
 #include "model/large_machine.hpp"
 #include "motion/closed_motion.hpp"
 #include "motion/contact.hpp"
-#include "motion/verdict.hpp"
+#include "motion/judge.hpp"
 
 namespace rotor_stator::explore {
 
@@ -133,7 +133,7 @@ FoundMotion closed_motion(const Parameters& parameters, const MotionRequest& req
   put_base(table, "turn", request.frequency);
   if (request.stability)
     note_verdict(table, parameters,
-                 motion::verdict_through(parameters, omega, closed.state, budget, turns),
+                 motion::judge_through(parameters, omega, closed.state, budget, turns),
                  turns);
   else
     note_no_verdict(table);

@@ -21,7 +21,7 @@
 #include "motion/other_starts.hpp"
 #include "motion/quasi_periodic.hpp"
 #include "motion/subharmonic.hpp"
-#include "motion/verdict.hpp"
+#include "motion/judge.hpp"
 #include "stability/shooting_branch.hpp"
 
 namespace rotor_stator::explore {
@@ -535,10 +535,10 @@ Exploration shooting_response(const ResponseRequest& request, const Task& task)
   const motion::Search search{machine,      range.from,           task.harmonics,
                               task.samples, task.settings.newton, task.budget};
   /** On the motion that the machine settles on where that has the period T. */
-  const motion::Settled settled =
-      motion::settle(machine, range.from, static_start(machine), task.budget);
+  const rotor_stator::Settled settled = settle(
+      machine, range.from, BasePeriod{}, {static_start(machine), 0}, {}, task.budget);
   std::string start = "time integration";
-  State state = settled.state;
+  State state = settled.at.state;
   if (settled.period != 1) {
     const auto closed = motion::closed_motion(search, 1, points, 1e-11);
     start = closed.start;

@@ -8,7 +8,7 @@
 
 #include "io/errors.hpp"
 #include "motion/find_periodic.hpp"
-#include "motion/verdict.hpp"
+#include "motion/judge.hpp"
 #include "stability/shooting.hpp"
 
 namespace rotor_stator::motion {
@@ -108,7 +108,7 @@ bool close(Answer& answer, const Request& request, const OperationBudget& budget
     answer.error =
         difference(answer.motion, closing.record(finer, 0.01 * request.local_error, points));
     const Verdict verdict =
-        verdict_through(answer.machine, answer.omega, state, budget, k);
+        judge_through(answer.machine, answer.omega, state, budget, k);
     answer.evaluations += verdict.evaluations;
     if (verdict.found()) {
       answer.stability = verdict.word();
@@ -150,7 +150,7 @@ public:
                            .tolerance = request_.local_error / (finer * finer),
                            .budget = budget_});
     };
-    const rotor_stator::Settled& settled = answer_.settled;
+    const Settled& settled = answer_.settled;
     const Instant& from = settled.contracts ? settled.before : settled.at;
     State state = from.state;
     const TimeStepper whole = stepper(1), parts = stepper(request_.points);
@@ -173,7 +173,7 @@ private:
 void record(Answer& answer, const Request& request, const OperationBudget& budget)
 {
   constexpr int most_halvings = 6;
-  const rotor_stator::Settled& settled = answer.settled;
+  const Settled& settled = answer.settled;
   Recording recording(answer, request, std::max(request.periods, settled.period), budget);
   answer.motion = recording(1);
   answer.method = request.method == "auto" ? "rk4" : request.method;

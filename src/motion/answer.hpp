@@ -9,7 +9,7 @@ motion the record is one of many: it has no error.
     const Answer answer = motion::answer(parameters, {.omega = angular(25)}, budget);
     // answer.kind, answer.motion, answer.stability, answer.error
 
-Solutions of harmonic balance are asked for by their number of harmonics, and judged in motion/verdict.hpp. */
+Solutions of harmonic balance are asked for by their number of harmonics, and judged in motion/judge.hpp. */
 #pragma once
 
 #include <optional>
@@ -42,7 +42,7 @@ struct Answer {
   BasePeriod base;
   Parameters machine = {};  ///< counted over its base period
   double omega = 0;         ///< base frequency [rad/s]
-  rotor_stator::Settled settled;  ///< kind, K, λ, state
+  Settled settled;  ///< kind, K, λ, state
   Motion motion = {};       ///< from t = 0, or from base period `motion.first_period`
   std::optional<Error> error = {};
   std::string stability = "undecided";

@@ -4,9 +4,9 @@
 #include <utility>
 
 #include "io/errors.hpp"
-#include "motion/attractor.hpp"
 #include "motion/subharmonic.hpp"
 #include "stability/shooting.hpp"
+#include "time/settle.hpp"
 
 namespace rotor_stator::motion {
 
@@ -59,9 +59,10 @@ struct Closing {
                                        : std::vector<State>{};
              }},
             {"time integration", [&] {
-               return std::vector{settle(parameters, search.omega,
-                                         static_start(parameters), search.budget)
-                                      .state};
+               const Instant rest{static_start(parameters), 0};
+               return std::vector{
+                   settle(parameters, search.omega, BasePeriod{}, rest, {}, search.budget)
+                       .at.state};
              }}};
   }
 };

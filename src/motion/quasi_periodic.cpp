@@ -234,35 +234,35 @@ TorusVerdict verdict_on_torus(const Parameters& parameters,
                               const PeriodicMotion& solution, double tolerance,
                               const OperationBudget& budget)
 {
-  constexpr int points = 8, fading = 56;
-  constexpr double standard_errors = 3;
-  const auto turns = std::clamp(settling_turns(parameters, solution.omega), 256L, 2048L);
-  TorusVerdict verdict{.turns = static_cast<int>(turns)};
-  /** Twice the default step errs by (2π/20)⁴/120, 1e-4, in a period of the contact's vibration. */
-  const double step = (tolerance >= 1e-3 ? 2 : 1) * default_step(parameters);
-  const TimeStepper stepper = make_stepper(
-      parameters, solution.omega,
-      {.method = "rk4", .intervals_per_period = points, .step = step, .budget = budget});
-  TrajectoryPair pair(stepper, points, state_scales(parameters),
-                      state_of(parameters, solution));
-  const Motion exact = motion_of(parameters, solution, points, verdict.turns);
-  const double size = largest_displacement(exact);
-  std::vector<double> growth;
-  auto at = exact.positions.begin();
-  const auto compare = [&](const State& state) {
-    const auto a = displacements(state.position), b = displacements(*at++);
-    for (std::size_t i = 0; i < 4; ++i)
-      verdict.away = std::max(verdict.away, std::abs(a[i] - b[i]) / size);
+  constexpr int points = 64, turns = 100;
+  const double omega = solution.omega, step = step_at(parameters, omega);
+  const Instant start{state_of(parameters, solution), 0};
+  const auto from_there = [&](double longest_step) {
+    return settle(parameters, omega, base_period(parameters), start,
+                  {.step = longest_step}, budget.part(0.4));
   };
-  for (int turn = 0; turn < verdict.turns; ++turn) {
-    const double rate = pair.advance_one_period(compare);
-    if (turn >= fading) growth.push_back(rate);
-  }
-  const BatchMean rate = batch_mean(growth);
-  verdict.rate = rate.value;
-  verdict.uncertainty = standard_errors * rate.error;
-  verdict.stays = verdict.away <= tolerance;
-  verdict.evaluations = static_cast<double>(stepper.evaluations());
+  const Settled coarse = from_there(step);
+  TorusVerdict verdict{.settled = from_there(step / 2)};
+  const Exponent& rate = verdict.settled.lyapunov;
+  verdict.uncertainty =
+      std::max(3 * rate.error, std::abs(rate.value - coarse.lyapunov.value));
+  /** With error control, from so much earlier that the errors of rk4 are forgotten. */
+  const TimeStepper stepper =
+      make_stepper(parameters, omega,
+                   {.intervals_per_period = points, .tolerance = 1e-9, .budget = budget});
+  const Instant& from =
+      verdict.settled.contracts ? verdict.settled.before : verdict.settled.at;
+  State state = from.state;
+  const long first = verdict.settled.at.period;
+  for (long k = from.period * points; k < first * points; ++k) stepper.advance(k, state);
+  Motion exact = recorded(stepper, points, state, first, turns);
+  Motion judged = motion_of(parameters, solution, points, turns, first);
+  exact.points_per_period = judged.points_per_period = points * turns;
+  verdict.away = relative_difference(judged, exact);
+  verdict.away_rms = rms_difference(judged, exact);
+  verdict.stays = verdict.larger() <= tolerance;
+  verdict.evaluations = coarse.evaluations + verdict.settled.evaluations +
+                        static_cast<double>(stepper.evaluations());
   return verdict;
 }
 

@@ -8,9 +8,9 @@
 #include "balance/bearing_problem.hpp"
 #include "integration/time_stepper.hpp"
 #include "io/errors.hpp"
-#include "motion/attractor.hpp"
+#include "time/settle.hpp"
+#include "motion/judge.hpp"
 #include "motion/other_starts.hpp"
-#include "motion/verdict.hpp"
 #include "stability/eigenvalues.hpp"
 #include "stability/shooting.hpp"
 
@@ -124,8 +124,8 @@ struct Sources {
   const Settled& at_rest()
   {
     if (!rest)
-      rest = settle(search.parameters, search.omega, static_start(search.parameters),
-                    search.budget);
+      rest = settle(search.parameters, search.omega, BasePeriod{},
+                    {static_start(search.parameters), 0}, {}, search.budget);
     return *rest;
   }
 };
@@ -134,7 +134,7 @@ Sources sources_of(const Search& search)
 {
   const PeriodicMotion solution = search_periodic(search);
   if (!solution.found()) return {search, {}};
-  return {search, verdict_on(search.parameters, solution, search.budget.part(0.5))};
+  return {search, judge(search.parameters, solution, search.budget.part(0.5))};
 }
 
 /** States [m, m/s] at phase 0 of motions with the period KT and none shorter, K ≤ 8; those on one motion count as
@@ -144,11 +144,11 @@ std::vector<State> states_of(Sources& from, int turns)
   const Search& search = from.search;
   Hunt hunt{search.parameters, search.omega, turns, search.budget};
   if (const auto& one = from.one_turn) {
-    if (one->from_there.period == turns) hunt.add(one->from_there.state);
+    if (one->from_there.period == turns) hunt.add(one->from_there.at.state);
     if (hunt.found.empty() && one->found()) hunt.add_along_eigenvectors(one->state, 1);
   }
   if (hunt.found.empty() && from.at_rest().period == turns)
-    hunt.add(from.at_rest().state);
+    hunt.add(from.at_rest().at.state);
   for (int d = 2; d < turns && hunt.found.empty(); ++d)
     if (turns % d == 0)
       for (const State& state : states_of(from, d)) hunt.add_along_eigenvectors(state, d);

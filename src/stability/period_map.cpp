@@ -14,14 +14,15 @@ namespace {
 
 /** The same of bodies given by matrices. Steps for the derivative need not be as small as those for the state. */
 PeriodMap large_period_map(const Parameters& parameters, double omega, const State& start,
-                           double tolerance, const OperationBudget& budget)
+                           double tolerance, const OperationBudget& budget,
+                           const Segment& segment)
 {
   constexpr double coarser = 1e4;
-  GaussStepper state(parameters, omega, 1, tolerance, budget);
+  GaussStepper state(parameters, omega, segment.of, tolerance, budget);
   PeriodMap map{.end = start, .derivative = {}, .evaluations = 0};
-  state.advance(0, map.end);
-  GaussStepper varied(parameters, omega, 1, coarser * tolerance, budget);
-  map.derivative = varied.derivative(0, start);
+  state.advance(segment.number, map.end);
+  GaussStepper varied(parameters, omega, segment.of, coarser * tolerance, budget);
+  map.derivative = varied.derivative(segment.number, start);
   map.evaluations = state.evaluations() + varied.evaluations();
   return map;
 }
@@ -30,15 +31,15 @@ PeriodMap large_period_map(const Parameters& parameters, double omega, const Sta
 
 PeriodMap period_map(const Parameters& parameters, double omega, const State& start,
                      double tolerance, const std::string& method,
-                     const OperationBudget& budget)
+                     const OperationBudget& budget, const Segment& segment)
 {
   if (parameters.large)
-    return large_period_map(parameters, omega, start, tolerance, budget);
+    return large_period_map(parameters, omega, start, tolerance, budget, segment);
   if (method == "rk8") {
-    Rk8 rk8(parameters, omega, 1, tolerance, budget);
+    Rk8 rk8(parameters, omega, segment.of, tolerance, budget);
     PeriodMap map{.end = start, .derivative = {}, .evaluations = 0};
     Matrix8 derivative = Matrix8::Identity();
-    rk8.advance(0, map.end, derivative);
+    rk8.advance(segment.number, map.end, derivative);
     map.derivative = derivative;
     map.evaluations = rk8.evaluations();
     return map;

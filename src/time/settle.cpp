@@ -71,6 +71,14 @@ double step_at(const Parameters& machine, double omega)
   return std::isfinite(ratio) && ratio > 1 ? step / std::pow(ratio, 1.0 / 6) : step;
 }
 
+double apart(const Parameters& machine, const State& a, const State& b)
+{
+  return (vector_of(a) - vector_of(b))
+      .cwiseQuotient(state_scales(machine))
+      .cwiseAbs()
+      .maxCoeff();
+}
+
 /** Eigenvalues of one direction: x_s, x_r and their speeds. */
 SlowestMode slowest_mode(const Parameters& machine)
 {
@@ -124,31 +132,18 @@ public:
     neighbour_ = state_of(vector_of(start.state) + share * sizes_);
   }
 
-  /** Over one base period. */
+  /** Over one base period; where that cannot be paid for, the motion stays where it was. */
   void advance()
   {
-    section_.push_back(displacements(at_.state.position));
-    Displacements low = section_.back(), high = low;
-    double growth = 0;
-    for (long k = 0; k < intervals_; ++k) {
-      flow_->advance(at_.period * intervals_ + k, at_.state, neighbour_);
-      growth += pull_back();
-      const Displacements q = displacements(at_.state.position);
-      for (std::size_t i = 0; i < 4; ++i) {
-        low[i] = std::min(low[i], q[i]);
-        high[i] = std::max(high[i], q[i]);
-      }
+    const Instant before = at_;
+    const State neighbour = neighbour_;
+    try {
+      advance_one_period();
+    } catch (const NoSolution&) {
+      at_ = before;
+      neighbour_ = neighbour;
+      throw;
     }
-    ++at_.period;
-    half_range_ = 0;
-    for (std::size_t i = 0; i < 4; ++i)
-      half_range_ = std::max(half_range_, 0.5 * (high[i] - low[i]));
-    growths_.push_back(growth);
-    log_distance_ += growth;
-    highest_ = std::max(highest_, log_distance_);
-    if (log_distance_ >= highest_) marks_.clear();
-    if (marks_.empty() || marks_.back().log_distance - log_distance_ > 1)
-      marks_.push_back({log_distance_, at_});
   }
 
   /** ln of what is left of any distance since it was largest. */
@@ -173,6 +168,33 @@ public:
 
 private:
   static constexpr double longest_phase = 60;  ///< of the contact's vibration between two pulls
+
+  void advance_one_period()
+  {
+    const Displacements first = displacements(at_.state.position);
+    Displacements low = first, high = first;
+    double growth = 0;
+    for (long k = 0; k < intervals_; ++k) {
+      flow_->advance(at_.period * intervals_ + k, at_.state, neighbour_);
+      growth += pull_back();
+      const Displacements q = displacements(at_.state.position);
+      for (std::size_t i = 0; i < 4; ++i) {
+        low[i] = std::min(low[i], q[i]);
+        high[i] = std::max(high[i], q[i]);
+      }
+    }
+    ++at_.period;
+    section_.push_back(first);
+    half_range_ = 0;
+    for (std::size_t i = 0; i < 4; ++i)
+      half_range_ = std::max(half_range_, 0.5 * (high[i] - low[i]));
+    growths_.push_back(growth);
+    log_distance_ += growth;
+    highest_ = std::max(highest_, log_distance_);
+    if (log_distance_ >= highest_) marks_.clear();
+    if (marks_.empty() || marks_.back().log_distance - log_distance_ > 1)
+      marks_.push_back({log_distance_, at_});
+  }
 
   double pull_back()
   {
@@ -276,6 +298,8 @@ private:
   void close(const Pair& pair, Settled& s) const
   {
     const auto& all = pair.section();
+    constexpr long fewest = 4;
+    if (std::ssize(all) < fewest) return;
     const auto window = std::min<long>(std::ssize(all), 3L * rule_.most_period + 1);
     const std::vector<Displacements> last(all.end() - window, all.end());
     const double size = std::max(pair.half_range(), 1e-9 * length_);
@@ -361,7 +385,7 @@ Settled settle(const Parameters& machine, double omega, const BasePeriod& base,
         settled.kind == Kind::quasi_periodic && can_be_put_on_zero(settled))
       put_on_zero(machine, omega, rule, budget, settled);
   } catch (const NoSolution& ended) {
-    if (!budget.used_up()) throw;
+    if (!budget.used_up() || pair.growths().empty()) throw;
     settled = judge(pair);
     settled.kind = Kind::undecided;
     settled.reason = ended.what();
