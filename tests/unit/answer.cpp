@@ -10,7 +10,6 @@
 
 using namespace rotor_stator;
 using namespace rotor_stator::tests;
-using Catch::Approx;
 
 namespace {
 
@@ -29,7 +28,7 @@ Parameters free_rotor()
 
 }  // namespace
 
-TEST_CASE("Without contact the amplitude is that of Jeffcott's rotor", "[unit]")
+TEST_CASE("Without contact the amplitude is that of Jeffcott's rotor")
 {
   /** A wrong phase, unbalance or number of base periods would show. */
   const Parameters parameters = free_rotor();
@@ -50,7 +49,7 @@ TEST_CASE("Without contact the amplitude is that of Jeffcott's rotor", "[unit]")
                                  .epsilon(1e-5));
 }
 
-TEST_CASE("A machine that nothing moves rests", "[unit]")
+TEST_CASE("A machine that nothing moves rests")
 {
   Parameters parameters = set_1();
   parameters.unbalance = 0;
@@ -61,7 +60,7 @@ TEST_CASE("A machine that nothing moves rests", "[unit]")
   CHECK(observe(answer).amplitude == Displacements{});
 }
 
-TEST_CASE("Set 1 doubles its period at 20 Hz and is chaotic at 13.4 Hz", "[unit]")
+TEST_CASE("Set 1 doubles its period at 20 Hz and is chaotic at 13.4 Hz")
 {
   const motion::Answer doubled = from_rest_at(set_1(), 20);
   CHECK(doubled.period_number() == 2);
@@ -73,7 +72,7 @@ TEST_CASE("Set 1 doubles its period at 20 Hz and is chaotic at 13.4 Hz", "[unit]
   CHECK(!chaos.error);
 }
 
-TEST_CASE("A torus is put on t = 0, instant by instant that of harmonic balance", "[unit]")
+TEST_CASE("A torus is put on t = 0, instant by instant that of harmonic balance")
 {
   /** A start at another angle of the cage, or a transient that is not over, would show at once. */
   Parameters parameters = set_1();
@@ -92,7 +91,7 @@ TEST_CASE("A torus is put on t = 0, instant by instant that of harmonic balance"
   CHECK(answer.error->larger() < 1e-4);
 }
 
-TEST_CASE("The base period is decided by what drives the machine", "[unit]")
+TEST_CASE("The base period is decided by what drives the machine")
 {
   Parameters parameters = set_1();
   CHECK(base_period(parameters).words() == "turn");
@@ -104,7 +103,7 @@ TEST_CASE("The base period is decided by what drives the machine", "[unit]")
   CHECK(base_period(parameters).words() == "passing");
 }
 
-TEST_CASE("A start from rest is in equilibrium, whole turns before t = 0", "[unit]")
+TEST_CASE("A start from rest is in equilibrium, whole turns before t = 0")
 {
   Parameters parameters = set_1();
   parameters.bearing.cage_speed_ratio = 0.4321;
@@ -119,7 +118,7 @@ TEST_CASE("A start from rest is in equilibrium, whole turns before t = 0", "[uni
 }
 
 /** A sum over the wrong number of periods would show. */
-TEST_CASE("Neighbours part at the rate of the largest multiplier", "[unit]")
+TEST_CASE("Neighbours part at the rate of the largest multiplier")
 {
   for (const double frequency : {16.0, 20.0, 20.25, 45.0}) {
     motion::Answer answer =
@@ -134,7 +133,7 @@ TEST_CASE("Neighbours part at the rate of the largest multiplier", "[unit]")
   }
 }
 
-TEST_CASE("Kinds of known motions", "[unit]")
+TEST_CASE("Kinds of known motions")
 {
   struct Known {
     const char* set;
