@@ -1,15 +1,17 @@
 /**
 # Coefficients of the Runge-Kutta pair of order 8 of Dormand and Prince
 
-Twelve stages, with error estimates of orders 5 and 3. Hairer, Norsett and Wanner, Solving Ordinary Differential
-Equations I, second edition, Springer 1993, II.5 and II.10 (DOP853). */
+Twelve stages, with error estimates of orders 5 and 3. Hairer, Norsett and Wanner, Solving
+Ordinary Differential Equations I, second edition, Springer 1993, II.5 and II.10 (DOP853).
+*/
 #pragma once
 
 namespace rotor_stator::dop853 {
 
 inline constexpr int stages = 12;
 
-/** Row i: the weights of the slopes before stage i; the last row gives the state after the step. */
+/** Row i: the weights of the slopes before stage i; the last row gives the state after
+    the step. */
 inline constexpr double weights[stages + 1][stages]{
     {},
     {5.260015195876773187855e-2},

@@ -42,8 +42,8 @@ public:
   GslDriver(gsl_odeiv2_system& system, const std::string& method, double first_step,
             double tolerance, const double* scales);
 
-  /** Advances `y` from `from` to `to` [s]. Throws NoSolution when the steps become too small or
-      `evaluations` are not paid for. */
+  /** Advances `y` from `from` to `to` [s]. Throws NoSolution when the steps become too
+      small or `evaluations` are not paid for. */
   void advance(double from, double to, double* y, const PaidEvaluations& evaluations);
 
   /** Forgets the history of multistep methods; the step size is kept. */
@@ -97,8 +97,8 @@ const std::vector<std::string>& gsl_methods()
   return names;
 }
 
-/** The unbalance turns with the rotor, and the bearing's force with the cage, dF/dθ = F⊥ - S u⊥ at
-    constant u. */
+/** The unbalance turns with the rotor, and the bearing's force with the cage, dF/dθ = F⊥
+    - S u⊥ at constant u. */
 void equation_7_slopes(const Parameters& p, const RotorStator& system, double t,
                        const double y[], double* dfdy, double* dfdt)
 {
@@ -241,8 +241,8 @@ int varied_derivative(double t, const double y[], double dydt[], void* data)
   return Eigen::Map<Vector8>(dydt).allFinite() ? GSL_SUCCESS : GSL_EBADFUNC;
 }
 
-/** Error scales: those of the state; the variations are given so much room that they never
-    decide the step. */
+/** Error scales: those of the state; the variations are given so much room that they
+    never decide the step. */
 std::array<double, equations> error_scales(const Parameters& parameters)
 {
   constexpr double room = 1e6;

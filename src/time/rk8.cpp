@@ -17,8 +17,8 @@ namespace {
 
 using Quad = Lanes<4>;
 
-/** Four displacements of the motion, x_s to y_r, and below them those of eight disturbances: each displacement is two
-    rows. Or their speeds. */
+/** Four displacements of the motion, x_s to y_r, and below them those of eight
+    disturbances: each displacement is two rows. Or their speeds. */
 template <int rows>
 using Rows = std::array<Quad, rows>;
 
@@ -44,8 +44,9 @@ IN_PLACE double largest_square(Quad a, Quad per_size_a, Quad b, Quad per_size_b)
 
 }  // namespace
 
-/** The estimate of a step in which a ball begins or ceases to touch is too small. With this factor a tolerance gives
-    about the error that GSL's rk8pd has with it (30 periods of four machines), for as many evaluations. */
+/** The estimate of a step in which a ball begins or ceases to touch is too small. With
+    this factor a tolerance gives about the error that GSL's rk8pd has with it (30 periods
+    of three machines), for as many evaluations. */
 static constexpr double caution = 5;
 
 /** All that the stages of a step need. */
@@ -160,8 +161,8 @@ struct Rk8::Step {
     }
   }
 
-  /** One step, and the estimate of the book's II.10: |E_5|² over the root of |E_5|² + |E_3|²/100, in the norm of the
-      largest component. */
+  /** One step, and the estimate of the book's II.10: |E_5|² over the root of |E_5|² +
+      |E_3|²/100, in the norm of the largest component. */
   template <Kind kind>
   IN_PLACE void take()
   {
@@ -234,7 +235,8 @@ Rk8::Rk8(const Parameters& parameters, double omega, int intervals, double toler
 {
 }
 
-/** By the series of sine and cosine where the angles are small, which takes a tenth of the time. */
+/** By the series of sine and cosine where the angles are small: faster than eleven calls
+    of each. */
 void Rk8::Turning::set(double turns_in_step)
 {
   const double angle = 2 * std::numbers::pi * turns_in_step;
@@ -322,7 +324,8 @@ void Rk8::stop(long interval, double passed) const
              (static_cast<double>(interval) + passed) * system_.period() / intervals_));
 }
 
-/** How much longer the next step may be than one with this error over the tolerance: errors grow with the power 8. */
+/** How much longer the next step may be than one with this error over the tolerance:
+    errors grow with the power 8. */
 static double change_of_length(double error)
 {
   constexpr double safety = 0.9, least = 0.2, most = 6;

@@ -1,18 +1,21 @@
 /**
 # Runge-Kutta of order 8 with controlled steps
 
-The pair of Dormand and Prince (dop853.hpp) on Eq. 7: the local error of each step, its largest component over the
-size of that component (`state_scales`), stays below the tolerance. Steps divide what is left of an output interval
-evenly. Their length changes rarely, and with it the turns of rotor and cage up to the stages: a step that keeps its
+The pair of Dormand and Prince (dop853.hpp) on Eq. 7: the local error of each step, its
+largest component over the size of that component (`state_scales`), stays below the
+tolerance. Steps divide what is left of an output interval evenly. Their length changes
+rarely, and with it the turns of rotor and cage up to the stages: a step that keeps its
 length takes no sine or cosine.
 
-    Rk8 rk8(parameters, omega, 64, 1e-10);
-    State state = static_start(parameters);
-    rk8.advance(0, state);                    // over the first of 64 intervals of the base period
+    Rk8 rk8(parameters, omega, 64, 1e-10); State state = static_start(parameters);
+    rk8.advance(0, state);                    // over the first of 64 intervals of the
+    base period
 
-Beside the state go, where they are asked for, eight disturbances of it, which the variational equations of Eq. 7 advance
-in the same steps: the derivative of the map from the start of an interval to its end. They have no say in the steps,
-but vibrate on the contact where the state may not: at least six steps are taken in a period of that vibration. */
+Beside the state go, where they are asked for, eight disturbances of it, which the
+variational equations of Eq. 7 advance in the same steps: the derivative of the map from
+the start of an interval to its end. They have no say in the steps, but vibrate on the
+contact where the state may not: at least six steps are taken in a period of that
+vibration. */
 #pragma once
 
 #include <array>
@@ -39,10 +42,12 @@ public:
   long evaluations() const override { return evaluations_; }
   long rejected_steps() const { return rejected_; }
 
-  /** One step of this share of interval 0, whatever its error; returns the estimated error over the sizes [-]. */
+  /** One step of this share of interval 0, whatever its error; returns the estimated
+      error over the sizes [-]. */
   double step(double share, State& state);
 
-  /** Prices of an evaluation in evaluations by RK4: with the method's share of a step, and with eight disturbances. */
+  /** Prices of an evaluation in evaluations by RK4: with the method's share of a step,
+      and with eight disturbances. */
   static constexpr double price = 1.25, price_with_derivative = 3;
 
   /** The turns of rotor, cage and damaged ball up to the stages of a step. */

@@ -1,9 +1,9 @@
 /**
 # Where rotor, cage and damaged ball stand in time
 
-Angles are counted in turns from the start of a base period, so that none loses digits in a long
-motion: `turns.at(periods, share)` after so many whole base periods and a share of one,
-`turns.by(share)` for the turn in that share. */
+Angles are counted in turns from the start of a base period, so that none loses digits in
+a long motion: `turns.at(periods, share)` after so many whole base periods and a share of
+one, `turns.by(share)` for the turn in that share. */
 #pragma once
 
 #include "model/rotor_stator.hpp"

@@ -1,4 +1,5 @@
-/** Motions side by side by RK4, with registers of each width: each has the bits that it has alone. */
+/** Motions side by side by RK4, with registers of each width: each has the bits that it
+    has alone. */
 #include <array>
 #include <bit>
 #include <cstdint>
@@ -21,7 +22,8 @@ Bits bits(const State& state)
   return std::bit_cast<Bits>(std::array{state.position, state.velocity});
 }
 
-/** A motion of its own: everything but the number of balls differs from that of the others. */
+/** A motion of its own: everything but the number of balls differs from that of the
+    others. */
 struct Runner {
   Parameters machine = set_1();
   double omega;
@@ -63,8 +65,9 @@ void with_registers(Registers width, Run run)
 
 }  // namespace
 
-/** Catches constants, steps or directions of another lane, lanes that stop early or late, damping in a lane that has
-    none, sums in another order, and evaluations that are not counted. */
+/** Catches constants, steps or directions of another lane, lanes that stop early or late,
+    damping in a lane that has none, sums in another order, and evaluations that are not
+    counted. */
 TEST_CASE("Motions side by side have the bits that they have alone")
 {
   constexpr int most = 8, rounds = 3;

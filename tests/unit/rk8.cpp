@@ -1,4 +1,5 @@
-/** Runge-Kutta of order 8: its coefficients, its order, its steps, and the derivative of what it computes. */
+/** Runge-Kutta of order 8: its coefficients, its order, its steps, and the derivative of
+    what it computes. */
 #include <array>
 #include <bit>
 #include <cstdint>
@@ -46,7 +47,8 @@ State near_rest(const Parameters& machine)
 
 }  // namespace
 
-/** Hairer, Norsett, Wanner, II.2: each rooted tree with r vertices is a condition of order r. */
+/** Hairer, Norsett, Wanner, II.2: each rooted tree with r vertices is a condition of
+    order r. */
 TEST_CASE("The coefficients of rk8 satisfy conditions of order 8")
 {
   Eigen::Matrix<double, stages, stages> a;
@@ -89,8 +91,8 @@ TEST_CASE("The coefficients of rk8 satisfy conditions of order 8")
   CHECK(std::abs(e_3.dot(power(3))) > 1e-6);
 }
 
-/** Catches a wrong instant of a stage (order 1) and a wrong weight of an estimate, which would not shrink with the
-    power 8. */
+/** Catches a wrong instant of a stage (order 1) and a wrong weight of an estimate, which
+    would not shrink with the power 8. */
 TEST_CASE("A step of rk8 has an error of order 9, and an estimate of it of order 8")
 {
   const Parameters machine = on_one_ball();
@@ -116,7 +118,8 @@ TEST_CASE("A step of rk8 has an error of order 9, and an estimate of it of order
   CHECK(fine.estimate > fine.true_one);
 }
 
-/** The other stepper shares no coefficient, no error estimate and no choice of steps with this one. */
+/** The other stepper shares no coefficient, no error estimate and no choice of steps with
+    this one. */
 TEST_CASE("rk8 goes where GSL's rk8pd goes, and so do their disturbances")
 {
   Parameters machine = set_1();
