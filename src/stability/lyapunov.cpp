@@ -65,18 +65,18 @@ double spread_of_order(int k, const std::vector<Displacements>& section, double 
   return widest / size;
 }
 
-Verdict verdict_of(const SectionJudgement& j, const VerdictRule& rule)
+SectionKind verdict_of(const SectionJudgement& j, const VerdictRule& rule)
 {
-  if (j.spread < rule.periodic) return Verdict::periodic;
-  if (j.period > 1 && j.spread_k < rule.periodic) return Verdict::subharmonic;
+  if (j.spread < rule.periodic) return SectionKind::periodic;
+  if (j.period > 1 && j.spread_k < rule.periodic) return SectionKind::subharmonic;
   const double doubt = 3 * j.exponent.error;
-  if (j.exponent.value - doubt > rule.zero_rate) return Verdict::chaotic;
+  if (j.exponent.value - doubt > rule.zero_rate) return SectionKind::chaotic;
   const bool known = doubt < 2 * rule.zero_rate;
   const bool zero = std::abs(j.exponent.value) <= std::max(doubt, 0.1 * rule.zero_rate);
-  if (known && zero) return Verdict::quasi_periodic;
+  if (known && zero) return SectionKind::quasi_periodic;
   if (rule.is_driven_twice && j.exponent.value + doubt < 0)
-    return Verdict::quasi_periodic;
-  return Verdict::undecided;
+    return SectionKind::quasi_periodic;
+  return SectionKind::undecided;
 }
 
 }  // namespace
@@ -85,7 +85,7 @@ SectionJudgement judge_section(const std::vector<Displacements>& section, double
                                const Exponent& exponent, const VerdictRule& rule)
 {
   const double whole = extent(section) / size;
-  SectionJudgement judgement{Verdict::undecided, 1, whole, whole, exponent};
+  SectionJudgement judgement{SectionKind::undecided, 1, whole, whole, exponent};
   const int most = std::min(rule.most_period, static_cast<int>(section.size()) / 3);
   for (int k = 2; k <= most && !(judgement.spread_k < rule.periodic); ++k) {
     const double spread = spread_of_order(k, section, size);

@@ -63,7 +63,7 @@ Lyapunov exponent λ, known to a standard error s:
   both phases decide;
 - undecided otherwise, for instance a transient that has not ended (λ < 0, no period). */
 
-enum class Verdict {
+enum class SectionKind {
   undecided = 0,
   periodic = 1,     ///< with period T
   subharmonic = 2,  ///< with period kT, k > 1
@@ -79,7 +79,7 @@ struct VerdictRule {
 };
 
 struct SectionJudgement {
-  Verdict verdict;
+  SectionKind verdict;
   int period;     ///< the k of the least spread; of the first closed one where one closes
   double spread;  ///< largest distance of any two points, k = 1 [-]
   double spread_k;    ///< of order k [-]

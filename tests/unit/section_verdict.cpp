@@ -19,7 +19,7 @@ std::vector<Displacements> section_of(const std::function<double(int)>& f)
   return section;
 }
 
-Verdict verdict(const std::function<double(int)>& f, const Exponent& exponent)
+SectionKind verdict(const std::function<double(int)>& f, const Exponent& exponent)
 {
   return judge_section(section_of(f), 1, exponent).verdict;
 }
@@ -71,29 +71,29 @@ TEST_CASE("Sections of known kinds are told apart")
   const Exponent none{-1, 0.1}, zero{0.001, 0.01}, positive{5, 0.5};
   const double golden = (std::sqrt(5) - 1) / 2;
   const auto circle = [&](int n) { return std::cos(2 * std::numbers::pi * golden * n); };
-  CHECK(verdict([](int) { return 0.3; }, none) == Verdict::periodic);
-  CHECK(verdict([](int n) { return 1e-7 * (n % 7); }, none) == Verdict::periodic);
-  CHECK(verdict(circle, zero) == Verdict::quasi_periodic);
-  CHECK(verdict(circle, positive) == Verdict::chaotic);
-  CHECK(verdict(circle, {5, 2}) == Verdict::undecided);
-  CHECK(verdict(circle, {-0.06, 0.01}) == Verdict::undecided);
-  CHECK(verdict(circle, {-0.06, 0.03}) == Verdict::quasi_periodic);
-  CHECK(verdict(circle, {0.001, 1}) == Verdict::undecided);
-  CHECK(verdict(circle, none) == Verdict::undecided);
+  CHECK(verdict([](int) { return 0.3; }, none) == SectionKind::periodic);
+  CHECK(verdict([](int n) { return 1e-7 * (n % 7); }, none) == SectionKind::periodic);
+  CHECK(verdict(circle, zero) == SectionKind::quasi_periodic);
+  CHECK(verdict(circle, positive) == SectionKind::chaotic);
+  CHECK(verdict(circle, {5, 2}) == SectionKind::undecided);
+  CHECK(verdict(circle, {-0.06, 0.01}) == SectionKind::undecided);
+  CHECK(verdict(circle, {-0.06, 0.03}) == SectionKind::quasi_periodic);
+  CHECK(verdict(circle, {0.001, 1}) == SectionKind::undecided);
+  CHECK(verdict(circle, none) == SectionKind::undecided);
   for (int k : {2, 5, 16}) {
     const auto judgement =
         judge_section(section_of([&](int n) { return n % k; }), 1, none);
-    CHECK(judgement.verdict == Verdict::subharmonic);
+    CHECK(judgement.verdict == SectionKind::subharmonic);
     CHECK(judgement.period == k);
     CHECK(judgement.spread == k - 1);
   }
-  CHECK(verdict([](int n) { return n % 17; }, none) == Verdict::undecided);
+  CHECK(verdict([](int n) { return n % 17; }, none) == SectionKind::undecided);
 }
 
 TEST_CASE("A few points cannot show a long period")
 {
   const std::vector<Displacements> section{{0}, {1}, {0}, {1}, {0}};
-  CHECK(judge_section(section, 1, {-1, 0.1}).verdict == Verdict::undecided);
+  CHECK(judge_section(section, 1, {-1, 0.1}).verdict == SectionKind::undecided);
 }
 
 TEST_CASE("The standard error of alternating rates shrinks with batches")
@@ -118,11 +118,11 @@ TEST_CASE("A damped linear oscillator is T-periodic, an undamped one quasi-perio
   };
   const auto damped =
       observed(oscillator(forced(0.2), omega, 100), omega, 100, 60, 100, {});
-  CHECK(damped.verdict == Verdict::periodic);
+  CHECK(damped.verdict == SectionKind::periodic);
   CHECK(damped.exponent.value == Approx(-0.1).epsilon(0.02));
   const auto free = observed(oscillator(forced(0), omega, 100), omega, 100, 60, 400,
                              {.zero_rate = 0.01});
-  CHECK(free.verdict == Verdict::quasi_periodic);
+  CHECK(free.verdict == SectionKind::quasi_periodic);
   CHECK(std::abs(free.exponent.value) < 1e-3);
 }
 
@@ -135,7 +135,7 @@ TEST_CASE("Ueda's oscillator is chaotic with the published exponent")
   };
   const auto judgement =
       observed(oscillator(law, 1, 200), 1, 200, 50, 2000, {.zero_rate = 0.01});
-  CHECK(judgement.verdict == Verdict::chaotic);
+  CHECK(judgement.verdict == SectionKind::chaotic);
   CHECK(judgement.exponent.value == Approx(0.1034).margin(0.01));
   CHECK(judgement.exponent.error < 0.01);
 }

@@ -3,9 +3,11 @@
 
 What is a key, what is a sentence, and where it stands. */
 #include <limits>
+#include <fstream>
 #include <stdexcept>
 
 #include "io/errors.hpp"
+#include "io/number_table.hpp"
 #include "io/table.hpp"
 #include "support/catch.hpp"
 
