@@ -117,9 +117,10 @@ def outcome():
 # -- README: what explore prints -------------------------------------------------------------------
 
 COMMANDS = {  # the comment, the lines of the header that are shown, the first rows that are shown
-    "orbit my.toml --frequency 45 --harmonics 6": ("one period of the motion", "stability|multiplier|regime", 2),
-    "contact my.toml --frequency 45 --harmonics 6": ("force of every ball, two periods", None, 2),
-    "response my.toml --from 1 --to 60 --harmonics 6": ("amplitudes against speed", None, 2),
+    "orbit my.toml --frequency 45": ("what the machine does from rest", "regime|stability|multiplier|error_largest", 2),
+    "orbit my.toml --frequency 45 --harmonics 6": ("the solution with 6 harmonics", "stability|multiplier|distance_largest", 2),
+    "contact my.toml --frequency 45": ("force of every ball, two periods", None, 2),
+    "response my.toml --from 1 --to 60 --count 119": ("amplitudes against speed", None, 2),
 }
 
 

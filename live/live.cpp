@@ -8,9 +8,9 @@ What `explore` does, for the page: a question goes in as strings and numbers, on
 #include <cstdlib>
 #include <fstream>
 
-#include "balance/torus_line.hpp"
 #include "explore/response.hpp"
 #include "io/errors.hpp"
+#include "model/base_period.hpp"
 #include "motion/contact.hpp"
 
 namespace {
@@ -28,7 +28,8 @@ EM_JS(void, show_point, (double f, double x_s, double y_s, double x_r, double y_
 /** First what says how to read the rest: instants, instants per turn, balls, cage ratio, clearance, first turn, lines. */
 void add_motion(const Parameters& parameters, double frequency, const Computed& at)
 {
-  const auto& [motion, all] = at.found;
+  const motion::Motion& motion = at.found.motion;
+  const motion::Lines& all = at.found.lines;
   const auto add = [](std::initializer_list<double> values) {
     numbers.insert(numbers.end(), values);
   };
@@ -40,7 +41,7 @@ void add_motion(const Parameters& parameters, double frequency, const Computed& 
     const auto& [stator, rotor] = motion.positions[k];
     add({stator.x, stator.y, rotor.x, rotor.y, at.forces[k].x, at.forces[k].y});
   }
-  for (const auto& balls : motion::contact_evolution(parameters, motion).ball_force)
+  for (const auto& balls : motion::contact_evolution(at.found.machine, motion).ball_force)
     numbers.insert(numbers.end(), balls.begin(), balls.end());
   for (const auto& [order, a] : all.lines) {
     add({order * frequency, a[0], a[1], a[2], a[3]});
@@ -48,18 +49,19 @@ void add_motion(const Parameters& parameters, double frequency, const Computed& 
   }
 }
 
-/** `orbit` the solution alone; `error` with its error estimate; `verdict` with the verdict; `integrate` what rk8pd
-    settles on. */
+/** `orbit` the solution alone; `error` with its error estimate; `verdict` with the verdict; `integrate` what the machine
+    does from rest, which is also the answer where no number of harmonics is asked for. */
 void show_motion(const std::string& what, const Parameters& parameters,
                  MotionRequest request)
 {
   request.stability = what == "verdict";
-  if (what == "integrate") request.method = "rk8pd", request.harmonics.reset();
-  if (!request.harmonics) request.periods = 8;
+  if (what == "integrate") request.harmonics.reset();
+  const int open_periods = request.harmonics ? 1 : 8;
+  if (!request.harmonics) request.method = "auto";
   if (what == "error" && request.harmonics)
     request.tolerance = HUGE_VAL;  // any is accepted
   Table table("Live", {});
-  const Computed at = computed(parameters, request, table);
+  const Computed at = computed(parameters, request, open_periods, table);
   conclude(table, parameters, at.touches(), at.budget);
   text = table.text();
   add_motion(parameters, request.frequency, at);
@@ -71,6 +73,9 @@ void show_response(const MotionRequest& at, double from, double to)
   static_cast<Request&>(request) = at;
   request.from = from;
   request.to = to;
+  request.method = at.harmonics ? "aft" : "auto";
+  request.count = at.harmonics ? std::nullopt : std::optional(41);
+  request.format = TableFormat::json;  // one table at the end, not row by row
   request.watch = [](double f, const Eigen::VectorXd& a) {
     show_point(f, a[0], a[1], a[2], a[3]);
   };
@@ -82,9 +87,11 @@ void show_response(const MotionRequest& at, double from, double to)
 void answer(const std::string& what, MotionRequest request, double from, double to)
 {
   const Parameters parameters = read_parameters(request.parameter_file);
-  /** Where n ω_cage/ω is no simple fraction, the tolerance chooses the harmonics. */
-  if (turns_to_repeat(parameters.bearing) == 0 && parameters.unbalance > 0)
+  /** Where two frequencies drive, the answer is what the machine does. */
+  if (base_period(parameters).is_driven_twice()) {
     request.harmonics.reset();
+    request.method = "auto";
+  }
   if (what == "response")
     show_response(request, from, to);
   else if (what == "table")

@@ -18,27 +18,28 @@ namespace {
 
 int derivative(double t, N_Vector y, N_Vector dydt, void* data)
 {
-  static_cast<Equation7*>(data)->derivative(t, N_VGetArrayPointer(y),
-                                            N_VGetArrayPointer(dydt));
+  static_cast<CountedEquation7*>(data)->derivative(t, N_VGetArrayPointer(y),
+                                                   N_VGetArrayPointer(dydt));
   return 0;
 }
 
 int jacobian(double t, N_Vector y, N_Vector, SUNMatrix dfdy, void* data, N_Vector,
              N_Vector, N_Vector)
 {
-  static_cast<Equation7*>(data)->jacobian(t, N_VGetArrayPointer(y), SM_DATA_D(dfdy));
+  static_cast<CountedEquation7*>(data)->jacobian(t, N_VGetArrayPointer(y),
+                                                 SM_DATA_D(dfdy));
   return 0;
 }
 
 /** CVODE's objects for one integration. */
 class Cvode {
 public:
-  Cvode(Equation7& equation, int bdf_order, double tolerance, const double* start)
+  Cvode(CountedEquation7& equation, int bdf_order, double tolerance, const double* start)
   {
     SUNContext_Create(nullptr, &context_);
-    y_ = N_VNew_Serial(Equation7::size, context_);
-    sizes_ = N_VNew_Serial(Equation7::size, context_);
-    std::copy_n(start, Equation7::size, N_VGetArrayPointer(y_));
+    y_ = N_VNew_Serial(CountedEquation7::size, context_);
+    sizes_ = N_VNew_Serial(CountedEquation7::size, context_);
+    std::copy_n(start, CountedEquation7::size, N_VGetArrayPointer(y_));
     equation.sizes(N_VGetArrayPointer(sizes_));
     N_VScale(tolerance, sizes_, sizes_);
     memory_ = CVodeCreate(bdf_order ? CV_BDF : CV_ADAMS, context_);
@@ -67,7 +68,7 @@ public:
   {
     double reached;
     const int flag = CVode(memory_, time, y_, &reached, CV_NORMAL);
-    std::copy_n(N_VGetArrayPointer(y_), Equation7::size, state);
+    std::copy_n(N_VGetArrayPointer(y_), CountedEquation7::size, state);
     return flag;
   }
 
@@ -81,7 +82,7 @@ public:
 private:
   void solve_by_newton(int order)
   {
-    matrix_ = SUNDenseMatrix(Equation7::size, Equation7::size, context_);
+    matrix_ = SUNDenseMatrix(CountedEquation7::size, CountedEquation7::size, context_);
     factors_ = SUNLinSol_Dense(y_, matrix_, context_);
     CVodeSetLinearSolver(memory_, factors_, matrix_);
     CVodeSetJacFn(memory_, jacobian);
@@ -104,13 +105,13 @@ private:
 
 }  // namespace
 
-int cvode_integrate(Equation7* equation, int bdf_order, double tolerance,
+int cvode_integrate(CountedEquation7* equation, int bdf_order, double tolerance,
                     const double* start, int n, const double* times, double* states,
                     long* counts)
 {
   equation->evaluations = equation->jacobians = 0;
   Cvode cvode(*equation, bdf_order, tolerance, start);
-  for (int k = 0; k < n; ++k, states += Equation7::size, counts += 3) {
+  for (int k = 0; k < n; ++k, states += CountedEquation7::size, counts += 3) {
     const int flag = cvode.advance(times[k], states);
     if (flag < 0) return flag;
     counts[0] = equation->evaluations;

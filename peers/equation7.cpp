@@ -9,7 +9,7 @@
 
 namespace rotor_stator {
 
-void Equation7::derivative(double t, const double* y, double* dydt)
+void CountedEquation7::derivative(double t, const double* y, double* dydt)
 {
   ++evaluations;
   const Bodies velocity = bodies_at(y + 4);
@@ -17,7 +17,7 @@ void Equation7::derivative(double t, const double* y, double* dydt)
   put(system.acceleration(bodies_at(y), velocity, angles(t)), dydt + 4);
 }
 
-void Equation7::jacobian(double t, const double* y, double* dfdy)
+void CountedEquation7::jacobian(double t, const double* y, double* dfdy)
 {
   ++jacobians;
   const Slopes2 s =
@@ -43,7 +43,7 @@ void Equation7::jacobian(double t, const double* y, double* dfdy)
     }
 }
 
-void Equation7::sizes(double* y) const
+void CountedEquation7::sizes(double* y) const
 {
   const Scales scale = scales(parameters);
   const double contact_frequency = std::sqrt(
@@ -56,47 +56,49 @@ void Equation7::sizes(double* y) const
 
 using namespace rotor_stator;
 
-Equation7* equation7_open(const char* parameter_file, double frequency)
+CountedEquation7* equation7_open(const char* parameter_file, double frequency)
 {
   try {
-    return new Equation7(read_parameters(parameter_file),
-                         2 * std::numbers::pi * frequency);
+    return new CountedEquation7(read_parameters(parameter_file),
+                                2 * std::numbers::pi * frequency);
   } catch (const std::exception& error) {
     std::fprintf(stderr, "%s\n", error.what());
     return nullptr;
   }
 }
 
-void equation7_close(Equation7* equation)
+void equation7_close(CountedEquation7* equation)
 {
   delete equation;
 }
 
-void equation7_derivative(Equation7* equation, double t, const double* y, double* dydt)
+void equation7_derivative(CountedEquation7* equation, double t, const double* y,
+                          double* dydt)
 {
   equation->derivative(t, y, dydt);
 }
 
-void equation7_jacobian(Equation7* equation, double t, const double* y, double* dfdy)
+void equation7_jacobian(CountedEquation7* equation, double t, const double* y,
+                        double* dfdy)
 {
   equation->jacobian(t, y, dfdy);
 }
 
-void equation7_sizes(const Equation7* equation, double* y)
+void equation7_sizes(const CountedEquation7* equation, double* y)
 {
   equation->sizes(y);
 }
 
-void equation7_static_start(const Equation7* equation, double* y)
+void equation7_static_start(const CountedEquation7* equation, double* y)
 {
   const Eigen::VectorXd start = vector_of(static_start(equation->parameters));
   std::copy(start.begin(), start.end(), y);
 }
 
-void equation7_forces(const Equation7* equation, int n, const double* t, const double* y,
-                      double* forces)
+void equation7_forces(const CountedEquation7* equation, int n, const double* t,
+                      const double* y, double* forces)
 {
-  for (int k = 0; k < n; ++k, y += Equation7::size) {
+  for (int k = 0; k < n; ++k, y += CountedEquation7::size) {
     const Vec2 f = equation->system.bearing().force(
         equation->angles(t[k]), bodies_at(y).relative(), bodies_at(y + 4).relative());
     forces[2 * k] = f.x;
@@ -104,20 +106,20 @@ void equation7_forces(const Equation7* equation, int n, const double* t, const d
   }
 }
 
-void equation7_derivatives(Equation7* equation, int rounds, int n, const double* t,
+void equation7_derivatives(CountedEquation7* equation, int rounds, int n, const double* t,
                            const double* y)
 {
-  std::array<double, Equation7::size> slope;
+  std::array<double, CountedEquation7::size> slope;
   volatile double sink = 0;  // keeps the loop from being dropped
   for (int round = 0; round < rounds; ++round)
     for (int k = 0; k < n; ++k) {
-      equation->derivative(t[k], y + k * Equation7::size, slope.data());
+      equation->derivative(t[k], y + k * CountedEquation7::size, slope.data());
       sink = slope[4];
     }
   static_cast<void>(sink);
 }
 
-void equation7_counts(Equation7* equation, long* counts)
+void equation7_counts(CountedEquation7* equation, long* counts)
 {
   counts[0] = equation->evaluations;
   counts[1] = equation->jacobians;

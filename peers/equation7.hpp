@@ -11,7 +11,7 @@ same for a force. The C functions below are what SciPy calls through ctypes. */
 namespace rotor_stator {
 
 /** One machine at one speed, with the counts of what was asked of it. */
-struct Equation7 {
+struct CountedEquation7 {
   static constexpr int size = 8;
 
   Parameters parameters;
@@ -19,7 +19,7 @@ struct Equation7 {
   long evaluations = 0;  ///< of Eq. 7
   long jacobians = 0;
 
-  Equation7(const Parameters& p, double omega) : parameters(p), system(p, omega) {}
+  CountedEquation7(const Parameters& p, double omega) : parameters(p), system(p, omega) {}
 
   Angles angles(double t) const { return system.bearing().angles(system.omega() * t); }
 
@@ -38,33 +38,35 @@ struct Equation7 {
 
 extern "C" {
 
-using rotor_stator::Equation7;
+using rotor_stator::CountedEquation7;
 
 /** Null after a line on stderr when the file cannot be read; `frequency` in Hz. */
-Equation7* equation7_open(const char* parameter_file, double frequency);
-void equation7_close(Equation7* equation);
+CountedEquation7* equation7_open(const char* parameter_file, double frequency);
+void equation7_close(CountedEquation7* equation);
 
-void equation7_derivative(Equation7* equation, double t, const double* y, double* dydt);
-void equation7_jacobian(Equation7* equation, double t, const double* y, double* dfdy);
-void equation7_sizes(const Equation7* equation, double* y);
-void equation7_static_start(const Equation7* equation, double* y);
+void equation7_derivative(CountedEquation7* equation, double t, const double* y,
+                          double* dydt);
+void equation7_jacobian(CountedEquation7* equation, double t, const double* y,
+                        double* dfdy);
+void equation7_sizes(const CountedEquation7* equation, double* y);
+void equation7_static_start(const CountedEquation7* equation, double* y);
 
 /** Eq. 6 [N] for `n` states by rows at the times t [s]; `forces` is n × 2. */
-void equation7_forces(const Equation7* equation, int n, const double* t, const double* y,
-                      double* forces);
+void equation7_forces(const CountedEquation7* equation, int n, const double* t,
+                      const double* y, double* forces);
 
 /** Evaluates `n` states by rows `rounds` times, to time an evaluation. */
-void equation7_derivatives(Equation7* equation, int rounds, int n, const double* t,
+void equation7_derivatives(CountedEquation7* equation, int rounds, int n, const double* t,
                            const double* y);
 
 /** Evaluations and Jacobians since the last call. */
-void equation7_counts(Equation7* equation, long* counts);
+void equation7_counts(CountedEquation7* equation, long* counts);
 
 /** CVODE from y at t = 0 through the increasing `times` [s]: the states there, n × 8 by rows, and
     after each the numbers of evaluations, Jacobians and steps so far, n × 3. `bdf_order` is
     the highest order of BDF with Newton and the analytic Jacobian; 0 chooses Adams with
     fixed-point iteration. Returns CVODE's flag. */
-int cvode_integrate(Equation7* equation, int bdf_order, double tolerance,
+int cvode_integrate(CountedEquation7* equation, int bdf_order, double tolerance,
                     const double* start, int n, const double* times, double* states,
                     long* counts);
 }

@@ -126,7 +126,7 @@ std::vector<Candidates> read_candidates(StrictToml& toml)
 {
   std::vector<std::string> known{"aft", "aft-tolerance"};
   known.insert(known.end(), time_methods().begin(), time_methods().end());
-  for (const char* stepper : {"rk4", "rkf45", "rkck", "rk8pd"})
+  for (const char* stepper : {"rk4", "rk8", "rkf45", "rkck", "rk8pd"})
     known.push_back(std::string("shooting-") + stepper);
   std::vector<Candidates> all;
   for (const std::string& method : toml.strings("methods")) {

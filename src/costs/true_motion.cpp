@@ -14,7 +14,7 @@ namespace rotor_stator::costs {
 
 namespace {
 
-/** One period from `state` by rk8pd. */
+/** One period from `state` by rk8. */
 motion::Motion one_period(const Parameters& parameters, double frequency,
                           const State& state, int points, double tolerance)
 {
@@ -85,7 +85,7 @@ References true_motions(const Parameters& parameters,
 void References::describe(Table& table, const TruthSettings& settings) const
 {
   table.note(
-      format("reference: shooting by rk8pd, tolerance %g, closure below %.2g, "
+      format("reference: shooting by rk8, tolerance %g, closure below %.2g, "
              "from time integration by %s with Poincare spread below %.2g",
              settings.tolerance, periodicity_residual,
              settings.settling.stepper.method.c_str(), spread));

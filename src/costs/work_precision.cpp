@@ -169,7 +169,7 @@ Table work_precision_table(const WorkPrecisionScene& scene,
   table.note("below: the motion known is so many Hz below the speed");
   table.note(what_is_timed);
   table.note(format(
-      "reference: shooting by rk8pd, tolerance %g; agreement: with harmonic balance, m = %d",
+      "reference: shooting by rk8, tolerance %g; agreement: with harmonic balance, m = %d",
       scene.truth.tolerance, scene.reference_harmonics));
   for (const WorkCase& c : cases)
     table.row_line("case", {c.number, c.truth.frequency, one_word(c.parameters.file),

@@ -120,7 +120,7 @@ FoundMotion closed_motion(const Parameters& parameters, const MotionRequest& req
   table.value("method", "shooting");
   table.value("start", one_word(closed.start));
   table.note(
-      format("shooting by rk8pd, local error %g: closed to %.2g of the sizes of the "
+      format("shooting by rk8, local error %g: closed to %.2g of the sizes of the "
              "state after %d periods",
              request.local_error, closed.periodicity_residual, closed.maps));
   put_difference(table, "error", closed.distance, closed.distance_rms,

@@ -1,6 +1,5 @@
 #include "explore/settled_response.hpp"
 
-#include <omp.h>
 #include <algorithm>
 #include <cmath>
 #include <fstream>
@@ -226,8 +225,7 @@ Exploration explore_settled_response(const ResponseRequest& request)
   std::string missing, first_lost;
   std::optional<State> state;
   const double most = request.budget.value_or(std::numeric_limits<double>::infinity());
-  const auto group =
-      plan.is_chain ? std::size_t{1} : static_cast<std::size_t>(2 * omp_get_max_threads());
+  const std::size_t group = plan.is_chain ? 1 : 2 * most_threads();
   while (next < plan.speeds.size() && missing.empty()) {
     const std::size_t count = std::min(group, plan.speeds.size() - next);
     const double each = std::min(plan.evaluations_of_one(), most - spent);
@@ -251,6 +249,9 @@ Exploration explore_settled_response(const ResponseRequest& request)
       }
       touches = touches || !plan.has_records || row.touches();
       table.row(fields, row);
+      if (request.watch)
+        request.watch(row.frequency,
+                      Eigen::Map<const Eigen::Vector4d>(row.seen.amplitude.data()));
     }
   }
   if (next == lost && missing.empty())

@@ -5,9 +5,7 @@ Time is counted in output intervals: each period T = 2π/ω is cut into P of the
 stepper advances a state over whole intervals, in as many steps of its own as it needs. */
 #pragma once
 
-#include <gsl/gsl_odeiv2.h>
 #include <functional>
-#include <memory>
 #include <string>
 #include <vector>
 
@@ -17,11 +15,11 @@ stepper advances a state over whole intervals, in as many steps of its own as it
 namespace rotor_stator {
 
 struct StepperSettings {
-  std::string method = "rk8pd";   ///< "rk4" (fixed step) or one of GSL's
+  std::string method = "rk8";     ///< "rk4" (fixed step), "rk8" or one of GSL's
   int intervals_per_period = 64;  ///< P
   double step = 0;                ///< rk4: longest step [s]; 0 chooses `default_step`
   double tolerance =
-      1e-10;  ///< GSL: local error per step, over the size of each component
+      1e-10;  ///< all but rk4: local error per step, over the size of each component
   OperationBudget budget =
       {};  ///< for the evaluations of Eq. 7; without one, 1e9 of them
 };
@@ -47,7 +45,7 @@ void require_method(const std::string& method, std::vector<std::string> others =
 TimeStepper make_stepper(const Parameters& parameters, double omega,
                          const StepperSettings& settings);
 
-/** "rk4" and GSL's explicit, multistep and implicit methods. */
+/** "rk4", "rk8" and GSL's explicit, multistep and implicit methods. */
 const std::vector<std::string>& time_methods();
 
 /** What an evaluation of Eq. 7 costs with the method's share of a step, in evaluations by rk4. */
@@ -56,50 +54,5 @@ double evaluation_price(const Parameters& parameters, const std::string& method)
 /** A step [s] that gives the contact mode about 40 steps per period: RK4 is stable up
    to 2.8/ω and accurate well below it. The paper gives none (D-16). */
 double default_step(const Parameters& parameters);
-
-/**
-## GSL's ODE steppers
-
-Adaptive explicit Runge-Kutta (rkf45, rkck, rk8pd), variable-order multistep (msadams,
-msbdf) and the implicit Bulirsch-Stoer method (bsimp); the last two use the analytic
-Jacobian of Eq. 7. The step size keeps the local error of each component below the
-tolerance times its size. */
-
-/** ∂(Eq. 7)/∂y, 8 × 8 by rows, and ∂(Eq. 7)/∂t at y = (x_s, y_s, x_r, y_r, and their speeds): what
-    the implicit methods ask for. */
-void equation_7_slopes(const Parameters& parameters, const RotorStator& system, double t,
-                       const double y[], double* dfdy, double* dfdt);
-
-/** The evaluations that GSL's callbacks make. */
-struct PaidEvaluations {
-  OperationBudget budget;
-  double price;  ///< of one evaluation
-  long count = 0;
-
-  /** False when the budget does not pay for one more. */
-  bool pay()
-  {
-    ++count;
-    return budget.pay(price);
-  }
-};
-
-/** One of GSL's adaptive steppers on a system of equations, which must outlive it. */
-class GslDriver {
-public:
-  /** `scales`: the size of each component. */
-  GslDriver(gsl_odeiv2_system& system, const std::string& method, double first_step,
-            double tolerance, const double* scales);
-
-  /** Advances `y` from `from` to `to` [s]. Throws NoSolution when the steps become too small or
-      `evaluations` are not paid for. */
-  void advance(double from, double to, double* y, const PaidEvaluations& evaluations);
-
-  /** Forgets the history of multistep methods; the step size is kept. */
-  void reset();
-
-private:
-  std::unique_ptr<gsl_odeiv2_driver, void (*)(gsl_odeiv2_driver*)> driver_;
-};
 
 }  // namespace rotor_stator

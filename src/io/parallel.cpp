@@ -1,5 +1,7 @@
 #include "io/parallel.hpp"
 
+#include <omp.h>
+#include <algorithm>
 #include <atomic>
 #include <exception>
 #include <mutex>
@@ -32,6 +34,11 @@ void in_parallel(const std::string& name, std::size_t pieces,
     progress.step();
   }
   if (failure) std::rethrow_exception(failure);
+}
+
+std::size_t most_threads()
+{
+  return static_cast<std::size_t>(std::max(1, omp_get_max_threads()));
 }
 
 }  // namespace rotor_stator

@@ -17,6 +17,9 @@ namespace rotor_stator {
 void in_parallel(const std::string& name, std::size_t pieces,
                  const std::function<void(std::size_t piece)>& work);
 
+/** As many as OpenMP would start. */
+std::size_t most_threads();
+
 /** What `work` gives for each piece, in order: the same for any number of threads. */
 template <class Work>
 auto computed_in_parallel(const std::string& name, std::size_t pieces, const Work& work)

@@ -52,6 +52,7 @@ struct State {
 
 /** The same as a vector, 8 where there are two masses: the displacements, then the speeds. */
 using Vector8 = Eigen::Matrix<double, 8, 1>;
+using Matrix8 = Eigen::Matrix<double, 8, 8>;
 Eigen::VectorXd vector_of(const State& state);
 State state_of(const Eigen::VectorXd& y);
 

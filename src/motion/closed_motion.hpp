@@ -20,9 +20,9 @@ struct ClosedMotion {
   double distance_rms = 0;  ///< the same, rms about the mean [-]
 };
 
-/** The motion of period KT, K = `turns` ≤ 8, at the speed of `search`, at `points` instants of each turn. GSL's
-    rk8pd with a local error of `local_error` over the size of each component. Throws NoSolution when none was closed,
-    BadInput when the bearing's force has not the period of rotation. */
+/** The motion of period KT, K = `turns` ≤ 8, at the speed of `search`, at `points` instants of each
+    turn, by rk8 with a local error of `local_error` over the size of each component. Throws NoSolution
+    when none was closed, BadInput when the bearing's force has not the period of rotation. */
 ClosedMotion closed_motion(const Search& search, int turns, int points,
                            double local_error);
 

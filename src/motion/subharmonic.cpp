@@ -72,7 +72,7 @@ struct Hunt {
   {
     const Eigen::VectorXd sizes = state_scales(parameters);
     const PeriodMap map = period_map(over_turns(parameters, d), omega / d, state,
-                                     local_error, "rk8pd", budget);
+                                     local_error, "rk8", budget);
     const auto [values, vectors] = eigensystem(
         sizes.cwiseInverse().asDiagonal() * map.derivative * sizes.asDiagonal(), true);
     const int order = turns / d;

@@ -1,51 +1,21 @@
 #include "stability/period_map.hpp"
 
-#include <gsl/gsl_errno.h>
 #include <algorithm>
-#include <array>
 
 #include "integration/gauss.hpp"
 #include "integration/time_stepper.hpp"
 #include "io/errors.hpp"
+#include "time/gsl.hpp"
+#include "time/rk8.hpp"
 
 namespace rotor_stator {
 
 namespace {
 
-constexpr int equations = 8 + 8 * 8;
-constexpr double with_variations = 3;  ///< evaluations of Eq. 7 that take as long
-
-/** What GSL's callback sees. */
-struct Variation {
-  RotorStator system;
-  DisturbanceRates rates;
-  PaidEvaluations evaluations;
-};
-
-/** State first, then the displacements and the speeds of the disturbances. */
-int derivative(double t, const double y[], double dydt[], void* data)
-{
-  auto& variation = *static_cast<Variation*>(data);
-  const RotorStator& system = variation.system;
-  if (!variation.evaluations.pay()) return GSL_EBADFUNC;
-  const double phase = system.omega() * t;
-  const Bodies q_now = bodies_at(y), v_now = bodies_at(y + 4);
-  const Angles at = system.bearing().angles(phase);
-  const BearingReaction bearing =
-      system.bearing().reaction(at, q_now.relative(), v_now.relative());
-  std::copy_n(y + 4, 4, dydt);
-  put(system.acceleration(q_now, v_now, at.rotor, bearing.force), dydt + 4);
-
-  const Eigen::Map<const Disturbances> q(y + 8), v(y + 40);
-  Eigen::Map<Disturbances>(dydt + 8) = v;
-  Eigen::Map<Disturbances>(dydt + 40) = variation.rates.acceleration(bearing, q, v);
-  return Eigen::Map<Vector8>(dydt).allFinite() ? GSL_SUCCESS : GSL_EBADFUNC;
-}
-
-/** The same of bodies given by matrices. Steps for the derivative need not be as small as those for the state. */
-PeriodMap large_period_map(const Parameters& parameters, double omega, const State& start,
-                           double tolerance, const OperationBudget& budget,
-                           const Segment& segment)
+/** Of bodies given by matrices. Steps for the derivative need not be as small as those
+    for the state. */
+PeriodMap large_map(const Parameters& parameters, double omega, const Segment& segment,
+                    const State& start, double tolerance, const OperationBudget& budget)
 {
   constexpr double coarser = 1e4;
   GaussStepper state(parameters, omega, segment.of, tolerance, budget);
@@ -57,44 +27,29 @@ PeriodMap large_period_map(const Parameters& parameters, double omega, const Sta
   return map;
 }
 
-/** Error scales: those of the state; the variations are given so much room that they never
-    decide the step. */
-std::array<double, equations> error_scales(const Parameters& parameters)
-{
-  constexpr double room = 1e6;
-  const Vector8 sizes = state_scales(parameters);
-  std::array<double, equations> scale;
-  for (int i = 0; i < 8; ++i) {
-    scale[i] = sizes[i];
-    for (int j = 0; j < 8; ++j) scale[8 + 8 * i + j] = room * sizes[i] / sizes[j];
-  }
-  return scale;
-}
-
 }  // namespace
+
+PeriodMap segment_map(const Parameters& parameters, double omega, const Segment& segment,
+                      const State& start, double tolerance, const OperationBudget& budget)
+{
+  if (parameters.large)
+    return large_map(parameters, omega, segment, start, tolerance, budget);
+  Rk8 rk8(parameters, omega, segment.of, tolerance, budget);
+  PeriodMap map{.end = start, .derivative = {}, .evaluations = 0};
+  Matrix8 derivative = Matrix8::Identity();
+  rk8.advance(segment.number, map.end, derivative);
+  map.derivative = derivative;
+  map.evaluations = rk8.evaluations();
+  return map;
+}
 
 PeriodMap period_map(const Parameters& parameters, double omega, const State& start,
                      double tolerance, const std::string& method,
-                     const OperationBudget& budget, const Segment& segment)
+                     const OperationBudget& budget)
 {
-  if (parameters.large)
-    return large_period_map(parameters, omega, start, tolerance, budget, segment);
-  Variation variation{{parameters, omega},
-                      DisturbanceRates(parameters),
-                      {budget, with_variations * evaluation_price(parameters, method)}};
-  gsl_odeiv2_system system{derivative, nullptr, equations, &variation};
-  const double length = variation.system.period() / segment.of;
-  const double from = length * static_cast<double>(segment.number);
-  GslDriver driver(system, method, std::min(length, default_step(parameters)), tolerance,
-                   error_scales(parameters).data());
-  std::array<double, equations> y{};
-  Eigen::Map<Vector8>(y.data()) = vector_of(start);
-  Eigen::Map<Matrix8> disturbances(y.data() + 8);  // the transpose of Φ
-  disturbances.setIdentity();
-  driver.advance(from, from + length, y.data(), variation.evaluations);
-  return {.end = {bodies_at(y.data()), bodies_at(y.data() + 4)},
-          .derivative = disturbances.transpose(),
-          .evaluations = variation.evaluations.count};
+  if (parameters.large || method == "rk8")
+    return segment_map(parameters, omega, {0, 1}, start, tolerance, budget);
+  return gsl_period_map(parameters, omega, start, tolerance, method, budget);
 }
 
 PeriodMapTwice period_map_twice(const Parameters& parameters, double omega,
@@ -102,7 +57,7 @@ PeriodMapTwice period_map_twice(const Parameters& parameters, double omega,
                                 const OperationBudget& budget)
 {
   const auto map = [&](const State& from, double error) {
-    return period_map(parameters, omega, from, error, "rk8pd", budget);
+    return period_map(parameters, omega, from, error, "rk8", budget);
   };
   const PeriodMap first = map(start, tolerance);
   return {first, map(first.end, finer)};

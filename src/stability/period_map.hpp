@@ -7,8 +7,8 @@ equations
 $$\dot{\delta q} = \delta v, \qquad M\, \dot{\delta v} = -(K + k(t))\,\delta q - C\,\delta v,$$
 
 where k(t) is the bearing's stiffness on the motion itself. Both are integrated together, 72
-equations, by one of GSL's explicit steppers; the step is chosen by the state alone, which is what the
-answer depends on. */
+equations, by rk8 or one of GSL's explicit steppers; the step is chosen by the state alone, which is
+what the answer depends on. */
 #pragma once
 
 #include <Eigen/Core>
@@ -19,25 +19,26 @@ answer depends on. */
 
 namespace rotor_stator {
 
-using Matrix8 = Eigen::Matrix<double, 8, 8>;
-
 struct PeriodMap {
   State end;
   Eigen::MatrixXd derivative;  ///< Φ
   long evaluations;            ///< of the bearing's force and stiffness
 };
 
-/** One of equal segments of a base period, counted from t = 0. */
-struct Segment {
-  long number = 0;
-  int of = 1;
-};
-
-/** From `start` at phase 0, or over a segment. `tolerance`: local error per step, over the size of each component.
+/** From `start` at phase 0. `tolerance`: local error per step, over the size of each component.
     Throws NoSolution when the integration breaks down or the budget is used up. */
 PeriodMap period_map(const Parameters& parameters, double omega, const State& start,
-                     double tolerance, const std::string& method = "rk8pd",
-                     const OperationBudget& budget = {}, const Segment& segment = {});
+                     double tolerance, const std::string& method = "rk8",
+                     const OperationBudget& budget = {});
+
+/** The same by rk8 over one of equal segments of a base period, counted from t = 0. */
+struct Segment {
+  long number;
+  int of;
+};
+PeriodMap segment_map(const Parameters& parameters, double omega, const Segment& segment,
+                      const State& start, double tolerance,
+                      const OperationBudget& budget = {});
 
 /** The map from `start`, and from where that leads with the smaller local error `finer`: their derivatives
     differ by the error of the steps, and by what is open if `start` is only nearly a fixed point. */

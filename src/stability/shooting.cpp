@@ -29,8 +29,8 @@ Maps rk4_maps(const Parameters& parameters, double omega,
           .evaluations = [period] { return period->evaluations(); }};
 }
 
-Maps gsl_maps(const Parameters& parameters, double omega,
-              const ShootingSettings& settings)
+Maps controlled_maps(const Parameters& parameters, double omega,
+                     const ShootingSettings& settings)
 {
   const TimeStepper stepper = make_stepper(parameters, omega,
                                            {.method = settings.method,
@@ -187,7 +187,7 @@ Shooting shoot(const Parameters& parameters, double omega, State& state,
   Eigen::VectorXd sizes = state_scales(parameters);
   sizes.tail(sizes.size() / 2) /= settings.speed_weight;
   const bool by_rk4 = settings.method == "rk4" && !parameters.large;
-  const auto maps = by_rk4 ? rk4_maps : gsl_maps;
+  const auto maps = by_rk4 ? rk4_maps : controlled_maps;
   return Iteration{settings, maps(parameters, omega, settings), sizes,
                    vector_of(state).cwiseQuotient(sizes)}
       .run(state, jacobian ? *jacobian : none);

@@ -19,16 +19,17 @@ of harmonic balance, and an independent check of it. */
 namespace rotor_stator {
 
 struct ShootingSettings {
-  std::string method = "rk8pd";  ///< "rk4" with a fixed step, or one of GSL's
-  double tolerance = 1e-12;  ///< GSL: local error per step, over each component's size
-  double step = 0;           ///< rk4: longest step [s]; 0 chooses `default_step`
+  std::string method = "rk8";  ///< "rk4" with a fixed step, "rk8", or one of GSL's
+  double tolerance =
+      1e-12;        ///< all but rk4: local error per step, over each component's size
+  double step = 0;  ///< rk4: longest step [s]; 0 chooses `default_step`
   double periodicity_residual = 1e-10;  ///< wanted ‖P(s) - s‖ over the sizes [-]
   int most_maps = 60;                   ///< periods integrated
   double speed_weight =
       1;  ///< of the speeds in the norm of ‖P(s) - s‖, against their sizes
   bool quasi_newton = true;      ///< Broyden's steps too; without: Φ anew at each step
   bool final_derivative = true;  ///< integrate Φ at the motion that was found
-  OperationBudget budget = {};   ///< for the evaluations of Eq. 7, by GSL's methods
+  OperationBudget budget = {};   ///< for the evaluations of Eq. 7, of all but rk4
 };
 
 struct Shooting {

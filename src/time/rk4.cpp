@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <bit>
 #include <cmath>
-#include <numbers>
 
 #include "io/errors.hpp"
 
@@ -24,41 +23,26 @@ int steps_in_interval(double period, int intervals, double longest_step)
   return std::max(1, static_cast<int>(steps));
 }
 
-Angles turned_by(double rotor, double cage, double spin)
-{
-  constexpr double turn = 2 * std::numbers::pi;
-  return {Direction::of(turn * rotor), Direction::of(turn * cage),
-          spin > 0 ? Direction::of(turn * spin) : Direction{1, 0}};
-}
-
 }  // namespace
 
 Rk4::Rk4(const Parameters& parameters, double omega, int intervals, double longest_step,
          OperationBudget budget)
-    : system_(parameters, omega), rotor_turns_(parameters.turns),
-      cage_turns_(parameters.bearing.cage_speed_ratio),
-      spin_turns_(parameters.bearing.defect.spin), intervals_(intervals),
+    : system_(parameters, omega), turns_(Turns::of(parameters)), intervals_(intervals),
       steps_(steps_in_interval(system_.period(), intervals, longest_step)),
       h_(system_.period() / (static_cast<double>(intervals) * steps_)),
       is_damaged_(!parameters.bearing.is_damaged(Defect::Surface::none)),
       is_damped_(parameters.bearing.damping > 0), budget_(std::move(budget))
 {
-  const double half = 0.5 / (static_cast<double>(intervals) * steps_);
-  half_ = turned_by(rotor_turns_ * half, cage_turns_ * half, spin_turns_ * half);
+  half_ = turns_.by(0.5 / (static_cast<double>(intervals) * steps_));
 }
 
-/** So many steps after the start of an interval: whole turns of the periods before are taken off first. */
+/** So many steps after the start of an interval. */
 Angles Rk4::angles(long interval, int steps) const
 {
   const long part = ((interval % intervals_) + intervals_) % intervals_;
-  const auto periods = static_cast<double>((interval - part) / intervals_);
-  const double share = (static_cast<double>(part) * steps_ + steps) /
-                       (static_cast<double>(intervals_) * steps_);
-  const auto turns = [&](double per_period) {
-    return std::fmod(per_period * periods, 1.0) + per_period * share;
-  };
-  const double first = system_.bearing().first_ball() / (2 * std::numbers::pi);
-  return turned_by(turns(rotor_turns_), turns(cage_turns_) + first, turns(spin_turns_));
+  return turns_.at(static_cast<double>((interval - part) / intervals_),
+                   (static_cast<double>(part) * steps_ + steps) /
+                       (static_cast<double>(intervals_) * steps_));
 }
 
 void Rk4::spend()

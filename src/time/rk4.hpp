@@ -18,6 +18,7 @@ processor: `advance_together`. Each has its own machine, speed, step and phase, 
 #include <span>
 
 #include "time/flow.hpp"
+#include "time/turns.hpp"
 
 namespace rotor_stator {
 
@@ -61,8 +62,8 @@ public:
       at[2] = angles(interval, done);
       for (int k = done; k < std::min(done + fresh, steps_); ++k) {
         at[0] = at[2];
-        at[1] = half_a_step_on(at[0]);
-        at[2] = half_a_step_on(at[1]);
+        at[1] = turned(at[0], half_);
+        at[2] = turned(at[1], half_);
         visit(at.data());
       }
     }
@@ -86,15 +87,10 @@ private:
   static constexpr int fresh = 128;
 
   Angles angles(long interval, int steps) const;
-  Angles half_a_step_on(const Angles& at) const
-  {
-    return {turned(at.rotor, half_.rotor), turned(at.cage, half_.cage),
-            turned(at.spin, half_.spin)};
-  }
   void spend();
 
   RotorStator system_;
-  double rotor_turns_, cage_turns_, spin_turns_;  ///< in a base period
+  Turns turns_;
   int intervals_, steps_;
   double h_;
   Angles half_;  ///< the turns in half a step

@@ -8,7 +8,7 @@
 #include "costs/equal_error.hpp"
 #include "costs/timing.hpp"
 #include "costs/work_precision.hpp"
-#include "integration/rk4.hpp"
+#include "time/rk4.hpp"
 #include "io/errors.hpp"
 #include "model/rotor_stator.hpp"
 #include "motion/find_periodic.hpp"

@@ -11,6 +11,7 @@
 #include "stability/period_map.hpp"
 #include "stability/shooting.hpp"
 #include "support/cases.hpp"
+#include "time/gsl.hpp"
 
 using namespace rotor_stator;
 using namespace rotor_stator::tests;
@@ -245,8 +246,8 @@ TEST_CASE("Two states that RK4 advances at once go where each goes alone")
 TEST_CASE("Other programs are given Eq. 7 and its derivative")
 {
   const Parameters parameters = set_1();
-  Equation7 equation(parameters, hertz(30));
-  constexpr int size = Equation7::size;
+  CountedEquation7 equation(parameters, hertz(30));
+  constexpr int size = CountedEquation7::size;
   using Row = Eigen::Matrix<double, size, 1>;
   const auto slope = [&](double t, const Row& y) {
     Row dydt;

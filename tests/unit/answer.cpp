@@ -1,0 +1,152 @@
+/** What the machine does from rest: kinds, exponents, amplitudes and errors against closed forms and other methods. */
+#include "motion/answer.hpp"
+
+#include <cmath>
+#include <numbers>
+
+#include "motion/quasi_periodic.hpp"
+#include "support/cases.hpp"
+#include "support/catch.hpp"
+
+using namespace rotor_stator;
+using namespace rotor_stator::tests;
+using Catch::Approx;
+
+namespace {
+
+motion::Answer from_rest_at(const Parameters& parameters, double frequency)
+{
+  return motion::answer(parameters, {.omega = hertz(frequency)});
+}
+
+/** Set 1 with a clearance that is never closed: the rotor alone on its suspension. */
+Parameters free_rotor()
+{
+  Parameters parameters = set_1();
+  parameters.bearing.clearance = 1;
+  return parameters;
+}
+
+}  // namespace
+
+TEST_CASE("Without contact the amplitude is that of Jeffcott's rotor", "[unit]")
+{
+  /** A wrong phase, unbalance or number of base periods would show. */
+  const Parameters parameters = free_rotor();
+  const motion::Answer answer = from_rest_at(parameters, 30);
+  const double omega = hertz(30), r = omega / parameters.rotor.natural_frequency;
+  const double expected =
+      parameters.unbalance / parameters.rotor.mass * r * r /
+      std::hypot(1 - r * r, 2 * parameters.rotor.damping_ratio * r);
+  CHECK(answer.kind() == Kind::periodic);
+  CHECK(answer.period() == 1);
+  CHECK(answer.stability == "stable");
+  const motion::Observation seen = observe(answer);
+  CHECK(seen.amplitude[2] == Approx(expected).epsilon(1e-5));
+  CHECK(seen.rms[3] == Approx(expected / std::sqrt(2)).epsilon(1e-5));
+  CHECK(answer.multiplier == Approx(std::exp(-2 * std::numbers::pi / omega *
+                                             parameters.rotor.damping_ratio *
+                                             parameters.rotor.natural_frequency))
+                                 .epsilon(1e-5));
+}
+
+TEST_CASE("A machine that nothing moves rests", "[unit]")
+{
+  Parameters parameters = set_1();
+  parameters.unbalance = 0;
+  parameters.gravity = 0;
+  const motion::Answer answer = from_rest_at(parameters, 20);
+  CHECK(answer.kind() == Kind::rest);
+  CHECK(answer.period_number() == 1);
+  CHECK(observe(answer).amplitude == Displacements{});
+}
+
+TEST_CASE("Set 1 doubles its period at 20 Hz and is chaotic at 13.4 Hz", "[unit]")
+{
+  const motion::Answer doubled = from_rest_at(set_1(), 20);
+  CHECK(doubled.period_number() == 2);
+  CHECK(doubled.multiplier == Approx(0.3895).epsilon(1e-3));
+  CHECK(doubled.error->larger() < 1e-7);
+  const motion::Answer chaos = from_rest_at(set_1(), 13.4);
+  CHECK(chaos.period_number() == 0);
+  CHECK(chaos.settled.lyapunov.value > 3 * chaos.settled.lyapunov.error);
+  CHECK(!chaos.error);
+}
+
+TEST_CASE("A torus is put on t = 0, instant by instant that of harmonic balance", "[unit]")
+{
+  /** A start at another angle of the cage, or a transient that is not over, would show at once. */
+  Parameters parameters = set_1();
+  parameters.bearing.cage_speed_ratio = 0.43;
+  const motion::Answer answer =
+      motion::answer(parameters, {.omega = hertz(45.4), .points = 64, .periods = 4});
+  REQUIRE(answer.kind() == Kind::quasi_periodic);
+  REQUIRE(answer.settled.at.period == 0);
+  const AdaptiveMotion balance =
+      motion::find_quasi_periodic(parameters, hertz(45.4), {.tolerance = 1e-4});
+  REQUIRE(balance.reached);
+  motion::Motion exact = answer.motion,
+                 solution = motion::motion_of(parameters, balance.motion, 64, 4);
+  exact.points_per_period = solution.points_per_period = 256;
+  CHECK(motion::relative_difference(solution, exact) < 2e-4);
+  CHECK(answer.error->larger() < 1e-4);
+}
+
+TEST_CASE("The base period is decided by what drives the machine", "[unit]")
+{
+  Parameters parameters = set_1();
+  CHECK(base_period(parameters).words() == "turn");
+  parameters.bearing.cage_speed_ratio = 7.0 / 16 + 1.0 / 48;
+  CHECK(base_period(parameters).words() == "turns 3");
+  parameters.bearing.cage_speed_ratio = 0.4321;
+  CHECK(base_period(parameters).words() == "two");
+  parameters.unbalance = 0;
+  CHECK(base_period(parameters).words() == "passing");
+}
+
+TEST_CASE("A start from rest is in equilibrium, whole turns before t = 0", "[unit]")
+{
+  Parameters parameters = set_1();
+  parameters.bearing.cage_speed_ratio = 0.4321;
+  const Instant start = from_rest(parameters, hertz(45));
+  CHECK(start.period == -180);  // 4 s: the slowest mode decays sooner
+  parameters.unbalance = 0;
+  const RotorStator machine(parameters, 1e-12);
+  const double cage = -180 * 0.4321 * 2 * std::numbers::pi;
+  const Bodies a = machine.acceleration(start.state.position, {},
+                                        {Direction::of(0), Direction::of(cage)});
+  for (const double value : displacements(a)) CHECK(std::abs(value) < 1e-6 * 9.81);
+}
+
+/** A sum over the wrong number of periods would show. */
+TEST_CASE("Neighbours part at the rate of the largest multiplier", "[unit]")
+{
+  for (const double frequency : {16.0, 20.0, 20.25, 45.0}) {
+    motion::Answer answer =
+        motion::settled_answer(set_1(), {.omega = hertz(frequency), .longest = 60});
+    const Exponent measured = answer.settled.lyapunov;
+    complete(answer, {.omega = hertz(frequency)});
+    const Exponent exact = answer.settled.lyapunov;
+    INFO(frequency << " Hz: " << measured.value << " +- " << measured.error << ", "
+                   << exact.value);
+    CHECK(exact.error < 0.01);
+    CHECK(std::abs(measured.value - exact.value) < 0.5 + 3 * measured.error);
+  }
+}
+
+TEST_CASE("Kinds of known motions", "[unit]")
+{
+  struct Known {
+    const char* set;
+    double frequency;
+    int period;  ///< 0: chaotic
+  };
+  for (const Known& known :
+       {Known{"set1", 13, 0}, Known{"set1", 30, 1}, Known{"set1", 54, 2},
+        Known{"set2", 10, 0}, Known{"set2", 45, 1}}) {
+    const Parameters parameters =
+        read_parameters(std::string(SOURCE_DIR "/data/") + known.set + ".toml");
+    INFO(known.set << " " << known.frequency << " Hz");
+    CHECK(from_rest_at(parameters, known.frequency).period_number() == known.period);
+  }
+}

@@ -1,0 +1,290 @@
+/** Runge-Kutta of order 8: its coefficients, its order, its steps, and the derivative of what it computes. */
+#include <array>
+#include <bit>
+#include <cstdint>
+#include "support/catch.hpp"
+
+#include "integration/time_stepper.hpp"
+#include "io/errors.hpp"
+#include "stability/period_map.hpp"
+#include "support/cases.hpp"
+#include "time/rk4.hpp"
+#include "time/rk8.hpp"
+
+using namespace rotor_stator;
+using namespace rotor_stator::tests;
+
+namespace {
+
+constexpr int stages = dop853::stages;
+using Twelve = Eigen::Matrix<double, stages, 1>;
+
+double distance(const Parameters& parameters, const State& a, const State& b)
+{
+  return (vector_of(a) - vector_of(b))
+      .cwiseQuotient(state_scales(parameters))
+      .cwiseAbs()
+      .maxCoeff();
+}
+
+/** The rotor hangs on one ball that it never leaves: smooth, and not linear. */
+Parameters on_one_ball()
+{
+  Parameters machine = set_1();
+  machine.bearing.balls = 1;
+  machine.bearing.cage_speed_ratio = 1e-9;
+  machine.rotor.load = {2000, 0};
+  return machine;
+}
+
+State near_rest(const Parameters& machine)
+{
+  State state = static_start(machine);
+  state.position.rotor.x += 0.1 * scales(machine).penetration;
+  return state;
+}
+
+}  // namespace
+
+/** Hairer, Norsett, Wanner, II.2: each rooted tree with r vertices is a condition of order r. */
+TEST_CASE("The coefficients of rk8 satisfy conditions of order 8")
+{
+  Eigen::Matrix<double, stages, stages> a;
+  Twelve b, c, e_5, e_3;
+  for (int i = 0; i < stages; ++i) {
+    for (int j = 0; j < stages; ++j) a(i, j) = dop853::weights[i][j];
+    b[i] = dop853::weights[stages][i];
+    c[i] = dop853::nodes[i];
+    e_5[i] = dop853::error_5[i];
+    e_3[i] = dop853::error_3[i];
+  }
+  constexpr double rounding = 1e-13;
+  const auto power = [&](int k) -> Twelve { return c.array().pow(k); };
+  for (int i = 0; i < stages; ++i) CHECK(std::abs(a.row(i).sum() - c[i]) < rounding);
+  for (int k = 0; k < 8; ++k) CHECK(std::abs(b.dot(power(k)) - 1. / (k + 1)) < rounding);
+  for (int k = 1; k <= 6; ++k) {
+    INFO(k);
+    const Twelve once = a * power(k);
+    CHECK(std::abs(b.dot(once) - 1. / ((k + 1) * (k + 2))) < rounding);
+    if (k > 5) continue;
+    CHECK(std::abs(b.dot(c.cwiseProduct(once)) - 1. / ((k + 1) * (k + 3))) < rounding);
+    CHECK(std::abs(b.dot(a * once) - 1. / ((k + 1) * (k + 2) * (k + 3))) < rounding);
+    if (k > 4) continue;
+    const Twelve bushy = power(2).cwiseProduct(once);
+    CHECK(std::abs(b.dot(bushy) - 1. / ((k + 1) * (k + 4))) < rounding);
+  }
+  Twelve tall = Twelve::Ones();
+  double factorial = 1;
+  for (int k = 1; k <= 8; ++k) {
+    factorial *= k;
+    CHECK(std::abs(b.dot(tall) - 1 / factorial) < rounding);
+    tall = a * tall;
+  }
+  const Twelve square = (a * c).cwiseProduct(a * c);  // ((• •) (• •)) on one root
+  CHECK(std::abs(b.dot(square) - 1. / 20) < rounding);
+
+  for (int k = 0; k < 5; ++k) CHECK(std::abs(e_5.dot(power(k))) < rounding);
+  for (int k = 0; k < 3; ++k) CHECK(std::abs(e_3.dot(power(k))) < rounding);
+  CHECK(std::abs(e_5.dot(power(5))) > 1e-6);
+  CHECK(std::abs(e_3.dot(power(3))) > 1e-6);
+}
+
+/** Catches a wrong instant of a stage (order 1) and a wrong weight of an estimate, which would not shrink with the
+    power 8. */
+TEST_CASE("A step of rk8 has an error of order 9, and an estimate of it of order 8")
+{
+  const Parameters machine = on_one_ball();
+  const double omega = hertz(7);
+  const State start = near_rest(machine);
+  struct Errors {
+    double true_one, estimate;
+  };
+  const auto errors = [&](int parts) {
+    State state = start, exact = start;
+    const double estimate = Rk8(machine, omega, 1, 1).step(1. / parts, state);
+    Rk8(machine, omega, parts, 1e-15).advance(0, exact);
+    CHECK(exact.position.relative().x > machine.bearing.clearance);
+    return Errors{distance(machine, state, exact), estimate};
+  };
+  const int parts = static_cast<int>(1 / (7 * default_step(machine) * 8));
+  const Errors coarse = errors(parts), fine = errors(2 * parts);
+  INFO("errors " << coarse.true_one << ", " << fine.true_one << ", estimates "
+                 << coarse.estimate << ", " << fine.estimate);
+  CHECK(std::log2(coarse.true_one / fine.true_one) == Approx(9).margin(0.7));
+  CHECK(std::log2(coarse.estimate / fine.estimate) == Approx(8).margin(0.7));
+  CHECK(coarse.estimate > coarse.true_one);
+  CHECK(fine.estimate > fine.true_one);
+}
+
+/** The other stepper shares no coefficient, no error estimate and no choice of steps with this one. */
+TEST_CASE("rk8 goes where GSL's rk8pd goes, and so do their disturbances")
+{
+  Parameters machine = set_1();
+  double frequency = 45;
+  double near = 2e-10, near_derivative = 6e-6;  // where balls begin and cease to touch
+  SECTION("a ball that always touches")
+  {
+    machine = on_one_ball();
+    frequency = 7;
+    near = 1e-12;
+    near_derivative = 3e-7;
+  }
+  SECTION("45 Hz") {}
+  SECTION("30 Hz")
+  {
+    frequency = 30;
+  }
+  SECTION("contact damping and a cage out of step")
+  {
+    machine.bearing.damping = 2;
+    machine.bearing.cage_speed_ratio = 0.4173;
+  }
+  SECTION("a spall of the outer race")
+  {
+    machine.bearing.damping = 2;
+    machine.bearing.defect = {.surface = Defect::Surface::outer_race,
+                              .depth = 2e-6,
+                              .width = 0.3,
+                              .place = -1.5};
+  }
+  SECTION("a spall of a ball")
+  {
+    machine.bearing.defect = {
+        .surface = Defect::Surface::ball, .depth = 2e-6, .width = 0.4, .spin = 2.3};
+  }
+  const double omega = hertz(frequency);
+  State start = static_start(machine);
+  const StepperSettings coarse{.method = "rk4", .intervals_per_period = 1};
+  const TimeStepper before = make_stepper(machine, omega, coarse);
+  for (long k = -20; k < 0; ++k) before.advance(k, start);
+
+  State ours = start, theirs = start;
+  const StepperSettings exact{
+      .method = "rk8pd", .intervals_per_period = 4, .tolerance = 1e-14};
+  const TimeStepper gsl = make_stepper(machine, omega, exact);
+  Rk8 rk8(machine, omega, 4, 1e-14);
+  for (long k = -3; k < 3; ++k) {
+    rk8.advance(k, ours);
+    gsl.advance(k, theirs);
+  }
+  CHECK(distance(machine, ours, theirs) < near);
+  CHECK(distance(machine, ours, start) > 1e-3);
+
+  const Vector8 sizes = state_scales(machine);
+  const PeriodMap map = period_map(machine, omega, start, 1e-14),
+                  other = period_map(machine, omega, start, 1e-14, "rk8pd");
+  CHECK(distance(machine, map.end, other.end) < near);
+  const Matrix8 apart = sizes.cwiseInverse().asDiagonal() *
+                        (map.derivative - other.derivative) * sizes.asDiagonal();
+  CHECK(apart.cwiseAbs().maxCoeff() < near_derivative);
+}
+
+TEST_CASE("The derivative of rk8 is that of its differences, in damaged bearings too")
+{
+  Parameters machine = set_1();
+  SECTION("Hertz") {}
+  SECTION("contact damping")
+  {
+    machine.bearing.damping = 5;
+  }
+  SECTION("contact damping and a spall of the outer race")
+  {
+    machine.bearing.damping = 5;
+    machine.bearing.defect = {.surface = Defect::Surface::outer_race,
+                              .depth = 2e-6,
+                              .width = 0.3,
+                              .place = -1.5};
+  }
+  const double omega = hertz(45);
+  State start = static_start(machine);
+  const TimeStepper before =
+      make_stepper(machine, omega, {.method = "rk4", .intervals_per_period = 1});
+  for (long k = -20; k < 0; ++k) before.advance(k, start);
+  const Vector8 y = vector_of(start), sizes = state_scales(machine);
+  const auto end = [&](const Vector8& at) -> Vector8 {
+    State state = state_of(at);
+    Rk8(machine, omega, 1, 1e-14).advance(0, state);
+    return vector_of(state);
+  };
+  State state = start;
+  Matrix8 derivative = Matrix8::Identity();
+  Rk8(machine, omega, 1, 1e-14).advance(0, state, derivative);
+  CHECK(distance(machine, state, state_of(end(y))) < 1e-10);
+  for (int j = 0; j < 8; ++j) {
+    const Vector8 step = 2e-6 * sizes[j] * Vector8::Unit(j);
+    const Vector8 difference = (end(y + step) - end(y - step)) / (2 * step[j]);
+    const Vector8 error =
+        (difference - derivative.col(j)).cwiseQuotient(sizes) * sizes[j];
+    CHECK(error.norm() < 1e-5);
+  }
+}
+
+TEST_CASE("The work of rk8 is counted and paid for, that of rejected steps too")
+{
+  OperationBudget budget(1e9);
+  Rk8 rk8(set_1(), hertz(20), 16, 1e-10, budget);
+  State state = static_start(set_1());
+  for (long k = 0; k < 64; ++k) rk8.advance(k, state);
+  CHECK(rk8.evaluations() % stages == 0);
+  CHECK(rk8.rejected_steps() > 0);
+  CHECK(rk8.evaluations() > stages * (rk8.rejected_steps() + 64));
+  const auto paid = static_cast<double>(rk8.evaluations()) * Rk8::price;
+  CHECK(budget.spent() == Approx(paid));
+  Matrix8 derivative = Matrix8::Identity();
+  const long before = rk8.evaluations();
+  rk8.advance(64, state, derivative);
+  const auto more = static_cast<double>(rk8.evaluations() - before);
+  CHECK(budget.spent() == Approx(paid + more * Rk8::price_with_derivative));
+
+  Rk8 poor(set_1(), hertz(20), 1, 1e-10, OperationBudget(500));
+  CHECK_THROWS_AS(poor.advance(0, state), NoSolution);
+}
+
+TEST_CASE("A motion by rk8 depends on its start and its instant alone")
+{
+  Parameters machine = set_1();
+  machine.bearing.cage_speed_ratio = 0.5;
+  const State start = static_start(machine);
+  Rk8 rk8(machine, hertz(25), 8, 1e-11);
+  State first = start, again = start, earlier = start;
+  rk8.advance(0, first);
+  rk8.advance(0, again);
+  CHECK(displacements(first.position) == displacements(again.position));
+  CHECK(displacements(first.velocity) == displacements(again.velocity));
+  rk8.advance(-16, earlier);  // two turns before, where everything stands as at 0
+  CHECK(distance(machine, first, earlier) < 1e-12);
+  CHECK(distance(machine, first, start) > 1e-6);
+}
+
+TEST_CASE("rk8 says when it cannot go on")
+{
+  State state = static_start(set_1());
+  state.velocity.rotor.x = std::numeric_limits<double>::infinity();
+  Rk8 rk8(set_1(), hertz(25), 8, 1e-10);
+  CHECK_THROWS_AS(rk8.advance(0, state), NoSolution);
+}
+
+TEST_CASE("rk8 has the same bits with registers of each width")
+{
+  Parameters machine = set_1();
+  for (double damping : {0., 1.}) {
+    machine.bearing.damping = damping;
+    const auto run = [&](Registers width) {
+      use_registers(width);
+      Rk8 rk8(machine, hertz(22), 16, 1e-11);
+      State state = static_start(machine);
+      Matrix8 derivative = Matrix8::Identity();
+      for (long k = -2; k < 2; ++k) rk8.advance(k, state);
+      for (long k = 2; k < 4; ++k) rk8.advance(k, state, derivative);
+      use_registers(Registers::avx512);
+      using Bits = std::array<std::uint64_t, 72>;
+      std::array<double, 72> values;
+      Eigen::Map<Vector8>(values.data()) = vector_of(state);
+      Eigen::Map<Matrix8>(values.data() + 8) = derivative;
+      return std::bit_cast<Bits>(values);
+    };
+    const auto plain = run(Registers::plain);
+    CHECK(run(Registers::avx2) == plain);
+    CHECK(run(Registers::avx512) == plain);
+  }
+}
