@@ -259,20 +259,55 @@ FoundMotion quasi_periodic_motion(const Parameters& parameters,
           lines_of(parameters.bearing, solution)};
 }
 
+/** How far a solution is from the motion of Eq. 7 that was found near it; 0 where none was. */
+double error_of(const motion::Verdict& verdict)
+{
+  return verdict.found() ? std::max(verdict.distance, verdict.distance_rms) : 0;
+}
+
+/** A solution is as wrong as its motion is away, whatever more harmonics say of it: a finer one is taken until that is
+    within the tolerance. */
+void bring_near(const Parameters& parameters, const MotionRequest& request,
+                const OperationBudget& budget, AdaptiveMotion& at,
+                motion::Verdict& verdict)
+{
+  if (request.harmonics) return;
+  for (const double share : {0.3, 0.1, 0.03, 0.01}) {
+    if (error_of(verdict) <= *request.tolerance) return;
+    AdaptiveSettings finer = settings_of(request);
+    finer.tolerance *= share;
+    AdaptiveMotion next = motion::solve_adaptively(parameters, angular(request.frequency),
+                                                   finer, budget);
+    if (!next.reached) return;
+    at = std::move(next);
+    verdict = motion::judge(parameters, at.motion, budget);
+  }
+}
+
 /** A motion with one frequency, that of the parameters, its solution. */
 PeriodicMotion solution_of(const Parameters& parameters, const MotionRequest& request,
                            const OperationBudget& budget, Table& table,
                            const std::string& base = "turn")
 {
-  const AdaptiveMotion at = solved(parameters, request, budget);
-  const std::string wanted =
-      request.tolerance
-          ? format("tolerance %g not reached", *request.tolerance)
-          : format("no solution found with %d harmonics", at.motion.harmonics.count());
-  if (!at.reached)
-    throw NoSolution(format("%s: %s at %g Hz: %s", parameters.file.c_str(),
-                            wanted.c_str(), request.frequency, at.end.c_str()));
+  AdaptiveMotion at = solved(parameters, request, budget);
   const int turns = request.subharmonic;
+  const auto refuse = [&](const std::string& end) {
+    const std::string wanted =
+        request.tolerance
+            ? format("tolerance %g not reached", *request.tolerance)
+            : format("no solution found with %d harmonics", at.motion.harmonics.count());
+    throw NoSolution(format("%s: %s at %g Hz: %s", parameters.file.c_str(),
+                            wanted.c_str(), request.frequency, end.c_str()));
+  };
+  if (!at.reached) refuse(at.end);
+  motion::Verdict verdict;
+  if (request.stability) {
+    verdict = motion::judge(parameters, at.motion, budget, turns);
+    if (request.tolerance && turns == 1 && verdict.found())
+      bring_near(parameters, request, budget, at, verdict);
+    if (request.tolerance && turns == 1 && error_of(verdict) > *request.tolerance)
+      refuse(format("the nearest motion of Eq. 7 is %.2g away", error_of(verdict)));
+  }
   table.value("method", "aft");
   put_base(table, base, request.frequency);
   if (request.tolerance && std::isfinite(*request.tolerance))
@@ -283,13 +318,16 @@ PeriodicMotion solution_of(const Parameters& parameters, const MotionRequest& re
   table.value("start", one_word(at.motion.start));
   table.note("newton: " + at.motion.newton.reason());
   table.value("force_samples", std::max(at.force_samples, at.motion.force_samples));
-  if (const auto& error = at.motion.error; error && (turns > 1 || request.tolerance))
+  if (request.tolerance && turns == 1 && verdict.found() && verdict.distance > 0)
+    put_difference(table, "error", verdict.distance, verdict.distance_rms,
+                   "against the nearest motion of Eq. 7");
+  else if (const auto& error = at.motion.error;
+           error && (turns > 1 || request.tolerance))
     put_difference(table, "error", error->displacement, error->rms,
                    turns > 1 ? "against the motion that shooting closes"
                              : basis_of(*error, format("m = %d", error->harmonics)));
   if (request.stability) {
-    note_verdict(table, parameters, motion::judge(parameters, at.motion, budget, turns),
-                 turns);
+    note_verdict(table, parameters, verdict, turns);
   } else {
     note_no_verdict(table);
   }

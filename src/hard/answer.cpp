@@ -7,7 +7,7 @@
 #include "continuation/arc_length.hpp"
 #include "continuation/sweep.hpp"
 #include "io/errors.hpp"
-#include "motion/attractor.hpp"
+#include "time/settle.hpp"
 #include "stability/shooting.hpp"
 
 namespace rotor_stator::hard {
@@ -212,7 +212,7 @@ Shooting closed_from_rest(const HardCase& hard, Answer& answer)
     };
     constexpr double same = 1e-3;
     const State start = settled(hard.frequency);
-    if (motion::apart(p, start, settled(hard.frequency * (1 + other_rounding))) > same) {
+    if (apart(p, start, settled(hard.frequency * (1 + other_rounding))) > same) {
       shooting.reason = "the state after 2 s of integration depends on rounding";
     } else {
       state = start;

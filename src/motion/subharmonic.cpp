@@ -8,7 +8,7 @@
 #include "balance/bearing_problem.hpp"
 #include "integration/time_stepper.hpp"
 #include "io/errors.hpp"
-#include "motion/attractor.hpp"
+#include "time/settle.hpp"
 #include "motion/judge.hpp"
 #include "motion/other_starts.hpp"
 #include "stability/eigenvalues.hpp"

@@ -86,8 +86,9 @@ private:
           mapped.slopes.emplace_back(Eigen::MatrixXd::Identity(n_, n_));
       for (int k = first_ + i * each; k < first_ + (i + 1) * each; ++k) {
         mapped.passed.push_back(state);
-        const PeriodMap next = segment_map(parameters_, omega_, {k, eighths}, state,
-                                           settings_.local_error, settings_.budget);
+        const PeriodMap next =
+            period_map(parameters_, omega_, state, settings_.local_error, "rk8",
+                       settings_.budget, {k, eighths});
         report_.evaluations += next.evaluations;
         slope = sizes_.cwiseInverse().asDiagonal() * next.derivative *
                 sizes_.asDiagonal() * slope;

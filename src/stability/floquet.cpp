@@ -58,7 +58,7 @@ double largest_move(const Multipliers& a, Multipliers b)
 
 Floquet series_multipliers(const Parameters& parameters, const PeriodicMotion& motion)
 {
-  constexpr double tolerance = 1e-5, most_steps = 1e5;
+  constexpr double tolerance = 1e-5, most_steps = 1e6;
   constexpr int most_halvings = 8;
   const double period = 2 * std::numbers::pi / motion.omega;
   const BallBearing bearing(parameters.bearing);
@@ -68,21 +68,24 @@ Floquet series_multipliers(const Parameters& parameters, const PeriodicMotion& m
   const auto with_steps = [&](int steps) {
     const Eigen::MatrixXd u = sample_series(series, 2 * steps),
                           w = sample_series(speeds, 2 * steps);
-    std::vector<BearingReaction> at;  // at the half steps, both ends included
-    for (int k = 0; k <= 2 * steps; ++k) {
+    const auto reaction = [&](int k) {
       const int j = k % (2 * steps);
-      at.push_back(bearing.reaction(bearing.angles(std::numbers::pi * k / steps),
-                                    {u(j, 0), u(j, 1)}, {w(j, 0), w(j, 1)}));
-    }
+      return bearing.reaction(bearing.angles(std::numbers::pi * k / steps),
+                              {u(j, 0), u(j, 1)}, {w(j, 0), w(j, 1)});
+    };
+    BearingReaction at[3] = {reaction(0), {}, {}};  // begin, middle and end of a step
     Disturbances q = Disturbances::Zero(), v = q;
     q.topRows<4>().setIdentity();
     v.bottomRows<4>().setIdentity();
-    for (int k = 0; k < steps; ++k)
-      nystrom_step(period / steps, &at[2 * k], q, v,
+    for (int k = 0; k < steps; ++k, at[0] = at[2]) {
+      at[1] = reaction(2 * k + 1);
+      at[2] = reaction(2 * k + 2);
+      nystrom_step(period / steps, at, q, v,
                    [&](const Disturbances& q_now, const Disturbances& v_now,
                        const BearingReaction& now) -> Disturbances {
                      return rates.acceleration(now, q_now, v_now);
                    });
+    }
     Matrix8 phi;
     phi << q.transpose(), v.transpose();
     return multipliers_of(phi);

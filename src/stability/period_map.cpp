@@ -12,10 +12,10 @@ namespace rotor_stator {
 
 namespace {
 
-/** Of bodies given by matrices. Steps for the derivative need not be as small as those
-    for the state. */
-PeriodMap large_map(const Parameters& parameters, double omega, const Segment& segment,
-                    const State& start, double tolerance, const OperationBudget& budget)
+/** The same of bodies given by matrices. Steps for the derivative need not be as small as those for the state. */
+PeriodMap large_period_map(const Parameters& parameters, double omega, const State& start,
+                           double tolerance, const OperationBudget& budget,
+                           const Segment& segment)
 {
   constexpr double coarser = 1e4;
   GaussStepper state(parameters, omega, segment.of, tolerance, budget);
@@ -29,26 +29,21 @@ PeriodMap large_map(const Parameters& parameters, double omega, const Segment& s
 
 }  // namespace
 
-PeriodMap segment_map(const Parameters& parameters, double omega, const Segment& segment,
-                      const State& start, double tolerance, const OperationBudget& budget)
-{
-  if (parameters.large)
-    return large_map(parameters, omega, segment, start, tolerance, budget);
-  Rk8 rk8(parameters, omega, segment.of, tolerance, budget);
-  PeriodMap map{.end = start, .derivative = {}, .evaluations = 0};
-  Matrix8 derivative = Matrix8::Identity();
-  rk8.advance(segment.number, map.end, derivative);
-  map.derivative = derivative;
-  map.evaluations = rk8.evaluations();
-  return map;
-}
-
 PeriodMap period_map(const Parameters& parameters, double omega, const State& start,
                      double tolerance, const std::string& method,
-                     const OperationBudget& budget)
+                     const OperationBudget& budget, const Segment& segment)
 {
-  if (parameters.large || method == "rk8")
-    return segment_map(parameters, omega, {0, 1}, start, tolerance, budget);
+  if (parameters.large)
+    return large_period_map(parameters, omega, start, tolerance, budget, segment);
+  if (method == "rk8") {
+    Rk8 rk8(parameters, omega, segment.of, tolerance, budget);
+    PeriodMap map{.end = start, .derivative = {}, .evaluations = 0};
+    Matrix8 derivative = Matrix8::Identity();
+    rk8.advance(segment.number, map.end, derivative);
+    map.derivative = derivative;
+    map.evaluations = rk8.evaluations();
+    return map;
+  }
   return gsl_period_map(parameters, omega, start, tolerance, method, budget);
 }
 

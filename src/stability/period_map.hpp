@@ -25,20 +25,17 @@ struct PeriodMap {
   long evaluations;            ///< of the bearing's force and stiffness
 };
 
-/** From `start` at phase 0. `tolerance`: local error per step, over the size of each component.
+/** One of equal segments of a base period, counted from t = 0. */
+struct Segment {
+  long number = 0;
+  int of = 1;
+};
+
+/** From `start` at phase 0, or by rk8 over a segment. `tolerance`: local error per step, over the size of each component.
     Throws NoSolution when the integration breaks down or the budget is used up. */
 PeriodMap period_map(const Parameters& parameters, double omega, const State& start,
                      double tolerance, const std::string& method = "rk8",
-                     const OperationBudget& budget = {});
-
-/** The same by rk8 over one of equal segments of a base period, counted from t = 0. */
-struct Segment {
-  long number;
-  int of;
-};
-PeriodMap segment_map(const Parameters& parameters, double omega, const Segment& segment,
-                      const State& start, double tolerance,
-                      const OperationBudget& budget = {});
+                     const OperationBudget& budget = {}, const Segment& segment = {});
 
 /** The map from `start`, and from where that leads with the smaller local error `finer`: their derivatives
     differ by the error of the steps, and by what is open if `start` is only nearly a fixed point. */

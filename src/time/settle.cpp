@@ -71,6 +71,14 @@ double step_at(const Parameters& machine, double omega)
   return std::isfinite(ratio) && ratio > 1 ? step / std::pow(ratio, 1.0 / 6) : step;
 }
 
+double apart(const Parameters& machine, const State& a, const State& b)
+{
+  return (vector_of(a) - vector_of(b))
+      .cwiseQuotient(state_scales(machine))
+      .cwiseAbs()
+      .maxCoeff();
+}
+
 /** Eigenvalues of one direction: x_s, x_r and their speeds. */
 SlowestMode slowest_mode(const Parameters& machine)
 {

@@ -66,6 +66,9 @@ Settled settle(const Parameters& machine, double omega, const BasePeriod& base,
                const Instant& start, const SettleRule& rule = {},
                const OperationBudget& budget = {});
 
+/** The largest difference of two states, over the sizes of their components [-]. */
+double apart(const Parameters& machine, const State& a, const State& b);
+
 /** At rest in static equilibrium with ball 1 at the angle that it has there, so long before t = 0 that a linear machine
     has forgotten its start: 25 over its slowest decay rate, 4 to 25 s, in whole turns. */
 Instant from_rest(const Parameters& machine, double omega);
