@@ -2,10 +2,12 @@
 # Headers of tables
 
 What is a key, what is a sentence, and where it stands. */
+#include <fstream>
 #include <limits>
 #include <stdexcept>
 
 #include "io/errors.hpp"
+#include "io/number_table.hpp"
 #include "io/table.hpp"
 #include "support/catch.hpp"
 
