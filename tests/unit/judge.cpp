@@ -15,7 +15,7 @@ using namespace rotor_stator::tests;
 
 namespace {
 
-Verdict judged(const Parameters& parameters, double frequency, int harmonics)
+motion::Verdict judged(const Parameters& parameters, double frequency, int harmonics)
 {
   const auto solution = search_periodic({parameters, hertz(frequency), harmonics});
   REQUIRE(solution.found());
@@ -33,11 +33,11 @@ Parameters case_of(const char* name)
     closes more easily. */
 TEST_CASE("What grows 32,177 times in a turn is closed, and called unstable")
 {
-  const Verdict first = judged(case_of("grows_32177"), 71.23, 500);
+  const motion::Verdict first = judged(case_of("grows_32177"), 71.23, 500);
   CHECK(std::string(first.word()) == "unstable");
   CHECK(first.floquet.largest() == Approx(32177).epsilon(1e-4));
   CHECK(first.distance < 1e-5);
-  const Verdict second = judged(case_of("grows_17565"), 77.32, 500);
+  const motion::Verdict second = judged(case_of("grows_17565"), 77.32, 500);
   CHECK(std::string(second.word()) == "unstable");
   CHECK(second.floquet.largest() == Approx(17565).epsilon(1e-4));
   CHECK(second.distance < 1e-5);
@@ -46,7 +46,7 @@ TEST_CASE("What grows 32,177 times in a turn is closed, and called unstable")
 /** A stable motion is 2.13e-4 away, an unstable one 1.76e-4. */
 TEST_CASE("Beside two motions of opposite kinds that are as near nothing is decided")
 {
-  const Verdict verdict = judged(case_of("two_motions"), 40.953, 11);
+  const motion::Verdict verdict = judged(case_of("two_motions"), 40.953, 11);
   CHECK(std::string(verdict.word()) == "undecided");
   CHECK(verdict.reason.find("two motions") != std::string::npos);
 }
@@ -56,7 +56,7 @@ TEST_CASE("A machine at rest is stable, and its distances are numbers")
   Parameters parameters = set_1();
   parameters.unbalance = 0;
   parameters.gravity = 0;
-  const Verdict verdict = judged(parameters, 45, 6);
+  const motion::Verdict verdict = judged(parameters, 45, 6);
   CHECK(verdict.stable());
   CHECK_FALSE(verdict.moves);
   CHECK(verdict.distance == 0);

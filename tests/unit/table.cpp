@@ -2,6 +2,7 @@
 # Headers of tables
 
 What is a key, what is a sentence, and where it stands. */
+#include <fstream>
 #include <limits>
 #include <fstream>
 #include <stdexcept>
