@@ -68,7 +68,8 @@ class Cases(Case):
                 for how in [["--method", "aft", "--tolerance", "1e-4"], []]:
                     keys, table = self.asked("orbit", "passing_6306", "--frequency",
                                              frequency, *how)
-                    self.assertEqual(keys["base"], "passing")
+                    if not how:
+                        self.assertEqual(keys["base"], "passing")
                     # From rest the motion at 33 Hz is another one that does not repeat.
                     if how or frequency != 33:
                         self.assertEqual((keys["regime"], keys["stability"]),

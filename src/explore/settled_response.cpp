@@ -4,6 +4,7 @@
 #include <cmath>
 #include <fstream>
 #include <sstream>
+#include <utility>
 
 #include "explore/settled_motion.hpp"
 #include "io/errors.hpp"
@@ -216,8 +217,16 @@ Exploration explore_settled_response(const ResponseRequest& request)
   const Fields fields = fields_of(plan.machine);
   std::vector<std::vector<Cell>> known;
   if (request.resume) known = rows_of(*request.resume, table.beginning(), plan);
-  if (request.format != TableFormat::json) table.stream(write, request.format);
-  for (const auto& cells : known) table.printed_row(cells);
+  const bool is_streamed = request.format != TableFormat::json;
+  bool has_rows = false;
+  /** Nothing is written before there is a row. */
+  const auto begin = [&] {
+    if (is_streamed && !std::exchange(has_rows, true)) table.stream(write, request.format);
+  };
+  for (const auto& cells : known) {
+    begin();
+    table.printed_row(cells);
+  }
 
   double spent = 0;
   std::size_t lost = 0, next = known.size();
@@ -238,7 +247,7 @@ Exploration explore_settled_response(const ResponseRequest& request)
       if (spent > most || (request.budget && each < plan.evaluations_of_one() &&
                            row.answer.kind() == Kind::undecided)) {
         missing = format("%s: the budget of %.3g evaluations of the force is used up at "
-                         "%g Hz; --resume goes on with the rows that are written",
+                         "%g Hz; --resume FILE goes on with the rows that are written",
                          request.parameter_file.c_str(), most, row.frequency);
         break;
       }
@@ -248,23 +257,25 @@ Exploration explore_settled_response(const ResponseRequest& request)
         continue;
       }
       touches = touches || !plan.has_records || row.touches();
+      begin();
       table.row(fields, row);
       if (request.watch)
         request.watch(row.frequency,
                       Eigen::Map<const Eigen::Vector4d>(row.seen.amplitude.data()));
     }
   }
-  if (next == lost && missing.empty())
-    throw NoSolution(request.parameter_file + ": no speed has a value, " + first_lost);
+  if (next == lost)
+    throw NoSolution(missing.empty() ? request.parameter_file +
+                                           ": no speed has a value, " + first_lost
+                                     : missing);
   if (missing.empty() && lost > 0)
     missing = format("%s: %zu of %zu speeds have no value, the first ",
                      request.parameter_file.c_str(), lost, plan.speeds.size()) +
               first_lost;
   put_complete(table, missing);
   table.value("evaluations", spent, 3);
-  if (request.format != TableFormat::json) table.end_stream();
-  return {.table = std::move(table), .unfinished = missing, .is_written =
-          request.format != TableFormat::json};
+  if (is_streamed) table.end_stream();
+  return {.table = std::move(table), .unfinished = missing, .is_written = is_streamed};
 }
 
 }  // namespace rotor_stator::explore

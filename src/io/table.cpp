@@ -86,7 +86,7 @@ bool Cell::is_number() const
 
 std::string one_word(std::string text)
 {
-  std::ranges::replace(text, ' ', '-');
+  std::replace(text.begin(), text.end(), ' ', '-');
   return text;
 }
 

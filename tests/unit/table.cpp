@@ -4,7 +4,6 @@
 What is a key, what is a sentence, and where it stands. */
 #include <fstream>
 #include <limits>
-#include <fstream>
 #include <stdexcept>
 
 #include "io/errors.hpp"
