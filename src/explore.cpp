@@ -259,9 +259,10 @@ std::function<void()> add_response_options(CLI::App& command, ResponseRequest& r
       for (const CLI::Option* option : list)
         if (is_sweep && is_given(option))
           throw BadInput(option->get_name() +
-                         ": is of a branch of solutions; give --harmonics M" +
-                         (option == tolerance ? " or --method aft" : "") +
-                         ", --method shooting or --restart FILE too");
+                         (option == tolerance
+                              ? ": is of solutions; give --method aft too"
+                              : ": is of a branch of solutions; give --harmonics M, "
+                                "--method shooting or --restart FILE too"));
     for (const CLI::Option* option : aft)
       refuse(option, method == "aft", "for --method aft", method);
     refuse(restart, method == "aft", "for --method aft", method);

@@ -44,7 +44,7 @@ COLUMNS = [
     ("error_f_loss_first", "Hz", "half a step of the search: loss comes and goes near the ends"),
     ("error_f_loss_last", "Hz", "the same"),
     ("error_x_13p4", "m", "standard error of amp_x_13p4"), ("error_y_13p4", "m", "standard error of amp_y_13p4"),
-    ("spread_13p4", "-", "Poincare spread over the largest displacement"),
+    ("lyapunov_13p4", "1/s", "growth rate of neighbouring motions"),
     ("periodic_13p4", "-", "1 if the motion has the period of rotation"),
     ("peak_by", "word", "aft: harmonic balance; rk4: time integration")]
 
@@ -103,9 +103,8 @@ class Study:
                 where = ["--x", f"frequency={speeds[0]:.17g}:{speeds[-1]:.17g}:{len(speeds)}"]
             else:
                 where = ["--frequency", f"{speeds[0]:.17g}"]
-            periods = [] if by_balance else ["--periods", self.time["shown_periods"]]
             table = self.explore("map", self.machine, "--list", points.name, *where, "--quantity", quantity,
-                                 "--threads", 1, *self.method(model, by_balance), *periods)
+                                 "--threads", 1, *self.method(model, by_balance))
         self.header = self.header or table.header
         column = table[quantity]
         return column if column.dtype.kind == "f" else np.array([0 if c == "-" else float(c) for c in column])
@@ -173,13 +172,13 @@ class Study:
 
     @cache
     def integrated_size(self, model):
-        """The same by rk4, each the mean over the periods with its standard error; spread and whether it is periodic."""
+        """The same by rk4, each the mean over the periods with its standard error; growth rate; whether the period is a turn's."""
         points = self.time["points_per_period"]
         table = self.orbit(model, *self.method(model, False), "--points", points, "--periods",
                            self.scene["orbit_periods"])
         sizes = [mean_and_error((crests(table[name], points) + crests(-table[name], points)) / 2)
                  for name in ("x_r", "y_r")]
-        return *sizes, table.value("spread"), int("spread_uncertainty" not in table.keys())
+        return *sizes, table.value("lyapunov"), int(table.value("regime") == "periodic" and table.value("period") == 1)
 
     def row(self, parameter, value):
         """The cells after the unit."""
@@ -188,10 +187,10 @@ class Study:
         balanced = Model(model.masses_and_cage, model.samples, self.usual.step)
         integrated = Model(model.masses_and_cage, self.usual.samples, model.step)
         first, last = self.losses(integrated)
-        x, y, spread, periodic = self.integrated_size(integrated)
+        x, y, lyapunov, periodic = self.integrated_size(integrated)
         return [int(model == self.usual), *self.peak(balanced if by_balance else integrated, by_balance),
                 first[0], last[0], x[0], y[0], *self.balance_size(balanced), first[1], last[1], x[1], y[1],
-                spread, periodic, "aft" if by_balance else "rk4"]
+                lyapunov, periodic, "aft" if by_balance else "rk4"]
 
 
 def crests(values, points):

@@ -158,7 +158,7 @@ Computed computed(const Parameters& parameters, const MotionRequest& request,
   describe(table, parameters);
   table.value("frequency", request.frequency);
   const bool is_settled = !is_periodic(request.method);
-  const double seconds = !is_settled ? 3 : parameters.large ? 1 : 10;
+  const double seconds = !is_settled || parameters.large ? 3 : 10;
   Computed at{.budget = budget_of(request, seconds, parameters)};
   if (request.method == "aft")
     at.found = balance_motion(parameters, request, at.budget, table);

