@@ -128,7 +128,16 @@ EMSCRIPTEN_KEEPALIVE int live_run(const char* what, const char* file, const char
   }
 }
 
-EMSCRIPTEN_KEEPALIVE const char* live_text() { return text.c_str(); }
-EMSCRIPTEN_KEEPALIVE const double* live_numbers() { return numbers.data(); }
-EMSCRIPTEN_KEEPALIVE int live_count() { return static_cast<int>(numbers.size()); }
+EMSCRIPTEN_KEEPALIVE const char* live_text()
+{
+  return text.c_str();
+}
+EMSCRIPTEN_KEEPALIVE const double* live_numbers()
+{
+  return numbers.data();
+}
+EMSCRIPTEN_KEEPALIVE int live_count()
+{
+  return static_cast<int>(numbers.size());
+}
 }

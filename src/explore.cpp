@@ -145,9 +145,10 @@ std::function<void()> add_motion_options(CLI::App& command, MotionRequest& reque
                  is_spectrum ? "P, samples per period of shooting and the time methods"
                              : "P, rows per period");
   std::vector<CLI::Option*> periodic;
-  add_number(command, "--tolerance", request.tolerance, 1e-8, 0.1,
-             "relative error of displacement, the largest and the rms about the mean; with "
-             "--method aft and without --harmonics, m is chosen");
+  add_number(
+      command, "--tolerance", request.tolerance, 1e-8, 0.1,
+      "relative error of displacement, the largest and the rms about the mean; with "
+      "--method aft and without --harmonics, m is chosen");
   if (command.get_name() != "contact")
     periodic.push_back(add_subharmonic(command, request));
   if (is_spectrum)
@@ -242,9 +243,9 @@ std::function<void()> add_response_options(CLI::App& command, ResponseRequest& r
              "of the random starts of --isolated")
       ->needs(isolated);
   aft.push_back(isolated);
-  CLI::Option* resume =
-      command.add_option("--resume", request.resume,
-                         "table of the same sweep that was interrupted: its rows are kept");
+  CLI::Option* resume = command.add_option(
+      "--resume", request.resume,
+      "table of the same sweep that was interrupted: its rows are kept");
   CLI::Option* longest = add_number(command, "--longest", request.longest, 1e-3, 1e5,
                                     "longest transient of a sweep after t = 0 [s]");
   return [=, &request] {
@@ -269,8 +270,9 @@ std::function<void()> add_response_options(CLI::App& command, ResponseRequest& r
     refuse(resume, is_sweep, "for a sweep, without --method", method);
     refuse(longest, is_sweep, "for a sweep, without --method", method);
     if (is_given(count) && !is_sweep && !is_given(tolerance))
-      throw BadInput("--count: of a branch needs --tolerance; without --harmonics and "
-                     "--method it is the number of speeds");
+      throw BadInput(
+          "--count: of a branch needs --tolerance; without --harmonics and "
+          "--method it is the number of speeds");
   };
 }
 
@@ -323,8 +325,9 @@ std::function<void()> add_map_options(CLI::App& command, MapRequest& request)
              "relative error; with --method aft m is chosen for it");
   const auto step = add_number(command, "--step", request.step, 0.0, largest,
                                "longest step of rk4 [s] (default: from K_H)");
-  const auto longest = add_number(command, "--longest", request.longest, 1e-3, 1e5,
-                                  "longest transient of the time methods after t = 0 [s]");
+  const auto longest =
+      add_number(command, "--longest", request.longest, 1e-3, 1e5,
+                 "longest transient of the time methods after t = 0 [s]");
   add_number(command, "--threads", request.threads, 1, 1024,
              "lines at a time (default: OMP_NUM_THREADS, or all cores)");
   command.add_option("--lines", request.lines, "A:B, only the lines with A <= index < B");
@@ -385,7 +388,8 @@ int main(int argc, char** argv)
   CLI::App* check = command("check", "what a machine is, before anything is computed");
   CLI::App* orbit = command("orbit", "displacements and force over one period");
   CLI::App* contact = command("contact", "force of every ball over two periods");
-  CLI::App* branch = command("response", "amplitudes against speed: what the machine does, or a branch");
+  CLI::App* branch =
+      command("response", "amplitudes against speed: what the machine does, or a branch");
   CLI::App* lines =
       command("spectrum", "lines of the motion, with names such as BPFO-1X");
   CLI::App* settled =

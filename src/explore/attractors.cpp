@@ -21,7 +21,8 @@ namespace {
 constexpr int section_points = 200;  // of a motion that does not close
 constexpr int most_runs = 200000;    // each keeps its state and statistics
 constexpr int motion_points = 256, motion_periods = 16;  // of --motions
-constexpr double same_closed = 1e-5, same_open = 0.1;  // of equal motions, over the scatter
+constexpr double same_closed = 1e-5,
+                 same_open = 0.1;  // of equal motions, over the scatter
 
 /** The request, checked, with the machine that belongs to it. */
 struct Task {
@@ -37,7 +38,9 @@ struct Task {
   }
   motion::Request asked_at(std::size_t speed) const
   {
-    return {.omega = angular(speeds[speed]), .points = motion_points, .periods = section_points};
+    return {.omega = angular(speeds[speed]),
+            .points = motion_points,
+            .periods = section_points};
   }
 };
 
@@ -54,8 +57,8 @@ Task task_of(const AttractorsRequest& request)
                           request.starts, most_starts, request.count));
   std::vector<double> speeds;
   for (int k = 0; k < request.count; ++k)
-    speeds.push_back(request.from + (request.to - request.from) * k /
-                                        std::max(1, request.count - 1));
+    speeds.push_back(request.from +
+                     (request.to - request.from) * k / std::max(1, request.count - 1));
   const OperationBudget budget =
       budget_of(request, request.count * (3.0 + request.starts), machine);
   return {request, machine, base_period(machine), std::move(speeds), budget};
@@ -401,8 +404,7 @@ std::string unfinished(const Task& task, const std::vector<Run>& all)
   if (first == all.end()) return "";
   return format("%s: partial, %td of %zu starts have no result, the first at %.9g Hz: %s",
                 task.machine.file.c_str(), std::ranges::count_if(all, is_lost),
-                all.size(), task.speeds[first->speed],
-                first->lost.c_str());
+                all.size(), task.speeds[first->speed], first->lost.c_str());
 }
 
 }  // namespace

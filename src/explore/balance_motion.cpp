@@ -276,8 +276,8 @@ void bring_near(const Parameters& parameters, const MotionRequest& request,
     if (error_of(verdict) <= *request.tolerance) return;
     AdaptiveSettings finer = settings_of(request);
     finer.tolerance *= share;
-    AdaptiveMotion next = motion::solve_adaptively(parameters, angular(request.frequency),
-                                                   finer, budget);
+    AdaptiveMotion next =
+        motion::solve_adaptively(parameters, angular(request.frequency), finer, budget);
     if (!next.reached) return;
     at = std::move(next);
     verdict = motion::judge(parameters, at.motion, budget);
@@ -321,8 +321,7 @@ PeriodicMotion solution_of(const Parameters& parameters, const MotionRequest& re
   if (request.tolerance && turns == 1 && verdict.found() && verdict.distance > 0)
     put_difference(table, "error", verdict.distance, verdict.distance_rms,
                    "against the nearest motion of Eq. 7");
-  else if (const auto& error = at.motion.error;
-           error && (turns > 1 || request.tolerance))
+  else if (const auto& error = at.motion.error; error && (turns > 1 || request.tolerance))
     put_difference(table, "error", error->displacement, error->rms,
                    turns > 1 ? "against the motion that shooting closes"
                              : basis_of(*error, format("m = %d", error->harmonics)));

@@ -20,9 +20,9 @@
 #include "motion/adaptive.hpp"
 #include "motion/answer.hpp"
 #include "motion/contact.hpp"
+#include "motion/judge.hpp"
 #include "motion/other_starts.hpp"
 #include "motion/regime.hpp"
-#include "motion/judge.hpp"
 #include "stability/floquet.hpp"
 
 namespace rotor_stator::explore {
@@ -313,10 +313,7 @@ public:
     return verdict_([&] { return motion::judge(machine, solution(), budget_); });
   }
 
-  std::string stability()
-  {
-    return is_balance() ? verdict().word() : answer().stability;
-  }
+  std::string stability() { return is_balance() ? verdict().word() : answer().stability; }
 
   /** The largest multiplier and its uncertainty. */
   std::pair<double, double> multiplier()

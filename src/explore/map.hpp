@@ -14,9 +14,10 @@ struct MapRequest : Request {
   std::string x, y;                 ///< KEY=from:to:count[:log], or empty
   std::optional<std::string> list;  ///< table whose rows stand for the lines of y
   std::vector<std::string> quantities;
-  std::string method = "auto";  ///< what the machine does from rest; aft; or a time method
-  double step = 0;                             ///< rk4 [s]; 0: from K_H
-  double longest = 0;                         ///< 0: as settle chooses; transient at most after t = 0 [s]
+  std::string method =
+      "auto";          ///< what the machine does from rest; aft; or a time method
+  double step = 0;     ///< rk4 [s]; 0: from K_H
+  double longest = 0;  ///< 0: as settle chooses; transient at most after t = 0 [s]
   std::optional<double> frequency, tolerance;  ///< [Hz]; relative
   std::string sweep;                           ///< A:B[:COUNT] [Hz], or empty
   std::string lines;                  ///< A:B: those with A ≤ index < B, or empty

@@ -275,9 +275,10 @@ Exploration explore_contact(const MotionRequest& request)
                              static_cast<double>(j) / one.bearing.balls;
         std::vector<Cell> row{turns};
         if (bearings > 1) row.emplace_back(b + 1);
-        for (double value : {static_cast<double>(j + 1), q, turns / at.found.base_frequency,
-                             angular(angle - std::floor(angle)),
-                             1e-6 * one.bearing.pressure * std::cbrt(q)})
+        for (double value :
+             {static_cast<double>(j + 1), q, turns / at.found.base_frequency,
+              angular(angle - std::floor(angle)),
+              1e-6 * one.bearing.pressure * std::cbrt(q)})
           row.emplace_back(value);
         table.row(std::move(row));
       }

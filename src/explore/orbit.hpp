@@ -33,15 +33,16 @@ inline const std::vector<std::string> periodic_methods{"aft", "shooting"};
 bool is_periodic(const std::string& method);
 
 struct MotionRequest : Request {
-  double frequency = 0;             ///< [Hz]
-  std::string method = "auto";  ///< what the machine does from rest; or one of `periodic_methods`, or a time method
+  double frequency = 0;  ///< [Hz]
+  std::string method =
+      "auto";  ///< what the machine does from rest; or one of `periodic_methods`, or a time method
   std::optional<double> tolerance;  ///< of displacement, relative
   int points = 256;                 ///< P
   double local_error = 1e-11;       ///< GSL's methods, relative
   double step = 0;                  ///< rk4 [s]; 0: from K_H
-  double longest = 0;              ///< 0: as settle chooses; transient at most after t = 0 [s]
-  int periods = 1;                  ///< turns that are printed
-  bool stability = true;            ///< Floquet multipliers in the header (aft)
+  double longest = 0;     ///< 0: as settle chooses; transient at most after t = 0 [s]
+  int periods = 1;        ///< turns that are printed
+  bool stability = true;  ///< Floquet multipliers in the header (aft)
 };
 
 struct Exploration {
@@ -78,11 +79,11 @@ struct FoundMotion {
   motion::Motion motion;
   motion::Lines lines = {};
   Parameters machine = {};
-  double base_frequency = 0;   ///< of the base period [Hz]
-  double turns_of_period = 1;  ///< turns of the rotor in one base period
-  int base_periods = 1;        ///< in one period of the motion's points
-  int closes_after = 0;        ///< K base periods, exactly; 0 for a record
-  bool has_statistics = false; ///< whether its means are in the header
+  double base_frequency = 0;    ///< of the base period [Hz]
+  double turns_of_period = 1;   ///< turns of the rotor in one base period
+  int base_periods = 1;         ///< in one period of the motion's points
+  int closes_after = 0;         ///< K base periods, exactly; 0 for a record
+  bool has_statistics = false;  ///< whether its means are in the header
 };
 
 /** A motion, the bearing's force at its instants, and what it has cost. */

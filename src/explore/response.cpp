@@ -17,11 +17,11 @@
 #include "motion/adaptive.hpp"
 #include "motion/closed_motion.hpp"
 #include "motion/contact.hpp"
+#include "motion/judge.hpp"
 #include "motion/motion.hpp"
 #include "motion/other_starts.hpp"
 #include "motion/quasi_periodic.hpp"
 #include "motion/subharmonic.hpp"
-#include "motion/judge.hpp"
 #include "stability/shooting_branch.hpp"
 
 namespace rotor_stator::explore {

@@ -24,8 +24,9 @@ void put_statistics(Table& table, const motion::Observation& seen)
   put("mean", seen.mean, seen.mean_error);
   put("rms", seen.rms, seen.rms_error);
   put("amp", seen.amplitude, seen.amplitude_error);
-  table.note("mean, rms about the mean and amplitude over 256 base periods, with standard "
-             "errors; an amplitude grows with the window");
+  table.note(
+      "mean, rms about the mean and amplitude over 256 base periods, with standard "
+      "errors; an amplitude grows with the window");
 }
 
 }  // namespace
@@ -49,9 +50,9 @@ void put_answer(Table& table, const motion::Answer& answer)
   if (!settled.reason.empty()) table.note("regime: " + settled.reason);
   table.value("transient", settled.seconds, 6);
   if (answer.base.is_driven_twice()) {
-    const double turns = answer.machine.bearing.cage_speed_ratio *
-                             static_cast<double>(settled.at.period) +
-                         answer.machine.bearing.cage_phase / angular(1);
+    const double turns =
+        answer.machine.bearing.cage_speed_ratio * static_cast<double>(settled.at.period) +
+        answer.machine.bearing.cage_phase / angular(1);
     table.value("cage_angle", angular(turns - std::floor(turns)));
   }
 }
@@ -59,18 +60,17 @@ void put_answer(Table& table, const motion::Answer& answer)
 FoundMotion settled_motion(const Parameters& parameters, const MotionRequest& request,
                            int open_periods, const OperationBudget& budget, Table& table)
 {
-  const motion::Answer answer =
-      motion::answer(parameters,
-                     {.omega = angular(request.frequency),
-                      .method = request.method,
-                      .tolerance = request.tolerance,
-                      .points = request.points,
-                      .periods = open_periods,
-                      .step = request.step,
-                      .local_error = request.local_error,
-                      .longest = request.longest,
-                      .is_measured = request.stability},
-                     budget);
+  const motion::Answer answer = motion::answer(parameters,
+                                               {.omega = angular(request.frequency),
+                                                .method = request.method,
+                                                .tolerance = request.tolerance,
+                                                .points = request.points,
+                                                .periods = open_periods,
+                                                .step = request.step,
+                                                .local_error = request.local_error,
+                                                .longest = request.longest,
+                                                .is_measured = request.stability},
+                                               budget);
   put_answer(table, answer);
   FoundMotion found{.motion = answer.motion, .machine = answer.machine};
   found.has_statistics = answer.kind() == Kind::chaotic;

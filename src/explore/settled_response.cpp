@@ -26,10 +26,11 @@ struct Row {
   double frequency;  ///< [Hz]
   motion::Answer answer = {.base = {}, .settled = {}};
   motion::Observation seen = {};
-  std::vector<Vec2> forces = {};  ///< at the instants of a record, where columns need them
-  double ball_load = 0;           ///< [N]
-  double spent = 0;               ///< evaluations
-  std::string lost = {};          ///< why there is no motion
+  std::vector<Vec2> forces =
+      {};                 ///< at the instants of a record, where columns need them
+  double ball_load = 0;   ///< [N]
+  double spent = 0;       ///< evaluations
+  std::string lost = {};  ///< why there is no motion
 
   bool touches() const
   {
@@ -37,8 +38,8 @@ struct Row {
   }
   double contact_share() const
   {
-    const auto loaded = std::ranges::count_if(
-        forces, [](Vec2 f) { return f.x != 0 || f.y != 0; });
+    const auto loaded =
+        std::ranges::count_if(forces, [](Vec2 f) { return f.x != 0 || f.y != 0; });
     return static_cast<double>(loaded) / static_cast<double>(forces.size());
   }
   double force(double Vec2::*axis) const
@@ -100,8 +101,9 @@ Fields fields_of(const Parameters& machine)
   Fields fields = usual_fields;
   fields.insert(fields.end(), further_fields.begin(), further_fields.end());
   if (const double pressure = machine.bearing.pressure; pressure > 0)
-    fields.push_back({"stress", "N/mm^2", "largest pressure of Hertz under ball_load",
-                      [=](const Row& r) { return 1e-6 * pressure * std::cbrt(r.ball_load); }});
+    fields.push_back(
+        {"stress", "N/mm^2", "largest pressure of Hertz under ball_load",
+         [=](const Row& r) { return 1e-6 * pressure * std::cbrt(r.ball_load); }});
   return fields;
 }
 
@@ -121,8 +123,8 @@ Plan plan_of(const ResponseRequest& request)
   for (int k = 0; k < count; ++k)
     speeds.push_back(k + 1 == count && count > 1
                          ? request.to
-                         : request.from + (request.to - request.from) * k /
-                                              std::max(1, count - 1));
+                         : request.from +
+                               (request.to - request.from) * k / std::max(1, count - 1));
   if (direction == "down") std::ranges::reverse(speeds);
   Table table("Frequency response, what the machine does", fields_of(machine));
   const bool has_further =
@@ -134,8 +136,9 @@ Plan plan_of(const ResponseRequest& request)
   table.value("base", base.words());
   table.value("direction", direction);
   table.value("speeds", count);
-  table.note("amplitudes over the K base periods of a motion that closes, over 256 of "
-             "another one");
+  table.note(
+      "amplitudes over the K base periods of a motion that closes, over 256 of "
+      "another one");
   return {request,     std::move(machine), std::move(speeds), direction != "rest",
           has_further, std::move(table)};
 }
@@ -172,8 +175,8 @@ Row row_at(const Plan& plan, double frequency, const OperationBudget& budget,
 }
 
 /** The rows of an interrupted table of the same question, at the first speeds. */
-std::vector<std::vector<Cell>> rows_of(const std::string& file, const std::string& beginning,
-                                       const Plan& plan)
+std::vector<std::vector<Cell>> rows_of(const std::string& file,
+                                       const std::string& beginning, const Plan& plan)
 {
   std::ifstream in = open_file(file, "a response", std::uintmax_t{1} << 40);
   std::stringstream whole;
@@ -198,9 +201,8 @@ std::vector<std::vector<Cell>> rows_of(const std::string& file, const std::strin
       if (!number) refuse("has a cell that is no number: " + word);
       cells.emplace_back(*number);
     }
-    const std::string speed = rows.size() < plan.speeds.size()
-                                  ? Cell(plan.speeds[rows.size()]).text()
-                                  : "";
+    const std::string speed =
+        rows.size() < plan.speeds.size() ? Cell(plan.speeds[rows.size()]).text() : "";
     if (cells.size() != plan.table.printed() || cells.front().text() != speed)
       refuse("holds other points");
     rows.push_back(std::move(cells));
@@ -221,7 +223,8 @@ Exploration explore_settled_response(const ResponseRequest& request)
   bool has_rows = false;
   /** Nothing is written before there is a row. */
   const auto begin = [&] {
-    if (is_streamed && !std::exchange(has_rows, true)) table.stream(write, request.format);
+    if (is_streamed && !std::exchange(has_rows, true))
+      table.stream(write, request.format);
   };
   for (const auto& cells : known) {
     begin();
@@ -246,9 +249,10 @@ Exploration explore_settled_response(const ResponseRequest& request)
       spent += row.spent;
       if (spent > most || (request.budget && each < plan.evaluations_of_one() &&
                            row.answer.kind() == Kind::undecided)) {
-        missing = format("%s: the budget of %.3g evaluations of the force is used up at "
-                         "%g Hz; --resume FILE goes on with the rows that are written",
-                         request.parameter_file.c_str(), most, row.frequency);
+        missing = format(
+            "%s: the budget of %.3g evaluations of the force is used up at "
+            "%g Hz; --resume FILE goes on with the rows that are written",
+            request.parameter_file.c_str(), most, row.frequency);
         break;
       }
       ++next;

@@ -152,7 +152,7 @@ private:
   std::vector<Column> columns_;
   std::vector<std::size_t> printed_, drawn_;  ///< their places
   std::vector<bool> wanted_;
-  std::vector<std::vector<Cell>> rows_;  ///< an empty row is a gap
+  std::vector<std::vector<Cell>> rows_;                 ///< an empty row is a gap
   std::function<void(const std::string&)> write_ = {};  ///< where rows go at once
   TableFormat format_ = TableFormat::tsv;
 };

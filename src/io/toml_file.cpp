@@ -224,7 +224,8 @@ StrictToml StrictToml::with(
 {
   StrictToml changed(std::make_shared<Content>(
       Content{content_->file, content_->path, content_->table, {}, {}}));
-  for (const auto& [key, value] : values) set_number(changed.content_->table, key, value, instead);
+  for (const auto& [key, value] : values)
+    set_number(changed.content_->table, key, value, instead);
   return changed;
 }
 

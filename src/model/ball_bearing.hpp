@@ -106,8 +106,7 @@ IN_PLACE Vec2Of<Number> bearing_force(const BallRing& balls,
     if (!any_positive(near)) continue;
     const Number pressed = positive(near);
     Number q = pressed * root(pressed);  // Eq. 5 over K_H
-    if constexpr (is_damped)
-      q = q * positive(1 + contacts.damping * (c * w.x + s * w.y));
+    if constexpr (is_damped) q = q * positive(1 + contacts.damping * (c * w.x + s * w.y));
     sum.x += q * c;
     sum.y += q * s;
   }

@@ -71,9 +71,9 @@ inline void put(const Bodies& bodies, double* y)
     motion. */
 template <class Number>
 struct Equation7 {
-  Number k_s, c_s, per_m_s, k_r, c_r, per_m_r;   ///< [N/m], [N s/m], [1/kg]
-  Number unbalance;                              ///< m_e e ω² [N]
-  Number rest_s_x, rest_s_y, rest_r_x, rest_r_y; ///< static accelerations [m/s²]
+  Number k_s, c_s, per_m_s, k_r, c_r, per_m_r;    ///< [N/m], [N s/m], [1/kg]
+  Number unbalance;                               ///< m_e e ω² [N]
+  Number rest_s_x, rest_s_y, rest_r_x, rest_r_y;  ///< static accelerations [m/s²]
 
   /** Accelerations [m/s²] for the bearing's force `f` [N] on the stator. */
   IN_PLACE BodiesOf<Number> acceleration(const BodiesOf<Number>& q,

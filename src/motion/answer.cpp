@@ -55,13 +55,14 @@ public:
   {
     constexpr double near = 1e-2;  ///< of the sizes: farther away it is another one
     State closed = state;
-    const Shooting shooting = shoot(machine_, omega_, closed,
-                                    {.tolerance = local_error,
-                                     .periodicity_residual = std::max(1e-9, 10 * local_error),
-                                     .speed_weight = 5,
-                                     .quasi_newton = false,
-                                     .final_derivative = false,
-                                     .budget = budget_});
+    const Shooting shooting =
+        shoot(machine_, omega_, closed,
+              {.tolerance = local_error,
+               .periodicity_residual = std::max(1e-9, 10 * local_error),
+               .speed_weight = 5,
+               .quasi_newton = false,
+               .final_derivative = false,
+               .budget = budget_});
     const Eigen::VectorXd moved =
         (vector_of(closed) - vector_of(state)).cwiseQuotient(state_scales(machine_));
     if (!shooting.converged || !(moved.cwiseAbs().maxCoeff() < near)) return false;
@@ -71,10 +72,9 @@ public:
 
   Motion record(const State& state, double local_error, int points) const
   {
-    return one_period(machine_, omega_, state,
-                      {.intervals_per_period = points,
-                       .tolerance = local_error,
-                       .budget = budget_});
+    return one_period(
+        machine_, omega_, state,
+        {.intervals_per_period = points, .tolerance = local_error, .budget = budget_});
   }
 
 private:
@@ -105,18 +105,17 @@ bool close(Answer& answer, const Request& request, const OperationBudget& budget
   if (request.is_measured) {
     State finer = state;
     closing.close(finer, 0.01 * request.local_error);
-    answer.error =
-        difference(answer.motion, closing.record(finer, 0.01 * request.local_error, points));
-    const Verdict verdict =
-        judge_through(answer.machine, answer.omega, state, budget, k);
+    answer.error = difference(answer.motion,
+                              closing.record(finer, 0.01 * request.local_error, points));
+    const Verdict verdict = judge_through(answer.machine, answer.omega, state, budget, k);
     answer.evaluations += verdict.evaluations;
     if (verdict.found()) {
       answer.stability = verdict.word();
       answer.multiplier = verdict.floquet.largest();
       answer.uncertainty = verdict.floquet.uncertainty();
       if (answer.multiplier > 10 * answer.uncertainty)
-        answer.settled.lyapunov = exponent_of(
-            verdict.floquet, k * 2 * std::numbers::pi / answer.omega);
+        answer.settled.lyapunov =
+            exponent_of(verdict.floquet, k * 2 * std::numbers::pi / answer.omega);
     }
   }
   answer.motion.points_per_period = request.points;
@@ -189,7 +188,8 @@ void record(Answer& answer, const Request& request, const OperationBudget& budge
       if (!request.tolerance || answer.error->larger() <= *request.tolerance) break;
     }
     answer.stability = "stable";
-    answer.how = format("integration, with half the step for the error; step over %g", finer);
+    answer.how =
+        format("integration, with half the step for the error; step over %g", finer);
   }
   answer.evaluations += recording.evaluations();
 }
@@ -230,7 +230,8 @@ void complete(Answer& answer, const Request& request, const OperationBudget& bud
   const bool is_closed = answer.kind() == Kind::periodic && request.method == "auto" &&
                          close(answer, request, budget);
   if (!is_closed) record(answer, request, budget);
-  if (request.tolerance && answer.error && !(answer.error->larger() <= *request.tolerance))
+  if (request.tolerance && answer.error &&
+      !(answer.error->larger() <= *request.tolerance))
     throw NoSolution(format("%s: tolerance %g not reached at %g Hz, error %.2g",
                             answer.machine.file.c_str(), *request.tolerance,
                             request.omega / angular(1), answer.error->larger()));
@@ -283,8 +284,8 @@ Observation observe(const Answer& answer, const OperationBudget& budget)
   const bool is_closed = answer.period() > 0 || answer.kind() == Kind::rest;
   const std::size_t count = is_closed ? std::max(1, answer.period()) : observed;
   const double period = 2 * std::numbers::pi / answer.omega;
-  const int intervals = static_cast<int>(
-      std::clamp(std::ceil(period / (2 * step_at(answer.machine, answer.omega))), 64.0, 1e6));
+  const int intervals = static_cast<int>(std::clamp(
+      std::ceil(period / (2 * step_at(answer.machine, answer.omega))), 64.0, 1e6));
   const auto flow = fixed_step_flow(answer.machine, answer.omega, intervals, 0, budget);
   State state = answer.settled.at.state;
   long k = answer.settled.at.period * intervals;
@@ -310,17 +311,20 @@ Observation observe(const Answer& answer, const OperationBudget& budget)
   for (std::size_t i = 0; i < 4; ++i) {
     seen.amplitude[i] = half_range(periods, i);
     const auto first = [i](const PeriodSums& one) { return one.sum[i]; };
-    const BatchMean mean = over_batches(periods, 1, [&](auto part) { return first(part[0]); });
+    const BatchMean mean =
+        over_batches(periods, 1, [&](auto part) { return first(part[0]); });
     const BatchMean square = over_batches(periods, 1, [&](auto part) {
-      return part[0].squares[i] - 2 * mean.value * part[0].sum[i] + mean.value * mean.value;
+      return part[0].squares[i] - 2 * mean.value * part[0].sum[i] +
+             mean.value * mean.value;
     });
     seen.mean[i] = origin[i] + mean.value;
     seen.rms[i] = std::sqrt(std::max(0.0, square.value));
     if (is_closed) continue;
     seen.mean_error[i] = mean.error;
     seen.rms_error[i] = seen.rms[i] > 0 ? 0.5 * square.error / seen.rms[i] : 0;
-    seen.amplitude_error[i] =
-        over_batches(periods, quarter, [&](auto part) { return half_range(part, i); }).error;
+    seen.amplitude_error[i] = over_batches(periods, quarter, [&](auto part) {
+                                return half_range(part, i);
+                              }).error;
   }
   return seen;
 }

@@ -21,15 +21,16 @@ Solutions of harmonic balance are asked for by their number of harmonics, and ju
 namespace rotor_stator::motion {
 
 struct Request {
-  double omega;                 ///< speed of the rotor [rad/s]
-  std::string method = "auto";  ///< or the stepper of the record, which is then not closed
+  double omega;  ///< speed of the rotor [rad/s]
+  std::string method =
+      "auto";  ///< or the stepper of the record, which is then not closed
   std::optional<double> tolerance = {};  ///< of the error, largest and rms [-]
   int points = 256;                      ///< P, of a base period
-  int periods = 1;                       ///< recorded of a motion that is not closed, at least K
-  double step = 0;                       ///< longest of rk4 [s]; 0: `default_step`
-  double local_error = 1e-11;            ///< of shooting and of steppers with error control
-  double longest = 0;                   ///< 0: as settle chooses; transient after t = 0 [s]
-  bool is_measured = true;               ///< whether error and stability are wanted
+  int periods = 1;             ///< recorded of a motion that is not closed, at least K
+  double step = 0;             ///< longest of rk4 [s]; 0: `default_step`
+  double local_error = 1e-11;  ///< of shooting and of steppers with error control
+  double longest = 0;          ///< 0: as settle chooses; transient after t = 0 [s]
+  bool is_measured = true;     ///< whether error and stability are wanted
 };
 
 /** Of displacement: the largest difference over the largest displacement; rms about the mean over that of the motion. */
@@ -42,11 +43,12 @@ struct Answer {
   BasePeriod base;
   Parameters machine = {};  ///< counted over its base period
   double omega = 0;         ///< base frequency [rad/s]
-  Settled settled;  ///< kind, K, λ, state
+  Settled settled;          ///< kind, K, λ, state
   Motion motion = {};       ///< from t = 0, or from base period `motion.first_period`
   std::optional<Error> error = {};
   std::string stability = "undecided";
-  double multiplier = 0, uncertainty = 0;  ///< largest modulus of a closed motion; 0 unknown
+  double multiplier = 0,
+         uncertainty = 0;   ///< largest modulus of a closed motion; 0 unknown
   std::string method = {};  ///< shooting, or what recorded the motion
   std::string how = {};     ///< how it was found, in a sentence
   double evaluations = 0;   ///< of Eq. 7
@@ -72,7 +74,7 @@ void complete(Answer& answer, const Request& request, const OperationBudget& bud
 /** What is reported of x_s, y_s, x_r, y_r [m], with standard errors, which a motion that closes has not: over its K base
     periods, over 256 base periods of another one, at every second step. */
 struct Observation {
-  Displacements amplitude{};  ///< half of the largest less the smallest value
+  Displacements amplitude{};    ///< half of the largest less the smallest value
   Displacements mean{}, rms{};  ///< rms about the mean
   Displacements amplitude_error{}, mean_error{}, rms_error{};
 };

@@ -241,8 +241,9 @@ double relative_difference(const Motion& motion, const Motion& reference)
       size = std::max(size, std::abs(b[i]));
     }
   }
-  return size > 0 ? difference / size
-         : difference > 0 ? std::numeric_limits<double>::infinity() : 0;
+  return size > 0         ? difference / size
+         : difference > 0 ? std::numeric_limits<double>::infinity()
+                          : 0;
 }
 
 double rms_difference(const Motion& motion, const Motion& reference)
@@ -273,8 +274,9 @@ double relative_force_difference(const Parameters& parameters, const Motion& mot
     difference = larger(difference, std::hypot(a[k].x - b[k].x, a[k].y - b[k].y));
     size = std::max(size, std::hypot(b[k].x, b[k].y));
   }
-  return size > 0 ? difference / size
-         : difference > 0 ? std::numeric_limits<double>::infinity() : 0;
+  return size > 0         ? difference / size
+         : difference > 0 ? std::numeric_limits<double>::infinity()
+                          : 0;
 }
 
 }  // namespace rotor_stator::motion

@@ -8,11 +8,11 @@
 #include "balance/bearing_problem.hpp"
 #include "integration/time_stepper.hpp"
 #include "io/errors.hpp"
-#include "time/settle.hpp"
 #include "motion/judge.hpp"
 #include "motion/other_starts.hpp"
 #include "stability/eigenvalues.hpp"
 #include "stability/shooting.hpp"
+#include "time/settle.hpp"
 
 namespace rotor_stator::motion {
 

@@ -103,13 +103,16 @@ SlowestMode slowest_mode(const Parameters& machine)
 Instant from_rest(const Parameters& machine, double omega)
 {
   constexpr double shortest = 4, longest = 25, decays = 25;  // [s], [s], [-]
-  const double seconds = std::clamp(decays / slowest_mode(machine).decay, shortest, longest);
+  const double seconds =
+      std::clamp(decays / slowest_mode(machine).decay, shortest, longest);
   const double speed = rotor_speed(machine, omega);
   const double turns = std::ceil(seconds * speed / (2 * std::numbers::pi));
   const auto periods = std::lround(std::ceil(turns * omega / speed - 1e-9));
-  const double cage = 2 * std::numbers::pi *
-                      std::fmod(machine.bearing.cage_speed_ratio * static_cast<double>(periods), 1.0);
-  return {rest_state(machine, Direction::of(machine.bearing.cage_phase - cage)), -periods};
+  const double cage =
+      2 * std::numbers::pi *
+      std::fmod(machine.bearing.cage_speed_ratio * static_cast<double>(periods), 1.0);
+  return {rest_state(machine, Direction::of(machine.bearing.cage_phase - cage)),
+          -periods};
 }
 
 namespace {
@@ -124,8 +127,9 @@ public:
   Pair(const Parameters& machine, double omega, const Instant& start, double step,
        const OperationBudget& budget)
       : sizes_(state_scales(machine)), period_(2 * std::numbers::pi / omega),
-        intervals_(std::max(16, static_cast<int>(std::ceil(
-                                    period_ * contact_frequency(machine) / longest_phase)))),
+        intervals_(std::max(
+            16, static_cast<int>(
+                    std::ceil(period_ * contact_frequency(machine) / longest_phase)))),
         flow_(fixed_step_flow(machine, omega, intervals_, step, budget)), at_(start)
   {
     const double share = first_distance / std::sqrt(static_cast<double>(sizes_.size()));
@@ -167,7 +171,8 @@ public:
   long evaluations() const { return flow_->evaluations(); }
 
 private:
-  static constexpr double longest_phase = 60;  ///< of the contact's vibration between two pulls
+  static constexpr double longest_phase =
+      60;  ///< of the contact's vibration between two pulls
 
   void advance_one_period()
   {
@@ -202,7 +207,8 @@ private:
     const Eigen::VectorXd apart = vector_of(neighbour_) - y;
     const double growth = apart.cwiseQuotient(sizes_).norm() / first_distance;
     if (!std::isfinite(growth))
-      throw NoSolution(format("time integration diverged %.3g s after its start", seconds()));
+      throw NoSolution(
+          format("time integration diverged %.3g s after its start", seconds()));
     /** Rounding keeps neighbours apart that have met. */
     if (!(growth > 1e-8)) {
       const double share = first_distance / std::sqrt(static_cast<double>(sizes_.size()));
@@ -246,15 +252,17 @@ public:
       : base_(base), rule_(rule), length_(scales(machine).length)
   {
     constexpr double slow_periods = 20, least_seconds = 2;
-    least_ = std::max({least_seconds,
-                       slow_periods * 2 * std::numbers::pi / slowest_mode(machine).frequency,
-                       rule.most_period * 2 * std::numbers::pi / omega});
+    least_ =
+        std::max({least_seconds,
+                  slow_periods * 2 * std::numbers::pi / slowest_mode(machine).frequency,
+                  rule.most_period * 2 * std::numbers::pi / omega});
     least_ = std::min(least_, 25.0);
   }
 
   Settled operator()(const Pair& pair) const
   {
-    Settled s{.lyapunov = exponent_of(pair), .at = pair.at(), .before = pair.since(nearer)};
+    Settled s{
+        .lyapunov = exponent_of(pair), .at = pair.at(), .before = pair.since(nearer)};
     s.remainder = std::exp(std::max(-700.0, pair.contraction()));
     s.amplitude = pair.half_range();
     s.seconds = pair.seconds();
@@ -277,12 +285,14 @@ public:
       s.kind = Kind::quasi_periodic;
     if (s.kind == Kind::undecided && s.reason.empty())
       s.reason = s.contracts
-                     ? format("neighbours contract by %.3g/s, but the transient is not over "
-                              "after %.3g s",
-                              -rate, pair.seconds())
-                     : format("the growth rate of neighbours, %.2g +- %.1g/s, is not known "
-                              "well enough after %.3g s",
-                              rate, doubt, pair.seconds());
+                     ? format(
+                           "neighbours contract by %.3g/s, but the transient is not over "
+                           "after %.3g s",
+                           -rate, pair.seconds())
+                     : format(
+                           "the growth rate of neighbours, %.2g +- %.1g/s, is not known "
+                           "well enough after %.3g s",
+                           rate, doubt, pair.seconds());
     return s;
   }
 
@@ -290,7 +300,8 @@ private:
   bool is_at_rest(const Pair& pair) const
   {
     const State& state = pair.at().state;
-    const double speed = vector_of(state).tail(vector_of(state).size() / 2).cwiseAbs().maxCoeff();
+    const double speed =
+        vector_of(state).tail(vector_of(state).size() / 2).cwiseAbs().maxCoeff();
     return pair.half_range() < 1e-12 * length_ && speed * pair.period() < 1e-12 * length_;
   }
 
@@ -368,7 +379,8 @@ SettleRule with_longest(SettleRule rule, const Parameters& machine)
 }  // namespace
 
 Settled settle(const Parameters& machine, double omega, const BasePeriod& base,
-               const Instant& start, const SettleRule& rule, const OperationBudget& budget)
+               const Instant& start, const SettleRule& rule,
+               const OperationBudget& budget)
 {
   Pair pair(machine, omega, start, rule.step, budget);
   const SettleRule whole = with_longest(rule, machine);

@@ -41,23 +41,24 @@ struct Instant {
 };
 
 struct SettleRule {
-  double step = 0;        ///< longest of rk4 [s]; 0: `default_step`
-  double closed = 1e-6;   ///< spread of a closed section, over the vibration [-]
-  int most_period = 16;   ///< K
-  double longest = 0;     ///< after t = 0 [s]; 0: 60, or what the slowest decay asks for
+  double step = 0;       ///< longest of rk4 [s]; 0: `default_step`
+  double closed = 1e-6;  ///< spread of a closed section, over the vibration [-]
+  int most_period = 16;  ///< K
+  double longest = 0;    ///< after t = 0 [s]; 0: 60, or what the slowest decay asks for
 };
 
 struct Settled {
   Kind kind = Kind::undecided;
-  int period = 0;         ///< K of a closed section, else 0
-  Exponent lyapunov{0};   ///< λ and its standard error [1/s]
-  bool contracts = false; ///< λ + 3s < 0
-  double remainder = 1;   ///< what the contraction leaves of the start's distance [-]
-  Instant at;             ///< the motion: at t = 0, where its neighbours contract or it closes
-  Instant before;         ///< the same motion earlier: neighbours have come 1e-7 nearer since
-  double amplitude = 0;   ///< half peak-to-peak of the largest displacement in the last base periods [m]
-  double seconds = 0;     ///< integrated
-  double evaluations = 0; ///< of Eq. 7
+  int period = 0;          ///< K of a closed section, else 0
+  Exponent lyapunov{0};    ///< λ and its standard error [1/s]
+  bool contracts = false;  ///< λ + 3s < 0
+  double remainder = 1;    ///< what the contraction leaves of the start's distance [-]
+  Instant at;      ///< the motion: at t = 0, where its neighbours contract or it closes
+  Instant before;  ///< the same motion earlier: neighbours have come 1e-7 nearer since
+  double amplitude =
+      0;  ///< half peak-to-peak of the largest displacement in the last base periods [m]
+  double seconds = 0;       ///< integrated
+  double evaluations = 0;   ///< of Eq. 7
   std::string reason = {};  ///< why it is undecided
 };
 

@@ -34,19 +34,18 @@ TEST_CASE("Without contact the amplitude is that of Jeffcott's rotor")
   const Parameters parameters = free_rotor();
   const motion::Answer answer = from_rest_at(parameters, 30);
   const double omega = hertz(30), r = omega / parameters.rotor.natural_frequency;
-  const double expected =
-      parameters.unbalance / parameters.rotor.mass * r * r /
-      std::hypot(1 - r * r, 2 * parameters.rotor.damping_ratio * r);
+  const double expected = parameters.unbalance / parameters.rotor.mass * r * r /
+                          std::hypot(1 - r * r, 2 * parameters.rotor.damping_ratio * r);
   CHECK(answer.kind() == Kind::periodic);
   CHECK(answer.period() == 1);
   CHECK(answer.stability == "stable");
   const motion::Observation seen = observe(answer);
   CHECK(seen.amplitude[2] == Approx(expected).epsilon(1e-5));
   CHECK(seen.rms[3] == Approx(expected / std::sqrt(2)).epsilon(1e-5));
-  CHECK(answer.multiplier == Approx(std::exp(-2 * std::numbers::pi / omega *
-                                             parameters.rotor.damping_ratio *
-                                             parameters.rotor.natural_frequency))
-                                 .epsilon(1e-5));
+  CHECK(answer.multiplier ==
+        Approx(std::exp(-2 * std::numbers::pi / omega * parameters.rotor.damping_ratio *
+                        parameters.rotor.natural_frequency))
+            .epsilon(1e-5));
 }
 
 TEST_CASE("A machine that nothing moves rests")

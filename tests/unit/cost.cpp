@@ -8,7 +8,6 @@
 #include "costs/equal_error.hpp"
 #include "costs/timing.hpp"
 #include "costs/work_precision.hpp"
-#include "time/rk4.hpp"
 #include "io/errors.hpp"
 #include "model/rotor_stator.hpp"
 #include "motion/find_periodic.hpp"
@@ -16,6 +15,7 @@
 #include "stability/shooting.hpp"
 #include "support/cases.hpp"
 #include "support/command.hpp"
+#include "time/rk4.hpp"
 
 using namespace rotor_stator;
 using namespace rotor_stator::costs;

@@ -309,10 +309,11 @@ class Options(Case):
                     self.refused(f"{option.split()[0]}: is for ", "orbit", self.machine, *ORBIT,
                                  "--method", method, *option.split())
         for option in ["--stability", "--save a", "--isolated 3", "--subharmonic 2", "--waterfall a", "--harmonics-of x_r",
-                       "--tolerance 1e-3", "--times"]:
+                       "--times"]:
             with self.subTest("response " + option):
                 self.refused(f"{option.split()[0]}: is of a branch of solutions; give --harmonics M", "response", self.machine,
                              *RESPONSE, *option.split())
+        self.refused("--tolerance: is of solutions; give --method aft too", "response", self.machine, *RESPONSE, "--tolerance", 1e-3)
         for method in ["aft", "shooting"]:
             for option in ["--longest 3", "--resume a"]:
                 with self.subTest(f"response {method} {option}"):
