@@ -1,8 +1,7 @@
 /**
-# Eq. 7 in time
+# Time, counted in intervals of the base period
 
-Time is counted in output intervals: each base period is cut into P of them, and a flow advances a state over whole
-intervals, in as many steps of its own as it needs. Interval 0 begins at t = 0, where the unbalance points along x and
+A flow advances a state of Eq. 7. Each base period is cut into P output intervals, and a flow goes over whole ones, in as many steps of its own as it needs. Interval 0 begins at t = 0, where the unbalance points along x and
 ball 1 stands at its angle; intervals before it have negative numbers. */
 #pragma once
 
