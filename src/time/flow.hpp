@@ -1,8 +1,10 @@
 /**
 # Time, counted in intervals of the base period
 
-A flow advances a state of Eq. 7. Each base period is cut into P output intervals, and a flow goes over whole ones, in as many steps of its own as it needs. Interval 0 begins at t = 0, where the unbalance points along x and
-ball 1 stands at its angle; intervals before it have negative numbers. */
+A flow advances a state of Eq. 7. Each base period is cut into P output intervals, and a
+flow goes over whole ones, in as many steps of its own as it needs. Interval 0 begins at
+t = 0, where the unbalance points along x and ball 1 stands at its angle; intervals before
+it have negative numbers. */
 #pragma once
 
 #include "io/budget.hpp"
