@@ -32,10 +32,6 @@ struct Row {
   double spent = 0;       ///< evaluations
   std::string lost = {};  ///< why there is no motion
 
-  bool touches() const
-  {
-    return std::ranges::any_of(forces, [](Vec2 f) { return f.x != 0 || f.y != 0; });
-  }
   double contact_share() const
   {
     const auto loaded =
@@ -233,7 +229,6 @@ Exploration explore_settled_response(const ResponseRequest& request)
 
   double spent = 0;
   std::size_t lost = 0, next = known.size();
-  bool touches = !known.empty();
   std::string missing, first_lost;
   std::optional<State> state;
   const double most = request.budget.value_or(std::numeric_limits<double>::infinity());
@@ -260,7 +255,6 @@ Exploration explore_settled_response(const ResponseRequest& request)
         if (lost++ == 0) first_lost = format("at %g Hz: ", row.frequency) + row.lost;
         continue;
       }
-      touches = touches || !plan.has_records || row.touches();
       begin();
       table.row(fields, row);
       if (request.watch)

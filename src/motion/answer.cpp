@@ -63,9 +63,7 @@ public:
                .quasi_newton = false,
                .final_derivative = false,
                .budget = budget_});
-    const Eigen::VectorXd moved =
-        (vector_of(closed) - vector_of(state)).cwiseQuotient(state_scales(machine_));
-    if (!shooting.converged || !(moved.cwiseAbs().maxCoeff() < near)) return false;
+    if (!shooting.converged || !(apart(machine_, closed, state) < near)) return false;
     state = closed;
     return true;
   }
@@ -310,9 +308,8 @@ Observation observe(const Answer& answer, const OperationBudget& budget)
   Observation seen;
   for (std::size_t i = 0; i < 4; ++i) {
     seen.amplitude[i] = half_range(periods, i);
-    const auto first = [i](const PeriodSums& one) { return one.sum[i]; };
     const BatchMean mean =
-        over_batches(periods, 1, [&](auto part) { return first(part[0]); });
+        over_batches(periods, 1, [i](auto part) { return part[0].sum[i]; });
     const BatchMean square = over_batches(periods, 1, [&](auto part) {
       return part[0].squares[i] - 2 * mean.value * part[0].sum[i] +
              mean.value * mean.value;

@@ -64,9 +64,10 @@ double step_at(const Parameters& machine, double omega)
   const double step = default_step(machine);
   if (machine.large) return step;
   double force = 0;
-  for (const double phase : {0.0, 0.5, 1.0, 1.5})
-    force = std::max(force, std::hypot(rigid_joint_force(machine, omega, phase).x,
-                                       rigid_joint_force(machine, omega, phase).y));
+  for (const double phase : {0.0, 0.5, 1.0, 1.5}) {
+    const Vec2 f = rigid_joint_force(machine, omega, phase);
+    force = std::max(force, std::hypot(f.x, f.y));
+  }
   const double ratio = force / (much * scales(machine).load);
   return std::isfinite(ratio) && ratio > 1 ? step / std::pow(ratio, 1.0 / 6) : step;
 }
@@ -130,10 +131,9 @@ public:
         intervals_(std::max(
             16, static_cast<int>(
                     std::ceil(period_ * contact_frequency(machine) / longest_phase)))),
-        flow_(fixed_step_flow(machine, omega, intervals_, step, budget)), at_(start)
+        flow_(fixed_step_flow(machine, omega, intervals_, step, budget)), at_(start),
+        neighbour_(beside(vector_of(start.state)))
   {
-    const double share = first_distance / std::sqrt(static_cast<double>(sizes_.size()));
-    neighbour_ = state_of(vector_of(start.state) + share * sizes_);
   }
 
   /** Over one base period; where that cannot be paid for, the motion stays where it was. */
@@ -201,6 +201,13 @@ private:
       marks_.push_back({log_distance_, at_});
   }
 
+  /** A neighbour at the first distance, off in all directions, so that none is missed. */
+  State beside(const Eigen::VectorXd& y) const
+  {
+    const double share = first_distance / std::sqrt(static_cast<double>(sizes_.size()));
+    return state_of(y + share * sizes_);
+  }
+
   double pull_back()
   {
     const Eigen::VectorXd y = vector_of(at_.state);
@@ -211,8 +218,7 @@ private:
           format("time integration diverged %.3g s after its start", seconds()));
     /** Rounding keeps neighbours apart that have met. */
     if (!(growth > 1e-8)) {
-      const double share = first_distance / std::sqrt(static_cast<double>(sizes_.size()));
-      neighbour_ = state_of(y + share * sizes_);
+      neighbour_ = beside(y);
       return std::log(1e-8);
     }
     neighbour_ = state_of(y + apart / growth);
