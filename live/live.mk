@@ -2,8 +2,8 @@
 # Debian 12 lacks parts of the library of C++20 (live/libcxx.hpp) and looks for its parser where only Debian's node does.
 # Exceptions are WebAssembly's own (browsers of 2022 and later): by JavaScript's the module was a quarter larger.
 live_sources := $(filter-out $(patsubst %,src/%.cpp,io/program io/parallel io/matrix_market model/large_machine model/reduction model/rational_fit \
-  balance/large_problem integration/gauss), $(wildcard $(patsubst %,src/%/*.cpp,io model balance continuation \
-  integration stability time motion))) $(patsubst %,src/explore/%.cpp,balance_motion branch_file orbit response \
+  balance/large_problem time/gauss), $(wildcard $(patsubst %,src/%/*.cpp,io model balance continuation \
+  time motion))) $(patsubst %,src/explore/%.cpp,balance_motion branch_file orbit response \
   settled_motion settled_response spectrum) \
   live/live.cpp live/serial.cpp live/two_masses.cpp
 live_objects := $(live_sources:%.cpp=build/live/%.o)

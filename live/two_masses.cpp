@@ -3,7 +3,7 @@
 #include <cstdlib>
 
 #include "balance/large_problem.hpp"
-#include "integration/gauss.hpp"
+#include "time/gauss.hpp"
 #include "io/errors.hpp"
 #include "io/toml_file.hpp"
 

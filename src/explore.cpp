@@ -27,9 +27,9 @@ or one of the time integrators. A table on stdout, errors on stderr. */
 #include "explore/shaft.hpp"
 #include "explore/shape.hpp"
 #include "explore/spectrum.hpp"
-#include "integration/time_stepper.hpp"
 #include "io/errors.hpp"
 #include "io/program.hpp"
+#include "time/time_stepper.hpp"
 
 namespace {
 

@@ -36,7 +36,7 @@ from tables import Table  # noqa: E402
 BUILD, BOOK, ARTICLE = Path("build"), Path("build/book"), Path("build/paper/article.html")
 SHOTS, AXE = BUILD / "screenshots", BUILD / "npm/node_modules/axe-core/axe.min.js"
 FIGURES = tomllib.loads(Path("paper/book/figures.toml").read_text(encoding="utf-8"))
-SHOWN = ["index.html", "chapter-08.html", "fig06_orbits.html", "model-rotor_stator.html", "results.html", "search.html?q=clearance"]
+SHOWN = ["index.html", "chapter-07.html", "fig06_orbits.html", "model-rotor_stator.html", "results.html", "search.html?q=clearance"]
 NARROW, WIDE = 400, 1400
 
 

@@ -4,8 +4,8 @@
 #include <cmath>
 
 #include "balance/fourier_transform.hpp"
-#include "integration/time_stepper.hpp"
 #include "io/errors.hpp"
+#include "time/time_stepper.hpp"
 
 namespace rotor_stator::costs {
 

@@ -9,11 +9,11 @@
 #include "balance/bearing_problem.hpp"
 #include "balance/newton.hpp"
 #include "continuation/sweep.hpp"
-#include "integration/time_stepper.hpp"
 #include "io/errors.hpp"
 #include "model/rotor_stator.hpp"
 #include "motion/adaptive.hpp"
-#include "stability/shooting.hpp"
+#include "time/shooting.hpp"
+#include "time/time_stepper.hpp"
 
 namespace rotor_stator::costs {
 

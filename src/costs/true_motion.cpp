@@ -8,7 +8,7 @@
 #include "balance/newton.hpp"
 #include "io/errors.hpp"
 #include "io/parallel.hpp"
-#include "stability/shooting.hpp"
+#include "time/shooting.hpp"
 
 namespace rotor_stator::costs {
 

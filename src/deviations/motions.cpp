@@ -6,10 +6,10 @@
 #include "balance/fourier_transform.hpp"
 #include "continuation/sweep.hpp"
 #include "deviations/printed_equations.hpp"
-#include "integration/time_stepper.hpp"
 #include "io/errors.hpp"
 #include "motion/contact.hpp"
 #include "motion/regime.hpp"
+#include "time/time_stepper.hpp"
 
 namespace rotor_stator::deviations {
 

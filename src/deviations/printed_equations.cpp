@@ -6,7 +6,7 @@
 #include <numbers>
 
 #include "io/errors.hpp"
-#include "stability/eigenvalues.hpp"
+#include "time/eigenvalues.hpp"
 
 namespace rotor_stator::deviations {
 

@@ -23,7 +23,7 @@
 #include "motion/judge.hpp"
 #include "motion/other_starts.hpp"
 #include "motion/regime.hpp"
-#include "stability/floquet.hpp"
+#include "time/floquet.hpp"
 
 namespace rotor_stator::explore {
 

@@ -7,13 +7,13 @@
 #include "balance/fourier_transform.hpp"
 #include "explore/balance_motion.hpp"
 #include "explore/settled_motion.hpp"
-#include "integration/time_stepper.hpp"
 #include "io/errors.hpp"
 #include "io/progress.hpp"
 #include "model/large_machine.hpp"
 #include "motion/closed_motion.hpp"
 #include "motion/contact.hpp"
 #include "motion/judge.hpp"
+#include "time/time_stepper.hpp"
 
 namespace rotor_stator::explore {
 

@@ -8,10 +8,10 @@
 #include "balance/bearing_problem.hpp"
 #include "balance/large_problem.hpp"
 #include "continuation/arc_length.hpp"
+#include "continuation/shooting_branch.hpp"
 #include "explore/branch_file.hpp"
 #include "explore/settled_response.hpp"
 #include "explore/spectrum.hpp"
-#include "integration/time_stepper.hpp"
 #include "io/errors.hpp"
 #include "io/output_file.hpp"
 #include "motion/adaptive.hpp"
@@ -22,7 +22,7 @@
 #include "motion/other_starts.hpp"
 #include "motion/quasi_periodic.hpp"
 #include "motion/subharmonic.hpp"
-#include "stability/shooting_branch.hpp"
+#include "time/time_stepper.hpp"
 
 namespace rotor_stator::explore {
 

@@ -6,7 +6,7 @@ The amplitude is half the peak-to-peak value over the period; the paper does not
 #pragma once
 
 #include "continuation/sweep.hpp"
-#include "integration/steady_state.hpp"
+#include "time/steady_state.hpp"
 
 namespace rotor_stator::figures {
 

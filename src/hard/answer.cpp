@@ -7,8 +7,8 @@
 #include "continuation/arc_length.hpp"
 #include "continuation/sweep.hpp"
 #include "io/errors.hpp"
-#include "stability/shooting.hpp"
 #include "time/settle.hpp"
+#include "time/shooting.hpp"
 
 namespace rotor_stator::hard {
 

@@ -7,9 +7,9 @@
 
 #include "balance/bearing_problem.hpp"
 #include "continuation/arc_length.hpp"
-#include "integration/time_stepper.hpp"
 #include "io/errors.hpp"
 #include "motion/find_periodic.hpp"
+#include "time/time_stepper.hpp"
 
 namespace rotor_stator::hard {
 

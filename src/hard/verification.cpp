@@ -7,9 +7,9 @@
 #include "balance/bearing_problem.hpp"
 #include "balance/newton.hpp"
 #include "io/errors.hpp"
-#include "stability/eigenvalues.hpp"
-#include "stability/floquet.hpp"
-#include "stability/shooting.hpp"
+#include "time/eigenvalues.hpp"
+#include "time/floquet.hpp"
+#include "time/shooting.hpp"
 
 namespace rotor_stator::hard {
 

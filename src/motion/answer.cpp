@@ -9,7 +9,7 @@
 #include "io/errors.hpp"
 #include "motion/find_periodic.hpp"
 #include "motion/judge.hpp"
-#include "stability/shooting.hpp"
+#include "time/shooting.hpp"
 
 namespace rotor_stator::motion {
 

@@ -5,8 +5,8 @@
 
 #include "io/errors.hpp"
 #include "motion/subharmonic.hpp"
-#include "stability/shooting.hpp"
 #include "time/settle.hpp"
+#include "time/shooting.hpp"
 
 namespace rotor_stator::motion {
 

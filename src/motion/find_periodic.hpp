@@ -5,8 +5,8 @@ Found by harmonic balance, from several starts. */
 #pragma once
 
 #include "balance/newton.hpp"
-#include "integration/time_stepper.hpp"
 #include "motion/motion.hpp"
+#include "time/time_stepper.hpp"
 
 namespace rotor_stator::motion {
 

@@ -9,10 +9,10 @@
 #include "balance/fourier_transform.hpp"
 #include "balance/large_problem.hpp"
 #include "balance/newton.hpp"
-#include "integration/time_stepper.hpp"
 #include "io/errors.hpp"
 #include "model/large_machine.hpp"
-#include "stability/closing.hpp"
+#include "time/closing.hpp"
+#include "time/time_stepper.hpp"
 
 namespace rotor_stator::motion {
 

@@ -13,8 +13,8 @@ than twice as far away; everything else is `undecided`.
     // verdict.word(), verdict.floquet.largest(), verdict.distance_rms */
 #pragma once
 
+#include "continuation/branch_stability.hpp"
 #include "motion/motion.hpp"
-#include "stability/branch_stability.hpp"
 #include "time/settle.hpp"
 
 namespace rotor_stator::motion {

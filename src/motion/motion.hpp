@@ -9,7 +9,7 @@ so that the two methods meet in the same table. */
 #include <vector>
 
 #include "balance/periodic_motion.hpp"
-#include "integration/steady_state.hpp"
+#include "time/steady_state.hpp"
 
 namespace rotor_stator::motion {
 

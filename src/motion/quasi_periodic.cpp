@@ -7,9 +7,9 @@
 #include <numbers>
 #include <optional>
 
-#include "integration/steady_state.hpp"
 #include "motion/lines.hpp"
-#include "stability/lyapunov.hpp"
+#include "time/lyapunov.hpp"
+#include "time/steady_state.hpp"
 
 namespace rotor_stator::motion {
 

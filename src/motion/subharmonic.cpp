@@ -6,13 +6,13 @@
 #include <numeric>
 
 #include "balance/bearing_problem.hpp"
-#include "integration/time_stepper.hpp"
 #include "io/errors.hpp"
 #include "motion/judge.hpp"
 #include "motion/other_starts.hpp"
-#include "stability/eigenvalues.hpp"
-#include "stability/shooting.hpp"
+#include "time/eigenvalues.hpp"
 #include "time/settle.hpp"
+#include "time/shooting.hpp"
+#include "time/time_stepper.hpp"
 
 namespace rotor_stator::motion {
 

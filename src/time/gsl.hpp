@@ -13,9 +13,9 @@ Nothing else in the library needs GSL's steppers. */
 #include <string>
 #include <vector>
 
-#include "integration/time_stepper.hpp"
-#include "stability/period_map.hpp"
 #include "time/flow.hpp"
+#include "time/period_map.hpp"
+#include "time/time_stepper.hpp"
 
 namespace rotor_stator {
 

@@ -5,9 +5,9 @@
 #include <cmath>
 #include <numbers>
 
-#include "integration/time_stepper.hpp"
 #include "io/errors.hpp"
 #include "time/rk4.hpp"
+#include "time/time_stepper.hpp"
 
 namespace rotor_stator {
 

@@ -6,10 +6,10 @@
 #include <limits>
 #include <numbers>
 
-#include "integration/gauss.hpp"
-#include "integration/time_stepper.hpp"
 #include "io/errors.hpp"
+#include "time/gauss.hpp"
 #include "time/rk4.hpp"
+#include "time/time_stepper.hpp"
 
 namespace rotor_stator {
 

@@ -26,8 +26,8 @@ later half of all that was integrated. */
 
 #include "io/budget.hpp"
 #include "model/base_period.hpp"
-#include "stability/lyapunov.hpp"
 #include "time/flow.hpp"
+#include "time/lyapunov.hpp"
 
 namespace rotor_stator {
 

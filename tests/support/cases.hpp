@@ -7,7 +7,7 @@ through the seam of balance/balance.hpp. M q̈ + D q̇ + K q + f(q) = F cos Ωt.
 
 #include "balance/balance.hpp"
 #include "model/parameters.hpp"
-#include "stability/floquet.hpp"
+#include "time/floquet.hpp"
 
 namespace rotor_stator::tests {
 

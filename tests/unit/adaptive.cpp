@@ -5,9 +5,9 @@
 #include "continuation/arc_length.hpp"
 #include "motion/adaptive.hpp"
 #include "motion/other_starts.hpp"
-#include "stability/shooting.hpp"
 #include "support/cases.hpp"
 #include "support/command.hpp"
+#include "time/shooting.hpp"
 
 using namespace rotor_stator;
 using namespace rotor_stator::motion;

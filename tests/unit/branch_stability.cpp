@@ -6,8 +6,8 @@
 
 #include "balance/bearing_problem.hpp"
 #include "continuation/arc_length.hpp"
+#include "continuation/branch_stability.hpp"
 #include "io/errors.hpp"
-#include "stability/branch_stability.hpp"
 #include "support/cases.hpp"
 
 using namespace rotor_stator;

@@ -2,10 +2,10 @@
 #include "support/catch.hpp"
 
 #include "balance/bearing_problem.hpp"
-#include "integration/steady_state.hpp"
 #include "io/budget.hpp"
 #include "io/errors.hpp"
 #include "support/cases.hpp"
+#include "time/steady_state.hpp"
 
 using namespace rotor_stator;
 using namespace rotor_stator::tests;

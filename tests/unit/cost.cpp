@@ -11,11 +11,11 @@
 #include "io/errors.hpp"
 #include "model/rotor_stator.hpp"
 #include "motion/find_periodic.hpp"
-#include "stability/period_map.hpp"
-#include "stability/shooting.hpp"
 #include "support/cases.hpp"
 #include "support/command.hpp"
+#include "time/period_map.hpp"
 #include "time/rk4.hpp"
+#include "time/shooting.hpp"
 
 using namespace rotor_stator;
 using namespace rotor_stator::costs;

@@ -1,13 +1,13 @@
 /** Verdicts on solutions, against motions that another shooting has closed. */
 #include "support/catch.hpp"
 
-#include "integration/time_stepper.hpp"
 #include "motion/find_periodic.hpp"
 #include "motion/judge.hpp"
 #include "motion/other_starts.hpp"
-#include "stability/closing.hpp"
-#include "stability/shooting.hpp"
 #include "support/cases.hpp"
+#include "time/closing.hpp"
+#include "time/shooting.hpp"
+#include "time/time_stepper.hpp"
 
 using namespace rotor_stator;
 using namespace rotor_stator::motion;

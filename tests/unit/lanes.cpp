@@ -6,9 +6,9 @@
 #include <memory>
 #include "support/catch.hpp"
 
-#include "integration/time_stepper.hpp"
 #include "support/cases.hpp"
 #include "time/rk4.hpp"
+#include "time/time_stepper.hpp"
 
 using namespace rotor_stator;
 using namespace rotor_stator::tests;

@@ -5,13 +5,13 @@
 #include "support/catch.hpp"
 
 #include "balance/bearing_problem.hpp"
-#include "integration/gauss.hpp"
-#include "integration/time_stepper.hpp"
 #include "model/rational_fit.hpp"
 #include "model/reduction.hpp"
 #include "motion/find_periodic.hpp"
-#include "stability/period_map.hpp"
 #include "support/cases.hpp"
+#include "time/gauss.hpp"
+#include "time/period_map.hpp"
+#include "time/time_stepper.hpp"
 
 using namespace rotor_stator;
 using namespace rotor_stator::tests;

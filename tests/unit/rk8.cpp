@@ -5,12 +5,12 @@
 #include <cstdint>
 #include "support/catch.hpp"
 
-#include "integration/time_stepper.hpp"
 #include "io/errors.hpp"
-#include "stability/period_map.hpp"
 #include "support/cases.hpp"
+#include "time/period_map.hpp"
 #include "time/rk4.hpp"
 #include "time/rk8.hpp"
+#include "time/time_stepper.hpp"
 
 using namespace rotor_stator;
 using namespace rotor_stator::tests;

@@ -5,7 +5,7 @@
 #include <numbers>
 #include "support/catch.hpp"
 
-#include "stability/lyapunov.hpp"
+#include "time/lyapunov.hpp"
 
 using namespace rotor_stator;
 

@@ -4,13 +4,13 @@
 
 #include "balance/bearing_problem.hpp"
 #include "continuation/arc_length.hpp"
-#include "integration/time_stepper.hpp"
 #include "io/errors.hpp"
 #include "motion/other_starts.hpp"
-#include "stability/eigenvalues.hpp"
-#include "stability/floquet.hpp"
-#include "stability/shooting.hpp"
 #include "support/cases.hpp"
+#include "time/eigenvalues.hpp"
+#include "time/floquet.hpp"
+#include "time/shooting.hpp"
+#include "time/time_stepper.hpp"
 
 using namespace rotor_stator;
 using namespace rotor_stator::motion;

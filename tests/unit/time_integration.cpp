@@ -4,14 +4,14 @@
 
 #include "../peers/equation7.hpp"
 #include "balance/bearing_problem.hpp"
-#include "integration/steady_state.hpp"
-#include "integration/time_stepper.hpp"
 #include "io/errors.hpp"
 #include "motion/find_periodic.hpp"
-#include "stability/period_map.hpp"
-#include "stability/shooting.hpp"
 #include "support/cases.hpp"
 #include "time/gsl.hpp"
+#include "time/period_map.hpp"
+#include "time/shooting.hpp"
+#include "time/steady_state.hpp"
+#include "time/time_stepper.hpp"
 
 using namespace rotor_stator;
 using namespace rotor_stator::tests;

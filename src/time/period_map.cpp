@@ -1,12 +1,12 @@
-#include "stability/period_map.hpp"
+#include "time/period_map.hpp"
 
 #include <algorithm>
 
-#include "integration/gauss.hpp"
-#include "integration/time_stepper.hpp"
 #include "io/errors.hpp"
+#include "time/gauss.hpp"
 #include "time/gsl.hpp"
 #include "time/rk8.hpp"
+#include "time/time_stepper.hpp"
 
 namespace rotor_stator {
 

@@ -1,13 +1,13 @@
-#include "stability/shooting_branch.hpp"
+#include "continuation/shooting_branch.hpp"
 
 #include <Eigen/LU>
 #include <algorithm>
 #include <cmath>
 #include <numbers>
 
-#include "integration/time_stepper.hpp"
 #include "io/errors.hpp"
 #include "model/rotor_stator.hpp"
+#include "time/time_stepper.hpp"
 
 namespace rotor_stator {
 

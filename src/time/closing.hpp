@@ -21,7 +21,7 @@ Steps are shortened until the next correction, by the same derivative, is smalle
 #include <string>
 #include <vector>
 
-#include "stability/period_map.hpp"
+#include "time/period_map.hpp"
 
 namespace rotor_stator {
 

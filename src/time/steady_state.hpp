@@ -18,7 +18,7 @@ more, which are recorded.
 #include <algorithm>
 #include <vector>
 
-#include "integration/time_stepper.hpp"
+#include "time/time_stepper.hpp"
 
 namespace rotor_stator {
 

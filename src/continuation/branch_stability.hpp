@@ -21,7 +21,7 @@ Kuznetsov (2004), sections 10.2 and 10.3. */
 #include <string>
 
 #include "continuation/branch.hpp"
-#include "stability/floquet.hpp"
+#include "time/floquet.hpp"
 
 namespace rotor_stator {
 

@@ -1,12 +1,12 @@
-#include "stability/shooting.hpp"
+#include "time/shooting.hpp"
 
 #include <Eigen/LU>
 #include <functional>
 #include <memory>
 
-#include "integration/time_stepper.hpp"
 #include "io/errors.hpp"
-#include "stability/period_map.hpp"
+#include "time/period_map.hpp"
+#include "time/time_stepper.hpp"
 
 namespace rotor_stator {
 

@@ -1,4 +1,4 @@
-#include "stability/lyapunov.hpp"
+#include "time/lyapunov.hpp"
 
 #include <algorithm>
 #include <cmath>

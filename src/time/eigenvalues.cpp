@@ -1,4 +1,4 @@
-#include "stability/eigenvalues.hpp"
+#include "time/eigenvalues.hpp"
 
 #include <Eigen/Eigenvalues>
 

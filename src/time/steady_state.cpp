@@ -1,4 +1,4 @@
-#include "integration/steady_state.hpp"
+#include "time/steady_state.hpp"
 
 #include <algorithm>
 #include <cmath>

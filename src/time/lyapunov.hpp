@@ -15,8 +15,8 @@ of ten batches of them gives the standard error. */
 #include <functional>
 #include <vector>
 
-#include "integration/steady_state.hpp"
-#include "stability/period_map.hpp"
+#include "time/period_map.hpp"
+#include "time/steady_state.hpp"
 
 namespace rotor_stator {
 

@@ -1,14 +1,14 @@
-#include "stability/floquet.hpp"
+#include "time/floquet.hpp"
 
 #include <algorithm>
 #include <cmath>
 #include <numbers>
 
 #include "balance/fourier_transform.hpp"
-#include "integration/time_stepper.hpp"
 #include "io/errors.hpp"
-#include "stability/eigenvalues.hpp"
-#include "stability/period_map.hpp"
+#include "time/eigenvalues.hpp"
+#include "time/period_map.hpp"
+#include "time/time_stepper.hpp"
 
 namespace rotor_stator {
 

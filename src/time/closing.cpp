@@ -1,4 +1,4 @@
-#include "stability/closing.hpp"
+#include "time/closing.hpp"
 
 #include <Eigen/LU>
 #include <algorithm>

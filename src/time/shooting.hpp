@@ -14,7 +14,7 @@ of harmonic balance, and an independent check of it. */
 
 #include <optional>
 
-#include "stability/period_map.hpp"
+#include "time/period_map.hpp"
 
 namespace rotor_stator {
 

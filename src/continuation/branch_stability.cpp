@@ -1,4 +1,4 @@
-#include "stability/branch_stability.hpp"
+#include "continuation/branch_stability.hpp"
 
 #include <algorithm>
 #include <cmath>

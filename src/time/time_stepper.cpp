@@ -1,11 +1,11 @@
-#include "integration/time_stepper.hpp"
+#include "time/time_stepper.hpp"
 
 #include <algorithm>
 #include <memory>
 #include <numbers>
 
-#include "integration/gauss.hpp"
 #include "io/errors.hpp"
+#include "time/gauss.hpp"
 #include "time/gsl.hpp"
 #include "time/rk4.hpp"
 #include "time/rk8.hpp"

@@ -1,4 +1,4 @@
-#include "integration/gauss.hpp"
+#include "time/gauss.hpp"
 
 #include <Eigen/Eigenvalues>
 #include <Eigen/LU>

@@ -6,7 +6,7 @@ length along the tangent. Φ comes from the variational equations, ∂P/∂ω fr
 same number of steps in all maps of one correction, so that P depends smoothly on the speed. */
 #pragma once
 
-#include "stability/shooting.hpp"
+#include "time/shooting.hpp"
 
 namespace rotor_stator {
 
