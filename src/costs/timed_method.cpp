@@ -1,5 +1,6 @@
 #include "costs/timed_method.hpp"
 
+#include <gsl/gsl_fit.h>
 #include <time.h>
 #include <algorithm>
 #include <cmath>
@@ -373,8 +374,6 @@ class ShootingSweep : public Integration {
                                    .final_derivative = false},
                                   &jacobian_);
     counts_.force_instants += result.evaluations;
-    counts_.maps += result.maps;
-    counts_.derivatives += result.derivatives;
     return result.converged;
   }
 
@@ -425,6 +424,17 @@ MotionError error_up_to(double bound, const References& sweep, const Setting& se
     return error.displacement <= bound;
   });
   return error;
+}
+
+double fitted_exponent(const std::vector<double>& x, const std::vector<double>& y)
+{
+  std::vector<double> log_x, log_y;
+  for (double value : x) log_x.push_back(std::log(value));
+  for (double value : y) log_y.push_back(std::log(value));
+  double level, slope, var_level, covariance, var_slope, squares;
+  gsl_fit_linear(log_x.data(), 1, log_y.data(), 1, x.size(), &level, &slope, &var_level,
+                 &covariance, &var_slope, &squares);
+  return slope;
 }
 
 }  // namespace rotor_stator::costs

@@ -67,8 +67,6 @@ struct Counts {
   long force_instants = 0;   ///< evaluations of the bearing's force, one instant each
   long transforms = 0;       ///< Fourier transforms of one series
   long transformed = 0;      ///< samples of all of them
-  int maps = 0;              ///< periods integrated by shooting
-  int derivatives = 0;       ///< of them with the variational equations
   double force_seconds = 0;  ///< in the bearing's force, of a profiled aft run [s]
 };
 
@@ -115,6 +113,9 @@ Measurement measure(const References& sweep, const Setting& setting, int repetit
 /** The largest error over the speeds, as far as it is not above `bound`: the run ends at the first
     speed that is. */
 MotionError error_up_to(double bound, const References& sweep, const Setting& setting);
+
+/** p of y = a x^p by least squares of the logarithms; two points at least, all positive. */
+double fitted_exponent(const std::vector<double>& x, const std::vector<double>& y);
 
 /** For headers of tables: what is timed. */
 inline constexpr const char* what_is_timed =

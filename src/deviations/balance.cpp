@@ -1,8 +1,7 @@
-#include "deviations/balance.hpp"
-
 #include "balance/bearing_problem.hpp"
 #include "balance/fourier_transform.hpp"
 #include "continuation/arc_length.hpp"
+#include "deviations/evidence.hpp"
 #include "deviations/printed_equations.hpp"
 #include "io/errors.hpp"
 

@@ -1,9 +1,8 @@
-#include "deviations/continuation.hpp"
-
 #include <cmath>
 
 #include "balance/bearing_problem.hpp"
 #include "continuation/sweep.hpp"
+#include "deviations/evidence.hpp"
 #include "deviations/printed_equations.hpp"
 #include "io/errors.hpp"
 

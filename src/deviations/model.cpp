@@ -1,8 +1,7 @@
-#include "deviations/model.hpp"
-
 #include <cmath>
 #include <numbers>
 
+#include "deviations/evidence.hpp"
 #include "deviations/printed_equations.hpp"
 #include "io/errors.hpp"
 #include "model/hertz.hpp"

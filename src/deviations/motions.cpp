@@ -1,10 +1,9 @@
-#include "deviations/motions.hpp"
-
 #include <cmath>
 #include <numbers>
 
 #include "balance/fourier_transform.hpp"
 #include "continuation/sweep.hpp"
+#include "deviations/evidence.hpp"
 #include "deviations/printed_equations.hpp"
 #include "io/errors.hpp"
 #include "motion/contact.hpp"

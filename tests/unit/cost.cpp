@@ -4,7 +4,6 @@
 #include <filesystem>
 #include "support/catch.hpp"
 
-#include "costs/cost_growth.hpp"
 #include "costs/equal_error.hpp"
 #include "costs/timing.hpp"
 #include "costs/work_precision.hpp"
@@ -184,19 +183,13 @@ double error_apart(const Parameters& parameters, const std::vector<double>& freq
 
 TEST_CASE("Below the transition a short transient is a start from which Newton converges")
 {
-  Setting setting{
-      .method = "aft", .harmonics = 96, .samples_per_harmonic = 4, .tolerance = 1e-6};
-  const std::vector<double> frequencies{9.5, 10, 10.5};
-  const auto evaluations = [&] {
-    const auto method = timed_method({set_1(), frequencies}, setting);
-    method->run();
-    return method->counts().transforms;
-  };
-  const long predicted = evaluations();
-  setting.transient = 0.5;
+  const Setting setting{.method = "aft",
+                        .harmonics = 96,
+                        .samples_per_harmonic = 4,
+                        .tolerance = 1e-6,
+                        .transient = 0.5};
   CHECK(setting.text() == "m=96 N>4m tol=1e-06 transient=0.5");
-  CHECK(error_apart(set_1(), frequencies, setting) < 1e-3);
-  CHECK(evaluations() < predicted);
+  CHECK(error_apart(set_1(), {9.5, 10, 10.5}, setting) < 1e-3);
 }
 
 TEST_CASE("Equal error: what the table calls reached is reached, and aft is its unit")
