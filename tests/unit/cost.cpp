@@ -201,7 +201,6 @@ TEST_CASE("Equal error: what the table calls reached is reached, and aft is its 
                         .paper_ratios = {9},
                         .candidates = {},
                         .repetitions = 1,
-                        .long_run = 10,
                         .search = 100,
                         .truth = truth_settings()};
   const Setting aft{
