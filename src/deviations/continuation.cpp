@@ -1,3 +1,7 @@
+/**
+# Evidence on continuation (§3.2)
+
+Predictor, arc length, tolerance, step, cost. */
 #include <cmath>
 
 #include "balance/bearing_problem.hpp"

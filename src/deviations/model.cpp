@@ -1,3 +1,7 @@
+/**
+# Evidence on the model (§2 and Table 1)
+
+Contact, readings, masses. */
 #include <cmath>
 #include <numbers>
 

@@ -1,3 +1,7 @@
+/**
+# Evidence on the motions (§3.3)
+
+Amplitudes, cage, time integration, figures. */
 #include <cmath>
 #include <numbers>
 
