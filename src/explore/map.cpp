@@ -423,12 +423,12 @@ public:
     if (verdict().found()) return verdict().distance_rms;
     const rotor_stator::Settled& there = verdict().from_there;
     if (there.kind == Kind::undecided) throw NoSolution(verdict().reason);
-    const TimeStepper stepper = make_stepper(
-        machine, omega(),
-        {.method = "rk4", .intervals_per_period = instants, .budget = budget_});
+    const auto stepper =
+        flow(machine, omega(),
+             {.method = "rk4", .intervals_per_period = instants, .budget = budget_});
     State state = there.at.state;
     const motion::Motion settled = motion::recorded(
-        stepper, instants, state, there.at.period, std::max(1, there.period) * 40);
+        *stepper, instants, state, there.at.period, std::max(1, there.period) * 40);
     return motion::rms_difference(motion::motion_of(solution(), instants), settled);
   }
 

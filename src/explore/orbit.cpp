@@ -13,7 +13,7 @@
 #include "motion/closed_motion.hpp"
 #include "motion/contact.hpp"
 #include "motion/judge.hpp"
-#include "time/time_stepper.hpp"
+#include "time/flow.hpp"
 
 namespace rotor_stator::explore {
 

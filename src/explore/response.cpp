@@ -22,7 +22,7 @@
 #include "motion/other_starts.hpp"
 #include "motion/quasi_periodic.hpp"
 #include "motion/subharmonic.hpp"
-#include "time/time_stepper.hpp"
+#include "time/flow.hpp"
 
 namespace rotor_stator::explore {
 

@@ -12,7 +12,7 @@
 #include "io/errors.hpp"
 #include "model/large_machine.hpp"
 #include "time/closing.hpp"
-#include "time/time_stepper.hpp"
+#include "time/flow.hpp"
 
 namespace rotor_stator::motion {
 
@@ -109,7 +109,7 @@ public:
   /** One period, each eighth from its own state. */
   Motion record(const Eighths& motion, int instants)
   {
-    const TimeStepper stepper = make_stepper(
+    const auto stepper = flow(
         parameters_, omega_,
         {.intervals_per_period = instants, .tolerance = local_error, .budget = budget_});
     Motion record{instants, 0, {}};
@@ -117,10 +117,10 @@ public:
       State state = motion[static_cast<std::size_t>(k * eighths / instants)];
       for (const int end = k + instants / eighths; k < end; ++k) {
         motion::add(record, state);
-        stepper.advance(k, state);
+        stepper->advance(k, state);
       }
     }
-    evaluations_ += static_cast<double>(stepper.evaluations());
+    evaluations_ += static_cast<double>(stepper->evaluations());
     return record;
   }
 
@@ -311,13 +311,13 @@ void add_settled(const Parameters& parameters, double omega, const State& state,
 Eighths eighths_from(const Parameters& parameters, double omega, State state,
                      const OperationBudget& budget)
 {
-  const TimeStepper stepper = make_stepper(
-      parameters, omega,
-      {.intervals_per_period = eighths, .tolerance = local_error, .budget = budget});
+  const auto stepper =
+      flow(parameters, omega,
+           {.intervals_per_period = eighths, .tolerance = local_error, .budget = budget});
   Eighths at;
   for (int k = 0; k < eighths; ++k) {
     at.push_back(state);
-    stepper.advance(k, state);
+    stepper->advance(k, state);
   }
   return at;
 }

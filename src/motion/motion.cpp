@@ -138,10 +138,10 @@ Motion motion_of(const SteadyState& steady, int points_per_period)
 }
 
 Motion one_period(const Parameters& parameters, double omega, State state,
-                  const StepperSettings& settings)
+                  const StepSettings& settings)
 {
-  const TimeStepper stepper = make_stepper(parameters, omega, settings);
-  Motion motion = recorded(stepper, settings.intervals_per_period, state);
+  const auto stepper = flow(parameters, omega, settings);
+  Motion motion = recorded(*stepper, settings.intervals_per_period, state);
   motion.omega = omega;
   return motion;
 }

@@ -3,10 +3,10 @@
 #include <algorithm>
 
 #include "io/errors.hpp"
+#include "time/flow.hpp"
 #include "time/gauss.hpp"
 #include "time/gsl.hpp"
 #include "time/rk8.hpp"
-#include "time/time_stepper.hpp"
 
 namespace rotor_stator {
 

@@ -9,9 +9,9 @@
 #include "model/reduction.hpp"
 #include "motion/find_periodic.hpp"
 #include "support/cases.hpp"
+#include "time/flow.hpp"
 #include "time/gauss.hpp"
 #include "time/period_map.hpp"
-#include "time/time_stepper.hpp"
 
 using namespace rotor_stator;
 using namespace rotor_stator::tests;
