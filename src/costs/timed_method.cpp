@@ -371,8 +371,8 @@ class ShootingSweep : public Integration {
                                   {.method = stepper_method_,
                                    .tolerance = setting_.tolerance,
                                    .step = setting_.step,
-                                   .periodicity_residual = setting_.periodicity_residual,
-                                   .final_derivative = false},
+                                   .closed = setting_.periodicity_residual,
+                                   .quasi_newton = true},
                                   &jacobian_);
     counts_.force_instants += result.evaluations;
     counts_.maps += result.maps;

@@ -35,8 +35,11 @@ void set_stability(double multiplier, double change, Check& check)
 /** Φ at a state. */
 Matrix8 map_derivative(const HardCase& hard, const State& state, double tolerance)
 {
-  return period_map(hard.machine, angular(hard.frequency), state, tolerance, "rk8pd",
-                    budget_of(hard, "rk8pd", shooting_evaluations))
+  return period_map(hard.machine, angular(hard.frequency), state,
+                    {.method = "rk8pd",
+                     .intervals_per_period = 1,
+                     .tolerance = tolerance,
+                     .budget = budget_of(hard, "rk8pd", shooting_evaluations)})
       .derivative;
 }
 
@@ -48,7 +51,7 @@ bool check_by_shooting(const HardCase& hard, const Answer& answer, Check& check)
   const Shooting shooting =
       shoot(hard.machine, omega, state,
             {.tolerance = 1e-11,
-             .periodicity_residual = 1e-9,
+             .closed = 1e-9,
              .most_maps = 30,
              .budget = budget_of(hard, "rk8pd", shooting_evaluations)});
   if (!shooting.converged) return false;

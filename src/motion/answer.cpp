@@ -55,14 +55,10 @@ public:
   {
     constexpr double near = 1e-2;  ///< of the sizes: farther away it is another one
     State closed = state;
-    const Shooting shooting =
-        shoot(machine_, omega_, closed,
-              {.tolerance = local_error,
-               .periodicity_residual = std::max(1e-9, 10 * local_error),
-               .speed_weight = 5,
-               .quasi_newton = false,
-               .final_derivative = false,
-               .budget = budget_});
+    const Shooting shooting = shoot(machine_, omega_, closed,
+                                    {.tolerance = local_error,
+                                     .closed = std::max(1e-9, 10 * local_error),
+                                     .budget = budget_});
     if (!shooting.converged || !(apart(machine_, closed, state) < near)) return false;
     state = closed;
     return true;

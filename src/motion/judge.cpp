@@ -11,8 +11,7 @@
 #include "balance/newton.hpp"
 #include "io/errors.hpp"
 #include "model/large_machine.hpp"
-#include "time/closing.hpp"
-#include "time/flow.hpp"
+#include "time/shooting.hpp"
 
 namespace rotor_stator::motion {
 
@@ -71,14 +70,12 @@ public:
   {
   }
 
-  Closing roughly(Eighths& motion, std::optional<int> alone = {})
+  Shooting roughly(Eighths& motion, std::optional<int> alone = {})
   {
-    return add(close(parameters_, omega_, motion,
-                     {.local_error = rough_error,
-                      .closed = roughly_closed,
-                      .most_maps = alone ? 10 : 20,
-                      .budget = budget_,
-                      .alone = alone}));
+    return shot(motion, {.tolerance = rough_error,
+                         .closed = roughly_closed,
+                         .most_maps = alone ? 10 : 20,
+                         .alone = alone});
   }
 
   /** The motion near `start` and its multipliers, whose uncertainty is what a second
@@ -87,10 +84,9 @@ public:
   {
     ClosedMotion motion{start};
     const auto closed = [&](double error, double wanted) {
-      const Closing closing =
-          add(close(parameters_, omega_, motion.at,
-                    {.local_error = error, .closed = wanted, .budget = budget_}));
-      if (!closing.closed) throw NoSolution(closing.reason);
+      const Shooting closing =
+          shot(motion.at, {.tolerance = error, .closed = wanted, .most_maps = 20});
+      if (!closing.converged) throw NoSolution(closing.reason);
       return multipliers_of(closing.derivative);
     };
     Floquet& floquet = motion.floquet;
@@ -128,10 +124,12 @@ public:
   double evaluations() const { return evaluations_; }
 
 private:
-  Closing add(Closing closing)
+  Shooting shot(Eighths& motion, ShootingSettings settings)
   {
-    evaluations_ += static_cast<double>(closing.evaluations);
-    return closing;
+    settings.budget = budget_;
+    const Shooting shooting = shoot(parameters_, omega_, motion, settings);
+    evaluations_ += static_cast<double>(shooting.evaluations);
+    return shooting;
   }
 
   const Parameters& parameters_;
@@ -157,23 +155,23 @@ public:
   void run(const std::vector<Eighths>& further = {})
   {
     Eighths motion = start_;
-    Closing own = closer_.roughly(motion);
+    Shooting own = closer_.roughly(motion);
     if (own.first.size() > 0) own_distance_ = distance_of(own.first);
-    if (!own.closed) {
+    if (!own.converged) {
       motion = raised();
       const double away = apart(motion, start_, closer_.size());
       own = closer_.roughly(motion);
-      if (own.closed) own_distance_ = away + distance_of(own.first);
+      if (own.converged) own_distance_ = away + distance_of(own.first);
     }
     reason_ = own.reason;
-    if (own.closed) add(motion);
+    if (own.converged) add(motion);
     for (Eighths other : further)
-      if (closer_.roughly(other).closed) add(other);
+      if (closer_.roughly(other).converged) add(other);
     /** Where Newton converges at once no other motion is as near. */
     if (motions_.size() == 1 && own.contraction < quick) return;
     for (int k = 0; k < eighths && !budget_.used_up(); ++k) {
       motion = start_;
-      if (closer_.roughly(motion, k).closed) add(motion);
+      if (closer_.roughly(motion, k).converged) add(motion);
     }
     if (motions_.empty() && budget_.used_up()) reason_ = "the budget is used up";
   }
@@ -428,14 +426,14 @@ private:
 
 }  // namespace
 
-BranchStability machine_stability(const Parameters& parameters, Balance& balance,
+BranchStability machine_stability(const Parameters& parameters, Curve& curve,
                                   const Branch& branch,
                                   const ArcLengthSettings& arc_length,
                                   const OperationBudget& budget)
 {
   const double width = 0.004 * joint_resonance(parameters) / parameters.turns;
   Along multipliers(parameters, budget);
-  return stability_along(balance, branch, arc_length, std::ref(multipliers),
+  return stability_along(curve, branch, arc_length, std::ref(multipliers),
                          {.chosen = evenly_chosen(branch, width, 2), .widest = width});
 }
 

@@ -59,7 +59,7 @@ Floquet multipliers_through(const Parameters& parameters, double omega,
     points no further apart than 0.4 % of the joint resonance, because they change over
     less speed than the curve of few harmonics does. A point costs at most 4 % of
     `budget`, at least 2e6 and at most 8e7 evaluations. */
-BranchStability machine_stability(const Parameters& parameters, Balance& balance,
+BranchStability machine_stability(const Parameters& parameters, Curve& curve,
                                   const Branch& branch,
                                   const ArcLengthSettings& arc_length,
                                   const OperationBudget& budget = {});

@@ -13,7 +13,6 @@ Nothing else in the library needs GSL's steppers. */
 #include <string>
 #include <vector>
 
-#include "time/flow.hpp"
 #include "time/period_map.hpp"
 
 namespace rotor_stator {
@@ -26,8 +25,7 @@ std::unique_ptr<Flow> gsl_flow(const Parameters& parameters, double omega,
 
 /** `period_map` by one of the explicit methods. */
 PeriodMap gsl_period_map(const Parameters& parameters, double omega, const State& start,
-                         double tolerance, const std::string& method,
-                         const OperationBudget& budget);
+                         const StepSettings& settings, long interval);
 
 /** ∂(Eq. 7)/∂y, 8 × 8 by rows, and ∂(Eq. 7)/∂t at y = (x_s, y_s, x_r, y_r, and their
     speeds): what the implicit methods ask for. */

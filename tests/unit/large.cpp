@@ -52,9 +52,12 @@ TEST_CASE("The stepper of Gauss follows Eq. 7, and so does its derivative")
   const Parameters plain = set_1(), large = set_1_by_matrices();
   const State start = motion::state_of(
       motion::find_periodic({.parameters = plain, .omega = hertz(45), .harmonics = 20}));
-  const PeriodMap exact = period_map(plain, hertz(45), start, 1e-13);
+  const PeriodMap exact = period_map(plain, hertz(45), start,
+                                     {.intervals_per_period = 1, .tolerance = 1e-13});
   const auto off = [&](double tolerance) {
-    return (vector_of(period_map(large, hertz(45), start, tolerance).end) -
+    return (vector_of(period_map(large, hertz(45), start,
+                                 {.intervals_per_period = 1, .tolerance = tolerance})
+                          .end) -
             vector_of(exact.end))
                .head<4>()
                .norm() /
@@ -62,7 +65,8 @@ TEST_CASE("The stepper of Gauss follows Eq. 7, and so does its derivative")
   };
   CHECK(off(1e-6) < 1e-3);
   CHECK(off(1e-12) < 1e-8);
-  const PeriodMap varied = period_map(large, hertz(45), start, 1e-13);
+  const PeriodMap varied = period_map(large, hertz(45), start,
+                                      {.intervals_per_period = 1, .tolerance = 1e-13});
   const auto sizes = state_scales(plain);
   const auto scaled = [&](const Eigen::MatrixXd& phi) -> Eigen::MatrixXd {
     return sizes.cwiseInverse().asDiagonal() * phi * sizes.asDiagonal();

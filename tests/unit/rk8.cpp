@@ -174,8 +174,11 @@ TEST_CASE("rk8 goes where GSL's rk8pd goes, and so do their disturbances")
   CHECK(distance(machine, ours, start) > 1e-3);
 
   const Vector8 sizes = state_scales(machine);
-  const PeriodMap map = period_map(machine, omega, start, 1e-14),
-                  other = period_map(machine, omega, start, 1e-14, "rk8pd");
+  const PeriodMap map = period_map(machine, omega, start,
+                                   {.intervals_per_period = 1, .tolerance = 1e-14}),
+                  other = period_map(
+                      machine, omega, start,
+                      {.method = "rk8pd", .intervals_per_period = 1, .tolerance = 1e-14});
   CHECK(distance(machine, map.end, other.end) < near);
   const Matrix8 apart = sizes.cwiseInverse().asDiagonal() *
                         (map.derivative - other.derivative) * sizes.asDiagonal();
