@@ -18,6 +18,7 @@
 #include "motion/adaptive.hpp"
 #include "motion/closed_motion.hpp"
 #include "motion/contact.hpp"
+#include "motion/branch_verdicts.hpp"
 #include "motion/judge.hpp"
 #include "motion/motion.hpp"
 #include "motion/other_starts.hpp"
