@@ -65,23 +65,6 @@ NewtonEnd Corrector::verdict(const Correction& correction, double length,
              : NewtonEnd::too_many_iterations;
 }
 
-bool Corrector::approach(double length, Eigen::VectorXd& predicted,
-                         Eigen::VectorXd& tangent)
-{
-  constexpr double near = 0.02, rough = 1e-2;
-  Eigen::VectorXd right(n_ + 1);
-  right << -curve_.residual(predicted, true), 0;
-  const Eigen::VectorXd direction = tangent;
-  if (!refine(predicted, rough, tangent)) {
-    factor(predicted, direction);
-    tangent = factors_.solve(Eigen::VectorXd::Unit(n_ + 1, n_));
-  }
-  tangent.normalize();
-  const Eigen::VectorXd step = factors_.solve(right);
-  predicted += step;
-  return step.norm() <= near * length;
-}
-
 Correction Corrector::correct(const Eigen::VectorXd& direction,
                               const Eigen::VectorXd& predicted)
 {

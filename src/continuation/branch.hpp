@@ -114,10 +114,6 @@ public:
   /** Newton on the curve and direction·(y - predicted) = 0, from `predicted`. */
   Correction correct(const Eigen::VectorXd& direction, const Eigen::VectorXd& predicted);
 
-  /** One correction only, by the factors of a point nearby, and the tangent of `predicted` from a guess: for a look at a
-      point that is nearly there. False where the correction is not much shorter than `length`. */
-  bool approach(double length, Eigen::VectorXd& predicted, Eigen::VectorXd& tangent);
-
   /** At y, on the side of `previous`. */
   Tangent tangent(const Eigen::VectorXd& y, const Eigen::VectorXd& previous);
 

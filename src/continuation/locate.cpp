@@ -148,16 +148,10 @@ bool turns_between(Corrector& corrector, const BranchPoint& a, const BranchPoint
       std::min(std::abs(a.speed_direction()), std::abs(b.speed_direction()));
   if (steep > angle(a.tangent, b.tangent)) return false;
   const Eigen::VectorXd direction = (a.tangent + b.tangent).normalized();
-  BranchPoint middle{.motion = {}, .arc = 0.5 * (a.arc + b.arc), .tangent = direction};
-  Eigen::VectorXd y = between(a, b, 0.5, settings);
-  if (corrector.approach(b.arc - a.arc, y, middle.tangent)) {
-    middle.motion.omega = y[y.size() - 1] * settings.speed_scale;
-  } else {
-    Correction correction = corrector.correct(direction, between(a, b, 0.5, settings));
-    if (!correction.motion.found()) return true;
-    middle.tangent = corrector.tangent(correction.y, direction).direction;
-    middle.motion = std::move(correction.motion);
-  }
+  Correction correction = corrector.correct(direction, between(a, b, 0.5, settings));
+  if (!correction.motion.found()) return true;
+  const BranchPoint middle{std::move(correction.motion), 0.5 * (a.arc + b.arc),
+                           corrector.tangent(correction.y, direction).direction};
   return middle.speed_direction() * (a.speed_direction() + b.speed_direction()) < 0 ||
          cubic_turns(a, middle, settings.speed_scale) ||
          cubic_turns(middle, b, settings.speed_scale);
