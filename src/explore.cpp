@@ -203,7 +203,7 @@ std::function<void()> add_response_options(CLI::App& command, ResponseRequest& r
   command
       .add_option("--method", request.method,
                   "auto (what the machine does, speed by speed), or a branch of periodic "
-                  "solutions: aft (harmonic balance), shooting (rk4)")
+                  "solutions: aft (harmonic balance), shooting")
       ->capture_default_str();
   aft.push_back(add_subharmonic(command, request));
   CLI::Option* tolerance =

@@ -152,7 +152,7 @@ private:
         continue;
       }
       const double left = norm(factors_.solve(next.open)) / size;
-      if (!(left <= 1 - length / 2)) continue;
+      if (!(left <= (settings_.quasi_newton ? 1 : 1 - length / 2))) continue;
       if (is_first && length == 1) report_.contraction = left;
       length_ = length;
       y_ = y;
