@@ -29,7 +29,7 @@ or one of the time integrators. A table on stdout, errors on stderr. */
 #include "explore/spectrum.hpp"
 #include "io/errors.hpp"
 #include "io/program.hpp"
-#include "time/time_stepper.hpp"
+#include "time/flow.hpp"
 
 namespace {
 

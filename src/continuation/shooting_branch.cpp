@@ -7,7 +7,7 @@
 
 #include "io/errors.hpp"
 #include "model/rotor_stator.hpp"
-#include "time/time_stepper.hpp"
+#include "time/flow.hpp"
 
 namespace rotor_stator {
 

@@ -99,13 +99,13 @@ void check_shooting(const HardCase& hard, const Answer& answer, Check& check)
 {
   const double omega = angular(hard.frequency);
   floquet_by_map(hard, answer.state, check);
-  const TimeStepper stepper = make_stepper(hard.machine, omega,
-                                           {.method = "rk4",
-                                            .intervals_per_period = compared_points,
-                                            .step = default_step(hard.machine) / 4,
-                                            .budget = budget_of(hard, "rk4", 2e8)});
+  const auto stepper = flow(hard.machine, omega,
+                            {.method = "rk4",
+                             .intervals_per_period = compared_points,
+                             .step = default_step(hard.machine) / 4,
+                             .budget = budget_of(hard, "rk4", 2e8)});
   State state = answer.state;
-  motion::recorded(stepper, compared_points, state);
+  motion::recorded(*stepper, compared_points, state);
   const Vector8 start = vector_of(answer.state), sizes = state_scales(hard.machine);
   const Vector8 open = vector_of(state) - start;
   const Matrix8 scaled = sizes.cwiseInverse().asDiagonal() *
@@ -114,8 +114,8 @@ void check_shooting(const HardCase& hard, const Answer& answer, Check& check)
       (scaled - Matrix8::Identity()).partialPivLu().solve(open.cwiseQuotient(sizes)));
   check.by = "rk4, a quarter of the step";
   state = state_of(Vector8(start - correction));
-  check.error =
-      motion_difference(answer.motion, motion::recorded(stepper, compared_points, state));
+  check.error = motion_difference(answer.motion,
+                                  motion::recorded(*stepper, compared_points, state));
 }
 
 void check_rk4(const HardCase& hard, const Answer& answer, Check& check)

@@ -140,21 +140,21 @@ public:
       const bool has_step = request_.method == "auto" || request_.method == "rk4";
       const double step =
           request_.step > 0 ? request_.step : step_at(answer_.machine, answer_.omega);
-      return make_stepper(answer_.machine, answer_.omega,
-                          {.method = has_step ? "rk4" : request_.method,
-                           .intervals_per_period = intervals,
-                           .step = step / finer,
-                           .tolerance = request_.local_error / (finer * finer),
-                           .budget = budget_});
+      return flow(answer_.machine, answer_.omega,
+                  {.method = has_step ? "rk4" : request_.method,
+                   .intervals_per_period = intervals,
+                   .step = step / finer,
+                   .tolerance = request_.local_error / (finer * finer),
+                   .budget = budget_});
     };
     const Settled& settled = answer_.settled;
     const Instant& from = settled.contracts ? settled.before : settled.at;
     State state = from.state;
-    const TimeStepper whole = stepper(1), parts = stepper(request_.points);
-    for (long k = from.period; k < settled.at.period; ++k) whole.advance(k, state);
-    Motion motion = recorded(parts, request_.points, state, settled.at.period, periods_);
+    const auto whole = stepper(1), parts = stepper(request_.points);
+    for (long k = from.period; k < settled.at.period; ++k) whole->advance(k, state);
+    Motion motion = recorded(*parts, request_.points, state, settled.at.period, periods_);
     motion.omega = answer_.omega;
-    evaluations_ += static_cast<double>(whole.evaluations() + parts.evaluations());
+    evaluations_ += static_cast<double>(whole->evaluations() + parts->evaluations());
     return motion;
   }
   double evaluations() const { return evaluations_; }
@@ -238,9 +238,8 @@ void complete(Answer& answer, const Request& request, const OperationBudget& bud
 Answer answer(const Parameters& parameters, const Request& request,
               const OperationBudget& budget)
 {
-  /** The record of large bodies costs as much as their transient. */
-  const double share = parameters.large ? 0.4 : 0.7;
-  Answer found = settled_answer(parameters, request, budget.part(share));
+  Answer found = settled_answer(parameters, request,
+                                budget.part(parameters.machine->patience().transient));
   complete(found, request, budget);
   return found;
 }
@@ -296,7 +295,9 @@ Observation observe(const Answer& answer, const OperationBudget& budget)
   const double period = 2 * std::numbers::pi / answer.omega;
   const int intervals = static_cast<int>(std::clamp(
       std::ceil(period / (2 * step_at(answer.machine, answer.omega))), 192.0, 1e6));
-  const auto flow = fixed_step_flow(answer.machine, answer.omega, intervals, 0, budget);
+  const auto steps =
+      flow(answer.machine, answer.omega,
+           {.method = "rk4", .intervals_per_period = intervals, .budget = budget});
   State state = answer.settled.at.state;
   long k = answer.settled.at.period * intervals;
   std::vector<PeriodSums> periods;
@@ -308,7 +309,7 @@ Observation observe(const Answer& answer, const OperationBudget& budget)
     PeriodSums& one = periods.emplace_back(PeriodSums{q, q});
     for (int j = 0; j < intervals; ++j) {
       const State before = state;
-      flow->advance(k++, state);
+      steps->advance(k++, state);
       const Displacements from = displacements(before.position),
                           from_speed = displacements(before.velocity),
                           speed = displacements(state.velocity);

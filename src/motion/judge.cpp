@@ -7,12 +7,10 @@
 
 #include "balance/bearing_problem.hpp"
 #include "balance/fourier_transform.hpp"
-#include "balance/large_problem.hpp"
 #include "balance/newton.hpp"
 #include "io/errors.hpp"
-#include "model/large_machine.hpp"
 #include "time/closing.hpp"
-#include "time/time_stepper.hpp"
+#include "time/flow.hpp"
 
 namespace rotor_stator::motion {
 
@@ -38,8 +36,7 @@ struct ClosedMotion {
 /** The solution's states at eight phases, from the series of all coordinates. */
 Eighths eighths_of(const Parameters& parameters, const PeriodicMotion& solution)
 {
-  const Eigen::MatrixXd series =
-      parameters.large ? coordinate_series(parameters, solution) : solution.bodies;
+  const Eigen::MatrixXd series = parameters.machine->all_series(parameters, solution);
   const Eigen::MatrixXd q = sample_series(series, eighths);
   const Eigen::MatrixXd v =
       solution.omega * sample_series(differentiate(series), eighths);
@@ -99,9 +96,8 @@ public:
     floquet.change = largest_move(floquet.multipliers, first);
     /** Receptances that are wrong by ε move no exponent by more than ε times the
         contact's frequency. */
-    if (parameters_.large)
-      floquet.change += parameters_.large->reduction_error *
-                        contact_frequency(parameters_) * angular(1) / omega_;
+    floquet.change += parameters_.machine->reduction_error() *
+                      contact_frequency(parameters_) * angular(1) / omega_;
     floquet.settled = floquet.change <= 0.1;
     return motion;
   }
@@ -109,7 +105,7 @@ public:
   /** One period, each eighth from its own state. */
   Motion record(const Eighths& motion, int instants)
   {
-    const TimeStepper stepper = make_stepper(
+    const auto stepper = flow(
         parameters_, omega_,
         {.intervals_per_period = instants, .tolerance = local_error, .budget = budget_});
     Motion record{instants, 0, {}};
@@ -117,10 +113,10 @@ public:
       State state = motion[static_cast<std::size_t>(k * eighths / instants)];
       for (const int end = k + instants / eighths; k < end; ++k) {
         motion::add(record, state);
-        stepper.advance(k, state);
+        stepper->advance(k, state);
       }
     }
-    evaluations_ += static_cast<double>(stepper.evaluations());
+    evaluations_ += static_cast<double>(stepper->evaluations());
     return record;
   }
 
@@ -311,13 +307,13 @@ void add_settled(const Parameters& parameters, double omega, const State& state,
 Eighths eighths_from(const Parameters& parameters, double omega, State state,
                      const OperationBudget& budget)
 {
-  const TimeStepper stepper = make_stepper(
-      parameters, omega,
-      {.intervals_per_period = eighths, .tolerance = local_error, .budget = budget});
+  const auto stepper =
+      flow(parameters, omega,
+           {.intervals_per_period = eighths, .tolerance = local_error, .budget = budget});
   Eighths at;
   for (int k = 0; k < eighths; ++k) {
     at.push_back(state);
-    stepper.advance(k, state);
+    stepper->advance(k, state);
   }
   return at;
 }

@@ -10,9 +10,9 @@
 #include "motion/judge.hpp"
 #include "motion/other_starts.hpp"
 #include "time/eigenvalues.hpp"
+#include "time/flow.hpp"
 #include "time/settle.hpp"
 #include "time/shooting.hpp"
-#include "time/time_stepper.hpp"
 
 namespace rotor_stator::motion {
 
@@ -31,13 +31,13 @@ struct Hunt {
   /** Where state `start` is after 1, 2, … K turns. */
   std::vector<State> section(const State& start) const
   {
-    const TimeStepper stepper = make_stepper(
-        parameters, omega,
-        {.intervals_per_period = 1, .tolerance = local_error, .budget = budget});
+    const auto stepper =
+        flow(parameters, omega,
+             {.intervals_per_period = 1, .tolerance = local_error, .budget = budget});
     std::vector<State> points;
     State state = start;
     for (int k = 0; k < turns; ++k) {
-      stepper.advance(k, state);
+      stepper->advance(k, state);
       points.push_back(state);
     }
     return points;

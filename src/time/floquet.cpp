@@ -7,8 +7,8 @@
 #include "balance/fourier_transform.hpp"
 #include "io/errors.hpp"
 #include "time/eigenvalues.hpp"
+#include "time/flow.hpp"
 #include "time/period_map.hpp"
-#include "time/time_stepper.hpp"
 
 namespace rotor_stator {
 

@@ -165,7 +165,7 @@ int jacobian(double t, const double y[], double* dfdy, double dfdt[], void* data
 /** Eq. 7 advanced by GSL. */
 class GslStepper : public Flow {
 public:
-  GslStepper(const Parameters& parameters, double omega, const StepperSettings& settings)
+  GslStepper(const Parameters& parameters, double omega, const StepSettings& settings)
       : equation_{parameters,
                   {parameters, omega},
                   {settings.budget, evaluation_price(parameters, settings.method)}},
@@ -201,7 +201,7 @@ private:
 }  // namespace
 
 std::unique_ptr<Flow> gsl_flow(const Parameters& parameters, double omega,
-                               const StepperSettings& settings)
+                               const StepSettings& settings)
 {
   return std::make_unique<GslStepper>(parameters, omega, settings);
 }

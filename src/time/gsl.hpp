@@ -15,7 +15,6 @@ Nothing else in the library needs GSL's steppers. */
 
 #include "time/flow.hpp"
 #include "time/period_map.hpp"
-#include "time/time_stepper.hpp"
 
 namespace rotor_stator {
 
@@ -23,7 +22,7 @@ const std::vector<std::string>& gsl_methods();
 
 /** Throws BadInput for a method of another name. */
 std::unique_ptr<Flow> gsl_flow(const Parameters& parameters, double omega,
-                               const StepperSettings& settings);
+                               const StepSettings& settings);
 
 /** `period_map` by one of the explicit methods. */
 PeriodMap gsl_period_map(const Parameters& parameters, double omega, const State& start,

@@ -3,38 +3,25 @@
 #include <algorithm>
 
 #include "io/errors.hpp"
-#include "time/gauss.hpp"
+#include "time/flow.hpp"
 #include "time/gsl.hpp"
 #include "time/rk8.hpp"
-#include "time/time_stepper.hpp"
 
 namespace rotor_stator {
-
-namespace {
-
-/** The same of bodies given by matrices. Steps for the derivative need not be as small as those for the state. */
-PeriodMap large_period_map(const Parameters& parameters, double omega, const State& start,
-                           double tolerance, const OperationBudget& budget,
-                           const Segment& segment)
-{
-  constexpr double coarser = 1e4;
-  GaussStepper state(parameters, omega, segment.of, tolerance, budget);
-  PeriodMap map{.end = start, .derivative = {}, .evaluations = 0};
-  state.advance(segment.number, map.end);
-  GaussStepper varied(parameters, omega, segment.of, coarser * tolerance, budget);
-  map.derivative = varied.derivative(segment.number, start);
-  map.evaluations = state.evaluations() + varied.evaluations();
-  return map;
-}
-
-}  // namespace
 
 PeriodMap period_map(const Parameters& parameters, double omega, const State& start,
                      double tolerance, const std::string& method,
                      const OperationBudget& budget, const Segment& segment)
 {
-  if (parameters.large)
-    return large_period_map(parameters, omega, start, tolerance, budget, segment);
+  return parameters.machine->period_map(parameters, omega, start, tolerance, method,
+                                        budget, segment);
+}
+
+PeriodMap TwoMasses::period_map(const Parameters& parameters, double omega,
+                                const State& start, double tolerance,
+                                const std::string& method, const OperationBudget& budget,
+                                const Segment& segment) const
+{
   if (method == "rk8") {
     Rk8 rk8(parameters, omega, segment.of, tolerance, budget);
     PeriodMap map{.end = start, .derivative = {}, .evaluations = 0};

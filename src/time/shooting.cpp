@@ -5,8 +5,8 @@
 #include <memory>
 
 #include "io/errors.hpp"
+#include "time/flow.hpp"
 #include "time/period_map.hpp"
-#include "time/time_stepper.hpp"
 
 namespace rotor_stator {
 
@@ -32,16 +32,16 @@ Maps rk4_maps(const Parameters& parameters, double omega,
 Maps controlled_maps(const Parameters& parameters, double omega,
                      const ShootingSettings& settings)
 {
-  const TimeStepper stepper = make_stepper(parameters, omega,
-                                           {.method = settings.method,
-                                            .intervals_per_period = 1,
-                                            .tolerance = settings.tolerance,
-                                            .budget = settings.budget});
+  const std::shared_ptr<Flow> stepper = flow(parameters, omega,
+                                             {.method = settings.method,
+                                              .intervals_per_period = 1,
+                                              .tolerance = settings.tolerance,
+                                              .budget = settings.budget});
   const auto varied = std::make_shared<long>(0);
   return {.end =
               [stepper](const State& start) {
                 State state = start;
-                stepper.advance(0, state);
+                stepper->advance(0, state);
                 return state;
               },
           .map =
@@ -52,7 +52,7 @@ Maps controlled_maps(const Parameters& parameters, double omega,
                 *varied += map.evaluations;
                 return map;
               },
-          .evaluations = [=] { return stepper.evaluations() + *varied; }};
+          .evaluations = [=] { return stepper->evaluations() + *varied; }};
 }
 
 /** Newton in the scaled state y = s/sizes. */
@@ -186,7 +186,8 @@ Shooting shoot(const Parameters& parameters, double omega, State& state,
   PeriodicityJacobian none;
   Eigen::VectorXd sizes = state_scales(parameters);
   sizes.tail(sizes.size() / 2) /= settings.speed_weight;
-  const bool by_rk4 = settings.method == "rk4" && !parameters.large;
+  const bool by_rk4 =
+      settings.method == "rk4" && parameters.machine->takes_explicit_steps();
   const auto maps = by_rk4 ? rk4_maps : controlled_maps;
   return Iteration{settings, maps(parameters, omega, settings), sizes,
                    vector_of(state).cwiseQuotient(sizes)}

@@ -6,8 +6,8 @@
 #include "motion/other_starts.hpp"
 #include "support/cases.hpp"
 #include "time/closing.hpp"
+#include "time/flow.hpp"
 #include "time/shooting.hpp"
-#include "time/time_stepper.hpp"
 
 using namespace rotor_stator;
 using namespace rotor_stator::motion;
@@ -76,8 +76,8 @@ TEST_CASE("Shooting over segments and from any of the phases close one motion")
   Eighths start(eighths, state);
   for (int k = 1; k < eighths; ++k) {
     start[k] = start[k - 1];
-    make_stepper(parameters, hertz(45), {.intervals_per_period = eighths})
-        .advance(k - 1, start[k]);
+    flow(parameters, hertz(45), {.intervals_per_period = eighths})
+        ->advance(k - 1, start[k]);
   }
   for (State& at : start) at.position.rotor.x *= 1 + 1e-4;
   for (const std::optional<int> alone : {std::optional<int>(), std::optional<int>(3)}) {

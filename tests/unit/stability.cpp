@@ -9,8 +9,8 @@
 #include "support/cases.hpp"
 #include "time/eigenvalues.hpp"
 #include "time/floquet.hpp"
+#include "time/flow.hpp"
 #include "time/shooting.hpp"
-#include "time/time_stepper.hpp"
 
 using namespace rotor_stator;
 using namespace rotor_stator::motion;
