@@ -17,6 +17,7 @@
 #include "io/output_file.hpp"
 #include "io/parallel.hpp"
 #include "io/program.hpp"
+#include "model/large_machine.hpp"
 #include "motion/adaptive.hpp"
 #include "motion/answer.hpp"
 #include "motion/contact.hpp"
@@ -173,7 +174,7 @@ struct Task {
     ModelRange range{.harmonics = std::max(64, harmonics)};
     if (frequency > 0) range.from = range.to = frequency;
     if (!sweep.empty()) range.from = sweep.front(), range.to = sweep.back();
-    return read_parameters(file.with(changes, given_instead), range);
+    return read_machine(file.with(changes, given_instead), range);
   }
 
   bool has_speed() const { return std::ranges::find(keys, speed) != keys.end(); }

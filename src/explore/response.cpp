@@ -15,6 +15,7 @@
 #include "explore/spectrum.hpp"
 #include "io/errors.hpp"
 #include "io/output_file.hpp"
+#include "model/large_machine.hpp"
 #include "motion/adaptive.hpp"
 #include "motion/closed_motion.hpp"
 #include "motion/contact.hpp"
@@ -668,8 +669,8 @@ Exploration explore_response(const ResponseRequest& request)
   if (request.method == "shooting") return shooting_response(request, task);
   if (request.tolerance && !task.has_two_frequencies)
     return response_to_tolerance(request, task);
-  if (task.parameters.large && !task.has_two_frequencies)
-    fit_receptances(task.parameters, task.range().from, task.harmonics);
+  if (!task.has_two_frequencies)
+    task.parameters.machine->prepare(task.parameters, task.range().from, task.harmonics);
   const std::clock_t read = std::clock();
   PeriodicMotion found;
   TorusLine line{};

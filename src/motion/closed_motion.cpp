@@ -44,7 +44,7 @@ struct Closing {
                [&] { return subharmonic_states(search, turns); }}};
     return {{"quasi-static contact",
              [&] {
-               return std::vector{parameters.large
+               return std::vector{!parameters.machine->takes_explicit_steps()
                                       ? static_start(parameters)
                                       : quasi_static_state(parameters, search.omega)};
              }},

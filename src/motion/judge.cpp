@@ -6,10 +6,8 @@
 
 #include "balance/bearing_problem.hpp"
 #include "balance/fourier_transform.hpp"
-#include "balance/large_problem.hpp"
 #include "balance/newton.hpp"
 #include "io/errors.hpp"
-#include "model/large_machine.hpp"
 
 namespace rotor_stator::motion {
 
@@ -27,8 +25,7 @@ bool are_opposite(const Verdict& a, const Verdict& b)
 /** The solution's states at eight phases, from the series of all coordinates. */
 Eighths eighths_of(const Parameters& parameters, const PeriodicMotion& solution)
 {
-  const Eigen::MatrixXd series =
-      parameters.large ? coordinate_series(parameters, solution) : solution.bodies;
+  const Eigen::MatrixXd series = parameters.machine->all_series(parameters, solution);
   const Eigen::MatrixXd q = sample_series(series, eighths);
   const Eigen::MatrixXd v =
       solution.omega * sample_series(differentiate(series), eighths);
@@ -83,9 +80,8 @@ public:
     floquet.change = largest_move(floquet.multipliers, first);
     /** Receptances that are wrong by ε move no exponent by more than ε times the
         contact's frequency. */
-    if (parameters_.large)
-      floquet.change += parameters_.large->reduction_error *
-                        contact_frequency(parameters_) * angular(1) / omega_;
+    floquet.change += parameters_.machine->reduction_error() *
+                      contact_frequency(parameters_) * angular(1) / omega_;
     floquet.settled = floquet.change <= 0.1;
     return floquet;
   }

@@ -6,7 +6,6 @@
 #include <numbers>
 
 #include "balance/fourier_transform.hpp"
-#include "balance/large_problem.hpp"
 #include "balance/torus_line.hpp"
 #include "io/errors.hpp"
 
@@ -117,8 +116,7 @@ void add(Motion& motion, const State& state)
 
 State state_of(const Parameters& parameters, const PeriodicMotion& motion)
 {
-  const Eigen::MatrixXd series =
-      parameters.large ? coordinate_series(parameters, motion) : motion.bodies;
+  const Eigen::MatrixXd series = parameters.machine->all_series(parameters, motion);
   Eigen::VectorXd q = series.col(0), v = Eigen::VectorXd::Zero(q.size());
   for (int h = 1; h <= motion.harmonics.count(); ++h) {
     const Harmonic at = motion.harmonics.list()[static_cast<std::size_t>(h)];
@@ -205,10 +203,10 @@ double shown_at(const Motion& motion, std::size_t k, int place)
 
 AtBearing at_bearing(const Parameters& parameters, const Motion& motion, std::size_t k)
 {
-  if (!parameters.large) return {parameters, motion};
-  const auto& [x_s, y_s, x_r, y_r] = parameters.large->places[k];
+  const auto [x_s, y_s, x_r, y_r] = parameters.machine->places(k);
   AtBearing one{parameters, {motion.points_per_period, motion.first_period, {}}};
   one.parameters.bearing = bearings_of(parameters)[k];
+  if (k == 0) one.motion.rates = motion.rates;
   for (std::size_t i = 0; i < motion.size(); ++i)
     one.motion.positions.push_back(
         {{shown_at(motion, i, x_s), shown_at(motion, i, y_s)},

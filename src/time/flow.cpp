@@ -6,7 +6,6 @@
 #include <numbers>
 
 #include "io/errors.hpp"
-#include "time/gauss.hpp"
 #include "time/gsl.hpp"
 #include "time/rk4.hpp"
 #include "time/rk8.hpp"
@@ -51,47 +50,48 @@ double evaluation_price(const Parameters& parameters, const std::string& method)
 }
 
 /** A contact of Hertz is stiffer with the third root of its force, and vibrates faster with the sixth. */
-double step_at(const Parameters& machine, double omega)
+double TwoMasses::step(const Parameters& machine, double omega) const
 {
   constexpr double much = 30;
-  const double step = default_step(machine);
-  if (machine.large) return step;
+  const double usual = default_step(machine);
   double force = 0;
   for (const double phase : {0.0, 0.5, 1.0, 1.5}) {
     const Vec2 f = rigid_joint_force(machine, omega, phase);
     force = std::max(force, std::hypot(f.x, f.y));
   }
   const double ratio = force / (much * scales(machine).load);
-  return std::isfinite(ratio) && ratio > 1 ? step / std::pow(ratio, 1.0 / 6) : step;
+  return std::isfinite(ratio) && ratio > 1 ? usual / std::pow(ratio, 1.0 / 6) : usual;
 }
 
 std::unique_ptr<Flow> flow(const Parameters& parameters, double omega,
                            const StepSettings& settings)
 {
-  if (!parameters.large) require_method(settings.method);
+  StepSettings paid = settings;
+  /** Bounded in any case: 1e9 evaluations are half a minute of RK4. */
+  if (!paid.budget.bounded())
+    paid.budget = OperationBudget(1e9 * evaluation_price(parameters, settings.method));
+  return parameters.machine->flow(parameters, omega, paid);
+}
+
+std::unique_ptr<Flow> TwoMasses::flow(const Parameters& parameters, double omega,
+                                      const StepSettings& settings) const
+{
+  require_method(settings.method);
   const bool needs_slopes = settings.method == "bsimp" || settings.method == "msbdf";
   if (needs_slopes && !parameters.bearing.is_plain())
     throw BadInput(
         "--method " + settings.method +
         ": knows no contact damping and no defect; take rk4, rk8, rk8pd, rkf45, "
         "rkck or msadams");
-  const bool by_rk4 = settings.method == "rk4";
   const int intervals = settings.intervals_per_period;
-  StepSettings paid = settings;
-  /** Bounded in any case: 1e9 evaluations are half a minute of RK4. */
-  if (!paid.budget.bounded())
-    paid.budget = OperationBudget(1e9 * evaluation_price(parameters, settings.method));
-  if (parameters.large)
-    return std::make_unique<GaussStepper>(
-        parameters, omega, intervals, by_rk4 ? 1e-8 : settings.tolerance, paid.budget);
-  if (by_rk4)
+  if (settings.method == "rk4")
     return std::make_unique<Rk4>(
         parameters, omega, intervals,
-        settings.step > 0 ? settings.step : step_at(parameters, omega), paid.budget);
+        settings.step > 0 ? settings.step : step(parameters, omega), settings.budget);
   if (settings.method == "rk8")
     return std::make_unique<Rk8>(parameters, omega, intervals, settings.tolerance,
-                                 paid.budget);
-  return gsl_flow(parameters, omega, paid);
+                                 settings.budget);
+  return gsl_flow(parameters, omega, settings);
 }
 
 }  // namespace rotor_stator

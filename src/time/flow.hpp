@@ -73,6 +73,9 @@ double default_step(const Parameters& parameters);
 
 /** The step [s] of rk4 at a base frequency: `default_step`, and less where the force at
     that speed presses the contact much more than the loads do by which that is chosen. */
-double step_at(const Parameters& machine, double omega);
+inline double step_at(const Parameters& parameters, double omega)
+{
+  return parameters.machine->step(parameters, omega);
+}
 
 }  // namespace rotor_stator

@@ -26,8 +26,8 @@ namespace rotor_stator {
 class GaussStepper : public Flow {
 public:
   /** P = `intervals` per base period. `tolerance`: of u in a step, over its size. */
-  GaussStepper(const Parameters& parameters, double omega, int intervals,
-               double tolerance, OperationBudget budget = {});
+  GaussStepper(const LargeBodies& machine, const Parameters& parameters, double omega,
+               int intervals, double tolerance, OperationBudget budget = {});
 
   /** Advances over output interval `interval`, counted from t = 0. Throws NoSolution when the budget is used up. */
   using Flow::advance;

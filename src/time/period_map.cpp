@@ -1,6 +1,5 @@
 #include "time/period_map.hpp"
 
-#include "time/gauss.hpp"
 #include "time/gsl.hpp"
 #include "time/rk4.hpp"
 #include "time/rk8.hpp"
@@ -8,20 +7,6 @@
 namespace rotor_stator {
 
 namespace {
-
-/** Of bodies given by matrices. Steps for the derivative need not be as small as those
-    for the state. */
-void by_gauss(const Parameters& parameters, double omega, const StepSettings& settings,
-              long interval, PeriodMap& map)
-{
-  constexpr double coarser = 1e4;
-  GaussStepper varied(parameters, omega, settings.intervals_per_period,
-                      coarser * settings.tolerance, settings.budget);
-  map.derivative = varied.derivative(interval, map.end);
-  const auto state = flow(parameters, omega, settings);
-  state->advance(interval, map.end);
-  map.evaluations = state->evaluations() + varied.evaluations();
-}
 
 void by_rk8(const Parameters& parameters, double omega, const StepSettings& settings,
             long interval, PeriodMap& map)
@@ -86,20 +71,26 @@ void by_rk4(const Parameters& parameters, double omega, const StepSettings& sett
 PeriodMap period_map(const Parameters& parameters, double omega, const State& start,
                      const StepSettings& settings, long interval, bool with_derivative)
 {
+  if (with_derivative)
+    return parameters.machine->period_map(parameters, omega, start, settings, interval);
+  const auto steps = flow(parameters, omega, settings);
   PeriodMap map{.end = start, .derivative = {}, .evaluations = 0};
-  if (!with_derivative) {
-    const auto steps = flow(parameters, omega, settings);
-    steps->advance(interval, map.end);
-    map.evaluations = steps->evaluations();
-  } else if (parameters.large) {
-    by_gauss(parameters, omega, settings, interval, map);
-  } else if (settings.method == "rk8") {
+  steps->advance(interval, map.end);
+  map.evaluations = steps->evaluations();
+  return map;
+}
+
+PeriodMap TwoMasses::period_map(const Parameters& parameters, double omega,
+                                const State& start, const StepSettings& settings,
+                                long interval) const
+{
+  PeriodMap map{.end = start, .derivative = {}, .evaluations = 0};
+  if (settings.method == "rk8")
     by_rk8(parameters, omega, settings, interval, map);
-  } else if (settings.method == "rk4") {
+  else if (settings.method == "rk4")
     by_rk4(parameters, omega, settings, interval, map);
-  } else {
+  else
     map = gsl_period_map(parameters, omega, start, settings, interval);
-  }
   return map;
 }
 
