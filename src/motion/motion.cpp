@@ -207,6 +207,7 @@ AtBearing at_bearing(const Parameters& parameters, const Motion& motion, std::si
   AtBearing one{parameters, {motion.points_per_period, motion.first_period, {}}};
   one.parameters.bearing = bearings_of(parameters)[k];
   if (k == 0) one.motion.rates = motion.rates;
+  one.motion.omega = motion.omega;
   for (std::size_t i = 0; i < motion.size(); ++i)
     one.motion.positions.push_back(
         {{shown_at(motion, i, x_s), shown_at(motion, i, y_s)},
