@@ -68,6 +68,7 @@ WITH_ORDER(minmax_element)
   }
 WITH_TEST(find_if)
 WITH_TEST(count_if)
+WITH_TEST(all_of)
 WITH_TEST(any_of)
 WITH_TEST(none_of)
 

@@ -4,6 +4,7 @@
 #include <sys/stat.h>
 #include <unistd.h>
 #include <cerrno>
+#include <cstdio>
 #include <cstring>
 #include <filesystem>
 
@@ -52,7 +53,7 @@ void write_file(const std::string& file, const std::string& content)
   if (done && stat(file.c_str(), &old) == 0)
     done = fchmod(descriptor, old.st_mode & 0777) == 0;
   for (std::size_t k = 0; done && k < content.size();) {
-    const ssize_t more = write(descriptor, content.data() + k, content.size() - k);
+    const ssize_t more = ::write(descriptor, content.data() + k, content.size() - k);
     done = more > 0;
     k += done ? static_cast<std::size_t>(more) : 0;
   }
@@ -62,6 +63,13 @@ void write_file(const std::string& file, const std::string& content)
   if (done) return;
   if (descriptor >= 0) unlink(unfinished.c_str());
   throw NoSolution(file + ": cannot be written: " + std::strerror(error));
+}
+
+void write(const std::string& text)
+{
+  const bool written = std::fwrite(text.data(), 1, text.size(), stdout) == text.size();
+  if (!written || std::fflush(stdout) != 0)
+    throw NoSolution("the standard output cannot be written to");
 }
 
 }  // namespace rotor_stator

@@ -1,12 +1,14 @@
 #include "io/parallel.hpp"
 
-#include <omp.h>
 #include <algorithm>
 #include <atomic>
 #include <exception>
 #include <mutex>
+#ifdef _OPENMP
+#include <omp.h>
+#endif
 
-#include "io/program.hpp"
+#include "io/progress.hpp"
 
 namespace rotor_stator {
 
@@ -38,7 +40,11 @@ void in_parallel(const std::string& name, std::size_t pieces,
 
 std::size_t most_threads()
 {
+#ifdef _OPENMP
   return static_cast<std::size_t>(std::max(1, omp_get_max_threads()));
+#else
+  return 1;
+#endif
 }
 
 }  // namespace rotor_stator

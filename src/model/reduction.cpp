@@ -63,7 +63,7 @@ std::vector<int> along_the_body(const SparseMatrix& pattern)
     breadth_first(start, order);
     is_done = is_seen;
   }
-  std::ranges::reverse(order);
+  std::reverse(order.begin(), order.end());
   return order;
 }
 
