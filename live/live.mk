@@ -1,13 +1,12 @@
 # The live page: the rooms of the core and what of explore computes motions, by the compiler for the browser. That of
 # Debian 12 lacks parts of the library of C++20 (live/libcxx.hpp) and looks for its parser where only Debian's node does.
 # Exceptions are WebAssembly's own (browsers of 2022 and later): by JavaScript's the module was a quarter larger.
-live_sources := $(filter-out src/io/program.cpp src/time/gsl.cpp, \
-    $(wildcard $(patsubst %,src/%/*.cpp,io model balance continuation time motion))) \
-  $(patsubst %,src/explore/%.cpp,balance_motion branch_file orbit response settled_motion \
-    settled_response) \
+live_sources := $(filter-out src/io/program.cpp src/time/gsl.cpp $(patsubst %,src/explore/%.cpp, \
+    attractors campbell check map% plot shaft shape spectrum), \
+  $(wildcard $(patsubst %,src/%/*.cpp,io model balance continuation time motion explore))) \
   live/live.cpp live/no_gsl.cpp
 live_objects := $(live_sources:%.cpp=build/live/%.o)
-live_flags := -O2 -ffp-contract=off -fno-math-errno -fwasm-exceptions
+live_flags := -O2 -DNDEBUG -ffp-contract=off -fno-math-errno -fwasm-exceptions
 export NODE_PATH ?= /usr/share/nodejs
 
 build/model/bearing_catalogue.hpp: data/bearings/deep_groove.toml CMakeLists.txt

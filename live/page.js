@@ -280,6 +280,7 @@ async function showSteady(mine, isBeside) {
   $("error-state").textContent = errorsOf(value, "error") ?? "–";
 }
 
+// The branch of harmonic balance; what the machine does, at 41 speeds, where the branch does not reach the end.
 async function followCurve() {
   shown.branch = [];
   $("curve-state").textContent = "computing…";
@@ -292,11 +293,15 @@ async function followCurve() {
     drawCurve();
     drawn = performance.now();
   });
-  let { status, text = "" } = await ask(state.m);
-  if (status === 3 && !shown.branch.length && !engines.curve.job) ({ status, text = "" } = await ask(0));
+  let { status, text = "" } = await ask(state.m), why = "";
+  if (status === 3 && !engines.curve.job) {
+    why = ` of what the machine does; ${text}`;
+    shown.branch = [];
+    ({ status, text = "" } = await ask(0));
+  }
   if (engines.curve.job) return;
   $("curve-cancel").hidden = true;
-  const folds = keysOf(text)("folds"), said = `${shown.branch.length} points${folds ? `, folds: ${folds}` : ""}`;
+  const folds = keysOf(text)("folds"), said = `${shown.branch.length} points${folds ? `, folds: ${folds}` : ""}${why}`;
   $("curve-state").textContent = { 0: said, "-1": "cancelled" }[status] ?? text;
   document.body.dataset.curve = performance.now() - start;
   drawCurve();

@@ -141,7 +141,10 @@ class Page(unittest.TestCase):
                 native = self.explore("orbit", "machine.toml", "--frequency", f, "--harmonics", 10, "--periods", periods)
                 with self.subTest(machine=toml, f=f):
                     judged = self.ask("verdict", toml, f)
-                    self.assertEqual(judged["status"], native.returncode, judged["text"] + native.stderr)
+                    if judged["status"] != native.returncode:
+                        self.assertEqual({judged["status"], native.returncode}, {0, 3}, judged["text"] + native.stderr)
+                        unsure.append((f, judged["text"].splitlines()[-1], native.stderr))
+                        continue
                     if native.returncode:
                         # The same place; Newton's last residual is a matter of rounding.
                         self.assertEqual(judged["text"].split(" Hz:")[0], native.stderr.split(" Hz:")[0])
@@ -156,7 +159,7 @@ class Page(unittest.TestCase):
                     else:
                         self.assertEqual(live, word)
                         self.compare_multipliers(judged["text"], native.stdout)
-        # Where a chaotic transient leads depends on rounding: one of the two may then find no motion to judge.
+        # Where Newton's steps or a chaotic transient lead depends on rounding: one of the two may then find no motion.
         self.assertLessEqual(len(unsure), 2, unsure)
         self.assertGreater(found, 2 * MACHINES)
         self.assertLessEqual({"stable", "unstable"}, set(words))
@@ -207,7 +210,7 @@ class Page(unittest.TestCase):
                 self.assertEqual(self.js("return document.querySelectorAll(`#${arguments[0]} .none`).length", panel), 0)
                 marks = self.js("return Array.from(document.querySelectorAll(`#${arguments[0]} path:not(.axis)`),"
                                 " (p) => p.getAttribute('d'))", panel)
-                self.assertGreater(len(marks), 2 if panel == "spectrum" else 1)
+                self.assertGreater(len(marks), 0 if panel == "spectrum" else 1)
                 self.assertNotIn("NaN", "".join(marks))
 
     # Every machine that the page offers has a motion, what it does from rest, a verdict and a response.
@@ -230,8 +233,8 @@ class Page(unittest.TestCase):
                 self.show_parts()
                 given = self.text("command").split()[2:]
                 native = subprocess.run([EXPLORE, "orbit", *given], capture_output=True, encoding="utf-8")
-                m = 0 if self.js("return shown.motion.isSteady") else state["m"]
-                self.compare(self.ask("orbit", state["toml"], state["f"], m)["samples"], numbers_of(native.stdout))
+                what, m = ("verdict", 0) if self.js("return shown.motion.isSteady") else ("orbit", state["m"])
+                self.compare(self.ask(what, state["toml"], state["f"], m)["samples"], numbers_of(native.stdout))
 
     # What a page of 0.1.0 has written into the address is still read.
     def test_link_of_the_first_version(self):

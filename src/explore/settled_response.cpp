@@ -8,9 +8,9 @@
 
 #include "explore/settled_motion.hpp"
 #include "io/errors.hpp"
-#include "io/number_table.hpp"
 #include "io/output_file.hpp"
 #include "io/parallel.hpp"
+#include "io/table.hpp"
 #include "motion/contact.hpp"
 
 namespace rotor_stator::explore {
@@ -120,7 +120,7 @@ Plan plan_of(const ResponseRequest& request)
                          ? request.to
                          : request.from +
                                (request.to - request.from) * k / std::max(1, count - 1));
-  if (direction == "down") std::reverse(speeds.begin(), speeds.end());
+  if (direction == "down") std::ranges::reverse(speeds);
   Table table("Frequency response, what the machine does", fields_of(machine));
   const bool has_further =
       table.choose(request.columns, usual_fields.size(), request.plot.has_value());

@@ -8,7 +8,7 @@
 #include <vector>
 
 #include "io/output_file.hpp"
-#include "io/progress.hpp"
+#include "io/parallel.hpp"
 #include "io/table.hpp"
 #include "io/toml_file.hpp"
 

@@ -63,7 +63,7 @@ std::vector<int> along_the_body(const SparseMatrix& pattern)
     breadth_first(start, order);
     is_done = is_seen;
   }
-  std::reverse(order.begin(), order.end());
+  std::ranges::reverse(order);
   return order;
 }
 
