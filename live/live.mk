@@ -2,7 +2,7 @@
 # Debian 12 lacks parts of the library of C++20 (live/libcxx.hpp) and looks for its parser where only Debian's node does.
 # Exceptions are WebAssembly's own (browsers of 2022 and later): by JavaScript's the module was a quarter larger.
 live_sources := $(filter-out src/io/program.cpp src/time/gsl.cpp $(patsubst %,src/explore/%.cpp, \
-    attractors campbell check map% plot shaft shape spectrum), \
+    attractors campbell check map% plot shaft shape), \
   $(wildcard $(patsubst %,src/%/*.cpp,io model balance continuation time motion explore))) \
   live/live.cpp live/no_gsl.cpp
 live_objects := $(live_sources:%.cpp=build/live/%.o)
@@ -22,7 +22,7 @@ build/live/include/source_revision.hpp: build/live/include/.stamped
 $(live_objects): build/live/%.o: %.cpp live/live.mk | build/live/include/source_revision.hpp
 	@mkdir -p $(@D)
 	em++ -std=c++20 $(live_flags) -DEIGEN_DONT_PARALLELIZE -DROTOR_STATOR_EIGEN_FFT -include live/libcxx.hpp -Ilive -Isrc \
-	  -Ibuild/live/include -Ibuild $$(pkg-config --cflags eigen3) -MMD -c $< -o $@
+	  -Ibuild/live/include -Ibuild $$(pkg-config --cflags eigen3) -MMD -MP -c $< -o $@
 -include $(live_objects:.o=.d)
 
 build/live/core.js: $(live_objects)
