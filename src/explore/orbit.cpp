@@ -8,7 +8,7 @@
 #include "explore/balance_motion.hpp"
 #include "explore/settled_motion.hpp"
 #include "io/errors.hpp"
-#include "io/progress.hpp"
+#include "io/parallel.hpp"
 #include "model/large_machine.hpp"
 #include "motion/closed_motion.hpp"
 #include "motion/contact.hpp"

@@ -8,7 +8,6 @@ One motion of one machine at one speed, by harmonic balance or in time, as a tab
 #include <string>
 
 #include "io/budget.hpp"
-#include "io/number_table.hpp"
 #include "io/table.hpp"
 #include "model/parameters.hpp"
 #include "motion/lines.hpp"

@@ -8,10 +8,9 @@
 
 #include "explore/settled_motion.hpp"
 #include "io/errors.hpp"
-#include "io/number_table.hpp"
 #include "io/output_file.hpp"
 #include "io/parallel.hpp"
-#include "io/program.hpp"
+#include "io/table.hpp"
 #include "motion/contact.hpp"
 
 namespace rotor_stator::explore {

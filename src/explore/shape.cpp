@@ -4,7 +4,7 @@
 #include <numbers>
 
 #include "io/errors.hpp"
-#include "io/number_table.hpp"
+#include "io/table.hpp"
 #include "model/large_machine.hpp"
 
 namespace rotor_stator::explore {

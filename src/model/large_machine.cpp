@@ -10,7 +10,7 @@
 
 #include "io/errors.hpp"
 #include "io/matrix_market.hpp"
-#include "io/number_table.hpp"
+#include "io/table.hpp"
 #include "model/catalogue.hpp"
 #include "model/hertz.hpp"
 #include "model/reduction.hpp"
