@@ -29,7 +29,7 @@ or one of the time integrators. A table on stdout, errors on stderr. */
 #include "explore/spectrum.hpp"
 #include "io/errors.hpp"
 #include "io/program.hpp"
-#include "time/time_stepper.hpp"
+#include "time/flow.hpp"
 
 namespace {
 
@@ -203,7 +203,7 @@ std::function<void()> add_response_options(CLI::App& command, ResponseRequest& r
   command
       .add_option("--method", request.method,
                   "auto (what the machine does, speed by speed), or a branch of periodic "
-                  "solutions: aft (harmonic balance), shooting (rk4)")
+                  "solutions: aft (harmonic balance), shooting")
       ->capture_default_str();
   aft.push_back(add_subharmonic(command, request));
   CLI::Option* tolerance =

@@ -12,6 +12,7 @@
 #include "continuation/sweep.hpp"
 #include "io/errors.hpp"
 #include "model/rotor_stator.hpp"
+#include "time/flow.hpp"
 #include "time/shooting.hpp"
 
 namespace rotor_stator::costs {
@@ -140,10 +141,10 @@ void TimedMethod::run(const std::function<bool(std::size_t speed)>& goes_on)
   }
 }
 
-TimeStepper TimedMethod::stepper(double omega, int intervals) const
+std::unique_ptr<Flow> TimedMethod::stepper(double omega, int intervals) const
 {
   const std::string& method = setting_.method;
-  return make_stepper(
+  return flow(
       task_.parameters, omega,
       {.method = setting_.is_shooting() ? method.substr(method.find('-') + 1) : method,
        .intervals_per_period = intervals,
@@ -151,8 +152,7 @@ TimeStepper TimedMethod::stepper(double omega, int intervals) const
        .tolerance = setting_.tolerance});
 }
 
-long TimedMethod::advance(const TimeStepper& whole, double seconds, double omega,
-                          State& state)
+long TimedMethod::advance(Flow& whole, double seconds, double omega, State& state)
 {
   const long before = whole.evaluations();
   const long periods =
@@ -259,13 +259,13 @@ private:
     const int points = 2 * setting_.harmonics + 2;
     const double step = (p.bearing.damping > 0 ? 5 : 8) * default_step(p);
     const auto rk4 = [&](int intervals) {
-      return make_stepper(
-          p, omega, {.method = "rk4", .intervals_per_period = intervals, .step = step});
+      return flow(p, omega,
+                  {.method = "rk4", .intervals_per_period = intervals, .step = step});
     };
-    advance(rk4(1), seconds, omega, state_);
-    const TimeStepper parts = rk4(points);
-    const motion::Motion last = motion::recorded(parts, points, state_);
-    counts_.force_instants += parts.evaluations();
+    advance(*rk4(1), seconds, omega, state_);
+    const auto parts = rk4(points);
+    const motion::Motion last = motion::recorded(*parts, points, state_);
+    counts_.force_instants += parts->evaluations();
     if (vector_of(state_).allFinite())
       return motion::relative_series(p, last, setting_.harmonics);
     state_ = static_start(p);
@@ -295,8 +295,8 @@ public:
     if (!reached_[speed]) return {};
     auto [periods, state] = *reached_[speed];
     try {
-      const TimeStepper parts = stepper(angular(task_.frequencies[speed]), points);
-      return motion::recorded(parts, points, state, periods);
+      const auto parts = stepper(angular(task_.frequencies[speed]), points);
+      return motion::recorded(*parts, points, state, periods);
     } catch (const NoSolution&) {
       return {};  // the state was no motion
     }
@@ -314,12 +314,12 @@ protected:
   {
     const double omega = angular(task_.frequencies[speed]);
     try {
-      const long periods = advance(stepper(omega, 1), setting_.transient, omega, state_);
+      const long periods = advance(*stepper(omega, 1), setting_.transient, omega, state_);
       reached_[speed] = {periods, state_};
       if (setting_.recorded == 0) return;
-      const TimeStepper parts = stepper(omega, setting_.recorded);
-      motion::recorded(parts, setting_.recorded, state_, periods);
-      counts_.force_instants += parts.evaluations();
+      const auto parts = stepper(omega, setting_.recorded);
+      motion::recorded(*parts, setting_.recorded, state_, periods);
+      counts_.force_instants += parts->evaluations();
     } catch (const NoSolution&) {
       state_ = static_start(task_.parameters);
     }
@@ -355,7 +355,7 @@ class ShootingSweep : public Integration {
       predictor_.clear();
       jacobian_.reset();
       state_ = quasi_static_state(task_.parameters, omega);
-      advance(stepper(omega, 1), setting_.transient, omega, state_);
+      advance(*stepper(omega, 1), setting_.transient, omega, state_);
       found = shot(omega);
     }
     if (!found) return;
@@ -370,8 +370,8 @@ class ShootingSweep : public Integration {
                                   {.method = method,
                                    .tolerance = setting_.tolerance,
                                    .step = setting_.step,
-                                   .periodicity_residual = setting_.periodicity_residual,
-                                   .final_derivative = false},
+                                   .closed = setting_.periodicity_residual,
+                                   .quasi_newton = true},
                                   &jacobian_);
     counts_.force_instants += result.evaluations;
     return result.converged;

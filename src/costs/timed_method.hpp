@@ -19,6 +19,7 @@ run that needs it: the median of the repetitions does not show it.
 #include <memory>
 
 #include "costs/true_motion.hpp"
+#include "time/flow.hpp"
 
 namespace rotor_stator::costs {
 
@@ -90,10 +91,10 @@ protected:
   virtual void solve(std::size_t speed) = 0;
 
   /** Of the time method of the setting. */
-  TimeStepper stepper(double omega, int intervals) const;
+  std::unique_ptr<Flow> stepper(double omega, int intervals) const;
 
   /** Integrates whole periods from phase 0, so many seconds at least. Returns their number. */
-  long advance(const TimeStepper& whole, double seconds, double omega, State& state);
+  long advance(Flow& whole, double seconds, double omega, State& state);
 
   Task task_;
   Setting setting_;

@@ -13,10 +13,11 @@
 #include "explore/balance_motion.hpp"
 #include "explore/plot.hpp"
 #include "io/errors.hpp"
-#include "io/number_table.hpp"
 #include "io/output_file.hpp"
 #include "io/parallel.hpp"
 #include "io/program.hpp"
+#include "io/table.hpp"
+#include "model/large_machine.hpp"
 #include "motion/adaptive.hpp"
 #include "motion/answer.hpp"
 #include "motion/contact.hpp"
@@ -173,7 +174,7 @@ struct Task {
     ModelRange range{.harmonics = std::max(64, harmonics)};
     if (frequency > 0) range.from = range.to = frequency;
     if (!sweep.empty()) range.from = sweep.front(), range.to = sweep.back();
-    return read_parameters(file.with(changes, given_instead), range);
+    return read_machine(file.with(changes, given_instead), range);
   }
 
   bool has_speed() const { return std::ranges::find(keys, speed) != keys.end(); }
@@ -423,12 +424,12 @@ public:
     if (verdict().found()) return verdict().distance_rms;
     const rotor_stator::Settled& there = verdict().from_there;
     if (there.kind == Kind::undecided) throw NoSolution(verdict().reason);
-    const TimeStepper stepper = make_stepper(
-        machine, omega(),
-        {.method = "rk4", .intervals_per_period = instants, .budget = budget_});
+    const auto stepper =
+        flow(machine, omega(),
+             {.method = "rk4", .intervals_per_period = instants, .budget = budget_});
     State state = there.at.state;
     const motion::Motion settled = motion::recorded(
-        stepper, instants, state, there.at.period, std::max(1, there.period) * 40);
+        *stepper, instants, state, there.at.period, std::max(1, there.period) * 40);
     return motion::rms_difference(motion::motion_of(solution(), instants), settled);
   }
 

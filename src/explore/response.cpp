@@ -8,21 +8,24 @@
 #include "balance/bearing_problem.hpp"
 #include "balance/large_problem.hpp"
 #include "continuation/arc_length.hpp"
-#include "continuation/shooting_branch.hpp"
+#include "continuation/balance_curve.hpp"
+#include "continuation/shooting_curve.hpp"
 #include "explore/branch_file.hpp"
 #include "explore/settled_response.hpp"
 #include "explore/spectrum.hpp"
 #include "io/errors.hpp"
 #include "io/output_file.hpp"
+#include "model/large_machine.hpp"
 #include "motion/adaptive.hpp"
 #include "motion/closed_motion.hpp"
 #include "motion/contact.hpp"
+#include "motion/branch_verdicts.hpp"
 #include "motion/judge.hpp"
 #include "motion/motion.hpp"
 #include "motion/other_starts.hpp"
 #include "motion/quasi_periodic.hpp"
 #include "motion/subharmonic.hpp"
-#include "time/time_stepper.hpp"
+#include "time/flow.hpp"
 
 namespace rotor_stator::explore {
 
@@ -148,7 +151,7 @@ Where it starts, what it meets, what is beside it. */
 
 /** A saved point, turned and with as many harmonics as are asked for: with others Newton's method goes from it to a solution
     at its speed, unless the branch turns there. */
-BranchPoint saved_start(const Task& task, Balance& balance, Table& table)
+BranchPoint saved_start(const Task& task, Curve& curve, Table& table)
 {
   const ResponseRequest& request = task.request;
   const double at = angular(request.at.value_or(0));
@@ -164,7 +167,7 @@ BranchPoint saved_start(const Task& task, Balance& balance, Table& table)
     const double speed = point.speed_direction();
     point.tangent = resize_harmonics(point.tangent.head(x.size()), 2, task.harmonics);
     x = resize_harmonics(x, 2, task.harmonics);
-    const PeriodicMotion there = solve(balance, omega, x, task.settings.newton);
+    const PeriodicMotion there = curve.solved(omega, x);
     if (there.found()) x = there.x;
     point.tangent.conservativeResize(x.size() + 1);
     point.tangent[x.size()] = speed;
@@ -385,7 +388,7 @@ struct Others {
 ## Beside the branch */
 
 /** The branches beside `main`; what is said of each stands in the table's header. */
-Others others(const Task& task, Balance& balance, const Branch& main, Table& table)
+Others others(const Task& task, Curve& curve, const Branch& main, Table& table)
 {
   const auto starts =
       motion::other_starts(task.parameters, task.range(), task.harmonics,
@@ -393,8 +396,7 @@ Others others(const Task& task, Balance& balance, const Branch& main, Table& tab
                             .seed = static_cast<std::uint64_t>(task.request.seed)},
                            task.budget);
   Others others{
-      isolated_branches(balance, main, starts.candidates, task.range(), task.settings),
-      {}};
+      isolated_branches(curve, main, starts.candidates, task.range(), task.settings), {}};
   int number = 1;
   for (const auto& [branch, candidate] : others.found) {
     const auto [low, high] = std::ranges::minmax_element(
@@ -457,14 +459,14 @@ struct Added {
   std::string missing = {};  ///< of the multipliers: the first that could not be had
 };
 
-/** Adds the rows of branch `number`, and what the header says of its multipliers. `balance` is the one
+/** Adds the rows of branch `number`, and what the header says of its multipliers. `curve` is the one
     that the branch was followed with. */
-void add_branch(Table& table, const Task& task, Balance& balance, const Branch& branch,
+void add_branch(Table& table, const Task& task, Curve& curve, const Branch& branch,
                 std::size_t number, Added& added)
 {
   BranchStability stability;
   if (task.request.stability) {
-    stability = motion::machine_stability(task.parameters, balance, branch, task.settings,
+    stability = motion::machine_stability(task.parameters, curve, branch, task.settings,
                                           task.budget);
     note(table, task, number, stability);
     const std::string missing = missing_in(stability, task.budget);
@@ -544,16 +546,16 @@ Exploration shooting_response(const ResponseRequest& request, const Task& task)
     start = closed.start;
     state = closed.state;
   }
-  const ShootingBranch branch =
-      follow_by_shooting(machine, range.from, range.to, state, {.budget = task.budget});
+  ShootingCurve curve(machine, task.budget);
+  const Branch branch = follow_branch(curve, range.from, range.to,
+                                      curve.unknowns_of(state), curve.settings());
   const auto [fields, usual] = fields_of(task, Harmonics(task.harmonics));
   Table table("Frequency response along the branch", fields);
   table.choose(request.columns, usual, request.plot.has_value());
   table.value("start", one_word(start));
   describe(table, machine);
   table.value("method", "shooting");
-  put_branch(table, task, "turn", branch.folds, branch.evaluations);
-  table.value("step", default_step(machine), 4);
+  put_branch(table, task, "turn", branch.folds.size(), branch.evaluations);
   table.note("end of the branch: " + branch.end);
   int undecided = 0;
   std::string why;
@@ -566,17 +568,14 @@ Exploration shooting_response(const ResponseRequest& request, const Task& task)
     }
   };
   bool touches = false;
-  for (const ShootingBranchPoint& point : branch.points) {
-    const motion::Motion motion =
-        motion::one_period(machine, point.omega, point.state,
-                           {.method = "rk4", .intervals_per_period = points});
+  for (const BranchPoint& point : branch.points) {
+    const State there = curve.state(point.motion.x);
+    const motion::Motion motion = motion::one_period(machine, point.motion.omega, there,
+                                                     {.intervals_per_period = points});
     const auto amplitude = half_peak_to_peak(motion);
     touches = touches || motion::contact_share(machine, motion) > 0;
-    StablePoint at{};
-    at.point.motion.omega = point.omega;
-    at.point.motion.newton.iterations = point.newton;
-    at.point.arc = point.arc;
-    if (request.stability) add_multipliers(at, point.state);
+    StablePoint at{.point = point, .floquet = {}};
+    if (request.stability) add_multipliers(at, there);
     table.row(fields, Row{at, Eigen::Map<const Eigen::Vector4d>(amplitude.data()), 1,
                           task, motion, motion::series_of(motion, task.harmonics)});
   }
@@ -584,7 +583,7 @@ Exploration shooting_response(const ResponseRequest& request, const Task& task)
   if (undecided > 0) table.note("undecided points: " + why);
   const bool is_missing = undecided > 0 && task.budget.used_up();
   const std::string missing =
-      !branch.covered ? stopped_at(task, branch.points.back().omega, branch.end)
+      !branch.covered ? stopped_at(task, branch.points.back().motion.omega, branch.end)
       : is_missing    ? task.parameters.file + ": " + why
                       : "";
   put_complete(table, missing);
@@ -670,8 +669,8 @@ Exploration explore_response(const ResponseRequest& request)
   if (request.method == "shooting") return shooting_response(request, task);
   if (request.tolerance && !task.has_two_frequencies)
     return response_to_tolerance(request, task);
-  if (task.parameters.large && !task.has_two_frequencies)
-    fit_receptances(task.parameters, task.range().from, task.harmonics);
+  if (!task.has_two_frequencies)
+    task.parameters.machine->prepare(task.parameters, task.range().from, task.harmonics);
   const std::clock_t read = std::clock();
   PeriodicMotion found;
   TorusLine line{};
@@ -695,16 +694,17 @@ Exploration explore_response(const ResponseRequest& request)
           ? Balance(bearing_problem(task.parameters, line, task.budget), found.harmonics)
           : Balance(bearing_problem(task.parameters, task.samples, task.budget),
                     task.harmonics);
+  BalanceCurve curve(balance, task.settings);
   const BranchPoint start =
-      task.saved ? saved_start(task, balance, table)
-                 : point_of(balance, found.omega, found.x, task.upwards, task.settings);
+      task.saved ? saved_start(task, curve, table)
+                 : point_of(curve, found.omega, found.x, task.upwards, task.settings);
   FourierTransform transform = amplitude_transform(task.harmonics);
   ArcLengthSettings watched = task.settings;
   if (request.watch)
     watched.watch = [&](const BranchPoint& p) {
       request.watch(task.hertz(p.motion.omega), amplitude(task, p.motion, transform));
     };
-  const Branch main = follow_branch(balance, start, task.range(), watched);
+  const Branch main = follow_branch(curve, start, task.range(), watched);
   describe(table, task.machine);
   const int turns = task.parameters.turns;
   const bool two = task.has_two_frequencies;
@@ -723,7 +723,7 @@ Exploration explore_response(const ResponseRequest& request)
   table.note("end of the branch: " + main.end);
 
   Others beside;
-  if (request.isolated > 0) beside = others(task, balance, main, table);
+  if (request.isolated > 0) beside = others(task, curve, main, table);
   std::vector<const Branch*> all{&main};
   for (const IsolatedBranch& other : beside.found) all.push_back(&other.branch);
 
@@ -731,7 +731,7 @@ Exploration explore_response(const ResponseRequest& request)
   describe(lines, task.machine);
   Added added{fields, has_further, request.waterfall ? &lines : nullptr};
   for (std::size_t k = 0; k < all.size(); ++k)
-    add_branch(table, task, balance, *all[k], k + 1, added);
+    add_branch(table, task, curve, *all[k], k + 1, added);
   if (request.save)
     write_file(*request.save, branch_text(task.parameters, task.harmonics, task.samples,
                                           task.upwards, all));

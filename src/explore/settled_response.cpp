@@ -8,17 +8,15 @@
 
 #include "explore/settled_motion.hpp"
 #include "io/errors.hpp"
-#include "io/number_table.hpp"
 #include "io/output_file.hpp"
 #include "io/parallel.hpp"
-#include "io/program.hpp"
+#include "io/table.hpp"
 #include "motion/contact.hpp"
 
 namespace rotor_stator::explore {
 
 namespace {
 
-constexpr int usual_speeds = 101, usual_large_speeds = 21;
 constexpr int record_points = 256, record_periods = 64;
 
 /** The motion at one speed and what is seen of it. */
@@ -88,7 +86,7 @@ struct Plan {
 
   double evaluations_of_one() const
   {
-    return budget_of(std::nullopt, machine.large ? 1 : 10, machine).left();
+    return budget_of(std::nullopt, machine.machine->patience().settling, machine).left();
   }
 };
 
@@ -113,8 +111,7 @@ Plan plan_of(const ResponseRequest& request)
     throw BadInput("--resume: not with --direction " + direction +
                    ", where each speed starts from the one before");
   Parameters machine = machine_of(request, request.from, request.to);
-  const int count =
-      request.count.value_or(machine.large ? usual_large_speeds : usual_speeds);
+  const int count = request.count.value_or(machine.machine->patience().speeds);
   std::vector<double> speeds;
   for (int k = 0; k < count; ++k)
     speeds.push_back(k + 1 == count && count > 1
@@ -127,7 +124,7 @@ Plan plan_of(const ResponseRequest& request)
       table.choose(request.columns, usual_fields.size(), request.plot.has_value());
   describe(table, machine);
   const BasePeriod base = base_period(machine);
-  table.value("method", machine.large ? "gauss" : "rk4");
+  table.value("method", machine.machine->time_method());
   table.value("kind", "sweep");
   table.value("base", base.words());
   table.value("direction", direction);
