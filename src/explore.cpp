@@ -79,6 +79,18 @@ void add_table_options(CLI::App& command, Request& request)
       "tsv, csv (without the # lines) or json");
 }
 
+/** --budget: evaluations, or seconds as 60s, which begin now. */
+Allowance allowance_of(const std::string& word)
+{
+  if (!word.ends_with('s'))
+    return {.evaluations = real_number("--budget", word, 1, 1e15)};
+  const double seconds =
+      real_number("--budget", word.substr(0, word.size() - 1), 1e-3, 1e7);
+  return {.seconds = seconds,
+          .end = Clock::now() + std::chrono::duration_cast<Clock::duration>(
+                                    std::chrono::duration<double>(seconds))};
+}
+
 /** The same, what a run may cost and its figure. */
 void add_common_options(CLI::App& command, Request& request,
                         const std::string& usual_budget)
@@ -87,10 +99,14 @@ void add_common_options(CLI::App& command, Request& request,
   command.add_flag("--quiet", request.quiet,
                    "no progress on stderr, which a terminal gets after two seconds");
   command.add_option("--plot", request.plot, "figure: .svg, .png or .pdf");
-  add_number(command, "--budget", request.budget, 1.0, 1e15,
-             "most evaluations of the force in the whole run, other work counted as the "
-             "evaluations that take as long (default: those of " +
-                 usual_budget + ")");
+  command
+      .add_option_function<std::string>(
+          "--budget",
+          [&request](const std::string& word) { request.budget = allowance_of(word); },
+          "most evaluations of the force in the whole run, other work counted as the "
+          "evaluations that take as long (default: those of " +
+              usual_budget + "); or seconds of the clock, as 60s")
+      ->type_name("NUMBER");
 }
 
 /** Those of the commands that know harmonic balance; its own are returned. `or_m`: what may stand for the

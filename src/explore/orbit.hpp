@@ -14,15 +14,24 @@ One motion of one machine at one speed, by harmonic balance or in time, as a tab
 
 namespace rotor_stator::explore {
 
+/** --budget: evaluations of the force or, with an s, seconds of the clock. */
+struct Allowance {
+  double evaluations = 0, seconds = 0;  ///< one of them
+  Clock::time_point end = {};           ///< of the seconds
+
+  bool is_over() const { return seconds > 0 && Clock::now() >= end; }
+  std::string words() const;  ///< "the budget of 60 s"
+};
+
 /** What the options of all commands ask for, each in its range. */
 struct Request {
   std::string parameter_file;
   std::optional<int> harmonics;     ///< m; without it 6, or what the command knows better
   std::optional<int> samples;       ///< N
   double newton_tolerance = 1e-10;  ///< relative
-  std::optional<double> budget;     ///< evaluations of the force, for all of it
-  int subharmonic = 1;              ///< K: motions of period KT
-  std::string columns = {};         ///< names, "all", or empty: the usual ones
+  std::optional<Allowance> budget;
+  int subharmonic = 1;       ///< K: motions of period KT
+  std::string columns = {};  ///< names, "all", or empty: the usual ones
   TableFormat format = TableFormat::tsv;
   bool quiet = false;                                  ///< no progress on stderr
   std::optional<std::string> plot = {}, overlay = {};  ///< files
@@ -103,16 +112,23 @@ Computed computed(const Parameters& parameters, const MotionRequest& request,
 /** Throws BadInput unless --from is below --to. */
 void require_range(double from, double to);
 
+/** So many speeds, both ends among them. */
+std::vector<double> evenly_spaced(double from, double to, int count);
+
 /** N as asked for, or the default for m. Throws BadInput when it is too small. */
 int checked_samples(int harmonics, const std::optional<int>& samples);
 
-/** The budget that is asked for, or the evaluations that take `seconds`; watched where a person is. */
+/** The budget that is asked for, or the evaluations that take `seconds`; watched where a
+    person is. Seconds of the clock bound the evaluations too, by what a fast core does. */
 OperationBudget budget_of(const Request& request, double seconds,
                           const Parameters& parameters);
-OperationBudget budget_of(const std::optional<double>& evaluations, double seconds,
-                          const Parameters& parameters);
 
-/** Whether any ball touched, and what was spent. */
+/** Of one motion of many: a user's seconds are those of the whole run. */
+OperationBudget budget_of_each(const std::optional<Allowance>& allowed, double seconds,
+                               const Parameters& parameters);
+
+/** The key `contact`, with a warning where no ball touched; that, and what was spent. */
+void put_contact(Table& table, const Parameters& parameters, bool touches);
 void conclude(Table& table, const Parameters& parameters, bool touches,
               const OperationBudget& budget);
 

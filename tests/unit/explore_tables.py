@@ -192,10 +192,9 @@ class Branch(Case):
         for direction, speeds in [("up", np.linspace(28, 46, 7)), ("down", np.linspace(46, 28, 7))]:
             table = self.table("response", self.machine, "--from", 28, "--to", 46, *TO_1E_3, "--count", 7,
                                "--direction", direction)
-            self.assertEqual(list(table.columns), ["f", *AMPLITUDES, "arc", "newton", "error"])
+            self.assertEqual(list(table.columns), ["f", *AMPLITUDES, "error"])
             np.testing.assert_allclose(table["f"], speeds, rtol=1e-12)
             self.assertLessEqual(max(table["error"]), 1e-3)
-            self.assertTrue(all(np.diff(table["arc"]) > 0))
         for k, speed in enumerate(speeds):
             exact = self.table("orbit", self.machine, "--frequency", speed, "--method", "shooting", "--no-stability")
             for name in AMPLITUDES:
