@@ -4,7 +4,7 @@
 live_sources := $(filter-out $(patsubst %,src/%.cpp,io/program io/parallel io/matrix_market model/large_machine model/reduction model/rational_fit \
   balance/large_problem time/gauss), $(wildcard $(patsubst %,src/%/*.cpp,io model balance continuation \
   time motion))) $(patsubst %,src/explore/%.cpp,balance_motion branch_file orbit resume response response_branch \
-  response_sweep response_table response_task settled_motion spectrum) \
+  response_sweep settled_motion spectrum) \
   live/live.cpp live/serial.cpp live/two_masses.cpp
 live_objects := $(live_sources:%.cpp=build/live/%.o)
 live_flags := -O2 -ffp-contract=off -fno-math-errno -fwasm-exceptions

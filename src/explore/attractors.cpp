@@ -32,10 +32,6 @@ struct Task {
   std::vector<double> speeds;  ///< [Hz]
   OperationBudget budget;
 
-  bool is_edge(std::size_t speed) const
-  {
-    return speed == 0 || speed + 1 == speeds.size();
-  }
   motion::Request asked_at(std::size_t speed) const
   {
     return {.omega = angular(speeds[speed]),
@@ -55,13 +51,10 @@ Task task_of(const AttractorsRequest& request)
   if (request.starts > most_starts)
     throw BadInput(format("--starts %d: must be in 0...%d with --count %d",
                           request.starts, most_starts, request.count));
-  std::vector<double> speeds;
-  for (int k = 0; k < request.count; ++k)
-    speeds.push_back(request.from +
-                     (request.to - request.from) * k / std::max(1, request.count - 1));
   const OperationBudget budget =
       budget_of(request, request.count * (3.0 + request.starts), machine);
-  return {request, machine, base_period(machine), std::move(speeds), budget};
+  return {request, machine, base_period(machine),
+          evenly_spaced(request.from, request.to, request.count), budget};
 }
 
 /** A random state of the size of the motion: both bodies together within twice the unbalance response of the joined
@@ -111,24 +104,10 @@ struct Run {
   std::string lost = {};  ///< why it has no result
 };
 
-/** Starts that are integrated one after the other. */
-struct Piece {
-  enum { up, down, at_speed } kind;
-  std::size_t speed = 0;
-};
-
-std::vector<Piece> pieces_of(const Task& task)
-{
-  std::vector<Piece> pieces{{Piece::up}};
-  if (task.speeds.size() > 1) pieces.push_back({Piece::down});
-  for (std::size_t k = 0; k < task.speeds.size(); ++k)
-    if (!task.is_edge(k) || task.request.starts > 0)
-      pieces.push_back({Piece::at_speed, k});
-  return pieces;
-}
-
-/** The chains begin at rest, which at the edges is the start from rest. */
-std::vector<Run> runs_of(const Task& task, const Piece& piece,
+/** What is integrated one after the other: piece 0 is the chain upwards, 1 the one downwards,
+    k + 2 the starts at speed k alone. The chains begin at rest, which at the edges is the
+    start from rest. */
+std::vector<Run> runs_of(const Task& task, std::size_t piece,
                          const OperationBudget& budget)
 {
   std::vector<Run> runs;
@@ -150,22 +129,25 @@ std::vector<Run> runs_of(const Task& task, const Piece& piece,
     if (!one.lost.empty()) return {};
     return one.answer.settled.at.state;
   };
-  if (piece.kind == Piece::at_speed) {
-    if (!task.is_edge(piece.speed)) run(piece.speed, Origin::rest, {});
-    const Based at = over(task.base, task.machine, angular(task.speeds[piece.speed]));
-    for (int k = 0; k < task.request.starts; ++k) {
-      const auto seed = (static_cast<std::uint64_t>(task.request.seed) << 32) +
-                        (static_cast<std::uint64_t>(piece.speed) << 16) +
-                        static_cast<std::uint64_t>(k);
-      run(piece.speed, Origin::random, random_state(at, seed));
-    }
+  const std::size_t count = task.speeds.size();
+  if (piece < 2) {
+    std::optional<State> state;
+    for (std::size_t k = 0; k < (piece == 1 && count == 1 ? 0 : count); ++k)
+      state = run(piece == 0 ? k : count - 1 - k,
+                  k == 0       ? Origin::rest
+                  : piece == 0 ? Origin::below
+                               : Origin::above,
+                  state);
     return runs;
   }
-  std::optional<State> state;
-  const Origin carried = piece.kind == Piece::up ? Origin::below : Origin::above;
-  for (std::size_t k = 0; k < task.speeds.size(); ++k) {
-    const std::size_t speed = piece.kind == Piece::up ? k : task.speeds.size() - 1 - k;
-    state = run(speed, k == 0 ? Origin::rest : carried, state);
+  const std::size_t speed = piece - 2;
+  if (speed > 0 && speed + 1 < count) run(speed, Origin::rest, {});
+  const Based at = over(task.base, task.machine, angular(task.speeds[speed]));
+  for (int k = 0; k < task.request.starts; ++k) {
+    const auto seed = (static_cast<std::uint64_t>(task.request.seed) << 32) +
+                      (static_cast<std::uint64_t>(speed) << 16) +
+                      static_cast<std::uint64_t>(k);
+    run(speed, Origin::random, random_state(at, seed));
   }
   return runs;
 }
@@ -173,15 +155,13 @@ std::vector<Run> runs_of(const Task& task, const Piece& piece,
 /** All starts in order, and whether the budget paid for them. */
 std::vector<Run> all_runs(const Task& task)
 {
-  const std::vector<Piece> pieces = pieces_of(task);
   /** The rest is for the exponents of closed motions. */
   const double most = 0.9 * task.budget.left();
   std::atomic<double> spent = 0;
   const auto of_pieces = computed_in_parallel(
-      task.request.quiet ? "" : "attractors", pieces.size(), [&](std::size_t k) {
+      task.request.quiet ? "" : "attractors", task.speeds.size() + 2, [&](std::size_t k) {
         /** Of earlier pieces only: these begin in order. */
-        auto runs =
-            runs_of(task, pieces[k], OperationBudget(std::max(0.0, most - spent)));
+        auto runs = runs_of(task, k, OperationBudget(std::max(0.0, most - spent)));
         for (const Run& run : runs) spent += run.spent;
         return runs;
       });

@@ -2,12 +2,10 @@
 
 #include <omp.h>
 #include <algorithm>
-#include <condition_variable>
 #include <map>
 #include <mutex>
 
 #include "explore/map_quantities.hpp"
-#include "explore/plot.hpp"
 #include "explore/resume.hpp"
 #include "io/errors.hpp"
 #include "io/parallel.hpp"
@@ -35,7 +33,7 @@ void put_method(Table& table, const MapTask& task)
   table.note(format("relative tolerance of Newton %g", request.newton_tolerance));
 }
 
-std::string header_of(const MapTask& task, const std::vector<Quantity>& chosen)
+Table header_of(const MapTask& task, const std::vector<Quantity>& chosen)
 {
   const MapRequest& request = task.request;
   std::vector<Column> columns;
@@ -66,7 +64,7 @@ std::string header_of(const MapTask& task, const std::vector<Quantity>& chosen)
   table.value("budget", budget_of_each(request.budget, seconds_of_a_point, base).most(),
               6);
   table.note("budget: evaluations of the force for each point");
-  return table.text();
+  return table;
 }
 
 /**
@@ -78,74 +76,57 @@ bool is_lost(const std::string& row)
 }
 
 /** Throws BadInput unless a row could be that of the point. */
-void require_row(const InterruptedTable& old, const std::vector<Quantity>& chosen,
-                 const std::vector<double>& values, const std::vector<std::string>& cells)
+void require_row(const std::vector<Quantity>& chosen, const std::vector<double>& values,
+                 const std::vector<std::string>& cells)
 {
-  const std::size_t keys = values.size();
+  const std::size_t keys = values.size(), wanted = keys + chosen.size() + 1;
   for (std::size_t k = 0; k < keys; ++k)
     if (k >= cells.size() || cells[k] != Cell(values[k]).text())
-      old.refuse("holds other points");
-  if (cells.size() != keys + chosen.size() + 1)
-    old.refuse(format("has a row of %zu cells, where %zu are needed", cells.size(),
-                      keys + chosen.size() + 1));
+      throw BadInput("holds other points");
+  if (cells.size() != wanted)
+    throw BadInput(
+        format("has a row of %zu cells, where %zu are needed", cells.size(), wanted));
   bool is_complete = true;
   for (std::size_t k = 0; k < chosen.size(); ++k) {
     const std::string& cell = cells[keys + k];
-    const bool is_word =
-        chosen[k].unit == "word" && !cell.empty() &&
-        cell.find_first_not_of("abcdefghijklmnopqrstuvwxyz-") == std::string::npos;
+    const bool is_value =
+        chosen[k].unit == "word"
+            ? cell.find_first_not_of("abcdefghijklmnopqrstuvwxyz-") == std::string::npos
+            : number_of(cell).has_value();
     if (cell == no_value)
       is_complete = false;
-    else if (!is_word && !(chosen[k].unit != "word" && number_of(cell)))
-      old.refuse("'" + cell.substr(0, 40) + "' is no value of " + chosen[k].name);
+    else if (!is_value || cell.empty())
+      throw BadInput("'" + cell.substr(0, 40) + "' is no value of " + chosen[k].name);
   }
   if (cells.back().empty() || (cells.back() == all_well) != is_complete)
-    old.refuse("the status of a row does not fit its cells");
+    throw BadInput("the status of a row does not fit its cells");
 }
 
 /** Rows in order of their lines, written as soon as all before them are there. */
 class Output {
 public:
-  Output(const MapTask& task, const std::vector<Quantity>& chosen)
+  Output(const MapTask& task, const std::vector<Quantity>& chosen,
+         const std::string& header)
       : task_(task), next_(task.grid.first)
   {
-    const std::string header = header_of(task, chosen);
     if (task.request.resume)
-      copy(*task.request.resume, header, chosen);
+      copy(*task.request.resume, chosen, header);
     else
       print(header);
-  }
-
-  std::size_t next() const { return next_; }
-
-  /** Waits until the line is not too far ahead of the first that is missing: what is kept is bounded. */
-  void wait_for_turn(std::size_t line)
-  {
-    constexpr std::size_t most_ahead = 256;
-    std::unique_lock lock(mutex_);
-    moved_.wait(lock, [&] { return stopped_ || line < next_ + most_ahead; });
   }
 
   void take(std::size_t line, std::string rows, std::size_t failed)
   {
     const std::lock_guard lock(mutex_);
     failed_ += failed;
-    waiting_.emplace(line, std::move(rows));
-    while (!waiting_.empty() && waiting_.begin()->first == next_) {
+    waiting_[line] = std::move(rows);
+    for (; !waiting_.empty() && waiting_.begin()->first == next_; ++next_) {
       print(waiting_.begin()->second);
       waiting_.erase(waiting_.begin());
-      ++next_;
     }
-    moved_.notify_all();
   }
 
-  void stop()
-  {
-    const std::lock_guard lock(mutex_);
-    stopped_ = true;
-    moved_.notify_all();
-  }
-
+  std::size_t next() const { return next_; }
   std::size_t failed() const { return failed_; }
   const std::string& all() const { return all_; }
 
@@ -157,23 +138,21 @@ private:
   }
 
   /** The whole lines of x of an interrupted table, after all of it was looked at. */
-  void copy(const std::string& file, const std::string& header,
-            const std::vector<Quantity>& chosen)
+  void copy(const std::string& file, const std::vector<Quantity>& chosen,
+            const std::string& header)
   {
-    InterruptedTable old(file, "map", header);
     const Grid& grid = task_.grid;
-    const std::size_t count = grid.x.count, most = (grid.last - grid.first) * count;
+    const std::size_t count = grid.x.count;
     std::size_t rows = 0;
-    old.each_row([&](const std::string&, const std::vector<std::string>& cells) {
-      if (rows == most) old.refuse("holds other points");
-      require_row(old, chosen, grid.values(grid.first + rows / count, rows % count),
-                  cells);
+    each_row_of(file, "map", header, [&](const std::string&, const auto& cells) {
+      if (rows == (grid.last - grid.first) * count) throw BadInput("holds other points");
+      require_row(chosen, grid.values(grid.first + rows / count, rows % count), cells);
       ++rows;
     });
     print(header);
     next_ += rows / count;
     std::size_t left = rows / count * count;
-    old.each_row([&](const std::string& row, const std::vector<std::string>&) {
+    each_row_of(file, "map", header, [&](const std::string& row, const auto&) {
       if (left == 0) return;
       --left;
       failed_ += is_lost(row);
@@ -183,8 +162,6 @@ private:
 
   const MapTask& task_;
   std::mutex mutex_;
-  std::condition_variable moved_;
-  bool stopped_ = false;
   std::map<std::size_t, std::string> waiting_;
   std::size_t next_, failed_ = 0;
   std::string all_;
@@ -194,17 +171,15 @@ private:
 void add_line(const MapTask& task, const std::vector<Quantity>& chosen, std::size_t line,
               Output& output)
 {
-  output.wait_for_turn(line);
   std::string rows;
   std::size_t failed = 0;
   PeriodicMotion before;
   for (std::size_t k = 0; k < task.grid.x.count; ++k) {
     const std::string row = row_of(task, chosen, task.grid.values(line, k), before);
-    if (task.request.budget && task.request.budget->is_over())
-      throw NoSolution(format(
-          "%s: %s is used up; --resume FILE goes on with the rows "
-          "that are written",
-          task.request.parameter_file.c_str(), task.request.budget->words().c_str()));
+    if (const auto& budget = task.request.budget; budget && budget->is_over())
+      throw NoSolution(
+          task.request.parameter_file + ": " + budget->words() +
+          " is used up; --resume FILE goes on with the rows that are written");
     failed += is_lost(row);
     rows += row + "\n";
   }
@@ -213,27 +188,20 @@ void add_line(const MapTask& task, const std::vector<Quantity>& chosen, std::siz
 
 }  // namespace
 
-void explore_map(const MapRequest& request)
+Exploration explore_map(const MapRequest& request)
 {
   const MapTask task = task_of(request);
   const std::vector<Quantity> chosen = chosen_quantities(task);
   if (request.threads > 0) omp_set_num_threads(request.threads);
-  Output output(task, chosen);
+  const Table header = header_of(task, chosen);
+  Output output(task, chosen, header.text());
   const std::size_t first = output.next(), last = task.grid.last;
-  in_parallel(request.quiet ? "" : "lines", last - first, [&](std::size_t piece) {
-    try {
-      add_line(task, chosen, first + piece, output);
-    } catch (...) {
-      output.stop();
-      throw;
-    }
-  });
+  in_parallel(request.quiet ? "" : "lines", last - first,
+              [&](std::size_t piece) { add_line(task, chosen, first + piece, output); });
   if (output.failed() > 0)
     std::fprintf(stderr, "%zu of %zu points have no result: see their status\n",
                  output.failed(), (last - task.grid.first) * task.grid.x.count);
-  if (!request.plot) return;
-  const std::string undrawn = plot(*request.plot, "map.py", output.all());
-  if (!undrawn.empty()) throw NoSolution(undrawn);
+  return {.table = header, .drawn = output.all(), .is_written = true};
 }
 
 }  // namespace rotor_stator::explore

@@ -28,7 +28,8 @@ struct MapRequest : Request {
 /** The names of the quantities, each with its unit and meaning. */
 const std::vector<Column>& map_quantities();
 
-/** Writes the table to stdout, line by line of x; says on stderr how many points have no result. Throws BadInput. */
-void explore_map(const MapRequest& request);
+/** Writes the table to stdout, line by line of x; says on stderr how many points have no
+    result. Throws BadInput. */
+Exploration explore_map(const MapRequest& request);
 
 }  // namespace rotor_stator::explore

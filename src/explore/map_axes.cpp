@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <cmath>
 
-#include "explore/plot.hpp"
 #include "io/errors.hpp"
 #include "io/program.hpp"
 
@@ -159,10 +158,6 @@ MapTask task_of(const MapRequest& request)
     throw BadInput("--frequency: is a key of the map already");
   if (request.tolerance && request.samples && !request.harmonics)
     throw BadInput("--samples: chosen with m for --tolerance; give --harmonics too");
-  std::vector<std::string> inputs{request.parameter_file};
-  if (request.list) inputs.push_back(*request.list);
-  if (request.resume) inputs.push_back(*request.resume);
-  if (request.plot) require_plot(*request.plot, "map.py", inputs);
   /** The corners, so that an unknown key or a range that no machine has is refused at once. */
   const std::size_t top = grid.list ? 0 : grid.lines() - 1;
   for (const std::size_t line : {std::size_t{0}, top})

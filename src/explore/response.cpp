@@ -1,9 +1,223 @@
 #include "explore/response.hpp"
 
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "balance/bearing_problem.hpp"
 #include "explore/response_branch.hpp"
 #include "explore/response_sweep.hpp"
+#include "io/errors.hpp"
+#include "io/output_file.hpp"
+#include "model/base_period.hpp"
+#include "motion/contact.hpp"
+#include "motion/lines.hpp"
 
 namespace rotor_stator::explore {
+
+namespace {
+
+/** Component k of a value in each direction. */
+template <Displacements ResponseRow::*what, int k>
+constexpr auto part = [](const ResponseRow& r) -> Cell { return (r.*what)[k]; };
+using Row = ResponseRow;
+
+const ResponseFields usual_fields{
+    {"f", "Hz", "speed of rotation", &Row::frequency},
+    {"amp_x_s", "m", "half peak-to-peak of x_s", part<&Row::amplitude, 0>},
+    {"amp_y_s", "m", "half peak-to-peak of y_s", part<&Row::amplitude, 1>},
+    {"amp_x_r", "m", "half peak-to-peak of x_r", part<&Row::amplitude, 2>},
+    {"amp_y_r", "m", "half peak-to-peak of y_r", part<&Row::amplitude, 3>}};
+
+const ResponseFields means{{"mean_x_s", "m", "mean of x_s", part<&Row::mean, 0>},
+                           {"mean_y_s", "m", "mean of y_s", part<&Row::mean, 1>},
+                           {"mean_x_r", "m", "mean of x_r", part<&Row::mean, 2>},
+                           {"mean_y_r", "m", "mean of y_r", part<&Row::mean, 3>}};
+
+const ResponseFields rms{
+    {"rms_x_s", "m", "rms of x_s about the mean", part<&Row::rms, 0>},
+    {"rms_y_s", "m", "rms of y_s about the mean", part<&Row::rms, 1>},
+    {"rms_x_r", "m", "rms of x_r about the mean", part<&Row::rms, 2>},
+    {"rms_y_r", "m", "rms of y_r about the mean", part<&Row::rms, 3>}};
+
+const ResponseFields contact_fields{
+    {"amp_F_x", "N", "half peak-to-peak of F_x", [](auto& r) { return r.force.x; }},
+    {"amp_F_y", "N", "half peak-to-peak of F_y", [](auto& r) { return r.force.y; }},
+    {"contact_share", "-", "share of the time with a loaded ball", &Row::contact_share},
+    {"ball_load", "N", "largest force of a ball", &Row::ball_load}};
+
+const std::vector<std::string> displacement_names{"x_s", "y_s", "x_r", "y_r"};
+
+/** The row of the displacement whose harmonics are asked for. */
+Eigen::Index displacement_row(const ResponseTask& task)
+{
+  return std::ranges::find(displacement_names, task.request.harmonics_of) -
+         displacement_names.begin();
+}
+
+/** Throws BadInput for options that do not belong together, before anything is read. */
+void require_options(const ResponseRequest& request)
+{
+  const bool is_beside = request.save || request.restart || request.isolated > 0;
+  if (request.at && (*request.at < request.from || *request.at > request.to))
+    throw BadInput(
+        format("--at %g: must be in %g...%g", *request.at, request.from, request.to));
+  if (!request.direction.empty() && request.direction != "up" &&
+      request.direction != "down")
+    throw BadInput("--direction " + request.direction + ": must be up or down");
+  std::vector<std::string> inputs{request.parameter_file};
+  if (request.restart) inputs.push_back(*request.restart);
+  for (const auto& [option, file] : {std::pair{"--save", request.save},
+                                     {"--waterfall", request.waterfall},
+                                     {"--plot", request.plot}})
+    if (file) require_writable(option, *file, inputs);
+  if (!request.harmonics_of.empty() &&
+      std::ranges::find(displacement_names, request.harmonics_of) ==
+          displacement_names.end())
+    throw BadInput("--harmonics-of " + request.harmonics_of +
+                   ": must be one of x_s, y_s, x_r, y_r");
+  if (request.subharmonic > 1 && is_beside)
+    throw BadInput("--subharmonic: not together with --save, --restart or --isolated");
+  if (request.tolerance &&
+      (request.harmonics || request.samples || is_beside || request.subharmonic > 1 ||
+       request.stability || request.waterfall))
+    throw BadInput(
+        "--tolerance: not together with --harmonics, --samples, --save, --restart, "
+        "--isolated, --subharmonic, --stability or --waterfall");
+}
+
+/** Where the balls' passing has not the period of rotation, or nothing else moves. */
+void take_any_cage(const ResponseRequest& request, ResponseTask& task)
+{
+  const BasePeriod base = base_period(task.machine);
+  const bool is_whole = turns_to_repeat(task.machine.bearing) == 1;
+  const bool needs_turn =
+      request.subharmonic > 1 || request.save || request.restart || request.isolated > 0;
+  if (is_whole && (needs_turn || base.kind != BasePeriod::Kind::passing)) return;
+  if (needs_turn)
+    throw BadInput(
+        format("--subharmonic, --save, --restart and --isolated need a whole number of "
+               "passing balls in a turn, and n*omega_cage/omega is %.9g",
+               passages_per_turn(task.machine.bearing)));
+  task.base_period = base.words();
+  if (base.kind == BasePeriod::Kind::passing) {
+    task.parameters = over_passage(task.machine);
+    task.passages = base.per_turn;
+  } else if (!base.is_driven_twice()) {
+    task.parameters = over_turns(task.machine, base.turns);
+    task.harmonics *= base.turns;
+    task.samples *= base.turns;
+  } else {
+    task.has_two_frequencies = true;
+    if (request.harmonics || request.samples || request.stability)
+      throw BadInput(
+          "--harmonics, --samples, --stability: not where n*omega_cage/omega is not a "
+          "whole number; the harmonics are chosen, and orbit judges");
+  }
+}
+
+}  // namespace
+
+void observe(ResponseRow& row, const Parameters& parameters, const motion::Motion& motion)
+{
+  const auto samples = motion::displacement_samples(motion);
+  for (Eigen::Index i = 0; i < 4; ++i)
+    row.mean[static_cast<std::size_t>(i)] = samples.col(i).mean();
+  const auto forces = motion::bearing_forces(parameters, motion);
+  const auto half_range = [&](double Vec2::*axis) {
+    const auto [low, high] = std::ranges::minmax_element(forces, {}, axis);
+    return 0.5 * ((*high).*axis - (*low).*axis);
+  };
+  row.force = {half_range(&Vec2::x), half_range(&Vec2::y)};
+  row.contact_share = motion::contact_share(parameters, motion);
+  row.ball_load = motion::largest_ball_load(
+      parameters, motion, std::ssize(motion.positions) / motion.points_per_period);
+}
+
+ResponseColumns columns_of(const Parameters& parameters, const ResponseFields& own,
+                           bool is_settled)
+{
+  ResponseFields all = usual_fields;
+  const auto add = [&](const ResponseFields& some) {
+    all.insert(all.end(), some.begin(), some.end());
+  };
+  add(own);
+  const std::size_t usual = all.size();
+  if (is_settled)
+    add({{"lyapunov", "1/s", "growth rate of neighbouring motions", &Row::lyapunov}});
+  add(means);
+  if (is_settled) add(rms);
+  add(contact_fields);
+  if (const double pressure = parameters.bearing.pressure; pressure > 0)
+    all.push_back({"stress", "N/mm^2", "largest pressure of Hertz under ball_load",
+                   [=](auto& r) { return 1e-6 * pressure * std::cbrt(r.ball_load); }});
+  return {all, usual};
+}
+
+ResponseTask response_task(const ResponseRequest& request)
+{
+  require_range(request.from, request.to);
+  const Parameters parameters = machine_of(request, request.from, request.to);
+  if (request.method == "shooting" || request.save || request.restart ||
+      request.isolated > 0)
+    require_two_masses(parameters, "--method shooting, --save, --restart or --isolated");
+  require_options(request);
+  std::optional<SavedBranch> saved;
+  if (request.restart) saved = read_branch(*request.restart, parameters, request.branch);
+  const int harmonics = request.harmonics.value_or(saved ? saved->harmonics : 6);
+  std::optional<int> samples = request.samples;
+  if (!samples && saved && saved->harmonics == harmonics) samples = saved->samples;
+  /** The starts beside the branch, nine at each speed, must fit into the memory. */
+  const int most_isolated = 500000 / harmonics;
+  if (request.isolated > most_isolated)
+    throw BadInput(format("--isolated %d: must be in 0...%d with %d harmonics",
+                          request.isolated, most_isolated, harmonics));
+  ArcLengthSettings settings =
+      arc_length_settings(parameters, {.tolerance = request.newton_tolerance});
+  settings.most_evaluations =
+      std::numeric_limits<long>::max();  // the budget is the bound
+  const double seconds = request.stability || request.method == "shooting" ? 60
+                         : request.subharmonic > 1                         ? 30
+                                                                           : 3;
+  const bool upwards =
+      request.direction.empty() ? !saved || saved->upwards : request.direction == "up";
+  ResponseTask task{
+      request,          parameters, over_turns(parameters, request.subharmonic),
+      std::move(saved), harmonics,  checked_samples(harmonics, samples),
+      settings,         upwards,    budget_of(request, seconds, parameters)};
+  take_any_cage(request, task);
+  return task;
+}
+
+ResponseFields harmonic_fields(const ResponseTask& task, const Harmonics& harmonics)
+{
+  ResponseFields fields;
+  const std::string& whose = task.request.harmonics_of;
+  if (whose.empty()) return fields;
+  const bool two = task.has_two_frequencies;
+  for (std::size_t k = 0; const Harmonic& h : harmonics.list()) {
+    const double order = two ? order_of(h, task.machine.bearing)
+                             : h.k_1 * task.passages / task.parameters.turns;
+    const std::string name = whose + (two ? format("_%g_%g", 1.0 * h.k_1, 1.0 * h.k_2)
+                                          : format("_%g", 1.0 * h.k_1));
+    fields.push_back({name + "_re", "m", format("order %.9g, real part", order),
+                      [=](auto& r) { return r.harmonics[k].real(); }});
+    fields.push_back({name + "_im", "m", format("order %.9g, imaginary part", order),
+                      [=](auto& r) { return r.harmonics[k].imag(); }});
+    ++k;
+  }
+  return fields;
+}
+
+std::vector<std::complex<double>> harmonics_of(const ResponseTask& task,
+                                               const Eigen::MatrixXd& series)
+{
+  std::vector<std::complex<double>> all;
+  if (task.request.harmonics_of.empty()) return all;
+  for (int k = 0; 2 * k < series.cols(); ++k)
+    all.push_back(amplitude(series, k)[displacement_row(task)]);
+  return all;
+}
 
 Exploration explore_response(const ResponseRequest& request)
 {

@@ -54,20 +54,20 @@ std::vector<std::vector<Cell>> rows_to_resume(const Sweep& sweep)
 {
   std::vector<std::vector<Cell>> rows;
   if (!sweep.request.resume) return rows;
-  InterruptedTable old(*sweep.request.resume, "response", sweep.table.beginning());
-  old.each_row([&](const std::string&, const std::vector<std::string>& words) {
+  const auto add = [&](const std::string&, const std::vector<std::string>& words) {
     std::vector<Cell> cells;
     for (const std::string& word : words) {
       const std::optional<double> number = number_of(word);
-      if (!number) old.refuse("has a cell that is no number: " + word);
+      if (!number) throw BadInput("has a cell that is no number: " + word);
       cells.emplace_back(*number);
     }
     const std::string speed =
         rows.size() < sweep.speeds.size() ? Cell(sweep.speeds[rows.size()]).text() : "";
     if (cells.size() != sweep.table.printed() || cells.front().text() != speed)
-      old.refuse("holds other points");
+      throw BadInput("holds other points");
     rows.push_back(std::move(cells));
-  });
+  };
+  each_row_of(*sweep.request.resume, "response", sweep.table.beginning(), add);
   return rows;
 }
 

@@ -1,5 +1,6 @@
 #include "explore/resume.hpp"
 
+#include <fstream>
 #include <sstream>
 
 #include "io/errors.hpp"
@@ -9,35 +10,29 @@
 
 namespace rotor_stator::explore {
 
-InterruptedTable::InterruptedTable(std::string file, const std::string& what,
-                                   const std::string& beginning)
-    : file_(std::move(file)), in_(open_file(file_, "a " + what, std::uintmax_t{1} << 60)),
-      begin_(static_cast<std::streamoff>(beginning.size()))
-{
+void each_row_of(const std::string& file, const std::string& what,
+                 const std::string& beginning,
+                 const std::function<void(const std::string& row,
+                                          const std::vector<std::string>& cells)>& take)
+try {
+  std::ifstream in = open_file(file, "a " + what, std::uintmax_t{1} << 60);
   std::string found(beginning.size(), '\0');
-  in_.read(found.data(), static_cast<std::streamsize>(found.size()));
-  found.resize(static_cast<std::size_t>(in_.gcount()));
-  if (beginning.starts_with(found)) return;
-  const std::string writer = writer_of_other_schema(file_);
-  refuse(writer.empty() ? "was made with other settings"
-                        : "was written by " + writer + ", start this " + what + " anew");
-}
-
-void InterruptedTable::each_row(const Take& take)
-{
-  in_.clear();
-  in_.seekg(begin_);
-  for (std::string row; std::getline(in_, row) && !in_.eof() && !row.starts_with('#');) {
+  in.read(found.data(), static_cast<std::streamsize>(found.size()));
+  found.resize(static_cast<std::size_t>(in.gcount()));
+  if (!beginning.starts_with(found)) {
+    const std::string writer = writer_of_other_schema(file);
+    throw BadInput(writer.empty()
+                       ? "was made with other settings"
+                       : "was written by " + writer + ", start this " + what + " anew");
+  }
+  for (std::string row; std::getline(in, row) && !in.eof() && !row.starts_with('#');) {
     std::vector<std::string> cells;
     std::istringstream words(row);
     for (std::string cell; std::getline(words, cell, '\t');) cells.push_back(cell);
     take(row, cells);
   }
-}
-
-void InterruptedTable::refuse(const std::string& why) const
-{
-  throw BadInput("--resume " + file_ + ": " + why);
+} catch (const BadInput& error) {
+  throw BadInput("--resume " + file + ": " + error.what());
 }
 
 std::optional<double> number_of(const std::string& cell)

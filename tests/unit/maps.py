@@ -238,7 +238,7 @@ class Refusals(Case):
                 ("A must be below B", f"--x {CLEARANCE}=0:1e-4:3 --sweep 2:1 --quantity peak"),
                 ("those of --sweep", f"--x {CLEARANCE}=0:1e-4:3 --sweep 1:2 --frequency 45 --quantity peak"),
                 ("is of harmonic balance", f"--x {CLEARANCE}=0:1e-4:3 --frequency 45 --method rk4 --quantity error"),
-                ("for the time methods", f"--x {CLEARANCE}=0:1e-4:3 --method aft --longest 3 {usual}"),
+                ("for a motion in time", f"--x {CLEARANCE}=0:1e-4:3 --method aft --longest 3 {usual}"),
                 ("error is of harmonic balance", f"--x {CLEARANCE}=0:1e-4:3 --frequency 45 --quantity error"),
                 ("peak is of harmonic balance", f"--x {CLEARANCE}=0:1e-4:3 --sweep 1:2 --quantity peak"),
                 ("--periods: not expected", f"--x {CLEARANCE}=0:1e-4:3 --method rk4 --periods 2 {usual}"),
