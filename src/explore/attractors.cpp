@@ -161,7 +161,8 @@ std::vector<Run> all_runs(const Task& task)
   const auto of_pieces = computed_in_parallel(
       task.request.quiet ? "" : "attractors", task.speeds.size() + 2, [&](std::size_t k) {
         /** Of earlier pieces only: these begin in order. */
-        auto runs = runs_of(task, k, OperationBudget(std::max(0.0, most - spent)));
+        auto runs = runs_of(
+            task, k, budget_until(task.request.budget, std::max(0.0, most - spent)));
         for (const Run& run : runs) spent += run.spent;
         return runs;
       });
@@ -415,7 +416,9 @@ Exploration explore_attractors(const AttractorsRequest& request)
   note(table, task);
   put_complete(table, missing);
   for (const Found& found : all) table.row(fields, found);
-  conclude(table, task.machine, std::ranges::any_of(all, &Found::touches), task.budget);
+  const bool touches = std::ranges::any_of(all, &Found::touches);
+  if (touches || missing.empty()) put_contact(table, task.machine, touches);
+  put_cost(table, task.budget);
   std::string section;
   if (request.section || request.plot) section = section_text(task, all);
   if (request.section) write_file(*request.section, section);

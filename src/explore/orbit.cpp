@@ -70,16 +70,22 @@ std::string Allowance::words() const
                      : format("the budget of %.3g evaluations of the force", evaluations);
 }
 
+OperationBudget budget_until(const std::optional<Allowance>& allowed, double evaluations,
+                             const std::string& option)
+{
+  OperationBudget budget(evaluations, option);
+  if (allowed && allowed->seconds > 0) budget.end_at(allowed->end, allowed->seconds);
+  return budget;
+}
+
 OperationBudget budget_of_each(const std::optional<Allowance>& allowed, double seconds,
                                const Parameters& parameters)
 {
   const double each = operations_per_evaluation(parameters.bearing.balls);
   if (parameters.large) seconds *= 20;
   const bool is_counted = allowed && allowed->evaluations > 0;
-  OperationBudget budget(is_counted ? allowed->evaluations : 1e9 * seconds / each,
-                         "--budget");
-  if (allowed && !is_counted) budget.end_at(allowed->end, allowed->seconds);
-  return budget;
+  return budget_until(allowed, is_counted ? allowed->evaluations : 1e9 * seconds / each,
+                      "--budget");
 }
 
 OperationBudget budget_of(const Request& request, double seconds,
@@ -109,6 +115,11 @@ void conclude(Table& table, const Parameters& parameters, bool touches,
               const OperationBudget& budget)
 {
   put_contact(table, parameters, touches);
+  put_cost(table, budget);
+}
+
+void put_cost(Table& table, const OperationBudget& budget)
+{
   /** Three digits do not depend on the order in which threads have spent. */
   table.value("evaluations", budget.spent(), 3);
   if (budget.seconds() > 0)

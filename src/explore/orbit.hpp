@@ -123,12 +123,17 @@ int checked_samples(int harmonics, const std::optional<int>& samples);
 OperationBudget budget_of(const Request& request, double seconds,
                           const Parameters& parameters);
 
+/** So many evaluations, and no longer than a user's seconds. */
+OperationBudget budget_until(const std::optional<Allowance>& allowed, double evaluations,
+                             const std::string& option = "");
+
 /** Of one motion of many: a user's seconds are those of the whole run. */
 OperationBudget budget_of_each(const std::optional<Allowance>& allowed, double seconds,
                                const Parameters& parameters);
 
-/** The key `contact`, with a warning where no ball touched; that, and what was spent. */
+/** The key `contact`, with a warning where no ball touched; what was spent; both. */
 void put_contact(Table& table, const Parameters& parameters, bool touches);
+void put_cost(Table& table, const OperationBudget& budget);
 void conclude(Table& table, const Parameters& parameters, bool touches,
               const OperationBudget& budget);
 

@@ -90,8 +90,7 @@ Exploration computed(Sweep& sweep)
   }
   const auto ended_at = [&](double frequency, double most) {
     Ended one;
-    OperationBudget own(most);
-    if (budget && budget->seconds > 0) own.end_at(budget->end, budget->seconds);
+    const OperationBudget own = budget_until(budget, most);
     try {
       one.row = sweep.row_at(frequency, own);
     } catch (const NoSolution& none) {
