@@ -57,8 +57,9 @@ Task task_of(const AttractorsRequest& request)
           evenly_spaced(request.from, request.to, request.count), budget};
 }
 
-/** A random state of the size of the motion: both bodies together within twice the unbalance response of the joined
-    bodies, the relative motion within twice the bearing's size. */
+/** A random state of the size of the motion: both bodies together within twice the
+    unbalance response of the joined bodies, the relative motion within twice the
+    bearing's size. */
 State random_state(const Based& at, std::uint64_t seed)
 {
   const auto& [machine, base] = at;
@@ -86,9 +87,10 @@ State random_state(const Based& at, std::uint64_t seed)
 /**
 ## The starts
 
-Two chains carry the state on from speed to speed; each speed has its own starts beside them. Some are integrated at
-once, but what they cost is added up in their order, and what goes beyond the budget is lost, so that the table does
-not depend on the number of threads. */
+Two chains carry the state on from speed to speed; each speed has its own starts beside
+them. Some are integrated at once, but what they cost is added up in their order, and what
+goes beyond the budget is lost, so that the table does not depend on the number of
+threads. */
 
 const char* const out_of_budget = "the budget is used up, more with --budget";
 
@@ -104,14 +106,15 @@ struct Run {
   std::string lost = {};  ///< why it has no result
 };
 
-/** What is integrated one after the other: piece 0 is the chain upwards, 1 the one downwards,
-    k + 2 the starts at speed k alone. The chains begin at rest, which at the edges is the
-    start from rest. */
+/** What is integrated one after the other: piece 0 is the chain upwards, 1 the one
+    downwards, k + 2 the starts at speed k alone. The chains begin at rest, which at the
+    edges is the start from rest. */
 std::vector<Run> runs_of(const Task& task, std::size_t piece,
                          const OperationBudget& budget)
 {
   std::vector<Run> runs;
-  /** The state that the next start of a chain takes; at rest again after one that was lost. */
+  /** The state that the next start of a chain takes; at rest again after one that was
+      lost. */
   const auto run = [&](std::size_t speed, Origin origin,
                        const std::optional<State>& start) -> std::optional<State> {
     const double left = budget.left();
@@ -201,8 +204,9 @@ struct Found {
   Exponent exponent() const { return answer.settled.lyapunov; }
 };
 
-/** Whether two motions of one speed are on one attractor: both close after as many periods or neither does, two kinds
-    do not contradict each other, and means and scatters agree over the largest scatter. At rest all do. */
+/** Whether two motions of one speed are on one attractor: both close after as many
+    periods or neither does, two kinds do not contradict each other, and means and
+    scatters agree over the largest scatter. At rest all do. */
 bool is_same(const Run& a, const Found& b)
 {
   const Kind kind = a.answer.kind(), other = b.answer.kind();
@@ -219,8 +223,9 @@ bool is_same(const Run& a, const Found& b)
   return apart <= size * (is_closed ? same_closed : same_open);
 }
 
-/** The motion itself, closed where it closes. Of another one the exponent is the mean over its starts, whose scatter
-    knows more than one motion does of itself. Throws NoSolution when the budget is used up. */
+/** The motion itself, closed where it closes. Of another one the exponent is the mean
+    over its starts, whose scatter knows more than one motion does of itself. Throws
+    NoSolution when the budget is used up. */
 void look_closer(const Task& task, std::size_t speed, Found& found)
 {
   motion::Request request = task.asked_at(speed);
@@ -238,7 +243,8 @@ void look_closer(const Task& task, std::size_t speed, Found& found)
       std::ranges::any_of(forces, [](Vec2 f) { return f.x != 0 || f.y != 0; });
 }
 
-/** One of each attractor in the order of the starts; a decided motion speaks for those that are not. */
+/** One of each attractor in the order of the starts; a decided motion speaks for those
+    that are not. */
 std::vector<Found> found_at(const Task& task, std::size_t speed, std::vector<Run> runs)
 {
   const auto is_decided = [](const Run& run) {

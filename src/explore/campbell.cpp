@@ -58,7 +58,8 @@ public:
   }
 
 private:
-  /** By the sense in which the ellipses of all places that are shown turn, weighted by their areas. */
+  /** By the sense in which the ellipses of all places that are shown turn, weighted by
+      their areas. */
   int whirl(const Eigen::VectorXcd& shape) const
   {
     double turning = 0, whole = 0;

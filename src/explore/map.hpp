@@ -1,9 +1,10 @@
 /**
 # explore map
 
-Quantities of one machine over two keys of its parameter file, over one, or at a list of points: one row for each
-point. Along a line of x the solution at a point starts from that of the point before; lines know nothing of each
-other, so that the rows depend neither on the number of threads nor on how the lines are dealt out to several runs. */
+Quantities of one machine over two keys of its parameter file, over one, or at a list of
+points: one row for each point. Along a line of x the solution at a point starts from that
+of the point before; lines know nothing of each other, so that the rows depend neither on
+the number of threads nor on how the lines are dealt out to several runs. */
 #pragma once
 
 #include "explore/orbit.hpp"

@@ -158,7 +158,8 @@ MapTask task_of(const MapRequest& request)
     throw BadInput("--frequency: is a key of the map already");
   if (request.tolerance && request.samples && !request.harmonics)
     throw BadInput("--samples: chosen with m for --tolerance; give --harmonics too");
-  /** The corners, so that an unknown key or a range that no machine has is refused at once. */
+  /** The corners, so that an unknown key or a range that no machine has is refused at
+      once. */
   const std::size_t top = grid.list ? 0 : grid.lines() - 1;
   for (const std::size_t line : {std::size_t{0}, top})
     for (const std::size_t k : {std::size_t{0}, grid.x.count - 1})

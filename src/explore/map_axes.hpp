@@ -57,8 +57,8 @@ struct MapTask {
   bool has_speed() const;
 };
 
-/** Throws BadInput for axes that are none, for options that do not belong together, and for
-    machines at the corners that cannot exist. */
+/** Throws BadInput for axes that are none, for options that do not belong together, and
+    for machines at the corners that cannot exist. */
 MapTask task_of(const MapRequest& request);
 
 }  // namespace rotor_stator::explore

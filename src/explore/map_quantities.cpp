@@ -21,7 +21,8 @@ namespace {
 constexpr int instants = 512, swept_instants = 128;  // of a period
 constexpr int recorded_periods = 64;
 
-/** A value that is computed when it is first asked for, or the reason why there is none. */
+/** A value that is computed when it is first asked for, or the reason why there is
+    none. */
 template <class Value>
 class Once {
 public:

@@ -16,7 +16,8 @@ using Options = std::vector<CLI::Option*>;
 constexpr int largest_seed = 1000000000, most_samples = 1 << 20, most_points = 1 << 16;
 constexpr double largest = 1e300;  // 2 pi times as much is still a number
 
-/** An option with a number in decimal notation, in its range; the help shows its default. */
+/** An option with a number in decimal notation, in its range; the help shows its
+    default. */
 template <class Number, class Bound>
 CLI::Option* add_number(CLI::App& command, const std::string& name, Number& value,
                         Bound least, Bound most, const std::string& meaning)
@@ -109,7 +110,8 @@ void add_speeds(CLI::App& command, double& from, double& to)
   add_number(command, "--to", to, 0.0, largest, "last speed [Hz]")->required();
 }
 
-/** Those of harmonic balance, which are returned; `or_m`: what may stand for the default m. */
+/** Those of harmonic balance, which are returned; `or_m`: what may stand for the default
+    m. */
 Options add_balance_options(CLI::App& command, Request& request, const std::string& or_m)
 {
   return {add_number(command, "--harmonics", request.harmonics, 1, 4096,

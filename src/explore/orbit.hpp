@@ -61,7 +61,8 @@ struct Exploration {
   bool is_written = false;      ///< row by row, on stdout
 };
 
-/** Throw BadInput for options that contradict each other, NoSolution when nothing was found. */
+/** Throw BadInput for options that contradict each other, NoSolution when nothing was
+    found. */
 Exploration explore_orbit(const MotionRequest& request);
 Exploration explore_contact(const MotionRequest& request);
 
@@ -76,14 +77,16 @@ inline const Column phase_column{
     "omega t, modulo 2 pi, or 2 pi K with --subharmonic K or --periods K"};
 inline const Column time_column{"t", "s", "time since phase 0"};
 
-/** The machine, right at these speeds [Hz], the request's harmonics and the rotor's `nodes`. Throws BadInput. */
+/** The machine, right at these speeds [Hz], the request's harmonics and the rotor's
+    `nodes`. Throws BadInput. */
 Parameters machine_of(const Request& request, double from, double to,
                       const NumberTable* nodes = nullptr);
 
 /** Throws BadInput for a time method that does not integrate such bodies. */
 void require_method_of(const Parameters& parameters, const std::string& method);
 
-/** A motion, the machine counted over its period, and its lines, which a record leaves out. */
+/** A motion, the machine counted over its period, and its lines, which a record leaves
+    out. */
 struct FoundMotion {
   motion::Motion motion;
   motion::Lines lines = {};
@@ -104,8 +107,8 @@ struct Computed {
   bool touches() const;
 };
 
-/** The motion that is asked for, `open_periods` of one that does not close; how it was found goes to the table's
-    header. */
+/** The motion that is asked for, `open_periods` of one that does not close; how it was
+    found goes to the table's header. */
 Computed computed(const Parameters& parameters, const MotionRequest& request,
                   int open_periods, Table& table);
 
@@ -118,8 +121,9 @@ std::vector<double> evenly_spaced(double from, double to, int count);
 /** N as asked for, or the default for m. Throws BadInput when it is too small. */
 int checked_samples(int harmonics, const std::optional<int>& samples);
 
-/** The budget that is asked for, or the evaluations that take `seconds`; watched where a
-    person is. Seconds of the clock bound the evaluations too, by what a fast core does. */
+/** The budget that is asked for, or the evaluations that take `seconds`; watched
+    where a person is. Seconds of the clock bound the evaluations too, by what a fast
+    core does. */
 OperationBudget budget_of(const Request& request, double seconds,
                           const Parameters& parameters);
 

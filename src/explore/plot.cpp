@@ -18,7 +18,8 @@ namespace {
 
 using std::filesystem::path;
 
-/** Beside the program: in the source tree, whose folders of builds stand beside figures, or installed. */
+/** Beside the program: in the source tree, whose folders of builds stand beside figures,
+    or installed. */
 path script_file(const std::string& script)
 {
   std::error_code error;

@@ -25,8 +25,9 @@ namespace {
 /**
 ## Where the branch starts */
 
-/** A saved point, turned and with as many harmonics as are asked for: with others Newton's method goes from it to a solution
-    at its speed, unless the branch turns there. */
+/** A saved point, turned and with as many harmonics as are asked for: with others
+    Newton's method goes from it to a solution at its speed, unless the branch turns
+    there. */
 BranchPoint saved_start(const ResponseTask& task, Balance& balance, Table& table)
 {
   const ResponseRequest& request = task.request;
@@ -77,8 +78,8 @@ PeriodicMotion found_start(const ResponseTask& task)
   return start;
 }
 
-/** With two frequencies: all harmonics that the usual tolerance asks for at some speeds of
-    the range, and the start on them, with the line of its samples. */
+/** With two frequencies: all harmonics that the usual tolerance asks for at some speeds
+    of the range, and the start on them, with the line of its samples. */
 PeriodicMotion chosen_start(const ResponseTask& task)
 {
   constexpr int speeds = 5;

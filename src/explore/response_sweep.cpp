@@ -170,7 +170,8 @@ ResponseRow row_of(motion::Answer& answer, const motion::Request& asked, bool ha
     observe(row, answer.machine, answer.motion);
     if (is_loaded(answer)) touches = true;
   } else if (!touches) {
-    /** Whether anything touches is asked of the first motions alone, over a few periods. */
+    /** Whether anything touches is asked of the first motions alone, over a few
+        periods. */
     complete(answer, {asked.omega, "rk4", {}, 64, 4, 0, 0, 0, false});
     if (is_loaded(answer)) touches = true;
   }

@@ -1,8 +1,8 @@
 /**
 # What the ways to a response share
 
-The rows, which show one motion at one speed whichever way it was found, and the request for
-solutions, checked, with the machine counted over the period of its motions. */
+The rows, which show one motion at one speed whichever way it was found, and the request
+for solutions, checked, with the machine counted over the period of its motions. */
 #pragma once
 
 #include <complex>

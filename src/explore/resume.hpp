@@ -12,8 +12,8 @@ answer the same question: the lines before the rows must be the same. */
 
 namespace rotor_stator::explore {
 
-/** Calls `take` for each whole row. Throws BadInput unless the table in `file`, the value of
-    --resume, begins as `beginning` does, or is cut off within it; `what`: a map or a
+/** Calls `take` for each whole row. Throws BadInput unless the table in `file`, the value
+    of --resume, begins as `beginning` does, or is cut off within it; `what`: a map or a
     response. */
 void each_row_of(const std::string& file, const std::string& what,
                  const std::string& beginning,
