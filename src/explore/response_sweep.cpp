@@ -151,8 +151,18 @@ Exploration computed(Sweep& sweep)
   return {.table = std::move(table), .unfinished = missing, .is_written = is_streamed};
 }
 
-bool is_loaded(const motion::Answer& answer)
+/** Whether anything touches in a motion that was not recorded: where it stands now or, where
+    nothing is loaded then, over a few periods. */
+bool touches_somewhere(motion::Answer& answer)
 {
+  motion::Motion now{1, answer.settled.at.period, {}};
+  motion::add(now, answer.settled.at.state);
+  if (motion::contact_share(answer.machine, now) > 0) return true;
+  complete(answer, {.omega = answer.omega,
+                    .method = "rk4",
+                    .points = 64,
+                    .periods = 4,
+                    .is_measured = false});
   return motion::contact_share(answer.machine, answer.motion) > 0;
 }
 
@@ -168,12 +178,9 @@ ResponseRow row_of(motion::Answer& answer, const motion::Request& asked, bool ha
   if (has_records) {
     complete(answer, asked, budget);
     observe(row, answer.machine, answer.motion);
-    if (is_loaded(answer)) touches = true;
-  } else if (!touches) {
-    /** Whether anything touches is asked of the first motions alone, over a few
-        periods. */
-    complete(answer, {asked.omega, "rk4", {}, 64, 4, 0, 0, 0, false});
-    if (is_loaded(answer)) touches = true;
+    if (row.contact_share > 0) touches = true;
+  } else if (!touches && touches_somewhere(answer)) {
+    touches = true;
   }
   row.mean = seen.mean;
   row.rms = seen.rms;
