@@ -155,7 +155,7 @@ Exploration computed(Sweep& sweep)
     nothing is loaded then, over a few periods. */
 bool touches_somewhere(motion::Answer& answer)
 {
-  motion::Motion now{1, answer.settled.at.period, {}};
+  motion::Motion now{1, answer.settled.at.period, {}, {}, answer.omega};
   motion::add(now, answer.settled.at.state);
   if (motion::contact_share(answer.machine, now) > 0) return true;
   complete(answer, {.omega = answer.omega,
