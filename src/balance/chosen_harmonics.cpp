@@ -46,7 +46,8 @@ struct Choosing {
       std::max(8.0, std::min(0.5 * contact_frequency(parameters) / omega + 4, 30.0));
   int least_samples = settings.tolerance >= 1e-3 ? 1024 : 4096;
   /** A flexible shaft gives way to the contact at more orders than a mass does. */
-  Harmonics passing = of_passages(bearing, parameters.large ? 32 : 16);
+  Harmonics passing =
+      of_passages(bearing, parameters.machine->takes_explicit_steps() ? 16 : 32);
   Harmonics medium = up_to(highest_order, 4, bearing);
   Harmonics large =
       joined(joined(joined(up_to(1.3 * highest_order, 6, bearing), medium),

@@ -5,7 +5,7 @@
 
 #include "balance/fourier_transform.hpp"
 #include "io/errors.hpp"
-#include "time/time_stepper.hpp"
+#include "time/flow.hpp"
 
 namespace rotor_stator::costs {
 

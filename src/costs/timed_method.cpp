@@ -12,8 +12,8 @@
 #include "io/errors.hpp"
 #include "model/rotor_stator.hpp"
 #include "motion/adaptive.hpp"
+#include "time/flow.hpp"
 #include "time/shooting.hpp"
-#include "time/time_stepper.hpp"
 
 namespace rotor_stator::costs {
 
@@ -55,7 +55,7 @@ long periods_in(double seconds, double omega)
 }
 
 /** From phase 0 by a stepper with one interval per period. */
-void advance_periods(const TimeStepper& whole, long periods, State& state)
+void advance_periods(Flow& whole, long periods, State& state)
 {
   for (long k = 0; k < periods; ++k) whole.advance(k, state);
 }
@@ -264,8 +264,8 @@ public:
     if (!start) return {};
     State state = start->state;
     try {
-      const TimeStepper parts = stepper(angular(task_.frequencies[speed]), points);
-      return motion::recorded(parts, points, state, start->periods);
+      const auto parts = stepper(angular(task_.frequencies[speed]), points);
+      return motion::recorded(*parts, points, state, start->periods);
     } catch (const NoSolution&) {
       return {};  // the state was no motion
     }
@@ -274,13 +274,13 @@ public:
 protected:
   void begin() override { reached_.assign(task_.frequencies.size(), {}); }
 
-  TimeStepper stepper(double omega, int intervals) const
+  std::unique_ptr<Flow> stepper(double omega, int intervals) const
   {
-    return make_stepper(task_.parameters, omega,
-                        {.method = stepper_method_,
-                         .intervals_per_period = intervals,
-                         .step = setting_.step,
-                         .tolerance = setting_.tolerance});
+    return flow(task_.parameters, omega,
+                {.method = stepper_method_,
+                 .intervals_per_period = intervals,
+                 .step = setting_.step,
+                 .tolerance = setting_.tolerance});
   }
 
   const std::string stepper_method_ = setting_.method.substr(
@@ -307,20 +307,20 @@ class TransientSweep : public Integration {
   void solve(std::size_t speed) override
   {
     const double frequency = task_.frequencies[speed];
-    const TimeStepper whole = stepper(angular(frequency), 1);
+    const auto whole = stepper(angular(frequency), 1);
     const long periods = std::lround(std::ceil(setting_.transient * frequency - 1e-9));
     try {
-      advance_periods(whole, periods, state_);
+      advance_periods(*whole, periods, state_);
       reached_[speed] = {periods, state_};
       if (setting_.recorded > 0) {
-        const TimeStepper parts = stepper(angular(frequency), setting_.recorded);
-        motion::recorded(parts, setting_.recorded, state_, periods);
-        counts_.force_instants += parts.evaluations();
+        const auto parts = stepper(angular(frequency), setting_.recorded);
+        motion::recorded(*parts, setting_.recorded, state_, periods);
+        counts_.force_instants += parts->evaluations();
       }
     } catch (const NoSolution&) {
       state_ = static_start(task_.parameters);
     }
-    counts_.force_instants += whole.evaluations();
+    counts_.force_instants += whole->evaluations();
   }
 
   State state_;
@@ -359,9 +359,9 @@ class ShootingSweep : public Integration {
   State cold_start(double omega)
   {
     State state = quasi_static_state(task_.parameters, omega);
-    const TimeStepper whole = stepper(omega, 1);
-    advance_periods(whole, periods_in(setting_.transient, omega), state);
-    counts_.force_instants += whole.evaluations();
+    const auto whole = stepper(omega, 1);
+    advance_periods(*whole, periods_in(setting_.transient, omega), state);
+    counts_.force_instants += whole->evaluations();
     return state;
   }
 
@@ -371,8 +371,8 @@ class ShootingSweep : public Integration {
                                   {.method = stepper_method_,
                                    .tolerance = setting_.tolerance,
                                    .step = setting_.step,
-                                   .periodicity_residual = setting_.periodicity_residual,
-                                   .final_derivative = false},
+                                   .closed = setting_.periodicity_residual,
+                                   .quasi_newton = true},
                                   &jacobian_);
     counts_.force_instants += result.evaluations;
     counts_.maps += result.maps;

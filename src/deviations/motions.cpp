@@ -9,7 +9,7 @@
 #include "io/errors.hpp"
 #include "motion/contact.hpp"
 #include "motion/regime.hpp"
-#include "time/time_stepper.hpp"
+#include "time/flow.hpp"
 
 namespace rotor_stator::deviations {
 

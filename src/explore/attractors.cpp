@@ -362,8 +362,9 @@ std::string motion_text(const Task& task, const std::vector<Found>& all)
 void note(Table& table, const Task& task)
 {
   describe(table, task.machine);
-  table.value("method", task.machine.large ? "gauss" : "rk4");
-  if (!task.machine.large) table.value("step", default_step(task.machine), 4);
+  const Machine& machine = *task.machine.machine;
+  table.value("method", machine.time_method());
+  if (machine.takes_explicit_steps()) table.value("step", default_step(task.machine), 4);
   table.value("base", task.base.words());
   table.value("speeds", task.speeds.size());
   table.value("starts", task.request.starts);

@@ -4,10 +4,8 @@
 #include <cmath>
 
 #include "balance/fourier_transform.hpp"
-#include "balance/large_problem.hpp"
 #include "io/errors.hpp"
 #include "model/base_period.hpp"
-#include "model/large_machine.hpp"
 #include "motion/adaptive.hpp"
 #include "motion/other_starts.hpp"
 #include "motion/quasi_periodic.hpp"
@@ -22,7 +20,7 @@ void note_verdict(Table& table, const Parameters& parameters,
   if (verdict.found()) {
     table.value("multiplier", verdict.floquet.largest(), 9);
     table.value("multiplier_uncertainty", verdict.floquet.uncertainty(), 2);
-    if (parameters.large && !parameters.large->reductions.empty())
+    if (parameters.machine->reduction_error() > 0)
       table.note("multiplier: with the reduced bodies");
   } else
     table.note("stability: " + verdict.reason);
@@ -81,8 +79,8 @@ using motion::lines_of;
 /** The series of all coordinates in the place of those shown, where nodes of the rotor depend on them. */
 PeriodicMotion with_all_coordinates(const Parameters& parameters, PeriodicMotion solution)
 {
-  if (parameters.large && parameters.large->nodes.rows() > 0)
-    solution.bodies = coordinate_series(parameters, solution);
+  if (parameters.machine->nodes().rows() > 0)
+    solution.bodies = parameters.machine->all_series(parameters, solution);
   return solution;
 }
 

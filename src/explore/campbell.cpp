@@ -26,7 +26,7 @@ const char* word(int whirl)
 /** The linear machine, without the coordinates of a stator that is held. */
 class Linear {
 public:
-  Linear(const LargeMachine& machine, const Eigen::MatrixXd& stiffness, bool is_rigid)
+  Linear(const LargeBodies& machine, const Eigen::MatrixXd& stiffness, bool is_rigid)
       : first_(is_rigid ? 2 : 0), machine_(machine)
   {
     const auto n = machine.mass.rows() - first_;
@@ -73,7 +73,7 @@ private:
   }
 
   int first_;
-  const LargeMachine& machine_;
+  const LargeBodies& machine_;
   Eigen::LDLT<Eigen::MatrixXd> mass_;
   Eigen::MatrixXd k_;
 };
@@ -121,7 +121,7 @@ std::vector<Column> columns_of(bool critical)
 
 std::vector<double> natural_frequencies(const Parameters& parameters, std::size_t most)
 {
-  const LargeMachine machine = matrices_of(parameters);
+  const LargeBodies machine = matrices_of(parameters);
   const Linear linear(machine, mean_contact_stiffness(parameters, machine),
                       parameters.stator.rigid);
   std::vector<double> list;
@@ -135,9 +135,10 @@ Exploration explore_campbell(const CampbellRequest& request)
   require_range(request.from, request.to);
   if (request.critical && request.plot)
     throw BadInput("--plot: draws frequencies; leave out --critical");
-  const Parameters parameters = read_parameters(
-      request.parameter_file, {.from = request.from, .to = request.to, .harmonics = 64});
-  const LargeMachine machine = matrices_of(parameters);
+  const Parameters parameters =
+      read_machine(StrictToml(request.parameter_file),
+                   {.from = request.from, .to = request.to, .harmonics = 64});
+  const LargeBodies machine = matrices_of(parameters);
   const Eigen::MatrixXd stiffness = mean_contact_stiffness(parameters, machine);
   const Linear linear(machine, stiffness, parameters.stator.rigid);
   const auto columns = columns_of(request.critical);

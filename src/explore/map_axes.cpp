@@ -5,6 +5,7 @@
 
 #include "io/errors.hpp"
 #include "io/program.hpp"
+#include "model/large_machine.hpp"
 
 namespace rotor_stator::explore {
 
@@ -135,7 +136,7 @@ Parameters MapTask::read(const std::vector<std::pair<std::string, double>>& chan
   ModelRange range{.harmonics = std::max(64, harmonics)};
   if (frequency > 0) range.from = range.to = frequency;
   if (!sweep.empty()) range.from = sweep.front(), range.to = sweep.back();
-  return read_parameters(file.with(changes, given_instead), range);
+  return read_machine(file.with(changes, given_instead), range);
 }
 
 bool MapTask::has_speed() const

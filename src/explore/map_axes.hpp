@@ -10,7 +10,7 @@ On lines of x: one for each value of y, or for each row of a list. */
 
 #include "explore/balance_motion.hpp"
 #include "explore/map.hpp"
-#include "io/number_table.hpp"
+#include "io/table.hpp"
 #include "io/toml_file.hpp"
 
 namespace rotor_stator::explore {

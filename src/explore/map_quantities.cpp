@@ -112,13 +112,13 @@ public:
     if (verdict().found()) return verdict().distance_rms;
     const Settled& there = verdict().from_there;
     if (there.kind == Kind::undecided) throw NoSolution(verdict().reason);
-    const TimeStepper stepper = make_stepper(
-        machine_, omega(),
-        {.method = "rk4", .intervals_per_period = instants, .budget = budget_});
+    const auto steps =
+        flow(machine_, omega(),
+             {.method = "rk4", .intervals_per_period = instants, .budget = budget_});
     State state = there.at.state;
     return motion::rms_difference(
         motion::motion_of(solution(), instants),
-        motion::recorded(stepper, instants, state, there.at.period,
+        motion::recorded(*steps, instants, state, there.at.period,
                          std::max(1, there.period) * 40));
   }
 

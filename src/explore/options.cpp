@@ -5,7 +5,7 @@
 
 #include "io/errors.hpp"
 #include "io/program.hpp"
-#include "time/time_stepper.hpp"
+#include "time/flow.hpp"
 
 namespace rotor_stator::explore {
 
@@ -243,7 +243,7 @@ Check add_options(CLI::App& command, ResponseRequest& request)
   command
       .add_option("--method", request.method,
                   "auto (what the machine does, speed by speed), or a branch of periodic "
-                  "solutions: aft (harmonic balance), shooting (rk4)")
+                  "solutions: aft (harmonic balance), shooting")
       ->capture_default_str();
   aft.push_back(add_subharmonic(command, request));
   CLI::Option* tolerance =

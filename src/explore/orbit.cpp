@@ -8,12 +8,12 @@
 #include "explore/balance_motion.hpp"
 #include "explore/settled_motion.hpp"
 #include "io/errors.hpp"
-#include "io/progress.hpp"
+#include "io/parallel.hpp"
 #include "model/large_machine.hpp"
 #include "motion/closed_motion.hpp"
 #include "motion/contact.hpp"
 #include "motion/judge.hpp"
-#include "time/time_stepper.hpp"
+#include "time/flow.hpp"
 
 namespace rotor_stator::explore {
 
@@ -31,21 +31,22 @@ void require_method_of(const Parameters& parameters, const std::string& method)
 {
   const bool is_of_masses =
       std::ranges::find(time_methods(), method) != time_methods().end();
-  if (parameters.large && is_of_masses)
+  const Machine& machine = *parameters.machine;
+  if (!machine.takes_explicit_steps() && is_of_masses)
     throw BadInput("--method " + method +
                    ": bodies given by matrices take aft, shooting, auto or gauss");
-  if (!parameters.large && method == "gauss")
+  if (machine.takes_explicit_steps() && method == "gauss")
     throw BadInput("--method gauss: is for bodies given by matrices");
 }
 
 Parameters machine_of(const Request& request, double from, double to,
                       const NumberTable* nodes)
 {
-  return read_parameters(request.parameter_file,
-                         {.from = from,
-                          .to = to,
-                          .harmonics = std::max(64, request.harmonics.value_or(0)),
-                          .nodes = nodes});
+  return read_machine(StrictToml(request.parameter_file),
+                      {.from = from,
+                       .to = to,
+                       .harmonics = std::max(64, request.harmonics.value_or(0)),
+                       .nodes = nodes});
 }
 
 int checked_samples(int harmonics, const std::optional<int>& samples)
@@ -82,7 +83,7 @@ OperationBudget budget_of_each(const std::optional<Allowance>& allowed, double s
                                const Parameters& parameters)
 {
   const double each = operations_per_evaluation(parameters.bearing.balls);
-  if (parameters.large) seconds *= 20;
+  seconds *= parameters.machine->patience().longer;
   const bool is_counted = allowed && allowed->evaluations > 0;
   return budget_until(allowed, is_counted ? allowed->evaluations : 1e9 * seconds / each,
                       "--budget");
@@ -197,7 +198,11 @@ Computed computed(const Parameters& parameters, const MotionRequest& request,
   describe(table, parameters);
   table.value("frequency", request.frequency);
   const bool is_settled = !is_periodic(request.method);
-  const double seconds = !is_settled || parameters.large ? 3 : 10;
+  /** Who names a method is willing to wait. */
+  const double settling = parameters.machine->patience().settling;
+  const double seconds = request.method == "auto" ? settling
+                         : is_settled             ? std::max(3.0, settling)
+                                                  : 3;
   Computed at{.budget = budget_of(request, seconds, parameters)};
   if (request.method == "aft")
     at.found = balance_motion(parameters, request, at.budget, table);
@@ -247,8 +252,7 @@ Exploration explore_orbit(const MotionRequest& request)
   for (std::size_t b = 2; b <= bearings; ++b)
     for (const char* axis : {"x", "y"})
       add(format("F_%s_%zu", axis, b), "N", "Eq. 6, of that bearing, on the stator");
-  std::vector<std::pair<std::string, int>> outputs;
-  if (parameters.large) outputs = parameters.large->outputs;
+  const auto outputs = parameters.machine->outputs();
   for (const auto& [name, place] : outputs) add(name, "m", "of a body given by matrices");
   Table table("Orbit of rotor and stator over one period", columns);
   table.choose(request.columns, columns.size() - 1, request.plot.has_value());

@@ -5,18 +5,19 @@
 #include <ctime>
 
 #include "balance/bearing_problem.hpp"
-#include "balance/large_problem.hpp"
-#include "continuation/shooting_branch.hpp"
+#include "continuation/balance_curve.hpp"
+#include "continuation/shooting_curve.hpp"
 #include "explore/spectrum.hpp"
 #include "io/errors.hpp"
 #include "io/output_file.hpp"
+#include "motion/branch_verdicts.hpp"
 #include "motion/closed_motion.hpp"
 #include "motion/contact.hpp"
 #include "motion/judge.hpp"
 #include "motion/other_starts.hpp"
 #include "motion/quasi_periodic.hpp"
 #include "motion/subharmonic.hpp"
-#include "time/time_stepper.hpp"
+#include "time/flow.hpp"
 
 namespace rotor_stator::explore {
 
@@ -28,7 +29,7 @@ namespace {
 /** A saved point, turned and with as many harmonics as are asked for: with others
     Newton's method goes from it to a solution at its speed, unless the branch turns
     there. */
-BranchPoint saved_start(const ResponseTask& task, Balance& balance, Table& table)
+BranchPoint saved_start(const ResponseTask& task, Curve& curve, Table& table)
 {
   const ResponseRequest& request = task.request;
   const double at = angular(request.at.value_or(0));
@@ -44,7 +45,7 @@ BranchPoint saved_start(const ResponseTask& task, Balance& balance, Table& table
     const double speed = point.speed_direction();
     point.tangent = resize_harmonics(point.tangent.head(x.size()), 2, task.harmonics);
     x = resize_harmonics(x, 2, task.harmonics);
-    const PeriodicMotion there = solve(balance, omega, x, task.settings.newton);
+    const PeriodicMotion there = curve.solved(omega, x);
     if (there.found()) x = there.x;
     point.tangent.conservativeResize(x.size() + 1);
     point.tangent[x.size()] = speed;
@@ -183,19 +184,19 @@ public:
                           found.harmonics)
                 : Balance(bearing_problem(task.parameters, task.samples, task.budget),
                           task.harmonics)),
-        transform_(amplitude_transform(task.harmonics)),
+        curve_(balance_, task.settings), transform_(amplitude_transform(task.harmonics)),
         lines_("Lines of the motions along the branch", line_columns)
   {
     describe(lines_, task.machine);
-    const BranchPoint start = task.saved ? saved_start(task, balance_, table)
-                                         : point_of(balance_, found.omega, found.x,
-                                                    task.upwards, task.settings);
+    const BranchPoint start =
+        task.saved ? saved_start(task, curve_, table)
+                   : point_of(curve_, found.omega, found.x, task.upwards, task.settings);
     ArcLengthSettings watched = task.settings;
     if (task.request.watch)
       watched.watch = [&](const BranchPoint& p) {
         task.request.watch(task.hertz(p.motion.omega), amplitude(p.motion));
       };
-    main_ = follow_branch(balance_, start, task.range(), watched);
+    main_ = follow_branch(curve_, start, task.range(), watched);
   }
 
   const Branch& main() const { return main_; }
@@ -249,6 +250,7 @@ private:
   const ResponseFields& fields_;
   bool has_further_;  ///< columns that need the instants
   Balance balance_;
+  BalanceCurve curve_;
   FourierTransform transform_;
   Table lines_;  ///< of the followed branch, where they are asked for
   Branch main_;
@@ -265,8 +267,8 @@ void BalanceBranch::look_beside()
                            {.speeds = task_.request.isolated,
                             .seed = static_cast<std::uint64_t>(task_.request.seed)},
                            budget);
-  beside_ = isolated_branches(balance_, main_, starts.candidates, task_.range(),
-                              task_.settings);
+  beside_ =
+      isolated_branches(curve_, main_, starts.candidates, task_.range(), task_.settings);
   int number = 1;
   for (const auto& [branch, candidate] : beside_) {
     const auto [low, high] = std::ranges::minmax_element(
@@ -300,8 +302,8 @@ BranchStability BalanceBranch::multipliers_of(const Branch& branch, std::size_t 
       stability.points.push_back({.point = point, .floquet = {}});
     return stability;
   }
-  stability = motion::machine_stability(task_.parameters, balance_, branch,
-                                        task_.settings, task_.budget);
+  stability = motion::machine_stability(task_.parameters, curve_, branch, task_.settings,
+                                        task_.budget);
   table_.row_line("undecided", {number, stability.failed, stability.missed});
   if (stability.failed > 0) {
     const auto first = std::ranges::find(stability.points, false, &StablePoint::examined);
@@ -361,8 +363,8 @@ Exploration branch_by_balance(ResponseTask task)
 {
   const ResponseRequest& request = task.request;
   const bool two = task.has_two_frequencies;
-  if (task.parameters.large && !two)
-    fit_receptances(task.parameters, task.range().from, task.harmonics);
+  if (!two)
+    task.parameters.machine->prepare(task.parameters, task.range().from, task.harmonics);
   const std::clock_t read = std::clock();
   PeriodicMotion found;
   if (!task.saved) {
@@ -424,35 +426,35 @@ Exploration branch_by_shooting(const ResponseTask& task)
     start = closed.start;
     state = closed.state;
   }
-  const ShootingBranch branch =
-      follow_by_shooting(machine, range.from, range.to, state, {.budget = task.budget});
+  ShootingCurve curve(machine, task.budget);
+  const Branch branch = follow_branch(curve, range.from, range.to,
+                                      curve.unknowns_of(state), curve.settings());
   const auto [fields, usual] = branch_columns(task, Harmonics(task.harmonics));
   Table table("Frequency response along the branch", fields);
   const bool has_further = table.choose(request.columns, usual, request.plot.has_value());
   table.value("start", one_word(start));
   describe(table, machine);
   table.value("method", "shooting");
-  put_branch(table, task, branch.folds, branch.evaluations);
-  table.value("step", default_step(machine), 4);
+  put_branch(table, task, branch.folds.size(), branch.evaluations);
   table.note("end of the branch: " + branch.end);
   int undecided = 0;
   bool touches = false;
   std::string why;
-  for (const ShootingBranchPoint& point : branch.points) {
-    const motion::Motion motion =
-        motion::one_period(machine, point.omega, point.state,
-                           {.method = "rk4", .intervals_per_period = points});
+  for (const auto& [solution, arc, tangent] : branch.points) {
+    const State there = curve.state(solution.x);
+    const motion::Motion motion = motion::one_period(machine, solution.omega, there,
+                                                     {.intervals_per_period = points});
     touches = touches || motion::contact_share(machine, motion) > 0;
     ResponseRow row{
-        .frequency = point.omega / angular(1),
+        .frequency = solution.omega / angular(1),
         .amplitude = half_peak_to_peak(motion),
-        .arc = point.arc,
-        .newton = point.newton,
+        .arc = arc,
+        .newton = solution.newton.iterations,
         .harmonics = harmonics_of(task, motion::series_of(motion, task.harmonics))};
     if (has_further) observe(row, machine, motion);
     if (request.stability) try {
-        put_multipliers(row, motion::multipliers_through(machine, point.omega,
-                                                         point.state, task.budget));
+        put_multipliers(row, motion::multipliers_through(machine, solution.omega, there,
+                                                         task.budget));
       } catch (const NoSolution& none) {
         if (undecided++ == 0) why = none.what();
       }
@@ -462,7 +464,7 @@ Exploration branch_by_shooting(const ResponseTask& task)
   if (undecided > 0) table.note("undecided points: " + why);
   const bool is_missing = undecided > 0 && task.budget.used_up();
   const std::string missing =
-      !branch.covered ? stopped_at(task, branch.points.back().omega, branch.end)
+      !branch.covered ? stopped_at(task, branch.points.back().motion.omega, branch.end)
       : is_missing    ? machine.file + ": " + why
                       : "";
   put_complete(table, missing);

@@ -191,7 +191,6 @@ ResponseRow row_of(motion::Answer& answer, const motion::Request& asked, bool ha
 
 Exploration settled_response(const ResponseRequest& request)
 {
-  constexpr int usual_speeds = 101, usual_large_speeds = 21;
   require_range(request.from, request.to);
   const std::string direction = request.direction.empty() ? "rest" : request.direction;
   if (direction != "rest" && direction != "up" && direction != "down")
@@ -200,22 +199,22 @@ Exploration settled_response(const ResponseRequest& request)
     throw BadInput("--resume: not with --direction " + direction +
                    ", where each speed starts from the one before");
   const Parameters machine = machine_of(request, request.from, request.to);
+  const Patience patience = machine.machine->patience();
   const auto [fields, usual] = columns_of(machine, period_field, true);
-  Sweep sweep{request,
-              machine,
-              evenly_spaced(request.from, request.to,
-                            request.count.value_or(machine.large ? usual_large_speeds
-                                                                 : usual_speeds)),
-              direction != "rest",
-              budget_of_each({}, machine.large ? 1 : 10, machine).left(),
-              Table("Frequency response, what the machine does", fields),
-              fields,
-              {}};
+  Sweep sweep{
+      request,
+      machine,
+      evenly_spaced(request.from, request.to, request.count.value_or(patience.speeds)),
+      direction != "rest",
+      budget_of_each({}, patience.settling, machine).left(),
+      Table("Frequency response, what the machine does", fields),
+      fields,
+      {}};
   if (direction == "down") std::ranges::reverse(sweep.speeds);
   const bool has_records =
       sweep.table.choose(request.columns, usual, request.plot.has_value());
   describe(sweep.table, machine);
-  sweep.table.value("method", machine.large ? "gauss" : "rk4");
+  sweep.table.value("method", machine.machine->time_method());
   sweep.table.value("kind", "sweep");
   sweep.table.value("base", base_period(machine).words());
   sweep.table.value("direction", direction);

@@ -4,7 +4,6 @@
 #include <sstream>
 
 #include "io/errors.hpp"
-#include "io/number_table.hpp"
 #include "io/table.hpp"
 #include "io/toml_file.hpp"
 

@@ -5,7 +5,7 @@
 
 #include "balance/torus_line.hpp"
 #include "io/errors.hpp"
-#include "io/number_table.hpp"
+#include "io/table.hpp"
 
 namespace rotor_stator::explore {
 

@@ -189,7 +189,7 @@ Shooting closed(const HardCase& hard, double tolerance, State& state)
 {
   return shoot(hard.machine, angular(hard.frequency), state,
                {.tolerance = tolerance,
-                .periodicity_residual = 100 * tolerance,
+                .closed = 100 * tolerance,
                 .most_maps = 40,
                 .budget = budget_of(hard, "rk8pd", shooting_evaluations)});
 }
@@ -221,7 +221,7 @@ Shooting closed_from_rest(const HardCase& hard, Answer& answer)
     }
   }
   answer.state = state;
-  answer.residual = shooting.periodicity_residual;
+  answer.residual = shooting.correction;
   return shooting;
 }
 

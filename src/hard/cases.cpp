@@ -9,7 +9,7 @@
 #include "continuation/arc_length.hpp"
 #include "io/errors.hpp"
 #include "motion/find_periodic.hpp"
-#include "time/time_stepper.hpp"
+#include "time/flow.hpp"
 
 namespace rotor_stator::hard {
 

@@ -35,8 +35,11 @@ void set_stability(double multiplier, double change, Check& check)
 /** Φ at a state. */
 Matrix8 map_derivative(const HardCase& hard, const State& state, double tolerance)
 {
-  return period_map(hard.machine, angular(hard.frequency), state, tolerance, "rk8pd",
-                    budget_of(hard, "rk8pd", shooting_evaluations))
+  return period_map(hard.machine, angular(hard.frequency), state,
+                    {.method = "rk8pd",
+                     .intervals_per_period = 1,
+                     .tolerance = tolerance,
+                     .budget = budget_of(hard, "rk8pd", shooting_evaluations)})
       .derivative;
 }
 
@@ -48,7 +51,7 @@ bool check_by_shooting(const HardCase& hard, const Answer& answer, Check& check)
   const Shooting shooting =
       shoot(hard.machine, omega, state,
             {.tolerance = 1e-11,
-             .periodicity_residual = 1e-9,
+             .closed = 1e-9,
              .most_maps = 30,
              .budget = budget_of(hard, "rk8pd", shooting_evaluations)});
   if (!shooting.converged) return false;
@@ -99,13 +102,13 @@ void check_shooting(const HardCase& hard, const Answer& answer, Check& check)
 {
   const double omega = angular(hard.frequency);
   floquet_by_map(hard, answer.state, check);
-  const TimeStepper stepper = make_stepper(hard.machine, omega,
-                                           {.method = "rk4",
-                                            .intervals_per_period = compared_points,
-                                            .step = default_step(hard.machine) / 4,
-                                            .budget = budget_of(hard, "rk4", 2e8)});
+  const auto stepper = flow(hard.machine, omega,
+                            {.method = "rk4",
+                             .intervals_per_period = compared_points,
+                             .step = default_step(hard.machine) / 4,
+                             .budget = budget_of(hard, "rk4", 2e8)});
   State state = answer.state;
-  motion::recorded(stepper, compared_points, state);
+  motion::recorded(*stepper, compared_points, state);
   const Vector8 start = vector_of(answer.state), sizes = state_scales(hard.machine);
   const Vector8 open = vector_of(state) - start;
   const Matrix8 scaled = sizes.cwiseInverse().asDiagonal() *
@@ -114,8 +117,8 @@ void check_shooting(const HardCase& hard, const Answer& answer, Check& check)
       (scaled - Matrix8::Identity()).partialPivLu().solve(open.cwiseQuotient(sizes)));
   check.by = "rk4, a quarter of the step";
   state = state_of(Vector8(start - correction));
-  check.error =
-      motion_difference(answer.motion, motion::recorded(stepper, compared_points, state));
+  check.error = motion_difference(answer.motion,
+                                  motion::recorded(*stepper, compared_points, state));
 }
 
 void check_rk4(const HardCase& hard, const Answer& answer, Check& check)

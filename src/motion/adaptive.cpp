@@ -28,14 +28,14 @@ AdaptiveMotion solve_adaptively(const Parameters& parameters, double omega,
                                 const Eigen::VectorXd& neighbour)
 {
   constexpr double short_time = 0.5;  // [s], each time it is asked
-  const int patience = parameters.large ? 1 : 3;
+  const int patience = parameters.machine->takes_explicit_steps() ? 3 : 1;
   std::optional<CoarseIntegration> integration;
   int failed = 0;  // thorough attempts
   const auto cold = [&](int m, int n, bool thorough, const NewtonSettings& newton) {
     const Search search{parameters, omega, m, n, newton, budget};
     PeriodicMotion motion;
     long cost = 0;
-    if (thorough && !parameters.large) {
+    if (thorough && parameters.machine->takes_explicit_steps()) {
       if (!integration) integration.emplace(parameters, static_start(parameters), budget);
       const long before = integration->evaluations();
       motion = find_from(search, "short time integration",

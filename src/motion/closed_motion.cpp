@@ -18,15 +18,11 @@ struct Closing {
   Parameters longer = over_turns(search.parameters, turns);
   double omega = search.omega / turns;
 
-  /** Newton alone: Broyden's steps save maps and lose motions. */
   Shooting shot(State& state, double local_error) const
   {
     return shoot(longer, omega, state,
                  {.tolerance = local_error,
-                  .periodicity_residual = std::max(1e-9, 10 * local_error),
-                  .speed_weight = 5,
-                  .quasi_newton = false,
-                  .final_derivative = false,
+                  .closed = std::max(1e-9, 10 * local_error),
                   .budget = search.budget});
   }
 
@@ -48,7 +44,7 @@ struct Closing {
                [&] { return subharmonic_states(search, turns); }}};
     return {{"quasi-static contact",
              [&] {
-               return std::vector{parameters.large
+               return std::vector{!parameters.machine->takes_explicit_steps()
                                       ? static_start(parameters)
                                       : quasi_static_state(parameters, search.omega)};
              }},
@@ -88,7 +84,7 @@ ClosedMotion closed_motion(const Search& search, int turns, int points,
       return {name,
               state,
               motion,
-              shooting.periodicity_residual,
+              shooting.correction,
               shooting.maps,
               relative_difference(motion, exact),
               rms_difference(motion, exact)};

@@ -137,22 +137,21 @@ Eigen::VectorXd CoarseIntegration::go_on(double omega, double seconds, int harmo
   const double step =
       (parameters_.bearing.damping > 0 ? 5 : 8) * default_step(parameters_);
   const auto integrated = [&](int intervals, auto run) {
-    const TimeStepper stepper = make_stepper(parameters_, omega,
-                                             {.method = "rk4",
-                                              .intervals_per_period = intervals,
-                                              .step = step,
-                                              .budget = budget_});
-    run(stepper);
-    evaluations_ += stepper.evaluations();
+    const auto stepper = flow(parameters_, omega,
+                              {.method = "rk4",
+                               .intervals_per_period = intervals,
+                               .step = step,
+                               .budget = budget_});
+    run(*stepper);
+    evaluations_ += stepper->evaluations();
   };
   const int points = 2 * harmonics + 2;
   const long turns = std::lround(std::ceil(seconds * omega / (2 * std::numbers::pi)));
   Motion last;
-  integrated(1, [&](const TimeStepper& whole) {
+  integrated(1, [&](Flow& whole) {
     for (long k = 0; k < turns; ++k) whole.advance(k, state_);
   });
-  integrated(points,
-             [&](const TimeStepper& parts) { last = recorded(parts, points, state_); });
+  integrated(points, [&](Flow& parts) { last = recorded(parts, points, state_); });
   if (vector_of(state_).allFinite()) return relative_series(parameters_, last, harmonics);
   state_ = static_start(parameters_);
   return quasi_static_start(parameters_, omega, harmonics);

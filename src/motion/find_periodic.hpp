@@ -6,7 +6,7 @@ Found by harmonic balance, from several starts. */
 
 #include "balance/newton.hpp"
 #include "motion/motion.hpp"
-#include "time/time_stepper.hpp"
+#include "time/flow.hpp"
 
 namespace rotor_stator::motion {
 

@@ -8,7 +8,7 @@
 #include <optional>
 
 #include "motion/lines.hpp"
-#include "time/lyapunov.hpp"
+#include "time/settle.hpp"
 #include "time/steady_state.hpp"
 
 namespace rotor_stator::motion {
@@ -134,10 +134,10 @@ public:
     integrate();
     constexpr int points = 64, turns = 16;
     if (!next_) {
-      const TimeStepper stepper = make_stepper(
-          parameters_, omega_, {.intervals_per_period = points, .budget = budget_});
+      const auto stepper =
+          flow(parameters_, omega_, {.intervals_per_period = points, .budget = budget_});
       State state = state_;
-      next_ = recorded(stepper, points, state, turn_, turns);
+      next_ = recorded(*stepper, points, state, turn_, turns);
       next_->points_per_period = points * turns;
     }
     Motion series = motion::motion_of(parameters_, solution, points, turns, turn_);
@@ -160,12 +160,12 @@ private:
     /** Twice as many as the highest order that is looked for. */
     const double contact = contact_frequency(parameters_) / omega_;
     const int points = contact < 8 ? 64 : contact < 40 ? 128 : 256;
-    const TimeStepper stepper = make_stepper(
-        parameters_, omega_,
-        {.method = "rk4", .intervals_per_period = points, .budget = budget_});
+    const auto stepper =
+        flow(parameters_, omega_,
+             {.method = "rk4", .intervals_per_period = points, .budget = budget_});
     first_ = turn_ + before;
-    for (long k = turn_ * points; k < first_ * points; ++k) stepper.advance(k, state_);
-    const Motion motion = recorded(stepper, points, state_, first_, turns);
+    for (long k = turn_ * points; k < first_ * points; ++k) stepper->advance(k, state_);
+    const Motion motion = recorded(*stepper, points, state_, first_, turns);
     turns_ = turns;
     turn_ = first_ + turns;
     next_.reset();
@@ -247,22 +247,22 @@ TorusVerdict verdict_on_torus(const Parameters& parameters,
   verdict.uncertainty =
       std::max(3 * rate.error, std::abs(rate.value - coarse.lyapunov.value));
   /** With error control, from so much earlier that the errors of rk4 are forgotten. */
-  const TimeStepper stepper =
-      make_stepper(parameters, omega,
-                   {.intervals_per_period = points, .tolerance = 1e-9, .budget = budget});
+  const auto stepper =
+      flow(parameters, omega,
+           {.intervals_per_period = points, .tolerance = 1e-9, .budget = budget});
   const Instant& from =
       verdict.settled.contracts ? verdict.settled.before : verdict.settled.at;
   State state = from.state;
   const long first = verdict.settled.at.period;
-  for (long k = from.period * points; k < first * points; ++k) stepper.advance(k, state);
-  Motion exact = recorded(stepper, points, state, first, turns);
+  for (long k = from.period * points; k < first * points; ++k) stepper->advance(k, state);
+  Motion exact = recorded(*stepper, points, state, first, turns);
   Motion judged = motion_of(parameters, solution, points, turns, first);
   exact.points_per_period = judged.points_per_period = points * turns;
   verdict.away = relative_difference(judged, exact);
   verdict.away_rms = rms_difference(judged, exact);
   verdict.stays = verdict.larger() <= tolerance;
   verdict.evaluations = coarse.evaluations + verdict.settled.evaluations +
-                        static_cast<double>(stepper.evaluations());
+                        static_cast<double>(stepper->evaluations());
   return verdict;
 }
 

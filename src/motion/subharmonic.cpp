@@ -10,9 +10,9 @@
 #include "motion/judge.hpp"
 #include "motion/other_starts.hpp"
 #include "time/eigenvalues.hpp"
+#include "time/flow.hpp"
 #include "time/settle.hpp"
 #include "time/shooting.hpp"
-#include "time/time_stepper.hpp"
 
 namespace rotor_stator::motion {
 
@@ -31,13 +31,13 @@ struct Hunt {
   /** Where state `start` is after 1, 2, … K turns. */
   std::vector<State> section(const State& start) const
   {
-    const TimeStepper stepper = make_stepper(
-        parameters, omega,
-        {.intervals_per_period = 1, .tolerance = local_error, .budget = budget});
+    const auto stepper =
+        flow(parameters, omega,
+             {.intervals_per_period = 1, .tolerance = local_error, .budget = budget});
     std::vector<State> points;
     State state = start;
     for (int k = 0; k < turns; ++k) {
-      stepper.advance(k, state);
+      stepper->advance(k, state);
       points.push_back(state);
     }
     return points;
@@ -46,14 +46,9 @@ struct Hunt {
   /** Adds the motion that shooting over K turns closes from `start`, if it has no shorter period and is not known. */
   void add(State start)
   {
-    const Shooting shooting = shoot(over_turns(parameters, turns), omega / turns, start,
-                                    {.tolerance = local_error,
-                                     .periodicity_residual = 1e-9,
-                                     .most_maps = 30,
-                                     .speed_weight = 5,
-                                     .quasi_newton = false,
-                                     .final_derivative = false,
-                                     .budget = budget});
+    const Shooting shooting = shoot(
+        over_turns(parameters, turns), omega / turns, start,
+        {.tolerance = local_error, .closed = 1e-9, .most_maps = 30, .budget = budget});
     if (!shooting.converged) return;
     const auto points = section(start);
     const auto far_from = [&](const State& state) {
@@ -71,8 +66,9 @@ struct Hunt {
   void add_along_eigenvectors(const State& state, int d)
   {
     const Eigen::VectorXd sizes = state_scales(parameters);
-    const PeriodMap map = period_map(over_turns(parameters, d), omega / d, state,
-                                     local_error, "rk8", budget);
+    const PeriodMap map = period_map(
+        over_turns(parameters, d), omega / d, state,
+        {.intervals_per_period = 1, .tolerance = local_error, .budget = budget});
     const auto [values, vectors] = eigensystem(
         sizes.cwiseInverse().asDiagonal() * map.derivative * sizes.asDiagonal(), true);
     const int order = turns / d;

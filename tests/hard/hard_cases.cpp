@@ -6,7 +6,7 @@
 #include "balance/torus_line.hpp"
 #include "hard/verification.hpp"
 #include "io/errors.hpp"
-#include "io/number_table.hpp"
+#include "io/table.hpp"
 #include "support/catch.hpp"
 #include "support/command.hpp"
 

@@ -60,9 +60,10 @@ Motion exact_motion(const PeriodicMotion& solution, int points)
 {
   constexpr double tolerance = 1e-13;
   State state = state_of(solution);
-  REQUIRE(shoot(set_1(), solution.omega, state,
-                {.tolerance = tolerance, .periodicity_residual = 1e-11})
-              .converged);
+  const Shooting shooting =
+      shoot(set_1(), solution.omega, state, {.tolerance = tolerance, .closed = 1e-9});
+  INFO(shooting.reason);
+  REQUIRE(shooting.converged);
   return one_period(set_1(), solution.omega, state,
                     {.intervals_per_period = points, .tolerance = tolerance});
 }

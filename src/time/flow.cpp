@@ -1,11 +1,11 @@
-#include "time/time_stepper.hpp"
+#include "time/flow.hpp"
 
 #include <algorithm>
+#include <cmath>
 #include <memory>
 #include <numbers>
 
 #include "io/errors.hpp"
-#include "time/gauss.hpp"
 #include "time/gsl.hpp"
 #include "time/rk4.hpp"
 #include "time/rk8.hpp"
@@ -49,53 +49,49 @@ double evaluation_price(const Parameters& parameters, const std::string& method)
   return ((explicit_steps ? 75 : 330) + 1.5 * balls) / operations_per_evaluation(balls);
 }
 
-namespace {
-
-template <class Stepper>
-TimeStepper wrap(std::shared_ptr<Stepper> stepper)
+/** A contact of Hertz is stiffer with the third root of its force, and vibrates faster with the sixth. */
+double TwoMasses::step(const Parameters& machine, double omega) const
 {
-  return {.advance = [stepper](long interval,
-                               State& state) { stepper->advance(interval, state); },
-          .evaluations = [stepper] { return stepper->evaluations(); }};
+  constexpr double much = 30;
+  const double usual = default_step(machine);
+  double force = 0;
+  for (const double phase : {0.0, 0.5, 1.0, 1.5}) {
+    const Vec2 f = rigid_joint_force(machine, omega, phase);
+    force = std::max(force, std::hypot(f.x, f.y));
+  }
+  const double ratio = force / (much * scales(machine).load);
+  return std::isfinite(ratio) && ratio > 1 ? usual / std::pow(ratio, 1.0 / 6) : usual;
 }
 
-}  // namespace
-
-TimeStepper make_stepper(const Parameters& parameters, double omega,
-                         const StepperSettings& settings)
+std::unique_ptr<Flow> flow(const Parameters& parameters, double omega,
+                           const StepSettings& settings)
 {
-  if (!parameters.large) require_method(settings.method);
+  StepSettings paid = settings;
+  /** Bounded in any case: 1e9 evaluations are half a minute of RK4. */
+  if (!paid.budget.bounded())
+    paid.budget = OperationBudget(1e9 * evaluation_price(parameters, settings.method));
+  return parameters.machine->flow(parameters, omega, paid);
+}
+
+std::unique_ptr<Flow> TwoMasses::flow(const Parameters& parameters, double omega,
+                                      const StepSettings& settings) const
+{
+  require_method(settings.method);
   const bool needs_slopes = settings.method == "bsimp" || settings.method == "msbdf";
   if (needs_slopes && !parameters.bearing.is_plain())
     throw BadInput(
         "--method " + settings.method +
         ": knows no contact damping and no defect; take rk4, rk8, rk8pd, rkf45, "
         "rkck or msadams");
-  const double price = evaluation_price(parameters, settings.method);
-  /** Bounded in any case: 1e9 evaluations are half a minute of RK4. */
-  const OperationBudget budget =
-      settings.budget.bounded() ? settings.budget : OperationBudget(1e9 * price);
-  if (parameters.large)
-    return wrap(std::make_shared<GaussStepper>(
-        parameters, omega, settings.intervals_per_period,
-        settings.method == "rk4" ? 1e-8 : settings.tolerance, budget));
+  const int intervals = settings.intervals_per_period;
+  if (settings.method == "rk4")
+    return std::make_unique<Rk4>(
+        parameters, omega, intervals,
+        settings.step > 0 ? settings.step : step(parameters, omega), settings.budget);
   if (settings.method == "rk8")
-    return wrap(std::make_shared<Rk8>(parameters, omega, settings.intervals_per_period,
-                                      settings.tolerance, budget));
-  if (settings.method != "rk4") {
-    StepperSettings paid = settings;
-    paid.budget = budget;
-    return wrap(std::shared_ptr<Flow>(gsl_flow(parameters, omega, paid)));
-  }
-  const double step = settings.step > 0 ? settings.step : default_step(parameters);
-  const auto rk4 = std::make_shared<Rk4>(parameters, omega, settings.intervals_per_period,
-                                         step, budget);
-  TimeStepper stepper = wrap(rk4);
-  if (parameters.bearing.is_plain())
-    stepper.advance_both = [rk4](long interval, State& a, State& b) {
-      rk4->advance(interval, a, b);
-    };
-  return stepper;
+    return std::make_unique<Rk8>(parameters, omega, intervals, settings.tolerance,
+                                 settings.budget);
+  return gsl_flow(parameters, omega, settings);
 }
 
 }  // namespace rotor_stator
