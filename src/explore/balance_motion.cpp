@@ -5,6 +5,7 @@
 
 #include "balance/fourier_transform.hpp"
 #include "io/errors.hpp"
+#include "model/base_period.hpp"
 #include "motion/adaptive.hpp"
 #include "motion/other_starts.hpp"
 #include "motion/quasi_periodic.hpp"
@@ -380,14 +381,15 @@ FoundMotion balance_motion(const Parameters& parameters, const MotionRequest& re
                            const OperationBudget& budget, Table& table)
 {
   const int q = turns_to_repeat(parameters.bearing);
-  if (q == 1) return motion_of_rotation(parameters, request, budget, table);
+  const bool is_passing = base_period(parameters).kind == BasePeriod::Kind::passing;
+  if (q == 1 && (!is_passing || request.subharmonic > 1))
+    return motion_of_rotation(parameters, request, budget, table);
   if (request.subharmonic > 1)
     throw BadInput(
         format("--subharmonic %d: needs a whole number of passing balls in a turn, and "
                "n*omega_cage/omega is %.9g",
                request.subharmonic, passages_per_turn(parameters.bearing)));
-  if (!turns_visibly(parameters))
-    return motion_of_passages(parameters, request, budget, table);
+  if (is_passing) return motion_of_passages(parameters, request, budget, table);
   return q > 0 ? motion_of_turns(parameters, request, q, budget, table)
                : quasi_periodic_motion(parameters, request, budget, table);
 }

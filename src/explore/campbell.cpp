@@ -58,7 +58,8 @@ public:
   }
 
 private:
-  /** By the sense in which the ellipses of all places that are shown turn, weighted by their areas. */
+  /** By the sense in which the ellipses of all places that are shown turn, weighted by
+      their areas. */
   int whirl(const Eigen::VectorXcd& shape) const
   {
     double turning = 0, whole = 0;
@@ -162,16 +163,14 @@ Exploration explore_campbell(const CampbellRequest& request)
       orders.push_back(
           {value, orders.size() == 1 ? "BPFO" : "BPFO_" + std::to_string(orders.size())});
   for (const auto& [value, name] : orders) table.row_line("order", {name, value});
-  std::vector<double> speeds;
+  const auto speeds = evenly_spaced(request.from, request.to, request.count);
   std::vector<std::vector<Mode>> modes;
-  for (int k = 0; k < request.count; ++k) {
-    speeds.push_back(request.from +
-                     (request.to - request.from) * k / std::max(1, request.count - 1));
-    modes.push_back(linear.modes(speeds.back()));
+  for (const double speed : speeds) {
+    modes.push_back(linear.modes(speed));
     const std::size_t shown = std::min<std::size_t>(modes.back().size(), request.modes);
     for (std::size_t i = 0; i < shown && !request.critical; ++i) {
       const auto& [frequency, damping, whirl] = modes.back()[i];
-      table.row({speeds.back(), i + 1, frequency, damping, whirl});
+      table.row({speed, i + 1, frequency, damping, whirl});
     }
   }
   for (const auto& [value, name] : orders)

@@ -56,7 +56,8 @@ std::vector<Rest> rest_of(const Parameters& machine)
   return rests;
 }
 
-/** Frequencies [Hz] of both bodies joined by a spring, ascending, without that of a body which nothing holds. */
+/** Frequencies [Hz] of both bodies joined by a spring, ascending, without that of a body
+    which nothing holds. */
 std::vector<double> joined_frequencies(const Parameters& machine, double spring)
 {
   const Body &s = machine.stator, &r = machine.rotor;
@@ -68,7 +69,8 @@ std::vector<double> joined_frequencies(const Parameters& machine, double spring)
   return {std::sqrt(half - root) / turn, std::sqrt(half + root) / turn};
 }
 
-/** Whether the motion without contact, a circle about its mean, stays within the clearance at all speeds. */
+/** Whether the motion without contact, a circle about its mean, stays within the
+    clearance at all speeds. */
 bool never_touches(const CheckRequest& request, const Parameters& machine)
 {
   constexpr int speeds = 1000;

@@ -57,18 +57,44 @@ int checked_samples(int harmonics, const std::optional<int>& samples)
   return samples.value_or(default_samples(harmonics));
 }
 
-OperationBudget budget_of(const std::optional<double>& evaluations, double seconds,
-                          const Parameters& parameters)
+std::vector<double> evenly_spaced(double from, double to, int count)
+{
+  std::vector<double> all;
+  for (int k = 0; k + 1 < count; ++k) all.push_back(from + (to - from) * k / (count - 1));
+  all.push_back(count > 1 ? to : from);
+  return all;
+}
+
+std::string Allowance::words() const
+{
+  return seconds > 0 ? format("the budget of %g s", seconds)
+                     : format("the budget of %.3g evaluations of the force", evaluations);
+}
+
+OperationBudget budget_until(const std::optional<Allowance>& allowed, double evaluations,
+                             const std::string& option)
+{
+  OperationBudget budget(evaluations, option);
+  if (allowed && allowed->seconds > 0) budget.end_at(allowed->end, allowed->seconds);
+  return budget;
+}
+
+OperationBudget budget_of_each(const std::optional<Allowance>& allowed, double seconds,
+                               const Parameters& parameters)
 {
   const double each = operations_per_evaluation(parameters.bearing.balls);
   seconds *= parameters.machine->patience().longer;
-  return OperationBudget(evaluations.value_or(1e9 * seconds / each), "--budget");
+  const bool is_counted = allowed && allowed->evaluations > 0;
+  return budget_until(allowed, is_counted ? allowed->evaluations : 1e9 * seconds / each,
+                      "--budget");
 }
 
 OperationBudget budget_of(const Request& request, double seconds,
                           const Parameters& parameters)
 {
-  OperationBudget budget = budget_of(request.budget, seconds, parameters);
+  if (request.budget && request.budget->seconds > 0)
+    seconds = 4 * request.budget->seconds;
+  OperationBudget budget = budget_of_each(request.budget, seconds, parameters);
   const auto progress =
       std::make_shared<Progress>(request.quiet ? "" : "share of --budget", 1);
   if (progress->is_watched())
@@ -77,17 +103,30 @@ OperationBudget budget_of(const Request& request, double seconds,
   return budget;
 }
 
-void conclude(Table& table, const Parameters& parameters, bool touches,
-              const OperationBudget& budget)
+void put_contact(Table& table, const Parameters& parameters, bool touches)
 {
   table.value("contact", touches ? "yes" : "no");
   if (!touches)
     table.note(
         format("warning: no ball touches its race: the clearance of %g m is never closed",
                parameters.bearing.clearance));
+}
+
+void conclude(Table& table, const Parameters& parameters, bool touches,
+              const OperationBudget& budget)
+{
+  put_contact(table, parameters, touches);
+  put_cost(table, budget);
+}
+
+void put_cost(Table& table, const OperationBudget& budget)
+{
   /** Three digits do not depend on the order in which threads have spent. */
   table.value("evaluations", budget.spent(), 3);
-  table.value("budget", budget.most(), 3);
+  if (budget.seconds() > 0)
+    table.value("budget", format("%gs", budget.seconds()));
+  else
+    table.value("budget", budget.most(), 3);
 }
 
 void put_regime(Table& table, int period, const std::string& otherwise,
