@@ -133,7 +133,7 @@ std::function<void()> add_motion_options(CLI::App& command, MotionRequest& reque
       "balance), shooting, gauss (of bodies given by matrices)";
   for (const std::string& name : time_methods()) methods += ", " + name;
   const bool is_spectrum = command.get_name() == "spectrum";
-  const auto aft = add_balance_options(
+  auto aft = add_balance_options(
       command, request,
       is_spectrum ? "three times BPFO, or by --tolerance" : "by --tolerance");
   add_number(command, "--frequency", request.frequency, 0.0, largest,
@@ -149,6 +149,9 @@ std::function<void()> add_motion_options(CLI::App& command, MotionRequest& reque
       command, "--tolerance", request.tolerance, 1e-8, 0.1,
       "relative error of displacement, the largest and the rms about the mean; with "
       "--method aft and without --harmonics, m is chosen");
+  aft.push_back(
+      add_number(command, "--lines", request.lines, 1, 1024,
+                 "with two frequencies: the M largest lines of the motion from rest"));
   if (command.get_name() != "contact")
     periodic.push_back(add_subharmonic(command, request));
   if (is_spectrum)

@@ -11,7 +11,7 @@
 #include "continuation/sweep.hpp"
 #include "io/errors.hpp"
 #include "model/rotor_stator.hpp"
-#include "motion/adaptive.hpp"
+#include "motion/find_periodic.hpp"
 #include "time/shooting.hpp"
 #include "time/time_stepper.hpp"
 
@@ -70,7 +70,6 @@ public:
       longest_ = std::max(longest_, harmonics_at(setting, frequency));
     if (!task.before) return;
     const double frequency = task.before->frequency;
-    integration_.emplace(task.parameters, task.before->state);
     PeriodicMotion known{.omega = angular(frequency)};
     if (finds(harmonics_at(setting, frequency), known)) before_ = known.x;
   }
@@ -87,7 +86,6 @@ public:
   {
     Counts counts = counts_;
     for (const auto& [m, solved] : balances_) add(*solved, counts);
-    if (integration_) counts.force_instants += integration_->evaluations();
     counts.force_seconds = *force_seconds_;
     return counts;
   }
@@ -108,8 +106,6 @@ private:
     balances_.clear();
     bodies_.clear();
     *force_seconds_ = 0;
-    integration_.emplace(task_.parameters, task_.before ? task_.before->state
-                                                        : static_start(task_.parameters));
     SweepSettings settings = sweep_settings(task_.parameters);
     predictor_ = {settings.arc_unknown_scale, settings.speed_scale};
     if (before_.size() > 0) learn(angular(task_.before->frequency), before_);
@@ -160,13 +156,11 @@ private:
       return rotor_stator::solve(at, balances_[m]->solver, found, newton_);
     };
     const auto from = [&](const Eigen::VectorXd& x) {
-      if (!setting_.algebra.empty()) return at_once(x);
-      found.x = x;
-      const auto on_few = [this](int count) -> Balance& { return balance(count); };
-      return solve_from_few(balance(m), on_few, found, newton_);
+      return at_once(x);
     };
-    const auto after = [&](double seconds) {
-      return at_once(integration_->go_on(found.omega, seconds, m));
+    const auto after = [&](double) {
+      const motion::Search search{task_.parameters, found.omega, m};
+      return at_once(motion::settled_start(search, m));
     };
     if ((setting_.transient > 0 && after(setting_.transient)) ||
         (!predictor_.empty() && from(predictor_.at_speed(found.omega))) ||
@@ -210,7 +204,6 @@ private:
       .tolerance = setting_.tolerance, .most_iterations = 12, .most_halvings = 4};
   Eigen::VectorXd before_;  ///< the solution that is known, if any
   int longest_ = 0;         ///< harmonics of the predictor's vectors
-  std::optional<motion::CoarseIntegration> integration_;  ///< goes on from speed to speed
   LagrangePredictor predictor_{1, 1};
   std::map<int, std::unique_ptr<Solver>> balances_;  ///< by m
   std::map<double, Eigen::MatrixXd> bodies_;         ///< series found, by speed [rad/s]
@@ -237,9 +230,11 @@ private:
 
   void solve(std::size_t speed) override
   {
-    const AdaptiveMotion at =
-        motion::solve_adaptively(task_.parameters, angular(task_.frequencies[speed]),
-                                 {.tolerance = setting_.tolerance}, {}, before_);
+    motion::Search search{.parameters = task_.parameters,
+                          .omega = angular(task_.frequencies[speed]),
+                          .harmonics = 6};
+    if (before_.size() > 0) search.starts = {before_};
+    const motion::Judged at = motion::to_tolerance(search, setting_.tolerance);
     counts_.force_instants += at.force_samples;
     before_ = at.reached ? at.motion.x : Eigen::VectorXd();
     if (at.reached) bodies_[speed] = at.motion.bodies;

@@ -1,7 +1,7 @@
 #include "deviations/evidence.hpp"
 
 #include "io/errors.hpp"
-#include "motion/other_starts.hpp"
+#include "motion/find_periodic.hpp"
 
 namespace rotor_stator::deviations {
 
@@ -26,7 +26,7 @@ PeriodicMotion require_periodic(const Parameters& machine, double frequency,
                                 int harmonics, int samples,
                                 const NewtonSettings& settings)
 {
-  const PeriodicMotion solution = motion::search_periodic(
+  const PeriodicMotion solution = motion::find_periodic(
       {machine, angular(frequency), harmonics,
        samples > 0 ? samples : default_samples(harmonics), settings});
   if (!solution.found())

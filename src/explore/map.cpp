@@ -17,11 +17,10 @@
 #include "io/output_file.hpp"
 #include "io/parallel.hpp"
 #include "io/program.hpp"
-#include "motion/adaptive.hpp"
+#include "motion/find_periodic.hpp"
 #include "motion/answer.hpp"
 #include "motion/contact.hpp"
 #include "motion/judge.hpp"
-#include "motion/other_starts.hpp"
 #include "motion/regime.hpp"
 #include "time/floquet.hpp"
 
@@ -239,14 +238,16 @@ public:
   }
 
   /** With the harmonics that the tolerance asks for. */
-  const AdaptiveMotion& chosen()
+  const motion::Judged& chosen()
   {
     return chosen_([&] {
       require_period();
-      AdaptiveMotion at = motion::solve_adaptively(
-          machine, omega(),
-          {.tolerance = task_.request.tolerance.value_or(1e-3), .newton = newton_},
-          budget_);
+      motion::Judged at = motion::to_tolerance({.parameters = machine,
+                                                .omega = omega(),
+                                                .harmonics = 6,
+                                                .newton = newton_,
+                                                .budget = budget_},
+                                               task_.request.tolerance.value_or(1e-3));
       if (!at.reached) throw NoSolution("tolerance not reached: " + at.end);
       return at;
     });
@@ -310,7 +311,10 @@ public:
 
   const motion::Verdict& verdict()
   {
-    return verdict_([&] { return motion::judge(machine, solution(), budget_); });
+    return verdict_([&] {
+      const bool is_chosen = task_.request.tolerance && !task_.request.harmonics;
+      return is_chosen ? chosen().verdict : motion::judge(machine, solution(), budget_);
+    });
   }
 
   std::string stability() { return is_balance() ? verdict().word() : answer().stability; }
@@ -374,7 +378,7 @@ public:
     };
     Balance balance(bearing_problem(machine, default_samples(m)), m);
     const double near = error(solve(balance, omega(), motion::relative_series(truth, m)));
-    return std::min(near, error(motion::find_near_contact({machine, omega(), m})));
+    return std::min(near, error(motion::find_periodic({machine, omega(), m})));
   }
 
   const Swept& swept()
@@ -405,13 +409,9 @@ public:
     });
   }
 
-  /** Estimated with more harmonics; where that does not settle, against the motion of Eq. 7. */
+  /** The distance from the nearest motion of Eq. 7. */
   double error()
   {
-    const ErrorEstimate estimate =
-        solution().error ? *solution().error
-                         : motion::estimate_error(machine, solution(), budget_);
-    if (estimate.settled) return estimate.larger();
     floquet();
     return std::max(verdict().distance, verdict().distance_rms);
   }
@@ -463,7 +463,7 @@ private:
         return next;
       }
     }
-    return motion::search_periodic(
+    return motion::find_periodic(
         {machine, omega(), task_.harmonics, task_.samples, newton_, budget_});
   }
 
@@ -472,7 +472,7 @@ private:
   OperationBudget budget_;
   NewtonSettings newton_;
   Once<PeriodicMotion> solution_;
-  Once<AdaptiveMotion> chosen_;
+  Once<motion::Judged> chosen_;
   Once<motion::Motion> motion_;
   Once<motion::Verdict> verdict_;
   Once<Floquet> series_;

@@ -14,14 +14,12 @@
 #include "explore/spectrum.hpp"
 #include "io/errors.hpp"
 #include "io/output_file.hpp"
-#include "motion/adaptive.hpp"
 #include "motion/closed_motion.hpp"
 #include "motion/contact.hpp"
 #include "motion/judge.hpp"
 #include "motion/motion.hpp"
 #include "motion/other_starts.hpp"
 #include "motion/quasi_periodic.hpp"
-#include "motion/subharmonic.hpp"
 #include "time/time_stepper.hpp"
 
 namespace rotor_stator::explore {
@@ -74,10 +72,10 @@ void take_any_cage(const ResponseRequest& request, Task& task)
     task.samples *= q;
   } else {
     task.has_two_frequencies = true;
-    if (request.harmonics || request.samples || request.stability)
+    if (request.samples || request.stability)
       throw BadInput(
-          "--harmonics, --samples, --stability: not where n*omega_cage/omega is not a "
-          "whole number; the harmonics are chosen, and orbit judges");
+          "--samples, --stability: not where n*omega_cage/omega is not a whole number; "
+          "orbit judges");
   }
 }
 
@@ -178,18 +176,23 @@ BranchPoint saved_start(const Task& task, Balance& balance, Table& table)
 /** A solution at the edge of the range, by whatever start finds one. */
 PeriodicMotion found_start(const Task& task)
 {
-  const double hertz = task.hertz(task.range().from);
+  constexpr double near = 1e-2;  ///< few harmonics often miss a subharmonic
+  const double omega = task.range().from, hertz = task.hertz(omega);
   const int turns = task.request.subharmonic;
-  const auto search = [&](const Parameters& parameters, double omega) -> motion::Search {
-    return {parameters,           omega,      task.harmonics, task.samples,
-            task.settings.newton, task.budget};
-  };
-  if (turns > 1)
-    return motion::find_subharmonic(
-        search(task.machine, angular(hertz)), turns,
-        task.request.harmonics ? std::nullopt : std::optional(1e-2));
-  PeriodicMotion start =
-      motion::search_periodic(search(task.parameters, task.range().from));
+  const motion::Search search{turns > 1 ? task.machine : task.parameters,
+                              turns * omega,
+                              task.harmonics,
+                              task.samples,
+                              task.settings.newton,
+                              task.budget,
+                              turns};
+  if (turns > 1 && !task.request.harmonics) {
+    motion::Judged at = motion::to_tolerance(search, near);
+    if (at.reached) return std::move(at.motion);
+    throw NoSolution(format("%s: at %g Hz: %s", task.parameters.file.c_str(), hertz,
+                            at.end.c_str()));
+  }
+  PeriodicMotion start = motion::find_periodic(search);
   if (!start.found())
     throw NoSolution(format("%s: no solution found with %d harmonics at --%s %g Hz: %s",
                             task.parameters.file.c_str(), task.harmonics,
@@ -198,34 +201,39 @@ PeriodicMotion found_start(const Task& task)
   return start;
 }
 
-/** With two frequencies: all harmonics that the usual tolerance asks for at some speeds of the range, the start on
-    them, and the line of its samples. */
-std::pair<PeriodicMotion, TorusLine> chosen_start(const Task& task)
+/** With two frequencies: all orders up to --harmonics, or all lines that the tolerance needs at some speeds of the range;
+    the start on them, and the line of its samples. */
+std::pair<PeriodicMotion, TorusLine> torus_start(const Task& task)
 {
-  constexpr int speeds = 5;
+  constexpr int speeds = 5, beyond = 6;
   const Bearing& bearing = task.machine.bearing;
-  Harmonics all = sidebands(bearing, 3, 1);
-  PeriodicMotion start;
-  std::string end;
   const auto [from, to] = task.range();
-  for (int k = 0; k < speeds; ++k) {
-    const AdaptiveMotion at =
-        motion::find_quasi_periodic(task.machine, from + k * (to - from) / (speeds - 1),
-                                    {.tolerance = task.request.tolerance.value_or(1e-3),
-                                     .newton = task.settings.newton},
-                                    task.budget);
-    /** The lines of an integrated motion are no point of a branch. */
-    const bool is_solved = at.reached && at.motion.found() && at.motion.line.turns == 1;
-    if (k == 0 && !is_solved)
+  Harmonics all = orders_up_to(task.harmonics, bearing);
+  PeriodicMotion start;
+  const int count = task.request.harmonics ? 1 : speeds;
+  for (int k = 0; k < count; ++k) {
+    const motion::TorusSearch search{task.machine, from + k * (to - from) / (speeds - 1),
+                                     task.settings.newton, task.budget, false};
+    motion::Torus at =
+        task.request.harmonics
+            ? motion::torus_on_orders(search, task.harmonics)
+            : motion::torus_to_tolerance(search, task.request.tolerance.value_or(1e-3));
+    if (k == 0 && !at.reached)
       throw NoSolution(format("%s: no solution found at %g Hz: %s",
                               task.machine.file.c_str(), task.hertz(from),
                               at.end.c_str()));
-    if (k == 0) start = at.motion;
-    if (is_solved) all = joined(all, at.motion.harmonics);
+    /** A torus that has doubled is no point of the branch. */
+    const bool is_of_branch = at.reached && at.motion.line.turns == 1;
+    if (k == 0)
+      all = at.motion.harmonics;
+    else if (is_of_branch)
+      all = joined(all, at.motion.harmonics);
+    if (k == 0) start = std::move(at.motion);
   }
   start.x = project(start.x, 2, start.harmonics, all);
   start.harmonics = all;
-  const TorusLine line = line_without_images(all, sidebands(bearing, 12, 4), 1024);
+  const TorusLine line =
+      line_without_images(all, orders_up_to(task.harmonics + beyond, bearing), 1024);
   start.samples = line.samples;
   return {start, line};
 }
@@ -242,6 +250,7 @@ struct Row {
   motion::Motion motion = {};  ///< where a column needs its instants
   Eigen::MatrixXd series =
       {};  ///< of x_s, y_s, x_r, y_r, 4 × (2m+1) [m], with --harmonics-of
+  double error = 0;  ///< with --tolerance
 
   double mean(Eigen::Index k) const
   {
@@ -346,9 +355,10 @@ std::pair<Fields, std::size_t> fields_of(const Task& task, const Harmonics& harm
   if (request.tolerance && !task.has_two_frequencies)
     fields.push_back(
         {"error", "-",
-         "estimated: the larger of the largest difference of a displacement over the "
-         "largest displacement and the rms about the mean",
-         [](auto& r) { return r.at.point.motion.error->larger(); }});
+         "distance from the nearest motion of Eq. 7: the larger of the largest "
+         "difference of a displacement over the largest displacement and the rms about "
+         "the mean",
+         &Row::error});
   const std::size_t usual = fields.size();
   fields.insert(fields.end(), further_fields.begin(), further_fields.end());
   if (const double pressure = task.machine.bearing.pressure; pressure > 0)
@@ -540,7 +550,7 @@ Exploration shooting_response(const ResponseRequest& request, const Task& task)
   std::string start = "time integration";
   State state = settled.at.state;
   if (settled.period != 1) {
-    const auto closed = motion::closed_motion(search, 1, points, 1e-11);
+    const auto closed = motion::closed_motion(search, points, 1e-11);
     start = closed.start;
     state = closed.state;
   }
@@ -603,6 +613,7 @@ Exploration response_to_tolerance(const ResponseRequest& request, const Task& ta
   describe(table, task.machine);
   constexpr double seconds_each = 1;  // without a budget of the user's
   std::vector<StablePoint> points;
+  std::vector<double> errors;
   std::string missing;
   int missed = 0;
   const int count = request.count.value_or(101);
@@ -612,9 +623,10 @@ Exploration response_to_tolerance(const ResponseRequest& request, const Task& ta
     const OperationBudget share =
         request.budget ? task.budget
                        : budget_of(std::optional<double>(), seconds_each, parameters);
-    AdaptiveMotion at = motion::solve_adaptively(
-        parameters, omega, {.tolerance = tolerance}, share,
-        points.empty() ? Eigen::VectorXd() : points.back().point.motion.x);
+    motion::Search search{
+        .parameters = parameters, .omega = omega, .harmonics = 6, .budget = share};
+    if (!points.empty()) search.starts = {points.back().point.motion.x};
+    motion::Judged at = motion::to_tolerance(search, tolerance);
     if (!at.reached) {
       if (missed++ == 0)
         missing =
@@ -634,6 +646,7 @@ Exploration response_to_tolerance(const ResponseRequest& request, const Task& ta
                        (omega - last.omega) / task.settings.speed_scale);
     }
     points.push_back({.point = {std::move(at.motion), arc}, .floquet = {}});
+    errors.push_back(at.error.larger());
   }
   if (points.empty()) throw NoSolution(missing);
   table.value("method", "aft");
@@ -641,13 +654,14 @@ Exploration response_to_tolerance(const ResponseRequest& request, const Task& ta
   table.value("tolerance", tolerance);
   table.value("speeds", count);
   table.value("missed_speeds", missed);
-  table.note("harmonics and samples chosen for each speed, from the paper's predictor");
+  table.note("harmonics and samples chosen for each speed");
   if (missed > 0) table.note("missed speeds: the first: " + missing);
   bool touches = false;
-  for (const StablePoint& at : points) {
-    const PeriodicMotion& motion = at.point.motion;
+  for (std::size_t k = 0; k < points.size(); ++k) {
+    const PeriodicMotion& motion = points[k].point.motion;
     touches = touches || !motion.force.isZero(0);
-    Row row{at, half_peak_to_peak(motion.bodies), 1, task};
+    Row row{points[k], half_peak_to_peak(motion.bodies), 1, task};
+    row.error = errors[k];
     if (has_further)
       row.motion =
           motion::motion_of(motion, std::max(256, 4 * motion.harmonics.count() + 4));
@@ -676,7 +690,7 @@ Exploration explore_response(const ResponseRequest& request)
   PeriodicMotion found;
   TorusLine line{};
   if (task.has_two_frequencies) {
-    std::tie(found, line) = chosen_start(task);
+    std::tie(found, line) = torus_start(task);
     task.samples = found.samples;
   } else if (!task.saved) {
     found = found_start(task);
@@ -688,8 +702,6 @@ Exploration explore_response(const ResponseRequest& request)
   Table table("Frequency response along the branch", fields);
   const bool has_further = table.choose(request.columns, usual, request.plot.has_value());
   if (!task.saved) table.value("start", one_word(found.start));
-  if (found.error && !task.has_two_frequencies)
-    table.value("start_error", found.error->larger(), 2);
   Balance balance =
       task.has_two_frequencies
           ? Balance(bearing_problem(task.parameters, line, task.budget), found.harmonics)
@@ -717,7 +729,7 @@ Exploration explore_response(const ResponseRequest& request)
              : turns_to_repeat(task.machine.bearing) > 1 ? format("turns %d", turns)
                                                          : "turn",
              main.folds.size(), main.evaluations);
-  if (two) table.note(format("harmonics chosen at five speeds, z = %d", line.z));
+  if (two) table.note(format("harmonics of all points of the branch, z = %d", line.z));
   table.note(
       format("pseudo-arc-length, relative tolerance %g", task.request.newton_tolerance));
   table.note("end of the branch: " + main.end);

@@ -25,6 +25,7 @@ constexpr double local_error = 1e-11, finer = 1e-13, well_closed = 1e-8;
 struct ClosedMotion {
   Eighths at;
   Floquet floquet = {};
+  Motion record = {};
   double distance = 0, distance_rms = 0;  ///< of the solution, as in Verdict
   bool moves = false;
 
@@ -197,10 +198,10 @@ public:
     try {
       ClosedMotion exact = closer_.exactly(motion);
       if (is_known(exact.at, 0.01 * same)) return;
-      const Motion record = closer_.record(exact.at, instants * parameters_.turns);
-      exact.distance = relative_difference(judged_, record);
-      exact.distance_rms = rms_difference(judged_, record);
-      for (const double half : half_peak_to_peak(record))
+      exact.record = closer_.record(exact.at, instants * parameters_.turns);
+      exact.distance = relative_difference(judged_, exact.record);
+      exact.distance_rms = rms_difference(judged_, exact.record);
+      for (const double half : half_peak_to_peak(exact.record))
         exact.moves = exact.moves || half > 1e-12 * closer_.size();
       motions_.push_back(std::move(exact));
     } catch (const NoSolution& none) {
@@ -231,6 +232,7 @@ public:
       }
     verdict.floquet = own.floquet;
     verdict.state = own.at.front();
+    verdict.record = own.record;
     verdict.moves = own.moves;
     verdict.distance = own.distance;
     verdict.distance_rms = own.distance_rms;

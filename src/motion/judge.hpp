@@ -24,6 +24,7 @@ struct Verdict {
   double refused = 0;    ///< distance of one that is too far away to be its own, rms [-]
   Floquet floquet = {};  ///< of the motion found
   State state = {};      ///< of the motion found, at phase 0
+  Motion record = {};    ///< of it, one period
   bool moves = true;     ///< the motion found is not at rest
   double distance =
       0;  ///< of the solution over the period, over the largest displacement [-]

@@ -1,8 +1,7 @@
 /**
-# Starts that are farther away
+# Starts for branches beside the one that is followed
 
-Along a branch from a lower speed; and starts for branches beside the one that is followed. Newton finds
-the solution that is near: other branches need other starts. At each speed one comes from time
+Newton finds the solution that is near: other branches need other starts. At each speed one comes from time
 integration, the others are random: harmonics of the size of the clearance that fall like 1/h², from a
 seeded generator. */
 #pragma once
@@ -14,9 +13,6 @@ seeded generator. */
 #include "motion/find_periodic.hpp"
 
 namespace rotor_stator::motion {
-
-/** As `find_periodic`, with the branch from a lower speed among its starts. */
-PeriodicMotion search_periodic(const Search& search);
 
 /** Uniform in -1 … 1 from the generator's bits: the standard's distributions differ between
     libraries. */

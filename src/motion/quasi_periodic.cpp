@@ -2,32 +2,17 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
-#include <memory>
 #include <numbers>
-#include <optional>
 
+#include "balance/bearing_problem.hpp"
+#include "balance/torus_line.hpp"
+#include "io/errors.hpp"
 #include "motion/lines.hpp"
-#include "time/lyapunov.hpp"
-#include "time/steady_state.hpp"
+#include "time/time_stepper.hpp"
 
 namespace rotor_stator::motion {
 
 namespace {
-
-/** Turns until the slower of both suspensions has damped a disturbance to 1e-5. Throws NoSolution when they are too
-    many. */
-long settling_turns(const Parameters& parameters, double omega)
-{
-  const auto rate = [](const Body& body) {
-    return body.rigid ? std::numeric_limits<double>::infinity()
-                      : body.damping() / (2 * body.mass);
-  };
-  const double slower = std::min(rate(parameters.stator), rate(parameters.rotor));
-  constexpr double longest = 10, most = 20000;  // [s], turns
-  const double seconds = std::min(longest, std::log(1e5) / slower);
-  return std::lround(std::ceil(std::min(most, seconds / checked_period(omega, seconds))));
-}
 
 /** Those whose orders differ by more than half a main lobe, the smallest |k_2| first; as places in the list. */
 std::vector<int> distinct(const Harmonics& harmonics, const Bearing& bearing,
@@ -92,18 +77,76 @@ private:
   Eigen::VectorXcd values_;
 };
 
-/** What Eq. 7 settles on from rest, by rk4. */
-class SettledMotion {
+/** All of a record as one period: what differences are taken over. */
+Motion as_one_period(Motion motion)
+{
+  motion.points_per_period = static_cast<int>(motion.size());
+  return motion;
+}
+
+/** Candidates for lines: whole pairs, and those moved by `half`. */
+Harmonics candidates(const Parameters& parameters, double omega, Harmonic half = {})
+{
+  constexpr double beyond_contact = 1.3, least = 16, most = 120;
+  constexpr int passages = 8;
+  const double contact = contact_frequency(parameters) / omega;
+  return up_to(std::clamp(beyond_contact * contact, least, most), passages,
+               parameters.bearing, half);
+}
+
+/** Newton on these harmonics, along a line on which others do not disturb them. */
+PeriodicMotion solved_on(const TorusSearch& search, const Harmonics& kept,
+                         const Harmonics& others, int line_turns, Eigen::VectorXd x,
+                         const std::string& start)
+{
+  constexpr int least_samples = 1024, samples_each = 16;
+  const TorusLine line = line_without_images(
+      kept, others, std::max(least_samples, samples_each * kept.count()), line_turns);
+  Balance balance(bearing_problem(search.parameters, line, search.budget), kept);
+  BalanceSolver solver(balance, true);
+  PeriodicMotion motion{.omega = search.omega, .x = std::move(x), .start = start};
+  if (solve(balance, solver, motion, search.newton))
+    motion.bodies = body_series(search.parameters, motion);
+  return motion;
+}
+
+/** What Eq. 7 settles on from rest, by rk4, with its lines. */
+class SettledTorus {
 public:
-  SettledMotion(const Parameters& parameters, double omega, const OperationBudget& budget)
-      : parameters_(parameters), omega_(omega), budget_(budget)
+  explicit SettledTorus(const TorusSearch& search)
+      : search_(search), parameters_(search.parameters)
   {
+    constexpr int turns = 320;
+    const Settled settled =
+        settle(parameters_, search.omega, base_period(parameters_),
+               from_rest(parameters_, search.omega), {}, search.budget);
+    if (!settled.contracts)
+      throw NoSolution(format("the motion from rest is %s, without lines",
+                              word(settled.kind)));
+    /** Twice as many as the highest order that is looked for. */
+    const double contact = contact_frequency(parameters_) / search.omega;
+    const int points = contact < 8 ? 64 : contact < 40 ? 128 : 256;
+    const TimeStepper stepper = make_stepper(
+        parameters_, search.omega,
+        {.method = "rk4", .intervals_per_period = points, .budget = search.budget});
+    State state = settled.at.state;
+    first_ = settled.at.period;
+    const Motion motion = recorded(stepper, points, state, first_, turns);
+    const Eigen::MatrixXd samples = relative_samples(parameters_, motion);
+    const Eigen::VectorXd window = blackman_harris(samples.rows());
+    for (const auto& column : samples.colwise())
+      transforms_.emplace_back(column.cwiseProduct(window));
+    turns_ = turns;
+    const TimeStepper exact =
+        make_stepper(parameters_, search.omega,
+                     {.intervals_per_period = compared, .budget = search.budget});
+    next_ = recorded(exact, compared, state, first_ + turns, compared_turns);
   }
 
-  /** Of lines that the window cannot tell apart the one with the smallest |k_2| is taken. */
-  Eigen::VectorXd lines(const Harmonics& harmonics)
+  /** The amplitudes of its lines as coefficients of the relative motions [m]; of lines that the window cannot tell apart
+      the one with the smallest |k_2| is taken. */
+  Eigen::VectorXd lines(const Harmonics& harmonics) const
   {
-    integrate();
     const auto dofs = static_cast<Eigen::Index>(transforms_.size());
     Eigen::MatrixXd series = Eigen::MatrixXd::Zero(dofs, harmonics.coefficients());
     for (Eigen::Index i = 0; i < dofs; ++i)
@@ -121,70 +164,95 @@ public:
     return series.reshaped();
   }
 
-  void go_on()
+  /** The solution on the `count` largest lines. A torus that has doubled has lines at all whole pairs moved by one
+      half: that where they are largest. */
+  PeriodicMotion solution(int count) const
   {
-    constexpr int longer = 1280;
-    integrate();
-    advance(0, longer);
+    constexpr double noticed = 1e-3;
+    Lines all = lines_moved_by({});
+    for (const Harmonic half : {Harmonic{0.5, 0}, Harmonic{0, 0.5}, Harmonic{0.5, 0.5}}) {
+      Lines moved = lines_moved_by(half);
+      if (moved.halves > std::max(all.halves, noticed * moved.all)) all = std::move(moved);
+    }
+    const Harmonics kept = largest(all, count);
+    return solved_on(search_, kept, largest(all, 3 * count), all.halves > 0 ? 2 : 1,
+                     project(all.x, dofs(), all.harmonics, kept), "time integration");
   }
 
-  /** The distance of a solution from the next turns, integrated with small steps. */
-  ErrorEstimate error(const PeriodicMotion& solution)
+  /** The distance of a solution from the turns after the record, integrated with small steps. */
+  Error error(const PeriodicMotion& solution) const
   {
-    integrate();
-    constexpr int points = 64, turns = 16;
-    if (!next_) {
-      const TimeStepper stepper = make_stepper(
-          parameters_, omega_, {.intervals_per_period = points, .budget = budget_});
-      State state = state_;
-      next_ = recorded(stepper, points, state, turn_, turns);
-      next_->points_per_period = points * turns;
-    }
-    Motion series = motion::motion_of(parameters_, solution, points, turns, turn_);
-    series.points_per_period = points * turns;
-    return error_against(*next_, series, points);
+    return difference(as_one_period(motion::motion_of(parameters_, solution, compared,
+                                                      compared_turns, first_ + turns_)),
+                      as_one_period(next_));
   }
 
 private:
-  void integrate()
+  static constexpr int compared = 64, compared_turns = 16;
+
+  struct Lines {
+    Harmonics harmonics;
+    Eigen::VectorXd x;
+    double halves = 0, all = 0;  ///< norms of those that are not whole, and of all
+  };
+
+  int dofs() const { return static_cast<int>(transforms_.size()); }
+
+  double size(const Lines& lines, int h) const
   {
-    if (turn_ > 0) return;
-    constexpr int turns = 160;
-    state_ = static_start(parameters_);
-    advance(settling_turns(parameters_, omega_), turns);
+    return lines.x.segment((2 * h - 1) * dofs(), 2 * dofs()).norm();
   }
 
-  /** Over so many turns, and then the record. */
-  void advance(long before, int turns)
+  Lines lines_moved_by(Harmonic half) const
   {
-    /** Twice as many as the highest order that is looked for. */
-    const double contact = contact_frequency(parameters_) / omega_;
-    const int points = contact < 8 ? 64 : contact < 40 ? 128 : 256;
-    const TimeStepper stepper = make_stepper(
-        parameters_, omega_,
-        {.method = "rk4", .intervals_per_period = points, .budget = budget_});
-    first_ = turn_ + before;
-    for (long k = turn_ * points; k < first_ * points; ++k) stepper.advance(k, state_);
-    const Motion motion = recorded(stepper, points, state_, first_, turns);
-    turns_ = turns;
-    turn_ = first_ + turns;
-    next_.reset();
-    const Eigen::MatrixXd samples = relative_samples(parameters_, motion);
-    const Eigen::VectorXd window = blackman_harris(samples.rows());
-    transforms_.clear();
-    for (const auto& column : samples.colwise())
-      transforms_.emplace_back(column.cwiseProduct(window));
+    Lines all{candidates(parameters_, search_.omega, half), {}};
+    all.x = lines(all.harmonics);
+    for (int h = 1; h <= all.harmonics.count(); ++h) {
+      const auto [k_1, k_2] = all.harmonics.list()[static_cast<std::size_t>(h)];
+      all.all = std::hypot(all.all, size(all, h));
+      if (k_1 != std::round(k_1) || k_2 != std::round(k_2))
+        all.halves = std::hypot(all.halves, size(all, h));
+    }
+    return all;
   }
 
+  Harmonics largest(const Lines& all, int count) const
+  {
+    std::vector<int> places;
+    for (int h = 1; h <= all.harmonics.count(); ++h)
+      if (size(all, h) > 0) places.push_back(h);
+    std::ranges::stable_sort(places, std::greater{}, [&](int h) { return size(all, h); });
+    places.resize(std::min(places.size(), static_cast<std::size_t>(count)));
+    std::ranges::sort(places);
+    std::vector<Harmonic> list{{0, 0}};
+    for (int h : places) list.push_back(all.harmonics.list()[static_cast<std::size_t>(h)]);
+    return Harmonics(std::move(list));
+  }
+
+  const TorusSearch& search_;
   const Parameters& parameters_;
-  double omega_;
-  OperationBudget budget_;
-  long first_ = 0, turn_ = 0;   ///< of the record, from t = 0 [turns]
-  int turns_ = 0;               ///< that it holds
-  State state_ = {};            ///< at its end
-  std::optional<Motion> next_;  ///< the turns after it, once they are asked for
+  long first_ = 0;                         ///< turn of the record, from t = 0
+  int turns_ = 0;                          ///< that it holds
+  Motion next_ = {};                       ///< the turns after it
   std::vector<FineTransform> transforms_;  ///< of the relative motions [m]
 };
+
+/** What integration from a solution makes of it, where that is wanted. */
+void add_verdict(const TorusSearch& search, double tolerance, Torus& torus)
+try {
+  if (!search.stability) return;
+  torus.verdict =
+      verdict_on_torus(search.parameters, torus.motion, tolerance, search.budget);
+  if (torus.verdict->stays && torus.error) {
+    torus.error->largest = std::max(torus.error->largest, torus.verdict->distance.largest);
+    torus.error->rms = std::max(torus.error->rms, torus.verdict->distance.rms);
+  }
+} catch (const NoSolution& none) {
+  torus.end = none.what();
+}
+
+/** Without a tolerance a solution is of the motion that integration from it comes to, where that is so near. */
+constexpr double near = 0.05;
 
 }  // namespace
 
@@ -255,32 +323,70 @@ TorusVerdict verdict_on_torus(const Parameters& parameters,
   State state = from.state;
   const long first = verdict.settled.at.period;
   for (long k = from.period * points; k < first * points; ++k) stepper.advance(k, state);
-  Motion exact = recorded(stepper, points, state, first, turns);
-  Motion judged = motion_of(parameters, solution, points, turns, first);
-  exact.points_per_period = judged.points_per_period = points * turns;
-  verdict.away = relative_difference(judged, exact);
-  verdict.away_rms = rms_difference(judged, exact);
-  verdict.stays = verdict.larger() <= tolerance;
+  verdict.distance = difference(
+      as_one_period(motion_of(parameters, solution, points, turns, first)),
+      as_one_period(recorded(stepper, points, state, first, turns)));
+  verdict.stays = verdict.distance.larger() <= tolerance;
   verdict.evaluations = coarse.evaluations + verdict.settled.evaluations +
                         static_cast<double>(stepper.evaluations());
   return verdict;
 }
 
-SettledOn settled_torus(const Parameters& parameters, double omega,
-                        const OperationBudget& budget)
+Torus torus_on_orders(const TorusSearch& search, int m)
 {
-  const auto settled = std::make_shared<SettledMotion>(parameters, omega, budget);
-  return {[=](const Harmonics& harmonics) { return settled->lines(harmonics); },
-          [=] { settled->go_on(); },
-          [=](const PeriodicMotion& solution) { return settled->error(solution); }};
+  constexpr int beyond = 6;
+  const Parameters& parameters = search.parameters;
+  const Harmonics kept = orders_up_to(m, parameters.bearing);
+  const int dofs = 2 * static_cast<int>(bearings_of(parameters).size());
+  const Eigen::VectorXd x =
+      project(quasi_static_start(parameters, search.omega, m), dofs, Harmonics(m), kept);
+  const Harmonics others = orders_up_to(m + beyond, parameters.bearing);
+  Torus torus{.motion = solved_on(search, kept, others, 1, x, "quasi-static contact")};
+  if (!torus.motion.found())
+    torus.motion = solved_on(search, kept, others, 1, SettledTorus(search).lines(kept),
+                             "time integration");
+  torus.reached = torus.motion.found();
+  torus.end = torus.motion.newton.reason();
+  if (torus.reached) add_verdict(search, near, torus);
+  return torus;
 }
 
-AdaptiveMotion find_quasi_periodic(const Parameters& parameters, double omega,
-                                   const AdaptiveSettings& settings,
-                                   const OperationBudget& budget)
+Torus torus_on_lines(const TorusSearch& search, int lines)
 {
-  return solve_on_chosen(parameters, omega, settings,
-                         settled_torus(parameters, omega, budget), budget);
+  const SettledTorus settled(search);
+  Torus torus{.motion = settled.solution(lines)};
+  torus.reached = torus.motion.found();
+  torus.end = torus.motion.newton.reason();
+  if (!torus.reached) return torus;
+  torus.error = settled.error(torus.motion);
+  add_verdict(search, near, torus);
+  return torus;
+}
+
+Torus torus_to_tolerance(const TorusSearch& search, double tolerance)
+{
+  constexpr int first = 16, most = 512;
+  const SettledTorus settled(search);
+  Torus torus;
+  for (int lines = first; lines <= most && !torus.reached; lines *= 2) {
+    Torus next{.motion = settled.solution(lines)};
+    next.end = format("with %d lines: ", lines) + next.motion.newton.reason();
+    if (next.motion.found()) {
+      next.error = settled.error(next.motion);
+      next.end = format("with %d lines the solution is %.2g away from the settled motion",
+                        lines, next.error->larger());
+      next.reached = next.error->larger() <= tolerance;
+    }
+    if (next.reached) add_verdict(search, tolerance, next);
+    if (next.verdict && !next.verdict->stays) {
+      next.reached = false;
+      next.end = format("integration from the solution with %d lines comes to a motion "
+                        "%.2g away",
+                        lines, next.verdict->distance.larger());
+    }
+    torus = std::move(next);
+  }
+  return torus;
 }
 
 }  // namespace rotor_stator::motion
