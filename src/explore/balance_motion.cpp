@@ -239,10 +239,9 @@ FoundMotion quasi_periodic_motion(const Parameters& parameters,
   table.row_line("harmonics", list);
   table.value("start", one_word(solution.start));
   table.note("newton: " + solution.newton.reason());
-  if (torus.error)
+  if (torus.error && !request.harmonics && !request.lines)
     put_difference(table, "error", torus.error->largest, torus.error->rms,
-                   "the distance from the motion integrated from rest or from the "
-                   "solution, the larger");
+                   "against the nearest motion of Eq. 7, by integration");
   if (request.stability)
     note_torus_verdict(table, torus);
   else

@@ -175,8 +175,6 @@ Eigen::VectorXd settled_start(const Search& search, int harmonics)
   const double omega = search.omega;
   const Settled settled = settle(parameters, omega, BasePeriod{},
                                  from_rest(parameters, omega), {}, search.budget);
-  if (settled.kind != Kind::rest && settled.period != 1 && !settled.contracts)
-    throw NoSolution("integration settles on no motion with one period");
   const int points = default_samples(harmonics);
   return relative_series(parameters,
                          one_period(parameters, omega, settled.at.state,
@@ -212,6 +210,7 @@ Judged to_tolerance(Search search, double tolerance)
       search.is_thorough = m >= few;
       PeriodicMotion motion = find_periodic(search);
       at.force_samples += motion.force_samples;
+      if (!motion.found() && !at.motion.found() && m >= 4 * few) break;
       if (!motion.found()) continue;
       search.starts = {motion.x};
       at.motion = std::move(motion);

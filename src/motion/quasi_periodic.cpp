@@ -2,11 +2,13 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <numbers>
 
 #include "balance/bearing_problem.hpp"
 #include "balance/torus_line.hpp"
 #include "io/errors.hpp"
+#include "motion/answer.hpp"
 #include "motion/lines.hpp"
 #include "time/time_stepper.hpp"
 
@@ -14,15 +16,28 @@ namespace rotor_stator::motion {
 
 namespace {
 
-/** Those whose orders differ by more than half a main lobe, the smallest |k_2| first; as places in the list. */
+/** The smallest |a| + 2|b| + 2|c| for which a line is that of aX + b BPFO + c BPFI (motion/lines.hpp). */
+double length_of_name(Harmonic h, const Bearing& bearing)
+{
+  double least = std::abs(h.k_1) + 2 * std::abs(h.k_2);
+  for (double c = -h.k_2 - 8; c <= -h.k_2 + 8; ++c)
+    least = std::min(least, std::abs(h.k_1 - c * bearing.balls) +
+                                2 * std::abs(h.k_2 + c) + 2 * std::abs(c));
+  return least;
+}
+
+/** Those whose orders differ by more than half a main lobe, the shortest names first; as places in the list. */
 std::vector<int> distinct(const Harmonics& harmonics, const Bearing& bearing,
                           double main_lobe)
 {
-  std::vector<int> places;
-  for (int h = 1; h <= harmonics.count(); ++h) places.push_back(h);
   const auto at = [&](int h) { return harmonics.list()[static_cast<std::size_t>(h)]; };
-  std::ranges::stable_sort(places, {}, [&](int h) { return std::abs(at(h).k_2); });
-  std::vector<double> orders{0};
+  std::vector<double> lengths{0}, orders{0};
+  std::vector<int> places;
+  for (int h = 1; h <= harmonics.count(); ++h) {
+    places.push_back(h);
+    lengths.push_back(length_of_name(at(h), bearing));
+  }
+  std::ranges::stable_sort(places, {}, [&](int h) { return lengths[static_cast<std::size_t>(h)]; });
   std::erase_if(places, [&](int h) {
     const double order = order_of(at(h), bearing);
     const bool is_near = std::ranges::any_of(
@@ -84,10 +99,23 @@ Motion as_one_period(Motion motion)
   return motion;
 }
 
+constexpr int compared_turns = 100;
+
+/** Of a solution from a record. */
+Error distance(const Parameters& parameters, const PeriodicMotion& solution,
+               const Motion& record)
+{
+  const int points = record.points_per_period,
+            turns = static_cast<int>(record.size()) / points;
+  return difference(
+      as_one_period(motion_of(parameters, solution, points, turns, record.first_period)),
+      as_one_period(record));
+}
+
 /** Candidates for lines: whole pairs, and those moved by `half`. */
 Harmonics candidates(const Parameters& parameters, double omega, Harmonic half = {})
 {
-  constexpr double beyond_contact = 1.3, least = 16, most = 120;
+  constexpr double beyond_contact = 1.3, least = 40, most = 120;
   constexpr int passages = 8;
   const double contact = contact_frequency(parameters) / omega;
   return up_to(std::clamp(beyond_contact * contact, least, most), passages,
@@ -99,7 +127,7 @@ PeriodicMotion solved_on(const TorusSearch& search, const Harmonics& kept,
                          const Harmonics& others, int line_turns, Eigen::VectorXd x,
                          const std::string& start)
 {
-  constexpr int least_samples = 1024, samples_each = 16;
+  constexpr int least_samples = 4096, samples_each = 16;
   const TorusLine line = line_without_images(
       kept, others, std::max(least_samples, samples_each * kept.count()), line_turns);
   Balance balance(bearing_problem(search.parameters, line, search.budget), kept);
@@ -110,55 +138,45 @@ PeriodicMotion solved_on(const TorusSearch& search, const Harmonics& kept,
   return motion;
 }
 
-/** What Eq. 7 settles on from rest, by rk4, with its lines. */
+/** What Eq. 7 settles on from rest, with its lines. */
 class SettledTorus {
 public:
   explicit SettledTorus(const TorusSearch& search)
       : search_(search), parameters_(search.parameters)
   {
-    constexpr int turns = 320;
-    const Settled settled =
-        settle(parameters_, search.omega, base_period(parameters_),
-               from_rest(parameters_, search.omega), {}, search.budget);
-    if (!settled.contracts)
-      throw NoSolution(format("the motion from rest is %s, without lines",
-                              word(settled.kind)));
     /** Twice as many as the highest order that is looked for. */
     const double contact = contact_frequency(parameters_) / search.omega;
-    const int points = contact < 8 ? 64 : contact < 40 ? 128 : 256;
-    const TimeStepper stepper = make_stepper(
-        parameters_, search.omega,
-        {.method = "rk4", .intervals_per_period = points, .budget = search.budget});
-    State state = settled.at.state;
-    first_ = settled.at.period;
-    const Motion motion = recorded(stepper, points, state, first_, turns);
-    const Eigen::MatrixXd samples = relative_samples(parameters_, motion);
+    const int points = contact < 40 ? 128 : 256;
+    const Answer rest =
+        answer(parameters_, {.omega = search.omega, .points = points, .periods = turns},
+               search.budget);
+    if (!rest.settled.contracts)
+      throw NoSolution(format("the motion from rest is %s, without lines",
+                              word(rest.kind())));
+    record_ = rest.motion;
+    record_error_ = rest.error.value_or(Error{});
+    const Eigen::MatrixXd samples = relative_samples(parameters_, record_);
     const Eigen::VectorXd window = blackman_harris(samples.rows());
     for (const auto& column : samples.colwise())
       transforms_.emplace_back(column.cwiseProduct(window));
-    turns_ = turns;
-    const TimeStepper exact =
-        make_stepper(parameters_, search.omega,
-                     {.intervals_per_period = compared, .budget = search.budget});
-    next_ = recorded(exact, compared, state, first_ + turns, compared_turns);
   }
 
   /** The amplitudes of its lines as coefficients of the relative motions [m]; of lines that the window cannot tell apart
-      the one with the smallest |k_2| is taken. */
+      the one with the shortest name is taken. */
   Eigen::VectorXd lines(const Harmonics& harmonics) const
   {
     const auto dofs = static_cast<Eigen::Index>(transforms_.size());
     Eigen::MatrixXd series = Eigen::MatrixXd::Zero(dofs, harmonics.coefficients());
     for (Eigen::Index i = 0; i < dofs; ++i)
       series(i, 0) = transforms_[static_cast<std::size_t>(i)](0).real();
-    for (int h : distinct(harmonics, parameters_.bearing, 8.0 / turns_)) {
+    for (int h : distinct(harmonics, parameters_.bearing, 8.0 / turns)) {
       const double order =
           order_of(harmonics.list()[static_cast<std::size_t>(h)], parameters_.bearing);
-      const double since = std::fmod(order * static_cast<double>(first_), 1.0);
+      const double since = std::fmod(order * static_cast<double>(record_.first_period), 1.0);
       const auto wave = std::polar(2.0, -2 * std::numbers::pi * since);
       SmallVector line(dofs);
       for (Eigen::Index i = 0; i < dofs; ++i)
-        line[i] = wave * transforms_[static_cast<std::size_t>(i)](order * turns_);
+        line[i] = wave * transforms_[static_cast<std::size_t>(i)](order * turns);
       put_amplitude(series, h, line);
     }
     return series.reshaped();
@@ -179,16 +197,18 @@ public:
                      project(all.x, dofs(), all.harmonics, kept), "time integration");
   }
 
-  /** The distance of a solution from the turns after the record, integrated with small steps. */
-  Error error(const PeriodicMotion& solution) const
+  /** What is compared with solutions, and how exact it is. */
+  Motion record() const
   {
-    return difference(as_one_period(motion::motion_of(parameters_, solution, compared,
-                                                      compared_turns, first_ + turns_)),
-                      as_one_period(next_));
+    Motion part = record_;
+    part.positions.resize(static_cast<std::size_t>(compared_turns) *
+                          part.points_per_period);
+    return part;
   }
+  const Error& record_error() const { return record_error_; }
 
 private:
-  static constexpr int compared = 64, compared_turns = 16;
+  static constexpr int turns = 1280;  ///< of the record
 
   struct Lines {
     Harmonics harmonics;
@@ -231,28 +251,33 @@ private:
 
   const TorusSearch& search_;
   const Parameters& parameters_;
-  long first_ = 0;                         ///< turn of the record, from t = 0
-  int turns_ = 0;                          ///< that it holds
-  Motion next_ = {};                       ///< the turns after it
+  Motion record_ = {};
+  Error record_error_ = {};
   std::vector<FineTransform> transforms_;  ///< of the relative motions [m]
 };
 
-/** What integration from a solution makes of it, where that is wanted. */
+/** Without a tolerance a solution is of the motion that integration from it comes to, where that is so near. */
+constexpr double near = 0.05;
+
+/** What integration from a solution makes of it. */
 void add_verdict(const TorusSearch& search, double tolerance, Torus& torus)
 try {
-  if (!search.stability) return;
   torus.verdict =
       verdict_on_torus(search.parameters, torus.motion, tolerance, search.budget);
-  if (torus.verdict->stays && torus.error) {
-    torus.error->largest = std::max(torus.error->largest, torus.verdict->distance.largest);
-    torus.error->rms = std::max(torus.error->rms, torus.verdict->distance.rms);
-  }
+  torus.error = torus.verdict->distance;
 } catch (const NoSolution& none) {
   torus.end = none.what();
 }
 
-/** Without a tolerance a solution is of the motion that integration from it comes to, where that is so near. */
-constexpr double near = 0.05;
+/** A solution that is taken as it is. */
+Torus judged(const TorusSearch& search, PeriodicMotion motion)
+{
+  Torus torus{.motion = std::move(motion)};
+  torus.reached = torus.motion.found();
+  torus.end = torus.motion.newton.reason();
+  if (torus.reached && search.stability) add_verdict(search, near, torus);
+  return torus;
+}
 
 }  // namespace
 
@@ -302,7 +327,7 @@ TorusVerdict verdict_on_torus(const Parameters& parameters,
                               const PeriodicMotion& solution, double tolerance,
                               const OperationBudget& budget)
 {
-  constexpr int points = 64, turns = 100;
+  constexpr int points = 64;
   const double omega = solution.omega, step = step_at(parameters, omega);
   const Instant start{state_of(parameters, solution), 0};
   const auto from_there = [&](double longest_step) {
@@ -323,9 +348,8 @@ TorusVerdict verdict_on_torus(const Parameters& parameters,
   State state = from.state;
   const long first = verdict.settled.at.period;
   for (long k = from.period * points; k < first * points; ++k) stepper.advance(k, state);
-  verdict.distance = difference(
-      as_one_period(motion_of(parameters, solution, points, turns, first)),
-      as_one_period(recorded(stepper, points, state, first, turns)));
+  verdict.record = recorded(stepper, points, state, first, compared_turns);
+  verdict.distance = distance(parameters, solution, verdict.record);
   verdict.stays = verdict.distance.larger() <= tolerance;
   verdict.evaluations = coarse.evaluations + verdict.settled.evaluations +
                         static_cast<double>(stepper.evaluations());
@@ -337,54 +361,56 @@ Torus torus_on_orders(const TorusSearch& search, int m)
   constexpr int beyond = 6;
   const Parameters& parameters = search.parameters;
   const Harmonics kept = orders_up_to(m, parameters.bearing);
+  const Harmonics others = orders_up_to(m + beyond, parameters.bearing);
   const int dofs = 2 * static_cast<int>(bearings_of(parameters).size());
   const Eigen::VectorXd x =
       project(quasi_static_start(parameters, search.omega, m), dofs, Harmonics(m), kept);
-  const Harmonics others = orders_up_to(m + beyond, parameters.bearing);
-  Torus torus{.motion = solved_on(search, kept, others, 1, x, "quasi-static contact")};
-  if (!torus.motion.found())
-    torus.motion = solved_on(search, kept, others, 1, SettledTorus(search).lines(kept),
-                             "time integration");
-  torus.reached = torus.motion.found();
-  torus.end = torus.motion.newton.reason();
-  if (torus.reached) add_verdict(search, near, torus);
-  return torus;
+  PeriodicMotion motion = solved_on(search, kept, others, 1, x, "quasi-static contact");
+  if (!motion.found())
+    motion = solved_on(search, kept, others, 1, SettledTorus(search).lines(kept),
+                       "time integration");
+  return judged(search, std::move(motion));
 }
 
 Torus torus_on_lines(const TorusSearch& search, int lines)
 {
-  const SettledTorus settled(search);
-  Torus torus{.motion = settled.solution(lines)};
-  torus.reached = torus.motion.found();
-  torus.end = torus.motion.newton.reason();
-  if (!torus.reached) return torus;
-  torus.error = settled.error(torus.motion);
-  add_verdict(search, near, torus);
-  return torus;
+  return judged(search, SettledTorus(search).solution(lines));
 }
 
 Torus torus_to_tolerance(const TorusSearch& search, double tolerance)
 {
   constexpr int first = 16, most = 512;
-  const SettledTorus settled(search);
   Torus torus;
-  for (int lines = first; lines <= most && !torus.reached; lines *= 2) {
-    Torus next{.motion = settled.solution(lines)};
-    next.end = format("with %d lines: ", lines) + next.motion.newton.reason();
-    if (next.motion.found()) {
-      next.error = settled.error(next.motion);
-      next.end = format("with %d lines the solution is %.2g away from the settled motion",
-                        lines, next.error->larger());
-      next.reached = next.error->larger() <= tolerance;
+  try {
+    const SettledTorus settled(search);
+    Motion exact = settled.record();
+    Error uncertain = settled.record_error();
+    double before = std::numeric_limits<double>::infinity();
+    for (int lines = first; lines <= most && !torus.reached; lines *= 2) {
+      PeriodicMotion motion = settled.solution(lines);
+      torus.end = format("with %d lines: ", lines) + motion.newton.reason();
+      if (!motion.found()) continue;
+      torus.motion = std::move(motion);
+      torus.error = distance(search.parameters, torus.motion, exact);
+      torus.error->largest += uncertain.largest;
+      torus.error->rms += uncertain.rms;
+      const bool is_far = torus.error->larger() > std::max(tolerance, before / 2);
+      if (is_far || (!torus.verdict && search.stability)) {
+        add_verdict(search, tolerance, torus);
+        if (!torus.verdict) break;
+        exact = torus.verdict->record;
+        uncertain = {};
+      }
+      before = torus.error->larger();
+      torus.reached = before <= tolerance;
+      torus.end = format("with %d lines the solution is %.2g away from the motion that "
+                         "integration comes to",
+                         lines, before);
     }
-    if (next.reached) add_verdict(search, tolerance, next);
-    if (next.verdict && !next.verdict->stays) {
-      next.reached = false;
-      next.end = format("integration from the solution with %d lines comes to a motion "
-                        "%.2g away",
-                        lines, next.verdict->distance.larger());
-    }
-    torus = std::move(next);
+    if (torus.verdict) torus.verdict->distance = *torus.error;
+    if (torus.verdict) torus.verdict->stays = torus.reached;
+  } catch (const NoSolution& none) {
+    torus.end = none.what();
   }
   return torus;
 }

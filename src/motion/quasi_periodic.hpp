@@ -2,8 +2,9 @@
 # Motions with two frequencies
 
 Harmonic balance on the harmonics (k_1, k_2) of k_1 ω + k_2 n ω_cage: on all orders up to a sum, or on the largest
-lines of the motion that Eq. 7 settles on from rest, twice as many of them until the solution is near enough to that
-motion.
+lines of the motion that Eq. 7 settles on from rest, twice as many of them until the solution is near enough to the
+motion of Eq. 7. That is the one from rest or, where doubling does not halve the distance from it, the one that
+integration from the solution comes to.
 
     Torus found = torus_to_tolerance({parameters, omega}, 1e-3);   // found.motion, found.error */
 #pragma once
@@ -29,7 +30,8 @@ Eigen::VectorXd half_peak_to_peak_of_torus(const Parameters& parameters,
 /** What Eq. 7 makes of a solution with two frequencies. */
 struct TorusVerdict {
   Settled settled = {};    ///< what the machine does from it, by half the step of rk4
-  Error distance = {};     ///< of the solution from that, over 100 turns
+  Motion record = {};      ///< of that, 100 turns
+  Error distance = {};     ///< of the solution from it
   double uncertainty = 0;  ///< of λ: three standard errors, or what half the step changes
   bool stays = false;      ///< the distance is within the tolerance
   double evaluations = 0;  ///< of Eq. 7
@@ -54,12 +56,12 @@ struct TorusSearch {
   double omega;  ///< [rad/s]
   NewtonSettings newton = {};
   OperationBudget budget = {};
-  bool stability = true;  ///< whether the verdict is wanted
+  bool stability = true;  ///< whether a verdict is wanted
 };
 
 struct Torus {
   PeriodicMotion motion = {};
-  std::optional<Error> error = {};  ///< the distance from the settled motion
+  std::optional<Error> error = {};  ///< the distance from the motion of Eq. 7
   std::optional<TorusVerdict> verdict = {};
   bool reached = false;
   std::string end = {};  ///< why not
@@ -71,7 +73,7 @@ Torus torus_on_orders(const TorusSearch& search, int m);
 /** On the so many largest lines of the settled motion. */
 Torus torus_on_lines(const TorusSearch& search, int lines);
 
-/** On 16, 32, … 512 lines, until the solution and integration from it stay so near to the settled motion. */
+/** On 16, 32, … 512 lines, until the error is within the tolerance. */
 Torus torus_to_tolerance(const TorusSearch& search, double tolerance);
 
 }  // namespace rotor_stator::motion
