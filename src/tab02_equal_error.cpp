@@ -13,7 +13,7 @@ above the transition at 25 Hz.
 
 The settings of a method are found by trying, with the true motions at hand. `aft-tolerance` is harmonic balance without that:
 harmonics and samples are chosen and their error estimated speed by speed, as by `explore response --tolerance`
-(`motion/adaptive.hpp`). It may find another stable motion than integration from rest, whose motions are the true ones here: that
+(`motion/find_periodic.hpp`). It may find another stable motion than integration from rest, whose motions are the true ones here: that
 counts as an error.
 
 Other people's programs stand with the figure `peers`: the integrators of SUNDIALS and of SciPy, which call the same

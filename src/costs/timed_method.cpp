@@ -155,9 +155,7 @@ private:
       Balance& at = balance(m);
       return rotor_stator::solve(at, balances_[m]->solver, found, newton_);
     };
-    const auto from = [&](const Eigen::VectorXd& x) {
-      return at_once(x);
-    };
+    const auto from = [&](const Eigen::VectorXd& x) { return at_once(x); };
     const auto after = [&](double) {
       const motion::Search search{task_.parameters, found.omega, m};
       return at_once(motion::settled_start(search, m));

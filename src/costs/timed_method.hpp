@@ -12,7 +12,7 @@ that needs it: the median of the repetitions does not show it.
   with coarse steps, which goes on from where it ended last; where that fails too, from more of it with half as
   many harmonics more. More than 128 harmonics begin with a solution on 64. With a transient in the setting, that is the
   first start at every speed. Or, as the paper does it, the gap to the last speed is halved where Newton fails.
-- Harmonic balance to a tolerance: motion/adaptive.hpp, each speed alone.
+- Harmonic balance to a tolerance: motion/find_periodic.hpp, each speed alone.
 - Time integration: a transient in seconds, whole periods, from the static load or from the known state;
   then from speed to speed.
 - Shooting: from speed to speed the state is extrapolated by the same predictor, and Φ is handed on. */

@@ -85,11 +85,11 @@ PeriodicMotion with_all_coordinates(const Parameters& parameters, PeriodicMotion
 NoSolution not_reached(const Parameters& parameters, const MotionRequest& request,
                        const std::string& end)
 {
-  return NoSolution(
-      parameters.file + ": " +
-      (request.tolerance ? format("tolerance %g not reached", *request.tolerance)
+  return NoSolution(parameters.file + ": " +
+                    (request.tolerance
+                         ? format("tolerance %g not reached", *request.tolerance)
                          : "no solution found") +
-      format(" at %g Hz: ", request.frequency) + end);
+                    format(" at %g Hz: ", request.frequency) + end);
 }
 
 /**
@@ -264,8 +264,7 @@ FoundMotion balance_motion(const Parameters& parameters, const MotionRequest& re
                "n*omega_cage/omega is %.9g",
                request.subharmonic, passages_per_turn(parameters.bearing)));
   if (base.is_driven_twice() && request.samples)
-    throw BadInput(
-        "--samples: chosen where n*omega_cage/omega is not a whole number");
+    throw BadInput("--samples: chosen where n*omega_cage/omega is not a whole number");
   if (!base.is_driven_twice() && request.lines)
     throw BadInput("--lines: is of motions with two frequencies; give --harmonics");
   return base.is_driven_twice()

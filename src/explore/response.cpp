@@ -189,8 +189,8 @@ PeriodicMotion found_start(const Task& task)
   if (turns > 1 && !task.request.harmonics) {
     motion::Judged at = motion::to_tolerance(search, near);
     if (at.reached) return std::move(at.motion);
-    throw NoSolution(format("%s: at %g Hz: %s", task.parameters.file.c_str(), hertz,
-                            at.end.c_str()));
+    throw NoSolution(
+        format("%s: at %g Hz: %s", task.parameters.file.c_str(), hertz, at.end.c_str()));
   }
   PeriodicMotion start = motion::find_periodic(search);
   if (!start.found())
@@ -249,7 +249,7 @@ struct Row {
   const Task& task;
   motion::Motion motion = {};  ///< where a column needs its instants
   Eigen::MatrixXd series =
-      {};  ///< of x_s, y_s, x_r, y_r, 4 × (2m+1) [m], with --harmonics-of
+      {};            ///< of x_s, y_s, x_r, y_r, 4 × (2m+1) [m], with --harmonics-of
   double error = 0;  ///< with --tolerance
 
   double mean(Eigen::Index k) const

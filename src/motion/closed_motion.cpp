@@ -48,11 +48,9 @@ struct Hunt {
   /** Where state `start` is after 1, 2, … K turns. */
   std::vector<State> section(const State& start) const
   {
-    const TimeStepper stepper =
-        make_stepper(search.parameters, search.omega,
-                     {.intervals_per_period = 1,
-                      .tolerance = hunting_error,
-                      .budget = search.budget});
+    const TimeStepper stepper = make_stepper(
+        search.parameters, search.omega,
+        {.intervals_per_period = 1, .tolerance = hunting_error, .budget = search.budget});
     std::vector<State> points;
     State state = start;
     for (int k = 0; k < turns; ++k) {
@@ -193,7 +191,8 @@ ClosedMotion closed_motion(const Search& search, int points, double local_error)
       const Motion motion = record(search, turns, state, points, local_error);
       if (!shot(search, turns, finer, 0.01 * local_error).converged) finer = state;
       const Motion exact = record(search, turns, finer, points, 0.01 * local_error);
-      return {name,          state, motion, shooting.periodicity_residual,
+      return {name,          state,
+              motion,        shooting.periodicity_residual,
               shooting.maps, difference(motion, exact)};
     }
   throw NoSolution(format("%s: shooting closed no motion of period %s at %g Hz: %s",

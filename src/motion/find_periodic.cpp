@@ -38,9 +38,8 @@ class Finder {
 public:
   explicit Finder(const Search& search)
       : search_(search), longer_(over_turns(search.parameters, search.turns)),
-        balance_(
-            bearing_problem(longer_, search.turns * search.samples, search.budget),
-            search.turns * search.harmonics)
+        balance_(bearing_problem(longer_, search.turns * search.samples, search.budget),
+                 search.turns * search.harmonics)
   {
   }
 
@@ -59,10 +58,10 @@ private:
   bool from(const std::string& name, const Eigen::VectorXd& x)
   {
     const long before = motion_.force_samples;
-    motion_ = {.omega = search_.omega / search_.turns,
-               .x = resize_harmonics(x, balance_.problem().dofs,
-                                     balance_.harmonics().count()),
-               .start = name};
+    motion_ = {
+        .omega = search_.omega / search_.turns,
+        .x = resize_harmonics(x, balance_.problem().dofs, balance_.harmonics().count()),
+        .start = name};
     solve(balance_, motion_, search_.newton);
     motion_.force_samples += before;
     if (search_.turns > 1 && repeats_sooner(motion_, search_.turns))
@@ -113,16 +112,16 @@ private:
         bearing_problem(longer_, std::min(search_.samples, default_samples(m)),
                         search_.budget.part(0.3)),
         m);
-    const Branch branch =
-        follow_branch(balance, from_omega, omega,
-                      quasi_static_start(longer_, from_omega, m), settings);
+    const Branch branch = follow_branch(
+        balance, from_omega, omega, quasi_static_start(longer_, from_omega, m), settings);
     return branch.covered &&
            from("arc length from a lower speed", branch.points.back().motion.x);
   }
 
   bool from_closed()
   {
-    const auto name = format("the motion of period %d T that shooting found", search_.turns);
+    const auto name =
+        format("the motion of period %d T that shooting found", search_.turns);
     return std::ranges::any_of(closed_starts(search_, search_.harmonics),
                                [&](const auto& x) { return from(name, x); });
   }
@@ -153,12 +152,14 @@ void add_distance(Judged& at, const Search& search, double tolerance)
   verdict.distance_rms = at.error.rms;
   at.reached = verdict.found() ? at.error.larger() <= tolerance : std::isinf(tolerance);
   at.end = verdict.found()
-               ? format("the nearest motion of Eq. 7 is %.2g away from the solution with "
-                        "%d harmonics",
-                        at.error.larger(), search.harmonics)
-               : format("no motion of Eq. 7 is known near the solution with %d "
-                        "harmonics: ",
-                        search.harmonics) +
+               ? format(
+                     "the nearest motion of Eq. 7 is %.2g away from the solution with "
+                     "%d harmonics",
+                     at.error.larger(), search.harmonics)
+               : format(
+                     "no motion of Eq. 7 is known near the solution with %d "
+                     "harmonics: ",
+                     search.harmonics) +
                      verdict.reason;
 }
 
@@ -192,8 +193,7 @@ Judged judged(const Search& search, const std::optional<double>& tolerance)
   at.end = format("no solution found with %d harmonics: ", search.harmonics) +
            at.motion.newton.reason();
   if (at.motion.found())
-    add_distance(at, search,
-                 tolerance.value_or(std::numeric_limits<double>::infinity()));
+    add_distance(at, search, tolerance.value_or(std::numeric_limits<double>::infinity()));
   return at;
 }
 

@@ -33,7 +33,7 @@ struct Search {
   OperationBudget budget = {};
   int turns = 1;  ///< K: a motion of period KT, orders h/K up to m, N a turn
   std::vector<Eigen::VectorXd> starts = {};  ///< coefficients to begin with
-  bool is_thorough = true;  ///< whether the last two starts are tried
+  bool is_thorough = true;                   ///< whether the last two starts are tried
 };
 
 /** The solution with the series of both bodies; its ω is a K-th of the speed. Not found means that Newton converges
@@ -44,9 +44,9 @@ PeriodicMotion find_periodic(const Search& search);
 struct Judged {
   PeriodicMotion motion = {};
   Verdict verdict{.reason = "not judged"};
-  Error error = {};       ///< the distance of both, where there is one
-  bool reached = false;   ///< it is known and within the tolerance
-  std::string end = {};   ///< why not
+  Error error = {};        ///< the distance of both, where there is one
+  bool reached = false;    ///< it is known and within the tolerance
+  std::string end = {};    ///< why not
   long force_samples = 0;  ///< of Newton, with all m
 };
 

@@ -36,15 +36,14 @@ FoundStarts other_starts(const Parameters& parameters, SpeedRange range, int har
     const double omega = range.from + (range.to - range.from) * k / (wanted.speeds + 1);
     const OperationBudget share = half.part(1.0 / (wanted.speeds - k + 1));
     try {
-      starts.candidates.push_back(
-          {.omega = omega,
-           .harmonics = harmonics,
-           .x = settled_start({.parameters = parameters,
-                               .omega = omega,
-                               .harmonics = harmonics,
-                               .budget = share},
-                              harmonics),
-           .start = "time integration"});
+      starts.candidates.push_back({.omega = omega,
+                                   .harmonics = harmonics,
+                                   .x = settled_start({.parameters = parameters,
+                                                       .omega = omega,
+                                                       .harmonics = harmonics,
+                                                       .budget = share},
+                                                      harmonics),
+                                   .start = "time integration"});
     } catch (const NoSolution&) {
       // cut off, broken down or not settled: only random starts here
       starts.cut_off += share.used_up();

@@ -37,7 +37,8 @@ std::vector<int> distinct(const Harmonics& harmonics, const Bearing& bearing,
     places.push_back(h);
     lengths.push_back(length_of_name(at(h), bearing));
   }
-  std::ranges::stable_sort(places, {}, [&](int h) { return lengths[static_cast<std::size_t>(h)]; });
+  std::ranges::stable_sort(places, {},
+                           [&](int h) { return lengths[static_cast<std::size_t>(h)]; });
   std::erase_if(places, [&](int h) {
     const double order = order_of(at(h), bearing);
     const bool is_near = std::ranges::any_of(
@@ -151,8 +152,8 @@ public:
         answer(parameters_, {.omega = search.omega, .points = points, .periods = turns},
                search.budget);
     if (!rest.settled.contracts)
-      throw NoSolution(format("the motion from rest is %s, without lines",
-                              word(rest.kind())));
+      throw NoSolution(
+          format("the motion from rest is %s, without lines", word(rest.kind())));
     record_ = rest.motion;
     record_error_ = rest.error.value_or(Error{});
     const Eigen::MatrixXd samples = relative_samples(parameters_, record_);
@@ -172,7 +173,8 @@ public:
     for (int h : distinct(harmonics, parameters_.bearing, 8.0 / turns)) {
       const double order =
           order_of(harmonics.list()[static_cast<std::size_t>(h)], parameters_.bearing);
-      const double since = std::fmod(order * static_cast<double>(record_.first_period), 1.0);
+      const double since =
+          std::fmod(order * static_cast<double>(record_.first_period), 1.0);
       const auto wave = std::polar(2.0, -2 * std::numbers::pi * since);
       SmallVector line(dofs);
       for (Eigen::Index i = 0; i < dofs; ++i)
@@ -190,7 +192,8 @@ public:
     Lines all = lines_moved_by({});
     for (const Harmonic half : {Harmonic{0.5, 0}, Harmonic{0, 0.5}, Harmonic{0.5, 0.5}}) {
       Lines moved = lines_moved_by(half);
-      if (moved.halves > std::max(all.halves, noticed * moved.all)) all = std::move(moved);
+      if (moved.halves > std::max(all.halves, noticed * moved.all))
+        all = std::move(moved);
     }
     const Harmonics kept = largest(all, count);
     return solved_on(search_, kept, largest(all, 3 * count), all.halves > 0 ? 2 : 1,
@@ -245,7 +248,8 @@ private:
     places.resize(std::min(places.size(), static_cast<std::size_t>(count)));
     std::ranges::sort(places);
     std::vector<Harmonic> list{{0, 0}};
-    for (int h : places) list.push_back(all.harmonics.list()[static_cast<std::size_t>(h)]);
+    for (int h : places)
+      list.push_back(all.harmonics.list()[static_cast<std::size_t>(h)]);
     return Harmonics(std::move(list));
   }
 
@@ -379,7 +383,7 @@ Torus torus_on_lines(const TorusSearch& search, int lines)
 
 Torus torus_to_tolerance(const TorusSearch& search, double tolerance)
 {
-  constexpr int first = 16, most = 512;
+  constexpr int first = 16, most = 256;
   Torus torus;
   try {
     const SettledTorus settled(search);
@@ -403,9 +407,10 @@ Torus torus_to_tolerance(const TorusSearch& search, double tolerance)
       }
       before = torus.error->larger();
       torus.reached = before <= tolerance;
-      torus.end = format("with %d lines the solution is %.2g away from the motion that "
-                         "integration comes to",
-                         lines, before);
+      torus.end = format(
+          "with %d lines the solution is %.2g away from the motion that "
+          "integration comes to",
+          lines, before);
     }
     if (torus.verdict) torus.verdict->distance = *torus.error;
     if (torus.verdict) torus.verdict->stays = torus.reached;

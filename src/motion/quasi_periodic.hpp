@@ -73,7 +73,7 @@ Torus torus_on_orders(const TorusSearch& search, int m);
 /** On the so many largest lines of the settled motion. */
 Torus torus_on_lines(const TorusSearch& search, int lines);
 
-/** On 16, 32, … 512 lines, until the error is within the tolerance. */
+/** On 16, 32, … 256 lines, until the error is within the tolerance. */
 Torus torus_to_tolerance(const TorusSearch& search, double tolerance);
 
 }  // namespace rotor_stator::motion
