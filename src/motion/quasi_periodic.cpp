@@ -362,10 +362,9 @@ TorusVerdict verdict_on_torus(const Parameters& parameters,
 
 Torus torus_on_orders(const TorusSearch& search, int m)
 {
-  constexpr int beyond = 6;
   const Parameters& parameters = search.parameters;
   const Harmonics kept = orders_up_to(m, parameters.bearing);
-  const Harmonics others = orders_up_to(m + beyond, parameters.bearing);
+  const Harmonics others = candidates(parameters, search.omega);
   const int dofs = 2 * static_cast<int>(bearings_of(parameters).size());
   const Eigen::VectorXd x =
       project(quasi_static_start(parameters, search.omega, m), dofs, Harmonics(m), kept);
