@@ -85,10 +85,13 @@ PeriodicMotion with_all_coordinates(const Parameters& parameters, PeriodicMotion
 NoSolution not_reached(const Parameters& parameters, const MotionRequest& request,
                        const std::string& end)
 {
+  const int m = request.harmonics.value_or(usual_harmonics);
+  const bool is_chosen = request.subharmonic > 1 || request.lines;
   return NoSolution(parameters.file + ": " +
                     (request.tolerance
                          ? format("tolerance %g not reached", *request.tolerance)
-                         : "no solution found") +
+                     : is_chosen ? "no solution found"
+                                 : format("no solution found with %d harmonics", m)) +
                     format(" at %g Hz: ", request.frequency) + end);
 }
 

@@ -201,20 +201,4 @@ ClosedMotion closed_motion(const Search& search, int points, double local_error)
                           search.omega / angular(1), why.c_str()));
 }
 
-std::vector<Eigen::VectorXd> closed_starts(const Search& search, int harmonics)
-{
-  const int turns = search.turns;
-  std::vector<Eigen::VectorXd> starts;
-  for (const State& state : Sources(search).states(turns))
-    starts.push_back(relative_series(
-        over_turns(search.parameters, turns),
-        record(search, turns, state, default_samples(harmonics), hunting_error),
-        turns * harmonics));
-  if (starts.empty())
-    throw NoSolution(format("%s: at %.9g Hz no motion of period %d T was found",
-                            search.parameters.file.c_str(), search.omega / angular(1),
-                            turns));
-  return starts;
-}
-
 }  // namespace rotor_stator::motion

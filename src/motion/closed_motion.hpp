@@ -30,8 +30,4 @@ struct ClosedMotion {
     bearing's force has not the period of rotation. */
 ClosedMotion closed_motion(const Search& search, int points, double local_error);
 
-/** All motions of period KT > T and none shorter that are found, as coefficients of the relative motion [m] up to m
-    `harmonics` of the turn: where Newton starts. */
-std::vector<Eigen::VectorXd> closed_starts(const Search& search, int harmonics);
-
 }  // namespace rotor_stator::motion

@@ -14,6 +14,8 @@ namespace rotor_stator::motion {
 
 namespace {
 
+constexpr double well_closed = 1e-11;
+
 /** Whether only every p-th harmonic is there, for a prime p that divides K: then the period is shorter. */
 bool repeats_sooner(const PeriodicMotion& motion, int turns)
 {
@@ -47,9 +49,9 @@ public:
   {
     for (const Eigen::VectorXd& x : search_.starts)
       if (from("neighbour", x)) return std::move(motion_);
-    if (search_.turns > 1)
-      from_closed();
-    else if (!from_contact() && !from_fewer() && search_.is_thorough && !from_settled())
+    if (search_.turns > 1 && search_.starts.empty()) from_closed();
+    if (search_.turns == 1 && !from_contact() && !from_fewer() && search_.is_thorough &&
+        !from_settled())
       from_branch();
     return std::move(motion_);
   }
@@ -120,10 +122,9 @@ private:
 
   bool from_closed()
   {
-    const auto name =
-        format("the motion of period %d T that shooting found", search_.turns);
-    return std::ranges::any_of(closed_starts(search_, search_.harmonics),
-                               [&](const auto& x) { return from(name, x); });
+    const Motion closed = closed_motion(search_, search_.samples, well_closed).motion;
+    return from(format("the motion of period %d T that shooting found", search_.turns),
+                relative_series(longer_, closed, balance_.harmonics().count()));
   }
 
   const Search& search_;
@@ -163,6 +164,18 @@ void add_distance(Judged& at, const Search& search, double tolerance)
                      verdict.reason;
 }
 
+/** Of a motion of period KT it is known before which one it is. */
+void start_from_closed(Search& search, Verdict& verdict)
+{
+  constexpr int points = 256, harmonics = 64;
+  ClosedMotion closed = closed_motion(search, points, well_closed);
+  search.starts = {relative_series(over_turns(search.parameters, search.turns),
+                                   closed.motion, search.turns * harmonics)};
+  verdict = judge_through(search.parameters, search.omega, closed.state, search.budget,
+                          search.turns);
+  verdict.record = std::move(closed.motion);
+}
+
 }  // namespace
 
 PeriodicMotion find_periodic(const Search& search)
@@ -176,6 +189,8 @@ Eigen::VectorXd settled_start(const Search& search, int harmonics)
   const double omega = search.omega;
   const Settled settled = settle(parameters, omega, BasePeriod{},
                                  from_rest(parameters, omega), {}, search.budget);
+  if (settled.kind != Kind::rest && settled.period != 1 && !settled.contracts)
+    throw NoSolution("integration settles on no motion with one period");
   const int points = default_samples(harmonics);
   return relative_series(parameters,
                          one_period(parameters, omega, settled.at.state,
@@ -190,8 +205,7 @@ Judged judged(const Search& search, const std::optional<double>& tolerance)
 {
   Judged at{.motion = find_periodic(search)};
   at.force_samples = at.motion.force_samples;
-  at.end = format("no solution found with %d harmonics: ", search.harmonics) +
-           at.motion.newton.reason();
+  at.end = at.motion.newton.reason();
   if (at.motion.found())
     add_distance(at, search, tolerance.value_or(std::numeric_limits<double>::infinity()));
   return at;
@@ -199,12 +213,14 @@ Judged judged(const Search& search, const std::optional<double>& tolerance)
 
 Judged to_tolerance(Search search, double tolerance)
 {
-  constexpr int first = 6, few = 48, most = 1536, most_samples = 1 << 14, usual = 64;
+  constexpr int first = 6, few = 48, most = 1536, most_samples = 1 << 14;
+  constexpr double infinite = std::numeric_limits<double>::infinity();
   const int turns = search.turns;
-  Judged at{.end = "no solution found"};
+  Judged at{.error = {infinite, infinite}, .end = "no solution found"};
   try {
-    if (turns > 1) search.starts = closed_starts(search, usual);
-    for (int m = first; turns * m <= most; m *= 2) {
+    if (turns > 1) start_from_closed(search, at.verdict);
+    std::vector<Eigen::VectorXd> known = search.starts;
+    for (int m = first; turns * m <= most && !at.reached; m *= 2) {
       search.harmonics = m;
       search.samples = std::min(default_samples(m), most_samples / turns);
       search.is_thorough = m >= few;
@@ -212,10 +228,10 @@ Judged to_tolerance(Search search, double tolerance)
       at.force_samples += motion.force_samples;
       if (!motion.found() && !at.motion.found() && m >= 4 * few) break;
       if (!motion.found()) continue;
-      search.starts = {motion.x};
+      search.starts = known;
+      search.starts.insert(search.starts.begin(), motion.x);
       at.motion = std::move(motion);
       add_distance(at, search, tolerance);
-      if (at.reached) break;
     }
   } catch (const NoSolution& none) {
     at.end = none.what();

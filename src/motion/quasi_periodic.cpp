@@ -102,25 +102,48 @@ Motion as_one_period(Motion motion)
 
 constexpr int compared_turns = 100;
 
-/** Of a solution from a record. */
-Error distance(const Parameters& parameters, const PeriodicMotion& solution,
+bool is_whole(Harmonic h)
+{
+  return h.k_1 == std::round(h.k_1) && h.k_2 == std::round(h.k_2);
+}
+
+/** Of a solution from a record. A torus that has doubled is two motions, one a turn or a passage after the other: the nearer
+    one counts. */
+Error distance(const Parameters& parameters, PeriodicMotion solution,
                const Motion& record)
 {
   const int points = record.points_per_period,
             turns = static_cast<int>(record.size()) / points;
-  return difference(
-      as_one_period(motion_of(parameters, solution, points, turns, record.first_period)),
-      as_one_period(record));
+  const auto off = [&] {
+    return difference(as_one_period(motion_of(parameters, solution, points, turns,
+                                              record.first_period)),
+                      as_one_period(record));
+  };
+  const Error one = off();
+  if (solution.line.turns == 1) return one;
+  for (int h = 1; h <= solution.harmonics.count(); ++h)
+    if (!is_whole(solution.harmonics.list()[static_cast<std::size_t>(h)]))
+      solution.bodies.middleCols(2 * h - 1, 2) *= -1;
+  const Error other = off();
+  return one.larger() < other.larger() ? one : other;
 }
 
 /** Candidates for lines: whole pairs, and those moved by `half`. */
-Harmonics candidates(const Parameters& parameters, double omega, Harmonic half = {})
+Harmonics candidates(const Parameters& parameters, double omega, Harmonic half)
 {
   constexpr double beyond_contact = 1.3, least = 40, most = 120;
-  constexpr int passages = 8;
+  constexpr int passages = 16;
   const double contact = contact_frequency(parameters) / omega;
   return up_to(std::clamp(beyond_contact * contact, least, most), passages,
                parameters.bearing, half);
+}
+
+/** The force has lines that inertia keeps out of the motion: sampled, none of these may fall on one that is kept. */
+Harmonics lines_of_force(const Bearing& bearing, Harmonic half = {})
+{
+  constexpr double highest = 40;
+  constexpr int passages = 8;
+  return up_to(highest, passages, bearing, half);
 }
 
 /** Newton on these harmonics, along a line on which others do not disturb them. */
@@ -196,8 +219,9 @@ public:
         all = std::move(moved);
     }
     const Harmonics kept = largest(all, count);
-    return solved_on(search_, kept, largest(all, 3 * count), all.halves > 0 ? 2 : 1,
-                     project(all.x, dofs(), all.harmonics, kept), "time integration");
+    return solved_on(search_, kept, lines_of_force(parameters_.bearing, all.half),
+                     all.halves > 0 ? 2 : 1, project(all.x, dofs(), all.harmonics, kept),
+                     "time integration");
   }
 
   /** What is compared with solutions, and how exact it is. */
@@ -214,6 +238,7 @@ private:
   static constexpr int turns = 1280;  ///< of the record
 
   struct Lines {
+    Harmonic half;
     Harmonics harmonics;
     Eigen::VectorXd x;
     double halves = 0, all = 0;  ///< norms of those that are not whole, and of all
@@ -228,12 +253,11 @@ private:
 
   Lines lines_moved_by(Harmonic half) const
   {
-    Lines all{candidates(parameters_, search_.omega, half), {}};
+    Lines all{half, candidates(parameters_, search_.omega, half), {}};
     all.x = lines(all.harmonics);
     for (int h = 1; h <= all.harmonics.count(); ++h) {
-      const auto [k_1, k_2] = all.harmonics.list()[static_cast<std::size_t>(h)];
       all.all = std::hypot(all.all, size(all, h));
-      if (k_1 != std::round(k_1) || k_2 != std::round(k_2))
+      if (!is_whole(all.harmonics.list()[static_cast<std::size_t>(h)]))
         all.halves = std::hypot(all.halves, size(all, h));
     }
     return all;
@@ -364,7 +388,7 @@ Torus torus_on_orders(const TorusSearch& search, int m)
 {
   const Parameters& parameters = search.parameters;
   const Harmonics kept = orders_up_to(m, parameters.bearing);
-  const Harmonics others = candidates(parameters, search.omega);
+  const Harmonics others = lines_of_force(parameters.bearing);
   const int dofs = 2 * static_cast<int>(bearings_of(parameters).size());
   const Eigen::VectorXd x =
       project(quasi_static_start(parameters, search.omega, m), dofs, Harmonics(m), kept);
