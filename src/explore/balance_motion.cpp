@@ -85,6 +85,7 @@ PeriodicMotion with_all_coordinates(const Parameters& parameters, PeriodicMotion
 NoSolution not_reached(const Parameters& parameters, const MotionRequest& request,
                        const std::string& end)
 {
+  if (end.starts_with(parameters.file)) return NoSolution(end);
   const int m = request.harmonics.value_or(usual_harmonics);
   const bool is_chosen = request.subharmonic > 1 || request.lines;
   return NoSolution(parameters.file + ": " +

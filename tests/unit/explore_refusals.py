@@ -125,7 +125,7 @@ class Values(Case):
             with self.subTest(options):
                 end = [] if "--to" in options else ["--to", "20"]
                 self.refused(words, "attractors", self.machine, "--from", "10", *end, *options.split())
-        self.refused("no motion of period 2 T was found", "orbit", self.machine, *ORBIT, "--method", "aft", "--subharmonic", 2,
+        self.refused("closed no motion of period 2 T", "orbit", self.machine, *ORBIT, "--method", "aft", "--subharmonic", 2,
                      "--budget", 1e9, status=3)
         self.refused("subcommand")
         self.refused("subcommand", "dance")
