@@ -74,7 +74,8 @@ namespace {
 
 using motion::lines_of;
 
-/** The series of all coordinates in the place of those shown, where nodes of the rotor depend on them. */
+/** The series of all coordinates in the place of those shown, where nodes of the rotor
+    depend on them. */
 PeriodicMotion with_all_coordinates(const Parameters& parameters, PeriodicMotion solution)
 {
   if (parameters.large && parameters.large->nodes.rows() > 0)

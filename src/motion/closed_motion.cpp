@@ -17,7 +17,8 @@ namespace {
 
 constexpr double hunting_error = 1e-11;
 
-/** Shooting over `turns` turns; by Newton alone: Broyden's steps save maps and lose motions. */
+/** Shooting over `turns` turns; by Newton alone: Broyden's steps save maps and lose
+    motions. */
 Shooting shot(const Search& search, int turns, State& state, double local_error)
 {
   return shoot(over_turns(search.parameters, turns), search.omega / turns, state,
@@ -60,7 +61,8 @@ struct Hunt {
     return points;
   }
 
-  /** Adds the motion that shooting over K turns closes from `start`, if it has no shorter period and is not known. */
+  /** Adds the motion that shooting over K turns closes from `start`, if it has no shorter
+      period and is not known. */
   void add(State start)
   {
     constexpr double other = 1e-5;
@@ -78,8 +80,8 @@ struct Hunt {
     found.push_back(start);
   }
 
-  /** Along the eigenvectors of the motion of period dT through `state` whose multipliers are near a primitive root of
-      unity of order K/d. */
+  /** Along the eigenvectors of the motion of period dT through `state` whose multipliers
+      are near a primitive root of unity of order K/d. */
   void add_along_eigenvectors(const State& state, int d)
   {
     const Eigen::VectorXd sizes = state_scales(search.parameters);
@@ -129,8 +131,8 @@ struct Sources {
     return *rest;
   }
 
-  /** States [m, m/s] at phase 0 of motions with the period KT and none shorter, K ≤ 8; those on one motion count
-      as one. */
+  /** States [m, m/s] at phase 0 of motions with the period KT and none shorter, K ≤ 8;
+      those on one motion count as one. */
   std::vector<State> states(int turns)
   {
     Hunt hunt{search, turns};

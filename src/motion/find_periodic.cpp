@@ -16,7 +16,8 @@ namespace {
 
 constexpr double well_closed = 1e-11;
 
-/** Whether only every p-th harmonic is there, for a prime p that divides K: then the period is shorter. */
+/** Whether only every p-th harmonic is there, for a prime p that divides K: then the
+    period is shorter. */
 bool repeats_sooner(const PeriodicMotion& motion, int turns)
 {
   constexpr double unnoticed = 1e-5;
@@ -72,7 +73,8 @@ private:
     return motion_.found();
   }
 
-  /** Only its low harmonics mean much: with more than 128, Newton goes most of its way on fewer. */
+  /** Only its low harmonics mean much: with more than 128, Newton goes most of its way on
+      fewer. */
   bool from_contact()
   {
     constexpr int most = 128;
@@ -101,8 +103,9 @@ private:
     return false;
   }
 
-  /** From the end of the branch that starts at 1 Hz, or at half the speed, by arc length through all its folds; with few
-      harmonics, since many see a fold at every contact resonance. */
+  /** From the end of the branch that starts at 1 Hz, or at half the speed, by arc length
+      through all its folds; with few harmonics, since many see a fold at every contact
+      resonance. */
   bool from_branch()
   {
     constexpr int few = 16;
@@ -133,8 +136,8 @@ private:
   PeriodicMotion motion_ = {};
 };
 
-/** The distance from the motion that is known; where there is none, or more harmonics have not brought the solution nearer
-    by half, from the one that is closed now. */
+/** The distance from the motion that is known; where there is none, or more harmonics
+    have not brought the solution nearer by half, from the one that is closed now. */
 void add_distance(Judged& at, const Search& search, double tolerance)
 {
   const double before = at.error.larger();

@@ -16,7 +16,8 @@ namespace rotor_stator::motion {
 
 namespace {
 
-/** The smallest |a| + 2|b| + 2|c| for which a line is that of aX + b BPFO + c BPFI (motion/lines.hpp). */
+/** The smallest |a| + 2|b| + 2|c| for which a line is that of aX + b BPFO + c BPFI
+    (motion/lines.hpp). */
 double length_of_name(Harmonic h, const Bearing& bearing)
 {
   double least = std::abs(h.k_1) + 2 * std::abs(h.k_2);
@@ -26,7 +27,8 @@ double length_of_name(Harmonic h, const Bearing& bearing)
   return least;
 }
 
-/** Those whose orders differ by more than half a main lobe, the shortest names first; as places in the list. */
+/** Those whose orders differ by more than half a main lobe, the shortest names first; as
+    places in the list. */
 std::vector<int> distinct(const Harmonics& harmonics, const Bearing& bearing,
                           double main_lobe)
 {
@@ -49,8 +51,9 @@ std::vector<int> distinct(const Harmonics& harmonics, const Bearing& bearing,
   return places;
 }
 
-/** The integral over a record with a window of Blackman and Harris, at any frequency: from a transform so fine that a
-    polynomial of degree 7 through its nearest values has it to 1e-8. */
+/** The integral over a record with a window of Blackman and Harris, at any frequency:
+    from a transform so fine that a polynomial of degree 7 through its nearest values has
+    it to 1e-8. */
 class FineTransform {
 public:
   /** Of samples times the window. */
@@ -64,7 +67,8 @@ public:
       values_[p] *= std::polar(1.0, half_record(static_cast<double>(p)));
   }
 
-  /** Of e^{-iφ}, φ going round `turns` times in the record; 0 where the samples do not resolve it. */
+  /** Of e^{-iφ}, φ going round `turns` times in the record; 0 where the samples do not
+      resolve it. */
   std::complex<double> operator()(double turns) const
   {
     constexpr double weights[] = {1, -7, 21, -35, 35, -21, 7, -1};
@@ -107,8 +111,8 @@ bool is_whole(Harmonic h)
   return h.k_1 == std::round(h.k_1) && h.k_2 == std::round(h.k_2);
 }
 
-/** Of a solution from a record. A torus that has doubled is two motions, one a turn or a passage after the other: the nearer
-    one counts. */
+/** Of a solution from a record. A torus that has doubled is two motions, one a turn or a
+    passage after the other: the nearer one counts. */
 Error distance(const Parameters& parameters, PeriodicMotion solution,
                const Motion& record)
 {
@@ -138,7 +142,8 @@ Harmonics candidates(const Parameters& parameters, double omega, Harmonic half)
                parameters.bearing, half);
 }
 
-/** The force has lines that inertia keeps out of the motion: sampled, none of these may fall on one that is kept. */
+/** The force has lines that inertia keeps out of the motion: sampled, none of these may
+    fall on one that is kept. */
 Harmonics lines_of_force(const Bearing& bearing, Harmonic half = {})
 {
   constexpr double highest = 40;
@@ -185,8 +190,8 @@ public:
       transforms_.emplace_back(column.cwiseProduct(window));
   }
 
-  /** The amplitudes of its lines as coefficients of the relative motions [m]; of lines that the window cannot tell apart
-      the one with the shortest name is taken. */
+  /** The amplitudes of its lines as coefficients of the relative motions [m]; of lines
+      that the window cannot tell apart the one with the shortest name is taken. */
   Eigen::VectorXd lines(const Harmonics& harmonics) const
   {
     const auto dofs = static_cast<Eigen::Index>(transforms_.size());
@@ -207,8 +212,8 @@ public:
     return series.reshaped();
   }
 
-  /** The solution on the `count` largest lines. A torus that has doubled has lines at all whole pairs moved by one
-      half: that where they are largest. */
+  /** The solution on the `count` largest lines. A torus that has doubled has lines at all
+      whole pairs moved by one half: that where they are largest. */
   PeriodicMotion solution(int count) const
   {
     constexpr double noticed = 1e-3;
@@ -284,7 +289,8 @@ private:
   std::vector<FineTransform> transforms_;  ///< of the relative motions [m]
 };
 
-/** Without a tolerance a solution is of the motion that integration from it comes to, where that is so near. */
+/** Without a tolerance a solution is of the motion that integration from it comes to,
+    where that is so near. */
 constexpr double near = 0.05;
 
 /** What integration from a solution makes of it. */

@@ -1,12 +1,13 @@
 /**
 # Motions with two frequencies
 
-Harmonic balance on the harmonics (k_1, k_2) of k_1 ω + k_2 n ω_cage: on all orders up to a sum, or on the largest
-lines of the motion that Eq. 7 settles on from rest, twice as many of them until the solution is near enough to the
-motion of Eq. 7. That is the one from rest or, where doubling does not halve the distance from it, the one that
-integration from the solution comes to.
+Harmonic balance on the harmonics (k_1, k_2) of k_1 ω + k_2 n ω_cage: on all orders up to
+a sum, or on the largest lines of the motion that Eq. 7 settles on from rest, twice as
+many of them until the solution is near enough to the motion of Eq. 7. That is the one
+from rest or, where doubling does not halve the distance from it, the one that integration
+from the solution comes to.
 
-    Torus found = torus_to_tolerance({parameters, omega}, 1e-3);   // found.motion, found.error */
+    Torus found = torus_to_tolerance({parameters, omega}, 1e-3); */
 #pragma once
 
 #include <optional>
@@ -67,7 +68,8 @@ struct Torus {
   std::string end = {};  ///< why not
 };
 
-/** On all orders with |k_1| + |k_2| ≤ m, from quasi-static contact, else from the settled motion. */
+/** On all orders with |k_1| + |k_2| ≤ m, from quasi-static contact, else from the settled
+    motion. */
 Torus torus_on_orders(const TorusSearch& search, int m);
 
 /** On the so many largest lines of the settled motion. */

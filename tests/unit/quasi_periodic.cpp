@@ -1,5 +1,5 @@
-/** Motions with two frequencies: against eighth-order integration, against the same machine as one with one
-    frequency, and the rule of the images. */
+/** Motions with two frequencies: against eighth-order integration, against the same
+    machine as one with one frequency, and the rule of the images. */
 #include "support/catch.hpp"
 
 #include "balance/bearing_problem.hpp"
@@ -46,7 +46,8 @@ Motion integrated(const Parameters& parameters, double frequency, long turns)
 
 }  // namespace
 
-/** Catches a wrong frequency in a linear block, a force at the wrong angle of the cage, and a line that is missing. */
+/** Catches a wrong frequency in a linear block, a force at the wrong angle of the cage,
+    and a line that is missing. */
 TEST_CASE("A motion with two frequencies is the one that integration settles on")
 {
   struct Case {
@@ -70,8 +71,8 @@ TEST_CASE("A motion with two frequencies is the one that integration settles on"
   }
 }
 
-/** Catches a transform that is read between its values, or a record whose start is wrong: lines that Newton has to move.
-    */
+/** Catches a transform that is read between its values, or a record whose start is wrong:
+    lines that Newton has to move. */
 TEST_CASE(
     "On the lines of time integration, and on all orders up to a sum, one motion is found")
 {
@@ -82,7 +83,8 @@ TEST_CASE(
   CHECK(lines.motion.harmonics.count() == 40);
   CHECK(lines.motion.newton.iterations <= 4);
   CHECK(lines.error->larger() < 1e-4);
-  /** The largest line that both leave out is that of twice the inner race's passing, (32, -2). */
+  /** The largest line that both leave out is that of twice the inner race's passing, (32,
+      -2). */
   for (const int m : {3, 19}) {
     const Torus orders = torus_on_orders(search, m);
     REQUIRE(orders.reached);
@@ -92,8 +94,8 @@ TEST_CASE(
   }
 }
 
-/** Both are the same torus, one of them closed. Catches a z or an N that mixes harmonics, and phases that
-    depend on the turn. */
+/** Both are the same torus, one of them closed. Catches a z or an N that mixes harmonics,
+    and phases that depend on the turn. */
 TEST_CASE("Where a whole number of balls passes in two turns both ways find one motion")
 {
   const Parameters parameters = machine(1, 16, 0.40625);
@@ -127,7 +129,8 @@ TEST_CASE("No image falls on a harmonic that is kept")
       }
 }
 
-/** With z = 8, BPFO and the eighth order of the speed are one: the solution then is that of n c = 8. */
+/** With z = 8, BPFO and the eighth order of the speed are one: the solution then is that
+    of n c = 8. */
 TEST_CASE("A line on which images fall on kept harmonics gives another solution")
 {
   const Parameters parameters = machine(1, 16, 0.43);

@@ -1,5 +1,5 @@
-/** Harmonic balance to a tolerance: the error that it prints against the motion that shooting closes, and what it says
-    where there is none. */
+/** Harmonic balance to a tolerance: the error that it prints against the motion that
+    shooting closes, and what it says where there is none. */
 #include "support/catch.hpp"
 
 #include "motion/find_periodic.hpp"
@@ -33,8 +33,9 @@ Motion exact_motion(const PeriodicMotion& solution, int points)
 
 }  // namespace
 
-/** At 3 Hz the sag is fifteen times the vibration: catches a tolerance that bounds only the largest error over the largest
-    displacement. At 15 and 24 Hz few harmonics lead nowhere from quasi-static contact. */
+/** At 3 Hz the sag is fifteen times the vibration: catches a tolerance that bounds only
+    the largest error over the largest displacement. At 15 and 24 Hz few harmonics lead
+    nowhere from quasi-static contact. */
 TEST_CASE("The error of a solution is its distance from the motion that shooting closes")
 {
   constexpr int points = 1024;
