@@ -146,7 +146,7 @@ data/generated/tab02_equal_error_mean.tsv: build/tab02_equal_error data/scenes/t
 data/generated/sensitivity_derivatives.tsv: figures/sensitivity_derivatives.py data/reference/sensitivity.tsv $(python_tables)
 	$(whole) $(PYTHON) $(wordlist 1,2,$^) > $$new; mv $$new $@
 
-data/generated/identification.tsv: data/claims.toml data/set1-as-printed.toml data/set2-as-printed.toml
+data/generated/identification.tsv: build/regimes data/claims.toml data/set1-as-printed.toml data/set2-as-printed.toml
 
 # Studies by explore: those without a kept table belong to `all`. Snakemake deals the lines of a map to jobs, and keeps the shards that are done.
 $(scripted:%=data/generated/%.tsv) $(scripted:%=data/generated/as-printed/%.tsv): data/generated/%.tsv: studies/$$(*F).py \

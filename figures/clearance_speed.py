@@ -27,7 +27,7 @@ def draw(table):
     """Three maps, one above the other."""
     figure, panels = plt.subplots(3, 1, figsize=(10, 9), sharex=True, layout="constrained")
     period, chaos, contact = panels
-    periods, rates, loaded = (cells_as_numbers(table[name]) for name in ("period", "lyapunov", "loaded"))
+    periods, rates, loaded = (cells_as_numbers(table[name]) for name in ("period", "lyapunov", "contact_share"))
     x, y = np.unique(table[X]), 1e6 * np.unique(table[Y])
     draw_classes(period, x, y, over_keys(table, classes(periods), KEYS), NAMES, COLOURS)
     draw_grid(chaos, x, y, over_keys(table, np.where(periods == 0, rates, np.nan), KEYS), vmin=0)

@@ -1,4 +1,4 @@
-"""Growth of the cost of harmonic balance with harmonics, balls and speeds, with the fitted power laws.
+"""Growth of the cost of harmonic balance with the number of harmonics, with the fitted power laws.
 
 Usage: /usr/bin/python3 figures/cost_growth.py data/reference/cost_growth.tsv cost_growth.svg
 """
@@ -7,10 +7,16 @@ import matplotlib.pyplot as plt
 import numpy as np
 from tables import run
 
-KINDS = (("harmonics", "harmonics m"), ("balls", "balls n"), ("speeds", "speeds"))
+
+def harmonics_of(table):
+    """The rows and the two exponents. A table of version 0.1.0 has other sizes too, and the exponents in columns."""
+    if "against" not in table.columns:
+        return table, table["harmonics"], *(table.value(f"exponent_{name}", 0) for name in ("cpu", "memory"))
+    rows = table.where("against", "harmonics")
+    return rows, rows["size"], *(rows.first(f"exponent_{name}") for name in ("cpu", "memory"))
 
 
-def draw_kind(axes, sizes, values, exponent, fitted):
+def draw_power(axes, sizes, values, exponent, fitted):
     """The measured values, and the fitted line over the sizes it is fitted to."""
     axes.plot(sizes, values, "o-", color="C0", ms=5, lw=0.8)
     if exponent != 0 and (np.diff(values[fitted]) > 0).all():  # no power describes what rises and falls
@@ -18,40 +24,22 @@ def draw_kind(axes, sizes, values, exponent, fitted):
         log_a = np.mean(np.log(values[fitted]) - exponent * np.log(x))
         axes.plot(x, np.exp(log_a) * x**exponent, color="C1", label=f"exponent {exponent:.2f}")
         axes.legend(frameon=False, loc="upper left")
-    axes.set(xscale="log", yscale="log")
+    axes.set(xscale="log", yscale="log", xlabel="harmonics m")
     low, high = axes.get_ylim()
     axes.set_ylim(min(low, high / 30), 3 * high)  # a decade at least, and room for the legend
     axes.grid(color="0.9", lw=0.6)
 
 
-def draw_other_algebra(axes, table):
-    """Newton's equations solved otherwise, beside the usual way."""
-    for name, color, marker, label in (("harmonics, whole", "C4", "v", "without the start on 64"),
-                                       ("harmonics, dense", "C3", "s", "dense")):
-        rows = table.where("against", name)
-        axes.plot(rows["size"], 1e3 * rows["cpu_s"], marker + ":", color=color, ms=4, lw=0.8, label=label)
-    low, high = axes.get_ylim()
-    axes.set_ylim(low, max(high, 20e3 * table.where("against", "harmonics, dense")["cpu_s"].max()))
-    axes.legend(frameon=False, loc="upper left")
-
-
 def draw(table):
-    """Rows: CPU and memory; columns: what grows."""
-    figure, grid = plt.subplots(2, len(KINDS), figsize=(10, 7), sharex="col", layout="constrained")
-    least = table.value("fitted_from_bytes")
-    for (cpu, memory), (kind, label) in zip(grid.T, KINDS):
-        rows = table.where("against", kind)
-        sizes = rows["size"]
-        fitted = sizes >= table.value(f"fitted_from_{kind}")
-        draw_kind(cpu, sizes, 1e3 * rows["cpu_s"], rows.first("exponent_cpu"), fitted)
-        above = rows["memory"] > 0
-        draw_kind(memory, sizes[above], rows["memory"][above] / 1e6, rows.first("exponent_memory"),
-                  (fitted & (rows["memory"] >= least))[above])
-        if kind == "harmonics":
-            draw_other_algebra(cpu, table)
-        memory.set_xlabel(label)
-    grid[0, 0].set_ylabel("CPU time [ms]")
-    grid[1, 0].set_ylabel("peak memory [MB]")
+    """CPU time, and the peak of memory."""
+    figure, (cpu, memory) = plt.subplots(1, 2, figsize=(10, 4.5), layout="constrained")
+    rows, sizes, power_cpu, power_memory = harmonics_of(table)
+    fitted = sizes >= table.value("fitted_from_harmonics")
+    draw_power(cpu, sizes, 1e3 * rows["cpu_s"], power_cpu, fitted)
+    above = rows["memory"] > 0
+    draw_power(memory, sizes[above], rows["memory"][above] / 1e6, power_memory, fitted[above])
+    cpu.set_ylabel("CPU time [ms]")
+    memory.set_ylabel("peak memory [MB]")
     return figure
 
 

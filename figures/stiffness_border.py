@@ -31,11 +31,11 @@ def draw(table):
     """Four maps over the same axes."""
     figure, grid = plt.subplots(2, 2, figsize=(10, 8), sharex=True, sharey=True, layout="constrained")
     (peak, speed), (permanent, error) = grid
-    columns = {name: cells_as_numbers(table[name]) for name in ("peak", "peak_frequency", "permanent", "machine_error")}
+    columns = {name: cells_as_numbers(table[name]) for name in ("peak", "peak_frequency", "permanent", "error")}
     draw_map(peak, table, 1e3 * columns["peak"], "(a) largest amplitude of $x_r$ [mm]")
     draw_map(speed, table, columns["peak_frequency"], "(b) its speed [Hz]")
     draw_map(permanent, table, 100 * columns["permanent"], "(c) solved speeds with permanent contact [%]")
-    drawn = draw_map(error, table, np.maximum(100 * columns["machine_error"], LEAST), "(d) error of six harmonics at 30 Hz [%]",
+    drawn = draw_map(error, table, np.maximum(100 * columns["error"], LEAST), "(d) error of six harmonics at 30 Hz [%]",
                      norm=LogNorm())
     error.contour(*drawn, [BORDER], colors="white", linewidths=1)
     figure.supxlabel("radial clearance δ [µm]")

@@ -68,8 +68,11 @@ WITH_ORDER(minmax_element)
   }
 WITH_TEST(find_if)
 WITH_TEST(count_if)
+WITH_TEST(all_of)
 WITH_TEST(any_of)
 WITH_TEST(none_of)
+WITH_TEST(for_each)
+WITH_TEST(copy)
 
 #define WITH_VALUE(name)                                                             \
   template <class Range, class Value, class Key = identity>                          \
@@ -79,6 +82,12 @@ WITH_TEST(none_of)
   }
 WITH_VALUE(find)
 WITH_VALUE(count)
+
+template <class Range>
+void reverse(Range&& range)
+{
+  std::reverse(begin(range), end(range));
+}
 
 }  // namespace ranges
 }  // namespace std

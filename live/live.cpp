@@ -25,43 +25,63 @@ EM_JS(void, show_point, (double f, double x_s, double y_s, double x_r, double y_
   Module.onPoint([ f, x_s, y_s, x_r, y_r ]);
 });
 
-/** First what says how to read the rest: instants, instants per turn, balls, cage ratio, clearance, first turn, lines. */
+/** Instants of a motion that is drawn, in base periods; of one that does not close, of which lines need more. */
+constexpr int drawn_periods = 8, recorded_periods = 64;
+
+/** Those of a motion that closes are known; of another one they are read from its record. */
+motion::Lines lines_of(const FoundMotion& found)
+{
+  if (found.closes_after > 0) return found.lines;
+  motion::Lines lines = motion::lines_of_recorded(found.machine.bearing, found.motion);
+  for (motion::Line& line : lines.lines) line.order /= found.turns_of_period;
+  return lines;
+}
+
+/** First what says how to read the rest: instants, instants per turn, base periods, balls, cage ratio, clearance, first
+    turn, whether the motion closes, instants of the contact over two turns, lines. */
 void add_motion(const Parameters& parameters, double frequency, const Computed& at)
 {
-  const motion::Motion& motion = at.found.motion;
-  const motion::Lines& all = at.found.lines;
+  const FoundMotion& found = at.found;
+  const motion::Motion& motion = found.motion;
+  const Bearing& bearing = parameters.bearing;
+  const bool closes = found.closes_after > 0;
+  const double turns = found.turns_of_period, per_turn = motion.points_per_period / turns;
+  const std::size_t rows = std::min(
+      motion.size(),
+      closes ? motion.size() : std::size_t(drawn_periods * motion.points_per_period));
+  const auto loads =
+      motion::contact_evolution(found.machine, motion, long(std::ceil(2 / turns)))
+          .ball_force;
+  const std::size_t instants = std::min(loads.size(), std::size_t(2 * per_turn));
+  const motion::Lines all = lines_of(found);
   const auto add = [](std::initializer_list<double> values) {
     numbers.insert(numbers.end(), values);
   };
-  const Bearing& bearing = parameters.bearing;
-  add({double(motion.size()), double(motion.points_per_period), double(bearing.balls),
-       bearing.cage_speed_ratio, bearing.clearance, double(motion.first_period),
+  add({double(rows), per_turn, double(rows) / motion.points_per_period,
+       double(bearing.balls), bearing.cage_speed_ratio, bearing.clearance,
+       double(motion.first_period) * turns, double(closes), double(instants),
        double(all.lines.size())});
-  for (std::size_t k = 0; k < motion.size(); ++k) {
+  for (std::size_t k = 0; k < rows; ++k) {
     const auto& [stator, rotor] = motion.positions[k];
     add({stator.x, stator.y, rotor.x, rotor.y, at.forces[k].x, at.forces[k].y});
   }
-  for (const auto& balls : motion::contact_evolution(at.found.machine, motion).ball_force)
-    numbers.insert(numbers.end(), balls.begin(), balls.end());
+  for (std::size_t k = 0; k < instants; ++k)
+    numbers.insert(numbers.end(), loads[k].begin(), loads[k].end());
   for (const auto& [order, a] : all.lines) {
     add({order * frequency, a[0], a[1], a[2], a[3]});
-    text += "=" + motion::name_of(order, bearing, 1e-9, 128).name + "\n";
+    text += "=" + motion::name_of(order, bearing, 1e-9, closes ? 128 : 16).name + "\n";
   }
 }
 
-/** `orbit` the solution alone; `error` with its error estimate; `verdict` with the verdict; `integrate` what the machine
-    does from rest, which is also the answer where no number of harmonics is asked for. */
+/** `orbit` the motion alone; `error` with its error estimate; `verdict` with the verdict. */
 void show_motion(const std::string& what, const Parameters& parameters,
                  MotionRequest request)
 {
   request.stability = what == "verdict";
-  if (what == "integrate") request.harmonics.reset();
-  const int open_periods = request.harmonics ? 1 : 8;
-  if (!request.harmonics) request.method = "auto";
   if (what == "error" && request.harmonics)
     request.tolerance = HUGE_VAL;  // any is accepted
   Table table("Live", {});
-  const Computed at = computed(parameters, request, open_periods, table);
+  const Computed at = computed(parameters, request, recorded_periods, table);
   conclude(table, parameters, at.touches(), at.budget);
   text = table.text();
   add_motion(parameters, request.frequency, at);
@@ -73,7 +93,7 @@ void show_response(const MotionRequest& at, double from, double to)
   static_cast<Request&>(request) = at;
   request.from = from;
   request.to = to;
-  request.method = at.harmonics ? "aft" : "auto";
+  request.method = at.method;
   request.count = at.harmonics ? std::nullopt : std::optional(41);
   request.format = TableFormat::json;  // one table at the end, not row by row
   request.watch = [](double f, const Eigen::VectorXd& a) {
@@ -87,10 +107,11 @@ void show_response(const MotionRequest& at, double from, double to)
 void answer(const std::string& what, MotionRequest request, double from, double to)
 {
   const Parameters parameters = read_parameters(request.parameter_file);
-  /** Where two frequencies drive, the answer is what the machine does. */
-  if (base_period(parameters).is_driven_twice()) {
+  /** What the machine does from rest is asked for by 0 harmonics, and answered where two frequencies drive. */
+  if (request.harmonics == 0 || base_period(parameters).is_driven_twice()) {
     request.harmonics.reset();
     request.method = "auto";
+    request.periods = drawn_periods;
   }
   if (what == "response")
     show_response(request, from, to);

@@ -1,13 +1,12 @@
 # The live page: the rooms of the core and what of explore computes motions, by the compiler for the browser. That of
 # Debian 12 lacks parts of the library of C++20 (live/libcxx.hpp) and looks for its parser where only Debian's node does.
 # Exceptions are WebAssembly's own (browsers of 2022 and later): by JavaScript's the module was a quarter larger.
-live_sources := $(filter-out $(patsubst %,src/%.cpp,io/program io/parallel io/matrix_market model/large_machine model/reduction model/rational_fit \
-  balance/large_problem time/gauss), $(wildcard $(patsubst %,src/%/*.cpp,io model balance continuation \
-  time motion))) $(patsubst %,src/explore/%.cpp,balance_motion branch_file orbit response \
-  settled_motion settled_response spectrum) \
-  live/live.cpp live/serial.cpp live/two_masses.cpp
+live_sources := $(filter-out src/io/program.cpp src/time/gsl.cpp $(patsubst %,src/explore/%.cpp, \
+    attractors campbell check map% options plot shaft shape), \
+  $(wildcard $(patsubst %,src/%/*.cpp,io model balance continuation time motion explore))) \
+  live/live.cpp live/no_gsl.cpp
 live_objects := $(live_sources:%.cpp=build/live/%.o)
-live_flags := -O2 -ffp-contract=off -fno-math-errno -fwasm-exceptions
+live_flags := -O2 -DNDEBUG -ffp-contract=off -fno-math-errno -fwasm-exceptions
 export NODE_PATH ?= /usr/share/nodejs
 
 build/model/bearing_catalogue.hpp: data/bearings/deep_groove.toml CMakeLists.txt
@@ -23,7 +22,7 @@ build/live/include/source_revision.hpp: build/live/include/.stamped
 $(live_objects): build/live/%.o: %.cpp live/live.mk | build/live/include/source_revision.hpp
 	@mkdir -p $(@D)
 	em++ -std=c++20 $(live_flags) -DEIGEN_DONT_PARALLELIZE -DROTOR_STATOR_EIGEN_FFT -include live/libcxx.hpp -Ilive -Isrc \
-	  -Ibuild/live/include -Ibuild $$(pkg-config --cflags eigen3) -MMD -c $< -o $@
+	  -Ibuild/live/include -Ibuild $$(pkg-config --cflags eigen3) -MMD -MP -c $< -o $@
 -include $(live_objects:.o=.d)
 
 build/live/core.js: $(live_objects)

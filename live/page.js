@@ -66,10 +66,10 @@ class Engine {
   }
 }
 
-const engines = { quick: new Engine(), judge: new Engine(), curve: new Engine(), integrator: new Engine() };
+const engines = { quick: new Engine(), judge: new Engine(), curve: new Engine(), steady: new Engine() };
 // `path`: where explore finds the machine.
 const state = { name: "", path: "", toml: "", original: "", f: 45, m: 10, from: 1, to: 60 };
-const shown = { motion: null, view: null, integrated: null, branch: [], scale: null, turns: 0, playing: true };
+const shown = { motion: null, view: null, steady: null, branch: [], scale: null, turns: 0, playing: true };
 const question = (what) => ({ ...state, what, file: state.name });
 
 /* The controls: one for each value of the TOML text, which holds the machine. */
@@ -188,10 +188,10 @@ const later = (milliseconds, task) => timers.push(setTimeout(task, milliseconds)
 function begin(machine) {
   timers.forEach(clearTimeout);
   engines.judge.cancel();
-  engines.integrator.cancel();
+  engines.steady.cancel();
   if (machine) engines.curve.cancel();
-  shown.integrated = null;
-  $("integrate-state").textContent = "";
+  shown.steady = null;
+  $("steady").textContent = "–";
   return ++turn;
 }
 
@@ -223,11 +223,11 @@ async function update({ machine = true } = {}) {
   $("cancel").hidden = true;
   showRefusal(result.status === 2 ? result.text : "");
   if (machine && result.status !== 2) later(400, followCurve);
-  if (result.status !== 0) return showNothing(result);
-  showMotion(result);
-  Object.assign(document.body.dataset, { ms: performance.now() - start, memory: result.memory });
-  later(120, () => showError(mine));
-  later(250, () => judge(mine));
+  const isFound = result.status === 0, isBalance = isFound && keysOf(result.text)("method") === "aft";
+  isFound ? showMotion(result) : showNothing(result);
+  if (isFound) Object.assign(document.body.dataset, { ms: performance.now() - start, memory: result.memory });
+  if (isBalance) later(120, () => showError(mine)), later(250, () => judge(mine));
+  if (isFound || result.status === 3) later(300, () => showSteady(mine, isBalance));
 }
 
 // No motion: why, and nothing that could be taken for one.
@@ -250,58 +250,74 @@ async function showError(mine) {
 async function judge(mine) {
   const { status, text } = await engines.judge.ask(question("verdict"));
   if (mine !== turn || status === -1) return;
-  if (status !== 0) return showVerdict("undecided", `undecided; ${text}`);
-  const value = keysOf(text), distance = errorsOf(value, "distance"), word = value("stability"), period = value("period");
+  status === 0 ? showVerdictOf(text) : showVerdict("undecided", `undecided; ${text}`);
+}
+
+const regimeOf = (value) => value("regime") + (value("period") > 1 ? ` with ${value("period")} base periods` : "");
+
+function showVerdictOf(text) {
+  const value = keysOf(text), distance = errorsOf(value, "distance"), word = value("stability");
   const parts = [word,
     value("multiplier") && `largest multiplier ${value("multiplier")} ± ${value("multiplier_uncertainty")}`,
     value("lyapunov") && `Lyapunov exponent ${value("lyapunov")} ± ${value("lyapunov_uncertainty")} 1/s`,
-    `regime: ${value("regime")}${period > 1 ? ` with ${period} base periods` : ""}`, distance && `distance: ${distance}`,
+    `regime: ${regimeOf(value)}`, distance && `distance: ${distance}`,
     value("contact") === "no" && "no ball touches its race"];
   showVerdict(word, parts.filter(Boolean).join("; "));
   $("notes").textContent = text.replace(/^=.*\n?/gm, "");
 }
 
+// What the machine does from rest: drawn beside the motion that harmonic balance has found, or in its place.
+async function showSteady(mine, isBeside) {
+  $("steady").textContent = "computing…";
+  const result = await engines.steady.ask({ ...question("verdict"), m: 0 });
+  if (mine !== turn || result.status === -1) return;
+  const value = keysOf(result.text);
+  $("steady").textContent = result.status === 0 ? regimeOf(value) + (isBeside ? " (black)" : "") : result.text;
+  if (result.status !== 0) return;
+  if (isBeside && shown.motion) return shown.steady = decoded(result), drawOrbit();
+  showMotion(result, shown.motion ? "" : $("motion-state").textContent);
+  showVerdictOf(result.text);
+  $("error-state").textContent = errorsOf(value, "error") ?? "–";
+}
+
+// The branch of harmonic balance; what the machine does, at 41 speeds, where the branch does not reach the end.
 async function followCurve() {
   shown.branch = [];
   $("curve-state").textContent = "computing…";
   $("curve-cancel").hidden = false;
   const start = performance.now();
   let drawn = start;
-  const { status, text = "" } = await engines.curve.ask(question("response"), (points) => {
+  const ask = (m) => engines.curve.ask({ ...question("response"), m }, (points) => {
     shown.branch.push(...points);
     if (performance.now() - drawn < 200) return;
     drawCurve();
     drawn = performance.now();
   });
+  let { status, text = "" } = await ask(state.m), why = "";
+  if (status === 3 && !engines.curve.job) {
+    why = ` of what the machine does; ${text}`;
+    shown.branch = [];
+    ({ status, text = "" } = await ask(0));
+  }
   if (engines.curve.job) return;
   $("curve-cancel").hidden = true;
-  const said = { 0: `${shown.branch.length} points, folds: ${notesOf(text)("folds")}`, "-1": "cancelled" };
-  $("curve-state").textContent = said[status] ?? text;
+  const folds = keysOf(text)("folds"), said = `${shown.branch.length} points${folds ? `, folds: ${folds}` : ""}${why}`;
+  $("curve-state").textContent = { 0: said, "-1": "cancelled" }[status] ?? text;
   document.body.dataset.curve = performance.now() - start;
   drawCurve();
-}
-
-async function integrate() {
-  const mine = turn;
-  $("integrate-state").textContent = "integrating…";
-  const result = await engines.integrator.ask(question("integrate"));
-  if (mine !== turn || result.status === -1) return;
-  $("integrate-state").textContent = result.status === 0 ? `integrated (black): ${notesOf(result.text)("regime")}` : result.text;
-  if (result.status === 0) shown.integrated = decoded(result);
-  if (shown.motion) drawOrbit();
 }
 
 /* Drawing: SVG as text, anew for each answer; what moves is kept at hand. */
 
 function decoded({ numbers, text }) {
-  const [rows, perTurn, balls, cage, clearance, first, count] = numbers;
-  let at = 7;
+  const [rows, perTurn, periods, balls, cage, clearance, first, closes, instants, count] = numbers;
+  let at = 10;
   const take = (n) => numbers.subarray(at, at += n);
-  const samples = take(6 * rows), loads = take(2 * perTurn * balls), lines = take(5 * count);
+  const samples = take(6 * rows), loads = take(instants * balls), lines = take(5 * count);
   const named = text.split("\n").filter((line) => line.startsWith("="));
   const column = (i) => Float64Array.from({ length: rows }, (_, k) => samples[6 * k + i]);
   const size = (k) => Math.max(...lines.subarray(5 * k + 1, 5 * k + 5)) * MICRO;
-  return { rows, perTurn, balls, cage, clearance, first, loads, repeats: rows < 8 * perTurn,
+  return { rows, perTurn, periods, balls, cage, clearance, first, loads, instants, repeats: closes === 1,
     largest: loads.reduce((a, b) => Math.max(a, b), 0),
     lines: named.map((line, k) => ({ name: line.slice(1), f: lines[5 * k], size: size(k) })),
     ...Object.fromEntries(NAMES.map((name, i) => [name, column(i)])) };
@@ -349,10 +365,12 @@ function clearMotion(why) {
   }
 }
 
-function showMotion(result) {
-  const method = notesOf(result.text)("method");
-  shown.motion = { ...decoded(result), chosen: method.includes("two frequencies") };
-  $("motion-state").textContent = `${method}; ${fmt(result.ms, 3)} ms`;
+// `why`: what was asked for and not found.
+function showMotion(result, why = "") {
+  const method = keysOf(result.text)("method");
+  shown.motion = { ...decoded(result), isSteady: method !== "aft" };
+  const how = { aft: "harmonic balance", shooting: "steady motion, closed by shooting" }[method] ?? "steady motion, integrated";
+  $("motion-state").textContent = `${why && `${why}. Shown: `}${how}; ${fmt(result.ms, 3)} ms`;
   $("notes").textContent = result.text.replace(/^=.*\n?/gm, "");
   showCommand();
   for (const draw of [drawOrbit, drawTime, drawContact, drawSpectrum]) draw();
@@ -371,8 +389,8 @@ function view(q) {
 }
 
 function drawOrbit() {
-  const motion = shown.view = view(shown.motion), integrated = view(shown.integrated);
-  const all = integrated ? [motion, integrated] : [motion], delta = motion.clearance * MICRO, svg = $("orbit");
+  const motion = shown.view = view(shown.motion), steady = view(shown.steady);
+  const all = steady ? [motion, steady] : [motion], delta = motion.clearance * MICRO, svg = $("orbit");
   const ends = ["x", "y"].map((axis) => {
     const rotor = span(all.map((q) => q[`${axis}_r`])), stator = span(all.map((q) => q[`${axis}_s`]));
     return [Math.min(rotor[0], stator[0] - delta), Math.max(rotor[1], stator[1] + delta)];
@@ -382,7 +400,7 @@ function drawOrbit() {
   const at = frame(svg, range[0], range[1], { x: "x [µm]", y: "y [µm]", most: 5 });
   const orbit = (q, name, body) => path(name, Array.from(q[`x_${body}`], (x, k) =>
     `${at.X(x * MICRO).toFixed(1)} ${at.Y(q[`y_${body}`][k] * MICRO).toFixed(1)}`), q.repeats ? "Z" : "");
-  svg.innerHTML = at.axes + (integrated ? orbit(integrated, "integrated", "r") + orbit(integrated, "integrated", "s") : "") +
+  svg.innerHTML = at.axes + (steady ? orbit(steady, "steady", "r") + orbit(steady, "steady", "s") : "") +
     orbit(motion, "x_s", "s") + orbit(motion, "x_r", "r") +
     `<circle class="clearance" r="${at.X(delta) - at.X(0)}"/><circle class="x_s" r="4"/><circle class="x_r" r="4"/>` +
     '<circle class="ball"/>'.repeat(motion.balls);
@@ -438,12 +456,12 @@ function drawTime() {
 }
 
 function drawContact() {
-  const { loads, balls, perTurn, largest } = shown.motion, levels = 5, runs = Array.from({ length: levels }, () => []);
+  const { loads, balls, perTurn, instants, largest } = shown.motion, levels = 5, runs = Array.from({ length: levels }, () => []);
   const at = frame($("contact"), [0, 2], [0.5, balls + 0.5], { x: "turns", y: "ball" });
   const level = (k, j) => Math.ceil(levels * loads[k * balls + j] / largest) - 1;
   for (let j = 0; j < balls && largest > 0; ++j)
-    for (let k = 0, end; k < 2 * perTurn; k = end) {
-      for (end = k + 1; end < 2 * perTurn && level(end, j) === level(k, j);) ++end;
+    for (let k = 0, end; k < instants; k = end) {
+      for (end = k + 1; end < instants && level(end, j) === level(k, j);) ++end;
       runs[level(k, j)]?.push(`M${at.X(k / perTurn).toFixed(1)} ${at.Y(j + 1).toFixed(1)}H${at.X(end / perTurn).toFixed(1)}`);
     }
   const rows = runs.map((run, k) => run.length === 0 ? "" : `<path class="load" stroke-width="${0.8 * (at.Y(1) - at.Y(2))}"
@@ -516,7 +534,7 @@ function save(name, text, type) {
 }
 
 async function saveTable() {
-  const { status, text } = await engines.quick.ask(question("table"));
+  const { status, text } = await engines.quick.ask({ ...question("table"), m: shown.motion?.isSteady ? 0 : state.m });
   if (status === 0) save(`${stem()}-orbit.tsv`, text, "text/tab-separated-values");
   else if (status > 0) alertOf(text);
 }
@@ -560,8 +578,8 @@ function openLink() {
 }
 
 function showCommand() {
-  const isChanged = state.toml !== state.original, turns = Math.round(shown.motion?.rows / shown.motion?.perTurn) || 1;
-  const how = (shown.motion?.chosen ? " --method aft --tolerance 1e-3" : ` --harmonics ${state.m}`) + (turns > 1 ? ` --periods ${turns}` : "");
+  const isChanged = state.toml !== state.original, periods = shown.motion?.periods ?? 1;
+  const how = (shown.motion?.isSteady ? "" : ` --harmonics ${state.m}`) + (periods > 1 ? ` --periods ${periods}` : "");
   $("command").textContent = `build/explore orbit ${isChanged ? state.name : state.path} --frequency ${state.f}${how}`;
   $("command-note").hidden = !isChanged;
 }
@@ -609,7 +627,7 @@ function animate(now) {
 function connect() {
   const openPreset = () => showMachine(PRESETS.find(({ path: place }) => place === $("preset").value));
   const clicks = { cancel: () => engines.quick.cancel(), "curve-cancel": () => engines.curve.cancel(), play: () => play(!shown.playing),
-    integrate, relative: () => shown.motion && drawOrbit(), "reset-all": () => showMachine({ ...state, toml: state.original }),
+    relative: () => shown.motion && drawOrbit(), "reset-all": () => showMachine({ ...state, toml: state.original }),
     "save-toml": () => save(state.name, state.toml, "application/toml"), "save-tsv": saveTable,
     "save-svg": () => save(`${stem()}.svg`, pictureText(), "image/svg+xml"), "make-link": makeLink,
     "help-open": () => $("help").showModal() };

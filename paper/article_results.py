@@ -13,7 +13,7 @@ from tables import Table, explore
 
 GENERATED, KEPT = Path("data/generated"), Path("data/reference")
 ACCURATE = tomllib.loads(Path("data/claims.toml").read_text())["regimes"]["accurate"]
-METHODS = {"aft": "harmonic balance", "aft-tolerance": "harmonic balance to a tolerance", "rk4": "Runge-Kutta of order 4", "rkf45": "Runge-Kutta-Fehlberg",
+METHODS = {"aft": "harmonic balance", "rk4": "Runge-Kutta of order 4", "rkf45": "Runge-Kutta-Fehlberg",
            "rk8pd": "Runge-Kutta of order 8", "msadams": "Adams", "msbdf": "BDF", "bsimp": "Bulirsch-Stoer",
            "shooting-rk4": "shooting by Runge-Kutta of order 4",
            "shooting-rk8pd": "shooting by Runge-Kutta of order 8"}
@@ -40,11 +40,12 @@ def power(error):
 def costs(add):
     """Each range and error: the methods in the order of their time, and those that do not reach it."""
     table, lines = Table(KEPT / "tab02_equal_error.tsv"), []
+    table = table.rows(table["method"] != "aft-tolerance")  # of version 0.1.0
     for reach in dict.fromkeys(table["range"]):
         for target in sorted(set(table["target"]), reverse=True):
             rows = table.where("range", reach).where("target", target)
             best = rows["method"][rows["cpu_s"].argmin()]
-            for method in dict.fromkeys(("aft", "aft-tolerance", "shooting-rk4", "rk4", best)):
+            for method in dict.fromkeys(("aft", "shooting-rk4", "rk4", best)):
                 lines.append([reach, power(target), METHODS[method] + (", fastest of all" if method == best else ""),
                               *timed(rows.where("method", method))])
     add("table.costs", markdown(["speeds [Hz]", "error allowed", "method", "setting", "CPU time", "evaluations", "error reached", "error of the force"],
@@ -56,12 +57,6 @@ def costs(add):
             add(f"cost.{name}_{rival.split('-')[0]}",
                 " and ".join(faster(rows.where("target", target).first("ratio")) + f" at {power(target)}"
                              for target in (0.01, 0.001)), "-", f"harmonic balance beside {rival}, {reach} Hz")
-        reached = {method: dict(zip(rows["target"], rows["cpu_s"])) for method in ("aft-tolerance", "rk4")
-                   for rows in [table.where("range", reach).where("method", method)]}
-        add(f"cost.{name}_tolerance",
-            listed([faster(rk4 / reached["aft-tolerance"][target]) + f" at {power(target)}"
-                    for target, rk4 in reached["rk4"].items() if target in reached["aft-tolerance"]]), "-",
-            f"harmonic balance to a tolerance beside rk4, {reach} Hz")
         for target, key in ((0.01, "1"), (0.001, "01")):
             rows = table.where("range", reach).where("target", target)
             ours, rk4 = rows.where("method", "aft"), rows.where("method", "rk4")
@@ -113,16 +108,13 @@ def faster(ratio):
 
 def growth(add):
     table = Table(KEPT / "cost_growth.tsv")
-    for kind in ("harmonics", "balls", "speeds"):
-        add(f"growth.{kind}", table.where("against", kind).first("exponent_cpu"), "-",
-            f"exponent of the CPU time against {kind}")
     begin = table.value("fitted_from_harmonics")
-    rows = table.where("against", "harmonics")
-    size, cpu = np.log(rows["size"]), np.log(rows["cpu_s"])
-    few = rows["size"] <= begin
+    rows = table.where("against", "harmonics") if "against" in table.columns else table  # of version 0.1.0
+    name = "size" if "against" in table.columns else "harmonics"
+    size, cpu = np.log(rows[name]), np.log(rows["cpu_s"])
+    few = rows[name] <= begin
     add("growth.from", begin, "-", "harmonics from which on the exponent is fitted")
     add("growth.few", np.polyfit(size[few], cpu[few], 1)[0], "-", "exponent up to there")
-    add("growth.last", (cpu[-1] - cpu[-2]) / (size[-1] - size[-2]), "-", "exponent of the last doubling")
 
 
 def peers(add):

@@ -4,10 +4,7 @@
 Paper: all equations, Table 1.  Run: build/deviations > data/generated/deviations.tsv
 What each printed form that we replaced would have done, and what our choices change.
 Modelled: data set 1, one small computation per entry D-nn. */
-#include "deviations/balance.hpp"
-#include "deviations/continuation.hpp"
-#include "deviations/model.hpp"
-#include "deviations/motions.hpp"
+#include "deviations/evidence.hpp"
 #include "io/program.hpp"
 
 int main(int argc, char** argv)

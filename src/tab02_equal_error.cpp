@@ -11,10 +11,8 @@ header, with the least error that it reaches. Speeds at which the motion has not
 left out and listed, since no error of a periodic motion is defined there. The two ranges lie below and
 above the transition at 25 Hz.
 
-The settings of a method are found by trying, with the true motions at hand. `aft-tolerance` is harmonic balance without that:
-harmonics and samples are chosen and their error estimated speed by speed, as by `explore response --tolerance`
-(`motion/find_periodic.hpp`). It may find another stable motion than integration from rest, whose motions are the true ones here: that
-counts as an error.
+The settings of a method, for harmonic balance the numbers m and N, are found by trying, with the true
+motions at hand.
 
 Other people's programs stand with the figure `peers`: the integrators of SUNDIALS and of SciPy, which call the same
 force, and AUTO-07p, which follows the response by collocation. SciPy's are called from Python, which costs

@@ -34,10 +34,11 @@ int main(int argc, char** argv)
     const References references =
         true_motions(scene.parameters, scene.frequencies, scene.truth);
     std::vector<Measurement> balances, rk4;
-    for (const Setting& harmonics : scene.balances)
+    for (const Setting& harmonics : scene.balances) {
       balances.push_back(measure(references, harmonics, scene.repetitions));
-    for (const Setting& step : cheapest_rk4(scene, references, balances))
-      rk4.push_back(measure(references, step, scene.repetitions));
+      rk4.push_back(measure(references, cheapest_rk4(scene, references, balances.back()),
+                            scene.repetitions));
+    }
     return timing_table(scene, references, balances, rk4);
   });
 }

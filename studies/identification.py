@@ -19,9 +19,13 @@ five digits that are kept; averages of aperiodic motion differ by up to 16 %, si
 
 Usage: studies/identification.py data/scenes/identification.toml > identification.tsv   (from the project's root)
 """
+import os
+import re
+import subprocess
 import sys
 import tempfile
 import tomllib
+from concurrent.futures import ThreadPoolExecutor
 from pathlib import Path
 
 import numpy as np
@@ -29,26 +33,24 @@ import numpy as np
 sys.path.insert(1, str(Path(__file__).parents[1] / "figures"))
 from tables import Table, explore, print_columns, print_header  # noqa: E402
 
-KEYS = ("stator.mass_kg", "rotor.mass_kg", "bearing.cage_speed_ratio")
 READINGS = {"exchanged": "", "as-printed": "-as-printed"}
-# name, unit, meaning, the map's quantity
-QUANTITIES = [
-    ("periodic", "-", "1 if the motion has the period of rotation", "periodic"),
-    ("contact", "-", "share of the time with at least one loaded ball", "settled_contact"),
-    ("turns", "-", "turns of the bearing's force per period", "turns"),
-    ("higher_harmonics", "-", "rms of harmonics 2 and above over the first", "higher_harmonics"),
-    ("passed_once", "-", "share of pairs of periods in which every ball is loaded exactly once", "passed_once"),
-    ("passages", "-", "times a ball is loaded in two periods, mean over the balls", "passages"),
-    ("loaded_arc", "rad", "mean over time of the loaded arc", "loaded_arc"),
-    ("largest_force", "N", "largest force on one ball", "settled_load"),
-    ("amp_x_r", "m", "half peak-to-peak of x_r", "settled_amplitude"),
-    *((f"error_{m}", "-", "" if m > 6 else "rms error about the mean with so many harmonics; -1 where the motion is not "
-       "T-periodic, 2 where there is no solution", f"error_{m}") for m in (6, 7, 8, 9, 10, 12, 16))]
+HARMONICS = (6, 7, 8, 9, 10, 12, 16)
+MEASURES = [  # of build/regimes
+    ("periodic", "-", "1 if the motion has the period of rotation"),
+    ("contact", "-", "share of the time with at least one loaded ball"),
+    ("turns", "-", "turns of the bearing's force per period"),
+    ("higher_harmonics", "-", "rms of harmonics 2 and above over the first"),
+    ("passed_once", "-", "share of pairs of periods in which every ball is loaded exactly once"),
+    ("passages", "-", "times a ball is loaded in two periods, mean over the balls"),
+    ("loaded_arc", "rad", "mean over time of the loaded arc"),
+    ("largest_force", "N", "largest force on one ball"),
+    ("amp_x_r", "m", "half peak-to-peak of x_r")]
 COLUMNS = [
     ("reading", "-", "of Table 1: 0 exchanged, 1 as printed"), ("set", "-", "data set"), ("m_s", "kg", "mass of the stator"),
     ("m_r", "kg", "mass of the rotor"), ("f_joint", "Hz", "joint resonance"), ("cage_speed_ratio", "-", "omega_cage/omega"),
-    ("f_loss", "Hz", "closed form of the loss of contact"), ("f", "Hz", "speed of rotation"),
-    *(quantity[:3] for quantity in QUANTITIES)]
+    ("f_loss", "Hz", "closed form of the loss of contact"), ("f", "Hz", "speed of rotation"), *MEASURES,
+    *((f"error_{m}", "-", "" if m > 6 else "rms error about the mean with so many harmonics; -1 where the motion is not "
+       "T-periodic, 2 where there is no solution") for m in HARMONICS)]
 
 
 def accepted_cages(balls):
@@ -57,28 +59,18 @@ def accepted_cages(balls):
     return [k / balls for k in range(balls // 2, 0, -1) if k > least * balls]
 
 
-def mapped(file, points, quantities, *options):
-    """The map at a list of points (m_s, m_r, cage)."""
-    with tempfile.NamedTemporaryFile("w", suffix=".tsv") as table:
-        table.write("\n".join("\t".join(map(str, line)) for line in [KEYS, *points]) + "\n")
-        table.flush()
-        result = explore("map", file, "--method", "rk4", "--list", table.name, "--quantity", ",".join(quantities), *options)
-    return Table.of(result.stdout)
-
-
-def numbers(column, missing):
-    """A column with a number in place of -."""
-    return np.array([missing if cell == "-" else float(cell) for cell in column])
-
-
 class Base:
     """A parameter file whose masses and cage are varied."""
 
     def __init__(self, file):
         self.file = file
-        machine = tomllib.loads(Path(file).read_text(encoding="utf-8"))
-        self.omegas = [machine[body]["natural_frequency_rad_per_s"] for body in ("stator", "rotor")]
-        self.mass, self.balls = machine["stator"]["mass_kg"], machine["bearing"]["balls"]
+        self.text = Path(file).read_text(encoding="utf-8")
+        machine = tomllib.loads(self.text)
+        bodies = [machine[body] for body in ("stator", "rotor")]
+        self.omegas = [body["natural_frequency_rad_per_s"] for body in bodies]
+        self.dampings = [body["damping_ratio"] for body in bodies]
+        self.unbalance, self.gravity = machine["rotor"]["unbalance_kg_m"], machine["gravity"]["acceleration_m_per_s2"]
+        self.balls = machine["bearing"]["balls"]
 
     def masses(self, mass, joint):
         """m_s and the m_r that puts the joint resonance at `joint` [Hz]."""
@@ -87,21 +79,26 @@ class Base:
         return mass, mass * (stator - omega) / (omega - rotor)
 
     def mass_losing_at(self, joint, speed):
-        """The stator's mass [kg] from which on gravity and unbalance load the rigid joint equally above a speed [Hz] only:
-        that speed rises with the mass."""
-        low, high = 1e-3 * self.mass, 1e3 * self.mass
-        for _ in range(4):  # a hundredth of the interval's logarithm is left each time
-            tried = np.geomspace(low, high, 101)
-            points = [(*self.masses(mass, joint), 0.5) for mass in tried]
-            equal = numbers(mapped(self.file, points, ["force_balance"], "--frequency", 1)["force_balance"], np.inf)
-            above = int(np.argmax(equal > speed))
-            low, high = tried[above - 1], tried[above]
-        return low
+        """The stator's mass [kg] with which gravity and unbalance load the rigid joint equally at a speed [Hz]. The static force
+        is proportional to the masses, whose ratio is fixed; that of the unbalance is independent of them."""
+        stator, rotor = self.masses(1, joint)
+        k_s, k_r = (mass * omega**2 for mass, omega in zip((stator, rotor), self.omegas))
+        static = self.gravity * abs(rotor - k_r * (stator + rotor) / (k_s + k_r))
+        omega = 2 * np.pi * speed
+        z_s, z_r = (mass * (natural**2 - omega**2 + 2j * damping * natural * omega)
+                    for mass, natural, damping in zip((stator, rotor), self.omegas, self.dampings))
+        return abs(z_s / (z_s + z_r)) * self.unbalance * omega**2 / static
 
     def accepted(self, joint, losses, count):
         """So many points at equal ratios of the stator's mass, between those that lose contact at two speeds."""
         ends = [self.mass_losing_at(joint, loss) for loss in losses]
         return [self.masses(mass, joint) for mass in np.geomspace(*ends, count)]
+
+    def write(self, file, stator, rotor, cage):
+        """The machine with these masses and this cage."""
+        masses = iter((stator, rotor))
+        text = re.sub(r"(?m)^mass_kg = .*", lambda _: f"mass_kg = {next(masses)!r}", self.text)
+        Path(file).write_text(re.sub(r"(?m)^cage_speed_ratio = .*", f"cage_speed_ratio = {cage!r}", text), encoding="utf-8")
 
 
 def candidates(base, text, count):
@@ -113,36 +110,57 @@ def candidates(base, text, count):
     return [(joint, (*pair, cage)) for joint, cage in families for pair in masses[joint]]
 
 
-def rows_of(base, machines, scene):
-    """The table of a map, and its cells from m_s on, machine by machine and speed by speed."""
+def errors_of(file, speeds, count, m):
+    """rms errors of the solutions with m harmonics, each found on its own; 2 where there is none."""
+    result = explore("map", file, "--y", f"frequency={speeds['from']}:{speeds['to']}:{count}", "--harmonics", m, "--threads", 1,
+                     "--quiet", "--quantity", "error")
+    return [2 if cell == "-" else float(cell) for cell in Table.of(result.stdout)["error"]]
+
+
+def rows_of_machine(base, joint, point, scene):
+    """The cells of one machine from m_s on, speed by speed, by programs that read it from a file."""
     speeds = scene["speeds_hz"]
-    count = round((speeds["to"] - speeds["from"]) / speeds["step"]) + 1
-    names = [quantity for *_, quantity in QUANTITIES]
-    table = mapped(base.file, [point for _, point in machines], ["force_balance", *names], "--x",
-                   f"frequency={speeds['from']}:{speeds['to']}:{count}", "--longest", scene["regime"]["longest_s"])
-    cells = [numbers(table[name], -1 if name.startswith("error") else 0) for name in names]
-    joints = np.repeat([joint for joint, _ in machines], count)
-    return table, list(zip(table[KEYS[0]], table[KEYS[1]], joints, table[KEYS[2]], table["force_balance"], table["frequency"],
-                           *cells))
+    with tempfile.TemporaryDirectory() as folder:
+        machine, questions = Path(folder, "data", "machine.toml"), Path(folder, "data", "scenes", "regimes.toml")
+        questions.parent.mkdir(parents=True)
+        base.write(machine, *map(float, point))
+        regime = scene["regime"]
+        questions.write_text('parameters = ["machine"]\n' + "speeds_hz = {{ from = {from}, to = {to}, step = {step} }}\n".format(**speeds)
+                             + "[regime]\nstep_over_default = 2.0\n"
+                             f"longest_s = {regime['longest_s']}\nwindow_s = {regime['longest_s'] / 10}\n"
+                             f"average_s = {2 * regime['longest_s']}\npoints_per_period = 64\n", encoding="utf-8")
+        found = subprocess.run(["build/regimes", questions], stdout=subprocess.PIPE, encoding="utf-8", check=True)
+        table = Table.of(found.stdout)
+        check = Table.of(explore("check", machine, "--to", 2 * joint).stdout)
+        loss = dict(zip(check["name"], check["value"]))["contact_loss"]
+        errors = np.transpose([errors_of(machine, speeds, len(table), m) for m in HARMONICS])
+    errors[table["periodic"] == 0] = -1
+    stator, rotor, cage = point
+    return [(stator, rotor, joint, cage, float(loss), f, *cells, *error) for f, cells, error in
+            zip(table["f"], np.transpose([table[name] for name, *_ in MEASURES]), errors)]
 
 
 def main(file):
     scene = tomllib.loads(Path(file).read_text(encoding="utf-8"))
     text = tomllib.loads(Path("data/claims.toml").read_text(encoding="utf-8"))["accepted"]
-    found, accepted = [], []
+    accepted, bases = [], []
     for reading, suffix in READINGS.items():
-        bases = [Base(f"data/{name}{suffix}.toml") for name in scene["parameters"]]
-        low, high, shown = (bases[0].mass_losing_at(text["paper_peak_hz"], loss)
+        bases += [Base(f"data/{name}{suffix}.toml") for name in scene["parameters"]]
+        low, high, shown = (bases[-1].mass_losing_at(text["paper_peak_hz"], loss)
                             for loss in (*text["loss_hz"], text["paper_loss_hz"]))
         accepted.append(("accepted", [reading, *(float(f"{mass:.4g}") for mass in (low, high)), text["paper_loss_hz"], float(f"{shown:.4g}")]))
-        found += [rows_of(base, candidates(base, text, scene["grid"]["masses"]), scene) for base in bases]
-    print_header("Motions of the machines that the paper's text admits", [table for table, _ in found],
-                 f"modelled: rk4 at {len(np.unique(found[0][0]['frequency']))} speeds, at most {scene['regime']['longest_s']:g} s "
-                 "each; masses and cage as in the rows; [accepted] of data/claims.toml",
+    asked = [(number, base, *machine) for number, base in enumerate(bases)
+             for machine in candidates(base, text, scene["grid"]["masses"])]
+    with ThreadPoolExecutor(os.cpu_count()) as pool:
+        found = list(pool.map(lambda one: rows_of_machine(*one[1:], scene), asked))
+    print_header("Motions of the machines that the paper's text admits",
+                 [Table.of(explore("check", base.file).stdout) for base in bases],
+                 f"modelled: rk4, at most {scene['regime']['longest_s']:g} s of transient; masses and cage as in the rows; [accepted] of "
+                 "data/claims.toml",
                  "row accepted: reading, least and largest mass of the stator [kg], speed of loss of contact [Hz], mass with that",
                  rows=accepted)
     print_columns(COLUMNS)
-    for number, (_, rows) in enumerate(found):
+    for (number, *_), rows in zip(asked, found):
         reading, data_set = divmod(number, len(scene["parameters"]))
         for row in rows:
             print("\t".join(f"{cell:.5g}" for cell in (reading, data_set + 1, *row)))

@@ -113,7 +113,7 @@ BORDER = 0.01  # error of a solution that is right
 
 def of_speeds(table):
     """What the map over clearance and speed says."""
-    period, loaded = cells_as_numbers(table["period"]), cells_as_numbers(table["loaded"])
+    period, loaded = cells_as_numbers(table["period"]), cells_as_numbers(table["contact_share"])
     aperiodic, lost = period == 0, loaded < 1
     widest = table[X][(loaded <= 0.999) & (table[DELTA] == table[DELTA].max())]
     return {"points": len(table), "once": np.mean(period == 1), "more": np.mean(period > 1), "aperiodic": np.mean(aperiodic),
@@ -124,9 +124,9 @@ def of_speeds(table):
 
 def of_stiffness(table):
     """What the map over clearance and stiffness says."""
-    columns = {name: cells_as_numbers(table[name]) for name in ("permanent", "peak_frequency", "peak", "machine_error")}
+    columns = {name: cells_as_numbers(table[name]) for name in ("permanent", "peak_frequency", "peak", "error")}
     columns["peak_mm"] = 1e3 * columns.pop("peak")
-    error = columns.pop("machine_error")
+    error = columns.pop("error")
     known = np.isfinite(error)
     ends = {f"{name}_{end}": value for name, column in columns.items()
             for end, value in (("least", np.nanmin(column)), ("most", np.nanmax(column)))}

@@ -29,7 +29,7 @@ COLUMNS = {"attractors": ["set"], "validity": ["found", "distance", "periodic"],
 KEY = {"attractors": ["set", "f", "period", "point"]}
 # The column of the kinds whose CPU times are shown.
 TIMED = {"tab02_timing": "method", "tab02_equal_error": "method", "tab02_equal_error_mean": "method", "work_precision": "method",
-         "cost_growth": "against"}
+         "cost_growth": "harmonics"}
 
 
 def matched(kept, new, key):

@@ -21,6 +21,7 @@ import tempfile
 import threading
 import time
 import unittest
+import urllib.parse
 import xml.dom.minidom
 from pathlib import Path
 
@@ -118,7 +119,7 @@ class Page(unittest.TestCase):
         return self.driver.execute_async_script(
             "const [engine, question, done] = arguments;"
             "engines[engine].ask(question).then((r) => done({status: r.status, text: r.text,"
-            " samples: r.status === 0 && r.numbers?.length ? Array.from(r.numbers.slice(7, 7 + 6 * r.numbers[0])) : []}))",
+            " samples: r.status === 0 && r.numbers?.length ? Array.from(r.numbers.slice(10, 10 + 6 * r.numbers[0])) : []}))",
             engine, {"what": what, "file": file, "toml": toml, "f": f, "m": m, "from": 1, "to": 60})
 
     def explore(self, *arguments):
@@ -140,7 +141,10 @@ class Page(unittest.TestCase):
                 native = self.explore("orbit", "machine.toml", "--frequency", f, "--harmonics", 10, "--periods", periods)
                 with self.subTest(machine=toml, f=f):
                     judged = self.ask("verdict", toml, f)
-                    self.assertEqual(judged["status"], native.returncode, judged["text"] + native.stderr)
+                    if judged["status"] != native.returncode:
+                        self.assertEqual({judged["status"], native.returncode}, {0, 3}, judged["text"] + native.stderr)
+                        unsure.append((f, judged["text"].splitlines()[-1], native.stderr))
+                        continue
                     if native.returncode:
                         # The same place; Newton's last residual is a matter of rounding.
                         self.assertEqual(judged["text"].split(" Hz:")[0], native.stderr.split(" Hz:")[0])
@@ -155,7 +159,7 @@ class Page(unittest.TestCase):
                     else:
                         self.assertEqual(live, word)
                         self.compare_multipliers(judged["text"], native.stdout)
-        # Where a chaotic transient leads depends on rounding: one of the two may then find no motion to judge.
+        # Where Newton's steps or a chaotic transient lead depends on rounding: one of the two may then find no motion.
         self.assertLessEqual(len(unsure), 2, unsure)
         self.assertGreater(found, 2 * MACHINES)
         self.assertLessEqual({"stable", "unstable"}, set(words))
@@ -196,19 +200,53 @@ class Page(unittest.TestCase):
             self.assertEqual(self.text("alert"), " ".join(native.stderr.split()))
             self.assertEqual(self.js("return state.toml"), before)
 
+    def choose(self, path):
+        self.js("const p = document.getElementById('preset'); p.value = arguments[0]; p.onchange()", path)
+
+    def show_parts(self):
+        """Every panel is drawn: no sentence instead of a picture, and lines that are somewhere."""
+        for panel in ("orbit", "time", "contact", "spectrum", "curve"):
+            with self.subTest(panel=panel):
+                self.assertEqual(self.js("return document.querySelectorAll(`#${arguments[0]} .none`).length", panel), 0)
+                marks = self.js("return Array.from(document.querySelectorAll(`#${arguments[0]} path:not(.axis)`),"
+                                " (p) => p.getAttribute('d'))", panel)
+                self.assertGreater(len(marks), 0 if panel == "spectrum" else 1)
+                self.assertNotIn("NaN", "".join(marks))
+
+    # Every machine that the page offers has a motion, what it does from rest, a verdict and a response.
     def test_presets(self):
-        for path in self.js("return PRESETS.map((p) => p.path)"):
-            self.js("const p = document.getElementById('preset'); p.value = arguments[0]; p.onchange()", path)
-            self.settled()
-            state = self.js("return state")
-            self.assertEqual(state["toml"], Path(path).read_text())
-            self.assertIn(f"build/explore orbit {path} --frequency {state['f']}", self.text("command"))
-            self.wait("$('verdict').className !== 'computing'")
-            self.assertIn(self.js("return $('verdict').className"), ("stable", "unstable", "undecided"))
-            given = self.text("command").split()[2:]
-            native = subprocess.run([EXPLORE, "orbit", *given, "--no-stability"], capture_output=True, encoding="utf-8")
-            samples = self.ask("orbit", state["toml"], state["f"], state["m"])["samples"]
-            self.compare(samples, numbers_of(native.stdout))
+        presets = self.js("return PRESETS.map((p) => p.path)")
+        self.assertEqual(len(presets), 5)
+        for path in presets:
+            with self.subTest(preset=path):
+                self.choose(path)
+                self.settled()
+                state = self.js("return state")
+                self.assertEqual(state["toml"], Path(path).read_text())
+                self.assertIn(f"build/explore orbit {path} --frequency {state['f']}", self.text("command"))
+                self.wait("$('verdict').className !== 'computing'")
+                self.assertIn(self.js("return $('verdict').className"), ("stable", "unstable", "undecided"))
+                self.wait("/periodic|chaotic/.test($('steady').textContent)")
+                self.wait("!engines.curve.job && shown.branch.length > 30 && $('curve-state').textContent.includes('points')", 120)
+                self.assertLess(min(point[0] for point in self.js("return shown.branch")), state["from"] + 2)
+                self.assertGreater(max(point[0] for point in self.js("return shown.branch")), state["to"] - 2)
+                self.show_parts()
+                given = self.text("command").split()[2:]
+                native = subprocess.run([EXPLORE, "orbit", *given], capture_output=True, encoding="utf-8")
+                what, m = ("verdict", 0) if self.js("return shown.motion.isSteady") else ("orbit", state["m"])
+                self.compare(self.ask(what, state["toml"], state["f"], m)["samples"], numbers_of(native.stdout))
+
+    # What a page of 0.1.0 has written into the address is still read.
+    def test_link_of_the_first_version(self):
+        toml = Path("data/live/bearing-6205.toml").read_text()
+        for name, text, path in [("bearing-6205.toml", toml, "data/live/bearing-6205.toml"),
+                                 ("own.toml", MACHINE.replace("0.05", "0.04"), "own.toml")]:
+            given = {"f": 30, "m": 12, "from": 20, "to": 50, "name": name, "toml": text}
+            self.driver.get("about:blank")
+            self.open(f"{PAGE.resolve().as_uri()}#{urllib.parse.urlencode(given)}")
+            self.assertEqual(self.js("return [state.f, state.m, state.from, state.to, state.name, state.toml, state.path]"),
+                             [30, 12, 20, 50, name, text, path])
+            self.assertGreater(self.js("return shown.motion.rows"), 0)
 
     def test_controls(self):
         from selenium.webdriver.common.action_chains import ActionChains
@@ -292,7 +330,7 @@ class Page(unittest.TestCase):
         self.wait("state.path === 'set1.toml'")
         self.settled()
 
-    def test_verdicts_look_different_and_integration_is_drawn(self):
+    def test_verdicts_look_different_and_the_steady_motion_is_drawn(self):
         self.type_into("#m", "10")
         for f, word in [(45, "stable"), (20, "unstable")]:
             self.type_into("#f", f)
@@ -303,21 +341,22 @@ class Page(unittest.TestCase):
             self.assertIn("of the largest displacement", self.text("error-state"))
         self.type_into("#f", 45)
         self.settled()
-        self.find("#integrate").click()
-        self.wait("document.querySelectorAll('#orbit .integrated').length === 2")
-        self.assertIn("periodic", self.text("integrate-state"))
-        off = self.js("const a = shown.motion, b = shown.integrated; return Math.max(...a.x_r.map((v, k) =>"
+        self.wait("document.querySelectorAll('#orbit .steady').length === 2")
+        self.assertIn("periodic", self.text("steady"))
+        off = self.js("const a = shown.motion, b = shown.steady; return Math.max(...a.x_r.map((v, k) =>"
                       " Math.abs(v - b.x_r[k]))) / Math.max(...b.x_r)")
         self.assertLess(off, 1e-3)
 
-    def test_no_solution_says_so(self):
-        self.js("const p = document.getElementById('preset'); p.value = 'data/set2.toml'; p.onchange()")
+    def test_no_solution_says_so_and_shows_what_the_machine_does(self):
+        self.choose("data/set2.toml")
         self.type_into("#m", 10)
         self.type_into("#f", 15)
         self.wait("$('motion-state').textContent.startsWith('no solution')")
+        self.wait("shown.motion && shown.motion.isSteady")
         self.assertIn("no solution found with 10 harmonics at 15 Hz", self.text("motion-state"))
-        self.assertIsNone(self.js("return shown.motion"))
-        self.assertEqual(self.find("#orbit").text, "no solution")
+        self.assertIn("orbit data/set2.toml --frequency 15", self.text("command"))
+        self.assertNotIn("--harmonics", self.text("command"))
+        self.assertRegex(self.text("steady"), "periodic|chaotic")
         self.type_into("#f", 45)
         self.settled()
 

@@ -5,7 +5,6 @@
 #include <numbers>
 #include <tuple>
 
-#include "balance/large_problem.hpp"
 #include "io/errors.hpp"
 #include "model/ball_bearing.hpp"
 
@@ -112,10 +111,6 @@ void condense(const Parameters& parameters, double ball_stiffness, double omega,
   }
 }
 
-}  // namespace
-
-namespace {
-
 /** The force of a bearing that is not plain, along the line. */
 auto moving_force(const Parameters& parameters, const TorusLine& line)
 {
@@ -156,6 +151,24 @@ Problem bearing_problem(const Parameters& parameters, int samples,
   return bearing_problem(parameters, TorusLine{z, samples}, budget);
 }
 
+void TwoMasses::put_equations(const Parameters& parameters, const TorusLine& line,
+                              Problem& problem) const
+{
+  problem.linear = [parameters, k = scales(parameters).stiffness](
+                       double omega, Harmonic h, LinearBlock& block) {
+    condense(parameters, k, omega, h, block);
+  };
+  if (parameters.bearing.is_plain()) {
+    problem.force = SampledBearing(on(line, parameters.bearing), line.samples);
+  } else {
+    problem.moving_force = moving_force(parameters, line);
+    problem.order = [bearing = parameters.bearing](Harmonic h) {
+      return order_of(h, bearing);
+    };
+    problem.operations *= 4;
+  }
+}
+
 Problem bearing_problem(const Parameters& parameters, const TorusLine& line,
                         const OperationBudget& budget)
 {
@@ -165,24 +178,11 @@ Problem bearing_problem(const Parameters& parameters, const TorusLine& line,
                   .samples = line.samples,
                   .residual_scale = scale.penetration,
                   .unknown_scale = scale.penetration,
-                  .linear =
-                      [parameters, scale](double omega, Harmonic h, LinearBlock& block) {
-                        condense(parameters, scale.stiffness, omega, h, block);
-                      },
+                  .linear = {},
                   .force = {},
                   .operations = 5e3 + line.samples * (8 + 1.5 * parameters.bearing.balls),
                   .line = line};
-  if (parameters.large) {
-    put_large_bodies(parameters, line, problem);
-  } else if (parameters.bearing.is_plain()) {
-    problem.force = SampledBearing(on(line, parameters.bearing), line.samples);
-  } else {
-    problem.moving_force = moving_force(parameters, line);
-    problem.order = [bearing = parameters.bearing](Harmonic h) {
-      return order_of(h, bearing);
-    };
-    problem.operations *= 4;
-  }
+  parameters.machine->put_equations(parameters, line, problem);
   if (budget.bounded())
     problem.spend = [budget, balls = parameters.bearing.balls](double operations) {
       budget.spend(operations / operations_per_evaluation(balls));
@@ -206,33 +206,42 @@ Eigen::MatrixXd sampled(int samples, Displacement displacement)
 
 }  // namespace
 
+Eigen::MatrixXd TwoMasses::start_samples(const Parameters& parameters, double omega,
+                                         int samples) const
+{
+  const Eigen::MatrixXd u = sampled(
+      samples, [&](double phase) { return free_displacement(parameters, omega, phase); });
+  if (u.rowwise().norm().maxCoeff() <= parameters.bearing.clearance) return u;
+  return sampled(samples, [&](double phase) {
+    return quasi_static_contact(parameters.bearing,
+                                rigid_joint_force(parameters, omega, phase));
+  });
+}
+
 Eigen::VectorXd quasi_static_start(const Parameters& parameters, double omega,
                                    int harmonics)
 {
   const int samples = default_samples(harmonics);
-  if (parameters.large) {
-    const Eigen::MatrixXd u = large_start_samples(parameters, omega, samples);
-    Eigen::MatrixXd series(u.cols(), 2 * harmonics + 1);
-    FourierTransform(samples).to_series(u, series);
-    return series.reshaped();
-  }
-  Eigen::MatrixXd u = sampled(
-      samples, [&](double phase) { return free_displacement(parameters, omega, phase); });
-  const bool without_contact =
-      u.rowwise().norm().maxCoeff() <= parameters.bearing.clearance;
-  if (!without_contact)
-    u = sampled(samples, [&](double phase) {
-      return quasi_static_contact(parameters.bearing,
-                                  rigid_joint_force(parameters, omega, phase));
-    });
-  Eigen::MatrixXd series(2, 2 * harmonics + 1);
+  const Eigen::MatrixXd u = parameters.machine->start_samples(parameters, omega, samples);
+  Eigen::MatrixXd series(u.cols(), 2 * harmonics + 1);
   FourierTransform(samples).to_series(u, series);
   return series.reshaped();
 }
 
 Eigen::MatrixXd body_series(const Parameters& parameters, const PeriodicMotion& motion)
 {
-  if (parameters.large) return shown_series(parameters, motion);
+  return parameters.machine->shown_series(parameters, motion);
+}
+
+Eigen::MatrixXd TwoMasses::all_series(const Parameters&,
+                                      const PeriodicMotion& motion) const
+{
+  return motion.bodies;
+}
+
+Eigen::MatrixXd TwoMasses::shown_series(const Parameters& parameters,
+                                        const PeriodicMotion& motion) const
+{
   const auto columns = motion.harmonics.coefficients();
   const Eigen::Map<const Eigen::MatrixXd> u(motion.x.data(), 2, columns);
   Eigen::MatrixXd bodies(4, columns);

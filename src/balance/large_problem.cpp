@@ -21,9 +21,9 @@ struct HarmonicAlone {
   Eigen::VectorXcd load, load_slope;
 };
 
-HarmonicAlone harmonic_of(const Parameters& p, double omega, Harmonic h)
+HarmonicAlone harmonic_of(const LargeBodies& machine, const Parameters& p, double omega,
+                          Harmonic h)
 {
-  const LargeMachine& machine = *p.large;
   const double order = order_of(h, p.bearing), frequency = order * omega;
   const double speed = rotor_speed(p, omega), per_omega = rotor_speed(p, 1);
   const Complex spring = machine.damped_spring(order);
@@ -51,10 +51,10 @@ struct Answers {
   Complex spring;
 };
 
-Answers exact_answers(const Parameters& p, double omega, Harmonic h)
+Answers exact_answers(const LargeBodies& machine, const Parameters& p, double omega,
+                      Harmonic h)
 {
-  const LargeMachine& machine = *p.large;
-  const HarmonicAlone at = harmonic_of(p, omega, h);
+  const HarmonicAlone at = harmonic_of(machine, p, omega, h);
   const auto n = machine.mass.rows();
   const Eigen::MatrixXcd x = at.factors.solve(machine.joints.cast<Complex>());
   const Eigen::VectorXcd driven = at.factors.solve(at.load);
@@ -74,13 +74,13 @@ Answers exact_answers(const Parameters& p, double omega, Harmonic h)
 constexpr double fit_error = 1e-9;
 
 /** The same from a fit over the machine's range of speeds, where it has one. */
-Answers answers_of(const Parameters& p, double omega, Harmonic h)
+Answers answers_of(const LargeBodies& machine, const Parameters& p, double omega,
+                   Harmonic h)
 {
-  const LargeMachine& machine = *p.large;
   const double order = order_of(h, p.bearing), per_omega = rotor_speed(p, 1);
   const double ratio = order / per_omega, speed = per_omega * omega;
   if (!machine.fits || speed < machine.slowest || speed > machine.fastest)
-    return exact_answers(p, omega, h);
+    return exact_answers(machine, p, omega, h);
   const Complex spring = machine.damped_spring(ratio);
   const auto d = machine.joints.cols();
   Eigen::VectorXcd load = ratio == 0 ? machine.load.cast<Complex>() : machine.unbalance;
@@ -95,7 +95,7 @@ Answers answers_of(const Parameters& p, double omega, Harmonic h)
     };
     return RationalFit(sampled, machine.slowest, machine.fastest, fit_error);
   });
-  if (!fit.covers(speed)) return exact_answers(p, omega, h);
+  if (!fit.covers(speed)) return exact_answers(machine, p, omega, h);
   const auto [value, slope] = fit.at(speed);
   const Eigen::Index size = d * machine.shown;
   Answers answers{value.head(size).reshaped(machine.shown, d),
@@ -112,10 +112,11 @@ Answers answers_of(const Parameters& p, double omega, Harmonic h)
   return answers;
 }
 
-LinearBlock large_block(const Parameters& p, double omega, Harmonic h)
+LinearBlock large_block(const LargeBodies& machine, const Parameters& p, double omega,
+                        Harmonic h)
 {
-  const Answers at = answers_of(p, omega, h);
-  const Eigen::MatrixXd d = p.large->joints.topRows(p.large->shown);
+  const Answers at = answers_of(machine, p, omega, h);
+  const Eigen::MatrixXd d = machine.joints.topRows(machine.shown);
   const SmallMatrix receptance = d.transpose() * at.to_forces;
   const SmallMatrix slope = d.transpose() * at.to_forces_slope;
   return {.a = SmallMatrix::Identity(d.cols(), d.cols()) - at.spring * receptance,
@@ -141,13 +142,13 @@ void require_one_passage(const Parameters& parameters)
 
 }  // namespace
 
-void put_large_bodies(const Parameters& parameters, const TorusLine& line,
-                      Problem& problem)
+void LargeMachine::put_equations(const Parameters& parameters, const TorusLine& line,
+                                 Problem& problem) const
 {
   require_one_passage(parameters);
-  problem.dofs = 2 * parameters.large->bearings();
-  problem.linear = [parameters](double omega, Harmonic h, LinearBlock& block) {
-    block = large_block(parameters, omega, h);
+  problem.dofs = 2 * bodies_.bearings();
+  problem.linear = [this, parameters](double omega, Harmonic h, LinearBlock& block) {
+    block = large_block(bodies_, parameters, omega, h);
   };
   std::vector<SampledBearing> bearings;
   for (const Bearing& bearing : bearings_of(parameters))
@@ -166,22 +167,22 @@ void put_large_bodies(const Parameters& parameters, const TorusLine& line,
       k += 2;
     }
   };
-  problem.operations *= parameters.large->bearings();
+  problem.operations *= bodies_.bearings();
 }
 
-void fit_receptances(const Parameters& parameters, double omega, int harmonics)
+void LargeMachine::prepare(const Parameters& parameters, double omega,
+                           int harmonics) const
 {
   for (int h = 0; h <= harmonics; ++h)
-    answers_of(parameters, omega, {static_cast<double>(h), 0});
+    answers_of(bodies_, parameters, omega, {static_cast<double>(h), 0});
 }
 
-Eigen::MatrixXd large_start_samples(const Parameters& parameters, double omega,
-                                    int samples)
+Eigen::MatrixXd LargeMachine::start_samples(const Parameters& parameters, double omega,
+                                            int samples) const
 {
-  const LargeMachine& machine = *parameters.large;
-  const LinearBlock rest = large_block(parameters, omega, {0, 0});
+  const LinearBlock rest = large_block(bodies_, parameters, omega, {0, 0});
   const LinearBlock turning =
-      large_block(parameters, omega, {static_cast<double>(parameters.turns), 0});
+      large_block(bodies_, parameters, omega, {static_cast<double>(parameters.turns), 0});
   const auto sampled = [&](const Eigen::VectorXcd& mean, const Eigen::VectorXcd& whirl) {
     Eigen::MatrixXd series(samples, mean.size());
     for (int k = 0; k < samples; ++k)
@@ -200,7 +201,7 @@ Eigen::MatrixXd large_start_samples(const Parameters& parameters, double omega,
     k += 2;
   }
   if (is_free) return u;
-  const JointForces rigid = rigid_joint_forces(machine, rotor_speed(parameters, omega));
+  const JointForces rigid = rigid_joint_forces(bodies_, rotor_speed(parameters, omega));
   u = sampled(rigid.rest.cast<Complex>(), rigid.whirl);
   for (Eigen::Index k = 0; k < samples; ++k)
     u.row(k) = quasi_static_contacts(parameters, u.row(k).transpose());
@@ -230,26 +231,25 @@ Eigen::MatrixXd series_of(const PeriodicMotion& motion, Eigen::Index joints,
 
 }  // namespace
 
-Eigen::MatrixXd shown_series(const Parameters& parameters, const PeriodicMotion& motion)
+Eigen::MatrixXd LargeMachine::shown_series(const Parameters& parameters,
+                                           const PeriodicMotion& motion) const
 {
-  const LargeMachine& machine = *parameters.large;
-  return series_of(motion, machine.joints.cols(), machine.shown,
+  return series_of(motion, bodies_.joints.cols(), bodies_.shown,
                    [&](Harmonic h, auto push) -> Eigen::VectorXcd {
-                     const Answers at = answers_of(parameters, motion.omega, h);
+                     const Answers at = answers_of(bodies_, parameters, motion.omega, h);
                      return at.driven - at.to_forces * push(at.spring);
                    });
 }
 
-Eigen::MatrixXd coordinate_series(const Parameters& parameters,
-                                  const PeriodicMotion& motion)
+Eigen::MatrixXd LargeMachine::all_series(const Parameters& parameters,
+                                         const PeriodicMotion& motion) const
 {
-  const LargeMachine& machine = *parameters.large;
-  const Eigen::MatrixXd& d = machine.joints;
-  return series_of(motion, d.cols(), d.rows(),
-                   [&](Harmonic h, auto push) -> Eigen::VectorXcd {
-                     const HarmonicAlone at = harmonic_of(parameters, motion.omega, h);
-                     return at.factors.solve(at.load - d * push(at.spring));
-                   });
+  const Eigen::MatrixXd& d = bodies_.joints;
+  return series_of(
+      motion, d.cols(), d.rows(), [&](Harmonic h, auto push) -> Eigen::VectorXcd {
+        const HarmonicAlone at = harmonic_of(bodies_, parameters, motion.omega, h);
+        return at.factors.solve(at.load - d * push(at.spring));
+      });
 }
 
 }  // namespace rotor_stator

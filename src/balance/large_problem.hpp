@@ -12,26 +12,3 @@ vibration, so that no resonance of the bodies with k_0, however little damped, m
 
 #include "balance/balance.hpp"
 #include "model/large_machine.hpp"
-
-namespace rotor_stator {
-
-/** The problem's dofs, blocks and force, along a line of the torus. Throws BadInput where the balls of the bearings pass
-    at different rates. */
-void put_large_bodies(const Parameters& parameters, const TorusLine& line,
-                      Problem& problem);
-
-/** Makes the fits of the harmonics 0 … m, for a branch from `omega` on; the first solution would make them otherwise. */
-void fit_receptances(const Parameters& parameters, double omega, int harmonics);
-
-/** `quasi_static_start` for them. */
-Eigen::MatrixXd large_start_samples(const Parameters& parameters, double omega,
-                                    int samples);
-
-/** Series of the coordinates that are shown [m]. */
-Eigen::MatrixXd shown_series(const Parameters& parameters, const PeriodicMotion& motion);
-
-/** Series of all n coordinates along `motion` [m], n × (2m+1). */
-Eigen::MatrixXd coordinate_series(const Parameters& parameters,
-                                  const PeriodicMotion& motion);
-
-}  // namespace rotor_stator

@@ -3,14 +3,15 @@
 #include <algorithm>
 #include <cmath>
 
+#include "continuation/balance_curve.hpp"
 #include "continuation/locate.hpp"
 #include "io/errors.hpp"
 
 namespace rotor_stator {
 
-StepOfBranch::StepOfBranch(ExtendedBalance& extended, const BranchPoint& a,
+StepOfBranch::StepOfBranch(Corrector& corrector, const BranchPoint& a,
                            const BranchPoint& b, const ArcLengthSettings& settings)
-    : extended_(extended), a_(a), b_(b), settings_(settings)
+    : corrector_(corrector), a_(a), b_(b), settings_(settings)
 {
   const double room = 0.1 * (b.arc - a.arc) * settings.speed_scale;
   low_ = std::min(a.motion.omega, b.motion.omega) - room;
@@ -25,26 +26,26 @@ bool StepOfBranch::holds(const BranchPoint& point)
     chord_ = scaled(b_, settings_) - start_;
   }
   constexpr double near = 0.1, rounding = 1e-6;
-  extended_.spend(50 + 3 * static_cast<double>(start_.size()));
+  corrector_.curve().spend(50 + 3 * static_cast<double>(start_.size()));
   const Eigen::VectorXd y = scaled(point, settings_);
   const double share = (y - start_).dot(chord_) / chord_.squaredNorm();
   if (share < -rounding || share > 1 + rounding) return false;
   Eigen::VectorXd predicted = between(a_, b_, share, settings_);
   if ((y - predicted).norm() > near * chord_.norm()) return false;
   predicted += point.tangent * point.tangent.dot(y - predicted);
-  const Correction corrected = extended_.correct(point.tangent, predicted);
+  const Correction corrected = corrector_.correct(point.tangent, predicted);
   return corrected.motion.found() &&
-         (corrected.y - y).norm() <= extended_.last_correction();
+         (corrected.y - y).norm() <= corrector_.last_correction();
 }
 
-std::optional<Passed> BranchHistory::passed(ExtendedBalance& extended,
+std::optional<Passed> BranchHistory::passed(Corrector& corrector,
                                             const std::vector<BranchPoint>& points,
                                             const BranchPoint& next,
                                             const ArcLengthSettings& settings) const
 {
   const BranchPoint& last = points.back();
   const double reach = 2 * (next.arc - last.arc);
-  StepOfBranch step(extended, last, next, settings);
+  StepOfBranch step(corrector, last, next, settings);
   std::optional<Passed> first;
   for (auto near = index_.lower_bound(step.low()), end = index_.upper_bound(step.high());
        near != end; ++near) {
@@ -61,12 +62,12 @@ namespace {
 
 /** The walk along the branch, one accepted point after the other. */
 struct Walk {
-  Balance& balance;
+  Curve& curve;
   const ArcLengthSettings& settings;
   SpeedRange range;
-  ExtendedBalance extended{balance, settings};
+  Corrector corrector{curve, settings};
   double step = settings.first_step, factor = 1;
-  long evaluations_before = balance.evaluations();
+  long evaluations_before = curve.evaluations();
   bool positive = true, next_positive = true;  ///< sign of the determinant
   std::string refusal = {};                    ///< why the last step was shortened
   Branch branch = {};
@@ -81,18 +82,18 @@ struct Walk {
     } catch (const NoSolution& out_of_work) {
       stop(BranchEnd::work, out_of_work.what());
     }
-    branch.evaluations = balance.evaluations() - evaluations_before;
+    branch.evaluations = curve.evaluations() - evaluations_before;
     return std::move(branch);
   }
 
   void begin(const BranchPoint& start)
   {
-    PeriodicMotion motion =
-        extended.correct(start.tangent, scaled(start, settings)).motion;
+    auto [motion, y, contraction] =
+        corrector.correct(start.tangent, scaled(start, settings));
     if (!motion.found())
       throw NoSolution(format("no start at omega = %g rad/s: %s", start.motion.omega,
                               motion.newton.reason().c_str()));
-    Tangent tangent = extended.tangent(motion, start.tangent);
+    Tangent tangent = corrector.tangent(y, start.tangent);
     if (!tangent.direction.allFinite())
       throw NoSolution(format("no tangent at omega = %g rad/s", start.motion.omega));
     positive = tangent.positive;
@@ -126,7 +127,7 @@ struct Walk {
   {
     if (static_cast<int>(branch.points.size()) >= settings.most_points)
       stop(BranchEnd::points, format("the bound of %d points", settings.most_points));
-    else if (balance.evaluations() - evaluations_before >= settings.most_evaluations)
+    else if (curve.evaluations() - evaluations_before >= settings.most_evaluations)
       stop(BranchEnd::work, format("the bound on work, %ld evaluations of the force",
                                    settings.most_evaluations));
     else if (step < settings.least_step)
@@ -177,9 +178,9 @@ struct Walk {
   std::optional<BranchPoint> corrected()
   {
     const Eigen::VectorXd &before = last().tangent, start = scaled(last(), settings);
-    auto [motion, y, contraction] = extended.correct(before, predicted(start));
+    auto [motion, y, contraction] = corrector.correct(before, predicted(start));
     if (!motion.found()) return refused(motion.newton.reason());
-    const Tangent tangent = extended.tangent(motion, before);
+    const Tangent tangent = corrector.tangent(y, before);
     const double length = (y - start).norm();
     const double turn = angle(before, tangent.direction);
     const double bend =
@@ -200,7 +201,7 @@ struct Walk {
   /** Up to `next`: a fold on the way, the edge of the range, a point that was passed before. */
   void take(BranchPoint next)
   {
-    const auto passed = history.passed(extended, branch.points, next, settings);
+    const auto passed = history.passed(corrector, branch.points, next, settings);
     if (passed) {
       next = branch.points[passed->index];
       next.arc = last().arc + (scaled(last(), settings) - scaled(next, settings)).norm();
@@ -208,7 +209,7 @@ struct Walk {
     }
     if (last().speed_direction() * next.speed_direction() < 0) {
       BranchPoint fold = locate(
-          balance, last(), next, [](const BranchPoint& p) { return p.speed_direction(); },
+          curve, last(), next, [](const BranchPoint& p) { return p.speed_direction(); },
           settings.fold_tolerance, settings);
       refuse_hidden_folds(last(), fold);
       refuse_hidden_folds(fold, next);
@@ -225,7 +226,7 @@ struct Walk {
 
   void refuse_hidden_folds(const BranchPoint& a, const BranchPoint& b)
   {
-    if (long_step() && turns_between(extended, a, b, settings))
+    if (long_step() && turns_between(corrector, a, b, settings))
       throw NoSolution("more folds in one step than its ends show");
   }
 
@@ -250,7 +251,7 @@ struct Walk {
   void finish(const BranchPoint& next, double edge)
   {
     if (last().motion.omega != edge)
-      keep(point_between(balance, last(), next, edge, settings));
+      keep(point_between(curve, last(), next, edge, settings));
     if (edge == range.to) return stop(BranchEnd::goal, "the end of the range");
     stop(BranchEnd::came_back, "the branch came back to where the range begins");
   }
@@ -258,17 +259,24 @@ struct Walk {
 
 }  // namespace
 
-Branch follow_branch(Balance& balance, const BranchPoint& start, SpeedRange range,
+Branch follow_branch(Curve& curve, const BranchPoint& start, SpeedRange range,
                      const ArcLengthSettings& settings)
 {
-  return Walk{balance, settings, range}.run(start);
+  return Walk{curve, settings, range}.run(start);
 }
 
-Branch follow_branch(Balance& balance, double from, double to, Eigen::VectorXd x,
+Branch follow_branch(Curve& curve, double from, double to, const Eigen::VectorXd& x,
                      const ArcLengthSettings& settings)
 {
-  const BranchPoint start = point_of(balance, from, std::move(x), to > from, settings);
-  return follow_branch(balance, start, {from, to}, settings);
+  const BranchPoint start = point_of(curve, from, x, to > from, settings);
+  return follow_branch(curve, start, {from, to}, settings);
+}
+
+Branch follow_branch(Balance& balance, double from, double to, const Eigen::VectorXd& x,
+                     const ArcLengthSettings& settings)
+{
+  BalanceCurve curve(balance, settings);
+  return follow_branch(curve, from, to, x, settings);
 }
 
 }  // namespace rotor_stator

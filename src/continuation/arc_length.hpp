@@ -14,10 +14,10 @@ the point's own tangent: the same solution comes out, or another. */
 namespace rotor_stator {
 
 /** The step from one point of a branch to the next, in whose way others may lie. Points, settings and
-    balance must outlive it. */
+    corrector must outlive it. */
 class StepOfBranch {
 public:
-  StepOfBranch(ExtendedBalance& extended, const BranchPoint& a, const BranchPoint& b,
+  StepOfBranch(Corrector& corrector, const BranchPoint& a, const BranchPoint& b,
                const ArcLengthSettings& settings);
 
   /** The speeds of the step, with room for its bend. */
@@ -32,7 +32,7 @@ public:
   bool agrees_with(const BranchPoint& held) const { return held.tangent.dot(chord_) > 0; }
 
 private:
-  ExtendedBalance& extended_;
+  Corrector& corrector_;
   const BranchPoint &a_, &b_;
   const ArcLengthSettings& settings_;
   double low_, high_;
@@ -54,7 +54,7 @@ public:
 
   /** The first of `points`, all of which were added in order, that lies on the step from the last of
       them to `next`. */
-  std::optional<Passed> passed(ExtendedBalance& extended,
+  std::optional<Passed> passed(Corrector& corrector,
                                const std::vector<BranchPoint>& points,
                                const BranchPoint& next,
                                const ArcLengthSettings& settings) const;
@@ -66,8 +66,8 @@ private:
 /**
 ## The steps
 
-A step along the branch's tangent, then Newton on the balance and the condition of the
-extended balance. The step follows the corrector (Allgower and Georg 2003, section 6.1; Den Heijer
+A step along the branch's tangent, then Newton on the curve and the condition of the
+corrector. The step follows the corrector (Allgower and Georg 2003, section 6.1; Den Heijer
 and Rheinboldt 1981): with κ the ratio of successive Newton corrections, α the angle between the
 tangents at both ends of the step, and β the angle between its chord and their mean, it is divided by
 
@@ -88,11 +88,15 @@ struct SpeedRange {
 /** Follows the branch from `start`, along its tangent, until it leaves the range or ends as `BranchEnd` says. Folds are located to
     `fold_tolerance` and become points of the branch. Throws NoSolution when `start` cannot be corrected
     onto a branch. */
-Branch follow_branch(Balance& balance, const BranchPoint& start, SpeedRange range,
+Branch follow_branch(Curve& curve, const BranchPoint& start, SpeedRange range,
                      const ArcLengthSettings& settings);
 
 /** The same from the solution near `x` at ω = `from`, towards `to`. */
-Branch follow_branch(Balance& balance, double from, double to, Eigen::VectorXd x,
+Branch follow_branch(Curve& curve, double from, double to, const Eigen::VectorXd& x,
+                     const ArcLengthSettings& settings);
+
+/** The same of harmonic balance. */
+Branch follow_branch(Balance& balance, double from, double to, const Eigen::VectorXd& x,
                      const ArcLengthSettings& settings);
 
 }  // namespace rotor_stator

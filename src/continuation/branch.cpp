@@ -36,32 +36,25 @@ BranchPoint reversed(BranchPoint point)
   return point;
 }
 
-ExtendedBalance::ExtendedBalance(Balance& balance, const ArcLengthSettings& settings)
-    : balance_(balance), settings_(settings), n_(balance.unknowns()),
-      matrix_(n_ + 1, n_ + 1), product_(n_)
+Corrector::Corrector(Curve& curve, const ArcLengthSettings& settings)
+    : curve_(curve), settings_(settings), n_(curve.unknowns()), matrix_(n_ + 1, n_ + 1)
 {
 }
 
-double ExtendedBalance::last_correction() const
+double Corrector::last_correction() const
 {
-  return std::sqrt(settings_.newton.tolerance) * balance_.problem().unknown_scale /
-         settings_.arc_unknown_scale;
+  return std::sqrt(settings_.newton.tolerance) * curve_.unknown_size();
 }
 
-void ExtendedBalance::factor(const PeriodicMotion& motion,
-                             const Eigen::VectorXd& last_row)
+void Corrector::factor(const Eigen::VectorXd& y, const Eigen::VectorXd& last_row)
 {
-  matrix_.topLeftCorner(n_, n_) =
-      balance_.jacobian(motion.x, motion.omega) * settings_.arc_unknown_scale;
-  matrix_.topRightCorner(n_, 1) =
-      balance_.speed_derivative(motion.x, motion.omega) * settings_.speed_scale;
-  matrix_.row(n_) = balance_.problem().residual_scale * last_row.transpose();
+  matrix_ << curve_.slope(y), curve_.residual_scale() * last_row.transpose();
   factors_.compute(matrix_);
   last_row_ = last_row;
 }
 
-NewtonEnd ExtendedBalance::verdict(const Correction& correction, double length,
-                                   double ratio) const
+NewtonEnd Corrector::verdict(const Correction& correction, double length,
+                             double ratio) const
 {
   const double residual = correction.motion.newton.delta_1;
   if (!std::isfinite(length)) return NewtonEnd::singular;
@@ -72,52 +65,22 @@ NewtonEnd ExtendedBalance::verdict(const Correction& correction, double length,
              : NewtonEnd::too_many_iterations;
 }
 
-PeriodicMotion ExtendedBalance::motion_at(const Eigen::VectorXd& y) const
-{
-  return {.omega = y[n_] * settings_.speed_scale,
-          .x = y.head(n_) * settings_.arc_unknown_scale};
-}
-
-bool ExtendedBalance::approach(double length, Eigen::VectorXd& predicted,
-                               Eigen::VectorXd& tangent)
-{
-  constexpr double near = 0.02, rough = 1e-2;
-  const PeriodicMotion motion = motion_at(predicted);
-  Eigen::VectorXd right(n_ + 1);
-  right << -balance_.residual(motion.x, motion.omega), 0;
-  const Eigen::VectorXd direction = tangent;
-  if (!refine(motion, rough, tangent)) {
-    factor(motion, direction);
-    tangent = factors_.solve(Eigen::VectorXd::Unit(n_ + 1, n_));
-  }
-  tangent.normalize();
-  const Eigen::VectorXd step = factors_.solve(right);
-  predicted += step;
-  return step.norm() <= near * length;
-}
-
-Correction ExtendedBalance::correct(const Eigen::VectorXd& direction,
-                                    const Eigen::VectorXd& predicted)
+Correction Corrector::correct(const Eigen::VectorXd& direction,
+                              const Eigen::VectorXd& predicted)
 {
   constexpr int most_corrections = 20;  // contracting by a half each time, fewer
   constexpr double most_left = 0.1;
-  const double unknown_scale =
-      balance_.problem().unknown_scale / settings_.arc_unknown_scale;
   Correction correction{.y = predicted};
-  PeriodicMotion& motion = correction.motion;
   Eigen::VectorXd& y = correction.y;
-  NewtonReport& report = motion.newton;
+  NewtonReport& report = correction.motion.newton;
   Eigen::VectorXd right(n_ + 1);
   /** The condition is linear: after the first correction it holds to rounding. */
-  using With = Balance::With;
-  const auto evaluate = [&](With with) {
-    motion.x = y.head(n_) * settings_.arc_unknown_scale;
-    motion.omega = y[n_] * settings_.speed_scale;
-    right << -balance_.residual(motion.x, motion.omega, with), 0;
+  const auto evaluate = [&](bool with_slope) {
+    right << -curve_.residual(y, with_slope), 0;
   };
   double last = 0, ratio = 1;
   std::vector<Eigen::VectorXd> steps;  // with these factors: Broyden's updates
-  evaluate(With::stiffness);
+  evaluate(true);
   do {
     Eigen::VectorXd step;
     bool needs_factors = ratio > most_left;
@@ -130,18 +93,18 @@ Correction ExtendedBalance::correct(const Eigen::VectorXd& direction,
       needs_factors = !(step.norm() <= settings_.most_contraction * last);
     }
     if (needs_factors) {
-      factor(motion, direction);
+      factor(y, direction);
       steps.clear();
       step = factors_.solve(right);
     }
     steps.push_back(step);
     const double length = step.norm();
     y += step;
-    /** The tangent of the last point needs the stiffness. */
-    evaluate(length <= last_correction() ? With::stiffness : With::force);
+    /** The tangent of the last point needs the slope. */
+    evaluate(length <= last_correction());
     ++report.iterations;
-    report.delta_1 = right.norm() / balance_.problem().residual_scale;
-    report.delta_2 = length / unknown_scale;
+    report.delta_1 = right.norm() / curve_.residual_scale();
+    report.delta_2 = length / curve_.unknown_size();
     /** Below that length corrections are rounding. */
     ratio = last > last_correction() ? length / last : 0;
     correction.contraction = std::max(correction.contraction, ratio);
@@ -149,29 +112,24 @@ Correction ExtendedBalance::correct(const Eigen::VectorXd& direction,
     last = length;
   } while (report.end == NewtonEnd::too_many_iterations &&
            report.iterations < most_corrections);
-  motion.force = balance_.force(motion.x, motion.omega);
-  motion.harmonics = balance_.harmonics();
-  motion.samples = balance_.problem().samples;
-  motion.line = balance_.problem().line;
+  const NewtonReport ended = report;
+  correction.motion = curve_.motion_at(y);
+  correction.motion.newton = ended;
   return correction;
 }
 
-/** The tangent, from a guess, by factors that are not those of `motion`. False where they are too far from them. */
-bool ExtendedBalance::refine(const PeriodicMotion& motion, double error,
-                             Eigen::VectorXd& tangent)
+/** The tangent at y, from a guess, by factors of another point. False where that is too
+    far away. */
+bool Corrector::refine(const Eigen::VectorXd& y, double error, Eigen::VectorXd& tangent)
 {
   constexpr int most = 4;
   constexpr double most_left = 0.1;
-  const double length = settings_.arc_unknown_scale, speed = settings_.speed_scale,
-               scale = balance_.problem().residual_scale;
+  const double scale = curve_.residual_scale();
   double before = 0;
   tangent /= scale * last_row_.dot(tangent);
   Eigen::VectorXd rest(n_ + 1);
-  const Eigen::VectorXd& by_speed = balance_.speed_derivative(motion.x, motion.omega);
   for (int k = 0; k < most; ++k) {
-    balance_.apply_jacobian(motion.x, motion.omega, tangent.head(n_), product_);
-    rest.head(n_) = -length * product_ - speed * tangent[n_] * by_speed;
-    rest[n_] = 1 - scale * last_row_.dot(tangent);
+    rest << -curve_.slope_along(y, tangent), 1 - scale * last_row_.dot(tangent);
     const Eigen::VectorXd step = factors_.solve(rest);
     const double size = step.norm() / tangent.norm();
     if (!(size <= (k == 0 ? most_left : most_left * before))) return false;
@@ -182,16 +140,15 @@ bool ExtendedBalance::refine(const PeriodicMotion& motion, double error,
   return false;
 }
 
-Tangent ExtendedBalance::tangent(const PeriodicMotion& motion,
-                                 const Eigen::VectorXd& previous)
+Tangent Corrector::tangent(const Eigen::VectorXd& y, const Eigen::VectorXd& previous)
 {
   constexpr double small = 1e-6;
   const Eigen::VectorXd right = Eigen::VectorXd::Unit(n_ + 1, n_);
   Eigen::VectorXd direction;
   const bool has_row = last_row_.size() == previous.size() && last_row_ == previous;
   if (has_row) direction = factors_.solve(right);
-  if (!has_row || !refine(motion, small, direction)) {
-    factor(motion, previous);
+  if (!has_row || !refine(y, small, direction)) {
+    factor(y, previous);
     direction = factors_.solve(right);
   }
   const auto negative = (factors_.matrixLU().diagonal().array() < 0).count();
@@ -199,18 +156,18 @@ Tangent ExtendedBalance::tangent(const PeriodicMotion& motion,
   return {direction.normalized(), (negative % 2 == 0) == even_permutation};
 }
 
-BranchPoint point_of(Balance& balance, double omega, Eigen::VectorXd x, bool upwards,
+BranchPoint point_of(Curve& curve, double omega, const Eigen::VectorXd& x, bool upwards,
                      const ArcLengthSettings& settings)
 {
-  BranchPoint point{solve(balance, omega, std::move(x), settings.newton)};
+  BranchPoint point{curve.solved(omega, x)};
   if (!point.motion.found())
     throw NoSolution(format("no start at omega = %g rad/s: %s", omega,
                             point.motion.newton.reason().c_str()));
   const auto n = point.motion.x.size();
-  point.tangent =
-      ExtendedBalance(balance, settings)
-          .tangent(point.motion, (upwards ? 1 : -1) * Eigen::VectorXd::Unit(n + 1, n))
-          .direction;
+  point.tangent = Corrector(curve, settings)
+                      .tangent(curve.scaled(point.motion),
+                               (upwards ? 1 : -1) * Eigen::VectorXd::Unit(n + 1, n))
+                      .direction;
   return point;
 }
 

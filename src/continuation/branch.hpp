@@ -9,6 +9,7 @@ cubic with both tangents stands for it. */
 #include <Eigen/LU>
 #include <functional>
 
+#include "continuation/curve.hpp"
 #include "continuation/sweep.hpp"
 
 namespace rotor_stator {
@@ -78,10 +79,9 @@ Eigen::VectorXd between(const BranchPoint& a, const BranchPoint& b, double r,
 BranchPoint reversed(BranchPoint point);
 
 /**
-## The balance with the speed among its unknowns
+## Newton on a curve
 
-n equations in the n+1 scaled unknowns y = (X/ℓ, ω/ω_ref), closed by one linear condition
-d·(y - y_predicted) = 0. With d near the branch's tangent the bordered Jacobian stays
+The n equations of a curve are closed by one linear condition d·(y - y_predicted) = 0. With d near the branch's tangent the bordered Jacobian stays
 regular where the branch folds back in ω (Keller 1977). The corrector is Newton without
 damping: where it does not contract, the step was too long, and a damped Newton would look for
 another solution far away. Its factors are kept while a correction leaves less than a tenth of itself, with Broyden's
@@ -102,44 +102,37 @@ struct Tangent {
   bool positive;
 };
 
-class ExtendedBalance {
+class Corrector {
 public:
-  ExtendedBalance(Balance& balance, const ArcLengthSettings& settings);
+  Corrector(Curve& curve, const ArcLengthSettings& settings);
+
+  Curve& curve() const { return curve_; }
 
   /** The longest last correction with which Newton may end [-]. */
   double last_correction() const;
 
-  /** Pays for work beside the balance. */
-  void spend(double operations) const { balance_.spend(operations); }
-
-  /** Newton on the balance and direction·(y - predicted) = 0, from `predicted`. */
+  /** Newton on the curve and direction·(y - predicted) = 0, from `predicted`. */
   Correction correct(const Eigen::VectorXd& direction, const Eigen::VectorXd& predicted);
 
-  /** One correction only, by the factors of a point nearby, and the tangent of `predicted` from a guess: for a look at a
-      point that is nearly there. False where the correction is not much shorter than `length`. */
-  bool approach(double length, Eigen::VectorXd& predicted, Eigen::VectorXd& tangent);
-
-  /** On the side of `previous`. */
-  Tangent tangent(const PeriodicMotion& motion, const Eigen::VectorXd& previous);
+  /** At y, on the side of `previous`. */
+  Tangent tangent(const Eigen::VectorXd& y, const Eigen::VectorXd& previous);
 
 private:
   NewtonEnd verdict(const Correction& correction, double length, double ratio) const;
-  void factor(const PeriodicMotion& motion, const Eigen::VectorXd& last_row);
-  PeriodicMotion motion_at(const Eigen::VectorXd& y) const;
-  bool refine(const PeriodicMotion& motion, double error, Eigen::VectorXd& tangent);
+  void factor(const Eigen::VectorXd& y, const Eigen::VectorXd& last_row);
+  bool refine(const Eigen::VectorXd& y, double error, Eigen::VectorXd& tangent);
 
-  Balance& balance_;
+  Curve& curve_;
   const ArcLengthSettings& settings_;
   Eigen::Index n_;
   Eigen::MatrixXd matrix_;
   Eigen::PartialPivLU<Eigen::MatrixXd> factors_;
   Eigen::VectorXd last_row_;  ///< of the matrix that they are of
-  Eigen::VectorXd product_;
 };
 
 /** The solution near `x` at `omega` with its tangent, on the side of higher speeds if `upwards`. Throws
     NoSolution when there is none. */
-BranchPoint point_of(Balance& balance, double omega, Eigen::VectorXd x, bool upwards,
+BranchPoint point_of(Curve& curve, double omega, const Eigen::VectorXd& x, bool upwards,
                      const ArcLengthSettings& settings);
 
 }  // namespace rotor_stator

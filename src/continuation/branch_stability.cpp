@@ -76,7 +76,7 @@ bool changes(Bifurcation kind, const StablePoint& a, const StablePoint& b)
 }
 
 struct Walk {
-  Balance& balance;
+  Curve& curve;
   const ArcLengthSettings& arc_length;
   const FloquetAt& floquet_at;
   const BranchStabilitySettings& settings;
@@ -212,7 +212,7 @@ struct Walk {
         settings.tolerance * omega)
       return {};
     try {
-      return examined(point_between(balance, a.point, b.point, omega, arc_length));
+      return examined(point_between(curve, a.point, b.point, omega, arc_length));
     } catch (const NoSolution&) {
       return {};
     }
@@ -226,8 +226,8 @@ struct Walk {
     };
     StablePoint point;
     try {
-      point = examined(
-          locate(balance, a.point, b.point, test, settings.tolerance, arc_length));
+      point =
+          examined(locate(curve, a.point, b.point, test, settings.tolerance, arc_length));
     } catch (const NoSolution&) {
       ++result.missed;
       return;
@@ -280,12 +280,12 @@ std::vector<bool> evenly_chosen(const Branch& branch, double width, int most)
   return chosen;
 }
 
-BranchStability stability_along(Balance& balance, const Branch& branch,
+BranchStability stability_along(Curve& curve, const Branch& branch,
                                 const ArcLengthSettings& arc_length,
                                 const FloquetAt& floquet_at,
                                 const BranchStabilitySettings& settings)
 {
-  return Walk{balance, arc_length, floquet_at, settings}.along(branch);
+  return Walk{curve, arc_length, floquet_at, settings}.along(branch);
 }
 
 }  // namespace rotor_stator

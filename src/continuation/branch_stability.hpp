@@ -68,9 +68,9 @@ struct BranchStability {
   std::string failure = {};  ///< why the first of them could not
 };
 
-/** `balance` and `arc_length` are those the branch was followed with. A point at which `floquet_at`
+/** `curve` and `arc_length` are those the branch was followed with. A point at which `floquet_at`
     throws NoSolution stays without multipliers. */
-BranchStability stability_along(Balance& balance, const Branch& branch,
+BranchStability stability_along(Curve& curve, const Branch& branch,
                                 const ArcLengthSettings& arc_length,
                                 const FloquetAt& floquet_at,
                                 const BranchStabilitySettings& settings = {});

@@ -10,12 +10,12 @@ namespace rotor_stator {
 namespace {
 
 /** Whether the solution `point` lies on `branch`. */
-bool lies_on(Balance& balance, const Branch& branch, const BranchPoint& point,
+bool lies_on(Curve& curve, const Branch& branch, const BranchPoint& point,
              const ArcLengthSettings& settings)
 {
-  ExtendedBalance extended(balance, settings);
+  Corrector corrector(curve, settings);
   for (std::size_t k = 1; k < branch.points.size(); ++k)
-    if (StepOfBranch(extended, branch.points[k - 1], branch.points[k], settings)
+    if (StepOfBranch(corrector, branch.points[k - 1], branch.points[k], settings)
             .holds(point))
       return true;
   return false;
@@ -52,16 +52,16 @@ Branch joined(const Branch& behind, const Branch& ahead)
 
 }  // namespace
 
-Branch follow_both_ways(Balance& balance, const BranchPoint& start, SpeedRange range,
+Branch follow_both_ways(Curve& curve, const BranchPoint& start, SpeedRange range,
                         const ArcLengthSettings& settings)
 {
-  Branch ahead = follow_branch(balance, start, range, settings);
+  Branch ahead = follow_branch(curve, start, range, settings);
   if (ahead.kind == BranchEnd::closed) {
     ahead.covered = true;
     return ahead;
   }
   try {
-    return joined(follow_branch(balance, reversed(start), range, settings), ahead);
+    return joined(follow_branch(curve, reversed(start), range, settings), ahead);
   } catch (const NoSolution& nothing_behind) {
     ahead.end = nothing_behind.what();
     ahead.kind = BranchEnd::work;
@@ -71,22 +71,22 @@ Branch follow_both_ways(Balance& balance, const BranchPoint& start, SpeedRange r
 }
 
 std::vector<IsolatedBranch> isolated_branches(
-    Balance& balance, const Branch& main, const std::vector<PeriodicMotion>& candidates,
+    Curve& curve, const Branch& main, const std::vector<PeriodicMotion>& candidates,
     SpeedRange range, const ArcLengthSettings& settings)
 {
   std::vector<IsolatedBranch> found;
   for (const PeriodicMotion& candidate : candidates) {
     try {
       const BranchPoint start =
-          point_of(balance, candidate.omega, candidate.x, true, settings);
+          point_of(curve, candidate.omega, candidate.x, true, settings);
       const auto on = [&](const Branch& branch) {
-        return lies_on(balance, branch, start, settings);
+        return lies_on(curve, branch, start, settings);
       };
       if (on(main)) continue;
       if (std::any_of(found.begin(), found.end(),
                       [&](const IsolatedBranch& other) { return on(other.branch); }))
         continue;
-      found.push_back({follow_both_ways(balance, start, range, settings), candidate});
+      found.push_back({follow_both_ways(curve, start, range, settings), candidate});
     } catch (const NoSolution&) {
       // Newton found nothing from this candidate
     }

@@ -17,13 +17,13 @@ struct IsolatedBranch {
 
 /** The branch through `start` on both sides, each until it leaves the range: covered when it is closed,
     or ends at an edge of the range on both. */
-Branch follow_both_ways(Balance& balance, const BranchPoint& start, SpeedRange range,
+Branch follow_both_ways(Curve& curve, const BranchPoint& start, SpeedRange range,
                         const ArcLengthSettings& settings);
 
 /** The branches inside the range that pass through solutions near the candidates, and are not `main`. A
     candidate from which Newton finds nothing is passed over. */
 std::vector<IsolatedBranch> isolated_branches(
-    Balance& balance, const Branch& main, const std::vector<PeriodicMotion>& candidates,
+    Curve& curve, const Branch& main, const std::vector<PeriodicMotion>& candidates,
     SpeedRange range, const ArcLengthSettings& settings);
 
 }  // namespace rotor_stator

@@ -22,7 +22,7 @@ struct End {
 struct Bracket {
   const TestFunction& test;
   const ArcLengthSettings& settings;
-  ExtendedBalance extended;
+  Corrector corrector;
   const BranchPoint &from, &to;
   End a = valued(from), b = valued(to);
   std::optional<bool> moved_first = {};  ///< which end the last cut moved
@@ -72,14 +72,14 @@ struct Bracket {
     const Eigen::VectorXd start = scaled(a.point, settings);
     const Eigen::VectorXd chord = scaled(b.point, settings) - start;
     Correction correction =
-        extended.correct(chord.normalized(), between(a.point, b.point, r, settings));
+        corrector.correct(chord.normalized(), between(a.point, b.point, r, settings));
     PeriodicMotion& motion = correction.motion;
     if (!motion.found())
       throw NoSolution(format("no point between omega = %.9g and %.9g rad/s: %s",
                               a.point.motion.omega, b.point.motion.omega,
                               motion.newton.reason().c_str()));
     const double share = (correction.y - start).dot(chord) / chord.squaredNorm();
-    Tangent tangent = extended.tangent(motion, chord.normalized());
+    Tangent tangent = corrector.tangent(correction.y, chord.normalized());
     return {std::move(motion), a.point.arc + share * width(),
             std::move(tangent.direction)};
   }
@@ -87,11 +87,11 @@ struct Bracket {
 
 }  // namespace
 
-BranchPoint locate(Balance& balance, const BranchPoint& a, const BranchPoint& b,
+BranchPoint locate(Curve& curve, const BranchPoint& a, const BranchPoint& b,
                    const TestFunction& test, double tolerance,
                    const ArcLengthSettings& settings)
 {
-  Bracket bracket{test, settings, {balance, settings}, a, b};
+  Bracket bracket{test, settings, {curve, settings}, a, b};
   if (!bracket.has_zero())
     throw NoSolution(format("no change of sign between omega = %.9g and %.9g rad/s",
                             a.motion.omega, b.motion.omega));
@@ -107,15 +107,15 @@ BranchPoint locate(Balance& balance, const BranchPoint& a, const BranchPoint& b,
   return bracket.best();
 }
 
-BranchPoint point_between(Balance& balance, const BranchPoint& a, const BranchPoint& b,
+BranchPoint point_between(Curve& curve, const BranchPoint& a, const BranchPoint& b,
                           double omega, const ArcLengthSettings& settings)
 {
   constexpr double tolerance = 1e-10;
   BranchPoint point = locate(
-      balance, a, b, [omega](const BranchPoint& p) { return p.motion.omega - omega; },
+      curve, a, b, [omega](const BranchPoint& p) { return p.motion.omega - omega; },
       tolerance, settings);
   /** To the last digit of the speed, unless it is a fold's. */
-  PeriodicMotion exact = solve(balance, omega, point.motion.x, settings.newton);
+  PeriodicMotion exact = curve.solved(omega, point.motion.x);
   if (exact.found()) {
     exact.newton = point.motion.newton;
     point.motion = std::move(exact);
@@ -140,7 +140,7 @@ bool cubic_turns(const BranchPoint& a, const BranchPoint& b, double speed_scale)
 
 }  // namespace
 
-bool turns_between(ExtendedBalance& extended, const BranchPoint& a, const BranchPoint& b,
+bool turns_between(Corrector& corrector, const BranchPoint& a, const BranchPoint& b,
                    const ArcLengthSettings& settings)
 {
   if (cubic_turns(a, b, settings.speed_scale)) return true;
@@ -148,15 +148,10 @@ bool turns_between(ExtendedBalance& extended, const BranchPoint& a, const Branch
       std::min(std::abs(a.speed_direction()), std::abs(b.speed_direction()));
   if (steep > angle(a.tangent, b.tangent)) return false;
   const Eigen::VectorXd direction = (a.tangent + b.tangent).normalized();
-  BranchPoint middle{.motion = {}, .arc = 0.5 * (a.arc + b.arc), .tangent = direction};
-  Eigen::VectorXd y = between(a, b, 0.5, settings);
-  if (extended.approach(b.arc - a.arc, y, middle.tangent)) {
-    middle.motion.omega = y[y.size() - 1] * settings.speed_scale;
-  } else {
-    middle.motion = extended.correct(direction, between(a, b, 0.5, settings)).motion;
-    if (!middle.motion.found()) return true;
-    middle.tangent = extended.tangent(middle.motion, direction).direction;
-  }
+  Correction correction = corrector.correct(direction, between(a, b, 0.5, settings));
+  if (!correction.motion.found()) return true;
+  const BranchPoint middle{std::move(correction.motion), 0.5 * (a.arc + b.arc),
+                           corrector.tangent(correction.y, direction).direction};
   return middle.speed_direction() * (a.speed_direction() + b.speed_direction()) < 0 ||
          cubic_turns(a, middle, settings.speed_scale) ||
          cubic_turns(middle, b, settings.speed_scale);

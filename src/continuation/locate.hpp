@@ -21,13 +21,13 @@ using TestFunction = std::function<double(const BranchPoint&)>;
     changes its sign: the speed is right to `tolerance`, relative, and the point is a solution to
     Newton's tolerance. Throws NoSolution when `test` has the same sign at both ends, is not
     finite, or the branch cannot be corrected between them. */
-BranchPoint locate(Balance& balance, const BranchPoint& a, const BranchPoint& b,
+BranchPoint locate(Curve& curve, const BranchPoint& a, const BranchPoint& b,
                    const TestFunction& test, double tolerance,
                    const ArcLengthSettings& settings);
 
 /** The point between `a` and `b`, on both sides of the speed `omega` [rad/s], at that speed. Throws
     NoSolution as `locate` does. */
-BranchPoint point_between(Balance& balance, const BranchPoint& a, const BranchPoint& b,
+BranchPoint point_between(Curve& curve, const BranchPoint& a, const BranchPoint& b,
                           double omega, const ArcLengthSettings& settings);
 
 /**
@@ -40,7 +40,7 @@ for a moment. */
 /** Whether the branch turns in ω between `a` and `b`, which are both on one side of a fold, or one of
     them a fold: by the cubic through both and, where the step turns enough to hide a fold, by the
     tangent half-way. Pairs that are much shorter than the step stay unseen. */
-bool turns_between(ExtendedBalance& extended, const BranchPoint& a, const BranchPoint& b,
+bool turns_between(Corrector& corrector, const BranchPoint& a, const BranchPoint& b,
                    const ArcLengthSettings& settings);
 
 }  // namespace rotor_stator

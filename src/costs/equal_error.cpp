@@ -22,7 +22,6 @@ EqualErrorScene read_equal_error(SceneFile& file, const std::string& error)
       .paper_ratios = toml.numbers("paper_ratios", Range::positive),
       .candidates = read_candidates(toml),
       .repetitions = toml.integer("repetitions", 1, 1000),
-      .long_run = toml.number("long_run_s", Range::positive),
       .search = toml.number("search_s", Range::positive),
       .truth = {.settling = read_steady_settings(file)},
       .error = error == "mean" ? &MotionError::mean : &MotionError::displacement};
@@ -76,15 +75,12 @@ EqualErrorRow cheapest(const EqualErrorScene& scene, const References& range,
                        const std::vector<Measurement>& tried, double target,
                        const std::vector<EqualErrorRow>& rows)
 {
+  constexpr std::size_t few = 4;
   std::vector<Measurement> good = tried;
   std::erase_if(good, [&](auto& m) { return !(m.*scene.error <= target); });
   std::ranges::sort(good, {}, &Measurement::median);
-  constexpr std::size_t few = 4;
   good.resize(std::min(good.size(), few));
-  for (Measurement& m : good) {
-    const int most = m.median > scene.long_run ? 3 : scene.repetitions;
-    m = measure(range, m.setting, std::min(most, scene.repetitions));
-  }
+  for (Measurement& m : good) m = measure(range, m.setting, scene.repetitions);
   EqualErrorRow row{
       good.empty()
           ? *std::ranges::min_element(tried, {}, [&](auto& m) { return m.*scene.error; })
@@ -122,7 +118,6 @@ const std::vector<Field<Row>> equal_error_fields{
      &Row::ratio},
     {"cpu_min_s", "s", "least", &Row::least},
     {"cpu_max_s", "s", "most", &Row::most},
-    {"repetitions", "-", "fewer for the long runs", &Row::repetitions},
     {"worst_f", "Hz", "speed with the largest error of displacement",
      &Row::worst_frequency},
     {"speeds", "-", "number of speeds", &Row::speeds},

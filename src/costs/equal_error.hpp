@@ -3,8 +3,8 @@
 
 All settings of the scene file are run once. Within a group of equal accuracy, where the cheaper ones
 come first, the search stops when a run costs clearly more than the cheapest that has reached every
-target; it ends once the method has used its time. The four cheapest that reach a target are then
-repeated, and the one with the least median is the row. */
+target; it ends once the method has used its time. The four cheapest that reach a target are
+then repeated, and the one with the least median is the row. */
 #pragma once
 
 #include "costs/timed_method.hpp"
@@ -19,8 +19,7 @@ struct EqualErrorScene {
   std::vector<double> paper_ratios;  ///< printed
   std::vector<Candidates> candidates;
   int repetitions;
-  double long_run;  ///< [s]: a single run above it is repeated three times only
-  double search;    ///< [s]: a method's search in a range ends when it has used that
+  double search;  ///< [s]: a method's search in a range ends when it has used that
   TruthSettings truth;
   double MotionError::*error = &MotionError::displacement;  ///< that the targets bound
 };

@@ -1,21 +1,116 @@
 #include "costs/timed_method.hpp"
 
+#include <gsl/gsl_fit.h>
 #include <time.h>
 #include <algorithm>
 #include <cmath>
-#include <map>
 #include <numbers>
 
 #include "balance/bearing_problem.hpp"
+#include "balance/fourier_transform.hpp"
 #include "balance/newton.hpp"
 #include "continuation/sweep.hpp"
 #include "io/errors.hpp"
 #include "model/rotor_stator.hpp"
-#include "motion/find_periodic.hpp"
+#include "time/flow.hpp"
 #include "time/shooting.hpp"
-#include "time/time_stepper.hpp"
 
 namespace rotor_stator::costs {
+
+int Setting::sample_count() const
+{
+  return samples > 0 ? samples
+                     : fast_transform_size(std::max(
+                           2 * harmonics + 2, samples_per_harmonic * harmonics + 1));
+}
+
+std::string Setting::text() const
+{
+  std::string words;
+  const auto add = [&](double value, const char* form) {
+    if (value > 0) words += (words.empty() ? "" : " ") + format(form, value);
+  };
+  add(harmonics, "m=%g");
+  add(samples_per_harmonic, "N>%gm");
+  add(step, "step=%g");
+  add(tolerance, "tol=%g");
+  add(transient, "transient=%g");
+  add(periodicity_residual, "closure=%g");
+  return words;
+}
+
+namespace {
+
+/** Every setting of `group` with each of `values` in one of its fields. */
+template <class Value>
+SettingGroup each(const SettingGroup& group, Value Setting::*field,
+                  const std::vector<Value>& values)
+{
+  SettingGroup all;
+  for (const Setting& setting : group)
+    for (const Value& value : values) {
+      all.push_back(setting);
+      all.back().*field = value;
+    }
+  return all;
+}
+
+/** A group for each number of harmonics and each start: which is cheaper depends on the speeds. */
+Candidates balances(StrictToml table, const std::string& method)
+{
+  const SettingGroup ms = each(SettingGroup{{.method = method}}, &Setting::harmonics,
+                               table.integers("harmonics", 1, 4096));
+  const auto per_harmonic = table.integers("samples_per_harmonic", 2, 64);
+  const auto tolerances = table.numbers("newton_tolerances", Range::positive);
+  Candidates all{method, {}};
+  for (const Setting& setting :
+       each(ms, &Setting::transient, table.numbers("transients_s", Range::not_negative)))
+    all.groups.push_back(
+        each(each({setting}, &Setting::samples_per_harmonic, per_harmonic),
+             &Setting::tolerance, tolerances));
+  table.refuse_unknown_keys();
+  return all;
+}
+
+/** A group for each step or local error. */
+Candidates integrations(StrictToml table, const std::string& method)
+{
+  const bool fixed_step = method.ends_with("rk4");
+  const SettingGroup accuracies = each(
+      SettingGroup{{.method = method}}, fixed_step ? &Setting::step : &Setting::tolerance,
+      table.numbers(fixed_step ? "steps_s" : "tolerances", Range::positive));
+  const auto transients = table.numbers("transients_s", Range::positive);
+  const auto residuals = Setting{.method = method}.is_shooting()
+                             ? table.numbers("closures", Range::positive)
+                             : std::vector<double>{0};
+  Candidates all{method, {}};
+  for (const Setting& setting : accuracies)
+    all.groups.push_back(each(each({setting}, &Setting::periodicity_residual, residuals),
+                              &Setting::transient, transients));
+  table.refuse_unknown_keys();
+  return all;
+}
+
+}  // namespace
+
+std::vector<Candidates> read_candidates(StrictToml& toml)
+{
+  std::vector<std::string> known{"aft"};
+  known.insert(known.end(), time_methods().begin(), time_methods().end());
+  for (const char* stepper : {"rk4", "rk8", "rkf45", "rkck", "rk8pd"})
+    known.push_back(std::string("shooting-") + stepper);
+  std::vector<Candidates> all;
+  for (const std::string& method : toml.strings("methods")) {
+    if (std::find(known.begin(), known.end(), method) == known.end()) {
+      std::string list;
+      for (const std::string& name : known) list += (list.empty() ? "" : ", ") + name;
+      toml.fail("methods", "must be some of " + list);
+    }
+    all.push_back(
+        (method == "aft" ? balances : integrations)(toml.table(method), method));
+  }
+  return all;
+}
 
 double thread_cpu_seconds()
 {
@@ -46,172 +141,38 @@ void TimedMethod::run(const std::function<bool(std::size_t speed)>& goes_on)
   }
 }
 
+std::unique_ptr<Flow> TimedMethod::stepper(double omega, int intervals) const
+{
+  const std::string& method = setting_.method;
+  return flow(
+      task_.parameters, omega,
+      {.method = setting_.is_shooting() ? method.substr(method.find('-') + 1) : method,
+       .intervals_per_period = intervals,
+       .step = setting_.step,
+       .tolerance = setting_.tolerance});
+}
+
+long TimedMethod::advance(Flow& whole, double seconds, double omega, State& state)
+{
+  const long before = whole.evaluations();
+  const long periods =
+      std::lround(std::ceil(seconds * omega / (2 * std::numbers::pi) - 1e-9));
+  for (long k = 0; k < periods; ++k) whole.advance(k, state);
+  counts_.force_instants += whole.evaluations() - before;
+  return periods;
+}
+
 namespace {
 
-/** Whole periods that last so many seconds at least. */
-long periods_in(double seconds, double omega)
-{
-  return std::lround(std::ceil(seconds * omega / (2 * std::numbers::pi)));
-}
-
-/** From phase 0 by a stepper with one interval per period. */
-void advance_periods(const TimeStepper& whole, long periods, State& state)
-{
-  for (long k = 0; k < periods; ++k) whole.advance(k, state);
-}
-
-/**
-## Harmonic balance */
 class BalanceSweep : public TimedMethod {
 public:
   BalanceSweep(const Task& task, const Setting& setting) : TimedMethod(task, setting)
   {
-    for (double frequency : task.frequencies)
-      longest_ = std::max(longest_, harmonics_at(setting, frequency));
     if (!task.before) return;
-    const double frequency = task.before->frequency;
-    PeriodicMotion known{.omega = angular(frequency)};
-    if (finds(harmonics_at(setting, frequency), known)) before_ = known.x;
+    begin();
+    PeriodicMotion known{.omega = angular(task.before->frequency)};
+    if (finds(known)) before_ = known.x;
   }
-
-  std::optional<motion::Motion> motion(std::size_t speed, int points) const override
-  {
-    const auto bodies = bodies_.find(angular(task_.frequencies[speed]));
-    if (bodies == bodies_.end()) return {};
-    return motion::motion_of(bodies->second, points);
-  }
-
-  /** Of all balances, those freed included. */
-  Counts counts() const override
-  {
-    Counts counts = counts_;
-    for (const auto& [m, solved] : balances_) add(*solved, counts);
-    counts.force_seconds = *force_seconds_;
-    return counts;
-  }
-
-private:
-  /** A balance, and the factors that it keeps from speed to speed. */
-  struct Solver {
-    Balance balance;
-    BalanceSolver solver;
-    Solver(const Problem& problem, int m, bool is_dense)
-        : balance(problem, m), solver(balance, is_dense)
-    {
-    }
-  };
-
-  void begin() override
-  {
-    balances_.clear();
-    bodies_.clear();
-    *force_seconds_ = 0;
-    SweepSettings settings = sweep_settings(task_.parameters);
-    predictor_ = {settings.arc_unknown_scale, settings.speed_scale};
-    if (before_.size() > 0) learn(angular(task_.before->frequency), before_);
-    if (!setting_.paper_sweep) return;
-    /** The paper's sweep goes over all speeds at once. */
-    settings.newton.tolerance = setting_.tolerance;
-    const int m = setting_.harmonics;
-    for (const PeriodicMotion& found : sweep(
-             balance(m), angular(task_.frequencies),
-             [&](double omega) { return quasi_static_start(task_.parameters, omega, m); },
-             settings))
-      if (found.found()) bodies_[found.omega] = body_series(task_.parameters, found);
-  }
-
-  void solve(std::size_t speed) override
-  {
-    if (setting_.paper_sweep) return;
-    const double frequency = task_.frequencies[speed];
-    const int m = harmonics_at(setting_, frequency);
-    /** Frees the large balances but one, whose factors this speed can use. */
-    constexpr int large = 128;
-    std::erase_if(balances_, [&](const auto& entry) {
-      const bool freed = entry.first > large && entry.first != m;
-      if (freed) add(*entry.second, counts_);
-      return freed;
-    });
-    PeriodicMotion found{.omega = angular(frequency)};
-    if (!finds(m, found)) return;
-    learn(found.omega, found.x);
-    bodies_[found.omega] = body_series(task_.parameters, found);
-  }
-
-  /** The predictor's vectors all have one length. */
-  void learn(double omega, const Eigen::VectorXd& x)
-  {
-    predictor_.add(resize_harmonics(x, 2, longest_), omega);
-  }
-
-  /** From the setting's transient; without one, or where that fails, from the predictor; then from
-      quasi-static contact, which is near with few harmonics only; then from half a second of integration,
-      and from longer ones with half as many harmonics more. */
-  bool finds(int m, PeriodicMotion& found)
-  {
-    constexpr int few = 12;
-    const auto at_once = [&](const Eigen::VectorXd& x) {
-      found.x = resize_harmonics(x, 2, m);
-      Balance& at = balance(m);
-      return rotor_stator::solve(at, balances_[m]->solver, found, newton_);
-    };
-    const auto from = [&](const Eigen::VectorXd& x) { return at_once(x); };
-    const auto after = [&](double) {
-      const motion::Search search{task_.parameters, found.omega, m};
-      return at_once(motion::settled_start(search, m));
-    };
-    if ((setting_.transient > 0 && after(setting_.transient)) ||
-        (!predictor_.empty() && from(predictor_.at_speed(found.omega))) ||
-        (m <= few && from(quasi_static_start(task_.parameters, found.omega, m))) ||
-        after(0.5))
-      return true;
-    m += (m + 1) / 2;
-    return after(1) || after(2);
-  }
-
-  /** One balance for each number of harmonics; of a profiled task the force is timed. */
-  Balance& balance(int m)
-  {
-    auto& known = balances_[m];
-    if (known) return known->balance;
-    Problem problem = bearing_problem(task_.parameters, samples_for(setting_, m));
-    if (task_.profiled)
-      problem.force = [inner = problem.force, seconds = force_seconds_](
-                          const auto& q, auto&&... results) {
-        const double start = thread_cpu_seconds();
-        inner(q, results...);
-        *seconds += thread_cpu_seconds() - start;
-      };
-    known = std::make_unique<Solver>(problem, m, setting_.algebra == "dense");
-    return known->balance;
-  }
-
-  static void add(const Solver& solved, Counts& counts)
-  {
-    const Balance& balance = solved.balance;
-    const long samples = balance.problem().samples;
-    const long transforms = 4 * (balance.evaluations() + solved.solver.factorisations() +
-                                 solved.solver.iterations());
-    counts.force_instants += balance.evaluations() * samples;
-    counts.transforms += transforms;
-    counts.transformed += transforms * samples;
-  }
-
-  /** A new start is cheaper than a long iteration. */
-  const NewtonSettings newton_{
-      .tolerance = setting_.tolerance, .most_iterations = 12, .most_halvings = 4};
-  Eigen::VectorXd before_;  ///< the solution that is known, if any
-  int longest_ = 0;         ///< harmonics of the predictor's vectors
-  LagrangePredictor predictor_{1, 1};
-  std::map<int, std::unique_ptr<Solver>> balances_;  ///< by m
-  std::map<double, Eigen::MatrixXd> bodies_;         ///< series found, by speed [rad/s]
-  std::shared_ptr<double> force_seconds_ = std::make_shared<double>(0);
-};
-
-/** Harmonic balance to a tolerance. */
-class ToleranceSweep : public TimedMethod {
-public:
-  using TimedMethod::TimedMethod;
 
   std::optional<motion::Motion> motion(std::size_t speed, int points) const override
   {
@@ -219,103 +180,153 @@ public:
     return motion::motion_of(bodies_[speed], points);
   }
 
+  Counts counts() const override
+  {
+    Counts counts = counts_;
+    const long samples = setting_.sample_count();
+    counts.force_instants += balance_->evaluations() * samples;
+    counts.transforms =
+        4 * (balance_->evaluations() + solver_->factorisations() + solver_->iterations());
+    counts.transformed = counts.transforms * samples;
+    counts.force_seconds = *force_seconds_;
+    return counts;
+  }
+
 private:
   void begin() override
   {
     bodies_.assign(task_.frequencies.size(), {});
-    before_.resize(0);
+    *force_seconds_ = 0;
+    Problem problem = bearing_problem(task_.parameters, setting_.sample_count());
+    if (task_.profiled)
+      problem.force = [inner = problem.force, seconds = force_seconds_](
+                          const auto& q, auto&&... results) {
+        const double start = thread_cpu_seconds();
+        inner(q, results...);
+        *seconds += thread_cpu_seconds() - start;
+      };
+    balance_.emplace(problem, setting_.harmonics);
+    solver_.emplace(*balance_);
+    state_ = task_.before ? task_.before->state : static_start(task_.parameters);
+    SweepSettings settings = sweep_settings(task_.parameters);
+    predictor_ = {settings.arc_unknown_scale, settings.speed_scale};
+    if (before_.size() > 0) predictor_.add(before_, angular(task_.before->frequency));
+    if (!setting_.paper_sweep) return;
+    /** The paper's sweep goes over all speeds at once. */
+    settings.newton.tolerance = setting_.tolerance;
+    const auto found = sweep(
+        *balance_, angular(task_.frequencies),
+        [&](double omega) { return contact(omega); }, settings);
+    for (std::size_t k = 0; k < found.size(); ++k)
+      if (found[k].found()) bodies_[k] = body_series(task_.parameters, found[k]);
   }
 
   void solve(std::size_t speed) override
   {
-    motion::Search search{.parameters = task_.parameters,
-                          .omega = angular(task_.frequencies[speed]),
-                          .harmonics = 6};
-    if (before_.size() > 0) search.starts = {before_};
-    const motion::Judged at = motion::to_tolerance(search, setting_.tolerance);
-    counts_.force_instants += at.force_samples;
-    before_ = at.reached ? at.motion.x : Eigen::VectorXd();
-    if (at.reached) bodies_[speed] = at.motion.bodies;
+    if (setting_.paper_sweep) return;
+    PeriodicMotion found{.omega = angular(task_.frequencies[speed])};
+    if (!finds(found)) return;
+    predictor_.add(found.x, found.omega);
+    bodies_[speed] = body_series(task_.parameters, found);
   }
 
-  Eigen::VectorXd before_;               ///< the last solution
+  bool finds(PeriodicMotion& found)
+  {
+    constexpr int few = 12;
+    const auto from = [&](const Eigen::VectorXd& x) {
+      found.x = x;
+      return rotor_stator::solve(*balance_, *solver_, found, newton_);
+    };
+    if (setting_.transient > 0 && from(integrated(found.omega, setting_.transient)))
+      return true;
+    if (!predictor_.empty() && from(predictor_.at_speed(found.omega))) return true;
+    if (setting_.harmonics <= few && from(contact(found.omega))) return true;
+    for (double seconds : {0.5, 1.0, 2.0})
+      if (from(integrated(found.omega, seconds))) return true;
+    return false;
+  }
+
+  Eigen::VectorXd contact(double omega) const
+  {
+    return quasi_static_start(task_.parameters, omega, setting_.harmonics);
+  }
+
+  /** The period after so many seconds of RK4, with steps that are too long for a result but not
+      unstable. It goes on from where it ended last. */
+  Eigen::VectorXd integrated(double omega, double seconds)
+  {
+    const Parameters& p = task_.parameters;
+    const int points = 2 * setting_.harmonics + 2;
+    const double step = (p.bearing.damping > 0 ? 5 : 8) * default_step(p);
+    const auto rk4 = [&](int intervals) {
+      return flow(p, omega,
+                  {.method = "rk4", .intervals_per_period = intervals, .step = step});
+    };
+    advance(*rk4(1), seconds, omega, state_);
+    const auto parts = rk4(points);
+    const motion::Motion last = motion::recorded(*parts, points, state_);
+    counts_.force_instants += parts->evaluations();
+    if (vector_of(state_).allFinite())
+      return motion::relative_series(p, last, setting_.harmonics);
+    state_ = static_start(p);
+    return contact(omega);
+  }
+
+  /** A new start is cheaper than a long iteration. */
+  const NewtonSettings newton_{
+      .tolerance = setting_.tolerance, .most_iterations = 12, .most_halvings = 4};
+  Eigen::VectorXd before_;  ///< the solution that is known, if any
+  std::optional<Balance> balance_;
+  std::optional<BalanceSolver> solver_;  ///< keeps its factors from speed to speed
+  State state_;                          ///< of the coarse integration, at phase 0
+  LagrangePredictor predictor_{1, 1};
   std::vector<Eigen::MatrixXd> bodies_;  ///< series found, by speed
+  std::shared_ptr<double> force_seconds_ = std::make_shared<double>(0);
 };
 
-/**
-## Time integration and shooting
-
-Both end in a state of the motion at each speed; one period from it, by the same method at the same
-setting, is the motion. */
+/** Time integration and shooting end in a state at each speed; one period from it, by the same
+    method at the same setting, is the motion. */
 class Integration : public TimedMethod {
 public:
   using TimedMethod::TimedMethod;
 
   std::optional<motion::Motion> motion(std::size_t speed, int points) const override
   {
-    const auto& start = reached_[speed];
-    if (!start) return {};
-    State state = start->state;
+    if (!reached_[speed]) return {};
+    auto [periods, state] = *reached_[speed];
     try {
-      const TimeStepper parts = stepper(angular(task_.frequencies[speed]), points);
-      return motion::recorded(parts, points, state, start->periods);
+      const auto parts = stepper(angular(task_.frequencies[speed]), points);
+      return motion::recorded(*parts, points, state, periods);
     } catch (const NoSolution&) {
       return {};  // the state was no motion
     }
   }
 
 protected:
-  void begin() override { reached_.assign(task_.frequencies.size(), {}); }
-
-  TimeStepper stepper(double omega, int intervals) const
-  {
-    return make_stepper(task_.parameters, omega,
-                        {.method = stepper_method_,
-                         .intervals_per_period = intervals,
-                         .step = setting_.step,
-                         .tolerance = setting_.tolerance});
-  }
-
-  const std::string stepper_method_ = setting_.method.substr(
-      setting_.is_shooting() ? std::string("shooting-").size() : 0);
-
-  /** A state of the motion at phase 0, `periods` after t = 0. */
-  struct Reached {
-    long periods;
-    State state;
-  };
-  std::vector<std::optional<Reached>> reached_;
-};
-
-/** A transient of whole periods at each speed. */
-class TransientSweep : public Integration {
-  using Integration::Integration;
-
   void begin() override
   {
-    Integration::begin();
+    reached_.assign(task_.frequencies.size(), {});
     state_ = task_.before ? task_.before->state : static_start(task_.parameters);
   }
 
+  /** A transient at each speed. */
   void solve(std::size_t speed) override
   {
-    const double frequency = task_.frequencies[speed];
-    const TimeStepper whole = stepper(angular(frequency), 1);
-    const long periods = std::lround(std::ceil(setting_.transient * frequency - 1e-9));
+    const double omega = angular(task_.frequencies[speed]);
     try {
-      advance_periods(whole, periods, state_);
+      const long periods = advance(*stepper(omega, 1), setting_.transient, omega, state_);
       reached_[speed] = {periods, state_};
-      if (setting_.recorded > 0) {
-        const TimeStepper parts = stepper(angular(frequency), setting_.recorded);
-        motion::recorded(parts, setting_.recorded, state_, periods);
-        counts_.force_instants += parts.evaluations();
-      }
+      if (setting_.recorded == 0) return;
+      const auto parts = stepper(omega, setting_.recorded);
+      motion::recorded(*parts, setting_.recorded, state_, periods);
+      counts_.force_instants += parts->evaluations();
     } catch (const NoSolution&) {
       state_ = static_start(task_.parameters);
     }
-    counts_.force_instants += whole.evaluations();
   }
 
+  /** A state of the motion at phase 0, so many periods after t = 0. */
+  std::vector<std::optional<std::pair<long, State>>> reached_;
   State state_;
 };
 
@@ -328,48 +339,41 @@ class ShootingSweep : public Integration {
     Integration::begin();
     predictor_ = {1, sweep_settings(task_.parameters).speed_scale};
     jacobian_.reset();
-    if (task_.before) learn(angular(task_.before->frequency), task_.before->state);
+    if (task_.before) learn(angular(task_.before->frequency), state_);
   }
 
   void solve(std::size_t speed) override
   {
     const double omega = angular(task_.frequencies[speed]);
-    State state =
-        predictor_.empty()
-            ? cold_start(omega)
-            : state_of(Vector8(predictor_.at_speed(omega).cwiseProduct(scales_)));
-    if (!shot(omega, state)) {
+    bool found = false;
+    if (!predictor_.empty()) {
+      const Vector8 x = predictor_.at_speed(omega).cwiseProduct(scales_);
+      state_ = state_of(x);
+      found = shot(omega);
+    }
+    if (!found) {
       predictor_.clear();
       jacobian_.reset();
-      state = cold_start(omega);
-      if (!shot(omega, state)) return;
+      state_ = quasi_static_state(task_.parameters, omega);
+      advance(*stepper(omega, 1), setting_.transient, omega, state_);
+      found = shot(omega);
     }
-    learn(omega, state);
-    reached_[speed] = {0, state};
+    if (!found) return;
+    learn(omega, state_);
+    reached_[speed] = {0, state_};
   }
 
-  /** Quasi-static contact, and a transient if the setting has one. */
-  State cold_start(double omega)
+  bool shot(double omega)
   {
-    State state = quasi_static_state(task_.parameters, omega);
-    const TimeStepper whole = stepper(omega, 1);
-    advance_periods(whole, periods_in(setting_.transient, omega), state);
-    counts_.force_instants += whole.evaluations();
-    return state;
-  }
-
-  bool shot(double omega, State& state)
-  {
-    const Shooting result = shoot(task_.parameters, omega, state,
-                                  {.method = stepper_method_,
+    const std::string method = setting_.method.substr(setting_.method.find('-') + 1);
+    const Shooting result = shoot(task_.parameters, omega, state_,
+                                  {.method = method,
                                    .tolerance = setting_.tolerance,
                                    .step = setting_.step,
-                                   .periodicity_residual = setting_.periodicity_residual,
-                                   .final_derivative = false},
+                                   .closed = setting_.periodicity_residual,
+                                   .quasi_newton = true},
                                   &jacobian_);
     counts_.force_instants += result.evaluations;
-    counts_.maps += result.maps;
-    counts_.derivatives += result.derivatives;
     return result.converged;
   }
 
@@ -387,8 +391,7 @@ class ShootingSweep : public Integration {
 void add(MotionError& error, const TimedMethod& method, const References& sweep,
          std::size_t speed)
 {
-  const auto& truth = sweep.motions[speed];
-  if (truth)
+  if (const auto& truth = sweep.motions[speed])
     error.add(sweep.parameters, sweep.frequencies[speed],
               method.motion(speed, truth->points_per_period), *truth);
 }
@@ -398,10 +401,8 @@ void add(MotionError& error, const TimedMethod& method, const References& sweep,
 std::unique_ptr<TimedMethod> timed_method(const Task& task, const Setting& setting)
 {
   if (setting.is_shooting()) return std::make_unique<ShootingSweep>(task, setting);
-  if (setting.method == "aft-tolerance")
-    return std::make_unique<ToleranceSweep>(task, setting);
-  if (setting.method != "aft") return std::make_unique<TransientSweep>(task, setting);
-  return std::make_unique<BalanceSweep>(task, setting);
+  if (setting.method == "aft") return std::make_unique<BalanceSweep>(task, setting);
+  return std::make_unique<Integration>(task, setting);
 }
 
 Measurement measure(const References& sweep, const Setting& setting, int repetitions)
@@ -423,6 +424,17 @@ MotionError error_up_to(double bound, const References& sweep, const Setting& se
     return error.displacement <= bound;
   });
   return error;
+}
+
+double fitted_exponent(const std::vector<double>& x, const std::vector<double>& y)
+{
+  std::vector<double> log_x, log_y;
+  for (double value : x) log_x.push_back(std::log(value));
+  for (double value : y) log_y.push_back(std::log(value));
+  double level, slope, var_level, covariance, var_slope, squares;
+  gsl_fit_linear(log_x.data(), 1, log_y.data(), 1, x.size(), &level, &slope, &var_level,
+                 &covariance, &var_slope, &squares);
+  return slope;
 }
 
 }  // namespace rotor_stator::costs

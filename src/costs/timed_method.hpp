@@ -1,39 +1,66 @@
 /**
 # Methods against the clock
 
-A task is a row of speeds of one machine, to be solved in order for the motion of period T. A timed
-method is one method at one setting. Its `run` does all the work anew and is what is timed: tables, the
-start, the transient or the iteration, at every speed. Writing the motions down afterwards belongs to the
-comparison and is timed for none. A process plans the Fourier transforms of a length once, in the first run
-that needs it: the median of the repetitions does not show it.
+A task is a row of speeds of one machine, to be solved in order for the motion of period T. A
+timed method is one method at one setting. Its `run` does all the work anew and is what is timed:
+tables, the start, the transient or the iteration, at every speed. Writing the motions down
+afterwards is timed for none. A process plans the Fourier transforms of a length once, in the first
+run that needs it: the median of the repetitions does not show it.
 
-- Harmonic balance: a speed starts from the paper's predictor; without one, or where Newton fails from
-  it, from quasi-static contact if the harmonics are few, and then from half a second of time integration
-  with coarse steps, which goes on from where it ended last; where that fails too, from more of it with half as
-  many harmonics more. More than 128 harmonics begin with a solution on 64. With a transient in the setting, that is the
-  first start at every speed. Or, as the paper does it, the gap to the last speed is halved where Newton fails.
-- Harmonic balance to a tolerance: motion/find_periodic.hpp, each speed alone.
-- Time integration: a transient in seconds, whole periods, from the static load or from the known state;
-  then from speed to speed.
-- Shooting: from speed to speed the state is extrapolated by the same predictor, and Φ is handed on. */
+- Harmonic balance: a speed starts from the paper's predictor; where that fails, from quasi-static
+  contact if the harmonics are few, and then from half a second of time integration with coarse
+  steps, which goes on from where it ended last. With a transient in the setting, that comes first.
+  Or the paper's sweep, which halves the gap to the last speed where Newton fails.
+- Time integration: a transient of whole periods, from the static load or the known state; then
+  from speed to speed.
+- Shooting: the state is extrapolated from speed to speed by the same predictor, and Φ is kept. */
 #pragma once
 
-#include <functional>
 #include <memory>
 
-#include "costs/setting.hpp"
 #include "costs/true_motion.hpp"
+#include "time/flow.hpp"
 
 namespace rotor_stator::costs {
+
+/** One method at one setting; zero where the method has no such setting. `method` is aft (harmonic
+    balance), a time method, or shooting- with one of them behind it. */
+struct Setting {
+  std::string method;
+  int harmonics = 0;             ///< aft: m
+  int samples_per_harmonic = 0;  ///< aft: N is a fast size above this times m
+  int samples = 0;               ///< aft: N itself, instead
+  bool paper_sweep = false;  ///< aft: the paper's continuation, continuation/sweep.hpp
+  double tolerance = 0;      ///< aft: Newton's; time: local error
+  double step = 0;           ///< rk4 [s]
+  double transient = 0;      ///< at each speed [s]; of aft, that of its start
+  int recorded = 0;          ///< time integration: intervals of a last period
+  double periodicity_residual = 0;  ///< shooting; "closure" in files [-]
+
+  bool is_shooting() const { return method.starts_with("shooting-"); }
+  int sample_count() const;  ///< N
+
+  /** "m=6 N>4m tol=1e-07". */
+  std::string text() const;
+};
+
+/** Settings of one method in groups of the same accuracy, the cheaper ones first, so that a search
+    can stop early. */
+using SettingGroup = std::vector<Setting>;
+struct Candidates {
+  std::string method;
+  std::vector<SettingGroup> groups;
+};
+
+/** The tables of `toml` that are named in its key "methods", in that order. Throws BadInput. */
+std::vector<Candidates> read_candidates(StrictToml& toml);
 
 /** CPU seconds of one thread: median, least and most of the repetitions. */
 struct CpuTime {
   double median, least, most;
 };
 
-/** The CPU clock of the calling thread [s]. */
 double thread_cpu_seconds();
-
 CpuTime time_of(int repetitions, const std::function<void()>& work);
 
 /** Operations of the last run. */
@@ -41,8 +68,6 @@ struct Counts {
   long force_instants = 0;   ///< evaluations of the bearing's force, one instant each
   long transforms = 0;       ///< Fourier transforms of one series
   long transformed = 0;      ///< samples of all of them
-  int maps = 0;              ///< periods integrated by shooting
-  int derivatives = 0;       ///< of them with the variational equations
   double force_seconds = 0;  ///< in the bearing's force, of a profiled aft run [s]
 };
 
@@ -62,13 +87,18 @@ public:
   virtual Counts counts() const { return counts_; }
 
 protected:
+  virtual void begin() = 0;
+  virtual void solve(std::size_t speed) = 0;
+
+  /** Of the time method of the setting. */
+  std::unique_ptr<Flow> stepper(double omega, int intervals) const;
+
+  /** Integrates whole periods from phase 0, so many seconds at least. Returns their number. */
+  long advance(Flow& whole, double seconds, double omega, State& state);
+
   Task task_;
   Setting setting_;
   Counts counts_;
-
-private:
-  virtual void begin() = 0;
-  virtual void solve(std::size_t speed) = 0;
 };
 
 std::unique_ptr<TimedMethod> timed_method(const Task& task, const Setting& setting);
@@ -81,9 +111,12 @@ struct Measurement : CpuTime, Counts, MotionError {
 
 Measurement measure(const References& sweep, const Setting& setting, int repetitions);
 
-/** The largest error over the speeds, as far as it is not above `bound`: the run ends at the first speed
-    that is. */
+/** The largest error over the speeds, as far as it is not above `bound`: the run ends at the first
+    speed that is. */
 MotionError error_up_to(double bound, const References& sweep, const Setting& setting);
+
+/** p of y = a x^p by least squares of the logarithms; two points at least, all positive. */
+double fitted_exponent(const std::vector<double>& x, const std::vector<double>& y);
 
 /** For headers of tables: what is timed. */
 inline constexpr const char* what_is_timed =

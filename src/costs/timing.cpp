@@ -52,33 +52,21 @@ TimingScene read_timing(SceneFile& file)
   return scene;
 }
 
-std::vector<Setting> cheapest_rk4(const TimingScene& scene, const References& references,
-                                  const std::vector<Measurement>& balances)
+Setting cheapest_rk4(const TimingScene& scene, const References& references,
+                     const MotionError& target)
 {
-  std::vector<Setting> chosen(balances.size());
+  if (!std::isfinite(target.displacement))
+    throw NoSolution(
+        format("no harmonic-balance solution at %g Hz", target.worst_frequency));
   for (const Setting& setting : watched("RK4 settings", scene.rk4)) {
-    double loosest = 0;
-    for (std::size_t k = 0; k < balances.size(); ++k)
-      if (chosen[k].method.empty()) loosest = std::max(loosest, balances[k].displacement);
-    if (loosest == 0) break;
-    const MotionError error = error_up_to(loosest, references, setting);
-    for (std::size_t k = 0; k < balances.size(); ++k)
-      if (chosen[k].method.empty() && error.displacement <= balances[k].displacement &&
-          error.force <= balances[k].force)
-        chosen[k] = setting;
+    const MotionError error = error_up_to(target.displacement, references, setting);
+    if (error.displacement <= target.displacement && error.force <= target.force)
+      return setting;
   }
-  for (std::size_t k = 0; k < balances.size(); ++k) {
-    const MotionError& target = balances[k];
-    if (!std::isfinite(target.displacement))
-      throw NoSolution(
-          format("no harmonic-balance solution at %g Hz", target.worst_frequency));
-    if (chosen[k].method.empty())
-      throw NoSolution(
-          format("no tried RK4 setting reaches the errors %.2g of displacement and %.2g "
-                 "of force",
-                 target.displacement, target.force));
-  }
-  return chosen;
+  throw NoSolution(
+      format("no tried RK4 setting reaches the errors %.2g of displacement and %.2g of "
+             "force",
+             target.displacement, target.force));
 }
 
 namespace {

@@ -21,10 +21,10 @@ struct TimingScene {
 
 TimingScene read_timing(SceneFile& file);
 
-/** For each of `balances` the first RK4 setting of the scene that reaches its errors of displacement and of force. Nothing is timed.
-    Throws NoSolution when harmonic balance fails at a periodic speed, or when none reaches them. */
-std::vector<Setting> cheapest_rk4(const TimingScene& scene, const References& references,
-                                  const std::vector<Measurement>& balances);
+/** The first RK4 setting of the scene that reaches both errors of a balance. Nothing is timed. Throws
+    NoSolution when the balance failed at a periodic speed, or when no setting reaches them. */
+Setting cheapest_rk4(const TimingScene& scene, const References& references,
+                     const MotionError& target);
 
 /** `rk4` at the errors of `balances`. */
 Table timing_table(const TimingScene& scene, const References& references,

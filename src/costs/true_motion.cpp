@@ -33,12 +33,11 @@ TrueMotion true_motion(const Parameters& parameters, double frequency,
   if (!truth.periodic) return truth;
   const Shooting shooting =
       shoot(parameters, angular(frequency), truth.state,
-            {.tolerance = settings.tolerance,
-             .periodicity_residual = settings.periodicity_residual});
+            {.tolerance = settings.tolerance, .closed = settings.periodicity_residual});
   if (!shooting.converged)
     throw NoSolution(
         format("no reference at %g Hz: %s", frequency, shooting.reason.c_str()));
-  truth.periodicity_residual = shooting.periodicity_residual;
+  truth.periodicity_residual = shooting.correction;
   truth.motion =
       one_period(parameters, frequency, truth.state,
                  settings.settling.stepper.intervals_per_period, settings.tolerance);

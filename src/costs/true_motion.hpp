@@ -15,7 +15,7 @@ namespace rotor_stator::costs {
 struct TruthSettings {
   SteadySettings settling;              ///< its points per period are those of the motion
   double tolerance = 1e-13;             ///< of shooting by rk8
-  double periodicity_residual = 1e-11;  ///< wanted of shooting [-]
+  double periodicity_residual = 1e-10;  ///< last correction of shooting [-]
 };
 
 struct TrueMotion {

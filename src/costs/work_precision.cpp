@@ -138,9 +138,7 @@ const std::vector<Field<Row>> work_precision_fields{
      &Row::transform_share},
     {"evaluations", "-", "evaluations of the bearing's force, one instant each",
      &Row::force_instants},
-    {"transforms", "-", "Fourier transforms of one series", &Row::transforms},
-    {"maps", "-", "periods integrated by shooting", &Row::maps},
-    {"derivatives", "-", "of them with the variational equations", &Row::derivatives}};
+    {"transforms", "-", "Fourier transforms of one series", &Row::transforms}};
 
 }  // namespace
 

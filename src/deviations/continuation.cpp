@@ -1,9 +1,12 @@
-#include "deviations/continuation.hpp"
+/**
+# Evidence on continuation (§3.2)
 
+Predictor, arc length, tolerance, step, cost. */
 #include <cmath>
 
 #include "balance/bearing_problem.hpp"
 #include "continuation/sweep.hpp"
+#include "deviations/evidence.hpp"
 #include "deviations/printed_equations.hpp"
 #include "io/errors.hpp"
 

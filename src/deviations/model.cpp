@@ -1,8 +1,11 @@
-#include "deviations/model.hpp"
+/**
+# Evidence on the model (§2 and Table 1)
 
+Contact, readings, masses. */
 #include <cmath>
 #include <numbers>
 
+#include "deviations/evidence.hpp"
 #include "deviations/printed_equations.hpp"
 #include "io/errors.hpp"
 #include "model/hertz.hpp"

@@ -1,15 +1,18 @@
-#include "deviations/motions.hpp"
+/**
+# Evidence on the motions (§3.3)
 
+Amplitudes, cage, time integration, figures. */
 #include <cmath>
 #include <numbers>
 
 #include "balance/fourier_transform.hpp"
 #include "continuation/sweep.hpp"
+#include "deviations/evidence.hpp"
 #include "deviations/printed_equations.hpp"
 #include "io/errors.hpp"
 #include "motion/contact.hpp"
 #include "motion/regime.hpp"
-#include "time/time_stepper.hpp"
+#include "time/flow.hpp"
 
 namespace rotor_stator::deviations {
 

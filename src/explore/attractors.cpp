@@ -32,10 +32,6 @@ struct Task {
   std::vector<double> speeds;  ///< [Hz]
   OperationBudget budget;
 
-  bool is_edge(std::size_t speed) const
-  {
-    return speed == 0 || speed + 1 == speeds.size();
-  }
   motion::Request asked_at(std::size_t speed) const
   {
     return {.omega = angular(speeds[speed]),
@@ -55,17 +51,15 @@ Task task_of(const AttractorsRequest& request)
   if (request.starts > most_starts)
     throw BadInput(format("--starts %d: must be in 0...%d with --count %d",
                           request.starts, most_starts, request.count));
-  std::vector<double> speeds;
-  for (int k = 0; k < request.count; ++k)
-    speeds.push_back(request.from +
-                     (request.to - request.from) * k / std::max(1, request.count - 1));
   const OperationBudget budget =
       budget_of(request, request.count * (3.0 + request.starts), machine);
-  return {request, machine, base_period(machine), std::move(speeds), budget};
+  return {request, machine, base_period(machine),
+          evenly_spaced(request.from, request.to, request.count), budget};
 }
 
-/** A random state of the size of the motion: both bodies together within twice the unbalance response of the joined
-    bodies, the relative motion within twice the bearing's size. */
+/** A random state of the size of the motion: both bodies together within twice the
+    unbalance response of the joined bodies, the relative motion within twice the
+    bearing's size. */
 State random_state(const Based& at, std::uint64_t seed)
 {
   const auto& [machine, base] = at;
@@ -93,9 +87,10 @@ State random_state(const Based& at, std::uint64_t seed)
 /**
 ## The starts
 
-Two chains carry the state on from speed to speed; each speed has its own starts beside them. Some are integrated at
-once, but what they cost is added up in their order, and what goes beyond the budget is lost, so that the table does
-not depend on the number of threads. */
+Two chains carry the state on from speed to speed; each speed has its own starts beside
+them. Some are integrated at once, but what they cost is added up in their order, and what
+goes beyond the budget is lost, so that the table does not depend on the number of
+threads. */
 
 const char* const out_of_budget = "the budget is used up, more with --budget";
 
@@ -111,28 +106,15 @@ struct Run {
   std::string lost = {};  ///< why it has no result
 };
 
-/** Starts that are integrated one after the other. */
-struct Piece {
-  enum { up, down, at_speed } kind;
-  std::size_t speed = 0;
-};
-
-std::vector<Piece> pieces_of(const Task& task)
-{
-  std::vector<Piece> pieces{{Piece::up}};
-  if (task.speeds.size() > 1) pieces.push_back({Piece::down});
-  for (std::size_t k = 0; k < task.speeds.size(); ++k)
-    if (!task.is_edge(k) || task.request.starts > 0)
-      pieces.push_back({Piece::at_speed, k});
-  return pieces;
-}
-
-/** The chains begin at rest, which at the edges is the start from rest. */
-std::vector<Run> runs_of(const Task& task, const Piece& piece,
+/** What is integrated one after the other: piece 0 is the chain upwards, 1 the one
+    downwards, k + 2 the starts at speed k alone. The chains begin at rest, which at the
+    edges is the start from rest. */
+std::vector<Run> runs_of(const Task& task, std::size_t piece,
                          const OperationBudget& budget)
 {
   std::vector<Run> runs;
-  /** The state that the next start of a chain takes; at rest again after one that was lost. */
+  /** The state that the next start of a chain takes; at rest again after one that was
+      lost. */
   const auto run = [&](std::size_t speed, Origin origin,
                        const std::optional<State>& start) -> std::optional<State> {
     const double left = budget.left();
@@ -150,22 +132,25 @@ std::vector<Run> runs_of(const Task& task, const Piece& piece,
     if (!one.lost.empty()) return {};
     return one.answer.settled.at.state;
   };
-  if (piece.kind == Piece::at_speed) {
-    if (!task.is_edge(piece.speed)) run(piece.speed, Origin::rest, {});
-    const Based at = over(task.base, task.machine, angular(task.speeds[piece.speed]));
-    for (int k = 0; k < task.request.starts; ++k) {
-      const auto seed = (static_cast<std::uint64_t>(task.request.seed) << 32) +
-                        (static_cast<std::uint64_t>(piece.speed) << 16) +
-                        static_cast<std::uint64_t>(k);
-      run(piece.speed, Origin::random, random_state(at, seed));
-    }
+  const std::size_t count = task.speeds.size();
+  if (piece < 2) {
+    std::optional<State> state;
+    for (std::size_t k = 0; k < (piece == 1 && count == 1 ? 0 : count); ++k)
+      state = run(piece == 0 ? k : count - 1 - k,
+                  k == 0       ? Origin::rest
+                  : piece == 0 ? Origin::below
+                               : Origin::above,
+                  state);
     return runs;
   }
-  std::optional<State> state;
-  const Origin carried = piece.kind == Piece::up ? Origin::below : Origin::above;
-  for (std::size_t k = 0; k < task.speeds.size(); ++k) {
-    const std::size_t speed = piece.kind == Piece::up ? k : task.speeds.size() - 1 - k;
-    state = run(speed, k == 0 ? Origin::rest : carried, state);
+  const std::size_t speed = piece - 2;
+  if (speed > 0 && speed + 1 < count) run(speed, Origin::rest, {});
+  const Based at = over(task.base, task.machine, angular(task.speeds[speed]));
+  for (int k = 0; k < task.request.starts; ++k) {
+    const auto seed = (static_cast<std::uint64_t>(task.request.seed) << 32) +
+                      (static_cast<std::uint64_t>(speed) << 16) +
+                      static_cast<std::uint64_t>(k);
+    run(speed, Origin::random, random_state(at, seed));
   }
   return runs;
 }
@@ -173,15 +158,14 @@ std::vector<Run> runs_of(const Task& task, const Piece& piece,
 /** All starts in order, and whether the budget paid for them. */
 std::vector<Run> all_runs(const Task& task)
 {
-  const std::vector<Piece> pieces = pieces_of(task);
   /** The rest is for the exponents of closed motions. */
   const double most = 0.9 * task.budget.left();
   std::atomic<double> spent = 0;
   const auto of_pieces = computed_in_parallel(
-      task.request.quiet ? "" : "attractors", pieces.size(), [&](std::size_t k) {
+      task.request.quiet ? "" : "attractors", task.speeds.size() + 2, [&](std::size_t k) {
         /** Of earlier pieces only: these begin in order. */
-        auto runs =
-            runs_of(task, pieces[k], OperationBudget(std::max(0.0, most - spent)));
+        auto runs = runs_of(
+            task, k, budget_until(task.request.budget, std::max(0.0, most - spent)));
         for (const Run& run : runs) spent += run.spent;
         return runs;
       });
@@ -220,8 +204,9 @@ struct Found {
   Exponent exponent() const { return answer.settled.lyapunov; }
 };
 
-/** Whether two motions of one speed are on one attractor: both close after as many periods or neither does, two kinds
-    do not contradict each other, and means and scatters agree over the largest scatter. At rest all do. */
+/** Whether two motions of one speed are on one attractor: both close after as many
+    periods or neither does, two kinds do not contradict each other, and means and
+    scatters agree over the largest scatter. At rest all do. */
 bool is_same(const Run& a, const Found& b)
 {
   const Kind kind = a.answer.kind(), other = b.answer.kind();
@@ -238,8 +223,9 @@ bool is_same(const Run& a, const Found& b)
   return apart <= size * (is_closed ? same_closed : same_open);
 }
 
-/** The motion itself, closed where it closes. Of another one the exponent is the mean over its starts, whose scatter
-    knows more than one motion does of itself. Throws NoSolution when the budget is used up. */
+/** The motion itself, closed where it closes. Of another one the exponent is the mean
+    over its starts, whose scatter knows more than one motion does of itself. Throws
+    NoSolution when the budget is used up. */
 void look_closer(const Task& task, std::size_t speed, Found& found)
 {
   motion::Request request = task.asked_at(speed);
@@ -257,7 +243,8 @@ void look_closer(const Task& task, std::size_t speed, Found& found)
       std::ranges::any_of(forces, [](Vec2 f) { return f.x != 0 || f.y != 0; });
 }
 
-/** One of each attractor in the order of the starts; a decided motion speaks for those that are not. */
+/** One of each attractor in the order of the starts; a decided motion speaks for those
+    that are not. */
 std::vector<Found> found_at(const Task& task, std::size_t speed, std::vector<Run> runs)
 {
   const auto is_decided = [](const Run& run) {
@@ -375,8 +362,9 @@ std::string motion_text(const Task& task, const std::vector<Found>& all)
 void note(Table& table, const Task& task)
 {
   describe(table, task.machine);
-  table.value("method", task.machine.large ? "gauss" : "rk4");
-  if (!task.machine.large) table.value("step", default_step(task.machine), 4);
+  const Machine& machine = *task.machine.machine;
+  table.value("method", machine.time_method());
+  if (machine.takes_explicit_steps()) table.value("step", default_step(task.machine), 4);
   table.value("base", task.base.words());
   table.value("speeds", task.speeds.size());
   table.value("starts", task.request.starts);
@@ -435,7 +423,9 @@ Exploration explore_attractors(const AttractorsRequest& request)
   note(table, task);
   put_complete(table, missing);
   for (const Found& found : all) table.row(fields, found);
-  conclude(table, task.machine, std::ranges::any_of(all, &Found::touches), task.budget);
+  const bool touches = std::ranges::any_of(all, &Found::touches);
+  if (touches || missing.empty()) put_contact(table, task.machine, touches);
+  put_cost(table, task.budget);
   std::string section;
   if (request.section || request.plot) section = section_text(task, all);
   if (request.section) write_file(*request.section, section);

@@ -1,8 +1,9 @@
 /**
 # explore attractors
 
-The bifurcation diagram of one machine: at each speed the motions on which time integration settles, begun at
-rest, on the motion at the speed below, at the speed above, and at random states. */
+The bifurcation diagram of one machine: at each speed the motions on which time
+integration settles, begun at rest, on the motion at the speed below, at the speed above,
+and at random states. */
 #pragma once
 
 #include "explore/orbit.hpp"
@@ -17,7 +18,8 @@ struct AttractorsRequest : Request {
   std::optional<std::string> section, motions;  ///< files
 };
 
-/** Throws BadInput for options that contradict each other, NoSolution when nothing was found. */
+/** Throws BadInput for options that contradict each other, NoSolution when nothing was
+    found. */
 Exploration explore_attractors(const AttractorsRequest& request);
 
 }  // namespace rotor_stator::explore

@@ -3,9 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
-#include "balance/large_problem.hpp"
 #include "io/errors.hpp"
-#include "model/large_machine.hpp"
+#include "model/base_period.hpp"
 #include "motion/find_periodic.hpp"
 #include "motion/quasi_periodic.hpp"
 
@@ -18,7 +17,7 @@ void note_verdict(Table& table, const Parameters& parameters,
   if (verdict.found()) {
     table.value("multiplier", verdict.floquet.largest(), 9);
     table.value("multiplier_uncertainty", verdict.floquet.uncertainty(), 2);
-    if (parameters.large && !parameters.large->reductions.empty())
+    if (parameters.machine->reduction_error() > 0)
       table.note("multiplier: with the reduced bodies");
   } else
     table.note("stability: " + verdict.reason);
@@ -78,8 +77,8 @@ using motion::lines_of;
     depend on them. */
 PeriodicMotion with_all_coordinates(const Parameters& parameters, PeriodicMotion solution)
 {
-  if (parameters.large && parameters.large->nodes.rows() > 0)
-    solution.bodies = coordinate_series(parameters, solution);
+  if (parameters.machine->nodes().rows() > 0)
+    solution.bodies = parameters.machine->all_series(parameters, solution);
   return solution;
 }
 
@@ -261,9 +260,11 @@ FoundMotion quasi_periodic_motion(const Parameters& parameters,
 FoundMotion balance_motion(const Parameters& parameters, const MotionRequest& request,
                            const OperationBudget& budget, Table& table)
 {
-  const bool is_turn = turns_to_repeat(parameters.bearing) == 1;
-  const BasePeriod base = is_turn ? BasePeriod{} : base_period(parameters);
-  if (request.subharmonic > 1 && !is_turn)
+  const bool is_whole = turns_to_repeat(parameters.bearing) == 1;
+  const bool is_longer = request.subharmonic > 1;
+  const BasePeriod base =
+      is_whole && is_longer ? BasePeriod{} : base_period(parameters);
+  if (is_longer && !is_whole)
     throw BadInput(
         format("--subharmonic %d: needs a whole number of passing balls in a turn, and "
                "n*omega_cage/omega is %.9g",

@@ -4,7 +4,6 @@
 #include <cmath>
 
 #include "io/errors.hpp"
-#include "io/number_table.hpp"
 #include "io/table.hpp"
 
 namespace rotor_stator::explore {

@@ -26,7 +26,7 @@ const char* word(int whirl)
 /** The linear machine, without the coordinates of a stator that is held. */
 class Linear {
 public:
-  Linear(const LargeMachine& machine, const Eigen::MatrixXd& stiffness, bool is_rigid)
+  Linear(const LargeBodies& machine, const Eigen::MatrixXd& stiffness, bool is_rigid)
       : first_(is_rigid ? 2 : 0), machine_(machine)
   {
     const auto n = machine.mass.rows() - first_;
@@ -58,7 +58,8 @@ public:
   }
 
 private:
-  /** By the sense in which the ellipses of all places that are shown turn, weighted by their areas. */
+  /** By the sense in which the ellipses of all places that are shown turn, weighted by
+      their areas. */
   int whirl(const Eigen::VectorXcd& shape) const
   {
     double turning = 0, whole = 0;
@@ -72,7 +73,7 @@ private:
   }
 
   int first_;
-  const LargeMachine& machine_;
+  const LargeBodies& machine_;
   Eigen::LDLT<Eigen::MatrixXd> mass_;
   Eigen::MatrixXd k_;
 };
@@ -120,7 +121,7 @@ std::vector<Column> columns_of(bool critical)
 
 std::vector<double> natural_frequencies(const Parameters& parameters, std::size_t most)
 {
-  const LargeMachine machine = matrices_of(parameters);
+  const LargeBodies machine = matrices_of(parameters);
   const Linear linear(machine, mean_contact_stiffness(parameters, machine),
                       parameters.stator.rigid);
   std::vector<double> list;
@@ -134,9 +135,10 @@ Exploration explore_campbell(const CampbellRequest& request)
   require_range(request.from, request.to);
   if (request.critical && request.plot)
     throw BadInput("--plot: draws frequencies; leave out --critical");
-  const Parameters parameters = read_parameters(
-      request.parameter_file, {.from = request.from, .to = request.to, .harmonics = 64});
-  const LargeMachine machine = matrices_of(parameters);
+  const Parameters parameters =
+      read_machine(StrictToml(request.parameter_file),
+                   {.from = request.from, .to = request.to, .harmonics = 64});
+  const LargeBodies machine = matrices_of(parameters);
   const Eigen::MatrixXd stiffness = mean_contact_stiffness(parameters, machine);
   const Linear linear(machine, stiffness, parameters.stator.rigid);
   const auto columns = columns_of(request.critical);
@@ -161,16 +163,14 @@ Exploration explore_campbell(const CampbellRequest& request)
       orders.push_back(
           {value, orders.size() == 1 ? "BPFO" : "BPFO_" + std::to_string(orders.size())});
   for (const auto& [value, name] : orders) table.row_line("order", {name, value});
-  std::vector<double> speeds;
+  const auto speeds = evenly_spaced(request.from, request.to, request.count);
   std::vector<std::vector<Mode>> modes;
-  for (int k = 0; k < request.count; ++k) {
-    speeds.push_back(request.from +
-                     (request.to - request.from) * k / std::max(1, request.count - 1));
-    modes.push_back(linear.modes(speeds.back()));
+  for (const double speed : speeds) {
+    modes.push_back(linear.modes(speed));
     const std::size_t shown = std::min<std::size_t>(modes.back().size(), request.modes);
     for (std::size_t i = 0; i < shown && !request.critical; ++i) {
       const auto& [frequency, damping, whirl] = modes.back()[i];
-      table.row({speeds.back(), i + 1, frequency, damping, whirl});
+      table.row({speed, i + 1, frequency, damping, whirl});
     }
   }
   for (const auto& [value, name] : orders)

@@ -7,6 +7,7 @@
 #include "explore/campbell.hpp"
 #include "io/errors.hpp"
 #include "model/catalogue.hpp"
+#include "model/large_machine.hpp"
 #include "model/rotor_stator.hpp"
 
 namespace rotor_stator::explore {
@@ -36,15 +37,12 @@ std::vector<Rest> rest_of(const Parameters& machine)
     turn_cage(turned.bearing);
     std::ranges::for_each(turned.further, turn_cage);
     motion::Motion motion{1, 0, {}};
-    if (machine.large) motion::add(motion, static_start(turned));
+    motion::add(motion, rest_state(turned, Direction::of(turned.bearing.cage_phase)));
     for (std::size_t b = 0; Rest & rest : rests) {
       const Bearing own = bearings_of(turned)[b];
       const BallBearing bearing(own);
       const auto cage = Direction::of(own.cage_phase);
-      const Vec2 u =
-          machine.large
-              ? motion::at_bearing(turned, motion, b).motion.positions[0].relative()
-              : static_equilibrium(machine, cage);
+      const Vec2 u = motion::at_bearing(turned, motion, b).motion.positions[0].relative();
       const auto [force, stiffness] = bearing.reaction(cage, u);
       const auto q = bearing.ball_forces({{1, 0}, cage}, u, {0, 0});
       rest.u = rest.u + share * u;
@@ -58,7 +56,8 @@ std::vector<Rest> rest_of(const Parameters& machine)
   return rests;
 }
 
-/** Frequencies [Hz] of both bodies joined by a spring, ascending, without that of a body which nothing holds. */
+/** Frequencies [Hz] of both bodies joined by a spring, ascending, without that of a body
+    which nothing holds. */
 std::vector<double> joined_frequencies(const Parameters& machine, double spring)
 {
   const Body &s = machine.stator, &r = machine.rotor;
@@ -70,7 +69,8 @@ std::vector<double> joined_frequencies(const Parameters& machine, double spring)
   return {std::sqrt(half - root) / turn, std::sqrt(half + root) / turn};
 }
 
-/** Whether the motion without contact, a circle about its mean, stays within the clearance at all speeds. */
+/** Whether the motion without contact, a circle about its mean, stays within the
+    clearance at all speeds. */
 bool never_touches(const CheckRequest& request, const Parameters& machine)
 {
   constexpr int speeds = 1000;
@@ -94,7 +94,7 @@ Exploration explore_check(const CheckRequest& request)
                                       {"unit", "word", "of the value"},
                                       {"meaning", "word", "of the value"}});
   table.choose(request.columns, 4, false);
-  const Parameters machine = read_parameters(request.parameter_file);
+  const Parameters machine = read_machine(StrictToml(request.parameter_file));
   require_range(request.from, request.to);
   const std::vector<Rest> rests = rest_of(machine);
   describe(table, machine);
@@ -126,7 +126,7 @@ Exploration explore_check(const CheckRequest& request)
     add("ball_load", rest.most, "N", "largest force of a ball at rest");
     if (stress > 0) add("stress", stress, "N/mm^2", "largest pressure of Hertz at rest");
   }
-  if (machine.large) {
+  if (!machine.machine->takes_explicit_steps()) {
     for (std::size_t k = 1; double frequency : natural_frequencies(machine, 8))
       table.row({format("f_%zu", k++), frequency, "Hz",
                  "natural, damped, with the mean contact stiffness at rest"});

@@ -1,9 +1,10 @@
 /**
 # explore map
 
-Quantities of one machine over two keys of its parameter file, over one, or at a list of points: one row for each
-point. Along a line of x the solution at a point starts from that of the point before; lines know nothing of each
-other, so that the rows depend neither on the number of threads nor on how the lines are dealt out to several runs. */
+Quantities of one machine over two keys of its parameter file, over one, or at a list of
+points: one row for each point. Along a line of x the solution at a point starts from that
+of the point before; lines know nothing of each other, so that the rows depend neither on
+the number of threads nor on how the lines are dealt out to several runs. */
 #pragma once
 
 #include "explore/orbit.hpp"
@@ -28,7 +29,8 @@ struct MapRequest : Request {
 /** The names of the quantities, each with its unit and meaning. */
 const std::vector<Column>& map_quantities();
 
-/** Writes the table to stdout, line by line of x; says on stderr how many points have no result. Throws BadInput. */
-void explore_map(const MapRequest& request);
+/** Writes the table to stdout, line by line of x; says on stderr how many points have no
+    result. Throws BadInput. */
+Exploration explore_map(const MapRequest& request);
 
 }  // namespace rotor_stator::explore

@@ -8,12 +8,12 @@
 #include "explore/balance_motion.hpp"
 #include "explore/settled_motion.hpp"
 #include "io/errors.hpp"
-#include "io/progress.hpp"
+#include "io/parallel.hpp"
 #include "model/large_machine.hpp"
 #include "motion/closed_motion.hpp"
 #include "motion/contact.hpp"
 #include "motion/judge.hpp"
-#include "time/time_stepper.hpp"
+#include "time/flow.hpp"
 
 namespace rotor_stator::explore {
 
@@ -31,21 +31,22 @@ void require_method_of(const Parameters& parameters, const std::string& method)
 {
   const bool is_of_masses =
       std::ranges::find(time_methods(), method) != time_methods().end();
-  if (parameters.large && is_of_masses)
+  const Machine& machine = *parameters.machine;
+  if (!machine.takes_explicit_steps() && is_of_masses)
     throw BadInput("--method " + method +
                    ": bodies given by matrices take aft, shooting, auto or gauss");
-  if (!parameters.large && method == "gauss")
+  if (machine.takes_explicit_steps() && method == "gauss")
     throw BadInput("--method gauss: is for bodies given by matrices");
 }
 
 Parameters machine_of(const Request& request, double from, double to,
                       const NumberTable* nodes)
 {
-  return read_parameters(request.parameter_file,
-                         {.from = from,
-                          .to = to,
-                          .harmonics = std::max(64, request.harmonics.value_or(0)),
-                          .nodes = nodes});
+  return read_machine(StrictToml(request.parameter_file),
+                      {.from = from,
+                       .to = to,
+                       .harmonics = std::max(64, request.harmonics.value_or(0)),
+                       .nodes = nodes});
 }
 
 int checked_samples(int harmonics, const std::optional<int>& samples)
@@ -56,18 +57,44 @@ int checked_samples(int harmonics, const std::optional<int>& samples)
   return samples.value_or(default_samples(harmonics));
 }
 
-OperationBudget budget_of(const std::optional<double>& evaluations, double seconds,
-                          const Parameters& parameters)
+std::vector<double> evenly_spaced(double from, double to, int count)
+{
+  std::vector<double> all;
+  for (int k = 0; k + 1 < count; ++k) all.push_back(from + (to - from) * k / (count - 1));
+  all.push_back(count > 1 ? to : from);
+  return all;
+}
+
+std::string Allowance::words() const
+{
+  return seconds > 0 ? format("the budget of %g s", seconds)
+                     : format("the budget of %.3g evaluations of the force", evaluations);
+}
+
+OperationBudget budget_until(const std::optional<Allowance>& allowed, double evaluations,
+                             const std::string& option)
+{
+  OperationBudget budget(evaluations, option);
+  if (allowed && allowed->seconds > 0) budget.end_at(allowed->end, allowed->seconds);
+  return budget;
+}
+
+OperationBudget budget_of_each(const std::optional<Allowance>& allowed, double seconds,
+                               const Parameters& parameters)
 {
   const double each = operations_per_evaluation(parameters.bearing.balls);
-  if (parameters.large) seconds *= 20;
-  return OperationBudget(evaluations.value_or(1e9 * seconds / each), "--budget");
+  seconds *= parameters.machine->patience().longer;
+  const bool is_counted = allowed && allowed->evaluations > 0;
+  return budget_until(allowed, is_counted ? allowed->evaluations : 1e9 * seconds / each,
+                      "--budget");
 }
 
 OperationBudget budget_of(const Request& request, double seconds,
                           const Parameters& parameters)
 {
-  OperationBudget budget = budget_of(request.budget, seconds, parameters);
+  if (request.budget && request.budget->seconds > 0)
+    seconds = 4 * request.budget->seconds;
+  OperationBudget budget = budget_of_each(request.budget, seconds, parameters);
   const auto progress =
       std::make_shared<Progress>(request.quiet ? "" : "share of --budget", 1);
   if (progress->is_watched())
@@ -76,17 +103,30 @@ OperationBudget budget_of(const Request& request, double seconds,
   return budget;
 }
 
-void conclude(Table& table, const Parameters& parameters, bool touches,
-              const OperationBudget& budget)
+void put_contact(Table& table, const Parameters& parameters, bool touches)
 {
   table.value("contact", touches ? "yes" : "no");
   if (!touches)
     table.note(
         format("warning: no ball touches its race: the clearance of %g m is never closed",
                parameters.bearing.clearance));
+}
+
+void conclude(Table& table, const Parameters& parameters, bool touches,
+              const OperationBudget& budget)
+{
+  put_contact(table, parameters, touches);
+  put_cost(table, budget);
+}
+
+void put_cost(Table& table, const OperationBudget& budget)
+{
   /** Three digits do not depend on the order in which threads have spent. */
   table.value("evaluations", budget.spent(), 3);
-  table.value("budget", budget.most(), 3);
+  if (budget.seconds() > 0)
+    table.value("budget", format("%gs", budget.seconds()));
+  else
+    table.value("budget", budget.most(), 3);
 }
 
 void put_regime(Table& table, int period, const std::string& otherwise,
@@ -159,7 +199,11 @@ Computed computed(const Parameters& parameters, const MotionRequest& request,
   describe(table, parameters);
   table.value("frequency", request.frequency);
   const bool is_settled = !is_periodic(request.method);
-  const double seconds = !is_settled || parameters.large ? 3 : 10;
+  /** Who names a method is willing to wait. */
+  const double settling = parameters.machine->patience().settling;
+  const double seconds = request.method == "auto" ? settling
+                         : is_settled             ? std::max(3.0, settling)
+                                                  : 3;
   Computed at{.budget = budget_of(request, seconds, parameters)};
   if (request.method == "aft")
     at.found = balance_motion(parameters, request, at.budget, table);
@@ -209,8 +253,7 @@ Exploration explore_orbit(const MotionRequest& request)
   for (std::size_t b = 2; b <= bearings; ++b)
     for (const char* axis : {"x", "y"})
       add(format("F_%s_%zu", axis, b), "N", "Eq. 6, of that bearing, on the stator");
-  std::vector<std::pair<std::string, int>> outputs;
-  if (parameters.large) outputs = parameters.large->outputs;
+  const auto outputs = parameters.machine->outputs();
   for (const auto& [name, place] : outputs) add(name, "m", "of a body given by matrices");
   Table table("Orbit of rotor and stator over one period", columns);
   table.choose(request.columns, columns.size() - 1, request.plot.has_value());

@@ -14,15 +14,24 @@ One motion of one machine at one speed, by harmonic balance or in time, as a tab
 
 namespace rotor_stator::explore {
 
+/** --budget: evaluations of the force or, with an s, seconds of the clock. */
+struct Allowance {
+  double evaluations = 0, seconds = 0;  ///< one of them
+  Clock::time_point end = {};           ///< of the seconds
+
+  bool is_over() const { return seconds > 0 && Clock::now() >= end; }
+  std::string words() const;  ///< "the budget of 60 s"
+};
+
 /** What the options of all commands ask for, each in its range. */
 struct Request {
   std::string parameter_file;
   std::optional<int> harmonics;     ///< m; without it 6, or what the command knows better
   std::optional<int> samples;       ///< N
   double newton_tolerance = 1e-10;  ///< relative
-  std::optional<double> budget;     ///< evaluations of the force, for all of it
-  int subharmonic = 1;              ///< K: motions of period KT
-  std::string columns = {};         ///< names, "all", or empty: the usual ones
+  std::optional<Allowance> budget;
+  int subharmonic = 1;       ///< K: motions of period KT
+  std::string columns = {};  ///< names, "all", or empty: the usual ones
   TableFormat format = TableFormat::tsv;
   bool quiet = false;                                  ///< no progress on stderr
   std::optional<std::string> plot = {}, overlay = {};  ///< files
@@ -53,7 +62,8 @@ struct Exploration {
   bool is_written = false;      ///< row by row, on stdout
 };
 
-/** Throw BadInput for options that contradict each other, NoSolution when nothing was found. */
+/** Throw BadInput for options that contradict each other, NoSolution when nothing was
+    found. */
 Exploration explore_orbit(const MotionRequest& request);
 Exploration explore_contact(const MotionRequest& request);
 
@@ -68,14 +78,16 @@ inline const Column phase_column{
     "omega t, modulo 2 pi, or 2 pi K with --subharmonic K or --periods K"};
 inline const Column time_column{"t", "s", "time since phase 0"};
 
-/** The machine, right at these speeds [Hz], the request's harmonics and the rotor's `nodes`. Throws BadInput. */
+/** The machine, right at these speeds [Hz], the request's harmonics and the rotor's
+    `nodes`. Throws BadInput. */
 Parameters machine_of(const Request& request, double from, double to,
                       const NumberTable* nodes = nullptr);
 
 /** Throws BadInput for a time method that does not integrate such bodies. */
 void require_method_of(const Parameters& parameters, const std::string& method);
 
-/** A motion, the machine counted over its period, and its lines, which a record leaves out. */
+/** A motion, the machine counted over its period, and its lines, which a record leaves
+    out. */
 struct FoundMotion {
   motion::Motion motion;
   motion::Lines lines = {};
@@ -96,24 +108,37 @@ struct Computed {
   bool touches() const;
 };
 
-/** The motion that is asked for, `open_periods` of one that does not close; how it was found goes to the table's
-    header. */
+/** The motion that is asked for, `open_periods` of one that does not close; how it was
+    found goes to the table's header. */
 Computed computed(const Parameters& parameters, const MotionRequest& request,
                   int open_periods, Table& table);
 
 /** Throws BadInput unless --from is below --to. */
 void require_range(double from, double to);
 
+/** So many speeds, both ends among them. */
+std::vector<double> evenly_spaced(double from, double to, int count);
+
 /** N as asked for, or the default for m. Throws BadInput when it is too small. */
 int checked_samples(int harmonics, const std::optional<int>& samples);
 
-/** The budget that is asked for, or the evaluations that take `seconds`; watched where a person is. */
+/** The budget that is asked for, or the evaluations that take `seconds`; watched
+    where a person is. Seconds of the clock bound the evaluations too, by what a fast
+    core does. */
 OperationBudget budget_of(const Request& request, double seconds,
                           const Parameters& parameters);
-OperationBudget budget_of(const std::optional<double>& evaluations, double seconds,
-                          const Parameters& parameters);
 
-/** Whether any ball touched, and what was spent. */
+/** So many evaluations, and no longer than a user's seconds. */
+OperationBudget budget_until(const std::optional<Allowance>& allowed, double evaluations,
+                             const std::string& option = "");
+
+/** Of one motion of many: a user's seconds are those of the whole run. */
+OperationBudget budget_of_each(const std::optional<Allowance>& allowed, double seconds,
+                               const Parameters& parameters);
+
+/** The key `contact`, with a warning where no ball touched; what was spent; both. */
+void put_contact(Table& table, const Parameters& parameters, bool touches);
+void put_cost(Table& table, const OperationBudget& budget);
 void conclude(Table& table, const Parameters& parameters, bool touches,
               const OperationBudget& budget);
 

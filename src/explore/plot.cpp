@@ -18,7 +18,8 @@ namespace {
 
 using std::filesystem::path;
 
-/** Beside the program: in the source tree, whose folders of builds stand beside figures, or installed. */
+/** Beside the program: in the source tree, whose folders of builds stand beside figures,
+    or installed. */
 path script_file(const std::string& script)
 {
   std::error_code error;
@@ -84,27 +85,6 @@ bool run_python(const std::vector<std::string>& arguments, const path& log)
   return begun && waitpid(child, &status, 0) == child && status == 0;
 }
 
-/** All or nothing. Throws NoSolution when it cannot. */
-void draw(const std::string& file, const std::string& script, const std::string& table,
-          const std::optional<std::string>& overlay)
-{
-  const TemporaryFolder temporary;
-  const path log = temporary.folder / "log";
-  const path data = temporary.folder / "table.tsv";
-  const path figure =
-      (temporary.folder / "figure").concat(path(file).extension().string());
-  write_file(data, table);
-  std::vector<std::string> words{script_file(script), data, figure};
-  if (overlay) words.push_back(*overlay);
-  if (!run_python(words, log)) {
-    std::string why = content_of(log);
-    while (!why.empty() && why.back() == '\n') why.pop_back();
-    throw NoSolution("--plot: " + script + ": " +
-                     printable(why.substr(why.rfind('\n') + 1)));
-  }
-  write_file(file, content_of(figure));
-}
-
 }  // namespace
 
 void require_plot(const std::string& file, const std::string& script,
@@ -123,13 +103,23 @@ void require_plot(const std::string& file, const std::string& script,
 
 std::string plot(const std::string& file, const std::string& script,
                  const std::string& table, const std::optional<std::string>& overlay)
-{
-  try {
-    draw(file, script, table, overlay);
-  } catch (const NoSolution& error) {
-    return error.what();
+try {
+  const TemporaryFolder temporary;
+  const path log = temporary.folder / "log", data = temporary.folder / "table.tsv";
+  const path figure =
+      (temporary.folder / "figure").concat(path(file).extension().string());
+  write_file(data, table);
+  std::vector<std::string> words{script_file(script), data, figure};
+  if (overlay) words.push_back(*overlay);
+  if (run_python(words, log)) {
+    write_file(file, content_of(figure));
+    return "";
   }
-  return "";
+  std::string why = content_of(log);
+  while (!why.empty() && why.back() == '\n') why.pop_back();
+  return "--plot: " + script + ": " + printable(why.substr(why.rfind('\n') + 1));
+} catch (const NoSolution& error) {
+  return error.what();
 }
 
 }  // namespace rotor_stator::explore

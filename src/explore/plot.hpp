@@ -1,7 +1,8 @@
 /**
 # Figures of what explore computed
 
-Drawn by a script of the folder figures, in the source tree or installed, with Matplotlib. */
+Drawn by a script of the folder figures, in the source tree or installed, with Matplotlib.
+*/
 #pragma once
 
 #include <optional>
@@ -10,8 +11,9 @@ Drawn by a script of the folder figures, in the source tree or installed, with M
 
 namespace rotor_stator::explore {
 
-/** Asked before the work. Throws BadInput unless `file`, the value of --plot, can be written to (`require_writable`),
-    its suffix is .svg, .png or .pdf, and Python with Matplotlib can run `script`. */
+/** Asked before the work. Throws BadInput unless `file`, the value of --plot, can be
+    written to (`require_writable`), its suffix is .svg, .png or .pdf, and Python with
+    Matplotlib can run `script`. */
 void require_plot(const std::string& file, const std::string& script,
                   const std::vector<std::string>& inputs);
 

@@ -1,8 +1,8 @@
 /**
 # explore response
 
-The frequency response of one machine along its branch of periodic solutions, as a table: folds, on demand
-the branches beside it, the Floquet multipliers and the bifurcations. */
+The frequency response of one machine along its branch of periodic solutions, as a table:
+folds, on demand the branches beside it, the Floquet multipliers and the bifurcations. */
 #pragma once
 
 #include <Eigen/Core>
@@ -33,11 +33,13 @@ struct ResponseRequest : Request {
   std::optional<int> count;  ///< so many; without it 101, of large bodies 21
   bool stability = false;    ///< multipliers at each point, and the bifurcations
   bool times = false;        ///< CPU seconds on stderr
-  /** Sees the points of the main branch while it is followed: speed [Hz], half peak-to-peak [m]. */
+  /** Sees the points of the main branch while it is followed: speed [Hz], half
+      peak-to-peak [m]. */
   std::function<void(double f, const Eigen::VectorXd& amplitude)> watch = {};
 };
 
-/** Throws BadInput for options that contradict each other, NoSolution when nothing was found. */
+/** Throws BadInput for options that contradict each other, NoSolution when nothing was
+    found. */
 Exploration explore_response(const ResponseRequest& request);
 
 }  // namespace rotor_stator::explore

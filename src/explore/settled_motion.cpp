@@ -9,7 +9,8 @@ namespace rotor_stator::explore {
 
 namespace {
 
-/** Mean, rms and amplitude of a motion that never repeats itself, with their standard errors. */
+/** Mean, rms and amplitude of a motion that never repeats itself, with their standard
+    errors. */
 void put_statistics(Table& table, const motion::Observation& seen)
 {
   const char* const names[] = {"x_s", "y_s", "x_r", "y_r"};

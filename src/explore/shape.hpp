@@ -1,8 +1,9 @@
 /**
 # explore shape
 
-The shape of a rotor given by matrices while it runs at one speed (operating deflection shape): the orbits of its nodes
-along the shaft, at the same instants. The motion is that of `explore orbit`. */
+The shape of a rotor given by matrices while it runs at one speed (operating deflection
+shape): the orbits of its nodes along the shaft, at the same instants. The motion is that
+of `explore orbit`. */
 #pragma once
 
 #include "explore/orbit.hpp"
@@ -14,7 +15,8 @@ struct ShapeRequest : MotionRequest {
       nodes;  ///< table with the columns z [m], x and y, degrees of freedom from 1
 };
 
-/** Throws BadInput for a rotor without matrices and for nodes that it has not, NoSolution when nothing was found. */
+/** Throws BadInput for a rotor without matrices and for nodes that it has not, NoSolution
+    when nothing was found. */
 Exploration explore_shape(const ShapeRequest& request);
 
 }  // namespace rotor_stator::explore

@@ -5,7 +5,7 @@
 
 #include "balance/torus_line.hpp"
 #include "io/errors.hpp"
-#include "io/number_table.hpp"
+#include "io/table.hpp"
 
 namespace rotor_stator::explore {
 
@@ -20,7 +20,8 @@ int recorded_turns(double frequency)
   return static_cast<int>(std::clamp(std::ceil(10 * frequency), 64.0, 256.0));
 }
 
-/** What stands for the defaults of orbit: turns enough to tell lines apart, and harmonics up to three times BPFO. */
+/** What stands for the defaults of orbit: turns enough to tell lines apart, and harmonics
+    up to three times BPFO. */
 MotionRequest with_defaults(MotionRequest request, const Parameters& parameters)
 {
   const bool is_free = !request.harmonics && !request.tolerance && !request.samples &&

@@ -8,13 +8,14 @@ The lines of one motion, their amplitudes and their names, by any method. */
 
 namespace rotor_stator::explore {
 
-/** Throws BadInput for options that contradict each other, NoSolution when nothing was found. */
+/** Throws BadInput for options that contradict each other, NoSolution when nothing was
+    found. */
 Exploration explore_spectrum(const MotionRequest& request);
 
 extern const std::vector<Column> line_columns;
 
-/** The rows of a motion at the speed `frequency` [Hz], down to `smallest` of its largest line; names have k_cage up to n
-    `passages`. False where no line is above rounding. */
+/** The rows of a motion at the speed `frequency` [Hz], down to `smallest` of its largest
+    line; names have k_cage up to n `passages`. False where no line is above rounding. */
 bool add_lines(Table& table, const Bearing& bearing, double frequency, motion::Lines all,
                int passages, double smallest);
 

@@ -13,15 +13,24 @@ double OperationBudget::left() const
 
 const OperationBudget::Account* OperationBudget::short_of(double evaluations) const
 {
+  bool is_short = false;
+  const Account* whole = nullptr;
   for (Account* account = account_.get(); account; account = account->parent.get()) {
-    if (!(evaluations <= account->left)) {
-      account->left = 0;
-      return account;
-    }
-    account->left -= evaluations;
-    if (account->watch) account->watch(1 - account->left / account->most);
+    whole = account;
+    if (is_short) continue;
+    is_short = !(evaluations <= account->left) ||
+               (account->seconds > 0 && Clock::now() >= account->end);
+    account->left = is_short ? 0 : account->left - evaluations;
+    if (account->watch && !is_short) account->watch(1 - account->left / account->most);
   }
-  return nullptr;
+  return is_short ? whole : nullptr;
+}
+
+bool OperationBudget::used_up() const
+{
+  for (const Account* account = account_.get(); account; account = account->parent.get())
+    if (account->left < 1e-3 * account->most) return true;
+  return false;
 }
 
 bool OperationBudget::pay(double evaluations) const
@@ -33,14 +42,16 @@ void OperationBudget::spend(double evaluations) const
 {
   const Account* account = short_of(evaluations);
   if (!account) return;
-  const Account* whole = account;
-  while (whole->parent) whole = whole->parent.get();
-  const std::string more = account->option.empty() ? ""
-                                                   : "; more with " + account->option +
-                                                         format(" %.2g", 4 * whole->most);
-  throw NoSolution(format("the %s of %.3g evaluations of the force is used up%s",
-                          account->parent ? "share" : "budget", account->most,
-                          more.c_str()));
+  const auto in_words = [&](double times, const char* unit) {
+    return account->seconds > 0
+               ? format("%gs", times * account->seconds)
+               : format("%.*g%s", times > 1 ? 2 : 3, times * account->most, unit);
+  };
+  throw NoSolution("the budget of " + in_words(1, " evaluations of the force") +
+                   " is used up" +
+                   (account->option.empty()
+                        ? ""
+                        : "; more with " + account->option + " " + in_words(4, "")));
 }
 
 OperationBudget OperationBudget::part(double share) const

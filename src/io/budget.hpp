@@ -3,13 +3,15 @@
 
 A question that is legal can still ask for hours: a stiff contact, many balls, many harmonics. What a
 run does is counted in evaluations of the bearing's force as RK4 makes them (Eq. 6 at one instant, all
-n balls), and never in seconds: the same question ends in the same way on every machine.
+n balls), and not in seconds: the same question ends in the same way on every machine. Who
+asks for seconds of the clock gives that up.
 
 Everything else that takes time (transforms, factorisations, the overhead of a stepper) is charged with
 as many evaluations as take that time. The prices are given in elementary operations, of which a core
 does about one per nanosecond; one evaluation is 15 + 1.35 n of them. */
 #pragma once
 
+#include <chrono>
 #include <functional>
 #include <memory>
 #include <string>
@@ -21,6 +23,8 @@ constexpr double operations_per_evaluation(int balls)
 {
   return 15 + 1.35 * balls;
 }
+
+using Clock = std::chrono::steady_clock;
 
 /** A shared account of evaluations of the force: copies spend from the same account. */
 class OperationBudget {
@@ -41,7 +45,17 @@ public:
     account_->watch = std::move(watch);
   }
 
+  /** Nothing can be paid from a time of the clock on, `seconds` after the start of the run. */
+  void end_at(Clock::time_point end, double seconds)
+  {
+    account_->end = end;
+    account_->seconds = seconds;
+  }
+
   bool bounded() const { return account_ != nullptr; }
+
+  /** Of the clock, 0 for any. */
+  double seconds() const { return account_->seconds; }
 
   /** What was spent of a bounded account, and what it began with [evaluations]. */
   double spent() const { return account_->most - account_->left; }
@@ -51,7 +65,7 @@ public:
   double left() const;
 
   /** Whether something could not be paid for from this account, or less than a thousandth of it is left. */
-  bool used_up() const { return account_ && left() < 1e-3 * account_->most; }
+  bool used_up() const;
 
   /** Takes `evaluations` from the account. Throws NoSolution when they are not there. */
   void spend(double evaluations) const;
@@ -68,9 +82,12 @@ private:
     std::string option;
     std::shared_ptr<Account> parent;
     std::function<void(double share)> watch = {};
+    double seconds = 0;  ///< of the clock, 0 for any
+    Clock::time_point end = {};
   };
 
-  /** The first account that has not `evaluations` left, emptied; null where all had and paid. */
+  /** The account that a user knows, the outermost, where one has not `evaluations` left and is
+      emptied; null where all had and paid. */
   const Account* short_of(double evaluations) const;
 
   std::shared_ptr<Account> account_;

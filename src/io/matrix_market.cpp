@@ -19,9 +19,7 @@ constexpr std::uintmax_t most_bytes = 4'000'000'000;
 constexpr long most_rows = 2'000'000;
 constexpr std::streamsize longest_line = 1024;
 
-enum class Half { none, symmetric, skew };
-
-/** A file being read line by line, without comments and blank lines. */
+/** A file read line by line, without comments and blank lines, word by word in small letters. */
 class Lines {
 public:
   explicit Lines(const std::string& file)
@@ -37,28 +35,39 @@ public:
       if (!in_.getline(line, longest_line) && in_.gcount() == 0) return false;
       ++number_;
       if (in_.fail() && !in_.eof()) fail("is longer than a line of numbers");
-      text_ = line;
-      at_ = text_.data();
-    } while (!with_comments && (text_[0] == '%' || is_at_end()));
+      words_.clear();
+      words_.str(line);
+    } while (!with_comments && (line[0] == '%' || is_at_end()));
     return true;
   }
 
-  /** The words of the line, in small letters. */
-  std::vector<std::string> words() const
+  bool is_at_end() { return (words_ >> std::ws).eof(); }
+
+  std::string word()
   {
-    std::string lower = text_;
-    for (char& c : lower)
+    std::string word;
+    words_ >> word;
+    for (char& c : word)
       c = static_cast<char>(std::tolower(static_cast<unsigned char>(c)));
-    std::istringstream in(lower);
-    std::vector<std::string> list;
-    for (std::string word; in >> word;) list.push_back(word);
-    return list;
+    return word;
+  }
+
+  template <class Number>
+  Number read(const std::string& what)
+  {
+    if (is_at_end()) fail("lacks " + what);
+    const std::string text = word();
+    const char* const end = text.data() + text.size();
+    Number value = 0;
+    const auto [rest, error] =
+        std::from_chars(text.data() + text.starts_with('+'), end, value);
+    if (error != std::errc{} || rest != end) fail("holds something else than " + what);
+    return value;
   }
 
   long whole(const char* what, long least, long most)
   {
-    long value = 0;
-    read(value, "a whole number");
+    const long value = read<long>("a whole number");
     if (value < least || value > most)
       fail(format("%s must be in %ld...%ld, got %ld", what, least, most, value));
     return value;
@@ -66,8 +75,7 @@ public:
 
   double real()
   {
-    double value = 0;
-    read(value, "a number");
+    const double value = read<double>("a number");
     if (!std::isfinite(value)) fail("holds a number that is not finite");
     return value;
   }
@@ -84,52 +92,34 @@ public:
   }
 
 private:
-  bool is_at_end()
-  {
-    while (*at_ != '\0' && std::isspace(static_cast<unsigned char>(*at_))) ++at_;
-    return *at_ == '\0';
-  }
-
-  template <class Number>
-  void read(Number& value, const char* what)
-  {
-    const char* end = text_.data() + text_.size();
-    if (is_at_end()) fail(std::string("lacks ") + what);
-    if (*at_ == '+') ++at_;
-    const auto [rest, error] = std::from_chars(at_, end, value);
-    if (error != std::errc{} || (rest != end && !std::isspace(*rest)))
-      fail(std::string("holds something else than ") + what);
-    at_ = rest;
-  }
-
-  std::string file_, text_;
+  std::string file_;
   std::ifstream in_;
-  const char* at_ = nullptr;
+  std::istringstream words_;
   long number_ = 0;
 };
 
-/** What the first line says. */
+/** What the first line says; of a matrix with a sign one triangle is given, and the other is `sign` times it. */
 struct Kind {
   bool in_full;
-  Half half;
+  int sign;
 };
 
 Kind kind_of(Lines& lines)
 {
-  const std::vector<std::string> words =
-      lines.next(true) ? lines.words() : std::vector<std::string>{};
-  const auto is_one_of = [&](std::size_t k, const std::vector<std::string>& known) {
-    return std::ranges::find(known, words[k]) != known.end();
-  };
-  if (words.size() != 5 || words[0] != "%%matrixmarket" || words[1] != "matrix" ||
-      !is_one_of(2, {"coordinate", "array"}) || !is_one_of(3, {"real", "integer"}) ||
-      !is_one_of(4, {"general", "symmetric", "skew-symmetric"}))
+  std::string words[5];
+  bool is_known = lines.next(true);
+  for (std::string& word : words)
+    if (is_known) word = lines.word();
+  const auto& [banner, object, form, field, half] = words;
+  is_known = is_known && lines.is_at_end() && banner == "%%matrixmarket" &&
+             object == "matrix" && (form == "coordinate" || form == "array") &&
+             (field == "real" || field == "integer") &&
+             (half == "general" || half == "symmetric" || half == "skew-symmetric");
+  if (!is_known)
     lines.fail(
         "must be %%MatrixMarket matrix, coordinate or array, real or integer, "
         "general, symmetric or skew-symmetric; not pattern, complex or hermitian");
-  return {words[2] == "array", words[4] == "general"     ? Half::none
-                               : words[4] == "symmetric" ? Half::symmetric
-                                                         : Half::skew};
+  return {form == "array", half == "general" ? 0 : half == "symmetric" ? 1 : -1};
 }
 
 }  // namespace
@@ -138,14 +128,13 @@ SparseMatrix read_matrix(const std::string& file)
 {
   Lines lines(file);
   const auto bytes = static_cast<double>(std::filesystem::file_size(file));
-  const auto [in_full, half] = kind_of(lines);
+  const auto [in_full, sign] = kind_of(lines);
   if (!lines.next()) lines.fail("the line with the sizes is missing");
   const long rows = lines.whole("the number of rows", 1, most_rows);
   if (lines.whole("the number of columns", 1, most_rows) != rows)
     lines.fail("the matrix must be square");
   const long below = rows * (rows - 1) / 2;
-  const long stored =
-      below + (half == Half::none ? below : 0) + (half == Half::skew ? 0 : rows);
+  const long stored = below + (sign == 0 ? below : 0) + (sign < 0 ? 0 : rows);
   const long count =
       in_full ? stored : lines.whole("the number of entries", 0, 2'000'000'000);
   lines.end_line();
@@ -155,7 +144,7 @@ SparseMatrix read_matrix(const std::string& file)
     lines.fail("announces more entries than the matrix or the file can hold");
 
   std::vector<Eigen::Triplet<double, int>> entries;
-  long row = half == Half::skew ? 1 : 0, column = 0;  // of the next one in full
+  long row = sign < 0 ? 1 : 0, column = 0;  // of the next one in full
   for (long k = 0; k < count; ++k) {
     if (!lines.next())
       lines.fail(format("the file ends after %ld of %ld entries", k, count));
@@ -166,14 +155,15 @@ SparseMatrix read_matrix(const std::string& file)
     const double value = lines.real();
     lines.end_line();
     const int i = static_cast<int>(row), j = static_cast<int>(column);
-    if (half == Half::skew && i == j && value != 0)
+    if (sign < 0 && i == j && value != 0)
       lines.fail("a skew-symmetric matrix has no diagonal");
-    if (value != 0 || !in_full) entries.emplace_back(i, j, value);
-    if ((value != 0 || !in_full) && half != Half::none && i != j)
-      entries.emplace_back(j, i, half == Half::skew ? -value : value);
+    if (value != 0 || !in_full) {
+      entries.emplace_back(i, j, value);
+      if (sign != 0 && i != j) entries.emplace_back(j, i, sign * value);
+    }
     if (++row < rows || !in_full) continue;
     ++column;
-    row = half == Half::none ? 0 : column + (half == Half::skew);
+    row = sign == 0 ? 0 : column + (sign < 0);
   }
   if (lines.next()) lines.fail("the matrix has ended before this line");
   SparseMatrix matrix(static_cast<int>(rows), static_cast<int>(rows));

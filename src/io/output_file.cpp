@@ -1,9 +1,10 @@
 #include "io/output_file.hpp"
 
-#include <fcntl.h>
 #include <sys/stat.h>
 #include <unistd.h>
 #include <cerrno>
+#include <cstdio>
+#include <cstdlib>
 #include <cstring>
 #include <filesystem>
 
@@ -38,30 +39,31 @@ void require_writable(const std::string& option, const std::string& file,
 
 void write_file(const std::string& file, const std::string& content)
 {
-  const auto folder = std::filesystem::absolute(file).parent_path();
-  std::filesystem::path unfinished;
-  int descriptor = -1;
-  for (int k = 0; descriptor < 0 && k < 1000 && (k == 0 || errno == EEXIST); ++k) {
-    unfinished =
-        folder / format(".unfinished-%ld-%d.tmp", static_cast<long>(getpid()), k);
-    descriptor = open(unfinished.c_str(),
-                      O_WRONLY | O_CREAT | O_EXCL | O_NOFOLLOW | O_CLOEXEC, 0666);
-  }
-  bool done = descriptor >= 0;
+  std::string unfinished =
+      std::filesystem::absolute(file).parent_path() / ".unfinished-XXXXXX";
+  const int descriptor = mkstemp(unfinished.data());
+  std::FILE* const out = descriptor < 0 ? nullptr : fdopen(descriptor, "wb");
+  const mode_t mask = umask(0);
+  umask(mask);
   struct stat old;
-  if (done && stat(file.c_str(), &old) == 0)
-    done = fchmod(descriptor, old.st_mode & 0777) == 0;
-  for (std::size_t k = 0; done && k < content.size();) {
-    const ssize_t more = write(descriptor, content.data() + k, content.size() - k);
-    done = more > 0;
-    k += done ? static_cast<std::size_t>(more) : 0;
-  }
-  done = done && fsync(descriptor) == 0 && rename(unfinished.c_str(), file.c_str()) == 0;
+  const bool is_there = stat(file.c_str(), &old) == 0;
+  const bool done =
+      out && fchmod(descriptor, is_there ? old.st_mode & 0777 : 0666 & ~mask) == 0 &&
+      std::fwrite(content.data(), 1, content.size(), out) == content.size() &&
+      std::fflush(out) == 0 && fsync(descriptor) == 0 &&
+      rename(unfinished.c_str(), file.c_str()) == 0;
   const int error = errno;
-  if (descriptor >= 0) close(descriptor);
+  if (out) std::fclose(out);
   if (done) return;
   if (descriptor >= 0) unlink(unfinished.c_str());
   throw NoSolution(file + ": cannot be written: " + std::strerror(error));
+}
+
+void write(const std::string& text)
+{
+  const bool written = std::fwrite(text.data(), 1, text.size(), stdout) == text.size();
+  if (!written || std::fflush(stdout) != 0)
+    throw NoSolution("the standard output cannot be written to");
 }
 
 }  // namespace rotor_stator

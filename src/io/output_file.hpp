@@ -17,4 +17,8 @@ void require_writable(const std::string& option, const std::string& file,
     cannot. */
 void write_file(const std::string& file, const std::string& content);
 
+/** Writes all of `text` to stdout. Throws NoSolution when it cannot (a full disk, a
+    closed pipe). */
+void write(const std::string& text);
+
 }  // namespace rotor_stator

@@ -1,14 +1,43 @@
 #include "io/parallel.hpp"
 
-#include <omp.h>
+#include <unistd.h>
 #include <algorithm>
 #include <atomic>
+#include <cstdio>
 #include <exception>
 #include <mutex>
+#ifdef _OPENMP
+#include <omp.h>
+#endif
 
-#include "io/program.hpp"
+#include "io/errors.hpp"
 
 namespace rotor_stator {
+
+Progress::Progress(std::string what, std::size_t total)
+    : what_(std::move(what)), total_(total),
+      watched_(!what_.empty() && isatty(STDERR_FILENO) == 1)
+{
+}
+
+Progress::~Progress()
+{
+  if (shown_) std::fputc('\n', stderr);
+}
+
+void Progress::show(const std::string& state, bool is_last)
+{
+  if (!watched_ || (Clock::now() < next_ && !(shown_ && is_last))) return;
+  shown_ = true;
+  next_ = Clock::now() + std::chrono::milliseconds(200);
+  std::fprintf(stderr, "\r%s: %s", what_.c_str(), state.c_str());
+}
+
+void Progress::step()
+{
+  ++done_;
+  show(format("%zu of %zu", done_, total_), done_ == total_);
+}
 
 void in_parallel(const std::string& name, std::size_t pieces,
                  const std::function<void(std::size_t piece)>& work)
@@ -38,7 +67,11 @@ void in_parallel(const std::string& name, std::size_t pieces,
 
 std::size_t most_threads()
 {
+#ifdef _OPENMP
   return static_cast<std::size_t>(std::max(1, omp_get_max_threads()));
+#else
+  return 1;
+#endif
 }
 
 }  // namespace rotor_stator

@@ -1,15 +1,37 @@
 /**
-# Independent pieces of work, several at a time
+# Long work
 
-The threads share the work; the results do not depend on their number. */
+Independent pieces of it run several at a time: threads share them, and the results do not depend on their number. */
 #pragma once
 
+#include <chrono>
 #include <cstddef>
 #include <functional>
 #include <string>
 #include <vector>
 
 namespace rotor_stator {
+
+/** A line on stderr that is rewritten in place, only when a person is watching and after two seconds. */
+class Progress {
+public:
+  /** Without a name nothing is shown. */
+  Progress(std::string what, std::size_t total);
+  ~Progress();
+  Progress(const Progress&) = delete;
+  Progress& operator=(const Progress&) = delete;
+
+  bool is_watched() const { return watched_; }
+  void step();
+  void show(const std::string& state, bool is_last = false);  ///< instead of steps
+
+private:
+  using Clock = std::chrono::steady_clock;
+  std::string what_;
+  std::size_t done_ = 0, total_;
+  bool watched_, shown_ = false;
+  Clock::time_point next_ = Clock::now() + std::chrono::seconds(2);
+};
 
 /** Calls `work` for each of `pieces` numbers, begun in order, on as many threads as OpenMP has
     (OMP_NUM_THREADS). After a piece that throws none is begun, and when all have ended its

@@ -8,6 +8,7 @@
 #include <new>
 
 #include "io/errors.hpp"
+#include "io/output_file.hpp"
 
 namespace rotor_stator {
 
@@ -75,13 +76,6 @@ bool parse(CLI::App& app, int argc, char** argv)
     throw BadInput(argument.empty() ? error.what() : argument);
   }
   return false;
-}
-
-void write(const std::string& text)
-{
-  const bool written = std::fwrite(text.data(), 1, text.size(), stdout) == text.size();
-  if (!written || std::fflush(stdout) != 0)
-    throw NoSolution("the standard output cannot be written to");
 }
 
 int whole_number(const std::string& option, const std::string& value, int least, int most)

@@ -7,7 +7,8 @@
 #include <string>
 #include <vector>
 
-#include "io/progress.hpp"
+#include "io/output_file.hpp"
+#include "io/parallel.hpp"
 #include "io/table.hpp"
 #include "io/toml_file.hpp"
 
@@ -62,9 +63,5 @@ bool parse(CLI::App& app, int argc, char** argv);
 /** Runs `work` and turns its exceptions into the line on stderr and the exit status.
    `work` returns the exit status of a run that did not throw. */
 int guarded(const std::function<int()>& work);
-
-/** Writes all of `text` to stdout. Throws NoSolution when it cannot (a full disk, a
-    closed pipe). */
-void write(const std::string& text);
 
 }  // namespace rotor_stator

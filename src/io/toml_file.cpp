@@ -31,37 +31,29 @@ std::ifstream open_file(const std::string& file, const std::string& expected,
 
 namespace {
 
-/** No parameter or scene file comes near these. */
+/** No parameter or scene file comes near it. */
 constexpr std::uintmax_t most_bytes = 1'000'000;
-constexpr int most_levels = 16;
 
-/** Throws BadInput where arrays, tables or the parts of a key stand deeper in one another: toml++ takes
-    one more call for each level. */
-void refuse_deep_nesting(const std::string& file, const std::string& content)
+/** The bound of toml++ on values in one another. It has none on the parts of a key, but takes a call for each. */
+constexpr int most_levels = 256;
+
+[[noreturn]] void refuse_levels(const std::string& file, int line)
 {
-  int open = 0, parts = 0, line = 1;
-  for (std::size_t k = 0; k < content.size(); ++k) {
-    const char c = content[k];
-    if (c == '#') k = std::min(content.find('\n', k), content.size()) - 1;
-    if (c == '"' || c == '\'') {
-      const bool many = content.compare(k, 3, std::string(3, c)) == 0;
-      const std::string end(many ? 3 : 1, c);
-      const auto goes_on = [&] {
-        return k < content.size() && content.compare(k, end.size(), end) != 0 &&
-               (many || content[k] != '\n');
-      };
-      for (k += end.size(); goes_on(); k += c == '"' && content[k] == '\\' ? 2 : 1)
-        line += content[k] == '\n';
-      k += end.size();
-      while (many && k < content.size() && content[k] == c) ++k;
-      --k;
-    }
-    open += (c == '[' || c == '{') - (c == ']' || c == '}');
-    parts = c == '.' ? parts + 1 : std::string_view("=,[]{}\n").find(c) < 7 ? 0 : parts;
-    if (open > most_levels || parts > most_levels)
-      throw BadInput(format("%s:%d: more than %d levels of keys, tables or arrays",
-                            file.c_str(), line, most_levels));
+  throw BadInput(format("%s:%d: more than %d levels of keys, tables or arrays",
+                        file.c_str(), line, most_levels));
+}
+
+/** Counts the dots before each = and ]; two in a row stand in no key. */
+void refuse_long_keys(const std::string& file, const std::string& content)
+{
+  int parts = 0, line = 1;
+  char before = 0;
+  for (const char c : content) {
+    if ((c == '=' || c == ']') && parts > most_levels) refuse_levels(file, line);
+    if (c == '.') parts = before == '.' ? 0 : parts + 1;
+    if (std::string_view("=,[]{}\n").find(c) < 7) parts = 0;
     line += c == '\n';
+    before = c;
   }
 }
 
@@ -73,7 +65,7 @@ std::string content_of(const std::string& file)
   content << in.rdbuf();
   if (content.str().find_first_not_of(" \t\r\n") == std::string::npos)
     throw BadInput(file + ": is empty; a TOML file is expected");
-  refuse_deep_nesting(file, content.str());
+  refuse_long_keys(file, content.str());
   return content.str();
 }
 
@@ -169,8 +161,10 @@ StrictToml::StrictToml(const std::string& file, const std::string& content)
     content_->table = toml::parse(content, file);
   } catch (const toml::parse_error& error) {
     const std::string message(error.description());
-    throw BadInput(file + ":" + std::to_string(error.source().begin.line) +
-                   ": not TOML: " + message.substr(0, message.find('\n')));
+    const auto line = static_cast<int>(error.source().begin.line);
+    if (message.find("TOML_MAX_NESTED_VALUES") != message.npos) refuse_levels(file, line);
+    throw BadInput(format("%s:%d: not TOML: ", file.c_str(), line) +
+                   message.substr(0, message.find('\n')));
   }
 }
 
@@ -179,41 +173,35 @@ StrictToml::StrictToml(const std::string& file, const std::string& content)
 
 namespace {
 
-/** What a word of a dotted key names: the table of a key, new where there is none, or an element of an array,
-    counted from 1. */
-toml::node& inner(toml::node& at, const std::string& word)
-{
-  if (toml::table* table = at.as_table())
-    return table->insert(word, toml::table{}).first->second;
-  const toml::array* array = at.as_array();
-  const std::optional<double> k = decimal(word);
-  if (!array || !k || *k < 1 || *k > static_cast<double>(array->size()))
-    throw BadInput(word + ": names nothing in the parameter file");
-  return (*at.as_array())[static_cast<std::size_t>(*k) - 1];
-}
-
-/** Whole numbers become integers, which are read as numbers too. */
+/** Sets what a dotted key names: a table is new where there is none, the elements of an array count from 1. Whole
+    numbers become integers, which are read as numbers too. */
 void set_number(toml::node& at, const std::string& key, double value,
                 const std::vector<std::pair<std::string, std::string>>& instead)
 {
-  if (const auto dot = key.find('.'); dot != std::string::npos)
-    return set_number(inner(at, key.substr(0, dot)), key.substr(dot + 1), value, instead);
+  const auto dot = key.find('.');
+  const std::string word = key.substr(0, dot);
+  toml::table* const table = at.as_table();
+  toml::array* const array = at.as_array();
+  const double k = array ? decimal(word).value_or(0) : 0;
+  if (!table && !(array && k >= 1 && k <= static_cast<double>(array->size())))
+    throw BadInput(word + ": names nothing in the parameter file");
+  const auto place = static_cast<std::size_t>(k) - 1;
+  if (dot != key.npos)
+    return set_number(
+        table ? table->insert(word, toml::table{}).first->second : (*array)[place],
+        key.substr(dot + 1), value, instead);
   for (const auto& [one, other] : instead)
-    if (toml::table* table = at.as_table(); table && one == key) table->erase(other);
-  const auto place = [&](auto number) {
-    if (toml::table* table = at.as_table()) {
+    if (table && one == key) table->erase(other);
+  const auto set = [&](auto number) {
+    if (table)
       table->insert_or_assign(key, number);
-    } else if (toml::array* array = at.as_array()) {
-      inner(at, key);
-      array->replace(array->cbegin() + static_cast<long>(*decimal(key)) - 1, number);
-    } else {
-      throw BadInput(key + ": names nothing in the parameter file");
-    }
+    else
+      array->replace(array->cbegin() + static_cast<long>(place), number);
   };
   if (value == std::round(value) && std::abs(value) < 1e15)
-    place(static_cast<std::int64_t>(value));
+    set(static_cast<std::int64_t>(value));
   else
-    place(value);
+    set(value);
 }
 
 }  // namespace

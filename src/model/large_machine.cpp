@@ -10,7 +10,7 @@
 
 #include "io/errors.hpp"
 #include "io/matrix_market.hpp"
-#include "io/number_table.hpp"
+#include "io/table.hpp"
 #include "model/catalogue.hpp"
 #include "model/hertz.hpp"
 #include "model/reduction.hpp"
@@ -318,7 +318,7 @@ std::vector<std::pair<std::string, int>> outputs_of(const Assembly& all,
   return list;
 }
 
-LargeMachine machine_of(const Assembly& all, double gravity, double spring)
+LargeBodies machine_of(const Assembly& all, double gravity, double spring)
 {
   const auto [order, shown] = all.order();
   const int n = all.size();
@@ -334,17 +334,17 @@ LargeMachine machine_of(const Assembly& all, double gravity, double spring)
   unbalance << all.bodies[0].unbalance, all.bodies[1].unbalance;
   upright << all.bodies[0].upright(), all.bodies[1].upright();
   load -= gravity * (mass * upright);
-  LargeMachine machine{.mass = dense(mass),
-                       .damping = dense(all.joined(&LinearBody::c)),
-                       .gyroscopic = dense(all.joined(&LinearBody::g)),
-                       .stiffness = dense(all.joined(&LinearBody::k)),
-                       .joints = Eigen::MatrixXd(all.joints())(order, Eigen::all),
-                       .load = load(order),
-                       .unbalance = unbalance(order),
-                       .spring = spring,
-                       .shown = shown,
-                       .places = all.places,
-                       .outputs = outputs_of(all, place_of)};
+  LargeBodies machine{.mass = dense(mass),
+                      .damping = dense(all.joined(&LinearBody::c)),
+                      .gyroscopic = dense(all.joined(&LinearBody::g)),
+                      .stiffness = dense(all.joined(&LinearBody::k)),
+                      .joints = Eigen::MatrixXd(all.joints())(order, Eigen::all),
+                      .load = load(order),
+                      .unbalance = unbalance(order),
+                      .spring = spring,
+                      .shown = shown,
+                      .places = all.places,
+                      .outputs = outputs_of(all, place_of)};
   for (auto& place : machine.places)
     for (int& dof : place) dof = place_of[dof];
   const SparseMatrix& at_nodes = all.bodies[1].at_nodes;
@@ -402,9 +402,8 @@ void reduce_body(Assembly& all, int body, const ReductionRange& range, double gr
       for (int axis : {2, 3}) place[axis] += change;
 }
 
-}  // namespace
-
-void read_large_machine(StrictToml& root, Parameters& parameters, const ModelRange& asked)
+/** Both bodies and the bearings. */
+void read_bodies(StrictToml& root, Parameters& parameters, const ModelRange& asked)
 {
   StrictToml tables[] = {root.table("stator"), root.table("rotor")};
   const double gravity = parameters.gravity;
@@ -475,7 +474,7 @@ void read_large_machine(StrictToml& root, Parameters& parameters, const ModelRan
     all.bodies[0].vertical.clear();
   }
   all.require_held(spring);
-  LargeMachine machine = machine_of(all, gravity, spring);
+  LargeBodies machine = machine_of(all, gravity, spring);
   machine.reductions = std::move(notes);
   machine.reduction_error = error;
   machine.bearing_nodes = std::move(bearing_nodes);
@@ -484,11 +483,20 @@ void read_large_machine(StrictToml& root, Parameters& parameters, const ModelRan
     machine.fastest = to;
     machine.fits = std::make_shared<RationalFits>();
   }
-  parameters.large = std::make_shared<const LargeMachine>(std::move(machine));
+  parameters.machine = std::make_shared<const LargeMachine>(std::move(machine));
 }
 
-Eigen::MatrixXcd LargeMachine::dynamic_stiffness(std::complex<double> k, double frequency,
-                                                 double speed) const
+}  // namespace
+
+Parameters read_machine(StrictToml root, const ModelRange& asked)
+{
+  return read_parameters(std::move(root), [&](StrictToml& table, Parameters& parameters) {
+    read_bodies(table, parameters, asked);
+  });
+}
+
+Eigen::MatrixXcd LargeBodies::dynamic_stiffness(std::complex<double> k, double frequency,
+                                                double speed) const
 {
   const Complex i(0, 1);
   Eigen::MatrixXcd z = i * frequency * (damping + speed * gyroscopic);
@@ -496,7 +504,7 @@ Eigen::MatrixXcd LargeMachine::dynamic_stiffness(std::complex<double> k, double 
   return z + k * (joints * joints.transpose());
 }
 
-JointForces rigid_joint_forces(const LargeMachine& machine, double speed)
+JointForces rigid_joint_forces(const LargeBodies& machine, double speed)
 {
   const Eigen::MatrixXd& d = machine.joints;
   const Eigen::LDLT<Eigen::MatrixXd> held(machine.held_stiffness());
@@ -531,7 +539,7 @@ struct AtRest {
   Eigen::MatrixXd stiffness;
 };
 
-AtRest at_rest(const Parameters& parameters, const LargeMachine& machine, int angles)
+AtRest at_rest(const Parameters& parameters, const LargeBodies& machine, int angles)
 {
   const Eigen::MatrixXd& d = machine.joints;
   const Eigen::SimplicialLDLT<SparseMatrix> held(machine.held_stiffness().sparseView());
@@ -581,9 +589,10 @@ AtRest at_rest(const Parameters& parameters, const LargeMachine& machine, int an
 
 }  // namespace
 
-LargeMachine matrices_of(const Parameters& parameters)
+LargeBodies matrices_of(const Parameters& parameters)
 {
-  if (parameters.large) return *parameters.large;
+  if (const auto* large = dynamic_cast<const LargeMachine*>(parameters.machine.get()))
+    return large->bodies();
   Body stator = parameters.stator;
   if (stator.rigid) stator.mass = 1;  // which nothing moves
   Assembly all{.bodies = {single_mass(stator, "stator", 0),
@@ -594,31 +603,50 @@ LargeMachine matrices_of(const Parameters& parameters)
 }
 
 Eigen::MatrixXd mean_contact_stiffness(const Parameters& parameters,
-                                       const LargeMachine& machine)
+                                       const LargeBodies& machine)
 {
   return at_rest(parameters, machine, 64).stiffness;
 }
 
-State large_static_start(const Parameters& parameters)
+State LargeMachine::at_rest(const Parameters& parameters, Direction) const
 {
-  const Eigen::VectorXd q = at_rest(parameters, *parameters.large, 1).q;
+  return static_start(parameters);
+}
+
+State LargeMachine::static_start(const Parameters& parameters) const
+{
+  const Eigen::VectorXd q = rotor_stator::at_rest(parameters, bodies_, 1).q;
   Eigen::VectorXd y = Eigen::VectorXd::Zero(2 * q.size());
   y.head(q.size()) = q;
   return state_of(y);
 }
 
-Eigen::VectorXd large_state_scales(const Parameters& parameters)
+Eigen::VectorXd LargeMachine::state_scales(const Parameters& parameters) const
 {
-  const LargeMachine& machine = *parameters.large;
-  const auto n = machine.mass.rows();
-  const Eigen::VectorXd masses = machine.mass.diagonal();
+  const auto n = bodies_.mass.rows();
+  const Eigen::VectorXd masses = bodies_.mass.diagonal();
   const double length = scales(parameters).length,
-               shown = masses.head(machine.shown).mean();
+               shown = masses.head(bodies_.shown).mean();
   Eigen::VectorXd sizes(2 * n);
   for (Eigen::Index i = 0; i < n; ++i)
-    sizes[i] = length * (i < machine.shown ? 1 : std::sqrt(shown / masses[i]));
+    sizes[i] = length * (i < bodies_.shown ? 1 : std::sqrt(shown / masses[i]));
   sizes.tail(n) = contact_frequency(parameters) * sizes.head(n);
   return sizes;
+}
+
+void LargeMachine::describe(Table& table, const Parameters&) const
+{
+  table.detail(format("bodies: %ld degrees of freedom, %s; k_0 = %.6g N/m",
+                      static_cast<long>(bodies_.mass.rows()),
+                      bodies_.reductions.empty() ? "all kept" : "reduced",
+                      bodies_.spring));
+  for (const std::string& line : bodies_.reductions) table.detail(line);
+}
+
+void LargeMachine::put_keys(Table& table) const
+{
+  table.value("degrees_of_freedom", bodies_.mass.rows());
+  table.value("reduction_error", bodies_.reduction_error);
 }
 
 }  // namespace rotor_stator

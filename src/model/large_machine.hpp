@@ -26,8 +26,10 @@ bearings carry a body. */
 
 namespace rotor_stator {
 
+class NumberTable;
+
 /** n coordinates, b bearings. */
-struct LargeMachine {
+struct LargeBodies {
   Eigen::MatrixXd mass, damping, gyroscopic, stiffness;  ///< n × n, SI units
   Eigen::MatrixXd joints;                                ///< D, n × 2b
   Eigen::VectorXd load;        ///< constant forces, weight included [N]
@@ -63,9 +65,17 @@ struct LargeMachine {
                                      double speed) const;
 };
 
-/** Reads bodies of which at least one has `matrices`, and the bearings, [bearing] or [[bearing]]. Throws BadInput. */
-void read_large_machine(StrictToml& root, Parameters& parameters,
-                        const ModelRange& asked);
+/** Speeds [Hz] and harmonics at which the coordinates of large bodies must be right, and places of the rotor where
+    they must be too: columns x and y, degrees of freedom from 1. */
+struct ModelRange {
+  double from = 1, to = 100;
+  int harmonics = 64;
+  const NumberTable* nodes = nullptr;
+};
+
+/** Reads a parameter file of any machine. Bodies of which at least one has `matrices`
+    take [bearing] or [[bearing]]. Throws BadInput. */
+Parameters read_machine(StrictToml root, const ModelRange& asked = {});
 
 /** The bearings' forces [N] that would keep all u = 0 under the constant loads, 2b, and their amplitudes from the
     unbalance at the speed ω. */
@@ -73,24 +83,69 @@ struct JointForces {
   Eigen::VectorXd rest;
   Eigen::VectorXcd whirl;
 };
-JointForces rigid_joint_forces(const LargeMachine& machine, double speed);
+JointForces rigid_joint_forces(const LargeBodies& machine, double speed);
 
 /** The relative displacements [m] with which the bearings answer these forces, each on one ball. */
 Eigen::VectorXd quasi_static_contacts(const Parameters& parameters,
                                       const Eigen::VectorXd& forces);
 
 /** The matrices of any machine: its own, or those of two masses. */
-LargeMachine matrices_of(const Parameters& parameters);
+LargeBodies matrices_of(const Parameters& parameters);
 
 /** Where the bearings carry the constant loads: the derivative of their forces, means over the cage's angles, 2b × 2b
     [N/m]. */
 Eigen::MatrixXd mean_contact_stiffness(const Parameters& parameters,
-                                       const LargeMachine& machine);
+                                       const LargeBodies& machine);
 
-/** At rest, the bearings holding the constant loads. */
-State large_static_start(const Parameters& parameters);
+/** Bodies given by matrices as a machine. */
+class LargeMachine : public Machine {
+public:
+  explicit LargeMachine(LargeBodies bodies) : bodies_(std::move(bodies)) {}
 
-/** Sizes of all displacements and speeds, for tolerances and norms. */
-Eigen::VectorXd large_state_scales(const Parameters& parameters);
+  const LargeBodies& bodies() const { return bodies_; }
+
+  State at_rest(const Parameters& parameters, Direction cage) const override;
+  State static_start(const Parameters& parameters) const override;
+  Eigen::VectorXd state_scales(const Parameters& parameters) const override;
+
+  const char* time_method() const override { return "gauss"; }
+  bool takes_explicit_steps() const override { return false; }
+  Patience patience() const override
+  {
+    return {.settling = 1, .longer = 20, .transient = 0.4, .speeds = 21};
+  }
+  double step(const Parameters& parameters, double omega) const override;
+  std::unique_ptr<Flow> flow(const Parameters& parameters, double omega,
+                             const StepSettings& settings) const override;
+  PeriodMap period_map(const Parameters& parameters, double omega, const State& start,
+                       const StepSettings& settings, long interval) const override;
+
+  void put_equations(const Parameters& parameters, const TorusLine& line,
+                     Problem& problem) const override;
+  Eigen::MatrixXd start_samples(const Parameters& parameters, double omega,
+                                int samples) const override;
+  Eigen::MatrixXd shown_series(const Parameters& parameters,
+                               const PeriodicMotion& motion) const override;
+  Eigen::MatrixXd all_series(const Parameters& parameters,
+                             const PeriodicMotion& motion) const override;
+  void prepare(const Parameters& parameters, double omega, int harmonics) const override;
+
+  void describe(Table& table, const Parameters& parameters) const override;
+  void put_keys(Table& table) const override;
+  double reduction_error() const override { return bodies_.reduction_error; }
+  std::vector<std::pair<std::string, int>> outputs() const override
+  {
+    return bodies_.outputs;
+  }
+  std::array<int, 4> places(std::size_t k) const override { return bodies_.places[k]; }
+  const SparseMatrix& nodes() const override { return bodies_.nodes; }
+  std::vector<std::pair<int, int>> bearing_nodes() const override
+  {
+    return bodies_.bearing_nodes;
+  }
+
+private:
+  LargeBodies bodies_;
+};
 
 }  // namespace rotor_stator

@@ -6,7 +6,6 @@
 #include "io/errors.hpp"
 #include "io/toml_file.hpp"
 #include "model/catalogue.hpp"
-#include "model/large_machine.hpp"
 #include "model/rotor_stator.hpp"
 
 namespace rotor_stator {
@@ -51,12 +50,12 @@ bool read_rigid(StrictToml& table, double rotor_mass, Body& stator)
 
 }  // namespace
 
-Parameters read_parameters(const std::string& file, const ModelRange& range)
+Parameters read_parameters(const std::string& file, const MatrixReader& reader)
 {
-  return read_parameters(StrictToml(file), range);
+  return read_parameters(StrictToml(file), reader);
 }
 
-Parameters read_parameters(StrictToml root, const ModelRange& range)
+Parameters read_parameters(StrictToml root, const MatrixReader& reader)
 {
   Parameters parameters{};
   parameters.file = root.file();
@@ -73,8 +72,11 @@ Parameters read_parameters(StrictToml root, const ModelRange& range)
     parameters.unbalance = rotor.number("unbalance_kg_m", Range::not_negative);
   StrictToml gravity = root.table("gravity");
   parameters.gravity = gravity.number("acceleration_m_per_s2", Range::not_negative);
-  if (stator.has(matrices) || rotor.has(matrices)) {
-    read_large_machine(root, parameters, range);
+  const bool has_matrices = stator.has(matrices) || rotor.has(matrices);
+  if (has_matrices && !reader)
+    throw BadInput(root.file() + ": bodies given by matrices need the program explore");
+  if (has_matrices) {
+    reader(root, parameters);
     read_rigid(stator, parameters.rotor.mass, parameters.stator);
   } else {
     StrictToml bearing = root.table("bearing");
@@ -84,7 +86,7 @@ Parameters read_parameters(StrictToml root, const ModelRange& range)
   root.refuse_unknown_keys();
   if (parameters.stator.rigid)
     parameters.stator.natural_frequency = contact_frequency(parameters);
-  else if (!parameters.large && parameters.stator.stiffness() == 0 &&
+  else if (!has_matrices && parameters.stator.stiffness() == 0 &&
            parameters.rotor.stiffness() == 0)
     rotor.fail("natural_frequency_rad_per_s",
                "and the stator's must not both be 0: nothing would hold the machine");
@@ -124,7 +126,7 @@ bool has_rotation_period(const Bearing& bearing)
 
 void require_two_masses(const Parameters& parameters, const char* who)
 {
-  if (parameters.large)
+  if (!parameters.machine->takes_explicit_steps())
     throw BadInput(
         format("%s: %s knows no bodies given by matrices", parameters.file.c_str(), who));
 }
@@ -173,7 +175,7 @@ std::vector<Parameters> read_parameter_list(SceneFile& scene, const std::string&
   return list;
 }
 
-void describe(Table& table, const Parameters& parameters, bool with_keys)
+void TwoMasses::describe(Table& table, const Parameters& parameters) const
 {
   const auto body = [](const std::string& name, const Body& b) {
     if (b.rigid) return name + ": rigid";
@@ -185,16 +187,14 @@ void describe(Table& table, const Parameters& parameters, bool with_keys)
                 ? format(", load = (%.15g, %.15g) N", b.load.x, b.load.y)
                 : "");
   };
+  table.detail(body("stator", parameters.stator) + "; " +
+               body("rotor", parameters.rotor));
+}
+
+void describe(Table& table, const Parameters& parameters, bool with_keys)
+{
   table.parameters(parameters.file + " (" + parameters.title + ")");
-  if (const auto& large = parameters.large) {
-    table.detail(format("bodies: %ld degrees of freedom, %s; k_0 = %.6g N/m",
-                        static_cast<long>(large->mass.rows()),
-                        large->reductions.empty() ? "all kept" : "reduced",
-                        large->spring));
-    for (const std::string& line : large->reductions) table.detail(line);
-  } else
-    table.detail(body("stator", parameters.stator) + "; " +
-                 body("rotor", parameters.rotor));
+  parameters.machine->describe(table, parameters);
   table.detail(format("m_e e = %.15g kg m; g = %.15g m/s^2", parameters.unbalance,
                       parameters.gravity));
   const std::vector<Bearing> bearings = bearings_of(parameters);
@@ -221,10 +221,7 @@ void describe(Table& table, const Parameters& parameters, bool with_keys)
   for (const std::string& line : parameters.derived) table.detail(line);
   if (!with_keys) return;
   table.value("stator", parameters.stator.rigid ? "rigid" : "moving");
-  if (const auto& large = parameters.large) {
-    table.value("degrees_of_freedom", large->mass.rows());
-    table.value("reduction_error", large->reduction_error);
-  }
+  parameters.machine->put_keys(table);
   if (!bearing.is_damaged(Defect::Surface::none)) table.value("defect", surface);
   for (std::size_t k = 0; k < bearings.size(); ++k) {
     const std::string tail = k == 0 ? "" : format("_%zu", k + 1);

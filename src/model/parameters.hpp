@@ -7,12 +7,14 @@ read, so that the programs below never meet a machine that cannot exist. The bea
 are in model/catalogue.hpp. */
 #pragma once
 
+#include <functional>
 #include <memory>
 #include <string>
 #include <vector>
 
 #include "io/table.hpp"
 #include "io/toml_file.hpp"
+#include "model/machine.hpp"
 
 namespace rotor_stator {
 
@@ -80,11 +82,8 @@ struct Bearing {
   double cage_angle(double phase) const { return cage_phase + cage_speed_ratio * phase; }
 };
 
-struct LargeMachine;
-class NumberTable;
-
-/** One machine. Where `large` is set, that holds both bodies, and `stator` and `rotor` are single masses that
-    vibrate about as they do: sizes for tolerances and steps. */
+/** One machine. Where bodies are given by matrices, `stator` and `rotor` are single masses
+    that vibrate about as they do: sizes for tolerances and steps. */
 struct Parameters {
   std::string file;   ///< where it was read from
   std::string title;  ///< one line for headers and legends
@@ -99,15 +98,7 @@ struct Parameters {
   double speed_ratio =
       1;  ///< of the speed over `turns` ω; not 1 where the base frequency is that of passing balls
   std::vector<Bearing> further = {};  ///< bearings beside the first, of a large machine
-  std::shared_ptr<const LargeMachine> large = {};  ///< bodies given by matrices
-};
-
-/** Speeds [Hz] and harmonics at which the coordinates of large bodies must be right, and places of the rotor where
-    they must be too: columns x and y, degrees of freedom from 1. */
-struct ModelRange {
-  double from = 1, to = 100;
-  int harmonics = 64;
-  const NumberTable* nodes = nullptr;
+  std::shared_ptr<const Machine> machine = two_masses();  ///< the bodies
 };
 
 /** Pairs of keys of which a table takes one: a study of the first drops the second. */
@@ -116,9 +107,14 @@ inline const std::vector<std::pair<std::string, std::string>> given_instead{
     {"damping_ratio", "damping_N_s_per_m"},
     {"damping_N_s_per_m", "damping_ratio"}};
 
-/** Reads and checks a parameter file. Throws BadInput with file, line and key. */
-Parameters read_parameters(const std::string& file, const ModelRange& range = {});
-Parameters read_parameters(StrictToml root, const ModelRange& range = {});
+/** Reads bodies given by matrices, and their bearings, into the parameters. */
+using MatrixReader = std::function<void(StrictToml& root, Parameters& parameters)>;
+
+/** Reads and checks a parameter file of two masses; of bodies given by matrices too, where
+    there is a reader of them (`read_machine`, model/large_machine.hpp). Throws BadInput with
+    file, line and key. */
+Parameters read_parameters(const std::string& file, const MatrixReader& matrices = {});
+Parameters read_parameters(StrictToml root, const MatrixReader& matrices = {});
 
 /** Those of the data sets that a key of a scene names. */
 Parameters read_parameters(SceneFile& scene, const std::string& key);

@@ -4,7 +4,6 @@
 #include <numbers>
 
 #include "model/hertz.hpp"
-#include "model/large_machine.hpp"
 
 namespace rotor_stator {
 
@@ -99,9 +98,20 @@ State state_of(const Eigen::VectorXd& y)
   return state;
 }
 
-Eigen::VectorXd state_scales(const Parameters& parameters)
+std::shared_ptr<const Machine> two_masses()
 {
-  if (parameters.large) return large_state_scales(parameters);
+  static const auto one = std::make_shared<const TwoMasses>();
+  return one;
+}
+
+const SparseMatrix& Machine::nodes() const
+{
+  static const SparseMatrix none;
+  return none;
+}
+
+Eigen::VectorXd TwoMasses::state_scales(const Parameters& parameters) const
+{
   const double length = scales(parameters).length;
   Vector8 sizes;
   sizes.head<4>().setConstant(length);
@@ -227,9 +237,8 @@ Vec2 static_equilibrium(const Parameters& parameters, Direction cage)
                      k_s / (k_s + k_r) * k_r);
 }
 
-State rest_state(const Parameters& parameters, Direction cage)
+State TwoMasses::at_rest(const Parameters& parameters, Direction cage) const
 {
-  if (parameters.large) return large_static_start(parameters);
   const double k_s = parameters.stator.stiffness(), k_r = parameters.rotor.stiffness();
   const Vec2 u = static_equilibrium(parameters, cage);
   const Vec2 force = static_joint_force(parameters) + -(k_s / (k_s + k_r) * k_r) * u;
@@ -243,9 +252,8 @@ State rest_state(const Parameters& parameters, Direction cage)
   return {.position = {.stator = r + -1.0 * u, .rotor = r}, .velocity = {}};
 }
 
-State static_start(const Parameters& parameters)
+State TwoMasses::static_start(const Parameters& parameters) const
 {
-  if (parameters.large) return large_static_start(parameters);
   const Vec2 force = static_joint_force(parameters);
   const bool is_carried =
       parameters.stator.stiffness() == 0 || parameters.rotor.stiffness() == 0;

@@ -139,7 +139,10 @@ Scales scales(const Parameters& parameters);
 double contact_frequency(const Parameters& parameters);
 
 /** Sizes of the components of a state, for tolerances and norms. */
-Eigen::VectorXd state_scales(const Parameters& parameters);
+inline Eigen::VectorXd state_scales(const Parameters& parameters)
+{
+  return parameters.machine->state_scales(parameters);
+}
 
 /** Resonance [rad/s] of rotor and stator moving as one body on both suspensions; beside a rigid stator that of the
     rotor, on the contact if it has no suspension. */
@@ -172,11 +175,17 @@ Vec2 quasi_static_contact(const Bearing& bearing, Vec2 force);
 Vec2 static_equilibrium(const Parameters& parameters, Direction cage);
 
 /** Both bodies at rest in static equilibrium with ball 1 at the angle `cage`; without displacement where none is unique. */
-State rest_state(const Parameters& parameters, Direction cage);
+inline State rest_state(const Parameters& parameters, Direction cage)
+{
+  return parameters.machine->at_rest(parameters, cage);
+}
 
 /** A state at rest with the bearing carrying the static load: where time integration starts. The load stands on
     one ball; where the bearing alone carries a body, on those that balance it with ball 1 at angle 0. */
-State static_start(const Parameters& parameters);
+inline State static_start(const Parameters& parameters)
+{
+  return parameters.machine->static_start(parameters);
+}
 
 /**
 ## Sums and multiples of vectors and of pairs of bodies

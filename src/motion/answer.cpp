@@ -50,14 +50,10 @@ public:
   {
     constexpr double near = 1e-2;  ///< of the sizes: farther away it is another one
     State closed = state;
-    const Shooting shooting =
-        shoot(machine_, omega_, closed,
-              {.tolerance = local_error,
-               .periodicity_residual = std::max(1e-9, 10 * local_error),
-               .speed_weight = 5,
-               .quasi_newton = false,
-               .final_derivative = false,
-               .budget = budget_});
+    const Shooting shooting = shoot(machine_, omega_, closed,
+                                    {.tolerance = local_error,
+                                     .closed = std::max(1e-9, 10 * local_error),
+                                     .budget = budget_});
     if (!shooting.converged || !(apart(machine_, closed, state) < near)) return false;
     state = closed;
     return true;
@@ -135,21 +131,21 @@ public:
       const bool has_step = request_.method == "auto" || request_.method == "rk4";
       const double step =
           request_.step > 0 ? request_.step : step_at(answer_.machine, answer_.omega);
-      return make_stepper(answer_.machine, answer_.omega,
-                          {.method = has_step ? "rk4" : request_.method,
-                           .intervals_per_period = intervals,
-                           .step = step / finer,
-                           .tolerance = request_.local_error / (finer * finer),
-                           .budget = budget_});
+      return flow(answer_.machine, answer_.omega,
+                  {.method = has_step ? "rk4" : request_.method,
+                   .intervals_per_period = intervals,
+                   .step = step / finer,
+                   .tolerance = request_.local_error / (finer * finer),
+                   .budget = budget_});
     };
     const Settled& settled = answer_.settled;
     const Instant& from = settled.contracts ? settled.before : settled.at;
     State state = from.state;
-    const TimeStepper whole = stepper(1), parts = stepper(request_.points);
-    for (long k = from.period; k < settled.at.period; ++k) whole.advance(k, state);
-    Motion motion = recorded(parts, request_.points, state, settled.at.period, periods_);
+    const auto whole = stepper(1), parts = stepper(request_.points);
+    for (long k = from.period; k < settled.at.period; ++k) whole->advance(k, state);
+    Motion motion = recorded(*parts, request_.points, state, settled.at.period, periods_);
     motion.omega = answer_.omega;
-    evaluations_ += static_cast<double>(whole.evaluations() + parts.evaluations());
+    evaluations_ += static_cast<double>(whole->evaluations() + parts->evaluations());
     return motion;
   }
   double evaluations() const { return evaluations_; }
@@ -233,9 +229,8 @@ void complete(Answer& answer, const Request& request, const OperationBudget& bud
 Answer answer(const Parameters& parameters, const Request& request,
               const OperationBudget& budget)
 {
-  /** The record of large bodies costs as much as their transient. */
-  const double share = parameters.large ? 0.4 : 0.7;
-  Answer found = settled_answer(parameters, request, budget.part(share));
+  Answer found = settled_answer(parameters, request,
+                                budget.part(parameters.machine->patience().transient));
   complete(found, request, budget);
   return found;
 }
@@ -259,6 +254,18 @@ BatchMean over_batches(const std::vector<PeriodSums>& periods, std::size_t batch
   return long_mean(values);
 }
 
+/** Where the cubic from `a` with slope `s` to `b` with slope `t`, at 0 and 1, turns between them; else `b`. Its error is
+    of order 4 in the interval. */
+double turning_point(double a, double s, double b, double t)
+{
+  if (!(s * t < 0)) return b;
+  /** The slope s + 2 (3d - 2s - t) x + 3 (s + t - 2d) x², d = b - a, has one root in 0…1. */
+  const double half = 3 * (b - a) - 2 * s - t, square = 3 * (s + t - 2 * (b - a));
+  const double root = std::sqrt(std::max(0.0, half * half - square * s));
+  const double x = -s / (half + (s > 0 ? -root : root));
+  return a + x * (s + x * (half + x * square / 3));
+}
+
 double half_range(std::span<const PeriodSums> periods, std::size_t i)
 {
   double low = periods.front().low[i], high = periods.front().high[i];
@@ -278,22 +285,31 @@ Observation observe(const Answer& answer, const OperationBudget& budget)
   const std::size_t count = is_closed ? std::max(1, answer.period()) : observed;
   const double period = 2 * std::numbers::pi / answer.omega;
   const int intervals = static_cast<int>(std::clamp(
-      std::ceil(period / (2 * step_at(answer.machine, answer.omega))), 64.0, 1e6));
-  const auto flow = fixed_step_flow(answer.machine, answer.omega, intervals, 0, budget);
+      std::ceil(period / (2 * step_at(answer.machine, answer.omega))), 192.0, 1e6));
+  const auto steps =
+      flow(answer.machine, answer.omega,
+           {.method = "rk4", .intervals_per_period = intervals, .budget = budget});
   State state = answer.settled.at.state;
   long k = answer.settled.at.period * intervals;
   std::vector<PeriodSums> periods;
   /** Sums of differences from the first instant lose no digits to the static deflection. */
   const Displacements origin = displacements(state.position);
+  const double interval = period / intervals;
   while (periods.size() < count) {
     Displacements q = displacements(state.position);
     PeriodSums& one = periods.emplace_back(PeriodSums{q, q});
     for (int j = 0; j < intervals; ++j) {
-      flow->advance(k++, state);
+      const State before = state;
+      steps->advance(k++, state);
+      const Displacements from = displacements(before.position),
+                          from_speed = displacements(before.velocity),
+                          speed = displacements(state.velocity);
       q = displacements(state.position);
       for (std::size_t i = 0; i < 4; ++i) {
-        one.low[i] = std::min(one.low[i], q[i]);
-        one.high[i] = std::max(one.high[i], q[i]);
+        const double turning =
+            turning_point(from[i], interval * from_speed[i], q[i], interval * speed[i]);
+        one.low[i] = std::min({one.low[i], q[i], turning});
+        one.high[i] = std::max({one.high[i], q[i], turning});
         const double off = q[i] - origin[i];
         one.sum[i] += off / intervals;
         one.squares[i] += off * off / intervals;

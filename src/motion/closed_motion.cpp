@@ -17,17 +17,13 @@ namespace {
 
 constexpr double hunting_error = 1e-11;
 
-/** Shooting over `turns` turns; by Newton alone: Broyden's steps save maps and lose
-    motions. */
+/** Shooting over `turns` turns. */
 Shooting shot(const Search& search, int turns, State& state, double local_error)
 {
   return shoot(over_turns(search.parameters, turns), search.omega / turns, state,
                {.tolerance = local_error,
-                .periodicity_residual = std::max(1e-9, 10 * local_error),
+                .closed = std::max(1e-9, 10 * local_error),
                 .most_maps = turns > 1 ? 30 : 60,
-                .speed_weight = 5,
-                .quasi_newton = false,
-                .final_derivative = false,
                 .budget = search.budget});
 }
 
@@ -49,13 +45,13 @@ struct Hunt {
   /** Where state `start` is after 1, 2, … K turns. */
   std::vector<State> section(const State& start) const
   {
-    const TimeStepper stepper = make_stepper(
+    const auto steps = flow(
         search.parameters, search.omega,
         {.intervals_per_period = 1, .tolerance = hunting_error, .budget = search.budget});
     std::vector<State> points;
     State state = start;
     for (int k = 0; k < turns; ++k) {
-      stepper.advance(k, state);
+      steps->advance(k, state);
       points.push_back(state);
     }
     return points;
@@ -85,8 +81,9 @@ struct Hunt {
   void add_along_eigenvectors(const State& state, int d)
   {
     const Eigen::VectorXd sizes = state_scales(search.parameters);
-    const PeriodMap map = period_map(over_turns(search.parameters, d), search.omega / d,
-                                     state, hunting_error, "rk8", search.budget);
+    const PeriodMap map = period_map(
+        over_turns(search.parameters, d), search.omega / d, state,
+        {.intervals_per_period = 1, .tolerance = hunting_error, .budget = search.budget});
     const auto [values, vectors] = eigensystem(
         sizes.cwiseInverse().asDiagonal() * map.derivative * sizes.asDiagonal(), true);
     const int order = turns / d;
@@ -157,7 +154,7 @@ Starts starts_of(const Search& search)
              [&] { return Sources(search).states(search.turns); }}};
   return {{"quasi-static contact",
            [&] {
-             return std::vector{parameters.large
+             return std::vector{!parameters.machine->takes_explicit_steps()
                                     ? static_start(parameters)
                                     : quasi_static_state(parameters, search.omega)};
            }},
@@ -194,7 +191,7 @@ ClosedMotion closed_motion(const Search& search, int points, double local_error)
       if (!shot(search, turns, finer, 0.01 * local_error).converged) finer = state;
       const Motion exact = record(search, turns, finer, points, 0.01 * local_error);
       return {name,          state,
-              motion,        shooting.periodicity_residual,
+              motion,        shooting.correction,
               shooting.maps, difference(motion, exact)};
     }
   throw NoSolution(format("%s: shooting closed no motion of period %s at %g Hz: %s",

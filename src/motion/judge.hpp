@@ -1,21 +1,20 @@
 /**
 # The verdict on a solution
 
-A verdict speaks of the motion of Eq. 7 that is nearest to a solution of harmonic balance:
-shooting over segments, and plain shooting from the solution's state at eight phases,
-close the motions around it, and the first correction says how far the solution's own one
-may be. Its multipliers are computed twice, the second time closed anew with a local error
-a hundred times smaller, and what changes is their uncertainty. `stable` and `unstable`
-leave no multiplier within that of the unit circle, and no motion of the other kind less
-than twice as far away; everything else is `undecided`.
+A verdict speaks of the motion of Eq. 7 that is nearest to a solution of harmonic balance,
+as shooting over segments and plain shooting from eight phases of the solution find it. Its
+multipliers are computed twice, the second time with a local error a hundred times smaller,
+and what changes is their uncertainty. `stable` and `unstable` leave no multiplier within
+that of the unit circle, and no motion of the other kind less than twice as far away.
 
     const Verdict verdict = judge(parameters, solution, budget);
     // verdict.word(), verdict.floquet.largest(), verdict.distance_rms */
 #pragma once
 
-#include "continuation/branch_stability.hpp"
 #include "motion/motion.hpp"
+#include "time/floquet.hpp"
 #include "time/settle.hpp"
+#include "time/shooting.hpp"
 
 namespace rotor_stator::motion {
 
@@ -23,7 +22,8 @@ struct Verdict {
   std::string reason = {};  ///< why nothing is known; empty when a motion was found
   double refused = 0;    ///< distance of one that is too far away to be its own, rms [-]
   Floquet floquet = {};  ///< of the motion found
-  State state = {};      ///< of the motion found, at phase 0
+  State state = {};      ///< of the motion found, else of the solution, at phase 0
+  Eighths at = {};       ///< of the motion found
   Motion record = {};    ///< of it, one period
   bool moves = true;     ///< the motion found is not at rest
   double distance =
@@ -56,13 +56,10 @@ Verdict judge_through(const Parameters& parameters, double omega, const State& s
 Floquet multipliers_through(const Parameters& parameters, double omega,
                             const State& state, const OperationBudget& budget = {});
 
-/** The multipliers of the motions of Eq. 7 along a branch, and its bifurcations: at
-    points no further apart than 0.4 % of the joint resonance, because they change over
-    less speed than the curve of few harmonics does. A point costs at most 4 % of
-    `budget`, at least 2e6 and at most 8e7 evaluations. */
-BranchStability machine_stability(const Parameters& parameters, Balance& balance,
-                                  const Branch& branch,
-                                  const ArcLengthSettings& arc_length,
-                                  const OperationBudget& budget = {});
+/** The motion nearest to a solution over one base period; shooting starts from `further`
+    motions too. */
+Verdict nearest_motion(const Parameters& parameters, const PeriodicMotion& solution,
+                       const OperationBudget& budget,
+                       const std::vector<Eighths>& further = {});
 
 }  // namespace rotor_stator::motion

@@ -6,7 +6,6 @@
 #include <numbers>
 
 #include "balance/fourier_transform.hpp"
-#include "balance/large_problem.hpp"
 #include "balance/torus_line.hpp"
 #include "io/errors.hpp"
 
@@ -117,8 +116,7 @@ void add(Motion& motion, const State& state)
 
 State state_of(const Parameters& parameters, const PeriodicMotion& motion)
 {
-  const Eigen::MatrixXd series =
-      parameters.large ? coordinate_series(parameters, motion) : motion.bodies;
+  const Eigen::MatrixXd series = parameters.machine->all_series(parameters, motion);
   Eigen::VectorXd q = series.col(0), v = Eigen::VectorXd::Zero(q.size());
   for (int h = 1; h <= motion.harmonics.count(); ++h) {
     const Harmonic at = motion.harmonics.list()[static_cast<std::size_t>(h)];
@@ -138,10 +136,10 @@ Motion motion_of(const SteadyState& steady, int points_per_period)
 }
 
 Motion one_period(const Parameters& parameters, double omega, State state,
-                  const StepperSettings& settings)
+                  const StepSettings& settings)
 {
-  const TimeStepper stepper = make_stepper(parameters, omega, settings);
-  Motion motion = recorded(stepper, settings.intervals_per_period, state);
+  const auto stepper = flow(parameters, omega, settings);
+  Motion motion = recorded(*stepper, settings.intervals_per_period, state);
   motion.omega = omega;
   return motion;
 }
@@ -195,10 +193,11 @@ double shown_at(const Motion& motion, std::size_t k, int place)
 
 AtBearing at_bearing(const Parameters& parameters, const Motion& motion, std::size_t k)
 {
-  if (!parameters.large) return {parameters, motion};
-  const auto& [x_s, y_s, x_r, y_r] = parameters.large->places[k];
+  const auto [x_s, y_s, x_r, y_r] = parameters.machine->places(k);
   AtBearing one{parameters, {motion.points_per_period, motion.first_period, {}}};
   one.parameters.bearing = bearings_of(parameters)[k];
+  if (k == 0) one.motion.rates = motion.rates;
+  one.motion.omega = motion.omega;
   for (std::size_t i = 0; i < motion.size(); ++i)
     one.motion.positions.push_back(
         {{shown_at(motion, i, x_s), shown_at(motion, i, y_s)},

@@ -40,9 +40,8 @@ void add(Motion& motion, const State& state);
 
 /** Whole periods by a stepper that cuts each into P intervals, from `state` at the start of period
     `first_period`; `state` is left at their end. */
-template <class Stepper>
-Motion recorded(Stepper& stepper, int points_per_period, State& state,
-                long first_period = 0, long periods = 1)
+inline Motion recorded(Flow& stepper, int points_per_period, State& state,
+                       long first_period = 0, long periods = 1)
 {
   Motion motion{points_per_period, first_period, {}};
   const long begin = first_period * points_per_period;
@@ -87,7 +86,7 @@ Motion motion_of(const SteadyState& steady, int points_per_period);
 
 /** One base period from `state` at phase 0, at the instants that `settings` cuts it into. */
 Motion one_period(const Parameters& parameters, double omega, State state,
-                  const StepperSettings& settings);
+                  const StepSettings& settings);
 
 /** A recorded motion cut into pieces of so many periods; an odd rest is left out. */
 std::vector<Motion> pieces(const Motion& motion, int periods);

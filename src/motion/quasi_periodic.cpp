@@ -10,7 +10,7 @@
 #include "io/errors.hpp"
 #include "motion/answer.hpp"
 #include "motion/lines.hpp"
-#include "time/time_stepper.hpp"
+#include "time/flow.hpp"
 
 namespace rotor_stator::motion {
 
@@ -374,19 +374,19 @@ TorusVerdict verdict_on_torus(const Parameters& parameters,
   verdict.uncertainty =
       std::max(3 * rate.error, std::abs(rate.value - coarse.lyapunov.value));
   /** With error control, from so much earlier that the errors of rk4 are forgotten. */
-  const TimeStepper stepper =
-      make_stepper(parameters, omega,
+  const auto stepper =
+      flow(parameters, omega,
                    {.intervals_per_period = points, .tolerance = 1e-9, .budget = budget});
   const Instant& from =
       verdict.settled.contracts ? verdict.settled.before : verdict.settled.at;
   State state = from.state;
   const long first = verdict.settled.at.period;
-  for (long k = from.period * points; k < first * points; ++k) stepper.advance(k, state);
-  verdict.record = recorded(stepper, points, state, first, compared_turns);
+  for (long k = from.period * points; k < first * points; ++k) stepper->advance(k, state);
+  verdict.record = recorded(*stepper, points, state, first, compared_turns);
   verdict.distance = distance(parameters, solution, verdict.record);
   verdict.stays = verdict.distance.larger() <= tolerance;
   verdict.evaluations = coarse.evaluations + verdict.settled.evaluations +
-                        static_cast<double>(stepper.evaluations());
+                        static_cast<double>(stepper->evaluations());
   return verdict;
 }
 

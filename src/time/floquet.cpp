@@ -8,7 +8,7 @@
 #include "io/errors.hpp"
 #include "time/eigenvalues.hpp"
 #include "time/period_map.hpp"
-#include "time/time_stepper.hpp"
+#include "time/rk4.hpp"
 
 namespace rotor_stator {
 

@@ -4,8 +4,16 @@
 A flow advances a state of Eq. 7. Each base period is cut into P output intervals, and a
 flow goes over whole ones, in as many steps of its own as it needs. Interval 0 begins at
 t = 0, where the unbalance points along x and ball 1 stands at its angle; intervals before
-it have negative numbers. */
+it have negative numbers.
+
+    const auto steps = flow(parameters, omega, {.method = "rk8", .tolerance = 1e-10});
+    State state = static_start(parameters);
+    steps->advance(0, state);               // over the first of 64 intervals */
 #pragma once
+
+#include <memory>
+#include <string>
+#include <vector>
 
 #include "io/budget.hpp"
 #include "model/rotor_stator.hpp"
@@ -17,8 +25,9 @@ class Flow {
 public:
   virtual ~Flow() = default;
 
-  /** Advances `state` from the start of output interval `interval` to its end. Throws NoSolution when the step size
-      underflows, the state is no longer finite or the budget is used up. */
+  /** Advances `state` from the start of output interval `interval` to its end. Throws
+      NoSolution when the step size underflows, the state is no longer finite or the
+      budget is used up. */
   virtual void advance(long interval, State& state) = 0;
 
   /** Two states, side by side where that takes less time. */
@@ -31,5 +40,42 @@ public:
   /** Evaluations of Eq. 7 so far. */
   virtual long evaluations() const = 0;
 };
+
+struct StepSettings {
+  std::string method = "rk8";     ///< "rk4" (fixed step), "rk8" or one of GSL's
+  int intervals_per_period = 64;  ///< P
+  double step = 0;                ///< rk4: longest step [s]; 0 chooses `step_at`
+  double tolerance =
+      1e-10;  ///< all but rk4: local error per step, over the size of each component
+  OperationBudget budget =
+      {};  ///< for the evaluations of Eq. 7; without one, 1e9 of them
+};
+
+/** Large bodies take Gauss's rule, with a tolerance of 1e-8 where rk4 is asked for. Throws
+    BadInput for an unknown method, or one that cannot have the bearing's force. */
+std::unique_ptr<Flow> flow(const Parameters& parameters, double omega,
+                           const StepSettings& settings);
+
+/** "rk4", "rk8" and GSL's explicit, multistep and implicit methods. */
+const std::vector<std::string>& time_methods();
+
+/** Throws BadInput for a method that is neither one of `others` nor a time method, naming
+    the known ones. */
+void require_method(const std::string& method, std::vector<std::string> others = {});
+
+/** What an evaluation of Eq. 7 costs with the method's share of a step, in evaluations by
+    rk4. */
+double evaluation_price(const Parameters& parameters, const std::string& method);
+
+/** A step [s] that gives the contact mode about 40 steps per period: RK4 is stable up
+   to 2.8/ω and accurate well below it. The paper gives none (D-16). */
+double default_step(const Parameters& parameters);
+
+/** The step [s] of rk4 at a base frequency: `default_step`, and less where the force at
+    that speed presses the contact much more than the loads do by which that is chosen. */
+inline double step_at(const Parameters& parameters, double omega)
+{
+  return parameters.machine->step(parameters, omega);
+}
 
 }  // namespace rotor_stator

@@ -8,6 +8,7 @@
 #include <numbers>
 
 #include "io/errors.hpp"
+#include "time/period_map.hpp"
 
 namespace rotor_stator {
 
@@ -42,8 +43,9 @@ const GaussRule& gauss_rule()
 
 }  // namespace
 
-GaussStepper::GaussStepper(const Parameters& parameters, double omega, int intervals,
-                           double tolerance, OperationBudget budget)
+GaussStepper::GaussStepper(const LargeBodies& machine, const Parameters& parameters,
+                           double omega, int intervals, double tolerance,
+                           OperationBudget budget)
     : cages_(bearings_of(parameters)), omega_(omega),
       turns_(parameters.turns * parameters.speed_ratio),
       speed_(rotor_speed(parameters, omega)), length_(scales(parameters).length),
@@ -53,7 +55,6 @@ GaussStepper::GaussStepper(const Parameters& parameters, double omega, int inter
   const double quarter = 0.5 * std::numbers::pi / contact_frequency(parameters);
   first_ = now_ =
       std::clamp(static_cast<int>(std::ceil(std::log2(interval_ / quarter))), 0, 40);
-  const LargeMachine& machine = *parameters.large;
   mass_ = machine.mass.sparseView();
   damping_ = (machine.damping + speed_ * machine.gyroscopic).sparseView();
   stiffness_ = machine.stiffness.sparseView();
@@ -231,6 +232,37 @@ Eigen::MatrixXd GaussStepper::derivative(long interval, const State& start)
   y << vector_of(start), Eigen::MatrixXd::Identity(size, size);
   integrate(interval, y);
   return y.rightCols(size);
+}
+
+double LargeMachine::step(const Parameters& parameters, double) const
+{
+  return default_step(parameters);
+}
+
+std::unique_ptr<Flow> LargeMachine::flow(const Parameters& parameters, double omega,
+                                         const StepSettings& settings) const
+{
+  return std::make_unique<GaussStepper>(
+      bodies_, parameters, omega, settings.intervals_per_period,
+      settings.method == "rk4" ? 1e-8 : settings.tolerance, settings.budget);
+}
+
+/** Steps for the derivative need not be as small as those for the state. */
+PeriodMap LargeMachine::period_map(const Parameters& parameters, double omega,
+                                   const State& start, const StepSettings& settings,
+                                   long interval) const
+{
+  constexpr double coarser = 1e4;
+  const int intervals = settings.intervals_per_period;
+  GaussStepper state(bodies_, parameters, omega, intervals, settings.tolerance,
+                     settings.budget);
+  PeriodMap map{.end = start, .derivative = {}, .evaluations = 0};
+  state.advance(interval, map.end);
+  GaussStepper varied(bodies_, parameters, omega, intervals, coarser * settings.tolerance,
+                      settings.budget);
+  map.derivative = varied.derivative(interval, start);
+  map.evaluations = state.evaluations() + varied.evaluations();
+  return map;
 }
 
 }  // namespace rotor_stator

@@ -17,26 +17,27 @@ left for each step are 4 unknowns a bearing, solved by Newton. */
 #include <memory>
 #include <vector>
 
-#include "io/budget.hpp"
 #include "io/matrix_market.hpp"
 #include "model/large_machine.hpp"
+#include "time/flow.hpp"
 
 namespace rotor_stator {
 
-class GaussStepper {
+class GaussStepper : public Flow {
 public:
   /** P = `intervals` per base period. `tolerance`: of u in a step, over its size. */
-  GaussStepper(const Parameters& parameters, double omega, int intervals,
-               double tolerance, OperationBudget budget = {});
+  GaussStepper(const LargeBodies& machine, const Parameters& parameters, double omega,
+               int intervals, double tolerance, OperationBudget budget = {});
 
   /** Advances over output interval `interval`, counted from t = 0. Throws NoSolution when the budget is used up. */
-  void advance(long interval, State& state);
+  using Flow::advance;
+  void advance(long interval, State& state) override;
 
   /** The derivative of that map at `start`, 2n × 2n. */
   Eigen::MatrixXd derivative(long interval, const State& start);
 
   /** Of the forces of all bearings. */
-  long evaluations() const { return evaluations_; }
+  long evaluations() const override { return evaluations_; }
 
 private:
   using Sparse = Eigen::SparseMatrix<std::complex<double>>;

@@ -165,7 +165,7 @@ int jacobian(double t, const double y[], double* dfdy, double dfdt[], void* data
 /** Eq. 7 advanced by GSL. */
 class GslStepper : public Flow {
 public:
-  GslStepper(const Parameters& parameters, double omega, const StepperSettings& settings)
+  GslStepper(const Parameters& parameters, double omega, const StepSettings& settings)
       : equation_{parameters,
                   {parameters, omega},
                   {settings.budget, evaluation_price(parameters, settings.method)}},
@@ -201,7 +201,7 @@ private:
 }  // namespace
 
 std::unique_ptr<Flow> gsl_flow(const Parameters& parameters, double omega,
-                               const StepperSettings& settings)
+                               const StepSettings& settings)
 {
   return std::make_unique<GslStepper>(parameters, omega, settings);
 }
@@ -258,21 +258,22 @@ std::array<double, equations> error_scales(const Parameters& parameters)
 }  // namespace
 
 PeriodMap gsl_period_map(const Parameters& parameters, double omega, const State& start,
-                         double tolerance, const std::string& method,
-                         const OperationBudget& budget)
+                         const StepSettings& settings, long interval)
 {
-  Variation variation{{parameters, omega},
-                      DisturbanceRates(parameters),
-                      {budget, with_variations * evaluation_price(parameters, method)}};
+  Variation variation{
+      {parameters, omega},
+      DisturbanceRates(parameters),
+      {settings.budget, with_variations * evaluation_price(parameters, settings.method)}};
   gsl_odeiv2_system system{varied_derivative, nullptr, equations, &variation};
-  const double period = variation.system.period();
-  GslDriver driver(system, method, std::min(period, default_step(parameters)), tolerance,
-                   error_scales(parameters).data());
+  const double length = variation.system.period() / settings.intervals_per_period;
+  const double from = static_cast<double>(interval) * length;
+  GslDriver driver(system, settings.method, std::min(length, default_step(parameters)),
+                   settings.tolerance, error_scales(parameters).data());
   std::array<double, equations> y{};
   Eigen::Map<Vector8>(y.data()) = vector_of(start);
   Eigen::Map<Matrix8> disturbances(y.data() + 8);  // the transpose of Φ
   disturbances.setIdentity();
-  driver.advance(0, period, y.data(), variation.evaluations);
+  driver.advance(from, from + length, y.data(), variation.evaluations);
   return {.end = {bodies_at(y.data()), bodies_at(y.data() + 4)},
           .derivative = disturbances.transpose(),
           .evaluations = variation.evaluations.count};

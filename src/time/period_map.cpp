@@ -1,78 +1,23 @@
 #include "time/period_map.hpp"
 
-#include <algorithm>
-
-#include "io/errors.hpp"
-#include "time/gauss.hpp"
 #include "time/gsl.hpp"
+#include "time/rk4.hpp"
 #include "time/rk8.hpp"
-#include "time/time_stepper.hpp"
 
 namespace rotor_stator {
 
 namespace {
 
-/** The same of bodies given by matrices. Steps for the derivative need not be as small as those for the state. */
-PeriodMap large_period_map(const Parameters& parameters, double omega, const State& start,
-                           double tolerance, const OperationBudget& budget,
-                           const Segment& segment)
+void by_rk8(const Parameters& parameters, double omega, const StepSettings& settings,
+            long interval, PeriodMap& map)
 {
-  constexpr double coarser = 1e4;
-  GaussStepper state(parameters, omega, segment.of, tolerance, budget);
-  PeriodMap map{.end = start, .derivative = {}, .evaluations = 0};
-  state.advance(segment.number, map.end);
-  GaussStepper varied(parameters, omega, segment.of, coarser * tolerance, budget);
-  map.derivative = varied.derivative(segment.number, start);
-  map.evaluations = state.evaluations() + varied.evaluations();
-  return map;
+  Rk8 rk8(parameters, omega, settings.intervals_per_period, settings.tolerance,
+          settings.budget);
+  Matrix8 derivative = Matrix8::Identity();
+  rk8.advance(interval, map.end, derivative);
+  map.derivative = derivative;
+  map.evaluations = rk8.evaluations();
 }
-
-}  // namespace
-
-PeriodMap period_map(const Parameters& parameters, double omega, const State& start,
-                     double tolerance, const std::string& method,
-                     const OperationBudget& budget, const Segment& segment)
-{
-  if (parameters.large)
-    return large_period_map(parameters, omega, start, tolerance, budget, segment);
-  if (method == "rk8") {
-    Rk8 rk8(parameters, omega, segment.of, tolerance, budget);
-    PeriodMap map{.end = start, .derivative = {}, .evaluations = 0};
-    Matrix8 derivative = Matrix8::Identity();
-    rk8.advance(segment.number, map.end, derivative);
-    map.derivative = derivative;
-    map.evaluations = rk8.evaluations();
-    return map;
-  }
-  return gsl_period_map(parameters, omega, start, tolerance, method, budget);
-}
-
-PeriodMapTwice period_map_twice(const Parameters& parameters, double omega,
-                                const State& start, double tolerance, double finer,
-                                const OperationBudget& budget)
-{
-  const auto map = [&](const State& from, double error) {
-    return period_map(parameters, omega, from, error, "rk8", budget);
-  };
-  const PeriodMap first = map(start, tolerance);
-  return {first, map(first.end, finer)};
-}
-
-Rk4PeriodMap::Rk4PeriodMap(const Parameters& parameters, double omega,
-                           double longest_step)
-    : rk4_(parameters, omega, 1, longest_step), system_(parameters, omega),
-      rates_(parameters)
-{
-}
-
-State Rk4PeriodMap::end(const State& start)
-{
-  State state = start;
-  rk4_.advance(0, state);
-  return state;
-}
-
-namespace {
 
 /** Displacements, or their speeds, with those of the disturbances. */
 struct Varied {
@@ -89,28 +34,64 @@ Varied operator*(double s, const Varied& a)
   return {s * a.bodies, s * a.disturbances};
 }
 
-}  // namespace
-
-PeriodMap Rk4PeriodMap::map(const State& start)
+/** The derivative is that of the map as it is computed: each stage of the variational
+    equations takes the bearing's stiffness at the same stage of the state. */
+void by_rk4(const Parameters& parameters, double omega, const StepSettings& settings,
+            long interval, PeriodMap& map)
 {
+  constexpr double price = 3;  ///< of an evaluation with eight disturbances
+  const double longest = settings.step > 0 ? settings.step : step_at(parameters, omega);
+  const Rk4 rk4(parameters, omega, settings.intervals_per_period, longest);
+  const RotorStator system(parameters, omega);
+  const DisturbanceRates rates(parameters);
+  map.evaluations = 4L * rk4.steps_per_interval();
+  settings.budget.spend(price * static_cast<double>(map.evaluations));
   const auto acceleration = [&](const Varied& q, const Varied& v,
                                 const Angles& at) -> Varied {
     const BearingReaction bearing =
-        system_.bearing().reaction(at, q.bodies.relative(), v.bodies.relative());
-    return {system_.acceleration(q.bodies, v.bodies, at.rotor, bearing.force),
-            rates_.acceleration(bearing, q.disturbances, v.disturbances)};
+        system.bearing().reaction(at, q.bodies.relative(), v.bodies.relative());
+    return {system.acceleration(q.bodies, v.bodies, at.rotor, bearing.force),
+            rates.acceleration(bearing, q.disturbances, v.disturbances)};
   };
-  Varied q{start.position, Disturbances::Zero()}, v{start.velocity, Disturbances::Zero()};
+  Varied q{map.end.position, Disturbances::Zero()},
+      v{map.end.velocity, Disturbances::Zero()};
   q.disturbances.topRows<4>().setIdentity();
   v.disturbances.bottomRows<4>().setIdentity();
-  rk4_.each_step(
-      0, [&](const Angles* at) { nystrom_step(rk4_.step(), at, q, v, acceleration); });
-  const long evaluations = 4L * rk4_.steps_per_interval();
-  evaluations_ += evaluations;
+  rk4.each_step(interval, [&](const Angles* at) {
+    nystrom_step(rk4.step(), at, q, v, acceleration);
+  });
+  map.end = {q.bodies, v.bodies};
   Matrix8 derivative;
   derivative << q.disturbances.transpose(), v.disturbances.transpose();
-  return {
-      .end = {q.bodies, v.bodies}, .derivative = derivative, .evaluations = evaluations};
+  map.derivative = derivative;
+}
+
+}  // namespace
+
+PeriodMap period_map(const Parameters& parameters, double omega, const State& start,
+                     const StepSettings& settings, long interval, bool with_derivative)
+{
+  if (with_derivative)
+    return parameters.machine->period_map(parameters, omega, start, settings, interval);
+  const auto steps = flow(parameters, omega, settings);
+  PeriodMap map{.end = start, .derivative = {}, .evaluations = 0};
+  steps->advance(interval, map.end);
+  map.evaluations = steps->evaluations();
+  return map;
+}
+
+PeriodMap TwoMasses::period_map(const Parameters& parameters, double omega,
+                                const State& start, const StepSettings& settings,
+                                long interval) const
+{
+  PeriodMap map{.end = start, .derivative = {}, .evaluations = 0};
+  if (settings.method == "rk8")
+    by_rk8(parameters, omega, settings, interval, map);
+  else if (settings.method == "rk4")
+    by_rk4(parameters, omega, settings, interval, map);
+  else
+    map = gsl_period_map(parameters, omega, start, settings, interval);
+  return map;
 }
 
 }  // namespace rotor_stator

@@ -7,15 +7,16 @@ equations
 $$\dot{\delta q} = \delta v, \qquad M\, \dot{\delta v} = -(K + k(t))\,\delta q - C\,\delta v,$$
 
 where k(t) is the bearing's stiffness on the motion itself. Both are integrated together, 72
-equations, by rk8 or one of GSL's explicit steppers; the step is chosen by the state alone, which is
-what the answer depends on. */
+equations, by rk4, rk8 or one of GSL's explicit steppers; the step is chosen by the state
+alone, which is what the answer depends on.
+
+    const PeriodMap map = period_map(parameters, omega, state,
+                                     {.intervals_per_period = 1, .tolerance = 1e-12}); */
 #pragma once
 
 #include <Eigen/Core>
-#include <string>
 
-#include "model/rotor_stator.hpp"
-#include "time/rk4.hpp"
+#include "time/flow.hpp"
 
 namespace rotor_stator {
 
@@ -25,26 +26,12 @@ struct PeriodMap {
   long evaluations;            ///< of the bearing's force and stiffness
 };
 
-/** One of equal segments of a base period, counted from t = 0. */
-struct Segment {
-  long number = 0;
-  int of = 1;
-};
-
-/** From `start` at phase 0, or by rk8 over a segment. `tolerance`: local error per step, over the size of each component.
-    Throws NoSolution when the integration breaks down or the budget is used up. */
+/** Over one interval of those into which `settings` cut a base period, counted from t = 0;
+    for no more than the state, `with_derivative` is false. Throws NoSolution when the
+    integration breaks down or the budget is used up. */
 PeriodMap period_map(const Parameters& parameters, double omega, const State& start,
-                     double tolerance, const std::string& method = "rk8",
-                     const OperationBudget& budget = {}, const Segment& segment = {});
-
-/** The map from `start`, and from where that leads with the smaller local error `finer`: their derivatives
-    differ by the error of the steps, and by what is open if `start` is only nearly a fixed point. */
-struct PeriodMapTwice {
-  PeriodMap first, finer;
-};
-PeriodMapTwice period_map_twice(const Parameters& parameters, double omega,
-                                const State& start, double tolerance, double finer,
-                                const OperationBudget& budget = {});
+                     const StepSettings& settings, long interval = 0,
+                     bool with_derivative = true);
 
 /**
 ## The variational equations of Eq. 7
@@ -98,34 +85,6 @@ private:
 
   Rates bodies_[2];
   bool is_damped_;
-};
-
-/**
-## The period map by classical Runge-Kutta, with its derivative
-
-One period in S equal steps: 4S evaluations of Eq. 7 and no sine or cosine. The derivative
-is that of the map as it is computed: each stage of the variational equations takes the
-bearing's stiffness at the same stage of the state. */
-
-class Rk4PeriodMap {
-public:
-  /** The fewest steps per period not longer than `longest_step` [s]. */
-  Rk4PeriodMap(const Parameters& parameters, double omega, double longest_step);
-
-  /** The state one period after `start` at phase 0. */
-  State end(const State& start);
-
-  /** The same with its derivative. */
-  PeriodMap map(const State& start);
-
-  /** Of the bearing's force, with or without its stiffness. */
-  long evaluations() const { return rk4_.evaluations() + evaluations_; }
-
-private:
-  Rk4 rk4_;
-  RotorStator system_;
-  DisturbanceRates rates_;
-  long evaluations_ = 0;
 };
 
 }  // namespace rotor_stator

@@ -6,8 +6,8 @@
 #include <numbers>
 
 #include "io/errors.hpp"
+#include "time/flow.hpp"
 #include "time/rk4.hpp"
-#include "time/time_stepper.hpp"
 
 namespace rotor_stator {
 

@@ -7,9 +7,6 @@
 #include <numbers>
 
 #include "io/errors.hpp"
-#include "time/gauss.hpp"
-#include "time/rk4.hpp"
-#include "time/time_stepper.hpp"
 
 namespace rotor_stator {
 
@@ -23,53 +20,6 @@ const char* word(Kind kind)
     case Kind::undecided: break;
   }
   return "undecided";
-}
-
-namespace {
-
-/** Gauss's rule as a flow. */
-class GaussFlow : public Flow {
-public:
-  template <class... Arguments>
-  explicit GaussFlow(Arguments&&... arguments)
-      : stepper_(std::forward<Arguments>(arguments)...)
-  {
-  }
-  void advance(long interval, State& state) override
-  {
-    stepper_.advance(interval, state);
-  }
-  long evaluations() const override { return stepper_.evaluations(); }
-
-private:
-  GaussStepper stepper_;
-};
-
-}  // namespace
-
-std::unique_ptr<Flow> fixed_step_flow(const Parameters& machine, double omega,
-                                      int intervals, double step,
-                                      const OperationBudget& budget)
-{
-  if (machine.large)
-    return std::make_unique<GaussFlow>(machine, omega, intervals, 1e-8, budget);
-  return std::make_unique<Rk4>(machine, omega, intervals,
-                               step > 0 ? step : step_at(machine, omega), budget);
-}
-
-/** A contact of Hertz is stiffer with the third root of its force, and vibrates faster with the sixth. */
-double step_at(const Parameters& machine, double omega)
-{
-  constexpr double much = 30;
-  const double step = default_step(machine);
-  if (machine.large) return step;
-  double force = 0;
-  for (const double phase : {0.0, 0.5, 1.0, 1.5}) {
-    const Vec2 f = rigid_joint_force(machine, omega, phase);
-    force = std::max(force, std::hypot(f.x, f.y));
-  }
-  const double ratio = force / (much * scales(machine).load);
-  return std::isfinite(ratio) && ratio > 1 ? step / std::pow(ratio, 1.0 / 6) : step;
 }
 
 double apart(const Parameters& machine, const State& a, const State& b)
@@ -118,136 +68,24 @@ Instant from_rest(const Parameters& machine, double omega)
 
 namespace {
 
-constexpr double first_distance = 1e-7;  ///< of the neighbour, over the sizes
-constexpr double forgotten = -20.7;      ///< ln 1e-9
-constexpr double nearer = -16.1;         ///< ln 1e-7
+constexpr double forgotten = -20.7;  ///< ln 1e-9
+constexpr double nearer = -16.1;     ///< ln 1e-7
 
-/** A motion and its neighbour on their way. */
-class Pair {
-public:
-  Pair(const Parameters& machine, double omega, const Instant& start, double step,
-       const OperationBudget& budget)
-      : sizes_(state_scales(machine)), period_(2 * std::numbers::pi / omega),
-        intervals_(std::max(
-            16, static_cast<int>(
-                    std::ceil(period_ * contact_frequency(machine) / longest_phase)))),
-        flow_(fixed_step_flow(machine, omega, intervals_, step, budget)), at_(start),
-        neighbour_(beside(vector_of(start.state)))
-  {
-  }
-
-  /** Over one base period; where that cannot be paid for, the motion stays where it was. */
-  void advance()
-  {
-    const Instant before = at_;
-    const State neighbour = neighbour_;
-    try {
-      advance_one_period();
-    } catch (const NoSolution&) {
-      at_ = before;
-      neighbour_ = neighbour;
-      throw;
-    }
-  }
-
-  /** ln of what is left of any distance since it was largest. */
-  double contraction() const { return log_distance_ - highest_; }
-
-  /** An instant since which neighbours have come so much nearer, if there is one. */
-  Instant since(double contraction) const
-  {
-    Instant before = marks_.front().at;
-    for (const Mark& mark : marks_)
-      if (log_distance_ - mark.log_distance <= contraction) before = mark.at;
-    return before;
-  }
-
-  const Instant& at() const { return at_; }
-  double half_range() const { return half_range_; }
-  double period() const { return period_; }
-  double seconds() const { return static_cast<double>(growths_.size()) * period_; }
-  const std::vector<double>& growths() const { return growths_; }
-  const std::vector<Displacements>& section() const { return section_; }
-  long evaluations() const { return flow_->evaluations(); }
-
-private:
-  static constexpr double longest_phase =
-      60;  ///< of the contact's vibration between two pulls
-
-  void advance_one_period()
-  {
-    const Displacements first = displacements(at_.state.position);
-    Displacements low = first, high = first;
-    double growth = 0;
-    for (long k = 0; k < intervals_; ++k) {
-      flow_->advance(at_.period * intervals_ + k, at_.state, neighbour_);
-      growth += pull_back();
-      const Displacements q = displacements(at_.state.position);
-      for (std::size_t i = 0; i < 4; ++i) {
-        low[i] = std::min(low[i], q[i]);
-        high[i] = std::max(high[i], q[i]);
-      }
-    }
-    ++at_.period;
-    section_.push_back(first);
-    half_range_ = 0;
-    for (std::size_t i = 0; i < 4; ++i)
-      half_range_ = std::max(half_range_, 0.5 * (high[i] - low[i]));
-    growths_.push_back(growth);
-    log_distance_ += growth;
-    highest_ = std::max(highest_, log_distance_);
-    if (log_distance_ >= highest_) marks_.clear();
-    if (marks_.empty() || marks_.back().log_distance - log_distance_ > 1)
-      marks_.push_back({log_distance_, at_});
-  }
-
-  /** A neighbour at the first distance, off in all directions, so that none is missed. */
-  State beside(const Eigen::VectorXd& y) const
-  {
-    const double share = first_distance / std::sqrt(static_cast<double>(sizes_.size()));
-    return state_of(y + share * sizes_);
-  }
-
-  double pull_back()
-  {
-    const Eigen::VectorXd y = vector_of(at_.state);
-    const Eigen::VectorXd apart = vector_of(neighbour_) - y;
-    const double growth = apart.cwiseQuotient(sizes_).norm() / first_distance;
-    if (!std::isfinite(growth))
-      throw NoSolution(
-          format("time integration diverged %.3g s after its start", seconds()));
-    /** Rounding keeps neighbours apart that have met. */
-    if (!(growth > 1e-8)) {
-      neighbour_ = beside(y);
-      return std::log(1e-8);
-    }
-    neighbour_ = state_of(y + apart / growth);
-    return std::log(growth);
-  }
-
-  struct Mark {
-    double log_distance;
-    Instant at;
-  };
-
-  Eigen::VectorXd sizes_;
-  double period_;
-  int intervals_;
-  std::unique_ptr<Flow> flow_;
-  Instant at_;
-  State neighbour_;
-  double half_range_ = 0, log_distance_ = 0, highest_ = 0;
-  std::vector<double> growths_;  ///< ln of the growth in each base period
-  std::vector<Displacements> section_;
-  std::vector<Mark> marks_ = {};
-};
-
-/** The growth rates of the later half of all base periods, in ten batches [1/s]. */
-Exponent exponent_of(const Pair& pair)
+/** From `start`; the neighbour is pulled back at least once in 60 rad of the contact's
+    vibration. */
+TrajectoryPair pair_from(const Parameters& machine, double omega, const Instant& start,
+                         double step, const OperationBudget& budget)
 {
-  const auto& all = pair.growths();
-  Exponent rate = batch_mean({all.begin() + std::ssize(all) / 2, all.end()});
-  return {rate.value / pair.period(), rate.error / pair.period()};
+  constexpr double longest_phase = 60;
+  const double period = 2 * std::numbers::pi / omega;
+  const double least = std::ceil(period * contact_frequency(machine) / longest_phase);
+  const int intervals = std::max(16, static_cast<int>(least));
+  return {flow(machine, omega,
+               {.method = "rk4",
+                .intervals_per_period = intervals,
+                .step = step,
+                .budget = budget}),
+          intervals, period, state_scales(machine), start};
 }
 
 /** The kind of a motion by what was seen of it so far. */
@@ -265,10 +103,9 @@ public:
     least_ = std::min(least_, 25.0);
   }
 
-  Settled operator()(const Pair& pair) const
+  Settled operator()(const TrajectoryPair& pair) const
   {
-    Settled s{
-        .lyapunov = exponent_of(pair), .at = pair.at(), .before = pair.since(nearer)};
+    Settled s{.lyapunov = pair.exponent(), .at = pair.at(), .before = pair.since(nearer)};
     s.remainder = std::exp(std::max(-700.0, pair.contraction()));
     s.amplitude = pair.half_range();
     s.seconds = pair.seconds();
@@ -303,7 +140,7 @@ public:
   }
 
 private:
-  bool is_at_rest(const Pair& pair) const
+  bool is_at_rest(const TrajectoryPair& pair) const
   {
     const State& state = pair.at().state;
     const double speed =
@@ -312,26 +149,26 @@ private:
   }
 
   /** The fewest base periods after which the section closes. */
-  void close(const Pair& pair, Settled& s) const
+  void close(const TrajectoryPair& pair, Settled& s) const
   {
     const auto& all = pair.section();
     constexpr long fewest = 4;
     if (std::ssize(all) < fewest) return;
     const auto window = std::min<long>(std::ssize(all), 3L * rule_.most_period + 1);
-    const std::vector<Displacements> last(all.end() - window, all.end());
     const double size = std::max(pair.half_range(), 1e-9 * length_);
-    const SectionJudgement judged = judge_section(
-        last, size, {}, {.periodic = rule_.closed, .most_period = rule_.most_period});
-    /** Where neighbours come nearer slowly, the motion is farther away than two points of its section are apart. */
+    const auto closing = closing_period({all.end() - window, all.end()},
+                                        rule_.closed * size, rule_.most_period);
+    /** Where neighbours come nearer slowly, the motion is farther away than two points of
+        its section are apart. */
     const double nearer_by = -std::expm1(std::min(0.0, s.lyapunov.value) * pair.period());
-    if (!(judged.spread_k < rule_.closed * std::max(1e-3, nearer_by))) return;
+    if (!(closing.spread < rule_.closed * size * std::max(1e-3, nearer_by))) return;
     s.kind = Kind::periodic;
-    s.period = judged.period;
+    s.period = closing.period;
     s.before.period -= s.at.period;
     s.at.period = 0;
   }
 
-  static bool grows_throughout(const Pair& pair)
+  static bool grows_throughout(const TrajectoryPair& pair)
   {
     const auto& all = pair.growths();
     const auto quarter = std::ssize(all) / 4;
@@ -363,15 +200,17 @@ void put_on_zero(const Parameters& machine, double omega, const SettleRule& rule
   const auto periods = [&](double logarithm) {
     return std::lround(std::ceil(logarithm / (s.lyapunov.value * period)));
   };
-  const auto flow = fixed_step_flow(machine, omega, 1, rule.step, budget);
+  const auto turn = flow(
+      machine, omega,
+      {.method = "rk4", .intervals_per_period = 1, .step = rule.step, .budget = budget});
   State state = s.at.state;
   const long first = -periods(2 * forgotten), before = -periods(nearer);
   for (long k = first; k < 0; ++k) {
     if (k == before) s.before = {state, k};
-    flow->advance(k, state);
+    turn->advance(k, state);
   }
   s.at = {state, 0};
-  s.evaluations += static_cast<double>(flow->evaluations());
+  s.evaluations += static_cast<double>(turn->evaluations());
 }
 
 /** Sixty seconds, or those in which the slowest linear mode decays to e^-40, at most a thousand. */
@@ -388,7 +227,7 @@ Settled settle(const Parameters& machine, double omega, const BasePeriod& base,
                const Instant& start, const SettleRule& rule,
                const OperationBudget& budget)
 {
-  Pair pair(machine, omega, start, rule.step, budget);
+  TrajectoryPair pair = pair_from(machine, omega, start, rule.step, budget);
   const SettleRule whole = with_longest(rule, machine);
   const Judge judge(machine, omega, base, whole);
   Settled settled;
@@ -401,7 +240,7 @@ Settled settle(const Parameters& machine, double omega, const BasePeriod& base,
       for (std::size_t k = 0; k < more; ++k) pair.advance();
       settled = judge(pair);
     }
-    settled.evaluations = static_cast<double>(pair.evaluations());
+    settled.evaluations = pair.evaluations();
     if (base.is_driven_twice() && settled.contracts && settled.at.period != 0 &&
         settled.kind == Kind::quasi_periodic && can_be_put_on_zero(settled))
       put_on_zero(machine, omega, rule, budget, settled);
@@ -410,7 +249,7 @@ Settled settle(const Parameters& machine, double omega, const BasePeriod& base,
     settled = judge(pair);
     settled.kind = Kind::undecided;
     settled.reason = ended.what();
-    settled.evaluations = static_cast<double>(pair.evaluations());
+    settled.evaluations = pair.evaluations();
   }
   return settled;
 }

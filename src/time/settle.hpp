@@ -20,28 +20,18 @@ The machine is one counted over its base period. λ comes with its standard erro
 later half of all that was integrated. */
 #pragma once
 
-#include <memory>
 #include <string>
-#include <vector>
 
-#include "io/budget.hpp"
 #include "model/base_period.hpp"
-#include "time/flow.hpp"
-#include "time/lyapunov.hpp"
+#include "time/trajectory_pair.hpp"
 
 namespace rotor_stator {
 
 enum class Kind { undecided, rest, periodic, quasi_periodic, chaotic };
 const char* word(Kind kind);
 
-/** A state at the start of base period `period`, counted from t = 0. */
-struct Instant {
-  State state;
-  long period = 0;
-};
-
 struct SettleRule {
-  double step = 0;       ///< longest of rk4 [s]; 0: `default_step`
+  double step = 0;       ///< longest of rk4 [s]; 0: `step_at`
   double closed = 1e-6;  ///< spread of a closed section, over the vibration [-]
   int most_period = 16;  ///< K
   double longest = 0;    ///< after t = 0 [s]; 0: 60, or what the slowest decay asks for
@@ -80,14 +70,5 @@ struct SlowestMode {
   double decay, frequency;
 };
 SlowestMode slowest_mode(const Parameters& machine);
-
-/** The step [s] of rk4 at a base frequency: `default_step`, and less where the force at that speed presses the contact much
-    more than the loads do by which that is chosen. */
-double step_at(const Parameters& machine, double omega);
-
-/** A flow of fixed step: rk4, or Gauss's rule for large bodies, with `intervals` in a base period. */
-std::unique_ptr<Flow> fixed_step_flow(const Parameters& machine, double omega,
-                                      int intervals, double step,
-                                      const OperationBudget& budget);
 
 }  // namespace rotor_stator

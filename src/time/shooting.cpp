@@ -1,196 +1,226 @@
 #include "time/shooting.hpp"
 
 #include <Eigen/LU>
-#include <functional>
-#include <memory>
+#include <algorithm>
+#include <cmath>
 
 #include "io/errors.hpp"
-#include "time/period_map.hpp"
-#include "time/time_stepper.hpp"
 
 namespace rotor_stator {
 
 namespace {
 
-/** P with and without its derivative. */
-struct Maps {
-  std::function<State(const State&)> end;
-  std::function<PeriodMap(const State&)> map;
-  std::function<long()> evaluations;
+/** What the states y of a motion lead to. */
+struct Mapped {
+  Eigen::VectorXd open;                 ///< ends of the segments less the next states
+  std::vector<Eigen::MatrixXd> slopes;  ///< Φ of each segment; none without derivatives
+  std::vector<State> passed;            ///< at the phases, from the first state on
 };
 
-Maps rk4_maps(const Parameters& parameters, double omega,
-              const ShootingSettings& settings)
-{
-  const double step = settings.step > 0 ? settings.step : default_step(parameters);
-  const auto period = std::make_shared<Rk4PeriodMap>(parameters, omega, step);
-  return {.end = [period](const State& s) { return period->end(s); },
-          .map = [period](const State& s) { return period->map(s); },
-          .evaluations = [period] { return period->evaluations(); }};
-}
+/** Newton in the scaled states, those of all segments below each other. */
+class Iteration {
+public:
+  Iteration(const Parameters& parameters, double omega, const std::vector<State>& start,
+            const ShootingSettings& settings)
+      : parameters_(parameters), omega_(omega), settings_(settings),
+        sizes_(state_scales(parameters)), n_(sizes_.size()),
+        phases_(static_cast<int>(start.size())), first_(settings.alone.value_or(0))
+  {
+    constexpr Eigen::Index most_equations = 2000;
+    const bool is_plain = settings.alone || phases_ * n_ > most_equations;
+    segments_ = is_plain ? 1 : phases_;
+    y_.resize(segments_ * n_);
+    for (int i = 0; i < segments_; ++i)
+      part(y_, i) = vector_of(start[place(i)]).cwiseQuotient(sizes_);
+  }
 
-Maps controlled_maps(const Parameters& parameters, double omega,
-                     const ShootingSettings& settings)
-{
-  const TimeStepper stepper = make_stepper(parameters, omega,
-                                           {.method = settings.method,
-                                            .intervals_per_period = 1,
-                                            .tolerance = settings.tolerance,
-                                            .budget = settings.budget});
-  const auto varied = std::make_shared<long>(0);
-  return {.end =
-              [stepper](const State& start) {
-                State state = start;
-                stepper.advance(0, state);
-                return state;
-              },
-          .map =
-              [=, &parameters, &settings](const State& start) {
-                const PeriodMap map =
-                    period_map(parameters, omega, start, settings.tolerance,
-                               settings.method, settings.budget);
-                *varied += map.evaluations;
-                return map;
-              },
-          .evaluations = [=] { return stepper.evaluations() + *varied; }};
-}
-
-/** Newton in the scaled state y = s/sizes. */
-struct Iteration {
-  const ShootingSettings& settings;
-  Maps maps;
-  Eigen::VectorXd sizes, y;
-  Eigen::VectorXd open = {};      ///< P(y) - y
-  Eigen::MatrixXd jacobian = {};  ///< its derivative
-  double reduction = 1;
-  Shooting report = {};
-
-  Shooting run(State& state, PeriodicityJacobian& kept)
+  Shooting run(std::vector<State>& motion, PeriodicityJacobian& kept)
   {
     try {
       if (kept) {
-        jacobian = *kept;
-        open = mapped(y) - y;
-        report.periodicity_residual = open.norm();
-        if (!finished()) quasi_newton_steps();
+        jacobian_ = *kept;
+        factors_.compute(jacobian_);
+        is_fresh_ = false;
+        at_ = map(y_, false);
+      } else {
+        linearise();
       }
-      while (report.reason.empty()) newton_step();
-      if (report.converged) take_known_step();
-    } catch (const NoSolution& broken) {
-      report.converged = false;
-      report.reason = broken.what();
+      while (!report_.converged) correct();
+      for (int i = 0; i < phases_; ++i)
+        motion[place(i)] = segments_ > i ? unscaled(part(y_, i)) : at_.passed[i];
+      multiply_slopes();
+    } catch (const NoSolution& none) {
+      report_.reason = none.what();
     }
-    if (report.derivatives > 0 || kept) kept = jacobian;
-    report.evaluations = maps.evaluations();
-    state = unscaled(y);
-    return report;
+    if (jacobian_.size() > 0) kept = jacobian_;
+    return report_;
   }
 
-  /** Φ at y, one step with it, and further ones while they reduce the residual well. */
-  void newton_step()
+private:
+  Eigen::VectorBlock<Eigen::VectorXd> part(Eigen::VectorXd& y, int i) const
   {
-    const PeriodMap map = integrate_derivative();
-    open = vector_of(map.end).cwiseQuotient(sizes) - y;
-    report.periodicity_residual = open.norm();
-    jacobian = sizes.cwiseInverse().asDiagonal() * map.derivative * sizes.asDiagonal();
-    jacobian.diagonal().array() -= 1;
-    if (finished()) return;
-    if (!quasi_newton_steps() && report.reason.empty())
-      stop("no step closes the motion better");
+    return y.segment(i * n_, n_);
+  }
+  std::size_t place(int i) const
+  {
+    return static_cast<std::size_t>((first_ + i) % phases_);
+  }
+  State unscaled(const Eigen::VectorXd& y) const
+  {
+    return state_of(y.cwiseProduct(sizes_));
+  }
+  double norm(const Eigen::VectorXd& y) const
+  {
+    return y.norm() / std::sqrt(static_cast<double>(y.size()));
   }
 
-  /** False when not even the first step reduces the residual. */
-  bool quasi_newton_steps()
+  Mapped map(Eigen::VectorXd& y, bool with_slopes)
   {
-    constexpr double well = 0.3;  ///< a reduction that earns another step without Φ
-    bool reduced = false;
-    do {
-      if (!damped_step()) return reduced;
-      reduced = true;
-    } while (!finished() && settings.quasi_newton && reduction < well);
-    return true;
-  }
-
-  /** One step, halved until the residual decreases; Broyden's rule learns from it. */
-  bool damped_step()
-  {
-    const Eigen::VectorXd step = -jacobian.partialPivLu().solve(open);
-    const int most_halvings = settings.quasi_newton ? 8 : 12;
-    double length = 1;
-    for (int halvings = 0; halvings < most_halvings && !out_of_maps();
-         ++halvings, length /= 2) {
-      const Eigen::VectorXd next = y + length * step;
-      const Eigen::VectorXd open_next = mapped(next) - next;
-      const double residual = open_next.norm();
-      reduction = residual / report.periodicity_residual;
-      if (!(reduction < 1)) continue;
-      jacobian += (open_next - (1 - length) * open) * step.transpose() /
-                  (length * step.squaredNorm());
-      y = next;
-      open = open_next;
-      report.periodicity_residual = residual;
-      return true;
+    if (++report_.maps > settings_.most_maps)
+      throw NoSolution(format("not closed after %d periods", settings_.most_maps));
+    if (with_slopes) ++report_.derivatives;
+    const StepSettings steps{.method = settings_.method,
+                             .intervals_per_period = phases_,
+                             .step = settings_.step,
+                             .tolerance = settings_.tolerance,
+                             .budget = settings_.budget};
+    Mapped mapped{.open = Eigen::VectorXd(y.size()), .slopes = {}, .passed = {}};
+    const int each = phases_ / segments_;
+    for (int i = 0; i < segments_; ++i) {
+      State state = unscaled(part(y, i));
+      Eigen::MatrixXd slope = Eigen::MatrixXd::Identity(n_, n_);
+      for (int k = first_ + i * each; k < first_ + (i + 1) * each; ++k) {
+        mapped.passed.push_back(state);
+        const PeriodMap next =
+            period_map(parameters_, omega_, state, steps, k, with_slopes);
+        report_.evaluations += next.evaluations;
+        if (with_slopes) slope = scaled(next.derivative) * slope;
+        state = next.end;
+      }
+      if (with_slopes) mapped.slopes.push_back(slope);
+      part(mapped.open, i) =
+          vector_of(state).cwiseQuotient(sizes_) - part(y, (i + 1) % segments_);
     }
-    return false;
+    if (!mapped.open.allFinite()) throw NoSolution("time integration diverged");
+    return mapped;
   }
 
-  void take_known_step()
+  Eigen::MatrixXd scaled(const Eigen::MatrixXd& derivative) const
   {
-    const Eigen::VectorXd step = jacobian.partialPivLu().solve(open);
-    if (step.allFinite()) y -= step;
-    if (settings.final_derivative) integrate_derivative();
+    return sizes_.cwiseInverse().asDiagonal() * derivative * sizes_.asDiagonal();
   }
 
-  PeriodMap integrate_derivative()
+  void linearise()
   {
-    const PeriodMap map = maps.map(unscaled(y));
-    ++report.maps;
-    ++report.derivatives;
-    report.derivative = map.derivative;
-    return map;
+    at_ = map(y_, true);
+    factor();
   }
 
-  Eigen::VectorXd mapped(const Eigen::VectorXd& at)
+  void factor()
   {
-    ++report.maps;
-    return vector_of(maps.end(unscaled(at))).cwiseQuotient(sizes);
+    jacobian_ = Eigen::MatrixXd::Zero(y_.size(), y_.size());
+    for (int i = 0; i < segments_; ++i) {
+      jacobian_.block(i * n_, i * n_, n_, n_) += at_.slopes[static_cast<std::size_t>(i)];
+      jacobian_.block(i * n_, (i + 1) % segments_ * n_, n_, n_).diagonal().array() -= 1;
+    }
+    factors_.compute(jacobian_);
+    is_fresh_ = true;
   }
 
-  State unscaled(const Eigen::VectorXd& at) const
+  void correct()
   {
-    return state_of(at.cwiseProduct(sizes));
+    const Eigen::VectorXd step = factors_.solve(-at_.open);
+    const double size = report_.correction = norm(step);
+    if (!std::isfinite(size))
+      throw NoSolution("the derivative of the period map is singular");
+    const bool is_first = report_.first.size() == 0;
+    if (is_first) report_.first = step;
+    if (size <= settings_.closed) {
+      y_ += step;
+      report_.converged = true;
+      if (is_first) report_.contraction = 0;
+      return;
+    }
+    constexpr double shortest = 1e-3;
+    for (double length = std::min(1.0, 4 * length_); length > shortest; length /= 2) {
+      Eigen::VectorXd y = y_ + length * step;
+      Mapped next;
+      try {
+        next = map(y, !settings_.quasi_newton);
+      } catch (const NoSolution&) {
+        if (report_.maps > settings_.most_maps || settings_.budget.used_up()) throw;
+        continue;
+      }
+      const double left = norm(factors_.solve(next.open)) / size;
+      if (!(left <= (settings_.quasi_newton ? 1 : 1 - length / 2))) continue;
+      if (is_first && length == 1) report_.contraction = left;
+      length_ = length;
+      y_ = y;
+      return learn(std::move(next), length * step, length, left);
+    }
+    if (is_fresh_)
+      throw NoSolution(
+          format("no correction closes the motion better (last one %.1e)", size));
+    linearise();
   }
-  bool out_of_maps() const { return report.maps >= settings.most_maps; }
 
-  bool finished()
+  /** Φ of the next states, or Broyden's, where the last correction served well. */
+  void learn(Mapped next, const Eigen::VectorXd& step, double length, double left)
   {
-    report.converged = report.periodicity_residual <= settings.periodicity_residual;
-    if (report.converged)
-      stop("converged");
-    else if (out_of_maps())
-      stop(format("%d periods were integrated", report.maps));
-    return !report.reason.empty();
+    constexpr double well = 0.3;
+    if (!settings_.quasi_newton) {
+      at_ = std::move(next);
+      return factor();
+    }
+    if (left > well) return linearise();
+    jacobian_ +=
+        (next.open - (1 - length) * at_.open) * step.transpose() / step.squaredNorm();
+    factors_.compute(jacobian_);
+    is_fresh_ = false;
+    at_ = std::move(next);
   }
 
-  void stop(const std::string& why)
+  void multiply_slopes()
   {
-    report.reason = why + format(" (closure %.1e)", report.periodicity_residual);
+    if (at_.slopes.empty()) return;
+    Eigen::MatrixXd whole = Eigen::MatrixXd::Identity(n_, n_);
+    for (const auto& slope : at_.slopes) whole = slope * whole;
+    report_.derivative = sizes_.asDiagonal() * whole * sizes_.cwiseInverse().asDiagonal();
   }
+
+  const Parameters& parameters_;
+  double omega_;
+  const ShootingSettings& settings_;
+  Eigen::VectorXd sizes_;
+  Eigen::Index n_;
+  int phases_, first_, segments_ = 1;
+  Eigen::VectorXd y_;
+  Mapped at_;
+  Eigen::MatrixXd jacobian_;
+  Eigen::PartialPivLU<Eigen::MatrixXd> factors_;
+  bool is_fresh_ = true;  ///< the factors are those of y
+  double length_ = 1;
+  Shooting report_;
 };
 
 }  // namespace
+
+Shooting shoot(const Parameters& parameters, double omega, Eighths& motion,
+               const ShootingSettings& settings)
+{
+  PeriodicityJacobian none;
+  return Iteration(parameters, omega, motion, settings).run(motion, none);
+}
 
 Shooting shoot(const Parameters& parameters, double omega, State& state,
                const ShootingSettings& settings, PeriodicityJacobian* jacobian)
 {
   PeriodicityJacobian none;
-  Eigen::VectorXd sizes = state_scales(parameters);
-  sizes.tail(sizes.size() / 2) /= settings.speed_weight;
-  const bool by_rk4 = settings.method == "rk4" && !parameters.large;
-  const auto maps = by_rk4 ? rk4_maps : controlled_maps;
-  return Iteration{settings, maps(parameters, omega, settings), sizes,
-                   vector_of(state).cwiseQuotient(sizes)}
-      .run(state, jacobian ? *jacobian : none);
+  std::vector<State> motion{state};
+  const Shooting report = Iteration(parameters, omega, motion, settings)
+                              .run(motion, jacobian ? *jacobian : none);
+  state = motion.front();
+  return report;
 }
 
 State quasi_static_state(const Parameters& parameters, double omega)

@@ -15,10 +15,9 @@ more, which are recorded.
 */
 #pragma once
 
-#include <algorithm>
 #include <vector>
 
-#include "time/time_stepper.hpp"
+#include "time/trajectory_pair.hpp"
 
 namespace rotor_stator {
 
@@ -27,7 +26,7 @@ namespace rotor_stator {
 inline constexpr double other_rounding = 1e-11;
 
 struct SteadySettings {
-  StepperSettings stepper;
+  StepSettings stepper;
   double settled = 1e-9;   ///< spread at which integration ends [-]
   double periodic = 1e-6;  ///< spread below which the motion is called periodic [-]
   double window = 1.0;     ///< [s], at least four periods
@@ -36,48 +35,23 @@ struct SteadySettings {
   double average = 0;      ///< at least so many seconds are, where it is aperiodic [s]
 };
 
-/** The mean of a series and its standard error. */
-struct BatchMean {
-  double value, error = 0;
-};
-
-/** The error is that of the means of a few long batches of neighbours, which know little of each other. */
-BatchMean batch_mean(const std::vector<double>& series, std::size_t most_batches = 10);
-
-/** Of chaotic motion, which may stay near one motion for many periods and then near another: the larger error of ten
-    and of four batches. */
-BatchMean long_mean(const std::vector<double>& series);
-
 /** The table [time_integration] of a scene. */
 SteadySettings read_steady_settings(SceneFile& scene);
 
 struct SteadyState {
-  std::vector<State> states;  ///< P per period, `shown_periods` periods, from phase 0
-  long first_period;          ///< periods since t = 0 at states[0], for the cage's angle
-  double spread;              ///< Poincaré spread [-]
-  double spread_error;        ///< its standard error where the motion is aperiodic [-]
-  bool periodic;
-  double seconds;    ///< integrated time [s]
-  long evaluations;  ///< of Eq. 7
-  double omega = 0;  ///< the base frequency [rad/s]
+  std::vector<State> states =
+      {};                   ///< P per period, `shown_periods` of them, from phase 0
+  long first_period = 0;    ///< periods since t = 0 at states[0], for the cage's angle
+  double spread = 0;        ///< Poincaré spread [-]
+  double spread_error = 0;  ///< its standard error where the motion is aperiodic [-]
+  bool periodic = false;
+  double seconds = 0;    ///< integrated time [s]
+  long evaluations = 0;  ///< of Eq. 7
+  double omega = 0;      ///< the base frequency [rad/s]
 };
 
 /** The period T [s]. Throws NoSolution unless `seconds` of it can be integrated. */
 double checked_period(double omega, double seconds);
-
-/** The largest distance of two points of a Poincaré section in one displacement [m]. */
-template <class Section>
-double extent(const Section& section)
-{
-  double widest = 0;
-  for (std::size_t i = 0; i < 4; ++i) {
-    const auto [low, high] = std::minmax_element(
-        section.begin(), section.end(),
-        [i](const Displacements& a, const Displacements& b) { return a[i] < b[i]; });
-    widest = std::max(widest, (*high)[i] - (*low)[i]);
-  }
-  return widest;
-}
 
 /** Integrates from `start` at t = 0. Throws NoSolution when the integration breaks down.
  */

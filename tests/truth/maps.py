@@ -117,8 +117,8 @@ class Judged:
     def error_alone(self, frequency):
         """What explore says of this point without the neighbour that the map starts from; NaN if nothing."""
         result = subprocess.run([EXPLORE, "map", self.file, "--x", f"frequency={frequency!r}:{frequency!r}:1", "--quantity",
-                                 "machine_error", "--harmonics", "6", "--quiet"], capture_output=True, encoding="utf-8", check=True)
-        return cells_as_numbers(Table.of(result.stdout)["machine_error"])[0]
+                                 "error", "--harmonics", "6", "--quiet"], capture_output=True, encoding="utf-8", check=True)
+        return cells_as_numbers(Table.of(result.stdout)["error"])[0]
 
     def motion_near(self, frequency):
         """The orbit, and the judge's motion beside it: of one turn, or what comes of the orbit."""
@@ -145,23 +145,23 @@ def check_speed(judged, row):
     contact = float((judged.deflections(q, frequency) > 0).any(axis=1).mean())
     if row["status"] != "ok":
         return -2, period, -1, contact, -1
-    row = {name: float(row[name]) for name in ("period", "loaded")}
-    same = row["period"] == period and abs(contact - row["loaded"]) < (0.02 if period > 0 else 0.1)
+    row = {name: float(row[name]) for name in ("period", "contact_share")}
+    same = row["period"] == period and abs(contact - row["contact_share"]) < (0.02 if period > 0 else 0.1)
     if row["period"] < 0:
         same = -1
     elif not same and period in judged.periods_near(frequency):
         same = 2
-    return row["period"], period, row["loaded"], contact, same
+    return row["period"], period, row["contact_share"], contact, same
 
 
 def check_stiffness(judged, row):
     here, there = judged.motion_near(30.0), judged.motion_near(row["peak_frequency"])
-    if here is None or row["machine_error"] == "-":
+    if here is None or row["error"] == "-":
         return -1, -1 if here is None else 0, -1, -1, -1
     q, true = here
     error = rms(np.tile(q, (len(true) // INSTANTS, 1)) - true) / rms(true)
     peak = -1 if there is None else float(np.ptp(there[1][:, 2]) / 2)
-    value = float(row["machine_error"])
+    value = float(row["error"])
 
     def same(said):
         return abs(said - error) < 0.2 * error + 1e-4

@@ -5,6 +5,7 @@
 
 #include "balance/bearing_problem.hpp"
 #include "continuation/arc_length.hpp"
+#include "continuation/balance_curve.hpp"
 #include "continuation/isolated.hpp"
 #include "continuation/locate.hpp"
 #include "io/errors.hpp"
@@ -154,8 +155,9 @@ TEST_CASE("A circle is followed once round and recognised as closed, either way"
 {
   for (bool upwards : {true, false}) {
     Balance balance(circle(0.7), 0);
-    const BranchPoint start = point_of(balance, 2, at(0.7), upwards, plain);
-    const Branch branch = follow_branch(balance, start, {0.5, 3.5}, plain);
+    BalanceCurve curve(balance, plain);
+    const BranchPoint start = point_of(curve, 2, at(0.7), upwards, plain);
+    const Branch branch = follow_branch(curve, start, {0.5, 3.5}, plain);
     CHECK(branch.kind == BranchEnd::closed);
     CHECK_FALSE(branch.covered);
     REQUIRE(branch.folds.size() == 2);
@@ -167,15 +169,16 @@ TEST_CASE("A circle is followed once round and recognised as closed, either way"
     CHECK(branch.points.back().motion.x == branch.points.front().motion.x);
     /** The chords of a circle are shorter than its arcs. */
     CHECK(branch.points.back().arc == Approx(2 * M_PI * 0.7).epsilon(1e-3));
-    CHECK(follow_both_ways(balance, start, {0.5, 3.5}, plain).covered);
+    CHECK(follow_both_ways(curve, start, {0.5, 3.5}, plain).covered);
   }
 }
 
 TEST_CASE("A closed branch that leaves the range is followed to both edges")
 {
   Balance balance(circle(0.7), 0);
-  const BranchPoint start = point_of(balance, 2.2, at(0.6), true, plain);
-  const Branch branch = follow_both_ways(balance, start, {2.0, 3.5}, plain);
+  BalanceCurve curve(balance, plain);
+  const BranchPoint start = point_of(curve, 2.2, at(0.6), true, plain);
+  const Branch branch = follow_both_ways(curve, start, {2.0, 3.5}, plain);
   CHECK(branch.covered);
   CHECK(branch.points.front().motion.omega == 2.0);
   CHECK(branch.points.back().motion.omega == 2.0);
@@ -188,6 +191,7 @@ TEST_CASE("A closed branch that leaves the range is followed to both edges")
 TEST_CASE("An isolated branch is found from starts off the main one, once")
 {
   Balance balance(island(1), 0);
+  BalanceCurve curve(balance, plain);
   const Branch main = follow_branch(balance, 0.5, 3.5, at(-2), plain);
   REQUIRE(main.covered);
   CHECK(main.folds.empty());
@@ -195,7 +199,7 @@ TEST_CASE("An isolated branch is found from starts off the main one, once")
       {.omega = 1.5, .x = at(-1.9), .start = "main"},
       {.omega = 2.2, .x = at(1.5), .start = "first"},
       {.omega = 1.8, .x = at(0.5), .start = "second"}};
-  const auto found = isolated_branches(balance, main, candidates, {0.5, 3.5}, plain);
+  const auto found = isolated_branches(curve, main, candidates, {0.5, 3.5}, plain);
   REQUIRE(found.size() == 1);
   CHECK(found[0].candidate.start == "first");
   CHECK(found[0].branch.kind == BranchEnd::closed);
@@ -207,6 +211,7 @@ TEST_CASE("An isolated branch is found from starts off the main one, once")
 
   /** Where the curve rises above the cubic's upper value the island has joined the line. */
   Balance joined(island(2.5), 0);
+  BalanceCurve joined_curve(joined, plain);
   const Branch line = follow_branch(joined, 0.5, 3.5, at(-2), plain);
   REQUIRE(line.covered);
   REQUIRE(line.folds.size() == 4);
@@ -215,24 +220,26 @@ TEST_CASE("An isolated branch is found from starts off the main one, once")
   CHECK(line.folds[1] == Approx(2 - outer).epsilon(1e-8));
   CHECK(line.folds[2] == Approx(2 + outer).epsilon(1e-8));
   CHECK(line.folds[3] == Approx(2 + inner).epsilon(1e-8));
-  CHECK(isolated_branches(joined, line, {{.omega = 2.0, .x = at(2)}}, {0.5, 3.5}, plain)
+  CHECK(isolated_branches(joined_curve, line, {{.omega = 2.0, .x = at(2)}}, {0.5, 3.5},
+                          plain)
             .empty());
 }
 
 TEST_CASE("locate finds where a quantity has a value, and refuses what has no zero")
 {
   Balance balance(circle(1), 0);
+  BalanceCurve curve(balance, plain);
   const Branch branch =
-      follow_branch(balance, point_of(balance, 2, at(1), true, plain), {0.5, 3.5}, plain);
+      follow_branch(curve, point_of(curve, 2, at(1), true, plain), {0.5, 3.5}, plain);
   const auto quantity = [](const BranchPoint& p) { return p.motion.x[0] - 0.6; };
   int found = 0;
   for (std::size_t k = 1; k < branch.points.size(); ++k) {
     const BranchPoint &a = branch.points[k - 1], &b = branch.points[k];
     if (quantity(a) * quantity(b) >= 0) {
-      CHECK_THROWS_AS(locate(balance, a, b, quantity, 1e-10, plain), NoSolution);
+      CHECK_THROWS_AS(locate(curve, a, b, quantity, 1e-10, plain), NoSolution);
       continue;
     }
-    const BranchPoint point = locate(balance, a, b, quantity, 1e-10, plain);
+    const BranchPoint point = locate(curve, a, b, quantity, 1e-10, plain);
     CHECK(std::abs(point.motion.omega - 2) == Approx(0.8).epsilon(1e-9));
     CHECK(point.arc > a.arc);
     CHECK(point.arc < b.arc);
@@ -244,13 +251,14 @@ TEST_CASE("locate finds where a quantity has a value, and refuses what has no ze
 TEST_CASE("Every passage of a branch through a speed is found between two of its points")
 {
   Balance balance(circle(1), 0);
+  BalanceCurve curve(balance, plain);
   const Branch branch =
-      follow_branch(balance, point_of(balance, 2, at(1), true, plain), {0.5, 3.5}, plain);
+      follow_branch(curve, point_of(curve, 2, at(1), true, plain), {0.5, 3.5}, plain);
   int found = 0;
   for (std::size_t k = 1; k < branch.points.size(); ++k) {
     const BranchPoint &a = branch.points[k - 1], &b = branch.points[k];
     if ((a.motion.omega - 2.3) * (b.motion.omega - 2.3) >= 0) continue;
-    const BranchPoint point = point_between(balance, a, b, 2.3, plain);
+    const BranchPoint point = point_between(curve, a, b, 2.3, plain);
     CHECK(point.motion.omega == 2.3);
     CHECK(std::abs(point.motion.x[0]) == Approx(std::sqrt(0.91)));
     ++found;
@@ -261,14 +269,15 @@ TEST_CASE("Every passage of a branch through a speed is found between two of its
 TEST_CASE("A step that passes an earlier point knows which way it goes")
 {
   Balance balance(circle(1), 0);
+  BalanceCurve curve(balance, plain);
   const Branch branch =
-      follow_branch(balance, point_of(balance, 2, at(1), true, plain), {0.5, 3.5}, plain);
-  ExtendedBalance extended(balance, plain);
+      follow_branch(curve, point_of(curve, 2, at(1), true, plain), {0.5, 3.5}, plain);
+  Corrector corrector(curve, plain);
   std::vector<BranchPoint> walked(branch.points.begin(), branch.points.begin() + 12);
   const auto passed_to = [&](const BranchPoint& next) {
     BranchHistory history;
     for (const BranchPoint& point : walked) history.add(point);
-    return history.passed(extended, walked, next, plain);
+    return history.passed(corrector, walked, next, plain);
   };
   CHECK_FALSE(passed_to(branch.points[12]));
 
@@ -306,11 +315,12 @@ TEST_CASE("A branch gone on with from any of its points, either way, is the same
   const Branch branch = follow(parameters, 10, 21, 1, 60, 0.05);
   Balance balance(bearing_problem(parameters, 21), 10);
   const ArcLengthSettings settings = arc_length_settings(parameters);
+  BalanceCurve curve(balance, settings);
   const std::size_t k = branch.points.size() / 2;
   const SpeedRange range{hertz(1), hertz(60)};
-  const Branch ahead = follow_branch(balance, branch.points[k], range, settings);
-  const Branch back = follow_branch(balance, reversed(branch.points[k]),
-                                    {range.to, range.from}, settings);
+  const Branch ahead = follow_branch(curve, branch.points[k], range, settings);
+  const Branch back =
+      follow_branch(curve, reversed(branch.points[k]), {range.to, range.from}, settings);
   REQUIRE(ahead.covered);
   REQUIRE(back.covered);
   const auto close = [](const BranchPoint& a, const BranchPoint& b) {

@@ -43,6 +43,18 @@ TEST_CASE("A part spends from the whole, and ends before it")
   CHECK(budget.left() == 30);
 }
 
+TEST_CASE("Nothing is paid for after the seconds of the clock, in parts too")
+{
+  OperationBudget budget(100, "--budget");
+  budget.end_at(Clock::now(), 60);
+  CHECK_THROWS_WITH(budget.part(0.5).spend(1),
+                    contains("60s is used up; more with --budget 240s"));
+  CHECK(budget.used_up());
+  OperationBudget later(100);
+  later.end_at(Clock::now() + std::chrono::hours(1), 3600);
+  CHECK_NOTHROW(later.spend(1));
+}
+
 TEST_CASE("Callbacks are told what cannot be paid for")
 {
   const OperationBudget budget(100, "--budget");

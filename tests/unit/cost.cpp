@@ -4,7 +4,6 @@
 #include <filesystem>
 #include "support/catch.hpp"
 
-#include "costs/cost_growth.hpp"
 #include "costs/equal_error.hpp"
 #include "costs/timing.hpp"
 #include "costs/work_precision.hpp"
@@ -64,7 +63,7 @@ TEST_CASE("Scenes of cost: bad input ends with status 2, its key and nothing els
       {"work_precision", "50.0, 45.0]", "50.0]", "speeds_hz"},
       {"work_precision", "below_hz = 0.5", "below_hz = 7.0", "below_hz"},
       {"cost_growth", "below_hz = 29.5", "below_hz = 30.5", "below_hz"},
-      {"cost_growth", "sweep_to_hz = 60.0", "sweep_to_hz = 20.0", "sweep_to_hz"},
+      {"cost_growth", "[8, 16, ", "[16, 8, ", "harmonics"},
       {"cost_growth", "samples_per_harmonic = 8", "samples_per_harmonic = 1",
        "samples_per_harmonic"}};
   for (const Bad& bad : cases) {
@@ -80,19 +79,22 @@ TEST_CASE("RK4's period map is RK4's, and its derivative that of its differences
 {
   const Parameters parameters = set_1();
   const double omega = hertz(45), step = 1e-4;
-  Rk4PeriodMap period(parameters, omega, step);
   const State start = quasi_static_state(parameters, omega);
   State expected = start;
   Rk4(parameters, omega, 1, step).advance(0, expected);
-  const PeriodMap map = period.map(start);
+  const auto map_from = [&](const State& from) {
+    return period_map(parameters, omega, from,
+                      {.method = "rk4", .intervals_per_period = 1, .step = step});
+  };
+  const PeriodMap map = map_from(start);
   const Vector8 sizes = state_scales(parameters);
   const Vector8 off = (vector_of(map.end) - vector_of(expected)).cwiseQuotient(sizes);
   CHECK(off.norm() < 1e-12);
   for (int j = 0; j < 8; ++j) {
     const Vector8 step_j = 1e-7 * sizes[j] * Vector8::Unit(j);
     const Vector8 y = vector_of(start);
-    const Vector8 difference = (vector_of(period.end(state_of(Vector8(y + step_j)))) -
-                                vector_of(period.end(state_of(Vector8(y - step_j))))) /
+    const Vector8 difference = (vector_of(map_from(state_of(Vector8(y + step_j))).end) -
+                                vector_of(map_from(state_of(Vector8(y - step_j))).end)) /
                                2e-7;
     const Vector8 error =
         (difference - sizes[j] * map.derivative.col(j)).cwiseQuotient(sizes);
@@ -126,7 +128,7 @@ TEST_CASE("Shooting and harmonic balance, which share nothing, agree on the refe
   const Parameters parameters = set_1();
   const TrueMotion truth = true_motion(parameters, 45, truth_settings());
   REQUIRE(truth.periodic);
-  CHECK(truth.periodicity_residual < 1e-11);
+  CHECK(truth.periodicity_residual < 1e-10);
   CHECK(agreement(parameters, truth, 512) < 1e-8);
   CHECK(agreement(parameters, truth, 16) > 1e-6);
 }
@@ -145,22 +147,19 @@ TEST_CASE("A time method's count is that of its setting")
 
 TEST_CASE("Harmonic balance: N of the setting, three transforms or more per evaluation")
 {
-  Setting setting{
+  const Setting setting{
       .method = "aft", .harmonics = 6, .samples_per_harmonic = 8, .tolerance = 1e-8};
-  CHECK(samples_for(setting, 6) == 50);
+  CHECK(setting.sample_count() == 50);
   const Task task{.parameters = set_1(), .frequencies = {45}};
   const auto aft = timed_method(task, setting);
   aft->run();
   REQUIRE(aft->motion(0, 8));
   const Counts counts = aft->counts();
-  CHECK(counts.force_instants % samples_for(setting, 6) == 0);
-  const long evaluations = counts.force_instants / samples_for(setting, 6);
+  CHECK(counts.force_instants % setting.sample_count() == 0);
+  const long evaluations = counts.force_instants / setting.sample_count();
   CHECK(evaluations <= 12);
   CHECK(counts.transforms >= 3 * evaluations);
-  CHECK(counts.transformed == counts.transforms * samples_for(setting, 6));
-  setting.corner = 1000;
-  CHECK(harmonics_at(setting, 10) == 112);
-  CHECK(harmonics_at(setting, 500) == 6);
+  CHECK(counts.transformed == counts.transforms * setting.sample_count());
 }
 
 namespace {
@@ -185,29 +184,15 @@ double error_apart(const Parameters& parameters, const std::vector<double>& freq
 
 }  // namespace
 
-TEST_CASE("aft-tolerance keeps the tolerance at every speed of a sweep")
-{
-  const std::vector<double> frequencies{30, 30.5, 31, 45, 45.5};
-  for (double tolerance : {1e-2, 1e-4})
-    CHECK(error_apart(set_1(), frequencies,
-                      {.method = "aft-tolerance", .tolerance = tolerance}) < tolerance);
-}
-
 TEST_CASE("Below the transition a short transient is a start from which Newton converges")
 {
-  Setting setting{
-      .method = "aft", .harmonics = 96, .samples_per_harmonic = 4, .tolerance = 1e-6};
-  const std::vector<double> frequencies{9.5, 10, 10.5};
-  const auto evaluations = [&] {
-    const auto method = timed_method({set_1(), frequencies}, setting);
-    method->run();
-    return method->counts().transforms;
-  };
-  const long predicted = evaluations();
-  setting.transient = 0.5;
+  const Setting setting{.method = "aft",
+                        .harmonics = 96,
+                        .samples_per_harmonic = 4,
+                        .tolerance = 1e-6,
+                        .transient = 0.5};
   CHECK(setting.text() == "m=96 N>4m tol=1e-06 transient=0.5");
-  CHECK(error_apart(set_1(), frequencies, setting) < 1e-3);
-  CHECK(evaluations() < predicted);
+  CHECK(error_apart(set_1(), {9.5, 10, 10.5}, setting) < 1e-3);
 }
 
 TEST_CASE("Equal error: what the table calls reached is reached, and aft is its unit")
@@ -219,7 +204,6 @@ TEST_CASE("Equal error: what the table calls reached is reached, and aft is its 
                         .paper_ratios = {9},
                         .candidates = {},
                         .repetitions = 1,
-                        .long_run = 10,
                         .search = 100,
                         .truth = truth_settings()};
   const Setting aft{
@@ -276,13 +260,13 @@ TEST_CASE("Table 2: the RK4 setting reaches the error, and no cheaper one does")
   const Measurement balance = measure(references, six, 1);
   CHECK(balance.displacement > 1e-6);
   CHECK(balance.force_instants % 32 == 0);
-  const Setting chosen = cheapest_rk4(scene, references, {balance}).front();
+  const Setting chosen = cheapest_rk4(scene, references, balance);
   for (const Setting& setting : scene.rk4) {
     const double error = measure(references, setting, 1).displacement;
     CHECK((error <= balance.displacement) == (setting.step <= chosen.step));
   }
   scene.rk4.resize(1);
-  CHECK_THROWS_AS(cheapest_rk4(scene, references, {balance}), NoSolution);
+  CHECK_THROWS_AS(cheapest_rk4(scene, references, balance), NoSolution);
 }
 
 TEST_CASE("The exponent of a power law is found, through scatter too")
@@ -295,18 +279,4 @@ TEST_CASE("The exponent of a power law is found, through scatter too")
   }
   CHECK(fitted_exponent(x, exact) == Approx(1.7).epsilon(1e-12));
   CHECK(fitted_exponent(x, scattered) == Approx(1.7).margin(0.02));
-}
-
-TEST_CASE("A process of its own hands back numbers and its own peak of memory")
-{
-  const auto little = in_own_process([] { return std::vector<double>{1, 2.5}; });
-  CHECK(little.numbers == std::vector<double>{1, 2.5});
-  const auto much = in_own_process([] {
-    const std::vector<double> block(4'000'000, 1.0);
-    return std::vector<double>{block[17]};
-  });
-  CHECK(much.peak_bytes - little.peak_bytes > 30e6);
-  CHECK(in_own_process([]() -> std::vector<double> {
-          throw NoSolution("nothing");
-        }).numbers.empty());
 }

@@ -4,10 +4,7 @@
 #include "model/hertz.hpp"
 #include "support/catch.hpp"
 
-#include "deviations/balance.hpp"
-#include "deviations/continuation.hpp"
-#include "deviations/model.hpp"
-#include "deviations/motions.hpp"
+#include "deviations/evidence.hpp"
 #include "deviations/printed_equations.hpp"
 #include "io/errors.hpp"
 #include "support/cases.hpp"

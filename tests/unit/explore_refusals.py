@@ -338,13 +338,17 @@ class Options(Case):
         self.refused("the budget of 1e+03 evaluations of the force is used up; more with --budget 4e+03",
                      "orbit", self.machine, *ORBIT, "--method", "aft", "--budget", "1e3", status=3)
         for how in ([], ["--method", "rk4"]):  # the motion may take 0.7 of the budget, the rest is for what is said of it
-            self.refused("the share of 7e+03 evaluations of the force is used up; more with --budget 4e+04",
+            self.refused("the budget of 1e+04 evaluations of the force is used up; more with --budget 4e+04",
                          "orbit", self.machine, *ORBIT, *how, "--budget", "1e4", status=3)
         table = self.table("orbit", self.machine, *ORBIT, "--method", "rk4", "--step", "2e-5", "--budget", "1e7")
         transient, spent, budget = (table.value(key) for key in ("transient", "evaluations", "budget"))
         self.assertEqual(budget, 1e7)
         # Four evaluations a step in the transient; the verdict, and half the step for the error, take less than four times as much.
         self.assertTrue(1 <= spent / (4 * transient / 2e-5) < 5, (spent, transient))
+        for seconds in ("0s", "s", "-1s", "1e9s", "1 s"):
+            self.refused(f"--budget {seconds[:-1]}: must be", "orbit", self.machine, *ORBIT, "--budget", seconds)
+        self.refused("the budget of 0.001s is used up; more with --budget 0.004s", "orbit", self.machine, *ORBIT, "--budget",
+                     "0.001s", status=3)
         result = self.run_explore("response", self.machine, "--from", "1", "--to", "60", "--harmonics", 6, "--budget", "3e5")
         self.assertEqual(result.returncode, 3)
         self.assertRegex(result.stderr, r"stopped at [0-9.]+ Hz, before --to 60 Hz: the budget .* --budget")

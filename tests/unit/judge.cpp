@@ -4,9 +4,8 @@
 #include "motion/judge.hpp"
 #include "motion/find_periodic.hpp"
 #include "support/cases.hpp"
-#include "time/closing.hpp"
+#include "time/flow.hpp"
 #include "time/shooting.hpp"
-#include "time/time_stepper.hpp"
 
 using namespace rotor_stator;
 using namespace rotor_stator::motion;
@@ -69,22 +68,22 @@ TEST_CASE("Shooting over segments and from any of the phases close one motion")
   const auto solution = find_periodic({parameters, hertz(45), 32});
   REQUIRE(solution.found());
   State state = state_of(solution);
-  const Shooting plain = shoot(parameters, hertz(45), state,
-                               {.tolerance = 1e-11, .periodicity_residual = 1e-10});
+  const Shooting plain =
+      shoot(parameters, hertz(45), state, {.tolerance = 1e-11, .closed = 1e-10});
   REQUIRE(plain.converged);
   Eighths start(eighths, state);
   for (int k = 1; k < eighths; ++k) {
     start[k] = start[k - 1];
-    make_stepper(parameters, hertz(45), {.intervals_per_period = eighths})
-        .advance(k - 1, start[k]);
+    flow(parameters, hertz(45), {.intervals_per_period = eighths})
+        ->advance(k - 1, start[k]);
   }
   for (State& at : start) at.position.rotor.x *= 1 + 1e-4;
   for (const std::optional<int> alone : {std::optional<int>(), std::optional<int>(3)}) {
     Eighths motion = start;
-    const Closing closing = close(parameters, hertz(45), motion,
-                                  {.local_error = 1e-11, .closed = 1e-8, .alone = alone});
+    const Shooting closing = shoot(parameters, hertz(45), motion,
+                                   {.tolerance = 1e-11, .closed = 1e-8, .alone = alone});
     INFO(closing.reason);
-    REQUIRE(closing.closed);
+    REQUIRE(closing.converged);
     const Eigen::VectorXd apart = (vector_of(motion.front()) - vector_of(state))
                                       .cwiseQuotient(state_scales(parameters));
     CHECK(apart.norm() < 1e-6);

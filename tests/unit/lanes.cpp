@@ -7,8 +7,8 @@
 #include "support/catch.hpp"
 
 #include "support/cases.hpp"
+#include "time/flow.hpp"
 #include "time/rk4.hpp"
-#include "time/time_stepper.hpp"
 
 using namespace rotor_stator;
 using namespace rotor_stator::tests;

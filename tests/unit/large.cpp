@@ -9,9 +9,9 @@
 #include "model/reduction.hpp"
 #include "motion/find_periodic.hpp"
 #include "support/cases.hpp"
+#include "time/flow.hpp"
 #include "time/gauss.hpp"
 #include "time/period_map.hpp"
-#include "time/time_stepper.hpp"
 
 using namespace rotor_stator;
 using namespace rotor_stator::tests;
@@ -30,7 +30,7 @@ Parameters set_1_by_matrices()
   const std::complex<double> i(0, 1);
   Eigen::VectorXcd unbalance(4);
   unbalance << 0, 0, p.unbalance, -i * p.unbalance;
-  p.large = std::make_shared<const LargeMachine>(LargeMachine{
+  p.machine = std::make_shared<const LargeMachine>(LargeBodies{
       .mass = diagonal(p.stator.mass, p.rotor.mass),
       .damping = diagonal(p.stator.damping(), p.rotor.damping()),
       .gyroscopic = Eigen::MatrixXd::Zero(4, 4),
@@ -52,9 +52,12 @@ TEST_CASE("The stepper of Gauss follows Eq. 7, and so does its derivative")
   const Parameters plain = set_1(), large = set_1_by_matrices();
   const State start = motion::state_of(
       motion::find_periodic({.parameters = plain, .omega = hertz(45), .harmonics = 20}));
-  const PeriodMap exact = period_map(plain, hertz(45), start, 1e-13);
+  const PeriodMap exact = period_map(plain, hertz(45), start,
+                                     {.intervals_per_period = 1, .tolerance = 1e-13});
   const auto off = [&](double tolerance) {
-    return (vector_of(period_map(large, hertz(45), start, tolerance).end) -
+    return (vector_of(period_map(large, hertz(45), start,
+                                 {.intervals_per_period = 1, .tolerance = tolerance})
+                          .end) -
             vector_of(exact.end))
                .head<4>()
                .norm() /
@@ -62,7 +65,8 @@ TEST_CASE("The stepper of Gauss follows Eq. 7, and so does its derivative")
   };
   CHECK(off(1e-6) < 1e-3);
   CHECK(off(1e-12) < 1e-8);
-  const PeriodMap varied = period_map(large, hertz(45), start, 1e-13);
+  const PeriodMap varied = period_map(large, hertz(45), start,
+                                      {.intervals_per_period = 1, .tolerance = 1e-13});
   const auto sizes = state_scales(plain);
   const auto scaled = [&](const Eigen::MatrixXd& phi) -> Eigen::MatrixXd {
     return sizes.cwiseInverse().asDiagonal() * phi * sizes.asDiagonal();
@@ -79,7 +83,7 @@ TEST_CASE("The stepper of Gauss has order 4 where the contact stays")
   large.bearing.cage_speed_ratio = 1e-9;
   large.unbalance *= 1e-3;
   const auto end = [&](int intervals, double tolerance) -> Eigen::VectorXd {
-    GaussStepper stepper(large, hertz(45), intervals, tolerance);
+    GaussStepper stepper(matrices_of(large), large, hertz(45), intervals, tolerance);
     State state = static_start(large);
     state.position.rotor.y += 1e-7;
     for (int k = 0; k < intervals; ++k) stepper.advance(k, state);
@@ -97,10 +101,10 @@ TEST_CASE("The stepper of Gauss has order 4 where the contact stays")
 TEST_CASE("Condensed blocks vary with the speed as differences say")
 {
   Parameters p = set_1_by_matrices();
-  LargeMachine machine = *p.large;
+  LargeBodies machine = matrices_of(p);
   machine.gyroscopic(2, 3) = 7;
   machine.gyroscopic(3, 2) = -7;
-  p.large = std::make_shared<const LargeMachine>(machine);
+  p.machine = std::make_shared<const LargeMachine>(machine);
   const Problem problem = bearing_problem(p, 32);
   const double omega = hertz(33), step = 1e-4;
   for (const double h : {0, 1, 3}) {

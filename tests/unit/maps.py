@@ -54,6 +54,23 @@ class Bytes(Case):
             self.assertEqual(self.map("--resume", part), whole, cut)
         self.assertEqual(self.map("--resume", self.file("whole.tsv", whole)), whole)
 
+    def test_rotten_rows_are_refused(self):
+        """Cells that are no values, too many or too few of them, a status that does not fit. Would catch a row that is taken
+        over as it stands; nothing is written before all rows were looked at."""
+        whole = self.map()
+        row = rows(whole).splitlines()[7]
+        cells = row.split("\t")
+        for words, rotten in [("'nan' is no value of amplitude", [*cells[:2], "nan", *cells[3:]]),
+                              ("'hello' is no value of amplitude", [*cells[:2], "hello", *cells[3:]]),
+                              ("'1e-05x' is no value of amplitude", [*cells[:2], "1e-05x", *cells[3:]]),
+                              ("a row of 6 cells", [*cells, "ok"]), ("a row of 4 cells", [*cells[:3], "ok"]),
+                              ("holds other points", ["hello", *cells[1:]]),
+                              ("status of a row", [*cells[:2], "-", *cells[3:]]), ("status of a row", [*cells[:4], "why not"])]:
+            with self.subTest(rotten):
+                part = self.file("part.tsv", whole.replace(row, "\t".join(rotten)))
+                result = self.refused(words, "map", self.machine, *GRID, "--resume", part)
+                self.assertEqual(result.stdout, "")
+
     def test_killed_and_resumed(self):
         """Killed while it works; what was written is whole lines and at most one that is cut off."""
         options = [EXPLORE, "map", self.machine, "--x", "frequency=10:50:21", "--y", f"{CLEARANCE}=0:1e-4:41",
@@ -108,10 +125,8 @@ class Values(Case):
         for k in range(2):
             orbit = self.table("orbit", self.machine, "--frequency", table["frequency"][k], "--method", "aft", "--tolerance", 1e-3)
             self.assertEqual(orbit.value("harmonics"), table["harmonics"][k])
-            # The map's error is the estimate with three times as many harmonics, that of orbit the distance from the motion of
-            # Eq. 7: the same size, not the same number. Both meet the tolerance.
-            self.assertTrue(0.5 < table["error"][k] / orbit.error("error") < 2, (table["error"][k], orbit.error("error")))
-            self.assertLess(max(table["error"][k], orbit.error("error")), 1e-3)
+            self.assertAlmostEqual(table["error"][k] / orbit.value("error_rms"), 1, delta=0.01)
+            self.assertLess(orbit.error("error"), 1e-3)
 
     def test_multipliers_of_the_harmonics(self):
         """With 64 harmonics at 45 Hz the series is the machine; the distance is that of `orbit`. At 20 Hz the
@@ -127,44 +142,13 @@ class Values(Case):
         self.assertAlmostEqual(table["series"][0], table["multiplier"][0], delta=2e-4)
         self.assertTrue((0 < table["uncertainty"] < 1e-4) and (0 < table["series_uncertainty"] < 1e-5))
 
-    def test_settled_motion(self):
-        """At 45 Hz against the orbit by rk4 from rest: contact, size, turns of the force, the error of six harmonics; the
-        closed form against `check`. At 13 Hz contact is lost and the motion aperiodic, so that no solution has an error.
-        Would catch a motion that is not settled, and harmonics that are counted wrongly."""
-        names = "periodic,settled_contact,turns,passages,settled_load,settled_amplitude,error_6,force_balance"
-        table = Table.of(self.run_explore("map", self.machine, "--y", "frequency=13:45:2", "--method", "rk4", "--longest", 5,
-                                          "--quantity", names).stdout)
-        rk4, six = (self.table("orbit", self.machine, "--frequency", 45, "--points", 64, *options)
-                    for options in (["--method", "rk4"], [*SIX, "--no-stability"]))
-        contact = self.table("contact", self.machine, "--frequency", 45, "--points", 64, "--method", "rk4")
-        errors = [q - q.mean() for q in (six["x_r"] - rk4["x_r"], six["y_r"] - rk4["y_r"], six["x_s"] - rk4["x_s"],
-                                         six["y_s"] - rk4["y_s"])]
-        sizes = [rk4[name] - rk4[name].mean() for name in ("x_r", "y_r", "x_s", "y_s")]
-        angle = np.unwrap(np.angle(rk4["F_x"] + 1j * rk4["F_y"]))
-        for name, value, most in [("periodic", 1, 0), ("settled_contact", 1, 0), ("passages", 1, 0),
-                                  ("turns", round((angle[-1] - angle[0]) / (2 * np.pi)), 0),
-                                  ("settled_amplitude", np.ptp(rk4["x_r"]) / 2, 1e-3),
-                                  ("settled_load", contact["Q"].max(), 5e-3),
-                                  ("error_6", np.linalg.norm(errors) / np.linalg.norm(sizes), 1e-2)]:
-            self.assertAlmostEqual(float(table[name][1]) / value, 1, delta=most, msg=name)
-        self.assertEqual((table["periodic"][0], table["error_6"][0]), (0, "-"))
-        self.assertLess(table["settled_contact"][0], 1)
-        check = self.table("check", self.machine)
-        self.assertAlmostEqual(table["force_balance"][0], float(check["value"][list(check["name"]).index("contact_loss")]),
-                               delta=1e-6)
-        auto = Table.of(self.run_explore("map", self.machine, "--y", "frequency=13:45:2", "--longest", 5, "--quantity", names).stdout)
-        for name in names.split(","):
-            self.assertEqual(list(auto[name]), list(table[name]), name)
-        for how in (SIX, ["--method", "aft"], ["--method", "rk8pd"]):
-            self.refused("turns is of rk4", "map", self.machine, "--y", "frequency=13:45:2", "--quantity", "turns", *how)
-
     def test_error_where_nothing_closes(self):
         """A stiff loose bearing at 30 Hz, whose contact vibrates without a period: the error of six harmonics is their
         distance from what the machine does, here over forty turns of another method from rest (means over forty scatter by 5 %).
         Would catch an error against a motion that has not settled, and one that is left out."""
         machine = self.file("loose.toml", MACHINE.replace("= 1e11", "= 1e12").replace("= 2e-5", "= 8.333333e-5"))
         self.assertNotEqual(machine.read_text(encoding="utf-8"), MACHINE)
-        table = self.table("map", machine, "--y", "frequency=30:31:1", "--harmonics", 6, "--quantity", "machine_error")
+        table = self.table("map", machine, "--y", "frequency=30:31:1", "--harmonics", 6, "--quantity", "error")
         six = self.table("orbit", machine, "--frequency", 30, *SIX, "--no-stability", "--points", 256)
         long = self.table("orbit", machine, "--frequency", 30, "--method", "rk8pd", "--periods", 40, "--points", 256)
         self.assertEqual(long.value("regime"), "chaotic")
@@ -172,7 +156,7 @@ class Values(Case):
         true = np.array([long[name] - long[name].mean() for name in names])
         off = np.array([np.tile(six[name], 40) - long[name] for name in names])
         off -= off.mean(axis=1, keepdims=True)
-        self.assertAlmostEqual(table["machine_error"] / (np.linalg.norm(off) / np.linalg.norm(true)), 1, delta=0.2)
+        self.assertAlmostEqual(table["error"] / (np.linalg.norm(off) / np.linalg.norm(true)), 1, delta=0.2)
 
     def test_period_against_attractors(self):
         """At 20 Hz two turns, at 30 Hz one."""
@@ -244,7 +228,7 @@ class Refusals(Case):
                 ("decimal", f"--x {CLEARANCE}=0:nan:3 {usual}"),
                 ("--x: is missing", usual),
                 ("is given twice", f"--x {CLEARANCE}=0:1e-4:3 --y {CLEARANCE}=0:1e-4:3 {usual}"),
-                ("amplitude, mean, peak", f"--x {CLEARANCE}=0:1e-4:3 --frequency 45 --quantity colour"),
+                ("known: amplitude, mean, contact_share", f"--x {CLEARANCE}=0:1e-4:3 --frequency 45 --quantity colour"),
                 ("is given twice", f"--x {CLEARANCE}=0:1e-4:3 --frequency 45 --quantity force,force"),
                 ("--frequency: is missing", f"--x {CLEARANCE}=0:1e-4:3 --quantity amplitude"),
                 ("--frequency: is a key", f"--x frequency=1:2:3 {usual}"),
@@ -254,7 +238,7 @@ class Refusals(Case):
                 ("A must be below B", f"--x {CLEARANCE}=0:1e-4:3 --sweep 2:1 --quantity peak"),
                 ("those of --sweep", f"--x {CLEARANCE}=0:1e-4:3 --sweep 1:2 --frequency 45 --quantity peak"),
                 ("is of harmonic balance", f"--x {CLEARANCE}=0:1e-4:3 --frequency 45 --method rk4 --quantity error"),
-                ("for the time methods", f"--x {CLEARANCE}=0:1e-4:3 --method aft --longest 3 {usual}"),
+                ("for a motion in time", f"--x {CLEARANCE}=0:1e-4:3 --method aft --longest 3 {usual}"),
                 ("error is of harmonic balance", f"--x {CLEARANCE}=0:1e-4:3 --frequency 45 --quantity error"),
                 ("peak is of harmonic balance", f"--x {CLEARANCE}=0:1e-4:3 --sweep 1:2 --quantity peak"),
                 ("--periods: not expected", f"--x {CLEARANCE}=0:1e-4:3 --method rk4 --periods 2 {usual}"),

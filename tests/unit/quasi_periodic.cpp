@@ -36,12 +36,12 @@ double distance(Motion motion, Motion reference)
 Motion integrated(const Parameters& parameters, double frequency, long turns)
 {
   constexpr int points = 64;
-  const TimeStepper stepper = make_stepper(
-      parameters, hertz(frequency),
-      {.method = "rk8pd", .intervals_per_period = points, .tolerance = 1e-10});
+  const auto stepper =
+      flow(parameters, hertz(frequency),
+           {.method = "rk8pd", .intervals_per_period = points, .tolerance = 1e-10});
   State state = static_start(parameters);
-  for (long k = 0; k < turns * points; ++k) stepper.advance(k, state);
-  return recorded(stepper, points, state, turns, 4);
+  for (long k = 0; k < turns * points; ++k) stepper->advance(k, state);
+  return recorded(*stepper, points, state, turns, 4);
 }
 
 }  // namespace

@@ -7,10 +7,10 @@
 
 #include "io/errors.hpp"
 #include "support/cases.hpp"
+#include "time/flow.hpp"
 #include "time/period_map.hpp"
 #include "time/rk4.hpp"
 #include "time/rk8.hpp"
-#include "time/time_stepper.hpp"
 
 using namespace rotor_stator;
 using namespace rotor_stator::tests;
@@ -157,25 +157,28 @@ TEST_CASE("rk8 goes where GSL's rk8pd goes, and so do their disturbances")
   }
   const double omega = hertz(frequency);
   State start = static_start(machine);
-  const StepperSettings coarse{.method = "rk4", .intervals_per_period = 1};
-  const TimeStepper before = make_stepper(machine, omega, coarse);
-  for (long k = -20; k < 0; ++k) before.advance(k, start);
+  const StepSettings coarse{.method = "rk4", .intervals_per_period = 1};
+  const auto before = flow(machine, omega, coarse);
+  for (long k = -20; k < 0; ++k) before->advance(k, start);
 
   State ours = start, theirs = start;
-  const StepperSettings exact{
+  const StepSettings exact{
       .method = "rk8pd", .intervals_per_period = 4, .tolerance = 1e-14};
-  const TimeStepper gsl = make_stepper(machine, omega, exact);
+  const auto gsl = flow(machine, omega, exact);
   Rk8 rk8(machine, omega, 4, 1e-14);
   for (long k = -3; k < 3; ++k) {
     rk8.advance(k, ours);
-    gsl.advance(k, theirs);
+    gsl->advance(k, theirs);
   }
   CHECK(distance(machine, ours, theirs) < near);
   CHECK(distance(machine, ours, start) > 1e-3);
 
   const Vector8 sizes = state_scales(machine);
-  const PeriodMap map = period_map(machine, omega, start, 1e-14),
-                  other = period_map(machine, omega, start, 1e-14, "rk8pd");
+  const PeriodMap map = period_map(machine, omega, start,
+                                   {.intervals_per_period = 1, .tolerance = 1e-14}),
+                  other = period_map(
+                      machine, omega, start,
+                      {.method = "rk8pd", .intervals_per_period = 1, .tolerance = 1e-14});
   CHECK(distance(machine, map.end, other.end) < near);
   const Matrix8 apart = sizes.cwiseInverse().asDiagonal() *
                         (map.derivative - other.derivative) * sizes.asDiagonal();
@@ -200,9 +203,8 @@ TEST_CASE("The derivative of rk8 is that of its differences, in damaged bearings
   }
   const double omega = hertz(45);
   State start = static_start(machine);
-  const TimeStepper before =
-      make_stepper(machine, omega, {.method = "rk4", .intervals_per_period = 1});
-  for (long k = -20; k < 0; ++k) before.advance(k, start);
+  const auto before = flow(machine, omega, {.method = "rk4", .intervals_per_period = 1});
+  for (long k = -20; k < 0; ++k) before->advance(k, start);
   const Vector8 y = vector_of(start), sizes = state_scales(machine);
   const auto end = [&](const Vector8& at) -> Vector8 {
     State state = state_of(at);

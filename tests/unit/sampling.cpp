@@ -4,7 +4,7 @@
 
 #include "balance/bearing_problem.hpp"
 #include "balance/newton.hpp"
-#include "costs/cost_growth.hpp"
+#include "costs/timed_method.hpp"
 #include "motion/find_periodic.hpp"
 #include "support/cases.hpp"
 

@@ -225,7 +225,7 @@ class Spectrum(Case):
 
     def test_refusals(self):
         for words, options in [("--points: is for shooting", ["--points", 64, "--harmonics", 6]),
-                               ("--step: is for --method rk4", ["--step", 1e-5, "--method", "shooting"]),
+                               ("--step: is for a motion in time, by rk4 or auto", ["--step", 1e-5, "--method", "shooting"]),
                                ("32", ["--points", 31, "--method", "rk4"]),
                                ("--points 65536: must be at most 1024", ["--points", 65536, "--method", "rk4"]),
                                ("--subharmonic: is for", ["--subharmonic", 2, "--method", "rk4"]),

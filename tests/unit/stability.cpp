@@ -9,8 +9,8 @@
 #include "support/cases.hpp"
 #include "time/eigenvalues.hpp"
 #include "time/floquet.hpp"
+#include "time/flow.hpp"
 #include "time/shooting.hpp"
-#include "time/time_stepper.hpp"
 
 using namespace rotor_stator;
 using namespace rotor_stator::motion;
@@ -76,7 +76,8 @@ TEST_CASE("The derivative of the period map is that of its differences")
   const auto solution = solution_at(parameters, 45, 32);
   const Vector8 y = vector_of(state_of(solution)), sizes = state_scales(parameters);
   const auto map = [&](const Vector8& at) {
-    return period_map(parameters, solution.omega, state_of(at), 1e-13);
+    return period_map(parameters, solution.omega, state_of(at),
+                      {.intervals_per_period = 1, .tolerance = 1e-13});
   };
   const Matrix8 exact = map(y).derivative;
   for (int j = 0; j < 8; ++j) {
@@ -95,8 +96,8 @@ TEST_CASE("Shooting and harmonic balance find the same motion and the same multi
   for (double frequency : {30.0, 45.0}) {
     const auto solution = solution_at(parameters, frequency, 256);
     State state = state_of(solution_at(parameters, frequency, 6));
-    const Shooting shooting = shoot(parameters, solution.omega, state,
-                                    {.tolerance = 1e-13, .periodicity_residual = 1e-11});
+    const Shooting shooting =
+        shoot(parameters, solution.omega, state, {.tolerance = 1e-13, .closed = 1e-11});
     INFO(frequency << " Hz: " << shooting.reason);
     REQUIRE(shooting.converged);
     const Vector8 error = (vector_of(state) - vector_of(state_of(solution)))

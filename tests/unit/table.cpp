@@ -7,7 +7,6 @@ What is a key, what is a sentence, and where it stands. */
 #include <stdexcept>
 
 #include "io/errors.hpp"
-#include "io/number_table.hpp"
 #include "io/table.hpp"
 #include "support/catch.hpp"
 

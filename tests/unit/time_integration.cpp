@@ -7,11 +7,11 @@
 #include "io/errors.hpp"
 #include "motion/find_periodic.hpp"
 #include "support/cases.hpp"
+#include "time/flow.hpp"
 #include "time/gsl.hpp"
 #include "time/period_map.hpp"
 #include "time/shooting.hpp"
 #include "time/steady_state.hpp"
-#include "time/time_stepper.hpp"
 
 using namespace rotor_stator;
 using namespace rotor_stator::tests;
@@ -19,11 +19,12 @@ using namespace rotor_stator::tests;
 namespace {
 
 /** x_r after one second at 7 Hz, from the static start. */
-double after_one_second(const Parameters& parameters, const StepperSettings& settings)
+double after_one_second(const Parameters& parameters, const StepSettings& settings)
 {
   State state = static_start(parameters);
-  const TimeStepper stepper = make_stepper(parameters, hertz(7), settings);
-  for (long k = 0; k < 7L * settings.intervals_per_period; ++k) stepper.advance(k, state);
+  const auto stepper = flow(parameters, hertz(7), settings);
+  for (long k = 0; k < 7L * settings.intervals_per_period; ++k)
+    stepper->advance(k, state);
   return state.position.rotor.x;
 }
 
@@ -67,12 +68,12 @@ TEST_CASE("A ball with contact damping throws the rotor back as its energy says"
     return v / lambda - std::log1p(lambda * v) / (lambda * lambda);
   };
   for (const char* method : {"rk4", "rk8pd"}) {
-    const TimeStepper stepper = make_stepper(
+    const auto stepper = flow(
         machine, omega,
         {.method = method, .intervals_per_period = 64, .step = 1e-6, .tolerance = 1e-12});
     const double towards = 0.1;
     State state{.position = {}, .velocity = {.stator = {}, .rotor = {towards, 0}}};
-    for (long k = 0; k < 16; ++k) stepper.advance(k, state);
+    for (long k = 0; k < 16; ++k) stepper->advance(k, state);
     const double back = state.velocity.rotor.x;
     INFO(method << ": " << back);
     CHECK(state.position.relative().x < 0);
@@ -132,10 +133,10 @@ TEST_CASE("A base period of three turns is the same machine")
   const Parameters once = set_1(), thrice = over_turns(once, 3);
   const double omega = angular(17.0);
   State a = static_start(once), b = a;
-  const TimeStepper turn = make_stepper(once, omega, {.intervals_per_period = 1});
-  const TimeStepper turns = make_stepper(thrice, omega / 3, {.intervals_per_period = 1});
-  for (int k = 0; k < 3; ++k) turn.advance(k, a);
-  turns.advance(0, b);
+  const auto turn = flow(once, omega, {.intervals_per_period = 1});
+  const auto turns = flow(thrice, omega / 3, {.intervals_per_period = 1});
+  for (int k = 0; k < 3; ++k) turn->advance(k, a);
+  turns->advance(0, b);
   const Vector8 apart = (vector_of(a) - vector_of(b)).cwiseQuotient(state_scales(once));
   CHECK(apart.cwiseAbs().maxCoeff() < 1e-6);
   CHECK(vector_of(a).norm() > 0);
@@ -221,9 +222,9 @@ TEST_CASE("Two states that RK4 advances at once go where each goes alone")
 {
   Parameters machine = set_1();
   machine.bearing.cage_speed_ratio = 0.4173;
-  const StepperSettings settings{.method = "rk4", .intervals_per_period = 8};
-  const TimeStepper alone = make_stepper(machine, hertz(25), settings),
-                    together = make_stepper(machine, hertz(25), settings);
+  const StepSettings settings{.method = "rk4", .intervals_per_period = 8};
+  const auto alone = flow(machine, hertz(25), settings),
+             together = flow(machine, hertz(25), settings);
   State a = static_start(machine), b = a;
   b.position.rotor = {0, 1e-5};
   b.position.stator = {0, 0};
@@ -234,13 +235,13 @@ TEST_CASE("Two states that RK4 advances at once go where each goes alone")
   };
   for (long k = 0; k < 32; ++k) {
     CHECK(apart(a, b) > 0.01);
-    together.advance_both(k, a, b);
-    alone.advance(k, a_alone);
-    alone.advance(k, b_alone);
+    together->advance(k, a, b);
+    alone->advance(k, a_alone);
+    alone->advance(k, b_alone);
     CHECK(apart(a, a_alone) < 1e-12);
     CHECK(apart(b, b_alone) < 1e-12);
   }
-  CHECK(together.evaluations() == alone.evaluations());
+  CHECK(together->evaluations() == alone->evaluations());
 }
 
 TEST_CASE("Other programs are given Eq. 7 and its derivative")
@@ -265,7 +266,7 @@ TEST_CASE("Other programs are given Eq. 7 and its derivative")
     y += step / 6 * (a + 2 * b + 2 * c + d);
   }
   State state = static_start(parameters);
-  make_stepper(parameters, hertz(30), {.intervals_per_period = 1}).advance(0, state);
+  flow(parameters, hertz(30), {.intervals_per_period = 1})->advance(0, state);
   Row scale;
   equation.sizes(scale.data());
   CHECK((y - vector_of(state)).cwiseQuotient(scale).norm() < 1e-4);

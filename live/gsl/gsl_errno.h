@@ -1,2 +1,0 @@
-#pragma once
-#include "gsl_odeiv2.h"

@@ -1,0 +1,24 @@
+/** GSL's steppers are for comparison with ours: the page has none of them. */
+#include "io/errors.hpp"
+#include "time/gsl.hpp"
+
+namespace rotor_stator {
+
+const std::vector<std::string>& gsl_methods()
+{
+  static const std::vector<std::string> none;
+  return none;
+}
+
+std::unique_ptr<Flow> gsl_flow(const Parameters&, double, const StepSettings& settings)
+{
+  throw BadInput("--method " + settings.method + ": needs the program explore");
+}
+
+PeriodMap gsl_period_map(const Parameters&, double, const State&,
+                         const StepSettings& settings, long)
+{
+  throw BadInput("--method " + settings.method + ": needs the program explore");
+}
+
+}  // namespace rotor_stator

@@ -1,0 +1,171 @@
+#include "explore/map_axes.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include "io/errors.hpp"
+#include "io/program.hpp"
+#include "model/large_machine.hpp"
+
+namespace rotor_stator::explore {
+
+namespace {
+
+constexpr int most_points = 10'000'000;
+
+std::vector<std::string> parts_of(const std::string& text, char between)
+{
+  std::vector<std::string> parts{""};
+  for (const char c : text)
+    if (c == between)
+      parts.emplace_back();
+    else
+      parts.back() += c;
+  return parts;
+}
+
+Axis read_axis(const std::string& option, const std::string& text)
+{
+  if (text.empty()) return {};
+  const auto refuse = [&](const std::string& why) {
+    throw BadInput(option + " " + text + ": " + why);
+  };
+  const auto equals = text.find('=');
+  auto parts = parts_of(equals < text.size() ? text.substr(equals + 1) : "", ':');
+  const bool logarithmic = parts.size() == 4 && parts.back() == "log";
+  if (logarithmic) parts.pop_back();
+  if (equals == 0 || parts.size() != 3) refuse("must be KEY=from:to:count[:log]");
+  Axis axis{text.substr(0, equals), real_number(option, parts[0], -1e300, 1e300),
+            real_number(option, parts[1], -1e300, 1e300),
+            static_cast<std::size_t>(whole_number(option, parts[2], 1, most_points)),
+            logarithmic};
+  if (axis.count > 1 && axis.from == axis.to) refuse("from and to must differ");
+  if (logarithmic && (axis.from <= 0 || axis.to <= 0))
+    refuse("log needs from > 0 and to > 0");
+  return axis;
+}
+
+/** A:B, two whole numbers. */
+void read_lines(const std::string& text, Grid& grid)
+{
+  grid.last = grid.lines();
+  if (text.empty()) return;
+  const auto parts = parts_of(text, ':');
+  if (parts.size() != 2) throw BadInput("--lines " + text + ": must be A:B");
+  const int most = static_cast<int>(std::min<std::size_t>(grid.lines(), most_points));
+  const int first = whole_number("--lines", parts[0], 0, most - 1);
+  grid.first = static_cast<std::size_t>(first);
+  grid.last =
+      static_cast<std::size_t>(whole_number("--lines", parts[1], first + 1, most));
+}
+
+Grid grid_of(const MapRequest& request)
+{
+  if (request.list && !request.y.empty())
+    throw BadInput("--y: not together with --list, whose rows stand for its lines");
+  if (!request.list && request.x.empty() && request.y.empty())
+    throw BadInput("--x: is missing; give --x, --y or --list");
+  Grid grid{read_axis("--x", request.x), read_axis("--y", request.y)};
+  if (request.list) grid.list.emplace(*request.list);
+  read_lines(request.lines, grid);
+  auto keys = grid.keys();
+  std::ranges::sort(keys);
+  if (const auto twice = std::ranges::adjacent_find(keys); twice != keys.end())
+    throw BadInput(*twice + ": is given twice, in --x, --y or --list");
+  return grid;
+}
+
+/** The speeds [Hz] of --sweep A:B[:COUNT], none without it. */
+std::vector<double> swept_speeds(const std::string& text)
+{
+  if (text.empty()) return {};
+  const auto parts = parts_of(text, ':');
+  if (parts.size() != 2 && parts.size() != 3)
+    throw BadInput("--sweep " + text + ": must be A:B or A:B:COUNT");
+  const double from = real_number("--sweep", parts[0], 0, 1e300),
+               to = real_number("--sweep", parts[1], 0, 1e300);
+  const int count =
+      parts.size() == 3 ? whole_number("--sweep", parts[2], 2, 100000) : 101;
+  if (from >= to) throw BadInput("--sweep " + text + ": A must be below B");
+  return evenly_spaced(from, to, count);
+}
+
+}  // namespace
+
+double Axis::at(std::size_t k) const
+{
+  if (k == 0 || count == 1) return from;
+  if (k + 1 == count) return to;
+  const double share = static_cast<double>(k) / static_cast<double>(count - 1);
+  return logarithmic ? from * std::pow(to / from, share) : from + (to - from) * share;
+}
+
+std::vector<std::string> Grid::keys() const
+{
+  std::vector<std::string> all;
+  for (const Axis& axis : {x, y})
+    if (!axis.key.empty()) all.push_back(axis.key);
+  if (list) all.insert(all.end(), list->names().begin(), list->names().end());
+  return all;
+}
+
+std::vector<double> Grid::values(std::size_t line, std::size_t k) const
+{
+  std::vector<double> all;
+  if (!x.key.empty()) all.push_back(x.at(k));
+  if (!y.key.empty()) all.push_back(y.at(line));
+  if (list) all.insert(all.end(), list->row(line).begin(), list->row(line).end());
+  return all;
+}
+
+std::pair<Parameters, double> MapTask::machine(const std::vector<double>& values) const
+{
+  double frequency = request.frequency.value_or(0);
+  std::vector<std::pair<std::string, double>> changes;
+  for (std::size_t k = 0; k < keys.size(); ++k)
+    if (keys[k] != speed_key)
+      changes.emplace_back(keys[k], values[k]);
+    else if (frequency = values[k]; !(frequency > 0))
+      throw BadInput(format("%s: must be > 0, got %g", speed_key, frequency));
+  return {read(changes, frequency), frequency};
+}
+
+Parameters MapTask::read(const std::vector<std::pair<std::string, double>>& changes,
+                         double frequency) const
+{
+  ModelRange range{.harmonics = std::max(64, harmonics)};
+  if (frequency > 0) range.from = range.to = frequency;
+  if (!sweep.empty()) range.from = sweep.front(), range.to = sweep.back();
+  return read_machine(file.with(changes, given_instead), range);
+}
+
+bool MapTask::has_speed() const
+{
+  return std::ranges::find(keys, speed_key) != keys.end();
+}
+
+MapTask task_of(const MapRequest& request)
+{
+  Grid grid = grid_of(request);
+  const int harmonics = request.harmonics.value_or(usual_harmonics);
+  const MapTask task{request,
+                     grid,
+                     StrictToml(request.parameter_file),
+                     grid.keys(),
+                     swept_speeds(request.sweep),
+                     harmonics,
+                     checked_samples(harmonics, request.samples)};
+  if (task.has_speed() && request.frequency)
+    throw BadInput("--frequency: is a key of the map already");
+  if (request.tolerance && request.samples && !request.harmonics)
+    throw BadInput("--samples: chosen with m for --tolerance; give --harmonics too");
+  /** The corners, so that an unknown key or a range that no machine has is refused at
+      once. */
+  const std::size_t top = grid.list ? 0 : grid.lines() - 1;
+  for (const std::size_t line : {std::size_t{0}, top})
+    for (const std::size_t k : {std::size_t{0}, grid.x.count - 1})
+      task.machine(grid.values(line, k));
+  return task;
+}
+
+}  // namespace rotor_stator::explore

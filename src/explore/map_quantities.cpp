@@ -1,0 +1,438 @@
+#include "explore/map_quantities.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include "balance/bearing_problem.hpp"
+#include "balance/fourier_transform.hpp"
+#include "continuation/sweep.hpp"
+#include "io/errors.hpp"
+#include "motion/answer.hpp"
+#include "motion/contact.hpp"
+#include "motion/find_periodic.hpp"
+#include "motion/judge.hpp"
+#include "time/floquet.hpp"
+
+namespace rotor_stator::explore {
+
+namespace {
+
+constexpr int instants = 512, swept_instants = 128;  // of a period
+constexpr int recorded_periods = 64;
+
+/** A value that is computed when it is first asked for, or the reason why there is
+    none. */
+template <class Value>
+class Once {
+public:
+  template <class Make>
+  const Value& operator()(const Make& make)
+  {
+    if (!value_ && lost_.empty()) try {
+        value_ = make();
+      } catch (const NoSolution& none) {
+        lost_ = none.what();
+      }
+    if (!value_) throw NoSolution(lost_);
+    return *value_;
+  }
+
+private:
+  std::optional<Value> value_;
+  std::string lost_;
+};
+
+/** A response curve over the speeds of --sweep. */
+struct Swept {
+  CurvePoint peak = {};  ///< of x_r [Hz, m]
+  int solved = 0, permanent = 0;
+  double loss_first = -1, loss_last = -1;  ///< speeds losing contact [Hz]; -1: none
+  double ball_load = 0;                    ///< [N]
+};
+
+}  // namespace
+
+/** One point. Its functions throw NoSolution where it has no such value. */
+class MapPoint {
+public:
+  MapPoint(const MapTask& task, const std::vector<double>& values, PeriodicMotion& before)
+      : MapPoint(task, task.machine(values), before)
+  {
+  }
+
+  /**
+  ## The solution of harmonic balance */
+
+  const PeriodicMotion& solution()
+  {
+    return solution_([&] {
+      PeriodicMotion found = is_chosen() ? chosen().motion : with_fixed_harmonics();
+      if (!found.found())
+        throw NoSolution(
+            format("no solution found with %d harmonics: ", task_.harmonics) +
+            found.newton.reason());
+      return before_ = std::move(found);
+    });
+  }
+
+  /** With the harmonics that the tolerance asks for. */
+  const motion::Judged& chosen()
+  {
+    return chosen_([&] {
+      require_period();
+      motion::Judged at = motion::to_tolerance({.parameters = machine_,
+                                                .omega = omega(),
+                                                .harmonics = 6,
+                                                .newton = newton_,
+                                                .budget = budget_},
+                                               task_.request.tolerance.value_or(1e-3));
+      if (!at.reached) throw NoSolution("tolerance not reached: " + at.end);
+      return at;
+    });
+  }
+
+  const motion::Verdict& verdict()
+  {
+    return verdict_([&] {
+      return is_chosen() ? chosen().verdict
+                         : motion::judge(machine_, solution(), budget_);
+    });
+  }
+
+  /** The multipliers of the motion of Eq. 7 near it, and of its own m harmonics. */
+  const Floquet& floquet()
+  {
+    if (!verdict().found()) throw NoSolution(verdict().reason);
+    return verdict().floquet;
+  }
+  const Floquet& series()
+  {
+    return series_([&] { return series_multipliers(machine_, solution()); });
+  }
+
+  double error()
+  {
+    if (verdict().found()) return verdict().distance_rms;
+    const Settled& there = verdict().from_there;
+    if (there.kind == Kind::undecided) throw NoSolution(verdict().reason);
+    const auto steps =
+        flow(machine_, omega(),
+             {.method = "rk4", .intervals_per_period = instants, .budget = budget_});
+    State state = there.at.state;
+    return motion::rms_difference(
+        motion::motion_of(solution(), instants),
+        motion::recorded(*steps, instants, state, there.at.period,
+                         std::max(1, there.period) * 40));
+  }
+
+  /**
+  ## The motion from rest, and what both have */
+
+  const motion::Answer& answer()
+  {
+    return answer_([&] {
+      const MapRequest& asked = task_.request;
+      return motion::answer(machine_,
+                            {.omega = omega(),
+                             .method = is_balance() ? "auto" : asked.method,
+                             .tolerance = is_balance() ? std::nullopt : asked.tolerance,
+                             .periods = recorded_periods,
+                             .step = asked.step,
+                             .longest = asked.longest},
+                            budget_);
+    });
+  }
+
+  double lyapunov()
+  {
+    return answer().settled.lyapunov.value * angular(1) / answer().omega;
+  }
+
+  double amplitude()
+  {
+    return is_balance() ? half_peak_to_peak(solution().bodies)[2]
+                        : observed().amplitude[2];
+  }
+  double mean()
+  {
+    return is_balance() ? motion::displacement_samples(motion()).col(3).mean()
+                        : observed().mean[3];
+  }
+  double contact_share() { return motion::contact_share(moving(), motion()); }
+  double ball_load() { return motion::largest_ball_load(moving(), motion()); }
+  double force()
+  {
+    double largest = 0;
+    for (const Vec2 force : motion::bearing_forces(moving(), motion()))
+      largest = std::max(largest, std::hypot(force.x, force.y));
+    return largest;
+  }
+
+  std::string stability() { return is_balance() ? verdict().word() : answer().stability; }
+
+  /** The largest multiplier and its uncertainty. */
+  std::pair<double, double> multiplier()
+  {
+    if (is_balance()) return {floquet().largest(), floquet().uncertainty()};
+    if (!(answer().multiplier > 0)) throw NoSolution("the motion does not close");
+    return {answer().multiplier, answer().uncertainty};
+  }
+
+  /**
+  ## The solutions at the speeds of --sweep */
+
+  const Swept& swept()
+  {
+    return swept_([&] {
+      require_period();
+      Swept all;
+      std::vector<CurvePoint> curve;
+      for (const PeriodicMotion& at : rotor_stator::sweep(
+               machine_, angular(task_.sweep), task_.harmonics, task_.samples)) {
+        if (!at.found()) continue;
+        const double hertz = at.omega / angular(1);
+        const motion::Motion motion = motion::motion_of(at, swept_instants);
+        curve.push_back({hertz, motion::half_peak_to_peak(motion)[2]});
+        all.ball_load =
+            std::max(all.ball_load, motion::largest_ball_load(machine_, motion));
+        if (motion::contact_share(machine_, motion) == 1) {
+          ++all.permanent;
+          continue;
+        }
+        if (all.loss_first < 0) all.loss_first = hertz;
+        all.loss_last = hertz;
+      }
+      if (curve.empty()) throw NoSolution("no solution at any speed of --sweep");
+      all.peak = refined_peak(curve);
+      all.solved = static_cast<int>(curve.size());
+      return all;
+    });
+  }
+
+  int missed() { return static_cast<int>(task_.sweep.size()) - swept().solved; }
+
+private:
+  MapPoint(const MapTask& task, std::pair<Parameters, double> at, PeriodicMotion& before)
+      : task_(task), machine_(std::move(at.first)), frequency_(at.second),
+        before_(before),
+        budget_(budget_of_each(task.request.budget, seconds_of_a_point, machine_)),
+        newton_{.tolerance = task.request.newton_tolerance}
+  {
+  }
+
+  double omega() const { return angular(frequency_); }
+  bool is_balance() const { return task_.request.method == "aft"; }
+  /** Whether the tolerance chooses m. */
+  bool is_chosen() const { return task_.request.tolerance && !task_.request.harmonics; }
+
+  const motion::Observation& observed()
+  {
+    return observed_([&] { return observe(answer(), budget_); });
+  }
+
+  /** One period of the solution, or the record of the motion from rest; and the machine
+      that counts its periods. */
+  const motion::Motion& motion()
+  {
+    if (!is_balance()) return answer().motion;
+    return motion_([&] { return motion::motion_of(solution(), instants); });
+  }
+  const Parameters& moving() { return is_balance() ? machine_ : answer().machine; }
+
+  void require_period() const
+  {
+    if (!has_rotation_period(machine_.bearing))
+      throw NoSolution(format("%.9g balls pass in a turn, not a whole number",
+                              passages_per_turn(machine_.bearing)));
+  }
+
+  PeriodicMotion with_fixed_harmonics() const
+  {
+    require_period();
+    if (before_.found()) {
+      Balance balance(bearing_problem(machine_, task_.samples, budget_), task_.harmonics);
+      PeriodicMotion next = solve(balance, omega(), before_.x, newton_);
+      if (next.found()) {
+        next.bodies = body_series(machine_, next);
+        return next;
+      }
+    }
+    return motion::find_periodic(
+        {machine_, omega(), task_.harmonics, task_.samples, newton_, budget_});
+  }
+
+  const MapTask& task_;
+  Parameters machine_;
+  double frequency_;  ///< [Hz]
+  PeriodicMotion& before_;
+  OperationBudget budget_;
+  NewtonSettings newton_;
+  Once<PeriodicMotion> solution_;
+  Once<motion::Judged> chosen_;
+  Once<motion::Motion> motion_;
+  Once<motion::Verdict> verdict_;
+  Once<Floquet> series_;
+  Once<motion::Answer> answer_;
+  Once<motion::Observation> observed_;
+  Once<Swept> swept_;
+};
+
+namespace {
+
+/** The value of a function of the point. */
+template <auto function>
+Cell of(MapPoint& point)
+{
+  return (point.*function)();
+}
+
+const std::vector<Quantity> quantities{
+    {"amplitude", "m", "half peak-to-peak of x_r", Source::motion,
+     of<&MapPoint::amplitude>},
+    {"mean", "m", "mean of y_r over the period", Source::motion, of<&MapPoint::mean>},
+    {"contact_share", "-", "share of the time with at least one loaded ball",
+     Source::motion, of<&MapPoint::contact_share>},
+    {"ball_load", "N", "largest force on a ball, over two periods", Source::motion,
+     of<&MapPoint::ball_load>},
+    {"force", "N", "largest force of the bearing, Eq. 6", Source::motion,
+     of<&MapPoint::force>},
+    {"stability", "word",
+     "of the motion, or of that of Eq. 7 found from the solution: stable, unstable, "
+     "undecided",
+     Source::motion, of<&MapPoint::stability>},
+    {"multiplier", "-", "largest modulus of the multipliers behind stability",
+     Source::motion, [](auto& p) -> Cell { return p.multiplier().first; }},
+    {"uncertainty", "-", "of multiplier", Source::motion,
+     [](auto& p) -> Cell { return p.multiplier().second; }},
+
+    {"period", "-",
+     "K of the motion from rest; 0 aperiodic, -1 quasi-periodic, -2 undecided",
+     Source::rest, [](auto& p) -> Cell { return p.answer().period_number(); }},
+    {"regime", "word",
+     "of the motion from rest: rest, periodic, quasi-periodic, chaotic, undecided",
+     Source::rest, [](auto& p) -> Cell { return word(p.answer().kind()); }},
+    {"lyapunov", "1/base period", "largest Lyapunov exponent of the motion from rest",
+     Source::rest, of<&MapPoint::lyapunov>},
+
+    {"harmonics", "-", "m that --tolerance needs, 1e-3 without it", Source::solution,
+     [](auto& p) -> Cell { return p.chosen().motion.harmonics.count(); }},
+    {"distance", "-",
+     "of the solution from the motion behind stability, rms about the mean",
+     Source::solution,
+     [](auto& p) -> Cell { return p.floquet(), p.verdict().distance_rms; }},
+    {"error", "-",
+     "of the solution, rms about the mean: distance or, where no motion was found near "
+     "it, that from what integration settles on from the solution",
+     Source::solution, of<&MapPoint::error>},
+    {"evaluations", "-", "of the force, for the verdict of stability", Source::solution,
+     [](auto& p) -> Cell { return p.verdict().evaluations; }},
+    {"series", "-", "largest modulus of the multipliers along the m harmonics",
+     Source::solution, [](auto& p) -> Cell { return p.series().largest(); }, true},
+    {"series_uncertainty", "-", "of series", Source::solution,
+     [](auto& p) -> Cell { return p.series().uncertainty(); }, true},
+    {"series_stability", "word", "what they say: stable, unstable, undecided",
+     Source::solution, [](auto& p) -> Cell { return p.series().verdict(); }, true},
+
+    {"peak", "m", "largest amplitude over the speeds of --sweep, refined by a parabola",
+     Source::sweep, [](auto& p) -> Cell { return p.swept().peak.amplitude; }},
+    {"peak_frequency", "Hz", "its speed", Source::sweep,
+     [](auto& p) -> Cell { return p.swept().peak.frequency; }},
+    {"permanent", "-", "share of the solved speeds of --sweep with permanent contact",
+     Source::sweep,
+     [](auto& p) -> Cell { return 1.0 * p.swept().permanent / p.swept().solved; }},
+    {"loss_first", "Hz", "first speed of --sweep at which contact is lost; -1: none",
+     Source::sweep, [](auto& p) -> Cell { return p.swept().loss_first; }},
+    {"loss_last", "Hz", "last such speed; -1: none", Source::sweep,
+     [](auto& p) -> Cell { return p.swept().loss_last; }},
+    {"largest_load", "N", "largest force on a ball over the speeds of --sweep",
+     Source::sweep, [](auto& p) -> Cell { return p.swept().ball_load; }},
+    {"missed", "-", "speeds of --sweep without a solution", Source::sweep,
+     of<&MapPoint::missed>}};
+
+std::vector<Quantity> named(const std::vector<std::string>& names)
+{
+  std::vector<Quantity> chosen;
+  for (const std::string& name : names) {
+    const auto found = std::ranges::find(quantities, name, &Quantity::name);
+    if (found == quantities.end()) {
+      std::vector<std::string> known;
+      std::string list;
+      for (const Quantity& q : quantities) {
+        known.push_back(q.name);
+        list += (list.empty() ? "" : ", ") + q.name;
+      }
+      throw BadInput("--quantity " + name + ": is not a quantity" +
+                     suggestion(name, known) + " (known: " + list + ")");
+    }
+    if (std::ranges::find(chosen, name, &Quantity::name) != chosen.end())
+      throw BadInput("--quantity " + name + ": is given twice");
+    chosen.push_back(*found);
+  }
+  return chosen;
+}
+
+}  // namespace
+
+const std::vector<Column>& map_quantities()
+{
+  static const std::vector<Column> columns(quantities.begin(), quantities.end());
+  return columns;
+}
+
+std::vector<Quantity> chosen_quantities(const MapTask& task)
+{
+  const MapRequest& request = task.request;
+  const std::vector<Quantity> chosen = named(request.quantities);
+  /** The first of these sources, or nothing. */
+  const auto of = [&](auto... sources) {
+    const auto one = std::ranges::find_if(
+        chosen, [&](const Quantity& q) { return ((q.source == sources) || ...); });
+    return one == chosen.end() ? std::string() : one->name;
+  };
+  const std::string swept = of(Source::sweep), balanced = of(Source::solution),
+                    here = of(Source::solution, Source::motion, Source::rest);
+  const bool has_speed = request.frequency || task.has_speed();
+  if (!swept.empty() && task.sweep.empty())
+    throw BadInput("--sweep: is missing, the speeds of " + swept);
+  if (swept.empty() && !task.sweep.empty())
+    throw BadInput("--sweep: no quantity of a range of speeds is asked for");
+  if (!here.empty() && !has_speed)
+    throw BadInput("--frequency: is missing, the speed of " + here);
+  if (here.empty() && has_speed)
+    throw BadInput("--frequency: the quantities asked for are those of --sweep");
+  if (request.method != "aft" && !(balanced + swept).empty())
+    throw BadInput("--method " + request.method + ": " +
+                   (balanced.empty() ? swept : balanced) +
+                   " is of harmonic balance; give --harmonics M");
+  const Parameters machine = task.machine(task.grid.values(task.grid.first, 0)).first;
+  require_method_of(machine, request.method);
+  for (const Quantity& one : chosen)
+    if (one.of_two_masses)
+      require_two_masses(machine, ("--quantity " + one.name).c_str());
+  return chosen;
+}
+
+std::string row_of(const MapTask& task, const std::vector<Quantity>& chosen,
+                   const std::vector<double>& values, PeriodicMotion& before)
+{
+  std::string row, status = all_well;
+  for (const double value : values) row += Cell(value).text() + "\t";
+  std::optional<MapPoint> point;
+  for (const Quantity& quantity : chosen) {
+    std::string text = no_value;
+    try {
+      if (!point && status == all_well) point.emplace(task, values, before);
+      if (point) {
+        const Cell cell = quantity.value(*point);
+        if (!cell.is_finite()) throw NoSolution(quantity.name + " is not finite");
+        text = cell.text();
+      }
+    } catch (const std::runtime_error& none) {
+      if (status == all_well) status = printable(none.what());
+    }
+    row += text + "\t";
+  }
+  return row + status;
+}
+
+}  // namespace rotor_stator::explore

@@ -1,0 +1,86 @@
+/**
+# What the ways to a response share
+
+The rows, which show one motion at one speed whichever way it was found, and the request
+for solutions, checked, with the machine counted over the period of its motions. */
+#pragma once
+
+#include <complex>
+
+#include "continuation/arc_length.hpp"
+#include "explore/branch_file.hpp"
+#include "explore/response.hpp"
+#include "motion/motion.hpp"
+
+namespace rotor_stator::explore {
+
+struct ResponseRow {
+  double frequency;           ///< [Hz]
+  Displacements amplitude{};  ///< half peak-to-peak of x_s, y_s, x_r, y_r [m]
+  int period = 0;             ///< of a sweep: K as tables print it
+  double lyapunov = 0;        ///< of a sweep [1/s]
+  double error = 0;           ///< with a tolerance [-]
+  double arc = 0;             ///< of a branch [-]
+  int newton = 0;
+  std::size_t branch = 1;
+  double multiplier = -1, multiplier_change = -1;
+  std::string verdict = "undecided", bifurcation = "-";
+  std::vector<std::complex<double>> harmonics = {};  ///< of --harmonics-of [m]
+
+  Displacements mean{}, rms{};              ///< [m]
+  Vec2 force{0, 0};                         ///< half peak-to-peak [N]
+  double contact_share = 0, ball_load = 0;  ///< [-], [N]
+};
+
+/** What the instants of a motion show: mean, force, contact, load. */
+void observe(ResponseRow& row, const Parameters& parameters,
+             const motion::Motion& motion);
+
+using ResponseFields = std::vector<Field<ResponseRow>>;
+
+/** The columns that every response has, then `own` ones, then those that are printed when
+    they are asked for, of a sweep more than of a branch; how many are printed else. */
+struct ResponseColumns {
+  ResponseFields fields;
+  std::size_t usual;
+};
+ResponseColumns columns_of(const Parameters& parameters, const ResponseFields& own,
+                           bool is_settled = false);
+
+struct ResponseTask {
+  const ResponseRequest& request;
+  Parameters machine;
+  Parameters parameters;  ///< the same, its base period that of the motions
+  std::optional<SavedBranch> saved;
+  int harmonics, samples;
+  ArcLengthSettings settings;
+  bool upwards;
+  OperationBudget budget;
+  double passages = 1;  ///< the base frequency over the speed, without unbalance
+  bool has_two_frequencies = false;
+  std::string base_period = "turn";  ///< in a word
+
+  SpeedRange range() const
+  {
+    const double low = base(request.from), high = base(request.to);
+    return upwards ? SpeedRange{low, high} : SpeedRange{high, low};
+  }
+
+  /** The base frequency [rad/s] at a speed [Hz], and back. */
+  double base(double hertz) const { return angular(hertz) * passages / parameters.turns; }
+  double hertz(double omega) const
+  {
+    return omega * parameters.turns / passages / angular(1);
+  }
+};
+
+/** Throws BadInput for options that contradict each other. */
+ResponseTask response_task(const ResponseRequest& request);
+
+/** The columns of --harmonics-of, none without it, and their values from the series of
+    x_s, y_s, x_r, y_r. */
+ResponseFields harmonic_fields(const ResponseTask& task, const Harmonics& harmonics);
+std::vector<std::complex<double>> harmonics_of(const ResponseTask& task,
+                                               const Eigen::MatrixXd& series);
+
+}  // namespace rotor_stator::explore

@@ -1,0 +1,43 @@
+#include "explore/resume.hpp"
+
+#include <fstream>
+#include <sstream>
+
+#include "io/errors.hpp"
+#include "io/table.hpp"
+#include "io/toml_file.hpp"
+
+namespace rotor_stator::explore {
+
+void each_row_of(const std::string& file, const std::string& what,
+                 const std::string& beginning,
+                 const std::function<void(const std::string& row,
+                                          const std::vector<std::string>& cells)>& take)
+try {
+  std::ifstream in = open_file(file, "a " + what, std::uintmax_t{1} << 60);
+  std::string found(beginning.size(), '\0');
+  in.read(found.data(), static_cast<std::streamsize>(found.size()));
+  found.resize(static_cast<std::size_t>(in.gcount()));
+  if (!beginning.starts_with(found)) {
+    const std::string writer = writer_of_other_schema(file);
+    throw BadInput(writer.empty()
+                       ? "was made with other settings"
+                       : "was written by " + writer + ", start this " + what + " anew");
+  }
+  for (std::string row; std::getline(in, row) && !in.eof() && !row.starts_with('#');) {
+    std::vector<std::string> cells;
+    std::istringstream words(row);
+    for (std::string cell; std::getline(words, cell, '\t');) cells.push_back(cell);
+    take(row, cells);
+  }
+} catch (const BadInput& error) {
+  throw BadInput("--resume " + file + ": " + error.what());
+}
+
+std::optional<double> number_of(const std::string& cell)
+{
+  const std::optional<double> number = decimal(cell);
+  return number && Cell(*number).text() == cell ? number : std::nullopt;
+}
+
+}  // namespace rotor_stator::explore

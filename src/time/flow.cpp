@@ -1,0 +1,97 @@
+#include "time/flow.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <memory>
+#include <numbers>
+
+#include "io/errors.hpp"
+#include "time/gsl.hpp"
+#include "time/rk4.hpp"
+#include "time/rk8.hpp"
+
+namespace rotor_stator {
+
+const std::vector<std::string>& time_methods()
+{
+  static const std::vector<std::string> names = [] {
+    std::vector<std::string> list{"rk4", "rk8"};
+    list.insert(list.end(), gsl_methods().begin(), gsl_methods().end());
+    return list;
+  }();
+  return names;
+}
+
+void require_method(const std::string& method, std::vector<std::string> others)
+{
+  others.insert(others.end(), time_methods().begin(), time_methods().end());
+  if (std::ranges::find(others, method) != others.end()) return;
+  std::string list;
+  for (const auto& name : others) list += (list.empty() ? "" : ", ") + name;
+  throw BadInput("--method " + method + ": must be one of " + list);
+}
+
+double default_step(const Parameters& parameters)
+{
+  const double contact = 2 * std::numbers::pi / contact_frequency(parameters) / 40;
+  /** A damper of the contact's own size lets no speed change within a step. */
+  const double rate = parameters.bearing.damping * scales(parameters).load *
+                      (1 / parameters.stator.mass + 1 / parameters.rotor.mass);
+  return rate > 0 ? std::min(contact, 0.5 / rate) : contact;
+}
+
+double evaluation_price(const Parameters& parameters, const std::string& method)
+{
+  if (method == "rk4") return 1;
+  if (method == "rk8") return Rk8::price;
+  const int balls = parameters.bearing.balls;
+  const bool explicit_steps = method == "rkf45" || method == "rkck" || method == "rk8pd";
+  return ((explicit_steps ? 75 : 330) + 1.5 * balls) / operations_per_evaluation(balls);
+}
+
+/** A contact of Hertz is stiffer with the third root of its force, and vibrates faster with the sixth. */
+double TwoMasses::step(const Parameters& machine, double omega) const
+{
+  constexpr double much = 30;
+  const double usual = default_step(machine);
+  double force = 0;
+  for (const double phase : {0.0, 0.5, 1.0, 1.5}) {
+    const Vec2 f = rigid_joint_force(machine, omega, phase);
+    force = std::max(force, std::hypot(f.x, f.y));
+  }
+  const double ratio = force / (much * scales(machine).load);
+  return std::isfinite(ratio) && ratio > 1 ? usual / std::pow(ratio, 1.0 / 6) : usual;
+}
+
+std::unique_ptr<Flow> flow(const Parameters& parameters, double omega,
+                           const StepSettings& settings)
+{
+  StepSettings paid = settings;
+  /** Bounded in any case: 1e9 evaluations are half a minute of RK4. */
+  if (!paid.budget.bounded())
+    paid.budget = OperationBudget(1e9 * evaluation_price(parameters, settings.method));
+  return parameters.machine->flow(parameters, omega, paid);
+}
+
+std::unique_ptr<Flow> TwoMasses::flow(const Parameters& parameters, double omega,
+                                      const StepSettings& settings) const
+{
+  require_method(settings.method);
+  const bool needs_slopes = settings.method == "bsimp" || settings.method == "msbdf";
+  if (needs_slopes && !parameters.bearing.is_plain())
+    throw BadInput(
+        "--method " + settings.method +
+        ": knows no contact damping and no defect; take rk4, rk8, rk8pd, rkf45, "
+        "rkck or msadams");
+  const int intervals = settings.intervals_per_period;
+  if (settings.method == "rk4")
+    return std::make_unique<Rk4>(
+        parameters, omega, intervals,
+        settings.step > 0 ? settings.step : step(parameters, omega), settings.budget);
+  if (settings.method == "rk8")
+    return std::make_unique<Rk8>(parameters, omega, intervals, settings.tolerance,
+                                 settings.budget);
+  return gsl_flow(parameters, omega, settings);
+}
+
+}  // namespace rotor_stator

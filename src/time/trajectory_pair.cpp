@@ -1,0 +1,123 @@
+#include "time/trajectory_pair.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include "io/errors.hpp"
+
+namespace rotor_stator {
+
+/** Far above rounding, far below what bends the motion; over the sizes. */
+static constexpr double first_distance = 1e-7;
+
+TrajectoryPair::TrajectoryPair(std::unique_ptr<Flow> flow, int intervals_per_period,
+                               double period, const Eigen::VectorXd& sizes,
+                               const Instant& start)
+    : flow_(std::move(flow)), intervals_(intervals_per_period), period_(period),
+      sizes_(sizes), at_(start), neighbour_(beside(vector_of(start.state)))
+{
+}
+
+void TrajectoryPair::advance()
+{
+  const Instant before = at_;
+  const State neighbour = neighbour_;
+  try {
+    advance_one_period();
+  } catch (const NoSolution&) {
+    at_ = before;
+    neighbour_ = neighbour;
+    throw;
+  }
+}
+
+void TrajectoryPair::advance_one_period()
+{
+  const Displacements first = displacements(at_.state.position);
+  Displacements low = first, high = first;
+  double growth = 0;
+  for (long k = 0; k < intervals_; ++k) {
+    flow_->advance(at_.period * intervals_ + k, at_.state, neighbour_);
+    growth += pull_back();
+    const Displacements q = displacements(at_.state.position);
+    for (std::size_t i = 0; i < 4; ++i) {
+      low[i] = std::min(low[i], q[i]);
+      high[i] = std::max(high[i], q[i]);
+    }
+  }
+  ++at_.period;
+  section_.push_back(first);
+  half_range_ = 0;
+  for (std::size_t i = 0; i < 4; ++i)
+    half_range_ = std::max(half_range_, 0.5 * (high[i] - low[i]));
+  growths_.push_back(growth);
+  log_distance_ += growth;
+  highest_ = std::max(highest_, log_distance_);
+  if (log_distance_ >= highest_) marks_.clear();
+  if (marks_.empty() || marks_.back().log_distance - log_distance_ > 1)
+    marks_.push_back({log_distance_, at_});
+}
+
+/** At the first distance, off in all directions, so that none is missed. */
+State TrajectoryPair::beside(const Eigen::VectorXd& y) const
+{
+  const double share = first_distance / std::sqrt(static_cast<double>(sizes_.size()));
+  return state_of(y + share * sizes_);
+}
+
+double TrajectoryPair::pull_back()
+{
+  constexpr double met = 1e-8;  ///< rounding keeps neighbours apart that have met
+  const Eigen::VectorXd y = vector_of(at_.state);
+  const Eigen::VectorXd apart = vector_of(neighbour_) - y;
+  const double growth = apart.cwiseQuotient(sizes_).norm() / first_distance;
+  if (!std::isfinite(growth))
+    throw NoSolution(
+        format("time integration diverged %.3g s after its start", seconds()));
+  neighbour_ = growth > met ? state_of(y + apart / growth) : beside(y);
+  return std::log(std::max(growth, met));
+}
+
+Exponent TrajectoryPair::exponent() const
+{
+  const Exponent rate =
+      batch_mean({growths_.begin() + std::ssize(growths_) / 2, growths_.end()});
+  return {rate.value / period_, rate.error / period_};
+}
+
+Instant TrajectoryPair::since(double contraction) const
+{
+  Instant before = marks_.front().at;
+  for (const Mark& mark : marks_)
+    if (log_distance_ - mark.log_distance <= contraction) before = mark.at;
+  return before;
+}
+
+double extent(std::span<const Displacements> section, std::size_t apart)
+{
+  double widest = 0;
+  for (std::size_t i = 0; i < 4; ++i) {
+    if (apart == 0) {
+      const auto [low, high] = std::ranges::minmax_element(
+          section, {}, [i](const Displacements& q) { return q[i]; });
+      widest = std::max(widest, (*high)[i] - (*low)[i]);
+    }
+    for (std::size_t n = apart; apart > 0 && n < section.size(); ++n)
+      widest = std::max(widest, std::abs(section[n][i] - section[n - apart][i]));
+  }
+  return widest;
+}
+
+ClosingPeriod closing_period(std::span<const Displacements> section, double closed,
+                             int most_period)
+{
+  ClosingPeriod best{1, extent(section)};
+  const int most = std::min(most_period, static_cast<int>(section.size()) / 3);
+  for (int k = 2; k <= most && !(best.spread < closed); ++k) {
+    const double spread = extent(section, static_cast<std::size_t>(k));
+    if (spread < best.spread) best = {k, spread};
+  }
+  return best;
+}
+
+}  // namespace rotor_stator

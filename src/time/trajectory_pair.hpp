@@ -1,0 +1,106 @@
+/**
+# A motion and its neighbour
+
+The largest Lyapunov exponent is the mean rate at which two neighbouring motions part,
+
+$$\lambda = \lim_{t \to \infty} \frac{1}{t} \ln \frac{|\delta(t)|}{|\delta(0)|},$$
+
+after Benettin: both motions are integrated by the same stepper, and after every output
+interval the neighbour is pulled back to its first distance along the line that joins
+them. On a T-periodic motion λ is ln|μ|/T of the largest Floquet multiplier. */
+#pragma once
+
+#include <memory>
+#include <span>
+#include <vector>
+
+#include "time/batch_mean.hpp"
+#include "time/flow.hpp"
+
+namespace rotor_stator {
+
+/** λ [1/s] and its standard error [1/s]. */
+using Exponent = BatchMean;
+
+/** A state at the start of base period `period`, counted from t = 0. */
+struct Instant {
+  State state;
+  long period = 0;
+};
+
+class TrajectoryPair {
+public:
+  /** `flow`: of fixed step, since an adaptive one takes other steps for the neighbour and
+      its error would pass for growth. `sizes` of the components make the distance a
+      number. */
+  TrajectoryPair(std::unique_ptr<Flow> flow, int intervals_per_period, double period,
+                 const Eigen::VectorXd& sizes, const Instant& start);
+
+  /** Over one base period. Throws NoSolution when the motion diverges; the motion stays
+      where it was where the period cannot be paid for. */
+  void advance();
+
+  const Instant& at() const { return at_; }
+
+  /** Half peak-to-peak of the largest displacement in the last base period [m]. */
+  double half_range() const { return half_range_; }
+
+  /** The displacements at the start of each base period. */
+  const std::vector<Displacements>& section() const { return section_; }
+
+  /** ln of the growth of the distance in each base period. */
+  const std::vector<double>& growths() const { return growths_; }
+
+  /** λ of the later half of all base periods, by ten batches of them. */
+  Exponent exponent() const;
+
+  /** ln of what is left of any distance since it was largest. */
+  double contraction() const { return log_distance_ - highest_; }
+
+  /** An instant since which neighbours have come so much nearer, if there is one. */
+  Instant since(double contraction) const;
+
+  double period() const { return period_; }
+  double seconds() const { return static_cast<double>(growths_.size()) * period_; }
+  double evaluations() const { return static_cast<double>(flow_->evaluations()); }
+
+private:
+  void advance_one_period();
+  State beside(const Eigen::VectorXd& y) const;
+  double pull_back();
+
+  struct Mark {
+    double log_distance;
+    Instant at;
+  };
+
+  std::unique_ptr<Flow> flow_;
+  int intervals_;
+  double period_;
+  Eigen::VectorXd sizes_;
+  Instant at_;
+  State neighbour_;
+  double half_range_ = 0, log_distance_ = 0, highest_ = 0;
+  std::vector<double> growths_;
+  std::vector<Displacements> section_;
+  std::vector<Mark> marks_ = {};
+};
+
+/**
+## What a Poincaré section says about a motion */
+
+/** The largest distance of two points of a Poincaré section in one displacement, `apart`
+    points apart; of any two points by default [m]. */
+double extent(std::span<const Displacements> section, std::size_t apart = 0);
+
+/** The number K of base periods after which a section closes best, and its spread: the
+    largest distance of points K apart. The first K whose spread is below `closed` [m];
+    only those that the section holds three times are tried. */
+struct ClosingPeriod {
+  int period;
+  double spread;  ///< [m]
+};
+ClosingPeriod closing_period(std::span<const Displacements> section, double closed,
+                             int most_period);
+
+}  // namespace rotor_stator

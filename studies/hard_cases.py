@@ -1,0 +1,352 @@
+"""Hard cases: what each method does where it may fail.
+
+Beside the paper, which reports no failure. A method is trusted for what it does when it cannot succeed. The list collects cases
+that are likely to break one: no clearance, hardly any damping, a single ball, no gravity, grazing contact, bodies of very unequal
+mass, a cage whose balls never return to where they were, too few samples, speeds on a fold or at the resonance of the contact.
+
+Each case ends in one of two ways: an answer that an independent check confirms, or a refusal with its reason. A wrong answer that
+claims success is the only failure, and would be drawn in orange. Filled circles are periodic motions that were confirmed, open
+ones aperiodic motions; a dash is a refusal. Harmonic balance and shooting must refuse where no periodic motion exists;
+time integration can still answer there, so it has fewer dashes without being the better method for that. An answer that could
+be neither confirmed nor refuted is marked as such and not counted as solved.
+
+The methods are those of `explore orbit`. An answer is claimed where it states an error of at most the accuracy of the scene.
+The check of a periodic motion shares no code with the library: Eq. 7 is written here anew, integrated by RK4 over the period from
+the state that the answer has at its beginning, and corrected by Newton's method until it closes. What is not periodic, or takes
+too many steps, is compared with an integration by GSL, rk8pd.
+
+Usage: studies/hard_cases.py data/scenes/hard_cases.toml [--every N] > hard_cases.tsv   (from the project's root)
+"""
+import copy
+import itertools
+import math
+import multiprocessing
+import os
+import subprocess
+import sys
+import tempfile
+import tomllib
+from pathlib import Path
+
+import numpy as np
+
+sys.path.insert(1, str(Path(__file__).parents[1] / "figures"))
+from tables import Table, print_columns, print_header  # noqa: E402
+
+EXPLORE = str(Path(os.environ.get("BUILD", "build"), "explore"))
+NAMES = ["x_s", "y_s", "x_r", "y_r"]
+POINTS = 256           # instants of a base period
+MOST_STEPS = 30_000    # of the check, over a period
+METHODS = ["auto", "aft", "aft-tolerance", "shooting"]
+COLUMNS = [
+    ("case", "-", "group of the list, varied value, speed"),
+    ("method", "-", "auto: what the machine does from rest; aft: harmonic balance with m and N of the case, or to a tolerance; shooting"),
+    ("status", "-", "0 an answer is claimed, 3 refused"),
+    ("check_error", "-", "of displacement, by the check; of amplitude if aperiodic; -1 none"),
+    ("verdict", "-", "solved, refused, silent error or unconfirmed"), ("f", "Hz", "speed"),
+    ("harmonics", "-", "m of harmonic balance; -1 none"), ("samples", "-", "N of harmonic balance; -1 none"),
+    ("stated_error", "-", "of displacement, as the answer says; -1 none"),
+    ("multiplier", "-", "largest modulus of the Floquet multipliers; -1 none"),
+    ("multiplier_uncertainty", "-", "of it, as the answer says; -1 none"),
+    ("check_multiplier", "-", "largest modulus on the motion that the check found; -1 none"),
+    ("stability", "-", "stable, unstable, undecided; - where nothing is claimed"),
+    ("regime", "-", "T-periodic, also after several T, or aperiodic; - where nothing is claimed"),
+    ("check", "-", "what checked it"), ("note", "-", "the reason of the refusal")]
+
+
+# The cases
+
+def change(machine, key, value):
+    """Sets a key of the machine; stator_ and rotor_ name the body."""
+    for body in ("stator", "rotor"):
+        if key.startswith(body):
+            machine[body][key.removeprefix(body + "_")] = value
+            return
+    table = {"unbalance_kg_m": "rotor", "acceleration_m_per_s2": "gravity"}.get(key, "bearing")
+    machine[table][key] = int(value) if key == "balls" else value
+
+
+def write(machine, folder):
+    path = Path(folder, "machine.toml")
+    path.write_text('title = "hard"\n' + "".join(
+        f"[{name}]\n" + "".join(f"{key} = {value!r}\n" for key, value in table.items())
+        for name, table in machine.items() if isinstance(table, dict)), encoding="utf-8")
+    return path
+
+
+def first_fold(machine, speeds, harmonics, samples):
+    """The first speed at which the branch turns back."""
+    with tempfile.TemporaryDirectory() as folder:
+        run = subprocess.run([EXPLORE, "response", write(machine, folder), "--from", str(speeds[0]), "--to", str(speeds[1]),
+                              "--harmonics", str(harmonics), "--samples", str(samples), "--columns", "f"],
+                             stdout=subprocess.PIPE, stderr=subprocess.PIPE, encoding="utf-8", check=False)
+    f = Table.of(run.stdout)["f"]
+    turns = np.flatnonzero(np.diff(f) < 0)
+    if not len(turns):
+        sys.exit(f"no fold from {speeds[0]} to {speeds[1]} Hz")
+    return f[turns[0]]
+
+
+def default_samples(m):
+    return max(8 * m + 1, math.ceil(2 / 3 * m ** 1.6))
+
+
+def cases_of(scene):
+    """Name, machine, speed, m and N of each case."""
+    base = tomllib.loads(Path("data", scene["parameters"] + ".toml").read_text(encoding="utf-8"))
+    cases = []
+    for group in scene["group"]:
+        for value in group.get("values", [None]):
+            machine, name, m = copy.deepcopy(base), group["name"], group["harmonics"]
+            changes = dict(group.get("machine", {}))
+            if value is not None:
+                name += f": {value:g}"
+                changes[group["vary"]] = value
+            m = int(changes.pop("harmonics", m))
+            for key, to in changes.items():
+                change(machine, key, to)
+            samples = 2 * m + 1 if group.get("samples_per_harmonic") == 0 else default_samples(m)
+            speeds = group.get("frequencies_hz", [])
+            if group.get("at") == "fold":
+                speeds = [first_fold(machine, speeds, m, samples)]
+            if group.get("at") == "contact resonance":
+                speeds = [Model(machine, 1).contact_speed / (2 * math.pi) / divisor for divisor in group["divisors"]]
+            for f in speeds:
+                if group.get("graze"):
+                    machine["bearing"]["radial_clearance_m"] = Model(machine, f).free_displacement()
+                cases.append((f"{name}, {f:.6g} Hz", copy.deepcopy(machine), float(f), m, samples))
+    return cases
+
+
+# The check
+
+class Model:
+    """Eq. 7 at one speed. A state is x_s, y_s, x_r, y_r and their rates; the arrays hold many states."""
+
+    def __init__(self, machine, frequency, cage_angle=0.0):
+        self.omega = 2 * math.pi * frequency
+        bearing, bodies = machine["bearing"], [machine["stator"], machine["rotor"]]
+        self.mass = np.repeat([body["mass_kg"] for body in bodies], 2)
+        natural = np.repeat([body["natural_frequency_rad_per_s"] for body in bodies], 2)
+        self.stiffness = self.mass * natural**2
+        self.damping = 2 * self.mass * natural * np.repeat([body["damping_ratio"] for body in bodies], 2)
+        self.unbalance = machine["rotor"]["unbalance_kg_m"] * self.omega**2
+        self.weight = -self.mass * machine["gravity"]["acceleration_m_per_s2"] * [0, 1, 0, 1]
+        self.k_h, self.clearance = bearing["contact_stiffness_N_per_m1p5"], bearing["radial_clearance_m"]
+        self.cage = bearing["cage_speed_ratio"] * self.omega
+        self.balls = cage_angle + 2 * math.pi * np.arange(bearing["balls"]) / bearing["balls"]
+        joint = self.stiffness[::2].sum() / self.mass[::2].sum()
+        load = max(-self.weight.sum() + machine["rotor"]["unbalance_kg_m"] * joint, self.k_h * 1e-9**1.5)
+        slope = 1.5 * self.k_h ** (2 / 3) * load ** (1 / 3)
+        self.contact_speed = math.sqrt(slope * (1 / self.mass[0] + 1 / self.mass[2]))
+        self.size = self.clearance + (load / self.k_h) ** (2 / 3)
+
+    def load(self, t):
+        turn = np.array([0, 0, math.cos(self.omega * t), math.sin(self.omega * t)])
+        return self.weight + self.unbalance * turn
+
+    def rates(self, t, y):
+        q, v = y[:, :4], y[:, 4:]
+        angle = self.balls + self.cage * t
+        direction = np.array([np.cos(angle), np.sin(angle)])
+        penetration = np.maximum((q[:, 2:] - q[:, :2]) @ direction - self.clearance, 0)
+        force = self.k_h * (penetration * np.sqrt(penetration)) @ direction.T
+        total = self.load(t) - self.stiffness * q - self.damping * v + np.hstack([force, -force])
+        return np.hstack([v, total / self.mass])
+
+    def steps(self, interval):
+        """RK4's."""
+        return math.ceil(interval * 40 * self.contact_speed / (2 * math.pi))
+
+    def integrated(self, y, period, points, finer):
+        """The states at the instants of a period, and at its end."""
+        each = finer * self.steps(period / points)
+        h, states = period / points / each, [y]
+        for k in range(points * each):
+            t = k * h
+            a = self.rates(t, y)
+            b = self.rates(t + h / 2, y + h / 2 * a)
+            c = self.rates(t + h / 2, y + h / 2 * b)
+            y = y + h / 6 * (a + 2 * b + 2 * c + self.rates(t + h, y + h * c))
+            if (k + 1) % each == 0:
+                states.append(y)
+        return states
+
+    def closed(self, start, period, points, finer, growth):
+        """The displacements of the closed motion near a state, and its largest multiplier; None where Newton finds none. A step
+        that makes the gap larger by more than `growth` is halved."""
+        sizes, change = np.repeat([self.size, self.size * self.contact_speed], 4), 1e-8
+        step, least = np.zeros(8), math.inf
+        for _ in range(20):
+            trial = start + sizes * step
+            with np.errstate(over="ignore", invalid="ignore"):
+                states = self.integrated(trial + np.vstack([np.zeros(8), change * np.diag(sizes)]), period, points, finer)
+                ends = states[-1] / sizes
+                gap = ends[0] - trial / sizes
+                size = np.linalg.norm(gap)
+            if not size < growth * least:
+                step = step / 2
+                continue
+            start, least = trial, size
+            phi = (ends[1:] - ends[0]).T / change
+            if size < 1e-7:
+                return np.array([state[0, :4] for state in states[:-1]]).T, abs(np.linalg.eigvals(phi)).max()
+            step = np.linalg.lstsq(np.eye(8) - phi, gap, rcond=None)[0]
+        return None
+
+    def free_displacement(self):
+        """The largest relative displacement [m] without contact."""
+        dynamic = self.stiffness - self.mass * self.omega**2 + 1j * self.damping * self.omega
+        whirl = self.unbalance / dynamic[2] * np.exp(2j * np.pi * np.arange(1 << 14) / (1 << 14))
+        rest = (self.weight / self.stiffness)[[1, 3]]
+        return abs(whirl + 1j * (rest[1] - rest[0])).max()
+
+
+def displacements(table):
+    return np.array([table[name] for name in NAMES])
+
+
+def difference(a, b):
+    """Of two motions, over the largest displacement; 0 at rest."""
+    largest = abs(b).max()
+    return abs(a - b).max() / largest if largest > 1e-15 else float(abs(a).max() > 1e-15)
+
+
+def start_of(q, period):
+    """The first state of a periodic motion."""
+    orders = 1j * np.fft.rfftfreq(q.shape[1], period / q.shape[1]) * 2 * np.pi
+    return np.concatenate([q[:, 0], np.fft.irfft(np.fft.rfft(q) * orders, q.shape[1])[:, 0]])
+
+
+class Case:
+    """One machine at one speed, and what explore says of it."""
+
+    def __init__(self, case, rule, folder):
+        self.name, self.machine, self.f, self.m, self.samples = case
+        self.rule, self.file = rule, write(self.machine, folder)
+
+    def orbit(self, *words, points=POINTS):
+        """Status, table and the reason of a refusal."""
+        run = subprocess.run([EXPLORE, "orbit", self.file, "--frequency", repr(self.f), "--points", str(points), *map(str, words)],
+                             stdout=subprocess.PIPE, stderr=subprocess.PIPE, encoding="utf-8", check=False)
+        if run.returncode not in (0, 2, 3):
+            sys.exit(f"{self.name}, {words}: status {run.returncode}: {run.stderr}")
+        table = Table.of(run.stdout) if run.returncode == 0 else None
+        return table, run.stderr.replace(f"{self.file}: ", "").strip()
+
+    def words(self, method):
+        return {"auto": [], "aft": ["--harmonics", self.m, "--samples", self.samples],
+                "aft-tolerance": ["--method", "aft", "--tolerance", self.rule["accuracy"]],
+                "shooting": ["--method", "shooting"]}[method]
+
+    def row(self, method):
+        table, reason = self.orbit(*self.words(method))
+        if method == "auto" and table is not None and table.value("period", 0) > 1:  # the whole motion
+            table, reason = self.orbit(*self.words(method), "--periods", round(table.value("period")))
+        row = {name: -1 for name, *_ in COLUMNS} | {
+            "case": self.name, "method": method, "status": 3, "f": self.f, "stability": "-", "regime": "-", "check": "none",
+            "note": reason}
+        if table is not None:
+            self.answer(table, row)
+        if row["status"] == 0:
+            self.check(table, method, row)
+        row["verdict"] = verdict(row, self.rule)
+        return row
+
+    def answer(self, table, row):
+        """What is claimed, or why not."""
+        closed = "multiplier" in table.keys()
+        regime = "periodic" if closed else table.value("regime", "undecided")  # of the motion, not of what follows it
+        stated = max(table.value(f"{name}_largest", -1) for name in ("error", "distance"))
+        row |= {"harmonics": table.value("harmonics", -1), "samples": table.value("samples", -1)}
+        needs_error = regime != "chaotic" or table.value("method") == "aft"
+        if regime == "undecided" or stated > self.rule["accuracy"] or stated < 0 and needs_error:
+            row["note"] = f"the motion is {regime}, and the error stated {stated:.2g}" if stated >= 0 else \
+                f"the motion is {regime}, and no error is stated"
+            return
+        row |= {"status": 0, "stated_error": stated, "multiplier": table.value("multiplier", -1), "note": "-",
+                "multiplier_uncertainty": table.value("multiplier_uncertainty", -1),
+                "stability": table.value("stability", "undecided"),
+                "regime": "T-periodic" if regime in ("periodic", "rest") else "aperiodic"}
+
+    def check(self, table, method, row):
+        """By Eq. 7 as it stands above, or by another integration."""
+        model = Model(self.machine, self.f, table.value("cage_angle", 0))
+        answer = displacements(table)
+        points, period = answer.shape[1], answer.shape[1] / POINTS * table.value("base_period", 0)
+        if row["regime"] == "T-periodic" and table.value("regime", "") != "rest":
+            for finer, growth in itertools.product((1, 4), (1e9, 1)):
+                steps = points * finer * model.steps(period / points)
+                found = model.closed(start_of(answer, period), period, points, finer, growth) if steps <= MOST_STEPS else None
+                if found:
+                    motion, multiplier = found
+                    row |= {"check": "rk4 and Newton", "check_error": difference(answer, motion), "check_multiplier": multiplier}
+                    if verdict(row, self.rule) == "solved":
+                        return
+            if row["check"] != "none" or row["stability"] != "stable":  # integration leaves what is unstable
+                return
+        self.compare(table, method, row)
+
+    def compare(self, table, method, row):
+        periodic = row["regime"] == "T-periodic"
+        words = [] if periodic else ["--periods", 64]
+        exact, _ = self.orbit("--method", "rk8pd", *words)
+        if not periodic:
+            table, _ = self.orbit(*self.words(method), *words)
+        if exact is None or table is None:
+            return
+        a, b = displacements(table), displacements(exact)
+        if not periodic:
+            a, b = (np.ptp(q, axis=1, keepdims=True) / 2 for q in (a, b))
+        regime, found = exact.value("regime", "undecided"), row | {"check": "rk8pd"}
+        if a.shape != b.shape or regime != "undecided" and periodic != (regime in ("periodic", "rest")):
+            return
+        found["check_error"] = difference(a, b)
+        if regime != "undecided" or verdict(found, self.rule) == "solved":  # what has not settled may confirm, no more
+            row |= found
+
+
+def verdict(row, rule):
+    """What the rule makes of the numbers of a row."""
+    error, multiplier, margin = row["check_error"], row["check_multiplier"], 1e-3
+    if row["status"] == 3:
+        return "refused"
+    if row["check"] == "none" or error < 0:
+        return "unconfirmed"
+    if row["regime"] == "aperiodic":
+        return "solved" if error <= rule["most_change"] else "silent error"
+    if multiplier >= 0 and (row["stability"] == "stable" and multiplier > 1 + margin
+                            or row["stability"] == "unstable" and multiplier < 1 - margin):
+        return "silent error"
+    stated = max(row["stated_error"], rule["least_error"])
+    return "solved" if error <= min(rule["most_error"], rule["most_error_ratio"] * stated) else "silent error"
+
+
+def rows_of(work):
+    """The rows of a case, by all methods."""
+    case, rule = work
+    with tempfile.TemporaryDirectory() as folder:
+        one = Case(case, rule, folder)
+        return [one.row(method) for method in METHODS]
+
+
+def main(file, every=1):
+    scene = tomllib.loads(Path(file).read_text(encoding="utf-8"))
+    cases = cases_of(scene)[::every]
+    with multiprocessing.Pool() as pool:
+        rows = sum(pool.imap(rows_of, [(case, scene) for case in cases]), [])
+    example = subprocess.run([EXPLORE, "orbit", f"data/{scene['parameters']}.toml", "--frequency", "45", "--points", "1"],
+                             stdout=subprocess.PIPE, encoding="utf-8", check=True).stdout
+    ends = [("method", [method, *(sum(row["method"] == method and row["verdict"] == end for row in rows)
+                                  for end in ("solved", "refused", "silent error", "unconfirmed"))]) for method in METHODS]
+    print_header("How each method ends on the hard cases", [Table.of(example)],
+                 f"rule: claimed when the stated error is at most {scene['accuracy']:g}; false when the check finds more than "
+                 f"{scene['most_error_ratio']:g} times it (and {scene['least_error']:g}), or more than {scene['most_error']:g}",
+                 "row method: name, cases solved, refused, silent errors, unconfirmed", rows=ends, cases=len(cases))
+    print_columns(COLUMNS)
+    for row in rows:
+        print("\t".join(f"{value:.6g}" if isinstance(value, float) else str(value) for value in (row[name] for name, *_ in COLUMNS)))
+
+
+if __name__ == "__main__":
+    main(sys.argv[1], *(int(sys.argv[k + 1]) for k, word in enumerate(sys.argv) if word == "--every"))
