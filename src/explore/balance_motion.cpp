@@ -233,6 +233,7 @@ FoundMotion quasi_periodic_motion(const Parameters& parameters,
   if (request.tolerance) table.value("tolerance", *request.tolerance);
   table.value("harmonics", solution.harmonics.count());
   table.value("samples", solution.samples);
+  table.value("unknowns", solution.x.size());
   table.note(format(
       "two frequencies: omega and n omega_cage = %.9g omega; z = %d; row harmonics: "
       "k_1,k_2 of k_1 omega + k_2 n omega_cage",
@@ -262,8 +263,7 @@ FoundMotion balance_motion(const Parameters& parameters, const MotionRequest& re
 {
   const bool is_whole = turns_to_repeat(parameters.bearing) == 1;
   const bool is_longer = request.subharmonic > 1;
-  const BasePeriod base =
-      is_whole && is_longer ? BasePeriod{} : base_period(parameters);
+  const BasePeriod base = is_whole && is_longer ? BasePeriod{} : base_period(parameters);
   if (is_longer && !is_whole)
     throw BadInput(
         format("--subharmonic %d: needs a whole number of passing balls in a turn, and "

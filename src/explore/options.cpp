@@ -131,8 +131,8 @@ CLI::Option* add_subharmonic(CLI::App& command, Request& request)
 
 const char* const usual_budget =
     "in the whole run, other work counted as the evaluations that take as long (default: "
-    "those of 3 s, 8.2e7 with 16 balls; of 60 s with --stability, of 30 s with "
-    "--subharmonic in response)";
+    "those of 3 s, 8.2e7 with 16 balls; in response 60 s with --stability, 30 s with "
+    "--subharmonic or two frequencies)";
 
 /** Options of a motion in time, and whose they are. */
 struct TimeOptions {

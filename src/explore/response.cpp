@@ -176,8 +176,10 @@ ResponseTask response_task(const ResponseRequest& request)
       arc_length_settings(parameters, {.tolerance = request.newton_tolerance});
   settings.most_evaluations =
       std::numeric_limits<long>::max();  // the budget is the bound
+  const bool is_longer =
+      request.subharmonic > 1 || base_period(parameters).is_driven_twice();
   const double seconds = request.stability || request.method == "shooting" ? 60
-                         : request.subharmonic > 1                         ? 30
+                         : is_longer                                       ? 30
                                                                            : 3;
   const bool upwards =
       request.direction.empty() ? !saved || saved->upwards : request.direction == "up";

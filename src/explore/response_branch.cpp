@@ -396,7 +396,8 @@ Exploration branch_by_balance(ResponseTask task)
   table.value("harmonics", two ? found.harmonics.count() : task.harmonics / turns);
   table.value("samples", two ? found.line.samples : task.samples / turns);
   put_branch(table, task, main.folds.size(), main.evaluations);
-  if (two) table.note(format("harmonics of all points of the branch, z = %d", found.line.z));
+  if (two)
+    table.note(format("harmonics of all points of the branch, z = %d", found.line.z));
   table.note(
       format("pseudo-arc-length, relative tolerance %g", request.newton_tolerance));
   table.note("end of the branch: " + main.end);

@@ -9,7 +9,7 @@
 #include "explore/settled_motion.hpp"
 #include "io/errors.hpp"
 #include "io/parallel.hpp"
-#include "io/program.hpp"
+#include "io/output_file.hpp"
 #include "motion/contact.hpp"
 #include "motion/find_periodic.hpp"
 

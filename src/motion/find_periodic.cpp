@@ -49,7 +49,7 @@ public:
   PeriodicMotion run()
   {
     for (const Eigen::VectorXd& x : search_.starts)
-      if (from("neighbour", x)) return std::move(motion_);
+      if (from("a known motion", x)) return std::move(motion_);
     if (search_.turns > 1 && search_.starts.empty()) from_closed();
     if (search_.turns == 1 && !from_contact() && !from_fewer() && search_.is_thorough &&
         !from_settled())
@@ -149,8 +149,11 @@ void add_distance(Judged& at, const Search& search, double tolerance)
     is_near = at.error.larger() <= std::max(tolerance, before / 2);
   }
   if (!is_near) {
-    verdict = judge(search.parameters, at.motion, search.budget, search.turns);
-    at.error = {verdict.distance, verdict.distance_rms};
+    Verdict nearer = judge(search.parameters, at.motion, search.budget, search.turns);
+    if (nearer.found() || !verdict.found()) {
+      verdict = std::move(nearer);
+      at.error = {verdict.distance, verdict.distance_rms};
+    }
   }
   verdict.distance = at.error.largest;
   verdict.distance_rms = at.error.rms;
@@ -222,11 +225,12 @@ Judged to_tolerance(Search search, double tolerance)
   Judged at{.error = {infinite, infinite}, .end = "no solution found"};
   try {
     if (turns > 1) start_from_closed(search, at.verdict);
-    std::vector<Eigen::VectorXd> known = search.starts;
+    const Parameters longer = over_turns(search.parameters, turns);
+    const std::vector<Eigen::VectorXd> known = search.starts;
     for (int m = first; turns * m <= most && !at.reached; m *= 2) {
       search.harmonics = m;
       search.samples = std::min(default_samples(m), most_samples / turns);
-      search.is_thorough = m >= few;
+      search.is_thorough = m >= few && !at.verdict.found();
       PeriodicMotion motion = find_periodic(search);
       at.force_samples += motion.force_samples;
       if (!motion.found() && !at.motion.found() && m >= 4 * few) break;
@@ -235,6 +239,9 @@ Judged to_tolerance(Search search, double tolerance)
       search.starts.insert(search.starts.begin(), motion.x);
       at.motion = std::move(motion);
       add_distance(at, search, tolerance);
+      if (at.verdict.found())
+        search.starts.insert(search.starts.begin(),
+                             relative_series(longer, at.verdict.record, 2 * turns * m));
     }
   } catch (const NoSolution& none) {
     at.end = none.what();

@@ -25,7 +25,7 @@ Motion exact_motion(const PeriodicMotion& solution, int points)
   constexpr double tolerance = 1e-13;
   State state = state_of(solution);
   REQUIRE(shoot(set_1(), solution.omega, state,
-                {.tolerance = tolerance, .periodicity_residual = 1e-11})
+                {.tolerance = tolerance, .closed = 1e-11})
               .converged);
   return one_period(set_1(), solution.omega, state,
                     {.intervals_per_period = points, .tolerance = tolerance});
@@ -77,7 +77,7 @@ TEST_CASE("A solution at another speed is the first start")
                                     .starts = {at.motion.x}},
                                    1e-4);
   REQUIRE(next.reached);
-  CHECK(next.motion.start == "neighbour");
+  CHECK(next.motion.start == "a known motion");
 }
 
 TEST_CASE("explore: a tolerance chooses m and says the error, or why not")
