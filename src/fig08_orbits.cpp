@@ -28,7 +28,6 @@ repeat, such a solution satisfies the truncated equations, but the machine does 
 after a start from rest. It is in the table and not in the drawing. */
 #include "figures/panels.hpp"
 #include "io/program.hpp"
-#include "motion/other_starts.hpp"
 
 int main(int argc, char** argv)
 {
@@ -39,7 +38,7 @@ int main(int argc, char** argv)
     for (double frequency : watched(scene.title, scene.frequencies)) {
       const double omega = angular(frequency);
       const PeriodicMotion balance =
-          motion::search_periodic({scene.machine, omega, scene.harmonics, scene.samples});
+          motion::find_periodic({scene.machine, omega, scene.harmonics, scene.samples});
       const auto settled = steady_state(scene.machine, omega, scene.time_integration);
       add_orbits(table, scene, figures::compare(scene, frequency, balance, settled));
     }

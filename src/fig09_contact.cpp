@@ -28,7 +28,6 @@ of 34 %. The panel therefore shows the integrated motion: the balls lose and mee
 while they pass through the load. */
 #include "figures/contact.hpp"
 #include "io/program.hpp"
-#include "motion/other_starts.hpp"
 
 int main(int argc, char** argv)
 {
@@ -39,7 +38,7 @@ int main(int argc, char** argv)
     for (double frequency : watched(scene.title, scene.frequencies)) {
       const double omega = angular(frequency);
       const PeriodicMotion balance =
-          motion::search_periodic({scene.machine, omega, scene.harmonics, scene.samples});
+          motion::find_periodic({scene.machine, omega, scene.harmonics, scene.samples});
       const auto settled = steady_state(scene.machine, omega, scene.time_integration);
       const figures::Panel panel = figures::compare(scene, frequency, balance, settled);
       add_contact(table, panel, motion::contact_evolution(scene.machine, panel.shown()));

@@ -3,7 +3,6 @@
 #include <Eigen/LU>
 #include <cstring>
 #include <limits>
-#include <numeric>
 
 #include "io/errors.hpp"
 
@@ -174,19 +173,6 @@ const Eigen::MatrixXd& Balance::force(const Eigen::VectorXd& x, double omega)
   return force_series_;
 }
 
-Eigen::MatrixXd Balance::balancing_force(const Eigen::VectorXd& x, double omega)
-{
-  const Eigen::Map<const Eigen::MatrixXd> series(x.data(), c_.rows(), c_.cols());
-  Eigen::MatrixXd force(c_.rows(), c_.cols());
-  LinearBlock block;
-  for (int h = 0; h <= m_; ++h) {
-    problem_.linear(omega, harmonics_.list()[h], block);
-    const SmallVector rest = block.c - block.a * amplitude(series, h);
-    put_amplitude(force, h, block.b.partialPivLu().solve(rest));
-  }
-  return force;
-}
-
 const Eigen::VectorXd& Balance::speed_derivative(const Eigen::VectorXd& x, double omega)
 {
   residual(x, omega, is_moving() ? With::stiffness : With::force);
@@ -248,27 +234,23 @@ void Balance::extend_spectrum(Eigen::Index column, const Images& images)
 }
 
 /** Entries ∂(coefficients of f_i)/∂(coefficients of q_j) before the blocks B_h multiply
-   them: cosine column q and row p hold α_{p-q} + α_{p+q} and so on. With the mean its row and column come first. */
+   them: cosine column q and row p hold α_{p-q} + α_{p+q} and so on. The mean's row and column come first. */
 void Balance::fill_force_jacobian(int i, int j, Eigen::Index column, const Images& images,
-                                  bool with_mean, Eigen::MatrixXd& jacobian)
+                                  Eigen::MatrixXd& jacobian)
 {
   const int d = problem_.dofs, count = static_cast<int>(images.size());
   extend_spectrum(column, images);
   const std::complex<double>* middle = &extended_[extended_.size() / 2];
-  const int shift = with_mean ? d : 0;
   for (int q = 0; q < count; ++q) {
     const std::complex<double>*sums = middle + images[q],
           *differences = middle - images[q];
-    const bool is_mean = with_mean && q == 0;
-    double* cosine = &jacobian(i, is_mean ? j : 2 * q * d - shift + j);
-    double* sine = is_mean ? cosine : &jacobian(i, (2 * q + 1) * d - shift + j);
-    if (with_mean) {  // for q = 0 the same column: the sine is written first
-      sine[0] = sums[0].imag();
-      cosine[0] = sums[0].real();
-    }
-    for (int p = with_mean; p < count; ++p) {
+    double* cosine = &jacobian(i, q == 0 ? j : (2 * q - 1) * d + j);
+    double* sine = q == 0 ? cosine : &jacobian(i, 2 * q * d + j);
+    sine[0] = sums[0].imag();  // for q = 0 the same column: the sine is written first
+    cosine[0] = sums[0].real();
+    for (int p = 1; p < count; ++p) {
       const auto sum = sums[images[p]], difference = differences[images[p]];
-      const Eigen::Index row = 2 * p * d - shift;
+      const Eigen::Index row = (2 * p - 1) * d;
       sine[row] = sum.imag() - difference.imag();
       sine[row + d] = difference.real() - sum.real();
       cosine[row] = difference.real() + sum.real();
@@ -277,32 +259,28 @@ void Balance::fill_force_jacobian(int i, int j, Eigen::Index column, const Image
   }
 }
 
-void Balance::jacobian(const Eigen::VectorXd& x, double omega,
-                       const std::vector<int>& places, Eigen::MatrixXd& jacobian)
+void Balance::jacobian(const Eigen::VectorXd& x, double omega, int harmonics,
+                       Eigen::MatrixXd& jacobian)
 {
-  const int dofs = problem_.dofs, count = static_cast<int>(places.size());
-  const bool with_mean = places[0] == 0;
-  const int shift = with_mean ? dofs : 0;
-  const Eigen::Index size = 2 * count * dofs - shift;
+  const int dofs = problem_.dofs;
+  const Eigen::Index size = (2 * harmonics + 1) * dofs;
   const auto n = static_cast<double>(size);
   spend(1.5e4 + 10 * n * n + n * n * n / 18);  // with its factorisation
   need_spectra(x, omega);
-  part_images_.clear();
-  for (int h : places) part_images_.push_back(images_[h]);
+  part_images_.assign(images_.begin(), images_.begin() + harmonics + 1);
   jacobian.resize(size, size);
   if (is_moving()) damping_jacobian_.resize(size, size);
   for (int j = 0; j < dofs; ++j)
     for (int i = 0; i < dofs; ++i) {
       const Eigen::Index column = i + dofs * j;
-      fill_force_jacobian(i, j, column, part_images_, with_mean, jacobian);
+      fill_force_jacobian(i, j, column, part_images_, jacobian);
       if (is_moving())
-        fill_force_jacobian(i, j, dofs * dofs + column, part_images_, with_mean,
-                            damping_jacobian_);
+        fill_force_jacobian(i, j, dofs * dofs + column, part_images_, damping_jacobian_);
     }
   /** The rate of a cosine is -Ω times the sine, that of a sine Ω times the cosine. */
-  for (int q = with_mean; is_moving() && q < count; ++q) {
-    const double frequency = orders_[places[q]] * omega;
-    const Eigen::Index cosine = 2 * q * dofs - shift, sine = cosine + dofs;
+  for (int q = 1; is_moving() && q <= harmonics; ++q) {
+    const double frequency = orders_[q] * omega;
+    const Eigen::Index cosine = (2 * q - 1) * dofs, sine = cosine + dofs;
     jacobian.middleCols(cosine, dofs) -=
         frequency * damping_jacobian_.middleCols(sine, dofs);
     jacobian.middleCols(sine, dofs) +=
@@ -316,27 +294,17 @@ void Balance::jacobian(const Eigen::VectorXd& x, double omega,
     const Eigen::Matrix<double, d, d> mean = b_.template topLeftCorner<d, d>();
     for (Eigen::Index k = 0; k < size; ++k) {
       auto column = jacobian.col(k);
-      if (with_mean)
-        column.template head<d>() = (mean * column.template head<d>()).eval();
-      for (int p = with_mean; p < count; ++p) {
-        auto part = column.template segment<two>(p * two - shift);
-        part = (Eigen::Map<const Block>(&b_(0, places[p] * two)) * part).eval();
+      column.template head<d>() = (mean * column.template head<d>()).eval();
+      for (int h = 1; h <= harmonics; ++h) {
+        auto part = column.template segment<two>(h * two - d);
+        part = (Eigen::Map<const Block>(&b_(0, h * two)) * part).eval();
       }
     }
-    if (with_mean)
-      jacobian.template topLeftCorner<d, d>() += a_.template topLeftCorner<d, d>();
-    for (int p = with_mean; p < count; ++p)
-      jacobian.template block<two, two>(p * two - shift, p * two - shift) +=
-          a_.template middleCols<two>(places[p] * two);
+    jacobian.template topLeftCorner<d, d>() += a_.template topLeftCorner<d, d>();
+    for (int h = 1; h <= harmonics; ++h)
+      jacobian.template block<two, two>(h * two - d, h * two - d) +=
+          a_.template middleCols<two>(h * two);
   });
-}
-
-void Balance::jacobian(const Eigen::VectorXd& x, double omega, int harmonics,
-                       Eigen::MatrixXd& jacobian)
-{
-  first_places_.resize(static_cast<std::size_t>(harmonics + 1));
-  std::iota(first_places_.begin(), first_places_.end(), 0);
-  this->jacobian(x, omega, first_places_, jacobian);
 }
 
 const Eigen::MatrixXd& Balance::jacobian(const Eigen::VectorXd& x, double omega)

@@ -150,19 +150,12 @@ public:
   /** Coefficients of the nonlinear force, d × (2m+1). */
   const Eigen::MatrixXd& force(const Eigen::VectorXd& x, double omega);
 
-  /** The same of the force that would balance X: f_h = B_h⁻¹ (c_h - A_h q_h). */
-  Eigen::MatrixXd balancing_force(const Eigen::VectorXd& x, double omega);
-
   /** ∂R/∂X and ∂R/∂ω. Throws NoSolution when the dense matrix would not fit. */
   const Eigen::MatrixXd& jacobian(const Eigen::VectorXd& x, double omega);
   const Eigen::VectorXd& speed_derivative(const Eigen::VectorXd& x, double omega);
 
   /** Rows and columns of ∂R/∂X of the mean and the first so many harmonics. */
   void jacobian(const Eigen::VectorXd& x, double omega, int harmonics,
-                Eigen::MatrixXd& jacobian);
-
-  /** The same of the harmonics at these places of the list, ascending. */
-  void jacobian(const Eigen::VectorXd& x, double omega, const std::vector<int>& places,
                 Eigen::MatrixXd& jacobian);
 
   /** `product` = ∂R/∂X `v`, without the matrix. */
@@ -199,7 +192,7 @@ private:
   std::complex<double> conjugate_kappa(int p, Eigen::Index column) const;
   void extend_spectrum(Eigen::Index column, const Images& images);
   void fill_force_jacobian(int i, int j, Eigen::Index column, const Images& images,
-                           bool with_mean, Eigen::MatrixXd& jacobian);
+                           Eigen::MatrixXd& jacobian);
   bool is_moving() const { return static_cast<bool>(problem_.moving_force); }
   void rate_samples(const Eigen::Ref<const Eigen::MatrixXd>& series,
                     Eigen::MatrixXd& samples);
@@ -209,7 +202,6 @@ private:
   Harmonics harmonics_;
   int m_;  ///< how many vibrate
   Images images_, part_images_;
-  std::vector<int> first_places_;
   FourierTransform transform_;
   double omega_;
   /** A_h and B_h as real 2d × 2d blocks side by side, in the list's order, c, d × (2m+1), and their derivatives with

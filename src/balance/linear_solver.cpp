@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <cmath>
 #include <functional>
-#include <numeric>
 
 namespace rotor_stator {
 
@@ -97,24 +96,7 @@ int largest_low(const Balance& balance)
                   (most_low_unknowns / balance.problem().dofs - 1) / 2);
 }
 
-std::vector<int> unknowns_of(const std::vector<int>& places, int dofs)
-{
-  std::vector<int> unknowns;
-  for (int h : places)
-    for (int k = 0; k < (h == 0 ? dofs : 2 * dofs); ++k)
-      unknowns.push_back((h == 0 ? 0 : (2 * h - 1) * dofs) + k);
-  return unknowns;
-}
-
 }  // namespace
-
-BalanceSolver::BalanceSolver(Balance& balance,
-                             const std::vector<std::vector<int>>& blocks)
-    : balance_(balance), is_dense_(false), is_divided_(true)
-{
-  for (const std::vector<int>& places : blocks)
-    blocks_.push_back({places, unknowns_of(places, balance.problem().dofs)});
-}
 
 /** Of the dense block. */
 int BalanceSolver::low_harmonics(const Eigen::VectorXd& x) const
@@ -132,17 +114,10 @@ int BalanceSolver::low_harmonics(const Eigen::VectorXd& x) const
 void BalanceSolver::factor(const Eigen::VectorXd& x)
 {
   const int two = 2 * balance_.problem().dofs;
-  if (!is_divided_) {
-    blocks_.resize(1);
-    blocks_[0].places.resize(static_cast<std::size_t>(low_harmonics(x)) + 1);
-    std::iota(blocks_[0].places.begin(), blocks_[0].places.end(), 0);
-    blocks_[0].unknowns = unknowns_of(blocks_[0].places, balance_.problem().dofs);
-    balance_.diagonal_blocks(x, omega, blocks_[0].places.back() + 1, high_inverses_);
-  }
-  for (Block& block : blocks_) {
-    balance_.jacobian(x, omega, block.places, jacobian_);
-    block.factors.compute(jacobian_);
-  }
+  low_ = low_harmonics(x);
+  balance_.jacobian(x, omega, low_, jacobian_);
+  factors_.compute(jacobian_);
+  balance_.diagonal_blocks(x, omega, low_ + 1, high_inverses_);
   for (Eigen::Index k = 0; k < high_inverses_.cols(); k += two) {
     const RealBlock block = high_inverses_.middleCols(k, two);
     high_inverses_.middleCols(k, two) = block.inverse();
@@ -154,9 +129,8 @@ void BalanceSolver::factor(const Eigen::VectorXd& x)
 void BalanceSolver::precondition(const Eigen::VectorXd& r, Eigen::VectorXd& z) const
 {
   z.resize(r.size());
-  for (const Block& block : blocks_)
-    z(block.unknowns) = block.factors.solve(r(block.unknowns)).eval();
-  const Eigen::Index low = r.size() - high_inverses_.cols();
+  const Eigen::Index low = jacobian_.rows();
+  z.head(low) = factors_.solve(r.head(low));
   with_dofs(balance_.problem().dofs, [&](auto dofs) {
     constexpr int two = 2 * dofs;
     using Pair = Eigen::Matrix<double, two, 1>;
@@ -179,7 +153,7 @@ Solved BalanceSolver::solve(const Eigen::VectorXd& x, const Eigen::VectorXd& b,
   if (are_new) factor(x);
   const Eigen::Index n = b.size(), dense = jacobian_.rows();
   if (dense == n && (are_new || n <= most_direct_unknowns)) {
-    s = blocks_[0].factors.solve(b);
+    s = factors_.solve(b);
     return are_new ? Solved::directly : Solved::by_old_factors;
   }
   const auto low = static_cast<double>(dense), all = static_cast<double>(n);
@@ -200,9 +174,8 @@ Solved BalanceSolver::solve(const Eigen::VectorXd& x, const Eigen::VectorXd& b,
       is_solved && report.iterations <= std::max(many_iterations, 2 * fresh_iterations_);
   if (is_solved) return Solved::iteratively;
   if (are_new) {
-    const int block = static_cast<int>(blocks_[0].places.size()) - 1;
-    if (is_divided_ || block >= largest_low(balance_)) return Solved::poorly;
-    least_low_ = 2 * block;
+    if (low_ >= largest_low(balance_)) return Solved::poorly;
+    least_low_ = 2 * low_;
   }
   return solve(x, b, goal, s);
 }

@@ -12,7 +12,6 @@ sparse matrix. */
 #include <Eigen/Core>
 #include <Eigen/LU>
 #include <functional>
-#include <vector>
 
 #include "balance/balance.hpp"
 
@@ -81,10 +80,6 @@ public:
   {
   }
 
-  /** Preconditions by a dense block for each of these sets of places in the list of
-      harmonics, which together are all of them. */
-  BalanceSolver(Balance& balance, const std::vector<std::vector<int>>& blocks);
-
   double omega = 0;  ///< of the balance [rad/s]
 
   Solved solve(const Eigen::VectorXd& x, const Eigen::VectorXd& b, double goal,
@@ -99,18 +94,13 @@ private:
   int low_harmonics(const Eigen::VectorXd& x) const;
   void precondition(const Eigen::VectorXd& r, Eigen::VectorXd& z) const;
 
-  struct Block {
-    std::vector<int> places, unknowns;
-    Eigen::PartialPivLU<Eigen::MatrixXd> factors = {};
-  };
-
   Balance& balance_;
-  bool is_dense_, is_divided_ = false, is_factored_ = false;
-  int least_low_ =
-      16;  ///< harmonics in the dense block, raised where GMRES does not converge
+  bool is_dense_, is_factored_ = false;
+  int least_low_ = 16;        ///< of `low_`, raised where GMRES does not converge
   int fresh_iterations_ = 0;  ///< that new factors took
-  std::vector<Block> blocks_;
-  Eigen::MatrixXd jacobian_;
+  int low_ = 0;               ///< harmonics in the dense block
+  Eigen::MatrixXd jacobian_;  ///< of them
+  Eigen::PartialPivLU<Eigen::MatrixXd> factors_;
   Eigen::MatrixXd high_inverses_;  ///< 2d × 2d blocks side by side
   Gmres gmres_;
   long factorisations_ = 0, iterations_ = 0;

@@ -102,25 +102,4 @@ PeriodicMotion solve(Balance& balance, double omega, Eigen::VectorXd x,
   return motion;
 }
 
-bool solve_from_few(Balance& balance,
-                    const std::function<Balance&(int harmonics)>& on_few,
-                    PeriodicMotion& motion, const NewtonSettings& settings)
-{
-  constexpr int few = 64;
-  const int harmonics = balance.harmonics().count(), dofs = balance.problem().dofs;
-  long spent = 0;
-  int iterations = 0;
-  if (harmonics > 2 * few) {
-    motion.x = resize_harmonics(motion.x, dofs, few);
-    if (!solve(on_few(few), motion, settings)) return false;
-    spent = motion.force_samples;
-    iterations = motion.newton.iterations;
-  }
-  motion.x = resize_harmonics(motion.x, dofs, harmonics);
-  solve(balance, motion, settings);
-  motion.newton.iterations += iterations;
-  motion.force_samples += spent;
-  return motion.found();
-}
-
 }  // namespace rotor_stator

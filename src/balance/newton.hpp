@@ -26,8 +26,6 @@ is quadratic, so a last step of √tolerance leaves an error of the order of the
 */
 #pragma once
 
-#include <functional>
-
 #include "balance/linear_solver.hpp"
 
 namespace rotor_stator {
@@ -83,14 +81,5 @@ bool solve(Balance& balance, PeriodicMotion& motion, const NewtonSettings& setti
 /** The same from `x` at speed `omega` [rad/s]. */
 PeriodicMotion solve(Balance& balance, double omega, Eigen::VectorXd x,
                      const NewtonSettings& settings = {});
-
-/** From a start, which may have any number of harmonics and of which the high ones mean
-    little, to the solution of `balance`. With more than 128 harmonics the first 64 are
-    solved for first, on the balance that `on_few` gives: Newton goes most of its way
-    there, in steps that cost less than half. Where that fails, so does this. The report
-    counts the iterations on both. */
-bool solve_from_few(Balance& balance,
-                    const std::function<Balance&(int harmonics)>& on_few,
-                    PeriodicMotion& motion, const NewtonSettings& settings = {});
 
 }  // namespace rotor_stator

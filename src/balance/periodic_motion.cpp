@@ -36,8 +36,6 @@ std::string NewtonReport::reason() const
 {
   constexpr const char* ends[] = {"converged", "iterations exhausted",
                                   "no step decreases the residual", "singular Jacobian"};
-  if (end == NewtonEnd::not_begun)
-    return format("no step taken (residual %.1e)", delta_1);
   const std::string numbers =
       std::isfinite(delta_1) && std::isfinite(delta_2)
           ? format(" after %d iterations (residual %.1e, step %.1e)", iterations, delta_1,

@@ -8,7 +8,6 @@ of harmonics, and what is known of how they were found and how far they are from
 #include <Eigen/Core>
 #include <algorithm>
 #include <memory>
-#include <optional>
 #include <string>
 #include <vector>
 
@@ -62,13 +61,7 @@ private:
 };
 
 /** How Newton's iteration ended. */
-enum class NewtonEnd {
-  converged,
-  too_many_iterations,
-  no_decrease,
-  singular,
-  not_begun  ///< the coefficients are those of the start
-};
+enum class NewtonEnd { converged, too_many_iterations, no_decrease, singular };
 
 struct NewtonReport {
   NewtonEnd end = NewtonEnd::too_many_iterations;
@@ -78,19 +71,6 @@ struct NewtonReport {
 
   bool converged() const { return end == NewtonEnd::converged; }
   std::string reason() const;
-};
-
-/** The error of a solution, measured in a finer discretisation (adaptive_balance.hpp). */
-struct ErrorEstimate {
-  double displacement;  ///< largest difference over the rows and the period, over the
-                        ///< largest value [-]; infinite when nothing was found
-  double rms;    ///< rms difference about the mean, over the rms about the mean [-]
-  bool settled;  ///< the last step is small: the estimate can be relied on
-  int harmonics, samples;  ///< m' and N' of the finer discretisation
-  long force_samples;      ///< evaluations of the force times N'
-
-  /** The larger of the two errors, which a tolerance bounds. */
-  double larger() const { return std::max(displacement, rms); }
 };
 
 /** A solution, or a start for one: then Newton has not converged and `x` is a guess. */
@@ -105,7 +85,6 @@ struct PeriodicMotion {
   NewtonReport newton = {};
   long force_samples = 0;  ///< what Newton cost: evaluations of the force times N
   std::string start = {};  ///< what Newton started from
-  std::optional<ErrorEstimate> error = {};  ///< where it was estimated
 
   bool found() const { return newton.converged(); }
 };

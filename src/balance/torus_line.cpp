@@ -44,36 +44,13 @@ Harmonics ascending(const std::set<std::pair<double, double>>& pairs,
 
 }  // namespace
 
-Harmonics sidebands(const Bearing& bearing, int orders, int passages)
+Harmonics orders_up_to(int m, const Bearing& bearing)
 {
   std::set<std::pair<double, double>> pairs;
-  for (int k = -passages; k <= passages; ++k)
-    for (int l = std::abs(k) - passages; l <= passages - std::abs(k); ++l)
-      for (int a = -orders; a <= orders; ++a)
-        pairs.insert({a + l * bearing.balls, k - l});
+  for (int k_2 = -m; k_2 <= m; ++k_2)
+    for (int k_1 = std::abs(k_2) - m; k_1 <= m - std::abs(k_2); ++k_1)
+      pairs.insert({k_1, k_2});
   return ascending(pairs, bearing);
-}
-
-Harmonics of_passages(const Bearing& bearing, int passages)
-{
-  constexpr double most_waves = 600, highest = 10;
-  constexpr int turns = 3;
-  const int n = bearing.balls;
-  const bool is_damaged = !bearing.is_damaged(Defect::Surface::none);
-  const bool is_inner = bearing.is_damaged(Defect::Surface::inner_race);
-  /** The spectrum of cos^4 ends at three waves in its width; on the inner race there would be too many. */
-  const double circles = is_damaged ? 2 * std::numbers::pi / bearing.defect.width : 0;
-  const auto waves =
-      static_cast<int>(std::min(most_waves, std::ceil((is_inner ? 2 : 3) * circles)));
-  const int multiples = std::max(passages, waves / n + 1);
-  const int most = is_inner ? waves : turns;
-  std::set<std::pair<double, double>> pairs{{0, 0}};
-  for (int k_1 = -most; k_1 <= most; ++k_1)
-    for (int k_2 = -multiples; k_2 <= multiples; ++k_2)
-      if (std::abs(k_1) <= turns || std::abs(k_1 + n * k_2) <= 2 * n)
-        pairs.insert({k_1, k_2});
-  const Harmonics own = ascending(pairs, bearing);
-  return is_inner ? joined(own, up_to(highest, passages, bearing)) : own;
 }
 
 Harmonics joined(const Harmonics& first, const Harmonics& others)

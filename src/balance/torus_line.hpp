@@ -25,15 +25,8 @@ Bearing on(const TorusLine& line, Bearing bearing);
 /** k_1 + k_2 n ω_cage/ω, the frequency over the speed. */
 double order_of(Harmonic h, const Bearing& bearing);
 
-/** The orders a of the speed, |a| ≤ `orders`, and their sidebands a + k·BPFO + l·BPFI with |k| + |l| ≤
-    `passages`, where BPFO = (0, 1) and BPFI = (n, -1): the first of a load at rest, the second of one that turns. Ascending
-    orders, none negative. */
-Harmonics sidebands(const Bearing& bearing, int orders, int passages);
-
-/** Multiples of BPFO with three orders of the speed on both sides, up to that of `passages` or as far as the width of a
-    spall of the outer race asks for; where the inner race is damaged those of BPFI with the sidebands of the loaded
-    zone, and much that is slow. */
-Harmonics of_passages(const Bearing& bearing, int passages = 16);
+/** All (k_1, k_2) with |k_1| + |k_2| ≤ m; of each pair of opposite ones that of positive order, ascending. */
+Harmonics orders_up_to(int m, const Bearing& bearing);
 
 /** All up to an order, with |k_2| ≤ `passages`: whole numbers and, where `half` is not (0, 0), those moved by it. */
 Harmonics up_to(double order, int passages, const Bearing& bearing, Harmonic half = {});

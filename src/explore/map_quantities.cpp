@@ -7,11 +7,10 @@
 #include "balance/fourier_transform.hpp"
 #include "continuation/sweep.hpp"
 #include "io/errors.hpp"
-#include "motion/adaptive.hpp"
 #include "motion/answer.hpp"
 #include "motion/contact.hpp"
+#include "motion/find_periodic.hpp"
 #include "motion/judge.hpp"
-#include "motion/other_starts.hpp"
 #include "time/floquet.hpp"
 
 namespace rotor_stator::explore {
@@ -67,8 +66,7 @@ public:
   const PeriodicMotion& solution()
   {
     return solution_([&] {
-      const bool is_chosen = task_.request.tolerance && !task_.request.harmonics;
-      PeriodicMotion found = is_chosen ? chosen().motion : with_fixed_harmonics();
+      PeriodicMotion found = is_chosen() ? chosen().motion : with_fixed_harmonics();
       if (!found.found())
         throw NoSolution(
             format("no solution found with %d harmonics: ", task_.harmonics) +
@@ -78,14 +76,16 @@ public:
   }
 
   /** With the harmonics that the tolerance asks for. */
-  const AdaptiveMotion& chosen()
+  const motion::Judged& chosen()
   {
     return chosen_([&] {
       require_period();
-      AdaptiveMotion at = motion::solve_adaptively(
-          machine_, omega(),
-          {.tolerance = task_.request.tolerance.value_or(1e-3), .newton = newton_},
-          budget_);
+      motion::Judged at = motion::to_tolerance({.parameters = machine_,
+                                                .omega = omega(),
+                                                .harmonics = 6,
+                                                .newton = newton_,
+                                                .budget = budget_},
+                                               task_.request.tolerance.value_or(1e-3));
       if (!at.reached) throw NoSolution("tolerance not reached: " + at.end);
       return at;
     });
@@ -93,7 +93,10 @@ public:
 
   const motion::Verdict& verdict()
   {
-    return verdict_([&] { return motion::judge(machine_, solution(), budget_); });
+    return verdict_([&] {
+      return is_chosen() ? chosen().verdict
+                         : motion::judge(machine_, solution(), budget_);
+    });
   }
 
   /** The multipliers of the motion of Eq. 7 near it, and of its own m harmonics. */
@@ -219,6 +222,8 @@ private:
 
   double omega() const { return angular(frequency_); }
   bool is_balance() const { return task_.request.method == "aft"; }
+  /** Whether the tolerance chooses m. */
+  bool is_chosen() const { return task_.request.tolerance && !task_.request.harmonics; }
 
   const motion::Observation& observed()
   {
@@ -252,7 +257,7 @@ private:
         return next;
       }
     }
-    return motion::search_periodic(
+    return motion::find_periodic(
         {machine_, omega(), task_.harmonics, task_.samples, newton_, budget_});
   }
 
@@ -263,7 +268,7 @@ private:
   OperationBudget budget_;
   NewtonSettings newton_;
   Once<PeriodicMotion> solution_;
-  Once<AdaptiveMotion> chosen_;
+  Once<motion::Judged> chosen_;
   Once<motion::Motion> motion_;
   Once<motion::Verdict> verdict_;
   Once<Floquet> series_;

@@ -131,8 +131,8 @@ CLI::Option* add_subharmonic(CLI::App& command, Request& request)
 
 const char* const usual_budget =
     "in the whole run, other work counted as the evaluations that take as long (default: "
-    "those of 3 s, 8.2e7 with 16 balls; of 60 s with --stability, of 30 s with "
-    "--subharmonic in response)";
+    "those of 3 s, 8.2e7 with 16 balls; in response 60 s with --stability, 30 s with "
+    "--subharmonic or two frequencies)";
 
 /** Options of a motion in time, and whose they are. */
 struct TimeOptions {
@@ -184,7 +184,7 @@ Check add_options(CLI::App& command, MotionRequest& request)
   const std::string name = command.get_name();
   const bool is_spectrum = name == "spectrum";
   add_common_options(command, request, usual_budget);
-  const Options aft = add_balance_options(
+  Options aft = add_balance_options(
       command, request,
       is_spectrum ? "three times BPFO, or by --tolerance" : "by --tolerance");
   add_number(command, "--frequency", request.frequency, 0.0, largest,
@@ -200,6 +200,9 @@ Check add_options(CLI::App& command, MotionRequest& request)
       command, "--tolerance", request.tolerance, 1e-8, 0.1,
       "relative error of displacement, the largest and the rms about the mean; with "
       "--method aft and without --harmonics, m is chosen");
+  aft.push_back(
+      add_number(command, "--lines", request.lines, 1, 1024,
+                 "with two frequencies: the M largest lines of the motion from rest"));
   Options periodic;
   if (name != "contact") periodic.push_back(add_subharmonic(command, request));
   if (is_spectrum)

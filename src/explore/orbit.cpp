@@ -153,17 +153,18 @@ FoundMotion closed_motion(const Parameters& parameters, const MotionRequest& req
   const motion::Search search{.parameters = parameters,
                               .omega = omega,
                               .harmonics = usual_harmonics,
-                              .budget = budget};
+                              .budget = budget,
+                              .turns = turns};
   motion::ClosedMotion closed =
-      motion::closed_motion(search, turns, request.points, request.local_error);
-  const double error = std::max(closed.distance, closed.distance_rms);
+      motion::closed_motion(search, request.points, request.local_error);
+  const double error = closed.error.larger();
   table.value("method", "shooting");
   table.value("start", one_word(closed.start));
   table.note(
       format("shooting by rk8, local error %g: closed to %.2g of the sizes of the "
              "state after %d periods",
              request.local_error, closed.periodicity_residual, closed.maps));
-  put_difference(table, "error", closed.distance, closed.distance_rms,
+  put_difference(table, "error", closed.error.largest, closed.error.rms,
                  "against a hundredth of the local error");
   if (request.tolerance && !(error <= *request.tolerance))
     throw NoSolution(

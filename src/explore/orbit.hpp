@@ -46,6 +46,7 @@ struct MotionRequest : Request {
   std::string method =
       "auto";  ///< what the machine does from rest; or one of `periodic_methods`, or a time method
   std::optional<double> tolerance;  ///< of displacement, relative
+  std::optional<int> lines = {};    ///< of the settled motion, with two frequencies (aft)
   int points = 256;                 ///< P
   double local_error = 1e-11;       ///< GSL's methods, relative
   double step = 0;                  ///< rk4 [s]; 0: from K_H

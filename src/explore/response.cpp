@@ -109,10 +109,10 @@ void take_any_cage(const ResponseRequest& request, ResponseTask& task)
     task.samples *= base.turns;
   } else {
     task.has_two_frequencies = true;
-    if (request.harmonics || request.samples || request.stability)
+    if (request.samples || request.stability)
       throw BadInput(
-          "--harmonics, --samples, --stability: not where n*omega_cage/omega is not a "
-          "whole number; the harmonics are chosen, and orbit judges");
+          "--samples, --stability: not where n*omega_cage/omega is not a whole number; "
+          "orbit judges");
   }
 }
 
@@ -176,8 +176,10 @@ ResponseTask response_task(const ResponseRequest& request)
       arc_length_settings(parameters, {.tolerance = request.newton_tolerance});
   settings.most_evaluations =
       std::numeric_limits<long>::max();  // the budget is the bound
+  const bool is_longer =
+      request.subharmonic > 1 || base_period(parameters).is_driven_twice();
   const double seconds = request.stability || request.method == "shooting" ? 60
-                         : request.subharmonic > 1                         ? 30
+                         : is_longer                                       ? 30
                                                                            : 3;
   const bool upwards =
       request.direction.empty() ? !saved || saved->upwards : request.direction == "up";

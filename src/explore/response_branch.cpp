@@ -16,7 +16,6 @@
 #include "motion/judge.hpp"
 #include "motion/other_starts.hpp"
 #include "motion/quasi_periodic.hpp"
-#include "motion/subharmonic.hpp"
 #include "time/flow.hpp"
 
 namespace rotor_stator::explore {
@@ -59,18 +58,23 @@ BranchPoint saved_start(const ResponseTask& task, Curve& curve, Table& table)
 /** A solution at the edge of the range, by whatever start finds one. */
 PeriodicMotion found_start(const ResponseTask& task)
 {
-  const double hertz = task.hertz(task.range().from);
+  constexpr double near = 1e-2;  // few harmonics often miss a subharmonic
+  const double omega = task.range().from, hertz = task.hertz(omega);
   const int turns = task.request.subharmonic;
-  const auto search = [&](const Parameters& parameters, double omega) -> motion::Search {
-    return {parameters,           omega,      task.harmonics, task.samples,
-            task.settings.newton, task.budget};
-  };
-  if (turns > 1)
-    return motion::find_subharmonic(
-        search(task.machine, angular(hertz)), turns,
-        task.request.harmonics ? std::nullopt : std::optional(1e-2));
-  PeriodicMotion start =
-      motion::search_periodic(search(task.parameters, task.range().from));
+  const motion::Search search{turns > 1 ? task.machine : task.parameters,
+                              turns * omega,
+                              task.harmonics,
+                              task.samples,
+                              task.settings.newton,
+                              task.budget,
+                              turns};
+  if (turns > 1 && !task.request.harmonics) {
+    motion::Judged at = motion::to_tolerance(search, near);
+    if (at.reached) return std::move(at.motion);
+    throw NoSolution(
+        format("%s: at %g Hz: %s", task.parameters.file.c_str(), hertz, at.end.c_str()));
+  }
+  PeriodicMotion start = motion::find_periodic(search);
   if (!start.found())
     throw NoSolution(format("%s: no solution found with %d harmonics at --%s %g Hz: %s",
                             task.parameters.file.c_str(), task.harmonics,
@@ -79,33 +83,40 @@ PeriodicMotion found_start(const ResponseTask& task)
   return start;
 }
 
-/** With two frequencies: all harmonics that the usual tolerance asks for at some speeds
-    of the range, and the start on them, with the line of its samples. */
-PeriodicMotion chosen_start(const ResponseTask& task)
+/** With two frequencies: all orders up to --harmonics, or all lines that the tolerance
+    needs at some speeds of the range; the start on them, with the line of its samples. */
+PeriodicMotion torus_start(const ResponseTask& task)
 {
-  constexpr int speeds = 5;
+  constexpr int speeds = 5, beyond = 6;
   const Bearing& bearing = task.machine.bearing;
-  Harmonics all = sidebands(bearing, 3, 1);
-  PeriodicMotion start;
+  const bool is_given = task.request.harmonics.has_value();
   const auto [from, to] = task.range();
-  for (const double omega : evenly_spaced(from, to, speeds)) {
-    const AdaptiveMotion at =
-        motion::find_quasi_periodic(task.machine, omega,
-                                    {.tolerance = task.request.tolerance.value_or(1e-3),
-                                     .newton = task.settings.newton},
-                                    task.budget);
-    /** The lines of an integrated motion are no point of a branch. */
-    const bool is_solved = at.reached && at.motion.found() && at.motion.line.turns == 1;
-    if (omega == from && !is_solved)
+  Harmonics all = orders_up_to(task.harmonics, bearing);
+  PeriodicMotion start;
+  for (const double omega : evenly_spaced(from, to, is_given ? 1 : speeds)) {
+    const motion::TorusSearch search{task.machine, omega, task.settings.newton,
+                                     task.budget, false};
+    const motion::Torus at =
+        is_given
+            ? motion::torus_on_orders(search, task.harmonics)
+            : motion::torus_to_tolerance(search, task.request.tolerance.value_or(1e-3));
+    if (!start.found() && !at.reached)
       throw NoSolution(format("%s: no solution found at %g Hz: %s",
                               task.machine.file.c_str(), task.hertz(from),
                               at.end.c_str()));
-    if (omega == from) start = at.motion;
-    if (is_solved) all = joined(all, at.motion.harmonics);
+    /** A torus that has doubled is no point of the branch. */
+    const bool is_of_branch = at.reached && at.motion.line.turns == 1;
+    if (!start.found()) {
+      start = at.motion;
+      all = at.motion.harmonics;
+    } else if (is_of_branch) {
+      all = joined(all, at.motion.harmonics);
+    }
   }
   start.x = project(start.x, 2, start.harmonics, all);
   start.harmonics = all;
-  start.line = line_without_images(all, sidebands(bearing, 12, 4), 1024);
+  start.line =
+      line_without_images(all, orders_up_to(task.harmonics + beyond, bearing), 1024);
   start.samples = start.line.samples;
   return start;
 }
@@ -368,7 +379,7 @@ Exploration branch_by_balance(ResponseTask task)
   const std::clock_t read = std::clock();
   PeriodicMotion found;
   if (!task.saved) {
-    found = two ? chosen_start(task) : found_start(task);
+    found = two ? torus_start(task) : found_start(task);
     if (!two) task.harmonics = found.harmonics.count();
     task.samples = found.samples;
   }
@@ -385,7 +396,8 @@ Exploration branch_by_balance(ResponseTask task)
   table.value("harmonics", two ? found.harmonics.count() : task.harmonics / turns);
   table.value("samples", two ? found.line.samples : task.samples / turns);
   put_branch(table, task, main.folds.size(), main.evaluations);
-  if (two) table.note(format("harmonics chosen at five speeds, z = %d", found.line.z));
+  if (two)
+    table.note(format("harmonics of all points of the branch, z = %d", found.line.z));
   table.note(
       format("pseudo-arc-length, relative tolerance %g", request.newton_tolerance));
   table.note("end of the branch: " + main.end);
@@ -422,7 +434,7 @@ Exploration branch_by_shooting(const ResponseTask& task)
     const auto closed =
         motion::closed_motion({machine, range.from, task.harmonics, task.samples,
                                task.settings.newton, task.budget},
-                              1, points, 1e-11);
+                              points, 1e-11);
     start = closed.start;
     state = closed.state;
   }

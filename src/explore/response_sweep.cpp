@@ -9,9 +9,9 @@
 #include "explore/settled_motion.hpp"
 #include "io/errors.hpp"
 #include "io/parallel.hpp"
-#include "io/program.hpp"
-#include "motion/adaptive.hpp"
+#include "io/output_file.hpp"
 #include "motion/contact.hpp"
+#include "motion/find_periodic.hpp"
 
 namespace rotor_stator::explore {
 
@@ -267,14 +267,18 @@ Exploration response_to_tolerance(const ResponseTask& task)
       "harmonics and samples chosen for each speed, from the solution before");
   Eigen::VectorXd before;
   sweep.row_at = [&](double frequency, const OperationBudget& budget) {
-    const AdaptiveMotion at = motion::solve_adaptively(
-        task.parameters, task.base(frequency), {.tolerance = tolerance}, budget, before);
+    motion::Search search{.parameters = task.parameters,
+                          .omega = task.base(frequency),
+                          .harmonics = 6,
+                          .budget = budget};
+    if (before.size() > 0) search.starts = {before};
+    const motion::Judged at = motion::to_tolerance(search, tolerance);
     if (!at.reached)
       throw NoSolution(format("tolerance %g not reached: ", tolerance) + at.end);
     before = at.motion.x;
     const Eigen::MatrixXd& bodies = at.motion.bodies;
     const Eigen::VectorXd amplitude = half_peak_to_peak(bodies);
-    ResponseRow row{.frequency = frequency, .error = at.motion.error->larger()};
+    ResponseRow row{.frequency = frequency, .error = at.error.larger()};
     std::ranges::copy(amplitude, row.amplitude.begin());
     row.harmonics =
         harmonics_of(task, resize_harmonics(bodies.reshaped(), 4, task.harmonics)

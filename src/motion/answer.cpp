@@ -27,11 +27,6 @@ int Answer::period_number() const
 
 namespace {
 
-Error difference(const Motion& motion, const Motion& exact)
-{
-  return {relative_difference(motion, exact), rms_difference(motion, exact)};
-}
-
 /** All of a record as one period: what differences are taken over. */
 Motion as_one_period(Motion motion)
 {

@@ -33,12 +33,6 @@ struct Request {
   bool is_measured = true;     ///< whether error and stability are wanted
 };
 
-/** Of displacement: the largest difference over the largest displacement; rms about the mean over that of the motion. */
-struct Error {
-  double largest = 0, rms = 0;
-  double larger() const { return std::max(largest, rms); }
-};
-
 struct Answer {
   BasePeriod base;
   Parameters machine = {};  ///< counted over its base period

@@ -2,209 +2,251 @@
 
 #include <algorithm>
 #include <cmath>
-#include <numbers>
-#include <optional>
-#include <utility>
+#include <limits>
 
 #include "balance/bearing_problem.hpp"
+#include "continuation/arc_length.hpp"
 #include "io/errors.hpp"
+#include "motion/closed_motion.hpp"
+#include "time/settle.hpp"
 
 namespace rotor_stator::motion {
 
 namespace {
 
-Eigen::VectorXd near_contact(const Search& search)
-{
-  return quasi_static_start(search.parameters, search.omega, search.harmonics);
-}
+constexpr double well_closed = 1e-11;
 
-Balance balance_of(const Search& search)
+/** Whether only every p-th harmonic is there, for a prime p that divides K: then the
+    period is shorter. */
+bool repeats_sooner(const PeriodicMotion& motion, int turns)
 {
-  return {bearing_problem(search.parameters, search.samples, search.budget),
-          search.harmonics};
-}
-
-/** From quasi-static contact, where only low harmonics mean much. */
-bool solve_near_contact(const Search& search, Balance& balance, PeriodicMotion& motion)
-{
-  std::optional<Balance> few;
-  const auto on_few = [&](int harmonics) -> Balance& {
-    Search at = search;
-    at.harmonics = harmonics;
-    at.samples = std::min(search.samples, default_samples(harmonics));
-    return few.emplace(balance_of(at));
-  };
-  return solve_from_few(balance, on_few, motion, search.newton);
-}
-
-/** The solution with half as many harmonics, found in the same way from quasi-static
-    contact. */
-Eigen::VectorXd fewer_harmonics(Search search)
-{
-  const int harmonics = std::exchange(search.harmonics, search.harmonics / 2);
-  if (search.harmonics < 3) return {};
-  search.samples = default_samples(search.harmonics);
-  Balance balance = balance_of(search);
-  PeriodicMotion motion =
-      solve(balance, search.omega, near_contact(search), search.newton);
-  if (!motion.found()) {
-    motion.x = fewer_harmonics(search);
-    if (motion.x.size() == 0 || !solve(balance, motion, search.newton)) return {};
-  }
-  return resize_harmonics(motion.x, balance.problem().dofs, harmonics);
-}
-
-/** Follows a solution to another speed by Newton, in steps that are halved where it needs many
-    iterations. Empty where it cannot. */
-Eigen::VectorXd walk(Balance& balance, PeriodicMotion motion, double omega,
-                     const NewtonSettings& newton)
-{
-  constexpr int most_solves = 40;
-  const double least = 0.01 * std::abs(omega - motion.omega);
-  double step = 0.5 * (omega - motion.omega);
-  for (int k = 0; k < most_solves && std::abs(step) >= least; ++k) {
-    const double left = omega - motion.omega;
-    const bool arrives = std::abs(step) >= std::abs(left);
-    PeriodicMotion next =
-        solve(balance, arrives ? omega : motion.omega + step, motion.x, newton);
-    const bool is_found = next.found();
-    if (is_found && arrives) return next.x;
-    if (is_found) motion = std::move(next);
-    step *= is_found ? 2 : 0.5;
-  }
-  return {};
-}
-
-/** The solution at a neighbouring speed, found from quasi-static contact there and followed to this one.
-    Short iterations only: a long one magnifies rounding until chance decides where it ends. */
-Eigen::VectorXd from_a_neighbour(const Search& search)
-{
-  constexpr int neighbours = 10;
-  constexpr double distance = 0.02;
-  NewtonSettings newton = search.newton;
-  newton.most_iterations = std::min(newton.most_iterations, 10);
-  newton.most_halvings = std::min(newton.most_halvings, 3);
-  Balance balance = balance_of(search);
-  for (int k = 1; k <= neighbours; ++k)
-    for (const double off : {-distance * k, distance * k}) {
-      Search at = search;
-      at.omega *= 1 + off;
-      PeriodicMotion motion = solve(balance, at.omega, near_contact(at), newton);
-      if (!motion.found()) continue;
-      Eigen::VectorXd x = walk(balance, std::move(motion), search.omega, newton);
-      if (x.size() > 0) return x;
+  constexpr double unnoticed = 1e-5;
+  const Eigen::Map<const Eigen::MatrixXd> u(motion.x.data(), motion.force.rows(),
+                                            motion.force.cols());
+  for (int p : {2, 3, 5, 7}) {
+    if (turns % p != 0) continue;
+    double all = 0, others = 0;
+    for (int h = 1; h <= motion.harmonics.count(); ++h) {
+      const double size = u.middleCols(2 * h - 1, 2).squaredNorm();
+      all += size;
+      if (h % p != 0) others += size;
     }
-  return {};
+    if (std::sqrt(others) <= unnoticed * std::sqrt(all)) return true;
+  }
+  return false;
+}
+
+/** Newton from one start after the other. */
+class Finder {
+public:
+  explicit Finder(const Search& search)
+      : search_(search), longer_(over_turns(search.parameters, search.turns)),
+        balance_(bearing_problem(longer_, search.turns * search.samples, search.budget),
+                 search.turns * search.harmonics)
+  {
+  }
+
+  PeriodicMotion run()
+  {
+    for (const Eigen::VectorXd& x : search_.starts)
+      if (from("a known motion", x)) return std::move(motion_);
+    if (search_.turns > 1 && search_.starts.empty()) from_closed();
+    if (search_.turns == 1 && !from_contact() && !from_fewer() && search_.is_thorough &&
+        !from_settled())
+      from_branch();
+    return std::move(motion_);
+  }
+
+private:
+  bool from(const std::string& name, const Eigen::VectorXd& x)
+  {
+    const long before = motion_.force_samples;
+    motion_ = {
+        .omega = search_.omega / search_.turns,
+        .x = resize_harmonics(x, balance_.problem().dofs, balance_.harmonics().count()),
+        .start = name};
+    solve(balance_, motion_, search_.newton);
+    motion_.force_samples += before;
+    if (search_.turns > 1 && repeats_sooner(motion_, search_.turns))
+      motion_.newton.end = NewtonEnd::no_decrease;
+    if (motion_.found()) motion_.bodies = body_series(longer_, motion_);
+    return motion_.found();
+  }
+
+  /** Only its low harmonics mean much: with more than 128, Newton goes most of its way on
+      fewer. */
+  bool from_contact()
+  {
+    constexpr int most = 128;
+    const int m = search_.harmonics;
+    return m <= most &&
+           from(quasi_static_name, quasi_static_start(longer_, search_.omega, m));
+  }
+
+  bool from_fewer()
+  {
+    constexpr int few = 64, least = 3;
+    Search fewer = search_;
+    fewer.harmonics = std::min(search_.harmonics / 2, few);
+    if (fewer.harmonics < least) return false;
+    fewer.samples = default_samples(fewer.harmonics);
+    fewer.is_thorough = false;
+    const PeriodicMotion start = find_periodic(fewer);
+    motion_.force_samples += start.force_samples;
+    return start.found() && from("fewer harmonics", start.x);
+  }
+
+  bool from_settled()
+  try {
+    return from("time integration", settled_start(search_, search_.harmonics));
+  } catch (const NoSolution&) {
+    return false;
+  }
+
+  /** From the end of the branch that starts at 1 Hz, or at half the speed, by arc length
+      through all its folds; with few harmonics, since many see a fold at every contact
+      resonance. */
+  bool from_branch()
+  {
+    constexpr int few = 16;
+    const int m = std::min(few, search_.harmonics);
+    const double omega = search_.omega, from_omega = std::min(angular(1), omega / 2);
+    ArcLengthSettings settings = arc_length_settings(longer_, search_.newton);
+    settings.most_evaluations = std::min(150000, 15000000 / (m * m));
+    Balance balance(
+        bearing_problem(longer_, std::min(search_.samples, default_samples(m)),
+                        search_.budget.part(0.3)),
+        m);
+    const Branch branch = follow_branch(
+        balance, from_omega, omega, quasi_static_start(longer_, from_omega, m), settings);
+    return branch.covered &&
+           from("arc length from a lower speed", branch.points.back().motion.x);
+  }
+
+  bool from_closed()
+  {
+    const Motion closed = closed_motion(search_, search_.samples, well_closed).motion;
+    return from(format("the motion of period %d T that shooting found", search_.turns),
+                relative_series(longer_, closed, balance_.harmonics().count()));
+  }
+
+  const Search& search_;
+  Parameters longer_;
+  Balance balance_;
+  PeriodicMotion motion_ = {};
+};
+
+/** The distance from the motion that is known; where there is none, or more harmonics
+    have not brought the solution nearer by half, from the one that is closed now. */
+void add_distance(Judged& at, const Search& search, double tolerance)
+{
+  const double before = at.error.larger();
+  Verdict& verdict = at.verdict;
+  bool is_near = verdict.found();
+  if (is_near) {
+    const Motion& exact = verdict.record;
+    at.error = difference(motion_of(at.motion.bodies, exact.points_per_period), exact);
+    is_near = at.error.larger() <= std::max(tolerance, before / 2);
+  }
+  if (!is_near) {
+    Verdict nearer = judge(search.parameters, at.motion, search.budget, search.turns);
+    if (nearer.found() || !verdict.found()) {
+      verdict = std::move(nearer);
+      at.error = {verdict.distance, verdict.distance_rms};
+    }
+  }
+  verdict.distance = at.error.largest;
+  verdict.distance_rms = at.error.rms;
+  at.reached = verdict.found() ? at.error.larger() <= tolerance : std::isinf(tolerance);
+  at.end = verdict.found()
+               ? format(
+                     "the nearest motion of Eq. 7 is %.2g away from the solution with "
+                     "%d harmonics",
+                     at.error.larger(), search.harmonics)
+               : format(
+                     "no motion of Eq. 7 is known near the solution with %d "
+                     "harmonics: ",
+                     search.harmonics) +
+                     verdict.reason;
+}
+
+/** Of a motion of period KT it is known before which one it is. */
+void start_from_closed(Search& search, Verdict& verdict)
+{
+  constexpr int points = 256, harmonics = 64;
+  ClosedMotion closed = closed_motion(search, points, well_closed);
+  search.starts = {relative_series(over_turns(search.parameters, search.turns),
+                                   closed.motion, search.turns * harmonics)};
+  verdict = judge_through(search.parameters, search.omega, closed.state, search.budget,
+                          search.turns);
+  verdict.record = std::move(closed.motion);
 }
 
 }  // namespace
 
-Eigen::VectorXd integrated_start(const Parameters& parameters, double omega,
-                                 int harmonics, const OperationBudget& budget)
+PeriodicMotion find_periodic(const Search& search)
 {
-  SteadySettings settings;
+  return Finder(search).run();
+}
+
+Eigen::VectorXd settled_start(const Search& search, int harmonics)
+{
+  const Parameters& parameters = search.parameters;
+  const double omega = search.omega;
+  const Settled settled = settle(parameters, omega, BasePeriod{},
+                                 from_rest(parameters, omega), {}, search.budget);
+  if (settled.kind != Kind::rest && settled.period != 1 && !settled.contracts)
+    throw NoSolution("integration settles on no motion with one period");
   const int points = default_samples(harmonics);
-  settings.stepper = {.method = "rk4", .intervals_per_period = points, .budget = budget};
-  settings.longest = 10;
-  const auto settled = [&](double speed) {
-    SteadyState steady = steady_state(parameters, speed, settings);
-    if (!steady.periodic)
-      throw NoSolution(format("time integration at %.15g rad/s does not settle", speed));
-    return steady;
-  };
-  const SteadyState steady = settled(omega);
-  const Motion motion = motion_of(steady, points);
-  /** A chaotic transient ends at another time after the least change. */
-  constexpr double same = 0.01, same_time = 0.5;
-  for (const double change : {other_rounding, -2 * other_rounding}) {
-    const SteadyState copy = settled(omega * (1 + change));
-    if (std::abs(copy.seconds - steady.seconds) > same_time ||
-        relative_difference(motion_of(copy, points), motion) > same)
-      throw NoSolution("where time integration settles depends on rounding");
-  }
-  return relative_series(parameters, motion, harmonics);
+  return relative_series(parameters,
+                         one_period(parameters, omega, settled.at.state,
+                                    {.method = "rk8",
+                                     .intervals_per_period = points,
+                                     .tolerance = 1e-9,
+                                     .budget = search.budget}),
+                         harmonics);
 }
 
-CoarseIntegration::CoarseIntegration(const Parameters& parameters, const State& state,
-                                     OperationBudget budget)
-    : parameters_(parameters), state_(state), budget_(std::move(budget))
+Judged judged(const Search& search, const std::optional<double>& tolerance)
 {
+  Judged at{.motion = find_periodic(search)};
+  at.force_samples = at.motion.force_samples;
+  at.end = at.motion.newton.reason();
+  if (at.motion.found())
+    add_distance(at, search, tolerance.value_or(std::numeric_limits<double>::infinity()));
+  return at;
 }
 
-Eigen::VectorXd CoarseIntegration::go_on(double omega, double seconds, int harmonics)
+Judged to_tolerance(Search search, double tolerance)
 {
-  /** As long as RK4 stays stable. */
-  const double step =
-      (parameters_.bearing.damping > 0 ? 5 : 8) * default_step(parameters_);
-  const auto integrated = [&](int intervals, auto run) {
-    const auto stepper = flow(parameters_, omega,
-                              {.method = "rk4",
-                               .intervals_per_period = intervals,
-                               .step = step,
-                               .budget = budget_});
-    run(*stepper);
-    evaluations_ += stepper->evaluations();
-  };
-  const int points = 2 * harmonics + 2;
-  const long turns = std::lround(std::ceil(seconds * omega / (2 * std::numbers::pi)));
-  Motion last;
-  integrated(1, [&](Flow& whole) {
-    for (long k = 0; k < turns; ++k) whole.advance(k, state_);
-  });
-  integrated(points, [&](Flow& parts) { last = recorded(parts, points, state_); });
-  if (vector_of(state_).allFinite()) return relative_series(parameters_, last, harmonics);
-  state_ = static_start(parameters_);
-  return quasi_static_start(parameters_, omega, harmonics);
-}
-
-PeriodicMotion find_from(const Search& search, const std::string& name, Eigen::VectorXd x)
-{
-  Balance balance = balance_of(search);
-  PeriodicMotion motion = solve(balance, search.omega, std::move(x), search.newton);
-  motion.start = name;
-  if (motion.found()) motion.bodies = body_series(search.parameters, motion);
-  return motion;
-}
-
-PeriodicMotion find_near_contact(const Search& search)
-{
-  Balance balance = balance_of(search);
-  PeriodicMotion motion{
-      .omega = search.omega, .x = near_contact(search), .start = quasi_static_name};
-  if (solve_near_contact(search, balance, motion))
-    motion.bodies = body_series(search.parameters, motion);
-  return motion;
-}
-
-PeriodicMotion find_periodic(const Search& search, const std::vector<Start>& further)
-{
-  std::vector<Start> starts{{quasi_static_name, [&] { return near_contact(search); }},
-                            {"fewer harmonics", [&] { return fewer_harmonics(search); }}};
-  starts.insert(starts.end(), further.begin(), further.end());
-  starts.push_back({"time integration", [&] {
-                      return integrated_start(search.parameters, search.omega,
-                                              search.harmonics, search.budget);
-                    }});
-  starts.push_back({"a neighbouring speed", [&] { return from_a_neighbour(search); }});
-  Balance balance = balance_of(search);
-  PeriodicMotion motion{
-      .omega = search.omega, .harmonics = search.harmonics, .samples = search.samples};
-  for (const Start& start : starts) {
-    try {
-      motion.x = start.coefficients();
-    } catch (const NoSolution&) {
-      motion.x.resize(0);
+  constexpr int first = 6, few = 48, most = 1536, most_samples = 1 << 14;
+  constexpr double infinite = std::numeric_limits<double>::infinity();
+  const int turns = search.turns;
+  Judged at{.error = {infinite, infinite}, .end = "no solution found"};
+  try {
+    if (turns > 1) start_from_closed(search, at.verdict);
+    const Parameters longer = over_turns(search.parameters, turns);
+    const std::vector<Eigen::VectorXd> known = search.starts;
+    for (int m = first; turns * m <= most && !at.reached; m *= 2) {
+      search.harmonics = m;
+      search.samples = std::min(default_samples(m), most_samples / turns);
+      search.is_thorough = m >= few && !at.verdict.found();
+      PeriodicMotion motion = find_periodic(search);
+      at.force_samples += motion.force_samples;
+      if (!motion.found() && !at.motion.found() && m >= 4 * few) break;
+      if (!motion.found()) continue;
+      search.starts = known;
+      search.starts.insert(search.starts.begin(), motion.x);
+      at.motion = std::move(motion);
+      add_distance(at, search, tolerance);
+      if (at.verdict.found())
+        search.starts.insert(search.starts.begin(),
+                             relative_series(longer, at.verdict.record, 2 * turns * m));
     }
-    if (motion.x.size() == 0) continue;
-    motion.start = start.name;
-    const bool is_found = &start == &starts.front()
-                              ? solve_near_contact(search, balance, motion)
-                              : solve(balance, motion, search.newton);
-    if (!is_found) continue;
-    motion.bodies = body_series(search.parameters, motion);
-    break;
+  } catch (const NoSolution& none) {
+    at.end = none.what();
   }
-  return motion;
+  return at;
 }
 
 }  // namespace rotor_stator::motion

@@ -1,23 +1,29 @@
 /**
-# The periodic motion at one speed
+# A periodic motion by harmonic balance
 
-Found by harmonic balance, from several starts. */
+    PeriodicMotion six = find_periodic({parameters, omega, 6});
+    Judged exact = to_tolerance({parameters, omega, 6}, 1e-3);
+
+Newton's method finds the solution that is near its start. A start is a given one (the
+solution at a neighbouring speed), quasi-static contact, the same with fewer harmonics,
+the motion that Eq. 7 settles on from rest, or the end of the branch from a lower speed;
+of a motion that repeats itself after K turns only, one that shooting has closed.
+
+A solution does not know its own error. It is the distance from the motion of Eq. 7 that
+shooting closes near it, and a tolerance is met by twice as many harmonics until that is
+small enough. The motion is closed from the first solution, and anew when doubling does
+not halve the distance. */
 #pragma once
 
+#include <vector>
+
 #include "balance/newton.hpp"
-#include "motion/motion.hpp"
-#include "time/flow.hpp"
+#include "motion/judge.hpp"
 
 namespace rotor_stator::motion {
 
 /** The name of the first start. */
 inline constexpr const char* quasi_static_name = "quasi-static contact";
-
-/** A start for Newton: its name, and its coefficients, empty or NoSolution where they cannot be had. */
-struct Start {
-  std::string name;
-  std::function<Eigen::VectorXd()> coefficients;
-};
 
 /** What is looked for, and how. */
 struct Search {
@@ -27,46 +33,39 @@ struct Search {
   int samples = default_samples(harmonics);  ///< N
   NewtonSettings newton = {};
   OperationBudget budget = {};
+  int turns = 1;  ///< K: a motion of period KT, orders h/K up to m, N a turn
+  std::vector<Eigen::VectorXd> starts = {};  ///< coefficients to begin with
+  bool is_thorough = true;                   ///< whether the last two starts are tried
 };
 
-/** Looks for the periodic motion, and for the series of both bodies. Newton starts from quasi-static contact, then
-    from a solution with fewer harmonics, from `further` ones, from one period of time integration where that
-    settles, and from a neighbouring speed; the first that converges is kept. No start depends on rounding.
-    Not found means that none of these found one. Throws NoSolution when the budget is used up. */
-PeriodicMotion find_periodic(const Search& search,
-                             const std::vector<Start>& further = {});
+/** The solution with the series of both bodies; its ω is a K-th of the speed. Not found
+    means that Newton converges from no start. Throws NoSolution when the budget is used
+    up. */
+PeriodicMotion find_periodic(const Search& search);
 
-/** From these coefficients alone, which `name` describes; and from quasi-static contact alone. */
-PeriodicMotion find_from(const Search& search, const std::string& name,
-                         Eigen::VectorXd x);
-PeriodicMotion find_near_contact(const Search& search);
-
-/** A start for Newton: the relative motion [m] of one period after ten seconds of RK4 from rest, as
-    coefficients. Throws NoSolution when the integration breaks down, or does not settle on a T-periodic motion,
-    the same one in the same time at speeds that differ by 1e-11: chaotic motion differs from processor to processor. */
-Eigen::VectorXd integrated_start(const Parameters& parameters, double omega,
-                                 int harmonics, const OperationBudget& budget = {});
-
-/** Short time integration as a start: RK4 goes on from where it ended last, with steps that are too long for
-    a result. */
-class CoarseIntegration {
-public:
-  CoarseIntegration(const Parameters& parameters, const State& state,
-                    OperationBudget budget = {});
-
-  /** Coefficients of the relative motion [m] over the period that follows `seconds` at this speed. Where it diverges,
-      those of quasi-static contact, and it begins from the static load again. Throws NoSolution when the budget is
-      used up. */
-  Eigen::VectorXd go_on(double omega, double seconds, int harmonics);
-
-  /** Evaluations of the force. */
-  long evaluations() const { return evaluations_; }
-
-private:
-  Parameters parameters_;
-  State state_;  ///< at phase 0
-  OperationBudget budget_;
-  long evaluations_ = 0;
+/** A solution and the motion of Eq. 7 nearest to it. */
+struct Judged {
+  PeriodicMotion motion = {};
+  Verdict verdict{.reason = "not judged"};
+  Error error = {};        ///< the distance of both, where there is one
+  bool reached = false;    ///< it is known and within the tolerance
+  std::string end = {};    ///< why not
+  long force_samples = 0;  ///< of Newton, with all m
 };
+
+/** The solution with m = 6, 12, 24, … harmonics, at most 1536 and 2^14 samples, K T being
+    the period, whose error is within the tolerance; `search.harmonics` and `samples` are
+    not read. */
+Judged to_tolerance(Search search, double tolerance);
+
+/** The solution with the harmonics that are asked for; without a tolerance any error is
+    accepted, also none. */
+Judged judged(const Search& search, const std::optional<double>& tolerance = {});
+
+/** One base period of what Eq. 7 settles on from rest, as coefficients of the relative
+    motion [m]. Throws NoSolution where the integration breaks down, or the motion neither
+    closes nor attracts its neighbours: where a chaotic one is differs from processor to
+    processor. */
+Eigen::VectorXd settled_start(const Search& search, int harmonics);
 
 }  // namespace rotor_stator::motion

@@ -210,7 +210,7 @@ private:
       exact.distance = relative_difference(judged_, exact.record);
       exact.distance_rms = rms_difference(judged_, exact.record);
       const auto half = half_peak_to_peak(exact.record);
-      exact.moves = std::ranges::max(half) > 1e-12 * closer_.size();
+      exact.moves = *std::ranges::max_element(half) > 1e-12 * closer_.size();
       motions_.push_back(std::move(exact));
     } catch (const NoSolution& none) {
       reason_ = none.what();

@@ -144,16 +144,6 @@ Motion one_period(const Parameters& parameters, double omega, State state,
   return motion;
 }
 
-ErrorEstimate error_against(const Motion& exact, const Motion& solution, int samples)
-{
-  return {.displacement = relative_difference(solution, exact),
-          .rms = rms_difference(solution, exact),
-          .settled = true,
-          .harmonics = 0,
-          .samples = samples,
-          .force_samples = 0};
-}
-
 std::vector<Motion> pieces(const Motion& motion, int periods)
 {
   std::vector<Motion> parts;
@@ -261,6 +251,11 @@ double rms_difference(const Motion& motion, const Motion& reference)
   const double size = norm(centred(exact));
   const double off = norm(centred(samples.replicate(times, 1) - exact));
   return size > 0 ? off / size : off > 0 ? std::numeric_limits<double>::infinity() : 0;
+}
+
+Error difference(const Motion& motion, const Motion& exact)
+{
+  return {relative_difference(motion, exact), rms_difference(motion, exact)};
 }
 
 double relative_force_difference(const Parameters& parameters, const Motion& motion,

@@ -5,6 +5,7 @@ A motion is a row of bearing states at equal phases. Scenes draw from it and not
 so that the two methods meet in the same table. */
 #pragma once
 
+#include <algorithm>
 #include <functional>
 #include <vector>
 
@@ -87,10 +88,6 @@ Motion motion_of(const SteadyState& steady, int points_per_period);
 Motion one_period(const Parameters& parameters, double omega, State state,
                   const StepSettings& settings);
 
-/** The error of a solution against the same motion by a time method, both at so many instants of the base
-    period. */
-ErrorEstimate error_against(const Motion& exact, const Motion& solution, int samples);
-
 /** A recorded motion cut into pieces of so many periods; an odd rest is left out. */
 std::vector<Motion> pieces(const Motion& motion, int periods);
 
@@ -142,6 +139,13 @@ double relative_difference(const Motion& motion, const Motion& reference);
     four displacements together, at all instants of `reference`, along which `motion` is repeated: blind to the static
     sag [-]. */
 double rms_difference(const Motion& motion, const Motion& reference);
+
+/** Both, as the error of a motion. */
+struct Error {
+  double largest = 0, rms = 0;
+  double larger() const { return std::max(largest, rms); }
+};
+Error difference(const Motion& motion, const Motion& exact);
 
 /** For the bearing's force: largest |F - F_ref| over the largest |F_ref| [-]. */
 double relative_force_difference(const Parameters& parameters, const Motion& motion,

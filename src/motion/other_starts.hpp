@@ -1,10 +1,9 @@
 /**
-# Starts that are farther away
+# Starts for branches beside the one that is followed
 
-Along a branch from a lower speed; and starts for branches beside the one that is followed. Newton finds
-the solution that is near: other branches need other starts. At each speed one comes from time
-integration, the others are random: harmonics of the size of the clearance that fall like 1/h², from a
-seeded generator. */
+Newton finds the solution that is near: other branches need other starts. At each speed
+one comes from time integration, the others are random: harmonics of the size of the
+clearance that fall like 1/h², from a seeded generator. */
 #pragma once
 
 #include <cstdint>
@@ -15,11 +14,8 @@ seeded generator. */
 
 namespace rotor_stator::motion {
 
-/** As `find_periodic`, with the branch from a lower speed among its starts. */
-PeriodicMotion search_periodic(const Search& search);
-
-/** Uniform in -1 … 1 from the generator's bits: the standard's distributions differ between
-    libraries. */
+/** Uniform in -1 … 1 from the generator's bits: the standard's distributions differ
+    between libraries. */
 double uniform(std::mt19937_64& generator);
 
 struct OtherStarts {
@@ -33,8 +29,9 @@ struct FoundStarts {
   int cut_off = 0;  ///< time integrations that used up their part of the work
 };
 
-/** The starts with m harmonics in the range; the same for the same seed on every machine. The
-    integrations take at most half of `budget`, in equal parts of what is left of it. */
+/** The starts with m harmonics in the range; the same for the same seed on every machine.
+    The integrations take at most half of `budget`, in equal parts of what is left of it.
+    */
 FoundStarts other_starts(const Parameters& parameters, SpeedRange range, int harmonics,
                          const OtherStarts& wanted, const OperationBudget& budget = {});
 

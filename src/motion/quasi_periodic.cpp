@@ -3,41 +3,44 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
-#include <memory>
 #include <numbers>
-#include <optional>
 
+#include "balance/bearing_problem.hpp"
+#include "balance/torus_line.hpp"
+#include "io/errors.hpp"
+#include "motion/answer.hpp"
 #include "motion/lines.hpp"
-#include "time/settle.hpp"
-#include "time/steady_state.hpp"
+#include "time/flow.hpp"
 
 namespace rotor_stator::motion {
 
 namespace {
 
-/** Turns until the slower of both suspensions has damped a disturbance to 1e-5. Throws NoSolution when they are too
-    many. */
-long settling_turns(const Parameters& parameters, double omega)
+/** The smallest |a| + 2|b| + 2|c| for which a line is that of aX + b BPFO + c BPFI
+    (motion/lines.hpp). */
+double length_of_name(Harmonic h, const Bearing& bearing)
 {
-  const auto rate = [](const Body& body) {
-    return body.rigid ? std::numeric_limits<double>::infinity()
-                      : body.damping() / (2 * body.mass);
-  };
-  const double slower = std::min(rate(parameters.stator), rate(parameters.rotor));
-  constexpr double longest = 10, most = 20000;  // [s], turns
-  const double seconds = std::min(longest, std::log(1e5) / slower);
-  return std::lround(std::ceil(std::min(most, seconds / checked_period(omega, seconds))));
+  double least = std::abs(h.k_1) + 2 * std::abs(h.k_2);
+  for (double c = -h.k_2 - 8; c <= -h.k_2 + 8; ++c)
+    least = std::min(least, std::abs(h.k_1 - c * bearing.balls) +
+                                2 * std::abs(h.k_2 + c) + 2 * std::abs(c));
+  return least;
 }
 
-/** Those whose orders differ by more than half a main lobe, the smallest |k_2| first; as places in the list. */
+/** Those whose orders differ by more than half a main lobe, the shortest names first; as
+    places in the list. */
 std::vector<int> distinct(const Harmonics& harmonics, const Bearing& bearing,
                           double main_lobe)
 {
-  std::vector<int> places;
-  for (int h = 1; h <= harmonics.count(); ++h) places.push_back(h);
   const auto at = [&](int h) { return harmonics.list()[static_cast<std::size_t>(h)]; };
-  std::ranges::stable_sort(places, {}, [&](int h) { return std::abs(at(h).k_2); });
-  std::vector<double> orders{0};
+  std::vector<double> lengths{0}, orders{0};
+  std::vector<int> places;
+  for (int h = 1; h <= harmonics.count(); ++h) {
+    places.push_back(h);
+    lengths.push_back(length_of_name(at(h), bearing));
+  }
+  std::ranges::stable_sort(places, {},
+                           [&](int h) { return lengths[static_cast<std::size_t>(h)]; });
   std::erase_if(places, [&](int h) {
     const double order = order_of(at(h), bearing);
     const bool is_near = std::ranges::any_of(
@@ -48,8 +51,9 @@ std::vector<int> distinct(const Harmonics& harmonics, const Bearing& bearing,
   return places;
 }
 
-/** The integral over a record with a window of Blackman and Harris, at any frequency: from a transform so fine that a
-    polynomial of degree 7 through its nearest values has it to 1e-8. */
+/** The integral over a record with a window of Blackman and Harris, at any frequency:
+    from a transform so fine that a polynomial of degree 7 through its nearest values has
+    it to 1e-8. */
 class FineTransform {
 public:
   /** Of samples times the window. */
@@ -63,7 +67,8 @@ public:
       values_[p] *= std::polar(1.0, half_record(static_cast<double>(p)));
   }
 
-  /** Of e^{-iφ}, φ going round `turns` times in the record; 0 where the samples do not resolve it. */
+  /** Of e^{-iφ}, φ going round `turns` times in the record; 0 where the samples do not
+      resolve it. */
   std::complex<double> operator()(double turns) const
   {
     constexpr double weights[] = {1, -7, 21, -35, 35, -21, 7, -1};
@@ -92,99 +97,221 @@ private:
   Eigen::VectorXcd values_;
 };
 
-/** What Eq. 7 settles on from rest, by rk4. */
-class SettledMotion {
+/** All of a record as one period: what differences are taken over. */
+Motion as_one_period(Motion motion)
+{
+  motion.points_per_period = static_cast<int>(motion.size());
+  return motion;
+}
+
+constexpr int compared_turns = 100;
+
+bool is_whole(Harmonic h)
+{
+  return h.k_1 == std::round(h.k_1) && h.k_2 == std::round(h.k_2);
+}
+
+/** Of a solution from a record. A torus that has doubled is two motions, one a turn or a
+    passage after the other: the nearer one counts. */
+Error distance(const Parameters& parameters, PeriodicMotion solution,
+               const Motion& record)
+{
+  const int points = record.points_per_period,
+            turns = static_cast<int>(record.size()) / points;
+  const auto off = [&] {
+    return difference(as_one_period(motion_of(parameters, solution, points, turns,
+                                              record.first_period)),
+                      as_one_period(record));
+  };
+  const Error one = off();
+  if (solution.line.turns == 1) return one;
+  for (int h = 1; h <= solution.harmonics.count(); ++h)
+    if (!is_whole(solution.harmonics.list()[static_cast<std::size_t>(h)]))
+      solution.bodies.middleCols(2 * h - 1, 2) *= -1;
+  const Error other = off();
+  return one.larger() < other.larger() ? one : other;
+}
+
+/** Candidates for lines: whole pairs, and those moved by `half`. */
+Harmonics candidates(const Parameters& parameters, double omega, Harmonic half)
+{
+  constexpr double beyond_contact = 1.3, least = 40, most = 120;
+  constexpr int passages = 16;
+  const double contact = contact_frequency(parameters) / omega;
+  return up_to(std::clamp(beyond_contact * contact, least, most), passages,
+               parameters.bearing, half);
+}
+
+/** The force has lines that inertia keeps out of the motion: sampled, none of these may
+    fall on one that is kept. */
+Harmonics lines_of_force(const Bearing& bearing, Harmonic half = {})
+{
+  constexpr double highest = 40;
+  constexpr int passages = 8;
+  return up_to(highest, passages, bearing, half);
+}
+
+/** Newton on these harmonics, along a line on which others do not disturb them. */
+PeriodicMotion solved_on(const TorusSearch& search, const Harmonics& kept,
+                         const Harmonics& others, int line_turns, Eigen::VectorXd x,
+                         const std::string& start)
+{
+  constexpr int least_samples = 4096, samples_each = 16;
+  const TorusLine line = line_without_images(
+      kept, others, std::max(least_samples, samples_each * kept.count()), line_turns);
+  Balance balance(bearing_problem(search.parameters, line, search.budget), kept);
+  BalanceSolver solver(balance, true);
+  PeriodicMotion motion{.omega = search.omega, .x = std::move(x), .start = start};
+  if (solve(balance, solver, motion, search.newton))
+    motion.bodies = body_series(search.parameters, motion);
+  return motion;
+}
+
+/** What Eq. 7 settles on from rest, with its lines. */
+class SettledTorus {
 public:
-  SettledMotion(const Parameters& parameters, double omega, const OperationBudget& budget)
-      : parameters_(parameters), omega_(omega), budget_(budget)
+  explicit SettledTorus(const TorusSearch& search)
+      : search_(search), parameters_(search.parameters)
   {
+    /** Twice as many as the highest order that is looked for. */
+    const double contact = contact_frequency(parameters_) / search.omega;
+    const int points = contact < 40 ? 128 : 256;
+    const Answer rest =
+        answer(parameters_, {.omega = search.omega, .points = points, .periods = turns},
+               search.budget);
+    if (!rest.settled.contracts)
+      throw NoSolution(
+          format("the motion from rest is %s, without lines", word(rest.kind())));
+    record_ = rest.motion;
+    record_error_ = rest.error.value_or(Error{});
+    const Eigen::MatrixXd samples = relative_samples(parameters_, record_);
+    const Eigen::VectorXd window = blackman_harris(samples.rows());
+    for (const auto& column : samples.colwise())
+      transforms_.emplace_back(column.cwiseProduct(window));
   }
 
-  /** Of lines that the window cannot tell apart the one with the smallest |k_2| is taken. */
-  Eigen::VectorXd lines(const Harmonics& harmonics)
+  /** The amplitudes of its lines as coefficients of the relative motions [m]; of lines
+      that the window cannot tell apart the one with the shortest name is taken. */
+  Eigen::VectorXd lines(const Harmonics& harmonics) const
   {
-    integrate();
     const auto dofs = static_cast<Eigen::Index>(transforms_.size());
     Eigen::MatrixXd series = Eigen::MatrixXd::Zero(dofs, harmonics.coefficients());
     for (Eigen::Index i = 0; i < dofs; ++i)
       series(i, 0) = transforms_[static_cast<std::size_t>(i)](0).real();
-    for (int h : distinct(harmonics, parameters_.bearing, 8.0 / turns_)) {
+    for (int h : distinct(harmonics, parameters_.bearing, 8.0 / turns)) {
       const double order =
           order_of(harmonics.list()[static_cast<std::size_t>(h)], parameters_.bearing);
-      const double since = std::fmod(order * static_cast<double>(first_), 1.0);
+      const double since =
+          std::fmod(order * static_cast<double>(record_.first_period), 1.0);
       const auto wave = std::polar(2.0, -2 * std::numbers::pi * since);
       SmallVector line(dofs);
       for (Eigen::Index i = 0; i < dofs; ++i)
-        line[i] = wave * transforms_[static_cast<std::size_t>(i)](order * turns_);
+        line[i] = wave * transforms_[static_cast<std::size_t>(i)](order * turns);
       put_amplitude(series, h, line);
     }
     return series.reshaped();
   }
 
-  void go_on()
+  /** The solution on the `count` largest lines. A torus that has doubled has lines at all
+      whole pairs moved by one half: that where they are largest. */
+  PeriodicMotion solution(int count) const
   {
-    constexpr int longer = 1280;
-    integrate();
-    advance(0, longer);
+    constexpr double noticed = 1e-3;
+    Lines all = lines_moved_by({});
+    for (const Harmonic half : {Harmonic{0.5, 0}, Harmonic{0, 0.5}, Harmonic{0.5, 0.5}}) {
+      Lines moved = lines_moved_by(half);
+      if (moved.halves > std::max(all.halves, noticed * moved.all))
+        all = std::move(moved);
+    }
+    const Harmonics kept = largest(all, count);
+    return solved_on(search_, kept, lines_of_force(parameters_.bearing, all.half),
+                     all.halves > 0 ? 2 : 1, project(all.x, dofs(), all.harmonics, kept),
+                     "time integration");
   }
 
-  /** The distance of a solution from the next turns, integrated with small steps. */
-  ErrorEstimate error(const PeriodicMotion& solution)
+  /** What is compared with solutions, and how exact it is. */
+  Motion record() const
   {
-    integrate();
-    constexpr int points = 64, turns = 16;
-    if (!next_) {
-      const auto stepper =
-          flow(parameters_, omega_, {.intervals_per_period = points, .budget = budget_});
-      State state = state_;
-      next_ = recorded(*stepper, points, state, turn_, turns);
-      next_->points_per_period = points * turns;
-    }
-    Motion series = motion::motion_of(parameters_, solution, points, turns, turn_);
-    series.points_per_period = points * turns;
-    return error_against(*next_, series, points);
+    Motion part = record_;
+    part.positions.resize(static_cast<std::size_t>(compared_turns) *
+                          part.points_per_period);
+    return part;
   }
+  const Error& record_error() const { return record_error_; }
 
 private:
-  void integrate()
+  static constexpr int turns = 1280;  ///< of the record
+
+  struct Lines {
+    Harmonic half;
+    Harmonics harmonics;
+    Eigen::VectorXd x;
+    double halves = 0, all = 0;  ///< norms of those that are not whole, and of all
+  };
+
+  int dofs() const { return static_cast<int>(transforms_.size()); }
+
+  double size(const Lines& lines, int h) const
   {
-    if (turn_ > 0) return;
-    constexpr int turns = 160;
-    state_ = static_start(parameters_);
-    advance(settling_turns(parameters_, omega_), turns);
+    return lines.x.segment((2 * h - 1) * dofs(), 2 * dofs()).norm();
   }
 
-  /** Over so many turns, and then the record. */
-  void advance(long before, int turns)
+  Lines lines_moved_by(Harmonic half) const
   {
-    /** Twice as many as the highest order that is looked for. */
-    const double contact = contact_frequency(parameters_) / omega_;
-    const int points = contact < 8 ? 64 : contact < 40 ? 128 : 256;
-    const auto stepper =
-        flow(parameters_, omega_,
-             {.method = "rk4", .intervals_per_period = points, .budget = budget_});
-    first_ = turn_ + before;
-    for (long k = turn_ * points; k < first_ * points; ++k) stepper->advance(k, state_);
-    const Motion motion = recorded(*stepper, points, state_, first_, turns);
-    turns_ = turns;
-    turn_ = first_ + turns;
-    next_.reset();
-    const Eigen::MatrixXd samples = relative_samples(parameters_, motion);
-    const Eigen::VectorXd window = blackman_harris(samples.rows());
-    transforms_.clear();
-    for (const auto& column : samples.colwise())
-      transforms_.emplace_back(column.cwiseProduct(window));
+    Lines all{half, candidates(parameters_, search_.omega, half), {}};
+    all.x = lines(all.harmonics);
+    for (int h = 1; h <= all.harmonics.count(); ++h) {
+      all.all = std::hypot(all.all, size(all, h));
+      if (!is_whole(all.harmonics.list()[static_cast<std::size_t>(h)]))
+        all.halves = std::hypot(all.halves, size(all, h));
+    }
+    return all;
   }
 
+  Harmonics largest(const Lines& all, int count) const
+  {
+    std::vector<int> places;
+    for (int h = 1; h <= all.harmonics.count(); ++h)
+      if (size(all, h) > 0) places.push_back(h);
+    std::ranges::stable_sort(places, std::greater{}, [&](int h) { return size(all, h); });
+    places.resize(std::min(places.size(), static_cast<std::size_t>(count)));
+    std::ranges::sort(places);
+    std::vector<Harmonic> list{{0, 0}};
+    for (int h : places)
+      list.push_back(all.harmonics.list()[static_cast<std::size_t>(h)]);
+    return Harmonics(std::move(list));
+  }
+
+  const TorusSearch& search_;
   const Parameters& parameters_;
-  double omega_;
-  OperationBudget budget_;
-  long first_ = 0, turn_ = 0;   ///< of the record, from t = 0 [turns]
-  int turns_ = 0;               ///< that it holds
-  State state_ = {};            ///< at its end
-  std::optional<Motion> next_;  ///< the turns after it, once they are asked for
+  Motion record_ = {};
+  Error record_error_ = {};
   std::vector<FineTransform> transforms_;  ///< of the relative motions [m]
 };
+
+/** Without a tolerance a solution is of the motion that integration from it comes to,
+    where that is so near. */
+constexpr double near = 0.05;
+
+/** What integration from a solution makes of it. */
+void add_verdict(const TorusSearch& search, double tolerance, Torus& torus)
+try {
+  torus.verdict =
+      verdict_on_torus(search.parameters, torus.motion, tolerance, search.budget);
+  torus.error = torus.verdict->distance;
+} catch (const NoSolution& none) {
+  torus.end = none.what();
+}
+
+/** A solution that is taken as it is. */
+Torus judged(const TorusSearch& search, PeriodicMotion motion)
+{
+  Torus torus{.motion = std::move(motion)};
+  torus.reached = torus.motion.found();
+  torus.end = torus.motion.newton.reason();
+  if (torus.reached && search.stability) add_verdict(search, near, torus);
+  return torus;
+}
 
 }  // namespace
 
@@ -234,7 +361,7 @@ TorusVerdict verdict_on_torus(const Parameters& parameters,
                               const PeriodicMotion& solution, double tolerance,
                               const OperationBudget& budget)
 {
-  constexpr int points = 64, turns = 100;
+  constexpr int points = 64;
   const double omega = solution.omega, step = step_at(parameters, omega);
   const Instant start{state_of(parameters, solution), 0};
   const auto from_there = [&](double longest_step) {
@@ -249,38 +376,77 @@ TorusVerdict verdict_on_torus(const Parameters& parameters,
   /** With error control, from so much earlier that the errors of rk4 are forgotten. */
   const auto stepper =
       flow(parameters, omega,
-           {.intervals_per_period = points, .tolerance = 1e-9, .budget = budget});
+                   {.intervals_per_period = points, .tolerance = 1e-9, .budget = budget});
   const Instant& from =
       verdict.settled.contracts ? verdict.settled.before : verdict.settled.at;
   State state = from.state;
   const long first = verdict.settled.at.period;
   for (long k = from.period * points; k < first * points; ++k) stepper->advance(k, state);
-  Motion exact = recorded(*stepper, points, state, first, turns);
-  Motion judged = motion_of(parameters, solution, points, turns, first);
-  exact.points_per_period = judged.points_per_period = points * turns;
-  verdict.away = relative_difference(judged, exact);
-  verdict.away_rms = rms_difference(judged, exact);
-  verdict.stays = verdict.larger() <= tolerance;
+  verdict.record = recorded(*stepper, points, state, first, compared_turns);
+  verdict.distance = distance(parameters, solution, verdict.record);
+  verdict.stays = verdict.distance.larger() <= tolerance;
   verdict.evaluations = coarse.evaluations + verdict.settled.evaluations +
                         static_cast<double>(stepper->evaluations());
   return verdict;
 }
 
-SettledOn settled_torus(const Parameters& parameters, double omega,
-                        const OperationBudget& budget)
+Torus torus_on_orders(const TorusSearch& search, int m)
 {
-  const auto settled = std::make_shared<SettledMotion>(parameters, omega, budget);
-  return {[=](const Harmonics& harmonics) { return settled->lines(harmonics); },
-          [=] { settled->go_on(); },
-          [=](const PeriodicMotion& solution) { return settled->error(solution); }};
+  const Parameters& parameters = search.parameters;
+  const Harmonics kept = orders_up_to(m, parameters.bearing);
+  const Harmonics others = lines_of_force(parameters.bearing);
+  const int dofs = 2 * static_cast<int>(bearings_of(parameters).size());
+  const Eigen::VectorXd x =
+      project(quasi_static_start(parameters, search.omega, m), dofs, Harmonics(m), kept);
+  PeriodicMotion motion = solved_on(search, kept, others, 1, x, "quasi-static contact");
+  if (!motion.found())
+    motion = solved_on(search, kept, others, 1, SettledTorus(search).lines(kept),
+                       "time integration");
+  return judged(search, std::move(motion));
 }
 
-AdaptiveMotion find_quasi_periodic(const Parameters& parameters, double omega,
-                                   const AdaptiveSettings& settings,
-                                   const OperationBudget& budget)
+Torus torus_on_lines(const TorusSearch& search, int lines)
 {
-  return solve_on_chosen(parameters, omega, settings,
-                         settled_torus(parameters, omega, budget), budget);
+  return judged(search, SettledTorus(search).solution(lines));
+}
+
+Torus torus_to_tolerance(const TorusSearch& search, double tolerance)
+{
+  constexpr int first = 16, most = 256;
+  Torus torus;
+  try {
+    const SettledTorus settled(search);
+    Motion exact = settled.record();
+    Error uncertain = settled.record_error();
+    double before = std::numeric_limits<double>::infinity();
+    for (int lines = first; lines <= most && !torus.reached; lines *= 2) {
+      PeriodicMotion motion = settled.solution(lines);
+      torus.end = format("with %d lines: ", lines) + motion.newton.reason();
+      if (!motion.found()) continue;
+      torus.motion = std::move(motion);
+      torus.error = distance(search.parameters, torus.motion, exact);
+      torus.error->largest += uncertain.largest;
+      torus.error->rms += uncertain.rms;
+      const bool is_far = torus.error->larger() > std::max(tolerance, before / 2);
+      if (is_far || (!torus.verdict && search.stability)) {
+        add_verdict(search, tolerance, torus);
+        if (!torus.verdict) break;
+        exact = torus.verdict->record;
+        uncertain = {};
+      }
+      before = torus.error->larger();
+      torus.reached = before <= tolerance;
+      torus.end = format(
+          "with %d lines the solution is %.2g away from the motion that "
+          "integration comes to",
+          lines, before);
+    }
+    if (torus.verdict) torus.verdict->distance = *torus.error;
+    if (torus.verdict) torus.verdict->stays = torus.reached;
+  } catch (const NoSolution& none) {
+    torus.end = none.what();
+  }
+  return torus;
 }
 
 }  // namespace rotor_stator::motion

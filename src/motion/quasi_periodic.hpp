@@ -1,11 +1,18 @@
 /**
 # Motions with two frequencies
 
-Found by harmonic balance on chosen harmonics, printed over any number of turns, and
-judged by integration. */
+Harmonic balance on the harmonics (k_1, k_2) of k_1 ω + k_2 n ω_cage: on all orders up to
+a sum, or on the largest lines of the motion that Eq. 7 settles on from rest, twice as
+many of them until the solution is near enough to the motion of Eq. 7. That is the one
+from rest or, where doubling does not halve the distance from it, the one that integration
+from the solution comes to.
+
+    Torus found = torus_to_tolerance({parameters, omega}, 1e-3); */
 #pragma once
 
-#include "balance/chosen_harmonics.hpp"
+#include <optional>
+
+#include "balance/newton.hpp"
 #include "motion/motion.hpp"
 #include "time/settle.hpp"
 
@@ -21,26 +28,15 @@ Motion motion_of(const Parameters& parameters, const PeriodicMotion& solution, i
 Eigen::VectorXd half_peak_to_peak_of_torus(const Parameters& parameters,
                                            const PeriodicMotion& solution);
 
-/** What Eq. 7 settles on from rest: integrated when it is first asked for, and kept.
-    `parameters` must outlive it. */
-SettledOn settled_torus(const Parameters& parameters, double omega,
-                        const OperationBudget& budget = {});
-
-/** The solution with two frequencies at speed `omega` [rad/s]. */
-AdaptiveMotion find_quasi_periodic(const Parameters& parameters, double omega,
-                                   const AdaptiveSettings& settings,
-                                   const OperationBudget& budget = {});
-
 /** What Eq. 7 makes of a solution with two frequencies. */
 struct TorusVerdict {
   Settled settled = {};    ///< what the machine does from it, by half the step of rk4
-  double away = 0;         ///< from that, over the largest displacement, over 100 turns
-  double away_rms = 0;     ///< the same, rms about the mean
+  Motion record = {};      ///< of that, 100 turns
+  Error distance = {};     ///< of the solution from it
   double uncertainty = 0;  ///< of λ: three standard errors, or what half the step changes
-  bool stays = false;      ///< neither is above the tolerance
+  bool stays = false;      ///< the distance is within the tolerance
   double evaluations = 0;  ///< of Eq. 7
 
-  double larger() const { return std::max(away, away_rms); }
   double rate() const { return settled.lyapunov.value; }  ///< λ [1/s]
   bool stable() const { return stays && rate() + uncertainty < 0; }
   bool unstable() const { return rate() - uncertainty > 0; }
@@ -55,5 +51,31 @@ struct TorusVerdict {
 TorusVerdict verdict_on_torus(const Parameters& parameters,
                               const PeriodicMotion& solution, double tolerance,
                               const OperationBudget& budget = {});
+
+struct TorusSearch {
+  const Parameters& parameters;
+  double omega;  ///< [rad/s]
+  NewtonSettings newton = {};
+  OperationBudget budget = {};
+  bool stability = true;  ///< whether a verdict is wanted
+};
+
+struct Torus {
+  PeriodicMotion motion = {};
+  std::optional<Error> error = {};  ///< the distance from the motion of Eq. 7
+  std::optional<TorusVerdict> verdict = {};
+  bool reached = false;
+  std::string end = {};  ///< why not
+};
+
+/** On all orders with |k_1| + |k_2| ≤ m, from quasi-static contact, else from the settled
+    motion. */
+Torus torus_on_orders(const TorusSearch& search, int m);
+
+/** On the so many largest lines of the settled motion. */
+Torus torus_on_lines(const TorusSearch& search, int lines);
+
+/** On 16, 32, … 256 lines, until the error is within the tolerance. */
+Torus torus_to_tolerance(const TorusSearch& search, double tolerance);
 
 }  // namespace rotor_stator::motion

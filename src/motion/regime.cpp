@@ -62,7 +62,8 @@ SteadyState settled_motion(const Parameters& parameters, double frequency,
   /** On the periodic solution if Newton finds one from the quasi-static contact, else at the static load. */
   PeriodicMotion solution;
   if (has_rotation_period(parameters.bearing))
-    solution = find_near_contact({parameters, omega, 6});
+    solution = find_periodic(
+        {.parameters = parameters, .omega = omega, .harmonics = 6, .is_thorough = false});
   return steady_state(parameters, omega,
                       solution.found() ? state_of(solution) : static_start(parameters),
                       steady_settings);

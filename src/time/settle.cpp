@@ -156,8 +156,9 @@ private:
     if (std::ssize(all) < fewest) return;
     const auto window = std::min<long>(std::ssize(all), 3L * rule_.most_period + 1);
     const double size = std::max(pair.half_range(), 1e-9 * length_);
-    const auto closing = closing_period({all.end() - window, all.end()},
-                                        rule_.closed * size, rule_.most_period);
+    const auto closing =
+        closing_period(std::span(all).last(static_cast<std::size_t>(window)),
+                       rule_.closed * size, rule_.most_period);
     /** Where neighbours come nearer slowly, the motion is farther away than two points of
         its section are apart. */
     const double nearer_by = -std::expm1(std::min(0.0, s.lyapunov.value) * pair.period());

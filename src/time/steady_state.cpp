@@ -52,7 +52,8 @@ SteadyState steady_state(const Parameters& parameters, double omega, const State
   };
   const auto spread = [&] {
     const auto last = std::min<long>(window, periods());
-    return size > 0 ? extent({section.end() - last, section.end()}) / size : 0;
+    const auto latest = std::span(section).last(static_cast<std::size_t>(last));
+    return size > 0 ? extent(latest) / size : 0;
   };
 
   std::vector<double> spreads;

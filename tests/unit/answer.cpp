@@ -80,8 +80,8 @@ TEST_CASE("A torus is put on t = 0, instant by instant that of harmonic balance"
       motion::answer(parameters, {.omega = hertz(45.4), .points = 64, .periods = 4});
   REQUIRE(answer.kind() == Kind::quasi_periodic);
   REQUIRE(answer.settled.at.period == 0);
-  const AdaptiveMotion balance =
-      motion::find_quasi_periodic(parameters, hertz(45.4), {.tolerance = 1e-4});
+  const motion::Torus balance =
+      motion::torus_to_tolerance({parameters, hertz(45.4)}, 1e-4);
   REQUIRE(balance.reached);
   motion::Motion exact = answer.motion,
                  solution = motion::motion_of(parameters, balance.motion, 64, 4);

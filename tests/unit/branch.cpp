@@ -9,7 +9,7 @@
 #include "continuation/isolated.hpp"
 #include "continuation/locate.hpp"
 #include "io/errors.hpp"
-#include "motion/other_starts.hpp"
+#include "motion/find_periodic.hpp"
 #include "support/cases.hpp"
 
 using namespace rotor_stator;
@@ -92,7 +92,7 @@ Branch follow(const Parameters& parameters, int harmonics, int samples, double f
   ArcLengthSettings settings = arc_length_settings(parameters);
   settings.most_step = most_step;
   return follow_branch(balance, hertz(from), hertz(to),
-                       search_periodic({parameters, hertz(from), harmonics, samples}).x,
+                       find_periodic({parameters, hertz(from), harmonics, samples}).x,
                        settings);
 }
 
@@ -299,7 +299,7 @@ TEST_CASE("The bound on work ends a branch, with what was found so far")
   Balance balance(bearing_problem(parameters, 50), 6);
   ArcLengthSettings settings = arc_length_settings(parameters);
   settings.most_evaluations = 200;
-  const Eigen::VectorXd x = search_periodic({parameters, hertz(1), 6, 50}).x;
+  const Eigen::VectorXd x = find_periodic({parameters, hertz(1), 6, 50}).x;
   const Branch branch = follow_branch(balance, hertz(1), hertz(60), x, settings);
   CHECK(branch.kind == BranchEnd::work);
   CHECK_FALSE(branch.covered);

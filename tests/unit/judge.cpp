@@ -1,9 +1,8 @@
 /** Verdicts on solutions, against motions that another shooting has closed. */
 #include "support/catch.hpp"
 
-#include "motion/find_periodic.hpp"
 #include "motion/judge.hpp"
-#include "motion/other_starts.hpp"
+#include "motion/find_periodic.hpp"
 #include "support/cases.hpp"
 #include "time/flow.hpp"
 #include "time/shooting.hpp"
@@ -16,7 +15,7 @@ namespace {
 
 motion::Verdict judged(const Parameters& parameters, double frequency, int harmonics)
 {
-  const auto solution = search_periodic({parameters, hertz(frequency), harmonics});
+  const auto solution = find_periodic({parameters, hertz(frequency), harmonics});
   REQUIRE(solution.found());
   return judge(parameters, solution);
 }
@@ -66,7 +65,7 @@ TEST_CASE("A machine at rest is stable, and its distances are numbers")
 TEST_CASE("Shooting over segments and from any of the phases close one motion")
 {
   const Parameters parameters = set_1();
-  const auto solution = search_periodic({parameters, hertz(45), 32});
+  const auto solution = find_periodic({parameters, hertz(45), 32});
   REQUIRE(solution.found());
   State state = state_of(solution);
   const Shooting plain =

@@ -6,7 +6,7 @@
 #include "balance/bearing_problem.hpp"
 #include "balance/newton.hpp"
 #include "continuation/sweep.hpp"
-#include "motion/other_starts.hpp"
+#include "motion/find_periodic.hpp"
 #include "support/cases.hpp"
 
 using namespace rotor_stator;
@@ -129,7 +129,7 @@ TEST_CASE("GMRES needs few iterations at low speeds")
        {Case{96, 6, 300}, Case{512, 3, 300}, Case{512, 11, 300}, Case{512, 16, 300}}) {
     INFO(frequency << " Hz, m = " << harmonics);
     const Eigen::VectorXd start =
-        motion::search_periodic({set_1(), hertz(frequency), 64}).x;
+        motion::find_periodic({set_1(), hertz(frequency), 64}).x;
     REQUIRE(start.size() > 0);
     PeriodicMotion motion{.omega = hertz(frequency),
                           .x = resize_harmonics(start, 2, harmonics)},

@@ -144,7 +144,7 @@ TEST_CASE("With the default N the error falls with m in the order of truncation"
 {
   const Parameters machine = set_1();
   const auto motion_with = [&](int m, int samples) {
-    const PeriodicMotion motion = find_near_contact(
+    const PeriodicMotion motion = find_periodic(
         {machine, hertz(30), m, samples, NewtonSettings{.tolerance = 1e-12}});
     REQUIRE(motion.found());
     return motion_of(motion.bodies, 2048);

@@ -196,7 +196,7 @@ class Spectrum(Case):
         balance, integrated = (self.by_name(table) for table in with_halves)
         for name in list(integrated)[:8]:
             np.testing.assert_allclose(balance[name], integrated[name], atol=1e-3 * integrated["1X"].max())
-            np.testing.assert_allclose(balance[name], integrated[name], rtol=0.05, err_msg=name)
+            np.testing.assert_allclose(balance[name], integrated[name], rtol=0.15, err_msg=name)
 
     def test_motion_of_two_turns(self):
         """Half orders, by both ways."""

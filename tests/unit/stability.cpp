@@ -5,7 +5,7 @@
 #include "balance/bearing_problem.hpp"
 #include "continuation/arc_length.hpp"
 #include "io/errors.hpp"
-#include "motion/other_starts.hpp"
+#include "motion/find_periodic.hpp"
 #include "support/cases.hpp"
 #include "time/eigenvalues.hpp"
 #include "time/floquet.hpp"
@@ -20,7 +20,7 @@ namespace {
 
 PeriodicMotion solution_at(const Parameters& parameters, double frequency, int harmonics)
 {
-  const auto solution = search_periodic({parameters, hertz(frequency), harmonics});
+  const auto solution = find_periodic({parameters, hertz(frequency), harmonics});
   REQUIRE(solution.found());
   return solution;
 }

@@ -1,0 +1,100 @@
+/** Harmonic balance to a tolerance: the error that it prints against the motion that
+    shooting closes, and what it says where there is none. */
+#include "support/catch.hpp"
+
+#include "motion/find_periodic.hpp"
+#include "support/cases.hpp"
+#include "support/command.hpp"
+#include "time/shooting.hpp"
+
+using namespace rotor_stator;
+using namespace rotor_stator::motion;
+using namespace rotor_stator::tests;
+
+namespace {
+
+Judged found(Parameters parameters, double frequency, double tolerance)
+{
+  return to_tolerance(
+      {.parameters = parameters, .omega = hertz(frequency), .harmonics = 6}, tolerance);
+}
+
+/** One period of the exact motion that shooting finds from a solution. */
+Motion exact_motion(const PeriodicMotion& solution, int points)
+{
+  constexpr double tolerance = 1e-13;
+  State state = state_of(solution);
+  REQUIRE(shoot(set_1(), solution.omega, state,
+                {.tolerance = tolerance, .closed = 1e-11})
+              .converged);
+  return one_period(set_1(), solution.omega, state,
+                    {.intervals_per_period = points, .tolerance = tolerance});
+}
+
+}  // namespace
+
+/** At 3 Hz the sag is fifteen times the vibration: catches a tolerance that bounds only
+    the largest error over the largest displacement. At 15 and 24 Hz few harmonics lead
+    nowhere from quasi-static contact. */
+TEST_CASE("The error of a solution is its distance from the motion that shooting closes")
+{
+  constexpr int points = 1024;
+  for (const auto& [frequency, tolerance] :
+       {std::pair(3.0, 1e-2), std::pair(6.0, 1e-2), std::pair(6.5, 1e-4),
+        std::pair(15.0, 1e-3), std::pair(21.0, 1e-3), std::pair(24.0, 1e-3),
+        std::pair(30.0, 1e-5), std::pair(41.5, 1e-3), std::pair(45.0, 1e-6)}) {
+    const Judged at = found(set_1(), frequency, tolerance);
+    INFO(frequency << " Hz, tolerance " << tolerance << ": " << at.end);
+    REQUIRE(at.reached);
+    CHECK(at.error.larger() <= tolerance);
+    CHECK(at.motion.harmonics.count() % 6 == 0);
+    const Error off =
+        difference(motion_of(at.motion.bodies, points), exact_motion(at.motion, points));
+    CHECK(off.largest < 1.25 * at.error.largest + 1e-9);  // at four times the instants
+    CHECK(off.rms < 1.05 * at.error.rms + 1e-9);
+    CHECK(at.verdict.distance == at.error.largest);
+  }
+}
+
+TEST_CASE("Twice as many harmonics for a smaller tolerance, six where nothing touches")
+{
+  CHECK(found(set_1(), 30, 1e-5).motion.harmonics.count() >
+        found(set_1(), 30, 1e-2).motion.harmonics.count());
+  Parameters parameters = set_1();
+  parameters.bearing.clearance = 1;
+  const Judged at = found(parameters, 30, 1e-8);
+  CHECK(at.reached);
+  CHECK(at.motion.harmonics.count() == 6);
+}
+
+TEST_CASE("A solution at another speed is the first start")
+{
+  const Judged at = found(set_1(), 45, 1e-4);
+  const Parameters machine = set_1();
+  const Judged next = to_tolerance({.parameters = machine,
+                                    .omega = hertz(45.5),
+                                    .harmonics = 6,
+                                    .starts = {at.motion.x}},
+                                   1e-4);
+  REQUIRE(next.reached);
+  CHECK(next.motion.start == "a known motion");
+}
+
+TEST_CASE("explore: a tolerance chooses m and says the error, or why not")
+{
+  const std::string orbit =
+      "explore orbit data/set1.toml --frequency 45 --points 64 --method aft ";
+  const Outcome chosen = run_program(orbit + "--tolerance 1e-5");
+  REQUIRE(chosen.status == 0);
+  CHECK(chosen.out.find("\n# error_largest: ") != std::string::npos);
+  CHECK(chosen.out.find("\n# harmonics: 6\n") == std::string::npos);
+  const Outcome given = run_program(orbit + "--tolerance 1e-2 --harmonics 6");
+  REQUIRE(given.status == 0);
+  CHECK(given.out.find("\n# harmonics: 6\n") != std::string::npos);
+  CHECK(given.out.find("\n# error_largest: ") != std::string::npos);
+  const Outcome missed = run_program(orbit + "--tolerance 1e-5 --harmonics 6");
+  CHECK(missed.status == 3);
+  CHECK(missed.out.empty());
+  CHECK(missed.err.find("tolerance 1e-05 not reached at 45 Hz: the nearest motion of "
+                        "Eq. 7 is ") != std::string::npos);
+}
