@@ -178,9 +178,9 @@ template <bool is_damped, class Row>
 void advance_by(Row& row, long steps)
 {
 #ifdef HAS_WIDE_REGISTERS
-  if (registers_in_use() == Registers::avx512)
-    return advance_avx512<is_damped>(row, steps);
-  if (registers_in_use() == Registers::avx2) return advance_avx2<is_damped>(row, steps);
+  constexpr auto width = sizeof(row.h) / sizeof(double);
+  if constexpr (width > 4) return advance_avx512<is_damped>(row, steps);
+  if (registers_in_use() >= Registers::avx2) return advance_avx2<is_damped>(row, steps);
 #endif
   advance_plain<is_damped>(row, steps);
 }
@@ -265,11 +265,22 @@ void Rk4::follow(long first, long count, State& state, std::vector<State>& path)
   advance_row({&alone, 1});
 }
 
+std::size_t Rk4::widest_row()
+{
+  switch (registers_in_use()) {
+    case Registers::avx512: return 8;
+    case Registers::avx2: return 4;
+    case Registers::plain: break;
+  }
+  return 2;
+}
+
 void Rk4::advance_row(std::span<const Passage> passages)
 {
-  if (passages.size() > 4)
-    advance_lanes<Lanes<8>>(passages);
-  else if (passages.size() > 2)
+#ifdef HAS_WIDE_REGISTERS
+  if (passages.size() > 4) return advance_lanes<Lanes<8>>(passages);
+#endif
+  if (passages.size() > 2)
     advance_lanes<Lanes<4>>(passages);
   else if (passages.size() > 1)
     advance_lanes<Lanes<2>>(passages);

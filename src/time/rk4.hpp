@@ -79,7 +79,11 @@ public:
   bool is_damped() const { return is_damped_; }
   bool is_damaged() const { return is_damaged_; }
 
-  /** Up to eight passages that are paid, of undamaged bearings with equal numbers of
+  /** As many passages in a row as the registers hold: wider ones take longer than two
+      that fit. */
+  static std::size_t widest_row();
+
+  /** At most so many passages that are paid, of undamaged bearings with equal numbers of
       balls. */
   static void advance_row(std::span<const Passage> passages);
 

@@ -23,7 +23,7 @@ static void advance_alone(const Passage& one)
 
 std::vector<Failure> advance_together(std::span<const Passage> passages)
 {
-  constexpr std::size_t widest = 8;
+  const std::size_t widest = Rk4::widest_row();
   using Alike = std::tuple<int, bool>;
   struct Lane {
     Passage passage;
