@@ -88,9 +88,9 @@ State random_state(const Based& at, std::uint64_t seed)
 ## The starts
 
 Two chains carry the state on from speed to speed; each speed has its own starts beside
-them. Some are integrated at once, but what they cost is added up in their order, and what
-goes beyond the budget is lost, so that the table does not depend on the number of
-threads. */
+them. They are integrated side by side, each as far as the whole budget would pay for it
+alone. What they cost is then added up in their order, and what goes beyond the budget is
+lost, so that the table does not depend on the number of threads. */
 
 const char* const out_of_budget = "the budget is used up, more with --budget";
 
@@ -100,58 +100,76 @@ enum class Origin { rest, below, above, random };
 struct Run {
   std::size_t speed;
   Origin origin;
+  std::optional<State> start = {};  ///< else at rest
   motion::Answer answer = {.base = {}, .settled = {}};
   motion::Observation seen = {};
   double spent = 0;       ///< evaluations of the force
   std::string lost = {};  ///< why it has no result
 };
 
-/** What is integrated one after the other: piece 0 is the chain upwards, 1 the one
-    downwards, k + 2 the starts at speed k alone. The chains begin at rest, which at the
-    edges is the start from rest. */
-std::vector<Run> runs_of(const Task& task, std::size_t piece,
-                         const OperationBudget& budget)
+/** Each at most `most` evaluations. */
+void integrate(const Task& task, std::span<Run> runs, double most)
+{
+  std::vector<motion::Question> questions;
+  for (const Run& run : runs)
+    questions.push_back({task.machine, task.asked_at(run.speed),
+                         budget_until(task.request.budget, most), run.start});
+  auto answers = motion::settled_answers(questions);
+  std::vector<motion::Observed> settled;
+  for (std::size_t k = 0; k < runs.size(); ++k)
+    if (answers[k].has_value())
+      settled.push_back({answers[k].get(), questions[k].budget});
+  auto seen = motion::observations(settled);
+  for (std::size_t k = 0, next = 0; k < runs.size(); ++k) {
+    const OperationBudget& budget = questions[k].budget;
+    Run& run = runs[k];
+    try {
+      run.answer = std::move(answers[k].get());
+      run.seen = seen[next++].get();
+      if (budget.used_up()) throw NoSolution(out_of_budget);
+    } catch (const NoSolution& error) {
+      run.lost = budget.used_up() ? out_of_budget : error.what();
+    }
+    run.spent = budget.spent();
+  }
+}
+
+/** Both chains. They begin at rest, which at the edges is the start from rest, and again
+    after a start that was lost. */
+std::vector<Run> runs_of_chains(const Task& task, double most)
+{
+  const std::size_t count = task.speeds.size();
+  std::vector<Run> all;
+  std::array<std::optional<State>, 2> states;
+  for (std::size_t k = 0; k < count; ++k) {
+    std::vector<Run> both{{k, k == 0 ? Origin::rest : Origin::below, states[0]}};
+    if (count > 1)
+      both.push_back({count - 1 - k, k == 0 ? Origin::rest : Origin::above, states[1]});
+    integrate(task, both, most);
+    for (std::size_t chain = 0; chain < both.size(); ++chain) {
+      const bool is_lost = !both[chain].lost.empty();
+      states[chain].reset();
+      if (!is_lost) states[chain] = both[chain].answer.settled.at.state;
+      most = std::max(0.0, most - both[chain].spent);
+    }
+    std::ranges::move(both, std::back_inserter(all));
+  }
+  return all;
+}
+
+/** The starts of one speed alone. */
+std::vector<Run> runs_of_speed(const Task& task, std::size_t speed, double most)
 {
   std::vector<Run> runs;
-  /** The state that the next start of a chain takes; at rest again after one that was
-      lost. */
-  const auto run = [&](std::size_t speed, Origin origin,
-                       const std::optional<State>& start) -> std::optional<State> {
-    const double left = budget.left();
-    Run one{speed, origin};
-    try {
-      one.answer = motion::settled_answer(task.machine, task.asked_at(speed), budget,
-                                          start ? &*start : nullptr);
-      if (budget.used_up()) throw NoSolution(out_of_budget);
-      one.seen = observe(one.answer, budget);
-    } catch (const NoSolution& error) {
-      one.lost = budget.used_up() ? out_of_budget : error.what();
-    }
-    one.spent = left - budget.left();
-    runs.push_back(one);
-    if (!one.lost.empty()) return {};
-    return one.answer.settled.at.state;
-  };
-  const std::size_t count = task.speeds.size();
-  if (piece < 2) {
-    std::optional<State> state;
-    for (std::size_t k = 0; k < (piece == 1 && count == 1 ? 0 : count); ++k)
-      state = run(piece == 0 ? k : count - 1 - k,
-                  k == 0       ? Origin::rest
-                  : piece == 0 ? Origin::below
-                               : Origin::above,
-                  state);
-    return runs;
-  }
-  const std::size_t speed = piece - 2;
-  if (speed > 0 && speed + 1 < count) run(speed, Origin::rest, {});
+  if (speed > 0 && speed + 1 < task.speeds.size()) runs.push_back({speed, Origin::rest});
   const Based at = over(task.base, task.machine, angular(task.speeds[speed]));
   for (int k = 0; k < task.request.starts; ++k) {
     const auto seed = (static_cast<std::uint64_t>(task.request.seed) << 32) +
                       (static_cast<std::uint64_t>(speed) << 16) +
                       static_cast<std::uint64_t>(k);
-    run(speed, Origin::random, random_state(at, seed));
+    runs.push_back({speed, Origin::random, random_state(at, seed)});
   }
+  integrate(task, runs, most);
   return runs;
 }
 
@@ -162,10 +180,11 @@ std::vector<Run> all_runs(const Task& task)
   const double most = 0.9 * task.budget.left();
   std::atomic<double> spent = 0;
   const auto of_pieces = computed_in_parallel(
-      task.request.quiet ? "" : "attractors", task.speeds.size() + 2, [&](std::size_t k) {
+      task.request.quiet ? "" : "attractors", task.speeds.size() + 1, [&](std::size_t k) {
         /** Of earlier pieces only: these begin in order. */
-        auto runs = runs_of(
-            task, k, budget_until(task.request.budget, std::max(0.0, most - spent)));
+        const double left = std::max(0.0, most - spent);
+        auto runs =
+            k == 0 ? runs_of_chains(task, left) : runs_of_speed(task, k - 1, left);
         for (const Run& run : runs) spent += run.spent;
         return runs;
       });

@@ -174,14 +174,21 @@ void add_line(const MapTask& task, const std::vector<Quantity>& chosen, std::siz
   std::string rows;
   std::size_t failed = 0;
   PeriodicMotion before;
+  constexpr std::size_t side_by_side = 64;
+  std::vector<std::vector<double>> points;
   for (std::size_t k = 0; k < task.grid.x.count; ++k) {
-    const std::string row = row_of(task, chosen, task.grid.values(line, k), before);
+    points.push_back(task.grid.values(line, k));
+    if (points.size() < side_by_side && k + 1 < task.grid.x.count) continue;
+    const auto block = rows_of(task, chosen, points, before);
+    points.clear();
     if (const auto& budget = task.request.budget; budget && budget->is_over())
       throw NoSolution(
           task.request.parameter_file + ": " + budget->words() +
           " is used up; --resume FILE goes on with the rows that are written");
-    failed += is_lost(row);
-    rows += row + "\n";
+    for (const std::string& row : block) {
+      failed += is_lost(row);
+      rows += row + "\n";
+    }
   }
   output.take(line, std::move(rows), failed);
 }

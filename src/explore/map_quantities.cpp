@@ -128,18 +128,33 @@ public:
   /**
   ## The motion from rest, and what both have */
 
+  motion::Question question() const
+  {
+    const MapRequest& asked = task_.request;
+    return {machine_,
+            {.omega = omega(),
+             .method = is_balance() ? "auto" : asked.method,
+             .tolerance = is_balance() ? std::nullopt : asked.tolerance,
+             .periods = recorded_periods,
+             .step = asked.step,
+             .longest = asked.longest},
+            budget_.part(machine_.machine->patience().transient)};
+  }
+
+  /** What its question came to. */
+  void take(Attempt<motion::Answer> settled, Attempt<motion::Observation> seen)
+  {
+    settled_ = std::move(settled);
+    seen_ = std::move(seen);
+  }
+
+  const motion::Answer& settled() { return settled_.get(); }
   const motion::Answer& answer()
   {
     return answer_([&] {
-      const MapRequest& asked = task_.request;
-      return motion::answer(machine_,
-                            {.omega = omega(),
-                             .method = is_balance() ? "auto" : asked.method,
-                             .tolerance = is_balance() ? std::nullopt : asked.tolerance,
-                             .periods = recorded_periods,
-                             .step = asked.step,
-                             .longest = asked.longest},
-                            budget_);
+      motion::Answer whole = settled();
+      complete(whole, question().request, budget_);
+      return whole;
     });
   }
 
@@ -225,10 +240,7 @@ private:
   /** Whether the tolerance chooses m. */
   bool is_chosen() const { return task_.request.tolerance && !task_.request.harmonics; }
 
-  const motion::Observation& observed()
-  {
-    return observed_([&] { return observe(answer(), budget_); });
-  }
+  const motion::Observation& observed() { return settled(), seen_.get(); }
 
   /** One period of the solution, or the record of the motion from rest; and the machine
       that counts its periods. */
@@ -272,8 +284,9 @@ private:
   Once<motion::Motion> motion_;
   Once<motion::Verdict> verdict_;
   Once<Floquet> series_;
+  Attempt<motion::Answer> settled_;
+  Attempt<motion::Observation> seen_;
   Once<motion::Answer> answer_;
-  Once<motion::Observation> observed_;
   Once<Swept> swept_;
 };
 
@@ -307,10 +320,10 @@ const std::vector<Quantity> quantities{
 
     {"period", "-",
      "K of the motion from rest; 0 aperiodic, -1 quasi-periodic, -2 undecided",
-     Source::rest, [](auto& p) -> Cell { return p.answer().period_number(); }},
+     Source::rest, [](auto& p) -> Cell { return p.settled().period_number(); }},
     {"regime", "word",
      "of the motion from rest: rest, periodic, quasi-periodic, chaotic, undecided",
-     Source::rest, [](auto& p) -> Cell { return word(p.answer().kind()); }},
+     Source::rest, [](auto& p) -> Cell { return word(p.settled().kind()); }},
     {"lyapunov", "1/base period", "largest Lyapunov exponent of the motion from rest",
      Source::rest, of<&MapPoint::lyapunov>},
 
@@ -412,16 +425,33 @@ std::vector<Quantity> chosen_quantities(const MapTask& task)
   return chosen;
 }
 
-std::string row_of(const MapTask& task, const std::vector<Quantity>& chosen,
-                   const std::vector<double>& values, PeriodicMotion& before)
+namespace {
+
+/** Settles and observes the motions from rest of all points side by side. */
+void settle_together(std::span<MapPoint* const> points)
 {
-  std::string row, status = all_well;
-  for (const double value : values) row += Cell(value).text() + "\t";
-  std::optional<MapPoint> point;
+  std::vector<motion::Question> questions;
+  for (const auto& point : points) questions.push_back(point->question());
+  auto answers = motion::settled_answers(questions);
+  std::vector<motion::Observed> settled;
+  for (std::size_t k = 0; k < points.size(); ++k)
+    if (answers[k].has_value())
+      settled.push_back({answers[k].get(), questions[k].budget});
+  auto seen = motion::observations(settled);
+  for (std::size_t k = 0, next = 0; k < points.size(); ++k) {
+    const bool is_settled = answers[k].has_value();
+    points[k]->take(std::move(answers[k]), is_settled ? std::move(seen[next++])
+                                                      : Attempt<motion::Observation>());
+  }
+}
+
+std::string row_of(MapPoint* point, const std::vector<Quantity>& chosen,
+                   std::string status)
+{
+  std::string row;
   for (const Quantity& quantity : chosen) {
     std::string text = no_value;
     try {
-      if (!point && status == all_well) point.emplace(task, values, before);
       if (point) {
         const Cell cell = quantity.value(*point);
         if (!cell.is_finite()) throw NoSolution(quantity.name + " is not finite");
@@ -433,6 +463,38 @@ std::string row_of(const MapTask& task, const std::vector<Quantity>& chosen,
     row += text + "\t";
   }
   return row + status;
+}
+
+}  // namespace
+
+std::vector<std::string> rows_of(const MapTask& task, const std::vector<Quantity>& chosen,
+                                 std::span<const std::vector<double>> points,
+                                 PeriodicMotion& before)
+{
+  std::vector<std::unique_ptr<MapPoint>> made;
+  std::vector<std::string> statuses;
+  for (const auto& values : points) try {
+      made.push_back(std::make_unique<MapPoint>(task, values, before));
+      statuses.emplace_back(all_well);
+    } catch (const std::runtime_error& none) {
+      made.push_back(nullptr);
+      statuses.push_back(printable(none.what()));
+    }
+  const bool is_balance = task.request.method == "aft";
+  const bool needs_rest = std::ranges::any_of(chosen, [&](const Quantity& one) {
+    return one.source == Source::rest || (one.source == Source::motion && !is_balance);
+  });
+  std::vector<MapPoint*> whole;
+  for (const auto& point : made)
+    if (point && needs_rest) whole.push_back(point.get());
+  settle_together(whole);
+  std::vector<std::string> rows;
+  for (std::size_t k = 0; k < points.size(); ++k) {
+    std::string keys;
+    for (const double value : points[k]) keys += Cell(value).text() + "\t";
+    rows.push_back(keys + row_of(made[k].get(), chosen, statuses[k]));
+  }
+  return rows;
 }
 
 }  // namespace rotor_stator::explore

@@ -4,6 +4,8 @@
 Each is a column: what its value is taken from, and how a point knows it. */
 #pragma once
 
+#include <span>
+
 #include "explore/map_axes.hpp"
 
 namespace rotor_stator::explore {
@@ -28,9 +30,11 @@ inline const char *const no_value = "-", *const all_well = "ok";
     the other options do not suit. */
 std::vector<Quantity> chosen_quantities(const MapTask& task);
 
-/** The row of one point, its keys first and its status last. `before`: the solution at
-    the point before on the line, which becomes that of this one. */
-std::string row_of(const MapTask& task, const std::vector<Quantity>& chosen,
-                   const std::vector<double>& values, PeriodicMotion& before);
+/** The rows of points that follow each other on a line, their keys first and the status
+    last; motions from rest are integrated side by side. `before`: the solution at the
+    point before, which becomes that of the last one. */
+std::vector<std::string> rows_of(const MapTask& task, const std::vector<Quantity>& chosen,
+                                 std::span<const std::vector<double>> points,
+                                 PeriodicMotion& before);
 
 }  // namespace rotor_stator::explore

@@ -3,13 +3,14 @@
 #include <algorithm>
 #include <atomic>
 #include <limits>
+#include <span>
 #include <utility>
 
 #include "explore/resume.hpp"
 #include "explore/settled_motion.hpp"
 #include "io/errors.hpp"
-#include "io/parallel.hpp"
 #include "io/output_file.hpp"
+#include "io/parallel.hpp"
 #include "motion/contact.hpp"
 #include "motion/find_periodic.hpp"
 
@@ -26,28 +27,43 @@ const ResponseFields error_field{
      "largest displacement and the rms about the mean",
      &ResponseRow::error}};
 
+using Rows = std::vector<Attempt<ResponseRow>>;
+
 /** What the rows have in common. */
 struct Sweep {
   const ResponseRequest& request;
   const Parameters& machine;
   std::vector<double> speeds;  ///< [Hz], in the order in which they are computed
   bool is_chain;               ///< each from the one before
+  std::size_t side_by_side;    ///< speeds that are given to `rows_at`
   double evaluations_of_one;
   Table table;
   ResponseFields fields;
 
-  /** The row of a speed. Throws NoSolution where it has none. */
-  std::function<ResponseRow(double frequency, const OperationBudget&)> row_at;
+  /** The rows of some speeds [Hz], each paid from its own budget. */
+  std::function<Rows(std::span<const double>, std::span<const OperationBudget>)> rows_at;
 
   std::atomic<bool> touches = false;
 };
 
-/** What a speed has come to. */
+/** What a speed has come to, and the evaluations that it took. */
 struct Ended {
-  ResponseRow row = {};
-  double spent = 0;       ///< evaluations
-  std::string lost = {};  ///< why there is no row
+  Attempt<ResponseRow> row;
+  double spent;
 };
+
+/** Of speeds side by side, at most `each` evaluations for one. */
+std::vector<Ended> ended_at(const Sweep& sweep, std::span<const double> speeds,
+                            double each)
+{
+  std::vector<OperationBudget> budgets;
+  for (std::size_t k = 0; k < speeds.size(); ++k)
+    budgets.push_back(budget_until(sweep.request.budget, each));
+  std::vector<Ended> all;
+  for (Rows rows = sweep.rows_at(speeds, budgets); auto& row : rows)
+    all.push_back({std::move(row), budgets[all.size()].spent()});
+  return all;
+}
 
 /** The rows of an interrupted table of the same question, at the first speeds. */
 std::vector<std::vector<Cell>> rows_to_resume(const Sweep& sweep)
@@ -88,36 +104,35 @@ Exploration computed(Sweep& sweep)
     begin();
     table.printed_row(cells);
   }
-  const auto ended_at = [&](double frequency, double most) {
-    Ended one;
-    const OperationBudget own = budget_until(budget, most);
-    try {
-      one.row = sweep.row_at(frequency, own);
-    } catch (const NoSolution& none) {
-      one.lost = none.what();
-    }
-    one.spent = own.spent();
-    return one;
-  };
-
   double spent = 0;
   std::size_t lost = 0, next = known.size();
   std::string missing, first_lost;
   const double most = budget && budget->evaluations > 0
                           ? budget->evaluations
                           : std::numeric_limits<double>::infinity();
-  const std::size_t group = sweep.is_chain ? 1 : 2 * most_threads();
+  const std::size_t block = sweep.side_by_side,
+                    group = sweep.is_chain
+                                ? 1
+                                : std::max<std::size_t>(block, 2) * most_threads();
   while (next < sweep.speeds.size() && missing.empty()) {
-    const std::size_t count = std::min(group, sweep.speeds.size() - next);
+    const auto speeds = std::span(sweep.speeds)
+                            .subspan(next, std::min(group, sweep.speeds.size() - next));
     const double each = std::min(sweep.evaluations_of_one, most - spent);
-    const auto rows = computed_in_parallel(
-        "", count, [&](std::size_t k) { return ended_at(sweep.speeds[next + k], each); });
+    const auto blocks =
+        computed_in_parallel("", (speeds.size() + block - 1) / block, [&](std::size_t k) {
+          const std::size_t first = k * block;
+          return ended_at(
+              sweep, speeds.subspan(first, std::min(block, speeds.size() - first)), each);
+        });
     const bool is_short =
         each < sweep.evaluations_of_one || (budget && budget->is_over());
-    for (const auto& [row, cost, why] : rows) {
+    std::vector<Ended> ended;
+    for (const auto& one : blocks) ended.insert(ended.end(), one.begin(), one.end());
+    for (auto& [row, cost] : ended) {
       spent += cost;
       const double frequency = sweep.speeds[next];
-      if (spent > most || (is_short && (!why.empty() || row.period == -2))) {
+      const bool is_known = row.has_value() && row.get().period != -2;
+      if (spent > most || (is_short && !is_known)) {
         missing =
             format("%s: %s is used up at %g Hz; ", request.parameter_file.c_str(),
                    budget->words().c_str(), frequency) +
@@ -126,14 +141,16 @@ Exploration computed(Sweep& sweep)
         break;
       }
       ++next;
-      if (!why.empty()) {
-        if (lost++ == 0) first_lost = format("at %g Hz: ", frequency) + why;
-        continue;
+      try {
+        const ResponseRow& found = row.get();
+        begin();
+        table.row(sweep.fields, found);
+        if (request.watch)
+          request.watch(frequency,
+                        Eigen::Map<const Eigen::Vector4d>(found.amplitude.data()));
+      } catch (const NoSolution& none) {
+        if (lost++ == 0) first_lost = format("at %g Hz: ", frequency) + none.what();
       }
-      begin();
-      table.row(sweep.fields, row);
-      if (request.watch)
-        request.watch(frequency, Eigen::Map<const Eigen::Vector4d>(row.amplitude.data()));
     }
   }
   if (next == lost)
@@ -167,10 +184,10 @@ bool touches_somewhere(motion::Answer& answer)
 }
 
 /** The row of a settled motion. */
-ResponseRow row_of(motion::Answer& answer, const motion::Request& asked, bool has_records,
+ResponseRow row_of(motion::Answer& answer, const motion::Observation& seen,
+                   const motion::Request& asked, bool has_records,
                    std::atomic<bool>& touches, const OperationBudget& budget)
 {
-  const motion::Observation seen = motion::observe(answer, budget);
   ResponseRow row{.frequency = asked.omega / angular(1),
                   .amplitude = seen.amplitude,
                   .period = answer.period_number(),
@@ -206,6 +223,7 @@ Exploration settled_response(const ResponseRequest& request)
       machine,
       evenly_spaced(request.from, request.to, request.count.value_or(patience.speeds)),
       direction != "rest",
+      direction == "rest" && machine.machine->takes_explicit_steps() ? 32U : 1U,
       budget_of_each({}, patience.settling, machine).left(),
       Table("Frequency response, what the machine does", fields),
       fields,
@@ -223,16 +241,31 @@ Exploration settled_response(const ResponseRequest& request)
       "amplitudes over the K base periods of a motion that closes, over 256 of "
       "another one");
   std::optional<State> state;
-  sweep.row_at = [&](double frequency, const OperationBudget& budget) {
-    const motion::Request asked{.omega = angular(frequency),
-                                .periods = 64,
-                                .longest = request.longest,
-                                .is_measured = false};
-    const std::optional<State> start = std::exchange(state, {});
-    motion::Answer answer = motion::settled_answer(machine, asked, budget.part(0.7),
-                                                   start ? &*start : nullptr);
-    if (sweep.is_chain) state = answer.settled.at.state;
-    return row_of(answer, asked, has_records, sweep.touches, budget);
+  sweep.rows_at = [&](std::span<const double> speeds,
+                      std::span<const OperationBudget> budgets) {
+    std::vector<motion::Question> questions;
+    for (std::size_t k = 0; k < speeds.size(); ++k)
+      questions.push_back({machine,
+                           {.omega = angular(speeds[k]),
+                            .periods = 64,
+                            .longest = request.longest,
+                            .is_measured = false},
+                           budgets[k].part(0.7),
+                           std::exchange(state, {})});
+    auto answers = motion::settled_answers(questions);
+    std::vector<motion::Observed> settled;
+    for (std::size_t k = 0; k < answers.size(); ++k)
+      if (answers[k].has_value()) settled.push_back({answers[k].get(), budgets[k]});
+    auto seen = motion::observations(settled);
+    Rows rows;
+    for (std::size_t k = 0, next = 0; k < answers.size(); ++k)
+      rows.push_back(attempt([&] {
+        motion::Answer& answer = answers[k].get();
+        if (sweep.is_chain) state = answer.settled.at.state;
+        return row_of(answer, seen[next++].get(), questions[k].request, has_records,
+                      sweep.touches, budgets[k]);
+      }));
+    return rows;
   };
   return computed(sweep);
 }
@@ -249,6 +282,7 @@ Exploration response_to_tolerance(const ResponseTask& task)
               task.machine,
               evenly_spaced(request.from, request.to, request.count.value_or(101)),
               true,
+              1,
               budget_of_each({}, 1, task.machine).left(),
               Table("Frequency response at evenly spaced speeds", fields),
               fields,
@@ -266,7 +300,7 @@ Exploration response_to_tolerance(const ResponseTask& task)
   sweep.table.note(
       "harmonics and samples chosen for each speed, from the solution before");
   Eigen::VectorXd before;
-  sweep.row_at = [&](double frequency, const OperationBudget& budget) {
+  const auto row_at = [&](double frequency, const OperationBudget& budget) {
     motion::Search search{.parameters = task.parameters,
                           .omega = task.base(frequency),
                           .harmonics = 6,
@@ -287,6 +321,10 @@ Exploration response_to_tolerance(const ResponseTask& task)
     if (has_further) observe(row, task.parameters, motion::motion_of(at.motion, points));
     if (!at.motion.force.isZero(0)) sweep.touches = true;
     return row;
+  };
+  sweep.rows_at = [&](std::span<const double> speeds,
+                      std::span<const OperationBudget> budgets) {
+    return Rows{attempt([&] { return row_at(speeds[0], budgets[0]); })};
   };
   return computed(sweep);
 }

@@ -6,6 +6,7 @@ that the question was well put and no answer was found. Each carries one line fo
 */
 #pragma once
 
+#include <exception>
 #include <optional>
 #include <stdexcept>
 #include <string>
@@ -23,6 +24,38 @@ struct BadInput : std::runtime_error {
 struct NoSolution : std::runtime_error {
   using std::runtime_error::runtime_error;
 };
+
+/** A value, or why there is none. */
+template <class Value>
+class Attempt {
+public:
+  Attempt() = default;
+  Attempt(Value value) : value_(std::move(value)) {}
+  Attempt(std::exception_ptr why) : why_(std::move(why)) {}
+
+  /** Throws what there is instead of a value. */
+  Value& get()
+  {
+    if (!value_) std::rethrow_exception(why_);
+    return *value_;
+  }
+  bool has_value() const { return value_.has_value(); }
+
+private:
+  std::optional<Value> value_;
+  std::exception_ptr why_;
+};
+
+/** What `make` gives, or the NoSolution that it throws. */
+template <class Make>
+auto attempt(const Make& make) -> Attempt<decltype(make())>
+{
+  try {
+    return make();
+  } catch (const NoSolution&) {
+    return std::current_exception();
+  }
+}
 
 /**
 ## Messages: numbers and lists as words */

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <memory>
 #include <numbers>
 #include <span>
 
@@ -198,19 +199,39 @@ void rest(Answer& answer, const Request& request)
 
 }  // namespace
 
-Answer settled_answer(const Parameters& parameters, const Request& request,
-                      const OperationBudget& budget, const State* start)
+/** Nothing but the machine that counts its base periods. */
+static Answer begun(const Question& question)
 {
-  Answer found{.base = base_period(parameters), .settled = {}};
-  const Based based = over(found.base, parameters, request.omega);
-  found.machine = based.machine;
-  found.omega = based.omega;
-  Instant first = from_rest(based.machine, based.omega);
-  if (start) first.state = *start;
-  found.settled = settle(based.machine, based.omega, found.base, first,
-                         {.step = request.step, .longest = request.longest}, budget);
-  found.evaluations = found.settled.evaluations;
-  return found;
+  Answer answer{.base = base_period(question.parameters), .settled = {}};
+  Based based = over(answer.base, question.parameters, question.request.omega);
+  answer.machine = std::move(based.machine);
+  answer.omega = based.omega;
+  return answer;
+}
+
+std::vector<Attempt<Answer>> settled_answers(std::span<const Question> questions)
+{
+  std::vector<Attempt<std::unique_ptr<Settling>>> settlings;
+  for (const Question& question : questions)
+    settlings.push_back(attempt([&] {
+      const Answer answer = begun(question);
+      Instant first = from_rest(answer.machine, answer.omega);
+      if (question.start) first.state = *question.start;
+      const SettleRule rule{.step = question.request.step,
+                            .longest = question.request.longest};
+      return std::make_unique<Settling>(answer.machine, answer.omega, answer.base, first,
+                                        rule, question.budget);
+    }));
+  travel(settlings);
+  std::vector<Attempt<Answer>> answers;
+  for (std::size_t k = 0; k < questions.size(); ++k)
+    answers.push_back(attempt([&] {
+      Answer answer = begun(questions[k]);
+      answer.settled = settlings[k].get()->settled();
+      answer.evaluations = answer.settled.evaluations;
+      return answer;
+    }));
+  return answers;
 }
 
 void complete(Answer& answer, const Request& request, const OperationBudget& budget)
@@ -229,8 +250,9 @@ void complete(Answer& answer, const Request& request, const OperationBudget& bud
 Answer answer(const Parameters& parameters, const Request& request,
               const OperationBudget& budget)
 {
-  Answer found = settled_answer(parameters, request,
-                                budget.part(parameters.machine->patience().transient));
+  const Question question{parameters, request,
+                          budget.part(parameters.machine->patience().transient)};
+  Answer found = std::move(settled_answers({&question, 1}).front().get());
   complete(found, request, budget);
   return found;
 }
@@ -278,63 +300,121 @@ double half_range(std::span<const PeriodSums> periods, std::size_t i)
 
 }  // namespace
 
-Observation observe(const Answer& answer, const OperationBudget& budget)
-{
-  constexpr std::size_t observed = 256, quarter = observed / 4;
-  const bool is_closed = answer.period() > 0 || answer.kind() == Kind::rest;
-  const std::size_t count = is_closed ? std::max(1, answer.period()) : observed;
-  const double period = 2 * std::numbers::pi / answer.omega;
-  const int intervals = static_cast<int>(std::clamp(
-      std::ceil(period / (2 * step_at(answer.machine, answer.omega))), 192.0, 1e6));
-  const auto steps =
-      flow(answer.machine, answer.omega,
-           {.method = "rk4", .intervals_per_period = intervals, .budget = budget});
-  State state = answer.settled.at.state;
-  long k = answer.settled.at.period * intervals;
-  std::vector<PeriodSums> periods;
-  /** Sums of differences from the first instant lose no digits to the static deflection. */
-  const Displacements origin = displacements(state.position);
-  const double interval = period / intervals;
-  while (periods.size() < count) {
-    Displacements q = displacements(state.position);
-    PeriodSums& one = periods.emplace_back(PeriodSums{q, q});
-    for (int j = 0; j < intervals; ++j) {
-      const State before = state;
-      steps->advance(k++, state);
-      const Displacements from = displacements(before.position),
-                          from_speed = displacements(before.velocity),
-                          speed = displacements(state.velocity);
-      q = displacements(state.position);
+namespace {
+
+/** One motion while it is observed. */
+class Observing : public Traveller {
+public:
+  Observing(const Answer& answer, const OperationBudget& budget)
+      : is_closed_(answer.period() > 0 || answer.kind() == Kind::rest),
+        count_(is_closed_ ? std::max(1, answer.period()) : observed),
+        period_(2 * std::numbers::pi / answer.omega),
+        intervals_(static_cast<int>(
+            std::clamp(std::ceil(period_ / (2 * step_at(answer.machine, answer.omega))),
+                       192.0, 1e6))),
+        flow_(flow(
+            answer.machine, answer.omega,
+            {.method = "rk4", .intervals_per_period = intervals_, .budget = budget})),
+        state_(answer.settled.at.state), before_(state_),
+        origin_(displacements(state_.position)), at_(answer.settled.at.period)
+  {
+  }
+
+  void next(std::vector<Passage>& all) override
+  {
+    if (lost_ || periods_.size() == count_) return;
+    before_ = state_;
+    path_.clear();
+    all.push_back({flow_.get(), at_ * intervals_, &state_, intervals_, &path_});
+  }
+
+  void arrived() override
+  {
+    const double interval = period_ / intervals_;
+    State from = before_;
+    const Displacements first = displacements(from.position);
+    PeriodSums& one = periods_.emplace_back(PeriodSums{first, first});
+    for (const State& to : path_) {
+      const Displacements a = displacements(from.position),
+                          a_speed = displacements(from.velocity),
+                          b = displacements(to.position),
+                          b_speed = displacements(to.velocity);
       for (std::size_t i = 0; i < 4; ++i) {
         const double turning =
-            turning_point(from[i], interval * from_speed[i], q[i], interval * speed[i]);
-        one.low[i] = std::min({one.low[i], q[i], turning});
-        one.high[i] = std::max({one.high[i], q[i], turning});
-        const double off = q[i] - origin[i];
-        one.sum[i] += off / intervals;
-        one.squares[i] += off * off / intervals;
+            turning_point(a[i], interval * a_speed[i], b[i], interval * b_speed[i]);
+        one.low[i] = std::min({one.low[i], b[i], turning});
+        one.high[i] = std::max({one.high[i], b[i], turning});
+        const double off = b[i] - origin_[i];
+        one.sum[i] += off / intervals_;
+        one.squares[i] += off * off / intervals_;
       }
+      from = to;
     }
+    ++at_;
   }
-  Observation seen;
-  for (std::size_t i = 0; i < 4; ++i) {
-    seen.amplitude[i] = half_range(periods, i);
-    const BatchMean mean =
-        over_batches(periods, 1, [i](auto part) { return part[0].sum[i]; });
-    const BatchMean square = over_batches(periods, 1, [&](auto part) {
-      return part[0].squares[i] - 2 * mean.value * part[0].sum[i] +
-             mean.value * mean.value;
-    });
-    seen.mean[i] = origin[i] + mean.value;
-    seen.rms[i] = std::sqrt(std::max(0.0, square.value));
-    if (is_closed) continue;
-    seen.mean_error[i] = mean.error;
-    seen.rms_error[i] = seen.rms[i] > 0 ? 0.5 * square.error / seen.rms[i] : 0;
-    seen.amplitude_error[i] = over_batches(periods, quarter, [&](auto part) {
-                                return half_range(part, i);
-                              }).error;
+
+  void lost(std::exception_ptr why) override { lost_ = why; }
+
+  Observation seen() const
+  {
+    if (lost_) std::rethrow_exception(lost_);
+    Observation seen;
+    for (std::size_t i = 0; i < 4; ++i) {
+      seen.amplitude[i] = half_range(periods_, i);
+      const BatchMean mean =
+          over_batches(periods_, 1, [i](auto part) { return part[0].sum[i]; });
+      const BatchMean square = over_batches(periods_, 1, [&](auto part) {
+        return part[0].squares[i] - 2 * mean.value * part[0].sum[i] +
+               mean.value * mean.value;
+      });
+      seen.mean[i] = origin_[i] + mean.value;
+      seen.rms[i] = std::sqrt(std::max(0.0, square.value));
+      if (is_closed_) continue;
+      seen.mean_error[i] = mean.error;
+      seen.rms_error[i] = seen.rms[i] > 0 ? 0.5 * square.error / seen.rms[i] : 0;
+      seen.amplitude_error[i] = over_batches(periods_, quarter, [&](auto part) {
+                                  return half_range(part, i);
+                                }).error;
+    }
+    return seen;
   }
-  return seen;
+
+private:
+  static constexpr std::size_t observed = 256, quarter = observed / 4;
+
+  bool is_closed_;
+  std::size_t count_;  ///< base periods
+  double period_;
+  int intervals_;
+  std::unique_ptr<Flow> flow_;
+  State state_, before_;
+  /** Sums of differences from the first instant lose no digits to the static
+      deflection. */
+  Displacements origin_;
+  long at_;
+  std::vector<State> path_ = {};
+  std::vector<PeriodSums> periods_ = {};
+  std::exception_ptr lost_ = nullptr;
+};
+
+}  // namespace
+
+std::vector<Attempt<Observation>> observations(std::span<const Observed> answers)
+{
+  std::vector<Attempt<std::unique_ptr<Observing>>> observings;
+  for (const auto& [answer, budget] : answers)
+    observings.push_back(
+        attempt([&] { return std::make_unique<Observing>(answer, budget); }));
+  travel(observings);
+  std::vector<Attempt<Observation>> all;
+  for (auto& one : observings) all.push_back(attempt([&] { return one.get()->seen(); }));
+  return all;
+}
+
+Observation observe(const Answer& answer, const OperationBudget& budget)
+{
+  const Observed one{answer, budget};
+  return observations({&one, 1}).front().get();
 }
 
 }  // namespace rotor_stator::motion

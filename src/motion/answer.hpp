@@ -13,8 +13,10 @@ Solutions of harmonic balance are asked for by their number of harmonics, and ju
 #pragma once
 
 #include <optional>
+#include <span>
 #include <string>
 
+#include "io/errors.hpp"
 #include "motion/motion.hpp"
 #include "time/settle.hpp"
 
@@ -59,10 +61,18 @@ struct Answer {
 Answer answer(const Parameters& parameters, const Request& request,
               const OperationBudget& budget = {});
 
-/** Its two halves: what the machine settles on from rest or from `start`, a state of the machine at the start of one of its
-    base periods, so long before t = 0 as a start from rest; and that motion itself, with error and stability. */
-Answer settled_answer(const Parameters& parameters, const Request& request,
-                      const OperationBudget& budget = {}, const State* start = nullptr);
+/** One of several questions that are asked together. */
+struct Question {
+  const Parameters& parameters;
+  Request request;
+  OperationBudget budget = {};
+  std::optional<State> start = {};  ///< of the machine at the start of one of its base
+                                    ///< periods, as long before t = 0 as rest; else rest
+};
+
+/** The two halves of an answer: what the machine settles on, of all questions side by
+    side; and that motion itself, with error and stability. */
+std::vector<Attempt<Answer>> settled_answers(std::span<const Question> questions);
 void complete(Answer& answer, const Request& request, const OperationBudget& budget = {});
 
 /** What is reported of x_s, y_s, x_r, y_r [m], with standard errors, which a motion that closes has not: over its K base
@@ -73,5 +83,12 @@ struct Observation {
   Displacements amplitude_error{}, mean_error{}, rms_error{};
 };
 Observation observe(const Answer& answer, const OperationBudget& budget = {});
+
+/** The same of several answers side by side, each paid from its own budget. */
+struct Observed {
+  const Answer& answer;
+  OperationBudget budget;
+};
+std::vector<Attempt<Observation>> observations(std::span<const Observed> answers);
 
 }  // namespace rotor_stator::motion

@@ -30,11 +30,13 @@ public:
       budget is used up. */
   virtual void advance(long interval, State& state) = 0;
 
-  /** Two states, side by side where that takes less time. */
-  virtual void advance(long interval, State& a, State& b)
+  /** The same over `count` intervals from `first` on; `path` gets the state after each. */
+  virtual void follow(long first, long count, State& state, std::vector<State>& path)
   {
-    advance(interval, a);
-    advance(interval, b);
+    for (long k = first; k < first + count; ++k) {
+      advance(k, state);
+      path.push_back(state);
+    }
   }
 
   /** Evaluations of Eq. 7 so far. */

@@ -37,17 +37,18 @@ Rk4::Rk4(const Parameters& parameters, double omega, int intervals, double longe
 }
 
 /** So many steps after the start of an interval. */
-Angles Rk4::angles(long interval, int steps) const
+Angles Rk4::angles(long first, long done) const
 {
+  const long interval = first + done / steps_, steps = done % steps_;
   const long part = ((interval % intervals_) + intervals_) % intervals_;
   return turns_.at(static_cast<double>((interval - part) / intervals_),
-                   (static_cast<double>(part) * steps_ + steps) /
+                   (static_cast<double>(part) * steps_ + static_cast<double>(steps)) /
                        (static_cast<double>(intervals_) * steps_));
 }
 
-void Rk4::spend()
+void Rk4::pay(long intervals)
 {
-  const long evaluations = 4L * steps_;
+  const long evaluations = 4L * steps_ * intervals;
   budget_.spend(static_cast<double>(evaluations));
   evaluations_ += evaluations;
 }
@@ -116,10 +117,10 @@ struct Rk4::Row {
   }
 
   template <bool is_damped>
-  IN_PLACE void advance(int steps)
+  IN_PLACE void advance(long steps)
   {
     const Number half = 0.5 * h, sixth = h / 6;
-    for (int k = 0; k < steps; ++k) {
+    for (long k = 0; k < steps; ++k) {
       const auto a_1 = acceleration<is_damped>(q, v);
       turn_half_a_step();
       const auto v_2 = v + half * a_1;
@@ -139,20 +140,20 @@ namespace {
 
 /** One function for each kind of registers: what it calls is a part of it. */
 template <bool is_damped, class Row>
-void advance_plain(Row& row, int steps)
+void advance_plain(Row& row, long steps)
 {
   row.template advance<is_damped>(steps);
 }
 
 #ifdef HAS_WIDE_REGISTERS
 template <bool is_damped, class Row>
-__attribute__((target("avx2"))) void advance_avx2(Row& row, int steps)
+__attribute__((target("avx2"))) void advance_avx2(Row& row, long steps)
 {
   row.template advance<is_damped>(steps);
 }
 
 template <bool is_damped, class Row>
-__attribute__((target("avx512f"))) void advance_avx512(Row& row, int steps)
+__attribute__((target("avx512f"))) void advance_avx512(Row& row, long steps)
 {
   row.template advance<is_damped>(steps);
 }
@@ -174,12 +175,12 @@ Registers& registers_in_use()
 }
 
 template <bool is_damped, class Row>
-void advance_row(Row& row, int steps)
+void advance_by(Row& row, long steps)
 {
 #ifdef HAS_WIDE_REGISTERS
-  if (registers_in_use() == Registers::avx512)
-    return advance_avx512<is_damped>(row, steps);
-  if (registers_in_use() == Registers::avx2) return advance_avx2<is_damped>(row, steps);
+  constexpr auto width = sizeof(row.h) / sizeof(double);
+  if constexpr (width > 4) return advance_avx512<is_damped>(row, steps);
+  if (registers_in_use() >= Registers::avx2) return advance_avx2<is_damped>(row, steps);
 #endif
   advance_plain<is_damped>(row, steps);
 }
@@ -196,6 +197,11 @@ void use_registers(Registers widest)
   registers_in_use() = std::min(widest, registers_of_processor());
 }
 
+static Rk4& flow_of(const Passage& one)
+{
+  return static_cast<Rk4&>(*one.flow);
+}
+
 /** Lanes that have arrived go on unseen until the last one has. */
 template <class Number>
 void Rk4::advance_lanes(std::span<const Passage> passages)
@@ -203,41 +209,46 @@ void Rk4::advance_lanes(std::span<const Passage> passages)
   constexpr int width = lanes_in<Number>;
   const auto last = passages.size() - 1;
   Row<Number> row{};
-  row.balls = passages[0].flow->system_.bearing().ring();
-  std::array<int, width> done{};
+  row.balls = flow_of(passages[0]).system_.bearing().ring();
+  std::array<long, width> done{};
   bool is_damped = false;
   for (int l = 0; l < width; ++l) {
     const Passage& one = passages[std::min<std::size_t>(l, last)];
-    row.put(l, *one.flow, *one.state);
-    is_damped = is_damped || one.flow->is_damped_;
+    row.put(l, flow_of(one), *one.state);
+    is_damped = is_damped || flow_of(one).is_damped_;
   }
-  for (const Passage& one : passages) one.flow->spend();
   for (bool is_under_way = true; is_under_way;) {
-    int steps = fresh;
+    long steps = fresh;
     for (int l = 0; l < width; ++l) {
       const Passage& one = passages[std::min<std::size_t>(l, last)];
-      const int left = one.flow->steps_ - done[l];
+      const Rk4& flow = flow_of(one);
+      const long left = flow.steps_ * one.count - done[l];
       if (left <= 0) continue;
-      if (done[l] % fresh == 0) row.turn_to(l, one.flow->angles(one.interval, done[l]));
+      if (done[l] % fresh == 0) row.turn_to(l, flow.angles(one.first, done[l]));
       steps = std::min({steps, left, fresh - done[l] % fresh});
+      if (one.path) steps = std::min(steps, flow.steps_ - done[l] % flow.steps_);
     }
-    is_damped ? advance_row<true>(row, steps) : advance_row<false>(row, steps);
+    is_damped ? advance_by<true>(row, steps) : advance_by<false>(row, steps);
     is_under_way = false;
     for (int l = 0; l < width; ++l) {
       const Passage& one = passages[std::min<std::size_t>(l, last)];
-      const int left = one.flow->steps_ - done[l];
+      const Rk4& flow = flow_of(one);
+      const long left = flow.steps_ * one.count - done[l];
       done[l] += steps;
-      if (left == steps && l <= static_cast<int>(last)) row.get(l, *one.state);
       is_under_way = is_under_way || left > steps;
+      if (left < steps || l > static_cast<int>(last)) continue;
+      const bool is_path = one.path && done[l] % flow.steps_ == 0;
+      if (left == steps || is_path) row.get(l, *one.state);
+      if (is_path) one.path->push_back(*one.state);
     }
   }
 }
 
 void Rk4::advance(long interval, State& state)
 {
+  pay(1);
   const Passage alone{this, interval, &state};
-  if (!is_damaged_) return advance_lanes<double>({&alone, 1});
-  spend();
+  if (!is_damaged_) return advance_row({&alone, 1});
   const auto acceleration = [&](const Bodies& q, const Bodies& v, const Angles& at) {
     return system_.acceleration(q, v, at);
   };
@@ -246,23 +257,35 @@ void Rk4::advance(long interval, State& state)
   });
 }
 
-void Rk4::advance(long interval, State& a, State& b)
+void Rk4::follow(long first, long count, State& state, std::vector<State>& path)
 {
-  const Passage both[] = {{this, interval, &a}, {this, interval, &b}};
-  if (is_damaged_) return Flow::advance(interval, a, b);
-  advance_lanes<Lanes<2>>(both);
+  if (is_damaged_) return Flow::follow(first, count, state, path);
+  pay(count);
+  const Passage alone{this, first, &state, count, &path};
+  advance_row({&alone, 1});
 }
 
-void advance_together(std::span<const Rk4::Passage> passages)
+std::size_t Rk4::widest_row()
 {
-  if (passages.size() > 4)
-    Rk4::advance_lanes<Lanes<8>>(passages);
-  else if (passages.size() > 2)
-    Rk4::advance_lanes<Lanes<4>>(passages);
+  switch (registers_in_use()) {
+    case Registers::avx512: return 8;
+    case Registers::avx2: return 4;
+    case Registers::plain: break;
+  }
+  return 2;
+}
+
+void Rk4::advance_row(std::span<const Passage> passages)
+{
+#ifdef HAS_WIDE_REGISTERS
+  if (passages.size() > 4) return advance_lanes<Lanes<8>>(passages);
+#endif
+  if (passages.size() > 2)
+    advance_lanes<Lanes<4>>(passages);
   else if (passages.size() > 1)
-    Rk4::advance_lanes<Lanes<2>>(passages);
+    advance_lanes<Lanes<2>>(passages);
   else if (!passages.empty())
-    Rk4::advance_lanes<double>(passages);
+    advance_lanes<double>(passages);
 }
 
 }  // namespace rotor_stator

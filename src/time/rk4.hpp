@@ -9,15 +9,17 @@ and no sine or cosine. The step divides the output interval.
     State state = static_start(parameters);
     rk4.advance(0, state);                  // over the first of 64 intervals of the base period
 
-Several motions take much less than several times as long where their numbers lie side by side in the registers of the
-processor: `advance_together`. Each has its own machine, speed, step and phase, and the bits that it has alone. */
+Several motions take much less than several times as long where their numbers lie side by
+side in the registers of the processor. Each has its own machine, speed, step and phase,
+and the bits that it has alone. Who has several motions asks for them by
+time/side_by_side.hpp. */
 #pragma once
 
 #include <algorithm>
 #include <array>
 #include <span>
 
-#include "time/flow.hpp"
+#include "time/side_by_side.hpp"
 #include "time/turns.hpp"
 
 namespace rotor_stator {
@@ -47,7 +49,7 @@ public:
       OperationBudget budget = {});
 
   void advance(long interval, State& state) override;
-  void advance(long interval, State& a, State& b) override;
+  void follow(long first, long count, State& state, std::vector<State>& path) override;
   long evaluations() const override { return evaluations_; }
 
   double step() const { return h_; }
@@ -69,15 +71,23 @@ public:
     }
   }
 
-  /** One motion's next interval. */
-  struct Passage {
-    Rk4* flow;
-    long interval;
-    State* state;
-  };
+  /** Charges the budget with so many intervals. Throws NoSolution when it is used up. */
+  void pay(long intervals);
+
+  /** Motions side by side in one row share these. */
+  int balls() const { return system_.bearing().ring().count; }
+  bool is_damped() const { return is_damped_; }
+  bool is_damaged() const { return is_damaged_; }
+
+  /** As many passages in a row as the registers hold: wider ones take longer than two
+      that fit. */
+  static std::size_t widest_row();
+
+  /** At most so many passages that are paid, of undamaged bearings with equal numbers of
+      balls. */
+  static void advance_row(std::span<const Passage> passages);
 
 private:
-  friend void advance_together(std::span<const Passage> passages);
   template <class Number>
   struct Row;
   template <class Number>
@@ -86,9 +96,7 @@ private:
   /** Steps after which the directions are computed anew. */
   static constexpr int fresh = 128;
 
-  Angles angles(long interval, int steps) const;
-  void spend();
-
+  Angles angles(long first, long done) const;  ///< steps done since interval `first`
   RotorStator system_;
   Turns turns_;
   int intervals_, steps_;
@@ -99,11 +107,7 @@ private:
   long evaluations_ = 0;
 };
 
-/** Advances up to eight motions over one output interval each. All bearings have the same number of balls and no
-    defect. Throws NoSolution when a budget is used up. */
-void advance_together(std::span<const Rk4::Passage> passages);
-
-/** The registers that `advance_together` is compiled for. */
+/** The registers that rows are compiled for. */
 enum class Registers { plain, avx2, avx512 };
 Registers widest_registers();
 

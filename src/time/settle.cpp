@@ -88,133 +88,18 @@ TrajectoryPair pair_from(const Parameters& machine, double omega, const Instant&
           intervals, period, state_scales(machine), start};
 }
 
-/** The kind of a motion by what was seen of it so far. */
-class Judge {
-public:
-  Judge(const Parameters& machine, double omega, const BasePeriod& base,
-        const SettleRule& rule)
-      : base_(base), rule_(rule), length_(scales(machine).length)
-  {
-    constexpr double slow_periods = 20, least_seconds = 2;
-    least_ =
-        std::max({least_seconds,
-                  slow_periods * 2 * std::numbers::pi / slowest_mode(machine).frequency,
-                  rule.most_period * 2 * std::numbers::pi / omega});
-    least_ = std::min(least_, 25.0);
-  }
-
-  Settled operator()(const TrajectoryPair& pair) const
-  {
-    Settled s{.lyapunov = pair.exponent(), .at = pair.at(), .before = pair.since(nearer)};
-    s.remainder = std::exp(std::max(-700.0, pair.contraction()));
-    s.amplitude = pair.half_range();
-    s.seconds = pair.seconds();
-    const double rate = s.lyapunov.value, doubt = 3 * s.lyapunov.error;
-    s.contracts = rate + doubt < 0;
-    if (is_at_rest(pair)) {
-      s.kind = Kind::rest;
-      return s;
-    }
-    if (!base_.is_driven_twice()) close(pair, s);
-    if (s.kind == Kind::periodic) return s;
-    const bool is_long_enough = 0.5 * pair.seconds() >= least_ * (1 - 1e-9);
-    if (!is_long_enough)
-      s.reason = format("%.3g s are too short to tell", pair.seconds());
-    else if (rate - doubt > 0 && grows_throughout(pair))
-      s.kind = Kind::chaotic;
-    else if (base_.is_driven_twice() && s.contracts)
-      s.kind = pair.contraction() <= forgotten ? Kind::quasi_periodic : Kind::undecided;
-    else if (std::abs(rate) <= doubt && doubt < 0.1 && pair.seconds() > rule_.longest / 2)
-      s.kind = Kind::quasi_periodic;
-    if (s.kind == Kind::undecided && s.reason.empty())
-      s.reason = s.contracts
-                     ? format(
-                           "neighbours contract by %.3g/s, but the transient is not over "
-                           "after %.3g s",
-                           -rate, pair.seconds())
-                     : format(
-                           "the growth rate of neighbours, %.2g +- %.1g/s, is not known "
-                           "well enough after %.3g s",
-                           rate, doubt, pair.seconds());
-    return s;
-  }
-
-private:
-  bool is_at_rest(const TrajectoryPair& pair) const
-  {
-    const State& state = pair.at().state;
-    const double speed =
-        vector_of(state).tail(vector_of(state).size() / 2).cwiseAbs().maxCoeff();
-    return pair.half_range() < 1e-12 * length_ && speed * pair.period() < 1e-12 * length_;
-  }
-
-  /** The fewest base periods after which the section closes. */
-  void close(const TrajectoryPair& pair, Settled& s) const
-  {
-    const auto& all = pair.section();
-    constexpr long fewest = 4;
-    if (std::ssize(all) < fewest) return;
-    const auto window = std::min<long>(std::ssize(all), 3L * rule_.most_period + 1);
-    const double size = std::max(pair.half_range(), 1e-9 * length_);
-    const auto closing =
-        closing_period(std::span(all).last(static_cast<std::size_t>(window)),
-                       rule_.closed * size, rule_.most_period);
-    /** Where neighbours come nearer slowly, the motion is farther away than two points of
-        its section are apart. */
-    const double nearer_by = -std::expm1(std::min(0.0, s.lyapunov.value) * pair.period());
-    if (!(closing.spread < rule_.closed * size * std::max(1e-3, nearer_by))) return;
-    s.kind = Kind::periodic;
-    s.period = closing.period;
-    s.before.period -= s.at.period;
-    s.at.period = 0;
-  }
-
-  static bool grows_throughout(const TrajectoryPair& pair)
-  {
-    const auto& all = pair.growths();
-    const auto quarter = std::ssize(all) / 4;
-    double third = 0, fourth = 0;
-    for (auto k = all.end() - 2 * quarter; k != all.end() - quarter; ++k) third += *k;
-    for (auto k = all.end() - quarter; k != all.end(); ++k) fourth += *k;
-    return third > 0 && fourth > 0;
-  }
-
-  const BasePeriod& base_;
-  const SettleRule& rule_;
-  double length_, least_;  ///< [m], [s]
-};
-
-/** Whether that takes at most so many evaluations; else the motion begins where it was reached. */
-bool can_be_put_on_zero(const Settled& s)
+/** So long a motion is watched before a growth rate is believed, at least [s]. */
+double least_seconds(const Parameters& machine, double omega, int most_period)
 {
-  constexpr double most = 1e8, motions = 2;
-  const double seconds = 2 * forgotten / s.lyapunov.value;
-  return seconds * s.evaluations / (motions * s.seconds) < most;
+  constexpr double slow_periods = 20, shortest = 2, longest = 25;
+  const double turn = 2 * std::numbers::pi;
+  return std::min(
+      longest, std::max({shortest, slow_periods * turn / slowest_mode(machine).frequency,
+                         most_period * turn / omega}));
 }
 
-/** A motion that has contracted after t = 0, put on t = 0: from its state so much earlier that the jump of the phases is
-    forgotten. */
-void put_on_zero(const Parameters& machine, double omega, const SettleRule& rule,
-                 const OperationBudget& budget, Settled& s)
-{
-  const double period = 2 * std::numbers::pi / omega;
-  const auto periods = [&](double logarithm) {
-    return std::lround(std::ceil(logarithm / (s.lyapunov.value * period)));
-  };
-  const auto turn = flow(
-      machine, omega,
-      {.method = "rk4", .intervals_per_period = 1, .step = rule.step, .budget = budget});
-  State state = s.at.state;
-  const long first = -periods(2 * forgotten), before = -periods(nearer);
-  for (long k = first; k < 0; ++k) {
-    if (k == before) s.before = {state, k};
-    turn->advance(k, state);
-  }
-  s.at = {state, 0};
-  s.evaluations += static_cast<double>(turn->evaluations());
-}
-
-/** Sixty seconds, or those in which the slowest linear mode decays to e^-40, at most a thousand. */
+/** Sixty seconds, or those in which the slowest linear mode decays to e^-40, at most a
+    thousand. */
 SettleRule with_longest(SettleRule rule, const Parameters& machine)
 {
   if (rule.longest > 0) return rule;
@@ -224,35 +109,201 @@ SettleRule with_longest(SettleRule rule, const Parameters& machine)
 
 }  // namespace
 
+Settling::Settling(const Parameters& machine, double omega, const BasePeriod& base,
+                   const Instant& start, const SettleRule& rule,
+                   const OperationBudget& budget)
+    : machine_(machine), omega_(omega), base_(base), rule_(with_longest(rule, machine)),
+      budget_(budget), length_(scales(machine).length),
+      least_(least_seconds(machine, omega, rule.most_period)),
+      pair_(pair_from(machine, omega, start, rule.step, budget))
+{
+}
+
+void Settling::next(std::vector<Passage>& all)
+{
+  if (has_ended_) return;
+  if (turn_)
+    all.push_back({turn_.get(), at_.period, &at_.state});
+  else
+    pair_.next(all);
+}
+
+void Settling::arrived()
+{
+  if (turn_) {
+    if (++at_.period == before_.period) before_.state = at_.state;
+    if (at_.period == 0) end();
+    return;
+  }
+  pair_.arrived();
+  if (pair_.is_between_periods() && pair_.at().period >= 0 &&
+      (periods_ == 0 || --periods_ == 0))
+    look();
+}
+
+/** At the pair, when the transient may be over. */
+void Settling::look()
+{
+  settled_ = seen();
+  if (began_ < 0) began_ = pair_.seconds();
+  if (settled_.kind == Kind::undecided && pair_.seconds() - began_ < rule_.longest) {
+    periods_ = std::max<std::size_t>(16, pair_.growths().size() / 8);
+    return;
+  }
+  settled_.evaluations = pair_.evaluations();
+  if (base_.is_driven_twice() && settled_.contracts && settled_.at.period != 0 &&
+      settled_.kind == Kind::quasi_periodic && can_be_put_on_zero())
+    put_on_zero();
+  else
+    has_ended_ = true;
+}
+
+/** What the pair says of the motion so far. */
+Settled Settling::seen() const
+{
+  const TrajectoryPair& pair = pair_;
+  Settled s{.lyapunov = pair.exponent(), .at = pair.at(), .before = pair.since(nearer)};
+  s.remainder = std::exp(std::max(-700.0, pair.contraction()));
+  s.amplitude = pair.half_range();
+  s.seconds = pair.seconds();
+  const double rate = s.lyapunov.value, doubt = 3 * s.lyapunov.error;
+  s.contracts = rate + doubt < 0;
+  if (is_at_rest()) {
+    s.kind = Kind::rest;
+    return s;
+  }
+  if (!base_.is_driven_twice() && closes(s)) return s;
+  const bool is_long_enough = 0.5 * pair.seconds() >= least_ * (1 - 1e-9);
+  if (!is_long_enough)
+    s.reason = format("%.3g s are too short to tell", pair.seconds());
+  else if (rate - doubt > 0 && grows_throughout())
+    s.kind = Kind::chaotic;
+  else if (base_.is_driven_twice() && s.contracts)
+    s.kind = pair.contraction() <= forgotten ? Kind::quasi_periodic : Kind::undecided;
+  else if (std::abs(rate) <= doubt && doubt < 0.1 && pair.seconds() > rule_.longest / 2)
+    s.kind = Kind::quasi_periodic;
+  if (s.kind == Kind::undecided && s.reason.empty())
+    s.reason = s.contracts
+                   ? format(
+                         "neighbours contract by %.3g/s, but the transient is not over "
+                         "after %.3g s",
+                         -rate, pair.seconds())
+                   : format(
+                         "the growth rate of neighbours, %.2g +- %.1g/s, is not known "
+                         "well enough after %.3g s",
+                         rate, doubt, pair.seconds());
+  return s;
+}
+
+bool Settling::is_at_rest() const
+{
+  const State& state = pair_.at().state;
+  const Eigen::VectorXd y = vector_of(state);
+  const double speed = y.tail(y.size() / 2).cwiseAbs().maxCoeff();
+  const double least = 1e-12 * length_;
+  return pair_.half_range() < least && speed * pair_.period() < least;
+}
+
+/** Whether the section closes, and after how many base periods at the fewest. */
+bool Settling::closes(Settled& s) const
+{
+  const auto& all = pair_.section();
+  constexpr long fewest = 4;
+  if (std::ssize(all) < fewest) return false;
+  const auto window = std::min<long>(std::ssize(all), 3L * rule_.most_period + 1);
+  const double size = std::max(pair_.half_range(), 1e-9 * length_);
+  const auto closing =
+      closing_period(std::span(all).last(static_cast<std::size_t>(window)),
+                     rule_.closed * size, rule_.most_period);
+  /** Where neighbours come nearer slowly, the motion is farther away than two points of
+      its section are apart. */
+  const double nearer_by = -std::expm1(std::min(0.0, s.lyapunov.value) * pair_.period());
+  if (!(closing.spread < rule_.closed * size * std::max(1e-3, nearer_by))) return false;
+  s.kind = Kind::periodic;
+  s.period = closing.period;
+  s.before.period -= s.at.period;
+  s.at.period = 0;
+  return true;
+}
+
+bool Settling::grows_throughout() const
+{
+  const auto& all = pair_.growths();
+  const auto quarter = std::ssize(all) / 4;
+  double third = 0, fourth = 0;
+  for (auto k = all.end() - 2 * quarter; k != all.end() - quarter; ++k) third += *k;
+  for (auto k = all.end() - quarter; k != all.end(); ++k) fourth += *k;
+  return third > 0 && fourth > 0;
+}
+
+/** Whether that takes at most so many evaluations; else the motion begins where it was
+    reached. */
+bool Settling::can_be_put_on_zero() const
+{
+  constexpr double most = 1e8, motions = 2;
+  const double seconds = 2 * forgotten / settled_.lyapunov.value;
+  return seconds * settled_.evaluations / (motions * settled_.seconds) < most;
+}
+
+/** A motion that has contracted after t = 0, put on t = 0: from its state so much earlier
+    that the jump of the phases is forgotten. */
+void Settling::put_on_zero()
+{
+  const double period = 2 * std::numbers::pi / omega_;
+  const auto periods = [&](double logarithm) {
+    return std::lround(std::ceil(logarithm / (settled_.lyapunov.value * period)));
+  };
+  turn_ = flow(machine_, omega_,
+               {.method = "rk4",
+                .intervals_per_period = 1,
+                .step = rule_.step,
+                .budget = budget_});
+  at_ = {settled_.at.state, -periods(2 * forgotten)};
+  before_ = {settled_.at.state, -periods(nearer)};
+  if (at_.period >= 0) end();
+}
+
+/** On t = 0. */
+void Settling::end()
+{
+  settled_.at = at_;
+  settled_.before = before_;
+  settled_.evaluations += static_cast<double>(turn_->evaluations());
+  has_ended_ = true;
+}
+
+/** The budget has ended, or the integration has broken down. */
+void Settling::lost(std::exception_ptr why)
+{
+  has_ended_ = true;
+  if (!turn_) pair_.go_back();
+  if (!budget_.used_up() || pair_.growths().empty()) {
+    lost_ = why;
+    return;
+  }
+  settled_ = seen();
+  settled_.kind = Kind::undecided;
+  settled_.evaluations = pair_.evaluations();
+  try {
+    std::rethrow_exception(why);
+  } catch (const NoSolution& ended) {
+    settled_.reason = ended.what();
+  }
+}
+
+const Settled& Settling::settled() const
+{
+  if (lost_) std::rethrow_exception(lost_);
+  return settled_;
+}
+
 Settled settle(const Parameters& machine, double omega, const BasePeriod& base,
                const Instant& start, const SettleRule& rule,
                const OperationBudget& budget)
 {
-  TrajectoryPair pair = pair_from(machine, omega, start, rule.step, budget);
-  const SettleRule whole = with_longest(rule, machine);
-  const Judge judge(machine, omega, base, whole);
-  Settled settled;
-  try {
-    while (pair.at().period < 0 || pair.growths().empty()) pair.advance();
-    settled = judge(pair);
-    const double began = pair.seconds();
-    while (settled.kind == Kind::undecided && pair.seconds() - began < whole.longest) {
-      const auto more = std::max<std::size_t>(16, pair.growths().size() / 8);
-      for (std::size_t k = 0; k < more; ++k) pair.advance();
-      settled = judge(pair);
-    }
-    settled.evaluations = pair.evaluations();
-    if (base.is_driven_twice() && settled.contracts && settled.at.period != 0 &&
-        settled.kind == Kind::quasi_periodic && can_be_put_on_zero(settled))
-      put_on_zero(machine, omega, rule, budget, settled);
-  } catch (const NoSolution& ended) {
-    if (!budget.used_up() || pair.growths().empty()) throw;
-    settled = judge(pair);
-    settled.kind = Kind::undecided;
-    settled.reason = ended.what();
-    settled.evaluations = pair.evaluations();
-  }
-  return settled;
+  Settling one(machine, omega, base, start, rule, budget);
+  travel(std::vector<Traveller*>{&one});
+  return one.settled();
 }
 
 }  // namespace rotor_stator

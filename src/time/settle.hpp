@@ -16,6 +16,8 @@ motion.
     const auto [machine, omega] = over(base, parameters, angular(25));
     const Settled settled = settle(machine, omega, base, from_rest(machine, omega), {}, budget);
 
+A `Settling` is the same among others (time/side_by_side.hpp).
+
 The machine is one counted over its base period. λ comes with its standard error s, that of the means of ten batches of the
 later half of all that was integrated. */
 #pragma once
@@ -23,6 +25,7 @@ later half of all that was integrated. */
 #include <string>
 
 #include "model/base_period.hpp"
+#include "time/side_by_side.hpp"
 #include "time/trajectory_pair.hpp"
 
 namespace rotor_stator {
@@ -52,7 +55,48 @@ struct Settled {
   std::string reason = {};  ///< why it is undecided
 };
 
-/** Throws NoSolution when the integration breaks down. A budget that ends leaves what is known, undecided. */
+class Settling : public Traveller {
+public:
+  /** Throws NoSolution when a period would need too many steps. */
+  Settling(const Parameters& machine, double omega, const BasePeriod& base,
+           const Instant& start, const SettleRule& rule = {},
+           const OperationBudget& budget = {});
+
+  void next(std::vector<Passage>& all) override;
+  void arrived() override;
+  void lost(std::exception_ptr why) override;
+
+  /** What it came to. Throws NoSolution when the integration broke down. A budget that
+      ended leaves what is known, undecided. */
+  const Settled& settled() const;
+
+private:
+  void look();
+  Settled seen() const;
+  bool is_at_rest() const;
+  bool closes(Settled& s) const;
+  bool grows_throughout() const;
+  bool can_be_put_on_zero() const;
+  void put_on_zero();
+  void end();
+
+  Parameters machine_;
+  double omega_;
+  BasePeriod base_;
+  SettleRule rule_;
+  OperationBudget budget_;
+  double length_, least_;  ///< [m], [s]
+  TrajectoryPair pair_;
+  std::size_t periods_ = 0;               ///< until the pair is looked at again
+  double began_ = -1;                     ///< seconds that it had when looked at first
+  std::unique_ptr<Flow> turn_ = nullptr;  ///< on the way to t = 0
+  Instant at_ = {}, before_ = {};         ///< then
+  Settled settled_ = {};
+  bool has_ended_ = false;
+  std::exception_ptr lost_ = nullptr;
+};
+
+/** One alone. */
 Settled settle(const Parameters& machine, double omega, const BasePeriod& base,
                const Instant& start, const SettleRule& rule = {},
                const OperationBudget& budget = {});

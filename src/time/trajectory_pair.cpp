@@ -18,40 +18,59 @@ TrajectoryPair::TrajectoryPair(std::unique_ptr<Flow> flow, int intervals_per_per
 {
 }
 
-void TrajectoryPair::advance()
+void TrajectoryPair::next(std::vector<Passage>& all)
 {
-  const Instant before = at_;
-  const State neighbour = neighbour_;
-  try {
-    advance_one_period();
-  } catch (const NoSolution&) {
-    at_ = before;
-    neighbour_ = neighbour;
-    throw;
+  if (interval_ == 0) {
+    before_ = at_;
+    neighbour_before_ = neighbour_;
+    low_ = high_ = displacements(at_.state.position);
+    growth_ = 0;
   }
+  const long interval = at_.period * intervals_ + interval_;
+  all.push_back({flow_.get(), interval, &at_.state});
+  all.push_back({flow_.get(), interval, &neighbour_});
 }
 
-void TrajectoryPair::advance_one_period()
+void TrajectoryPair::arrived()
 {
-  const Displacements first = displacements(at_.state.position);
-  Displacements low = first, high = first;
-  double growth = 0;
-  for (long k = 0; k < intervals_; ++k) {
-    flow_->advance(at_.period * intervals_ + k, at_.state, neighbour_);
-    growth += pull_back();
-    const Displacements q = displacements(at_.state.position);
-    for (std::size_t i = 0; i < 4; ++i) {
-      low[i] = std::min(low[i], q[i]);
-      high[i] = std::max(high[i], q[i]);
-    }
+  growth_ += pull_back();
+  const Displacements q = displacements(at_.state.position);
+  for (std::size_t i = 0; i < 4; ++i) {
+    low_[i] = std::min(low_[i], q[i]);
+    high_[i] = std::max(high_[i], q[i]);
   }
+  if (++interval_ == intervals_) end_period();
+}
+
+void TrajectoryPair::advance()
+{
+  std::vector<Passage> both;
+  do {
+    both.clear();
+    next(both);
+    const auto failures = advance_together(both);
+    if (!failures.empty()) std::rethrow_exception(failures.front().why);
+    arrived();
+  } while (!is_between_periods());
+}
+
+void TrajectoryPair::go_back()
+{
+  at_ = before_;
+  neighbour_ = neighbour_before_;
+  interval_ = 0;
+}
+
+void TrajectoryPair::end_period()
+{
+  interval_ = 0;
   ++at_.period;
-  section_.push_back(first);
+  section_.push_back(displacements(before_.state.position));
   half_range_ = 0;
   for (std::size_t i = 0; i < 4; ++i)
-    half_range_ = std::max(half_range_, 0.5 * (high[i] - low[i]));
-  growths_.push_back(growth);
-  log_distance_ += growth;
+    half_range_ = std::max(half_range_, 0.5 * (high_[i] - low_[i]));
+  growths_.push_back(growth_);
+  log_distance_ += growth_;
   highest_ = std::max(highest_, log_distance_);
   if (log_distance_ >= highest_) marks_.clear();
   if (marks_.empty() || marks_.back().log_distance - log_distance_ > 1)

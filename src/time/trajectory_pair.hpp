@@ -15,7 +15,7 @@ them. On a T-periodic motion λ is ln|μ|/T of the largest Floquet multiplier. *
 #include <vector>
 
 #include "time/batch_mean.hpp"
-#include "time/flow.hpp"
+#include "time/side_by_side.hpp"
 
 namespace rotor_stator {
 
@@ -36,9 +36,18 @@ public:
   TrajectoryPair(std::unique_ptr<Flow> flow, int intervals_per_period, double period,
                  const Eigen::VectorXd& sizes, const Instant& start);
 
-  /** Over one base period. Throws NoSolution when the motion diverges; the motion stays
-      where it was where the period cannot be paid for. */
+  /** Both over the next interval, and what follows from where they are then. Throws
+      NoSolution when the motion diverges. */
+  void next(std::vector<Passage>& all);
+  void arrived();
+
+  bool is_between_periods() const { return interval_ == 0; }
+
+  /** The same over a base period. */
   void advance();
+
+  /** Back to the start of a base period in which a passage has failed. */
+  void go_back();
 
   const Instant& at() const { return at_; }
 
@@ -65,7 +74,7 @@ public:
   double evaluations() const { return static_cast<double>(flow_->evaluations()); }
 
 private:
-  void advance_one_period();
+  void end_period();
   State beside(const Eigen::VectorXd& y) const;
   double pull_back();
 
@@ -78,8 +87,11 @@ private:
   int intervals_;
   double period_;
   Eigen::VectorXd sizes_;
-  Instant at_;
-  State neighbour_;
+  Instant at_, before_;  ///< now, and at the start of the base period
+  State neighbour_, neighbour_before_;
+  int interval_ = 0;  ///< of the base period
+  Displacements low_{}, high_{};
+  double growth_ = 0;
   double half_range_ = 0, log_distance_ = 0, highest_ = 0;
   std::vector<double> growths_;
   std::vector<Displacements> section_;

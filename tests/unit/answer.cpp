@@ -120,8 +120,8 @@ TEST_CASE("A start from rest is in equilibrium, whole turns before t = 0")
 TEST_CASE("Neighbours part at the rate of the largest multiplier")
 {
   for (const double frequency : {16.0, 20.0, 20.25, 45.0}) {
-    motion::Answer answer =
-        motion::settled_answer(set_1(), {.omega = hertz(frequency), .longest = 60});
+    const motion::Question question{set_1(), {.omega = hertz(frequency), .longest = 60}};
+    motion::Answer answer = motion::settled_answers({&question, 1}).front().get();
     const Exponent measured = answer.settled.lyapunov;
     complete(answer, {.omega = hertz(frequency)});
     const Exponent exact = answer.settled.lyapunov;

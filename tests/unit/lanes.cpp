@@ -102,7 +102,7 @@ TEST_CASE("Motions side by side have the bits that they have alone")
             states.push_back(runners[n].start);
           }
           for (int round = 0; round < rounds; ++round) {
-            std::vector<Rk4::Passage> passages;
+            std::vector<Passage> passages;
             for (int l = 0; l < count; ++l)
               passages.push_back(
                   {flows[l].get(), runners[first + l].interval + round, &states[l]});
@@ -128,7 +128,8 @@ TEST_CASE("A state and its neighbour have the bits that they have alone")
     b.velocity.stator.y += 1e-3;
     State a_alone = a, b_alone = b;
     for (long k = runner.interval; k < runner.interval + 4; ++k) {
-      both->advance(k, a, b);
+      const Passage passages[] = {{both.get(), k, &a}, {both.get(), k, &b}};
+      CHECK(advance_together(passages).empty());
       flow->advance(k, a_alone);
       flow->advance(k, b_alone);
       CHECK(bits(a) == bits(a_alone));

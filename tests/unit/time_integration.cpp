@@ -7,7 +7,7 @@
 #include "io/errors.hpp"
 #include "motion/find_periodic.hpp"
 #include "support/cases.hpp"
-#include "time/flow.hpp"
+#include "time/side_by_side.hpp"
 #include "time/gsl.hpp"
 #include "time/period_map.hpp"
 #include "time/shooting.hpp"
@@ -235,7 +235,8 @@ TEST_CASE("Two states that RK4 advances at once go where each goes alone")
   };
   for (long k = 0; k < 32; ++k) {
     CHECK(apart(a, b) > 0.01);
-    together->advance(k, a, b);
+    const Passage both[] = {{together.get(), k, &a}, {together.get(), k, &b}};
+    CHECK(advance_together(both).empty());
     alone->advance(k, a_alone);
     alone->advance(k, b_alone);
     CHECK(apart(a, a_alone) < 1e-12);

@@ -1,0 +1,103 @@
+#include "time/side_by_side.hpp"
+
+#include <algorithm>
+#include <tuple>
+
+#include "io/errors.hpp"
+#include "time/rk4.hpp"
+
+namespace rotor_stator {
+
+/** The flow of a passage that goes in lanes, else null. */
+static Rk4* in_lanes(const Passage& one)
+{
+  const auto rk4 = dynamic_cast<Rk4*>(one.flow);
+  return rk4 && !rk4->is_damaged() ? rk4 : nullptr;
+}
+
+static void advance_alone(const Passage& one)
+{
+  if (one.path) return one.flow->follow(one.first, one.count, *one.state, *one.path);
+  for (long k = 0; k < one.count; ++k) one.flow->advance(one.first + k, *one.state);
+}
+
+std::vector<Failure> advance_together(std::span<const Passage> passages)
+{
+  const std::size_t widest = Rk4::widest_row();
+  using Alike = std::tuple<int, bool>;
+  struct Lane {
+    Passage passage;
+    Alike alike;
+    long steps;
+  };
+  thread_local std::vector<Lane> lanes;
+  lanes.clear();
+  std::vector<Failure> failures;
+  for (std::size_t k = 0; k < passages.size(); ++k) {
+    const Passage& one = passages[k];
+    try {
+      if (Rk4* rk4 = in_lanes(one)) {
+        rk4->pay(one.count);
+        lanes.push_back({one,
+                         {rk4->balls(), rk4->is_damped()},
+                         rk4->steps_per_interval() * one.count});
+      } else {
+        advance_alone(one);
+      }
+    } catch (const NoSolution&) {
+      failures.push_back({k, std::current_exception()});
+    }
+  }
+  /** None waits long for another one in its row. */
+  const auto key = [](const Lane& lane) { return std::tie(lane.alike, lane.steps); };
+  if (lanes.size() > widest) std::ranges::stable_sort(lanes, {}, key);
+  std::vector<Passage> row;
+  for (std::size_t k = 0; k < lanes.size(); ++k) {
+    row.push_back(lanes[k].passage);
+    const bool is_last = k + 1 == lanes.size() || lanes[k + 1].alike != lanes[k].alike;
+    if (row.size() < widest && !is_last) continue;
+    Rk4::advance_row(row);
+    row.clear();
+  }
+  return failures;
+}
+
+void travel(std::span<Traveller* const> all)
+{
+  constexpr std::size_t at_once = 16;
+  std::vector<Traveller*> under_way;
+  std::vector<Passage> passages;
+  std::vector<std::size_t> ends;
+  for (auto waiting = all.begin(); waiting != all.end() || !under_way.empty();) {
+    while (under_way.size() < at_once && waiting != all.end())
+      under_way.push_back(*waiting++);
+    passages.clear();
+    ends.clear();
+    std::erase_if(under_way, [&](Traveller* one) {
+      const std::size_t before = passages.size();
+      one->next(passages);
+      if (passages.size() == before) return true;
+      ends.push_back(passages.size());
+      return false;
+    });
+    const std::vector<Failure> failures = advance_together(passages);
+    auto failure = failures.begin();
+    for (std::size_t k = 0; k < under_way.size(); ++k) {
+      const auto is_own = [&] {
+        return failure != failures.end() && failure->passage < ends[k];
+      };
+      if (is_own()) {
+        under_way[k]->lost(failure->why);
+        while (is_own()) ++failure;
+        continue;
+      }
+      try {
+        under_way[k]->arrived();
+      } catch (const NoSolution&) {
+        under_way[k]->lost(std::current_exception());
+      }
+    }
+  }
+}
+
+}  // namespace rotor_stator
