@@ -73,13 +73,11 @@ void add_motion(const Parameters& parameters, double frequency, const Computed& 
   }
 }
 
-/** `orbit` the motion alone; `error` with its error estimate; `verdict` with the verdict. */
+/** `orbit` the motion alone; `verdict` with the verdict and the error that it knows. */
 void show_motion(const std::string& what, const Parameters& parameters,
                  MotionRequest request)
 {
   request.stability = what == "verdict";
-  if (what == "error" && request.harmonics)
-    request.tolerance = HUGE_VAL;  // any is accepted
   Table table("Live", {});
   const Computed at = computed(parameters, request, recorded_periods, table);
   conclude(table, parameters, at.touches(), at.budget);

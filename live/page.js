@@ -226,7 +226,7 @@ async function update({ machine = true } = {}) {
   const isFound = result.status === 0, isBalance = isFound && keysOf(result.text)("method") === "aft";
   isFound ? showMotion(result) : showNothing(result);
   if (isFound) Object.assign(document.body.dataset, { ms: performance.now() - start, memory: result.memory });
-  if (isBalance) later(120, () => showError(mine)), later(250, () => judge(mine));
+  if (isBalance) later(120, () => judge(mine));
   if (isFound || result.status === 3) later(300, () => showSteady(mine, isBalance));
 }
 
@@ -240,16 +240,11 @@ function showNothing({ status, text }) {
   if (status === 4) alertOf(text);
 }
 
-async function showError(mine) {
-  const { status, text } = await engines.quick.ask(question("error"));
-  if (mine !== turn || status === -1) return;
-  $("error-state").textContent = status === 0 ? errorsOf(keysOf(text), "error") ?? "–"
-    : `not known: ${text.replace(/^.* Hz: /, "")}`;
-}
-
 async function judge(mine) {
   const { status, text } = await engines.judge.ask(question("verdict"));
   if (mine !== turn || status === -1) return;
+  $("error-state").textContent = status === 0 ? errorsOf(keysOf(text), "distance") ?? "not known"
+    : `not known: ${text.replace(/^.* Hz: /, "")}`;
   status === 0 ? showVerdictOf(text) : showVerdict("undecided", `undecided; ${text}`);
 }
 

@@ -227,8 +227,8 @@ class Page(unittest.TestCase):
                 self.wait("$('verdict').className !== 'computing'")
                 self.assertIn(self.js("return $('verdict').className"), ("stable", "unstable", "undecided"))
                 self.wait("/periodic|chaotic/.test($('steady').textContent)")
-                self.wait("!engines.curve.job && shown.branch.length > 30 && $('curve-state').textContent.includes('points')", 120)
-                self.assertLess(min(point[0] for point in self.js("return shown.branch")), state["from"] + 2)
+                self.wait("!engines.curve.job && shown.branch.length > 30 && $('curve-state').textContent.includes('points')"
+                          " && Math.min(...shown.branch.map((p) => p[0])) < state.from + 2", 120)
                 self.assertGreater(max(point[0] for point in self.js("return shown.branch")), state["to"] - 2)
                 self.show_parts()
                 given = self.text("command").split()[2:]

@@ -402,9 +402,9 @@ private:
 std::vector<Attempt<Observation>> observations(std::span<const Observed> answers)
 {
   std::vector<Attempt<std::unique_ptr<Observing>>> observings;
-  for (const auto& [answer, budget] : answers)
+  for (const Observed& one : answers)
     observings.push_back(
-        attempt([&] { return std::make_unique<Observing>(answer, budget); }));
+        attempt([&] { return std::make_unique<Observing>(one.answer, one.budget); }));
   travel(observings);
   std::vector<Attempt<Observation>> all;
   for (auto& one : observings) all.push_back(attempt([&] { return one.get()->seen(); }));
