@@ -221,16 +221,27 @@ Judged to_tolerance(Search search, double tolerance)
 {
   constexpr int first = 6, few = 48, most = 1536, most_samples = 1 << 14;
   constexpr double infinite = std::numeric_limits<double>::infinity();
+  constexpr double near = 0.1;  // farther away it is another motion
   const int turns = search.turns;
   Judged at{.error = {infinite, infinite}, .end = "no solution found"};
   try {
     if (turns > 1) start_from_closed(search, at.verdict);
     const Parameters longer = over_turns(search.parameters, turns);
-    const std::vector<Eigen::VectorXd> known = search.starts;
+    std::vector<Eigen::VectorXd> known = search.starts;
+    bool is_settled = turns > 1;  ///< whether where the machine settles is known
     for (int m = first; turns * m <= most && !at.reached; m *= 2) {
       search.harmonics = m;
       search.samples = std::min(default_samples(m), most_samples / turns);
-      search.is_thorough = m >= few && !at.verdict.found();
+      const bool is_known = at.verdict.found() && at.error.larger() < near;
+      search.is_thorough = m >= few && !is_known && !is_settled;
+      if (search.is_thorough) try {
+          known.push_back(settled_start(search, few));
+          search.starts.push_back(known.back());
+          is_settled = true;
+          search.is_thorough = false;
+        } catch (const NoSolution&) {
+          if (search.budget.used_up()) throw;
+        }
       PeriodicMotion motion = find_periodic(search);
       at.force_samples += motion.force_samples;
       if (!motion.found() && !at.motion.found() && m >= 4 * few) break;
@@ -239,7 +250,7 @@ Judged to_tolerance(Search search, double tolerance)
       search.starts.insert(search.starts.begin(), motion.x);
       at.motion = std::move(motion);
       add_distance(at, search, tolerance);
-      if (at.verdict.found())
+      if (at.verdict.found() && at.error.larger() < near)
         search.starts.insert(search.starts.begin(),
                              relative_series(longer, at.verdict.record, 2 * turns * m));
     }
