@@ -1,12 +1,12 @@
-"""Adaptive harmonics: what the error estimate is worth.
+"""Harmonics for a tolerance: how many an error needs, and what the printed error is worth.
 
 Beside the paper: §3.3 asks how many harmonics are enough. Instead of a number of harmonics one may ask for an error. The
-balance then chooses harmonics and samples until its own estimate of the error is below the tolerance. Two things can go wrong: the estimate
-may promise more than it keeps, and the search may cost more than it saves. This table looks at both, at the speeds of both
-data sets where the motion is T-periodic.
+number is then doubled until the solution is that near to a motion of Eq. 7 that shooting has closed beside it. Two things can
+go wrong: the motion may not be the solution's own, and the search may cost more than it saves. This table looks at both, at
+the speeds of both data sets where the motion is T-periodic.
 
-Panel (a) of the figure divides the estimate by the true error, the distance to the exact periodic motion found by shooting:
-on the line the estimate is right, below it it is too hopeful; the grey band is what is asked of it. Panel (b) divides the
+Panel (a) of the figure divides the printed error, here called the estimate, by the true one, the distance to the periodic
+motion that shooting finds from starts of its own: on the line both are equal; the grey band is what is asked. Panel (b) divides the
 cost by that of the cheapest fixed number of harmonics that does as well, a number that nobody knows beforehand: above one is
 what not knowing costs, and the line at two is what it may cost. Panels (c) and (d) show the highest order chosen, speed by speed; a
 cross is a tolerance that was not reached.
