@@ -74,11 +74,16 @@ def write(machine, folder):
     return path
 
 
+def solution(harmonics, samples):
+    """The options of a solution by harmonic balance."""
+    return ["--harmonics", str(harmonics), *([] if samples is None else ["--samples", str(samples)])]
+
+
 def first_fold(machine, speeds, harmonics, samples):
     """The first speed at which the branch turns back."""
     with tempfile.TemporaryDirectory() as folder:
         run = subprocess.run([EXPLORE, "response", write(machine, folder), "--from", str(speeds[0]), "--to", str(speeds[1]),
-                              "--harmonics", str(harmonics), "--samples", str(samples), "--columns", "f"],
+                              *solution(harmonics, samples), "--columns", "f"],
                              stdout=subprocess.PIPE, stderr=subprocess.PIPE, encoding="utf-8", check=False)
     f = Table.of(run.stdout)["f"]
     turns = np.flatnonzero(np.diff(f) < 0)
@@ -87,12 +92,8 @@ def first_fold(machine, speeds, harmonics, samples):
     return f[turns[0]]
 
 
-def default_samples(m):
-    return max(8 * m + 1, math.ceil(2 / 3 * m ** 1.6))
-
-
 def cases_of(scene):
-    """Name, machine, speed, m and N of each case."""
+    """Name, machine, speed, m and N of each case; N is None where it is explore's own."""
     base = tomllib.loads(Path("data", scene["parameters"] + ".toml").read_text(encoding="utf-8"))
     cases = []
     for group in scene["group"]:
@@ -105,7 +106,7 @@ def cases_of(scene):
             m = int(changes.pop("harmonics", m))
             for key, to in changes.items():
                 change(machine, key, to)
-            samples = 2 * m + 1 if group.get("samples_per_harmonic") == 0 else default_samples(m)
+            samples = 2 * m + 1 if group.get("samples_per_harmonic") == 0 else None
             speeds = group.get("frequencies_hz", [])
             if group.get("at") == "fold":
                 speeds = [first_fold(machine, speeds, m, samples)]
@@ -235,7 +236,7 @@ class Case:
         return table, run.stderr.replace(f"{self.file}: ", "").strip()
 
     def words(self, method):
-        return {"auto": [], "aft": ["--harmonics", self.m, "--samples", self.samples],
+        return {"auto": [], "aft": solution(self.m, self.samples),
                 "aft-tolerance": ["--method", "aft", "--tolerance", self.rule["accuracy"]],
                 "shooting": ["--method", "shooting"]}[method]
 

@@ -114,18 +114,13 @@ void integrate(const Task& task, std::span<Run> runs, double most)
   for (const Run& run : runs)
     questions.push_back({task.machine, task.asked_at(run.speed),
                          budget_until(task.request.budget, most), run.start});
-  auto answers = motion::settled_answers(questions);
-  std::vector<motion::Observed> settled;
-  for (std::size_t k = 0; k < runs.size(); ++k)
-    if (answers[k].has_value())
-      settled.push_back({answers[k].get(), questions[k].budget});
-  auto seen = motion::observations(settled);
-  for (std::size_t k = 0, next = 0; k < runs.size(); ++k) {
+  auto all = motion::observed_answers(questions);
+  for (std::size_t k = 0; k < runs.size(); ++k) {
     const OperationBudget& budget = questions[k].budget;
     Run& run = runs[k];
     try {
-      run.answer = std::move(answers[k].get());
-      run.seen = seen[next++].get();
+      run.answer = std::move(all[k].answer.get());
+      run.seen = all[k].seen.get();
       if (budget.used_up()) throw NoSolution(out_of_budget);
     } catch (const NoSolution& error) {
       run.lost = budget.used_up() ? out_of_budget : error.what();

@@ -28,18 +28,12 @@ public:
   template <class Make>
   const Value& operator()(const Make& make)
   {
-    if (!value_ && lost_.empty()) try {
-        value_ = make();
-      } catch (const NoSolution& none) {
-        lost_ = none.what();
-      }
-    if (!value_) throw NoSolution(lost_);
-    return *value_;
+    if (!made_) made_ = attempt([&]() -> Value { return make(); });
+    return made_->get();
   }
 
 private:
-  std::optional<Value> value_;
-  std::string lost_;
+  std::optional<Attempt<Value>> made_;
 };
 
 /** A response curve over the speeds of --sweep. */
@@ -138,17 +132,15 @@ public:
              .periods = recorded_periods,
              .step = asked.step,
              .longest = asked.longest},
-            budget_.part(machine_.machine->patience().transient)};
+            budget_,
+            {},
+            machine_.machine->patience().transient};
   }
 
   /** What its question came to. */
-  void take(Attempt<motion::Answer> settled, Attempt<motion::Observation> seen)
-  {
-    settled_ = std::move(settled);
-    seen_ = std::move(seen);
-  }
+  void take(motion::Observed settled) { settled_ = std::move(settled); }
 
-  const motion::Answer& settled() { return settled_.get(); }
+  const motion::Answer& settled() { return settled_.answer.get(); }
   const motion::Answer& answer()
   {
     return answer_([&] {
@@ -240,7 +232,7 @@ private:
   /** Whether the tolerance chooses m. */
   bool is_chosen() const { return task_.request.tolerance && !task_.request.harmonics; }
 
-  const motion::Observation& observed() { return settled(), seen_.get(); }
+  const motion::Observation& observed() { return settled_.seen.get(); }
 
   /** One period of the solution, or the record of the motion from rest; and the machine
       that counts its periods. */
@@ -284,8 +276,7 @@ private:
   Once<motion::Motion> motion_;
   Once<motion::Verdict> verdict_;
   Once<Floquet> series_;
-  Attempt<motion::Answer> settled_;
-  Attempt<motion::Observation> seen_;
+  motion::Observed settled_;
   Once<motion::Answer> answer_;
   Once<Swept> swept_;
 };
@@ -432,17 +423,8 @@ void settle_together(std::span<MapPoint* const> points)
 {
   std::vector<motion::Question> questions;
   for (const auto& point : points) questions.push_back(point->question());
-  auto answers = motion::settled_answers(questions);
-  std::vector<motion::Observed> settled;
-  for (std::size_t k = 0; k < points.size(); ++k)
-    if (answers[k].has_value())
-      settled.push_back({answers[k].get(), questions[k].budget});
-  auto seen = motion::observations(settled);
-  for (std::size_t k = 0, next = 0; k < points.size(); ++k) {
-    const bool is_settled = answers[k].has_value();
-    points[k]->take(std::move(answers[k]), is_settled ? std::move(seen[next++])
-                                                      : Attempt<motion::Observation>());
-  }
+  auto all = motion::observed_answers(questions);
+  for (std::size_t k = 0; k < points.size(); ++k) points[k]->take(std::move(all[k]));
 }
 
 std::string row_of(MapPoint* point, const std::vector<Quantity>& chosen,

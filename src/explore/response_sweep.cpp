@@ -250,19 +250,16 @@ Exploration settled_response(const ResponseRequest& request)
                             .periods = 64,
                             .longest = request.longest,
                             .is_measured = false},
-                           budgets[k].part(0.7),
-                           std::exchange(state, {})});
-    auto answers = motion::settled_answers(questions);
-    std::vector<motion::Observed> settled;
-    for (std::size_t k = 0; k < answers.size(); ++k)
-      if (answers[k].has_value()) settled.push_back({answers[k].get(), budgets[k]});
-    auto seen = motion::observations(settled);
+                           budgets[k],
+                           std::exchange(state, {}),
+                           0.7});
+    auto all = motion::observed_answers(questions);
     Rows rows;
-    for (std::size_t k = 0, next = 0; k < answers.size(); ++k)
+    for (std::size_t k = 0; k < all.size(); ++k)
       rows.push_back(attempt([&] {
-        motion::Answer& answer = answers[k].get();
+        motion::Answer& answer = all[k].answer.get();
         if (sweep.is_chain) state = answer.settled.at.state;
-        return row_of(answer, seen[next++].get(), questions[k].request, has_records,
+        return row_of(answer, all[k].seen.get(), questions[k].request, has_records,
                       sweep.touches, budgets[k]);
       }));
     return rows;
@@ -324,7 +321,10 @@ Exploration response_to_tolerance(const ResponseTask& task)
   };
   sweep.rows_at = [&](std::span<const double> speeds,
                       std::span<const OperationBudget> budgets) {
-    return Rows{attempt([&] { return row_at(speeds[0], budgets[0]); })};
+    Rows rows;
+    for (std::size_t k = 0; k < speeds.size(); ++k)
+      rows.push_back(attempt([&] { return row_at(speeds[k], budgets[k]); }));
+    return rows;
   };
   return computed(sweep);
 }

@@ -209,28 +209,34 @@ static Answer begun(const Question& question)
   return answer;
 }
 
+static std::unique_ptr<Settling> settling(const Question& question, const Answer& at)
+{
+  Instant first = from_rest(at.machine, at.omega);
+  if (question.start) first.state = *question.start;
+  return std::make_unique<Settling>(
+      at.machine, at.omega, at.base, first,
+      SettleRule{.step = question.request.step, .longest = question.request.longest},
+      question.transient < 1 ? question.budget.part(question.transient)
+                             : question.budget);
+}
+
 std::vector<Attempt<Answer>> settled_answers(std::span<const Question> questions)
 {
-  std::vector<Attempt<std::unique_ptr<Settling>>> settlings;
-  for (const Question& question : questions)
-    settlings.push_back(attempt([&] {
-      const Answer answer = begun(question);
-      Instant first = from_rest(answer.machine, answer.omega);
-      if (question.start) first.state = *question.start;
-      const SettleRule rule{.step = question.request.step,
-                            .longest = question.request.longest};
-      return std::make_unique<Settling>(answer.machine, answer.omega, answer.base, first,
-                                        rule, question.budget);
-    }));
-  travel(settlings);
   std::vector<Attempt<Answer>> answers;
+  std::vector<Attempt<std::unique_ptr<Settling>>> settlings;
+  for (const Question& question : questions) {
+    answers.push_back(attempt([&] { return begun(question); }));
+    settlings.push_back(
+        attempt([&] { return settling(question, answers.back().get()); }));
+  }
+  travel(settlings);
   for (std::size_t k = 0; k < questions.size(); ++k)
-    answers.push_back(attempt([&] {
-      Answer answer = begun(questions[k]);
+    answers[k] = attempt([&] {
+      Answer answer = std::move(answers[k].get());
       answer.settled = settlings[k].get()->settled();
       answer.evaluations = answer.settled.evaluations;
       return answer;
-    }));
+    });
   return answers;
 }
 
@@ -250,8 +256,10 @@ void complete(Answer& answer, const Request& request, const OperationBudget& bud
 Answer answer(const Parameters& parameters, const Request& request,
               const OperationBudget& budget)
 {
-  const Question question{parameters, request,
-                          budget.part(parameters.machine->patience().transient)};
+  const Question question{.parameters = parameters,
+                          .request = request,
+                          .budget = budget,
+                          .transient = parameters.machine->patience().transient};
   Answer found = std::move(settled_answers({&question, 1}).front().get());
   complete(found, request, budget);
   return found;
@@ -399,22 +407,27 @@ private:
 
 }  // namespace
 
-std::vector<Attempt<Observation>> observations(std::span<const Observed> answers)
+std::vector<Observed> observed_answers(std::span<const Question> questions)
 {
+  std::vector<Attempt<Answer>> answers = settled_answers(questions);
   std::vector<Attempt<std::unique_ptr<Observing>>> observings;
-  for (const Observed& one : answers)
-    observings.push_back(
-        attempt([&] { return std::make_unique<Observing>(one.answer, one.budget); }));
+  for (std::size_t k = 0; k < questions.size(); ++k)
+    observings.push_back(attempt([&] {
+      return std::make_unique<Observing>(answers[k].get(), questions[k].budget);
+    }));
   travel(observings);
-  std::vector<Attempt<Observation>> all;
-  for (auto& one : observings) all.push_back(attempt([&] { return one.get()->seen(); }));
+  std::vector<Observed> all;
+  for (std::size_t k = 0; k < questions.size(); ++k)
+    all.push_back(
+        {std::move(answers[k]), attempt([&] { return observings[k].get()->seen(); })});
   return all;
 }
 
 Observation observe(const Answer& answer, const OperationBudget& budget)
 {
-  const Observed one{answer, budget};
-  return observations({&one, 1}).front().get();
+  Observing one(answer, budget);
+  travel(std::vector<Traveller*>{&one});
+  return one.seen();
 }
 
 }  // namespace rotor_stator::motion

@@ -68,6 +68,7 @@ struct Question {
   OperationBudget budget = {};
   std::optional<State> start = {};  ///< of the machine at the start of one of its base
                                     ///< periods, as long before t = 0 as rest; else rest
+  double transient = 1;  ///< share of the budget for what comes before the motion
 };
 
 /** The two halves of an answer: what the machine settles on, of all questions side by
@@ -84,11 +85,11 @@ struct Observation {
 };
 Observation observe(const Answer& answer, const OperationBudget& budget = {});
 
-/** The same of several answers side by side, each paid from its own budget. */
+/** What all questions settle on, and what is reported of it, side by side. */
 struct Observed {
-  const Answer& answer;
-  OperationBudget budget;
+  Attempt<Answer> answer;
+  Attempt<Observation> seen;
 };
-std::vector<Attempt<Observation>> observations(std::span<const Observed> answers);
+std::vector<Observed> observed_answers(std::span<const Question> questions);
 
 }  // namespace rotor_stator::motion

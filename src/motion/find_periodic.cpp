@@ -228,11 +228,11 @@ Judged to_tolerance(Search search, double tolerance)
     if (turns > 1) start_from_closed(search, at.verdict);
     const Parameters longer = over_turns(search.parameters, turns);
     std::vector<Eigen::VectorXd> known = search.starts;
-    bool is_settled = turns > 1;  ///< whether where the machine settles is known
+    bool is_known = false;        ///< whether the solution's own motion is
+    bool is_settled = turns > 1;  ///< whether where the machine settles is
     for (int m = first; turns * m <= most && !at.reached; m *= 2) {
       search.harmonics = m;
       search.samples = std::min(default_samples(m), most_samples / turns);
-      const bool is_known = at.verdict.found() && at.error.larger() < near;
       search.is_thorough = m >= few && !is_known && !is_settled;
       if (search.is_thorough) try {
           known.push_back(settled_start(search, few));
@@ -250,7 +250,8 @@ Judged to_tolerance(Search search, double tolerance)
       search.starts.insert(search.starts.begin(), motion.x);
       at.motion = std::move(motion);
       add_distance(at, search, tolerance);
-      if (at.verdict.found() && at.error.larger() < near)
+      is_known = at.verdict.found() && at.error.larger() < near;
+      if (is_known)
         search.starts.insert(search.starts.begin(),
                              relative_series(longer, at.verdict.record, 2 * turns * m));
     }

@@ -212,9 +212,16 @@ public:
     return series.reshaped();
   }
 
-  /** The solution on the `count` largest lines. A torus that has doubled has lines at all
-      whole pairs moved by one half: that where they are largest. */
-  PeriodicMotion solution(int count) const
+  struct Lines {
+    Harmonic half;
+    Harmonics harmonics;
+    Eigen::VectorXd x;
+    double halves = 0, all = 0;  ///< norms of those that are not whole, and of all
+  };
+
+  /** All its lines. A torus that has doubled has some at all whole pairs moved by one
+      half: that where they are largest. */
+  Lines all_lines() const
   {
     constexpr double noticed = 1e-3;
     Lines all = lines_moved_by({});
@@ -223,6 +230,12 @@ public:
       if (moved.halves > std::max(all.halves, noticed * moved.all))
         all = std::move(moved);
     }
+    return all;
+  }
+
+  /** The solution on the `count` largest of them. */
+  PeriodicMotion solution(const Lines& all, int count) const
+  {
     const Harmonics kept = largest(all, count);
     return solved_on(search_, kept, lines_of_force(parameters_.bearing, all.half),
                      all.halves > 0 ? 2 : 1, project(all.x, dofs(), all.harmonics, kept),
@@ -241,13 +254,6 @@ public:
 
 private:
   static constexpr int turns = 1280;  ///< of the record
-
-  struct Lines {
-    Harmonic half;
-    Harmonics harmonics;
-    Eigen::VectorXd x;
-    double halves = 0, all = 0;  ///< norms of those that are not whole, and of all
-  };
 
   int dofs() const { return static_cast<int>(transforms_.size()); }
 
@@ -376,7 +382,7 @@ TorusVerdict verdict_on_torus(const Parameters& parameters,
   /** With error control, from so much earlier that the errors of rk4 are forgotten. */
   const auto stepper =
       flow(parameters, omega,
-                   {.intervals_per_period = points, .tolerance = 1e-9, .budget = budget});
+           {.intervals_per_period = points, .tolerance = 1e-9, .budget = budget});
   const Instant& from =
       verdict.settled.contracts ? verdict.settled.before : verdict.settled.at;
   State state = from.state;
@@ -407,7 +413,8 @@ Torus torus_on_orders(const TorusSearch& search, int m)
 
 Torus torus_on_lines(const TorusSearch& search, int lines)
 {
-  return judged(search, SettledTorus(search).solution(lines));
+  const SettledTorus settled(search);
+  return judged(search, settled.solution(settled.all_lines(), lines));
 }
 
 Torus torus_to_tolerance(const TorusSearch& search, double tolerance)
@@ -416,11 +423,12 @@ Torus torus_to_tolerance(const TorusSearch& search, double tolerance)
   Torus torus;
   try {
     const SettledTorus settled(search);
+    const auto all = settled.all_lines();
     Motion exact = settled.record();
     Error uncertain = settled.record_error();
     double before = std::numeric_limits<double>::infinity();
     for (int lines = first; lines <= most && !torus.reached; lines *= 2) {
-      PeriodicMotion motion = settled.solution(lines);
+      PeriodicMotion motion = settled.solution(all, lines);
       torus.end = format("with %d lines: ", lines) + motion.newton.reason();
       if (!motion.found()) continue;
       torus.motion = std::move(motion);

@@ -30,15 +30,6 @@ public:
       budget is used up. */
   virtual void advance(long interval, State& state) = 0;
 
-  /** The same over `count` intervals from `first` on; `path` gets the state after each. */
-  virtual void follow(long first, long count, State& state, std::vector<State>& path)
-  {
-    for (long k = first; k < first + count; ++k) {
-      advance(k, state);
-      path.push_back(state);
-    }
-  }
-
   /** Evaluations of Eq. 7 so far. */
   virtual long evaluations() const = 0;
 };

@@ -257,14 +257,6 @@ void Rk4::advance(long interval, State& state)
   });
 }
 
-void Rk4::follow(long first, long count, State& state, std::vector<State>& path)
-{
-  if (is_damaged_) return Flow::follow(first, count, state, path);
-  pay(count);
-  const Passage alone{this, first, &state, count, &path};
-  advance_row({&alone, 1});
-}
-
 std::size_t Rk4::widest_row()
 {
   switch (registers_in_use()) {

@@ -49,7 +49,6 @@ public:
       OperationBudget budget = {});
 
   void advance(long interval, State& state) override;
-  void follow(long first, long count, State& state, std::vector<State>& path) override;
   long evaluations() const override { return evaluations_; }
 
   double step() const { return h_; }

@@ -17,8 +17,10 @@ static Rk4* in_lanes(const Passage& one)
 
 static void advance_alone(const Passage& one)
 {
-  if (one.path) return one.flow->follow(one.first, one.count, *one.state, *one.path);
-  for (long k = 0; k < one.count; ++k) one.flow->advance(one.first + k, *one.state);
+  for (long k = 0; k < one.count; ++k) {
+    one.flow->advance(one.first + k, *one.state);
+    if (one.path) one.path->push_back(*one.state);
+  }
 }
 
 std::vector<Failure> advance_together(std::span<const Passage> passages)
@@ -52,6 +54,7 @@ std::vector<Failure> advance_together(std::span<const Passage> passages)
   const auto key = [](const Lane& lane) { return std::tie(lane.alike, lane.steps); };
   if (lanes.size() > widest) std::ranges::stable_sort(lanes, {}, key);
   std::vector<Passage> row;
+  row.reserve(widest);
   for (std::size_t k = 0; k < lanes.size(); ++k) {
     row.push_back(lanes[k].passage);
     const bool is_last = k + 1 == lanes.size() || lanes[k + 1].alike != lanes[k].alike;

@@ -42,18 +42,6 @@ void TrajectoryPair::arrived()
   if (++interval_ == intervals_) end_period();
 }
 
-void TrajectoryPair::advance()
-{
-  std::vector<Passage> both;
-  do {
-    both.clear();
-    next(both);
-    const auto failures = advance_together(both);
-    if (!failures.empty()) std::rethrow_exception(failures.front().why);
-    arrived();
-  } while (!is_between_periods());
-}
-
 void TrajectoryPair::go_back()
 {
   at_ = before_;

@@ -43,9 +43,6 @@ public:
 
   bool is_between_periods() const { return interval_ == 0; }
 
-  /** The same over a base period. */
-  void advance();
-
   /** Back to the start of a base period in which a passage has failed. */
   void go_back();
 

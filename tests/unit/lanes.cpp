@@ -1,11 +1,9 @@
 /** Motions side by side by RK4, with registers of each width: each has the bits that it
     has alone. */
-#include <array>
-#include <bit>
-#include <cstdint>
 #include <memory>
 #include "support/catch.hpp"
 
+#include "support/bits.hpp"
 #include "support/cases.hpp"
 #include "time/flow.hpp"
 #include "time/rk4.hpp"
@@ -14,13 +12,6 @@ using namespace rotor_stator;
 using namespace rotor_stator::tests;
 
 namespace {
-
-using Bits = std::array<std::uint64_t, 8>;
-
-Bits bits(const State& state)
-{
-  return std::bit_cast<Bits>(std::array{state.position, state.velocity});
-}
 
 /** A motion of its own: everything but the number of balls differs from that of the
     others. */

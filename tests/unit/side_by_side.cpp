@@ -1,11 +1,9 @@
 /** Motions that are settled together, with others or alone: the same bits. */
-#include <array>
-#include <bit>
-#include <cstdint>
 #include <memory>
 #include "support/catch.hpp"
 
 #include "io/errors.hpp"
+#include "support/bits.hpp"
 #include "support/cases.hpp"
 #include "time/rk4.hpp"
 #include "time/settle.hpp"
@@ -14,13 +12,6 @@ using namespace rotor_stator;
 using namespace rotor_stator::tests;
 
 namespace {
-
-using Bits = std::array<std::uint64_t, 8>;
-
-Bits bits(const State& state)
-{
-  return std::bit_cast<Bits>(std::array{state.position, state.velocity});
-}
 
 /** Machines, speeds and kinds of motion differ; some have other bearings, whose motions
     are no neighbours in a row. */
@@ -104,7 +95,9 @@ TEST_CASE("Paths side by side have the bits that they have alone")
     const Case one(static_cast<int>(n));
     State state = static_start(one.machine);
     std::vector<State> alone;
-    flows[n]->follow(passages[n].first, passages[n].count, state, alone);
+    const Passage single{passages[n].flow, passages[n].first, &state, passages[n].count,
+                         &alone};
+    REQUIRE(advance_together({&single, 1}).empty());
     REQUIRE(paths[n].size() == alone.size());
     for (std::size_t k = 0; k < alone.size(); ++k)
       CHECK(bits(paths[n][k]) == bits(alone[k]));
