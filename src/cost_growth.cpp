@@ -82,10 +82,10 @@ std::vector<Growth> costs_of(const CostGrowthScene& scene)
                   .frequencies = {scene.frequency},
                   .before = Task::Known{scene.below, static_start(scene.parameters)}};
   const auto method_with = [&](int m) {
-    return timed_method(task, {.method = "aft",
-                               .harmonics = m,
-                               .samples_per_harmonic = scene.samples_per_harmonic,
-                               .tolerance = scene.newton_tolerance});
+    return timed_method(task, Setting{.method = "aft",
+                                      .harmonics = m,
+                                      .samples_per_harmonic = scene.samples_per_harmonic,
+                                      .tolerance = scene.newton_tolerance});
   };
   method_with(1)->run();  // what the program itself takes
   const double least = peak_of_memory();

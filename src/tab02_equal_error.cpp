@@ -5,14 +5,22 @@ Paper: §3.3, 9.0, 8.2 and 7.5 times faster than RK4 (claim C9).
 
     make tab02_equal_error
 
-Every method solves the sweep of Table 2 at its cheapest setting that stays below an error at every speed.
-Which method is the fastest depends on that error. A method that never stays below it is named in the
-header, with the least error that it reaches. Speeds at which the motion has not the period of rotation are
-left out and listed, since no error of a periodic motion is defined there. The two ranges lie below and
-above the transition at 25 Hz.
+Every method solves the sweep of Table 2 with its cheapest settings that stay below an
+error at every speed. Which method is the fastest depends on that error. A method that
+never stays below it is named in the header, with the least error that it reaches. Speeds
+at which the motion has not the period of rotation are left out and listed, since no error
+of a periodic motion is defined there. The two ranges lie below and above the transition
+at 25 Hz.
 
-The settings of a method, for harmonic balance the numbers m and N, are found by trying, with the true
-motions at hand.
+The settings of a method, for harmonic balance the numbers m and N, for Runge-Kutta the
+step and the transient, are found by trying, with the true motions at hand: one setting
+for all speeds of a range, or another one at each speed, whichever takes less time.
+
+`rk4` integrates one motion at a time, from speed to speed, and is what the paper compares
+with. `rk4-lanes` is the same integrator with all speeds side by side in the registers of
+the processor. `central` are central differences, which need one force per step, and `rk8`
+is the pair of Dormand and Prince of order eight; both are compiled like `rk4`. `rkf45` and
+the implicit and multistep methods are GSL's, whose calls take time of their own.
 
 Other people's programs stand with the figure `peers`: the integrators of SUNDIALS and of SciPy, which call the same
 force, and AUTO-07p, which follows the response by collocation. SciPy's are called from Python, which costs
@@ -43,7 +51,7 @@ int main(int argc, char** argv)
     std::vector<EqualErrorRow> rows;
     for (const References& range : periodic_ranges(scene, references))
       for (const Candidates& method : watched("methods", scene.candidates)) {
-        const std::vector<Measurement> tried = try_settings(scene, range, method);
+        const std::vector<Trial> tried = try_settings(scene, range, method);
         for (double target : scene.targets)
           rows.push_back(cheapest(scene, range, tried, target, rows));
       }

@@ -52,17 +52,16 @@ std::vector<References> periodic_ranges(const EqualErrorScene& scene,
   return ranges;
 }
 
-std::vector<Measurement> try_settings(const EqualErrorScene& scene,
-                                      const References& range,
-                                      const Candidates& candidates)
+std::vector<Trial> try_settings(const EqualErrorScene& scene, const References& range,
+                                const Candidates& candidates)
 {
   constexpr double clearly = 1.3;
-  std::vector<Measurement> tried;
+  std::vector<Trial> tried;
   double used = 0, least = std::numeric_limits<double>::infinity();
   for (const SettingGroup& group : watched(candidates.method, candidates.groups))
     for (const Setting& setting : group) {
       if (used > scene.search) return tried;
-      tried.push_back(measure(range, setting, 1));
+      tried.push_back(tried_once(range, setting));
       const double cpu = tried.back().median;
       used += cpu;
       if (tried.back().*scene.error <= scene.targets.back()) least = std::min(least, cpu);
@@ -71,28 +70,59 @@ std::vector<Measurement> try_settings(const EqualErrorScene& scene,
   return tried;
 }
 
+std::optional<Schedule> schedule_by_speed(const EqualErrorScene& scene,
+                                          const References& range,
+                                          const std::vector<Trial>& tried, double target)
+{
+  constexpr int attempts = 8;
+  const std::size_t speeds = range.frequencies.size();
+  /** The settings that reach the target at a speed, the cheapest first. */
+  std::vector<std::vector<const Trial*>> good(speeds);
+  for (std::size_t k = 0; k < speeds; ++k) {
+    for (const Trial& trial : tried)
+      if (trial.errors[k].*scene.error <= target) good[k].push_back(&trial);
+    std::ranges::sort(good[k], {}, [&](const Trial* one) { return one->seconds[k]; });
+  }
+  std::vector<std::size_t> chosen(speeds);
+  for (int attempt = 0; attempt < attempts; ++attempt) {
+    std::vector<Setting> settings;
+    for (std::size_t k = 0; k < speeds; ++k) {
+      if (chosen[k] >= good[k].size()) return {};
+      settings.push_back(good[k][chosen[k]]->schedule.at(k));
+    }
+    const Schedule schedule(settings);
+    const Measurement whole = measure(range, schedule, 1);
+    if (whole.*scene.error <= target) return schedule;
+    for (std::size_t k = 0; k < speeds; ++k)
+      if (!(whole.errors[k].*scene.error <= target)) ++chosen[k];
+  }
+  return {};
+}
+
 EqualErrorRow cheapest(const EqualErrorScene& scene, const References& range,
-                       const std::vector<Measurement>& tried, double target,
+                       const std::vector<Trial>& tried, double target,
                        const std::vector<EqualErrorRow>& rows)
 {
   constexpr std::size_t few = 4;
-  std::vector<Measurement> good = tried;
+  std::vector<Measurement> good(tried.begin(), tried.end());
   std::erase_if(good, [&](auto& m) { return !(m.*scene.error <= target); });
   std::ranges::sort(good, {}, &Measurement::median);
-  good.resize(std::min(good.size(), few));
-  for (Measurement& m : good) m = measure(range, m.setting, scene.repetitions);
-  EqualErrorRow row{
-      good.empty()
-          ? *std::ranges::min_element(tried, {}, [&](auto& m) { return m.*scene.error; })
-          : *std::ranges::min_element(good, {}, &Measurement::median),
-      format("%g-%g", range.frequencies.front(), range.frequencies.back()),
-      range.frequencies.size(),
-      tried.size(),
-      target,
-      !good.empty()};
-  if (row.reached && row.setting.method == "aft") row.ratio = 1;
+  if (good.size() > few) good.erase(good.begin() + few, good.end());
+  for (Measurement& m : good) m = measure(range, m.schedule, scene.repetitions);
+  if (const auto schedule = schedule_by_speed(scene, range, tried, target))
+    good.push_back(measure(range, *schedule, scene.repetitions));
+  EqualErrorRow row{good.empty()
+                        ? static_cast<const Measurement&>(*std::ranges::min_element(
+                              tried, {}, [&](auto& m) { return m.*scene.error; }))
+                        : *std::ranges::min_element(good, {}, &Measurement::median),
+                    format("%g-%g", range.frequencies.front(), range.frequencies.back()),
+                    range.frequencies.size(),
+                    tried.size(),
+                    target,
+                    !good.empty()};
+  if (row.reached && row.schedule.method() == "aft") row.ratio = 1;
   for (const EqualErrorRow& aft : rows)
-    if (aft.setting.method == "aft" && aft.reached && aft.range == row.range &&
+    if (aft.schedule.method() == "aft" && aft.reached && aft.range == row.range &&
         aft.target == target)
       row.ratio = row.median / aft.median;
   return row;
@@ -105,10 +135,13 @@ using Row = EqualErrorRow;
 const std::vector<Field<Row>> equal_error_fields{
     {"range", "Hz", "first and last T-periodic speed of the sweep", &Row::range},
     {"target", "-", "largest error allowed", &Row::target},
-    {"method", "-", "aft: harmonic balance; rk4; GSL's; shooting- with one of them",
-     [](auto& r) { return r.setting.method; }},
-    {"setting", "-", "the cheapest that reaches the target",
-     [](auto& r) { return r.setting.text(); }},
+    {"method", "-",
+     "aft: harmonic balance; rk4; rk4-lanes: all speeds side by side; central "
+     "differences; rk8; GSL's; shooting- with one of them",
+     [](auto& r) { return r.schedule.method(); }},
+    {"setting", "-",
+     "the cheapest that reaches the target; least..most where it differs by speed",
+     [](auto& r) { return r.schedule.text(); }},
     {"cpu_s", "s", "CPU of one thread for the whole range, median of the repetitions",
      &Row::median},
     {"error", "-", "largest relative error of displacement over the speeds",
@@ -151,8 +184,8 @@ Table equal_error_table(const EqualErrorScene& scene, const References& referenc
     if (row.reached)
       table.row(equal_error_fields, row);
     else
-      table.note(format("not reached: %s, %s Hz, target %g; ", row.setting.method.c_str(),
-                        row.range.c_str(), row.target) +
+      table.note(format("not reached: %s, %s Hz, target %g; ",
+                        row.schedule.method().c_str(), row.range.c_str(), row.target) +
                  (std::isfinite(row.*scene.error) ? format("best %.2g", row.*scene.error)
                                                   : "no setting solves every speed"));
   return table;

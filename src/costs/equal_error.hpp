@@ -1,10 +1,13 @@
 /**
 # Computing time at equal error (§3.3, code)
 
-All settings of the scene file are run once. Within a group of equal accuracy, where the cheaper ones
-come first, the search stops when a run costs clearly more than the cheapest that has reached every
-target; it ends once the method has used its time. The four cheapest that reach a target are
-then repeated, and the one with the least median is the row. */
+All settings of the scene file are run once. Within a group of equal accuracy, where the
+cheaper ones come first, the search stops when a run costs clearly more than the cheapest
+that has reached every target; it ends once the method has used its time. From these runs
+come the error and the time of each setting at each speed, and from them a schedule: at
+each speed the cheapest setting that stays below the target there. The cheapest uniform
+settings and the schedule are then repeated, and the one with the least median is the row.
+*/
 #pragma once
 
 #include "costs/timed_method.hpp"
@@ -31,13 +34,19 @@ EqualErrorScene read_equal_error(SceneFile& file, const std::string& error);
 std::vector<References> periodic_ranges(const EqualErrorScene& scene,
                                         const References& references);
 
-/** The settings of one method in one range, each run once, group by group. */
-std::vector<Measurement> try_settings(const EqualErrorScene& scene,
-                                      const References& range,
-                                      const Candidates& candidates);
+/** The settings of one method in one range, group by group. */
+std::vector<Trial> try_settings(const EqualErrorScene& scene, const References& range,
+                                const Candidates& candidates);
 
-/** One method in one range at one target: its cheapest setting that reaches the target, or the setting
-    with the least error where none does. */
+/** At each speed the cheapest of the settings tried that stays below the target there, as
+    far as the speeds have one. A speed that misses the target among its new neighbours
+    takes its next setting. */
+std::optional<Schedule> schedule_by_speed(const EqualErrorScene& scene,
+                                          const References& range,
+                                          const std::vector<Trial>& tried, double target);
+
+/** One method in one range at one target: its cheapest settings that reach the target, or
+    the setting with the least error where none does. */
 struct EqualErrorRow : Measurement {
   std::string range;          ///< first and last speed [Hz]
   std::size_t speeds, tried;  ///< settings tried
@@ -48,7 +57,7 @@ struct EqualErrorRow : Measurement {
 
 /** Of the settings tried. `rows` has that of aft, if it is to be compared with. */
 EqualErrorRow cheapest(const EqualErrorScene& scene, const References& range,
-                       const std::vector<Measurement>& tried, double target,
+                       const std::vector<Trial>& tried, double target,
                        const std::vector<EqualErrorRow>& rows);
 
 Table equal_error_table(const EqualErrorScene& scene, const References& references,

@@ -4,18 +4,32 @@
 #include <time.h>
 #include <algorithm>
 #include <cmath>
+#include <map>
 #include <numbers>
+#include <numeric>
 
 #include "balance/bearing_problem.hpp"
 #include "balance/fourier_transform.hpp"
 #include "balance/newton.hpp"
 #include "continuation/sweep.hpp"
+#include "costs/central_differences.hpp"
 #include "io/errors.hpp"
 #include "model/rotor_stator.hpp"
-#include "time/flow.hpp"
 #include "time/shooting.hpp"
+#include "time/side_by_side.hpp"
 
 namespace rotor_stator::costs {
+
+bool Setting::has_fixed_step() const
+{
+  return stepper() == "rk4" || method == "central";
+}
+
+std::string Setting::stepper() const
+{
+  if (method == "rk4-lanes") return "rk4";
+  return is_shooting() ? method.substr(method.find('-') + 1) : method;
+}
 
 int Setting::sample_count() const
 {
@@ -24,18 +38,28 @@ int Setting::sample_count() const
                            2 * harmonics + 2, samples_per_harmonic * harmonics + 1));
 }
 
-std::string Setting::text() const
+std::string Schedule::text() const
 {
-  std::string words;
-  const auto add = [&](double value, const char* form) {
-    if (value > 0) words += (words.empty() ? "" : " ") + format(form, value);
+  struct Part {
+    double (*of)(const Setting&);
+    const char *before, *after = "";
   };
-  add(harmonics, "m=%g");
-  add(samples_per_harmonic, "N>%gm");
-  add(step, "step=%g");
-  add(tolerance, "tol=%g");
-  add(transient, "transient=%g");
-  add(periodicity_residual, "closure=%g");
+  constexpr Part parts[] = {
+      {[](auto& s) { return static_cast<double>(s.harmonics); }, "m="},
+      {[](auto& s) { return static_cast<double>(s.samples_per_harmonic); }, "N>", "m"},
+      {[](auto& s) { return s.step; }, "step="},
+      {[](auto& s) { return s.tolerance; }, "tol="},
+      {[](auto& s) { return s.transient; }, "transient="},
+      {[](auto& s) { return s.periodicity_residual; }, "closure="}};
+  std::string words;
+  for (const Part& part : parts) {
+    const auto [least, most] = std::ranges::minmax(settings_, {}, part.of);
+    if (part.of(most) <= 0) continue;
+    if (!words.empty()) words += " ";
+    words += part.before + format("%g", part.of(least));
+    if (part.of(least) < part.of(most)) words += format("..%g", part.of(most));
+    words += part.after;
+  }
   return words;
 }
 
@@ -75,7 +99,7 @@ Candidates balances(StrictToml table, const std::string& method)
 /** A group for each step or local error. */
 Candidates integrations(StrictToml table, const std::string& method)
 {
-  const bool fixed_step = method.ends_with("rk4");
+  const bool fixed_step = Setting{.method = method}.has_fixed_step();
   const SettingGroup accuracies = each(
       SettingGroup{{.method = method}}, fixed_step ? &Setting::step : &Setting::tolerance,
       table.numbers(fixed_step ? "steps_s" : "tolerances", Range::positive));
@@ -97,6 +121,7 @@ std::vector<Candidates> read_candidates(StrictToml& toml)
 {
   std::vector<std::string> known{"aft"};
   known.insert(known.end(), time_methods().begin(), time_methods().end());
+  known.insert(known.end(), {"rk4-lanes", "central"});
   for (const char* stepper : {"rk4", "rk8", "rkf45", "rkck", "rk8pd"})
     known.push_back(std::string("shooting-") + stepper);
   std::vector<Candidates> all;
@@ -141,22 +166,43 @@ void TimedMethod::run(const std::function<bool(std::size_t speed)>& goes_on)
   }
 }
 
-std::unique_ptr<Flow> TimedMethod::stepper(double omega, int intervals) const
+std::vector<double> TimedMethod::seconds_by_speed()
 {
-  const std::string& method = setting_.method;
-  return flow(
-      task_.parameters, omega,
-      {.method = setting_.is_shooting() ? method.substr(method.find('-') + 1) : method,
-       .intervals_per_period = intervals,
-       .step = setting_.step,
-       .tolerance = setting_.tolerance});
+  std::vector<double> seconds;
+  double before = thread_cpu_seconds();
+  run([&](std::size_t) {
+    const double now = thread_cpu_seconds();
+    seconds.push_back(now - before);
+    before = now;
+    return true;
+  });
+  return seconds;
+}
+
+std::unique_ptr<Flow> TimedMethod::stepper(std::size_t speed, int intervals) const
+{
+  const double omega = angular(task_.frequencies[speed]);
+  const Setting& setting = schedule_.at(speed);
+  if (setting.method == "central")
+    return std::make_unique<CentralDifferences>(task_.parameters, omega, intervals,
+                                                setting.step);
+  return flow(task_.parameters, omega,
+              {.method = setting.stepper(),
+               .intervals_per_period = intervals,
+               .step = setting.step,
+               .tolerance = setting.tolerance});
+}
+
+/** The fewest that last so many seconds. */
+static long whole_periods(double seconds, double omega)
+{
+  return std::lround(std::ceil(seconds * omega / (2 * std::numbers::pi) - 1e-9));
 }
 
 long TimedMethod::advance(Flow& whole, double seconds, double omega, State& state)
 {
   const long before = whole.evaluations();
-  const long periods =
-      std::lround(std::ceil(seconds * omega / (2 * std::numbers::pi) - 1e-9));
+  const long periods = whole_periods(seconds, omega);
   for (long k = 0; k < periods; ++k) whole.advance(k, state);
   counts_.force_instants += whole.evaluations() - before;
   return periods;
@@ -166,7 +212,7 @@ namespace {
 
 class BalanceSweep : public TimedMethod {
 public:
-  BalanceSweep(const Task& task, const Setting& setting) : TimedMethod(task, setting)
+  BalanceSweep(const Task& task, const Schedule& schedule) : TimedMethod(task, schedule)
   {
     if (!task.before) return;
     begin();
@@ -183,39 +229,44 @@ public:
   Counts counts() const override
   {
     Counts counts = counts_;
-    const long samples = setting_.sample_count();
-    counts.force_instants += balance_->evaluations() * samples;
-    counts.transforms =
-        4 * (balance_->evaluations() + solver_->factorisations() + solver_->iterations());
-    counts.transformed = counts.transforms * samples;
+    for (const auto& [size, one] : balances_) {
+      const long samples = size.second, evaluations = one->balance.evaluations();
+      const long transforms =
+          4 * (evaluations + one->solver.factorisations() + one->solver.iterations());
+      counts.force_instants += evaluations * samples;
+      counts.transforms += transforms;
+      counts.transformed += transforms * samples;
+    }
     counts.force_seconds = *force_seconds_;
     return counts;
   }
 
 private:
+  struct Solved {
+    Balance balance;
+    BalanceSolver solver;  ///< keeps its factors from speed to speed
+
+    Solved(Problem problem, int harmonics)
+        : balance(std::move(problem), harmonics), solver(balance)
+    {
+    }
+  };
+
   void begin() override
   {
     bodies_.assign(task_.frequencies.size(), {});
+    balances_.clear();
     *force_seconds_ = 0;
-    Problem problem = bearing_problem(task_.parameters, setting_.sample_count());
-    if (task_.profiled)
-      problem.force = [inner = problem.force, seconds = force_seconds_](
-                          const auto& q, auto&&... results) {
-        const double start = thread_cpu_seconds();
-        inner(q, results...);
-        *seconds += thread_cpu_seconds() - start;
-      };
-    balance_.emplace(problem, setting_.harmonics);
-    solver_.emplace(*balance_);
     state_ = task_.before ? task_.before->state : static_start(task_.parameters);
     SweepSettings settings = sweep_settings(task_.parameters);
     predictor_ = {settings.arc_unknown_scale, settings.speed_scale};
     if (before_.size() > 0) predictor_.add(before_, angular(task_.before->frequency));
+    setting_ = schedule_.at(0);
     if (!setting_.paper_sweep) return;
     /** The paper's sweep goes over all speeds at once. */
     settings.newton.tolerance = setting_.tolerance;
     const auto found = sweep(
-        *balance_, angular(task_.frequencies),
+        solved().balance, angular(task_.frequencies),
         [&](double omega) { return contact(omega); }, settings);
     for (std::size_t k = 0; k < found.size(); ++k)
       if (found[k].found()) bodies_[k] = body_series(task_.parameters, found[k]);
@@ -224,18 +275,42 @@ private:
   void solve(std::size_t speed) override
   {
     if (setting_.paper_sweep) return;
+    setting_ = schedule_.at(speed);
     PeriodicMotion found{.omega = angular(task_.frequencies[speed])};
     if (!finds(found)) return;
     predictor_.add(found.x, found.omega);
     bodies_[speed] = body_series(task_.parameters, found);
   }
 
+  /** The balance of this m and N. */
+  Solved& solved()
+  {
+    auto& one = balances_[{setting_.harmonics, setting_.sample_count()}];
+    if (one) return *one;
+    Problem problem = bearing_problem(task_.parameters, setting_.sample_count());
+    if (task_.profiled)
+      problem.force = [inner = problem.force, seconds = force_seconds_](
+                          const auto& q, auto&&... results) {
+        const double start = thread_cpu_seconds();
+        inner(q, results...);
+        *seconds += thread_cpu_seconds() - start;
+      };
+    one = std::make_unique<Solved>(std::move(problem), setting_.harmonics);
+    return *one;
+  }
+
   bool finds(PeriodicMotion& found)
   {
     constexpr int few = 12;
-    const auto from = [&](const Eigen::VectorXd& x) {
-      found.x = x;
-      return rotor_stator::solve(*balance_, *solver_, found, newton_);
+    Solved& one = solved();
+    /** A new start is cheaper than a long iteration. */
+    const NewtonSettings newton{
+        .tolerance = setting_.tolerance, .most_iterations = 12, .most_halvings = 4};
+    const auto from = [&](Eigen::VectorXd x) {
+      const Eigen::Index known = std::min(x.size(), one.balance.unknowns());
+      found.x = Eigen::VectorXd::Zero(one.balance.unknowns());
+      found.x.head(known) = x.head(known);
+      return rotor_stator::solve(one.balance, one.solver, found, newton);
     };
     if (setting_.transient > 0 && from(integrated(found.omega, setting_.transient)))
       return true;
@@ -272,13 +347,10 @@ private:
     return contact(omega);
   }
 
-  /** A new start is cheaper than a long iteration. */
-  const NewtonSettings newton_{
-      .tolerance = setting_.tolerance, .most_iterations = 12, .most_halvings = 4};
+  Setting setting_;         ///< of the speed at hand
   Eigen::VectorXd before_;  ///< the solution that is known, if any
-  std::optional<Balance> balance_;
-  std::optional<BalanceSolver> solver_;  ///< keeps its factors from speed to speed
-  State state_;                          ///< of the coarse integration, at phase 0
+  std::map<std::pair<int, int>, std::unique_ptr<Solved>> balances_;  ///< by m and N
+  State state_;  ///< of the coarse integration, at phase 0
   LagrangePredictor predictor_{1, 1};
   std::vector<Eigen::MatrixXd> bodies_;  ///< series found, by speed
   std::shared_ptr<double> force_seconds_ = std::make_shared<double>(0);
@@ -295,7 +367,7 @@ public:
     if (!reached_[speed]) return {};
     auto [periods, state] = *reached_[speed];
     try {
-      const auto parts = stepper(angular(task_.frequencies[speed]), points);
+      const auto parts = stepper(speed, points);
       return motion::recorded(*parts, points, state, periods);
     } catch (const NoSolution&) {
       return {};  // the state was no motion
@@ -313,12 +385,13 @@ protected:
   void solve(std::size_t speed) override
   {
     const double omega = angular(task_.frequencies[speed]);
+    const Setting& setting = schedule_.at(speed);
     try {
-      const long periods = advance(*stepper(omega, 1), setting_.transient, omega, state_);
+      const long periods = advance(*stepper(speed, 1), setting.transient, omega, state_);
       reached_[speed] = {periods, state_};
-      if (setting_.recorded == 0) return;
-      const auto parts = stepper(omega, setting_.recorded);
-      motion::recorded(*parts, setting_.recorded, state_, periods);
+      if (setting.recorded == 0) return;
+      const auto parts = stepper(speed, setting.recorded);
+      motion::recorded(*parts, setting.recorded, state_, periods);
       counts_.force_instants += parts->evaluations();
     } catch (const NoSolution&) {
       state_ = static_start(task_.parameters);
@@ -349,30 +422,31 @@ class ShootingSweep : public Integration {
     if (!predictor_.empty()) {
       const Vector8 x = predictor_.at_speed(omega).cwiseProduct(scales_);
       state_ = state_of(x);
-      found = shot(omega);
+      found = shot(speed);
     }
     if (!found) {
       predictor_.clear();
       jacobian_.reset();
       state_ = quasi_static_state(task_.parameters, omega);
-      advance(*stepper(omega, 1), setting_.transient, omega, state_);
-      found = shot(omega);
+      advance(*stepper(speed, 1), schedule_.at(speed).transient, omega, state_);
+      found = shot(speed);
     }
     if (!found) return;
     learn(omega, state_);
     reached_[speed] = {0, state_};
   }
 
-  bool shot(double omega)
+  bool shot(std::size_t speed)
   {
-    const std::string method = setting_.method.substr(setting_.method.find('-') + 1);
-    const Shooting result = shoot(task_.parameters, omega, state_,
-                                  {.method = method,
-                                   .tolerance = setting_.tolerance,
-                                   .step = setting_.step,
-                                   .closed = setting_.periodicity_residual,
-                                   .quasi_newton = true},
-                                  &jacobian_);
+    const Setting& setting = schedule_.at(speed);
+    const Shooting result =
+        shoot(task_.parameters, angular(task_.frequencies[speed]), state_,
+              {.method = setting.stepper(),
+               .tolerance = setting.tolerance,
+               .step = setting.step,
+               .closed = setting.periodicity_residual,
+               .quasi_newton = true},
+              &jacobian_);
     counts_.force_instants += result.evaluations;
     return result.converged;
   }
@@ -387,40 +461,105 @@ class ShootingSweep : public Integration {
   PeriodicityJacobian jacobian_;
 };
 
-/** Adds the error at one speed, if there is a motion to compare with. */
-void add(MotionError& error, const TimedMethod& method, const References& sweep,
-         std::size_t speed)
+/** All speeds side by side, each from quasi-static contact. */
+class Ensemble : public Integration {
+public:
+  using Integration::Integration;
+
+  void run(const std::function<bool(std::size_t speed)>& goes_on) override
+  {
+    counts_ = {};
+    evaluations_.clear();
+    begin();
+    const std::size_t speeds = task_.frequencies.size();
+    std::vector<std::unique_ptr<Flow>> flows;
+    std::vector<State> states(speeds);
+    std::vector<Passage> passages;
+    for (std::size_t k = 0; k < speeds; ++k) {
+      const double omega = angular(task_.frequencies[k]);
+      states[k] = quasi_static_state(task_.parameters, omega);
+      flows.push_back(stepper(k, 1));
+      passages.push_back({flows.back().get(), 0, &states[k],
+                          whole_periods(schedule_.at(k).transient, omega)});
+    }
+    const std::vector<Failure> failures = advance_together(passages);
+    for (std::size_t k = 0; k < speeds; ++k) {
+      evaluations_.push_back(flows[k]->evaluations());
+      counts_.force_instants += evaluations_.back();
+      reached_[k] = {passages[k].count, states[k]};
+    }
+    for (const Failure& failure : failures) reached_[failure.passage].reset();
+    for (std::size_t k = 0; goes_on && k < speeds && goes_on(k); ++k) continue;
+  }
+
+  /** The whole, shared as the evaluations are. */
+  std::vector<double> seconds_by_speed() override
+  {
+    const double whole = time_of(1, [&] { run({}); }).median;
+    const auto all = static_cast<double>(std::max(1L, counts_.force_instants));
+    std::vector<double> seconds;
+    for (long one : evaluations_)
+      seconds.push_back(whole * static_cast<double>(one) / all);
+    return seconds;
+  }
+
+private:
+  std::vector<long> evaluations_;
+};
+
+MotionError error_at(const TimedMethod& method, const References& sweep,
+                     std::size_t speed)
 {
-  if (const auto& truth = sweep.motions[speed])
-    error.add(sweep.parameters, sweep.frequencies[speed],
-              method.motion(speed, truth->points_per_period), *truth);
+  const auto& truth = sweep.motions[speed];
+  if (!truth) return {};
+  return error_of(sweep.parameters, sweep.frequencies[speed],
+                  method.motion(speed, truth->points_per_period), *truth);
 }
 
 }  // namespace
 
-std::unique_ptr<TimedMethod> timed_method(const Task& task, const Setting& setting)
+std::unique_ptr<TimedMethod> timed_method(const Task& task, const Schedule& schedule)
 {
-  if (setting.is_shooting()) return std::make_unique<ShootingSweep>(task, setting);
-  if (setting.method == "aft") return std::make_unique<BalanceSweep>(task, setting);
-  return std::make_unique<Integration>(task, setting);
+  if (schedule.at(0).is_shooting())
+    return std::make_unique<ShootingSweep>(task, schedule);
+  if (schedule.method() == "aft") return std::make_unique<BalanceSweep>(task, schedule);
+  if (schedule.method() == "rk4-lanes") return std::make_unique<Ensemble>(task, schedule);
+  return std::make_unique<Integration>(task, schedule);
 }
 
-Measurement measure(const References& sweep, const Setting& setting, int repetitions)
+/** What a method has found and counted in its last run. */
+static Measurement judged(const TimedMethod& method, const References& sweep,
+                          const Schedule& schedule, const CpuTime& time, int repetitions)
 {
-  const auto method = timed_method(sweep, setting);
-  const CpuTime cpu = time_of(repetitions, [&] { method->run(); });
-  Measurement result{cpu, method->counts(), {}, setting, repetitions};
-  for (std::size_t speed = 0; speed < sweep.frequencies.size(); ++speed)
-    add(result, *method, sweep, speed);
+  Measurement result{time, method.counts(), {}, schedule, repetitions};
+  for (std::size_t speed = 0; speed < sweep.frequencies.size(); ++speed) {
+    result.errors.push_back(error_at(method, sweep, speed));
+    result.include(result.errors.back());
+  }
   return result;
 }
 
-MotionError error_up_to(double bound, const References& sweep, const Setting& setting)
+Measurement measure(const References& sweep, const Schedule& schedule, int repetitions)
 {
-  const auto method = timed_method(sweep, setting);
+  const auto method = timed_method(sweep, schedule);
+  const CpuTime time = time_of(repetitions, [&] { method->run(); });
+  return judged(*method, sweep, schedule, time, repetitions);
+}
+
+Trial tried_once(const References& sweep, const Schedule& schedule)
+{
+  const auto method = timed_method(sweep, schedule);
+  const std::vector<double> seconds = method->seconds_by_speed();
+  const double all = std::accumulate(seconds.begin(), seconds.end(), 0.0);
+  return {judged(*method, sweep, schedule, {all, all, all}, 1), seconds};
+}
+
+MotionError error_up_to(double bound, const References& sweep, const Schedule& schedule)
+{
+  const auto method = timed_method(sweep, schedule);
   MotionError error;
   method->run([&](std::size_t speed) {
-    add(error, *method, sweep, speed);
+    error.include(error_at(*method, sweep, speed));
     return error.displacement <= bound;
   });
   return error;

@@ -12,7 +12,8 @@ run that needs it: the median of the repetitions does not show it.
   steps, which goes on from where it ended last. With a transient in the setting, that comes first.
   Or the paper's sweep, which halves the gap to the last speed where Newton fails.
 - Time integration: a transient of whole periods, from the static load or the known state; then
-  from speed to speed.
+  from speed to speed. `rk4-lanes` integrates all speeds side by side, each from quasi-static
+  contact.
 - Shooting: the state is extrapolated from speed to speed by the same predictor, and Φ is kept. */
 #pragma once
 
@@ -23,8 +24,9 @@ run that needs it: the median of the repetitions does not show it.
 
 namespace rotor_stator::costs {
 
-/** One method at one setting; zero where the method has no such setting. `method` is aft (harmonic
-    balance), a time method, or shooting- with one of them behind it. */
+/** One method at one setting; zero where the method has no such setting. `method` is aft
+    (harmonic balance), a time method, rk4-lanes, central (central differences), or
+    shooting- with a time method behind it. */
 struct Setting {
   std::string method;
   int harmonics = 0;             ///< aft: m
@@ -38,10 +40,30 @@ struct Setting {
   double periodicity_residual = 0;  ///< shooting; "closure" in files [-]
 
   bool is_shooting() const { return method.starts_with("shooting-"); }
-  int sample_count() const;  ///< N
+  bool has_fixed_step() const;
 
-  /** "m=6 N>4m tol=1e-07". */
+  /** The time method: rk4 of rk4-lanes and shooting-rk4. */
+  std::string stepper() const;
+  int sample_count() const;  ///< N
+};
+
+/** A setting of one method for each speed of a task, or one for all. */
+class Schedule {
+public:
+  Schedule(Setting setting) : settings_{std::move(setting)} {}
+  explicit Schedule(std::vector<Setting> settings) : settings_(std::move(settings)) {}
+
+  const Setting& at(std::size_t speed) const
+  {
+    return settings_.size() > 1 ? settings_.at(speed) : settings_.front();
+  }
+  const std::string& method() const { return settings_.front().method; }
+
+  /** "m=6 N>4m tol=1e-07"; with the least and the largest where they differ: "m=1..17". */
   std::string text() const;
+
+private:
+  std::vector<Setting> settings_;
 };
 
 /** Settings of one method in groups of the same accuracy, the cheaper ones first, so that a search
@@ -73,13 +95,17 @@ struct Counts {
 
 class TimedMethod {
 public:
-  TimedMethod(const Task& task, const Setting& setting) : task_(task), setting_(setting)
+  TimedMethod(const Task& task, Schedule schedule)
+      : task_(task), schedule_(std::move(schedule))
   {
   }
   virtual ~TimedMethod() = default;
 
   /** All the work anew, speed by speed, until `goes_on`, asked after each, says no. */
-  void run(const std::function<bool(std::size_t speed)>& goes_on = {});
+  virtual void run(const std::function<bool(std::size_t speed)>& goes_on = {});
+
+  /** Runs once and returns the CPU [s] of each speed. */
+  virtual std::vector<double> seconds_by_speed();
 
   /** The motion at a speed of the task; none where it was not found. */
   virtual std::optional<motion::Motion> motion(std::size_t speed, int points) const = 0;
@@ -90,30 +116,38 @@ protected:
   virtual void begin() = 0;
   virtual void solve(std::size_t speed) = 0;
 
-  /** Of the time method of the setting. */
-  std::unique_ptr<Flow> stepper(double omega, int intervals) const;
+  /** Of the time method at a speed. */
+  std::unique_ptr<Flow> stepper(std::size_t speed, int intervals) const;
 
   /** Integrates whole periods from phase 0, so many seconds at least. Returns their number. */
   long advance(Flow& whole, double seconds, double omega, State& state);
 
   Task task_;
-  Setting setting_;
+  Schedule schedule_;
   Counts counts_;
 };
 
-std::unique_ptr<TimedMethod> timed_method(const Task& task, const Setting& setting);
+std::unique_ptr<TimedMethod> timed_method(const Task& task, const Schedule& schedule);
 
-/** One method at one setting over all speeds of a sweep: what it costs, and how far off it is. */
+/** One method over all speeds of a sweep: what it costs, and how far off it is. */
 struct Measurement : CpuTime, Counts, MotionError {
-  Setting setting;
+  Schedule schedule;
   int repetitions;
+  std::vector<MotionError> errors = {};  ///< at each speed
 };
 
-Measurement measure(const References& sweep, const Setting& setting, int repetitions);
+Measurement measure(const References& sweep, const Schedule& schedule, int repetitions);
+
+/** The same of one run, with the CPU of each speed. */
+struct Trial : Measurement {
+  std::vector<double> seconds;  ///< at each speed
+};
+
+Trial tried_once(const References& sweep, const Schedule& schedule);
 
 /** The largest error over the speeds, as far as it is not above `bound`: the run ends at the first
     speed that is. */
-MotionError error_up_to(double bound, const References& sweep, const Setting& setting);
+MotionError error_up_to(double bound, const References& sweep, const Schedule& schedule);
 
 /** p of y = a x^p by least squares of the logarithms; two points at least, all positive. */
 double fitted_exponent(const std::vector<double>& x, const std::vector<double>& y);

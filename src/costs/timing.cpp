@@ -80,11 +80,11 @@ using Row = TimingRow;
 
 const std::vector<Field<Row>> timing_fields{
     {"method", "-", "aft: harmonic balance; rk4: classical Runge-Kutta with fixed step",
-     [](auto& r) { return r.setting.method; }},
+     [](auto& r) { return r.schedule.method(); }},
     {"harmonics", "-", "m; for rk4 that of the row whose errors it reaches, both",
      &Row::harmonics},
     {"samples", "-", "N per period; 0 for rk4",
-     [](auto& r) { return r.setting.samples; }},
+     [](auto& r) { return r.schedule.at(0).samples; }},
     {"cpu_s", "s", "CPU of one thread for the whole sweep, median of the repetitions",
      &Row::median},
     {"cpu_min_s", "s", "least", &Row::least},
@@ -96,9 +96,9 @@ const std::vector<Field<Row>> timing_fields{
     {"ratio", "-", "CPU of the rk4 row with the same harmonics over this row's",
      &Row::ratio},
     {"step_s", "s", "rk4: longest step; 0 for aft",
-     [](auto& r) { return r.setting.step; }},
+     [](auto& r) { return r.schedule.at(0).step; }},
     {"transient_s", "s", "rk4: transient at each speed; 0 for aft",
-     [](auto& r) { return r.setting.transient; }},
+     [](auto& r) { return r.schedule.at(0).transient; }},
     {"evaluations", "-", "evaluations of the bearing's force", &Row::force_instants},
     {"worst_f", "Hz", "speed with the largest error of displacement",
      &Row::worst_frequency},
@@ -119,7 +119,7 @@ Table timing_table(const TimingScene& scene, const References& references,
   table.value("repetitions", scene.repetitions);
   references.describe(table, scene.truth);
   for (std::size_t k = 0; k < balances.size(); ++k) {
-    const int m = balances[k].setting.harmonics;
+    const int m = balances[k].schedule.at(0).harmonics;
     const double ratio = rk4[k].median / balances[k].median;
     table.row(timing_fields, {balances[k], m, ratio, scene.paper_cpu[k]});
     table.row(timing_fields, {rk4[k], m, 1, scene.paper_cpu.back()});

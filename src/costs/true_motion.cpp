@@ -96,9 +96,19 @@ void References::describe(Table& table, const TruthSettings& settings) const
       "not_periodic: speeds [Hz] without a T-periodic motion, which have no reference");
 }
 
-void MotionError::add(const Parameters& parameters, double frequency,
-                      const std::optional<motion::Motion>& motion,
-                      const motion::Motion& truth)
+void MotionError::include(const MotionError& other)
+{
+  if (other.displacement > displacement) {
+    displacement = other.displacement;
+    worst_frequency = other.worst_frequency;
+  }
+  force = std::max(force, other.force);
+  mean = std::max(mean, other.mean);
+}
+
+MotionError error_of(const Parameters& parameters, double frequency,
+                     const std::optional<motion::Motion>& motion,
+                     const motion::Motion& truth)
 {
   constexpr double infinity = std::numeric_limits<double>::infinity();
   /** Infinite where there is no motion, or one that has diverged. */
@@ -106,17 +116,13 @@ void MotionError::add(const Parameters& parameters, double frequency,
     const double value = motion ? of(*motion) : infinity;
     return std::isfinite(value) ? value : infinity;
   };
-  const double difference =
-      error([&](auto& one) { return motion::relative_difference(one, truth); });
-  if (difference > displacement) {
-    displacement = difference;
-    worst_frequency = frequency;
-  }
-  mean = std::max(mean,
-                  error([&](auto& one) { return motion::rms_difference(one, truth); }));
-  force = std::max(force, error([&](auto& one) {
-                     return motion::relative_force_difference(parameters, one, truth);
-                   }));
+  return {.displacement =
+              error([&](auto& one) { return motion::relative_difference(one, truth); }),
+          .force = error([&](auto& one) {
+            return motion::relative_force_difference(parameters, one, truth);
+          }),
+          .mean = error([&](auto& one) { return motion::rms_difference(one, truth); }),
+          .worst_frequency = frequency};
 }
 
 }  // namespace rotor_stator::costs

@@ -71,8 +71,11 @@ struct MotionError {
   double mean = 0;                     ///< of displacement, rms about the mean
   double worst_frequency = 0;          ///< where the displacement is worst [Hz]
 
-  void add(const Parameters& parameters, double frequency,
-           const std::optional<motion::Motion>& motion, const motion::Motion& truth);
+  void include(const MotionError& other);
 };
+
+MotionError error_of(const Parameters& parameters, double frequency,
+                     const std::optional<motion::Motion>& motion,
+                     const motion::Motion& truth);
 
 }  // namespace rotor_stator::costs

@@ -89,7 +89,7 @@ double seconds_of_transform(int samples)
 /** A run in which the force is timed, or the number of evaluations times what one takes. */
 void split_time(WorkPoint& point, const References& references)
 {
-  if (point.setting.method != "aft") {
+  if (point.schedule.method() != "aft") {
     const double force =
         static_cast<double>(point.force_instants) *
         seconds_of_force(references.parameters, *references.motions.front());
@@ -98,7 +98,7 @@ void split_time(WorkPoint& point, const References& references)
   }
   Task task = references;
   task.profiled = true;
-  const auto method = timed_method(task, point.setting);
+  const auto method = timed_method(task, point.schedule);
   double force = 0;
   const CpuTime profiled = time_of(point.repetitions, [&] {
     method->run();
@@ -121,9 +121,9 @@ const std::vector<Field<Row>> work_precision_fields{
      "nothing: static load or quasi-static contact; below: the motion below",
      [](auto& r) { return std::string(r.continued ? "below" : "nothing"); }},
     {"method", "-", "aft: harmonic balance; rk4; GSL's; shooting- with one of them",
-     [](auto& r) { return r.setting.method; }},
+     [](auto& r) { return r.schedule.method(); }},
     {"setting", "-", "m, N, tolerance, step [s], transient [s], closure",
-     [](auto& r) { return r.setting.text(); }},
+     [](auto& r) { return r.schedule.text(); }},
     {"found", "-", "whether it gave a motion", [](auto& r) { return r.found(); }},
     {"cpu_s", "s", "CPU of one thread, median of the repetitions", &Row::median},
     {"cpu_min_s", "s", "least", &Row::least},

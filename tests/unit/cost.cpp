@@ -167,9 +167,9 @@ namespace {
 /** The largest error of a setting over the speeds, apart from the study: the method is run anew and its
     motions are compared with harmonic balance of 256 harmonics. */
 double error_apart(const Parameters& parameters, const std::vector<double>& frequencies,
-                   const Setting& setting)
+                   const Schedule& schedule)
 {
-  const auto method = timed_method({parameters, frequencies}, setting);
+  const auto method = timed_method({parameters, frequencies}, schedule);
   method->run();
   double error = 0;
   for (std::size_t k = 0; k < frequencies.size(); ++k) {
@@ -191,7 +191,7 @@ TEST_CASE("Below the transition a short transient is a start from which Newton c
                         .samples_per_harmonic = 4,
                         .tolerance = 1e-6,
                         .transient = 0.5};
-  CHECK(setting.text() == "m=96 N>4m tol=1e-06 transient=0.5");
+  CHECK(Schedule(setting).text() == "m=96 N>4m tol=1e-06 transient=0.5");
   CHECK(error_apart(set_1(), {9.5, 10, 10.5}, setting) < 1e-3);
 }
 
@@ -226,14 +226,14 @@ TEST_CASE("Equal error: what the table calls reached is reached, and aft is its 
   REQUIRE(rows.size() == 4);
   CHECK(rows[0].ratio == 1);
   CHECK(rows[2].ratio == rows[2].median / rows[0].median);
-  CHECK(rows[0].setting.text() == "m=8 N>4m tol=1e-06");
+  CHECK(rows[0].schedule.text() == "m=8 N>4m tol=1e-06");
   for (const Setting& cheap : {few, coarse})
     CHECK(error_apart(scene.parameters, scene.frequencies, cheap) > 3e-4);
   for (const EqualErrorRow& row : rows) {
     CHECK(row.reached == (row.target == 3e-4));
     CHECK(row.speeds == 2);
     CHECK(row.tried == 2);
-    const double error = error_apart(scene.parameters, scene.frequencies, row.setting);
+    const double error = error_apart(scene.parameters, scene.frequencies, row.schedule);
     CHECK((error <= row.target) == row.reached);
     CHECK(row.displacement == Approx(error).epsilon(0.05));
   }

@@ -1,0 +1,89 @@
+#include "costs/central_differences.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include "io/errors.hpp"
+
+namespace rotor_stator::costs {
+
+namespace {
+
+/** q at a whole step; v half a step before it, or at its beginning. */
+struct Leap {
+  Equation7<double> equation;
+  BallRing ring;
+  Contacts<double> contacts;
+  Angles at, by;
+  double h;
+  Bodies q, v;
+
+  /** The speeds go on by `length`, half of it before and half behind q: the damping acts on their mean. */
+  IN_PLACE void kick(double length)
+  {
+    const Vec2 f =
+        bearing_force<false>(ring, contacts, at.cage, q.relative(), Vec2{0, 0});
+    const Bodies a = equation.acceleration(q, {}, at.rotor, f);
+    const double stator = 0.5 * length * equation.c_s * equation.per_m_s;
+    const double rotor = 0.5 * length * equation.c_r * equation.per_m_r;
+    v = {1 / (1 + stator) * ((1 - stator) * v.stator + length * a.stator),
+         1 / (1 + rotor) * ((1 - rotor) * v.rotor + length * a.rotor)};
+  }
+  IN_PLACE void drift()
+  {
+    q = q + h * v;
+    at = turned(at, by);
+  }
+};
+
+/** So many drifts, kicked between them. */
+WIDEST_REGISTERS void leap(Leap& leap, long steps)
+{
+  for (long k = 1; k < steps; ++k) {
+    leap.drift();
+    leap.kick(leap.h);
+  }
+  leap.drift();
+}
+
+/** Half a kick, by which the speeds leave a whole step or come to one. */
+WIDEST_REGISTERS void kick_by_half(Leap& leap)
+{
+  leap.kick(0.5 * leap.h);
+}
+
+}  // namespace
+
+CentralDifferences::CentralDifferences(const Parameters& parameters, double omega,
+                                       int intervals, double longest_step)
+    : system_(parameters, omega), turns_(Turns::of(parameters)), intervals_(intervals),
+      steps_(std::max(1, static_cast<int>(std::ceil(
+                             system_.period() / intervals / longest_step - 1e-9)))),
+      h_(system_.period() / intervals / steps_)
+{
+  if (!parameters.bearing.is_plain())
+    throw BadInput("central: knows no contact damping and no defect");
+}
+
+void CentralDifferences::advance(long interval, State& state)
+{
+  const long part = ((interval % intervals_) + intervals_) % intervals_;
+  const double all = static_cast<double>(intervals_) * steps_;
+  Leap one{system_.equation(),
+           system_.bearing().ring(),
+           system_.bearing().contacts(),
+           turns_.at(static_cast<double>((interval - part) / intervals_),
+                     static_cast<double>(part) / intervals_),
+           turns_.by(1 / all),
+           h_,
+           state.position,
+           state.velocity};
+  kick_by_half(one);
+  leap(one, steps_);
+  kick_by_half(one);
+  state.position = one.q;
+  state.velocity = one.v;
+  evaluations_ += steps_ + 1;
+}
+
+}  // namespace rotor_stator::costs
