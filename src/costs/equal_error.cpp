@@ -70,31 +70,59 @@ std::vector<Trial> try_settings(const EqualErrorScene& scene, const References& 
   return tried;
 }
 
+/** The least CPU over all speeds, one of the settings `allowed` at each; a speed whose
+    setting is not that of the speed before costs a median speed of it more, for the start and
+    the factors that a change loses. Empty where a speed has none. */
+static std::vector<std::size_t> least_path(const std::vector<Trial>& tried,
+                                           const std::vector<std::vector<bool>>& allowed)
+{
+  constexpr double never = std::numeric_limits<double>::infinity();
+  const std::size_t speeds = allowed.size(), settings = tried.size();
+  std::vector<double> change;
+  for (const Trial& trial : tried) {
+    std::vector<double> seconds = trial.seconds;
+    std::ranges::nth_element(seconds, seconds.begin() + seconds.size() / 2);
+    change.push_back(seconds[seconds.size() / 2]);
+  }
+  std::vector<double> least(settings, 0);  // to this speed, with this setting there
+  std::vector<std::vector<std::size_t>> before(speeds);
+  for (std::size_t k = 0; k < speeds; ++k) {
+    const std::size_t best = std::ranges::min_element(least) - least.begin();
+    const std::vector<double> last = least;
+    for (std::size_t i = 0; i < settings; ++i) {
+      const double changed = last[best] + (k > 0 ? change[i] : 0);
+      before[k].push_back(last[i] <= changed ? i : best);
+      least[i] = allowed[k][i] ? std::min(last[i], changed) + tried[i].seconds[k] : never;
+    }
+  }
+  std::size_t one = std::ranges::min_element(least) - least.begin();
+  if (!(least[one] < never)) return {};
+  std::vector<std::size_t> path(speeds);
+  for (std::size_t k = speeds; k-- > 0; one = before[k][one]) path[k] = one;
+  return path;
+}
+
 std::optional<Schedule> schedule_by_speed(const EqualErrorScene& scene,
                                           const References& range,
                                           const std::vector<Trial>& tried, double target)
 {
-  constexpr int attempts = 8;
+  constexpr int attempts = 12;
   const std::size_t speeds = range.frequencies.size();
-  /** The settings that reach the target at a speed, the cheapest first. */
-  std::vector<std::vector<const Trial*>> good(speeds);
-  for (std::size_t k = 0; k < speeds; ++k) {
+  std::vector<std::vector<bool>> allowed(speeds);
+  for (std::size_t k = 0; k < speeds; ++k)
     for (const Trial& trial : tried)
-      if (trial.errors[k].*scene.error <= target) good[k].push_back(&trial);
-    std::ranges::sort(good[k], {}, [&](const Trial* one) { return one->seconds[k]; });
-  }
-  std::vector<std::size_t> chosen(speeds);
+      allowed[k].push_back(trial.errors[k].*scene.error <= target);
   for (int attempt = 0; attempt < attempts; ++attempt) {
+    const std::vector<std::size_t> path = least_path(tried, allowed);
+    if (path.empty()) return {};
     std::vector<Setting> settings;
-    for (std::size_t k = 0; k < speeds; ++k) {
-      if (chosen[k] >= good[k].size()) return {};
-      settings.push_back(good[k][chosen[k]]->schedule.at(k));
-    }
+    for (std::size_t k = 0; k < speeds; ++k)
+      settings.push_back(tried[path[k]].schedule.at(k));
     const Schedule schedule(settings);
     const Measurement whole = measure(range, schedule, 1);
     if (whole.*scene.error <= target) return schedule;
     for (std::size_t k = 0; k < speeds; ++k)
-      if (!(whole.errors[k].*scene.error <= target)) ++chosen[k];
+      if (!(whole.errors[k].*scene.error <= target)) allowed[k][path[k]] = false;
   }
   return {};
 }

@@ -38,9 +38,8 @@ std::vector<References> periodic_ranges(const EqualErrorScene& scene,
 std::vector<Trial> try_settings(const EqualErrorScene& scene, const References& range,
                                 const Candidates& candidates);
 
-/** At each speed the cheapest of the settings tried that stays below the target there, as
-    far as the speeds have one. A speed that misses the target among its new neighbours
-    takes its next setting. */
+/** The settings that stay below the target at their speeds and take the least CPU together.
+    A speed that misses the target among its new neighbours takes another one. */
 std::optional<Schedule> schedule_by_speed(const EqualErrorScene& scene,
                                           const References& range,
                                           const std::vector<Trial>& tried, double target);

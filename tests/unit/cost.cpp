@@ -110,10 +110,10 @@ TEST_CASE("Shooting with RK4 converges to the motion with the fourth power of th
   const Task task{.parameters = parameters, .frequencies = {45}};
   double coarse = 0;
   for (double step : {4e-5, 2e-5}) {
-    const auto shooting = timed_method(task, {.method = "shooting-rk4",
-                                              .step = step,
-                                              .transient = 0.3,
-                                              .periodicity_residual = 1e-9});
+    const auto shooting = timed_method(task, Setting{.method = "shooting-rk4",
+                                                     .step = step,
+                                                     .transient = 0.3,
+                                                     .periodicity_residual = 1e-9});
     shooting->run();
     const auto found = shooting->motion(0, 90);
     REQUIRE(found);
@@ -136,7 +136,8 @@ TEST_CASE("Shooting and harmonic balance, which share nothing, agree on the refe
 TEST_CASE("A time method's count is that of its setting")
 {
   const Task task{.parameters = set_1(), .frequencies = {30, 31}};
-  const auto rk4 = timed_method(task, {.method = "rk4", .step = 1e-4, .transient = 0.25});
+  const auto rk4 =
+      timed_method(task, Setting{.method = "rk4", .step = 1e-4, .transient = 0.25});
   rk4->run();
   const long steps =
       std::lround(8 * std::ceil(1 / (30 * 1e-4)) + 8 * std::ceil(1 / (31 * 1e-4)));
@@ -279,4 +280,59 @@ TEST_CASE("The exponent of a power law is found, through scatter too")
   }
   CHECK(fitted_exponent(x, exact) == Approx(1.7).epsilon(1e-12));
   CHECK(fitted_exponent(x, scattered) == Approx(1.7).margin(0.02));
+}
+
+TEST_CASE("Speeds side by side take the steps of each alone and reach its motion")
+{
+  const Task both{.parameters = set_1(), .frequencies = {30, 45}};
+  const Setting setting{.method = "rk4-lanes", .step = 5e-5, .transient = 1};
+  const auto lanes = timed_method(both, setting);
+  lanes->run();
+  const std::vector<double> seconds = lanes->seconds_by_speed();
+  REQUIRE(seconds.size() == 2);
+  CHECK(seconds[0] > 0);
+  long evaluations = 0;
+  for (std::size_t k = 0; k < 2; ++k) {
+    Task one = both;
+    one.frequencies = {both.frequencies[k]};
+    const auto alone = timed_method(one, setting);
+    alone->run();
+    evaluations += alone->counts().force_instants;
+    const auto expected = alone->motion(0, 90), found = lanes->motion(k, 90);
+    REQUIRE(expected);
+    REQUIRE(found);
+    CHECK(relative_difference(*found, *expected) == 0);
+  }
+  CHECK(lanes->counts().force_instants == evaluations);
+}
+
+TEST_CASE("Central differences approach the motion with the square of the step")
+{
+  const TrueMotion truth = true_motion(set_1(), 45, truth_settings());
+  REQUIRE(truth.periodic);
+  const Task task{.parameters = set_1(), .frequencies = {45}};
+  double coarse = 0;
+  for (double step : {2e-5, 1e-5}) {
+    const auto central =
+        timed_method(task, Setting{.method = "central", .step = step, .transient = 3});
+    central->run();
+    const auto found = central->motion(0, 90);
+    REQUIRE(found);
+    const double error = relative_difference(*found, truth.motion);
+    if (coarse > 0) CHECK(coarse / error == Approx(4).epsilon(0.1));
+    coarse = error;
+  }
+}
+
+TEST_CASE("A schedule gives each speed its own setting")
+{
+  const Schedule schedule({Setting{.method = "rk4", .step = 1e-4, .transient = 0.25},
+                           Setting{.method = "rk4", .step = 5e-5, .transient = 0.25}});
+  CHECK(schedule.text() == "step=5e-05..0.0001 transient=0.25");
+  const auto rk4 =
+      timed_method({.parameters = set_1(), .frequencies = {30, 31}}, schedule);
+  rk4->run();
+  const long steps =
+      std::lround(8 * std::ceil(1 / (30 * 1e-4)) + 8 * std::ceil(1 / (31 * 5e-5)));
+  CHECK(rk4->counts().force_instants == 4 * steps);
 }
