@@ -19,10 +19,10 @@ LEGEND = 0.12  # of the height
 PEERS = Path("data/reference/peers.tsv")
 STYLES = {"aft": ("harmonic balance", "C0", "-", "o"),
           "shooting-rk4": ("shooting, RK4", "C1", "-", "s"),
-          "shooting-rk8pd": ("shooting, RK8", "C1", "--", "s"),
+          "shooting-rk8": ("shooting, RK8", "C1", "--", "s"),
           "rk4": ("RK4", "C2", "-", "^"),
           "rkf45": ("RKF45", "C3", "-", "v"),
-          "rk8pd": ("RK8", "C3", "--", "v"),
+          "rk8": ("RK8", "C3", "--", "v"),
           "msadams": ("Adams", "C4", "-", "D"),
           "msbdf": ("BDF", "C5", "-", "x"),
           "bsimp": ("Bulirsch-Stoer", "C5", "--", "+")}
