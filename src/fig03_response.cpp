@@ -4,28 +4,30 @@
 Paper: §3.3, Fig. 3; data set 2 is added.   Run: `build/fig03_response >
 data/generated/fig03_response.tsv`
 
-The figure shows how strongly rotor and stator vibrate at each speed of rotation, with the small
-clearance (left) and the large one (right). The first row is the horizontal motion x, the second the
-vertical motion y, the third the amplitude of the stator's x over that of the rotor's. The amplitude of a displacement is half the difference between its largest and its smallest value in
-one turn; the paper does not define it (D-10).
+The figure shows how strongly rotor and stator vibrate at each speed of rotation, with the
+small clearance (left) and the large one (right). The first row is the horizontal motion
+x, the second the vertical motion y, the third the amplitude of the stator's x over that
+of the rotor's. The amplitude of a displacement is half the difference between its largest
+and its smallest value in one turn; the paper does not define it (D-10).
 
-The peak is the resonance of both bodies moving as one: the unbalance presses them together, and
-they vibrate like a single mass on both suspensions. Its speed follows from their masses and
-natural frequencies alone (Table 1). With the small clearance the curves have kinks between 10 and
-19 Hz. There the force of the unbalance is about as large as the weight, and contact may be lost
-during a turn.
+The peak is the resonance of both bodies moving as one: the unbalance presses them
+together, and they vibrate like a single mass on both suspensions. Its speed follows from
+their masses and natural frequencies alone (Table 1). With the small clearance the curves
+have kinks between 10 and 19 Hz. There the force of the unbalance is about as large as the
+weight, and contact may be lost during a turn.
 
-Each curve is computed in three ways. Harmonic balance assumes a motion that repeats after one turn
-and finds its Fourier coefficients; the solutions at the last speeds predict the one at the next
-(Eqs 19 to 21). This is done once with rising and once with falling speed. Where the two differ,
-several periodic solutions exist at one speed. A gap is a speed at which none was found.
+Each curve is computed in three ways. Harmonic balance assumes a motion that repeats after
+one turn and finds its Fourier coefficients; the solutions at the last speeds predict the
+one at the next (Eqs 19 to 21). This is done once with rising and once with falling speed.
+Where the two differ, several periodic solutions exist at one speed. A gap is a speed at
+which none was found.
 
-Time integration is the check, at fewer speeds, from rest until the motion has settled. A full
-point is a motion that repeats after one turn; its distance from the curve is the error of harmonic
-balance. An open point is a motion that does not, and there the curve does not describe what the
-machine does after a start from rest. With the large clearance most speeds below the resonance are
-of this kind, and at low speeds the curve has wide gaps. The figure says nothing about stability;
-the figure `stability` does. */
+Time integration is the check, at fewer speeds, from rest until the motion has settled. A
+full point is a motion that repeats after one turn; its distance from the curve is the
+error of harmonic balance. An open point is a motion that does not, and there the curve
+does not describe what the machine does after a start from rest. With the large clearance
+most speeds below the resonance are of this kind, and at low speeds the curve has wide
+gaps. The figure says nothing about stability; the figure `stability` does. */
 #include "figures/response.hpp"
 #include "io/program.hpp"
 

@@ -1,35 +1,37 @@
 /**
 # Table 1: parameters of the data sets
 
-Paper: §3.3, Table 1.   Run: `build/tab01_parameters > data/generated/tab01_parameters.tsv`
+Paper: §3.3, Table 1.
+Run: `build/tab01_parameters > data/generated/tab01_parameters.tsv`
 
-The table lists the values that all figures are computed with. Those marked "not printed in the paper"
-we had to choose. The eccentricity e and the speeds f_joint, f_loss and f_gravity are computed from the
-others. All other values are those of the paper's Table 1. The table is read from the parameter files,
-so it shows what was used.
+The table lists the values that all figures are computed with. Those marked "not printed
+in the paper" we had to choose. The eccentricity e and the speeds f_joint, f_loss and
+f_gravity are computed from the others. All other values are those of the paper's Table 1.
+The table is read from the parameter files, so it shows what was used.
 
 ## Radial clearance
 
-The two data sets differ in the radial clearance δ alone, which is ten times as large in set 2. The rotor
-can move so far from the centre of the bearing before it presses a ball.
+The two data sets differ in the radial clearance δ alone, which is ten times as large in
+set 2. The rotor can move so far from the centre of the bearing before it presses a ball.
 
 ## Entries that need a remark
 
-The contact stiffness is printed in newtons per metre; Hertz's law,
-with its power of 3/2, needs $\mathrm{N/m^{3/2}}$, and we keep the number (D-08). The paper prints the
-higher natural frequency for the rotor. The response computed so has a second resonance, of the stator
-alone, where the paper finds none; with the frequencies exchanged it has not. Both readings are kept,
-the exchanged one as the default (D-09).
-The masses are not printed (D-13). Their ratio follows from the speed of the resonance, and their
-size from the speed at which contact is lost; the program `identification` computes which are admitted.
-The speed of the cage is not printed either, nor are the radii from which it follows (D-11). We
-take half the rotor's speed, since the paper says that every ball meets the rotating load once in
-two turns.
+The contact stiffness is printed in newtons per metre; Hertz's law, with its power of 3/2,
+needs $\mathrm{N/m^{3/2}}$, and we keep the number (D-08). The paper prints the higher
+natural frequency for the rotor. The response computed so has a second resonance, of the
+stator alone, where the paper finds none; with the frequencies exchanged it has not. Both
+readings are kept, the exchanged one as the default (D-09). The masses are not printed
+(D-13). Their ratio follows from the speed of the resonance, and their size from the speed
+at which contact is lost; the program `identification` computes which are admitted. The
+speed of the cage is not printed either, nor are the radii from which it follows (D-11).
+We take half the rotor's speed, since the paper says that every ball meets the rotating
+load once in two turns.
 
 The rotor's centre of mass lies e = m_e e/m_r off its axis. Joined rigidly, both bodies
-resonate on both suspensions at f_joint, where Figure 3 has its peak. The joint then carries a static force from
-gravity and a rotating one from the unbalance. At f_loss they are equal, and their sum passes through zero once per
-turn: a bearing, which can only push, loses contact. In the printed reading gravity prevails again from f_gravity on, in
+resonate on both suspensions at f_joint, where Figure 3 has its peak. The joint then
+carries a static force from gravity and a rotating one from the unbalance. At f_loss they
+are equal, and their sum passes through zero once per turn: a bearing, which can only
+push, loses contact. In the printed reading gravity prevails again from f_gravity on, in
 the middle of the range where the paper has a rotating contact. */
 #include "figures/data_sets.hpp"
 #include "io/program.hpp"

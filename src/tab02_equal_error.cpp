@@ -19,20 +19,23 @@ for all speeds of a range, or another one at each speed, whichever takes less ti
 `rk4` integrates one motion at a time, from speed to speed, and is what the paper compares
 with. `rk4-lanes` is the same integrator with all speeds side by side in the registers of
 the processor. `central` are central differences, which need one force per step, and `rk8`
-is the pair of Dormand and Prince of order eight; both are compiled like `rk4`. `rkf45` and
-the implicit and multistep methods are GSL's, whose calls take time of their own.
+is the pair of Dormand and Prince of order eight; both are compiled like `rk4`. `rkf45`
+and the implicit and multistep methods are GSL's, whose calls take time of their own.
 
-Other people's programs stand with the figure `peers`: the integrators of SUNDIALS and of SciPy, which call the same
-force, and AUTO-07p, which follows the response by collocation. SciPy's are called from Python, which costs
-them more per evaluation than the C++ programs; the header of their table has both numbers. AUTO's curve
-agrees with ours to drawing accuracy, and has folds that few harmonics do not show.
+Other people's programs stand with the figure `peers`: the integrators of SUNDIALS and of
+SciPy, which call the same force, and AUTO-07p, which follows the response by collocation.
+SciPy's are called from Python, which costs them more per evaluation than the C++
+programs; the header of their table has both numbers. AUTO's curve agrees with ours to
+drawing accuracy, and has folds that few harmonics do not show.
 
-The error is the largest difference of a displacement over the largest displacement. At low speeds that is mostly the
-static sag of the suspension, and an error of the vibration hides behind it: with `--error mean` the targets bound the
-root mean square of the difference about the mean, over that of the motion, instead.
+The error is the largest difference of a displacement over the largest displacement. At
+low speeds that is mostly the static sag of the suspension, and an error of the vibration
+hides behind it: with `--error mean` the targets bound the root mean square of the
+difference about the mean, over that of the motion, instead.
 
-The CPU time is that of one thread for the whole sweep, the median of several repetitions. The table has the
-least and the largest of them, the setting, and the error that was reached.
+The CPU time is that of one thread for the whole sweep, the median of several repetitions.
+The table has the least and the largest of them, the setting, and the error that was
+reached.
 
 Modelled: the speeds with T-periodic motion, below and above 25 Hz. */
 #include "costs/equal_error.hpp"

@@ -23,8 +23,8 @@ void put_amplitude(Eigen::Ref<Eigen::MatrixXd> series, int h,
 
 namespace {
 
-/** A complex matrix z as it acts on (cosine, sine) coefficients, q = a - ib: ((Re z, Im z),
-    (-Im z, Re z)). */
+/** A complex matrix z as it acts on (cosine, sine) coefficients, q = a - ib: ((Re z, Im
+    z), (-Im z, Re z)). */
 template <int d>
 void expand(const SmallMatrix& z, double* to)
 {
@@ -108,7 +108,8 @@ void Balance::rate_samples(const Eigen::Ref<const Eigen::MatrixXd>& series,
   transform_.to_samples(rate_series_, samples, images_);
 }
 
-/** Rows of A q + B f for the coefficients `series` of q and `force` of f; A and B by their blocks side by side. */
+/** Rows of A q + B f for the coefficients `series` of q and `force` of f; A and B by
+    their blocks side by side. */
 void Balance::combine(const Eigen::MatrixXd& a, const Eigen::MatrixXd& b,
                       const Eigen::Ref<const Eigen::MatrixXd>& series,
                       const Eigen::MatrixXd& force, Eigen::VectorXd& sum) const
@@ -212,8 +213,8 @@ void Balance::need_spectra(const Eigen::VectorXd& x, double omega)
   has_spectra_ = true;
 }
 
-/** α_p + iβ_p = conj κ_p of one stiffness series, |p| ≤ N. The indices are modulo N, which makes the
-    derivative exact for any N ≥ 2m+1. */
+/** α_p + iβ_p = conj κ_p of one stiffness series, |p| ≤ N. The indices are modulo N,
+    which makes the derivative exact for any N ≥ 2m+1. */
 std::complex<double> Balance::conjugate_kappa(int p, Eigen::Index column) const
 {
   const int n = problem_.samples;
@@ -234,7 +235,8 @@ void Balance::extend_spectrum(Eigen::Index column, const Images& images)
 }
 
 /** Entries ∂(coefficients of f_i)/∂(coefficients of q_j) before the blocks B_h multiply
-   them: cosine column q and row p hold α_{p-q} + α_{p+q} and so on. The mean's row and column come first. */
+    them: cosine column q and row p hold α_{p-q} + α_{p+q} and so on. The mean's row and
+    column come first. */
 void Balance::fill_force_jacobian(int i, int j, Eigen::Index column, const Images& images,
                                   Eigen::MatrixXd& jacobian)
 {
@@ -344,7 +346,8 @@ void Balance::apply_jacobian(const Eigen::VectorXd& x, double omega,
   combine(a_, b_, series, product_series_, product);
 }
 
-/** What one harmonic of q adds to the same one of the force, by the slopes from `first_column` on. */
+/** What one harmonic of q adds to the same one of the force, by the slopes from
+    `first_column` on. */
 RealBlock Balance::force_block(Eigen::Index first_column, int h) const
 {
   const int d = problem_.dofs, two = 2 * d;

@@ -1,8 +1,8 @@
 /**
 # Harmonic balance by alternating frequency and time (Eqs 8 to 16)
 
-The coefficients of a periodic motion are solved for, and its force is evaluated in time. A system with d
-nonlinear unknowns q(t) gives, for each harmonic h, one linear block
+The coefficients of a periodic motion are solved for, and its force is evaluated in time.
+A system with d nonlinear unknowns q(t) gives, for each harmonic h, one linear block
 
 $$A_h(\omega)\, q_h + B_h(\omega)\, f_h(q) = c_h(\omega),$$
 
@@ -15,9 +15,9 @@ that block is
 
 $$A_h = K - (h\omega)^2 M + i h\omega C, \tag{11}$$
 
-with B = 1 and c the harmonic of the load p (the paper forgets h in one of the two diagonal
-entries, D-12). A system with linear inner unknowns condenses them into A, B and c. The bearing is
-one such problem, the Duffing oscillator of the tests another.
+with B = 1 and c the harmonic of the load p (the paper forgets h in one of the two
+diagonal entries, D-12). A system with linear inner unknowns condenses them into A, B and
+c. The bearing is one such problem, the Duffing oscillator of the tests another.
 
 The unknown X holds the coefficients of Eq. 9, one block of d values per coefficient. Its
 residual
@@ -27,7 +27,8 @@ $$R_h = A_h q_h + B_h f_h(q) - c_h \tag{16}$$
 takes the force through time: Γ⁻¹ to samples, the force at each sample, Γ back to
 coefficients (Cameron and Griffin). The Jacobian is A + J with
 
-$$J = \Gamma\, \mathrm{diag}\!\left(\partial f/\partial q\,(\varphi_k)\right) \Gamma^{-1}, \tag{12}$$
+$$J = \Gamma\, \mathrm{diag}\!\left(\partial f/\partial q\,(\varphi_k)\right)
+\Gamma^{-1}, \tag{12}$$
 
 exact for the N samples used: with κ_p the discrete Fourier coefficients of a stiffness
 series, Γ diag(k) Γ⁻¹ has the entries of a Toeplitz plus a Hankel matrix, so no product
@@ -73,7 +74,8 @@ struct Problem {
   double residual_scale;  ///< size of c_h, for the relative tolerance
   double unknown_scale;   ///< size of q [the unit of q]
 
-  /** The block of one harmonic at speed `omega` [rad/s]. It is filled in place: making one costs as much. */
+  /** The block of one harmonic at speed `omega` [rad/s]. It is filled in place: making
+      one costs as much. */
   std::function<void(double omega, Harmonic h, LinearBlock& block)> linear;
 
   /** The force at all N samples. `q`: N × d; `force`: N × d; `stiffness`, unless it is
@@ -82,8 +84,9 @@ struct Problem {
                      Eigen::MatrixXd* stiffness)>
       force;
 
-  /** Instead of it, where the force depends on q̇ too. `rate`: N × d, q̇ at speed `omega`; `slopes`, unless it is
-      null: N × (2d² + d), ∂f_i/∂q_j in column i + d j, then ∂f_i/∂q̇_j, then df_i/dω along q(φ). */
+  /** Instead of it, where the force depends on q̇ too. `rate`: N × d, q̇ at speed
+      `omega`; `slopes`, unless it is null: N × (2d² + d), ∂f_i/∂q_j in column i + d j,
+      then ∂f_i/∂q̇_j, then df_i/dω along q(φ). */
   std::function<void(const Eigen::MatrixXd& q, const Eigen::MatrixXd& rate, double omega,
                      Eigen::MatrixXd& force, Eigen::MatrixXd* slopes)>
       moving_force = {};
@@ -93,7 +96,8 @@ struct Problem {
   /** Elementary operations of one evaluation of the force. */
   double operations = 0;
 
-  /** Takes operations from a budget, and throws when they are not there; empty without a bound. */
+  /** Takes operations from a budget, and throws when they are not there; empty without a
+      bound. */
   std::function<void(double operations)> spend = {};
 
   /** Where the samples lie, with two frequencies. */
@@ -113,8 +117,8 @@ SmallVector amplitude(const Eigen::Ref<const Eigen::MatrixXd>& series, int h);
 void put_amplitude(Eigen::Ref<Eigen::MatrixXd> series, int h,
                    const SmallVector& amplitude);
 
-/** Calls `work` with `dofs` = 1 … 4, 6 or 8 as a std::integral_constant: small matrices of a size that the
-    compiler knows are multiplied without loops. */
+/** Calls `work` with `dofs` = 1 … 4, 6 or 8 as a std::integral_constant: small matrices
+    of a size that the compiler knows are multiplied without loops. */
 template <class Work>
 void with_dofs(int dofs, Work work)
 {
@@ -128,19 +132,20 @@ void with_dofs(int dofs, Work work)
   }
 }
 
-/** The balance of a problem on a set of harmonics. Every quantity is one of the point (X, ω) that it is
-    asked for; what was computed at the last point is not computed again. */
+/** The balance of a problem on a set of harmonics. Every quantity is one of the point (X,
+    ω) that it is asked for; what was computed at the last point is not computed again. */
 class Balance {
 public:
-  /** N = problem.samples must be at least 2m+1; among chosen harmonics no one an image of another. */
+  /** N = problem.samples must be at least 2m+1; among chosen harmonics no one an image of
+      another. */
   Balance(Problem problem, Harmonics harmonics);
 
   const Problem& problem() const { return problem_; }
   const Harmonics& harmonics() const { return harmonics_; }
   Eigen::Index unknowns() const { return residual_.size(); }
 
-  /** What `residual` evaluates beside the force; the stiffness can follow later, at the price of
-      another evaluation. */
+  /** What `residual` evaluates beside the force; the stiffness can follow later, at the
+      price of another evaluation. */
   enum class With { force, stiffness };
 
   /** The residual R (Eq. 16, real: cosine and sine rows). */
@@ -162,18 +167,20 @@ public:
   void apply_jacobian(const Eigen::VectorXd& x, double omega, const Eigen::VectorXd& v,
                       Eigen::VectorXd& product);
 
-  /** The diagonal blocks of ∂R/∂X of the harmonics of the list from `first` ≥ 1 on, each 2d × 2d, side by side. */
+  /** The diagonal blocks of ∂R/∂X of the harmonics of the list from `first` ≥ 1 on, each
+      2d × 2d, side by side. */
   void diagonal_blocks(const Eigen::VectorXd& x, double omega, int first,
                        Eigen::MatrixXd& blocks);
 
-  /** The last harmonic h of the list that the nonlinear force still decides on: ‖A_h⁻¹ B_h‖ times the
-      largest stiffness over the period is at least `coupling` [-]. */
+  /** The last harmonic h of the list that the nonlinear force still decides on: ‖A_h⁻¹
+      B_h‖ times the largest stiffness over the period is at least `coupling` [-]. */
   int highest_coupled(const Eigen::VectorXd& x, double omega, double coupling);
 
   /** Evaluations of the force at all N samples. */
   long evaluations() const { return evaluations_; }
 
-  /** Pays for work beside the force, where there is a budget. Throws NoSolution when it is used up. */
+  /** Pays for work beside the force, where there is a budget. Throws NoSolution when it
+      is used up. */
   void spend(double operations) const
   {
     if (problem_.spend) problem_.spend(operations);
@@ -204,8 +211,8 @@ private:
   Images images_, part_images_;
   FourierTransform transform_;
   double omega_;
-  /** A_h and B_h as real 2d × 2d blocks side by side, in the list's order, c, d × (2m+1), and their derivatives with
-      respect to ω. */
+  /** A_h and B_h as real 2d × 2d blocks side by side, in the list's order, c, d × (2m+1),
+      and their derivatives with respect to ω. */
   Eigen::MatrixXd a_, b_, a_slope_, b_slope_, c_, c_slope_;
   Eigen::MatrixXd series_, samples_, force_samples_, stiffness_samples_, force_series_;
   Eigen::VectorXd orders_;  ///< with a moving force

@@ -21,9 +21,10 @@ high harmonics alike. */
 
 namespace rotor_stator {
 
-/** The bearing's problem: d = 2 unknowns u_x, u_y [m], of a large machine two for each bearing; N samples. Throws NoSolution when
-   the force has not the period of rotation (n ω_cage/ω not whole, D-11): no series in ω
-   can solve it. Evaluations, transforms and factorisations are paid for from `budget`. */
+/** The bearing's problem: d = 2 unknowns u_x, u_y [m], of a large machine two for each
+    bearing; N samples. Throws NoSolution when the force has not the period of rotation (n
+    ω_cage/ω not whole, D-11): no series in ω can solve it. Evaluations, transforms and
+    factorisations are paid for from `budget`. */
 Problem bearing_problem(const Parameters& parameters, int samples,
                         const OperationBudget& budget = {});
 
@@ -38,8 +39,9 @@ Problem bearing_problem(const Parameters& parameters, const TorusLine& line,
 Eigen::VectorXd quasi_static_start(const Parameters& parameters, double omega,
                                    int harmonics);
 
-/** Series of x_s, y_s, x_r, y_r [m], 4 × (2m+1), and of the further displacements that a large machine shows: the bodies' linear responses to the bearing's force
-    along `motion`. */
+/** Series of x_s, y_s, x_r, y_r [m], 4 × (2m+1), and of the further displacements that a
+    large machine shows: the bodies' linear responses to the bearing's force along
+    `motion`. */
 Eigen::MatrixXd body_series(const Parameters& parameters, const PeriodicMotion& motion);
 
 }  // namespace rotor_stator

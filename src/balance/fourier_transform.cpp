@@ -122,8 +122,9 @@ int default_samples(int harmonics)
       std::max({32, 8 * harmonics + 1, static_cast<int>(std::min(as_truncation, most))}));
 }
 
-/** Plans of transforms that are gone wait for the next one of their length: planning costs as much as some
-    hundred transforms, and a search at one speed asks for the same few lengths again and again. */
+/** Plans of transforms that are gone wait for the next one of their length: planning
+    costs as much as some hundred transforms, and a search at one speed asks for the same
+    few lengths again and again. */
 std::multimap<int, std::unique_ptr<FourierTransform::Plans>>& FourierTransform::idle()
 {
   thread_local std::multimap<int, std::unique_ptr<Plans>> plans;
@@ -252,8 +253,8 @@ Eigen::MatrixXd differentiate(const Eigen::MatrixXd& series)
 
 namespace {
 
-/** Half of the largest less the smallest value of a periodic sequence, both refined by the parabola through their
-    neighbours. */
+/** Half of the largest less the smallest value of a periodic sequence, both refined by
+    the parabola through their neighbours. */
 double refined_half_range(const double* samples, std::ptrdiff_t n)
 {
   const auto [least, most] = std::minmax_element(samples, samples + n);

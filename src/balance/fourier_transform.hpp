@@ -1,20 +1,21 @@
 /**
 # Between the Fourier series and its samples (Eqs 9 and 13)
 
-A periodic motion is known by its coefficients or by its samples, and either follows from the other. With m
-harmonics it is the series
+A periodic motion is known by its coefficients or by its samples, and either follows from
+the other. With m harmonics it is the series
 
 $$x(\varphi) = X_0 + \sum_{i=1}^{m} X_{2i-1}\cos i\varphi + X_{2i}\sin i\varphi, \tag{9}$$
 
 with φ = ωt. From its N samples at φ_k = 2πk/N the coefficients follow by
 
-$$X_0 = \frac{1}{N}\sum_k x(\varphi_k), \quad X_{2i-1} = \frac{2}{N}\sum_k x(\varphi_k)\cos
+$$X_0 = \frac{1}{N}\sum_k x(\varphi_k),
+\quad X_{2i-1} = \frac{2}{N}\sum_k x(\varphi_k)\cos
 i\varphi_k, \quad X_{2i} = \frac{2}{N}\sum_k x(\varphi_k)\sin i\varphi_k. \tag{13}$$
 
-Both ways are real discrete Fourier transforms (FFTW; Eigen's with ROTOR_STATOR_EIGEN_FFT). Γ takes samples to coefficients, Γ⁻¹
-coefficients to samples (D-04: the paper's text names them the other way round). N is a
-parameter, at least 2m+1; the paper's own N = 2m+1 aliases (D-05); its arguments lack
-parentheses (D-21). */
+Both ways are real discrete Fourier transforms (FFTW; Eigen's with
+ROTOR_STATOR_EIGEN_FFT). Γ takes samples to coefficients, Γ⁻¹ coefficients to samples
+(D-04: the paper's text names them the other way round). N is a parameter, at least 2m+1;
+the paper's own N = 2m+1 aliases (D-05); its arguments lack parentheses (D-21). */
 #pragma once
 
 #include <Eigen/Core>
@@ -25,14 +26,16 @@ parentheses (D-21). */
 
 namespace rotor_stator {
 
-/** The smallest even number ≥ `at_least` with no prime factor above 7: a fast FFTW size. */
+/** The smallest even number ≥ `at_least` with no prime factor above 7: a fast FFTW
+    size. */
 int fast_transform_size(int at_least);
 
-/** Samples per period for m harmonics when nothing else is asked (D-14): at least 8m+1, 2/3 m^{8/5} and 32.
-    Sampling folds a spectrum that falls as k^{-5/2}, so its error falls as N^{-5/2}; that of truncation
-    as m^{-7/2} in the largest norm and as m^{-4} in the rms about the mean. A fixed N/m loses an order or
-    more; N ∝ m^{8/5} keeps both. Up to m = 64, 8m+1 is larger and sampling adds less than truncation
-    (figure `sampling`). Beyond 2^17 the error of sampling is that of rounding. */
+/** Samples per period for m harmonics when nothing else is asked (D-14): at least 8m+1,
+    2/3 m^{8/5} and 32. Sampling folds a spectrum that falls as k^{-5/2}, so its error
+    falls as N^{-5/2}; that of truncation as m^{-7/2} in the largest norm and as m^{-4} in
+    the rms about the mean. A fixed N/m loses an order or more; N ∝ m^{8/5} keeps both. Up
+    to m = 64, 8m+1 is larger and sampling adds less than truncation (figure `sampling`).
+    Beyond 2^17 the error of sampling is that of rounding. */
 int default_samples(int harmonics);
 
 /** Real transforms of one length N, with their buffers. */
@@ -45,7 +48,8 @@ public:
 
   int samples() const;
 
-  /** Operations of one transform, with the copies around it: many where N has a large prime factor. */
+  /** Operations of one transform, with the copies around it: many where N has a large
+      prime factor. */
   double operations() const;
 
   /** Γ⁻¹: series coefficients (rows = variables, columns = X_0, X_1, … X_2m) to samples
@@ -53,7 +57,8 @@ public:
   void to_samples(const Eigen::Ref<const Eigen::MatrixXd>& series,
                   Eigen::MatrixXd& samples);
 
-  /** The same for harmonics that stand at `images`, no two of which are the same or opposite. */
+  /** The same for harmonics that stand at `images`, no two of which are the same or
+      opposite. */
   void to_samples(const Eigen::Ref<const Eigen::MatrixXd>& series,
                   Eigen::MatrixXd& samples, const Images& images);
 

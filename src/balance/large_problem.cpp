@@ -43,8 +43,8 @@ HarmonicAlone harmonic_of(const LargeBodies& machine, const Parameters& p, doubl
           slope};
 }
 
-/** The first coordinates, which are shown, as unit forces on the joints (held by k) and the loads move them; derivatives
-    with respect to ω. */
+/** The first coordinates, which are shown, as unit forces on the joints (held by k) and
+    the loads move them; derivatives with respect to ω. */
 struct Answers {
   Eigen::MatrixXcd to_forces, to_forces_slope;
   Eigen::VectorXcd driven, driven_slope;
@@ -210,7 +210,8 @@ Eigen::MatrixXd LargeMachine::start_samples(const Parameters& parameters, double
 
 namespace {
 
-/** Of q_h = `answer`(h, push), where push(k) are the amplitudes of the bearings' forces with the spring k taken off. */
+/** Of q_h = `answer`(h, push), where push(k) are the amplitudes of the bearings' forces
+    with the spring k taken off. */
 template <class Answer>
 Eigen::MatrixXd series_of(const PeriodicMotion& motion, Eigen::Index joints,
                           Eigen::Index rows, Answer answer)

@@ -1,8 +1,9 @@
 /**
 # A periodic motion
 
-What one method hands on to the next: a speed, the coefficients of the relative motion at a list
-of harmonics, and what is known of how they were found and how far they are from the exact motion. */
+What one method hands on to the next: a speed, the coefficients of the relative motion at
+a list of harmonics, and what is known of how they were found and how far they are from
+the exact motion. */
 #pragma once
 
 #include <Eigen/Core>
@@ -13,25 +14,26 @@ of harmonics, and what is known of how they were found and how far they are from
 
 namespace rotor_stator {
 
-/** Where the harmonics of a list stand among those of N samples, |p| ≤ N/2; the harmonic of
-    frequency -p for p < 0. */
+/** Where the harmonics of a list stand among those of N samples, |p| ≤ N/2; the harmonic
+    of frequency -p for p < 0. */
 using Images = std::vector<int>;
 
-/** One frequency of a motion, k_1 ω + k_2 n ω_cage; halves where it repeats itself after two turns and two
-    passages only. */
+/** One frequency of a motion, k_1 ω + k_2 n ω_cage; halves where it repeats itself after
+    two turns and two passages only. */
 struct Harmonic {
   double k_1, k_2;
 
   bool operator==(const Harmonic&) const = default;
 };
 
-/** With two frequencies the samples lie on the line θ_2 = z θ_1 (torus_line.hpp), which closes after
-    so many turns. */
+/** With two frequencies the samples lie on the line θ_2 = z θ_1 (torus_line.hpp), which
+    closes after so many turns. */
 struct TorusLine {
   int z = 0, samples = 0, turns = 1;
 };
 
-/** The frequencies of a motion, the mean first. Motions with the same ones share the list. */
+/** The frequencies of a motion, the mean first. Motions with the same ones share the
+    list. */
 class Harmonics {
 public:
   Harmonics() = default;  ///< none
@@ -50,7 +52,8 @@ public:
   /** h = k_1 + z k_2 times the line's turns, modulo N, for each of them. */
   Images images(const TorusLine& line, int samples) const;
 
-  /** Coefficients of one displacement: the mean, and a cosine and a sine of each other frequency. */
+  /** Coefficients of one displacement: the mean, and a cosine and a sine of each other
+      frequency. */
   Eigen::Index coefficients() const
   {
     return list_ ? 2 * static_cast<Eigen::Index>(list_->size()) - 1 : 0;

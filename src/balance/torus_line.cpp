@@ -26,7 +26,8 @@ double order_of(Harmonic h, const Bearing& bearing)
 
 namespace {
 
-/** One of each pair of opposite ones, that of positive order, ascending after the mean. */
+/** One of each pair of opposite ones, that of positive order, ascending after the
+    mean. */
 Harmonics ascending(const std::set<std::pair<double, double>>& pairs,
                     const Bearing& bearing)
 {

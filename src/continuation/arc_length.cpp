@@ -159,7 +159,8 @@ struct Walk {
     return {};
   }
 
-  /** A step along the tangent, moved across it to the cubic through the last two points where that is near. */
+  /** A step along the tangent, moved across it to the cubic through the last two points
+      where that is near. */
   Eigen::VectorXd predicted(const Eigen::VectorXd& start) const
   {
     constexpr double longest = 2.1, near = 0.2;
@@ -174,7 +175,8 @@ struct Walk {
     return off.norm() <= near * step ? along + off : along;
   }
 
-  /** The corrected point one step ahead, if nothing speaks against it; `factor` is then f. */
+  /** The corrected point one step ahead, if nothing speaks against it; `factor` is then
+      f. */
   std::optional<BranchPoint> corrected()
   {
     const Eigen::VectorXd &before = last().tangent, start = scaled(last(), settings);
@@ -198,7 +200,8 @@ struct Walk {
     return BranchPoint{std::move(motion), last().arc + length, tangent.direction};
   }
 
-  /** Up to `next`: a fold on the way, the edge of the range, a point that was passed before. */
+  /** Up to `next`: a fold on the way, the edge of the range, a point that was passed
+      before. */
   void take(BranchPoint next)
   {
     const auto passed = history.passed(corrector, branch.points, next, settings);

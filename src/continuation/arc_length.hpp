@@ -1,9 +1,11 @@
 /**
 # Pseudo-arc-length continuation
 
-A response curve is followed by its arc length, so that it may turn back where it folds. A step that passes
-an earlier point of the branch has closed a loop, or has hopped onto a leg that was followed already. A point that lies near a step is corrected from the step's cubic in the plane across
-the point's own tangent: the same solution comes out, or another. */
+A response curve is followed by its arc length, so that it may turn back where it folds. A
+step that passes an earlier point of the branch has closed a loop, or has hopped onto a
+leg that was followed already. A point that lies near a step is corrected from the step's
+cubic in the plane across the point's own tangent: the same solution comes out, or
+another. */
 #pragma once
 
 #include <map>
@@ -13,8 +15,8 @@ the point's own tangent: the same solution comes out, or another. */
 
 namespace rotor_stator {
 
-/** The step from one point of a branch to the next, in whose way others may lie. Points, settings and
-    corrector must outlive it. */
+/** The step from one point of a branch to the next, in whose way others may lie. Points,
+    settings and corrector must outlive it. */
 class StepOfBranch {
 public:
   StepOfBranch(Corrector& corrector, const BranchPoint& a, const BranchPoint& b,
@@ -24,8 +26,8 @@ public:
   double low() const { return low_; }
   double high() const { return high_; }
 
-  /** Whether the solution `point` lies on the step, to the length that Newton's last correction may
-      have. */
+  /** Whether the solution `point` lies on the step, to the length that Newton's last
+      correction may have. */
   bool holds(const BranchPoint& point);
 
   /** Whether a point that the step holds was passed in the step's own direction. */
@@ -52,8 +54,8 @@ public:
     index_.emplace(point.motion.omega, index_.size());
   }
 
-  /** The first of `points`, all of which were added in order, that lies on the step from the last of
-      them to `next`. */
+  /** The first of `points`, all of which were added in order, that lies on the step from
+      the last of them to `next`. */
   std::optional<Passed> passed(Corrector& corrector,
                                const std::vector<BranchPoint>& points,
                                const BranchPoint& next,
@@ -67,27 +69,31 @@ private:
 ## The steps
 
 A step along the branch's tangent, then Newton on the curve and the condition of the
-corrector. The step follows the corrector (Allgower and Georg 2003, section 6.1; Den Heijer
-and Rheinboldt 1981): with κ the ratio of successive Newton corrections, α the angle between the
-tangents at both ends of the step, and β the angle between its chord and their mean, it is divided by
+corrector. The step follows the corrector (Allgower and Georg 2003, section 6.1; Den
+Heijer and Rheinboldt 1981): with κ the ratio of successive Newton corrections, α the
+angle between the tangents at both ends of the step, and β the angle between its chord and
+their mean, it is divided by
 
-$$f = \max\left(\sqrt{\kappa/\tilde\kappa},\ \alpha/\tilde\alpha,\ \sqrt{\beta/\tilde\beta}\right),
+$$f = \max\left(\sqrt{\kappa/\tilde\kappa},
+\ \alpha/\tilde\alpha,\ \sqrt{\beta/\tilde\beta}\right),
 \qquad \tfrac12 \le f \le 2.$$
 
-κ grows like the square of the step and α like the step; β grows like its square on the branch, but is
-large at once when the corrector has hopped to another leg of a hairpin. A step is taken back and halved
-when Newton fails or contracts too slowly, when α or β is too large, when the sign of the bordered
-determinant changes, or when the cubic through the step shows two folds inside it. */
+κ grows like the square of the step and α like the step; β grows like its square on the
+branch, but is large at once when the corrector has hopped to another leg of a hairpin. A
+step is taken back and halved when Newton fails or contracts too slowly, when α or β is
+too large, when the sign of the bordered determinant changes, or when the cubic through
+the step shows two folds inside it. */
 
-/** Speeds [rad/s] between which a branch is followed; `from` may be the larger. The branch is covered
-    when it reaches `to`, and also ends where it leaves through `from`. */
+/** Speeds [rad/s] between which a branch is followed; `from` may be the larger. The
+    branch is covered when it reaches `to`, and also ends where it leaves through
+    `from`. */
 struct SpeedRange {
   double from, to;
 };
 
-/** Follows the branch from `start`, along its tangent, until it leaves the range or ends as `BranchEnd` says. Folds are located to
-    `fold_tolerance` and become points of the branch. Throws NoSolution when `start` cannot be corrected
-    onto a branch. */
+/** Follows the branch from `start`, along its tangent, until it leaves the range or ends
+    as `BranchEnd` says. Folds are located to `fold_tolerance` and become points of the
+    branch. Throws NoSolution when `start` cannot be corrected onto a branch. */
 Branch follow_branch(Curve& curve, const BranchPoint& start, SpeedRange range,
                      const ArcLengthSettings& settings);
 

@@ -1,9 +1,9 @@
 /**
 # A branch of solutions
 
-A branch is followed in the scaled unknowns y = (X/ℓ, ω/ω_ref), in which a step along it is
-measured. It is a row of solutions with the unit tangent at each; between two of them the
-cubic with both tangents stands for it. */
+A branch is followed in the scaled unknowns y = (X/ℓ, ω/ω_ref), in which a step along it
+is measured. It is a row of solutions with the unit tangent at each; between two of them
+the cubic with both tangents stands for it. */
 #pragma once
 
 #include <Eigen/LU>
@@ -16,8 +16,8 @@ namespace rotor_stator {
 
 struct BranchPoint;
 
-/** The first three have no default: two scales of the problem and Newton's settings. Lengths are
-    scaled arc lengths [-]. */
+/** The first three have no default: two scales of the problem and Newton's settings.
+    Lengths are scaled arc lengths [-]. */
 struct ArcLengthSettings {
   NewtonSettings newton;
   double speed_scale;        ///< ω_ref [rad/s]
@@ -52,8 +52,8 @@ ArcLengthSettings arc_length_settings(const Parameters& parameters,
                                       const NewtonSettings& newton = {});
 
 /** How a branch ended. `goal`: at the end of the range. `came_back`: at the edge where it
-    began. `closed`: at its first point, going the same way. `on_itself`: at another of its
-    points. The rest: out of work, of points, or of step length. */
+    began. `closed`: at its first point, going the same way. `on_itself`: at another of
+    its points. The rest: out of work, of points, or of step length. */
 enum class BranchEnd { goal, came_back, closed, on_itself, work, points, step };
 
 struct Branch {
@@ -71,7 +71,8 @@ Eigen::VectorXd scaled(const BranchPoint& point, const ArcLengthSettings& settin
 /** Angle [rad] between two unit vectors, accurate when it is small. */
 double angle(const Eigen::VectorXd& a, const Eigen::VectorXd& b);
 
-/** The cubic through `a` and `b` with both tangents, scaled: between them at 0 ≤ r ≤ 1, continued beyond b at r > 1. */
+/** The cubic through `a` and `b` with both tangents, scaled: between them at 0 ≤ r ≤ 1,
+    continued beyond b at r > 1. */
 Eigen::VectorXd between(const BranchPoint& a, const BranchPoint& b, double r,
                         const ArcLengthSettings& settings);
 
@@ -81,12 +82,13 @@ BranchPoint reversed(BranchPoint point);
 /**
 ## Newton on a curve
 
-The n equations of a curve are closed by one linear condition d·(y - y_predicted) = 0. With d near the branch's tangent the bordered Jacobian stays
-regular where the branch folds back in ω (Keller 1977). The corrector is Newton without
-damping: where it does not contract, the step was too long, and a damped Newton would look for
-another solution far away. Its factors are kept while a correction leaves less than a tenth of itself, with Broyden's
-updates from the steps taken (Kelley 1995, section 7.3). They serve the tangent too, which iterations on the Jacobian at the
-solution refine. */
+The n equations of a curve are closed by one linear condition d·(y - y_predicted) = 0.
+With d near the branch's tangent the bordered Jacobian stays regular where the branch
+folds back in ω (Keller 1977). The corrector is Newton without damping: where it does not
+contract, the step was too long, and a damped Newton would look for another solution far
+away. Its factors are kept while a correction leaves less than a tenth of itself, with
+Broyden's updates from the steps taken (Kelley 1995, section 7.3). They serve the tangent
+too, which iterations on the Jacobian at the solution refine. */
 
 /** Where Newton ended, and how fast it was (Den Heijer and Rheinboldt 1981). */
 struct Correction {
@@ -95,8 +97,8 @@ struct Correction {
   double contraction = 0;  ///< the largest ‖Δy_{k+1}‖/‖Δy_k‖ above rounding [-]
 };
 
-/** The unit tangent, and the sign of the bordered Jacobian's determinant: along a branch that is
-    followed in one direction the sign stays the same, through folds too. */
+/** The unit tangent, and the sign of the bordered Jacobian's determinant: along a branch
+    that is followed in one direction the sign stays the same, through folds too. */
 struct Tangent {
   Eigen::VectorXd direction;
   bool positive;
@@ -130,8 +132,8 @@ private:
   Eigen::VectorXd last_row_;  ///< of the matrix that they are of
 };
 
-/** The solution near `x` at `omega` with its tangent, on the side of higher speeds if `upwards`. Throws
-    NoSolution when there is none. */
+/** The solution near `x` at `omega` with its tangent, on the side of higher speeds if
+    `upwards`. Throws NoSolution when there is none. */
 BranchPoint point_of(Curve& curve, double omega, const Eigen::VectorXd& x, bool upwards,
                      const ArcLengthSettings& settings);
 

@@ -48,7 +48,8 @@ bool is_complex_pair(const Multipliers& multipliers)
   return complex;
 }
 
-/** The modulus of the multiplier that passes the circle there: of those nearest to +1, to -1, of the pair nearest to it. */
+/** The modulus of the multiplier that passes the circle there: of those nearest to +1, to
+    -1, of the pair nearest to it. */
 double passing_modulus(Bifurcation kind, const Multipliers& multipliers)
 {
   const auto off = [kind](Complex mu) {
@@ -86,7 +87,8 @@ struct Walk {
   BranchStability along(const Branch& branch)
   {
     mark_folds(branch);
-    /** The points themselves first: they are what is left where the work does not go further. */
+    /** The points themselves first: they are what is left where the work does not go
+        further. */
     std::vector<std::pair<std::size_t, StablePoint>> examined;
     for (std::size_t k = 0; k < branch.points.size(); ++k)
       if (settings.chosen.empty() || settings.chosen[k])
@@ -103,7 +105,8 @@ struct Walk {
     return std::move(result);
   }
 
-  /** Points whose multipliers could not be had, from the other end, where a neighbour has its own. */
+  /** Points whose multipliers could not be had, from the other end, where a neighbour has
+      its own. */
   void retry(const Branch& branch,
              std::vector<std::pair<std::size_t, StablePoint>>& examined)
   {
@@ -144,7 +147,8 @@ struct Walk {
 
   static bool is_stable(const StablePoint& point) { return unstable_count(point) == 0; }
 
-  /** From point a of the branch, the last one found, to point b > a, whose multipliers are `next`. */
+  /** From point a of the branch, the last one found, to point b > a, whose multipliers
+      are `next`. */
   void pass(const Branch& branch, std::size_t a, std::size_t b, StablePoint next)
   {
     const StablePoint& last = result.points.back();

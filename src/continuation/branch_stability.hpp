@@ -1,17 +1,19 @@
 /**
 # Stability and bifurcations along a branch
 
-Where the Floquet multipliers leave or enter the unit circle, the solution gains or loses its stability. The
-bifurcations that are told apart:
+Where the Floquet multipliers leave or enter the unit circle, the solution gains or loses
+its stability. The bifurcations that are told apart:
 
-- A fold, where the tangent's speed component vanishes (the branch has located it already);
-- a multiplier passes +1, where Π (1 - μ_i) changes its sign. For an exact motion that is a fold, or the
-  branching point of another branch. Along a series cut at m harmonics the two part, because the
-  multipliers are those of the linearisation along it and the fold is that of the cut equations;
+- A fold, where the tangent's speed component vanishes (the branch has located it
+  already);
+- a multiplier passes +1, where Π (1 - μ_i) changes its sign. For an exact motion that is
+  a fold, or the branching point of another branch. Along a series cut at m harmonics the
+  two part, because the multipliers are those of the linearisation along it and the fold
+  is that of the cut equations;
 - a period doubling, where a multiplier passes -1: Π (1 + μ_i);
-- a Neimark-Sacker point, where a complex pair passes the unit circle: Π (1 - μ_i μ_j), i < j, which is
-  the bialternate product. It also vanishes where two real multipliers have the product 1, which is
-  no bifurcation and is left out.
+- a Neimark-Sacker point, where a complex pair passes the unit circle: Π (1 - μ_i μ_j), i
+  < j, which is the bialternate product. It also vanishes where two real multipliers have
+  the product 1, which is no bifurcation and is left out.
 
 Kuznetsov (2004), sections 10.2 and 10.3. */
 #pragma once
@@ -33,13 +35,14 @@ const char* name_of(Bifurcation bifurcation);
 /**
 ## The test functions and the stretches between bifurcations
 
-At every point of a branch its Floquet multipliers, and between two points the bifurcations, located on
-the branch. Where multipliers move far between two points, or more than one thing happens, points are
-added until each step shows at most one.
+At every point of a branch its Floquet multipliers, and between two points the
+bifurcations, located on the branch. Where multipliers move far between two points, or
+more than one thing happens, points are added until each step shows at most one.
 
-Multipliers cost more than the branch. Where a branch has thousands of points within a hertz they are
-computed at some of its points only; between two of these that are both stable or both unstable nothing is
-looked for, and where stability changes the points between are examined by bisection. */
+Multipliers cost more than the branch. Where a branch has thousands of points within a
+hertz they are computed at some of its points only; between two of these that are both
+stable or both unstable nothing is looked for, and where stability changes the points
+between are examined by bisection. */
 
 struct StablePoint {
   BranchPoint point;
@@ -68,16 +71,16 @@ struct BranchStability {
   std::string failure = {};  ///< why the first of them could not
 };
 
-/** `curve` and `arc_length` are those the branch was followed with. A point at which `floquet_at`
-    throws NoSolution stays without multipliers. */
+/** `curve` and `arc_length` are those the branch was followed with. A point at which
+    `floquet_at` throws NoSolution stays without multipliers. */
 BranchStability stability_along(Curve& curve, const Branch& branch,
                                 const ArcLengthSettings& arc_length,
                                 const FloquetAt& floquet_at,
                                 const BranchStabilitySettings& settings = {});
 
-/** The points to examine where at most `most` are wanted in each interval of speed of the length `width`
-    [rad/s]: all where there are fewer, else the first of every k in their order. The first and the last
-    point are always chosen. */
+/** The points to examine where at most `most` are wanted in each interval of speed of the
+    length `width` [rad/s]: all where there are fewer, else the first of every k in their
+    order. The first and the last point are always chosen. */
 std::vector<bool> evenly_chosen(const Branch& branch, double width, int most);
 
 }  // namespace rotor_stator

@@ -26,7 +26,8 @@ bool at_an_edge(const Branch& branch)
   return branch.kind == BranchEnd::goal || branch.kind == BranchEnd::came_back;
 }
 
-/** `behind`, walked backwards from the start that it shares with `ahead`, and then `ahead`. */
+/** `behind`, walked backwards from the start that it shares with `ahead`, and then
+    `ahead`. */
 Branch joined(const Branch& behind, const Branch& ahead)
 {
   Branch whole{};

@@ -11,8 +11,8 @@ namespace rotor_stator {
 
 namespace {
 
-/** An end of the bracket: a point and the quantity there, the latter as the Illinois method
-    weighs it. */
+/** An end of the bracket: a point and the quantity there, the latter as the Illinois
+    method weighs it. */
 struct End {
   BranchPoint point;
   double value, weighed;

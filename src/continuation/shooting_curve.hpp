@@ -1,8 +1,8 @@
 /**
 # The branch of shooting as a curve
 
-The unknowns are the state at phase 0 over its sizes, and the speed; the equations say P(s;
-ω) = s. Φ comes from the variational equations, ∂P/∂ω from a difference of two maps.
+The unknowns are the state at phase 0 over its sizes, and the speed; the equations say
+P(s; ω) = s. Φ comes from the variational equations, ∂P/∂ω from a difference of two maps.
 
     ShootingCurve curve(parameters, budget);
     const Branch branch =

@@ -120,7 +120,8 @@ struct Sweep {
     return true;
   }
 
-  /** From the last solution to the motion's speed, through half-way speeds if it must be. */
+  /** From the last solution to the motion's speed, through half-way speeds if it must
+      be. */
   bool approach(PeriodicMotion& motion, double omega, int halvings)
   {
     if (attempt(motion, omega, predictor.at_speed(omega))) return true;

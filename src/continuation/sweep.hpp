@@ -1,8 +1,8 @@
 /**
 # The paper's predictor (Eqs 19 to 21)
 
-The solution at the next speed is predicted by a cubic through the last four. These solutions (X_i, ω_i) are points on a curve whose arc length is measured by
-chords,
+The solution at the next speed is predicted by a cubic through the last four. These
+solutions (X_i, ω_i) are points on a curve whose arc length is measured by chords,
 
 $$\delta s_{i+1} = \sqrt{\|X_{i+1} - X_i\|^2 / \ell^2 + (\omega_{i+1} - \omega_i)^2 /
 \omega_{ref}^2}, \tag{19}$$
@@ -17,7 +17,8 @@ they are the argument of the cubic through the four points, which is read at S_4
 $$(X_4, \omega_4) = \sum_{i=0}^{3} \Big(\prod_{j \ne i} \frac{S_4 - S_j}{S_i - S_j}\Big)\,
 (X_i, \omega_i). \tag{20}$$
 
-As printed, with S_3 in the numerator, it returns the last point unchanged (D-02). With fewer points the polynomial has a lower degree. */
+As printed, with S_3 in the numerator, it returns the last point unchanged (D-02). With
+fewer points the polynomial has a lower degree. */
 #pragma once
 
 #include <deque>
@@ -69,24 +70,26 @@ struct SweepSettings {
   int most_halvings = 4;
 };
 
-/** Those for one machine: Eq. 19 scaled by the bearing's length and by the joint resonance (D-03). */
+/** Those for one machine: Eq. 19 scaled by the bearing's length and by the joint
+    resonance (D-03). */
 SweepSettings sweep_settings(const Parameters& parameters);
 
 /** A start for Newton where no previous solution is at hand. */
 using ColdStart = std::function<Eigen::VectorXd(double omega)>;
 
-/** The start of a motion that the predictor led to. All others of a sweep are cold: they may lie on
-    another branch than the one before. */
+/** The start of a motion that the predictor led to. All others of a sweep are cold: they
+    may lie on another branch than the one before. */
 inline constexpr const char* from_predictor = "predictor";
 
-/** Solves at each of `omegas` in order. Where no solution was found `x` is empty; `newton` is of the last
-    attempt, its `iterations` and `force_samples` of all attempts at this speed. */
+/** Solves at each of `omegas` in order. Where no solution was found `x` is empty;
+    `newton` is of the last attempt, its `iterations` and `force_samples` of all attempts
+    at this speed. */
 std::vector<PeriodicMotion> sweep(Balance& balance, const std::vector<double>& omegas,
                                   const ColdStart& cold_start,
                                   const SweepSettings& settings);
 
-/** The same for a machine, cold from quasi-static contact, with the series of both bodies; 0 samples are
-    `default_samples`. */
+/** The same for a machine, cold from quasi-static contact, with the series of both
+    bodies; 0 samples are `default_samples`. */
 std::vector<PeriodicMotion> sweep(const Parameters& parameters,
                                   const std::vector<double>& omegas, int harmonics,
                                   int samples = 0);
@@ -99,8 +102,8 @@ struct CurvePoint {
   double frequency, amplitude;
 };
 
-/** The highest point of a curve, refined by the parabola through it and its neighbours; the point
-    itself at an end of the curve. */
+/** The highest point of a curve, refined by the parabola through it and its neighbours;
+    the point itself at an end of the curve. */
 CurvePoint refined_peak(const std::vector<CurvePoint>& curve);
 
 }  // namespace rotor_stator

@@ -18,7 +18,8 @@ struct Leap {
   double h;
   Bodies q, v;
 
-  /** The speeds go on by `length`, half of it before and half behind q: the damping acts on their mean. */
+  /** The speeds go on by `length`, half of it before and half behind q: the damping acts
+      on their mean. */
   IN_PLACE void kick(double length)
   {
     const Vec2 f =

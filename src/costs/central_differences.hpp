@@ -1,13 +1,14 @@
 /**
 # Central differences
 
-The simplest rival, which Villa, Sinou and Thouverez (2007) validate their balance with: displacements at whole steps,
-speeds at half steps, one evaluation of the force per step, second order. The suspensions' damping is centred, so that
-it costs no order. Undamped and undamaged bearings only.
+The simplest rival, which Villa, Sinou and Thouverez (2007) validate their balance with:
+displacements at whole steps, speeds at half steps, one evaluation of the force per step,
+second order. The suspensions' damping is centred, so that it costs no order. Undamped and
+undamaged bearings only.
 
     CentralDifferences steps(parameters, omega, 64, 2e-4);
     State state = static_start(parameters);
-    steps.advance(0, state);                // over the first of 64 intervals of the base period
+    steps.advance(0, state);                // over the first of 64 intervals
 */
 #pragma once
 

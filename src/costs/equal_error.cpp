@@ -71,8 +71,8 @@ std::vector<Trial> try_settings(const EqualErrorScene& scene, const References& 
 }
 
 /** The least CPU over all speeds, one of the settings `allowed` at each; a speed whose
-    setting is not that of the speed before costs a median speed of it more, for the start and
-    the factors that a change loses. Empty where a speed has none. */
+    setting is not that of the speed before costs a median speed of it more, for the start
+    and the factors that a change loses. Empty where a speed has none. */
 static std::vector<std::size_t> least_path(const std::vector<Trial>& tried,
                                            const std::vector<std::vector<bool>>& allowed)
 {

@@ -38,8 +38,9 @@ std::vector<References> periodic_ranges(const EqualErrorScene& scene,
 std::vector<Trial> try_settings(const EqualErrorScene& scene, const References& range,
                                 const Candidates& candidates);
 
-/** The settings that stay below the target at their speeds and take the least CPU together.
-    A speed that misses the target among its new neighbours takes another one. */
+/** The settings that stay below the target at their speeds and take the least CPU
+    together. A speed that misses the target among its new neighbours takes another
+    one. */
 std::optional<Schedule> schedule_by_speed(const EqualErrorScene& scene,
                                           const References& range,
                                           const std::vector<Trial>& tried, double target);

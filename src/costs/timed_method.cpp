@@ -79,7 +79,8 @@ SettingGroup each(const SettingGroup& group, Value Setting::*field,
   return all;
 }
 
-/** A group for each number of harmonics and each start: which is cheaper depends on the speeds. */
+/** A group for each number of harmonics and each start: which is cheaper depends on the
+    speeds. */
 Candidates balances(StrictToml table, const std::string& method)
 {
   const SettingGroup ms = each(SettingGroup{{.method = method}}, &Setting::harmonics,
@@ -326,8 +327,8 @@ private:
     return quasi_static_start(task_.parameters, omega, setting_.harmonics);
   }
 
-  /** The period after so many seconds of RK4, with steps that are too long for a result but not
-      unstable. It goes on from where it ended last. */
+  /** The period after so many seconds of RK4, with steps that are too long for a result
+      but not unstable. It goes on from where it ended last. */
   Eigen::VectorXd integrated(double omega, double seconds)
   {
     const Parameters& p = task_.parameters;
@@ -356,8 +357,8 @@ private:
   std::shared_ptr<double> force_seconds_ = std::make_shared<double>(0);
 };
 
-/** Time integration and shooting end in a state at each speed; one period from it, by the same
-    method at the same setting, is the motion. */
+/** Time integration and shooting end in a state at each speed; one period from it, by the
+    same method at the same setting, is the motion. */
 class Integration : public TimedMethod {
 public:
   using TimedMethod::TimedMethod;

@@ -1,20 +1,23 @@
 /**
 # Methods against the clock
 
-A task is a row of speeds of one machine, to be solved in order for the motion of period T. A
-timed method is one method at one setting. Its `run` does all the work anew and is what is timed:
-tables, the start, the transient or the iteration, at every speed. Writing the motions down
-afterwards is timed for none. A process plans the Fourier transforms of a length once, in the first
-run that needs it: the median of the repetitions does not show it.
+A task is a row of speeds of one machine, to be solved in order for the motion of period
+T. A timed method is one method at one setting. Its `run` does all the work anew and is
+what is timed: tables, the start, the transient or the iteration, at every speed. Writing
+the motions down afterwards is timed for none. A process plans the Fourier transforms of a
+length once, in the first run that needs it: the median of the repetitions does not show
+it.
 
-- Harmonic balance: a speed starts from the paper's predictor; where that fails, from quasi-static
-  contact if the harmonics are few, and then from half a second of time integration with coarse
-  steps, which goes on from where it ended last. With a transient in the setting, that comes first.
-  Or the paper's sweep, which halves the gap to the last speed where Newton fails.
-- Time integration: a transient of whole periods, from the static load or the known state; then
-  from speed to speed. `rk4-lanes` integrates all speeds side by side, each from quasi-static
-  contact.
-- Shooting: the state is extrapolated from speed to speed by the same predictor, and Φ is kept. */
+- Harmonic balance: a speed starts from the paper's predictor; where that fails, from
+  quasi-static contact if the harmonics are few, and then from half a second of time
+  integration with coarse steps, which goes on from where it ended last. With a transient
+  in the setting, that comes first. Or the paper's sweep, which halves the gap to the last
+  speed where Newton fails.
+- Time integration: a transient of whole periods, from the static load or the known state;
+  then from speed to speed. `rk4-lanes` integrates all speeds side by side, each from
+  quasi-static contact.
+- Shooting: the state is extrapolated from speed to speed by the same predictor, and Φ is
+  kept. */
 #pragma once
 
 #include <memory>
@@ -59,22 +62,24 @@ public:
   }
   const std::string& method() const { return settings_.front().method; }
 
-  /** "m=6 N>4m tol=1e-07"; with the least and the largest where they differ: "m=1..17". */
+  /** "m=6 N>4m tol=1e-07"; with the least and the largest where they differ:
+      "m=1..17". */
   std::string text() const;
 
 private:
   std::vector<Setting> settings_;
 };
 
-/** Settings of one method in groups of the same accuracy, the cheaper ones first, so that a search
-    can stop early. */
+/** Settings of one method in groups of the same accuracy, the cheaper ones first, so that
+    a search can stop early. */
 using SettingGroup = std::vector<Setting>;
 struct Candidates {
   std::string method;
   std::vector<SettingGroup> groups;
 };
 
-/** The tables of `toml` that are named in its key "methods", in that order. Throws BadInput. */
+/** The tables of `toml` that are named in its key "methods", in that order. Throws
+    BadInput. */
 std::vector<Candidates> read_candidates(StrictToml& toml);
 
 /** CPU seconds of one thread: median, least and most of the repetitions. */
@@ -119,7 +124,8 @@ protected:
   /** Of the time method at a speed. */
   std::unique_ptr<Flow> stepper(std::size_t speed, int intervals) const;
 
-  /** Integrates whole periods from phase 0, so many seconds at least. Returns their number. */
+  /** Integrates whole periods from phase 0, so many seconds at least. Returns their
+      number. */
   long advance(Flow& whole, double seconds, double omega, State& state);
 
   Task task_;
@@ -145,16 +151,18 @@ struct Trial : Measurement {
 
 Trial tried_once(const References& sweep, const Schedule& schedule);
 
-/** The largest error over the speeds, as far as it is not above `bound`: the run ends at the first
-    speed that is. */
+/** The largest error over the speeds, as far as it is not above `bound`: the run ends at
+    the first speed that is. */
 MotionError error_up_to(double bound, const References& sweep, const Schedule& schedule);
 
-/** p of y = a x^p by least squares of the logarithms; two points at least, all positive. */
+/** p of y = a x^p by least squares of the logarithms; two points at least, all
+    positive. */
 double fitted_exponent(const std::vector<double>& x, const std::vector<double>& y);
 
 /** For headers of tables: what is timed. */
 inline constexpr const char* what_is_timed =
-    "timed: the whole solution on one thread, tables, start, transient or iteration; Fourier "
+    "timed: the whole solution on one thread, tables, start, transient or iteration; "
+    "Fourier "
     "transforms are planned once in a process, in the first run that needs them; "
     "writing the motion down is timed for none";
 

@@ -1,8 +1,9 @@
 /**
 # Table 2: harmonic balance against Runge-Kutta (§3.3, code)
 
-Both go through the same speeds, T-periodic or not. RK4 takes the state from speed to speed, and the first
-from the static load; of its settings those with the fewest steps are the cheapest. */
+Both go through the same speeds, T-periodic or not. RK4 takes the state from speed to
+speed, and the first from the static load; of its settings those with the fewest steps are
+the cheapest. */
 #pragma once
 
 #include "costs/timed_method.hpp"
@@ -21,8 +22,9 @@ struct TimingScene {
 
 TimingScene read_timing(SceneFile& file);
 
-/** The first RK4 setting of the scene that reaches both errors of a balance. Nothing is timed. Throws
-    NoSolution when the balance failed at a periodic speed, or when no setting reaches them. */
+/** The first RK4 setting of the scene that reaches both errors of a balance. Nothing is
+    timed. Throws NoSolution when the balance failed at a periodic speed, or when no
+    setting reaches them. */
 Setting cheapest_rk4(const TimingScene& scene, const References& references,
                      const MotionError& target);
 

@@ -27,12 +27,13 @@ struct TrueMotion {
   double periodicity_residual = 0;  ///< of shooting [-]
 };
 
-/** Throws NoSolution when the integration breaks down or shooting does not close the motion. */
+/** Throws NoSolution when the integration breaks down or shooting does not close the
+    motion. */
 TrueMotion true_motion(const Parameters& parameters, double frequency,
                        const TruthSettings& settings);
 
-/** Largest relative difference to harmonic balance with `harmonics` harmonics, started from the
-    motion [-]. Throws NoSolution when that has no solution. */
+/** Largest relative difference to harmonic balance with `harmonics` harmonics, started
+    from the motion [-]. Throws NoSolution when that has no solution. */
 double agreement(const Parameters& parameters, const TrueMotion& truth, int harmonics);
 
 /** A row of speeds of one machine, to be solved in order. */
@@ -40,7 +41,8 @@ struct Task {
   Parameters parameters;
   std::vector<double> frequencies;  ///< [Hz]
 
-  /** A speed [Hz] whose solution is known when the work begins, and the state there at phase 0. */
+  /** A speed [Hz] whose solution is known when the work begins, and the state there at
+      phase 0. */
   struct Known {
     double frequency;
     State state;

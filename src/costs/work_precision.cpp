@@ -51,7 +51,8 @@ namespace {
 /** Evaluations that are timed together, enough for the clock. */
 constexpr int instants = 20000;
 
-/** CPU seconds of one evaluation of the bearing's force by a time method, along a motion. */
+/** CPU seconds of one evaluation of the bearing's force by a time method, along a
+    motion. */
 double seconds_of_force(const Parameters& parameters, const motion::Motion& motion)
 {
   const BallBearing bearing(parameters.bearing);
@@ -86,7 +87,8 @@ double seconds_of_transform(int samples)
   return time.median / (2 * times);
 }
 
-/** A run in which the force is timed, or the number of evaluations times what one takes. */
+/** A run in which the force is timed, or the number of evaluations times what one
+    takes. */
 void split_time(WorkPoint& point, const References& references)
 {
   if (point.schedule.method() != "aft") {
@@ -167,7 +169,8 @@ Table work_precision_table(const WorkPrecisionScene& scene,
   table.note("below: the motion known is so many Hz below the speed");
   table.note(what_is_timed);
   table.note(format(
-      "reference: shooting by rk8, tolerance %g; agreement: with harmonic balance, m = %d",
+      "reference: shooting by rk8, tolerance %g; agreement: with harmonic balance, m "
+      "= %d",
       scene.truth.tolerance, scene.reference_harmonics));
   for (const WorkCase& c : cases)
     table.row_line("case", {c.number, c.truth.frequency, one_word(c.parameters.file),

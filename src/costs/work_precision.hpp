@@ -1,10 +1,10 @@
 /**
 # Work against precision (code)
 
-One periodic motion at each of a few speeds, by every method at many settings, from nothing (the static
-load, quasi-static contact) and from the known motion at a speed a little below. The force inside harmonic
-balance is timed in a run of its own; all other shares of the time are numbers of operations times what
-one takes in the same run. */
+One periodic motion at each of a few speeds, by every method at many settings, from
+nothing (the static load, quasi-static contact) and from the known motion at a speed a
+little below. The force inside harmonic balance is timed in a run of its own; all other
+shares of the time are numbers of operations times what one takes in the same run. */
 #pragma once
 
 #include <cmath>
@@ -34,8 +34,8 @@ struct WorkCase {
   double agreement;          ///< of shooting and harmonic balance [-]
 };
 
-/** The scene's case of that number. Throws NoSolution when a reference cannot be had or is not
-    T-periodic. */
+/** The scene's case of that number. Throws NoSolution when a reference cannot be had or
+    is not T-periodic. */
 WorkCase work_case(const WorkPrecisionScene& scene, std::size_t number);
 
 struct WorkPoint : Measurement {

@@ -1,8 +1,8 @@
 /**
 # Evidence on the balance (§3.1)
 
-The blocks of Eq. 11, Newton's step and its criteria; what Γ takes to harmonics, and what too few
-samples fold onto them. */
+The blocks of Eq. 11, Newton's step and its criteria; what Γ takes to harmonics, and what
+too few samples fold onto them. */
 #include "balance/bearing_problem.hpp"
 #include "balance/fourier_transform.hpp"
 #include "continuation/arc_length.hpp"

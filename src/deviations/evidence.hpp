@@ -1,9 +1,9 @@
 /**
 # Evidence for the deviations (paper/deviations.md)
 
-Every place where we depart from the printed paper has an entry D-nn; a function for each gives the
-numbers that its evidence and effect quote. They are small: one speed, one sweep or one closed form
-each. What only one entry asks for is read where it is used. */
+Every place where we depart from the printed paper has an entry D-nn; a function for each
+gives the numbers that its evidence and effect quote. They are small: one speed, one sweep
+or one closed form each. What only one entry asks for is read where it is used. */
 #pragma once
 
 #include <functional>
@@ -57,8 +57,8 @@ struct DeviationScene {
   motion::Motion motion_of(const PeriodicMotion& solution) const;
   motion::Motion motion_of(const SteadyState& steady) const;
 
-  /** The steady state of a machine, and the motion on which the exchanged reading settles. The latter
-      throws NoSolution if it is not T-periodic. */
+  /** The steady state of a machine, and the motion on which the exchanged reading
+      settles. The latter throws NoSolution if it is not T-periodic. */
   SteadyState settled(const Parameters& of, double frequency) const
   {
     return steady_state(of, angular(frequency), time_integration);
@@ -68,8 +68,8 @@ struct DeviationScene {
 
 DeviationScene read_deviation_scene(SceneFile& file);
 
-/** The periodic solution at `frequency` [Hz]; 0 samples are `default_samples`. Throws NoSolution if
-    there is none. */
+/** The periodic solution at `frequency` [Hz]; 0 samples are `default_samples`. Throws
+    NoSolution if there is none. */
 PeriodicMotion require_periodic(const Parameters& machine, double frequency,
                                 int harmonics, int samples = 0,
                                 const NewtonSettings& settings = {});
@@ -83,7 +83,8 @@ inline void add(EvidenceList& list, const EvidenceList& more)
 EvidenceList spread_of(const std::string& key, const SteadyState& steady,
                        const std::string& meaning = "Poincare spread");
 
-/** The mean of a measure over all pieces of so many periods of a motion, and its standard error as `key`_error. */
+/** The mean of a measure over all pieces of so many periods of a motion, and its standard
+    error as `key`_error. */
 EvidenceList mean_of(const std::string& key, const std::string& meaning,
                      const motion::Motion& motion, int periods,
                      const std::function<double(const motion::Motion&)>& measure);

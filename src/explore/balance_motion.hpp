@@ -1,8 +1,8 @@
 /**
 # The motion that harmonic balance finds, for explore
 
-With one frequency or two, with m harmonics or those that a tolerance chooses; how it was found, its error and its
-verdict go to the table's header. */
+With one frequency or two, with m harmonics or those that a tolerance chooses; how it was
+found, its error and its verdict go to the table's header. */
 #pragma once
 
 #include "explore/orbit.hpp"
@@ -13,7 +13,8 @@ namespace rotor_stator::explore {
 /** m where none is asked for. */
 inline constexpr int usual_harmonics = 6;
 
-/** Throws BadInput for options that the machine does not allow, NoSolution when nothing was found. */
+/** Throws BadInput for options that the machine does not allow, NoSolution when nothing
+    was found. */
 FoundMotion balance_motion(const Parameters& parameters, const MotionRequest& request,
                            const OperationBudget& budget, Table& table);
 
@@ -25,8 +26,8 @@ void note_no_verdict(Table& table);
 /** `base` with its period, where a frequency [Hz] has one. */
 void put_base(Table& table, const std::string& base, double frequency);
 
-/** `NAME_largest` and `NAME_rms` of a difference of displacements, and what it is. The rms
-    is left out where nothing moves about the mean. */
+/** `NAME_largest` and `NAME_rms` of a difference of displacements, and what it is. The
+    rms is left out where nothing moves about the mean. */
 void put_difference(Table& table, const std::string& name, double largest, double rms,
                     const std::string& meaning);
 

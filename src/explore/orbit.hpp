@@ -43,8 +43,8 @@ bool is_periodic(const std::string& method);
 
 struct MotionRequest : Request {
   double frequency = 0;  ///< [Hz]
-  std::string method =
-      "auto";  ///< what the machine does from rest; or one of `periodic_methods`, or a time method
+  /** What the machine does from rest; or one of `periodic_methods`, or a time method. */
+  std::string method = "auto";
   std::optional<double> tolerance;  ///< of displacement, relative
   std::optional<int> lines = {};    ///< of the settled motion, with two frequencies (aft)
   int points = 256;                 ///< P

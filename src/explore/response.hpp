@@ -17,8 +17,8 @@ struct ResponseRequest : Request {
   std::string method =
       "auto";  ///< what the machine does; or a branch, by one of `periodic_methods`
   double from = 0, to = 0;  ///< [Hz]
-  std::string
-      direction;  ///< "rest", "up", "down", or empty: rest; of a branch the saved one's, or up
+  /** "rest", "up", "down", or empty: rest; of a branch the saved one's, or up. */
+  std::string direction;
   std::optional<std::string> resume;  ///< file of an interrupted sweep
   double longest = 0;  ///< 0: as settle chooses; transient at most after t = 0 [s]
   std::optional<std::string> save, restart;  ///< files

@@ -168,8 +168,8 @@ Exploration computed(Sweep& sweep)
   return {.table = std::move(table), .unfinished = missing, .is_written = is_streamed};
 }
 
-/** Whether anything touches in a motion that was not recorded: where it stands now or, where
-    nothing is loaded then, over a few periods. */
+/** Whether anything touches in a motion that was not recorded: where it stands now or,
+    where nothing is loaded then, over a few periods. */
 bool touches_somewhere(motion::Answer& answer)
 {
   motion::Motion now{1, answer.settled.at.period, {}, {}, answer.omega};

@@ -7,7 +7,8 @@ and their slopes dx/dz, dy/dz. In either plane an element of length L with Φ = 
 L²) has, over (x₁, x₁', x₂, x₂'),
 
 $$K = \frac{EI}{L^3 (1 + \Phi)}
-\begin{pmatrix} 12 & 6L & -12 & 6L \\ & (4+\Phi) L^2 & -6L & (2-\Phi) L^2 \\ & & 12 & -6L \\ & & & (4+\Phi) L^2
+\begin{pmatrix} 12 & 6L & -12 & 6L \\ & (4+\Phi) L^2 & -6L & (2-\Phi) L^2 \\
+& & 12 & -6L \\ & & & (4+\Phi) L^2
 \end{pmatrix},$$
 
 the consistent masses ρA and ρI of the same shape functions, and gyroscopic moments of

@@ -1,9 +1,9 @@
 /**
 # The drawing of the bearing (Figs 1 and 2, code)
 
-Clearance and displacement are micrometres against centimetres, so both are drawn enlarged, by
-factors of the scene file that the figure states. A data set that gives the cage's speed ratio
-alone has no radii (D-11); the scene file then says which to draw. */
+Clearance and displacement are micrometres against centimetres, so both are drawn
+enlarged, by factors of the scene file that the figure states. A data set that gives the
+cage's speed ratio alone has no radii (D-11); the scene file then says which to draw. */
 #pragma once
 
 #include "io/table.hpp"

@@ -1,8 +1,9 @@
 /**
 # The contact of the balls (Figs 7 and 9, code)
 
-The force of every ball over two periods of rotation: a cage at half the rotor's speed turns once in this
-time, and each ball meets a load that turns with the rotor once (D-11, D-20). */
+The force of every ball over two periods of rotation: a cage at half the rotor's speed
+turns once in this time, and each ball meets a load that turns with the rotor once (D-11,
+D-20). */
 #pragma once
 
 #include "figures/panels.hpp"

@@ -1,10 +1,10 @@
 /**
 # Panels, with the table of the orbits (Figs 4, 5, 6 and 8, code)
 
-A panel belongs to one speed and holds two motions: the periodic solution of harmonic balance,
-and the motion that time integration settles on. Where the second repeats with the period of
-rotation, the difference of the two is the error of the first. Where that error is large, or the second
-does not repeat, the panel shows the integrated motion. */
+A panel belongs to one speed and holds two motions: the periodic solution of harmonic
+balance, and the motion that time integration settles on. Where the second repeats with
+the period of rotation, the difference of the two is the error of the first. Where that
+error is large, or the second does not repeat, the panel shows the integrated motion. */
 #pragma once
 
 #include <optional>
@@ -27,8 +27,8 @@ struct PanelScene {
 
 PanelScene read_panels(SceneFile& file);
 
-/** One speed: both motions, and how far they are apart over one period; -1 without a solution of
-    harmonic balance. */
+/** One speed: both motions, and how far they are apart over one period; -1 without a
+    solution of harmonic balance. */
 struct Panel {
   std::size_t number;  ///< 1, 2, … in the scene's order
   double frequency;    ///< [Hz]
@@ -44,7 +44,8 @@ struct Panel {
   /** Above this rms error about the mean [-] a solution is no picture of the motion. */
   static constexpr double largest_error_shown = 0.1;
 
-  /** Whether the panel may show the solution of harmonic balance as what the machine does. */
+  /** Whether the panel may show the solution of harmonic balance as what the machine
+      does. */
   bool shows_balance() const
   {
     return balance && periodic && rms_difference.value <= largest_error_shown;

@@ -1,8 +1,8 @@
 /**
 # The table of the frequency response (Fig. 3, code)
 
-The amplitude is half the peak-to-peak value over the period; the paper does not say which it draws
-(D-10), nor over what range (D-19). */
+The amplitude is half the peak-to-peak value over the period; the paper does not say which
+it draws (D-10), nor over what range (D-19). */
 #pragma once
 
 #include "continuation/sweep.hpp"

@@ -1,14 +1,15 @@
 /**
 # A bound on what a run may cost
 
-A question that is legal can still ask for hours: a stiff contact, many balls, many harmonics. What a
-run does is counted in evaluations of the bearing's force as RK4 makes them (Eq. 6 at one instant, all
-n balls), and not in seconds: the same question ends in the same way on every machine. Who
-asks for seconds of the clock gives that up.
+A question that is legal can still ask for hours: a stiff contact, many balls, many
+harmonics. What a run does is counted in evaluations of the bearing's force as RK4 makes
+them (Eq. 6 at one instant, all n balls), and not in seconds: the same question ends in
+the same way on every machine. Who asks for seconds of the clock gives that up.
 
-Everything else that takes time (transforms, factorisations, the overhead of a stepper) is charged with
-as many evaluations as take that time. The prices are given in elementary operations, of which a core
-does about one per nanosecond; one evaluation is 15 + 1.35 n of them. */
+Everything else that takes time (transforms, factorisations, the overhead of a stepper) is
+charged with as many evaluations as take that time. The prices are given in elementary
+operations, of which a core does about one per nanosecond; one evaluation is 15 + 1.35 n
+of them. */
 #pragma once
 
 #include <chrono>
@@ -32,7 +33,8 @@ public:
   /** Without a bound. */
   OperationBudget() = default;
 
-  /** At most so many evaluations. `option` is what gives more, named where they are used up. */
+  /** At most so many evaluations. `option` is what gives more, named where they are used
+      up. */
   explicit OperationBudget(double evaluations, std::string option = "")
       : account_(std::make_shared<Account>(
             Account{evaluations, evaluations, std::move(option), nullptr}))
@@ -45,7 +47,8 @@ public:
     account_->watch = std::move(watch);
   }
 
-  /** Nothing can be paid from a time of the clock on, `seconds` after the start of the run. */
+  /** Nothing can be paid from a time of the clock on, `seconds` after the start of the
+      run. */
   void end_at(Clock::time_point end, double seconds)
   {
     account_->end = end;
@@ -64,7 +67,8 @@ public:
   /** What is left; infinite without a bound. */
   double left() const;
 
-  /** Whether something could not be paid for from this account, or less than a thousandth of it is left. */
+  /** Whether something could not be paid for from this account, or less than a thousandth
+      of it is left. */
   bool used_up() const;
 
   /** Takes `evaluations` from the account. Throws NoSolution when they are not there. */
@@ -73,7 +77,8 @@ public:
   /** The same, false instead of thrown: for callbacks that C calls. */
   bool pay(double evaluations) const;
 
-  /** An account of its own with a part of what is left; what it spends is spent here too. */
+  /** An account of its own with a part of what is left; what it spends is spent here
+      too. */
   OperationBudget part(double share) const;
 
 private:
@@ -86,8 +91,8 @@ private:
     Clock::time_point end = {};
   };
 
-  /** The account that a user knows, the outermost, where one has not `evaluations` left and is
-      emptied; null where all had and paid. */
+  /** The account that a user knows, the outermost, where one has not `evaluations` left
+      and is emptied; null where all had and paid. */
   const Account* short_of(double evaluations) const;
 
   std::shared_ptr<Account> account_;

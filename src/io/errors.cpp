@@ -40,7 +40,8 @@ std::string printable(const std::string& text)
 
 namespace {
 
-/** How many characters have to be put in, left out or changed to make one word of the other. */
+/** How many characters have to be put in, left out or changed to make one word of the
+    other. */
 std::size_t edits(const std::string& a, const std::string& b)
 {
   std::vector<std::size_t> row(b.size() + 1);

@@ -19,7 +19,8 @@ constexpr std::uintmax_t most_bytes = 4'000'000'000;
 constexpr long most_rows = 2'000'000;
 constexpr std::streamsize longest_line = 1024;
 
-/** A file read line by line, without comments and blank lines, word by word in small letters. */
+/** A file read line by line, without comments and blank lines, word by word in small
+    letters. */
 class Lines {
 public:
   explicit Lines(const std::string& file)
@@ -98,7 +99,8 @@ private:
   long number_ = 0;
 };
 
-/** What the first line says; of a matrix with a sign one triangle is given, and the other is `sign` times it. */
+/** What the first line says; of a matrix with a sign one triangle is given, and the other
+    is `sign` times it. */
 struct Kind {
   bool in_full;
   int sign;
@@ -138,7 +140,8 @@ SparseMatrix read_matrix(const std::string& file)
   const long count =
       in_full ? stored : lines.whole("the number of entries", 0, 2'000'000'000);
   lines.end_line();
-  /** "0\n" is the shortest number in full, "1 1 0\n" the shortest entry; the last needs no end of line. */
+  /** "0\n" is the shortest number in full, "1 1 0\n" the shortest entry; the last needs
+      no end of line. */
   const double least = (in_full ? 2.0 : 6.0) * static_cast<double>(count);
   if (count > stored || least > bytes + 1)
     lines.fail("announces more entries than the matrix or the file can hold");

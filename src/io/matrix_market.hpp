@@ -1,9 +1,10 @@
 /**
 # Matrix Market files
 
-The exchange format of the National Institute of Standards and Technology, as SciPy, Octave and finite-element programs
-write it. Real and integer matrices are read, given by coordinates or in full, of the kinds general, symmetric and
-skew-symmetric; of the last two the file holds one triangle, either one, and the other is filled in. */
+The exchange format of the National Institute of Standards and Technology, as SciPy,
+Octave and finite-element programs write it. Real and integer matrices are read, given by
+coordinates or in full, of the kinds general, symmetric and skew-symmetric; of the last
+two the file holds one triangle, either one, and the other is filled in. */
 #pragma once
 
 #include <Eigen/SparseCore>
@@ -13,9 +14,9 @@ namespace rotor_stator {
 
 using SparseMatrix = Eigen::SparseMatrix<double>;
 
-/** Reads a square matrix. Throws BadInput with file and line for everything that is not one: another kind, numbers that
-    are missing, left over, not finite, out of range or repeated. No memory is asked for that the length of the file
-    does not account for. */
+/** Reads a square matrix. Throws BadInput with file and line for everything that is not
+    one: another kind, numbers that are missing, left over, not finite, out of range or
+    repeated. No memory is asked for that the length of the file does not account for. */
 SparseMatrix read_matrix(const std::string& file);
 
 /** The text of such a file: real, general, every digit of a double. */

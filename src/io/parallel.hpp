@@ -1,7 +1,8 @@
 /**
 # Long work
 
-Independent pieces of it run several at a time: threads share them, and the results do not depend on their number. */
+Independent pieces of it run several at a time: threads share them, and the results do not
+depend on their number. */
 #pragma once
 
 #include <chrono>
@@ -12,7 +13,8 @@ Independent pieces of it run several at a time: threads share them, and the resu
 
 namespace rotor_stator {
 
-/** A line on stderr that is rewritten in place, only when a person is watching and after two seconds. */
+/** A line on stderr that is rewritten in place, only when a person is watching and after
+    two seconds. */
 class Progress {
 public:
   /** Without a name nothing is shown. */
@@ -33,9 +35,10 @@ private:
   Clock::time_point next_ = Clock::now() + std::chrono::seconds(2);
 };
 
-/** Calls `work` for each of `pieces` numbers, begun in order, on as many threads as OpenMP has
-    (OMP_NUM_THREADS). After a piece that throws none is begun, and when all have ended its
-    exception is thrown, of several that of the earliest piece. `name` is for the line of progress. */
+/** Calls `work` for each of `pieces` numbers, begun in order, on as many threads as
+    OpenMP has (OMP_NUM_THREADS). After a piece that throws none is begun, and when all
+    have ended its exception is thrown, of several that of the earliest piece. `name` is
+    for the line of progress. */
 void in_parallel(const std::string& name, std::size_t pieces,
                  const std::function<void(std::size_t piece)>& work);
 

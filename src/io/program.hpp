@@ -44,8 +44,8 @@ struct Program {
   bool has_readings = true;  ///< of Table 1 (D-09)
 };
 
-/** Runs the program of a figure: parses its options, computes the table that the scene and the value of the program's
-    own option ask for, prints it. */
+/** Runs the program of a figure: parses its options, computes the table that the scene
+    and the value of the program's own option ask for, prints it. */
 int run_figure(int argc, char** argv, Program program,
                const std::function<Table(SceneFile&, const std::string& value)>& compute);
 int run_figure(int argc, char** argv, const std::function<Table(SceneFile&)>& compute);
@@ -57,7 +57,8 @@ int whole_number(const std::string& option, const std::string& value, int least,
 double real_number(const std::string& option, const std::string& value, double least,
                    double most);
 
-/** Parses the options; false when the help or the version was asked for and printed. Throws BadInput. */
+/** Parses the options; false when the help or the version was asked for and printed.
+    Throws BadInput. */
 bool parse(CLI::App& app, int argc, char** argv);
 
 /** Runs `work` and turns its exceptions into the line on stderr and the exit status.

@@ -1,7 +1,8 @@
 /**
 # Tables, written and read back
 
-The source of a table is stamped when the library is compiled. A new commit alone triggers no rebuild. */
+The source of a table is stamped when the library is compiled. A new commit alone triggers
+no rebuild. */
 #pragma once
 
 #include <concepts>
@@ -90,14 +91,15 @@ public:
   {
   }
 
-  /** Prints the columns that `names` lists, separated by commas; without it the first `usual`; "all" of them. A figure
-      is drawn from the usual ones too. Whether others are wanted. Throws BadInput for another name. */
+  /** Prints the columns that `names` lists, separated by commas; without it the first
+      `usual`; "all" of them. A figure is drawn from the usual ones too. Whether others
+      are wanted. Throws BadInput for another name. */
   bool choose(const std::string& names, std::size_t usual, bool is_drawn);
 
   /** Lines of the header before the first row, of the footer after it: what was modelled;
       its values in words; a key; a member of a list; a sentence. Throw NoSolution for a
-      number that is not finite, std::logic_error for a key set twice or a value of several
-      words. */
+      number that is not finite, std::logic_error for a key set twice or a value of
+      several words. */
   void parameters(const std::string& source) { line("parameters: " + source); }
   void detail(const std::string& text) { line("  " + text); }
   void value(const std::string& key, const Cell& value);
@@ -127,14 +129,15 @@ public:
   /** For a figure with all columns. */
   std::string text(TableFormat format = TableFormat::tsv, bool is_drawn = false) const;
 
-  /** From now on what is added goes to `write` at once, as tab-separated text or CSV: a run that is killed keeps its
-      rows. `text` still has all of it. */
+  /** From now on what is added goes to `write` at once, as tab-separated text or CSV: a
+      run that is killed keeps its rows. `text` still has all of it. */
   void stream(std::function<void(const std::string&)> write, TableFormat format);
 
   /** The lines after the rows, to the stream. */
   void end_stream() const;
 
-  /** All before the rows, of the printed columns; how many these are; and a row of them alone. */
+  /** All before the rows, of the printed columns; how many these are; and a row of them
+      alone. */
   std::string beginning() const { return beginning(TableFormat::tsv, printed_); }
   std::size_t printed() const { return printed_.size(); }
   void printed_row(const std::vector<Cell>& cells);
@@ -170,8 +173,8 @@ std::string writer_of_other_schema(const std::string& file);
 
 class NumberTable {
 public:
-  /** Throws BadInput with file and line when it is missing, empty, cut off, longer than 1 GB or not such a
-      table; with `first_line`, when it begins otherwise. */
+  /** Throws BadInput with file and line when it is missing, empty, cut off, longer than 1
+      GB or not such a table; with `first_line`, when it begins otherwise. */
   explicit NumberTable(const std::string& file, const std::string& first_line = "");
 
   const std::vector<std::string>& names() const { return names_; }

@@ -34,7 +34,8 @@ namespace {
 /** No parameter or scene file comes near it. */
 constexpr std::uintmax_t most_bytes = 1'000'000;
 
-/** The bound of toml++ on values in one another. It has none on the parts of a key, but takes a call for each. */
+/** The bound of toml++ on values in one another. It has none on the parts of a key, but
+    takes a call for each. */
 constexpr int most_levels = 256;
 
 [[noreturn]] void refuse_levels(const std::string& file, int line)
@@ -173,8 +174,8 @@ StrictToml::StrictToml(const std::string& file, const std::string& content)
 
 namespace {
 
-/** Sets what a dotted key names: a table is new where there is none, the elements of an array count from 1. Whole
-    numbers become integers, which are read as numbers too. */
+/** Sets what a dotted key names: a table is new where there is none, the elements of an
+    array count from 1. Whole numbers become integers, which are read as numbers too. */
 void set_number(toml::node& at, const std::string& key, double value,
                 const std::vector<std::pair<std::string, std::string>>& instead)
 {

@@ -1,8 +1,9 @@
 /**
 # Files that a user names for input
 
-Parameter files and scenes are TOML, read by a thin layer over toml++ that remembers which keys were read.
-What is missing, of the wrong type, out of range or left over ends in BadInput with file, line and key. */
+Parameter files and scenes are TOML, read by a thin layer over toml++ that remembers which
+keys were read. What is missing, of the wrong type, out of range or left over ends in
+BadInput with file, line and key. */
 #pragma once
 
 #include <cstdint>
@@ -13,8 +14,9 @@ What is missing, of the wrong type, out of range or left over ends in BadInput w
 
 namespace rotor_stator {
 
-/** Opens a file to be read. Throws BadInput, naming what is `expected`, when it is missing, longer than
-    `most_bytes`, or no regular file: devices and pipes may never end. */
+/** Opens a file to be read. Throws BadInput, naming what is `expected`, when it is
+    missing, longer than `most_bytes`, or no regular file: devices and pipes may never
+    end. */
 std::ifstream open_file(const std::string& file, const std::string& expected,
                         std::uintmax_t most_bytes);
 
@@ -24,15 +26,16 @@ enum class Range { any, positive, not_negative };
 /** One table of a TOML file. Copies share the record of the keys that were read. */
 class StrictToml {
 public:
-  /** Parses a file. Throws BadInput when it is missing, not a file, too long, empty, nested too
-      deeply or not TOML. */
+  /** Parses a file. Throws BadInput when it is missing, not a file, too long, empty,
+      nested too deeply or not TOML. */
   explicit StrictToml(const std::string& file);
 
   /** The same for `content` at hand, called `file` in messages. */
   StrictToml(const std::string& file, const std::string& content);
 
-  /** The same tables, nothing of them read yet, with a number set or added at each dotted key;
-      `bearing.2.balls` is in the second of [[bearing]], `stator.load_N.2` in an array. */
+  /** The same tables, nothing of them read yet, with a number set or added at each dotted
+      key; `bearing.2.balls` is in the second of [[bearing]], `stator.load_N.2` in an
+      array. */
   StrictToml with(
       const std::vector<std::pair<std::string, double>>& values,
       const std::vector<std::pair<std::string, std::string>>& instead = {}) const;
@@ -43,8 +46,8 @@ public:
   /** Whether the key is there as [[key]]. */
   bool has_tables(const std::string& key) const;
 
-  /** Which of several ways to give one value is taken, each a list of keys: the one of which any key is there. Throws
-      BadInput where there are keys of two, or of none. */
+  /** Which of several ways to give one value is taken, each a list of keys: the one of
+      which any key is there. Throws BadInput where there are keys of two, or of none. */
   std::size_t way(const std::vector<std::vector<std::string>>& ways) const;
 
   double number(const std::string& key, Range range);
@@ -65,13 +68,13 @@ public:
   /** Throws BadInput about `key`: file, line, key and `problem`. */
   [[noreturn]] void fail(const std::string& key, const std::string& problem) const;
 
-  /** Throws BadInput about a required key: names the key that it, or one of other `ways` to give the value, may have
-      been misspelt as, if any. */
+  /** Throws BadInput about a required key: names the key that it, or one of other `ways`
+      to give the value, may have been misspelt as, if any. */
   [[noreturn]] void missing(const std::string& key, const std::string& advice = "",
                             const std::vector<std::vector<std::string>>& ways = {}) const;
 
-  /** Throws BadInput if a key of this table, or of a table in it that was asked for, was never asked
-      for. */
+  /** Throws BadInput if a key of this table, or of a table in it that was asked for, was
+      never asked for. */
   void refuse_unknown_keys() const;
 
 private:

@@ -143,7 +143,8 @@ std::vector<double> BallBearing::ball_forces(const Angles& at, Vec2 u, Vec2 rate
 
 namespace {
 
-/** Instants of a group, one per lane: loops of this fixed length become vector instructions. */
+/** Instants of a group, one per lane: loops of this fixed length become vector
+    instructions. */
 constexpr int lanes = 8;
 
 /** Columns of N numbers. */
@@ -181,8 +182,8 @@ struct Rectangle {
   }
 };
 
-/** Relative motion in the cage frame [m], and the sums over the balls: the force over K_H, the
-    stiffness over 3/2 K_H. */
+/** Relative motion in the cage frame [m], and the sums over the balls: the force over
+    K_H, the stiffness over 3/2 K_H. */
 struct Group {
   double x[lanes], y[lanes];
   double f_x[lanes] = {}, f_y[lanes] = {};
@@ -237,7 +238,8 @@ IN_PLACE void evaluate_group(const Balls& balls, const Columns& at, Eigen::Index
   if constexpr (with_stiffness) put_stiffness(g, hertz, at, k);
 }
 
-/** All groups; the last one overlaps the one before where N is no multiple of the lanes. */
+/** All groups; the last one overlaps the one before where N is no multiple of the
+    lanes. */
 WIDEST_REGISTERS void evaluate_force(const Balls& balls, const Columns& at,
                                      Eigen::Index n)
 {

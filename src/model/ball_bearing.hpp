@@ -1,7 +1,8 @@
 /**
 # The ball bearing (Eqs 3 to 6)
 
-The cage carries the balls round; each is pressed by the motion of the rotor towards it. Ball j stands at
+The cage carries the balls round; each is pressed by the motion of the rotor towards it.
+Ball j stands at
 
 $$\theta_j = \omega_{cage}\, t + 2\pi (j-1)/n \tag{3}$$
 
@@ -9,22 +10,24 @@ and the rotor (inner ring) approaches it by
 
 $$\Delta_j = \cos\theta_j\,(x_r - x_s) + \sin\theta_j\,(y_r - y_s), \tag{4}$$
 
-which squeezes the ball once it exceeds the clearance; the paper prints the opposite order, which
-would be a negative stiffness (D-01). Its force Q_j (Eq. 5) is summed over the balls (Eq.
-6):
+which squeezes the ball once it exceeds the clearance; the paper prints the opposite
+order, which would be a negative stiffness (D-01). Its force Q_j (Eq. 5) is summed over
+the balls (Eq. 6):
 
 $$F = \sum_j Q_j\,(\cos\theta_j, \sin\theta_j), \tag{6}$$
 
 acting as +F on the stator and -F on the rotor. Only the relative motion u = (x_r - x_s,
 y_r - y_s) enters.
 
-With contact damping (Hunt and Crossley 1975) the force of a loaded ball is $Q_j (1 + \lambda\, d\Delta_j/dt)$, but never
-negative. A spall lets a ball lose h of its deflection while it passes,
+With contact damping (Hunt and Crossley 1975) the force of a loaded ball is
+$Q_j (1 + \lambda\, d\Delta_j/dt)$, but never negative. A spall lets a ball lose h of its
+deflection while it passes,
 
 $$h = h_0 \cos^4(\pi\alpha/w), \qquad |\alpha| < w/2,$$
 
-where α is the angle between ball and spall on the race that is damaged; a damaged ball meets both races once in
-each turn about itself. Both need more than the cage's angle: the rates of u, and what else turns.
+where α is the angle between ball and spall on the race that is damaged; a damaged ball
+meets both races once in each turn about itself. Both need more than the cage's angle: the
+rates of u, and what else turns.
 
 In the frame that turns with the cage the directions of the balls are constants. The
 relative motion is turned into that frame, the balls are summed, and the force is turned
@@ -75,7 +78,8 @@ struct BallRing {
   const double *cos, *sin;
 };
 
-/** What Eqs 4 to 6 ask of an undamaged bearing, of one motion or of several side by side. */
+/** What Eqs 4 to 6 ask of an undamaged bearing, of one motion or of several side by
+    side. */
 template <class Number>
 struct Contacts {
   Number stiffness;   ///< K_H [N/m^{3/2}]
@@ -84,8 +88,8 @@ struct Contacts {
   Number cage_speed;  ///< ω_cage [rad/s]
 };
 
-/** Eq. 6 of an undamaged bearing: the force [N] on the stator for the relative displacement u [m] and its rate [m/s],
-    which matters where the contact is damped. */
+/** Eq. 6 of an undamaged bearing: the force [N] on the stator for the relative
+    displacement u [m] and its rate [m/s], which matters where the contact is damped. */
 template <bool is_damped, class Number>
 IN_PLACE Vec2Of<Number> bearing_force(const BallRing& balls,
                                       const Contacts<Number>& contacts,
@@ -138,8 +142,8 @@ struct BearingReaction : ElasticReaction {
 /** The bearing with its constant ball directions in the cage frame. */
 class BallBearing {
 public:
-  /** `omega` is the base frequency [rad/s], `turns` those of the rotor in one base period: they matter to a bearing
-      that is not plain. */
+  /** `omega` is the base frequency [rad/s], `turns` those of the rotor in one base
+      period: they matter to a bearing that is not plain. */
   explicit BallBearing(const Bearing& bearing, double omega = 0, int turns = 1);
 
   bool is_plain() const { return is_plain_; }
@@ -152,7 +156,8 @@ public:
                                      : Direction{1, 0}};
   }
 
-  /** Eq. 6: force [N] on the stator for the relative displacement u [m] and its rate [m/s]. */
+  /** Eq. 6: force [N] on the stator for the relative displacement u [m] and its rate
+      [m/s]. */
   Vec2 force(const Angles& at, Vec2 u, Vec2 rate) const
   {
     return is_plain() ? force(at.cage, u) : full_reaction(at, u, rate).force;
@@ -165,7 +170,8 @@ public:
                       : full_reaction(at, u, rate);
   }
 
-  /** The same of an undamaged bearing at rest, with the cage (ball 1) turned to `cage`. */
+  /** The same of an undamaged bearing at rest, with the cage (ball 1) turned to
+      `cage`. */
   Vec2 force(Direction cage, Vec2 u) const
   {
     return bearing_force<false>(ring(), contacts(), cage, u, {});
@@ -223,10 +229,10 @@ private:
 
 Harmonic balance asks for the force at N instants at once. The directions of the cage at
 these instants and those of the balls in its frame are computed once. The instants are
-taken in groups of eight, so that the balls are summed in the same order
-whatever the width of the machine's registers. In the cage frame the relative motions of one
-group lie in a rectangle; a ball that touches nowhere in it is skipped: of 16 balls three or
-four remain. */
+taken in groups of eight, so that the balls are summed in the same order whatever the
+width of the machine's registers. In the cage frame the relative motions of one group lie
+in a rectangle; a ball that touches nowhere in it is skipped: of 16 balls three or four
+remain. */
 
 class SampledBearing {
 public:
@@ -235,8 +241,8 @@ public:
 
   int samples() const { return samples_; }
 
-  /** Eq. 6: the force on the stator [N], N × 2, for the relative displacement `u` [m], N × 2.
-     With `stiffness` also ∂F_i/∂u_j [N/m] in its column i + 2j, N × 4. */
+  /** Eq. 6: the force on the stator [N], N × 2, for the relative displacement `u` [m], N
+      × 2. With `stiffness` also ∂F_i/∂u_j [N/m] in its column i + 2j, N × 4. */
   void operator()(const Eigen::MatrixXd& u, Eigen::MatrixXd& force,
                   Eigen::MatrixXd* stiffness) const;
 

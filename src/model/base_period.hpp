@@ -1,11 +1,12 @@
 /**
 # The base period
 
-The equations of a machine repeat themselves after a turn of the rotor, after q turns, or after one ball has passed; or
-they never do, where rotor and balls drive with two frequencies. This is decided here, once, from the machine alone.
+The equations of a machine repeat themselves after a turn of the rotor, after q turns, or
+after one ball has passed; or they never do, where rotor and balls drive with two
+frequencies. This is decided here, once, from the machine alone.
 
     const BasePeriod base = base_period(parameters);
-    Based machine = over(base, parameters, angular(25));   // what time integration counts its periods by */
+    Based machine = over(base, parameters, angular(25));  // counts periods */
 #pragma once
 
 #include <string>
@@ -26,17 +27,20 @@ struct BasePeriod {
   std::string words() const;
 };
 
-/** A turn where n ω_cage/ω is whole, q turns where it is p/q with q ≤ 8; 2π/(n ω_cage) where nothing turns with the
-    rotor; else two frequencies, and then the base period is a turn. */
+/** A turn where n ω_cage/ω is whole, q turns where it is p/q with q ≤ 8; 2π/(n ω_cage)
+    where nothing turns with the rotor; else two frequencies, and then the base period is
+    a turn. */
 BasePeriod base_period(const Parameters& parameters);
 
 /** The fewest turns q ≤ 8 in which a whole number of balls passes, 0 where none is. */
 int turns_to_repeat(const Bearing& bearing);
 
-/** The machine without unbalance, where only the passing balls move anything: its base frequency is n ω_cage. */
+/** The machine without unbalance, where only the passing balls move anything: its base
+    frequency is n ω_cage. */
 Parameters over_passage(Parameters parameters);
 
-/** A machine whose equations count base periods, and its base frequency [rad/s] at a speed of the rotor. */
+/** A machine whose equations count base periods, and its base frequency [rad/s] at a
+    speed of the rotor. */
 struct Based {
   Parameters machine;
   double omega;

@@ -22,7 +22,8 @@ std::vector<StrictToml> catalogue(const std::string& key)
   return StrictToml("deep_groove.toml", bearing_catalogue).tables(key);
 }
 
-/** The entry of a designation. Throws BadInput, with all that there are, for one that is not there. */
+/** The entry of a designation. Throws BadInput, with all that there are, for one that is
+    not there. */
 StrictToml entry_of(StrictToml& table)
 {
   const std::string wanted = table.string(designation_key);
@@ -199,7 +200,8 @@ Defect read_defect(StrictToml& table, const Bearing& bearing)
   if (bearing.cage_speed_ratio == 0.5)
     table.fail(
         "surface",
-        "\"ball\": with omega_cage/omega = 1/2 no ball of finite size turns about itself");
+        "\"ball\": with omega_cage/omega = 1/2 no ball of finite size turns about "
+        "itself");
   defect.spin = kinematic_orders(bearing).spin;
   return defect;
 }

@@ -1,20 +1,21 @@
 /**
 # A bearing from the catalogue
 
-A catalogue gives a designation, a diametral clearance and perhaps ball and pitch diameter; the model wants the cage's
-speed ratio, the radial clearance and the contact stiffness. Each of them has several ways to be given, and exactly one
-is taken:
+A catalogue gives a designation, a diametral clearance and perhaps ball and pitch
+diameter; the model wants the cage's speed ratio, the radial clearance and the contact
+stiffness. Each of them has several ways to be given, and exactly one is taken:
 
 - balls n: `balls`, or `designation`;
-- cage ω_cage/ω: `cage_speed_ratio`, or both radii (Eq. 3), or `ball_diameter_m` and `pitch_diameter_m` with
-  (1 - D/d_m)/2, or `designation`;
-- radial clearance δ: `radial_clearance_m`, or half of `diametral_clearance_m`, or half of the middle of the range of
-  the class `internal_clearance`;
-- stiffness K_H: `contact_stiffness_N_per_m1p5`, or Hertz's from `inner_groove_ratio`, `outer_groove_ratio`,
-  `youngs_modulus_Pa` and `poissons_ratio`, or `designation`.
+- cage ω_cage/ω: `cage_speed_ratio`, or both radii (Eq. 3), or `ball_diameter_m` and
+  `pitch_diameter_m` with (1 - D/d_m)/2, or `designation`;
+- radial clearance δ: `radial_clearance_m`, or half of `diametral_clearance_m`, or half of
+  the middle of the range of the class `internal_clearance`;
+- stiffness K_H: `contact_stiffness_N_per_m1p5`, or Hertz's from `inner_groove_ratio`,
+  `outer_groove_ratio`, `youngs_modulus_Pa` and `poissons_ratio`, or `designation`.
 
-Two things may be added: `contact_damping_s_per_m`, and a table `defect` with `surface` ("outer_race", "inner_race" or
-"ball"), `depth_m`, `width_rad`, the place `angle_rad` of its middle, and for a ball its number `ball`.
+Two things may be added: `contact_damping_s_per_m`, and a table `defect` with `surface`
+("outer_race", "inner_race" or "ball"), `depth_m`, `width_rad`, the place `angle_rad` of
+its middle, and for a ball its number `ball`.
 
 Designations and classes of clearance are those of data/bearings/deep_groove.toml. */
 #pragma once
@@ -27,8 +28,8 @@ Designations and classes of clearance are those of data/bearings/deep_groove.tom
 
 namespace rotor_stator {
 
-/** The table [bearing] of a machine. What a key of a catalogue gave is said in `derived`, lines for headers. Throws
-    BadInput for a value given in two ways, or in none. */
+/** The table [bearing] of a machine. What a key of a catalogue gave is said in `derived`,
+    lines for headers. Throws BadInput for a value given in two ways, or in none. */
 Bearing read_bearing(StrictToml& table, std::vector<std::string>& derived);
 
 /** Events per turn of the inner ring, the outer one at rest and the contacts rolling. */

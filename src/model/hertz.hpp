@@ -1,14 +1,16 @@
 /**
 # Hertz contact of a ball with its races (Eq. 5; Eqs 1 and 2)
 
-A ball pressed by the penetration $p > 0$ answers with the force Q; ball j of a bearing, approached by Δ_j,
-with Q_j. Eq. 2, which gives the contact stiffness K_H, stands further down.
+A ball pressed by the penetration $p > 0$ answers with the force Q; ball j of a bearing,
+approached by Δ_j, with Q_j. Eq. 2, which gives the contact stiffness K_H, stands further
+down.
 
 $$Q = K_H\, p^{3/2}, \tag{1}$$
 
 $$Q_j = K_H \max(0, \Delta_j - \delta)^{3/2}. \tag{5}$$
 
-Here stands the force of a given penetration; Δ_j - δ, and which balls have any, are the bearing's (ball_bearing.hpp). */
+Here stands the force of a given penetration; Δ_j - δ, and which balls have any, are the
+bearing's (ball_bearing.hpp). */
 #pragma once
 
 #include <cmath>
@@ -40,22 +42,22 @@ struct Solid {
   double poisson_ratio;
 };
 
-/** Complete elliptic integrals of the modulus k: the first kind K, the second kind E, and K - E, which would lose its
-    digits as a difference for small k. */
+/** Complete elliptic integrals of the modulus k: the first kind K, the second kind E, and
+    K - E, which would lose its digits as a difference for small k. */
 struct EllipticIntegrals {
   double first, second, difference;
 };
 
-/** Those whose complementary modulus √(1 - k²) is `complement`, in 0 … 1 but not 0, by the arithmetic-geometric
-    mean. */
+/** Those whose complementary modulus √(1 - k²) is `complement`, in 0 … 1 but not 0, by
+    the arithmetic-geometric mean. */
 EllipticIntegrals elliptic_integrals(double complement);
 
-/** Hertz's contact of two bodies whose sums of curvatures in the two principal planes are `a` and `b` > 0 [1/m]
-    (a convex surface counts positive). */
+/** Hertz's contact of two bodies whose sums of curvatures in the two principal planes are
+    `a` and `b` > 0 [1/m] (a convex surface counts positive). */
 struct PointContact {
   double ellipticity;  ///< κ ≥ 1, long over short half axis of the pressed ellipse
-  double
-      deformation;  ///< δ* of Harris, its approach over that of a circular contact of the same a + b
+  /** δ* of Harris, its approach over that of a circular contact of the same a + b. */
+  double deformation;
   double stiffness;  ///< K [N/m^{3/2}] in Q = K p^{3/2}
   double pressure;   ///< largest [Pa/N^{1/3}], over Q^{1/3}
 };
@@ -78,16 +80,19 @@ struct BallGeometry {
       outer_groove_ratio;  ///< groove radius over ball diameter, > 1/2
 };
 
-/** A ball of the bearing against one of its races, whose radius in the plane of rotation is (d_m ∓ D)/2. */
+/** A ball of the bearing against one of its races, whose radius in the plane of rotation
+    is (d_m ∓ D)/2. */
 PointContact inner_contact(const BallGeometry& geometry, const Solid& steel);
 PointContact outer_contact(const BallGeometry& geometry, const Solid& steel);
 
 /** Two contacts that carry the same force, their penetrations added. */
 double in_series(double stiffness_a, double stiffness_b);
 
-/** The contact stiffness [N/m^{3/2}] of a ball of radius R_b = `ball_radius` [m] on a flat:
+/** The contact stiffness [N/m^{3/2}] of a ball of radius R_b = `ball_radius` [m] on a
+    flat:
 
-   $$K_H = \tfrac43 \sqrt{R_b}\, E^*, \qquad 1/E^* = (1-\nu_1^2)/E_1 + (1-\nu_2^2)/E_2. \tag{2}$$
+   $$K_H = \tfrac43 \sqrt{R_b}\, E^*,
+   \qquad 1/E^* = (1-\nu_1^2)/E_1 + (1-\nu_2^2)/E_2. \tag{2}$$
 
    The figures take K_H from Table 1 instead (D-07:
    on steel Table 1's 1e11 would need a ball of 0.42 m). */

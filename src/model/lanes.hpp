@@ -1,9 +1,10 @@
 /**
 # Numbers side by side
 
-`Lanes<8>` is a row of eight doubles that a processor adds, multiplies and takes roots of at once, as far as its
-registers are wide. What is written once for a `Number` then serves one motion (double) or several of them (lanes), with
-the same bits for each: no sum is reordered and no product fused.
+`Lanes<8>` is a row of eight doubles that a processor adds, multiplies and takes roots of
+at once, as far as its registers are wide. What is written once for a `Number` then serves
+one motion (double) or several of them (lanes), with the same bits for each: no sum is
+reordered and no product fused.
 
     template <class Number>
     IN_PLACE Number hertz_force(Number k, Number penetration)
@@ -12,8 +13,8 @@ the same bits for each: no sum is reordered and no product fused.
       return k * p * root(p);
     }
 
-Functions of lanes are `IN_PLACE`, a part of the function that is compiled for the registers at hand: a call would
-compile them for the narrowest ones. */
+Functions of lanes are `IN_PLACE`, a part of the function that is compiled for the
+registers at hand: a call would compile them for the narrowest ones. */
 #pragma once
 
 #include <cmath>

@@ -22,7 +22,8 @@ namespace {
 using Complex = std::complex<double>;
 using Triplets = std::vector<Eigen::Triplet<double, int>>;
 
-/** Larger bodies are reduced, unless all their degrees of freedom are asked for, of which there may be so many. */
+/** Larger bodies are reduced, unless all their degrees of freedom are asked for, of which
+    there may be so many. */
 constexpr int most_kept = 80, most_asked = 2100;
 
 /** A body that moves in its own degrees of freedom, counted from 0. */
@@ -47,7 +48,8 @@ struct LinearBody : BodyMatrices {
   }
 };
 
-/** The name of a matrix, the sign of its transpose, and whether its file may be missing. */
+/** The name of a matrix, the sign of its transpose, and whether its file may be
+    missing. */
 struct Named {
   const char* name;
   double sign;
@@ -160,7 +162,8 @@ LinearBody single_mass(const Body& body, const std::string& name, double unbalan
       {0, 1}};
 }
 
-/** A single mass that vibrates about as the body does: in the shape that one force on all bearings gives it. */
+/** A single mass that vibrates about as the body does: in the shape that one force on all
+    bearings gives it. */
 Body equivalent(const LinearBody& body, const std::vector<std::array<int, 2>>& joints,
                 double spring)
 {
@@ -259,7 +262,8 @@ struct Assembly {
   }
 };
 
-/** One bearing: [bearing] between the bearing_dofs of both bodies, or one of [[bearing]]. */
+/** One bearing: [bearing] between the bearing_dofs of both bodies, or one of
+    [[bearing]]. */
 std::array<int, 4> read_place(StrictToml* table, const Assembly& all)
 {
   std::array<int, 4> place{};
@@ -357,8 +361,8 @@ LargeBodies machine_of(const Assembly& all, double gravity, double spring)
   return machine;
 }
 
-/** Puts coordinates that the bearings, loads and outputs need in the place of a body's own; their number and errors go
-    into `machine`. */
+/** Puts coordinates that the bearings, loads and outputs need in the place of a body's
+    own; their number and errors go into `machine`. */
 void reduce_body(Assembly& all, int body, const ReductionRange& range, double gravity,
                  double spring, std::vector<std::string>& notes, double& error)
 {
@@ -467,7 +471,8 @@ void read_bodies(StrictToml& root, Parameters& parameters, const ModelRange& ask
   if (tables[0].has("matrices"))
     parameters.stator = equivalent(all.bodies[0], joints[0], spring);
   if (all.is_rigid) {
-    /** Its pair of coordinates, which no force reaches, is damped within the contact's vibration. */
+    /** Its pair of coordinates, which no force reaches, is damped within the contact's
+        vibration. */
     const double omega = std::sqrt(spring / parameters.rotor.mass);
     all.bodies[0] = single_mass(
         {.mass = 1, .natural_frequency = omega, .damping_ratio = 0.7}, "stator", 0);
@@ -532,8 +537,9 @@ Eigen::VectorXd quasi_static_contacts(const Parameters& parameters,
 
 namespace {
 
-/** At rest, the bearings holding the constant loads: all displacements, and the stiffness of the contacts, 2b × 2b.
-    Forces are means over so many angles of the cage between two balls, from the cage's phase on. */
+/** At rest, the bearings holding the constant loads: all displacements, and the stiffness
+    of the contacts, 2b × 2b. Forces are means over so many angles of the cage between two
+    balls, from the cage's phase on. */
 struct AtRest {
   Eigen::VectorXd q;
   Eigen::MatrixXd stiffness;

@@ -1,16 +1,18 @@
 /**
 # Bodies given by matrices
 
-A rotor or a stator of a finite-element program comes as mass, damping, gyroscopic and stiffness matrices. With the
-relative displacements u = Dᵀq of all bearings and their forces F on the stator the whole machine is
+A rotor or a stator of a finite-element program comes as mass, damping, gyroscopic and
+stiffness matrices. With the relative displacements u = Dᵀq of all bearings and their
+forces F on the stator the whole machine is
 
 $$M\ddot q + (C + \omega G)\,\dot q + K q = p(t) - D F(u, t).$$
 
-The first coordinates of q are the displacements that are shown: x_s, y_s, x_r, y_r at the first bearing, those of
-the other bearings, the outputs. A rigid stator is a pair of coordinates that nothing moves.
+The first coordinates of q are the displacements that are shown: x_s, y_s, x_r, y_r at the
+first bearing, those of the other bearings, the outputs. A rigid stator is a pair of
+coordinates that nothing moves.
 
-A spring k_0 in each bearing, added to K and taken off F, changes nothing and keeps K + k_0 D Dᵀ regular where the
-bearings carry a body. */
+A spring k_0 in each bearing, added to K and taken off F, changes nothing and keeps K +
+k_0 D Dᵀ regular where the bearings carry a body. */
 #pragma once
 
 #include <Eigen/Core>
@@ -54,19 +56,22 @@ struct LargeBodies {
     return stiffness + spring * joints * joints.transpose();
   }
 
-  /** k of the added spring for a vibration of so many times the speed: k_0(1 ± i), so that S is never singular. */
+  /** k of the added spring for a vibration of so many times the speed: k_0(1 ± i), so
+      that S is never singular. */
   std::complex<double> damped_spring(double order) const
   {
     return {spring, spring * ((order > 0) - (order < 0))};
   }
 
-  /** K + k D Dᵀ - Ω² M + iΩ (C + ωG) at the frequency Ω and the speed ω, for a spring k. */
+  /** K + k D Dᵀ - Ω² M + iΩ (C + ωG) at the frequency Ω and the speed ω, for a spring
+      k. */
   Eigen::MatrixXcd dynamic_stiffness(std::complex<double> k, double frequency,
                                      double speed) const;
 };
 
-/** Speeds [Hz] and harmonics at which the coordinates of large bodies must be right, and places of the rotor where
-    they must be too: columns x and y, degrees of freedom from 1. */
+/** Speeds [Hz] and harmonics at which the coordinates of large bodies must be right, and
+    places of the rotor where they must be too: columns x and y, degrees of freedom from
+    1. */
 struct ModelRange {
   double from = 1, to = 100;
   int harmonics = 64;
@@ -77,23 +82,24 @@ struct ModelRange {
     take [bearing] or [[bearing]]. Throws BadInput. */
 Parameters read_machine(StrictToml root, const ModelRange& asked = {});
 
-/** The bearings' forces [N] that would keep all u = 0 under the constant loads, 2b, and their amplitudes from the
-    unbalance at the speed ω. */
+/** The bearings' forces [N] that would keep all u = 0 under the constant loads, 2b, and
+    their amplitudes from the unbalance at the speed ω. */
 struct JointForces {
   Eigen::VectorXd rest;
   Eigen::VectorXcd whirl;
 };
 JointForces rigid_joint_forces(const LargeBodies& machine, double speed);
 
-/** The relative displacements [m] with which the bearings answer these forces, each on one ball. */
+/** The relative displacements [m] with which the bearings answer these forces, each on
+    one ball. */
 Eigen::VectorXd quasi_static_contacts(const Parameters& parameters,
                                       const Eigen::VectorXd& forces);
 
 /** The matrices of any machine: its own, or those of two masses. */
 LargeBodies matrices_of(const Parameters& parameters);
 
-/** Where the bearings carry the constant loads: the derivative of their forces, means over the cage's angles, 2b × 2b
-    [N/m]. */
+/** Where the bearings carry the constant loads: the derivative of their forces, means
+    over the cage's angles, 2b × 2b [N/m]. */
 Eigen::MatrixXd mean_contact_stiffness(const Parameters& parameters,
                                        const LargeBodies& machine);
 

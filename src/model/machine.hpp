@@ -4,7 +4,8 @@
 What differs between them, and nothing else: every method asks here, once for a motion and
 never for an evaluation, and none asks which of them it has. `TwoMasses` are the bodies of
 Eq. 7; `LargeMachine` (large_machine.hpp) is a finite-element rotor. The members stand in
-the rooms whose business they are: states in model/, flows in time/, equations in balance/.
+the rooms whose business they are: states in model/, flows in time/, equations in
+balance/.
 
     std::unique_ptr<Flow> flow = parameters.machine->flow(parameters, omega, settings); */
 #pragma once
@@ -50,8 +51,8 @@ public:
   /**
   ## At rest */
 
-  /** Static equilibrium with ball 1 at the angle `cage`; without displacement where none is
-      unique. */
+  /** Static equilibrium with ball 1 at the angle `cage`; without displacement where none
+      is unique. */
   virtual State at_rest(const Parameters& parameters, DirectionOf<double> cage) const = 0;
 
   /** The bearings carry the constant loads: where the paper's figures start. */
@@ -92,8 +93,8 @@ public:
   virtual Eigen::MatrixXd start_samples(const Parameters& parameters, double omega,
                                         int samples) const = 0;
 
-  /** Series of the displacements that are shown [m]; and of all, of a motion that has these
-      as its `bodies`. */
+  /** Series of the displacements that are shown [m]; and of all, of a motion that has
+      these as its `bodies`. */
   virtual Eigen::MatrixXd shown_series(const Parameters& parameters,
                                        const PeriodicMotion& motion) const = 0;
   virtual Eigen::MatrixXd all_series(const Parameters& parameters,
@@ -125,8 +126,8 @@ public:
     return {0, 1, 2, 3};
   }
 
-  /** x and y of the nodes that were asked for, over all coordinates, and the nodes at which
-      bearings stand. */
+  /** x and y of the nodes that were asked for, over all coordinates, and the nodes at
+      which bearings stand. */
   virtual const SparseMatrix& nodes() const;
   virtual std::vector<std::pair<int, int>> bearing_nodes() const { return {}; }
 };

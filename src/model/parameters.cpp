@@ -34,9 +34,9 @@ Body read_body(StrictToml& table)
   return body;
 }
 
-/** A stator that no force moves: so much heavier than the rotor that its motion is below the rounding of the rotor's,
-    and damped within the contact's vibration, so that it adds no slow multiplier. Its frequency is set when the rest
-    is known. */
+/** A stator that no force moves: so much heavier than the rotor that its motion is below
+    the rounding of the rotor's, and damped within the contact's vibration, so that it
+    adds no slow multiplier. Its frequency is set when the rest is known. */
 bool read_rigid(StrictToml& table, double rotor_mass, Body& stator)
 {
   if (!table.has("rigid") || !table.flag("rigid")) return false;

@@ -3,8 +3,8 @@
 
 One TOML file describes one machine, in SI units named in each key. Every key is required
 unless said otherwise, an unknown key is an error, and every value is checked when it is
-read, so that the programs below never meet a machine that cannot exist. The bearing's keys
-are in model/catalogue.hpp. */
+read, so that the programs below never meet a machine that cannot exist. The bearing's
+keys are in model/catalogue.hpp. */
 #pragma once
 
 #include <functional>
@@ -28,8 +28,8 @@ using Vec2 = Vec2Of<double>;
 /** A body on its own suspension, the same in x and y. */
 struct Body {
   double mass;  ///< m [kg], not in the paper (D-13)
-  double
-      natural_frequency;  ///< ω₀ [rad/s], the body alone; 0 where nothing but the bearing carries it
+  /** ω₀ [rad/s], the body alone; 0 where nothing but the bearing carries it. */
+  double natural_frequency;
   double damping_ratio;  ///< ξ [-]
   double damper = 0;     ///< [N s/m], given instead of ξ
   Vec2 load = {0, 0};    ///< constant force [N], beside the weight
@@ -45,15 +45,15 @@ struct Body {
   }
 };
 
-/** A spall [bearing.defect]: over an angle a ball loses up to `depth` of its deflection. Angles [rad] are those of the
-    surface that is damaged. */
+/** A spall [bearing.defect]: over an angle a ball loses up to `depth` of its deflection.
+    Angles [rad] are those of the surface that is damaged. */
 struct Defect {
   enum class Surface { none, outer_race, inner_race, ball };
   Surface surface = Surface::none;
   double depth = 0;  ///< [m]
   double width = 0;  ///< [rad]
-  double place =
-      0;  ///< of its middle [rad]: outer race from the x axis, inner race from the unbalance
+  /** Of its middle [rad]: outer race from the x axis, inner race from the unbalance. */
+  double place = 0;
   int ball = 1;  ///< which one, where a ball is damaged
   double spin =
       0;  ///< that ball's turns about itself per base period, seen from the cage
@@ -67,8 +67,8 @@ struct Bearing {
   double cage_speed_ratio;   ///< c = ω_cage/ω [-]
   double radius_ratio;       ///< R_b/(R_b + R) [-]; 0 when only c was given
   double ball_diameter = 0;  ///< [m]; 0 when only c was given
-  double pressure =
-      0;  ///< largest of Hertz [Pa] on the race that has more of it, over Q^{1/3}; 0 unknown
+  /** Largest of Hertz [Pa] on the race that has more of it, over Q^{1/3}; 0 unknown. */
+  double pressure = 0;
   double damping = 0;  ///< λ of Hunt and Crossley [s/m]
   Defect defect = {};
 
@@ -82,8 +82,8 @@ struct Bearing {
   double cage_angle(double phase) const { return cage_phase + cage_speed_ratio * phase; }
 };
 
-/** One machine. Where bodies are given by matrices, `stator` and `rotor` are single masses
-    that vibrate about as they do: sizes for tolerances and steps. */
+/** One machine. Where bodies are given by matrices, `stator` and `rotor` are single
+    masses that vibrate about as they do: sizes for tolerances and steps. */
 struct Parameters {
   std::string file;   ///< where it was read from
   std::string title;  ///< one line for headers and legends
@@ -95,8 +95,8 @@ struct Parameters {
   std::vector<std::string> derived =
       {};         ///< lines for headers: what a catalogue's values gave
   int turns = 1;  ///< of the rotor in one base period, whose frequency ω is
-  double speed_ratio =
-      1;  ///< of the speed over `turns` ω; not 1 where the base frequency is that of passing balls
+  /** Of the speed over `turns` ω; not 1 where the base frequency is that of passing balls. */
+  double speed_ratio = 1;
   std::vector<Bearing> further = {};  ///< bearings beside the first, of a large machine
   std::shared_ptr<const Machine> machine = two_masses();  ///< the bodies
 };
@@ -110,9 +110,9 @@ inline const std::vector<std::pair<std::string, std::string>> given_instead{
 /** Reads bodies given by matrices, and their bearings, into the parameters. */
 using MatrixReader = std::function<void(StrictToml& root, Parameters& parameters)>;
 
-/** Reads and checks a parameter file of two masses; of bodies given by matrices too, where
-    there is a reader of them (`read_machine`, model/large_machine.hpp). Throws BadInput with
-    file, line and key. */
+/** Reads and checks a parameter file of two masses; of bodies given by matrices too,
+    where there is a reader of them (`read_machine`, model/large_machine.hpp). Throws
+    BadInput with file, line and key. */
 Parameters read_parameters(const std::string& file, const MatrixReader& matrices = {});
 Parameters read_parameters(StrictToml root, const MatrixReader& matrices = {});
 
@@ -135,8 +135,8 @@ double cage_speed_ratio(double ball_radius, double inner_race_radius);
 /** The speed of the rotor [rad/s] at the base frequency ω. */
 double rotor_speed(const Parameters& parameters, double omega);
 
-/** The same machine, its base period K turns of the rotor: ω is then a K-th of the speed, and the cage ratio
-    counts the cage's turns per base period. */
+/** The same machine, its base period K turns of the rotor: ω is then a K-th of the speed,
+    and the cage ratio counts the cage's turns per base period. */
 Parameters over_turns(Parameters parameters, int turns);
 
 /** Ball passages through a fixed direction per turn, n·c. The bearing's force has the
@@ -144,7 +144,8 @@ Parameters over_turns(Parameters parameters, int turns);
 double passages_per_turn(const Bearing& bearing);
 bool has_rotation_period(const Bearing& bearing);
 
-/** Throws BadInput, in the name of `who`, when the force has not the period of rotation. */
+/** Throws BadInput, in the name of `who`, when the force has not the period of
+    rotation. */
 void require_rotation_period(const Parameters& parameters, const char* who);
 
 /** Throws BadInput, in the name of `who`, for a machine given by matrices. */
@@ -156,7 +157,8 @@ std::vector<Bearing> bearings_of(const Parameters& parameters);
 /** Throws BadInput where a damaged ball adds a third angle to those of rotor and cage. */
 void require_two_angles(const Parameters& parameters);
 
-/** Whether anything turns with the rotor; if not, only the passing balls move the machine. */
+/** Whether anything turns with the rotor; if not, only the passing balls move the
+    machine. */
 bool turns_visibly(const Parameters& parameters);
 
 }  // namespace rotor_stator

@@ -1,13 +1,15 @@
 /**
 # A rational function through samples
 
-Receptances of a linear body are rational functions of the speed. Several of them, f(x), are fitted with common poles in
-barycentric form by the AAA algorithm (Nakatsukasa, Sète and Trefethen, SIAM J. Sci. Comput. 40 (2018) A1494):
+Receptances of a linear body are rational functions of the speed. Several of them, f(x),
+are fitted with common poles in barycentric form by the AAA algorithm (Nakatsukasa, Sète
+and Trefethen, SIAM J. Sci. Comput. 40 (2018) A1494):
 
 $$r(x) = \sum_j \frac{w_j f_j}{x - x_j} \Big/ \sum_j \frac{w_j}{x - x_j}.$$
 
-The support points x_j are those samples at which the fit is worst, one after the other; the weights w minimise the
-linearised error at all other samples. Samples are added between two others wherever the fit misses the one between. */
+The support points x_j are those samples at which the fit is worst, one after the other;
+the weights w minimise the linearised error at all other samples. Samples are added
+between two others wherever the fit misses the one between. */
 #pragma once
 
 #include <Eigen/Core>
@@ -21,7 +23,8 @@ class RationalFit {
 public:
   using Function = std::function<Eigen::VectorXcd(double)>;
 
-  /** On [from, to], to `tolerance` of the largest value of each component, or of a tenth of the largest of all. */
+  /** On [from, to], to `tolerance` of the largest value of each component, or of a tenth
+      of the largest of all. */
   RationalFit(const Function& f, double from, double to, double tolerance);
 
   /** False where it needs too many samples, and outside [from, to]. */

@@ -24,8 +24,8 @@ constexpr double wanted = 1e-8, worst = 1e-6;  ///< errors of the receptances
 constexpr int right_in_a_row = 8, most_points = 200;
 constexpr double most_memory = 12e9;  ///< [bytes] of the factors
 
-/** Reverse Cuthill and McKee: the degrees of freedom of a long body from one end to the other, which keeps the factors
-    in a band. */
+/** Reverse Cuthill and McKee: the degrees of freedom of a long body from one end to the
+    other, which keeps the factors in a band. */
 std::vector<int> along_the_body(const SparseMatrix& pattern)
 {
   const int n = static_cast<int>(pattern.rows());
@@ -88,8 +88,9 @@ SparseMatrix reordered(const SparseMatrix& a, const std::vector<int>& order)
   return sorted.transpose();
 }
 
-/** A x for A = sign Aᵀ. Neighbours of a fine mesh move nearly alike, so that forces of opposite sign cancel in all but
-    the last digits; their sums are taken with more of them. */
+/** A x for A = sign Aᵀ. Neighbours of a fine mesh move nearly alike, so that forces of
+    opposite sign cancel in all but the last digits; their sums are taken with more of
+    them. */
 template <class Scalar>
 Eigen::Matrix<Scalar, Eigen::Dynamic, Eigen::Dynamic> product(
     const SparseMatrix& a, double sign,
@@ -314,7 +315,8 @@ ReducedBody reduce(const BodyMatrices& matrices, const BodyPorts& ports,
   const Eigen::MatrixXcd rest = body.solve(0, 0, inputs.leftCols(s + 1));
   basis.add(rest.real());
 
-  /** The slowest that the contact vibrates against the body, in the shape of a force on one joint. */
+  /** The slowest that the contact vibrates against the body, in the shape of a force on
+      one joint. */
   double contact = 0;
   for (Eigen::Index i = 0; i < joints; ++i) {
     const Eigen::VectorXd shape = rest.col(i).real();
@@ -324,7 +326,8 @@ ReducedBody reduce(const BodyMatrices& matrices, const BodyPorts& ports,
   }
   const double highest = std::max(range.highest, 10 * contact);
 
-  /** The receptances' error at a point; the point joins the basis where that is too large. */
+  /** The receptances' error at a point; the point joins the basis where that is too
+      large. */
   const bool is_turning = ports.unbalance.norm() > 0;
   double rounding = 0;
   const auto measured = [&](double frequency, double speed, bool joins) {

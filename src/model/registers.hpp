@@ -1,8 +1,8 @@
 /**
 # Wider registers
 
-The same operations for wider registers, chosen when the program starts. No sum is reordered and none fused, so
-the bits do not depend on the choice. */
+The same operations for wider registers, chosen when the program starts. No sum is
+reordered and none fused, so the bits do not depend on the choice. */
 #pragma once
 
 #if defined(__x86_64__) && defined(__GLIBC__) && defined(__GNUC__) && !defined(__clang__)
@@ -12,5 +12,6 @@ the bits do not depend on the choice. */
 #define WIDEST_REGISTERS
 #endif
 
-/** What such a function calls must be a part of it, else it is compiled once, for the narrowest registers. */
+/** What such a function calls must be a part of it, else it is compiled once, for the
+    narrowest registers. */
 #define IN_PLACE [[gnu::always_inline]] inline

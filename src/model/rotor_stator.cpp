@@ -173,7 +173,8 @@ std::vector<double> equal_force_speeds(const Parameters& parameters, double high
 
 Vec2 free_displacement(const Parameters& parameters, double omega, double phase)
 {
-  /** Without a suspension a loaded body sags without end, an unloaded one stays where it is. */
+  /** Without a suspension a loaded body sags without end, an unloaded one stays where it
+      is. */
   const auto sag = [&](const Body& body) -> Vec2 {
     const double squared = body.natural_frequency * body.natural_frequency;
     const Vec2 a = body.static_acceleration(parameters.gravity);
@@ -198,9 +199,10 @@ Vec2 quasi_static_contact(const Bearing& bearing, Vec2 force)
 
 namespace {
 
-/** Where the bearing with ball 1 at angle `cage`, and a spring [N/m] beside it, answer with `force`: Newton from far
-    enough along that force for balls to touch. The potential is convex, so steps that are halved until the error falls
-    arrive. One or two balls may not be able to answer; what is left then is a start too. */
+/** Where the bearing with ball 1 at angle `cage`, and a spring [N/m] beside it, answer
+    with `force`: Newton from far enough along that force for balls to touch. The
+    potential is convex, so steps that are halved until the error falls arrive. One or two
+    balls may not be able to answer; what is left then is a start too. */
 Vec2 equilibrium(const Parameters& parameters, Vec2 force, Direction cage = {1, 0},
                  double spring = 0)
 {

@@ -50,7 +50,8 @@ struct State {
       {};  ///< the further displacements of a large machine, then their speeds
 };
 
-/** The same as a vector, 8 where there are two masses: the displacements, then the speeds. */
+/** The same as a vector, 8 where there are two masses: the displacements, then the
+    speeds. */
 using Vector8 = Eigen::Matrix<double, 8, 1>;
 using Matrix8 = Eigen::Matrix<double, 8, 8>;
 Eigen::VectorXd vector_of(const State& state);
@@ -67,8 +68,8 @@ inline void put(const Bodies& bodies, double* y)
   std::copy(q.begin(), q.end(), y);
 }
 
-/** Eq. 7 at one rotor speed without its bearing, of one motion or of several side by side: what does not change along a
-    motion. */
+/** Eq. 7 at one rotor speed without its bearing, of one motion or of several side by
+    side: what does not change along a motion. */
 template <class Number>
 struct Equation7 {
   Number k_s, c_s, per_m_s, k_r, c_r, per_m_r;    ///< [N/m], [N s/m], [1/kg]
@@ -93,7 +94,8 @@ struct Equation7 {
 /** Eq. 7 at one rotor speed with its bearing. */
 class RotorStator {
 public:
-  /** `omega` is the base frequency [rad/s], the rotor's speed where that turns once per period. */
+  /** `omega` is the base frequency [rad/s], the rotor's speed where that turns once per
+      period. */
   RotorStator(const Parameters& parameters, double omega);
 
   /** Accelerations [m/s²]. */
@@ -127,8 +129,8 @@ DynamicStiffness dynamic_stiffness(const Body& body, double frequency);
 
 /** Sizes that make the equations dimensionless. */
 struct Scales {
-  double
-      load;  ///< weights and loads of both bodies plus the unbalance at the joint resonance [N]
+  /** Weights and loads of both bodies plus the unbalance at the joint resonance [N]. */
+  double load;
   double penetration;  ///< of one ball under that load [m]
   double length;       ///< clearance plus penetration: the size of u [m]
   double stiffness;    ///< of one ball under that load [N/m]
@@ -144,11 +146,12 @@ inline Eigen::VectorXd state_scales(const Parameters& parameters)
   return parameters.machine->state_scales(parameters);
 }
 
-/** Resonance [rad/s] of rotor and stator moving as one body on both suspensions; beside a rigid stator that of the
-    rotor, on the contact if it has no suspension. */
+/** Resonance [rad/s] of rotor and stator moving as one body on both suspensions; beside a
+    rigid stator that of the rotor, on the contact if it has no suspension. */
 double joint_resonance(const Parameters& parameters);
 
-/** The static part of the next force, from weights and loads: (k_s f_r - k_r f_s)/(k_s + k_r) [N]. */
+/** The static part of the next force, from weights and loads: (k_s f_r - k_r f_s)/(k_s +
+    k_r) [N]. */
 Vec2 static_joint_force(const Parameters& parameters);
 
 /** The bearing's force [N] that would keep u = 0 at `phase` ωt [rad] in the steady
@@ -156,9 +159,10 @@ Vec2 static_joint_force(const Parameters& parameters);
    the unbalance. */
 Vec2 rigid_joint_force(const Parameters& parameters, double omega, double phase);
 
-/** The speeds [rad/s] up to `highest` at which the static part of that force, from weights and loads, is as large as its
-    rotating part, from the unbalance; ascending. At the first the force of the joint passes through zero: a contact that
-    can only push is lost. None without them. */
+/** The speeds [rad/s] up to `highest` at which the static part of that force, from
+    weights and loads, is as large as its rotating part, from the unbalance; ascending. At
+    the first the force of the joint passes through zero: a contact that can only push is
+    lost. None without them. */
 std::vector<double> equal_force_speeds(const Parameters& parameters, double highest);
 
 /** The relative displacement [m] of both bodies without any contact, u = G_r f_r - G_s
@@ -174,14 +178,16 @@ Vec2 quasi_static_contact(const Bearing& bearing, Vec2 force);
 /** The relative displacement [m] at rest with ball 1 at the angle `cage`. */
 Vec2 static_equilibrium(const Parameters& parameters, Direction cage);
 
-/** Both bodies at rest in static equilibrium with ball 1 at the angle `cage`; without displacement where none is unique. */
+/** Both bodies at rest in static equilibrium with ball 1 at the angle `cage`; without
+    displacement where none is unique. */
 inline State rest_state(const Parameters& parameters, Direction cage)
 {
   return parameters.machine->at_rest(parameters, cage);
 }
 
-/** A state at rest with the bearing carrying the static load: where time integration starts. The load stands on
-    one ball; where the bearing alone carries a body, on those that balance it with ball 1 at angle 0. */
+/** A state at rest with the bearing carrying the static load: where time integration
+    starts. The load stands on one ball; where the bearing alone carries a body, on those
+    that balance it with ball 1 at angle 0. */
 inline State static_start(const Parameters& parameters)
 {
   return parameters.machine->static_start(parameters);

@@ -81,7 +81,8 @@ Exponent exponent_of(const Floquet& floquet, double period)
   return {std::log(largest) / period, floquet.uncertainty() / largest / period};
 }
 
-/** False where shooting does not close the motion: the integrated one is then recorded. */
+/** False where shooting does not close the motion: the integrated one is then
+    recorded. */
 bool close(Answer& answer, const Request& request, const OperationBudget& budget)
 {
   const int k = answer.settled.period, points = k * request.points;
@@ -124,8 +125,9 @@ public:
   {
   }
 
-  /** From the same earlier state, so that a motion whose neighbours contract is that of these steps. `finer`: by so much
-      smaller steps, or a local error smaller by its square. */
+  /** From the same earlier state, so that a motion whose neighbours contract is that of
+      these steps. `finer`: by so much smaller steps, or a local error smaller by its
+      square. */
   Motion operator()(double finer)
   {
     const auto stepper = [&](int intervals) {
@@ -273,7 +275,8 @@ struct PeriodSums {
   std::array<double, 4> sum{}, squares{};
 };
 
-/** The mean over neighbouring batches of `batch` periods of a measure of each, and its standard error. */
+/** The mean over neighbouring batches of `batch` periods of a measure of each, and its
+    standard error. */
 template <class Measure>
 BatchMean over_batches(const std::vector<PeriodSums>& periods, std::size_t batch,
                        Measure measure)
@@ -284,12 +287,13 @@ BatchMean over_batches(const std::vector<PeriodSums>& periods, std::size_t batch
   return long_mean(values);
 }
 
-/** Where the cubic from `a` with slope `s` to `b` with slope `t`, at 0 and 1, turns between them; else `b`. Its error is
-    of order 4 in the interval. */
+/** Where the cubic from `a` with slope `s` to `b` with slope `t`, at 0 and 1, turns
+    between them; else `b`. Its error is of order 4 in the interval. */
 double turning_point(double a, double s, double b, double t)
 {
   if (!(s * t < 0)) return b;
-  /** The slope s + 2 (3d - 2s - t) x + 3 (s + t - 2d) x², d = b - a, has one root in 0…1. */
+  /** The slope s + 2 (3d - 2s - t) x + 3 (s + t - 2d) x², d = b - a, has one root in
+      0…1. */
   const double half = 3 * (b - a) - 2 * s - t, square = 3 * (s + t - 2 * (b - a));
   const double root = std::sqrt(std::max(0.0, half * half - square * s));
   const double x = -s / (half + (s > 0 ? -root : root));

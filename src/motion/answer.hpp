@@ -1,15 +1,17 @@
 /**
 # What the machine does: the one answer
 
-Eq. 7 is integrated from rest until it has settled (`settle`). A motion that closes is then closed by shooting, which
-gives its multipliers; its error is what closing it again with a hundredth of the local error changes. A motion whose
-neighbours contract is recorded at the same instants with half the step, and the difference is its error. Of a chaotic
-motion the record is one of many: it has no error.
+Eq. 7 is integrated from rest until it has settled (`settle`). A motion that closes is
+then closed by shooting, which gives its multipliers; its error is what closing it again
+with a hundredth of the local error changes. A motion whose neighbours contract is
+recorded at the same instants with half the step, and the difference is its error. Of a
+chaotic motion the record is one of many: it has no error.
 
     const Answer answer = motion::answer(parameters, {.omega = angular(25)}, budget);
     // answer.kind, answer.motion, answer.stability, answer.error
 
-Solutions of harmonic balance are asked for by their number of harmonics, and judged in motion/judge.hpp. */
+Solutions of harmonic balance are asked for by their number of harmonics, and judged in
+motion/judge.hpp. */
 #pragma once
 
 #include <optional>
@@ -56,8 +58,9 @@ struct Answer {
   int period_number() const;
 };
 
-/** Throws NoSolution when the integration breaks down or the tolerance cannot be met. A budget that ends before the kind is
-    known leaves it undecided, with the reason in `settled`. */
+/** Throws NoSolution when the integration breaks down or the tolerance cannot be met. A
+    budget that ends before the kind is known leaves it undecided, with the reason in
+    `settled`. */
 Answer answer(const Parameters& parameters, const Request& request,
               const OperationBudget& budget = {});
 
@@ -76,8 +79,9 @@ struct Question {
 std::vector<Attempt<Answer>> settled_answers(std::span<const Question> questions);
 void complete(Answer& answer, const Request& request, const OperationBudget& budget = {});
 
-/** What is reported of x_s, y_s, x_r, y_r [m], with standard errors, which a motion that closes has not: over its K base
-    periods, over 256 base periods of another one, at every second step. */
+/** What is reported of x_s, y_s, x_r, y_r [m], with standard errors, which a motion that
+    closes has not: over its K base periods, over 256 base periods of another one, at
+    every second step. */
 struct Observation {
   Displacements amplitude{};    ///< half of the largest less the smallest value
   Displacements mean{}, rms{};  ///< rms about the mean

@@ -2,10 +2,11 @@
 # The verdict on a solution
 
 A verdict speaks of the motion of Eq. 7 that is nearest to a solution of harmonic balance,
-as shooting over segments and plain shooting from eight phases of the solution find it. Its
-multipliers are computed twice, the second time with a local error a hundred times smaller,
-and what changes is their uncertainty. `stable` and `unstable` leave no multiplier within
-that of the unit circle, and no motion of the other kind less than twice as far away.
+as shooting over segments and plain shooting from eight phases of the solution find it.
+Its multipliers are computed twice, the second time with a local error a hundred times
+smaller, and what changes is their uncertainty. `stable` and `unstable` leave no
+multiplier within that of the unit circle, and no motion of the other kind less than twice
+as far away.
 
     const Verdict verdict = judge(parameters, solution, budget);
     // verdict.word(), verdict.floquet.largest(), verdict.distance_rms */

@@ -130,7 +130,8 @@ public:
     }
   }
 
-  /** Amplitudes in what is left, the root of the sum of squares over the displacements, bin by bin. */
+  /** Amplitudes in what is left, the root of the sum of squares over the displacements,
+      bin by bin. */
   Eigen::VectorXd spectrum_left() const
   {
     FourierTransform transform(static_cast<int>(n_));
@@ -320,7 +321,8 @@ struct Sum {
   }
 };
 
-/** The shortest with the multiple h/K of X in all: k_1 = h/K + n inner, k_2/L = outer/L - inner. */
+/** The shortest with the multiple h/K of X in all: k_1 = h/K + n inner, k_2/L = outer/L -
+    inner. */
 void shorten(std::optional<Sum>& best, int h, int denominator, int k_2, int passing,
              int balls)
 {
@@ -366,8 +368,8 @@ LineName name_of(const Sum& sum, int balls)
           sum.name()};
 }
 
-/** Of a damaged ball, which meets a race every half turn and stands elsewhere each time: 2s BSF + j FTF + h X, if
-    shorter than `length`. */
+/** Of a damaged ball, which meets a race every half turn and stands elsewhere each time:
+    2s BSF + j FTF + h X, if shorter than `length`. */
 std::optional<LineName> name_of_spin(double order, const Bearing& bearing,
                                      double tolerance, double length)
 {

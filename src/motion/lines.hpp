@@ -1,18 +1,20 @@
 /**
 # The lines of a motion
 
-A motion with few frequencies is a sum of lines. Each has an order, its frequency over the speed, and an amplitude in
-each displacement. A line of the machine has the frequency
+A motion with few frequencies is a sum of lines. Each has an order, its frequency over the
+speed, and an amplitude in each displacement. A line of the machine has the frequency
 
 $$2\pi f = k_{rotation}\,\omega + k_{cage}\,\omega_{cage} + k_{spin}\,\omega_{ball},$$
 
-with ω_ball a ball's rotation about itself, seen from the cage. X = ω, BPFO = n ω_cage, BPFI = n (ω - ω_cage),
-FTF = ω_cage, BSF = ω_ball.
+with ω_ball a ball's rotation about itself, seen from the cage. X = ω, BPFO = n ω_cage,
+BPFI = n (ω - ω_cage), FTF = ω_cage, BSF = ω_ball.
 
-The name of a line is the shortest sum of multiples of X, BPFO and BPFI: that with the smallest sum of the absolute values
-of the multiples, those of BPFO and BPFI counted twice, then the fewest terms, then the smallest multiple of BPFI. A
-multiple of X may be h/K, K ≤ 8, where n c is whole. A line without such a name may be a multiple of FTF or of BSF. Where
-a ball is damaged, 2sBSF + jFTF + hX is a name too, if its 2s + |j|/2 + |h| is smaller. */
+The name of a line is the shortest sum of multiples of X, BPFO and BPFI: that with the
+smallest sum of the absolute values of the multiples, those of BPFO and BPFI counted
+twice, then the fewest terms, then the smallest multiple of BPFI. A multiple of X may be
+h/K, K ≤ 8, where n c is whole. A line without such a name may be a multiple of FTF or of
+BSF. Where a ball is damaged, 2sBSF + jFTF + hX is a name too, if its 2s + |j|/2 + |h| is
+smaller. */
 #pragma once
 
 #include <string>
@@ -41,9 +43,10 @@ Lines lines_of(const Bearing& bearing, const PeriodicMotion& solution, int turns
 /** Of a motion that closes after `turns` turns, its one period: by Fourier transform. */
 Lines lines_of_closed(const Motion& motion, double turns);
 
-/** Of a motion recorded over many turns: its peaks, then all amplitudes together by least squares, weighted by a window
-    of Blackman and Harris, then the peaks of what is left, until none is above 1e-6 of the largest. A peak within a
-    fifth of the resolution, one over the number of turns, of a frequency of the machine is taken to be there. At most
+/** Of a motion recorded over many turns: its peaks, then all amplitudes together by least
+    squares, weighted by a window of Blackman and Harris, then the peaks of what is left,
+    until none is above 1e-6 of the largest. A peak within a fifth of the resolution, one
+    over the number of turns, of a frequency of the machine is taken to be there. At most
     200 lines. */
 Lines lines_of_recorded(const Bearing& bearing, const Motion& motion);
 
@@ -55,11 +58,12 @@ struct LineName {
   double order(const Bearing& bearing) const;
 };
 
-/** The shortest name of an order, at most `tolerance` off, with k_cage at most n `passages`; halves of both frequencies of a
-    torus up to an eighth of that. */
+/** The shortest name of an order, at most `tolerance` off, with k_cage at most n
+    `passages`; halves of both frequencies of a torus up to an eighth of that. */
 LineName name_of(double order, const Bearing& bearing, double tolerance, int passages);
 
-/** 4-term window of Blackman and Harris for a record of `samples`, its sum 1; its side lobes are below -92 dB. */
+/** 4-term window of Blackman and Harris for a record of `samples`, its sum 1; its side
+    lobes are below -92 dB. */
 Eigen::VectorXd blackman_harris(Eigen::Index samples);
 
 }  // namespace rotor_stator::motion

@@ -38,8 +38,8 @@ struct Motion {
 /** Appends an instant. */
 void add(Motion& motion, const State& state);
 
-/** Whole periods by a stepper that cuts each into P intervals, from `state` at the start of period
-    `first_period`; `state` is left at their end. */
+/** Whole periods by a stepper that cuts each into P intervals, from `state` at the start
+    of period `first_period`; `state` is left at their end. */
 inline Motion recorded(Flow& stepper, int points_per_period, State& state,
                        long first_period = 0, long periods = 1)
 {
@@ -55,8 +55,8 @@ inline Motion recorded(Flow& stepper, int points_per_period, State& state,
 /** x_s, y_s, x_r, y_r [m] at the instants of a motion, a row each. */
 Eigen::MatrixXd displacement_samples(const Motion& motion);
 
-/** The series of x_s, y_s, x_r, y_r over the first period of a motion [m], 4 × (2m+1); and that of the
-    relative motions u of all bearings as the unknowns of a balance. */
+/** The series of x_s, y_s, x_r, y_r over the first period of a motion [m], 4 × (2m+1);
+    and that of the relative motions u of all bearings as the unknowns of a balance. */
 Eigen::MatrixXd series_of(const Motion& motion, int harmonics);
 Eigen::VectorXd relative_series(const Parameters& parameters, const Motion& motion,
                                 int harmonics);
@@ -67,11 +67,13 @@ Eigen::VectorXd relative_series(const Motion& motion, int harmonics);
 /** The relative motions u of all bearings at the instants of a motion, N × 2b [m]. */
 Eigen::MatrixXd relative_samples(const Parameters& parameters, const Motion& motion);
 
-/** From x_s, y_s, x_r, y_r and what else a large machine shows, a row for each instant. */
+/** From x_s, y_s, x_r, y_r and what else a large machine shows, a row for each
+    instant. */
 Motion motion_of_samples(const Eigen::MatrixXd& samples, int points,
                          long first_period = 0);
 
-/** `points` instants of one period of a solution, from its series of both bodies; the second with its rates. */
+/** `points` instants of one period of a solution, from its series of both bodies; the
+    second with its rates. */
 Motion motion_of(const Eigen::MatrixXd& bodies, int points);
 Motion motion_of(const PeriodicMotion& solution, int points);
 
@@ -84,7 +86,8 @@ State state_of(const Parameters& parameters, const PeriodicMotion& motion);
 /** The periods kept by a time integration. */
 Motion motion_of(const SteadyState& steady, int points_per_period);
 
-/** One base period from `state` at phase 0, at the instants that `settings` cuts it into. */
+/** One base period from `state` at phase 0, at the instants that `settings` cuts it
+    into. */
 Motion one_period(const Parameters& parameters, double omega, State state,
                   const StepSettings& settings);
 
@@ -95,8 +98,8 @@ std::vector<Motion> pieces(const Motion& motion, int periods);
 BatchMean mean_over(const Motion& motion, int periods,
                     const std::function<double(const Motion&)>& measure);
 
-/** Where everything in the bearing stands at instant k, and how u changes. Throws NoSolution for a damped contact
-    without rates. */
+/** Where everything in the bearing stands at instant k, and how u changes. Throws
+    NoSolution for a damped contact without rates. */
 struct BearingInstants {
   BearingInstants(const Parameters& parameters, const Motion& motion);
   Angles angles(std::size_t k) const { return bearing.angles(motion.phase(k)); }
@@ -117,8 +120,8 @@ std::vector<Vec2> bearing_forces(const Parameters& parameters, const Motion& mot
 /** Coordinate `place` of a large machine at instant k [m]. */
 double shown_at(const Motion& motion, std::size_t k, int place);
 
-/** A machine as its bearing k = 0, 1, … sees it, and the motion there: the functions that speak of the bearing then
-    speak of that one. */
+/** A machine as its bearing k = 0, 1, … sees it, and the motion there: the functions that
+    speak of the bearing then speak of that one. */
 struct AtBearing {
   Parameters parameters;
   Motion motion;
@@ -135,9 +138,9 @@ double largest_displacement(const Motion& motion);
     `reference`, on the first period of both [-]; both have the same points per period. */
 double relative_difference(const Motion& motion, const Motion& reference);
 
-/** The rms difference of the two motions about their means, over that of `reference` about its mean, all
-    four displacements together, at all instants of `reference`, along which `motion` is repeated: blind to the static
-    sag [-]. */
+/** The rms difference of the two motions about their means, over that of `reference`
+    about its mean, all four displacements together, at all instants of `reference`, along
+    which `motion` is repeated: blind to the static sag [-]. */
 double rms_difference(const Motion& motion, const Motion& reference);
 
 /** Both, as the error of a motion. */

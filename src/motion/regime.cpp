@@ -59,7 +59,8 @@ SteadyState settled_motion(const Parameters& parameters, double frequency,
   steady_settings.longest = settings.longest;
   steady_settings.shown_periods = 2;
   steady_settings.average = settings.average;
-  /** On the periodic solution if Newton finds one from the quasi-static contact, else at the static load. */
+  /** On the periodic solution if Newton finds one from the quasi-static contact, else at
+      the static load. */
   PeriodicMotion solution;
   if (has_rotation_period(parameters.bearing))
     solution = find_periodic(

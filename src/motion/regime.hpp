@@ -25,8 +25,8 @@ struct RegimeSettings {
 /** The table [regime] of a scene. */
 RegimeSettings read_regime_settings(SceneFile& scene);
 
-/** Of the first period of a motion, over the amplitude of the first harmonic, for the body where all are larger [-]; 0
-    for bodies at rest. */
+/** Of the first period of a motion, over the amplitude of the first harmonic, for the
+    body where all are larger [-]; 0 for bodies at rest. */
 struct HigherHarmonics {
   double all = 0;                             ///< rms of harmonics 2 and above
   double h_2 = 0, h_3 = 0, h_4 = 0, h_5 = 0;  ///< one by one
@@ -45,8 +45,8 @@ struct RegimeMeasures : HigherHarmonics {
   double amp_x_r = 0;        ///< half peak-to-peak of x_r [m]
 };
 
-/** Of an aperiodic motion the measures are means over pairs of periods. A run that does not settle on a T-periodic
-    motion makes the regime aperiodic. */
+/** Of an aperiodic motion the measures are means over pairs of periods. A run that does
+    not settle on a T-periodic motion makes the regime aperiodic. */
 struct Regime : RegimeMeasures {
   double frequency;      ///< [Hz]
   bool periodic;         ///< with period T
@@ -59,19 +59,21 @@ RegimeMeasures measures_of(const Parameters& parameters, const Motion& two_perio
 Regime regime_of(const Parameters& parameters, double frequency,
                  const std::vector<SteadyState>& runs, const RegimeSettings& settings);
 
-/** The same of the settled motion, integrated twice, at speeds that differ by 1e-11: where several motions are stable,
-    rounding may decide which one is reached. Throws NoSolution when the integration breaks down. */
+/** The same of the settled motion, integrated twice, at speeds that differ by 1e-11:
+    where several motions are stable, rounding may decide which one is reached. Throws
+    NoSolution when the integration breaks down. */
 Regime regime_at(const Parameters& parameters, double frequency,
                  const RegimeSettings& settings);
 
 HigherHarmonics higher_harmonics(const Motion& motion);
 
-/** How often a force turns around its origin along the instants of a closed motion; instants without force are
-    left out. */
+/** How often a force turns around its origin along the instants of a closed motion;
+    instants without force are left out. */
 double turns_of(const std::vector<Vec2>& force);
 
-/** The motion of a machine at one speed, settled, by rk4: from the periodic solution if Newton finds one from the
-    quasi-static contact, else from the static load. Throws NoSolution when the integration breaks down. */
+/** The motion of a machine at one speed, settled, by rk4: from the periodic solution if
+    Newton finds one from the quasi-static contact, else from the static load. Throws
+    NoSolution when the integration breaks down. */
 SteadyState settled_motion(const Parameters& parameters, double frequency,
                            const RegimeSettings& settings);
 

@@ -8,8 +8,9 @@ Eigen's solver, compiled once: it takes ten seconds in every source that asks fo
 
 namespace rotor_stator {
 
-/** Eigenvalues and right eigenvectors, column by column; without `vectors` these are empty. Throws
-    NoSolution when the matrix is not finite or the iteration does not converge. */
+/** Eigenvalues and right eigenvectors, column by column; without `vectors` these are
+    empty. Throws NoSolution when the matrix is not finite or the iteration does not
+    converge. */
 struct Eigensystem {
   Eigen::VectorXcd values;
   Eigen::MatrixXcd vectors;

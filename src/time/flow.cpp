@@ -49,7 +49,8 @@ double evaluation_price(const Parameters& parameters, const std::string& method)
   return ((explicit_steps ? 75 : 330) + 1.5 * balls) / operations_per_evaluation(balls);
 }
 
-/** A contact of Hertz is stiffer with the third root of its force, and vibrates faster with the sixth. */
+/** A contact of Hertz is stiffer with the third root of its force, and vibrates faster
+    with the sixth. */
 double TwoMasses::step(const Parameters& machine, double omega) const
 {
   constexpr double much = 30;

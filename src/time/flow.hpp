@@ -44,8 +44,8 @@ struct StepSettings {
       {};  ///< for the evaluations of Eq. 7; without one, 1e9 of them
 };
 
-/** Large bodies take Gauss's rule, with a tolerance of 1e-8 where rk4 is asked for. Throws
-    BadInput for an unknown method, or one that cannot have the bearing's force. */
+/** Large bodies take Gauss's rule, with a tolerance of 1e-8 where rk4 is asked for.
+    Throws BadInput for an unknown method, or one that cannot have the bearing's force. */
 std::unique_ptr<Flow> flow(const Parameters& parameters, double omega,
                            const StepSettings& settings);
 

@@ -16,8 +16,9 @@ namespace {
 
 using Complex = std::complex<double>;
 
-/** A and c = A1 of the rule, whose b are both 1/2, with an eigenvalue λ of Aᵀ. S = [s, s̄] holds its eigenvectors,
-    t the first row of S⁻¹: the stages are 2 Re(x tᵀ) for the solution x of λ. */
+/** A and c = A1 of the rule, whose b are both 1/2, with an eigenvalue λ of Aᵀ. S = [s,
+    s̄] holds its eigenvectors, t the first row of S⁻¹: the stages are 2 Re(x tᵀ) for the
+    solution x of λ. */
 struct GaussRule {
   Eigen::Matrix2d a;
   Eigen::Vector2d c;
@@ -120,7 +121,8 @@ Eigen::VectorXd GaussStepper::reaction(const double* phases, const Eigen::Vector
   return force;
 }
 
-/** The stages without the bearings' forces, of states in the columns of `y`; loads at both stages drive the first one. */
+/** The stages without the bearings' forces, of states in the columns of `y`; loads at
+    both stages drive the first one. */
 Eigen::MatrixXcd GaussStepper::unforced(const Level& level, const double* phases,
                                         const Eigen::MatrixXd& y) const
 {
@@ -133,8 +135,8 @@ Eigen::MatrixXcd GaussStepper::unforced(const Level& level, const double* phases
   return level.factors.solve(x);
 }
 
-/** The motion in the first column of `y`, displacements and speeds, and its disturbances in the others. False where
-    Newton does not converge. */
+/** The motion in the first column of `y`, displacements and speeds, and its disturbances
+    in the others. False where Newton does not converge. */
 bool GaussStepper::step(Level& level, double phase, Eigen::MatrixXd& y)
 {
   const Eigen::Index n = rest_.size(), d = joints_.cols(), others = y.cols() - 1;
@@ -185,7 +187,8 @@ bool GaussStepper::step(Level& level, double phase, Eigen::MatrixXd& y)
   return true;
 }
 
-/** One interval. The motion alone chooses the steps 2⁻ᵏ of it, by the difference between one and its halves. */
+/** One interval. The motion alone chooses the steps 2⁻ᵏ of it, by the difference between
+    one and its halves. */
 void GaussStepper::integrate(long interval, Eigen::MatrixXd& y)
 {
   constexpr int finest = 16;  ///< halvings below the first step

@@ -1,15 +1,16 @@
 /**
 # All degrees of freedom of bodies given by matrices, however many
 
-Gauss's implicit Runge-Kutta rule of two stages has order 4 and takes any step with the stiff part of the equations
-(Hairer and Wanner, Solving Ordinary Differential Equations II, IV.5 and IV.8). The accelerations W of both stages of a
-step h solve
+Gauss's implicit Runge-Kutta rule of two stages has order 4 and takes any step with the
+stiff part of the equations (Hairer and Wanner, Solving Ordinary Differential Equations
+II, IV.5 and IV.8). The accelerations W of both stages of a step h solve
 
 $$M W + C\,(v 1^T + h W A^T) + K\,(q 1^T + h v (A1)^T + h^2 W (A^2)^T) = P - D F,$$
 
-C with ωG. One complex eigenvector of Aᵀ, of the eigenvalue λ, parts the stages: a single sparse system
-M + hλ C + h²λ² K, factored once for each step size, answers the loads and the unit forces of the bearings. What is
-left for each step are 4 unknowns a bearing, solved by Newton. */
+C with ωG. One complex eigenvector of Aᵀ, of the eigenvalue λ, parts the stages: a single
+sparse system M + hλ C + h²λ² K, factored once for each step size, answers the loads and
+the unit forces of the bearings. What is left for each step are 4 unknowns a bearing,
+solved by Newton. */
 #pragma once
 
 #include <Eigen/SparseLU>
@@ -29,7 +30,8 @@ public:
   GaussStepper(const LargeBodies& machine, const Parameters& parameters, double omega,
                int intervals, double tolerance, OperationBudget budget = {});
 
-  /** Advances over output interval `interval`, counted from t = 0. Throws NoSolution when the budget is used up. */
+  /** Advances over output interval `interval`, counted from t = 0. Throws NoSolution when
+      the budget is used up. */
   using Flow::advance;
   void advance(long interval, State& state) override;
 

@@ -1,14 +1,15 @@
 /**
 # The period map and its derivative
 
-The period map P takes a state over one period T = 2π/ω of Eq. 7. Its derivative Φ solves the variational
-equations
+The period map P takes a state over one period T = 2π/ω of Eq. 7. Its derivative Φ solves
+the variational equations
 
-$$\dot{\delta q} = \delta v, \qquad M\, \dot{\delta v} = -(K + k(t))\,\delta q - C\,\delta v,$$
+$$\dot{\delta q} = \delta v,
+\qquad M\, \dot{\delta v} = -(K + k(t))\,\delta q - C\,\delta v,$$
 
-where k(t) is the bearing's stiffness on the motion itself. Both are integrated together, 72
-equations, by rk4, rk8 or one of GSL's explicit steppers; the step is chosen by the state
-alone, which is what the answer depends on.
+where k(t) is the bearing's stiffness on the motion itself. Both are integrated together,
+72 equations, by rk4, rk8 or one of GSL's explicit steppers; the step is chosen by the
+state alone, which is what the answer depends on.
 
     const PeriodMap map = period_map(parameters, omega, state,
                                      {.intervals_per_period = 1, .tolerance = 1e-12}); */
@@ -26,8 +27,8 @@ struct PeriodMap {
   long evaluations;            ///< of the bearing's force and stiffness
 };
 
-/** Over one interval of those into which `settings` cut a base period, counted from t = 0;
-    for no more than the state, `with_derivative` is false. Throws NoSolution when the
+/** Over one interval of those into which `settings` cut a base period, counted from t =
+    0; for no more than the state, `with_derivative` is false. Throws NoSolution when the
     integration breaks down or the budget is used up. */
 PeriodMap period_map(const Parameters& parameters, double omega, const State& start,
                      const StepSettings& settings, long interval = 0,
@@ -49,8 +50,8 @@ public:
   {
   }
 
-  /** Accelerations of the disturbances `q` and their speeds `v`, with the bearing's reaction at that instant of the
-      motion. */
+  /** Accelerations of the disturbances `q` and their speeds `v`, with the bearing's
+      reaction at that instant of the motion. */
   template <class Q, class V>
   Disturbances acceleration(const BearingReaction& bearing, const Q& q, const V& v) const
   {

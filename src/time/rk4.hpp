@@ -1,13 +1,14 @@
 /**
 # Classical Runge-Kutta of order 4 with a fixed step, of several motions side by side
 
-The paper's rival, written as carefully as the harmonic balance: the directions of rotor and cage go on by one complex
-product in half a step, and are computed anew after at most 128 steps, so that a step costs four evaluations of Eq. 7
-and no sine or cosine. The step divides the output interval.
+The paper's rival, written as carefully as the harmonic balance: the directions of rotor
+and cage go on by one complex product in half a step, and are computed anew after at most
+128 steps, so that a step costs four evaluations of Eq. 7 and no sine or cosine. The step
+divides the output interval.
 
     Rk4 rk4(parameters, omega, 64, default_step(parameters));
     State state = static_start(parameters);
-    rk4.advance(0, state);                  // over the first of 64 intervals of the base period
+    rk4.advance(0, state);                  // over the first of 64 intervals
 
 Several motions take much less than several times as long where their numbers lie side by
 side in the registers of the processor. Each has its own machine, speed, step and phase,
@@ -24,8 +25,9 @@ time/side_by_side.hpp. */
 
 namespace rotor_stator {
 
-/** One step of length `h` of q̈ = a(q, q̇, t) in Nyström's form of the classical rule: the four slopes of q
-    are speeds that the slopes of q̇ already hold. `at`: begin, middle and end of the step. */
+/** One step of length `h` of q̈ = a(q, q̇, t) in Nyström's form of the classical rule:
+    the four slopes of q are speeds that the slopes of q̇ already hold. `at`: begin,
+    middle and end of the step. */
 template <class Length, class Q, class At, class Acceleration>
 void nystrom_step(Length h, const At* at, Q& q, Q& v, const Acceleration& acceleration)
 {
@@ -43,8 +45,9 @@ void nystrom_step(Length h, const At* at, Q& q, Q& v, const Acceleration& accele
 /** The machine's constants, and its directions along one output interval. */
 class Rk4 : public Flow {
 public:
-  /** P = `intervals` per base period, each cut into the fewest steps not longer than `longest_step` [s]. Throws
-      NoSolution when a base period would need more than 3e7 of them. */
+  /** P = `intervals` per base period, each cut into the fewest steps not longer than
+      `longest_step` [s]. Throws NoSolution when a base period would need more than 3e7 of
+      them. */
   Rk4(const Parameters& parameters, double omega, int intervals, double longest_step,
       OperationBudget budget = {});
 
@@ -54,7 +57,8 @@ public:
   double step() const { return h_; }
   int steps_per_interval() const { return steps_; }
 
-  /** The directions at the half steps of one output interval, `visit` called with begin, middle and end of each step. */
+  /** The directions at the half steps of one output interval, `visit` called with begin,
+      middle and end of each step. */
   template <class Visit>
   void each_step(long interval, Visit visit) const
   {

@@ -1,25 +1,27 @@
 /**
 # What a machine does after a start
 
-Eq. 7 is integrated from a state, with a neighbour beside it that is pulled back to its first distance after every
-interval (Benettin). What the distance would have become says two things: the transient is over when it has shrunk to
-1e-9, and its mean growth λ is the largest Lyapunov exponent, which with the Poincaré section decides the kind of the
-motion.
+Eq. 7 is integrated from a state, with a neighbour beside it that is pulled back to its
+first distance after every interval (Benettin). What the distance would have become says
+two things: the transient is over when it has shrunk to 1e-9, and its mean growth λ is the
+largest Lyapunov exponent, which with the Poincaré section decides the kind of the motion.
 
 - `rest`: all speeds and changes are below 1e-12 of clearance plus static deflection.
 - `periodic`: the section, one point in each base period, closes after K ≤ 16 of them.
-- `quasi-periodic`: λ + 3s < 0 where two frequencies drive; or |λ| ≤ 3s, 3s below 0.1/s and a section that does not close.
+- `quasi-periodic`: λ + 3s < 0 where two frequencies drive; or |λ| ≤ 3s, 3s below 0.1/s
+  and a section that does not close.
 - `chaotic`: λ - 3s > 0.
 - `undecided`: everything else, with the reason.
 
     const BasePeriod base = base_period(parameters);
     const auto [machine, omega] = over(base, parameters, angular(25));
-    const Settled settled = settle(machine, omega, base, from_rest(machine, omega), {}, budget);
+    const Settled settled =
+        settle(machine, omega, base, from_rest(machine, omega), {}, budget);
 
 A `Settling` is the same among others (time/side_by_side.hpp).
 
-The machine is one counted over its base period. λ comes with its standard error s, that of the means of ten batches of the
-later half of all that was integrated. */
+The machine is one counted over its base period. λ comes with its standard error s, that
+of the means of ten batches of the later half of all that was integrated. */
 #pragma once
 
 #include <string>
@@ -104,12 +106,13 @@ Settled settle(const Parameters& machine, double omega, const BasePeriod& base,
 /** The largest difference of two states, over the sizes of their components [-]. */
 double apart(const Parameters& machine, const State& a, const State& b);
 
-/** At rest in static equilibrium with ball 1 at the angle that it has there, so long before t = 0 that a linear machine
-    has forgotten its start: 25 over its slowest decay rate, 4 to 25 s, in whole turns. */
+/** At rest in static equilibrium with ball 1 at the angle that it has there, so long
+    before t = 0 that a linear machine has forgotten its start: 25 over its slowest decay
+    rate, 4 to 25 s, in whole turns. */
 Instant from_rest(const Parameters& machine, double omega);
 
-/** The slowest decay rate and the lowest natural frequency [1/s] of both bodies joined by a loaded contact; a frequency
-    of 0 is left out. */
+/** The slowest decay rate and the lowest natural frequency [1/s] of both bodies joined by
+    a loaded contact; a frequency of 0 is left out. */
 struct SlowestMode {
   double decay, frequency;
 };

@@ -225,8 +225,8 @@ Shooting shoot(const Parameters& parameters, double omega, State& state,
 
 State quasi_static_state(const Parameters& parameters, double omega)
 {
-  /** F = rest + Re(whirl (1, -i) e^{iφ}); the stator answers with its receptance, the rotor stands
-      off by u, which follows the force. */
+  /** F = rest + Re(whirl (1, -i) e^{iφ}); the stator answers with its receptance, the
+      rotor stands off by u, which follows the force. */
   const Vec2 at_0 = rigid_joint_force(parameters, omega, 0);
   const Vec2 rest = static_joint_force(parameters);
   const std::complex<double> whirl(at_0.x - rest.x, at_0.y - rest.y);

@@ -5,8 +5,8 @@ P(s) = s is solved by Newton, (Φ - 1) Δs = s - P(s), with Φ from the variatio
 equations. No transient has to decay, and unstable motions are found like stable ones: the
 fair rival of harmonic balance, and an independent check of it.
 
-A motion whose disturbances grow a hundred-thousandfold in a period cannot be followed over
-a period. It is held by its states at eight equal phases; each is integrated over an
+A motion whose disturbances grow a hundred-thousandfold in a period cannot be followed
+over a period. It is held by its states at eight equal phases; each is integrated over an
 eighth, and Newton's iteration is for the eight states together (multiple shooting).
 
     Eighths motion = eighths_of(solution);

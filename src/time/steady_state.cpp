@@ -63,9 +63,9 @@ SteadyState steady_state(const Parameters& parameters, double omega, const State
     spreads.push_back(spread());
   } while (periods() < most && spreads.back() > settings.settled);
 
-  /** The shown periods start with the cage at home, where it stood at t = 0, so that ball j
-      is the ball j of t = 0; a cage that needs more than `most_home` periods has no such
-      start within reach. */
+  /** The shown periods start with the cage at home, where it stood at t = 0, so that ball
+      j is the ball j of t = 0; a cage that needs more than `most_home` periods has no
+      such start within reach. */
   constexpr int most_home = 64;
   const auto cage_is_home = [&] {
     const double turns =

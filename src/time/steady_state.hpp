@@ -2,16 +2,17 @@
 # Steady state by time integration, and whether it is periodic
 
 Transients decay in seconds, not in periods, so they are counted in seconds (D-16). The
-motion is looked at once per period T (a Poincaré section); its spread is the largest distance
-between the section points of the last `window` seconds, over the largest displacement of
-the orbit. Integration ends when the spread falls below `settled`, or after `longest`
-seconds; the motion is then called periodic if the spread is below `periodic`, aperiodic
-(with period T) otherwise, and the periods that a scene shows are recorded from there on.
+motion is looked at once per period T (a Poincaré section); its spread is the largest
+distance between the section points of the last `window` seconds, over the largest
+displacement of the orbit. Integration ends when the spread falls below `settled`, or
+after `longest` seconds; the motion is then called periodic if the spread is below
+`periodic`, aperiodic (with period T) otherwise, and the periods that a scene shows are
+recorded from there on.
 
-Chaotic motion differs in every digit from processor to processor; only its averages are numbers of the
-machine. The spread of an aperiodic motion is therefore the mean over the windows of the second half of
-the integration, with its standard error; with `average`, over the windows of so many seconds
-more, which are recorded.
+Chaotic motion differs in every digit from processor to processor; only its averages are
+numbers of the machine. The spread of an aperiodic motion is therefore the mean over the
+windows of the second half of the integration, with its standard error; with `average`,
+over the windows of so many seconds more, which are recorded.
 */
 #pragma once
 
@@ -21,8 +22,8 @@ more, which are recorded.
 
 namespace rotor_stator {
 
-/** Relative. A chaotic motion is another one after so little a change of the speed, as it is on another processor;
-    no other motion changes visibly. */
+/** Relative. A chaotic motion is another one after so little a change of the speed, as it
+    is on another processor; no other motion changes visibly. */
 inline constexpr double other_rounding = 1e-11;
 
 struct SteadySettings {
