@@ -198,10 +198,9 @@ Defect read_defect(StrictToml& table, const Bearing& bearing)
   if (!is_ball) return defect;
   defect.ball = table.integer_or("ball", 1, bearing.balls, 1);
   if (bearing.cage_speed_ratio == 0.5)
-    table.fail(
-        "surface",
-        "\"ball\": with omega_cage/omega = 1/2 no ball of finite size turns about "
-        "itself");
+    table.fail("surface",
+               "\"ball\": with omega_cage/omega = 1/2 no ball of finite size turns about "
+               "itself");
   defect.spin = kinematic_orders(bearing).spin;
   return defect;
 }

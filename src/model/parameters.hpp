@@ -95,7 +95,8 @@ struct Parameters {
   std::vector<std::string> derived =
       {};         ///< lines for headers: what a catalogue's values gave
   int turns = 1;  ///< of the rotor in one base period, whose frequency ω is
-  /** Of the speed over `turns` ω; not 1 where the base frequency is that of passing balls. */
+  /** Of the speed over `turns` ω; not 1 where the base frequency is that of passing
+      balls. */
   double speed_ratio = 1;
   std::vector<Bearing> further = {};  ///< bearings beside the first, of a large machine
   std::shared_ptr<const Machine> machine = two_masses();  ///< the bodies
