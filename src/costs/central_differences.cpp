@@ -1,9 +1,7 @@
 #include "costs/central_differences.hpp"
 
-#include <algorithm>
-#include <cmath>
-
 #include "io/errors.hpp"
+#include "time/rk4.hpp"
 
 namespace rotor_stator::costs {
 
@@ -58,9 +56,8 @@ WIDEST_REGISTERS void kick_by_half(Leap& leap)
 CentralDifferences::CentralDifferences(const Parameters& parameters, double omega,
                                        int intervals, double longest_step)
     : system_(parameters, omega), turns_(Turns::of(parameters)), intervals_(intervals),
-      steps_(std::max(1, static_cast<int>(std::ceil(
-                             system_.period() / intervals / longest_step - 1e-9)))),
-      h_(system_.period() / intervals / steps_)
+      steps_(steps_in_interval(system_.period(), intervals, longest_step)),
+      h_(system_.period() / (static_cast<double>(intervals) * steps_))
 {
   if (!parameters.bearing.is_plain())
     throw BadInput("central: knows no contact damping and no defect");

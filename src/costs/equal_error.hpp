@@ -4,9 +4,10 @@
 All settings of the scene file are run once. Within a group of equal accuracy, where the
 cheaper ones come first, the search stops when a run costs clearly more than the cheapest
 that has reached every target; it ends once the method has used its time. From these runs
-come the error and the time of each setting at each speed, and from them a schedule: at
-each speed the cheapest setting that stays below the target there. The cheapest uniform
-settings and the schedule are then repeated, and the one with the least median is the row.
+come the error and the time of each setting at each speed, and from them a schedule: a
+setting that stays below the target at each speed, so that all speeds together, with what
+a change of setting costs, take the least time. The cheapest uniform settings and the
+schedule are then repeated, and the one with the least median is the row.
 */
 #pragma once
 

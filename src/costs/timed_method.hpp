@@ -162,8 +162,7 @@ double fitted_exponent(const std::vector<double>& x, const std::vector<double>& 
 /** For headers of tables: what is timed. */
 inline constexpr const char* what_is_timed =
     "timed: the whole solution on one thread, tables, start, transient or iteration; "
-    "Fourier "
-    "transforms are planned once in a process, in the first run that needs them; "
+    "Fourier transforms are planned once in a process, in the first run that needs them; "
     "writing the motion down is timed for none";
 
 }  // namespace rotor_stator::costs

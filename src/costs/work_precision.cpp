@@ -122,7 +122,7 @@ const std::vector<Field<Row>> work_precision_fields{
     {"start", "-",
      "nothing: static load or quasi-static contact; below: the motion below",
      [](auto& r) { return std::string(r.continued ? "below" : "nothing"); }},
-    {"method", "-", "aft: harmonic balance; rk4; GSL's; shooting- with one of them",
+    {"method", "-", "aft: harmonic balance; rk4; rk8; GSL's; shooting- with one of them",
      [](auto& r) { return r.schedule.method(); }},
     {"setting", "-", "m, N, tolerance, step [s], transient [s], closure",
      [](auto& r) { return r.schedule.text(); }},
@@ -169,8 +169,8 @@ Table work_precision_table(const WorkPrecisionScene& scene,
   table.note("below: the motion known is so many Hz below the speed");
   table.note(what_is_timed);
   table.note(format(
-      "reference: shooting by rk8, tolerance %g; agreement: with harmonic balance, m "
-      "= %d",
+      "reference: shooting by rk8, tolerance %g; agreement: with harmonic balance, m = "
+      "%d",
       scene.truth.tolerance, scene.reference_harmonics));
   for (const WorkCase& c : cases)
     table.row_line("case", {c.number, c.truth.frequency, one_word(c.parameters.file),

@@ -384,21 +384,18 @@ void note(Table& table, const Task& task)
   table.value("starts", task.request.starts);
   table.value("seed", task.request.seed);
   table.note(
-      "starts: at each speed from rest, from the motion at the speed below, from "
-      "that at the "
-      "speed above, and from random states");
+      "starts: at each speed from rest, from the motion at the speed below, from that at "
+      "the speed above, and from random states");
   table.note(
       "period: K up to 16 where the section closes; 0 where neighbours part, the "
-      "exponent "
-      "less 3 errors positive; -1 where they neither part nor come nearer, or come "
-      "nearer "
-      "and two frequencies drive; -2 undecided");
+      "exponent less 3 errors positive; -1 where they neither part nor come nearer, or "
+      "come nearer and two frequencies drive; -2 undecided");
   table.note(
       "lyapunov: ln of the largest multiplier of a closed motion over K; of others the "
       "growth of a neighbour's distance, mean over the starts");
   table.note(format(
-      "same motion: means and scatters within %g of the largest scatter if closed, "
-      "%g else",
+      "same motion: means and scatters within %g of the largest scatter if closed, %g "
+      "else",
       same_closed, same_open));
 }
 

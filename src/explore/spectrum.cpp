@@ -38,11 +38,9 @@ void note_names(Table& table, const motion::Lines& lines, bool has_means)
     if (!has_means) table.value(name, lines.mean[k++]);
   table.note(format("rows: amplitudes down to %g of the largest, largest first", least));
   table.note(
-      "name: sum of multiples of X (rotation), BPFO and BPFI with the smallest sum "
-      "of their "
-      "absolute values, BPFO and BPFI counted twice, then the fewest terms, then the "
-      "smallest "
-      "multiple of BPFI; else a multiple of FTF or BSF");
+      "name: sum of multiples of X (rotation), BPFO and BPFI with the smallest sum of "
+      "their absolute values, BPFO and BPFI counted twice, then the fewest terms, then "
+      "the smallest multiple of BPFI; else a multiple of FTF or BSF");
 }
 
 /** Those that harmonic balance or shooting have found, or read from the record. */

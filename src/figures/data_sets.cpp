@@ -38,8 +38,7 @@ const std::vector<Field<DataSet>> fields{
      [](Set s) { return s.speeds.joint; }},
     {"f_loss", "Hz",
      "closed form of the loss of contact: first speed at which gravity and unbalance "
-     "load "
-     "the rigid joint equally; -1 if none up to twice f_joint",
+     "load the rigid joint equally; -1 if none up to twice f_joint",
      [](Set s) { return s.speeds.loss; }},
     {"f_gravity", "Hz", "first speed above it from which gravity is the larger again",
      [](Set s) { return s.speeds.gravity_again; }}};

@@ -30,11 +30,9 @@ const std::vector<Field<PanelRow>>& panel_fields()
        "integration",
        [](auto& r) { return r.panel.shows_balance() ? 1 : 2; }},
       {"difference_rms", "-",
-       "rms difference of harmonic balance and time integration about their means, "
-       "over the "
-       "rms of the latter about its mean; where that is not periodic the mean over "
-       "windows "
-       "of a second; -1 without solution",
+       "rms difference of harmonic balance and time integration about their means, over "
+       "the rms of the latter about its mean; where that is not periodic the mean over "
+       "windows of a second; -1 without solution",
        [](auto& r) { return r.panel.rms_difference.value; }},
       {"difference_rms_error", "-", "standard error of difference_rms",
        [](auto& r) { return r.panel.rms_difference.error; }},

@@ -37,9 +37,8 @@ const std::vector<Field<Row>> fields{
     {"newton", "-", "Newton iterations, 0 for time integration", &Row::newton},
     {"spread", "-", "Poincare spread over the largest displacement", &Row::spread},
     {"periodic", "-",
-     "1 if the motion has the period of rotation; where 0, the amplitudes and the "
-     "share of "
-     "contact are means over single turns, the spread over windows of a second",
+     "1 if the motion has the period of rotation; where 0, the amplitudes and the share "
+     "of contact are means over single turns, the spread over windows of a second",
      &Row::periodic},
     {"spread_error", "-", "standard error of spread", &Row::spread_error},
     {"contact_error", "-", "standard error of contact", &Row::contact_error},

@@ -8,13 +8,9 @@
 
 namespace rotor_stator {
 
-namespace {
-
-constexpr double most_steps_per_period = 3e7;
-
-/** The fewest steps per output interval that are not longer than `longest_step` [s]. */
 int steps_in_interval(double period, int intervals, double longest_step)
 {
+  constexpr double most_steps_per_period = 3e7;
   const double steps = std::ceil(period / intervals / longest_step - 1e-9);
   if (!(steps * intervals <= most_steps_per_period))
     throw NoSolution(
@@ -22,8 +18,6 @@ int steps_in_interval(double period, int intervals, double longest_step)
                longest_step, period, most_steps_per_period));
   return std::max(1, static_cast<int>(steps));
 }
-
-}  // namespace
 
 Rk4::Rk4(const Parameters& parameters, double omega, int intervals, double longest_step,
          OperationBudget budget)
