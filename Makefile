@@ -4,7 +4,7 @@
 #   make deps test    the same, then the tests
 #   make list         every target with one line
 #
-# One name from scene to figure: data/scenes/NAME.toml -> src/NAME.cpp or studies/NAME.py -> data/generated/NAME.tsv ->
+# One name from scene to figure: data/scenes/NAME.toml -> src/NAME.cpp or studies/NAME.* -> data/generated/NAME.tsv ->
 # figures/NAME.gp or .py -> figures/generated/NAME.svg. `all` computes every scene that has one of these, unless
 # its table is kept in data/reference: then it is a long study, and is drawn from the kept table. The printed
 # reading of Table 1 (D-09) stands in as-printed/ below data/generated, data/reference and figures/generated.
@@ -66,7 +66,7 @@ else
 
 # What there is
 MAKEFLAGS += --no-builtin-rules
-programs := $(basename $(notdir $(wildcard src/*.cpp)))
+programs := $(basename $(notdir $(wildcard src/*.cpp studies/*.cpp)))
 scenes := $(basename $(notdir $(wildcard data/scenes/*.toml)))
 mapped := $(basename $(notdir $(wildcard studies/*.yaml)))
 scripted := $(filter $(scenes),$(basename $(notdir $(wildcard studies/*.py))))
@@ -95,7 +95,7 @@ studies := $(filter $(programs) tab02_equal_error_mean $(mapped) $(scripted),$(k
 unkept := $(filter-out $(kept),$(mapped))
 maps := $(filter-out $(basename $(notdir $(wildcard studies/*.py))),$(filter $(kept),$(mapped)))
 costs := $(filter tab02% work_precision cost_growth large map_scaling,$(studies))
-sources := $(shell find src data/bearings -type f) CMakeLists.txt CMakePresets.json
+sources := $(shell find src data/bearings -type f) $(wildcard studies/*.cpp studies/*/*.?pp) CMakeLists.txt CMakePresets.json
 
 shown := $(tables_printed) $(figures_printed)
 ifeq ($(READING),exchanged)

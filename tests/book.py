@@ -93,7 +93,7 @@ class Files(unittest.TestCase):
 
     def test_every_source_has_its_page_with_all_its_lines(self):
         """Only what stands in comments that became text is not shown with its line's number."""
-        for source in sorted(Path("src").rglob("*.?pp")):
+        for source in sorted(file for folder in ("src", "studies") for file in Path(folder).rglob("*.?pp")):
             text, lines = self.page("-".join(source.with_suffix("").parts[1:])), source.read_text(encoding="utf-8").split("\n")
             shown = set(map(int, re.findall(rf'id="{source.suffix[1:]}-(\d+)"', text)))
             comment = False

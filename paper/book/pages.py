@@ -14,7 +14,7 @@ from paper.include import read_values, render
 BOOK, SHOWN = (tomllib.loads(render(Path(f"paper/book/{name}.toml").read_text("utf-8"), read_values("data/generated/article.tsv"), name))
                for name in ("chapters", "figures"))
 PAGES = {page: [Path(file) for file in files] for page, files in BOOK["text"].items()}
-for source in sorted([*Path("src").rglob("*.?pp"), *Path("studies").glob("*.py")], reverse=True):  # x.hpp before x.cpp
+for source in sorted([*Path("src").rglob("*.?pp"), *Path("studies").rglob("*.?pp"), *Path("studies").glob("*.py")], reverse=True):  # x.hpp before x.cpp
     PAGES.setdefault("-".join(source.with_suffix("").parts[1:]), []).append(source)
 TEXTS = {file.name: page for page, files in PAGES.items() for file in files if file.suffix == ".md"}
 TEMPLATES = {file.stem: file.read_text("utf-8") for file in Path("paper/book").glob("*.md")}

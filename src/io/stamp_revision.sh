@@ -5,7 +5,7 @@
 revision=unknown
 if prefix=$(git rev-parse --show-prefix 2> /dev/null) && [ -z "$prefix" ]; then
   revision=$(git describe --always --abbrev=12 2> /dev/null) || revision=unknown
-  changes=$(git --no-optional-locks status --porcelain -- src data/bearings CMakeLists.txt CMakePresets.json)
+  changes=$(git --no-optional-locks status --porcelain -- src studies data/bearings CMakeLists.txt CMakePresets.json)
   [ -z "$changes" ] || revision=$revision-dirty
 fi
 printf '#define ROTOR_STATOR_REVISION "rotor_stator %s %s"\n#define ROTOR_STATOR_FLAGS "%s"\n' \
