@@ -36,7 +36,8 @@ struct Task {
   {
     return {.omega = angular(speeds[speed]),
             .points = motion_points,
-            .periods = section_points};
+            .periods = section_points,
+            .step_ratio = step_ratio(request.tolerance)};
   }
 };
 
@@ -378,7 +379,10 @@ void note(Table& table, const Task& task)
   describe(table, task.machine);
   const Machine& machine = *task.machine.machine;
   table.value("method", machine.time_method());
-  if (machine.takes_explicit_steps()) table.value("step", default_step(task.machine), 4);
+  if (machine.takes_explicit_steps())
+    table.value("step", step_ratio(task.request.tolerance) * default_step(task.machine),
+                4);
+  if (task.request.tolerance) table.value("tolerance", *task.request.tolerance);
   table.value("base", task.base.words());
   table.value("speeds", task.speeds.size());
   table.value("starts", task.request.starts);

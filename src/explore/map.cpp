@@ -24,7 +24,8 @@ void put_method(Table& table, const MapTask& task)
   table.value("method", request.method);
   if (request.method != "aft")
     return table.note(
-        format("longest step %g s (0: from K_H), transient at most %g s after t = 0",
+        format("longest step %g s (0: from K_H and --tolerance), transient at most %g s "
+               "after t = 0",
                request.step, request.longest));
   if (request.tolerance && !request.harmonics)
     return table.note("harmonics: chosen for the tolerance");

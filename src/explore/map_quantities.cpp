@@ -131,6 +131,7 @@ public:
              .tolerance = is_balance() ? std::nullopt : asked.tolerance,
              .periods = recorded_periods,
              .step = asked.step,
+             .step_ratio = step_ratio(is_balance() ? std::nullopt : asked.tolerance),
              .longest = asked.longest},
             budget_,
             {},

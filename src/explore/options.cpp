@@ -251,10 +251,9 @@ Check add_options(CLI::App& command, ResponseRequest& request)
   aft.push_back(add_subharmonic(command, request));
   CLI::Option* tolerance =
       add_number(command, "--tolerance", request.tolerance, 1e-8, 0.1,
-                 "of --method aft: relative error of each solution, at evenly spaced "
-                 "speeds instead of along the branch; with two frequencies, of the five "
-                 "solutions that choose the harmonics");
-  aft.push_back(tolerance);
+                 "relative error; chooses the step of integration. With --method aft of "
+                 "each solution, at evenly spaced speeds instead of along the branch; "
+                 "with two frequencies, of the five that choose the harmonics");
   CLI::Option* count = add_number(command, "--count", request.count, 1, 100000,
                                   "speeds, evenly spaced (101; 21 of large bodies)");
   add_speeds(command, request.from, request.to);
@@ -303,7 +302,6 @@ Check add_options(CLI::App& command, ResponseRequest& request)
       for (const CLI::Option* option : options)
         if (is_sweep && is_given(option)) throw BadInput(option->get_name() + instead);
     };
-    refuse_in_sweep({tolerance}, ": is of solutions; give --method aft too");
     refuse_in_sweep(aft,
                     ": is of a branch of solutions; give --harmonics M or "
                     "--restart FILE too");
@@ -312,6 +310,7 @@ Check add_options(CLI::App& command, ResponseRequest& request)
                     "shooting or --restart FILE too");
     refuse(aft, method == "aft", "for --method aft", method);
     refuse({restart}, method == "aft", "for --method aft", method);
+    refuse({tolerance}, method != "shooting", "for --method auto or aft", method);
     refuse(sweep, is_sweep, "for a sweep, without --method", method);
     if (is_given(count) && !is_sweep && !is_given(tolerance))
       throw BadInput(
@@ -331,6 +330,8 @@ Check add_options(CLI::App& command, AttractorsRequest& request)
   add_number(command, "--starts", request.starts, 0, 1000,
              "random states to start from at each speed");
   add_number(command, "--seed", request.seed, 0, largest_seed, "of the random states");
+  add_number(command, "--tolerance", request.tolerance, 1e-8, 0.1,
+             "relative error; chooses the step of integration");
   command.add_option("--section", request.section,
                      "file for the points of the Poincare sections");
   command.add_option("--motions", request.motions,
@@ -363,7 +364,7 @@ Check add_options(CLI::App& command, MapRequest& request)
   command.add_option("--method", request.method, methods_in_words(false))
       ->capture_default_str();
   add_number(command, "--tolerance", request.tolerance, 1e-8, 0.1,
-             "relative error; with --method aft m is chosen for it");
+             "relative error; chooses the step of integration, with --method aft m");
   const TimeOptions in_time(command, request.step, request.longest);
   add_number(command, "--threads", request.threads, 1, 1024,
              "lines at a time (default: OMP_NUM_THREADS, or all cores)");

@@ -236,6 +236,7 @@ Exploration settled_response(const ResponseRequest& request)
   sweep.table.value("kind", "sweep");
   sweep.table.value("base", base_period(machine).words());
   sweep.table.value("direction", direction);
+  if (request.tolerance) sweep.table.value("tolerance", *request.tolerance);
   sweep.table.value("speeds", sweep.speeds.size());
   sweep.table.note(
       "amplitudes over the K base periods of a motion that closes, over 256 of "
@@ -248,6 +249,7 @@ Exploration settled_response(const ResponseRequest& request)
       questions.push_back({machine,
                            {.omega = angular(speeds[k]),
                             .periods = 64,
+                            .step_ratio = step_ratio(request.tolerance),
                             .longest = request.longest,
                             .is_measured = false},
                            budgets[k],

@@ -28,6 +28,12 @@ int Answer::period_number() const
 
 namespace {
 
+/** The longest step of rk4 [s]. */
+double step_of(const Request& request, const Parameters& machine, double omega)
+{
+  return request.step > 0 ? request.step : request.step_ratio * step_at(machine, omega);
+}
+
 /** All of a record as one period: what differences are taken over. */
 Motion as_one_period(Motion motion)
 {
@@ -132,8 +138,7 @@ public:
   {
     const auto stepper = [&](int intervals) {
       const bool has_step = request_.method == "auto" || request_.method == "rk4";
-      const double step =
-          request_.step > 0 ? request_.step : step_at(answer_.machine, answer_.omega);
+      const double step = step_of(request_, answer_.machine, answer_.omega);
       return flow(answer_.machine, answer_.omega,
                   {.method = has_step ? "rk4" : request_.method,
                    .intervals_per_period = intervals,
@@ -217,7 +222,8 @@ static std::unique_ptr<Settling> settling(const Question& question, const Answer
   if (question.start) first.state = *question.start;
   return std::make_unique<Settling>(
       at.machine, at.omega, at.base, first,
-      SettleRule{.step = question.request.step, .longest = question.request.longest},
+      SettleRule{.step = step_of(question.request, at.machine, at.omega),
+                 .longest = question.request.longest},
       question.transient < 1 ? question.budget.part(question.transient)
                              : question.budget);
 }
@@ -317,16 +323,17 @@ namespace {
 /** One motion while it is observed. */
 class Observing : public Traveller {
 public:
-  Observing(const Answer& answer, const OperationBudget& budget)
+  Observing(const Answer& answer, double step, const OperationBudget& budget)
       : is_closed_(answer.period() > 0 || answer.kind() == Kind::rest),
         count_(is_closed_ ? std::max(1, answer.period()) : observed),
         period_(2 * std::numbers::pi / answer.omega),
-        intervals_(static_cast<int>(
-            std::clamp(std::ceil(period_ / (2 * step_at(answer.machine, answer.omega))),
-                       192.0, 1e6))),
-        flow_(flow(
-            answer.machine, answer.omega,
-            {.method = "rk4", .intervals_per_period = intervals_, .budget = budget})),
+        intervals_(
+            static_cast<int>(std::clamp(std::ceil(period_ / (2 * step)), 64.0, 1e6))),
+        flow_(flow(answer.machine, answer.omega,
+                   {.method = "rk4",
+                    .intervals_per_period = intervals_,
+                    .step = step,
+                    .budget = budget})),
         state_(answer.settled.at.state), before_(state_),
         origin_(displacements(state_.position)), at_(answer.settled.at.period)
   {
@@ -417,7 +424,9 @@ std::vector<Observed> observed_answers(std::span<const Question> questions)
   std::vector<Attempt<std::unique_ptr<Observing>>> observings;
   for (std::size_t k = 0; k < questions.size(); ++k)
     observings.push_back(attempt([&] {
-      return std::make_unique<Observing>(answers[k].get(), questions[k].budget);
+      const Answer& at = answers[k].get();
+      return std::make_unique<Observing>(
+          at, step_of(questions[k].request, at.machine, at.omega), questions[k].budget);
     }));
   travel(observings);
   std::vector<Observed> all;
@@ -429,7 +438,7 @@ std::vector<Observed> observed_answers(std::span<const Question> questions)
 
 Observation observe(const Answer& answer, const OperationBudget& budget)
 {
-  Observing one(answer, budget);
+  Observing one(answer, step_at(answer.machine, answer.omega), budget);
   travel(std::vector<Traveller*>{&one});
   return one.seen();
 }

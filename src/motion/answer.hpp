@@ -31,7 +31,8 @@ struct Request {
   std::optional<double> tolerance = {};  ///< of the error, largest and rms [-]
   int points = 256;                      ///< P, of a base period
   int periods = 1;             ///< recorded of a motion that is not closed, at least K
-  double step = 0;             ///< longest of rk4 [s]; 0: `default_step`
+  double step = 0;             ///< longest of rk4 [s]; 0: `step_at`
+  double step_ratio = 1;       ///< then: so many times as long
   double local_error = 1e-11;  ///< of shooting and of steppers with error control
   double longest = 0;          ///< 0: as settle chooses; transient after t = 0 [s]
   bool is_measured = true;     ///< whether error and stability are wanted

@@ -40,6 +40,11 @@ double default_step(const Parameters& parameters)
   return rate > 0 ? std::min(contact, 0.5 / rate) : contact;
 }
 
+double step_ratio(std::optional<double> tolerance)
+{
+  return std::clamp(std::pow(tolerance.value_or(0) / 1e-6, 0.25), 1.0, 2.0);
+}
+
 double evaluation_price(const Parameters& parameters, const std::string& method)
 {
   if (method == "rk4") return 1;

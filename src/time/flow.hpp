@@ -12,6 +12,7 @@ it have negative numbers.
 #pragma once
 
 #include <memory>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -70,5 +71,12 @@ inline double step_at(const Parameters& parameters, double omega)
 {
   return parameters.machine->step(parameters, omega);
 }
+
+/** How many times longer than `step_at` the steps of rk4 may be where a relative error of
+    `tolerance` in a settled displacement is enough: `step_at` keeps it near 1e-6, and the
+    error grows with the fourth power. At most 2, twenty steps in a vibration of the
+    contact: each takes (ω h)⁶/144 of its amplitude, with ten some 8 % in a turn, enough
+    to settle on an unstable motion. */
+double step_ratio(std::optional<double> tolerance);
 
 }  // namespace rotor_stator

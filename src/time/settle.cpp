@@ -72,14 +72,16 @@ constexpr double forgotten = -20.7;  ///< ln 1e-9
 constexpr double nearer = -16.1;     ///< ln 1e-7
 
 /** From `start`; the neighbour is pulled back at least once in 60 rad of the contact's
-    vibration. */
+    vibration; short base periods are cut into fewer intervals. */
 TrajectoryPair pair_from(const Parameters& machine, double omega, const Instant& start,
                          double step, const OperationBudget& budget)
 {
-  constexpr double longest_phase = 60;
+  constexpr double longest_phase = 60, steps_of_interval = 8;
   const double period = 2 * std::numbers::pi / omega;
   const double least = std::ceil(period * contact_frequency(machine) / longest_phase);
-  const int intervals = std::max(16, static_cast<int>(least));
+  const double usual =
+      std::clamp(std::ceil(period / (steps_of_interval * step)), 4.0, 16.0);
+  const int intervals = static_cast<int>(std::max(usual, least));
   return {flow(machine, omega,
                {.method = "rk4",
                 .intervals_per_period = intervals,
@@ -98,12 +100,13 @@ double least_seconds(const Parameters& machine, double omega, int most_period)
                          most_period * turn / omega}));
 }
 
-/** Sixty seconds, or those in which the slowest linear mode decays to e^-40, at most a
-    thousand. */
-SettleRule with_longest(SettleRule rule, const Parameters& machine)
+/** With what the rule leaves open. The longest time is sixty seconds, or those in which
+    the slowest linear mode decays to e^-40, at most a thousand. */
+SettleRule filled(SettleRule rule, const Parameters& machine, double omega)
 {
-  if (rule.longest > 0) return rule;
-  rule.longest = std::clamp(40 / slowest_mode(machine).decay, 60.0, 1000.0);
+  if (rule.step == 0) rule.step = step_at(machine, omega);
+  if (rule.longest == 0)
+    rule.longest = std::clamp(40 / slowest_mode(machine).decay, 60.0, 1000.0);
   return rule;
 }
 
@@ -112,10 +115,10 @@ SettleRule with_longest(SettleRule rule, const Parameters& machine)
 Settling::Settling(const Parameters& machine, double omega, const BasePeriod& base,
                    const Instant& start, const SettleRule& rule,
                    const OperationBudget& budget)
-    : machine_(machine), omega_(omega), base_(base), rule_(with_longest(rule, machine)),
+    : machine_(machine), omega_(omega), base_(base), rule_(filled(rule, machine, omega)),
       budget_(budget), length_(scales(machine).length),
       least_(least_seconds(machine, omega, rule.most_period)),
-      pair_(pair_from(machine, omega, start, rule.step, budget))
+      pair_(pair_from(machine, omega, start, rule_.step, budget))
 {
 }
 
@@ -147,7 +150,7 @@ void Settling::look()
   settled_ = seen();
   if (began_ < 0) began_ = pair_.seconds();
   if (settled_.kind == Kind::undecided && pair_.seconds() - began_ < rule_.longest) {
-    periods_ = std::max<std::size_t>(16, pair_.growths().size() / 8);
+    periods_ = std::max<std::size_t>(4, pair_.growths().size() / 8);
     return;
   }
   settled_.evaluations = pair_.evaluations();
@@ -208,19 +211,14 @@ bool Settling::is_at_rest() const
 bool Settling::closes(Settled& s) const
 {
   const auto& all = pair_.section();
-  constexpr long fewest = 4;
-  if (std::ssize(all) < fewest) return false;
-  const auto window = std::min<long>(std::ssize(all), 3L * rule_.most_period + 1);
   const double size = std::max(pair_.half_range(), 1e-9 * length_);
-  const auto closing =
-      closing_period(std::span(all).last(static_cast<std::size_t>(window)),
-                     rule_.closed * size, rule_.most_period);
   /** Where neighbours come nearer slowly, the motion is farther away than two points of
       its section are apart. */
   const double nearer_by = -std::expm1(std::min(0.0, s.lyapunov.value) * pair_.period());
-  if (!(closing.spread < rule_.closed * size * std::max(1e-3, nearer_by))) return false;
+  const double closed = rule_.closed * size * std::max(1e-3, nearer_by);
+  s.period = closing_period(all, closed, rule_.most_period);
+  if (s.period == 0) return false;
   s.kind = Kind::periodic;
-  s.period = closing.period;
   s.before.period -= s.at.period;
   s.at.period = 0;
   return true;

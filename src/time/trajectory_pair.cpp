@@ -115,16 +115,15 @@ double extent(std::span<const Displacements> section, std::size_t apart)
   return widest;
 }
 
-ClosingPeriod closing_period(std::span<const Displacements> section, double closed,
-                             int most_period)
+int closing_period(std::span<const Displacements> section, double closed, int most_period)
 {
-  ClosingPeriod best{1, extent(section)};
-  const int most = std::min(most_period, static_cast<int>(section.size()) / 3);
-  for (int k = 2; k <= most && !(best.spread < closed); ++k) {
-    const double spread = extent(section, static_cast<std::size_t>(k));
-    if (spread < best.spread) best = {k, spread};
+  constexpr std::size_t fewest = 9;
+  for (std::size_t k = 1; k <= static_cast<std::size_t>(most_period); ++k) {
+    const std::size_t window = std::max(fewest, 3 * k + 1);
+    if (section.size() < window) break;
+    if (extent(section.last(window), k) < closed) return static_cast<int>(k);
   }
-  return best;
+  return 0;
 }
 
 }  // namespace rotor_stator

@@ -102,14 +102,10 @@ private:
     points apart; of any two points by default [m]. */
 double extent(std::span<const Displacements> section, std::size_t apart = 0);
 
-/** The number K of base periods after which a section closes best, and its spread: the
-    largest distance of points K apart. The first K whose spread is below `closed` [m];
-    only those that the section holds three times are tried. */
-struct ClosingPeriod {
-  int period;
-  double spread;  ///< [m]
-};
-ClosingPeriod closing_period(std::span<const Displacements> section, double closed,
-                             int most_period);
+/** The fewest base periods K after which a section closes: of its last 3K + 1
+    points, at least nine, those K apart are nearer than `closed` [m]. 0: none up to
+    `most_period`. */
+int closing_period(std::span<const Displacements> section, double closed,
+                   int most_period);
 
 }  // namespace rotor_stator

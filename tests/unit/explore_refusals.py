@@ -100,7 +100,7 @@ class Values(Case):
                 ("--from 1 --to 2 --tolerance 1e-3 --count 0", "--count 0"), ("--from 1 --to 2 --count 0", "--count 0"),
                 ("--from 1 --to 2 --harmonics 6 --count 5", "--count: of a branch needs --tolerance"),
                 ("--from 1 --to 2 --method shooting --count 5", "--count: of a branch needs --tolerance"),
-                ("--from 1 --to 2 --tolerance 1e-3 --method shooting", "--tolerance: is for --method aft"),
+                ("--from 1 --to 2 --tolerance 1e-3 --method shooting", "--tolerance: is for --method auto or aft"),
                 ("--from 1 --to 2 --restart no/such/file", "no such file"),
                 ("--from 1 --to 2 --restart .", "is a directory"),
                 ("--from 1 --to 2 --restart /dev/zero", "is no regular file"),
@@ -314,7 +314,8 @@ class Options(Case):
             with self.subTest("response " + option):
                 self.refused(f"{option.split()[0]}: is of a branch of solutions; give --harmonics M", "response", self.machine,
                              *RESPONSE, *option.split())
-        self.refused("--tolerance: is of solutions; give --method aft too", "response", self.machine, *RESPONSE, "--tolerance", 1e-3)
+        self.refused("--tolerance: is for --method auto or aft", "response", self.machine, *RESPONSE, "--method", "shooting",
+                     "--tolerance", 1e-3)
         for method in ["aft", "shooting"]:
             for option in ["--longest 3", "--resume a"]:
                 with self.subTest(f"response {method} {option}"):

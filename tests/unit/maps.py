@@ -119,6 +119,24 @@ class Values(Case):
             np.testing.assert_allclose(time_method[name][::2], balance[name], rtol=most)
         self.assertEqual(time_method["status"][1], "ok")
 
+    def test_a_tolerance_takes_longer_steps(self):
+        """Response, map and attractors at the same speeds: within the tolerance of the motions without one, for fewer evaluations.
+        Would catch a tolerance that nothing reads, and steps that are too long for it: with four times the step the
+        doubled motion at 54 Hz is damped into the unstable one of a single turn."""
+        speeds, range_of = "frequency=42:58:5", ["--from", 42, "--to", 58, "--count", 5]
+        exact = self.table("response", self.machine, *range_of)
+        self.assertTrue((exact["period"] > 0).all())
+        for tolerance, least in ((1e-3, 1.8), (1e-5, 1.5)):
+            fast = self.table("response", self.machine, *range_of, "--tolerance", tolerance)
+            self.assertGreater(exact.value("evaluations") / fast.value("evaluations"), least)
+            self.assertTrue((fast["amp_x_r"] != exact["amp_x_r"]).any())
+            amplitudes = [fast["amp_x_r"], self.table("map", self.machine, "--x", speeds, "--quantity", "amplitude",
+                                                      "--tolerance", tolerance)["amplitude"],
+                          self.table("attractors", self.machine, *range_of, "--starts", 0, "--tolerance", tolerance)["amp_x_r"]]
+            np.testing.assert_array_equal(fast["period"], exact["period"])
+            for found in amplitudes:
+                np.testing.assert_allclose(found, exact["amp_x_r"], rtol=tolerance)
+
     def test_chosen_harmonics_and_error(self):
         table = self.table("map", self.machine, "--y", "frequency=30:45:2", "--method", "aft", "--tolerance", 1e-3,
                            "--quantity", "harmonics,error")
