@@ -104,7 +104,9 @@ double least_seconds(const Parameters& machine, double omega, int most_period)
     the slowest linear mode decays to e^-40, at most a thousand. */
 SettleRule filled(SettleRule rule, const Parameters& machine, double omega)
 {
+  constexpr double least_steps = 32;  // of a base period
   if (rule.step == 0) rule.step = step_at(machine, omega);
+  rule.step = std::min(rule.step, 2 * std::numbers::pi / omega / least_steps);
   if (rule.longest == 0)
     rule.longest = std::clamp(40 / slowest_mode(machine).decay, 60.0, 1000.0);
   return rule;
@@ -161,6 +163,13 @@ void Settling::look()
     has_ended_ = true;
 }
 
+/** What steps of RK4 change in a growth rate [1/s] of what turns with the base period. */
+static double error_of_rate(double step, double period)
+{
+  const double angle = 2 * std::numbers::pi * step / period;
+  return std::pow(angle, 5) / 120 / step;
+}
+
 /** What the pair says of the motion so far. */
 Settled Settling::seen() const
 {
@@ -169,7 +178,8 @@ Settled Settling::seen() const
   s.remainder = std::exp(std::max(-700.0, pair.contraction()));
   s.amplitude = pair.half_range();
   s.seconds = pair.seconds();
-  const double rate = s.lyapunov.value, doubt = 3 * s.lyapunov.error;
+  const double rate = s.lyapunov.value,
+               doubt = 3 * s.lyapunov.error + error_of_rate(rule_.step, pair.period());
   s.contracts = rate + doubt < 0;
   if (is_at_rest()) {
     s.kind = Kind::rest;
