@@ -1,5 +1,5 @@
 """One version everywhere: that of CMakeLists.txt in CITATION.cff, codemeta.json, CHANGELOG.md and the
-headers of all computed tables. A kept table may be of an earlier version, but must name one or the
+headers of all computed tables; every scene in data/tables.mk. A kept table may be of an earlier version, but must name one or the
 revision that computed it.
 
 Usage: tests/versions.py   (from the project's root, after `make all`)
@@ -37,6 +37,9 @@ def main():
               for file, other in versions() if other != version]
     faults += [f"{table}: no revision" for table in sorted(KEPT.glob("*.tsv"))
                if not found(r"^# source: (\S+)", table)]
+    listed = Path("data/tables.mk").read_text(encoding="utf-8").split()
+    faults += [f"{scene}: not in data/tables.mk" for scene in sorted(Path("data/scenes").glob("*.toml"))
+               if scene.stem not in listed]
     for fault in faults:
         print(fault, file=sys.stderr)
     print(f"version {version}, {len(computed())} tables, {len(faults)} faults")
