@@ -74,8 +74,14 @@ FoundMotion settled_motion(const Parameters& parameters, const MotionRequest& re
                                                budget);
   put_answer(table, answer);
   FoundMotion found{.motion = answer.motion, .machine = answer.machine};
-  found.has_statistics = answer.kind() == Kind::chaotic;
-  if (found.has_statistics) put_statistics(table, observe(answer, budget));
+  if (answer.kind() == Kind::chaotic) {
+    auto seen = attempt([&] { return observe(answer, budget); });
+    found.has_statistics = seen.has_value();
+    if (seen.has_value())
+      put_statistics(table, seen.get());
+    else
+      table.note("mean, rms and amplitude need more than the budget");
+  }
   found.base_frequency = answer.omega / angular(1);
   found.turns_of_period = 1 / answer.base.per_turn;
   if (answer.method == "shooting") {
