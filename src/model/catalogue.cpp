@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <numbers>
+#include <regex>
 
 #include "io/errors.hpp"
 #include "model/bearing_catalogue.hpp"
@@ -22,11 +23,52 @@ std::vector<StrictToml> catalogue(const std::string& key)
   return StrictToml("deep_groove.toml", bearing_catalogue).tables(key);
 }
 
+/** A designation as people write it, "SKF 6205-2RS1/C3": what is looked up, the class of
+    clearance, and the rest, which says nothing of balls and clearance. */
+struct Designation {
+  std::string basic, clearance, unused;
+};
+
+/** Throws BadInput for other kinds of bearings, by the reason and the way round. */
+Designation read_designation(StrictToml& table)
+{
+  const std::string text = table.string(designation_key);
+  std::smatch part;
+  static const std::regex whole(R"(((?:[A-Z]+ +)*)([A-Z]*)(\d+(?:/\d\d)?)(?!\d)(.*))",
+                                std::regex::icase);
+  if (!std::regex_match(text, part, whole))
+    table.fail(designation_key, "\"" + text + "\" holds no number such as 6205");
+  const std::string prefix = part[2], basic = part[3];
+  const auto refuse = [&](const std::string& kind, const std::string& instead) {
+    table.fail(designation_key, "\"" + text + "\" is " + kind +
+                                    "; designations are of deep groove ball bearings: "
+                                    "give " +
+                                    instead + " instead");
+  };
+  static const std::regex rollers("R?NU?[JPB]?|RNU", std::regex::icase);
+  if (std::regex_match(prefix, rollers))
+    refuse("a cylindrical roller bearing", "balls, cage_speed_ratio and clearance");
+  if (prefix.empty() && basic.size() == 4 && basic[0] == '7')
+    refuse("an angular contact ball bearing", "balls, diameters and contact_angle_deg");
+  Designation found{prefix + basic, "", part[1]};
+  const std::string tail = part[4];
+  static const std::regex word("[A-Z0-9.+]+", std::regex::icase);
+  static const std::regex clearance("[Cc]([02345Nn])(?:[A-Z]{2}.*)?|P[56]([2-5])");
+  for (std::sregex_iterator at(tail.begin(), tail.end(), word), end; at != end; ++at) {
+    const std::string code = at->str();
+    if (std::regex_match(code, part, clearance))
+      found.clearance = "C" + part[1].str() + part[2].str();
+    else
+      found.unused +=
+          (found.unused.empty() || found.unused.back() == ' ' ? "" : " ") + code;
+  }
+  return found;
+}
+
 /** The entry of a designation. Throws BadInput, with all that there are, for one that is
     not there. */
-StrictToml entry_of(StrictToml& table)
+StrictToml entry_of(StrictToml& table, const std::string& wanted)
 {
-  const std::string wanted = table.string(designation_key);
   std::string there;
   for (StrictToml& entry : catalogue("bearing")) {
     const std::string designation = entry.string(designation_key);
@@ -83,24 +125,45 @@ Diameters read_cage(StrictToml& table, StrictToml& source, Bearing& bearing)
 }
 
 /** The range of a class of clearance [m], on the diameter, for a bore. */
-std::vector<double> clearance_range(StrictToml& table, double bore)
+std::vector<double> clearance_range(StrictToml& table, const std::string& wanted,
+                                    double bore)
 {
-  const std::string wanted = table.string("internal_clearance");
-  if (wanted != "C2" && wanted != "CN" && wanted != "C3" && wanted != "C4")
-    table.fail("internal_clearance",
-               "\"" + wanted + "\": must be C2, CN (normal), C3 or C4");
   for (StrictToml& range : catalogue("clearance"))
     if (bore > range.number("above_m", Range::positive) &&
         bore <= range.number("up_to_m", Range::positive))
       return range.numbers(wanted, Range::not_negative);
-  table.fail("internal_clearance", format("is not known for a bore of %g m", bore));
+  table.fail(designation_key,
+             format("has no %s for a bore of %g m", wanted.c_str(), bore));
+}
+
+/** The class of clearance, by the key or by the designation, C0 being CN. */
+std::string clearance_class(StrictToml& table, const std::string& by_designation)
+{
+  const auto normal = [](const std::string& name) { return name == "C0" ? "CN" : name; };
+  constexpr const char* key = "internal_clearance";
+  if (!table.has(key)) return normal(by_designation);
+  const std::string given = table.string(key);
+  static const std::regex known("C[02345N]");
+  if (!std::regex_match(given, known))
+    table.fail(key, "\"" + given + "\": must be C2, CN or C0 (normal), C3, C4 or C5");
+  if (!by_designation.empty() && normal(by_designation) != normal(given))
+    table.fail(key,
+               "\"" + given + "\" contradicts " + by_designation + " of designation");
+  return normal(given);
 }
 
 double read_clearance(StrictToml& table, StrictToml& source,
+                      const std::string& by_designation,
                       std::vector<std::string>& derived)
 {
-  const std::size_t way = table.way(
-      {{"radial_clearance_m"}, {"diametral_clearance_m"}, {"internal_clearance"}});
+  const std::vector<std::vector<std::string>> ways{
+      {"radial_clearance_m"}, {"diametral_clearance_m"}, {"internal_clearance"}};
+  const bool is_given =
+      std::ranges::any_of(ways, [&](const auto& keys) { return table.has(keys[0]); });
+  const std::size_t way = is_given || by_designation.empty() ? table.way(ways) : 2;
+  if (way < 2 && !by_designation.empty())
+    table.fail(ways[way][0], "and " + by_designation +
+                                 " of designation are both given; give one of them");
   if (way == 0) return table.number("radial_clearance_m", Range::not_negative);
   if (way == 1) {
     const double diametral = table.number("diametral_clearance_m", Range::not_negative);
@@ -112,11 +175,13 @@ double read_clearance(StrictToml& table, StrictToml& source,
     table.fail("internal_clearance",
                "needs designation, which gives the bore; without it give "
                "diametral_clearance_m");
-  const auto range = clearance_range(table, source.number("bore_m", Range::positive));
+  const std::string wanted = clearance_class(table, by_designation);
+  const auto range =
+      clearance_range(table, wanted, source.number("bore_m", Range::positive));
   derived.push_back(
       format("clearance: %s, %g to %g um on the diameter unmounted (ISO 5753-1), "
              "delta is half of the middle",
-             table.string("internal_clearance").c_str(), 1e6 * range[0], 1e6 * range[1]));
+             wanted.c_str(), 1e6 * range[0], 1e6 * range[1]));
   return (range[0] + range[1]) / 4;
 }
 
@@ -220,24 +285,26 @@ Bearing read_bearing(StrictToml& table, std::vector<std::string>& derived)
 {
   Bearing bearing{};
   const bool has_count = table.way({{"balls"}, {designation_key}}) == 0;
-  StrictToml source = has_count ? table : entry_of(table);
+  const Designation name = has_count ? Designation{} : read_designation(table);
+  StrictToml source = has_count ? table : entry_of(table, name.basic);
   bearing.balls = source.integer("balls", 1, most_balls);
   const Diameters diameters = read_cage(table, source, bearing);
   bearing.ball_diameter = diameters.ball;
   bearing.contact_stiffness =
       read_stiffness(table, source, diameters, bearing.pressure, derived);
-  bearing.clearance = read_clearance(table, source, derived);
+  bearing.clearance = read_clearance(table, source, name.clearance, derived);
   bearing.damping = table.number_or("contact_damping_s_per_m", Range::not_negative, 0);
   if (table.has("defect")) {
     StrictToml defect = table.table("defect");
     bearing.defect = read_defect(defect, bearing);
   }
   if (!has_count || table.has("ball_diameter_m"))
-    derived.insert(
-        derived.begin(),
-        format("%s: D = %.15g m, d_m = %.15g m",
-               has_count ? "dimensions" : table.string(designation_key).c_str(),
-               diameters.ball, diameters.pitch));
+    derived.insert(derived.begin(),
+                   format("%s: D = %.15g m, d_m = %.15g m",
+                          has_count ? "dimensions" : name.basic.c_str(), diameters.ball,
+                          diameters.pitch) +
+                       (has_count ? "" : "; geometry: " + source.string("source")) +
+                       (name.unused.empty() ? "" : "; not used: " + name.unused));
   return bearing;
 }
 

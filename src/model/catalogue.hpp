@@ -17,7 +17,8 @@ Two things may be added: `contact_damping_s_per_m`, and a table `defect` with `s
 ("outer_race", "inner_race" or "ball"), `depth_m`, `width_rad`, the place `angle_rad` of
 its middle, and for a ball its number `ball`.
 
-Designations and classes of clearance are those of data/bearings/deep_groove.toml. */
+Designations and classes of clearance are those of data/bearings/deep_groove.toml. Maker,
+seals and cage may stand in a designation; the class of clearance in it counts. */
 #pragma once
 
 #include <string>
