@@ -1,10 +1,10 @@
 /**
 # Parameters of the rotor, the stator and their bearing
 
-One TOML file describes one machine, in SI units named in each key. Every key is required
-unless said otherwise, an unknown key is an error, and every value is checked when it is
-read, so that the programs below never meet a machine that cannot exist. The bearing's
-keys are in model/catalogue.hpp. */
+One TOML file describes one machine, in the units named in each key, SI or those of
+`units` (io/toml_file.cpp). Every key is required unless said otherwise, an unknown key is
+an error, and every value is checked when it is read, so that the programs below never
+meet a machine that cannot exist. The bearing's keys are in model/catalogue.hpp. */
 #pragma once
 
 #include <functional>

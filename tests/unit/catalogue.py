@@ -3,6 +3,7 @@ give, and what is refused.
 
 Usage: tests/unit/catalogue.py   (from the project's root)
 """
+import math
 import re
 import sys
 import tomllib
@@ -153,6 +154,45 @@ class Catalogue(Case):
                 (C3.replace("6205", "SKF"), "holds no number such as 6205")]:
             with self.subTest(words):
                 self.refused_machine(words, machine(bearing))
+
+    def test_keys_in_other_units(self):
+        """The same orbit, digit by digit, from keys in the units of the workshop; both units, or a length that is no
+        length, are refused; a map sets the key in either unit."""
+        def values(text, *extra):
+            return self.rows("orbit", self.file("own.toml", text), "--frequency", 45, "--harmonics", 6, *extra)
+        expected = values(MACHINE.replace("natural_frequency_rad_per_s = 500.0",
+                                          f"natural_frequency_rad_per_s = {160 * math.pi!r}"))
+        other = MACHINE.replace("natural_frequency_rad_per_s = 500.0", "natural_frequency_Hz = 80")
+        self.assertEqual(values(other), expected)
+        self.assertEqual(values(other.replace("frequency_Hz = 80", "frequency_rpm = 4800")), expected)
+        for mine in ["radial_clearance_um = 20", "radial_clearance_mm = 0.02"]:
+            self.assertEqual(values(other.replace("radial_clearance_m = 2e-5", mine)), expected)
+        self.assertEqual(values(other.replace("unbalance_kg_m = 0.05", "unbalance_g_mm = 50000")), expected)
+        mm = BY_HAND.replace("ball_diameter_m = 0.00794", "ball_diameter_mm = 7.94").replace(
+            "youngs_modulus_Pa = 2.07e11", "youngs_modulus_GPa = 207")
+        keys = ["contact_stiffness", "clearance", "cage_speed_ratio"]
+        self.assertEqual(self.values(mm, *keys), self.values(BY_HAND, *keys))
+        self.assertEqual(self.values(mm.replace("GPa = 207", "MPa = 207000"), *keys), self.values(BY_HAND, *keys))
+        for old, new, words in [
+                ("radial_clearance_m = 2e-5", "radial_clearance_m = 2e-5\nradial_clearance_um = 20",
+                 "bearing.radial_clearance_um and radial_clearance_m are both given"),
+                ("radial_clearance_m = 2e-5", "radial_clearance_um = -20", "bearing.radial_clearance_um must be >= 0, got -20"),
+                ("radial_clearance_m = 2e-5", "radial_clearnce_um = 20", "did you mean radial_clearance_m?"),
+                ("damping_ratio = 0.05", "damping_N_s_per_mm = 5", "damping_ratio is missing")]:
+            self.refused_change(old, new, words)
+        maps = [[row.split("\t")[-1] for row in self.rows("map", self.file("own.toml", text), "--x", axis, "--frequency", 45,
+                                                           "--harmonics", 6, "--quantity", "amplitude")]
+                for text in [MACHINE, MACHINE.replace("radial_clearance_m = 2e-5", "radial_clearance_um = 20")]
+                for axis in ["bearing.radial_clearance_m=1e-5:2e-5:2", "bearing.radial_clearance_um=10:20:2"]]
+        self.assertEqual(maps, maps[:1] * 4)
+
+    def rows(self, *arguments):
+        return [line for line in self.lines(*arguments) if not line.startswith("#")]
+
+    def test_the_missing_key_is_named(self):
+        """Not the one beside it, which is given and right."""
+        self.refused_machine("bearing.ball_diameter_m is missing\n",
+                             machine(BY_HAND.replace("ball_diameter_m = 0.00794\n", "")))
 
     def test_refusals_of_damping_and_spalls(self):
         def spall(**values):
