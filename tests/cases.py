@@ -14,6 +14,7 @@ import unittest
 from pathlib import Path
 
 import numpy as np
+from scipy.integrate import solve_ivp
 
 sys.path[:0] = [str(Path(__file__).parent), str(Path(__file__).parent / "truth")]
 from independent import NAMES, Model  # noqa: E402
@@ -30,6 +31,36 @@ def machine(name):
 
 def half_span(column):
     return np.ptp(column) / 2
+
+
+class Rolling:
+    """The machine of cases/rolling.toml by its equations: 2 kg on eight elements."""
+
+    def __init__(self, stiffness=1e10, exponent=1.5, clearance=5e-6, cage=0.375):
+        self.stiffness, self.exponent = stiffness, exponent
+        self.clearance, self.cage = clearance, cage
+
+    def orbit(self, frequency, points):
+        """One turn, the unbalance along x and element 1 at angle 0 when it begins."""
+        omega, places = 2 * math.pi * frequency, 2 * math.pi * np.arange(8) / 8
+
+        def rates(t, state):
+            x, y, v_x, v_y = state
+            angles = self.cage * omega * t + places
+            pressed = np.maximum(
+                x * np.cos(angles) + y * np.sin(angles) - self.clearance, 0)
+            loads = self.stiffness * pressed ** self.exponent
+            whirl = 1e-4 * omega**2
+            return [v_x, v_y,
+                    (whirl * math.cos(omega * t) - 1e3 * v_x
+                     - (loads * np.cos(angles)).sum()) / 2,
+                    (whirl * math.sin(omega * t) - 1e3 * v_y - 100
+                     - (loads * np.sin(angles)).sum()) / 2 - 9.81]
+        before, turn = -20 / frequency, 1 / frequency
+        times = turn * np.arange(points) / points
+        found = solve_ivp(rates, (before, turn), [0, -1e-5, 0, 0], method="DOP853",
+                          t_eval=times, rtol=1e-9, atol=1e-14)
+        return found.y[0], found.y[1]
 
 
 class Cases(Case):
@@ -57,6 +88,68 @@ class Cases(Case):
             self.assertLessEqual(number(keys, key), tolerance)
             self.assertLessEqual(error, factor * max(number(keys, key), 1e-5),
                                  (name, key))
+
+    def test_contacts_of_other_kinds(self):
+        """Rollers, preload, an outer ring that turns: the orbit of an integration by
+        DOP853 from the same rest, and the dimensions' cage by rolling without slip."""
+        text = machine("rolling").read_text(encoding="utf-8")
+        gap, cage = "radial_clearance_m = 5e-6", "cage_speed_ratio = 0.375"
+        hertz = "contact_stiffness_N_per_m1p5 = 1e10"
+        line = f"contact_exponent = {10 / 9!r}\ncontact_stiffness_N_per_mn = 2e8"
+        tight = "radial_clearance_m = -5e-6"
+        turning = "cage_speed_ratio = 0.625\nouter_ring_speed_ratio = 0.3"
+        for name, changes, rolling in [
+                ("hertz", {}, Rolling()),
+                ("rollers", {hertz: line}, Rolling(stiffness=2e8, exponent=10 / 9)),
+                ("preload", {gap: tight}, Rolling(clearance=-5e-6)),
+                ("both", {hertz: line, gap: tight},
+                 Rolling(stiffness=2e8, exponent=10 / 9, clearance=-5e-6)),
+                ("outer ring", {cage: turning}, Rolling(cage=0.625))]:
+            own = text
+            for old, new in changes.items():
+                own = own.replace(old, new)
+            path = self.file(f"{name}.toml", own)
+            x, y = rolling.orbit(50, 32)
+            size = max(np.ptp(x), np.ptp(y))
+            for how in [[], ["--method", "aft", "--tolerance", "1e-4"]]:
+                with self.subTest(name=name, how=how):
+                    table = Table.of("\n".join(self.lines(
+                        "orbit", path, "--frequency", 50, "--points", 32, *how)))
+                    self.assertEqual(table.value("regime"), "periodic")
+                    self.assertLess(max(abs(table["x_r"] - x).max(),
+                                        abs(table["y_r"] - y).max()), 2e-4 * size)
+
+    def test_kinematics_with_a_contact_angle_and_a_turning_outer_ring(self):
+        """bearingFaultBands of MathWorks for 8 elements of 2 cm on 12 cm at 15 degrees; a
+        cage between two races that roll on the balls, and the balls' spin against it."""
+        text = machine("rolling").read_text(encoding="utf-8")
+        sizes = "ball_diameter_mm = 20\npitch_diameter_mm = 120\n"
+
+        def orders(given):
+            path = self.file("own.toml", text.replace("cage_speed_ratio = 0.375", given))
+            table = Table.of("\n".join(self.lines("check", path)))
+            return [table.value(key, None)
+                    for key in ("cage_speed_ratio", "bpfo", "bpfi", "bsf")]
+        published = [0.419506, 3.35605, 4.64395, 2.92225]
+        np.testing.assert_allclose(orders(sizes + "contact_angle_deg = 15"), published,
+                                   rtol=2e-6)
+        np.testing.assert_allclose(
+            orders(sizes + f"contact_angle_rad = {math.pi / 12!r}"), published, rtol=2e-6)
+        for outer in (0.3, -0.2):
+            inside, outside = 50, 70 * outer  # speeds of the races' surfaces
+            centre = (inside + outside) / 2 / 60
+            spin = abs(inside - 50 * centre) / 10
+            np.testing.assert_allclose(
+                orders(sizes + f"outer_ring_speed_ratio = {outer}"),
+                [centre, 8 * (centre - outer), 8 * (1 - centre), spin], rtol=1e-12)
+        for given, words in [
+                (sizes + "contact_angle_deg = 90", "contact_angle_deg must be below"),
+                (sizes + "outer_ring_speed_ratio = 1", "must be in -1 < ratio < 1"),
+                (sizes + "outer_ring_speed_ratio = -0.9", "lets the cage stand still"),
+                ("cage_speed_ratio = 0.625", "0 < c <= 0.5, or give outer_ring_speed_rati"),
+                ("cage_speed_ratio = 0.375\ncontact_exponent = 1.1",
+                 "contact_exponent needs contact_stiffness_N_per_mn")]:
+            self.refused_machine(words, text.replace("cage_speed_ratio = 0.375", given))
 
     def test_passing_balls_alone(self):
         """A balanced rotor on eight balls: amplitudes by Runge-Kutta, 12,288 steps a

@@ -102,24 +102,41 @@ Diameters read_cage(StrictToml& table, StrictToml& source, Bearing& bearing)
                                      {"ball_radius_m", "inner_race_radius_m"},
                                      {"ball_diameter_m", "pitch_diameter_m"},
                                      {designation_key}});
+  constexpr const char *angle_key = "contact_angle_rad",
+                       *outer_key = "outer_ring_speed_ratio";
+  const double angle = bearing.contact_angle =
+      table.number_or(angle_key, Range::not_negative, 0);
+  const double outer = bearing.outer_ring_speed_ratio =
+      table.number_or(outer_key, Range::any, 0);
+  if (angle >= std::numbers::pi / 2) table.fail(angle_key, "must be below a right angle");
+  if (std::abs(outer) >= 1) table.fail(outer_key, "must be in -1 < ratio < 1");
   if (way == 0) {
-    bearing.cage_speed_ratio = table.number("cage_speed_ratio", Range::positive);
-    if (bearing.cage_speed_ratio > 0.5)
-      table.fail("cage_speed_ratio", "must be in 0 < c <= 0.5");
+    const double c = bearing.cage_speed_ratio =
+        table.number("cage_speed_ratio", Range::positive);
+    if (c > (1 + outer) / 2 || c <= outer)
+      table.fail(
+          "cage_speed_ratio",
+          format("must be in %g < c <= %g%s", std::max(0.0, outer), (1 + outer) / 2,
+                 outer == 0 ? ", or give outer_ring_speed_ratio too" : ""));
     return {};
   }
+  const auto set_cage = [&](double radius_ratio) {
+    const double ratio = radius_ratio * std::cos(angle);
+    bearing.radius_ratio = radius_ratio;
+    bearing.cage_speed_ratio = 0.5 * (1 - ratio) + 0.5 * outer * (1 + ratio);
+    if (bearing.cage_speed_ratio <= 0)
+      table.fail(outer_key, "lets the cage stand still or turn backwards");
+  };
   if (way == 1) {
     const double ball = table.number("ball_radius_m", Range::positive);
     const double race = table.number("inner_race_radius_m", Range::positive);
-    bearing.radius_ratio = ball / (ball + race);
-    bearing.cage_speed_ratio = cage_speed_ratio(ball, race);
+    set_cage(ball / (ball + race));
     refuse_overlap(table, "ball_radius_m", bearing.balls, bearing.radius_ratio);
     return {2 * ball, 2 * (ball + race)};
   }
   const double ball = source.number("ball_diameter_m", Range::positive);
   const double pitch = source.number("pitch_diameter_m", Range::positive);
-  bearing.radius_ratio = ball / pitch;
-  bearing.cage_speed_ratio = 0.5 * (1 - bearing.radius_ratio);
+  set_cage(ball / pitch);
   refuse_overlap(source, "ball_diameter_m", bearing.balls, bearing.radius_ratio);
   return {ball, pitch};
 }
@@ -164,9 +181,9 @@ double read_clearance(StrictToml& table, StrictToml& source,
   if (way < 2 && !by_designation.empty())
     table.fail(ways[way][0], "and " + by_designation +
                                  " of designation are both given; give one of them");
-  if (way == 0) return table.number("radial_clearance_m", Range::not_negative);
+  if (way == 0) return table.number("radial_clearance_m", Range::any);
   if (way == 1) {
-    const double diametral = table.number("diametral_clearance_m", Range::not_negative);
+    const double diametral = table.number("diametral_clearance_m", Range::any);
     derived.push_back(
         format("clearance: %.15g m on the diameter, delta is half of it", diametral));
     return diametral / 2;
@@ -206,14 +223,25 @@ Solid read_steel(StrictToml& source)
 }
 
 double read_stiffness(StrictToml& table, StrictToml& source, const Diameters& diameters,
-                      double& pressure, std::vector<std::string>& derived)
+                      Bearing& bearing, std::vector<std::string>& derived)
 {
+  constexpr const char *exponent_key = "contact_exponent",
+                       *power_key = "contact_stiffness_N_per_mn";
+  if (table.has(exponent_key) && !table.has(power_key))
+    table.fail(exponent_key, std::string("needs ") + power_key + ", in N/m^n");
   const std::size_t way = table.way({{"contact_stiffness_N_per_m1p5"},
+                                     {power_key, exponent_key},
                                      {"inner_groove_ratio", "outer_groove_ratio",
                                       "youngs_modulus_Pa", "poissons_ratio"},
                                      {designation_key}});
   if (way == 0) return table.number("contact_stiffness_N_per_m1p5", Range::positive);
-  if (way == 1 && diameters.ball == 0)
+  if (way == 1) {
+    bearing.exponent = table.number(exponent_key, Range::positive);
+    if (bearing.exponent < 1 || bearing.exponent > 3)
+      table.fail(exponent_key, format("must be in 1...3, got %g", bearing.exponent));
+    return table.number(power_key, Range::positive);
+  }
+  if (way == 2 && diameters.ball == 0)
     table.fail("cage_speed_ratio",
                "does not give the ball's size, which the groove ratios need; give "
                "ball_diameter_m and pitch_diameter_m instead");
@@ -221,12 +249,12 @@ double read_stiffness(StrictToml& table, StrictToml& source, const Diameters& di
                               groove_ratio(source, "inner_groove_ratio"),
                               groove_ratio(source, "outer_groove_ratio")};
   StrictToml material =
-      way == 1 ? table : StrictToml("deep_groove.toml", bearing_catalogue).table("steel");
+      way == 2 ? table : StrictToml("deep_groove.toml", bearing_catalogue).table("steel");
   const Solid steel = read_steel(material);
   const PointContact inner = inner_contact(geometry, steel);
   const PointContact outer = outer_contact(geometry, steel);
   const double stiffness = in_series(inner.stiffness, outer.stiffness);
-  pressure = std::max(inner.pressure, outer.pressure);
+  bearing.pressure = std::max(inner.pressure, outer.pressure);
   if (!(stiffness > 0 && std::isfinite(stiffness)))
     source.fail("youngs_modulus_Pa",
                 "and the dimensions give no contact stiffness that a double holds");
@@ -234,7 +262,7 @@ double read_stiffness(StrictToml& table, StrictToml& source, const Diameters& di
       format("contact: groove ratios %.15g and %.15g (%s), E = %.15g Pa, nu = %.15g; "
              "Hertz: K_inner = %.6g, K_outer = %.6g N/m^1.5, in series K_H",
              geometry.inner_groove_ratio, geometry.outer_groove_ratio,
-             way == 1 ? "given" : source.string("groove_ratios").c_str(),
+             way == 2 ? "given" : source.string("groove_ratios").c_str(),
              steel.young_modulus, steel.poisson_ratio, inner.stiffness, outer.stiffness));
   return stiffness;
 }
@@ -254,6 +282,10 @@ Defect read_defect(StrictToml& table, const Bearing& bearing)
   defect.width = table.number("width_rad", Range::positive);
   defect.place = table.number_or("angle_rad", Range::any, 0);
   const bool is_ball = defect.surface == ball;
+  if (defect.surface == outer_race && bearing.outer_ring_speed_ratio != 0)
+    table.fail("surface",
+               "\"outer_race\" does not turn here, but "
+               "outer_ring_speed_ratio says that the ring does");
   const double widest = (is_ball ? 1 : 2.0 / bearing.balls) * std::numbers::pi;
   if (defect.width > widest)
     table.fail("width_rad", format("must not exceed %s, %.9g rad, got %g",
@@ -262,11 +294,11 @@ Defect read_defect(StrictToml& table, const Bearing& bearing)
                                    widest, defect.width));
   if (!is_ball) return defect;
   defect.ball = table.integer_or("ball", 1, bearing.balls, 1);
-  if (bearing.cage_speed_ratio == 0.5)
+  defect.spin = kinematic_orders(bearing).spin;
+  if (defect.spin == 0)
     table.fail("surface",
                "\"ball\": with omega_cage/omega = 1/2 no ball of finite size turns about "
                "itself");
-  defect.spin = kinematic_orders(bearing).spin;
   return defect;
 }
 
@@ -274,10 +306,13 @@ Defect read_defect(StrictToml& table, const Bearing& bearing)
 
 KinematicOrders kinematic_orders(const Bearing& bearing)
 {
-  const double c = bearing.cage_speed_ratio, ratio = 1 - 2 * c;
+  const double c = bearing.cage_speed_ratio, outer = bearing.outer_ring_speed_ratio;
+  const double ratio = (1 + outer - 2 * c) / (1 - outer);  // D cos α/d_m
   return {.cage = c,
-          .spin = (1 - ratio * ratio) / (2 * ratio),
-          .outer = bearing.balls * c,
+          .spin = ratio > 0 ? std::cos(bearing.contact_angle) * (1 - outer) *
+                                  (1 - ratio * ratio) / (2 * ratio)
+                            : 0,
+          .outer = bearing.balls * (c - outer),
           .inner = bearing.balls * (1 - c)};
 }
 
@@ -290,8 +325,7 @@ Bearing read_bearing(StrictToml& table, std::vector<std::string>& derived)
   bearing.balls = source.integer("balls", 1, most_balls);
   const Diameters diameters = read_cage(table, source, bearing);
   bearing.ball_diameter = diameters.ball;
-  bearing.contact_stiffness =
-      read_stiffness(table, source, diameters, bearing.pressure, derived);
+  bearing.contact_stiffness = read_stiffness(table, source, diameters, bearing, derived);
   bearing.clearance = read_clearance(table, source, name.clearance, derived);
   bearing.damping = table.number_or("contact_damping_s_per_m", Range::not_negative, 0);
   if (table.has("defect")) {

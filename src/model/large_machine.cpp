@@ -434,8 +434,10 @@ void read_bodies(StrictToml& root, Parameters& parameters, const ModelRange& ask
   }
   for (const Bearing& bearing : bearings_of(parameters))
     if (!bearing.is_plain())
-      root.fail("bearing",
-                "of bodies given by matrices takes no contact damping and no defect");
+      root.fail(
+          "bearing",
+          "of bodies given by matrices takes no contact damping, no defect, no other "
+          "contact_exponent and no negative clearance");
   /** The spring is that of a ball that carries all weights and loads. */
   double weight = 0;
   for (const LinearBody& body : all.bodies) {

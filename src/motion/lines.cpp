@@ -413,7 +413,7 @@ LineName name_of(double order, const Bearing& bearing, double tolerance, int pas
   const KinematicOrders orders = kinematic_orders(bearing);
   LineName name = multiple_of("FTF", order, orders.cage, bearing.balls, tolerance);
   name.cage = std::round(order / orders.cage);
-  if (name.name.empty() && orders.cage < 0.5) {
+  if (name.name.empty() && orders.spin > 0) {
     name = multiple_of("BSF", order, orders.spin, 4, tolerance);
     name.spin = std::round(order / orders.spin);
   }
