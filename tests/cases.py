@@ -151,6 +151,73 @@ class Cases(Case):
                  "contact_exponent needs contact_stiffness_N_per_mn")]:
             self.refused_machine(words, text.replace("cage_speed_ratio = 0.375", given))
 
+    def test_tables_from_elsewhere(self):
+        """A measured spectrum in the forms of spreadsheets draws the same figure; lists and
+        nodes of our own CSV give the same rows."""
+        plain = "f\tamplitude\n50\t1e-7\n179.2\t1.5e-6\n"
+        forms = {"plain": plain, "windows": plain.replace("\n", "\r\n"),
+                 "mark": "\ufeff" + plain, "comma": plain.replace("\t", ","),
+                 "open end": plain.replace("\t", ",")[:-1],
+                 "decimal comma": plain.replace("\t", ";").replace(".", ","),
+                 "quotes": plain.replace("\t", ",").replace("f,", '"f",')}
+        figures = {}
+        for name, text in forms.items():
+            overlay = self.file("overlay.tsv", "")
+            overlay.write_bytes(text.encode())
+            self.lines("spectrum", machine("motor"), "--frequency", 50, "--plot", "s.svg",
+                       "--overlay", overlay)
+            figures[name] = (self.folder / "s.svg").read_bytes()
+        for name, figure in figures.items():
+            self.assertEqual(figure, figures["plain"], name)
+        for text, words in [("f,amplitude\n50,1e-7\n51,x\n", ":3: 'x' is not a finite"),
+                            ("f,amplitude\n50,1e-7,3\n", ":2: 3 cells, must be 2"),
+                            ("f,g\n50,1e-7\n", "has no column amplitude of numbers")]:
+            self.refused(words, "spectrum", machine("motor"), "--frequency", 50, "--plot",
+                         "s.svg", "--overlay", self.file("bad.csv", text))
+        ask = ["map", machine("rolling"), "--quantity", "amplitude"]
+        lists = [self.file("list.tsv", "frequency\trotor.mass_kg\n40\t2\n50\t2.5\n")]
+        lists.append(self.file("list.csv", lists[0].read_text().replace("\t", ",")))
+        rows = [[line for line in self.lines(*ask, "--list", path)
+                 if not line.startswith("#")] for path in lists]
+        self.assertEqual(rows[0], rows[1])
+        self.assertEqual(len(rows[0]), 3)
+        speeds = ["response", machine("rolling"), "--from", 40, "--to", 50, "--count", 2]
+        kept = self.file("kept.csv", "\n".join(self.lines(*speeds, "--format", "csv")))
+        self.refused("CSV has none", *speeds, "--resume", kept)
+        ross = self.file("ross.toml", 'ross_version = "2.0.0"\n[parameters]\n')
+        for command in ("check", "shaft"):
+            self.refused("peers/from_ross.py", command, ross,
+                         *(["--to", "m"] if command == "shaft" else []))
+
+    def test_matrices_from_elsewhere(self):
+        """The same machine from entries that add up, from Fortran's exponents, from a
+        comment after blanks and with the line ends of Windows."""
+        body = machine("rolling").read_text(encoding="utf-8")
+        body = body[:body.index("[rotor]")] + """[rotor]
+matrices = "m"
+output_dofs = [1, 2]
+vertical_dofs = [2]
+unbalance = [{ dofs = [1, 2], moment_kg_m = 1e-4 }]
+[[bearing]]
+rotor_dofs = [1, 2]
+""" + body[body.index("balls"):]
+        path = self.file("own.toml", body)
+        (self.folder / "m").mkdir()
+        head = "%%MatrixMarket matrix coordinate real "
+        self.file("m/K.mtx", head + "symmetric\n2 2 2\n1 1 1e6\n2 2 1e6\n")
+
+        def asked(mass):
+            self.file("m/M.mtx", head + mass)
+            return [line for line in self.lines("check", path) if line[0] != "#"]
+        expected = asked("symmetric\n2 2 2\n1 1 5\n2 2 5\n")
+        for mass in ["general\n2 2 3\n1 1 2.5\n1 1 2.5\n2 2 5\n",
+                     "symmetric\n2 2 5\n1 1 4\n1 1 1\n2 2 5\n2 1 1e-3\n2 1 -1e-3\n",
+                     "symmetric\n  % comment\n2 2 2\n1 1 5.0D+00\n2 2 0.5d1\n",
+                     "symmetric\r\n2 2 2\r\n1 1 5\r\n2 2 5\r\n"]:
+            self.assertEqual(asked(mass), expected, mass)
+        self.file("m/M.mtx", head + "symmetric\n2 2 4\n1 1 5\n2 1 0.1\n1 2 0.1\n2 2 5\n")
+        self.refused("M.mtx:5: both triangles have entries", "check", path)
+
     def test_passing_balls_alone(self):
         """A balanced rotor on eight balls: amplitudes by Runge-Kutta, 12,288 steps a
         turn."""

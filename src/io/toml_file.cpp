@@ -230,6 +230,11 @@ StrictToml::StrictToml(const std::string& file, const std::string& content)
     throw BadInput(format("%s:%d: not TOML: ", file.c_str(), line) +
                    message.substr(0, message.find('\n')));
   }
+  for (const auto& [key, node] : content_->table)
+    if (key.str() == "ross_version" || key.str().starts_with("ShaftElement"))
+      throw BadInput(file +
+                     ": is a rotor of ROSS; peers/from_ross.py writes its "
+                     "matrices, which a machine's file then names");
 }
 
 /**
