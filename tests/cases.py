@@ -218,6 +218,27 @@ rotor_dofs = [1, 2]
         self.file("m/M.mtx", head + "symmetric\n2 2 4\n1 1 5\n2 1 0.1\n1 2 0.1\n2 2 5\n")
         self.refused("M.mtx:5: both triangles have entries", "check", path)
 
+    def test_lines_of_two_bearings(self):
+        """The first bearing first in the header, each line of it with its number, and the
+        second one's frequencies by name where dimensions put them."""
+        self.lines("shaft", machine("shaft"), "--to", "m")
+        path = self.file("two.toml", machine("two_bearings").read_text(encoding="utf-8"))
+        text = self.lines("spectrum", path, "--frequency", 40)
+        heads = [line for line in text if line.startswith("#   bearing ")]
+        self.assertEqual([line[4:15] for line in heads],
+                         [f"bearing {k}: " for k in (1, 2, 1, 1, 1, 2, 2, 2)])
+        self.assertIn("6306: D = 0.0119062 m", heads[2])
+        self.assertIn("6308: D = 0.015081 m", heads[5])
+        orders = {name: [float(cells[1]), float(cells[8])] for cells in
+                  (line.split("\t") for line in text if line[0].isdigit())
+                  if (name := cells[5]) != "-"}
+        first, second = (8 * (1 - ball / pitch) / 2
+                         for ball, pitch in [(11.9062, 52.009), (15.081, 65)])
+        for name, order in [("BPFO", first), ("2BPFO_2+1X", 2 * second + 1),
+                            ("2BPFO_2", 2 * second), ("1X", 1)]:
+            self.assertAlmostEqual(orders[name][0], order, delta=1e-9)
+        self.assertAlmostEqual(orders["1X"][1] / 1.07308e-6, 1, delta=2e-4)
+
     def test_passing_balls_alone(self):
         """A balanced rotor on eight balls: amplitudes by Runge-Kutta, 12,288 steps a
         turn."""

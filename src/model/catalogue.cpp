@@ -325,6 +325,16 @@ Bearing read_bearing(StrictToml& table, std::vector<std::string>& derived)
   bearing.balls = source.integer("balls", 1, most_balls);
   const Diameters diameters = read_cage(table, source, bearing);
   bearing.ball_diameter = diameters.ball;
+  if (bearing.contact_angle > 0)
+    derived.push_back(
+        format("contact angle: %.15g rad in the orders of cage, balls and races; "
+               "forces and motion stay in the plane, without axial load",
+               bearing.contact_angle));
+  if (bearing.outer_ring_speed_ratio != 0)
+    derived.push_back(
+        format("outer ring: turns %.15g times as fast as the rotor; in names of "
+               "lines BPFO is n omega_cage, of a point at rest",
+               bearing.outer_ring_speed_ratio));
   bearing.contact_stiffness = read_stiffness(table, source, diameters, bearing, derived);
   bearing.clearance = read_clearance(table, source, name.clearance, derived);
   bearing.damping = table.number_or("contact_damping_s_per_m", Range::not_negative, 0);

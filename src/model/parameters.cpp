@@ -198,25 +198,17 @@ void describe(Table& table, const Parameters& parameters, bool with_keys)
   table.detail(format("m_e e = %.15g kg m; g = %.15g m/s^2", parameters.unbalance,
                       parameters.gravity));
   const std::vector<Bearing> bearings = bearings_of(parameters);
-  for (const Bearing& bearing : bearings)
-    table.detail(format("bearing: n = %d, K_H = %.15g N/m^%g, delta = %.15g m, "
+  for (std::size_t k = 0; const Bearing& bearing : bearings) {
+    const std::string name = bearings.size() == 1 ? "" : format(" %zu", ++k);
+    table.detail(format("bearing%s: n = %d, K_H = %.15g N/m^%g, delta = %.15g m, "
                         "omega_cage/omega = %.15g",
-                        bearing.balls, bearing.contact_stiffness, bearing.exponent,
-                        bearing.clearance, bearing.cage_speed_ratio) +
+                        name.c_str(), bearing.balls, bearing.contact_stiffness,
+                        bearing.exponent, bearing.clearance, bearing.cage_speed_ratio) +
                  (bearing.cage_phase != 0
                       ? format(", cage phase = %.15g rad", bearing.cage_phase)
                       : ""));
+  }
   const Bearing& bearing = parameters.bearing;
-  if (bearing.contact_angle > 0)
-    table.detail(
-        format("contact angle: %.15g rad in the orders of cage, balls and races; "
-               "forces and motion stay in the plane, without axial load",
-               bearing.contact_angle));
-  if (bearing.outer_ring_speed_ratio != 0)
-    table.detail(
-        format("outer ring: turns %.15g times as fast as the rotor; in names of "
-               "lines BPFO is n omega_cage, of a point at rest",
-               bearing.outer_ring_speed_ratio));
   if (bearing.damping > 0)
     table.detail(format("contact damping: lambda = %.15g s/m", bearing.damping));
   const char* const surfaces[] = {"none", "outer_race", "inner_race", "ball"};
