@@ -269,6 +269,7 @@ std::vector<std::string> split(const std::string& line, char between)
     else
       cells.back() += c == ',' && between == ';' ? '.' : c;
   }
+  if (cells.back().empty()) cells.pop_back();
   return cells;
 }
 
@@ -309,7 +310,7 @@ NumberTable::NumberTable(const std::string& file, const std::string& first_line)
   }
   in.clear();
   for (int number = first_line.empty() ? 1 : 2; std::getline(in, line); ++number) {
-    if (in.eof() && !header_.empty())
+    if (in.eof() && between_ == '\t')
       throw BadInput(format("%s:%d: the line is cut off", file.c_str(), number));
     if (number == 1 && line.starts_with("\xEF\xBB\xBF")) line.erase(0, 3);
     if (line.ends_with('\r')) line.pop_back();
@@ -335,7 +336,7 @@ void NumberTable::read_row(const std::string& line)
   rows_.emplace_back();
   for (const std::string& cell : split(line, between_)) {
     const std::size_t column = rows_.back().size();
-    if (header_.empty() && rows() == 1 && column < names_.size() && !decimal(cell))
+    if (between_ != '\t' && rows() == 1 && column < names_.size() && !decimal(cell))
       words_.insert(names_[column]);
     const bool word = column < names_.size() && words_.contains(names_[column]);
     const std::optional<double> value = word ? 0 : decimal(cell);
