@@ -174,8 +174,8 @@ std::string writer_of_other_schema(const std::string& file);
 class NumberTable {
 public:
   /** Separated by tabs, semicolons or commas, with the line ends and the byte order mark
-      of any system. Throws BadInput with file and line when it is missing, empty, cut off,
-      longer than 1 GB or not such a table; with `first_line`, when it begins
+      of any system. Throws BadInput with file and line when it is missing, empty, cut
+      off, longer than 1 GB or not such a table; with `first_line`, when it begins
       otherwise. */
   explicit NumberTable(const std::string& file, const std::string& first_line = "");
 

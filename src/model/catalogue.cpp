@@ -120,7 +120,8 @@ Diameters read_cage(StrictToml& table, StrictToml& source, Bearing& bearing)
                  outer == 0 ? ", or give outer_ring_speed_ratio too" : ""));
     return {};
   }
-  const auto set_cage = [&](double radius_ratio) {
+  const auto set_cage = [&](StrictToml& from, const char* key, double radius_ratio) {
+    refuse_overlap(from, key, bearing.balls, radius_ratio);
     const double ratio = radius_ratio * std::cos(angle);
     bearing.radius_ratio = radius_ratio;
     bearing.cage_speed_ratio = 0.5 * (1 - ratio) + 0.5 * outer * (1 + ratio);
@@ -130,14 +131,12 @@ Diameters read_cage(StrictToml& table, StrictToml& source, Bearing& bearing)
   if (way == 1) {
     const double ball = table.number("ball_radius_m", Range::positive);
     const double race = table.number("inner_race_radius_m", Range::positive);
-    set_cage(ball / (ball + race));
-    refuse_overlap(table, "ball_radius_m", bearing.balls, bearing.radius_ratio);
+    set_cage(table, "ball_radius_m", ball / (ball + race));
     return {2 * ball, 2 * (ball + race)};
   }
   const double ball = source.number("ball_diameter_m", Range::positive);
   const double pitch = source.number("pitch_diameter_m", Range::positive);
-  set_cage(ball / pitch);
-  refuse_overlap(source, "ball_diameter_m", bearing.balls, bearing.radius_ratio);
+  set_cage(source, "ball_diameter_m", ball / pitch);
   return {ball, pitch};
 }
 

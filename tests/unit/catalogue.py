@@ -176,7 +176,7 @@ class Catalogue(Case):
         for old, new, words in [
                 ("radial_clearance_m = 2e-5", "radial_clearance_m = 2e-5\nradial_clearance_um = 20",
                  "bearing.radial_clearance_um and radial_clearance_m are both given"),
-                ("radial_clearance_m = 2e-5", "radial_clearance_um = -20", "bearing.radial_clearance_um must be >= 0, got -20"),
+                ("natural_frequency_rad_per_s = 500.0", "natural_frequency_Hz = -5", "stator.natural_frequency_Hz must be >= 0, got -5"),
                 ("radial_clearance_m = 2e-5", "radial_clearnce_um = 20", "did you mean radial_clearance_m?"),
                 ("damping_ratio = 0.05", "damping_N_s_per_mm = 5", "damping_ratio is missing")]:
             self.refused_change(old, new, words)
