@@ -47,7 +47,7 @@ Designation read_designation(StrictToml& table)
   };
   static const std::regex rollers("R?NU?[JPB]?|RNU", std::regex::icase);
   if (std::regex_match(prefix, rollers))
-    refuse("a cylindrical roller bearing", "balls, cage_speed_ratio and clearance");
+    refuse("a cylindrical roller bearing", "balls, cage_speed_ratio, contact_exponent");
   if (prefix.empty() && basic.size() == 4 && basic[0] == '7')
     refuse("an angular contact ball bearing", "balls, diameters and contact_angle_deg");
   Designation found{prefix + basic, "", part[1]};
