@@ -3,6 +3,7 @@
 Gnuplot asks for the value of a key, or the first cells of a list's members: /usr/bin/python3 figures/tables.py TABLE.tsv KEY
 """
 
+import csv
 import re
 import subprocess
 import sys
@@ -50,10 +51,11 @@ def number_or_word(text):
 
 
 class Table:
-    """A tab-separated table: columns by name as numpy arrays, the keys of its `#` lines by `value`, the lists by `members`."""
+    """A table, separated by tabs, semicolons (with decimal points or commas) or commas: columns by name as numpy arrays,
+    the keys of its `#` lines by `value`, the lists by `members`."""
 
     def __init__(self, path):
-        self._read(Path(path).read_text(encoding="utf-8").splitlines())
+        self._read(Path(path).read_text(encoding="utf-8-sig").splitlines())
 
     @classmethod
     def of(cls, text):
@@ -65,9 +67,11 @@ class Table:
     def _read(self, lines):
         self.header = "\n".join(line for line in lines if line.startswith("#"))
         rows = [line for line in lines if line.strip() and not line.startswith("#")]
-        cells = np.array([row.split("\t") for row in rows[1:]])
-        self.columns = {name: numbers_or_words(column)
-                        for name, column in zip(rows[0].split("\t"), cells.T)}
+        between = next((mark for mark in "\t;," if mark in rows[0]), "\t")
+        names, *cells = csv.reader(rows, delimiter=between, quoting=csv.QUOTE_NONE if between == "\t" else csv.QUOTE_MINIMAL)
+        if between == ";":
+            cells = [[cell.replace(",", ".") for cell in row] for row in cells]
+        self.columns = {name: numbers_or_words(column) for name, column in zip(names, np.array(cells).T)}
 
     def keys(self):
         """All keys with their values, numbers or words."""

@@ -14,6 +14,7 @@ import unittest
 from pathlib import Path
 
 import numpy as np
+from scipy.integrate import solve_ivp
 
 sys.path[:0] = [str(Path(__file__).parent), str(Path(__file__).parent / "truth")]
 from independent import NAMES, Model  # noqa: E402
@@ -30,6 +31,36 @@ def machine(name):
 
 def half_span(column):
     return np.ptp(column) / 2
+
+
+class Rolling:
+    """The machine of cases/rolling.toml by its equations: 2 kg on eight elements."""
+
+    def __init__(self, stiffness=1e10, exponent=1.5, clearance=5e-6, cage=0.375):
+        self.stiffness, self.exponent = stiffness, exponent
+        self.clearance, self.cage = clearance, cage
+
+    def orbit(self, frequency, points):
+        """One turn, the unbalance along x and element 1 at angle 0 when it begins."""
+        omega, places = 2 * math.pi * frequency, 2 * math.pi * np.arange(8) / 8
+
+        def rates(t, state):
+            x, y, v_x, v_y = state
+            angles = self.cage * omega * t + places
+            pressed = np.maximum(
+                x * np.cos(angles) + y * np.sin(angles) - self.clearance, 0)
+            loads = self.stiffness * pressed ** self.exponent
+            whirl = 1e-4 * omega**2
+            return [v_x, v_y,
+                    (whirl * math.cos(omega * t) - 1e3 * v_x
+                     - (loads * np.cos(angles)).sum()) / 2,
+                    (whirl * math.sin(omega * t) - 1e3 * v_y - 100
+                     - (loads * np.sin(angles)).sum()) / 2 - 9.81]
+        before, turn = -20 / frequency, 1 / frequency
+        times = turn * np.arange(points) / points
+        found = solve_ivp(rates, (before, turn), [0, -1e-5, 0, 0], method="DOP853",
+                          t_eval=times, rtol=1e-9, atol=1e-14)
+        return found.y[0], found.y[1]
 
 
 class Cases(Case):
@@ -57,6 +88,156 @@ class Cases(Case):
             self.assertLessEqual(number(keys, key), tolerance)
             self.assertLessEqual(error, factor * max(number(keys, key), 1e-5),
                                  (name, key))
+
+    def test_contacts_of_other_kinds(self):
+        """Rollers, preload, an outer ring that turns: the orbit of an integration by
+        DOP853 from the same rest, and the dimensions' cage by rolling without slip."""
+        text = machine("rolling").read_text(encoding="utf-8")
+        gap, cage = "radial_clearance_m = 5e-6", "cage_speed_ratio = 0.375"
+        hertz = "contact_stiffness_N_per_m1p5 = 1e10"
+        line = f"contact_exponent = {10 / 9!r}\ncontact_stiffness_N_per_mn = 2e8"
+        tight = "radial_clearance_m = -5e-6"
+        turning = "cage_speed_ratio = 0.625\nouter_ring_speed_ratio = 0.3"
+        for name, changes, rolling in [
+                ("hertz", {}, Rolling()),
+                ("rollers", {hertz: line}, Rolling(stiffness=2e8, exponent=10 / 9)),
+                ("preload", {gap: tight}, Rolling(clearance=-5e-6)),
+                ("both", {hertz: line, gap: tight},
+                 Rolling(stiffness=2e8, exponent=10 / 9, clearance=-5e-6)),
+                ("outer ring", {cage: turning}, Rolling(cage=0.625))]:
+            own = text
+            for old, new in changes.items():
+                own = own.replace(old, new)
+            path = self.file(f"{name}.toml", own)
+            x, y = rolling.orbit(50, 32)
+            size = max(np.ptp(x), np.ptp(y))
+            for how in [[], ["--method", "aft", "--tolerance", "1e-4"]]:
+                with self.subTest(name=name, how=how):
+                    table = Table.of("\n".join(self.lines(
+                        "orbit", path, "--frequency", 50, "--points", 32, *how)))
+                    self.assertEqual(table.value("regime"), "periodic")
+                    self.assertLess(max(abs(table["x_r"] - x).max(),
+                                        abs(table["y_r"] - y).max()), 2e-4 * size)
+
+    def test_kinematics_with_a_contact_angle_and_a_turning_outer_ring(self):
+        """bearingFaultBands of MathWorks for 8 elements of 2 cm on 12 cm at 15 degrees; a
+        cage between two races that roll on the balls, and the balls' spin against it."""
+        text = machine("rolling").read_text(encoding="utf-8")
+        sizes = "ball_diameter_mm = 20\npitch_diameter_mm = 120\n"
+
+        def orders(given):
+            path = self.file("own.toml", text.replace("cage_speed_ratio = 0.375", given))
+            table = Table.of("\n".join(self.lines("check", path)))
+            return [table.value(key, None)
+                    for key in ("cage_speed_ratio", "bpfo", "bpfi", "bsf")]
+        published = [0.419506, 3.35605, 4.64395, 2.92225]
+        np.testing.assert_allclose(orders(sizes + "contact_angle_deg = 15"), published,
+                                   rtol=2e-6)
+        np.testing.assert_allclose(
+            orders(sizes + f"contact_angle_rad = {math.pi / 12!r}"), published, rtol=2e-6)
+        for outer in (0.3, -0.2):
+            inside, outside = 50, 70 * outer  # speeds of the races' surfaces
+            centre = (inside + outside) / 2 / 60
+            spin = abs(inside - 50 * centre) / 10
+            np.testing.assert_allclose(
+                orders(sizes + f"outer_ring_speed_ratio = {outer}"),
+                [centre, 8 * (centre - outer), 8 * (1 - centre), spin], rtol=1e-12)
+        for given, words in [
+                (sizes + "contact_angle_deg = 90", "contact_angle_deg must be below"),
+                (sizes + "outer_ring_speed_ratio = 1", "must be in -1 < ratio < 1"),
+                (sizes + "outer_ring_speed_ratio = -0.9", "lets the cage stand still"),
+                ("cage_speed_ratio = 0.625", "0 < c <= 0.5, or give outer_ring_speed_rati"),
+                ("cage_speed_ratio = 0.375\ncontact_exponent = 1.1",
+                 "contact_exponent needs contact_stiffness_N_per_mn")]:
+            self.refused_machine(words, text.replace("cage_speed_ratio = 0.375", given))
+
+    def test_tables_from_elsewhere(self):
+        """A measured spectrum in the forms of spreadsheets draws the same figure; lists and
+        nodes of our own CSV give the same rows."""
+        plain = "f\tamplitude\n50\t1e-7\n179.2\t1.5e-6\n"
+        forms = {"plain": plain, "windows": plain.replace("\n", "\r\n"),
+                 "mark": "\ufeff" + plain, "comma": plain.replace("\t", ","),
+                 "open end": plain.replace("\t", ",")[:-1],
+                 "decimal comma": plain.replace("\t", ";").replace(".", ","),
+                 "quotes": plain.replace("\t", ",").replace("f,", '"f",')}
+        figures = {}
+        for name, text in forms.items():
+            overlay = self.file("overlay.tsv", "")
+            overlay.write_bytes(text.encode())
+            self.lines("spectrum", machine("motor"), "--frequency", 50, "--plot", "s.svg",
+                       "--overlay", overlay)
+            figures[name] = (self.folder / "s.svg").read_bytes()
+        for name, figure in figures.items():
+            self.assertEqual(figure, figures["plain"], name)
+        for text, words in [("f,amplitude\n50,1e-7\n51,x\n", ":3: 'x' is not a finite"),
+                            ("f,amplitude\n50,1e-7,3\n", ":2: 3 cells, must be 2"),
+                            ("f,g\n50,1e-7\n", "has no column amplitude of numbers")]:
+            self.refused(words, "spectrum", machine("motor"), "--frequency", 50, "--plot",
+                         "s.svg", "--overlay", self.file("bad.csv", text))
+        ask = ["map", machine("rolling"), "--quantity", "amplitude"]
+        lists = [self.file("list.tsv", "frequency\trotor.mass_kg\n40\t2\n50\t2.5\n")]
+        lists.append(self.file("list.csv", lists[0].read_text().replace("\t", ",")))
+        rows = [[line for line in self.lines(*ask, "--list", path)
+                 if not line.startswith("#")] for path in lists]
+        self.assertEqual(rows[0], rows[1])
+        self.assertEqual(len(rows[0]), 3)
+        speeds = ["response", machine("rolling"), "--from", 40, "--to", 50, "--count", 2]
+        kept = self.file("kept.csv", "\n".join(self.lines(*speeds, "--format", "csv")))
+        self.refused("CSV has none", *speeds, "--resume", kept)
+        ross = self.file("ross.toml", 'ross_version = "2.0.0"\n[parameters]\n')
+        for command in ("check", "shaft"):
+            self.refused("peers/from_ross.py", command, ross,
+                         *(["--to", "m"] if command == "shaft" else []))
+
+    def test_matrices_from_elsewhere(self):
+        """The same machine from entries that add up, from Fortran's exponents, from a
+        comment after blanks and with the line ends of Windows."""
+        body = machine("rolling").read_text(encoding="utf-8")
+        body = body[:body.index("[rotor]")] + """[rotor]
+matrices = "m"
+output_dofs = [1, 2]
+vertical_dofs = [2]
+unbalance = [{ dofs = [1, 2], moment_kg_m = 1e-4 }]
+[[bearing]]
+rotor_dofs = [1, 2]
+""" + body[body.index("balls"):]
+        path = self.file("own.toml", body)
+        (self.folder / "m").mkdir()
+        head = "%%MatrixMarket matrix coordinate real "
+        self.file("m/K.mtx", head + "symmetric\n2 2 2\n1 1 1e6\n2 2 1e6\n")
+
+        def asked(mass):
+            self.file("m/M.mtx", head + mass)
+            return [line for line in self.lines("check", path) if line[0] != "#"]
+        expected = asked("symmetric\n2 2 2\n1 1 5\n2 2 5\n")
+        for mass in ["general\n2 2 3\n1 1 2.5\n1 1 2.5\n2 2 5\n",
+                     "symmetric\n2 2 5\n1 1 4\n1 1 1\n2 2 5\n2 1 1e-3\n2 1 -1e-3\n",
+                     "symmetric\n  % comment\n2 2 2\n1 1 5.0D+00\n2 2 0.5d1\n",
+                     "symmetric\r\n2 2 2\r\n1 1 5\r\n2 2 5\r\n"]:
+            self.assertEqual(asked(mass), expected, mass)
+        self.file("m/M.mtx", head + "symmetric\n2 2 4\n1 1 5\n2 1 0.1\n1 2 0.1\n2 2 5\n")
+        self.refused("M.mtx:5: both triangles have entries", "check", path)
+
+    def test_lines_of_two_bearings(self):
+        """The first bearing first in the header, each line of it with its number, and the
+        second one's frequencies by name where dimensions put them."""
+        self.lines("shaft", machine("shaft"), "--to", "m")
+        path = self.file("two.toml", machine("two_bearings").read_text(encoding="utf-8"))
+        text = self.lines("spectrum", path, "--frequency", 40)
+        heads = [line for line in text if line.startswith("#   bearing ")]
+        self.assertEqual([line[4:15] for line in heads],
+                         [f"bearing {k}: " for k in (1, 2, 1, 1, 1, 2, 2, 2)])
+        self.assertIn("6306: D = 0.0119062 m", heads[2])
+        self.assertIn("6308: D = 0.015081 m", heads[5])
+        orders = {name: [float(cells[1]), float(cells[8])] for cells in
+                  (line.split("\t") for line in text if line[0].isdigit())
+                  if (name := cells[5]) != "-"}
+        first, second = (8 * (1 - ball / pitch) / 2
+                         for ball, pitch in [(11.9062, 52.009), (15.081, 65)])
+        for name, order in [("BPFO", first), ("2BPFO_2+1X", 2 * second + 1),
+                            ("2BPFO_2", 2 * second), ("1X", 1)]:
+            self.assertAlmostEqual(orders[name][0], order, delta=1e-9)
+        self.assertAlmostEqual(orders["1X"][1] / 1.07308e-6, 1, delta=2e-4)
 
     def test_passing_balls_alone(self):
         """A balanced rotor on eight balls: amplitudes by Runge-Kutta, 12,288 steps a

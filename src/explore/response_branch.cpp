@@ -365,7 +365,7 @@ void BalanceBranch::add_row(const StablePoint& at, std::size_t number)
   if (!has_lines) return;
   auto all = motion::lines_of(task_.machine.bearing, motion, task_.parameters.turns);
   for (motion::Line& line : all.lines) line.order *= task_.passages;
-  add_lines(lines_, task_.machine.bearing, row.frequency, all, 128, 1e-4);
+  add_lines(lines_, bearings_of(task_.machine), row.frequency, all, 128, 1e-4);
 }
 
 }  // namespace

@@ -18,6 +18,10 @@ try {
   std::string found(beginning.size(), '\0');
   in.read(found.data(), static_cast<std::streamsize>(found.size()));
   found.resize(static_cast<std::size_t>(in.gcount()));
+  if (!found.empty() && found.front() != '#')
+    throw BadInput(
+        "has no # lines, which say what was asked (CSV has none); go on from "
+        "the tab-separated table");
   if (!beginning.starts_with(found)) {
     const std::string writer = writer_of_other_schema(file);
     throw BadInput(writer.empty()

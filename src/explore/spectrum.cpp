@@ -40,7 +40,8 @@ void note_names(Table& table, const motion::Lines& lines, bool has_means)
   table.note(
       "name: sum of multiples of X (rotation), BPFO and BPFI with the smallest sum of "
       "their absolute values, BPFO and BPFI counted twice, then the fewest terms, then "
-      "the smallest multiple of BPFI; else a multiple of FTF or BSF");
+      "the smallest multiple of BPFI; else a multiple of FTF or BSF; of a second bearing "
+      "BPFO_2, ..., and k_cage counts its cage");
 }
 
 /** Those that harmonic balance or shooting have found, or read from the record. */
@@ -48,7 +49,8 @@ motion::Lines lines_of(const MotionRequest& request, Computed& at, Table& table)
 {
   if (at.found.closes_after > 0) return std::move(at.found.lines);
   const FoundMotion& found = at.found;
-  motion::Lines lines = motion::lines_of_recorded(found.machine.bearing, found.motion);
+  motion::Lines lines =
+      motion::lines_of_recorded(bearings_of(found.machine), found.motion);
   for (motion::Line& line : lines.lines) line.order /= found.turns_of_period;
   const int turns = static_cast<int>(found.motion.size()) / request.points;
   table.note(format(
@@ -75,8 +77,8 @@ const std::vector<Column> line_columns{
     {"x_r", "m", "amplitude, rotor"},
     {"y_r", "m", "amplitude, rotor"}};
 
-bool add_lines(Table& table, const Bearing& bearing, double frequency, motion::Lines all,
-               int passages, double smallest)
+bool add_lines(Table& table, const std::vector<Bearing>& bearings, double frequency,
+               motion::Lines all, int passages, double smallest)
 {
   auto& lines = all.lines;
   std::ranges::stable_sort(lines, std::ranges::greater{}, &motion::Line::largest);
@@ -86,7 +88,7 @@ bool add_lines(Table& table, const Bearing& bearing, double frequency, motion::L
   if (!(largest > rounding)) return false;
   for (const motion::Line& line : lines) {
     if (line.largest() < std::max(smallest * largest, rounding)) break;
-    const motion::LineName name = motion::name_of(line.order, bearing, 1e-9, passages);
+    const motion::LineName name = motion::name_of(line.order, bearings, 1e-9, passages);
     const auto& a = line.amplitude;
     table.row({line.order * frequency, line.order, name.rotation, name.cage, name.spin,
                name.name.empty() ? "-" : name.name, a[0], a[1], a[2], a[3]});
@@ -117,7 +119,7 @@ Exploration explore_spectrum(const MotionRequest& asked)
                request.points, request.points / 2));
   const motion::Lines lines = lines_of(request, at, table);
   note_names(table, lines, at.found.has_statistics);
-  if (!add_lines(table, parameters.bearing, request.frequency, lines,
+  if (!add_lines(table, bearings_of(parameters), request.frequency, lines,
                  at.found.closes_after > 0 ? 128 : 16, least))
     throw NoSolution(parameters.file + ": the motion has no line, nothing moves");
   conclude(table, parameters, at.touches(), at.budget);

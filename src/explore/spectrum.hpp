@@ -16,7 +16,7 @@ extern const std::vector<Column> line_columns;
 
 /** The rows of a motion at the speed `frequency` [Hz], down to `smallest` of its largest
     line; names have k_cage up to n `passages`. False where no line is above rounding. */
-bool add_lines(Table& table, const Bearing& bearing, double frequency, motion::Lines all,
-               int passages, double smallest);
+bool add_lines(Table& table, const std::vector<Bearing>& bearings, double frequency,
+               motion::Lines all, int passages, double smallest);
 
 }  // namespace rotor_stator::explore

@@ -38,7 +38,7 @@ public:
       if (in_.fail() && !in_.eof()) fail("is longer than a line of numbers");
       words_.clear();
       words_.str(line);
-    } while (!with_comments && (line[0] == '%' || is_at_end()));
+    } while (!with_comments && (is_at_end() || words_.peek() == '%'));
     return true;
   }
 
@@ -57,7 +57,9 @@ public:
   Number read(const std::string& what)
   {
     if (is_at_end()) fail("lacks " + what);
-    const std::string text = word();
+    std::string text = word();
+    if (std::is_floating_point_v<Number>)
+      std::ranges::replace(text, 'd', 'e');  // of Fortran
     const char* const end = text.data() + text.size();
     Number value = 0;
     const auto [rest, error] =
@@ -143,10 +145,10 @@ SparseMatrix read_matrix(const std::string& file)
   /** "0\n" is the shortest number in full, "1 1 0\n" the shortest entry; the last needs
       no end of line. */
   const double least = (in_full ? 2.0 : 6.0) * static_cast<double>(count);
-  if (count > stored || least > bytes + 1)
-    lines.fail("announces more entries than the matrix or the file can hold");
+  if (least > bytes + 1) lines.fail("announces more entries than the file can hold");
 
   std::vector<Eigen::Triplet<double, int>> entries;
+  bool is_above = false, is_below = false;
   long row = sign < 0 ? 1 : 0, column = 0;  // of the next one in full
   for (long k = 0; k < count; ++k) {
     if (!lines.next())
@@ -161,6 +163,10 @@ SparseMatrix read_matrix(const std::string& file)
     if (sign < 0 && i == j && value != 0)
       lines.fail("a skew-symmetric matrix has no diagonal");
     if (value != 0 || !in_full) {
+      is_above = is_above || i < j;
+      is_below = is_below || i > j;
+      if (sign != 0 && is_above && is_below)
+        lines.fail("both triangles have entries; of a symmetric matrix one is given");
       entries.emplace_back(i, j, value);
       if (sign != 0 && i != j) entries.emplace_back(j, i, sign * value);
     }
@@ -170,15 +176,7 @@ SparseMatrix read_matrix(const std::string& file)
   }
   if (lines.next()) lines.fail("the matrix has ended before this line");
   SparseMatrix matrix(static_cast<int>(rows), static_cast<int>(rows));
-  bool is_repeated = false;
-  matrix.setFromTriplets(entries.begin(), entries.end(), [&](double a, double) {
-    is_repeated = true;
-    return a;
-  });
-  if (is_repeated)
-    throw BadInput(file +
-                   ": an entry is given twice (of a symmetric matrix one "
-                   "triangle is given)");
+  matrix.setFromTriplets(entries.begin(), entries.end());
   return matrix;
 }
 

@@ -4,7 +4,8 @@
 The exchange format of the National Institute of Standards and Technology, as SciPy,
 Octave and finite-element programs write it. Real and integer matrices are read, given by
 coordinates or in full, of the kinds general, symmetric and skew-symmetric; of the last
-two the file holds one triangle, either one, and the other is filled in. */
+two the file holds one triangle, either one, and the other is filled in. Entries of one
+place add up. Numbers may have Fortran's D exponents. */
 #pragma once
 
 #include <Eigen/SparseCore>

@@ -255,12 +255,30 @@ std::string Table::text(TableFormat format, bool is_drawn) const
 
 namespace {
 
-std::vector<std::string> split(const std::string& line)
+/** Cells between tabs; between semicolons or commas words may stand in quotes, and
+    between semicolons a comma is that of a number. */
+std::vector<std::string> split(const std::string& line, char between)
 {
-  std::vector<std::string> cells;
-  std::istringstream in(line);
-  for (std::string cell; std::getline(in, cell, '\t');) cells.push_back(cell);
+  std::vector<std::string> cells(1);
+  bool is_quoted = false;
+  for (const char c : line) {
+    if (c == '"' && between != '\t')
+      is_quoted = !is_quoted;
+    else if (c == between && !is_quoted)
+      cells.emplace_back();
+    else
+      cells.back() += c == ',' && between == ';' ? '.' : c;
+  }
+  if (cells.back().empty()) cells.pop_back();
   return cells;
+}
+
+/** Of the line of names. */
+char separator_of(const std::string& names)
+{
+  for (const char c : {'\t', ';'})
+    if (names.find(c) != names.npos) return c;
+  return names.find(',') != names.npos ? ',' : '\t';
 }
 
 constexpr std::uintmax_t most_bytes = 1'000'000'000;
@@ -292,8 +310,10 @@ NumberTable::NumberTable(const std::string& file, const std::string& first_line)
   }
   in.clear();
   for (int number = first_line.empty() ? 1 : 2; std::getline(in, line); ++number) {
-    if (in.eof())
+    if (in.eof() && between_ == '\t')
       throw BadInput(format("%s:%d: the line is cut off", file.c_str(), number));
+    if (number == 1 && line.starts_with("\xEF\xBB\xBF")) line.erase(0, 3);
+    if (line.ends_with('\r')) line.pop_back();
     if (const auto colon = line.find(": ");
         line.starts_with("# ") && colon != std::string::npos)
       header_[line.substr(2, colon - 2)] = line.substr(colon + 2);
@@ -301,7 +321,8 @@ NumberTable::NumberTable(const std::string& file, const std::string& first_line)
       words_.insert(line.substr(10, line.find(' ', 10) - 10));
     if (line.empty() || line.front() == '#') continue;
     if (names_.empty()) {
-      names_ = split(line);
+      between_ = separator_of(line);
+      names_ = split(line, between_);
       continue;
     }
     lines_.push_back(number);
@@ -313,8 +334,10 @@ NumberTable::NumberTable(const std::string& file, const std::string& first_line)
 void NumberTable::read_row(const std::string& line)
 {
   rows_.emplace_back();
-  for (const std::string& cell : split(line)) {
+  for (const std::string& cell : split(line, between_)) {
     const std::size_t column = rows_.back().size();
+    if (between_ != '\t' && rows() == 1 && column < names_.size() && !decimal(cell))
+      words_.insert(names_[column]);
     const bool word = column < names_.size() && words_.contains(names_[column]);
     const std::optional<double> value = word ? 0 : decimal(cell);
     if (!value) fail(rows() - 1, "'" + cell.substr(0, 40) + "' is not a finite number");

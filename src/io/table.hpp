@@ -173,8 +173,10 @@ std::string writer_of_other_schema(const std::string& file);
 
 class NumberTable {
 public:
-  /** Throws BadInput with file and line when it is missing, empty, cut off, longer than 1
-      GB or not such a table; with `first_line`, when it begins otherwise. */
+  /** Separated by tabs, semicolons or commas, with the line ends and the byte order mark
+      of any system. Throws BadInput with file and line when it is missing, empty, cut
+      off, longer than 1 GB or not such a table; with `first_line`, when it begins
+      otherwise. */
   explicit NumberTable(const std::string& file, const std::string& first_line = "");
 
   const std::vector<std::string>& names() const { return names_; }
@@ -200,6 +202,7 @@ private:
   std::set<std::string> words_;  ///< columns of words: 0 in all rows
   std::vector<std::vector<double>> rows_;
   std::vector<int> lines_;  ///< of the rows in the file
+  char between_ = '\t';
 };
 
 }  // namespace rotor_stator

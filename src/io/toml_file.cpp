@@ -1,8 +1,10 @@
 #include "io/toml_file.hpp"
 
 #include <toml++/toml.h>
+#include <algorithm>
 #include <cmath>
 #include <filesystem>
+#include <numbers>
 #include <optional>
 #include <set>
 #include <sstream>
@@ -75,6 +77,49 @@ struct Refused {
   std::string why;
 };
 
+/** A unit that a key may end in, beside the one that is read: own = times/over other. */
+struct Unit {
+  std::string_view own, other;
+  double times, over;
+};
+
+constexpr double turn = 2 * std::numbers::pi;
+constexpr Unit units[]{
+    {"_N_per_m", "_N_per_mm", 1e3, 1},
+    {"_kg_m", "_g_mm", 1, 1e6},
+    {"_Pa", "_MPa", 1e6, 1},
+    {"_Pa", "_GPa", 1e9, 1},
+    {"_rad_per_s", "_Hz", turn, 1},
+    {"_rad_per_s", "_rpm", turn, 60},
+    {"_rad", "_deg", turn, 360},
+    {"_m", "_mm", 1, 1e3},
+    {"_m", "_um", 1, 1e6},
+};
+
+/** That of a key, if any; the first that fits. A length in a denominator has none. */
+const Unit* unit_of(std::string_view key)
+{
+  const auto found = std::ranges::find_if(
+      units, [&](const Unit& unit) { return key.ends_with(unit.other); });
+  if (found == std::end(units)) return nullptr;
+  const auto stem = key.substr(0, key.size() - found->other.size());
+  return found->own == "_m" && stem.ends_with("_per") ? nullptr : found;
+}
+
+/** The key as it is read. */
+std::string own_key(const std::string& key)
+{
+  const Unit* const unit = unit_of(key);
+  if (!unit) return key;
+  return key.substr(0, key.size() - unit->other.size()).append(unit->own);
+}
+
+double in_own_unit(const std::string& key, double value)
+{
+  const Unit* const unit = unit_of(key);
+  return unit ? value * unit->times / unit->over : value;
+}
+
 double as_number(const toml::node& node, Range range)
 {
   if (!node.is_number()) throw Refused{"must be a number"};
@@ -115,12 +160,30 @@ struct StrictToml::Content {
   std::set<std::string> read;
   std::vector<std::pair<std::string, std::shared_ptr<Content>>> inner_tables;
 
+  /** A key as it stands in the file, perhaps in another unit. */
+  std::string written(const std::string& key) const
+  {
+    std::string found = key;
+    for (const auto& [name, node] : table) {
+      const std::string other(name.str());
+      if (other == key || own_key(other) != key) continue;
+      if (found != key || table.contains(key))
+        throw BadInput(format("%s:%d: %s and %s are both given; give one of them",
+                              file.c_str(), static_cast<int>(node.source().begin.line),
+                              (path + other).c_str(),
+                              (found == key ? key : found).c_str()));
+      found = other;
+    }
+    return found;
+  }
+
   /** What `take` makes of the node of a required key. */
   template <class Take>
   auto one(const StrictToml& reader, const std::string& key, Take take)
   {
-    read.insert(key);
-    toml::node* node = table.get(key);
+    const std::string name = written(key);
+    read.insert(name);
+    toml::node* node = table.get(name);
     if (!node) reader.missing(key);
     try {
       return take(*node);
@@ -167,6 +230,11 @@ StrictToml::StrictToml(const std::string& file, const std::string& content)
     throw BadInput(format("%s:%d: not TOML: ", file.c_str(), line) +
                    message.substr(0, message.find('\n')));
   }
+  for (const auto& [key, node] : content_->table)
+    if (key.str() == "ross_version" || key.str().starts_with("ShaftElement"))
+      throw BadInput(file +
+                     ": is a rotor of ROSS; peers/from_ross.py writes its "
+                     "matrices, which a machine's file then names");
 }
 
 /**
@@ -191,11 +259,23 @@ void set_number(toml::node& at, const std::string& key, double value,
     return set_number(
         table ? table->insert(word, toml::table{}).first->second : (*array)[place],
         key.substr(dot + 1), value, instead);
-  for (const auto& [one, other] : instead)
-    if (table && one == key) table->erase(other);
+  const std::string own = own_key(key);
+  value = in_own_unit(key, value);
+  if (table) {
+    std::set<std::string> replaced;
+    for (const auto& [name, node] : *table) {
+      const std::string other = own_key(std::string(name.str()));
+      const auto is_other = [&](const auto& pair) {
+        return pair.first == own && pair.second == other;
+      };
+      if (other == own || std::ranges::any_of(instead, is_other))
+        replaced.insert(std::string(name.str()));
+    }
+    for (const std::string& name : replaced) table->erase(name);
+  }
   const auto set = [&](auto number) {
     if (table)
-      table->insert_or_assign(key, number);
+      table->insert_or_assign(own, number);
     else
       array->replace(array->cbegin() + static_cast<long>(place), number);
   };
@@ -225,7 +305,7 @@ const std::string& StrictToml::file() const
 
 bool StrictToml::has(const std::string& key) const
 {
-  return content_->table.contains(key);
+  return content_->table.contains(content_->written(key));
 }
 
 bool StrictToml::has_tables(const std::string& key) const
@@ -249,12 +329,15 @@ std::size_t StrictToml::way(const std::vector<std::vector<std::string>>& ways) c
     advice += (k == 0 ? "; give it, or " : k == 1 ? "" : ", or ") + (k == 0 ? "" : keys);
   }
   if (taken == ways.size()) missing(ways[0][0], advice, ways);
+  for (const std::string& key : ways[taken])
+    content_->read.insert(content_->written(key));
   return taken;
 }
 
 double StrictToml::number(const std::string& key, Range range)
 {
-  return content_->one(*this, key, [&](auto& node) { return as_number(node, range); });
+  const auto value = [&](auto& node) { return as_number(node, range); };
+  return in_own_unit(content_->written(key), content_->one(*this, key, value));
 }
 
 double StrictToml::number_or(const std::string& key, Range range, double otherwise)
@@ -280,7 +363,11 @@ std::string StrictToml::string(const std::string& key)
 
 std::vector<double> StrictToml::numbers(const std::string& key, Range range)
 {
-  return content_->all(*this, key, [&](auto& node) { return as_number(node, range); });
+  auto values =
+      content_->all(*this, key, [&](auto& node) { return as_number(node, range); });
+  const std::string name = content_->written(key);
+  for (double& value : values) value = in_own_unit(name, value);
+  return values;
 }
 
 std::vector<int> StrictToml::integers(const std::string& key, int least, int most)
@@ -329,11 +416,12 @@ std::vector<std::string> StrictToml::keys() const
 
 void StrictToml::fail(const std::string& key, const std::string& problem) const
 {
-  const toml::node* node = content_->table.get(key);
+  const std::string name = content_->written(key);
+  const toml::node* node = content_->table.get(name);
   const toml::node& place = node ? *node : content_->table;
   const auto line = static_cast<int>(place.source().begin.line);
   throw BadInput(content_->file + (line > 0 ? format(":%d: ", line) : ": ") +
-                 content_->path + key + " " + problem);
+                 content_->path + name + " " + problem);
 }
 
 void StrictToml::missing(const std::string& key, const std::string& advice,
@@ -342,7 +430,7 @@ void StrictToml::missing(const std::string& key, const std::string& advice,
   std::vector<std::string> wanted{key};
   for (const auto& way : ways) wanted.insert(wanted.end(), way.begin(), way.end());
   for (const std::string& found : keys()) {
-    const std::string meant = suggestion(found, wanted);
+    const std::string meant = suggestion(own_key(found), wanted);
     if (!content_->read.contains(found) && !meant.empty())
       fail(found, "is not a known key here" + meant + " (" + content_->path + key +
                       " is missing" + advice + ")");
@@ -357,8 +445,8 @@ void StrictToml::refuse_unknown_keys() const
     if (content_->read.contains(key)) continue;
     std::string list;
     for (const std::string& other : known) list += (list.empty() ? "" : ", ") + other;
-    fail(key,
-         "is not a known key here" + suggestion(key, known) + " (known: " + list + ")");
+    fail(key, "is not a known key here" + suggestion(own_key(key), known) +
+                  " (known: " + list + ")");
   }
   for (const auto& [name, inner] : content_->inner_tables)
     StrictToml(inner).refuse_unknown_keys();

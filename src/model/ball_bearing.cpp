@@ -22,7 +22,7 @@ BallBearing::BallBearing(const Bearing& bearing, double omega, int turns)
   }
 }
 
-ElasticReaction BallBearing::reaction(Direction cage, Vec2 u) const
+ElasticReaction BallBearing::plain_reaction(Direction cage, Vec2 u) const
 {
   if (u.x * u.x + u.y * u.y <= clearance_squared_) return {};
   const Vec2 v = into_frame(cage, u);
@@ -104,9 +104,10 @@ void BallBearing::each_contact(const Angles& at, Vec2 u, Vec2 rate, Visit visit)
     const double faster = ball.cos * w.x + ball.sin * w.y - lost.rate;
     const double share = 1 + bearing_.damping * faster;
     if (share <= 0) continue;
-    const double hertz = hertz_force(contact_stiffness_, pressed);
+    const double n = bearing_.exponent;
+    const double hertz = hertz_force(contact_stiffness_, pressed, n);
     visit(Contact{j, ball, share * hertz,
-                  share * hertz_stiffness(contact_stiffness_, pressed),
+                  share * hertz_stiffness(contact_stiffness_, pressed, n),
                   bearing_.damping * hertz, faster});
   }
 }

@@ -160,13 +160,13 @@ public:
       [m/s]. */
   Vec2 force(const Angles& at, Vec2 u, Vec2 rate) const
   {
-    return is_plain() ? force(at.cage, u) : full_reaction(at, u, rate).force;
+    return is_plain() ? plain_force(at.cage, u) : full_reaction(at, u, rate).force;
   }
 
   /** The same with its derivatives. */
   BearingReaction reaction(const Angles& at, Vec2 u, Vec2 rate) const
   {
-    return is_plain() ? BearingReaction{reaction(at.cage, u)}
+    return is_plain() ? BearingReaction{plain_reaction(at.cage, u)}
                       : full_reaction(at, u, rate);
   }
 
@@ -174,7 +174,13 @@ public:
       `cage`. */
   Vec2 force(Direction cage, Vec2 u) const
   {
-    return bearing_force<false>(ring(), contacts(), cage, u, {});
+    return bearing_.is_hertzian() ? plain_force(cage, u)
+                                  : full_reaction({{1, 0}, cage}, u, {}).force;
+  }
+  ElasticReaction reaction(Direction cage, Vec2 u) const
+  {
+    return bearing_.is_hertzian() ? plain_reaction(cage, u)
+                                  : full_reaction({{1, 0}, cage}, u, {});
   }
 
   double first_ball() const { return bearing_.cage_phase; }  ///< its angle at t = 0 [rad]
@@ -186,8 +192,6 @@ public:
   {
     return {contact_stiffness_, clearance_, bearing_.damping, cage_speed_};
   }
-
-  ElasticReaction reaction(Direction cage, Vec2 u) const;
 
   /** Eq. 5: the force Q_j [N] of each ball, j = 1…n in order. */
   std::vector<double> ball_forces(const Angles& at, Vec2 u, Vec2 rate) const;
@@ -206,6 +210,11 @@ private:
   template <class Visit>
   void each_contact(const Angles& at, Vec2 u, Vec2 rate, Visit visit) const;
   BearingReaction full_reaction(const Angles& at, Vec2 u, Vec2 rate) const;
+  Vec2 plain_force(Direction cage, Vec2 u) const
+  {
+    return bearing_force<false>(ring(), contacts(), cage, u, {});
+  }
+  ElasticReaction plain_reaction(Direction cage, Vec2 u) const;
 
   /** What a ball has lost of its deflection, and how fast it loses more. */
   struct Loss {

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <numbers>
+#include <regex>
 
 #include "io/errors.hpp"
 #include "model/bearing_catalogue.hpp"
@@ -22,11 +23,52 @@ std::vector<StrictToml> catalogue(const std::string& key)
   return StrictToml("deep_groove.toml", bearing_catalogue).tables(key);
 }
 
+/** A designation as people write it, "SKF 6205-2RS1/C3": what is looked up, the class of
+    clearance, and the rest, which says nothing of balls and clearance. */
+struct Designation {
+  std::string basic, clearance, unused;
+};
+
+/** Throws BadInput for other kinds of bearings, by the reason and the way round. */
+Designation read_designation(StrictToml& table)
+{
+  const std::string text = table.string(designation_key);
+  std::smatch part;
+  static const std::regex whole(R"(((?:[A-Z]+ +)*)([A-Z]*)(\d+(?:/\d\d)?)(?!\d)(.*))",
+                                std::regex::icase);
+  if (!std::regex_match(text, part, whole))
+    table.fail(designation_key, "\"" + text + "\" holds no number such as 6205");
+  const std::string prefix = part[2], basic = part[3];
+  const auto refuse = [&](const std::string& kind, const std::string& instead) {
+    table.fail(designation_key, "\"" + text + "\" is " + kind +
+                                    "; designations are of deep groove ball bearings: "
+                                    "give " +
+                                    instead + " instead");
+  };
+  static const std::regex rollers("R?NU?[JPB]?|RNU", std::regex::icase);
+  if (std::regex_match(prefix, rollers))
+    refuse("a cylindrical roller bearing", "balls, cage_speed_ratio, contact_exponent");
+  if (prefix.empty() && basic.size() == 4 && basic[0] == '7')
+    refuse("an angular contact ball bearing", "balls, diameters and contact_angle_deg");
+  Designation found{prefix + basic, "", part[1]};
+  const std::string tail = part[4];
+  static const std::regex word("[A-Z0-9.+]+", std::regex::icase);
+  static const std::regex clearance("[Cc]([02345Nn])(?:[A-Z]{2}.*)?|P[56]([2-5])");
+  for (std::sregex_iterator at(tail.begin(), tail.end(), word), end; at != end; ++at) {
+    const std::string code = at->str();
+    if (std::regex_match(code, part, clearance))
+      found.clearance = "C" + part[1].str() + part[2].str();
+    else
+      found.unused +=
+          (found.unused.empty() || found.unused.back() == ' ' ? "" : " ") + code;
+  }
+  return found;
+}
+
 /** The entry of a designation. Throws BadInput, with all that there are, for one that is
     not there. */
-StrictToml entry_of(StrictToml& table)
+StrictToml entry_of(StrictToml& table, const std::string& wanted)
 {
-  const std::string wanted = table.string(designation_key);
   std::string there;
   for (StrictToml& entry : catalogue("bearing")) {
     const std::string designation = entry.string(designation_key);
@@ -60,50 +102,87 @@ Diameters read_cage(StrictToml& table, StrictToml& source, Bearing& bearing)
                                      {"ball_radius_m", "inner_race_radius_m"},
                                      {"ball_diameter_m", "pitch_diameter_m"},
                                      {designation_key}});
+  constexpr const char *angle_key = "contact_angle_rad",
+                       *outer_key = "outer_ring_speed_ratio";
+  const double angle = bearing.contact_angle =
+      table.number_or(angle_key, Range::not_negative, 0);
+  const double outer = bearing.outer_ring_speed_ratio =
+      table.number_or(outer_key, Range::any, 0);
+  if (angle >= std::numbers::pi / 2) table.fail(angle_key, "must be below a right angle");
+  if (std::abs(outer) >= 1) table.fail(outer_key, "must be in -1 < ratio < 1");
   if (way == 0) {
-    bearing.cage_speed_ratio = table.number("cage_speed_ratio", Range::positive);
-    if (bearing.cage_speed_ratio > 0.5)
-      table.fail("cage_speed_ratio", "must be in 0 < c <= 0.5");
+    const double c = bearing.cage_speed_ratio =
+        table.number("cage_speed_ratio", Range::positive);
+    if (c > (1 + outer) / 2 || c <= outer)
+      table.fail(
+          "cage_speed_ratio",
+          format("must be in %g < c <= %g%s", std::max(0.0, outer), (1 + outer) / 2,
+                 outer == 0 ? ", or give outer_ring_speed_ratio too" : ""));
     return {};
   }
+  const auto set_cage = [&](StrictToml& from, const char* key, double radius_ratio) {
+    refuse_overlap(from, key, bearing.balls, radius_ratio);
+    const double ratio = radius_ratio * std::cos(angle);
+    bearing.radius_ratio = radius_ratio;
+    bearing.cage_speed_ratio = 0.5 * (1 - ratio) + 0.5 * outer * (1 + ratio);
+    if (bearing.cage_speed_ratio <= 0)
+      table.fail(outer_key, "lets the cage stand still or turn backwards");
+  };
   if (way == 1) {
     const double ball = table.number("ball_radius_m", Range::positive);
     const double race = table.number("inner_race_radius_m", Range::positive);
-    bearing.radius_ratio = ball / (ball + race);
-    bearing.cage_speed_ratio = cage_speed_ratio(ball, race);
-    refuse_overlap(table, "ball_radius_m", bearing.balls, bearing.radius_ratio);
+    set_cage(table, "ball_radius_m", ball / (ball + race));
     return {2 * ball, 2 * (ball + race)};
   }
   const double ball = source.number("ball_diameter_m", Range::positive);
   const double pitch = source.number("pitch_diameter_m", Range::positive);
-  bearing.radius_ratio = ball / pitch;
-  bearing.cage_speed_ratio = 0.5 * (1 - bearing.radius_ratio);
-  refuse_overlap(source, "ball_diameter_m", bearing.balls, bearing.radius_ratio);
+  set_cage(source, "ball_diameter_m", ball / pitch);
   return {ball, pitch};
 }
 
 /** The range of a class of clearance [m], on the diameter, for a bore. */
-std::vector<double> clearance_range(StrictToml& table, double bore)
+std::vector<double> clearance_range(StrictToml& table, const std::string& wanted,
+                                    double bore)
 {
-  const std::string wanted = table.string("internal_clearance");
-  if (wanted != "C2" && wanted != "CN" && wanted != "C3" && wanted != "C4")
-    table.fail("internal_clearance",
-               "\"" + wanted + "\": must be C2, CN (normal), C3 or C4");
   for (StrictToml& range : catalogue("clearance"))
     if (bore > range.number("above_m", Range::positive) &&
         bore <= range.number("up_to_m", Range::positive))
       return range.numbers(wanted, Range::not_negative);
-  table.fail("internal_clearance", format("is not known for a bore of %g m", bore));
+  table.fail(designation_key,
+             format("has no %s for a bore of %g m", wanted.c_str(), bore));
+}
+
+/** The class of clearance, by the key or by the designation, C0 being CN. */
+std::string clearance_class(StrictToml& table, const std::string& by_designation)
+{
+  const auto normal = [](const std::string& name) { return name == "C0" ? "CN" : name; };
+  constexpr const char* key = "internal_clearance";
+  if (!table.has(key)) return normal(by_designation);
+  const std::string given = table.string(key);
+  static const std::regex known("C[02345N]");
+  if (!std::regex_match(given, known))
+    table.fail(key, "\"" + given + "\": must be C2, CN or C0 (normal), C3, C4 or C5");
+  if (!by_designation.empty() && normal(by_designation) != normal(given))
+    table.fail(key,
+               "\"" + given + "\" contradicts " + by_designation + " of designation");
+  return normal(given);
 }
 
 double read_clearance(StrictToml& table, StrictToml& source,
+                      const std::string& by_designation,
                       std::vector<std::string>& derived)
 {
-  const std::size_t way = table.way(
-      {{"radial_clearance_m"}, {"diametral_clearance_m"}, {"internal_clearance"}});
-  if (way == 0) return table.number("radial_clearance_m", Range::not_negative);
+  const std::vector<std::vector<std::string>> ways{
+      {"radial_clearance_m"}, {"diametral_clearance_m"}, {"internal_clearance"}};
+  const bool is_given =
+      std::ranges::any_of(ways, [&](const auto& keys) { return table.has(keys[0]); });
+  const std::size_t way = is_given || by_designation.empty() ? table.way(ways) : 2;
+  if (way < 2 && !by_designation.empty())
+    table.fail(ways[way][0], "and " + by_designation +
+                                 " of designation are both given; give one of them");
+  if (way == 0) return table.number("radial_clearance_m", Range::any);
   if (way == 1) {
-    const double diametral = table.number("diametral_clearance_m", Range::not_negative);
+    const double diametral = table.number("diametral_clearance_m", Range::any);
     derived.push_back(
         format("clearance: %.15g m on the diameter, delta is half of it", diametral));
     return diametral / 2;
@@ -112,11 +191,13 @@ double read_clearance(StrictToml& table, StrictToml& source,
     table.fail("internal_clearance",
                "needs designation, which gives the bore; without it give "
                "diametral_clearance_m");
-  const auto range = clearance_range(table, source.number("bore_m", Range::positive));
+  const std::string wanted = clearance_class(table, by_designation);
+  const auto range =
+      clearance_range(table, wanted, source.number("bore_m", Range::positive));
   derived.push_back(
       format("clearance: %s, %g to %g um on the diameter unmounted (ISO 5753-1), "
              "delta is half of the middle",
-             table.string("internal_clearance").c_str(), 1e6 * range[0], 1e6 * range[1]));
+             wanted.c_str(), 1e6 * range[0], 1e6 * range[1]));
   return (range[0] + range[1]) / 4;
 }
 
@@ -141,14 +222,25 @@ Solid read_steel(StrictToml& source)
 }
 
 double read_stiffness(StrictToml& table, StrictToml& source, const Diameters& diameters,
-                      double& pressure, std::vector<std::string>& derived)
+                      Bearing& bearing, std::vector<std::string>& derived)
 {
+  constexpr const char *exponent_key = "contact_exponent",
+                       *power_key = "contact_stiffness_N_per_mn";
+  if (table.has(exponent_key) && !table.has(power_key))
+    table.fail(exponent_key, std::string("needs ") + power_key + ", in N/m^n");
   const std::size_t way = table.way({{"contact_stiffness_N_per_m1p5"},
+                                     {power_key, exponent_key},
                                      {"inner_groove_ratio", "outer_groove_ratio",
                                       "youngs_modulus_Pa", "poissons_ratio"},
                                      {designation_key}});
   if (way == 0) return table.number("contact_stiffness_N_per_m1p5", Range::positive);
-  if (way == 1 && diameters.ball == 0)
+  if (way == 1) {
+    bearing.exponent = table.number(exponent_key, Range::positive);
+    if (bearing.exponent < 1 || bearing.exponent > 3)
+      table.fail(exponent_key, format("must be in 1...3, got %g", bearing.exponent));
+    return table.number(power_key, Range::positive);
+  }
+  if (way == 2 && diameters.ball == 0)
     table.fail("cage_speed_ratio",
                "does not give the ball's size, which the groove ratios need; give "
                "ball_diameter_m and pitch_diameter_m instead");
@@ -156,12 +248,12 @@ double read_stiffness(StrictToml& table, StrictToml& source, const Diameters& di
                               groove_ratio(source, "inner_groove_ratio"),
                               groove_ratio(source, "outer_groove_ratio")};
   StrictToml material =
-      way == 1 ? table : StrictToml("deep_groove.toml", bearing_catalogue).table("steel");
+      way == 2 ? table : StrictToml("deep_groove.toml", bearing_catalogue).table("steel");
   const Solid steel = read_steel(material);
   const PointContact inner = inner_contact(geometry, steel);
   const PointContact outer = outer_contact(geometry, steel);
   const double stiffness = in_series(inner.stiffness, outer.stiffness);
-  pressure = std::max(inner.pressure, outer.pressure);
+  bearing.pressure = std::max(inner.pressure, outer.pressure);
   if (!(stiffness > 0 && std::isfinite(stiffness)))
     source.fail("youngs_modulus_Pa",
                 "and the dimensions give no contact stiffness that a double holds");
@@ -169,7 +261,7 @@ double read_stiffness(StrictToml& table, StrictToml& source, const Diameters& di
       format("contact: groove ratios %.15g and %.15g (%s), E = %.15g Pa, nu = %.15g; "
              "Hertz: K_inner = %.6g, K_outer = %.6g N/m^1.5, in series K_H",
              geometry.inner_groove_ratio, geometry.outer_groove_ratio,
-             way == 1 ? "given" : source.string("groove_ratios").c_str(),
+             way == 2 ? "given" : source.string("groove_ratios").c_str(),
              steel.young_modulus, steel.poisson_ratio, inner.stiffness, outer.stiffness));
   return stiffness;
 }
@@ -189,6 +281,10 @@ Defect read_defect(StrictToml& table, const Bearing& bearing)
   defect.width = table.number("width_rad", Range::positive);
   defect.place = table.number_or("angle_rad", Range::any, 0);
   const bool is_ball = defect.surface == ball;
+  if (defect.surface == outer_race && bearing.outer_ring_speed_ratio != 0)
+    table.fail("surface",
+               "\"outer_race\" does not turn here, but "
+               "outer_ring_speed_ratio says that the ring does");
   const double widest = (is_ball ? 1 : 2.0 / bearing.balls) * std::numbers::pi;
   if (defect.width > widest)
     table.fail("width_rad", format("must not exceed %s, %.9g rad, got %g",
@@ -197,11 +293,11 @@ Defect read_defect(StrictToml& table, const Bearing& bearing)
                                    widest, defect.width));
   if (!is_ball) return defect;
   defect.ball = table.integer_or("ball", 1, bearing.balls, 1);
-  if (bearing.cage_speed_ratio == 0.5)
+  defect.spin = kinematic_orders(bearing).spin;
+  if (defect.spin == 0)
     table.fail("surface",
                "\"ball\": with omega_cage/omega = 1/2 no ball of finite size turns about "
                "itself");
-  defect.spin = kinematic_orders(bearing).spin;
   return defect;
 }
 
@@ -209,10 +305,13 @@ Defect read_defect(StrictToml& table, const Bearing& bearing)
 
 KinematicOrders kinematic_orders(const Bearing& bearing)
 {
-  const double c = bearing.cage_speed_ratio, ratio = 1 - 2 * c;
+  const double c = bearing.cage_speed_ratio, outer = bearing.outer_ring_speed_ratio;
+  const double ratio = (1 + outer - 2 * c) / (1 - outer);  // D cos α/d_m
   return {.cage = c,
-          .spin = (1 - ratio * ratio) / (2 * ratio),
-          .outer = bearing.balls * c,
+          .spin = ratio > 0 ? std::cos(bearing.contact_angle) * (1 - outer) *
+                                  (1 - ratio * ratio) / (2 * ratio)
+                            : 0,
+          .outer = bearing.balls * (c - outer),
           .inner = bearing.balls * (1 - c)};
 }
 
@@ -220,24 +319,35 @@ Bearing read_bearing(StrictToml& table, std::vector<std::string>& derived)
 {
   Bearing bearing{};
   const bool has_count = table.way({{"balls"}, {designation_key}}) == 0;
-  StrictToml source = has_count ? table : entry_of(table);
+  const Designation name = has_count ? Designation{} : read_designation(table);
+  StrictToml source = has_count ? table : entry_of(table, name.basic);
   bearing.balls = source.integer("balls", 1, most_balls);
   const Diameters diameters = read_cage(table, source, bearing);
   bearing.ball_diameter = diameters.ball;
-  bearing.contact_stiffness =
-      read_stiffness(table, source, diameters, bearing.pressure, derived);
-  bearing.clearance = read_clearance(table, source, derived);
+  if (bearing.contact_angle > 0)
+    derived.push_back(
+        format("contact angle: %.15g rad in the orders of cage, balls and races; "
+               "forces and motion stay in the plane, without axial load",
+               bearing.contact_angle));
+  if (bearing.outer_ring_speed_ratio != 0)
+    derived.push_back(
+        format("outer ring: turns %.15g times as fast as the rotor; in names of "
+               "lines BPFO is n omega_cage, of a point at rest",
+               bearing.outer_ring_speed_ratio));
+  bearing.contact_stiffness = read_stiffness(table, source, diameters, bearing, derived);
+  bearing.clearance = read_clearance(table, source, name.clearance, derived);
   bearing.damping = table.number_or("contact_damping_s_per_m", Range::not_negative, 0);
   if (table.has("defect")) {
     StrictToml defect = table.table("defect");
     bearing.defect = read_defect(defect, bearing);
   }
   if (!has_count || table.has("ball_diameter_m"))
-    derived.insert(
-        derived.begin(),
-        format("%s: D = %.15g m, d_m = %.15g m",
-               has_count ? "dimensions" : table.string(designation_key).c_str(),
-               diameters.ball, diameters.pitch));
+    derived.insert(derived.begin(),
+                   format("%s: D = %.15g m, d_m = %.15g m",
+                          has_count ? "dimensions" : name.basic.c_str(), diameters.ball,
+                          diameters.pitch) +
+                       (has_count ? "" : "; geometry: " + source.string("source")) +
+                       (name.unused.empty() ? "" : "; not used: " + name.unused));
   return bearing;
 }
 

@@ -11,13 +11,16 @@ stiffness. Each of them has several ways to be given, and exactly one is taken:
 - radial clearance δ: `radial_clearance_m`, or half of `diametral_clearance_m`, or half of
   the middle of the range of the class `internal_clearance`;
 - stiffness K_H: `contact_stiffness_N_per_m1p5`, or Hertz's from `inner_groove_ratio`,
-  `outer_groove_ratio`, `youngs_modulus_Pa` and `poissons_ratio`, or `designation`.
+  `outer_groove_ratio`, `youngs_modulus_Pa` and `poissons_ratio`, or `designation`; with
+  another exponent `contact_exponent` and `contact_stiffness_N_per_mn`.
 
-Two things may be added: `contact_damping_s_per_m`, and a table `defect` with `surface`
+These may be added: `contact_angle_rad`, `outer_ring_speed_ratio`,
+`contact_damping_s_per_m`, and a table `defect` with `surface`
 ("outer_race", "inner_race" or "ball"), `depth_m`, `width_rad`, the place `angle_rad` of
 its middle, and for a ball its number `ball`.
 
-Designations and classes of clearance are those of data/bearings/deep_groove.toml. */
+Designations and classes of clearance are those of data/bearings/deep_groove.toml. Maker,
+seals and cage may stand in a designation; the class of clearance in it counts. */
 #pragma once
 
 #include <string>
@@ -32,7 +35,7 @@ namespace rotor_stator {
     lines for headers. Throws BadInput for a value given in two ways, or in none. */
 Bearing read_bearing(StrictToml& table, std::vector<std::string>& derived);
 
-/** Events per turn of the inner ring, the outer one at rest and the contacts rolling. */
+/** Events per turn of the inner ring, the contacts rolling. */
 struct KinematicOrders {
   double cage;   ///< FTF, ω_cage/ω
   double spin;   ///< BSF, of a ball about itself, seen from the cage

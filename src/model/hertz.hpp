@@ -18,22 +18,25 @@ bearing's (ball_bearing.hpp). */
 namespace rotor_stator {
 
 /** Contact force Q [N] (Eqs 1 and 5) of a ball with the penetration `p` [m]; K_H in
-   N/m^{3/2} (D-08: the paper prints N/m). */
-inline double hertz_force(double contact_stiffness, double p)
+   N/m^{3/2} (D-08: the paper prints N/m). Rollers have another exponent, 10/9. */
+inline double hertz_force(double contact_stiffness, double p, double exponent = 1.5)
 {
+  if (exponent != 1.5) return p > 0 ? contact_stiffness * std::pow(p, exponent) : 0.0;
   return p > 0 ? contact_stiffness * p * std::sqrt(p) : 0.0;
 }
 
 /** Its derivative dQ/dp [N/m]. */
-inline double hertz_stiffness(double contact_stiffness, double p)
+inline double hertz_stiffness(double contact_stiffness, double p, double exponent = 1.5)
 {
+  if (exponent != 1.5)
+    return p > 0 ? exponent * contact_stiffness * std::pow(p, exponent - 1) : 0.0;
   return p > 0 ? 1.5 * contact_stiffness * std::sqrt(p) : 0.0;
 }
 
 /** Penetration [m] under the force `q` ≥ 0 [N]: the inverse of Eq. 1. */
-inline double hertz_penetration(double contact_stiffness, double q)
+inline double hertz_penetration(double contact_stiffness, double q, double exponent = 1.5)
 {
-  return std::pow(q / contact_stiffness, 2.0 / 3.0);
+  return std::pow(q / contact_stiffness, exponent == 1.5 ? 2.0 / 3.0 : 1 / exponent);
 }
 
 /** One solid in contact: Young's modulus [Pa] and Poisson's ratio [-]. */

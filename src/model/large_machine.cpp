@@ -292,7 +292,10 @@ void read_bearings(StrictToml& root, Parameters& parameters, Assembly& all)
   }
   std::vector<Bearing> list;
   for (StrictToml& table : root.tables("bearing")) {
-    list.push_back(read_bearing(table, parameters.derived));
+    std::vector<std::string> derived;
+    list.push_back(read_bearing(table, derived));
+    for (const std::string& line : derived)
+      parameters.derived.push_back(format("bearing %zu: ", list.size()) + line);
     list.back().cage_phase = table.number_or("cage_phase_rad", Range::any, 0);
     all.places.push_back(read_place(&table, all));
     for (std::size_t k = 0; k + 1 < list.size(); ++k)
@@ -434,8 +437,10 @@ void read_bodies(StrictToml& root, Parameters& parameters, const ModelRange& ask
   }
   for (const Bearing& bearing : bearings_of(parameters))
     if (!bearing.is_plain())
-      root.fail("bearing",
-                "of bodies given by matrices takes no contact damping and no defect");
+      root.fail(
+          "bearing",
+          "of bodies given by matrices takes no contact damping, no defect, no other "
+          "contact_exponent and no negative clearance");
   /** The spring is that of a ball that carries all weights and loads. */
   double weight = 0;
   for (const LinearBody& body : all.bodies) {

@@ -198,14 +198,16 @@ void describe(Table& table, const Parameters& parameters, bool with_keys)
   table.detail(format("m_e e = %.15g kg m; g = %.15g m/s^2", parameters.unbalance,
                       parameters.gravity));
   const std::vector<Bearing> bearings = bearings_of(parameters);
-  for (const Bearing& bearing : bearings)
-    table.detail(format("bearing: n = %d, K_H = %.15g N/m^1.5, delta = %.15g m, "
+  for (std::size_t k = 0; const Bearing& bearing : bearings) {
+    const std::string name = bearings.size() == 1 ? "" : format(" %zu", ++k);
+    table.detail(format("bearing%s: n = %d, K_H = %.15g N/m^%g, delta = %.15g m, "
                         "omega_cage/omega = %.15g",
-                        bearing.balls, bearing.contact_stiffness, bearing.clearance,
-                        bearing.cage_speed_ratio) +
+                        name.c_str(), bearing.balls, bearing.contact_stiffness,
+                        bearing.exponent, bearing.clearance, bearing.cage_speed_ratio) +
                  (bearing.cage_phase != 0
                       ? format(", cage phase = %.15g rad", bearing.cage_phase)
                       : ""));
+  }
   const Bearing& bearing = parameters.bearing;
   if (bearing.damping > 0)
     table.detail(format("contact damping: lambda = %.15g s/m", bearing.damping));
@@ -234,7 +236,7 @@ void describe(Table& table, const Parameters& parameters, bool with_keys)
     table.value("ball_diameter" + tail, bearings[k].ball_diameter);
     table.value("bpfo" + tail, orders.outer);
     table.value("bpfi" + tail, orders.inner);
-    if (orders.cage < 0.5) table.value("bsf" + tail, orders.spin);
+    if (orders.spin > 0) table.value("bsf" + tail, orders.spin);
   }
 }
 

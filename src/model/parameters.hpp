@@ -1,10 +1,10 @@
 /**
 # Parameters of the rotor, the stator and their bearing
 
-One TOML file describes one machine, in SI units named in each key. Every key is required
-unless said otherwise, an unknown key is an error, and every value is checked when it is
-read, so that the programs below never meet a machine that cannot exist. The bearing's
-keys are in model/catalogue.hpp. */
+One TOML file describes one machine, in the units named in each key, SI or those of
+`units` (io/toml_file.cpp). Every key is required unless said otherwise, an unknown key is
+an error, and every value is checked when it is read, so that the programs below never
+meet a machine that cannot exist. The bearing's keys are in model/catalogue.hpp. */
 #pragma once
 
 #include <functional>
@@ -62,20 +62,29 @@ struct Defect {
 /** The ball bearing between them. */
 struct Bearing {
   int balls;                 ///< n
-  double contact_stiffness;  ///< K_H [N/m^{3/2}]
-  double clearance;          ///< δ [m], radial
-  double cage_speed_ratio;   ///< c = ω_cage/ω [-]
-  double radius_ratio;       ///< R_b/(R_b + R) [-]; 0 when only c was given
+  double contact_stiffness;  ///< K_H [N/m^{3/2}], or K [N/m^exponent]
+  double clearance;         ///< δ [m], radial; negative where balls are pressed at u = 0
+  double cage_speed_ratio;  ///< c = ω_cage/ω [-]
+  double radius_ratio;      ///< R_b/(R_b + R) [-]; 0 when only c was given
   double ball_diameter = 0;  ///< [m]; 0 when only c was given
   /** Largest of Hertz [Pa] on the race that has more of it, over Q^{1/3}; 0 unknown. */
   double pressure = 0;
-  double damping = 0;  ///< λ of Hunt and Crossley [s/m]
+  double damping = 0;                 ///< λ of Hunt and Crossley [s/m]
+  double exponent = 1.5;              ///< of the penetration; 10/9 for rollers
+  double contact_angle = 0;           ///< α [rad], of the kinematics alone
+  double outer_ring_speed_ratio = 0;  ///< ω_outer/ω [-]
   Defect defect = {};
 
   bool is_damaged(Defect::Surface at) const { return defect.surface == at; }
 
-  /** Whether the force depends on nothing but u and the cage's angle. */
-  bool is_plain() const { return damping == 0 && is_damaged(Defect::Surface::none); }
+  /** Whether a contact is that of Eq. 5, which the kernels are written for. */
+  bool is_hertzian() const { return exponent == 1.5 && clearance >= 0; }
+
+  /** Whether the kernels know the force; damping they know. */
+  bool has_kernel() const { return is_hertzian() && is_damaged(Defect::Surface::none); }
+
+  /** Whether moreover it depends on nothing but u and the cage's angle. */
+  bool is_plain() const { return damping == 0 && has_kernel(); }
   double cage_phase = 0;  ///< angle of ball 1 at t = 0 [rad]
 
   /** The angle of ball 1 [rad] at the rotor's angle ωt = `phase`. */

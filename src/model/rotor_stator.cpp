@@ -62,15 +62,16 @@ Scales scales(const Parameters& parameters)
   const double resonance = joint_resonance(parameters);
   const double unbalance = parameters.unbalance * resonance * resonance;
   const double k_h = parameters.bearing.contact_stiffness;
+  const double n = parameters.bearing.exponent, gap = parameters.bearing.clearance;
 
   /** Without any load the answer is u = 0 and a nanometre of penetration stands for its
       size. */
-  const double load = std::max(weight + unbalance, hertz_force(k_h, 1e-9));
-  const double penetration = hertz_penetration(k_h, load);
+  const double load = std::max(weight + unbalance, hertz_force(k_h, 1e-9, n));
+  const double penetration = std::max(-gap, hertz_penetration(k_h, load, n));
   return {.load = load,
           .penetration = penetration,
-          .length = parameters.bearing.clearance + penetration,
-          .stiffness = hertz_stiffness(k_h, penetration)};
+          .length = std::abs(gap) + penetration,
+          .stiffness = hertz_stiffness(k_h, penetration, n)};
 }
 
 double contact_frequency(const Parameters& parameters)
@@ -193,7 +194,8 @@ Vec2 quasi_static_contact(const Bearing& bearing, Vec2 force)
   const double size = std::hypot(force.x, force.y);
   if (size == 0) return {0, 0};
   const double reach =
-      bearing.clearance + hertz_penetration(bearing.contact_stiffness, size);
+      std::max(0.0, bearing.clearance + hertz_penetration(bearing.contact_stiffness, size,
+                                                          bearing.exponent));
   return {reach * force.x / size, reach * force.y / size};
 }
 

@@ -6,6 +6,7 @@
 #include <limits>
 #include <numbers>
 #include <numeric>
+#include <regex>
 #include <tuple>
 
 #include <Eigen/Cholesky>
@@ -223,7 +224,7 @@ std::vector<Peak> peaks_of(const Eigen::VectorXd& heights, double lowest)
 
 }  // namespace
 
-Lines lines_of_recorded(const Bearing& bearing, const Motion& motion)
+Lines lines_of_recorded(const std::vector<Bearing>& bearings, const Motion& motion)
 {
   constexpr std::size_t most_lines = 200;
   constexpr int most_rounds = 12, passages = 16;
@@ -234,9 +235,9 @@ Lines lines_of_recorded(const Bearing& bearing, const Motion& motion)
   std::vector<double> orders{0};
   std::vector<bool> is_named{true};
   const auto add = [&](double bin) {
-    const LineName name = name_of(bin / turns, bearing, snap / turns, passages);
+    const LineName name = name_of(bin / turns, bearings, snap / turns, passages);
     const bool named = !name.name.empty();
-    const double order = named ? name.order(bearing) : bin / turns;
+    const double order = named ? name.order(bearings[name.bearing]) : bin / turns;
     for (std::size_t h = 0; h < record.size(); ++h)
       if (std::abs(order - orders[h]) * turns <
           (is_named[h] && named ? apart : apart_of_unnamed))
@@ -365,7 +366,7 @@ LineName name_of(const Sum& sum, int balls)
 {
   return {static_cast<double>(sum.h) / sum.denominator + balls * sum.inner,
           balls * (static_cast<double>(sum.outer) / sum.passing - sum.inner), 0,
-          sum.name()};
+          sum.name(), std::get<0>(sum.length())};
 }
 
 /** Of a damaged ball, which meets a race every half turn and stands elsewhere each time:
@@ -390,7 +391,7 @@ std::optional<LineName> name_of_spin(double order, const Bearing& bearing,
         if (multiple != 0)
           name += (multiple > 0 ? "+" : "-") + term(std::abs(multiple), 1, symbol);
       best = LineName{static_cast<double>(h), static_cast<double>(j),
-                      static_cast<double>(s), name};
+                      static_cast<double>(s), name, cost};
     }
   return best;
 }
@@ -413,7 +414,7 @@ LineName name_of(double order, const Bearing& bearing, double tolerance, int pas
   const KinematicOrders orders = kinematic_orders(bearing);
   LineName name = multiple_of("FTF", order, orders.cage, bearing.balls, tolerance);
   name.cage = std::round(order / orders.cage);
-  if (name.name.empty() && orders.cage < 0.5) {
+  if (name.name.empty() && orders.spin > 0) {
     name = multiple_of("BSF", order, orders.spin, 4, tolerance);
     name.spin = std::round(order / orders.spin);
   }
@@ -423,6 +424,22 @@ LineName name_of(double order, const Bearing& bearing, double tolerance, int pas
     if (const auto halves = sum_of(order, bearing, tolerance, 2, 2, passages / 8))
       return name_of(*halves, bearing.balls);
   return {};
+}
+
+LineName name_of(double order, const std::vector<Bearing>& bearings, double tolerance,
+                 int passages)
+{
+  static const std::regex symbols("BPFO|BPFI|FTF|BSF");
+  LineName best;
+  for (std::size_t k = 0; k < bearings.size(); ++k) {
+    LineName name = name_of(order, bearings[k], tolerance, passages);
+    if (name.name.empty() || (!best.name.empty() && name.length >= best.length)) continue;
+    if (k > 0)
+      name.name = std::regex_replace(name.name, symbols, format("$&_%zu", k + 1));
+    name.bearing = k;
+    best = name;
+  }
+  return best;
 }
 
 }  // namespace rotor_stator::motion

@@ -48,12 +48,14 @@ Lines lines_of_closed(const Motion& motion, double turns);
     until none is above 1e-6 of the largest. A peak within a fifth of the resolution, one
     over the number of turns, of a frequency of the machine is taken to be there. At most
     200 lines. */
-Lines lines_of_recorded(const Bearing& bearing, const Motion& motion);
+Lines lines_of_recorded(const std::vector<Bearing>& bearings, const Motion& motion);
 
 /** A frequency of the machine; its name is empty when the line has none. */
 struct LineName {
   double rotation = 0, cage = 0, spin = 0;  ///< k of the equation above
   std::string name = {};
+  double length = 1e3;      ///< of a sum; less is better
+  std::size_t bearing = 0;  ///< whose cage and balls
 
   double order(const Bearing& bearing) const;
 };
@@ -61,6 +63,10 @@ struct LineName {
 /** The shortest name of an order, at most `tolerance` off, with k_cage at most n
     `passages`; halves of both frequencies of a torus up to an eighth of that. */
 LineName name_of(double order, const Bearing& bearing, double tolerance, int passages);
+
+/** The shortest by any of the bearings: the frequencies of the second are BPFO_2, … */
+LineName name_of(double order, const std::vector<Bearing>& bearings, double tolerance,
+                 int passages);
 
 /** 4-term window of Blackman and Harris for a record of `samples`, its sum 1; its side
     lobes are below -92 dB. */

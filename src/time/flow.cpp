@@ -87,8 +87,8 @@ std::unique_ptr<Flow> TwoMasses::flow(const Parameters& parameters, double omega
   if (needs_slopes && !parameters.bearing.is_plain())
     throw BadInput(
         "--method " + settings.method +
-        ": knows no contact damping and no defect; take rk4, rk8, rk8pd, rkf45, "
-        "rkck or msadams");
+        ": knows Hertz's contact alone, undamped and undamaged; take rk4, rk8, rk8pd, "
+        "rkf45, rkck or msadams");
   const int intervals = settings.intervals_per_period;
   if (settings.method == "rk4")
     return std::make_unique<Rk4>(

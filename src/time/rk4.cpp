@@ -24,7 +24,7 @@ Rk4::Rk4(const Parameters& parameters, double omega, int intervals, double longe
     : system_(parameters, omega), turns_(Turns::of(parameters)), intervals_(intervals),
       steps_(steps_in_interval(system_.period(), intervals, longest_step)),
       h_(system_.period() / (static_cast<double>(intervals) * steps_)),
-      is_damaged_(!parameters.bearing.is_damaged(Defect::Surface::none)),
+      is_general_(!parameters.bearing.has_kernel()),
       is_damped_(parameters.bearing.damping > 0), budget_(std::move(budget))
 {
   half_ = turns_.by(0.5 / (static_cast<double>(intervals) * steps_));
@@ -242,7 +242,7 @@ void Rk4::advance(long interval, State& state)
 {
   pay(1);
   const Passage alone{this, interval, &state};
-  if (!is_damaged_) return advance_row({&alone, 1});
+  if (!is_general_) return advance_row({&alone, 1});
   const auto acceleration = [&](const Bodies& q, const Bodies& v, const Angles& at) {
     return system_.acceleration(q, v, at);
   };

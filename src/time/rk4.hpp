@@ -84,7 +84,7 @@ public:
   /** Motions side by side in one row share these. */
   int balls() const { return system_.bearing().ring().count; }
   bool is_damped() const { return is_damped_; }
-  bool is_damaged() const { return is_damaged_; }
+  bool is_general() const { return is_general_; }
 
   /** As many passages in a row as the registers hold: wider ones take longer than two
       that fit. */
@@ -109,7 +109,7 @@ private:
   int intervals_, steps_;
   double h_;
   Angles half_;  ///< the turns in half a step
-  bool is_damaged_, is_damped_;
+  bool is_general_, is_damped_;
   OperationBudget budget_;
   long evaluations_ = 0;
 };

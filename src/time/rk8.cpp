@@ -229,7 +229,7 @@ Rk8::Rk8(const Parameters& parameters, double omega, int intervals, double toler
           std::min(1.0, default_step(parameters) * intervals / system_.period())),
       longest_share_(6 * default_step(parameters) * intervals / system_.period()),
       tolerance_(tolerance), per_size_(state_scales(parameters).cwiseInverse()),
-      is_damaged_(!parameters.bearing.is_damaged(Defect::Surface::none)),
+      is_general_(!parameters.bearing.has_kernel()),
       is_damped_(parameters.bearing.damping > 0), budget_(std::move(budget)),
       wanted_(first_share_)
 {
@@ -311,7 +311,7 @@ double Rk8::attempt(Step<rows>& step)
   using Kind = typename Step<rows>::Kind;
   budget_.spend(stages * (rows == alone ? price : price_with_derivative));
   evaluations_ += stages;
-  if (is_damaged_) return take<Kind::any>(step);
+  if (is_general_) return take<Kind::any>(step);
   if constexpr (rows == alone)
     if (is_damped_) return take<Kind::damped>(step);
   return take<Kind::plain>(step);

@@ -78,7 +78,7 @@ private:
   double first_share_, longest_share_;  ///< the latter with a derivative, in intervals
   double tolerance_;
   Vector8 per_size_;
-  bool is_damaged_, is_damped_;
+  bool is_general_, is_damped_;
   OperationBudget budget_;
 
   double wanted_;                ///< length of the next step, in intervals

@@ -12,7 +12,7 @@ namespace rotor_stator {
 static Rk4* in_lanes(const Passage& one)
 {
   const auto rk4 = dynamic_cast<Rk4*>(one.flow);
-  return rk4 && !rk4->is_damaged() ? rk4 : nullptr;
+  return rk4 && !rk4->is_general() ? rk4 : nullptr;
 }
 
 static void advance_alone(const Passage& one)

@@ -3,11 +3,16 @@ give, and what is refused.
 
 Usage: tests/unit/catalogue.py   (from the project's root)
 """
+import math
 import re
 import sys
 import tomllib
 import unittest
 from pathlib import Path
+
+import numpy as np
+from scipy.optimize import brentq
+from scipy.special import ellipe, ellipk
 
 sys.path.insert(0, str(Path(__file__).parents[1]))
 from support.explore import MACHINE, Case  # noqa: E402
@@ -33,6 +38,26 @@ def machine(bearing):
 def published_digits(factor):
     """Half a unit of the last digit printed."""
     return 0.5 * 10.0 ** -len(repr(factor).partition(".")[2])
+
+
+def static_factor(ratio):
+    """f0 of ISO 76: the load in N of one ball of 1 mm, over 5, that presses 4200 N/mm^2 on the inner race (grooves 0.52)
+    or on the outer one (0.53), whichever is less, by the ellipse of Hertz."""
+    def load(groove, race):
+        curvatures = [1 + race * ratio / (1 - race * ratio), 1 - 1 / (2 * groove)]  # times 2/D each
+        across, along = max(curvatures), min(curvatures)
+        cosine = (across - along) / (across + along)
+
+        def misfit(kappa):  # kappa > 1: ratio of the ellipse's axes
+            m = 1 - kappa**-2
+            return ((kappa**2 + 1) * ellipe(m) - 2 * ellipk(m)) / ((kappa**2 - 1) * ellipe(m)) - cosine
+        kappa = brentq(misfit, 1 + 1e-6, 1e3)
+        total = 2 * (across + along)
+        stiffness = 2.07e5 / (1 - 0.3**2)
+        # Semi-axes a = (6 kappa^2 E Q/(pi total stiffness))^(1/3), b = a/kappa; pressure 3 Q/(2 pi a b).
+        per_load = (6 * kappa**2 * ellipe(1 - kappa**-2) / (np.pi * total * stiffness)) ** (1 / 3)
+        return (4200 * 2 * np.pi * per_load**2 / (3 * kappa)) ** 3
+    return min(load(0.52, 1), load(0.53, -1)) / 5
 
 
 class Catalogue(Case):
@@ -81,10 +106,93 @@ class Catalogue(Case):
         """ISO 5753-1: a class lies above the one before, and a bore on a limit belongs to the range below."""
         for entry in CATALOGUE["bearing"]:
             middles = [self.values(f'designation = "{entry["designation"]}"\ninternal_clearance = "{name}"', "clearance")[0]
-                       for name in ["C2", "CN", "C3", "C4"]]
+                       for name in ["C2", "CN", "C3", "C4", "C5"]]
             self.assertEqual(middles, sorted(set(middles)))
         thirty, = self.values('designation = "6206"\ninternal_clearance = "C4"', "clearance")
         self.assertAlmostEqual(thirty, (23e-6 + 41e-6) / 4, delta=1e-18)
+
+    def test_balls_by_ratings_give_them(self):
+        """C0r = f0 n D^2 (ISO 76), with f0 from the contact of 4200 N/mm^2 at grooves of 0.52 and 0.53, and Cr = 1.3 fc
+        n^(2/3) D^1.8 (ISO 281, table 2): another ball, count or pitch misses the maker's numbers."""
+        table = np.array([[0.05, 46.7], [0.06, 49.1], [0.07, 51.1], [0.08, 52.8], [0.09, 54.3], [0.1, 55.5], [0.12, 57.5],
+                          [0.14, 58.8], [0.16, 59.6], [0.18, 59.9], [0.2, 59.9], [0.22, 59.6], [0.24, 59.0], [0.26, 58.2],
+                          [0.28, 57.1], [0.3, 56.0], [0.32, 54.6], [0.34, 53.2], [0.36, 51.7], [0.38, 50.0]])
+        rated = [entry for entry in CATALOGUE["bearing"] if "ratings" in entry]
+        self.assertGreaterEqual(len(rated), 40)
+        for entry in rated:
+            with self.subTest(entry["designation"]):
+                ball, ratings = 1e3 * entry["ball_diameter_m"], entry["ratings"]
+                ratio = ball / (1e3 * entry["pitch_diameter_m"])
+                f0, n = static_factor(ratio), entry["balls"]
+                dynamic = 1.3 * np.interp(ratio, *table.T) * n ** (2 / 3) * ball ** 1.8
+                self.assertAlmostEqual(f0 * n * ball**2 / ratings["C0r_N"], 1, delta=0.025)
+                self.assertAlmostEqual(dynamic / ratings["Cr_N"], 1, delta=0.01)
+                self.assertAlmostEqual(f0 / ratings.get("f0", f0), 1, delta=0.02)
+                self.assertAlmostEqual(64 * ball / 25.4, round(64 * ball / 25.4), delta=1e-3)
+
+    def test_designations_as_people_write_them(self):
+        """Maker, seals, cage and grease change nothing and are named; a class of clearance is that of the key."""
+        keys = ["balls", "contact_stiffness", "clearance", "cage_speed_ratio"]
+        expected = self.values(C3, *keys)
+        for text in ["6205 C3", "6205/C3", "6205C3", "SKF 6205-2RS1/C3", "6205-2Z/C3GJN", "6205 zz c3", "6205/P63"]:
+            with self.subTest(text):
+                self.assertEqual(self.values(f'designation = "{text}"', *keys), expected)
+        for text, unused in [("SKF 6205-2RS", "SKF 2RS"), ("6205-2RS JEM", "2RS JEM"), ("6205ZZ", "ZZ")]:
+            with self.subTest(text):
+                lines = self.lines("orbit", self.file("own.toml", machine(C3.replace("6205", text))), *BRIEF)
+                self.assertIn(f"bearing data of Case Western Reserve University; not used: {unused}", "\n".join(lines))
+        own = self.values('designation = "6201-2Z"\ninternal_clearance = "C0"', *keys)
+        self.assertEqual(own, self.values('designation = "6201 CN"\ninternal_clearance = "C0"', *keys))
+        self.assertAlmostEqual(own[2], (3e-6 + 18e-6) / 4, delta=1e-18)
+        self.assertAlmostEqual(*self.values('designation = "6205 C5"', "clearance"), (30e-6 + 53e-6) / 4, delta=1e-18)
+        for bearing, words in [
+                (C3.replace("6205", "6205 C4"), 'internal_clearance "C3" contradicts C4 of designation'),
+                ('designation = "6205 C3"\nradial_clearance_m = 1e-6', "radial_clearance_m and C3 of designation are both"),
+                (C3.replace("6205", "NU205"), "is a cylindrical roller bearing"),
+                (C3.replace("6205", "7205 BECBP"), "is an angular contact ball bearing"),
+                (C3.replace("6205", "62051"), "is not in the catalogue"),
+                (C3.replace("6205", "SKF"), "holds no number such as 6205")]:
+            with self.subTest(words):
+                self.refused_machine(words, machine(bearing))
+
+    def test_keys_in_other_units(self):
+        """The same orbit, digit by digit, from keys in the units of the workshop; both units, or a length that is no
+        length, are refused; a map sets the key in either unit."""
+        def values(text, *extra):
+            return self.rows("orbit", self.file("own.toml", text), "--frequency", 45, "--harmonics", 6, *extra)
+        expected = values(MACHINE.replace("natural_frequency_rad_per_s = 500.0",
+                                          f"natural_frequency_rad_per_s = {160 * math.pi!r}"))
+        other = MACHINE.replace("natural_frequency_rad_per_s = 500.0", "natural_frequency_Hz = 80")
+        self.assertEqual(values(other), expected)
+        self.assertEqual(values(other.replace("frequency_Hz = 80", "frequency_rpm = 4800")), expected)
+        for mine in ["radial_clearance_um = 20", "radial_clearance_mm = 0.02"]:
+            self.assertEqual(values(other.replace("radial_clearance_m = 2e-5", mine)), expected)
+        self.assertEqual(values(other.replace("unbalance_kg_m = 0.05", "unbalance_g_mm = 50000")), expected)
+        mm = BY_HAND.replace("ball_diameter_m = 0.00794", "ball_diameter_mm = 7.94").replace(
+            "youngs_modulus_Pa = 2.07e11", "youngs_modulus_GPa = 207")
+        keys = ["contact_stiffness", "clearance", "cage_speed_ratio"]
+        self.assertEqual(self.values(mm, *keys), self.values(BY_HAND, *keys))
+        self.assertEqual(self.values(mm.replace("GPa = 207", "MPa = 207000"), *keys), self.values(BY_HAND, *keys))
+        for old, new, words in [
+                ("radial_clearance_m = 2e-5", "radial_clearance_m = 2e-5\nradial_clearance_um = 20",
+                 "bearing.radial_clearance_um and radial_clearance_m are both given"),
+                ("natural_frequency_rad_per_s = 500.0", "natural_frequency_Hz = -5", "stator.natural_frequency_Hz must be >= 0, got -5"),
+                ("radial_clearance_m = 2e-5", "radial_clearnce_um = 20", "did you mean radial_clearance_m?"),
+                ("damping_ratio = 0.05", "damping_N_s_per_mm = 5", "damping_ratio is missing")]:
+            self.refused_change(old, new, words)
+        maps = [[row.split("\t")[-1] for row in self.rows("map", self.file("own.toml", text), "--x", axis, "--frequency", 45,
+                                                           "--harmonics", 6, "--quantity", "amplitude")]
+                for text in [MACHINE, MACHINE.replace("radial_clearance_m = 2e-5", "radial_clearance_um = 20")]
+                for axis in ["bearing.radial_clearance_m=1e-5:2e-5:2", "bearing.radial_clearance_um=10:20:2"]]
+        self.assertEqual(maps, maps[:1] * 4)
+
+    def rows(self, *arguments):
+        return [line for line in self.lines(*arguments) if not line.startswith("#")]
+
+    def test_the_missing_key_is_named(self):
+        """Not the one beside it, which is given and right."""
+        self.refused_machine("bearing.ball_diameter_m is missing\n",
+                             machine(BY_HAND.replace("ball_diameter_m = 0.00794\n", "")))
 
     def test_refusals_of_damping_and_spalls(self):
         def spall(**values):
@@ -109,7 +217,7 @@ class Catalogue(Case):
         ratios = "\n".join(BY_HAND.splitlines()[3:])
         for bearing, words in [
                 (C3.replace("6205", "6299"), 'bearing.designation "6299" is not in the catalogue; there are 6002, 6203,'),
-                (C3.replace("C3", "C7"), "must be C2, CN (normal), C3 or C4"),
+                (C3.replace("C3", "C7"), "must be C2, CN or C0 (normal), C3, C4 or C5"),
                 (C3 + "\nballs = 9", "designation and balls are both given"),
                 (C3 + "\ncage_speed_ratio = 0.4", "designation and cage_speed_ratio are both given"),
                 (C3 + "\nball_diameter_m = 0.01", "designation and ball_diameter_m are both given"),

@@ -217,7 +217,7 @@ class Large(Case):
                 ("%%MatrixMarket vector coordinate real general\n2 2 1\n1 1 1\n", "must be %%MatrixMarket"),
                 (head, "sizes"), (head + "2 3 1\n1 1 1\n", "square"), (head + "3 3 1\n1 1 1\n", "M.mtx 2"),
                 (head + "2 2 2\n1 1 1\n", "ends after 1 of 2"), (head + "2 2 1\n1 1 1\n2 2 1\n", "ended"),
-                (head + "2 2 2\n1 1 1\n1 1 1\n", "twice"), (head + "2 2 1\n1 3 1\n", "1...2"),
+                (head.replace("general", "symmetric") + "2 2 2\n1 2 1\n2 1 1\n", "triangles"), (head + "2 2 1\n1 3 1\n", "1...2"),
                 (head + "2 2 1\n0 1 1\n", "1...2"), (head + "2 2 1\n1 1 nan\n", "finite"),
                 (head + "2 2 1\n1 1 1 1\n", "more"), (head + "2 2 1\n1 1\n", "lacks"),
                 (head + "2 2 1\n1 1 x\n", "something else"), (head + "2 2 1\n1 2 1\n", "symmetric"),

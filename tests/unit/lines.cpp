@@ -57,7 +57,7 @@ TEST_CASE("the lines of a record are the cosines that it was made of")
                                 {8.12, "BPFI-1X", 1e-6}, {5.88, "BPFO-1X", 1e-8},
                                 {0.43, "FTF", 4e-7},     {0.86, "2FTF", 2e-8},
                                 {spin, "BSF", 6e-7},     {0.732157, "", 7e-7}};
-  const Lines lines = lines_of_recorded(b, record_of(tones, 64, 128));
+  const Lines lines = lines_of_recorded({b}, record_of(tones, 64, 128));
   CHECK(lines.mean[0] == Approx(1e-5).epsilon(1e-9));
   CHECK(lines.mean[3] == Approx(-2e-4).epsilon(1e-9));
   CHECK(lines.rest < 1e-5);

@@ -234,7 +234,7 @@ class Refusals(Case):
                 ("did you mean balls", f"--x bearing.bals=1:2:3 {usual}"),
                 ("wind is not a known key", f"--x wind.speed=1:2:3 {usual}"),
                 ("title must be a string", f"--x title=1:2:3 {usual}"),
-                ("radial_clearance_m must be >= 0", f"--x {CLEARANCE}=-1:1:3 {usual}"),
+                ("rotor.mass_kg must be > 0", f"--x rotor.mass_kg=-1:1:3 {usual}"),
                 ("must be in 1...10000000", f"--x {CLEARANCE}=0:1e-4:0 {usual}"),
                 ("must be in 1...10000000", f"--x {CLEARANCE}=0:1e-4:10000001 {usual}"),
                 ("log needs", f"--x {CLEARANCE}=0:1e-4:3:log {usual}"),
