@@ -34,7 +34,8 @@ int jacobian(double t, N_Vector y, N_Vector, SUNMatrix dfdy, void* data, N_Vecto
 /** CVODE's objects for one integration. */
 class Cvode {
 public:
-  Cvode(CountedEquation7& equation, int bdf_order, double tolerance, const double* start)
+  Cvode(CountedEquation7& equation, int bdf_order, double tolerance, double begin,
+        const double* start)
   {
     SUNContext_Create(nullptr, &context_);
     y_ = N_VNew_Serial(CountedEquation7::size, context_);
@@ -43,7 +44,7 @@ public:
     equation.sizes(N_VGetArrayPointer(sizes_));
     N_VScale(tolerance, sizes_, sizes_);
     memory_ = CVodeCreate(bdf_order ? CV_BDF : CV_ADAMS, context_);
-    CVodeInit(memory_, derivative, 0, y_);
+    CVodeInit(memory_, derivative, begin, y_);
     CVodeSVtolerances(memory_, tolerance, sizes_);
     CVodeSetUserData(memory_, &equation);
     CVodeSetMaxNumSteps(memory_, 100'000'000);
@@ -106,11 +107,11 @@ private:
 }  // namespace
 
 int cvode_integrate(CountedEquation7* equation, int bdf_order, double tolerance,
-                    const double* start, int n, const double* times, double* states,
-                    long* counts)
+                    double begin, const double* start, int n, const double* times,
+                    double* states, long* counts)
 {
   equation->evaluations = equation->jacobians = 0;
-  Cvode cvode(*equation, bdf_order, tolerance, start);
+  Cvode cvode(*equation, bdf_order, tolerance, begin, start);
   for (int k = 0; k < n; ++k, states += CountedEquation7::size, counts += 3) {
     const int flag = cvode.advance(times[k], states);
     if (flag < 0) return flag;

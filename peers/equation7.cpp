@@ -7,6 +7,9 @@
 #include <exception>
 #include <numbers>
 
+#include "model/base_period.hpp"
+#include "time/flow.hpp"
+
 namespace rotor_stator {
 
 void CountedEquation7::derivative(double t, const double* y, double* dydt)
@@ -124,4 +127,37 @@ void equation7_counts(CountedEquation7* equation, long* counts)
   counts[0] = equation->evaluations;
   counts[1] = equation->jacobians;
   equation->evaluations = equation->jacobians = 0;
+}
+
+double equation7_base(const CountedEquation7* equation, int* is_driven_twice)
+{
+  const BasePeriod base = base_period(equation->parameters);
+  *is_driven_twice = base.is_driven_twice();
+  return over(base, equation->parameters, equation->system.omega()).omega /
+         (2 * std::numbers::pi);
+}
+
+long equation7_flow(const CountedEquation7* equation, const char* method, double accuracy,
+                    int intervals, long first, const double* start, int n, double* states)
+{
+  try {
+    const BasePeriod base = base_period(equation->parameters);
+    const auto [machine, omega] =
+        over(base, equation->parameters, equation->system.omega());
+    const auto stepper = flow(machine, omega,
+                              {.method = method,
+                               .intervals_per_period = intervals,
+                               .step = accuracy,
+                               .tolerance = accuracy});
+    State state{bodies_at(start), bodies_at(start + 4)};
+    for (int k = 0; k < n; ++k, states += CountedEquation7::size) {
+      stepper->advance(first + k, state);
+      put(state.position, states);
+      put(state.velocity, states + 4);
+    }
+    return stepper->evaluations();
+  } catch (const std::exception& error) {
+    std::fprintf(stderr, "%s\n", error.what());
+    return -1;
+  }
 }

@@ -27,8 +27,13 @@ def load():
     library.equation7_forces.argtypes = [c_void_p, c_int] + 3 * [POINTER(c_double)]
     library.equation7_derivatives.argtypes = [c_void_p, c_int, c_int] + 2 * [POINTER(c_double)]
     library.equation7_counts.argtypes = [c_void_p, POINTER(c_long)]
-    library.cvode_integrate.argtypes = [c_void_p, c_int, c_double, POINTER(c_double), c_int,
-                                        POINTER(c_double), POINTER(c_double), POINTER(c_long)]
+    library.cvode_integrate.argtypes = [c_void_p, c_int] + 2 * [c_double] + [
+        POINTER(c_double), c_int, POINTER(c_double), POINTER(c_double), POINTER(c_long)]
+    library.equation7_base.restype = c_double
+    library.equation7_base.argtypes = [c_void_p, POINTER(c_int)]
+    library.equation7_flow.restype = c_long
+    library.equation7_flow.argtypes = [c_void_p, c_char_p, c_double, c_int, c_long,
+                                       POINTER(c_double), c_int, POINTER(c_double)]
     return library
 
 
@@ -96,3 +101,18 @@ class Case:
         counts = np.empty(2, dtype=np.int64)
         LIBRARY.equation7_counts(self.handle, pointer(counts, c_long))
         return counts
+
+    def base(self):
+        """Frequency [Hz] of the base period, and whether two frequencies drive."""
+        twice = c_int()
+        return LIBRARY.equation7_base(self.handle, ctypes.byref(twice)), bool(twice.value)
+
+    def flow(self, method, accuracy, intervals, first, start, count):
+        """States at the ends of `count` intervals of the base period by a stepper of this project,
+        and the number of evaluations."""
+        states = np.empty((count, SIZE))
+        done = LIBRARY.equation7_flow(self.handle, method.encode(), accuracy, intervals, first,
+                                      pointer(np.ascontiguousarray(start)), count, pointer(states))
+        if done < 0:
+            raise SystemExit(1)
+        return states, done

@@ -1,6 +1,6 @@
 """The outside integrators behind one call: SUNDIALS CVODE and SciPy.
 
-integrate(case, method, tolerance, start, times) gives the states at the times, n x 8, and after
+integrate(case, method, tolerance, start, times, begin=0) gives the states at the times, n x 8, and after
 each time the numbers of evaluations of Eq. 7, of Jacobians and of steps so far, n x 3. The
 tolerance is relative, and absolute in each component times that component's size. Output times
 shorten no step, except Radau's, whose interpolant is of a lower order than its steps.
@@ -17,10 +17,11 @@ class Broken(Exception):
     """An integration that its method gave up."""
 
 
-def cvode(case, bdf_order, tolerance, start, times):
+def cvode(case, bdf_order, tolerance, start, times, begin=0):
     states, counts = np.empty((len(times), SIZE)), np.empty((len(times), 3), dtype=np.int64)
-    flag = LIBRARY.cvode_integrate(case.handle, bdf_order, tolerance, pointer(start), len(times),
-                                   pointer(times), pointer(states), pointer(counts, c_long))
+    flag = LIBRARY.cvode_integrate(case.handle, bdf_order, tolerance, begin, pointer(start),
+                                   len(times), pointer(times), pointer(states),
+                                   pointer(counts, c_long))
     if flag < 0:
         raise Broken(f"CVODE's flag {flag}")
     return states, counts
@@ -37,8 +38,8 @@ def step_to(solver, time):
     return steps
 
 
-def dop853(case, tolerance, start, times):
-    solver = DOP853(case.derivative, 0, start, times[-1] + 1 / case.frequency,
+def dop853(case, tolerance, start, times, begin=0):
+    solver = DOP853(case.derivative, begin, start, times[-1] + 1 / case.frequency,
                     rtol=tolerance, atol=tolerance * case.sizes())
     states, counts = [], []
     total, interpolant = np.zeros(3, dtype=np.int64), None
@@ -53,8 +54,8 @@ def dop853(case, tolerance, start, times):
     return np.array(states), np.array(counts)
 
 
-def radau(case, tolerance, start, times):
-    solver = Radau(case.derivative, 0, start, times[0], jac=case.jacobian,
+def radau(case, tolerance, start, times, begin=0):
+    solver = Radau(case.derivative, begin, start, times[0], jac=case.jacobian,
                    rtol=tolerance, atol=tolerance * case.sizes())
     states, counts, total = [], [], np.zeros(3, dtype=np.int64)
     case.counts()
@@ -68,9 +69,9 @@ def radau(case, tolerance, start, times):
     return np.array(states), np.array(counts)
 
 
-def lsoda(case, tolerance, start, times):
+def lsoda(case, tolerance, start, times, begin=0):
     """ODEPACK's LSODA by odeint, whose loop over the steps is compiled."""
-    states, info = odeint(case.derivative, start, np.concatenate([[0], times]), tfirst=True,
+    states, info = odeint(case.derivative, start, np.concatenate([[begin], times]), tfirst=True,
                           Dfun=case.jacobian, rtol=tolerance, atol=tolerance * case.sizes(),
                           mxstep=10**8, full_output=True)
     if info["message"] != "Integration successful.":
@@ -78,8 +79,8 @@ def lsoda(case, tolerance, start, times):
     return states[1:], np.column_stack([info["nfe"], info["nje"], info["nst"]])
 
 
-def integrate(case, method, tolerance, start, times):
-    return METHODS[method](case, tolerance, start, times)
+def integrate(case, method, tolerance, start, times, begin=0):
+    return METHODS[method](case, tolerance, start, times, begin)
 
 
 METHODS = {

@@ -1,0 +1,291 @@
+"""Speed against error for questions of users: this project, SciPy, SUNDIALS, and RK4 alone.
+
+Usage: OMP_NUM_THREADS=1 /usr/bin/python3 peers/tab03_answers.py SCENE.toml > tab03_answers.tsv
+Of each question some rows are drawn once. The other methods compute these, from rest through a
+transient, and their cost is scaled to all rows; this project computes all rows. The errors are
+those of the drawn rows. A setting is chosen on the first of them: the shortest transient, then the
+loosest tolerance with which enough rows stay below the target.
+"""
+
+import shlex
+import subprocess
+import sys
+import time
+import tomllib
+from statistics import median
+
+import numpy as np
+from answers import Reading, Row, changed_file, read, reference
+from explore import ROOT, Table, child_seconds
+from integrators import Broken
+from peers_table import cell, sundials_version
+
+COLUMNS = (
+    ("question", "-", "letter of the question, see the list of questions"),
+    ("method", "-", "this: the command of this project; this-balance: by harmonic balance"),
+    ("target", "-", "error that is asked for"),
+    ("cpu_s", "s", "CPU time of all rows, median; of other methods scaled from the computed rows"),
+    ("wall_s", "s", "the same of the clock, one thread"),
+    ("error", "-", "median relative error of the rotor's horizontal amplitude"),
+    ("evaluations", "-", "of Eq. 7, all rows, Jacobians included"),
+    ("error_largest", "-", "largest of these errors"),
+    ("within", "-", "rows whose error is below the target"),
+    ("compared", "-", "rows whose motion closes or contracts, and that have a value"),
+    ("kinds", "-", "drawn rows whose kind is that of the reference; - where none is told"),
+    ("drawn", "-", "rows that are drawn"),
+    ("computed", "-", "rows that were computed"),
+    ("rows", "-", "rows of the question"),
+    ("integrator", "-", "what integrates"),
+    ("accuracy", "-", "its relative tolerance; of rk4 its step [s]; - where none is given"),
+    ("transient", "s", "before the recorded base periods; - where the program chooses it"),
+    ("repetitions", "-", "of the timed run"),
+)
+
+
+def spaced(span):
+    return np.linspace(span["from"], span["to"], span["count"])
+
+
+class Asked:
+    """A question with its rows, the drawn ones and their references."""
+
+    def __init__(self, question, scene):
+        self.question, self.scene, self.name = question, scene, question["name"]
+        self.file = changed_file(self.name, question)
+        self.speeds = spaced(question["speeds_hz"])
+        self.clearances = spaced(question["clearances_m"]) if "clearances_m" in question else [0]
+        self.starts = question.get("starts", 1)
+        shape = (len(self.clearances), len(self.speeds), self.starts)
+        self.count = int(np.prod(shape))
+        random = np.random.default_rng(scene["seed"])
+        drawn = random.choice(self.count, scene["computed_rows"], replace=False)
+        self.drawn = [self.row(*np.unravel_index(k, shape)) for k in drawn]
+        self.references = [reference(row, scene) for row in self.drawn]
+
+    def row(self, line, column, start):
+        clearance, file = self.clearances[line], self.file
+        if clearance:
+            file = changed_file(f"{self.name}-{line}", self.question, clearance)
+        return Row(file, float(self.speeds[column]), float(clearance), int(start))
+
+    def searched(self):
+        """The first drawn rows that are compared."""
+        compared = [pair for pair in zip(self.drawn, self.references) if pair[1].kind]
+        return compared[:self.scene["search_rows"]]
+
+
+def errors_of(readings, references):
+    """Relative errors of the rows that are compared; a missing reading has none."""
+    return np.array([abs(found.amplitude / true.amplitude - 1)
+                     for found, true in zip(readings, references) if true.kind and found])
+
+
+def reading_of(row, method, accuracy, transient, target, scene):
+    """None where the method breaks down."""
+    try:
+        return read(row, method, accuracy, transient, target, scene)
+    except Broken:
+        return None
+
+
+def enough(asked, method, accuracy, transient, target, bound):
+    """Whether the share of the searched rows stays below the bound, and the CPU time of them."""
+    rows, references = zip(*asked.searched())
+    began = time.process_time()
+    found = [reading_of(row, method, accuracy, transient, target, asked.scene) for row in rows]
+    below = (errors_of(found, references) <= bound).sum()
+    return below >= asked.scene["share"] * len(rows), time.process_time() - began
+
+
+def transient_for(asked, target):
+    """The shortest transient that leaves half of the target; the longest where none does."""
+    search = asked.scene["search"]
+    for transient in search["transients_s"]:
+        if enough(asked, "cvode-adams", search["accuracy"], transient, target, target / 2)[0]:
+            break
+    return transient
+
+
+def setting_for(asked, integrators, transient, target):
+    """The cheapest integrator with its loosest accuracy that is enough; else the tightest one of the
+    first integrator."""
+    found = []
+    for integrator, accuracies in integrators.items():
+        for accuracy in accuracies:
+            reached, seconds = enough(asked, integrator, accuracy, transient, target, target)
+            if reached:
+                found.append((seconds, integrator, accuracy))
+                break
+    if found:
+        return min(found)[1:]
+    integrator, accuracies = next(iter(integrators.items()))
+    return integrator, accuracies[-1]
+
+
+def timed(run, scene):
+    """The result of a run, medians of its CPU and wall time, and the number of repetitions."""
+    cpu, wall = [], []
+    while not wall or (len(wall) < scene["repetitions"] and wall[0] < scene["slow_s"]):
+        began, clock = time.process_time() + child_seconds(), time.perf_counter()
+        result = run()
+        wall.append(time.perf_counter() - clock)
+        cpu.append(time.process_time() + child_seconds() - began)
+    return result, median(cpu), median(wall), len(wall)
+
+
+def table_row(asked, method, target, readings, **more):
+    """One row of the table."""
+    errors = errors_of(readings, asked.references)
+    told = [(found.kind, true.kind) for found, true in zip(readings, asked.references)
+            if found and found.kind is not None]
+    return {"question": asked.name, "method": method, "target": target,
+            "error": np.median(errors) if errors.size else "-",
+            "error_largest": errors.max() if errors.size else "-",
+            "within": int((errors <= target).sum()), "compared": errors.size,
+            "kinds": sum(found == true for found, true in told) if told else "-",
+            "drawn": len(asked.drawn), "rows": asked.count, **more}
+
+
+def other(asked, method, integrators, target, transient):
+    """A method that computes the drawn rows alone."""
+    scene = asked.scene
+    integrator, accuracy = setting_for(asked, integrators, transient, target)
+    readings, cpu, wall, repetitions = timed(
+        lambda: [reading_of(row, integrator, accuracy, transient, target, scene)
+                 for row in asked.drawn], scene)
+    scale = asked.count / len(asked.drawn)
+    evaluations = sum(found.evaluations for found in readings if found)
+    return table_row(asked, method, target, readings, cpu_s=scale * cpu, wall_s=scale * wall,
+                     evaluations=round(scale * evaluations), computed=len(asked.drawn),
+                     integrator=integrator, accuracy=accuracy, transient=transient,
+                     repetitions=repetitions)
+
+
+def explored(words):
+    """The table that explore prints; a row without a value is none of its failures here."""
+    done = subprocess.run([str(ROOT / "build/explore"), *words, "--quiet"], cwd=ROOT, check=False,
+                          stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True)
+    if not done.stdout:
+        sys.exit(f"explore {shlex.join(words)}: status {done.returncode}: {done.stderr}")
+    return Table.of(done.stdout)
+
+
+def number(word):
+    """A cell; NaN where the result is missing."""
+    return np.nan if word == "-" else float(word)
+
+
+def kind_of(period, driven_twice):
+    """Our K as a kind; a motion that is -1 contracts where two frequencies drive."""
+    period = int(number(period))
+    return period if period > 0 else -1 if period == -1 and driven_twice else 0
+
+
+def ours(asked, table):
+    """The readings of the drawn rows in our table; of several motions at a speed the nearest one."""
+    names = ("frequency", "amplitude") if "amplitude" in table.columns else ("f", "amp_x_r")
+    speeds, amplitudes = (np.array([number(word) for word in table[name]]) for name in names)
+    readings = []
+    for row, true in zip(asked.drawn, asked.references):
+        here = np.isclose(speeds, row.frequency, rtol=1e-9)
+        if row.clearance:
+            here &= np.isclose(table["bearing.radial_clearance_m"], row.clearance, rtol=1e-9)
+        twice = row.case().base()[1]
+        found = [Reading(amplitudes[k], kind_of(table["period"][k], twice)
+                         if "period" in table.columns else None)
+                 for k in np.flatnonzero(here & np.isfinite(amplitudes))]
+        same = [one for one in found if one.kind == true.kind]
+        readings.append(min(same or found, default=None,
+                            key=lambda one: abs(one.amplitude - true.amplitude)))
+    return readings
+
+
+def this(asked, method, command, target, done):
+    """The command of this project, run once for all targets where it takes none."""
+    words = shlex.split(command.format(file=asked.file, target=target))
+    key = tuple(words)
+    if key not in done:
+        done[key] = timed(lambda: explored(words), asked.scene)
+    table, cpu, wall, repetitions = done[key]
+    return table_row(asked, method, target, ours(asked, table), cpu_s=cpu, wall_s=wall,
+                     evaluations=int(table.value("evaluations", 0)) or "-", computed=asked.count,
+                     integrator=table.value("method", "-"),
+                     accuracy=target if "--tolerance" in words else "-", transient="-",
+                     repetitions=repetitions)
+
+
+def rows_of(asked):
+    """All rows of one question."""
+    done = {}
+    for target in asked.scene["targets"]:
+        for method, key in (("this", "command"), ("this-balance", "command_balance")):
+            if key in asked.question:
+                yield this(asked, method, asked.question[key], target, done)
+        transient = transient_for(asked, target)
+        for method, integrators in asked.scene["methods"].items():
+            yield other(asked, method, integrators, target, transient)
+
+
+def header(scene, asked):
+    import scipy
+    stamp = explored(["check", asked[0].file]).header.split("\n")
+    yield "Speed against error for questions of users"
+    yield from (line[2:] for line in stamp if line.startswith(("# source", "# compiler")))
+    yield "schema: 2"
+    yield (f"note: SUNDIALS {sundials_version()}, SciPy {scipy.__version__}, NumPy {np.__version__}; "
+           "one thread; all call the same compiled Eq. 7, SciPy from Python")
+    for one in asked:
+        yield f"row question: {one.name} {one.count} {one.question['what']}"
+        yield f"row command: {one.name} build/explore {one.question['command']}"
+        for key, values in one.question.get("changes", {}).items():
+            yield from (f"row change: {one.name} {key} {old} {new}" for old, new in values.items())
+        kinds = " ".join(str(true.kind) for true in one.references)
+        yield f"row kinds: {one.name} {kinds}"
+    yield (f"note: other methods than this project compute {scene['computed_rows']} rows of each "
+           f"question, drawn with the seed {scene['seed']}; their times and evaluations are scaled to "
+           "all rows, by the number of rows")
+    yield (f"note: errors and kinds of every method are those of the drawn rows; reference: Runge-Kutta "
+           f"of order 8, local error {scene['reference']['local_error']:g}, "
+           f"{scene['reference']['transients_s'][0]:g} s from the start; kinds: K where the motion "
+           "closes, -1 where it contracts, 0 for everything else")
+    yield (f"note: settings: transient, then tolerance with which {scene['share']:.0%} of "
+           f"{scene['search_rows']} rows stay below the target; where none does, the tightest")
+    yield from (f"column: {name} [{unit}] {meaning}" for name, unit, meaning in COLUMNS)
+
+
+def checked(scene):
+    """Ends the program where the scene cannot be computed."""
+    for key in ("targets", "questions", "methods"):
+        if not scene.get(key):
+            sys.exit(f"{key} is missing or empty")
+    if not all(0 < target < 1 for target in scene["targets"]):
+        sys.exit("targets must lie between 0 and 1")
+    for question in scene["questions"]:
+        rows = question["speeds_hz"]["count"] * question.get("starts", 1)
+        rows *= question.get("clearances_m", {"count": 1})["count"]
+        if rows < scene["computed_rows"]:
+            sys.exit(f"question {question['name']}: {rows} rows are fewer than computed_rows")
+    return scene
+
+
+def main(scene_file, names):
+    scene = checked(tomllib.loads((ROOT / scene_file).read_text(encoding="utf-8")))
+    chosen = [one for one in scene["questions"] if not names or one["name"] in names]
+    asked, rows = [], []
+    for question in chosen:
+        asked.append(Asked(question, scene))
+        for row in rows_of(asked[-1]):
+            rows.append(row)
+            print(*(row[key] for key in ("question", "method", "target", "cpu_s", "error")),
+                  file=sys.stderr)
+    print(*("# " + line for line in header(scene, asked)), sep="\n")
+    names = [name for name, _, _ in COLUMNS]
+    print("\t".join(names))
+    for row in rows:
+        print("\t".join(cell(row[name]) for name in names))
+
+
+if __name__ == "__main__":
+    if len(sys.argv) < 2:
+        sys.exit(f"usage: {sys.argv[0]} SCENE.toml [QUESTION...]")
+    main(sys.argv[1], sys.argv[2:])
