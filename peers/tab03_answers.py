@@ -51,7 +51,7 @@ class Asked:
 
     def __init__(self, question, scene):
         self.question, self.scene, self.name = question, scene, question["name"]
-        self.file = changed_file(self.name, question)
+        self.file, self.seen = changed_file(self.name, question), {}
         self.speeds = spaced(question["speeds_hz"])
         self.clearances = spaced(question["clearances_m"]) if "clearances_m" in question else [0]
         self.starts = question.get("starts", 1)
@@ -80,28 +80,43 @@ def errors_of(readings, references):
                      for found, true in zip(readings, references) if true.kind and found])
 
 
-def reading_of(row, method, accuracy, transient, target, scene):
+def spent_by(run):
+    """The result of a run, its CPU and its wall time, its child processes included."""
+    began, clock = time.process_time() + child_seconds(), time.perf_counter()
+    result = run()
+    wall = time.perf_counter() - clock
+    return result, time.process_time() + child_seconds() - began, wall
+
+
+def reading_of(row, setting, scene):
     """None where the method breaks down."""
     try:
-        return read(row, method, accuracy, transient, target, scene)
+        return read(row, *setting, scene["closed"], scene)
     except Broken:
         return None
 
 
-def enough(asked, method, accuracy, transient, target, bound):
+def readings_of(asked, rows, setting):
+    """Readings of rows with their CPU and wall times, computed once for each setting."""
+    for row in rows:
+        if (row, setting) not in asked.seen:
+            asked.seen[row, setting] = spent_by(lambda: reading_of(row, setting, asked.scene))
+    return zip(*(asked.seen[row, setting] for row in rows))
+
+
+def enough(asked, setting, bound):
     """Whether the share of the searched rows stays below the bound, and the CPU time of them."""
     rows, references = zip(*asked.searched())
-    began = time.process_time()
-    found = [reading_of(row, method, accuracy, transient, target, asked.scene) for row in rows]
+    found, cpu, _ = readings_of(asked, rows, setting)
     below = (errors_of(found, references) <= bound).sum()
-    return below >= asked.scene["share"] * len(rows), time.process_time() - began
+    return below >= asked.scene["share"] * len(rows), sum(cpu)
 
 
 def transient_for(asked, target):
     """The shortest transient that leaves half of the target; the longest where none does."""
     search = asked.scene["search"]
     for transient in search["transients_s"]:
-        if enough(asked, "cvode-adams", search["accuracy"], transient, target, target / 2)[0]:
+        if enough(asked, ("cvode-adams", search["accuracy"], transient), target / 2)[0]:
             break
     return transient
 
@@ -112,7 +127,7 @@ def setting_for(asked, integrators, transient, target):
     found = []
     for integrator, accuracies in integrators.items():
         for accuracy in accuracies:
-            reached, seconds = enough(asked, integrator, accuracy, transient, target, target)
+            reached, seconds = enough(asked, (integrator, accuracy, transient), target)
             if reached:
                 found.append((seconds, integrator, accuracy))
                 break
@@ -122,15 +137,14 @@ def setting_for(asked, integrators, transient, target):
     return integrator, accuracies[-1]
 
 
-def timed(run, scene):
-    """The result of a run, medians of its CPU and wall time, and the number of repetitions."""
-    cpu, wall = [], []
-    while not wall or (len(wall) < scene["repetitions"] and wall[0] < scene["slow_s"]):
-        began, clock = time.process_time() + child_seconds(), time.perf_counter()
-        result = run()
-        wall.append(time.perf_counter() - clock)
-        cpu.append(time.process_time() + child_seconds() - began)
-    return result, median(cpu), median(wall), len(wall)
+def timed(run, scene, first=None):
+    """The result of a run, medians of its CPU and wall time, and the number of repetitions; `first`
+    is a run that has been made."""
+    runs = [first or spent_by(run)]
+    while len(runs) < scene["repetitions"] and runs[0][2] < scene["slow_s"]:
+        runs.append(spent_by(run))
+    _, cpu, wall = zip(*runs)
+    return runs[0][0], median(cpu), median(wall), len(runs)
 
 
 def table_row(asked, method, target, readings, **more):
@@ -150,9 +164,11 @@ def other(asked, method, integrators, target, transient):
     """A method that computes the drawn rows alone."""
     scene = asked.scene
     integrator, accuracy = setting_for(asked, integrators, transient, target)
+    setting = integrator, accuracy, transient
+    readings, cpu, wall = readings_of(asked, asked.drawn, setting)
     readings, cpu, wall, repetitions = timed(
-        lambda: [reading_of(row, integrator, accuracy, transient, target, scene)
-                 for row in asked.drawn], scene)
+        lambda: [reading_of(row, setting, scene) for row in asked.drawn], scene,
+        (readings, sum(cpu), sum(wall)))
     scale = asked.count / len(asked.drawn)
     evaluations = sum(found.evaluations for found in readings if found)
     return table_row(asked, method, target, readings, cpu_s=scale * cpu, wall_s=scale * wall,
@@ -207,6 +223,7 @@ def this(asked, method, command, target, done):
     if key not in done:
         done[key] = timed(lambda: explored(words), asked.scene)
     table, cpu, wall, repetitions = done[key]
+    asked.stamp = table.header.split("\n")
     return table_row(asked, method, target, ours(asked, table), cpu_s=cpu, wall_s=wall,
                      evaluations=int(table.value("evaluations", 0)) or "-", computed=asked.count,
                      integrator=table.value("method", "-"),
@@ -228,9 +245,8 @@ def rows_of(asked):
 
 def header(scene, asked):
     import scipy
-    stamp = explored(["check", asked[0].file]).header.split("\n")
     yield "Speed against error for questions of users"
-    yield from (line[2:] for line in stamp if line.startswith(("# source", "# compiler")))
+    yield from (line[2:] for line in asked[0].stamp if line.startswith(("# source", "# compiler")))
     yield "schema: 2"
     yield (f"note: SUNDIALS {sundials_version()}, SciPy {scipy.__version__}, NumPy {np.__version__}; "
            "one thread; all call the same compiled Eq. 7, SciPy from Python")
@@ -276,8 +292,7 @@ def main(scene_file, names):
         asked.append(Asked(question, scene))
         for row in rows_of(asked[-1]):
             rows.append(row)
-            print(*(row[key] for key in ("question", "method", "target", "cpu_s", "error")),
-                  file=sys.stderr)
+            print(*row.values(), file=sys.stderr)
     print(*("# " + line for line in header(scene, asked)), sep="\n")
     names = [name for name, _, _ in COLUMNS]
     print("\t".join(names))
