@@ -9,7 +9,7 @@ from pathlib import Path
 
 import map_scaling
 import numpy as np
-from tables import Table, explore
+from tables import Table, cells_as_numbers, explore
 
 GENERATED, KEPT = Path("data/generated"), Path("data/reference")
 ACCURATE = tomllib.loads(Path("data/claims.toml").read_text())["regimes"]["accurate"]
@@ -141,6 +141,44 @@ def outside(add):
     for key in ("cvode-adams", "cvode-bdf", "scipy-dop853", "scipy-lsoda"):
         add(f"outside.{key}", max(error for *_, method, error in found if method == key), "-",
             "largest over the motions of its least error")
+
+
+def answers(add):
+    """Which method answers which question of users: those whose median error is below the target."""
+    table = Table(KEPT / "tab03_answers.tsv")
+    error = cells_as_numbers(table["error"])
+    reached = table.rows(error <= table["target"])
+    names = {"this": "this project", "this-balance": "harmonic balance", "rk4": "RK4 alone",
+             "cvode": "CVODE", "scipy-lsoda": "LSODA", "scipy-dop853": "DOP853"}
+    targets = sorted(set(table["target"]), reverse=True)
+    best, ratios, others = {}, [], {"cvode": [], "scipy": []}
+    for question, *_ in table.members("question"):
+        least, here = [], reached.where("question", question)
+        for target in targets:
+            rows = here.where("target", target)
+            if not len(rows):
+                least.append("no method")
+                continue
+            least.append(names[rows["method"][rows["cpu_s"].argmin()]])
+            ours = rows.where("method", "this")
+            if len(ours):
+                ratios.append(ours.first("cpu_s") / rows["cpu_s"].min())
+            for key, found in others.items():
+                chosen = [name.startswith(key) for name in rows["method"]]
+                if len(ours) and any(chosen):
+                    found.append(rows["cpu_s"][chosen].min() / ours.first("cpu_s"))
+        best.setdefault(", ".join(dict.fromkeys(least)), []).append(f"({question})")
+    fastest = "; ".join(f"{' and '.join(found)} {method}" for method, found in best.items())
+    add("answers.fastest", "The least CPU time at targets from "
+        f"{power(targets[0])} to {power(targets[-1])} takes, in question {fastest}.", "-",
+        "fastest methods whose median error is below the target")
+    add("answers.this", "The command of this project, for which nothing is chosen, takes "
+        f"{min(ratios):.2g} to {max(ratios):.2g} times as long as the fastest method, whose step and "
+        "transient are chosen with the reference at hand.", "-", "CPU time over the least one")
+    words = [f"{name} {min(found):.2g} to {max(found):.2g} times" for name, found
+             in (("CVODE", others["cvode"]), ("the faster one of SciPy", others["scipy"])) if found]
+    add("answers.others", f"In the CPU time of this project's command, {' and '.join(words)} that "
+        "time are taken.", "-", "CPU time over that of this project's command")
 
 
 def truth(add):
@@ -450,6 +488,6 @@ def large(add):
 
 
 def add_all(add):
-    for part in (settings, parameters, accuracy, cages, maps, two_maps, large, costs, growth, peers, outside, truth,
+    for part in (settings, parameters, accuracy, cages, maps, two_maps, large, costs, growth, peers, outside, answers, truth,
                  beside_chaos, contact, needed, judged, verdicts):
         part(add)

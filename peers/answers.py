@@ -1,7 +1,8 @@
 """What one motion comes to, by any integrator: amplitude and kind after a transient from rest.
 
 A kind is K where the section of the base period closes after K of them, -1 where the motion does
-not close but contracts, 0 for everything else.
+not close but contracts, 0 for everything else; None where that is not told: where two frequencies
+drive, one motion alone does not say whether it contracts.
 """
 
 from dataclasses import dataclass
@@ -112,7 +113,7 @@ def closing(section, size, most, closed):
     return 0
 
 
-def read(row, method, accuracy, transient, closed, scene):
+def read(row, method, accuracy, transient, closed, scene, is_reference=False):
     """The reading of a row. A motion that closes is read over its last K base periods, another one
     over all that is recorded."""
     case, points = row.case(), scene["points"]
@@ -125,6 +126,8 @@ def read(row, method, accuracy, transient, closed, scene):
     step, x, v = 1 / (points * frequency), states[:, 2], states[:, 6]
     size = np.ptp(states[:, :4], axis=0).max() / 2
     kind = closing(states[::points, :4], size, scene["most_period"], closed)
+    if driven_twice and not kind and not is_reference:
+        kind = None
     last = slice(-kind * points - 1, None) if kind else slice(None)
     return Reading(half_range(x[last], v[last], step), kind, spent)
 
@@ -133,7 +136,8 @@ def reference(row, scene):
     """The reading with controlled steps of order 8; it contracts where a shorter transient ends on
     the same motion."""
     rule = scene["reference"]
-    first, *others = (read(row, "rk8", rule["local_error"], transient, rule["closed"], scene)
+    first, *others = (read(row, "rk8", rule["local_error"], transient, rule["closed"], scene,
+                           True)
                       for transient in rule["transients_s"])
     same = all(abs(other.amplitude - first.amplitude) <= rule["same"] * first.amplitude
                for other in others)
