@@ -11,7 +11,7 @@ beside := deviations sampling
 studies := attractors validity stability verdicts adaptive hard_cases sensitivity identification cage \
   clearance_speed clearance_stiffness stiffness_border
 # The same, but timed: alone on the machine.
-costs := tab02_equal_error tab02_equal_error_mean work_precision cost_growth large map_scaling
+costs := tab02_equal_error tab02_equal_error_mean work_precision cost_growth large map_scaling tab03_answers
 # Of these by Snakemake, from studies/NAME.yaml.
 maps := clearance_speed clearance_stiffness stiffness_border
 # By explore, from studies/NAME.py.
@@ -23,4 +23,4 @@ peers := peers peers_auto
 drawn := fig01_bearing fig02_ball_position fig03_response fig04_displacements fig05_displacements fig06_orbits fig07_contact \
   fig08_orbits fig09_contact sections truncation validity
 drawn_beside := stability verdicts adaptive sampling hard_cases sensitivity identification cage work_precision cost_growth large \
-  clearance_speed clearance_stiffness stiffness_border peers
+  clearance_speed clearance_stiffness stiffness_border peers tab03_answers

@@ -143,42 +143,39 @@ def outside(add):
             "largest over the motions of its least error")
 
 
-def answers(add):
-    """Which method answers which question of users: those whose median error is below the target."""
-    table = Table(KEPT / "tab03_answers.tsv")
-    error = cells_as_numbers(table["error"])
-    reached = table.rows(error <= table["target"])
-    names = {"this": "this project", "this-balance": "harmonic balance", "rk4": "RK4 alone",
+ANSWERING = {"this": "this project", "this-balance": "harmonic balance", "rk4": "RK4 alone",
              "cvode": "CVODE", "scipy-lsoda": "LSODA", "scipy-dop853": "DOP853"}
-    targets = sorted(set(table["target"]), reverse=True)
-    best, ratios, others = {}, [], {"cvode": [], "scipy": []}
+
+
+def answers(add):
+    """Which method answers which question of users: of those whose median error is below the target."""
+    table = Table(KEPT / "tab03_answers.tsv")
+    reached = table.rows(cells_as_numbers(table["error"]) <= table["target"])
+    fastest, ratios = [], {"least": [], "cvode": [], "scipy": []}
     for question, *_ in table.members("question"):
-        least, here = [], reached.where("question", question)
-        for target in targets:
-            rows = here.where("target", target)
-            if not len(rows):
-                least.append("no method")
-                continue
-            least.append(names[rows["method"][rows["cpu_s"].argmin()]])
+        at = {}
+        for target in sorted(set(table["target"]), reverse=True):
+            rows = reached.where("question", question).where("target", target)
+            best = rows["method"][rows["cpu_s"].argmin()] if len(rows) else ""
+            at.setdefault(ANSWERING.get(best, "no method"), []).append(power(target))
             ours = rows.where("method", "this")
-            if len(ours):
-                ratios.append(ours.first("cpu_s") / rows["cpu_s"].min())
-            for key, found in others.items():
-                chosen = [name.startswith(key) for name in rows["method"]]
-                if len(ours) and any(chosen):
-                    found.append(rows["cpu_s"][chosen].min() / ours.first("cpu_s"))
-        best.setdefault(", ".join(dict.fromkeys(least)), []).append(f"({question})")
-    fastest = "; ".join(f"{' and '.join(found)} {method}" for method, found in best.items())
-    add("answers.fastest", "The least CPU time at targets from "
-        f"{power(targets[0])} to {power(targets[-1])} takes, in question {fastest}.", "-",
-        "fastest methods whose median error is below the target")
-    add("answers.this", "The command of this project, for which nothing is chosen, takes "
-        f"{min(ratios):.2g} to {max(ratios):.2g} times as long as the fastest method, whose step and "
-        "transient are chosen with the reference at hand.", "-", "CPU time over the least one")
-    words = [f"{name} {min(found):.2g} to {max(found):.2g} times" for name, found
-             in (("CVODE", others["cvode"]), ("the faster one of SciPy", others["scipy"])) if found]
-    add("answers.others", f"In the CPU time of this project's command, {' and '.join(words)} that "
-        "time are taken.", "-", "CPU time over that of this project's command")
+            if not len(ours):
+                continue
+            ratios["least"].append(ours.first("cpu_s") / rows["cpu_s"].min())
+            for key in ("cvode", "scipy"):
+                times_taken = rows["cpu_s"][np.char.startswith(rows["method"], key)]
+                if times_taken.size:
+                    ratios[key].append(times_taken.min() / ours.first("cpu_s"))
+        named = listed([f"{method} at {listed(targets)}" for method, targets in at.items()])
+        fastest.append(f"({question}) {named if len(at) > 1 else next(iter(at))}")
+    spans = {key: f"{min(found):.2g} to {max(found):.2g}" for key, found in ratios.items() if found}
+    add("answers.fastest", f"The least CPU time takes, in question {'; '.join(fastest)}.", "-",
+        "fastest of the methods whose median error is below the target")
+    add("answers.this", f"The command of this project, for which nothing is chosen, takes {spans['least']} "
+        "times the least CPU time; steps and transients of RK4 are chosen with the reference at hand.",
+        "-", "CPU time over the least one")
+    add("answers.others", f"CVODE takes {spans['cvode']} times the CPU time of this project's command, "
+        f"the faster method of SciPy {spans['scipy']} times.", "-", "CPU time over that of the command")
 
 
 def truth(add):
