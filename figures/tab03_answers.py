@@ -1,16 +1,18 @@
 """Questions of users: error against CPU time of this project and of other programs.
 
-Each line joins the targets; a bar reaches from the median to the largest error of the compared rows.
-Usage: /usr/bin/python3 figures/tab03_answers.py data/reference/tab03_answers.tsv tab03_answers.svg
+Each line joins the targets; a bar reaches from the median to the largest error.
+Usage: /usr/bin/python3 figures/tab03_answers.py TABLE.tsv tab03_answers.svg
 """
 
 import matplotlib.pyplot as plt
 from matplotlib.ticker import LogLocator
 from tables import cells_as_numbers, run
 
-STYLES = {"this": ("C0", "o", "this project"), "this-balance": ("C5", "s", "harmonic balance"),
+STYLES = {"this": ("C0", "o", "this project"),
+          "this-balance": ("C5", "s", "harmonic balance"),
           "rk4": ("black", "P", "RK4 alone"), "cvode": ("C2", "D", "CVODE"),
-          "scipy-lsoda": ("C1", "v", "SciPy, LSODA"), "scipy-dop853": ("C3", "^", "SciPy, DOP853")}
+          "scipy-lsoda": ("C1", "v", "SciPy, LSODA"),
+          "scipy-dop853": ("C3", "^", "SciPy, DOP853")}
 
 
 def draw_question(axes, rows, targets):
@@ -41,7 +43,8 @@ def draw(table):
     targets = sorted(set(table["target"]))
     for axes, (name, count, *words) in zip(grid.flat, table.members("question")):
         draw_question(axes, table.where("question", name), targets)
-        what = " ".join(f"{word:g}" if isinstance(word, float) else word for word in words)
+        what = " ".join(f"{word:g}" if isinstance(word, float) else word
+                        for word in words)
         axes.set_title(f"({name}) {what.split(',')[0]}, {count:g} motions", fontsize=11)
     panels.supxlabel("CPU time of all motions, one thread [s]")
     panels.supylabel("relative error of the amplitude of $x_r$ [-]")

@@ -1,8 +1,8 @@
-"""What one motion comes to, by any integrator: amplitude and kind after a transient from rest.
+"""What one motion comes to, by any integrator: amplitude and kind after a transient.
 
-A kind is K where the section of the base period closes after K of them, -1 where the motion does
-not close but contracts, 0 for everything else; None where that is not told: where two frequencies
-drive, one motion alone does not say whether it contracts.
+A kind is K where the section of the base period closes after K of them, -1 where the
+motion does not close but contracts, 0 for everything else; None where that is not told:
+where two frequencies drive, one motion alone does not say whether it contracts.
 """
 
 from dataclasses import dataclass
@@ -16,8 +16,8 @@ from scipy.integrate import solve_ivp
 
 @dataclass(frozen=True)
 class Row:
-    """A motion that is asked for: machine, speed [Hz], clearance [m] or 0 for the machine's, and
-    number of the start, 0 at rest."""
+    """A motion that is asked for: machine, speed [Hz], clearance [m] or 0 for the
+    machine's, and number of the start, 0 at rest."""
 
     file: str
     frequency: float
@@ -28,7 +28,7 @@ class Row:
         return Case(self.file, self.frequency)
 
     def state(self, case, seed):
-        """At rest under the static load, or the rotor at random within the bearing's size."""
+        """At rest under the static load, or the rotor at random within the bearing."""
         state = case.static_start()
         if self.start:
             random = np.random.default_rng([seed, self.start])
@@ -51,8 +51,9 @@ def changed_file(name, question, clearance=0):
     text = (ROOT / question["parameters"]).read_text(encoding="utf-8")
     changes = dict(question.get("changes", {}))
     if clearance:
-        old = next(line for line in text.split("\n") if line.startswith("radial_clearance_m = "))
-        changes["radial_clearance_m"] = {old.split(" = ")[1]: f"{clearance:.15g}"}
+        key = "radial_clearance_m"
+        old = next(line for line in text.split("\n") if line.startswith(f"{key} = "))
+        changes[key] = {old.split(" = ")[1]: f"{clearance:.15g}"}
     for key, values in changes.items():
         for old, new in values.items():
             if f"{key} = {old}\n" not in text:
@@ -75,11 +76,12 @@ def dop853(case, tolerance, start, times, begin):
 
 
 def states_of(case, method, accuracy, transient, start, periods, points):
-    """States at t = 0 and after each of the instants of some base periods, and evaluations."""
+    """States at the instants of some base periods, both ends included, and evaluations."""
     frequency, _ = case.base()
     before = int(np.ceil(transient * frequency))
     if method.startswith("rk"):
-        first, spent = case.flow(method, accuracy, points, -before * points, start, before * points)
+        count = before * points
+        first, spent = case.flow(method, accuracy, points, -count, start, count)
         later, more = case.flow(method, accuracy, points, 0, first[-1], periods * points)
         return np.vstack([first[-1:], later]), spent + more
     times = np.arange(periods * points + 1) / (points * frequency)
@@ -90,7 +92,7 @@ def states_of(case, method, accuracy, transient, start, periods, points):
 
 
 def half_range(x, v, step):
-    """Half peak-to-peak of samples with slopes, with the turning points of the cubics between."""
+    """Half peak-to-peak of samples with slopes, with the extremes of cubics between."""
     a, d = x[:-1], step * v[:-1]
     c_2, c_3 = 3 * (x[1:] - a) - 2 * d - step * v[1:], 2 * (a - x[1:]) + d + step * v[1:]
     with np.errstate(invalid="ignore", divide="ignore"):
@@ -114,13 +116,13 @@ def closing(section, size, most, closed):
 
 
 def read(row, method, accuracy, transient, closed, scene, is_reference=False):
-    """The reading of a row. A motion that closes is read over its last K base periods, another one
-    over all that is recorded."""
+    """The reading of a row. A motion that closes is read over its last K base periods,
+    another one over all that is recorded."""
     case, points = row.case(), scene["points"]
     frequency, driven_twice = case.base()
     periods = scene["periods_driven_twice" if driven_twice else "periods"]
-    states, spent = states_of(case, method, accuracy, transient, row.state(case, scene["seed"]),
-                              periods, points)
+    start = row.state(case, scene["seed"])
+    states, spent = states_of(case, method, accuracy, transient, start, periods, points)
     if not np.isfinite(states).all():
         raise Broken("a state is not finite")
     step, x, v = 1 / (points * frequency), states[:, 2], states[:, 6]
@@ -133,12 +135,12 @@ def read(row, method, accuracy, transient, closed, scene, is_reference=False):
 
 
 def reference(row, scene):
-    """The reading with controlled steps of order 8; it contracts where a shorter transient ends on
-    the same motion."""
+    """The reading with controlled steps of order 8; it contracts where a shorter transient
+    ends on the same motion."""
     rule = scene["reference"]
-    first, *others = (read(row, "rk8", rule["local_error"], transient, rule["closed"], scene,
-                           True)
-                      for transient in rule["transients_s"])
+    first, *others = (
+        read(row, "rk8", rule["local_error"], transient, rule["closed"], scene, True)
+        for transient in rule["transients_s"])
     same = all(abs(other.amplitude - first.amplitude) <= rule["same"] * first.amplitude
                for other in others)
     if not first.kind and same:

@@ -62,21 +62,21 @@ void equation7_derivatives(CountedEquation7* equation, int rounds, int n, const 
 /** Evaluations and Jacobians since the last call. */
 void equation7_counts(CountedEquation7* equation, long* counts);
 
-/** CVODE from y at the time `begin` through the increasing `times` [s]: the states there, n × 8 by
-    rows, and after each the numbers of evaluations, Jacobians and steps so far, n × 3. `bdf_order`
-    is the highest order of BDF with Newton and the analytic Jacobian; 0 chooses Adams with
-    fixed-point iteration. Returns CVODE's flag. */
+/** CVODE from y at the time `begin` through the increasing `times` [s]: the states there,
+    n × 8 by rows, and after each the numbers of evaluations, Jacobians and steps so far,
+    n × 3. `bdf_order` is the highest order of BDF with Newton and the analytic Jacobian; 0
+    chooses Adams with fixed-point iteration. Returns CVODE's flag. */
 int cvode_integrate(CountedEquation7* equation, int bdf_order, double tolerance,
                     double begin, const double* start, int n, const double* times,
                     double* states, long* counts);
 
-/** Frequency [Hz] of the base period, and whether rotor and balls drive with two frequencies. */
+/** Frequency [Hz] of the base period, and whether two frequencies drive. */
 double equation7_base(const CountedEquation7* equation, int* is_driven_twice);
 
-/** A stepper of this project, alone: "rk4" with the longest step `accuracy` [s], or "rk8" with that
-    local error. From the state at the start of interval `first`, `intervals` in a base period,
-    over `n` of them: the states at their ends, n × 8 by rows. Returns the number of evaluations,
-    -1 after a line on stderr. */
+/** A stepper of this project, alone: "rk4" with the longest step `accuracy` [s], or "rk8"
+    with that local error. From the state at the start of interval `first`, `intervals` in a
+    base period, over `n` of them: the states at their ends, n × 8 by rows. Returns the
+    number of evaluations, -1 after a line on stderr. */
 long equation7_flow(const CountedEquation7* equation, const char* method, double accuracy,
                     int intervals, long first, const double* start, int n, double* states);
 }

@@ -108,11 +108,12 @@ class Case:
         return LIBRARY.equation7_base(self.handle, ctypes.byref(twice)), bool(twice.value)
 
     def flow(self, method, accuracy, intervals, first, start, count):
-        """States at the ends of `count` intervals of the base period by a stepper of this project,
-        and the number of evaluations."""
+        """States at the ends of `count` intervals of the base period by a stepper of this
+        project, and the number of evaluations."""
         states = np.empty((count, SIZE))
-        done = LIBRARY.equation7_flow(self.handle, method.encode(), accuracy, intervals, first,
-                                      pointer(np.ascontiguousarray(start)), count, pointer(states))
+        start = np.ascontiguousarray(start)
+        done = LIBRARY.equation7_flow(self.handle, method.encode(), accuracy, intervals,
+                                      first, pointer(start), count, pointer(states))
         if done < 0:
             raise SystemExit(1)
         return states, done

@@ -1,7 +1,8 @@
 """The outside integrators behind one call: SUNDIALS CVODE and SciPy.
 
-integrate(case, method, tolerance, start, times, begin=0) gives the states at the times, n x 8, and after
-each time the numbers of evaluations of Eq. 7, of Jacobians and of steps so far, n x 3. The
+integrate(case, method, tolerance, start, times, begin=0) gives the states at the times,
+n x 8, and after each time the numbers of evaluations of Eq. 7, of Jacobians and of steps so
+far, n x 3. The
 tolerance is relative, and absolute in each component times that component's size. Output times
 shorten no step, except Radau's, whose interpolant is of a lower order than its steps.
 """
@@ -71,8 +72,8 @@ def radau(case, tolerance, start, times, begin=0):
 
 def lsoda(case, tolerance, start, times, begin=0):
     """ODEPACK's LSODA by odeint, whose loop over the steps is compiled."""
-    states, info = odeint(case.derivative, start, np.concatenate([[begin], times]), tfirst=True,
-                          Dfun=case.jacobian, rtol=tolerance, atol=tolerance * case.sizes(),
+    states, info = odeint(case.derivative, start, np.concatenate([[begin], times]),
+                          tfirst=True, Dfun=case.jacobian, rtol=tolerance, atol=tolerance * case.sizes(),
                           mxstep=10**8, full_output=True)
     if info["message"] != "Integration successful.":
         raise Broken(info["message"])

@@ -1,10 +1,13 @@
-"""Speed against error for questions of users: this project, SciPy, SUNDIALS, and RK4 alone.
+"""Speed against error for questions of users: this project, SciPy, SUNDIALS, RK4 alone.
 
-Usage: OMP_NUM_THREADS=1 /usr/bin/python3 peers/tab03_answers.py SCENE.toml > tab03_answers.tsv
-Of each question some rows are drawn once. The other methods compute these, from rest through a
-transient, and their cost is scaled to all rows; this project computes all rows. The errors are
-those of the drawn rows. A setting is chosen on them: the shortest transient, then the loosest tolerance with
-which enough rows have the right kind and stay below the target.
+Usage: OMP_NUM_THREADS=1 /usr/bin/python3 peers/tab03_answers.py SCENE.toml > TABLE.tsv
+       with letters of questions after the scene only these
+
+Of each question some rows are drawn once. The other methods compute these, from rest
+through a transient, and their cost is scaled to all rows; this project computes all rows.
+The errors are those of the drawn rows. A setting is chosen on them: the shortest
+transient, then the loosest tolerance with which enough rows have the right kind and stay
+below the target.
 """
 
 import shlex
@@ -15,6 +18,7 @@ import tomllib
 from statistics import median
 
 import numpy as np
+import scipy
 from answers import Reading, Row, changed_file, read, reference
 from explore import ROOT, Table, child_seconds
 from integrators import Broken
@@ -22,22 +26,22 @@ from peers_table import cell, sundials_version
 
 COLUMNS = (
     ("question", "-", "letter of the question, see the list of questions"),
-    ("method", "-", "this: the command of this project; this-balance: by harmonic balance"),
+    ("method", "-", "this: command of this project; this-balance: by harmonic balance"),
     ("target", "-", "error that is asked for"),
-    ("cpu_s", "s", "CPU time of all rows, median; of other methods scaled from the computed rows"),
+    ("cpu_s", "s", "CPU time, median, scaled from the computed rows to all"),
     ("wall_s", "s", "the same of the clock, one thread"),
     ("error", "-", "median relative error of the rotor's horizontal amplitude"),
     ("evaluations", "-", "of Eq. 7, all rows, Jacobians included"),
     ("error_largest", "-", "largest of these errors"),
     ("within", "-", "rows whose error is below the target"),
     ("compared", "-", "rows whose motion closes or contracts, and that have a value"),
-    ("kinds", "-", "drawn rows whose kind is that of the reference; - where none is told"),
+    ("kinds", "-", "drawn rows whose kind is the reference's; - where none is told"),
     ("drawn", "-", "rows whose error and kind are looked at"),
     ("computed", "-", "rows that were computed"),
     ("rows", "-", "rows of the question"),
     ("integrator", "-", "what integrates"),
-    ("accuracy", "-", "its relative tolerance; of rk4 its step [s]; - where none is given"),
-    ("transient", "s", "before the recorded base periods; - where the program chooses it"),
+    ("accuracy", "-", "relative tolerance; of rk4 the step [s]; - where none is given"),
+    ("transient", "s", "before the recorded periods; - where the program chooses it"),
     ("repetitions", "-", "of the timed run"),
 )
 
@@ -53,7 +57,8 @@ class Asked:
         self.question, self.scene, self.name = question, scene, question["name"]
         self.file, self.seen = changed_file(self.name, question), {}
         self.speeds = spaced(question["speeds_hz"])
-        self.clearances = spaced(question["clearances_m"]) if "clearances_m" in question else [0]
+        clearances = question.get("clearances_m", {"from": 0, "to": 0, "count": 1})
+        self.clearances = spaced(clearances)
         self.starts = question.get("starts", 1)
         shape = (len(self.clearances), len(self.speeds), self.starts)
         self.count = int(np.prod(shape))
@@ -99,13 +104,14 @@ def readings_of(asked, rows, setting):
     """Readings of rows with their CPU and wall times, computed once for each setting."""
     for row in rows:
         if (row, setting) not in asked.seen:
-            asked.seen[row, setting] = spent_by(lambda: reading_of(row, setting, asked.scene))
+            one = spent_by(lambda: reading_of(row, setting, asked.scene))
+            asked.seen[row, setting] = one
     return zip(*(asked.seen[row, setting] for row in rows))
 
 
 def enough(asked, rows, setting, bound):
-    """Whether a share of the rows that are compared has the kind of the reference, where one is told,
-    and an error below the bound; and the CPU time of all."""
+    """Whether a share of the rows that are compared has the kind of the reference, where
+    one is told, and an error below the bound; and the CPU time of all."""
     found, cpu, _ = readings_of(asked, rows, setting)
     pairs = [pair for pair in zip(found, asked.references) if pair[1].kind]
     right = sum(one is not None and one.kind in (None, true.kind) and
@@ -114,7 +120,7 @@ def enough(asked, rows, setting, bound):
 
 
 def transient_for(asked, target):
-    """The shortest transient that leaves half of the target; the longest where none does."""
+    """The shortest transient that leaves half of the target; else the longest."""
     search = asked.scene["search"]
     for transient in search["transients_s"]:
         setting = search["method"], search["accuracy"], transient
@@ -124,12 +130,13 @@ def transient_for(asked, target):
 
 
 def setting_for(asked, rows, integrators, transient, target):
-    """The cheapest integrator with its loosest accuracy that is enough; else the tightest one of the
-    first integrator."""
+    """The cheapest integrator with its loosest accuracy that is enough; else the tightest
+    one of the first integrator."""
     found = []
     for integrator, accuracies in integrators.items():
         for accuracy in accuracies:
-            reached, seconds = enough(asked, rows, (integrator, accuracy, transient), target)
+            setting = integrator, accuracy, transient
+            reached, seconds = enough(asked, rows, setting, target)
             if reached:
                 found.append((seconds, integrator, accuracy))
                 break
@@ -140,8 +147,8 @@ def setting_for(asked, rows, integrators, transient, target):
 
 
 def timed(run, scene, first=None):
-    """The result of a run, medians of its CPU and wall time, and the number of repetitions; `first`
-    is a run that has been made."""
+    """The result of a run, medians of its CPU and wall time, and the number of repetitions;
+    `first` is a run that has been made."""
     runs = [first or spent_by(run)]
     while len(runs) < scene["repetitions"] and runs[0][2] < scene["slow_s"]:
         runs.append(spent_by(run))
@@ -173,16 +180,17 @@ def other(asked, method, integrators, target, transient):
         (readings, sum(cpu), sum(wall)))
     scale = asked.count / len(drawn)
     evaluations = sum(found.evaluations for found in readings if found)
-    return table_row(asked, method, target, readings, cpu_s=scale * cpu, wall_s=scale * wall,
-                     evaluations=round(scale * evaluations), computed=len(drawn),
+    return table_row(asked, method, target, readings, cpu_s=scale * cpu,
+                     wall_s=scale * wall, evaluations=round(scale * evaluations), computed=len(drawn),
                      integrator=integrator, accuracy=accuracy, transient=transient,
                      repetitions=repetitions)
 
 
 def explored(words):
-    """The table that explore prints; a row without a value is none of its failures here."""
-    done = subprocess.run([str(ROOT / "build/explore"), *words, "--quiet"], cwd=ROOT, check=False,
-                          stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True)
+    """The table that explore prints; rows without a value do not end the program."""
+    done = subprocess.run([str(ROOT / "build/explore"), *words, "--quiet"], cwd=ROOT,
+                          check=False, stdout=subprocess.PIPE, stderr=subprocess.PIPE,
+                          text=True)
     if not done.stdout:
         sys.exit(f"explore {shlex.join(words)}: status {done.returncode}: {done.stderr}")
     return Table.of(done.stdout)
@@ -200,14 +208,18 @@ def kind_of(period, driven_twice):
 
 
 def ours(asked, table):
-    """The readings of the drawn rows in our table; of several motions at a speed the nearest one."""
-    names = ("frequency", "amplitude") if "amplitude" in table.columns else ("f", "amp_x_r")
-    speeds, amplitudes = (np.array([number(word) for word in table[name]]) for name in names)
+    """The readings of the drawn rows in our table; of several motions at a speed the nearest
+    one."""
+    is_map = "amplitude" in table.columns
+    names = ("frequency", "amplitude") if is_map else ("f", "amp_x_r")
+    speeds, amplitudes = (np.array([number(word) for word in table[name]])
+                          for name in names)
     readings = []
     for row, true in zip(asked.drawn, asked.references):
         here = np.isclose(speeds, row.frequency, rtol=1e-9)
         if row.clearance:
-            here &= np.isclose(table["bearing.radial_clearance_m"], row.clearance, rtol=1e-9)
+            clearances = table["bearing.radial_clearance_m"]
+            here &= np.isclose(clearances, row.clearance, rtol=1e-9, atol=0)
         twice = row.case().base()[1]
         found = [Reading(amplitudes[k], kind_of(table["period"][k], twice)
                          if "period" in table.columns else None)
@@ -227,7 +239,7 @@ def this(asked, method, command, target, done):
     table, cpu, wall, repetitions = done[key]
     asked.stamp = table.header.split("\n")
     return table_row(asked, method, target, ours(asked, table), cpu_s=cpu, wall_s=wall,
-                     evaluations=int(table.value("evaluations", 0)) or "-", computed=asked.count,
+                     evaluations=table.value("evaluations", "-"), computed=asked.count,
                      integrator=table.value("method", "-"),
                      accuracy=target if "--tolerance" in words else "-", transient="-",
                      repetitions=repetitions)
@@ -246,30 +258,33 @@ def rows_of(asked):
 
 
 def header(scene, asked):
-    import scipy
+    """The lines that say what was done."""
+    tight, share = scene["reference"], scene["share"]
+    fewer = ", ".join(f"{method}: {count}" for method, count in scene["fewer_rows"].items())
     yield "Speed against error for questions of users"
-    yield from (line[2:] for line in asked[0].stamp if line.startswith(("# source", "# compiler")))
+    yield from (line[2:] for line in asked[0].stamp
+                if line.startswith(("# source", "# compiler")))
     yield "schema: 2"
-    yield (f"note: SUNDIALS {sundials_version()}, SciPy {scipy.__version__}, NumPy {np.__version__}; "
-           "one thread; all call the same compiled Eq. 7, SciPy from Python")
+    yield (f"note: SUNDIALS {sundials_version()}, SciPy {scipy.__version__}, "
+           f"NumPy {np.__version__}; one thread; all call the same compiled Eq. 7, SciPy "
+           "from Python")
     for one in asked:
         yield f"row question: {one.name} {one.count} {one.question['what']}"
         yield f"row command: {one.name} build/explore {one.question['command']}"
         for key, values in one.question.get("changes", {}).items():
-            yield from (f"row change: {one.name} {key} {old} {new}" for old, new in values.items())
+            yield from (f"row change: {one.name} {key} {old} {new}"
+                        for old, new in values.items())
         kinds = " ".join(str(true.kind) for true in one.references)
         yield f"row kinds: {one.name} {kinds}"
-    yield (f"note: other methods than this project compute {scene['computed_rows']} rows of each "
-           f"question (" + ", ".join(f"{method}: {count}" for method, count in
-                                     scene["fewer_rows"].items()) + "), "
-           f" drawn with the seed {scene['seed']}; their times and evaluations are scaled to "
-           "all rows, by the number of rows")
-    yield (f"note: errors and kinds of every method are those of the drawn rows; reference: Runge-Kutta "
-           f"of order 8, local error {scene['reference']['local_error']:g}, "
-           f"{scene['reference']['transients_s'][0]:g} s from the start; kinds: K where the motion "
-           "closes, -1 where it contracts, 0 for everything else")
-    yield (f"note: settings: transient, then tolerance with which {scene['share']:.0%} of "
-           "the compared rows have the right kind and an error below the target; where none does, the "
+    yield (f"note: other methods compute {scene['computed_rows']} rows of each question "
+           f"({fewer}), drawn with the seed {scene['seed']}; their times and evaluations are "
+           "scaled to all rows, by the number of rows")
+    yield ("note: errors and kinds of every method are those of the drawn rows; reference: "
+           f"Runge-Kutta of order 8, local error {tight['local_error']:g}, "
+           f"{tight['transients_s'][0]:g} s from the start; kinds: K where the motion closes, "
+           "-1 where it contracts, 0 for everything else")
+    yield (f"note: settings: transient, then tolerance with which {share:.0%} of the compared "
+           "rows have the right kind and an error below the target; where none does, the "
            "tightest; choosing them is not counted in the times")
     yield from (f"column: {name} [{unit}] {meaning}" for name, unit, meaning in COLUMNS)
 
@@ -285,12 +300,16 @@ def checked(scene):
         rows = question["speeds_hz"]["count"] * question.get("starts", 1)
         rows *= question.get("clearances_m", {"count": 1})["count"]
         if rows < scene["computed_rows"]:
-            sys.exit(f"question {question['name']}: {rows} rows are fewer than computed_rows")
+            sys.exit(f"question {question['name']}: fewer rows than computed_rows: {rows}")
     return scene
 
 
 def main(scene_file, names):
     scene = checked(tomllib.loads((ROOT / scene_file).read_text(encoding="utf-8")))
+    known = [one["name"] for one in scene["questions"]]
+    if not set(names) <= set(known):
+        sys.exit(f"no such question: {', '.join(sorted(set(names) - set(known)))}; "
+                 f"there are {', '.join(known)}")
     chosen = [one for one in scene["questions"] if not names or one["name"] in names]
     asked, rows = [], []
     for question in chosen:
