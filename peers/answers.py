@@ -76,7 +76,7 @@ def dop853(case, tolerance, start, times, begin):
 
 
 def states_of(case, method, accuracy, transient, start, periods, points):
-    """States at the instants of some base periods, both ends included, and evaluations."""
+    """States at the instants of some base periods, with both ends, and evaluations."""
     frequency, _ = case.base()
     before = int(np.ceil(transient * frequency))
     if method.startswith("rk"):
@@ -135,8 +135,8 @@ def read(row, method, accuracy, transient, closed, scene, is_reference=False):
 
 
 def reference(row, scene):
-    """The reading with controlled steps of order 8; it contracts where a shorter transient
-    ends on the same motion."""
+    """The reading with controlled steps of order 8; it contracts where a shorter
+    transient ends on the same motion."""
     rule = scene["reference"]
     first, *others = (
         read(row, "rk8", rule["local_error"], transient, rule["closed"], scene, True)

@@ -78,5 +78,6 @@ double equation7_base(const CountedEquation7* equation, int* is_driven_twice);
     base period, over `n` of them: the states at their ends, n × 8 by rows. Returns the
     number of evaluations, -1 after a line on stderr. */
 long equation7_flow(const CountedEquation7* equation, const char* method, double accuracy,
-                    int intervals, long first, const double* start, int n, double* states);
+                    int intervals, long first, const double* start, int n,
+                    double* states);
 }

@@ -147,8 +147,8 @@ def setting_for(asked, rows, integrators, transient, target):
 
 
 def timed(run, scene, first=None):
-    """The result of a run, medians of its CPU and wall time, and the number of repetitions;
-    `first` is a run that has been made."""
+    """The result of a run, medians of its CPU and wall time, and the repetitions; `first`
+    is a run that has been made."""
     runs = [first or spent_by(run)]
     while len(runs) < scene["repetitions"] and runs[0][2] < scene["slow_s"]:
         runs.append(spent_by(run))
@@ -181,7 +181,8 @@ def other(asked, method, integrators, target, transient):
     scale = asked.count / len(drawn)
     evaluations = sum(found.evaluations for found in readings if found)
     return table_row(asked, method, target, readings, cpu_s=scale * cpu,
-                     wall_s=scale * wall, evaluations=round(scale * evaluations), computed=len(drawn),
+                     wall_s=scale * wall, evaluations=round(scale * evaluations),
+                     computed=len(drawn),
                      integrator=integrator, accuracy=accuracy, transient=transient,
                      repetitions=repetitions)
 
@@ -208,8 +209,8 @@ def kind_of(period, driven_twice):
 
 
 def ours(asked, table):
-    """The readings of the drawn rows in our table; of several motions at a speed the nearest
-    one."""
+    """The readings of the drawn rows in our table; of several motions at a speed the
+    nearest one."""
     is_map = "amplitude" in table.columns
     names = ("frequency", "amplitude") if is_map else ("f", "amp_x_r")
     speeds, amplitudes = (np.array([number(word) for word in table[name]])
@@ -260,7 +261,8 @@ def rows_of(asked):
 def header(scene, asked):
     """The lines that say what was done."""
     tight, share = scene["reference"], scene["share"]
-    fewer = ", ".join(f"{method}: {count}" for method, count in scene["fewer_rows"].items())
+    fewer = ", ".join(f"{method}: {count}"
+                      for method, count in scene["fewer_rows"].items())
     yield "Speed against error for questions of users"
     yield from (line[2:] for line in asked[0].stamp
                 if line.startswith(("# source", "# compiler")))
@@ -277,14 +279,14 @@ def header(scene, asked):
         kinds = " ".join(str(true.kind) for true in one.references)
         yield f"row kinds: {one.name} {kinds}"
     yield (f"note: other methods compute {scene['computed_rows']} rows of each question "
-           f"({fewer}), drawn with the seed {scene['seed']}; their times and evaluations are "
-           "scaled to all rows, by the number of rows")
-    yield ("note: errors and kinds of every method are those of the drawn rows; reference: "
-           f"Runge-Kutta of order 8, local error {tight['local_error']:g}, "
-           f"{tight['transients_s'][0]:g} s from the start; kinds: K where the motion closes, "
-           "-1 where it contracts, 0 for everything else")
-    yield (f"note: settings: transient, then tolerance with which {share:.0%} of the compared "
-           "rows have the right kind and an error below the target; where none does, the "
+           f"({fewer}), drawn with the seed {scene['seed']}; their times and evaluations "
+           "are scaled to all rows, by the number of rows")
+    yield ("note: errors and kinds of every method are those of the drawn rows; "
+           f"reference: Runge-Kutta of order 8, local error {tight['local_error']:g}, "
+           f"{tight['transients_s'][0]:g} s from the start; kinds: K where the motion "
+           "closes, -1 where it contracts, 0 for everything else")
+    yield (f"note: settings: transient, then tolerance with which {share:.0%} of the "
+           "compared rows have the right kind and an error below the target; where none does, the "
            "tightest; choosing them is not counted in the times")
     yield from (f"column: {name} [{unit}] {meaning}" for name, unit, meaning in COLUMNS)
 
@@ -300,7 +302,7 @@ def checked(scene):
         rows = question["speeds_hz"]["count"] * question.get("starts", 1)
         rows *= question.get("clearances_m", {"count": 1})["count"]
         if rows < scene["computed_rows"]:
-            sys.exit(f"question {question['name']}: fewer rows than computed_rows: {rows}")
+            sys.exit(f"question {question['name']}: {rows} rows, fewer than computed_rows")
     return scene
 
 
