@@ -286,8 +286,8 @@ def header(scene, asked):
            f"{tight['transients_s'][0]:g} s from the start; kinds: K where the motion "
            "closes, -1 where it contracts, 0 for everything else")
     yield (f"note: settings: transient, then tolerance with which {share:.0%} of the "
-           "compared rows have the right kind and an error below the target; where none does, the "
-           "tightest; choosing them is not counted in the times")
+           "compared rows have the right kind and an error below the target; where none does, "
+           "the tightest; choosing them is not counted in the times")
     yield from (f"column: {name} [{unit}] {meaning}" for name, unit, meaning in COLUMNS)
 
 
@@ -302,7 +302,7 @@ def checked(scene):
         rows = question["speeds_hz"]["count"] * question.get("starts", 1)
         rows *= question.get("clearances_m", {"count": 1})["count"]
         if rows < scene["computed_rows"]:
-            sys.exit(f"question {question['name']}: {rows} rows, fewer than computed_rows")
+            sys.exit(f"question {question['name']}: {rows} rows are too few to draw from")
     return scene
 
 
