@@ -41,11 +41,11 @@ def draw(table):
     names, panels = figure.subfigures(2, 1, height_ratios=(0.15, 2))
     grid = panels.subplots(2, 2, sharex=True, sharey=True)
     targets = sorted(set(table["target"]))
-    for axes, (name, count, *words) in zip(grid.flat, table.members("question")):
+    for axes, (name, count, *words) in zip(grid.flat, sorted(table.members("question"))):
         draw_question(axes, table.where("question", name), targets)
         what = " ".join(f"{word:g}" if isinstance(word, float) else word
                         for word in words)
-        axes.set_title(f"({name}) {what.split(',')[0]}, {count:g} motions", fontsize=11)
+        axes.set_title(f"({name}) {what.split(',')[0]}, {count:g} motions", fontsize=10)
     panels.supxlabel("CPU time of all motions, one thread [s]")
     panels.supylabel("relative error of the amplitude of $x_r$ [-]")
     lines = [plt.Line2D([], [], color=colour, marker=marker, ms=6, lw=1, label=label)

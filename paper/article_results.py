@@ -152,7 +152,7 @@ def answers(add):
     table = Table(KEPT / "tab03_answers.tsv")
     reached = table.rows(cells_as_numbers(table["error"]) <= table["target"])
     fastest, ratios = [], {"least": [], "cvode": [], "scipy": []}
-    for question, *_ in table.members("question"):
+    for question, *_ in sorted(table.members("question")):
         at = {}
         for target in sorted(set(table["target"]), reverse=True):
             rows = reached.where("question", question).where("target", target)
