@@ -285,12 +285,12 @@ def header(scene, asked):
            f"reference: Runge-Kutta of order 8, local error {tight['local_error']:g}, "
            f"{tight['transients_s'][0]:g} s from the start; kinds: K where the motion "
            "closes, -1 where it contracts, 0 for everything else")
-    yield ("note: of several motions that this project finds at a speed the nearest counts, of "
-           "the kind of the reference if there is one; other methods begin at the reference's "
-           "start")
+    yield ("note: of several motions that this project finds at a speed the nearest counts, "
+           "of the kind of the reference if there is one; other methods begin at the "
+           "reference's start")
     yield (f"note: settings: transient, then tolerance with which {share:.0%} of the "
-           "compared rows have the right kind and an error below the target; where none does, "
-           "the tightest; choosing them is not counted in the times")
+           "compared rows have the right kind and an error below the target; where none "
+           "does, the tightest; choosing them is not counted in the times")
     yield from (f"column: {name} [{unit}] {meaning}" for name, unit, meaning in COLUMNS)
 
 
