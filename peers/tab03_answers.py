@@ -285,7 +285,7 @@ def header(scene, asked):
            f"reference: Runge-Kutta of order 8, local error {tight['local_error']:g}, "
            f"{tight['transients_s'][0]:g} s from the start; kinds: K where the motion "
            "closes, -1 where it contracts, 0 for everything else")
-    yield ("note: of several motions that this project finds at a speed the nearest counts, "
+    yield ("note: of several motions of this project at a speed the nearest counts, "
            "of the kind of the reference if there is one; other methods begin at the "
            "reference's start")
     yield (f"note: settings: transient, then tolerance with which {share:.0%} of the "
