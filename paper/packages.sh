@@ -18,7 +18,7 @@ for goal; do
   case $goal in
     test | sanitize) packages+=(catch2 chromium chromium-driver python3-hypothesis python3-selenium snakemake) ;;
     clearance_speed | clearance_stiffness | stiffness_border) packages+=(snakemake) ;;
-    studies) packages+=(snakemake libsundials-dev python3-scipy) ;;
+    studies | timing) packages+=(snakemake libsundials-dev python3-scipy) ;;
     tab03_answers) packages+=(libsundials-dev python3-scipy) ;;
     pdf) packages+=(librsvg2-bin lmodern texlive-fonts-recommended texlive-latex-recommended texlive-luatex) ;;
     png) packages+=(librsvg2-bin) ;;
