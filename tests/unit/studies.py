@@ -10,8 +10,10 @@ import subprocess
 import sys
 import tempfile
 import time
+import types
 import unittest
 from pathlib import Path
+from unittest import mock
 
 import numpy as np
 
@@ -40,7 +42,6 @@ minutes: 1
 """
 
 
-@unittest.skipUnless(shutil.which("snakemake"), "needs the Debian package snakemake")
 def computed_anew(study, changes):
     """The table of a study, of its scene with these changes, each of which must have a place there."""
     scene = Path(f"data/scenes/{study}.toml").read_text(encoding="utf-8")
@@ -55,6 +56,7 @@ def computed_anew(study, changes):
                                        text=True).stdout)
 
 
+@unittest.skipUnless(shutil.which("snakemake"), "needs the Debian package snakemake")
 class Shards(Case):
     """A study in a folder of its own."""
 
@@ -319,6 +321,42 @@ class Verdicts(unittest.TestCase):
         self.assertEqual(list(table.columns), list(kept.columns))
         for name in ("f", "machine", "machine_stable", "distance", "series", "series_stable"):
             np.testing.assert_allclose(table[name], kept[name][:2], rtol=1e-4, err_msg=name)
+
+
+class Answers(unittest.TestCase):
+    def setUp(self):
+        """peers/answers.py without the compiled equations, which `make peers` builds."""
+        try:
+            import scipy.integrate  # noqa: F401
+        except ImportError:
+            self.skipTest("needs the Debian package python3-scipy")
+        stub = types.SimpleNamespace(ROOT=Path("."), SIZE=8, Case=None, LIBRARY=None, pointer=None)
+        with mock.patch.dict(sys.modules, equation7=stub), mock.patch.object(sys, "path", ["peers", *sys.path]):
+            import answers
+        self.answers = answers
+
+    def test_readings(self):
+        """Half peak-to-peak of a sine between its samples, and the fewest base periods after which a section repeats itself."""
+        t = np.arange(0, 2 * np.pi + 0.1, 0.2)
+        self.assertAlmostEqual(self.answers.half_range(3 + np.sin(t + 0.05), np.cos(t + 0.05), 0.2), 1, delta=1e-5)
+        self.assertGreater(1 - np.ptp(np.sin(t + 0.05)) / 2, 1e-4)  # the samples alone
+        section = np.zeros((32, 4))
+        self.assertEqual(self.answers.closing(section, 1, 16, 1e-3), 1)
+        section[::3] = 1
+        self.assertEqual(self.answers.closing(section, 1, 16, 1e-3), 3)
+        section[:, 0] += np.sqrt(2) * np.arange(32)
+        self.assertEqual(self.answers.closing(section, 1, 16, 1e-3), 0)
+
+    def test_kept(self):
+        """Every question, method and target; our commands keep the two looser targets in the median. Would catch a table of another
+        scene, and errors that are not ours."""
+        table = Table("data/reference/tab03_answers.tsv")
+        for question in "abcd":
+            for target in (1e-2, 1e-3, 1e-5):
+                rows = table.where("question", question).where("target", target)
+                self.assertLessEqual({"this", "cvode", "rk4", "scipy-lsoda", "scipy-dop853"}, set(rows["method"]))
+                if target > 1e-5:
+                    self.assertLessEqual(float(rows.where("method", "this").first("error")), target)
 
 
 class Identification(unittest.TestCase):
