@@ -157,7 +157,7 @@ def answers(add):
         for target in sorted(set(table["target"]), reverse=True):
             rows = reached.where("question", question).where("target", target)
             best = rows["method"][rows["cpu_s"].argmin()] if len(rows) else ""
-            at.setdefault(ANSWERING.get(best, "no method"), []).append(power(target))
+            at.setdefault(ANSWERING.get(best, "no method"), []).append(f"{100 * target:.2g} %")
             ours = rows.where("method", "this")
             if not len(ours):
                 continue
