@@ -2,7 +2,7 @@
 # Debian 12 lacks parts of the library of C++20 (live/libcxx.hpp) and looks for its parser where only Debian's node does.
 # Exceptions are WebAssembly's own (browsers of 2022 and later): by JavaScript's the module was a quarter larger.
 live_sources := $(filter-out src/io/program.cpp src/time/gsl.cpp $(patsubst %,src/explore/%.cpp, \
-    attractors campbell check map% options plot shaft shape), \
+    attractors campbell check map% options plot runup shaft shape), \
   $(wildcard $(patsubst %,src/%/*.cpp,io model balance continuation time motion explore))) \
   live/live.cpp live/no_gsl.cpp
 live_objects := $(live_sources:%.cpp=build/live/%.o)

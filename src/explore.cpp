@@ -123,6 +123,8 @@ int main(int argc, char** argv)
           "lines of the motion, with names such as BPFO-1X");
   all.add("attractors", explore_attractors, "sections.py",
           "what the machine settles on, speed by speed");
+  all.add("runup", explore_runup, "response.py",
+          "run-up or coast-down: amplitudes while the speed changes");
   all.add("map", explore_map, "map.py", "quantities over two keys of the parameter file");
   all.add("shaft", explore_shaft, "", "matrices of a shaft of beam elements, in files");
   all.add("shape", explore_shape, "shape.py",

@@ -408,4 +408,23 @@ Check add_options(CLI::App& command, CampbellRequest& request)
   return [] {};
 }
 
+Check add_options(CLI::App& command, RunUpRequest& request)
+{
+  add_common_options(command, request, "in the whole run (default: those of 60 s)");
+  for (const auto& [name, speed, meaning] :
+       {std::tuple{"--from", &request.from, "speed at the start [Hz]"},
+        {"--to", &request.to, "speed at the end [Hz]"}})
+    command
+        .add_option_function<std::string>(
+            name,
+            [name, speed](const std::string& word) {
+              *speed = word == "0" ? 0 : real_number(name, word, 0, largest);
+            },
+            meaning)
+        ->required();
+  add_number(command, "--seconds", request.seconds, 0.0, 1e6, "how long the run takes")
+      ->required();
+  return [] {};
+}
+
 }  // namespace rotor_stator::explore

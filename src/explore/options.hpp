@@ -9,6 +9,7 @@ Those of each command, read into its request. */
 #include "explore/check.hpp"
 #include "explore/map.hpp"
 #include "explore/response.hpp"
+#include "explore/runup.hpp"
 #include "explore/shaft.hpp"
 #include "explore/shape.hpp"
 
@@ -30,5 +31,6 @@ Check add_options(CLI::App& command, MapRequest& request);
 Check add_options(CLI::App& command, CheckRequest& request);
 Check add_options(CLI::App& command, ShaftRequest& request);
 Check add_options(CLI::App& command, CampbellRequest& request);
+Check add_options(CLI::App& command, RunUpRequest& request);
 
 }  // namespace rotor_stator::explore

@@ -1,0 +1,168 @@
+#include "motion/run_up.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+#include "io/errors.hpp"
+#include "motion/answer.hpp"
+#include "time/flow.hpp"
+#include "time/rk4.hpp"
+#include "time/turns.hpp"
+
+namespace rotor_stator::motion {
+
+namespace {
+
+constexpr double turn = 2 * std::numbers::pi;
+
+/** Where rotor and balls are at an instant, and how they turn. */
+struct Turning {
+  Angles at;
+  Direction push;   ///< of the unbalance, over its force at `fastest`
+  double cage_lag;  ///< c (ω - `fastest`) [rad/s]
+};
+
+/** Eq. 7 while the speed changes; its constants are those of the fastest speed. */
+class Changing {
+public:
+  Changing(const Parameters& parameters, const RunUp& run, double first_turn)
+      : run_(run), fastest_(std::max(run.from, run.to)), first_turn_(first_turn),
+        turns_(Turns::of(parameters)), system_(parameters, fastest_)
+  {
+  }
+
+  Turning turning(double t) const
+  {
+    const double turns = first_turn_ + run_.angle(t) / turn, whole = std::floor(turns);
+    const double speed = run_.speed(t), square = fastest_ * fastest_;
+    const double inwards = speed * speed / square, along = run_.acceleration() / square;
+    Turning now{.at = turns_.at(whole, turns - whole)};
+    const auto [c, s] = now.at.rotor;
+    now.push = {inwards * c + along * s, inwards * s - along * c};
+    now.cage_lag = turns_.cage * (speed - fastest_);
+    return now;
+  }
+
+  /** Of the bearing, on the stator. The rate at which a ball is pressed knows the speed
+      of the cage. */
+  Vec2 force(const Bodies& q, const Bodies& v, const Turning& now) const
+  {
+    const Vec2 u = q.relative(), rate = v.relative();
+    return system_.bearing().force(
+        now.at, u, {rate.x + now.cage_lag * u.y, rate.y - now.cage_lag * u.x});
+  }
+
+  Bodies acceleration(const Bodies& q, const Bodies& v, const Turning& now) const
+  {
+    return system_.acceleration(q, v, now.push, force(q, v, now));
+  }
+
+private:
+  RunUp run_;
+  double fastest_, first_turn_;
+  Turns turns_;
+  RotorStator system_;
+};
+
+/** The shortest step [s] at so many speeds of the run, and 256 in the fastest turn. */
+double shortest_step(const Parameters& parameters, const RunUp& run)
+{
+  constexpr int speeds = 20, steps_of_turn = 256;
+  double step = turn / std::max(run.from, run.to) / steps_of_turn;
+  for (int k = 0; k <= speeds; ++k) {
+    const double omega = run.speed(run.seconds * k / speeds);
+    if (omega > 0) step = std::min(step, step_at(parameters, omega));
+  }
+  return step;
+}
+
+/** Where the run begins: at rest, or on the motion that the machine has settled on, at so
+    many turns. */
+struct Beginning {
+  State state;
+  double turns;
+};
+Beginning beginning(const Parameters& parameters, double speed,
+                    const OperationBudget& budget)
+{
+  if (speed == 0)
+    return {rest_state(parameters, Direction::of(parameters.bearing.cage_phase)), 0};
+  const Question question{
+      .parameters = parameters, .request = {.omega = speed}, .budget = budget};
+  const Answer answer = std::move(settled_answers({&question, 1}).front().get());
+  return {answer.settled.at.state,
+          static_cast<double>(answer.settled.at.period) / answer.base.per_turn};
+}
+
+/** The turn that is being made. */
+struct Seen {
+  Displacements low, high;
+  double force = 0;
+  long steps = 0, touching = 0;
+
+  explicit Seen(const State& state) : low(displacements(state.position)), high(low) {}
+  void add(const State& state, Vec2 f)
+  {
+    const Displacements q = displacements(state.position);
+    for (std::size_t i = 0; i < q.size(); ++i) {
+      low[i] = std::min(low[i], q[i]);
+      high[i] = std::max(high[i], q[i]);
+    }
+    force = std::max(force, std::hypot(f.x, f.y));
+    ++steps;
+    touching += f.x != 0 || f.y != 0;
+  }
+};
+
+}  // namespace
+
+std::vector<PassedTurn> run_up(const Parameters& parameters, const RunUp& run,
+                               const OperationBudget& budget)
+{
+  if (!parameters.machine->takes_explicit_steps())
+    throw BadInput(parameters.file +
+                   ": a changing speed is of two masses; of bodies by matrices take "
+                   "response --direction up");
+  if (parameters.bearing.damping > 0 &&
+      !parameters.bearing.is_damaged(Defect::Surface::none))
+    throw BadInput(parameters.file +
+                   ": a changing speed knows no damaged bearing with contact damping");
+  const auto [first, turns] = beginning(parameters, run.from, budget);
+  const Changing equation(parameters, run, turns);
+  const auto steps = std::ceil(run.seconds / shortest_step(parameters, run));
+  const double h = run.seconds / steps;
+  const auto acceleration = [&](const Bodies& q, const Bodies& v, const Turning& now) {
+    return equation.acceleration(q, v, now);
+  };
+  std::vector<PassedTurn> all;
+  State state = first;
+  Seen seen(state);
+  double began = 0, made = 0;
+  Turning now = equation.turning(0);
+  for (double k = 0; k < steps; ++k) {
+    budget.spend(4);
+    const Turning at[]{now, equation.turning((k + 0.5) * h),
+                       equation.turning((k + 1) * h)};
+    nystrom_step(h, at, state.position, state.velocity, acceleration);
+    now = at[2];
+    seen.add(state, equation.force(state.position, state.velocity, now));
+    const double t = (k + 1) * h;
+    if (!std::isfinite(state.position.rotor.x))
+      throw NoSolution(format("integration diverged after %.3g s", t));
+    if (run.angle(t) < turn * (made + 1) * (1 - 1e-12)) continue;
+    const double middle = 0.5 * (began + t);
+    Displacements amplitude;
+    for (std::size_t i = 0; i < amplitude.size(); ++i)
+      amplitude[i] = 0.5 * (seen.high[i] - seen.low[i]);
+    all.push_back({middle, run.speed(middle), amplitude,
+                   static_cast<double>(seen.touching) / static_cast<double>(seen.steps),
+                   seen.force});
+    seen = Seen(state);
+    began = t;
+    made = std::floor(run.angle(t) / turn + 1e-9);
+  }
+  return all;
+}
+
+}  // namespace rotor_stator::motion

@@ -1,0 +1,53 @@
+/**
+# A speed that changes evenly
+
+Rotor and cage turn by given angles, φ(t) = ω_0 t + α t²/2 and c φ. The drive that this
+takes is not modelled. The unbalance pushes the rotor by
+
+$$m_e e \left(\omega^2 \cos\varphi + \alpha \sin\varphi,\;
+              \omega^2 \sin\varphi - \alpha \cos\varphi\right),$$
+
+the second derivative of its place with the sign turned. All else of Eq. 7 stays.
+
+    RunUp run{.from = angular(10), .to = angular(60), .seconds = 30};
+    for (const PassedTurn& turn : run_up(parameters, run, budget))
+      … turn.speed, turn.amplitude[2] …
+
+Where the run begins above standstill the machine has settled there. Checked against a
+linear rotor integrated apart, and against motions at fixed speed (tests/unit/runup.py).
+*/
+#pragma once
+
+#include <vector>
+
+#include "io/budget.hpp"
+#include "model/parameters.hpp"
+#include "model/rotor_stator.hpp"
+
+namespace rotor_stator::motion {
+
+struct RunUp {
+  double from, to;  ///< ω at both ends [rad/s], not negative
+  double seconds;
+
+  double acceleration() const { return (to - from) / seconds; }  ///< α [rad/s²]
+  double speed(double t) const { return from + acceleration() * t; }
+  double angle(double t) const { return t * (from + 0.5 * acceleration() * t); }  ///< φ
+};
+
+/** What was seen in one turn of the rotor. */
+struct PassedTurn {
+  double time;              ///< of its middle [s]
+  double speed;             ///< ω there [rad/s]
+  Displacements amplitude;  ///< half of the largest less the smallest value [m]
+  double contact;           ///< share of the time with contact [-]
+  double force;             ///< largest of the bearing [N]
+};
+
+/** All whole turns in the order of time, by RK4 with the shortest step that a speed of the
+    run asks for. Throws BadInput for bodies by matrices and for a damaged bearing with
+    contact damping, NoSolution when the budget is used up. */
+std::vector<PassedTurn> run_up(const Parameters& parameters, const RunUp& run,
+                               const OperationBudget& budget = {});
+
+}  // namespace rotor_stator::motion
