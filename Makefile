@@ -10,6 +10,7 @@
 SHELL := /bin/bash
 .SHELLFLAGS := -eu -o pipefail -c
 .DELETE_ON_ERROR:
+.PRECIOUS: data/generated/%.tsv
 .SECONDEXPANSION:
 .DEFAULT_GOAL := all
 export LC_ALL := C
