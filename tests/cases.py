@@ -350,5 +350,158 @@ rotor_dofs = [1, 2]
                 self.assertNotEqual(keys["regime"], "chaotic")
 
 
+class Linear(Case):
+    """Natural frequencies of shafts, published or by LAPACK's symmetric eigenproblem of
+    K and M, gyroscopic terms in its first sixteen modes."""
+
+    ROTOR = """title = "the bearing is never touched"
+[stator]
+rigid = true
+[rotor]
+matrices = "m"
+bearing_dofs = [1, 2]
+vertical_dofs = []
+[bearing]
+balls = 8
+cage_speed_ratio = 0.375
+contact_stiffness_N_per_m1p5 = 1e10
+radial_clearance_m = 1.0
+[gravity]
+acceleration_m_per_s2 = 9.81
+"""
+
+    HELD = """title = "a pin at one end, a 6308 at the other"
+[stator]
+rigid = true
+[rotor]
+matrices = "m"
+vertical_dofs = [2, 6, 10, 14, 18, 22, 26]
+[[bearing]]
+rotor_dofs = [25, 26]
+designation = "6308"
+internal_clearance = "CN"
+[gravity]
+acceleration_m_per_s2 = 9.81
+"""
+
+    def modes(self, shaft, *speeds, rotor=ROTOR):
+        """Frequencies and damping ratios at the first speed."""
+        self.lines("shaft", self.file("shaft.toml", shaft), "--to", "m")
+        table = self.table("campbell", self.file("rotor.toml", rotor), "--from", speeds[0], "--to", speeds[1],
+                           "--count", 2, "--modes", 10)
+        first = table.where("f", table["f"][0])
+        return first["frequency"], first["damping"]
+
+    def test_a_rigid_support(self):
+        """As its stiffness grows the frequencies at 10 Hz tend to those of the pinned shaft."""
+        pinned = [22.902093, 23.003923, 152.201128, 157.865066, 283.866147, 297.177125]
+        soft = [22.87227, 22.97367, 151.42965, 157.00955, 281.02846, 293.80377]
+        for k, expected in [(1e8, soft), (1e12, pinned), (1e16, pinned), (1e20, pinned)]:
+            with self.subTest(k=k):
+                found, _ = self.modes(f"""title = "pinned"
+[material]
+youngs_modulus_Pa = 211e9
+shear_modulus_Pa = 81.2e9
+density_kg_per_m3 = 7810
+[[segment]]
+length_m = 1.5
+diameter_m = 0.05
+elements = 6
+[[disk]]
+node = 4
+outer_diameter_m = 0.28
+bore_m = 0.05
+thickness_m = 0.07
+[[support]]
+node = 1
+stiffness_N_per_m = [{k}, {k}]
+""", 10, 20, rotor=self.HELD)
+                np.testing.assert_allclose(found[:6], expected, rtol=1e-5)
+
+    def test_a_free_hollow_shaft(self):
+        """Isotropic at rest: each frequency twice, without damping; speeds from 0."""
+        found, damping = self.modes("""title = "nearly free"
+[material]
+youngs_modulus_Pa = 210e9
+shear_modulus_Pa = 80.769230769e9
+density_kg_per_m3 = 7850
+[[segment]]
+length_m = 0.3
+diameter_m = 0.03008
+bore_m = 0.007
+elements = 10
+[[support]]
+node = 1
+stiffness_N_per_m = [1e3, 1e3]
+[[support]]
+node = 11
+stiffness_N_per_m = [1e3, 1e3]
+""", "0rpm", "60 rpm")
+        pairs = np.repeat([5.657116, 9.759929, 1536.0617, 4040.4630, 7487.4650], 2)
+        np.testing.assert_allclose(found, pairs, rtol=1e-6)
+        self.assertFalse(damping.any())
+
+    def test_a_massless_shaft(self):
+        """A disk on a shaft of any small density: a mass m on the stiffness of a beam with shear, within 1 %; within 1e-6 of
+        each other."""
+        length, diameter, disk = 1.0, 0.02, (0.2, 0.02, 0.04)
+        found = []
+        for density in (1e-6, 1e-3, 1e-1):
+            found.append(self.modes(f"""title = "Laval"
+[material]
+youngs_modulus_Pa = 211e9
+shear_modulus_Pa = 81.2e9
+density_kg_per_m3 = {density}
+[[segment]]
+length_m = {length}
+diameter_m = {diameter}
+elements = 8
+[[disk]]
+node = 5
+mass_kg = 10
+polar_inertia_kg_m2 = 0.05
+diametral_inertia_kg_m2 = 0.026
+[[support]]
+node = 1
+stiffness_N_per_m = [1e12, 1e12]
+[[support]]
+node = 9
+stiffness_N_per_m = [1e12, 1e12]
+""", 0, 10)[0][:2])
+        bending = 48 * 211e9 * math.pi * diameter**4 / 64 / length**3
+        shear = 4 * 81.2e9 * 0.9 * math.pi * diameter**2 / 4 / length
+        laval = math.sqrt(1 / (1 / bending + 1 / shear) / 10) / 2 / math.pi
+        np.testing.assert_allclose(found, laval, rtol=3e-3)
+        np.testing.assert_allclose(np.array(found) / found[0], 1, rtol=2e-4)
+
+    def test_one_stiffness_of_the_bearing_at_rest(self):
+        """check and campbell agree, also for a mass written as matrices; the resonance of the balls lies where they say."""
+        file = machine("passing_6306")
+        rest = self.table("check", file, "--to", 300)
+        values = dict(zip(rest["name"], map(float, rest["value"])))
+        self.assertAlmostEqual(values["f_1_x"], 97.696, delta=0.01)
+        self.assertAlmostEqual(values["passage_f_1_x"], 32.57, delta=0.01)
+        linear = self.table("campbell", file, "--from", 0, "--to", 100, "--count", 2)
+        self.assertAlmostEqual(linear["frequency"][0] / values["f_1_x"], 1, delta=1e-6)
+        damped = self.file("damped.toml", file.read_text(encoding="utf-8").replace(" = 200.0", " = 2000.0"))
+        response = self.table("response", damped, "--from", 28, "--to", 37, "--count", 46)
+        self.assertAlmostEqual(response["f"][response["amp_x_r"].argmax()], values["passage_f_1_x"], delta=0.5)
+
+
+class Speeds(Case):
+    def test_units(self):
+        """Speeds in rpm are those in Hz; both ends of a range have one unit."""
+        for command, hertz, rpm in (
+                ("orbit", ["--frequency", 45], ["--frequency", "2700rpm"]), ("orbit", ["--frequency", 45], ["--frequency", "2700 rpm"]),
+                ("response", ["--from", 45, "--to", "46Hz", "--count", 2], ["--from", "2700rpm", "--to", "2760rpm", "--count", 2]),
+                ("map", ["--x", "frequency=45:46:2", "--quantity", "mean"], ["--x", "frequency=2700rpm:2760rpm:2", "--quantity", "mean"])):
+            rows = [[line for line in self.lines(command, self.machine, *asked) if not line.startswith("#")]
+                    for asked in (hertz, rpm)]
+            self.assertEqual(*rows)
+        self.refused("--to 50: is in Hz, the other end in rpm", "response", self.machine, "--from", "2700rpm", "--to", 50)
+        self.refused("--from 0: must be > 0", "response", self.machine, "--from", 0, "--to", 50)
+        self.refused("in Hz or as 1500rpm", "orbit", self.machine, "--frequency", "45 rps")
+
+
 if __name__ == "__main__":
     unittest.main()

@@ -1,93 +1,31 @@
 #include "explore/campbell.hpp"
 
-#include <Eigen/Cholesky>
-#include <Eigen/Eigenvalues>
 #include <algorithm>
 #include <cmath>
 #include <vector>
 
+#include "explore/modes.hpp"
 #include "io/errors.hpp"
-#include "model/large_machine.hpp"
 
 namespace rotor_stator::explore {
 
 namespace {
-
-struct Mode {
-  double frequency, damping;  ///< [Hz], [-]
-  int whirl;                  ///< 1 forward, -1 backward, 0 neither
-};
 
 const char* word(int whirl)
 {
   return whirl > 0 ? "forward" : whirl < 0 ? "backward" : "planar";
 }
 
-/** The linear machine, without the coordinates of a stator that is held. */
-class Linear {
-public:
-  Linear(const LargeBodies& machine, const Eigen::MatrixXd& stiffness, bool is_rigid)
-      : first_(is_rigid ? 2 : 0), machine_(machine)
-  {
-    const auto n = machine.mass.rows() - first_;
-    mass_.compute(machine.mass.bottomRightCorner(n, n));
-    k_ = (machine.stiffness + machine.joints * stiffness * machine.joints.transpose())
-             .bottomRightCorner(n, n);
-  }
-
-  /** The oscillating modes at a speed [Hz], frequencies ascending. */
-  std::vector<Mode> modes(double speed) const
-  {
-    const auto n = k_.rows();
-    Eigen::MatrixXd a = Eigen::MatrixXd::Zero(2 * n, 2 * n);
-    a.topRightCorner(n, n).setIdentity();
-    a.bottomLeftCorner(n, n) = -mass_.solve(k_);
-    a.bottomRightCorner(n, n) =
-        -mass_.solve((machine_.damping + angular(speed) * machine_.gyroscopic)
-                         .bottomRightCorner(n, n));
-    const Eigen::EigenSolver<Eigen::MatrixXd> found(a);
-    if (found.info() != Eigen::Success)
-      throw NoSolution(format("the modes at %g Hz were not found", speed));
-    std::vector<Mode> list;
-    for (Eigen::Index k = 0; k < 2 * n; ++k)
-      if (const auto lambda = found.eigenvalues()[k]; lambda.imag() > 1e-6)
-        list.push_back({lambda.imag() / angular(1), -lambda.real() / std::abs(lambda),
-                        whirl(found.eigenvectors().col(k))});
-    std::ranges::sort(list, {}, &Mode::frequency);
-    return list;
-  }
-
-private:
-  /** By the sense in which the ellipses of all places that are shown turn, weighted by
-      their areas. */
-  int whirl(const Eigen::VectorXcd& shape) const
-  {
-    double turning = 0, whole = 0;
-    for (int i = first_; i + 1 < machine_.shown; i += 2) {
-      const auto x = shape[i - first_], y = shape[i + 1 - first_];
-      turning += 2 * (x * std::conj(y)).imag();
-      whole += std::norm(x) + std::norm(y);
-    }
-    constexpr double round = 0.02;  // a line, by the ratio of its axes
-    return turning > round * whole ? 1 : turning < -round * whole ? -1 : 0;
-  }
-
-  int first_;
-  const LargeBodies& machine_;
-  Eigen::LDLT<Eigen::MatrixXd> mass_;
-  Eigen::MatrixXd k_;
-};
-
 /** Frequency less that of the order at a speed: zero where it is critical. */
-double beyond(const Linear& machine, double order, std::size_t mode, double speed)
+double beyond(const LinearMachine& machine, double order, std::size_t mode, double speed)
 {
-  const auto modes = machine.modes(speed);
+  const auto modes = machine.modes(speed, mode + 1);
   return mode < modes.size() ? modes[mode].frequency - order * speed : 0;
 }
 
 /** Between two speeds of other sign, by bisection with secants. */
-double critical_speed(const Linear& machine, double order, std::size_t mode, double low,
-                      double high, double at_low, double at_high)
+double critical_speed(const LinearMachine& machine, double order, std::size_t mode,
+                      double low, double high, double at_low, double at_high)
 {
   for (int step = 0; step < 30 && high - low > 1e-9 * high; ++step) {
     double middle = step % 3 == 2 ? (low + high) / 2
@@ -119,28 +57,18 @@ std::vector<Column> columns_of(bool critical)
 
 }  // namespace
 
-std::vector<double> natural_frequencies(const Parameters& parameters, std::size_t most)
-{
-  const LargeBodies machine = matrices_of(parameters);
-  const Linear linear(machine, mean_contact_stiffness(parameters, machine),
-                      parameters.stator.rigid);
-  std::vector<double> list;
-  for (const Mode& mode : linear.modes(0))
-    if (list.size() < most) list.push_back(mode.frequency);
-  return list;
-}
-
 Exploration explore_campbell(const CampbellRequest& request)
 {
   require_range(request.from, request.to);
   if (request.critical && request.plot)
     throw BadInput("--plot: draws frequencies; leave out --critical");
   const Parameters parameters =
-      read_machine(StrictToml(request.parameter_file),
-                   {.from = request.from, .to = request.to, .harmonics = 64});
-  const LargeBodies machine = matrices_of(parameters);
-  const Eigen::MatrixXd stiffness = mean_contact_stiffness(parameters, machine);
-  const Linear linear(machine, stiffness, parameters.stator.rigid);
+      read_machine(StrictToml(request.parameter_file), {.from = request.from,
+                                                        .to = request.to,
+                                                        .harmonics = 64,
+                                                        .largest = largest_linear});
+  const LinearMachine linear(parameters);
+  const Eigen::MatrixXd& stiffness = linear.contact();
   const auto columns = columns_of(request.critical);
   Table table(request.critical ? "Critical speeds of the linear machine"
                                : "Whirl frequencies against speed (Campbell)",
@@ -165,25 +93,25 @@ Exploration explore_campbell(const CampbellRequest& request)
   for (const auto& [value, name] : orders) table.row_line("order", {name, value});
   const auto speeds = evenly_spaced(request.from, request.to, request.count);
   std::vector<std::vector<Mode>> modes;
+  double residual = 0;
   for (const double speed : speeds) {
-    modes.push_back(linear.modes(speed));
-    const std::size_t shown = std::min<std::size_t>(modes.back().size(), request.modes);
-    for (std::size_t i = 0; i < shown && !request.critical; ++i) {
-      const auto& [frequency, damping, whirl] = modes.back()[i];
-      table.row({speed, i + 1, frequency, damping, whirl});
+    modes.push_back(linear.modes(speed, request.modes));
+    for (std::size_t i = 0; i < modes.back().size() && !request.critical; ++i) {
+      const Mode& mode = modes.back()[i];
+      table.row({speed, i + 1, mode.frequency, mode.damping, mode.whirl});
     }
+    for (const Mode& mode : modes.back()) residual = std::max(residual, mode.residual);
   }
+  if (residual > well_solved) table.note("warning: " + doubt(residual));
   for (const auto& [value, name] : orders)
     for (std::size_t k = 1; k < speeds.size(); ++k)
-      for (std::size_t i = 0; i < std::min({modes[k - 1].size(), modes[k].size(),
-                                            static_cast<std::size_t>(request.modes)});
-           ++i) {
+      for (std::size_t i = 0; i < std::min(modes[k - 1].size(), modes[k].size()); ++i) {
         const double a = modes[k - 1][i].frequency - value * speeds[k - 1],
                      b = modes[k][i].frequency - value * speeds[k];
         if ((a > 0) == (b > 0)) continue;
         const double at =
             critical_speed(linear, value, i, speeds[k - 1], speeds[k], a, b);
-        const Mode mode = linear.modes(at)[i];
+        const Mode mode = linear.modes(at, i + 1)[i];
         if (request.critical)
           table.row({at, name, i + 1, mode.frequency, mode.damping, word(mode.whirl)});
         else

@@ -1,16 +1,9 @@
 /**
 # explore campbell
 
-Whirl of a machine whose bearings are springs. Each spring is the mean contact stiffness:
-the derivative of the bearing's force, averaged over the angles of the cage, at the
-displacement where that mean force carries weights and loads (found by Newton's
-iteration). At each speed ω the eigenvalues λ of
-
-$$M\ddot q + (C + \omega G)\,\dot q + (K + D \bar S D^T)\, q = 0$$
-
-give frequencies Im λ/2π and damping ratios -Re λ/|λ|. A mode whirls forward where its
-ellipses turn as the rotor does. At a critical speed a frequency is that of the unbalance
-(1X) or of the passing balls. */
+Frequencies and damping ratios of the linear machine (`modes.hpp`) at each speed, and
+whether a mode whirls forward, its ellipses turning as the rotor does. At a critical speed
+a frequency is that of the unbalance (1X) or of the passing balls. */
 #pragma once
 
 #include "explore/orbit.hpp"
@@ -26,9 +19,5 @@ struct CampbellRequest : Request {
 
 /** Throws BadInput for a range that is none. */
 Exploration explore_campbell(const CampbellRequest& request);
-
-/** Damped frequencies [Hz] of the lowest modes without rotation, ascending, at most so
-    many. */
-std::vector<double> natural_frequencies(const Parameters& parameters, std::size_t most);
 
 }  // namespace rotor_stator::explore

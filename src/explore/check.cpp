@@ -4,7 +4,7 @@
 #include <cmath>
 #include <numbers>
 
-#include "explore/campbell.hpp"
+#include "explore/modes.hpp"
 #include "io/errors.hpp"
 #include "model/catalogue.hpp"
 #include "model/large_machine.hpp"
@@ -18,9 +18,9 @@ constexpr double turn = 2 * std::numbers::pi;
 
 /** One bearing at rest, means over the angles of the cage between two balls. */
 struct Rest {
-  Vec2 u{0, 0}, stiffness{0, 0};  ///< [m]; of the contact in x and y [N/m]
-  double force = 0, loaded = 0;   ///< of the bearing [N]; balls
-  double most = 0;                ///< the largest force of a ball at any angle [N]
+  Vec2 u{0, 0};                  ///< [m]
+  double force = 0, loaded = 0;  ///< of the bearing [N]; balls
+  double most = 0;               ///< the largest force of a ball at any angle [N]
 };
 
 /** All bearings. Their cages turn together, each between two of its balls. */
@@ -43,10 +43,9 @@ std::vector<Rest> rest_of(const Parameters& machine)
       const BallBearing bearing(own);
       const auto cage = Direction::of(own.cage_phase);
       const Vec2 u = motion::at_bearing(turned, motion, b).motion.positions[0].relative();
-      const auto [force, stiffness] = bearing.reaction(cage, u);
+      const Vec2 force = bearing.reaction(cage, u).force;
       const auto q = bearing.ball_forces({{1, 0}, cage}, u, {0, 0});
       rest.u = rest.u + share * u;
-      rest.stiffness = rest.stiffness + share * Vec2{stiffness.xx, stiffness.yy};
       rest.force += share * std::hypot(force.x, force.y);
       for (double one : q) rest.loaded += one > 0 ? share : 0;
       rest.most = std::max(rest.most, std::ranges::max(q));
@@ -54,19 +53,6 @@ std::vector<Rest> rest_of(const Parameters& machine)
     }
   }
   return rests;
-}
-
-/** Frequencies [Hz] of both bodies joined by a spring, ascending, without that of a body
-    which nothing holds. */
-std::vector<double> joined_frequencies(const Parameters& machine, double spring)
-{
-  const Body &s = machine.stator, &r = machine.rotor;
-  const double a = (r.stiffness() + spring) / r.mass;
-  if (s.rigid) return {std::sqrt(a) / turn};
-  const double b = (s.stiffness() + spring) / s.mass, half = (a + b) / 2;
-  const double root = std::hypot((a - b) / 2, spring / std::sqrt(s.mass * r.mass));
-  if (half - root <= 1e-12 * half) return {std::sqrt(half + root) / turn};
-  return {std::sqrt(half - root) / turn, std::sqrt(half + root) / turn};
 }
 
 /** Whether the motion without contact, a circle about its mean, stays within the
@@ -94,7 +80,8 @@ Exploration explore_check(const CheckRequest& request)
                                       {"unit", "word", "of the value"},
                                       {"meaning", "word", "of the value"}});
   table.choose(request.columns, 4, false);
-  const Parameters machine = read_machine(StrictToml(request.parameter_file));
+  const Parameters machine =
+      read_machine(StrictToml(request.parameter_file), {.largest = largest_linear});
   require_range(request.from, request.to);
   const std::vector<Rest> rests = rest_of(machine);
   describe(table, machine);
@@ -126,37 +113,34 @@ Exploration explore_check(const CheckRequest& request)
     add("ball_load", rest.most, "N", "largest force of a ball at rest");
     if (stress > 0) add("stress", stress, "N/mm^2", "largest pressure of Hertz at rest");
   }
-  if (!machine.machine->takes_explicit_steps()) {
-    for (std::size_t k = 1; double frequency : natural_frequencies(machine, 8))
-      table.row({format("f_%zu", k++), frequency, "Hz",
-                 "natural, damped, with the mean contact stiffness at rest"});
+  const bool is_large = !machine.machine->takes_explicit_steps();
+  if (!is_large && never_touches(request, machine))
+    warn(format("nothing touches from %g to %g Hz: the clearance of %g m is never closed",
+                request.from, request.to, machine.bearing.clearance));
+  if (!is_large && !machine.stator.rigid)
+    table.row({"f_s", machine.stator.natural_frequency / turn, "Hz",
+               "natural, without contact"});
+  if (!is_large && machine.rotor.natural_frequency > 0)
+    table.row({"f_r", machine.rotor.natural_frequency / turn, "Hz",
+               "natural, without contact"});
+  /** Two masses vibrate mainly along x or y. */
+  int modes[] = {0, 0};
+  for (const Mode& mode : LinearMachine(machine).modes(0, 8)) {
+    const std::string name =
+        is_large ? format("f_%d", ++modes[0])
+                 : format("f_%d_%c", ++modes[mode.axis == 'y'], mode.axis);
+    table.row({name, mode.frequency, "Hz",
+               "natural, damped, with the mean contact stiffness at rest"});
+    const double speed = mode.frequency / passages_per_turn(machine.bearing);
+    if (speed >= request.from && speed <= request.to)
+      table.row(
+          {"passage_" + name, speed, "Hz", "speed at which the passing balls meet it"});
+    if (mode.residual > well_solved) warn(doubt(mode.residual));
+  }
+  if (is_large) {
     table.value("warnings", warnings);
     return {std::move(table)};
   }
-  const Rest& rest = rests[0];
-  if (never_touches(request, machine))
-    warn(format("nothing touches from %g to %g Hz: the clearance of %g m is never closed",
-                request.from, request.to, machine.bearing.clearance));
-  /** A frequency and, in the range, the speed at which the passing balls meet it. */
-  const auto add = [&](const std::string& name, double frequency, const char* meaning,
-                       double order = 1) {
-    const double speed = frequency / order;
-    if (speed > 0 && (order == 1 || (speed >= request.from && speed <= request.to)))
-      table.row({name, speed, "Hz", meaning});
-  };
-  const double passages = passages_per_turn(machine.bearing);
-  if (!machine.stator.rigid)
-    add("f_s", machine.stator.natural_frequency / turn, "natural, without contact");
-  add("f_r", machine.rotor.natural_frequency / turn, "natural, without contact");
-  for (const auto& [axis, spring] :
-       {std::pair{"x", rest.stiffness.x}, {"y", rest.stiffness.y}})
-    for (int k = 1; double frequency : joined_frequencies(machine, spring)) {
-      const std::string name = format("f_%d_%s", k++, axis);
-      if (spring == 0) continue;
-      add(name, frequency, "natural, with the mean contact stiffness at rest");
-      add("passage_" + name, frequency, "speed at which the passing balls meet it",
-          passages);
-    }
   const auto lost = equal_force_speeds(machine, angular(request.to));
   if (!lost.empty())
     table.row({"contact_loss", lost.front() / turn, "Hz",

@@ -35,8 +35,14 @@ Axis read_axis(const std::string& option, const std::string& text)
   const bool logarithmic = parts.size() == 4 && parts.back() == "log";
   if (logarithmic) parts.pop_back();
   if (equals == 0 || parts.size() != 3) refuse("must be KEY=from:to:count[:log]");
-  Axis axis{text.substr(0, equals), real_number(option, parts[0], -1e300, 1e300),
-            real_number(option, parts[1], -1e300, 1e300),
+  const std::string key = text.substr(0, equals);
+  std::string unit;
+  const auto end = [&](const std::string& word) {
+    return key == speed_key ? speed_in_hertz(option, word, unit)
+                            : real_number(option, word, -1e300, 1e300);
+  };
+  const double from = end(parts[0]), to = end(parts[1]);
+  Axis axis{key, from, to,
             static_cast<std::size_t>(whole_number(option, parts[2], 1, most_points)),
             logarithmic};
   if (axis.count > 1 && axis.from == axis.to) refuse("from and to must differ");
@@ -82,8 +88,9 @@ std::vector<double> swept_speeds(const std::string& text)
   const auto parts = parts_of(text, ':');
   if (parts.size() != 2 && parts.size() != 3)
     throw BadInput("--sweep " + text + ": must be A:B or A:B:COUNT");
-  const double from = real_number("--sweep", parts[0], 0, 1e300),
-               to = real_number("--sweep", parts[1], 0, 1e300);
+  std::string unit;
+  const double from = speed_in_hertz("--sweep", parts[0], unit),
+               to = speed_in_hertz("--sweep", parts[1], unit);
   const int count =
       parts.size() == 3 ? whole_number("--sweep", parts[2], 2, 100000) : 101;
   if (from >= to) throw BadInput("--sweep " + text + ": A must be below B");

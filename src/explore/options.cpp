@@ -104,10 +104,28 @@ void add_common_options(CLI::App& command, Request& request, const std::string& 
       ->type_name("NUMBER");
 }
 
-void add_speeds(CLI::App& command, double& from, double& to)
+/** Options with the same `unit` are in one unit. */
+template <class Number>
+CLI::Option* add_speed(CLI::App& command, const std::string& name, Number& speed,
+                       const std::string& meaning, bool may_rest = false,
+                       std::shared_ptr<std::string> unit = {})
 {
-  add_number(command, "--from", from, 0.0, largest, "first speed [Hz]")->required();
-  add_number(command, "--to", to, 0.0, largest, "last speed [Hz]")->required();
+  return command
+      .add_option_function<std::string>(
+          name,
+          [=, &speed](const std::string& word) {
+            std::string own;
+            speed = speed_in_hertz(name, word, unit ? *unit : own, may_rest);
+          },
+          meaning + " [Hz], or as 1500rpm")
+      ->type_name("SPEED");
+}
+
+void add_speeds(CLI::App& command, double& from, double& to, bool may_rest = false)
+{
+  const auto unit = std::make_shared<std::string>();
+  add_speed(command, "--from", from, "first speed", may_rest, unit)->required();
+  add_speed(command, "--to", to, "last speed", may_rest, unit)->required();
 }
 
 /** Those of harmonic balance, which are returned; `or_m`: what may stand for the default
@@ -187,9 +205,7 @@ Check add_options(CLI::App& command, MotionRequest& request)
   Options aft = add_balance_options(
       command, request,
       is_spectrum ? "three times BPFO, or by --tolerance" : "by --tolerance");
-  add_number(command, "--frequency", request.frequency, 0.0, largest,
-             "speed of rotation [Hz]")
-      ->required();
+  add_speed(command, "--frequency", request.frequency, "speed of rotation")->required();
   command.add_option("--method", request.method, methods_in_words(true))
       ->capture_default_str();
   const auto points =
@@ -272,8 +288,7 @@ Check add_options(CLI::App& command, ResponseRequest& request)
                                    "file for the branch, all coefficients"));
   CLI::Option* restart =
       command.add_option("--restart", request.restart, "file of --save to continue from");
-  add_number(command, "--at", request.at, 0.0, largest,
-             "restart near this speed [Hz] (default: the end)")
+  add_speed(command, "--at", request.at, "restart near this speed (default: the end)")
       ->needs(restart);
   add_number(command, "--branch", request.branch, 1, 1000000,
              "number of the branch to restart")
@@ -356,8 +371,8 @@ Check add_options(CLI::App& command, MapRequest& request)
   command.add_option("--list", request.list,
                      "table whose columns are keys, a line for each row, instead of --y");
   command.add_option("--quantity", request.quantities, known)->delimiter(',')->required();
-  add_number(command, "--frequency", request.frequency, 0.0, largest,
-             "speed of rotation [Hz], where it is no key");
+  add_speed(command, "--frequency", request.frequency,
+            "speed of rotation, where it is no key");
   command.add_option(
       "--sweep", request.sweep,
       "A:B[:COUNT], range of speeds of the quantities over one [Hz] (101)");
@@ -381,8 +396,9 @@ Check add_options(CLI::App& command, MapRequest& request)
 Check add_options(CLI::App& command, CheckRequest& request)
 {
   add_table_options(command, request);
-  add_number(command, "--from", request.from, 0.0, largest, "first speed [Hz]");
-  add_number(command, "--to", request.to, 0.0, largest, "last speed [Hz]");
+  const auto unit = std::make_shared<std::string>();
+  add_speed(command, "--from", request.from, "first speed", false, unit);
+  add_speed(command, "--to", request.to, "last speed", false, unit);
   return [] {};
 }
 
@@ -397,7 +413,7 @@ Check add_options(CLI::App& command, ShaftRequest& request)
 Check add_options(CLI::App& command, CampbellRequest& request)
 {
   add_table_options(command, request);
-  add_speeds(command, request.from, request.to);
+  add_speeds(command, request.from, request.to, true);
   add_number(command, "--count", request.count, 2, 10000,
              "speeds from --from to --to, evenly spaced")
       ->required();
@@ -411,17 +427,7 @@ Check add_options(CLI::App& command, CampbellRequest& request)
 Check add_options(CLI::App& command, RunUpRequest& request)
 {
   add_common_options(command, request, "in the whole run (default: those of 60 s)");
-  for (const auto& [name, speed, meaning] :
-       {std::tuple{"--from", &request.from, "speed at the start [Hz]"},
-        {"--to", &request.to, "speed at the end [Hz]"}})
-    command
-        .add_option_function<std::string>(
-            name,
-            [name, speed](const std::string& word) {
-              *speed = word == "0" ? 0 : real_number(name, word, 0, largest);
-            },
-            meaning)
-        ->required();
+  add_speeds(command, request.from, request.to, true);
   add_number(command, "--seconds", request.seconds, 0.0, 1e6, "how long the run takes")
       ->required();
   return [] {};

@@ -101,6 +101,29 @@ double real_number(const std::string& option, const std::string& value, double l
   return *number;
 }
 
+double speed_in_hertz(const std::string& option, const std::string& value,
+                      std::string& unit, bool may_rest)
+{
+  constexpr double largest = 1e300;  // 2 pi times as much is still a number
+  std::string number = value, own = "Hz";
+  for (const char* known : {"Hz", "rpm"})
+    if (value.ends_with(known)) {
+      own = known;
+      number.erase(value.size() - own.size());
+      if (number.ends_with(' ')) number.pop_back();
+    }
+  const std::optional<double> speed = decimal(number);
+  if (!speed || *speed < 0 || *speed > largest || (*speed == 0 && !may_rest))
+    throw BadInput(option + " " + value + ": must be " +
+                   (may_rest ? "0 or more" : format("> 0, at most %g", largest)) +
+                   ", a speed in decimal notation, in Hz or as 1500rpm");
+  if (unit.empty()) unit = own;
+  if (unit != own)
+    throw BadInput(option + " " + value + ": is in " + own + ", the other end in " +
+                   unit);
+  return own == "rpm" ? *speed / 60 : *speed;
+}
+
 int run_figure(int argc, char** argv, Program program,
                const std::function<Table(SceneFile&, const std::string& value)>& compute)
 {

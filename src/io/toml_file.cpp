@@ -192,13 +192,14 @@ struct StrictToml::Content {
     }
   }
 
-  /** What `take` makes of each element of a non-empty array. */
+  /** What `take` makes of each element of an array. */
   template <class Take>
-  auto all(const StrictToml& reader, const std::string& key, Take take)
+  auto all(const StrictToml& reader, const std::string& key, Take take,
+           bool may_be_empty = false)
   {
     return one(reader, key, [&](toml::node& node) {
-      if (!node.is_array() || node.as_array()->empty())
-        throw Refused{"must be a non-empty array"};
+      if (!node.is_array() || (node.as_array()->empty() && !may_be_empty))
+        throw Refused{may_be_empty ? "must be an array" : "must be a non-empty array"};
       std::vector<decltype(take(node))> values;
       for (toml::node& element : *node.as_array()) values.push_back(take(element));
       return values;
@@ -370,10 +371,12 @@ std::vector<double> StrictToml::numbers(const std::string& key, Range range)
   return values;
 }
 
-std::vector<int> StrictToml::integers(const std::string& key, int least, int most)
+std::vector<int> StrictToml::integers(const std::string& key, int least, int most,
+                                      bool may_be_empty)
 {
-  return content_->all(*this, key,
-                       [&](auto& node) { return as_integer(node, least, most); });
+  return content_->all(
+      *this, key, [&](auto& node) { return as_integer(node, least, most); },
+      may_be_empty);
 }
 
 std::vector<std::string> StrictToml::strings(const std::string& key)

@@ -56,7 +56,8 @@ public:
   int integer_or(const std::string& key, int least, int most, int otherwise);
   std::string string(const std::string& key);
   std::vector<double> numbers(const std::string& key, Range range);
-  std::vector<int> integers(const std::string& key, int least, int most);
+  std::vector<int> integers(const std::string& key, int least, int most,
+                            bool may_be_empty = false);
   std::vector<std::string> strings(const std::string& key);
   bool flag(const std::string& key);
   StrictToml table(const std::string& key);

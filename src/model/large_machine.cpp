@@ -22,9 +22,8 @@ namespace {
 using Complex = std::complex<double>;
 using Triplets = std::vector<Eigen::Triplet<double, int>>;
 
-/** Larger bodies are reduced, unless all their degrees of freedom are asked for, of which
-    there may be so many. */
-constexpr int most_kept = 80, most_asked = 2100;
+/** Degrees of freedom of a body that may all be asked for. */
+constexpr int most_asked = 2100;
 
 /** A body that moves in its own degrees of freedom, counted from 0. */
 struct LinearBody : BodyMatrices {
@@ -87,7 +86,7 @@ void require_mass(const SparseMatrix& m, const std::string& file)
 std::vector<int> read_dofs(StrictToml& table, const std::string& key, int size,
                            bool is_pair)
 {
-  std::vector<int> dofs = table.integers(key, 1, size);
+  std::vector<int> dofs = table.integers(key, 1, size, !is_pair);
   if (is_pair && (dofs.size() != 2 || dofs[0] == dofs[1]))
     table.fail(key, "must be [x, y], two degrees of freedom");
   for (int& dof : dofs) --dof;
@@ -463,7 +462,7 @@ void read_bodies(StrictToml& root, Parameters& parameters, const ModelRange& ask
   std::vector<std::string> notes;
   double error = 0;
   for (int body : {0, 1})
-    if (!all.bodies[body].keeps_all && all.bodies[body].size() > most_kept)
+    if (!all.bodies[body].keeps_all && all.bodies[body].size() > asked.largest)
       reduce_body(all, body, range, gravity, spring, notes, error);
 
   std::vector<std::array<int, 2>> joints[2];

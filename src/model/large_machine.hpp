@@ -76,7 +76,11 @@ struct ModelRange {
   double from = 1, to = 100;
   int harmonics = 64;
   const NumberTable* nodes = nullptr;
+  int largest = 80;  ///< degrees of freedom of a body that is not reduced
 };
+
+/** For what is asked of the linear machine only, which has no small steps to take. */
+constexpr int largest_linear = 400;
 
 /** Reads a parameter file of any machine. Bodies of which at least one has `matrices`
     take [bearing] or [[bearing]]. Throws BadInput. */

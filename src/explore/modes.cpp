@@ -1,0 +1,113 @@
+#include "explore/modes.hpp"
+
+#include <Eigen/Cholesky>
+#include <Eigen/Eigenvalues>
+#include <algorithm>
+#include <cmath>
+
+#include "io/errors.hpp"
+#include "time/eigenvalues.hpp"
+
+namespace rotor_stator::explore {
+
+namespace {
+
+constexpr double rigid = 1e-13;     ///< ratio of squares of frequencies
+constexpr Eigen::Index most = 120;  ///< modes that C + ωG couples
+
+/** R of A = R Rᵀ; empty where A is not positive. */
+Eigen::MatrixXd cholesky(const Eigen::MatrixXd& a)
+{
+  constexpr double rounding = 1e-13;
+  const Eigen::LLT<Eigen::MatrixXd> factors(a);
+  const Eigen::MatrixXd r = factors.matrixL();
+  const bool is_positive =
+      factors.info() == Eigen::Success &&
+      (r.diagonal().array().square() > rounding * a.diagonal().array()).all();
+  return is_positive ? r : Eigen::MatrixXd();
+}
+
+}  // namespace
+
+LinearMachine::LinearMachine(const Parameters& parameters)
+    : first_(parameters.stator.rigid ? 2 : 0), machine_(matrices_of(parameters)),
+      contact_(mean_contact_stiffness(parameters, machine_))
+{
+  const auto n = machine_.mass.rows() - first_;
+  k_ = (machine_.stiffness + machine_.joints * contact_ * machine_.joints.transpose())
+           .bottomRightCorner(n, n);
+  mass_ = machine_.mass.bottomRightCorner(n, n);
+  factor_ = cholesky(k_);
+  double shift = 0;  // σ [1/s²]
+  if (factor_.size() == 0) factor_ = cholesky(k_ + (shift = 1) * mass_);
+  if (factor_.size() == 0) throw NoSolution("the stiffness at rest is not positive");
+  const auto r = factor_.triangularView<Eigen::Lower>();
+  const Eigen::MatrixXd half = r.solve(mass_);
+  const Eigen::MatrixXd whole = r.solve(half.transpose());
+  const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> found((whole + whole.transpose()) /
+                                                             2);
+  const Eigen::VectorXd& values = found.eigenvalues();  // 1/(ω² + σ), ascending
+  const auto kept = std::min(most, (values.array() > rigid * values[n - 1]).count());
+  const Eigen::ArrayXd inertia = values.tail(kept).reverse();
+  shapes_ = factor_.transpose().triangularView<Eigen::Upper>().solve(
+      found.eigenvectors().rightCols(kept).rowwise().reverse());
+  shapes_ *= inertia.rsqrt().matrix().asDiagonal();
+  /** What drifts is free within the rounding of K. */
+  const Eigen::ArrayXd square = inertia.inverse() - shift;
+  omega_ = (square > 1e-3 * shift).select(square.max(0).sqrt(), 0);
+}
+
+std::vector<Mode> LinearMachine::modes(double speed, std::size_t most) const
+{
+  const Eigen::MatrixXd c =
+      machine_.damping.bottomRightCorner(mass_.rows(), mass_.rows()) +
+      angular(speed) * machine_.gyroscopic.bottomRightCorner(mass_.rows(), mass_.rows());
+  const auto n = omega_.size();
+  Eigen::MatrixXd a = Eigen::MatrixXd::Zero(2 * n, 2 * n);
+  a.topRightCorner(n, n) = omega_.asDiagonal();
+  a.bottomLeftCorner(n, n) = -a.topRightCorner(n, n);
+  a.bottomRightCorner(n, n) = -shapes_.transpose() * c * shapes_;
+  const Eigensystem found = eigensystem(a, true);
+  std::vector<Eigen::Index> order;
+  for (Eigen::Index k = 0; k < 2 * n; ++k)
+    if (found.values[k].imag() > 1e-6) order.push_back(k);
+  std::ranges::sort(order, {}, [&](auto k) { return found.values[k].imag(); });
+  order.resize(std::min(order.size(), most));
+  std::vector<Mode> list;
+  for (const auto k : order) {
+    const auto lambda = found.values[k];
+    const Eigen::VectorXcd q = shapes_ * found.vectors.col(k).tail(n);
+    const Eigen::VectorXcd rest =
+        k_ * q + lambda * (c * q) + lambda * lambda * (mass_ * q);
+    const auto r = factor_.triangularView<Eigen::Lower>();
+    const double residual = r.solve(rest).norm() / (factor_.transpose() * q).norm();
+    /** The ellipses of all places that are shown, weighted by their areas. */
+    double x = 0, y = 0, turning = 0;
+    for (int i = 0; i + 1 < machine_.shown - first_; i += 2) {
+      x += std::norm(q[i]);
+      y += std::norm(q[i + 1]);
+      turning += 2 * (q[i] * std::conj(q[i + 1])).imag();
+    }
+    constexpr double line = 0.02;  // by the ratio of the axes
+    const bool is_line = std::abs(turning) <= line * (x + y);
+    constexpr double rounding = 1e-12;
+    const double damping = -lambda.real() / std::abs(lambda);
+    list.push_back({lambda.imag() / angular(1),
+                    std::abs(damping) > rounding ? damping : 0,
+                    is_line       ? 0
+                    : turning > 0 ? 1
+                                  : -1,
+                    x > y ? 'x' : 'y', residual});
+  }
+  return list;
+}
+
+std::string doubt(double residual)
+{
+  return format(
+      "the modes solve their equations to %.1e only: stiffnesses or dampers "
+      "differ too much",
+      residual);
+}
+
+}  // namespace rotor_stator::explore

@@ -1,0 +1,57 @@
+/**
+# The machine as a linear one
+
+Each bearing is a spring, the mean contact stiffness S: the derivative of its force,
+averaged over the angles of the cage, at the displacement where that mean force carries
+weights and loads. All natural frequencies, damping ratios and critical speeds are of
+
+$$M\ddot q + (C + \omega G)\,\dot q + (K + D S D^T)\, q = 0.$$
+
+First come the modes of M and K + D S Dᵀ = R Rᵀ (for a machine that can drift, of K + D S
+Dᵀ + σM with σ = 1/s²): the eigenvectors of R⁻¹ M R⁻ᵀ, of which the softest are exact
+however stiff a support is or however small a mass. Modes 3e6 times as fast as the slowest
+one are rigid. The eigenvalues at a speed are those of C + ωG in these modes, the square
+roots of energies as coordinates; without damping that matrix is antisymmetric and has no
+ill-conditioned eigenvalue.
+
+    for (const Mode& mode : LinearMachine(parameters).modes(0)) ... mode.frequency */
+#pragma once
+
+#include <vector>
+
+#include "model/large_machine.hpp"
+
+namespace rotor_stator::explore {
+
+struct Mode {
+  double frequency, damping;  ///< [Hz], ratio to critical damping [-]
+  int whirl;                  ///< 1 forward, -1 backward, 0 neither
+  char axis;                  ///< along which it moves more, x or y
+  double residual;  ///< relative change of stiffness with which it would be exact [-]
+};
+
+class LinearMachine {
+public:
+  /** Throws NoSolution where the stiffness at rest is not positive. */
+  explicit LinearMachine(const Parameters& parameters);
+
+  /** S, 2b × 2b [N/m]. */
+  const Eigen::MatrixXd& contact() const { return contact_; }
+
+  /** The oscillating modes at a speed [Hz] of lowest frequency, ascending, at most so
+      many. */
+  std::vector<Mode> modes(double speed, std::size_t most) const;
+
+private:
+  int first_;  ///< coordinates of a stator that is held come before it
+  LargeBodies machine_;
+  Eigen::MatrixXd contact_, mass_, k_;  ///< S, M, K + D S Dᵀ
+  Eigen::MatrixXd factor_, shapes_;     ///< R; columns of unit modal mass
+  Eigen::VectorXd omega_;               ///< [rad/s]
+};
+
+/** Residuals above it deserve a warning, in these words. */
+constexpr double well_solved = 2e-6;
+std::string doubt(double residual);
+
+}  // namespace rotor_stator::explore
