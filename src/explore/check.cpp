@@ -5,6 +5,7 @@
 #include <numbers>
 
 #include "explore/modes.hpp"
+#include "explore/plausible.hpp"
 #include "io/errors.hpp"
 #include "model/catalogue.hpp"
 #include "model/large_machine.hpp"
@@ -90,6 +91,7 @@ Exploration explore_check(const CheckRequest& request)
     ++warnings;
     table.note("warning: " + text);
   };
+  for (const std::string& doubt : doubts(machine, request.to)) warn(doubt);
   for (std::size_t b = 0; const Bearing& bearing : bearings_of(machine)) {
     const Rest& rest = rests[b++];
     const std::string tail = b == 1 ? "" : format("_%zu", b);
@@ -112,8 +114,20 @@ Exploration explore_check(const CheckRequest& request)
     add("loaded_balls", rest.loaded, "-", "at rest, mean over the cage's angle");
     add("ball_load", rest.most, "N", "largest force of a ball at rest");
     if (stress > 0) add("stress", stress, "N/mm^2", "largest pressure of Hertz at rest");
+    if (const double n = speed_value(bearing, request.to); n > 0)
+      add("speed_value", n, "mm/min", "n d_m at --to");
   }
   const bool is_large = !machine.machine->takes_explicit_steps();
+  if (!is_large) {
+    const double e = machine.unbalance / machine.rotor.mass, omega = angular(request.to);
+    table.row({"eccentricity", e, "m", "e, unbalance over the rotor's mass"});
+    table.row({"weight", machine.rotor.mass * machine.gravity, "N", "of the rotor"});
+    table.row({"unbalance_force", machine.unbalance * omega * omega, "N", "at --to"});
+    table.row({"balance_grade", 1e3 * e * omega, "mm/s",
+               "e omega at --to, the G of ISO 21940-11"});
+    if (const double gap = machine.bearing.clearance; gap > 0 && e > 10 * gap)
+      warn(format("the eccentricity of %.3g m is %.3g times the clearance", e, e / gap));
+  }
   if (!is_large && never_touches(request, machine))
     warn(format("nothing touches from %g to %g Hz: the clearance of %g m is never closed",
                 request.from, request.to, machine.bearing.clearance));

@@ -6,6 +6,7 @@
 
 #include "balance/fourier_transform.hpp"
 #include "explore/balance_motion.hpp"
+#include "explore/plausible.hpp"
 #include "explore/settled_motion.hpp"
 #include "io/errors.hpp"
 #include "io/parallel.hpp"
@@ -42,11 +43,15 @@ void require_method_of(const Parameters& parameters, const std::string& method)
 Parameters machine_of(const Request& request, double from, double to,
                       const NumberTable* nodes)
 {
-  return read_machine(StrictToml(request.parameter_file),
-                      {.from = from,
-                       .to = to,
-                       .harmonics = std::max(64, request.harmonics.value_or(0)),
-                       .nodes = nodes});
+  Parameters machine =
+      read_machine(StrictToml(request.parameter_file),
+                   {.from = from,
+                    .to = to,
+                    .harmonics = std::max(64, request.harmonics.value_or(0)),
+                    .nodes = nodes});
+  for (const std::string& doubt : doubts(machine, to))
+    machine.derived.push_back("warning: " + doubt);
+  return machine;
 }
 
 int checked_samples(int harmonics, const std::optional<int>& samples)

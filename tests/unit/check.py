@@ -74,17 +74,45 @@ class Check(Case):
         self.assertNotIn("passage_f_2_x", self.values(text, "--to", values["f_2_x"] / (0.4 * BALLS) - 1e-6, "--from", 1e-3)[0])
 
     def test_warnings(self):
-        """Each where it holds, none on data set 1."""
+        """Each where it holds, one on data set 1: its centre of mass lies 1.25 mm away, 62.5 times the clearance."""
         far = MACHINE.replace("radial_clearance_m = 2e-5", "radial_clearance_m = 20")
         self.assertEqual(self.values(far)[1].value("warnings"), 1)
         rest = self.values(far)[0]
         self.assertEqual((rest["loaded_balls"], rest["ball_load"]), (0, 0))
-        self.assertEqual(self.values(MACHINE)[1].value("warnings"), 0)
+        self.assertEqual(self.values(MACHINE)[1].value("warnings"), 1)
+        self.assertIn("is 62.5 times the clearance", self.values(MACHINE)[1].header)
+        self.assertEqual(self.values(HELD + NAMED)[1].value("warnings"), 0)
         self.assertEqual(self.values(HELD + NAMED + "diametral_clearance_m = 2e-3")[1].value("warnings"), 1)
         heavy = HELD.replace("mass_kg = 2.0", "mass_kg = 2000") + NAMED + 'internal_clearance = "C3"'
         values, table = self.values(heavy)
         self.assertGreater(values["stress"], 4000)
         self.assertEqual(table.value("warnings"), 1)
+
+    def test_a_factor_of_a_thousand(self):
+        """Every value typed in another unit is doubted, in check and in the header of a motion; closed forms of the values."""
+        values, _ = self.values(HELD + NAMED, "--to", 25)
+        e, omega = 1e-4 / 2, 2 * math.pi * 25
+        for name, value in [("eccentricity", e), ("weight", 2 * G), ("unbalance_force", 1e-4 * omega**2), ("balance_grade", 1e3 * e * omega),
+                            ("speed_value", 39.04 * 1500)]:
+            self.assertAlmostEqual(values[name] / value, 1, delta=1e-6, msg=name)
+        for old, new, word in [("unbalance_kg_m = 1e-4", "unbalance_kg_m = 20", "is the unbalance in kg m?"),
+                               ("= 9.81", "= 9810", "is it in m/s^2?")]:
+            self.assertIn(word, self.values(HELD.replace(old, new) + NAMED)[1].header)
+        sizes = """[bearing]
+balls = 9
+ball_diameter_m = 7.94
+pitch_diameter_m = 39.04
+inner_groove_ratio = 0.52
+outer_groove_ratio = 0.53
+youngs_modulus_Pa = 207000
+poissons_ratio = 0.3
+diametral_clearance_m = 0.02
+"""
+        for word in ("are lengths in m?", "is the modulus in Pa?"):
+            self.assertIn(word, self.values(HELD + sizes)[1].header)
+        fast = self.table("orbit", self.file("named.toml", HELD + NAMED), "--frequency", 1797, "--points", 4)
+        self.assertIn("speeds are in Hz, or as 1500rpm", fast.header)
+        self.assertNotIn("warning", self.table("orbit", self.folder / "named.toml", "--frequency", "1797rpm", "--points", 4).header)
 
     def test_refusals(self):
         self.refused("--from 3: must be below --to 2", "check", self.machine, "--from", 3, "--to", 2)

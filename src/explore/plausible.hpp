@@ -1,0 +1,23 @@
+/**
+# What is a slip rather than a machine
+
+Values that differ from those of any real machine by a factor of a hundred and more are
+mostly millimetres in a key of metres, MPa in one of Pa, or 1,500 Hz where 1,500/min was
+meant. Nothing is refused: the words stand in the headers, and `check` counts them. */
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "model/parameters.hpp"
+
+namespace rotor_stator::explore {
+
+/** Doubts about the machine and the highest speed [Hz] that it is asked for, a sentence
+    each. */
+std::vector<std::string> doubts(const Parameters& machine, double highest);
+
+/** n d_m, by which makers bound the speed [mm/min]; 0 where the sizes are not known. */
+double speed_value(const Bearing& bearing, double hertz);
+
+}  // namespace rotor_stator::explore
