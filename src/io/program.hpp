@@ -58,8 +58,8 @@ double real_number(const std::string& option, const std::string& value, double l
                    double most);
 
 /** The speed [Hz] above 0 that an option's value is: a number and, after a blank or none,
-    nothing, Hz or rpm; 0 too where the machine `may_rest`. Speeds that share `unit`, empty
-    at first, are in one unit. */
+    nothing, Hz or rpm; 0 too where the machine `may_rest`. Speeds that share `unit`,
+    empty at first, are in one unit. */
 double speed_in_hertz(const std::string& option, const std::string& value,
                       std::string& unit, bool may_rest = false);
 
