@@ -10,7 +10,8 @@
     \ --y bearing.radial_clearance_m=0:1e-4:21 --quantity amplitude --harmonics 6 >
     map.tsv build/explore shaft data/rotors/overhung_shaft.toml --to overhung > nodes.tsv
     build/explore shape data/rotors/overhung.toml --frequency 30 --harmonics 6 \ --nodes
-    nodes.tsv > shape.tsv
+    nodes.tsv > shape.tsv build/explore runup data/set1.toml --from 0 --to 60 --seconds 20
+    > runup.tsv
 
 The general program for follow-up studies: any parameter file, any speed, harmonic balance
 or one of the time integrators. A table on stdout, errors on stderr. */
