@@ -1,17 +1,17 @@
 /**
 # explore: one's own machine
 
-    build/explore check data/set1.toml build/explore orbit data/set1.toml --frequency 45
-    --harmonics 10 > orbit.tsv build/explore contact data/set1.toml --frequency 45
-    --method rk8pd > contact.tsv build/explore spectrum data/set1.toml --frequency 45
-    --harmonics 24 > spectrum.tsv build/explore response data/set1.toml --from 1 --to 60
-    --harmonics 10 > response.tsv build/explore attractors data/set1.toml --from 18 --to
-    22 --count 17 > attractors.tsv build/explore map data/set1.toml --x frequency=10:50:41
-    \ --y bearing.radial_clearance_m=0:1e-4:21 --quantity amplitude --harmonics 6 >
-    map.tsv build/explore shaft data/rotors/overhung_shaft.toml --to overhung > nodes.tsv
-    build/explore shape data/rotors/overhung.toml --frequency 30 --harmonics 6 \ --nodes
-    nodes.tsv > shape.tsv build/explore runup data/set1.toml --from 0 --to 60 --seconds 20
-    > runup.tsv
+    build/explore check data/set1.toml
+    build/explore orbit data/set1.toml --frequency 45 --harmonics 10 > orbit.tsv
+    build/explore contact data/set1.toml --frequency 45 > contact.tsv
+    build/explore spectrum data/set1.toml --frequency 45 --harmonics 24 > spectrum.tsv
+    build/explore response data/set1.toml --from 1 --to 60 > response.tsv
+    build/explore runup data/set1.toml --from 0 --to 60 --seconds 20 > runup.tsv
+    build/explore attractors data/set1.toml --from 18 --to 22 --count 17 > attractors.tsv
+    build/explore map data/set1.toml --x frequency=10:50:41 --quantity amplitude > map.tsv
+    build/explore shaft data/rotors/overhung_shaft.toml --to overhung > nodes.tsv
+    build/explore shape data/rotors/overhung.toml --frequency 30 --nodes nodes.tsv
+    build/explore campbell data/rotors/overhung.toml --from 0 --to 100 --count 34
 
 The general program for follow-up studies: any parameter file, any speed, harmonic balance
 or one of the time integrators. A table on stdout, errors on stderr. */

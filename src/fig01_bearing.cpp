@@ -1,7 +1,8 @@
 /**
 # Figure 1: the ball bearing
 
-Paper: §2.2, Fig. 1.   Run: `build/fig01_bearing > data/generated/fig01_bearing.tsv`
+Paper: §2.2, Fig. 1.
+Run: `build/fig01_bearing > data/generated/fig01_bearing.tsv`
 
 The bearing joins two bodies. Its outer race belongs to the stator, its inner race to the
 rotor; n balls run between them, and a cage keeps the balls at equal angles. The figure

@@ -1,8 +1,8 @@
 /**
 # Figure 2: position and penetration of ball j
 
-Paper: §2.2 and §2.3, Fig. 2.   Run: `build/fig02_ball_position >
-data/generated/fig02_ball_position.tsv`
+Paper: §2.2 and §2.3, Fig. 2.
+Run: `build/fig02_ball_position > data/generated/fig02_ball_position.tsv`
 
 The figure shows how a displacement of the rotor presses the balls, the only nonlinearity
 of the model. The inner race has moved by u relative to the outer race, towards the upper

@@ -1,8 +1,8 @@
 /**
 # Figure 3: amplitudes of rotor and stator against the speed
 
-Paper: §3.3, Fig. 3; data set 2 is added.   Run: `build/fig03_response >
-data/generated/fig03_response.tsv`
+Paper: §3.3, Fig. 3; data set 2 is added.
+Run: `build/fig03_response > data/generated/fig03_response.tsv`
 
 The figure shows how strongly rotor and stator vibrate at each speed of rotation, with the
 small clearance (left) and the large one (right). The first row is the horizontal motion

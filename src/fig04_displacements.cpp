@@ -1,8 +1,8 @@
 /**
 # Figure 4: displacements at 13.4 Hz
 
-Paper: §3.3, Fig. 4, data set 1.   Run: `build/fig04_displacements >
-data/generated/fig04_displacements.tsv`
+Paper: §3.3, Fig. 4, data set 1.
+Run: `build/fig04_displacements > data/generated/fig04_displacements.tsv`
 
 At 13.4 Hz harmonic balance and time integration lie close together, although harmonic
 balance assumes that the motion repeats after one turn of the rotor, and the integrated

@@ -1,8 +1,8 @@
 /**
 # Figure 5: displacements at 45 Hz
 
-Paper: §3.3, Fig. 5, data set 1.   Run: `build/fig05_displacements >
-data/generated/fig05_displacements.tsv`
+Paper: §3.3, Fig. 5, data set 1.
+Run: `build/fig05_displacements > data/generated/fig05_displacements.tsv`
 
 At 45 Hz, just below the resonance, six harmonics describe the displacements far more
 accurately than the bearing's force. The caption gives three errors of harmonic balance by
