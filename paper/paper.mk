@@ -8,6 +8,8 @@ data/generated/deviations.md data/generated/article.md: data/generated/%.md: pap
 data/generated/cage.md data/generated/map_scaling.md: data/generated/%.md: studies/%.py data/reference/%.tsv figures/tables.py
 	$(whole) $(PYTHON) $< data/reference/$*.tsv > $$new; mv $$new $@
 data/generated/map_scaling.md: $(patsubst %,data/reference/%.tsv,clearance_speed stiffness_border map_checks)
+data/generated/manual.md: paper/manual.py build/explore data/set1.toml data/rotors/overhung.toml
+	$(whole) $(PYTHON) $< > $$new; mv $$new $@
 
 book: build/book/.built  ## programs, figures and texts as pages, with a search: build/book/index.html
 build/book/.built: $(wildcard paper/book/* *.md paper/*.md paper/references.bib studies/*.py peers/*.py data/reference/*.tsv build/live/index.html) \

@@ -311,7 +311,7 @@ const std::vector<Quantity> quantities{
      [](auto& p) -> Cell { return p.multiplier().second; }},
 
     {"period", "-",
-     "K of the motion from rest; 0 aperiodic, -1 quasi-periodic, -2 undecided",
+     "K of the motion from rest; 0 chaotic, -1 quasi-periodic, -2 undecided",
      Source::rest, [](auto& p) -> Cell { return p.settled().period_number(); }},
     {"regime", "word",
      "of the motion from rest: rest, periodic, quasi-periodic, chaotic, undecided",

@@ -268,10 +268,10 @@ Lines lines_of_recorded(const std::vector<Bearing>& bearings, const Motion& moti
 /**
 ## Names */
 
-double LineName::order(const Bearing& bearing) const
+double LineName::order(const Bearing& own) const
 {
-  const double ball = spin == 0 ? 0 : spin * kinematic_orders(bearing).spin;
-  return rotation + cage * bearing.cage_speed_ratio + ball;
+  const double ball = spin == 0 ? 0 : spin * kinematic_orders(own).spin;
+  return rotation + cage * own.cage_speed_ratio + ball;
 }
 
 namespace {

@@ -57,7 +57,7 @@ struct LineName {
   double length = 1e3;      ///< of a sum; less is better
   std::size_t bearing = 0;  ///< whose cage and balls
 
-  double order(const Bearing& bearing) const;
+  double order(const Bearing& own) const;
 };
 
 /** The shortest name of an order, at most `tolerance` off, with k_cage at most n

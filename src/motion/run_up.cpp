@@ -37,11 +37,11 @@ public:
     const double turns = first_turn_ + run_.angle(t) / turn, whole = std::floor(turns);
     const double speed = run_.speed(t), square = fastest_ * fastest_;
     const double inwards = speed * speed / square, along = run_.acceleration() / square;
-    Turning now{.at = turns_.at(whole, turns - whole)};
-    const auto [c, s] = now.at.rotor;
-    now.push = {inwards * c + along * s, inwards * s - along * c};
-    now.cage_lag = turns_.cage * (speed - fastest_);
-    return now;
+    const Angles at = turns_.at(whole, turns - whole);
+    const auto [c, s] = at.rotor;
+    return {at,
+            {inwards * c + along * s, inwards * s - along * c},
+            turns_.cage * (speed - fastest_)};
   }
 
   /** Of the bearing, on the stator. The rate at which a ball is pressed knows the speed
