@@ -414,6 +414,13 @@ std::vector<std::string> StrictToml::keys() const
   return list;
 }
 
+std::string StrictToml::text() const
+{
+  std::ostringstream all;
+  all << content_->table;
+  return all.str();
+}
+
 void StrictToml::fail(const std::string& key, const std::string& problem) const
 {
   const std::string name = content_->written(key);

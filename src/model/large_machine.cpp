@@ -423,6 +423,14 @@ void read_bodies(StrictToml& root, Parameters& parameters, const ModelRange& ask
             : single_mass(mass, body == 0 ? "stator" : "rotor",
                           body == 0 ? 0 : parameters.unbalance));
   }
+  for (const LinearBody& body : all.bodies)
+    for (const SparseMatrix* one : {&body.m, &body.c, &body.g, &body.k}) {
+      const auto count = static_cast<std::size_t>(one->nonZeros()),
+                 columns = static_cast<std::size_t>(one->outerSize());
+      parameters.identity.add(std::as_bytes(std::span(one->valuePtr(), count)));
+      parameters.identity.add(std::as_bytes(std::span(one->innerIndexPtr(), count)));
+      parameters.identity.add(std::as_bytes(std::span(one->outerIndexPtr(), columns)));
+    }
   if (all.is_rigid) all.bodies[0].vertical.clear();
   read_bearings(root, parameters, all);
   std::vector<std::pair<int, int>> bearing_nodes;

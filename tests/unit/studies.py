@@ -40,7 +40,6 @@ minutes: 1
 """
 
 
-@unittest.skipUnless(shutil.which("snakemake"), "needs the Debian package snakemake")
 def computed_anew(study, changes):
     """The table of a study, of its scene with these changes, each of which must have a place there."""
     scene = Path(f"data/scenes/{study}.toml").read_text(encoding="utf-8")
@@ -55,12 +54,14 @@ def computed_anew(study, changes):
                                        text=True).stdout)
 
 
+@unittest.skipUnless(shutil.which("snakemake"), "needs the Debian package snakemake")
 class Shards(Case):
-    """A study in a folder of its own."""
+    """A study in a folder of its own, of a machine whose name the shell would take apart."""
 
     def setUp(self):
         super().setUp()
         shutil.copytree("studies", self.folder / "studies")
+        self.machine = self.machine.rename(self.folder / "my $(machine).toml")
         whole = self.lines("map", self.machine, "--x", "frequency=20:50:5", "--y", "bearing.radial_clearance_m=0:1e-4:7",
                            "--quantity", "amplitude,contact_share", "--harmonics", 6)
         self.whole = "".join(f"{line}\n" for line in whole)
