@@ -59,7 +59,7 @@ Parameters read_parameters(StrictToml root, const MatrixReader& reader)
 {
   Parameters parameters{};
   parameters.file = root.file();
-  const std::string read = root.text();
+  const std::string read = root.text_without("title");
   parameters.identity.add(std::as_bytes(std::span(read)));
   parameters.title = root.string("title");
 
