@@ -201,13 +201,15 @@ def run(draw):
 
     if len(sys.argv) < 3:
         sys.exit(f"usage: {sys.argv[0]} TABLE.tsv OUTPUT.svg [OVERLAY.tsv]")
+    plt.rcdefaults()  # whatever the reader's matplotlibrc says
     plt.switch_backend("svg")
     plt.style.use(Path(__file__).with_name("rotor_stator.mplstyle"))
     figure = draw(*map(read, [sys.argv[1], *sys.argv[3:]]))
     suffix = Path(sys.argv[2]).suffix[1:]
     form = suffix if suffix in ("png", "pdf") else "svg"
-    figure.savefig(sys.argv[2], format=form, metadata={"svg": {"Date": None}, "png": {},
-                                                       "pdf": {"CreationDate": None}}[form])
+    figure.savefig(sys.argv[2], format=form, metadata={
+        "svg": {"Date": None, "Creator": "rotor_stator"}, "png": {"Software": "rotor_stator"},
+        "pdf": {"CreationDate": None, "Creator": "rotor_stator"}}[form])
 
 
 if __name__ == "__main__":

@@ -17,8 +17,6 @@ The general program for follow-up studies: any parameter file, any speed, harmon
 or one of the time integrators. A table on stdout, errors on stderr. */
 #include <CLI/CLI.hpp>
 
-#include <algorithm>
-
 #include "explore/options.hpp"
 #include "explore/plot.hpp"
 #include "explore/spectrum.hpp"
@@ -30,52 +28,87 @@ namespace {
 using namespace rotor_stator;
 using namespace rotor_stator::explore;
 
-/** Files that a command reads or writes beside its machine. */
-using Files = std::vector<std::optional<std::string>>;
+/** Files that a command writes, by the option that names them, and reads beside its
+    machine. */
+struct Files {
+  std::vector<std::pair<const char*, std::optional<std::string>>> written = {};
+  std::vector<std::optional<std::string>> read = {};
+};
 Files files_of(const Request&)
 {
   return {};
 }
 Files files_of(const ResponseRequest& asked)
 {
-  return {asked.save, asked.waterfall};
+  return {{{"--save", asked.save}, {"--waterfall", asked.waterfall}},
+          {asked.restart, asked.resume}};
 }
 Files files_of(const AttractorsRequest& asked)
 {
-  return {asked.section, asked.motions};
+  return {{{"--section", asked.section}, {"--motions", asked.motions}}};
 }
 Files files_of(const MapRequest& asked)
 {
-  return {asked.list, asked.resume};
+  return {.read = {asked.list, asked.resume}};
 }
 Files files_of(const ShapeRequest& asked)
 {
-  return {asked.nodes};
+  return {.read = {asked.nodes}};
 }
 
-/** Computes, draws by the script and prints. */
+/** Throws BadInput where a file cannot be written, or is that of another option too. */
+void require_files(const Request& asked, Files files)
+{
+  files.written.emplace_back("--plot", asked.plot);
+  files.read.insert(files.read.end(), {asked.parameter_file, asked.overlay});
+  std::vector<std::string> inputs, outputs;
+  for (const auto& file : files.read)
+    if (file) inputs.push_back(*file);
+  for (const auto& [option, file] : files.written) {
+    if (!file) continue;
+    require_writable(option, *file, inputs, asked.force);
+    for (const std::string& other : outputs)
+      if (is_same_file(*file, other))
+        throw BadInput(*file + ": is the file of two options");
+    outputs.push_back(*file);
+  }
+  if (asked.overlay && !asked.plot) throw BadInput("--overlay: needs --plot");
+}
+
+/** What a command finds; where nothing is found, the file of the machine is named. */
+template <class Asked>
+Exploration found_by(const Asked& asked, Exploration (*explored)(const Asked&))
+try {
+  return explored(asked);
+} catch (const NoSolution& error) {
+  const std::string why = error.what();
+  const bool is_named = why.starts_with(asked.parameter_file);
+  throw NoSolution((is_named ? "" : asked.parameter_file + ": ") + why);
+}
+
+/** Computes, draws by the script and prints: what cannot be written keeps nothing else
+    from being written. */
 template <class Asked>
 void run(const Asked& asked, Exploration (*explored)(const Asked&),
          const std::string& script)
 {
-  Files files = files_of(asked);
-  files.insert(files.end(), {asked.plot, asked.overlay});
-  std::ranges::sort(files);
-  const auto same = std::ranges::adjacent_find(
-      files, [](const auto& a, const auto& b) { return a && a == b; });
-  if (same != files.end()) throw BadInput(**same + ": is the file of two options");
-  if (asked.plot) require_plot(*asked.plot, script, {asked.parameter_file});
-  if (asked.overlay && !asked.plot) throw BadInput("--overlay: needs --plot");
-  const Exploration found = explored(asked);
-  std::string undrawn;
+  require_files(asked, files_of(asked));
+  if (asked.plot) require_plot(*asked.plot, script);
+  const Exploration found = found_by(asked, explored);
+  std::vector<std::string> missing{found.unfinished};
+  for (const NamedContent& file : found.files) try {
+      write_files({file});
+    } catch (const NoSolution& error) {
+      missing.emplace_back(error.what());
+    }
   if (asked.plot)
-    undrawn =
+    missing.push_back(
         plot(*asked.plot, script,
              found.drawn.empty() ? found.table.text(TableFormat::tsv, true) : found.drawn,
-             asked.overlay);
+             asked.overlay));
   if (!found.is_written) write(found.table.text(asked.format));
-  for (const std::string& missing : {found.unfinished, undrawn})
-    if (!missing.empty()) throw NoSolution(missing);
+  for (const std::string& why : missing)
+    if (!why.empty()) throw NoSolution(why);
 }
 
 /** The commands, each with a request of its own. */

@@ -45,9 +45,6 @@ Task task_of(const AttractorsRequest& request)
 {
   require_range(request.from, request.to);
   const Parameters machine = machine_of(request, request.from, request.to);
-  std::vector<std::string> inputs{request.parameter_file};
-  if (request.section) require_writable("--section", *request.section, inputs);
-  if (request.motions) require_writable("--motions", *request.motions, inputs);
   const int most_starts = most_runs / request.count - 3;
   if (request.starts > most_starts)
     throw BadInput(format("--starts %d: must be in 0...%d with --count %d",
@@ -447,9 +444,10 @@ Exploration explore_attractors(const AttractorsRequest& request)
   put_cost(table, task.budget);
   std::string section;
   if (request.section || request.plot) section = section_text(task, all);
-  if (request.section) write_file(*request.section, section);
-  if (request.motions) write_file(*request.motions, motion_text(task, all));
-  return {std::move(table), missing, section};
+  std::vector<NamedContent> files;
+  if (request.section) files.push_back({*request.section, section});
+  if (request.motions) files.push_back({*request.motions, motion_text(task, all)});
+  return {std::move(table), std::move(files), missing, section};
 }
 
 }  // namespace rotor_stator::explore

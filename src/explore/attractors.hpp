@@ -15,7 +15,7 @@ struct AttractorsRequest : Request {
   int count = 0;            ///< speeds, evenly spaced, both edges among them
   int starts = 3;           ///< random states at each speed
   int seed = 1;
-  std::optional<double> tolerance;  ///< of displacements, relative
+  std::optional<double> tolerance;              ///< of displacements, relative
   std::optional<std::string> section, motions;  ///< files
 };
 

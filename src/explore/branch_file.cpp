@@ -17,21 +17,6 @@ std::string exact(double number)
   return format("%.17g", number);
 }
 
-/** All values of a machine. */
-std::vector<Cell> machine(const Parameters& p)
-{
-  std::vector<Cell> cells;
-  for (const Body* body : {&p.stator, &p.rotor})
-    for (double value : {body->mass, body->natural_frequency, body->damping_ratio,
-                         body->damper, body->load.x, body->load.y})
-      cells.emplace_back(exact(value));
-  for (double value :
-       {p.unbalance, p.gravity, static_cast<double>(p.bearing.balls),
-        p.bearing.contact_stiffness, p.bearing.clearance, p.bearing.cage_speed_ratio})
-    cells.emplace_back(exact(value));
-  return cells;
-}
-
 std::vector<Column> columns_of(int harmonics)
 {
   std::vector<Column> columns{{"branch", "-", "number"},
@@ -58,7 +43,6 @@ std::string branch_text(const Parameters& parameters, int harmonics, int samples
 {
   Table table(what, columns_of(harmonics));
   describe(table, parameters);
-  table.row_line("machine", machine(parameters));
   table.value("harmonics", harmonics);
   table.value("samples", samples);
   table.value("direction", upwards ? "up" : "down");
@@ -75,10 +59,7 @@ std::string branch_text(const Parameters& parameters, int harmonics, int samples
 SavedBranch read_branch(const std::string& file, const Parameters& parameters, int number)
 {
   const NumberTable table(file, "# " + what);
-  std::string values;
-  for (const Cell& cell : machine(parameters))
-    values += (values.empty() ? "" : " ") + cell.text();
-  if (table.header("row machine") != values)
+  if (table.header("machine") != parameters.identity.word())
     table.fail("the branch is of another machine than " + parameters.file);
   const std::string direction = table.header("direction");
   if (direction != "up" && direction != "down")

@@ -24,14 +24,14 @@ void put_method(Table& table, const MapTask& task)
   table.value("method", request.method);
   if (request.method != "aft")
     return table.note(
-        format("longest step %g s (0: from K_H and --tolerance), transient at most %g s "
-               "after t = 0",
+        format("longest step %.15g s (0: from K_H and --tolerance), transient at most "
+               "%.15g s after t = 0",
                request.step, request.longest));
   if (request.tolerance && !request.harmonics)
     return table.note("harmonics: chosen for the tolerance");
   table.value("harmonics", task.harmonics);
   table.value("samples", task.samples);
-  table.note(format("relative tolerance of Newton %g", request.newton_tolerance));
+  table.note(format("relative tolerance of Newton %.15g", request.newton_tolerance));
 }
 
 Table header_of(const MapTask& task, const std::vector<Quantity>& chosen)
@@ -152,13 +152,14 @@ private:
     });
     print(header);
     next_ += rows / count;
-    std::size_t left = rows / count * count;
+    rows = rows / count * count;
     each_row_of(file, "map", header, [&](const std::string& row, const auto&) {
-      if (left == 0) return;
-      --left;
+      if (rows == 0) return;
+      --rows;
       failed_ += is_lost(row);
       print(row + "\n");
     });
+    if (rows > 0) throw BadInput("--resume " + file + ": changed while it was read");
   }
 
   const MapTask& task_;

@@ -56,6 +56,13 @@ void refuse(const Options& options, bool used, const char* where,
 /**
 ## Options that several commands have */
 
+void add_plot(CLI::App& command, Request& request)
+{
+  command.add_option("--plot", request.plot, "figure: .svg, .png or .pdf");
+  command.add_flag("--force", request.force,
+                   "replace files that this program did not write, too");
+}
+
 /** The machine, and how the table is written. */
 void add_table_options(CLI::App& command, Request& request)
 {
@@ -94,7 +101,7 @@ void add_common_options(CLI::App& command, Request& request, const std::string& 
   add_table_options(command, request);
   command.add_flag("--quiet", request.quiet,
                    "no progress on stderr, which a terminal gets after two seconds");
-  command.add_option("--plot", request.plot, "figure: .svg, .png or .pdf");
+  add_plot(command, request);
   command
       .add_option_function<std::string>(
           "--budget",
@@ -238,6 +245,8 @@ Check add_options(CLI::App& command, MotionRequest& request)
     choose_method(method, aft, {"auto", "gauss", "aft", "shooting"});
     refuse(periodic, is_periodic(method), "for the methods aft and shooting", method);
     in_time.check(method);
+    if (request.plot && request.points < 2)
+      throw BadInput("--points 1: --plot needs two or more");
     refuse({local_error}, method != "aft" && method != "rk4",
            "for shooting and the time methods but rk4", method);
     refuse({points}, !is_spectrum || method != "aft", "for shooting and the time methods",
@@ -407,6 +416,8 @@ Check add_options(CLI::App& command, ShaftRequest& request)
   add_table_options(command, request);
   command.add_option("--to", request.folder, "folder for M.mtx, C.mtx, G.mtx and K.mtx")
       ->required();
+  command.add_flag("--force", request.force,
+                   "replace files that this program did not write, too");
   return [] {};
 }
 
@@ -420,7 +431,7 @@ Check add_options(CLI::App& command, CampbellRequest& request)
   add_number(command, "--modes", request.modes, 1, 1000, "of lowest frequency");
   command.add_flag("--critical", request.critical,
                    "the critical speeds instead of the frequencies");
-  command.add_option("--plot", request.plot, "file of the figure: .svg, .png or .pdf");
+  add_plot(command, request);
   return [] {};
 }
 

@@ -8,6 +8,7 @@ One motion of one machine at one speed, by harmonic balance or in time, as a tab
 #include <string>
 
 #include "io/budget.hpp"
+#include "io/output_file.hpp"
 #include "io/table.hpp"
 #include "model/parameters.hpp"
 #include "motion/lines.hpp"
@@ -35,6 +36,7 @@ struct Request {
   TableFormat format = TableFormat::tsv;
   bool quiet = false;                                  ///< no progress on stderr
   std::optional<std::string> plot = {}, overlay = {};  ///< files
+  bool force = false;                                  ///< outputs replace any file
 };
 
 /** Those that find a periodic motion, stable or not: harmonic balance and shooting. */
@@ -57,6 +59,7 @@ struct MotionRequest : Request {
 
 struct Exploration {
   Table table;
+  std::vector<NamedContent> files = {};  ///< beside the table
   std::string unfinished = {};  ///< why a branch stopped early; empty when it did not
   std::string drawn = {};       ///< the table of the figure, where it is another one
   bool is_written = false;      ///< row by row, on stdout

@@ -44,29 +44,38 @@ std::string content_of(const path& file)
   return {std::istreambuf_iterator<char>(in), {}};
 }
 
-/** A folder that is removed with all that is in it. */
-struct TemporaryFolder {
-  path folder;
+std::string temporary_folder()
+{
+  std::error_code error;
+  const path parent = std::filesystem::temp_directory_path(error);
+  std::string name = parent / "rotor_stator_XXXXXX";
+  if (error || !mkdtemp(name.data()))
+    throw BadInput("--plot: no temporary folder; TMPDIR names a place for it");
+  return name;
+}
 
-  TemporaryFolder()
+/** The folder in which a script works, gone when it has. */
+struct Workplace {
+  Temporary folder{temporary_folder()}, log{folder.name() + "/log"},
+      table{folder.name() + "/table.tsv"}, figure;
+
+  explicit Workplace(const std::string& suffix = "")
+      : figure(folder.name() + "/figure" + suffix)
   {
-    std::string name = std::filesystem::temp_directory_path() / "rotor_stator_XXXXXX";
-    if (!mkdtemp(name.data())) throw NoSolution("--plot: no temporary folder: " + name);
-    folder = name;
-  }
-  TemporaryFolder(const TemporaryFolder&) = delete;
-  TemporaryFolder& operator=(const TemporaryFolder&) = delete;
-  ~TemporaryFolder()
-  {
-    std::error_code ignored;
-    std::filesystem::remove_all(folder, ignored);
   }
 };
 
+/** Before the modules of scripts: none comes from the reader's folder or settings. */
+const std::string isolated =
+    "import os, runpy, sys; os.environ['MPLBACKEND'] = 'svg'; import matplotlib, numpy; ";
+const std::string run_script =
+    "sys.argv = sys.argv[1:]; sys.path.insert(0, os.path.dirname(sys.argv[0])); "
+    "runpy.run_path(sys.argv[0], run_name='__main__')";
+
 /** Runs Python; whether it ended well. What it writes goes to `log`. */
-bool run_python(const std::vector<std::string>& arguments, const path& log)
+bool run_python(const std::vector<std::string>& arguments, const std::string& log)
 {
-  std::vector<std::string> words{python(), "-B"};
+  std::vector<std::string> words{python(), "-I", "-B", "-c"};
   words.insert(words.end(), arguments.begin(), arguments.end());
   std::vector<char*> argv;
   for (std::string& word : words) argv.push_back(word.data());
@@ -87,16 +96,14 @@ bool run_python(const std::vector<std::string>& arguments, const path& log)
 
 }  // namespace
 
-void require_plot(const std::string& file, const std::string& script,
-                  const std::vector<std::string>& inputs)
+void require_plot(const std::string& file, const std::string& script)
 {
   const std::string suffix = path(file).extension();
   if (suffix != ".svg" && suffix != ".png" && suffix != ".pdf")
     throw BadInput("--plot '" + file + "': must end in .svg, .png or .pdf");
-  require_writable("--plot", file, inputs);
   script_file(script);
-  const TemporaryFolder temporary;
-  if (!run_python({"-c", "import matplotlib, numpy"}, temporary.folder / "log"))
+  const Workplace place;
+  if (!run_python({isolated}, place.log.name()))
     throw BadInput("--plot: needs Matplotlib in " + python() +
                    ": install python3-matplotlib, or name another Python in PYTHON");
 }
@@ -104,19 +111,18 @@ void require_plot(const std::string& file, const std::string& script,
 std::string plot(const std::string& file, const std::string& script,
                  const std::string& table, const std::optional<std::string>& overlay)
 try {
-  const TemporaryFolder temporary;
-  const path log = temporary.folder / "log", data = temporary.folder / "table.tsv";
-  const path figure =
-      (temporary.folder / "figure").concat(path(file).extension().string());
-  write_file(data, table);
-  std::vector<std::string> words{script_file(script), data, figure};
+  const Workplace place(path(file).extension());
+  write_files({{place.table.name(), table}});
+  std::vector<std::string> words{isolated + run_script, script_file(script),
+                                 place.table.name(), place.figure.name()};
   if (overlay) words.push_back(*overlay);
-  if (run_python(words, log)) {
-    write_file(file, content_of(figure));
+  if (run_python(words, place.log.name())) {
+    write_files({{file, content_of(place.figure.name())}});
     return "";
   }
-  std::string why = content_of(log);
+  std::string why = content_of(place.log.name());
   while (!why.empty() && why.back() == '\n') why.pop_back();
+  if (why.empty()) why = "ended without a word";
   return "--plot: " + script + ": " + printable(why.substr(why.rfind('\n') + 1));
 } catch (const NoSolution& error) {
   return error.what();

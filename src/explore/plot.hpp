@@ -11,11 +11,9 @@ Drawn by a script of the folder figures, in the source tree or installed, with M
 
 namespace rotor_stator::explore {
 
-/** Asked before the work. Throws BadInput unless `file`, the value of --plot, can be
-    written to (`require_writable`), its suffix is .svg, .png or .pdf, and Python with
-    Matplotlib can run `script`. */
-void require_plot(const std::string& file, const std::string& script,
-                  const std::vector<std::string>& inputs);
+/** Asked before the work. Throws BadInput unless the suffix of `file`, the value of
+    --plot, is .svg, .png or .pdf, and Python with Matplotlib can run `script`. */
+void require_plot(const std::string& file, const std::string& script);
 
 /** Draws a table by `script` into `file`, with the measured table `overlay` if there is
     one, all or nothing; returns why it could not, empty otherwise. */

@@ -66,12 +66,6 @@ void require_options(const ResponseRequest& request)
   if (!request.direction.empty() && request.direction != "up" &&
       request.direction != "down")
     throw BadInput("--direction " + request.direction + ": must be up or down");
-  std::vector<std::string> inputs{request.parameter_file};
-  if (request.restart) inputs.push_back(*request.restart);
-  for (const auto& [option, file] : {std::pair{"--save", request.save},
-                                     {"--waterfall", request.waterfall},
-                                     {"--plot", request.plot}})
-    if (file) require_writable(option, *file, inputs);
   if (!request.harmonics_of.empty() &&
       std::ranges::find(displacement_names, request.harmonics_of) ==
           displacement_names.end())

@@ -403,18 +403,20 @@ Exploration branch_by_balance(ResponseTask task)
   table.note("end of the branch: " + main.end);
   if (request.isolated > 0) branch.look_beside();
   branch.add_rows();
+  std::vector<NamedContent> files;
   if (request.save)
-    write_file(*request.save, branch_text(task.parameters, task.harmonics, task.samples,
-                                          task.upwards, branch.all()));
-  if (request.waterfall) write_file(*request.waterfall, branch.lines().text());
+    files.push_back(
+        {*request.save, branch_text(task.parameters, task.harmonics, task.samples,
+                                    task.upwards, branch.all())});
+  if (request.waterfall) files.push_back({*request.waterfall, branch.lines().text()});
   const std::string unfinished = branch.unfinished();
   put_complete(table, unfinished);
   conclude(table, task.machine, branch.touches(), task.budget);
-  if (request.times)
+  if (request.times && unfinished.empty())
     std::fprintf(stderr, "cpu_machine_s: %.5f\ncpu_branch_s: %.5f\n",
                  static_cast<double>(read) / CLOCKS_PER_SEC,
                  static_cast<double>(std::clock() - read) / CLOCKS_PER_SEC);
-  return {std::move(table), unfinished};
+  return {std::move(table), std::move(files), unfinished};
 }
 
 Exploration branch_by_shooting(const ResponseTask& task)
@@ -481,7 +483,7 @@ Exploration branch_by_shooting(const ResponseTask& task)
                       : "";
   put_complete(table, missing);
   conclude(table, machine, touches, task.budget);
-  return {std::move(table), missing};
+  return {std::move(table), {}, missing};
 }
 
 }  // namespace rotor_stator::explore

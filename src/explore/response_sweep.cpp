@@ -245,6 +245,7 @@ Exploration settled_response(const ResponseRequest& request)
   sweep.table.value("base", base_period(machine).words());
   sweep.table.value("direction", direction);
   if (request.tolerance) sweep.table.value("tolerance", *request.tolerance);
+  if (request.longest > 0) sweep.table.value("longest", request.longest);
   sweep.table.value("speeds", sweep.speeds.size());
   sweep.table.note(
       "amplitudes over the K base periods of a motion that closes, over 256 of "

@@ -202,15 +202,18 @@ Exploration explore_shaft(const ShaftRequest& request)
   const SparseMatrix c = shaft.matrix(shaft.all.c) + over_mass * m + over_stiffness * k;
   const std::filesystem::path folder = request.folder;
   std::error_code error;
-  std::filesystem::create_directory(folder, error);
-  if (!std::filesystem::is_directory(folder))
+  std::optional<Temporary> empty;  // while it is
+  if (std::filesystem::create_directory(folder, error)) empty.emplace(folder);
+  if (!std::filesystem::is_directory(folder, error))
     throw BadInput("--to " + request.folder + ": is no folder and cannot be made one");
-  const std::pair<std::string, SparseMatrix> files[] = {
-      {"M.mtx", m}, {"C.mtx", c}, {"G.mtx", shaft.matrix(shaft.all.g)}, {"K.mtx", k}};
-  for (const auto& [name, matrix] : files)
-    require_writable("--to", (folder / name).string(), {request.parameter_file});
-  for (const auto& [name, matrix] : files)
-    write_file((folder / name).string(), matrix_text(matrix));
+  const std::vector<NamedContent> files{
+      {folder / "M.mtx", matrix_text(m)},
+      {folder / "C.mtx", matrix_text(c)},
+      {folder / "G.mtx", matrix_text(shaft.matrix(shaft.all.g))},
+      {folder / "K.mtx", matrix_text(k)}};
+  for (const NamedContent& file : files)
+    require_writable("--to", file.name, {request.parameter_file}, request.force);
+  write_files(files);
 
   Table table("Nodes of a shaft and their degrees of freedom",
               {{"node", "-", "from 1"},

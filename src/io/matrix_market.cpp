@@ -37,7 +37,7 @@ public:
       ++number_;
       if (in_.fail() && !in_.eof()) fail("is longer than a line of numbers");
       words_.clear();
-      words_.str(line);
+      words_.str({line, static_cast<std::size_t>(in_.gcount() - !in_.eof())});
     } while (!with_comments && (is_at_end() || words_.peek() == '%'));
     return true;
   }
@@ -63,7 +63,7 @@ public:
     const char* const end = text.data() + text.size();
     Number value = 0;
     const auto [rest, error] =
-        std::from_chars(text.data() + text.starts_with('+'), end, value);
+        std::from_chars(text.data() + (text[0] == '+' && text[1] != '-'), end, value);
     if (error != std::errc{} || rest != end) fail("holds something else than " + what);
     return value;
   }
@@ -131,7 +131,8 @@ Kind kind_of(Lines& lines)
 SparseMatrix read_matrix(const std::string& file)
 {
   Lines lines(file);
-  const auto bytes = static_cast<double>(std::filesystem::file_size(file));
+  std::error_code error;
+  const auto bytes = static_cast<double>(std::filesystem::file_size(file, error));
   const auto [in_full, sign] = kind_of(lines);
   if (!lines.next()) lines.fail("the line with the sizes is missing");
   const long rows = lines.whole("the number of rows", 1, most_rows);
@@ -182,10 +183,11 @@ SparseMatrix read_matrix(const std::string& file)
 
 std::string matrix_text(const SparseMatrix& matrix)
 {
-  std::string text =
-      format("%%%%MatrixMarket matrix coordinate real general\n%ld %ld %ld\n",
-             static_cast<long>(matrix.rows()), static_cast<long>(matrix.cols()),
-             static_cast<long>(matrix.nonZeros()));
+  std::string text = format(
+      "%%%%MatrixMarket matrix coordinate real general\n"
+      "%% written by rotor_stator\n%ld %ld %ld\n",
+      static_cast<long>(matrix.rows()), static_cast<long>(matrix.cols()),
+      static_cast<long>(matrix.nonZeros()));
   for (int j = 0; j < matrix.outerSize(); ++j)
     for (SparseMatrix::InnerIterator it(matrix, j); it; ++it)
       text += format("%d %d %.17g\n", static_cast<int>(it.row()) + 1,

@@ -2,61 +2,151 @@
 
 #include <sys/stat.h>
 #include <unistd.h>
+#include <array>
+#include <atomic>
 #include <cerrno>
+#include <csignal>
 #include <cstdio>
 #include <cstdlib>
 #include <cstring>
+#include <deque>
 #include <filesystem>
+#include <fstream>
 
 #include "io/errors.hpp"
 
 namespace rotor_stator {
 
+namespace {
+
+std::string folder_of(const std::string& file)
+{
+  const std::string folder = std::filesystem::path(file).parent_path();
+  return folder.empty() ? "." : folder;
+}
+
+bool is_same(const struct stat& a, const struct stat& b)
+{
+  return a.st_dev == b.st_dev && a.st_ino == b.st_ino;
+}
+
+/** Whether this program wrote a file of the kind that an option asks for. */
+bool is_own(const std::string& file, const std::string& option)
+{
+  std::ifstream in(file, std::ios::binary);
+  std::string ends(4000, ' ');  // of a PDF the last lines say so
+  in.read(ends.data(), 2000);
+  const auto begun = static_cast<std::size_t>(in.gcount());
+  in.clear();
+  if (begun == 2000 && in.seekg(-2000, std::ios::end)) in.read(&ends[2000], 2000);
+  const auto begins = [&](const char* mark) { return ends.starts_with(mark); };
+  const bool is_of_kind = option == "--to" ? begins("%%MatrixMarket")
+                          : option == "--plot"
+                              ? begins("<?xml") || begins("\x89PNG") || begins("%PDF")
+                              : begins("# ");
+  const char* const writer = begins("# ") ? "\n# source: rotor_stator" : "rotor_stator";
+  return is_of_kind && ends.find(writer) != ends.npos;
+}
+
+std::array<std::atomic<const char*>, 16> temporaries;
+
+void remove_now(const char* name)
+{
+  if (unlink(name) != 0) rmdir(name);
+}
+
+extern "C" void remove_all_and_end(int signal)
+{
+  for (auto one = temporaries.rbegin(); one != temporaries.rend(); ++one)
+    if (const char* name = *one) remove_now(name);
+  std::signal(signal, SIG_DFL);
+  raise(signal);
+}
+
+}  // namespace
+
+Temporary::Temporary(std::string name) : name_(std::move(name))
+{
+  for (const int signal : {SIGINT, SIGTERM, SIGHUP})
+    if (std::signal(signal, remove_all_and_end) == SIG_IGN) std::signal(signal, SIG_IGN);
+  for (auto& place : temporaries)
+    if (const char* none = nullptr; place.compare_exchange_strong(none, name_.c_str()))
+      break;
+}
+
+Temporary::~Temporary()
+{
+  for (auto& place : temporaries)
+    if (place == name_.c_str()) place = nullptr;
+  remove_now(name_.c_str());
+}
+
+bool is_same_file(const std::string& a, const std::string& b)
+{
+  struct stat of_a, of_b;
+  const bool is_there = stat(a.c_str(), &of_a) == 0;
+  if (is_there != (stat(b.c_str(), &of_b) == 0)) return false;
+  if (is_there) return is_same(of_a, of_b);
+  return std::filesystem::path(a).filename() == std::filesystem::path(b).filename() &&
+         stat(folder_of(a).c_str(), &of_a) == 0 &&
+         stat(folder_of(b).c_str(), &of_b) == 0 && is_same(of_a, of_b);
+}
+
 void require_writable(const std::string& option, const std::string& file,
-                      const std::vector<std::string>& inputs)
+                      const std::vector<std::string>& inputs, bool is_forced)
 {
   const auto refuse = [&](const std::string& why) {
     throw BadInput(option + " '" + file + "': " + why);
   };
   if (file.empty()) refuse("the name is empty");
-  const auto folder = std::filesystem::absolute(file).parent_path();
-  if (access(folder.c_str(), W_OK | X_OK) != 0)
+  if (access(folder_of(file).c_str(), W_OK | X_OK) != 0)
     refuse(errno == ENOENT || errno == ENOTDIR ? "its folder does not exist"
                                                : "its folder cannot be written to");
   struct stat known, other;
-  if (lstat(file.c_str(), &known) != 0) return;
+  if (lstat(file.c_str(), &known) != 0)
+    return errno == ENOENT ? void() : refuse(std::strerror(errno));
   if (!S_ISREG(known.st_mode))
     refuse(S_ISDIR(known.st_mode)   ? "is a directory; a file is expected"
            : S_ISLNK(known.st_mode) ? "is a symbolic link; a file is expected"
                                     : "is no regular file");
-  const auto is_same = [&](int found) {
-    return found == 0 && other.st_dev == known.st_dev && other.st_ino == known.st_ino;
-  };
   for (const std::string& input : inputs)
-    if (is_same(stat(input.c_str(), &other))) refuse("is the input " + input);
-  if (is_same(fstat(STDOUT_FILENO, &other))) refuse("is the standard output");
+    if (is_same_file(file, input)) refuse("is the input " + input);
+  if (fstat(STDOUT_FILENO, &other) == 0 && is_same(known, other))
+    refuse("is the standard output");
+  if (is_forced) return;
+  if (access(file.c_str(), W_OK) != 0) refuse("is write-protected; --force replaces it");
+  if (known.st_size > 0 && !is_own(file, option))
+    refuse("is no file that this program wrote; --force replaces it");
 }
 
-void write_file(const std::string& file, const std::string& content)
+void write_files(const std::vector<NamedContent>& files)
 {
-  std::string unfinished =
-      std::filesystem::absolute(file).parent_path() / ".unfinished-XXXXXX";
-  const int descriptor = mkstemp(unfinished.data());
-  std::FILE* const out = descriptor < 0 ? nullptr : fdopen(descriptor, "wb");
+  std::deque<Temporary> unfinished;
   const mode_t mask = umask(0);
   umask(mask);
-  struct stat old;
-  const bool is_there = stat(file.c_str(), &old) == 0;
-  const bool done =
-      out && fchmod(descriptor, is_there ? old.st_mode & 0777 : 0666 & ~mask) == 0 &&
-      std::fwrite(content.data(), 1, content.size(), out) == content.size() &&
-      std::fflush(out) == 0 && fsync(descriptor) == 0 &&
-      rename(unfinished.c_str(), file.c_str()) == 0;
-  const int error = errno;
-  if (out) std::fclose(out);
-  if (done) return;
-  if (descriptor >= 0) unlink(unfinished.c_str());
-  throw NoSolution(file + ": cannot be written: " + std::strerror(error));
+  const auto check = [](bool done, const std::string& file) {
+    if (!done) throw NoSolution(file + ": cannot be written: " + std::strerror(errno));
+  };
+  for (const auto& [file, content] : files) {
+    std::string name = folder_of(file) + "/.unfinished-XXXXXX";
+    const int descriptor = mkstemp(name.data());
+    check(descriptor >= 0, file);
+    unfinished.emplace_back(name);
+    std::FILE* const out = fdopen(descriptor, "wb");
+    struct stat old;
+    const bool is_there = stat(file.c_str(), &old) == 0;
+    const bool done =
+        out && fchmod(descriptor, is_there ? old.st_mode & 0777 : 0666 & ~mask) == 0 &&
+        std::fwrite(content.data(), 1, content.size(), out) == content.size() &&
+        std::fflush(out) == 0 && fsync(descriptor) == 0;
+    const int error = errno;
+    if (out) std::fclose(out);
+    errno = error;
+    check(done, file);
+  }
+  for (std::size_t k = 0; k < files.size(); ++k)
+    check(rename(unfinished[k].name().c_str(), files[k].name.c_str()) == 0,
+          files[k].name);
 }
 
 void write(const std::string& text)

@@ -9,15 +9,38 @@ cannot be written. */
 
 namespace rotor_stator {
 
-/** Throws BadInput unless `file`, the value of `option`, can be written to: a regular
-    file or none yet, in a folder that is there, and neither one of `inputs` nor the
-    standard output. Asked before the work. */
-void require_writable(const std::string& option, const std::string& file,
-                      const std::vector<std::string>& inputs);
+/** A file, or an empty folder, that is removed with this object, or when a signal to stop
+    ends the program; it may be gone before. */
+class Temporary {
+public:
+  explicit Temporary(std::string name);
+  ~Temporary();
+  Temporary(const Temporary&) = delete;
+  Temporary& operator=(const Temporary&) = delete;
 
-/** Writes `content` to `file`, all or nothing: beside it, then renamed. Throws NoSolution
-    when it cannot. */
-void write_file(const std::string& file, const std::string& content);
+  const std::string& name() const { return name_; }
+
+private:
+  const std::string name_;
+};
+
+/** Whether two names are of one file, there or not yet. */
+bool is_same_file(const std::string& a, const std::string& b);
+
+/** Throws BadInput unless `file`, the value of `option`, can be written to: none yet, in
+    a folder that is there, or a regular file that this program wrote and that may be
+    written, or any if `is_forced`; neither one of `inputs` nor the standard output. Asked
+    before the work. */
+void require_writable(const std::string& option, const std::string& file,
+                      const std::vector<std::string>& inputs, bool is_forced);
+
+struct NamedContent {
+  std::string name, content;
+};
+
+/** Writes all files or none: beside them, then renamed. Throws NoSolution when it
+    cannot. */
+void write_files(const std::vector<NamedContent>& files);
 
 /** Writes all of `text` to stdout. Throws NoSolution when it cannot (a full disk, a
     closed pipe). */

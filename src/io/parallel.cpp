@@ -46,7 +46,9 @@ void in_parallel(const std::string& name, std::size_t pieces,
   std::mutex mutex;
   std::exception_ptr failure;
   std::atomic<std::size_t> failed = pieces;  // the first of the pieces that threw
-#pragma omp parallel for schedule(monotonic : dynamic)
+  [[maybe_unused]] const int threads =
+      static_cast<int>(std::min({pieces, most_threads(), std::size_t{1024}}));
+#pragma omp parallel for schedule(monotonic : dynamic) num_threads(std::max(1, threads))
   for (std::size_t piece = 0; piece < pieces; ++piece) {
     if (piece > failed) continue;
     std::exception_ptr thrown;

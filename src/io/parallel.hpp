@@ -36,7 +36,7 @@ private:
 };
 
 /** Calls `work` for each of `pieces` numbers, begun in order, on as many threads as
-    OpenMP has (OMP_NUM_THREADS). After a piece that throws none is begun, and when all
+    OpenMP has (OMP_NUM_THREADS), at most 1024. After a piece that throws none is begun, and when all
     have ended its exception is thrown, of several that of the earliest piece. `name` is
     for the line of progress. */
 void in_parallel(const std::string& name, std::size_t pieces,

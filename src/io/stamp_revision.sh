@@ -3,6 +3,7 @@
 # root. The revision is that of the sources' own repository, not of one around them, and -dirty where what is
 # compiled differs from it.
 revision=unknown
+unset $(git rev-parse --local-env-vars 2> /dev/null)
 if prefix=$(git rev-parse --show-prefix 2> /dev/null) && [ -z "$prefix" ]; then
   revision=$(git describe --always --abbrev=12 2> /dev/null) || revision=unknown
   changes=$(git --no-optional-locks status --porcelain -- src studies data/bearings CMakeLists.txt CMakePresets.json)

@@ -18,7 +18,11 @@ std::ifstream open_file(const std::string& file, const std::string& expected,
 {
   std::error_code error;
   const auto status = std::filesystem::status(file, error);
-  if (!std::filesystem::exists(status)) throw BadInput("'" + file + "': no such file");
+  if (!std::filesystem::exists(status))
+    throw BadInput("'" + file + "': " +
+                   (status.type() == std::filesystem::file_type::not_found
+                        ? "no such file"
+                        : error.message()));
   if (!std::filesystem::is_regular_file(status))
     throw BadInput(file + ": is " +
                    (is_directory(status) ? "a directory" : "no regular file") + "; " +
@@ -294,8 +298,11 @@ StrictToml StrictToml::with(
 {
   StrictToml changed(std::make_shared<Content>(
       Content{content_->file, content_->path, content_->table, {}, {}}));
-  for (const auto& [key, value] : values)
+  for (const auto& [key, value] : values) {
+    if (std::ranges::count(key, '.') > most_levels)
+      throw BadInput(format("%.40s...: more than %d levels", key.c_str(), most_levels));
     set_number(changed.content_->table, key, value, instead);
+  }
   return changed;
 }
 
@@ -415,6 +422,15 @@ std::vector<std::string> StrictToml::keys() const
   std::vector<std::string> list;
   for (const auto& [key, node] : content_->table) list.emplace_back(key.str());
   return list;
+}
+
+std::string StrictToml::text_without(const std::string& key) const
+{
+  toml::table table = content_->table;
+  table.erase(key);
+  std::ostringstream all;
+  all << table;
+  return all.str();
 }
 
 void StrictToml::fail(const std::string& key, const std::string& problem) const

@@ -66,6 +66,10 @@ public:
   /** The keys of this table, in the file's alphabet. */
   std::vector<std::string> keys() const;
 
+  /** All keys but one with their values, none of them read yet: comments and order leave
+      no trace. */
+  std::string text_without(const std::string& key) const;
+
   /** Throws BadInput about `key`: file, line, key and `problem`. */
   [[noreturn]] void fail(const std::string& key, const std::string& problem) const;
 

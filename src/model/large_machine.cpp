@@ -58,7 +58,10 @@ struct Named {
 SparseMatrix read_one(const std::filesystem::path& folder, const Named& named, int size)
 {
   const std::string file = (folder / (std::string(named.name) + ".mtx")).string();
-  if (!named.required && !std::filesystem::exists(file)) return SparseMatrix(size, size);
+  std::error_code error;
+  const auto found = std::filesystem::status(file, error).type();
+  if (!named.required && found == std::filesystem::file_type::not_found)
+    return SparseMatrix(size, size);
   const SparseMatrix matrix = read_matrix(file);
   if (size > 0 && matrix.rows() != size)
     throw BadInput(format("%s: has %ld rows, and M.mtx %d", file.c_str(),
@@ -117,7 +120,8 @@ LinearBody read_matrices(StrictToml& table, const std::string& name, bool has_we
 {
   const auto folder =
       std::filesystem::path(table.file()).parent_path() / table.string("matrices");
-  if (!std::filesystem::is_directory(folder))
+  std::error_code error;
+  if (!std::filesystem::is_directory(folder, error))
     table.fail("matrices", "names no folder: " + folder.string());
   LinearBody body{{read_one(folder, {"M", 1, true}, 0), {}, {}, {}}, name};
   const int n = body.size();
@@ -422,6 +426,14 @@ void read_bodies(StrictToml& root, Parameters& parameters, const ModelRange& ask
             : single_mass(mass, body == 0 ? "stator" : "rotor",
                           body == 0 ? 0 : parameters.unbalance));
   }
+  for (const LinearBody& body : all.bodies)
+    for (const SparseMatrix* one : {&body.m, &body.c, &body.g, &body.k}) {
+      const auto count = static_cast<std::size_t>(one->nonZeros()),
+                 columns = static_cast<std::size_t>(one->outerSize());
+      parameters.identity.add(std::as_bytes(std::span(one->valuePtr(), count)));
+      parameters.identity.add(std::as_bytes(std::span(one->innerIndexPtr(), count)));
+      parameters.identity.add(std::as_bytes(std::span(one->outerIndexPtr(), columns)));
+    }
   if (all.is_rigid) all.bodies[0].vertical.clear();
   read_bearings(root, parameters, all);
   std::vector<std::pair<int, int>> bearing_nodes;

@@ -59,6 +59,8 @@ Parameters read_parameters(StrictToml root, const MatrixReader& reader)
 {
   Parameters parameters{};
   parameters.file = root.file();
+  const std::string read = root.text_without("title");
+  parameters.identity.add(std::as_bytes(std::span(read)));
   parameters.title = root.string("title");
 
   StrictToml stator = root.table("stator");
@@ -222,6 +224,7 @@ void describe(Table& table, const Parameters& parameters, bool with_keys)
                       : ""));
   for (const std::string& line : parameters.derived) table.detail(line);
   if (!with_keys) return;
+  table.value("machine", parameters.identity.word());
   table.value("stator", parameters.stator.rigid ? "rigid" : "moving");
   parameters.machine->put_keys(table);
   if (!bearing.is_damaged(Defect::Surface::none)) table.value("defect", surface);

@@ -7,8 +7,10 @@ an error, and every value is checked when it is read, so that the programs below
 meet a machine that cannot exist. The bearing's keys are in model/catalogue.hpp. */
 #pragma once
 
+#include <cstddef>
 #include <functional>
 #include <memory>
+#include <span>
 #include <string>
 #include <vector>
 
@@ -91,11 +93,26 @@ struct Bearing {
   double cage_angle(double phase) const { return cage_phase + cage_speed_ratio * phase; }
 };
 
+/** Of all that was read of a machine, to tell it from others: a hash (FNV-1a). */
+class Identity {
+public:
+  void add(std::span<const std::byte> bytes)
+  {
+    for (const std::byte byte : bytes)
+      hash_ = (hash_ ^ std::to_integer<std::uintmax_t>(byte)) * 0x100000001b3;
+  }
+  std::string word() const { return format("fnv-%016jx", hash_); }
+
+private:
+  std::uintmax_t hash_ = 0xcbf29ce484222325;
+};
+
 /** One machine. Where bodies are given by matrices, `stator` and `rotor` are single
     masses that vibrate about as they do: sizes for tolerances and steps. */
 struct Parameters {
   std::string file;   ///< where it was read from
   std::string title;  ///< one line for headers and legends
+  Identity identity;  ///< of the file's keys and of the matrices that it names
   Body stator;
   Body rotor;
   double unbalance;  ///< m_e e [kg m], on the rotor

@@ -7,12 +7,17 @@ import os
 import re
 import resource
 import signal
+import subprocess
 import sys
+import time
 import unittest
 from pathlib import Path
 
 sys.path.insert(0, str(Path(__file__).parents[1]))
 from support.explore import EXPLORE, MACHINE, ORBIT, RESPONSE, Case  # noqa: E402
+
+
+OWN = "# Old\n# source: rotor_stator 0.1.0\n"  # a table of this program
 
 
 class Values(Case):
@@ -103,7 +108,7 @@ class Values(Case):
                 ("--from 1 --to 2 --restart no/such/file", "no such file"),
                 ("--from 1 --to 2 --restart .", "is a directory"),
                 ("--from 1 --to 2 --restart /dev/zero", "is no regular file"),
-                ("--from 1 --to 2 --restart " + "x" * 300, "no such file"),
+                ("--from 1 --to 2 --restart " + "x" * 300, "File name too long"),
                 ("--from 1 --to 2 --restart machine.toml", "machine.toml:1: '# Branch of")]:
             with self.subTest(options):
                 self.refused(words, "response", self.machine, *options.split())
@@ -203,7 +208,7 @@ class Save(Case):
         victim = self.file("victim", "untouched")
         (self.folder / "branch.tsv.tmp").symlink_to(victim)
         os.mkfifo(self.folder / "other.tsv.tmp")
-        self.file("branch.tsv", "old").chmod(0o600)
+        self.file("branch.tsv", OWN).chmod(0o600)
         for name in ["branch.tsv", "other.tsv"]:
             self.assertEqual(self.run_explore(*self.save(name)).returncode, 0)
             self.assertTrue((self.folder / name).read_text().startswith("# Branch of harmonic balance\n"))
@@ -212,15 +217,69 @@ class Save(Case):
         self.assertEqual(len(list(self.folder.iterdir())), 6)
 
     def test_full_disk_keeps_the_old_file(self):
-        old = self.file("branch.tsv", "old")
+        """Would catch a table that is lost with its side file."""
+        old = self.file("branch.tsv", OWN)
         before = sorted(self.folder.iterdir())
+        table = self.lines(*self.save("other.tsv"))
+        (self.folder / "other.tsv").unlink()
 
         def no_room():
             signal.signal(signal.SIGXFSZ, signal.SIG_DFL)
             resource.setrlimit(resource.RLIMIT_FSIZE, (4096, 4096))
-        self.refused("cannot be written", *self.save("branch.tsv"), status=3, preexec_fn=no_room)
-        self.assertEqual(old.read_text(), "old")
+        result = self.run_explore(*self.save("branch.tsv"), preexec_fn=no_room)
+        self.assertEqual((result.returncode, result.stdout.splitlines()), (3, table))
+        self.assertEqual(result.stderr, "branch.tsv: cannot be written: File too large\n")
+        self.assertEqual(old.read_text(), OWN)
         self.assertEqual(sorted(self.folder.iterdir()), before)
+
+
+    def test_only_what_this_program_wrote(self):
+        """Of its own kind, unless forced. Would catch notes, a matrix or a measurement that a slip of the pen replaces."""
+        matrix = "%%MatrixMarket matrix coordinate real general\n% written by rotor_stator\n1 1 1\n1 1 1\n"
+        for option, text in [("--save", "notes"), ("--save", "# a\n# b\n"), ("--waterfall", matrix), ("--plot", OWN),
+                             ("--save", "<?xml rotor_stator"), ("--plot", "<?xml>")]:
+            with self.subTest(option=option, text=text):
+                old = self.file("old.svg", text)
+                words = ["response", self.machine, *RESPONSE, "--harmonics", 6, option, old]
+                self.refused("no file that this program wrote; --force replaces it", *words)
+                self.assertEqual(old.read_text(), text)
+                self.lines(*words, "--force")
+                self.lines(*words)
+        self.file("empty.tsv", "")
+        self.lines(*self.save("empty.tsv"))
+
+    @unittest.skipIf(os.geteuid() == 0, "root may write to all")
+    def test_no_protected_file(self):
+        self.file("branch.tsv", OWN).chmod(0o444)
+        self.refused("is write-protected", *self.save("branch.tsv"))
+
+    def test_one_file_of_two_options(self):
+        """Whatever their names, there or not yet."""
+        (self.folder / "folder").mkdir()
+        for other in ["./new.tsv", "folder/../new.tsv"]:
+            self.refused("is the file of two options", *self.save("new.tsv"), "--waterfall", other)
+        os.link(self.file("old.tsv", OWN), self.folder / "link.tsv")
+        self.refused("is the file of two options", *self.save("old.tsv"), "--waterfall", "link.tsv")
+        self.file("measured.svg", "f\tamplitude\n45\t1e-6\n")
+        self.refused("is the input", "spectrum", self.machine, "--frequency", 45, "--overlay", "measured.svg", "--plot",
+                     "./measured.svg")
+
+    def test_stopped(self):
+        """Would catch what a stopped run leaves behind."""
+        python = self.file("python", "#!/bin/sh\ntouch begun\nexec sleep 3\n")
+        python.chmod(0o755)
+        (self.folder / "tmp").mkdir()
+        for number in (signal.SIGINT, signal.SIGTERM):
+            run = subprocess.Popen([EXPLORE, "orbit", self.machine, *ORBIT, "--plot", "a.svg"], cwd=self.folder,
+                                   stdout=subprocess.DEVNULL,
+                                   env={**os.environ, "PYTHON": python, "TMPDIR": str(self.folder / "tmp")})
+            while not (self.folder / "begun").exists():
+                time.sleep(0.01)
+            self.assertTrue(list((self.folder / "tmp").iterdir()))
+            run.send_signal(number)
+            self.assertEqual(run.wait(), -number)
+            self.assertFalse(list((self.folder / "tmp").iterdir()))
+            (self.folder / "begun").unlink()
 
 
 class Files(Case):
@@ -234,6 +293,28 @@ class Files(Case):
                            "after a string": 'b = [ """x"""",\n{' + '"a" . ' * 40000 + "a = 1}]\n"}.items():
             with self.subTest(name):
                 self.refused_machine("levels", MACHINE + text)
+
+    def test_names_that_the_system_refuses(self):
+        """Would catch an exception that ends the program without a line of its own."""
+        (self.folder / "loop").symlink_to("loop")
+        machine = MACHINE[:MACHINE.index("[rotor]")] + '[rotor]\nmatrices = "{}"\n' + MACHINE[MACHINE.index("[bearing]"):]
+        for name in ["x" * 300, "loop", "machine.toml"]:
+            self.refused_machine("rotor.matrices names no folder", machine.format(name))
+        (self.folder / "loops").mkdir()
+        (self.folder / "loops/M.mtx").symlink_to("M.mtx")
+        self.refused_machine("Too many levels of symbolic links", machine.format("loops"))
+        self.refused("TMPDIR", "orbit", self.machine, *ORBIT, "--plot", "a.svg", env={**os.environ, "TMPDIR": "/no/such"})
+        for name in ["loop", "x" * 300]:
+            self.refused("is no folder", "shaft", Path("data/rotors/overhung_shaft.toml").resolve(), "--to", name)
+        long = ".".join("a" * 40000)
+        self.refused("more than 256 levels", "map", self.machine, "--x", long + "=1:2:2", "--quantity", "amplitude")
+        self.refused("more than 256 levels", "map", self.machine, "--list", self.file("list.tsv", long + "\n1\n"),
+                     "--frequency", 45, "--quantity", "amplitude")
+
+    def test_more_threads_than_pieces(self):
+        grid = ["map", self.machine, "--x", "frequency=20:21:2", "--quantity", "amplitude", "--harmonics", 6]
+        result = self.run_explore(*grid, env={**os.environ, "OMP_NUM_THREADS": "100000"})
+        self.assertEqual((result.returncode, result.stdout.splitlines()), (0, self.lines(*grid)))
 
     def test_dots_that_nest_nothing(self):
         self.lines("orbit", self.file("dots.toml", "# " + "." * 99 + "\n" + MACHINE.replace(

@@ -269,7 +269,7 @@ class Branch(Case):
         for content, words in [
                 ("", form), ("f\tamp\n1\t2\n", form), ("# a table\n", form),
                 (old, "written by rotor_stator 0.1.0 0123456789ab"),
-                (saved.replace("# row machine: 20 ", "# row machine: 21 "), "another machine"),
+                (saved.replace("# machine: fnv-", "# machine: fnv-0"), "another machine"),
                 (saved.replace("# harmonics: 6", "# harmonics: 7"), "the names of the columns"),
                 (saved.replace("# harmonics: 6", "# harmonics: many"),
                  "# harmonics: many: must be in 1...4096"),
@@ -287,6 +287,12 @@ class Branch(Case):
         self.refused("there is no branch 2", "response", self.machine, *WHOLE, "--restart", "branch.tsv",
                      "--branch", 2)
         self.refused("another machine", "response", SET_2, *WHOLE, "--restart", "branch.tsv")
+        for old, new in [("\ncage_speed", "\ncontact_damping_s_per_m = 5.0\ncage_speed"),
+                         ("contact_stiffness_N_per_m1p5", "contact_exponent = 1.4\ncontact_stiffness_N_per_mn")]:
+            other = self.file("other.toml", MACHINE.replace(old, new))
+            self.refused("another machine", "response", other, *WHOLE, "--restart", "branch.tsv")
+        same = self.file("same.toml", "# in other words\n" + MACHINE.replace("= 2e-5", "= 2.0e-05"))
+        self.table("response", same, "--from", 60, "--to", 60.1, "--restart", "branch.tsv")
 
     def test_a_search_for_isolated_branches_that_was_cut_off_says_so(self):
         table, reason = self.cut_off(SET_2, *WHOLE, "--harmonics", 6, "--isolated", 10, "--budget", "4e7")

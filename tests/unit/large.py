@@ -4,6 +4,7 @@ integration of all degrees of freedom written here.
 Usage: tests/unit/large.py   (from the project's root)
 """
 import importlib.util
+import re
 import subprocess
 import sys
 import tomllib
@@ -333,6 +334,17 @@ radial_clearance_m = {b["clearance"]}
         other = self.file("other.toml", text.replace("cage_speed_ratio = 0.3\n", "cage_speed_ratio = 0.4\n"))
         self.refused("more than two frequencies", "orbit", other, *speed, "--method", "aft")
         self.lines("orbit", other, *speed, "--method", "gauss", "--longest", 0.2)
+
+    def test_resumed_with_other_matrices(self):
+        """Would catch rows of two machines in one map."""
+        own = self.file("own.toml", self.paper_machine("set1"))
+        words = ["map", own, "--x", "frequency=40:45:2", "--quantity", "amplitude", "--harmonics", 6]
+        whole = "\n".join(self.lines(*words)) + "\n"
+        part = self.file("part.tsv", whole[:whole.rindex("\n4")])
+        self.assertEqual("\n".join(self.lines(*words, "--resume", part)) + "\n", whole)
+        for file in self.folder.glob("*/C.mtx"):
+            file.write_text(re.sub(r"(?m)^1 1 .*", "1 1 77.0", file.read_text(encoding="utf-8")), encoding="utf-8")
+        self.refused("other settings", *words, "--resume", part)
 
     def test_map_and_attractors(self):
         """The machine of a point, its start from the point before and its verdict are those of orbit; a settled motion is

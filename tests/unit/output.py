@@ -148,6 +148,18 @@ class Formats(Case):
                 self.refused("install python3-matplotlib", command, machine, *options, "--plot", "none.svg",
                              env={**os.environ, "PYTHON": "/bin/false"})
 
+    def test_nothing_of_the_folder_draws(self):
+        """Would catch modules and settings of the folder in which explore runs."""
+        words = ["orbit", self.machine, *AT_45, *SIX, "--plot"]
+        self.lines(*words, "usual.svg")
+        for name in ["numpy.py", "random.py", "matplotlib.py", "tables.py"]:
+            self.file(name, "open('run', 'w')\nraise SystemExit(1)\n")
+        self.file("matplotlibrc", "axes.facecolor: red\nsvg.fonttype: none\nxtick.minor.visible: True\nfigure.dpi: 33\n")
+        result = self.run_explore(*words, "odd.svg", env={**os.environ, "MPLBACKEND": "none", "PYTHONPATH": str(self.folder)})
+        self.assertEqual((result.returncode, result.stderr), (0, ""))
+        self.assertFalse((self.folder / "run").exists())
+        self.assertEqual(*((self.folder / name).read_bytes() for name in ["usual.svg", "odd.svg"]))
+
     def test_measured_spectrum(self):
         """It changes the figure; one without its columns, or without a figure, is refused."""
         measured = self.file("measured.tsv", "f\tamplitude\n45\t1e-3\n90\t1e-5\n")

@@ -5,6 +5,7 @@ with the frequencies that ROSS prints for them.
 
 Usage: tests/unit/shaft.py   (from the project's root)
 """
+import resource
 import sys
 import unittest
 from pathlib import Path
@@ -68,6 +69,23 @@ class Shaft(Case):
         order = [i for i in np.argsort(values.imag) if values[i].imag > 0]
         x, y = vectors[0:n:4, order], vectors[1:n:4, order]
         return values.imag[order], (x * np.conj(y)).imag.sum(0) > 0
+
+    def test_whole_or_not_at_all(self):
+        """Would catch two matrices of one shaft beside two of another, a folder without all four, and the matrices of others."""
+        def no_room():
+            resource.setrlimit(resource.RLIMIT_FSIZE, (16000, 16000))
+        large = ["shaft", self.file("large.toml", STEEL + segment(40))]
+        self.refused("M.mtx: cannot be written", *large, "--to", "new", status=3, preexec_fn=no_room)
+        self.assertFalse((self.folder / "new").exists())
+        self.matrices(OVERHUNG)
+        old = {file.name: file.read_text(encoding="utf-8") for file in (self.folder / "shaft").iterdir()}
+        self.refused("G.mtx: cannot be written", "shaft", self.file("other.toml", STEEL + segment(12)), "--to", "shaft",
+                     status=3, preexec_fn=lambda: resource.setrlimit(resource.RLIMIT_FSIZE, (7500, 7500)))
+        self.assertEqual({file.name: file.read_text(encoding="utf-8") for file in (self.folder / "shaft").iterdir()}, old)
+        other = self.file("shaft/C.mtx", "%%MatrixMarket matrix coordinate real general\n1 1 1\n1 1 1\n")
+        self.refused("--force replaces it", *large, "--to", "shaft")
+        self.assertIn("1 1 1\n1 1 1", other.read_text(encoding="utf-8"))
+        self.lines(*large, "--to", "shaft", "--force")
 
     def test_published_frequencies(self):
         """A shear coefficient, a rotary inertia or gyroscopic moments that are wrong or missing change these digits."""

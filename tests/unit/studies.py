@@ -58,11 +58,12 @@ def computed_anew(study, changes):
 
 @unittest.skipUnless(shutil.which("snakemake"), "needs the Debian package snakemake")
 class Shards(Case):
-    """A study in a folder of its own."""
+    """A study in a folder of its own, of a machine whose name the shell would take apart."""
 
     def setUp(self):
         super().setUp()
         shutil.copytree("studies", self.folder / "studies")
+        self.machine = self.machine.rename(self.folder / "my $(machine).toml")
         whole = self.lines("map", self.machine, "--x", "frequency=20:50:5", "--y", "bearing.radial_clearance_m=0:1e-4:7",
                            "--quantity", "amplitude,contact_share", "--harmonics", 6)
         self.whole = "".join(f"{line}\n" for line in whole)
