@@ -488,37 +488,6 @@ stiffness_N_per_m = [1e12, 1e12]
         self.assertAlmostEqual(response["f"][response["amp_x_r"].argmax()], values["passage_f_1_x"], delta=0.5)
 
 
-class Measures(Case):
-    COLUMNS = ",".join(f"{what}_x_r" for what in ("amp", "amp_1X", "lag_1X", "v_rms", "a_rms"))
-
-    def test_a_linear_rotor(self):
-        """Amplitude and lag behind the unbalance, velocity and acceleration of the closed form, of motions from rest and of a
-        branch. Would catch a phase counted backwards, rms of another mean, and a derivative of the wrong step."""
-        text = self.machine.read_text(encoding="utf-8").replace("radial_clearance_m = 2e-5", "radial_clearance_m = 1")
-        for options in (["--count", 6], ["--harmonics", 2]):
-            table = self.table("response", self.file("wide.toml", text), "--from", 5, "--to", 60, *options, "--columns", "f," + self.COLUMNS)
-            omega = 2 * np.pi * table["f"]
-            r = omega / 150
-            z = 0.05 / 40 * r**2 / (1 - r**2 + 2j * 0.02 * r)
-            for name, expected in [("amp", abs(z)), ("amp_1X", abs(z)), ("v_rms", omega * abs(z) / 2**0.5),
-                                   ("a_rms", omega**2 * abs(z) / 2**0.5)]:
-                np.testing.assert_allclose(table[f"{name}_x_r"], expected, rtol=2e-4, err_msg=name)
-            np.testing.assert_allclose(table["lag_1X_x_r"], -np.angle(z), atol=1e-4)
-
-    def test_at_the_disk(self):
-        """Amplitudes at `output_dofs` of a body, from rest and of a branch, are those of the orbit there."""
-        self.lines("shaft", Path("data/rotors/overhung_shaft.toml").resolve(), "--to", "overhung")
-        text = Path("data/rotors/overhung.toml").read_text(encoding="utf-8")
-        machine_file = self.file("rotor.toml", text)
-        orbit = self.table("orbit", machine_file, "--frequency", 30, "--harmonics", 6, "--points", 256)
-        names = [name for name in orbit.columns if name.endswith("_out")]
-        self.assertTrue(names)
-        columns = ",".join(f"amp_{name}" for name in names)
-        branch = self.table("response", machine_file, "--from", 30, "--to", 30.5, "--harmonics", 6, "--columns", "f," + columns)
-        for name in names:
-            self.assertAlmostEqual(half_span(orbit[name]) / branch[f"amp_{name}"][0], 1, delta=1e-3)
-
-
 class Speeds(Case):
     def test_units(self):
         """Speeds in rpm are those in Hz; both ends of a range have one unit."""

@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
-#include <numbers>
 
 #include "balance/bearing_problem.hpp"
 #include "explore/response_branch.hpp"
@@ -127,52 +126,7 @@ void observe(ResponseRow& row, const Parameters& parameters, const motion::Motio
   row.contact_share = motion::contact_share(parameters, motion);
   row.ball_load = motion::largest_ball_load(
       parameters, motion, std::ssize(motion.positions) / motion.points_per_period);
-
-  const double base = angular(row.frequency) / rotor_speed(parameters, 1);
-  const double dt = 2 * std::numbers::pi / base / motion.points_per_period;
-  const double turning = angular(row.frequency) * dt;
-  const bool is_closed =
-      row.period > 0 || std::ssize(motion.positions) == motion.points_per_period;
-  const auto measure = [&](const Eigen::VectorXd& q) {
-    row.places.push_back(motion::measures(
-        q, dt, motion.phase(0) * rotor_speed(parameters, 1), turning, is_closed));
-  };
-  for (Eigen::Index i = 0; i < 4; ++i) measure(samples.col(i));
-  for (const auto& [name, place] : parameters.machine->outputs()) {
-    Eigen::VectorXd q(samples.rows());
-    for (Eigen::Index k = 0; k < q.size(); ++k)
-      q[k] = motion::shown_at(motion, static_cast<std::size_t>(k), place);
-    measure(q);
-  }
 }
-
-namespace {
-
-/** Of x_s, y_s, x_r, y_r and the `output_dofs`. */
-ResponseFields place_fields(const Parameters& parameters)
-{
-  ResponseFields all;
-  std::vector<std::string> names = displacement_names;
-  for (const auto& [name, place] : parameters.machine->outputs()) names.push_back(name);
-  const auto add = [&](std::size_t i, const std::string& name, const char* unit,
-                       const std::string& meaning, double motion::Measures::*what) {
-    all.push_back({name + "_" + names[i], unit, meaning + names[i],
-                   [i, what](const Row& row) { return row.places.at(i).*what; }});
-  };
-  using M = motion::Measures;
-  for (std::size_t i = 0; i < names.size(); ++i) {
-    if (i >= displacement_names.size())
-      add(i, "amp", "m", "half peak-to-peak of ", &M::amplitude);
-    add(i, "v_rms", "m/s", "rms velocity of ", &M::velocity_rms);
-    add(i, "a_rms", "m/s^2", "rms acceleration of ", &M::acceleration_rms);
-    add(i, "amp_1X", "m", "amplitude at the speed of rotation of ", &M::first);
-    add(i, "lag_1X", "rad", "angle by which that lags behind the unbalance, of ",
-        &M::lag);
-  }
-  return all;
-}
-
-}  // namespace
 
 ResponseColumns columns_of(const Parameters& parameters, const ResponseFields& own,
                            bool is_settled)
@@ -188,7 +142,6 @@ ResponseColumns columns_of(const Parameters& parameters, const ResponseFields& o
   add(means);
   if (is_settled) add(rms);
   add(contact_fields);
-  add(place_fields(parameters));
   if (const double pressure = parameters.bearing.pressure; pressure > 0)
     all.push_back({"stress", "N/mm^2", "largest pressure of Hertz under ball_load",
                    [=](auto& r) { return 1e-6 * pressure * std::cbrt(r.ball_load); }});

@@ -168,14 +168,6 @@ Exploration computed(Sweep& sweep)
   return {.table = std::move(table), .unfinished = missing, .is_written = is_streamed};
 }
 
-/** Twenty instants in a vibration of the contact, at least 256 in a base period. */
-int points_of(const Parameters& machine, double hertz)
-{
-  const double periods = base_period(machine).per_turn * hertz;
-  return static_cast<int>(std::clamp(
-      std::ceil(20 * contact_frequency(machine) / angular(1) / periods), 256.0, 65536.0));
-}
-
 /** Whether anything touches in a motion that was not recorded: where it stands now or,
     where nothing is loaded then, over a few periods. */
 bool touches_somewhere(motion::Answer& answer)
@@ -257,7 +249,6 @@ Exploration settled_response(const ResponseRequest& request)
     for (std::size_t k = 0; k < speeds.size(); ++k)
       questions.push_back({machine,
                            {.omega = angular(speeds[k]),
-                            .points = has_records ? points_of(machine, speeds[k]) : 256,
                             .periods = 64,
                             .step_ratio = step_ratio(request.tolerance),
                             .longest = request.longest,

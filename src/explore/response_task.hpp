@@ -10,7 +10,6 @@ for solutions, checked, with the machine counted over the period of its motions.
 #include "continuation/arc_length.hpp"
 #include "explore/branch_file.hpp"
 #include "explore/response.hpp"
-#include "motion/measures.hpp"
 #include "motion/motion.hpp"
 
 namespace rotor_stator::explore {
@@ -28,10 +27,9 @@ struct ResponseRow {
   std::string verdict = "undecided", bifurcation = "-";
   std::vector<std::complex<double>> harmonics = {};  ///< of --harmonics-of [m]
 
-  Displacements mean{}, rms{};                ///< [m]
-  Vec2 force{0, 0};                           ///< half peak-to-peak [N]
-  double contact_share = 0, ball_load = 0;    ///< [-], [N]
-  std::vector<motion::Measures> places = {};  ///< x_s, y_s, x_r, y_r, output_dofs
+  Displacements mean{}, rms{};              ///< [m]
+  Vec2 force{0, 0};                         ///< half peak-to-peak [N]
+  double contact_share = 0, ball_load = 0;  ///< [-], [N]
 };
 
 /** What the instants of a motion show: mean, force, contact, load. */
