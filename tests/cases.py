@@ -29,6 +29,19 @@ def machine(name):
     return CASES / f"{name}.toml"
 
 
+def matrix_market(path):
+    """A file of coordinates, symmetric or antisymmetric ones too."""
+    lines = path.read_text(encoding="utf-8").splitlines()
+    sign = {"general": 0, "symmetric": 1, "skew-symmetric": -1}[lines[0].split()[-1]]
+    rows = [line.split() for line in lines if not line.startswith("%")]
+    matrix = np.zeros((int(rows[0][0]), int(rows[0][1])))
+    for i, j, value in rows[1:]:
+        matrix[int(i) - 1, int(j) - 1] = float(value)
+        if i != j and sign:
+            matrix[int(j) - 1, int(i) - 1] = sign * float(value)
+    return matrix
+
+
 def half_span(column):
     return np.ptp(column) / 2
 
@@ -486,6 +499,115 @@ stiffness_N_per_m = [1e12, 1e12]
         damped = self.file("damped.toml", file.read_text(encoding="utf-8").replace(" = 200.0", " = 2000.0"))
         response = self.table("response", damped, "--from", 28, "--to", 37, "--count", 46)
         self.assertAlmostEqual(response["f"][response["amp_x_r"].argmax()], values["passage_f_1_x"], delta=0.5)
+
+
+class Measures(Case):
+    def test_measures_of_a_linear_shaft(self):
+        """A shaft on its supports, its disk unbalanced: the receptance of its matrices at
+        the other disk gives all measures, by every command."""
+        self.lines("shaft", machine("friswell_shaft"), "--to", "shaft")
+        k = matrix_market(self.folder / "shaft" / "K.mtx")  # damps the fast modes too
+        entries = [f"{i + 1} {j + 1} {3e-5 * k[i, j]!r}" for i, j in np.argwhere(k)]
+        self.file("shaft/C.mtx", "\n".join([
+            "%%MatrixMarket matrix coordinate real general",
+            f"{len(k)} {len(k)} {len(entries)}", *entries, ""]))
+        self.file("own.toml", machine("on_supports").read_text(encoding="utf-8").replace(
+            "bearing_dofs", "output_dofs = [17, 18]\nunbalance = [{ dofs = [9, 10], "
+            "moment_kg_m = 1e-3, phase_rad = 0.3 }]\nbearing_dofs"))
+        m, c, g, k = (matrix_market(self.folder / "shaft" / f"{name}.mtx")
+                      for name in "MCGK")
+        names = ["amp_x_r_out", "amp_v_x_r_out", "amp_a_x_r_out", "peak_x_r_out",
+                 "rms_v_y_r_out", "iso_x_r_out", "amp_1X_x_r_out", "phase_1X_x_r_out",
+                 "phase_1X_v_x_r_out", "mean_x_r_out"]
+        for f in (60,):
+            omega = 2 * np.pi * f
+            force = np.zeros(len(m), complex)
+            force[8:10] = 1e-3 * omega**2 * np.exp(0.3j) * np.array([1, -1j])
+            q = np.linalg.solve(k + 1j * omega * (c + omega * g) - omega**2 * m, force)
+            x, y = abs(q[16]), abs(q[17])
+            right = [x, omega * x, omega**2 * x, x, omega * y / math.sqrt(2),
+                     1e3 * omega * x / math.sqrt(2), x, np.angle(q[16]),
+                     np.angle(1j * q[16]), 0]
+            speeds = ["--from", f, "--to", f + 1, "--count", 2]
+            for command in (["orbit", "--frequency", f], ["response", *speeds],
+                            ["attractors", *speeds, "--starts", 0],
+                            ["orbit", "--frequency", f, "--harmonics", 3],
+                            ["response", "--from", f, "--to", f + 1, "--harmonics", 3],
+                            ["map", "--x", f"frequency={f}:{f + 1}:2"]):
+                with self.subTest(f=f, command=command):
+                    how = "--quantity" if command[0] == "map" else "--columns"
+                    table = self.table(command[0], "own.toml", *command[1:], how,
+                                       ",".join(names))
+                    found = [float(table[name][0]) for name in names]
+                    # A motion in time still has some of its transient.
+                    within = 1e-6 if "--harmonics" in command else 2e-4
+                    np.testing.assert_allclose(found, right, rtol=within, atol=1e-11)
+        table = self.table("orbit", "own.toml", "--frequency", f, "--columns",
+                           "phase,v_x_r_out,a_y_r_out")
+        turning = np.exp(1j * table["phase"])
+        for name, value in [("v_x_r_out", 1j * omega * q[16]),
+                            ("a_y_r_out", -omega**2 * q[17])]:
+            np.testing.assert_allclose(table[name], (value * turning).real,
+                                       atol=1e-4 * abs(value))
+
+    def test_measures_of_a_motion_that_never_closes(self):
+        """A rotor in a 6205: velocities are those of the equations of motion, by
+        Runge-Kutta; the amplitude means what it does elsewhere."""
+        names = ["amp_x_r", "rms_v_x_r", "amp_1X_x_r", "iso_x_r", "rms_a_x_r"]
+        found = {}
+        for command in (["orbit", "--frequency", 50],
+                        ["response", "--from", 50, "--to", 51, "--count", 2],
+                        ["attractors", "--from", 50, "--to", 51, "--count", 2, "--starts",
+                         0], ["map", "--x", "frequency=50:51:2"]):
+            how = "--quantity" if command[0] == "map" else "--columns"
+            table = self.table(command[0], machine("motor"), *command[1:], how,
+                               ",".join(names))
+            found[command[0]] = [float(table[name][0]) for name in names]
+        model = Model(tomllib.loads(machine("motor").read_text(encoding="utf-8")), 50)
+        turns, points = 256, 256
+        rows = np.array(model.judged(model.settle(model.rest(-60), -3000, 3000, turns,
+                                                  turns, points)).rows)
+        x = rows[:, 2]
+        n, step = len(x), 1 / (50 * points)
+        window = 1 - np.cos(2 * np.pi * np.arange(n) / n)
+        lines = np.fft.rfft((x - x.mean()) * window)
+        hertz = np.fft.rfftfreq(n, step)
+        power = 2 * abs(lines / n)**2 / (window**2).mean() * (2 * np.pi * hertz)**2
+        right = [half_span(x), math.sqrt(power.sum()), 2 * abs(lines[turns]) / n,
+                 1e3 * math.sqrt(power[(hertz >= 10) & (hertz <= 1000)].sum()),
+                 math.sqrt((power * (2 * np.pi * hertz)**2).sum())]
+        for command, values in found.items():
+            with self.subTest(command):
+                np.testing.assert_allclose(values, right, rtol=2e-3)
+
+    def test_one_linearisation(self):
+        """97.697 Hz is the root of the mean force's slope at the displacement where that
+        force is the weight. With much damping the response to the passing balls is
+        largest where they meet it, and a mass as matrices has the same frequencies."""
+        right, text = 97.697, machine("passing_6306").read_text(encoding="utf-8")
+        speeds = ["--from", 1, "--to", 300]
+        values = self.table("check", machine("passing_6306"), *speeds)
+        values = dict(zip(values["name"], values["value"]))
+        self.assertAlmostEqual(values["f_1_x"] / right, 1, delta=1e-4)
+        self.assertAlmostEqual(values["passage_f_1_x"] / (right / 3), 1, delta=1e-4)
+        critical = self.table("campbell", machine("passing_6306"), *speeds, "--count", 30,
+                              "--critical")
+        self.assertAlmostEqual(critical["f"][0] / right, 1, delta=1e-4)
+        damped = self.file("damped.toml", text.replace("m = 200.0", "m = 2000.0"))
+        response = self.table("response", damped, "--from", 25, "--to", 45, "--count",
+                              101)
+        peak = response["f"][np.argmax(response["amp_x_r"])]
+        self.assertAlmostEqual(peak / (right / 3), 1, delta=0.02)
+        one = "%%MatrixMarket matrix coordinate real general\n2 2 2\n1 1 {0}\n2 2 {0}\n"
+        for name, value in [("M", 20), ("C", 200), ("K", 0)]:
+            self.file(f"{name}.mtx", one.format(value))
+        start, end = text.index("mass_kg"), text.index("[bearing]")
+        large = self.file("large.toml", text[:start] + 'matrices = "."\nbearing_dofs = '
+                          "[1, 2]\nvertical_dofs = [2]\n" + text[end:])
+        matrices = self.table("check", large, *speeds)
+        matrices = dict(zip(matrices["name"], matrices["value"]))
+        for name, same in [("f_1", "f_1_x"), ("f_2", "f_1_y")]:
+            self.assertAlmostEqual(matrices[name] / values[same], 1, delta=1e-6)
 
 
 class Speeds(Case):

@@ -7,6 +7,7 @@
 #include <random>
 
 #include "explore/balance_motion.hpp"
+#include "explore/measures.hpp"
 #include "io/errors.hpp"
 #include "io/output_file.hpp"
 #include "io/parallel.hpp"
@@ -206,6 +207,7 @@ struct Found {
   int undecided = 0;                   ///< of them
   std::vector<double> exponents = {};  ///< of the motions of these starts [1/s]
   bool touches = false;
+  std::vector<double> measured = {};
 
   bool is_closed() const { return answer.period() > 0 || answer.kind() == Kind::rest; }
   int starts() const { return from[0] + from[1] + from[2] + from[3]; }
@@ -238,7 +240,8 @@ bool is_same(const Run& a, const Found& b)
 /** The motion itself, closed where it closes. Of another one the exponent is the mean
     over its starts, whose scatter knows more than one motion does of itself. Throws
     NoSolution when the budget is used up. */
-void look_closer(const Task& task, std::size_t speed, Found& found)
+void look_closer(const Task& task, std::size_t speed, const Measures& measures,
+                 Found& found)
 {
   motion::Request request = task.asked_at(speed);
   if (!found.is_closed()) {
@@ -247,6 +250,11 @@ void look_closer(const Task& task, std::size_t speed, Found& found)
                                      std::max(mean.error, found.exponent().error)};
     request.is_measured = false;
     if (!task.request.motions) request.points = 4;
+  }
+  if (!measures.empty()) {
+    const motion::Answer whole = whole_motion(found.answer, request, task.budget);
+    const double step = angular(1) / (whole.omega * whole.motion.points_per_period);
+    found.measured = measures.of({whole.motion, step, found.speed, closes(whole)});
   }
   complete(found.answer, request, task.budget);
   const std::vector<Vec2> forces =
@@ -289,7 +297,7 @@ template <Origin origin>
 constexpr auto from =
     [](const Found& f) -> Cell { return f.from[static_cast<std::size_t>(origin)]; };
 
-const Fields fields{
+const Fields usual_fields{
     {"f", "Hz", "speed of rotation", &Found::speed},
     {"motion", "-", "number of the motion at this speed", &Found::number},
     {"period", "-", "K base periods; 0 aperiodic, -1 quasi-periodic, -2 undecided",
@@ -415,9 +423,11 @@ std::string unfinished(const Task& task, const std::vector<Run>& all)
 
 Exploration explore_attractors(const AttractorsRequest& request)
 {
-  Table table("Attractors, speed by speed", fields);
-  table.choose(request.columns, fields.size(), false);
   const Task task = task_of(request);
+  Fields fields = usual_fields;
+  const Measures measures = add_measures(fields, request.columns, task.machine);
+  Table table("Attractors, speed by speed", fields);
+  table.choose(request.columns, usual_fields.size(), false);
   const std::vector<Run> ended = all_runs(task);
   std::string missing = unfinished(task, ended);
   std::vector<std::vector<Run>> runs(task.speeds.size());
@@ -428,11 +438,12 @@ Exploration explore_attractors(const AttractorsRequest& request)
   for (std::size_t speed = 0; speed < runs.size(); ++speed)
     for (Found& found : found_at(task, speed, std::move(runs[speed]))) {
       try {
-        look_closer(task, speed, found);
+        look_closer(task, speed, measures, found);
       } catch (const NoSolution& error) {
         if (missing.empty())
           missing = format("%s: partial, no section at %.9g Hz: %s",
                            task.machine.file.c_str(), found.speed, error.what());
+        if (found.measured.size() < measures.columns().size()) continue;
       }
       all.push_back(std::move(found));
     }

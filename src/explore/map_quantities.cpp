@@ -6,6 +6,7 @@
 #include "balance/bearing_problem.hpp"
 #include "balance/fourier_transform.hpp"
 #include "continuation/sweep.hpp"
+#include "explore/measures.hpp"
 #include "io/errors.hpp"
 #include "motion/answer.hpp"
 #include "motion/contact.hpp"
@@ -176,6 +177,20 @@ public:
     return largest;
   }
 
+  /** A measure of that name. */
+  Cell measured(const std::string& name)
+  {
+    const Measures measures(name, machine_);
+    const auto value = [&](const motion::Motion& whole, double omega, bool is_closed) {
+      const double step = angular(1) / (omega * whole.points_per_period);
+      return measures.of({whole, step, frequency_, is_closed}).at(0);
+    };
+    if (is_balance()) return value(motion(), solution().omega, true);
+    const motion::Answer& whole =
+        whole_([&] { return whole_motion(settled(), question().request, budget_); });
+    return value(whole.motion, whole.omega, closes(whole));
+  }
+
   std::string stability() { return is_balance() ? verdict().word() : answer().stability; }
 
   /** The largest multiplier and its uncertainty. */
@@ -279,6 +294,7 @@ private:
   Once<Floquet> series_;
   motion::Observed settled_;
   Once<motion::Answer> answer_;
+  Once<motion::Answer> whole_;
   Once<Swept> swept_;
 };
 
@@ -354,12 +370,18 @@ const std::vector<Quantity> quantities{
     {"missed", "-", "speeds of --sweep without a solution", Source::sweep,
      of<&MapPoint::missed>}};
 
-std::vector<Quantity> named(const std::vector<std::string>& names)
+std::vector<Quantity> named(const std::vector<std::string>& names,
+                            const std::function<Parameters()>& machine)
 {
   std::vector<Quantity> chosen;
   for (const std::string& name : names) {
     const auto found = std::ranges::find(quantities, name, &Quantity::name);
-    if (found == quantities.end()) {
+    std::optional<Quantity> measure;
+    if (found == quantities.end())
+      if (const Measures one(name, machine()); one.needs_whole())
+        measure = Quantity{one.columns()[0], Source::motion,
+                           [name](MapPoint& p) { return p.measured(name); }};
+    if (found == quantities.end() && !measure) {
       std::vector<std::string> known;
       std::string list;
       for (const Quantity& q : quantities) {
@@ -371,7 +393,7 @@ std::vector<Quantity> named(const std::vector<std::string>& names)
     }
     if (std::ranges::find(chosen, name, &Quantity::name) != chosen.end())
       throw BadInput("--quantity " + name + ": is given twice");
-    chosen.push_back(*found);
+    chosen.push_back(measure ? *measure : *found);
   }
   return chosen;
 }
@@ -387,7 +409,10 @@ const std::vector<Column>& map_quantities()
 std::vector<Quantity> chosen_quantities(const MapTask& task)
 {
   const MapRequest& request = task.request;
-  const std::vector<Quantity> chosen = named(request.quantities);
+  const auto first = [&] {
+    return task.machine(task.grid.values(task.grid.first, 0)).first;
+  };
+  const std::vector<Quantity> chosen = named(request.quantities, first);
   /** The first of these sources, or nothing. */
   const auto of = [&](auto... sources) {
     const auto one = std::ranges::find_if(
@@ -409,7 +434,7 @@ std::vector<Quantity> chosen_quantities(const MapTask& task)
     throw BadInput("--method " + request.method + ": " +
                    (balanced.empty() ? swept : balanced) +
                    " is of harmonic balance; give --harmonics M");
-  const Parameters machine = task.machine(task.grid.values(task.grid.first, 0)).first;
+  const Parameters machine = first();
   require_method_of(machine, request.method);
   for (const Quantity& one : chosen)
     if (one.of_two_masses)

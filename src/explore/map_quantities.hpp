@@ -4,6 +4,7 @@
 Each is a column: what its value is taken from, and how a point knows it. */
 #pragma once
 
+#include <functional>
 #include <span>
 
 #include "explore/map_axes.hpp"
@@ -18,7 +19,7 @@ class MapPoint;
 
 struct Quantity : Column {
   Source source;
-  Cell (*value)(MapPoint& point);
+  std::function<Cell(MapPoint&)> value;
   bool of_two_masses = false;
 };
 

@@ -63,14 +63,21 @@ void add_plot(CLI::App& command, Request& request)
                    "replace files that this program did not write, too");
 }
 
+const std::string measures_in_words =
+    "; of a motion amp_, peak_, mean_, rms_, amp_1X_ or phase_1X_ of x_s ... y_r, x_r_2, "
+    "x_r_out, of a velocity v_x_r or acceleration a_x_r; iso_x_r, mm/s rms of ISO 20816";
+
 /** The machine, and how the table is written. */
 void add_table_options(CLI::App& command, Request& request)
 {
   command.add_option("parameters", request.parameter_file, "TOML parameter file")
       ->required();
   if (command.get_name() == "map") return;  // its quantities are chosen
+  const std::string name = command.get_name();
+  const bool has_measures = name == "orbit" || name == "response" || name == "attractors";
   command.add_option("--columns", request.columns,
-                     "NAME,... that are printed, or all; others are not computed");
+                     "NAME,... that are printed, or all; others are not computed" +
+                         (has_measures ? measures_in_words : ""));
   command.add_option_function<std::string>(
       "--format",
       [&request](const std::string& word) {
@@ -379,7 +386,9 @@ Check add_options(CLI::App& command, MapRequest& request)
   command.add_option("--y", request.y, "the same, a line for each value");
   command.add_option("--list", request.list,
                      "table whose columns are keys, a line for each row, instead of --y");
-  command.add_option("--quantity", request.quantities, known)->delimiter(',')->required();
+  command.add_option("--quantity", request.quantities, known + measures_in_words)
+      ->delimiter(',')
+      ->required();
   add_speed(command, "--frequency", request.frequency,
             "speed of rotation, where it is no key");
   command.add_option(

@@ -6,6 +6,7 @@
 
 #include "balance/fourier_transform.hpp"
 #include "explore/balance_motion.hpp"
+#include "explore/measures.hpp"
 #include "explore/plausible.hpp"
 #include "explore/settled_motion.hpp"
 #include "io/errors.hpp"
@@ -260,10 +261,19 @@ Exploration explore_orbit(const MotionRequest& request)
       add(format("F_%s_%zu", axis, b), "N", "Eq. 6, of that bearing, on the stator");
   const auto outputs = parameters.machine->outputs();
   for (const auto& [name, place] : outputs) add(name, "m", "of a body given by matrices");
+  const std::size_t usual = columns.size() - 1;
+  const Measures measures(request.columns, parameters);
+  columns.insert(columns.end(), measures.columns().begin(), measures.columns().end());
   Table table("Orbit of rotor and stator over one period", columns);
-  table.choose(request.columns, columns.size() - 1, request.plot.has_value());
-  const Computed at = computed(parameters, request, request.periods, table);
+  table.choose(request.columns, usual, request.plot.has_value());
+  const int recorded = measures.needs_whole() ? Measures::open_periods : request.periods;
+  const Computed at =
+      computed(parameters, request, std::max(recorded, request.periods), table);
   const motion::Motion& motion = at.found.motion;
+  const auto measured = measures.at_instants(
+      {motion,
+       at.found.base_periods / (at.found.base_frequency * motion.points_per_period),
+       request.frequency, at.found.closes_after > 0});
   std::vector<std::vector<Vec2>> further;
   for (std::size_t b = 1; b < bearings; ++b) {
     const auto one = motion::at_bearing(at.found.machine, motion, b);
@@ -290,6 +300,7 @@ Exploration explore_orbit(const MotionRequest& request)
     for (const auto& [name, place] : outputs)
       row.emplace_back(motion::shown_at(motion, same, place));
     row.emplace_back(periods / at.found.base_frequency);
+    for (const auto& column : measured) row.emplace_back(column[same]);
     table.row(std::move(row));
   }
   conclude(table, parameters, at.touches(), at.budget);

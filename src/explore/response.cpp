@@ -112,7 +112,8 @@ void take_any_cage(const ResponseRequest& request, ResponseTask& task)
 
 }  // namespace
 
-void observe(ResponseRow& row, const Parameters& parameters, const motion::Motion& motion)
+void observe(ResponseRow& row, const Parameters& parameters, const motion::Motion& motion,
+             double omega, bool is_closed, const Measures& measures)
 {
   const auto samples = motion::displacement_samples(motion);
   for (Eigen::Index i = 0; i < 4; ++i)
@@ -126,10 +127,12 @@ void observe(ResponseRow& row, const Parameters& parameters, const motion::Motio
   row.contact_share = motion::contact_share(parameters, motion);
   row.ball_load = motion::largest_ball_load(
       parameters, motion, std::ssize(motion.positions) / motion.points_per_period);
+  const double step = angular(1) / (omega * motion.points_per_period);
+  row.measured = measures.of({motion, step, row.frequency, is_closed});
 }
 
-ResponseColumns columns_of(const Parameters& parameters, const ResponseFields& own,
-                           bool is_settled)
+ResponseColumns columns_of(const ResponseRequest& request, const Parameters& parameters,
+                           const ResponseFields& own, bool is_settled)
 {
   ResponseFields all = usual_fields;
   const auto add = [&](const ResponseFields& some) {
@@ -145,7 +148,8 @@ ResponseColumns columns_of(const Parameters& parameters, const ResponseFields& o
   if (const double pressure = parameters.bearing.pressure; pressure > 0)
     all.push_back({"stress", "N/mm^2", "largest pressure of Hertz under ball_load",
                    [=](auto& r) { return 1e-6 * pressure * std::cbrt(r.ball_load); }});
-  return {all, usual};
+  Measures measures = add_measures(all, request.columns, parameters);
+  return {all, usual, measures};
 }
 
 ResponseTask response_task(const ResponseRequest& request)

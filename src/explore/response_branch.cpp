@@ -152,7 +152,7 @@ ResponseColumns branch_columns(const ResponseTask& task, const Harmonics& harmon
     add({{"branch", "-", "1 the branch followed, then those beside it",
           &ResponseRow::branch}});
   add(harmonic_fields(task, harmonics));
-  return columns_of(task.machine, own);
+  return columns_of(task.request, task.machine, own);
 }
 
 void put_multipliers(ResponseRow& row, const Floquet& floquet)
@@ -187,8 +187,9 @@ std::string stopped_at(const ResponseTask& task, double omega, const std::string
 class BalanceBranch {
 public:
   BalanceBranch(const ResponseTask& task, const PeriodicMotion& found, Table& table,
-                const ResponseFields& fields, bool has_further)
-      : task_(task), table_(table), fields_(fields), has_further_(has_further),
+                const ResponseColumns& columns, bool has_further)
+      : task_(task), table_(table), fields_(columns.fields), measures_(columns.measures),
+        has_further_(has_further),
         balance_(
             task.has_two_frequencies
                 ? Balance(bearing_problem(task.parameters, found.line, task.budget),
@@ -258,7 +259,8 @@ private:
 
   const ResponseTask& task_;
   Table& table_;
-  const ResponseFields& fields_;
+  const ResponseFields fields_;
+  const Measures measures_;
   bool has_further_;  ///< columns that need the instants
   Balance balance_;
   BalanceCurve curve_;
@@ -359,8 +361,10 @@ void BalanceBranch::add_row(const StablePoint& at, std::size_t number)
   if (has_further_)
     observe(row, task_.parameters,
             task_.has_two_frequencies
-                ? motion::motion_of(task_.parameters, motion, 128, 64)
-                : motion::motion_of(motion, std::max(256, 4 * task_.harmonics + 4)));
+                ? motion::motion_of(task_.parameters, motion, 128,
+                                    measures_.empty() ? 64 : Measures::open_periods)
+                : motion::motion_of(motion, std::max(256, 4 * task_.harmonics + 4)),
+            motion.omega, !task_.has_two_frequencies, measures_);
   table_.row(fields_, row);
   if (!has_lines) return;
   auto all = motion::lines_of(task_.machine.bearing, motion, task_.parameters.turns);
@@ -383,12 +387,12 @@ Exploration branch_by_balance(ResponseTask task)
     if (!two) task.harmonics = found.harmonics.count();
     task.samples = found.samples;
   }
-  const auto [fields, usual] =
+  const auto [fields, usual, measures] =
       branch_columns(task, two ? found.harmonics : Harmonics(task.harmonics));
   Table table("Frequency response along the branch", fields);
   const bool has_further = table.choose(request.columns, usual, request.plot.has_value());
   if (!task.saved) table.value("start", one_word(found.start));
-  BalanceBranch branch(task, found, table, fields, has_further);
+  BalanceBranch branch(task, found, table, {fields, usual, measures}, has_further);
   const Branch& main = branch.main();
   describe(table, task.machine);
   const int turns = task.parameters.turns;
@@ -443,7 +447,7 @@ Exploration branch_by_shooting(const ResponseTask& task)
   ShootingCurve curve(machine, task.budget);
   const Branch branch = follow_branch(curve, range.from, range.to,
                                       curve.unknowns_of(state), curve.settings());
-  const auto [fields, usual] = branch_columns(task, Harmonics(task.harmonics));
+  const auto [fields, usual, measures] = branch_columns(task, Harmonics(task.harmonics));
   Table table("Frequency response along the branch", fields);
   const bool has_further = table.choose(request.columns, usual, request.plot.has_value());
   table.value("start", one_word(start));
@@ -465,7 +469,7 @@ Exploration branch_by_shooting(const ResponseTask& task)
         .arc = arc,
         .newton = solution.newton.iterations,
         .harmonics = harmonics_of(task, motion::series_of(motion, task.harmonics))};
-    if (has_further) observe(row, machine, motion);
+    if (has_further) observe(row, machine, motion, solution.omega, true, measures);
     if (request.stability) try {
         put_multipliers(row, motion::multipliers_through(machine, solution.omega, there,
                                                          task.budget));

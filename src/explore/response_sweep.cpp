@@ -186,15 +186,19 @@ bool touches_somewhere(motion::Answer& answer)
 /** The row of a settled motion. */
 ResponseRow row_of(motion::Answer& answer, const motion::Observation& seen,
                    const motion::Request& asked, bool has_records,
-                   std::atomic<bool>& touches, const OperationBudget& budget)
+                   const Measures& measures, std::atomic<bool>& touches,
+                   const OperationBudget& budget)
 {
   ResponseRow row{.frequency = asked.omega / angular(1),
                   .amplitude = seen.amplitude,
                   .period = answer.period_number(),
                   .lyapunov = answer.settled.lyapunov.value};
   if (has_records) {
-    complete(answer, asked, budget);
-    observe(row, answer.machine, answer.motion);
+    if (measures.empty())
+      complete(answer, asked, budget);
+    else
+      answer = whole_motion(answer, asked, budget);
+    observe(row, answer.machine, answer.motion, answer.omega, closes(answer), measures);
     if (row.contact_share > 0) touches = true;
   } else if (!touches && touches_somewhere(answer)) {
     touches = true;
@@ -217,7 +221,7 @@ Exploration settled_response(const ResponseRequest& request)
                    ", where each speed starts from the one before");
   const Parameters machine = machine_of(request, request.from, request.to);
   const Patience patience = machine.machine->patience();
-  const auto [fields, usual] = columns_of(machine, period_field, true);
+  const auto [fields, usual, measures] = columns_of(request, machine, period_field, true);
   Sweep sweep{
       request,
       machine,
@@ -263,7 +267,7 @@ Exploration settled_response(const ResponseRequest& request)
         motion::Answer& answer = all[k].answer.get();
         if (sweep.is_chain) state = answer.settled.at.state;
         return row_of(answer, all[k].seen.get(), questions[k].request, has_records,
-                      sweep.touches, budgets[k]);
+                      measures, sweep.touches, budgets[k]);
       }));
     return rows;
   };
@@ -277,7 +281,7 @@ Exploration response_to_tolerance(const ResponseTask& task)
   ResponseFields own = error_field;
   for (auto& field : harmonic_fields(task, Harmonics(task.harmonics)))
     own.push_back(std::move(field));
-  const auto [fields, usual] = columns_of(task.machine, own);
+  const auto [fields, usual, measures] = columns_of(request, task.machine, own);
   Sweep sweep{request,
               task.machine,
               evenly_spaced(request.from, request.to, request.count.value_or(101)),
@@ -318,7 +322,9 @@ Exploration response_to_tolerance(const ResponseTask& task)
         harmonics_of(task, resize_harmonics(bodies.reshaped(), 4, task.harmonics)
                                .reshaped(4, 2 * task.harmonics + 1));
     const int points = std::max(256, 4 * at.motion.harmonics.count() + 4);
-    if (has_further) observe(row, task.parameters, motion::motion_of(at.motion, points));
+    if (has_further)
+      observe(row, task.parameters, motion::motion_of(at.motion, points), at.motion.omega,
+              true, measures);
     if (!at.motion.force.isZero(0)) sweep.touches = true;
     return row;
   };

@@ -9,6 +9,7 @@ for solutions, checked, with the machine counted over the period of its motions.
 
 #include "continuation/arc_length.hpp"
 #include "explore/branch_file.hpp"
+#include "explore/measures.hpp"
 #include "explore/response.hpp"
 #include "motion/motion.hpp"
 
@@ -30,22 +31,26 @@ struct ResponseRow {
   Displacements mean{}, rms{};              ///< [m]
   Vec2 force{0, 0};                         ///< half peak-to-peak [N]
   double contact_share = 0, ball_load = 0;  ///< [-], [N]
+  std::vector<double> measured = {};
 };
 
-/** What the instants of a motion show: mean, force, contact, load. */
-void observe(ResponseRow& row, const Parameters& parameters,
-             const motion::Motion& motion);
+/** What the instants of a motion of this base frequency [rad/s] show: mean, force,
+    contact, load and measures. */
+void observe(ResponseRow& row, const Parameters& parameters, const motion::Motion& motion,
+             double omega, bool is_closed, const Measures& measures);
 
 using ResponseFields = std::vector<Field<ResponseRow>>;
 
 /** The columns that every response has, then `own` ones, then those that are printed when
-    they are asked for, of a sweep more than of a branch; how many are printed else. */
+    they are asked for, of a sweep more than of a branch, and measures; how many are
+    printed else. */
 struct ResponseColumns {
   ResponseFields fields;
   std::size_t usual;
+  Measures measures;
 };
-ResponseColumns columns_of(const Parameters& parameters, const ResponseFields& own,
-                           bool is_settled = false);
+ResponseColumns columns_of(const ResponseRequest& request, const Parameters& parameters,
+                           const ResponseFields& own, bool is_settled = false);
 
 struct ResponseTask {
   const ResponseRequest& request;

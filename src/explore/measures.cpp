@@ -1,0 +1,218 @@
+#include "explore/measures.hpp"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <complex>
+#include <map>
+#include <numbers>
+#include <sstream>
+
+#include "balance/fourier_transform.hpp"
+#include "io/errors.hpp"
+
+namespace rotor_stator::explore {
+
+namespace {
+
+constexpr double turn = 2 * std::numbers::pi;
+
+struct What {
+  const char *name, *unit, *meaning;  ///< without unit: that of the displacement
+};
+constexpr std::array<What, 8> whats{
+    {{"", "", ""},
+     {"amp_", "", "half peak-to-peak of "},
+     {"peak_", "", "largest distance from the mean of "},
+     {"mean_", "", "mean of "},
+     {"rms_", "", "rms about the mean of "},
+     {"amp_1X_", "", "amplitude at the frequency of rotation of "},
+     {"phase_1X_", "rad", "phase there, a cos(omega t + phase), of "},
+     {"iso_", "mm/s", "rms of the velocity from 10 to 1000 Hz, ISO 20816, of "}}};
+constexpr std::array<What, 3> rates{
+    {{"", "m", ""}, {"v_", "m/s", "velocity of "}, {"a_", "m/s^2", "acceleration of "}}};
+
+/** The rate of change at all instants, by the polynomial through nine of them, in whose
+    middle an instant stands where it can. */
+Eigen::VectorXd rate_of(const Eigen::VectorXd& x, double step, bool is_closed)
+{
+  constexpr int order = 8;
+  const Eigen::Index n = x.size();
+  if (n <= order) throw NoSolution("velocities need at least nine instants: --points");
+  /** Row j: weights of the nine at the j-th of them, from b_i = (-1)^i C(8, i). */
+  Eigen::Matrix<double, order + 1, order + 1> weights;
+  Eigen::Vector<double, order + 1> b;
+  b[0] = 1;
+  for (int i = 0; i < order; ++i) b[i + 1] = -b[i] * (order - i) / (i + 1);
+  for (int j = 0; j <= order; ++j) {
+    weights(j, j) = 0;
+    for (int i = 0; i <= order; ++i)
+      if (i != j) weights(j, i) = b[i] / b[j] / (j - i);
+    weights(j, j) = -weights.row(j).sum();
+  }
+  Eigen::VectorXd rate(n);
+  for (Eigen::Index k = 0; k < n; ++k) {
+    const Eigen::Index middle = k - order / 2;
+    const Eigen::Index first =
+        is_closed ? middle : std::clamp<Eigen::Index>(middle, 0, n - order - 1);
+    double sum = 0;
+    for (int i = 0; i <= order; ++i)
+      sum += weights(k - first, i) * x[(first + i + n) % n];
+    rate[k] = sum / step;
+  }
+  return rate;
+}
+
+/** Hann's window with mean 1, or ones. */
+Eigen::VectorXd window_of(const Record& record, Eigen::Index n)
+{
+  if (record.is_closed) return Eigen::VectorXd::Ones(n);
+  return 1 -
+         Eigen::ArrayXd::LinSpaced(n, 0, turn * (1 - 1.0 / static_cast<double>(n))).cos();
+}
+
+/** The complex amplitude at the rotor's angle; 0 where the record holds no whole turns,
+    as of a rotor without unbalance over its passing balls. */
+std::complex<double> at_rotation(const Eigen::VectorXd& x, const Record& record)
+{
+  const double angle = turn * record.speed * record.step;  // from instant to instant
+  const double turns = static_cast<double>(x.size()) * angle / turn;
+  if (record.is_closed && std::abs(turns - std::round(turns)) > 1e-6) return 0;
+  const Eigen::VectorXd weighted =
+      (x.array() - x.mean()).matrix().cwiseProduct(window_of(record, x.size()));
+  const double first = angle * static_cast<double>(record.motion.first_period) *
+                       record.motion.points_per_period;
+  std::complex<double> sum = 0;
+  for (Eigen::Index k = 0; k < x.size(); ++k)
+    sum += weighted[k] *
+           std::polar(1.0, -std::remainder(first + angle * static_cast<double>(k), turn));
+  return 2.0 * sum / static_cast<double>(x.size());
+}
+
+/** The rms of what lies between two frequencies [Hz]. */
+double rms_between(const Eigen::VectorXd& x, const Record& record, double low,
+                   double high)
+{
+  const auto n = static_cast<int>(x.size());
+  const Eigen::VectorXd window = window_of(record, n);
+  FourierTransform transform(n);
+  const Eigen::VectorXd centred = (x.array() - x.mean()) * window.array();
+  const auto lines = transform.spectrum(centred);
+  double square = 0;
+  for (Eigen::Index p = 1; p < lines.size(); ++p) {
+    const double f = static_cast<double>(p) / (n * record.step);
+    if (f >= low && f <= high) square += 2 * std::norm(lines[p]);
+  }
+  return std::sqrt(square / window.array().square().mean());
+}
+
+/** The largest value, where three instants lie on a parabola. */
+double largest_of(const Eigen::VectorXd& x, bool is_closed)
+{
+  Eigen::Index k = 0;
+  const Eigen::Index n = x.size();
+  const double top = x.maxCoeff(&k);
+  if (!is_closed && (k == 0 || k + 1 == n)) return top;
+  const double before = x[(k + n - 1) % n], after = x[(k + 1) % n];
+  const double bend = 2 * top - before - after;
+  return bend > 0 ? top + (after - before) * (after - before) / (8 * bend) : top;
+}
+
+double value_of(const std::string& what, const Eigen::VectorXd& x, const Record& record)
+{
+  const double mean = x.mean();
+  if (what == "mean_") return mean;
+  if (what == "amp_" || what == "peak_") {
+    const double up = largest_of(x.array() - mean, record.is_closed),
+                 down = largest_of(mean - x.array(), record.is_closed);
+    return what == "amp_" ? 0.5 * (up + down) : std::max(up, down);
+  }
+  if (what == "rms_") return std::sqrt((x.array() - mean).square().mean());
+  if (what == "amp_1X_") return std::abs(at_rotation(x, record));
+  if (what == "phase_1X_") return std::arg(at_rotation(x, record));
+  return 1e3 * rms_between(x, record, 10, 1000);
+}
+
+/** A displacement, its velocity or acceleration at all instants. */
+Eigen::VectorXd samples_of(const Record& record, int place, int times)
+{
+  Eigen::VectorXd x(std::ssize(record.motion.positions));
+  for (std::size_t k = 0; k < record.motion.size(); ++k)
+    x[static_cast<Eigen::Index>(k)] = motion::shown_at(record.motion, k, place);
+  for (int i = 0; i < times; ++i) x = rate_of(x, record.step, record.is_closed);
+  return x;
+}
+
+}  // namespace
+
+Measures::Measures(const std::string& names, const Parameters& machine,
+                   const std::vector<Column>& known)
+{
+  std::vector<std::pair<std::string, int>> places{
+      {"x_s", 0}, {"y_s", 1}, {"x_r", 2}, {"y_r", 3}};
+  for (const auto& output : machine.machine->outputs()) places.push_back(output);
+  std::istringstream in(names);
+  for (std::string name; std::getline(in, name, ',');) {
+    if (std::ranges::find(known, name, &Column::name) != known.end()) continue;
+    for (const auto& [place, at] : places)
+      for (const What& what : whats)
+        for (int k = 0; k < std::ssize(rates); ++k) {
+          const bool is_iso = what.name == std::string("iso_");
+          if (is_iso && k > 0) continue;
+          if (std::string(what.name) + rates[k].name + place != name) continue;
+          if (*what.name == 0 && k == 0) continue;  // which orbit has
+          all_.push_back({what.name, is_iso ? 1 : k, at});
+          columns_.push_back({name, *what.unit ? what.unit : rates[k].unit,
+                              std::string(what.meaning) + rates[k].meaning + place});
+        }
+  }
+}
+
+bool Measures::needs_whole() const
+{
+  return std::ranges::any_of(all_, [](const One& one) { return !one.what.empty(); });
+}
+
+std::vector<double> Measures::of(const Record& record) const
+{
+  std::map<std::pair<int, int>, Eigen::VectorXd> known;
+  std::vector<double> values;
+  for (const auto& [what, times, place] : all_) {
+    auto& x = known[{place, times}];
+    if (x.size() == 0) x = samples_of(record, place, times);
+    values.push_back(value_of(what, x, record));
+  }
+  return values;
+}
+
+std::vector<std::vector<double>> Measures::at_instants(const Record& record) const
+{
+  std::vector<std::vector<double>> columns;
+  for (const auto& [what, times, place] : all_) {
+    Eigen::VectorXd x = samples_of(record, place, times);
+    if (!what.empty()) x.setConstant(value_of(what, x, record));
+    columns.emplace_back(x.begin(), x.end());
+  }
+  return columns;
+}
+
+motion::Answer whole_motion(motion::Answer answer, motion::Request request,
+                            const OperationBudget& budget)
+{
+  /** Sixteen instants of a vibration of the contact, and few enough for the memory. */
+  const double needed = 16 * contact_frequency(answer.machine) / answer.omega;
+  const bool is_fast = answer.machine.machine->takes_explicit_steps();
+  request.points = 256;
+  while (is_fast && request.points < std::min(needed, 2048.0)) request.points *= 2;
+  request.periods = Measures::open_periods;
+  request.is_measured = false;
+  complete(answer, request, budget);
+  return answer;
+}
+
+bool closes(const motion::Answer& answer)
+{
+  return answer.method == "shooting" || answer.kind() == Kind::rest;
+}
+
+}  // namespace rotor_stator::explore

@@ -1,0 +1,79 @@
+/**
+# What standards and accelerometers ask of a motion
+
+Columns by name, WHAT_PLACE: of any displacement that `orbit` prints, as x_r, x_r_2 or
+x_r_out, of its velocity v_x_r and its acceleration a_x_r. WHAT is `amp` (half
+peak-to-peak), `peak` (the largest distance from the mean), `mean`, `rms` (about the
+mean), `amp_1X` and `phase_1X` (a cos(ωt + φ), ωt the rotor's angle), or `iso` (rms of the
+velocity in mm/s from 10 to 1000 Hz, ISO 20816). Without WHAT the value at each instant.
+
+All are taken from one record at equal instants: K base periods of a motion that closes,
+256 of another one, under Hann's window where lines are asked for. Rates are central
+differences of order 8.
+
+    const Measures measures(request.columns, machine);
+    const std::vector<double> row = measures.of({motion, step, rotor_hertz, closes}); */
+#pragma once
+
+#include "io/table.hpp"
+#include "motion/answer.hpp"
+
+namespace rotor_stator::explore {
+
+/** A motion whose instants are `step` [s] apart, the rotor's speed [Hz], and whether it
+    goes on from its beginning. */
+struct Record {
+  const motion::Motion& motion;
+  double step, speed;
+  bool is_closed;
+};
+
+class Measures {
+public:
+  static constexpr int open_periods = 256;
+
+  /** Those among names separated by commas that are measures of the machine, and of which
+      there is no column yet. */
+  Measures(const std::string& names, const Parameters& machine,
+           const std::vector<Column>& known = {});
+
+  bool empty() const { return columns_.empty(); }
+  const std::vector<Column>& columns() const { return columns_; }
+
+  /** Whether any is of the whole motion, not of its instants. */
+  bool needs_whole() const;
+
+  /** The values of the whole motion; of instant k. */
+  std::vector<double> of(const Record& record) const;
+  std::vector<std::vector<double>> at_instants(const Record& record) const;
+
+private:
+  struct One {
+    std::string what;
+    int rates, place;
+  };
+  std::vector<One> all_;
+  std::vector<Column> columns_;
+};
+
+/** Those of a table, with their columns, whose rows have the values in `measured`. */
+template <class Row>
+Measures add_measures(std::vector<Field<Row>>& fields, const std::string& names,
+                      const Parameters& machine)
+{
+  Measures measures(names, machine, {fields.begin(), fields.end()});
+  for (std::size_t k = 0; const Column& one : measures.columns()) {
+    fields.push_back({one, [k](const Row& row) -> Cell { return row.measured[k]; }});
+    ++k;
+  }
+  return measures;
+}
+
+/** The motion of an answer, recorded as finely as its contact vibrates. */
+motion::Answer whole_motion(motion::Answer answer, motion::Request request,
+                            const OperationBudget& budget);
+
+/** Whether it goes on from its beginning. */
+bool closes(const motion::Answer& answer);
+
+}  // namespace rotor_stator::explore
