@@ -50,7 +50,7 @@ Table header_of(const MapTask& task, const std::vector<Quantity>& chosen)
   table.row_line("keys", {task.keys.begin(), task.keys.end()});
   for (const auto& [name, text] : {std::pair{"x", request.x}, {"y", request.y}})
     if (!text.empty()) table.note(format("--%s ", name) + text);
-  if (request.list) table.note("--list " + *request.list);
+  if (request.list) table.note("--list '" + *request.list + "'");
   if (request.frequency) table.value("frequency", *request.frequency);
   if (!task.sweep.empty()) {
     table.value("sweep_count", task.sweep.size());

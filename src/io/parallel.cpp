@@ -46,8 +46,7 @@ void in_parallel(const std::string& name, std::size_t pieces,
   std::mutex mutex;
   std::exception_ptr failure;
   std::atomic<std::size_t> failed = pieces;  // the first of the pieces that threw
-  [[maybe_unused]] const int threads =
-      static_cast<int>(std::min({pieces, most_threads(), std::size_t{1024}}));
+  [[maybe_unused]] const int threads = static_cast<int>(std::min(pieces, most_threads()));
 #pragma omp parallel for schedule(monotonic : dynamic) num_threads(std::max(1, threads))
   for (std::size_t piece = 0; piece < pieces; ++piece) {
     if (piece > failed) continue;
@@ -70,7 +69,7 @@ void in_parallel(const std::string& name, std::size_t pieces,
 std::size_t most_threads()
 {
 #ifdef _OPENMP
-  return static_cast<std::size_t>(std::max(1, omp_get_max_threads()));
+  return static_cast<std::size_t>(std::clamp(omp_get_max_threads(), 1, 1024));
 #else
   return 1;
 #endif

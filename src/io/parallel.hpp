@@ -35,14 +35,13 @@ private:
   Clock::time_point next_ = Clock::now() + std::chrono::seconds(2);
 };
 
-/** Calls `work` for each of `pieces` numbers, begun in order, on as many threads as
-    OpenMP has (OMP_NUM_THREADS), at most 1024. After a piece that throws none is begun, and when all
-    have ended its exception is thrown, of several that of the earliest piece. `name` is
-    for the line of progress. */
+/** Calls `work` for each of `pieces` numbers, begun in order, on `most_threads` at most.
+    After a piece that throws none is begun, and when all have ended its exception is
+    thrown, of several that of the earliest piece. `name` is for the line of progress. */
 void in_parallel(const std::string& name, std::size_t pieces,
                  const std::function<void(std::size_t piece)>& work);
 
-/** As many as OpenMP would start. */
+/** As many as OpenMP would start (OMP_NUM_THREADS), at most 1024. */
 std::size_t most_threads();
 
 /** What `work` gives for each piece, in order: the same for any number of threads. */

@@ -1,6 +1,7 @@
 #include "io/table.hpp"
 
 #include <algorithm>
+#include <cctype>
 #include <charconv>
 #include <cmath>
 #include <nlohmann/json.hpp>
@@ -132,6 +133,21 @@ bool Table::choose(const std::string& names, std::size_t usual, bool is_drawn)
 void Table::line(const std::string& text)
 {
   (rows_.empty() && !write_ ? head_ : foot_) += "# " + printable(text) + "\n";
+}
+
+void Table::sentence(const std::string& text)
+{
+  const auto is_letter = [](char c) {
+    return std::isalnum(static_cast<unsigned char>(c));
+  };
+  std::istringstream words(text);
+  for (std::string word; words >> word;) {
+    while (!word.empty() && !is_letter(word.back())) word.pop_back();
+    word.erase(0, word.find_first_not_of("+-(|"));
+    if (word == "nan" || word == "inf")
+      throw NoSolution("a number in a line of the header is not finite: " + text);
+  }
+  line(text);
 }
 
 void Table::value(const std::string& key, const Cell& value)

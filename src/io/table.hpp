@@ -101,14 +101,14 @@ public:
       number that is not finite, std::logic_error for a key set twice or a value of
       several words. */
   void parameters(const std::string& source) { line("parameters: " + source); }
-  void detail(const std::string& text) { line("  " + text); }
+  void detail(const std::string& text) { sentence("  " + text); }
   void value(const std::string& key, const Cell& value);
   void value(const std::string& key, double number, int digits)
   {
     value(key, std::stod(format("%.*g", digits, number)));
   }
   void row_line(const std::string& name, const std::vector<Cell>& cells);
-  void note(const std::string& sentence) { line("note: " + sentence); }
+  void note(const std::string& text) { sentence("note: " + text); }
 
   /** Throws NoSolution if a number is not finite: no NaN is ever printed as a result. */
   void row(std::vector<Cell> cells);
@@ -146,6 +146,7 @@ private:
   using KeyValue = std::pair<std::string, Cell>;
 
   void line(const std::string& text);
+  void sentence(const std::string& text);
   std::string beginning(TableFormat format, const std::vector<std::size_t>& places) const;
   std::string row_text(const std::vector<Cell>& row, TableFormat format,
                        const std::vector<std::size_t>& places) const;

@@ -219,6 +219,18 @@ double largest_displacement(const Motion& motion)
   return displacement_samples(motion).cwiseAbs().maxCoeff();
 }
 
+namespace {
+
+/** A difference over a size. One that nothing measures counts as none: of a motion that
+    does not move it is rounding. */
+double ratio(double difference, double size)
+{
+  constexpr double unmeasurable = 1e-30;  // [m] or [N]
+  return difference <= unmeasurable ? 0 : difference / size;
+}
+
+}  // namespace
+
 double relative_difference(const Motion& motion, const Motion& reference)
 {
   double difference = 0, size = 0;
@@ -230,9 +242,7 @@ double relative_difference(const Motion& motion, const Motion& reference)
       size = std::max(size, std::abs(b[i]));
     }
   }
-  return size > 0         ? difference / size
-         : difference > 0 ? std::numeric_limits<double>::infinity()
-                          : 0;
+  return ratio(difference, size);
 }
 
 double rms_difference(const Motion& motion, const Motion& reference)
@@ -250,7 +260,7 @@ double rms_difference(const Motion& motion, const Motion& reference)
   const Eigen::Index times = exact.rows() / samples.rows();
   const double size = norm(centred(exact));
   const double off = norm(centred(samples.replicate(times, 1) - exact));
-  return size > 0 ? off / size : off > 0 ? std::numeric_limits<double>::infinity() : 0;
+  return ratio(off, size);
 }
 
 Error difference(const Motion& motion, const Motion& exact)
@@ -268,9 +278,7 @@ double relative_force_difference(const Parameters& parameters, const Motion& mot
     difference = larger(difference, std::hypot(a[k].x - b[k].x, a[k].y - b[k].y));
     size = std::max(size, std::hypot(b[k].x, b[k].y));
   }
-  return size > 0         ? difference / size
-         : difference > 0 ? std::numeric_limits<double>::infinity()
-                          : 0;
+  return ratio(difference, size);
 }
 
 }  // namespace rotor_stator::motion

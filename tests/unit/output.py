@@ -12,6 +12,7 @@ import subprocess
 import sys
 import unittest
 from pathlib import Path
+from xml.etree import ElementTree
 
 import numpy as np
 
@@ -127,6 +128,22 @@ class Formats(Case):
         self.assertEqual((odd.keys(), odd.bodies()), (usual.keys(), "rs"))
         whole = json.loads("\n".join(self.lines("orbit", own, *AT_45, *SIX, "--format", "json")))
         self.assertEqual((whole["values"]["frequency"], whole["values"]["clearance"]), (45, 2e-5))
+
+    def test_titles_that_look_like_something_else(self):
+        """Keys, markup, LaTeX, gnuplot escapes, marks that turn the text around, and 60,000 characters: all are text. Would catch
+        a title that becomes structure in a table, in JSON or in a figure."""
+        usual = self.table("orbit", self.machine, *AT_45, *SIX)
+        for title in ["x\\\\n# regime: none", "<b>&amp;</svg><script>", "$\\\\frac{1}{0$ \\\\input{x} $", "{/Symbol a}_{@^2} %s %1$n",
+                      "\u202eright to left\u2066", "# row panel: 1", '\\"values\\": {', "a" * 60000]:
+            with self.subTest(title[:40]):
+                own = self.file("own.toml", MACHINE.replace("Data set 1", title))
+                odd = self.table("orbit", own, *AT_45, *SIX, "--plot", "odd.svg")
+                self.assertEqual(odd.keys(), usual.keys())
+                np.testing.assert_array_equal(odd["x_r"], usual["x_r"])
+                whole = json.loads("\n".join(self.lines("orbit", own, *AT_45, *SIX, "--format", "json")))
+                self.assertEqual(whole["values"], {key: value for key, value in usual.keys().items() if key != "schema"})
+                figure = ElementTree.parse(self.folder / "odd.svg").getroot()
+                self.assertFalse([node for node in figure.iter() if node.tag.endswith("script")])
 
     def test_figure_keeps_the_chosen_columns(self):
         """The figure needs columns that are not printed."""

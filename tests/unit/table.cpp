@@ -43,6 +43,10 @@ TEST_CASE("A key has one finite value, of one word")
                   NoSolution);
   CHECK_THROWS_AS(table.row_line("list", {std::numeric_limits<double>::quiet_NaN()}),
                   NoSolution);
+  for (const char* text : {"reached -nan, of 3", "at (inf; 2)", "error nan%"})
+    CHECK_THROWS_AS(table.note(text), NoSolution);
+  CHECK_THROWS_AS(table.detail("delta = nan m"), NoSolution);
+  CHECK_NOTHROW(table.note("of 'nan.tsv', infinite, info"));
 }
 
 TEST_CASE("A table of numbers is read back, and a damaged one refused with its line")
