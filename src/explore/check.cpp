@@ -96,7 +96,7 @@ Exploration explore_check(const CheckRequest& request)
     const Rest& rest = rests[b++];
     const std::string tail = b == 1 ? "" : format("_%zu", b);
     const KinematicOrders orders = kinematic_orders(bearing);
-    const double stress = 1e-6 * bearing.pressure * std::cbrt(rest.most);
+    const double stress = printable_size(1e-6 * bearing.pressure * std::cbrt(rest.most));
     const double gap = bearing.clearance, ball = bearing.ball_diameter;
     if (ball > 0 && gap > 0.1 * ball)
       warn(format("the clearance of %g m is more than a tenth of the ball", gap));
@@ -119,14 +119,18 @@ Exploration explore_check(const CheckRequest& request)
   }
   const bool is_large = !machine.machine->takes_explicit_steps();
   if (!is_large) {
-    const double e = machine.unbalance / machine.rotor.mass, omega = angular(request.to);
+    const double omega = angular(request.to),
+                 e = printable_size(machine.unbalance / machine.rotor.mass);
     table.row({"eccentricity", e, "m", "e, unbalance over the rotor's mass"});
-    table.row({"weight", machine.rotor.mass * machine.gravity, "N", "of the rotor"});
-    table.row({"unbalance_force", machine.unbalance * omega * omega, "N", "at --to"});
-    table.row({"balance_grade", 1e3 * e * omega, "mm/s",
+    table.row({"weight", printable_size(machine.rotor.mass * machine.gravity), "N",
+               "of the rotor"});
+    table.row({"unbalance_force", printable_size(machine.unbalance * omega * omega), "N",
+               "at --to"});
+    table.row({"balance_grade", printable_size(1e3 * e * omega), "mm/s",
                "e omega at --to, the G of ISO 21940-11"});
     if (const double gap = machine.bearing.clearance; gap > 0 && e > 10 * gap)
-      warn(format("the eccentricity of %.3g m is %.3g times the clearance", e, e / gap));
+      warn(format("the eccentricity of %.3g m is %.3g times the clearance", e,
+                  printable_size(e / gap)));
   }
   if (!is_large && never_touches(request, machine))
     warn(format("nothing touches from %g to %g Hz: the clearance of %g m is never closed",

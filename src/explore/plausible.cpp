@@ -1,5 +1,6 @@
 #include "explore/plausible.hpp"
 
+#include <algorithm>
 #include <cmath>
 
 #include "io/errors.hpp"
@@ -16,9 +17,14 @@ double pitch_diameter(const Bearing& bearing)
 
 }  // namespace
 
+double printable_size(double value)
+{
+  return std::min(value, 1e300);
+}
+
 double speed_value(const Bearing& bearing, double hertz)
 {
-  return 1e3 * pitch_diameter(bearing) * 60 * hertz;
+  return printable_size(1e3 * pitch_diameter(bearing) * 60 * hertz);
 }
 
 std::vector<std::string> doubts(const Parameters& machine, double highest)
@@ -28,10 +34,11 @@ std::vector<std::string> doubts(const Parameters& machine, double highest)
   constexpr double widest = 5, steel = 1e11, fastest = 2e6, heaviest = 30;
   std::vector<std::string> all;
   for (const Bearing& bearing : bearings_of(machine)) {
-    if (const double d = pitch_diameter(bearing); d > widest)
+    if (const double d = printable_size(pitch_diameter(bearing)); d > widest)
       all.push_back(format("a pitch diameter of %.3g m: are lengths in m?", d));
     if (const double d = bearing.ball_diameter; d > 0 && bearing.is_hertzian()) {
-      const double ratio = bearing.contact_stiffness / std::sqrt(d) / steel;
+      const double ratio =
+          printable_size(bearing.contact_stiffness / std::sqrt(d) / steel);
       if (ratio < 0.01 || ratio > 100)
         all.push_back(
             format("a contact %.2g times as stiff as that of steel balls of "
@@ -42,11 +49,11 @@ std::vector<std::string> doubts(const Parameters& machine, double highest)
       all.push_back(
           format("%g Hz are %.4g turns a minute, n d_m = %.3g mm/min, above "
                  "what ball bearings bear: speeds are in Hz, or as 1500rpm",
-                 highest, 60 * highest, n));
+                 highest, printable_size(60 * highest), n));
   }
   if (machine.gravity > heaviest)
     all.push_back(format("a gravity of %g m/s^2: is it in m/s^2?", machine.gravity));
-  const double e = machine.unbalance / machine.rotor.mass;
+  const double e = printable_size(machine.unbalance / machine.rotor.mass);
   if (machine.machine->takes_explicit_steps() && !machine.rotor.rigid && e > 0.1)
     all.push_back(format("an eccentricity of %.3g m: is the unbalance in kg m?", e));
   return all;

@@ -17,6 +17,9 @@ namespace rotor_stator::explore {
     each. */
 std::vector<std::string> doubts(const Parameters& machine, double highest);
 
+/** The same, or the largest number that is printed, 1e300, where it is beyond. */
+double printable_size(double value);
+
 /** n d_m, by which makers bound the speed [mm/min]; 0 where the sizes are not known. */
 double speed_value(const Bearing& bearing, double hertz);
 

@@ -45,8 +45,8 @@ struct PassedTurn {
 };
 
 /** All whole turns in the order of time, by RK4 with the shortest step that a speed of
-    the run asks for. Throws BadInput for bodies by matrices and for a damaged bearing with
-    contact damping, NoSolution when the budget is used up. */
+    the run asks for. Throws BadInput for bodies by matrices and for a damaged bearing
+    with contact damping, NoSolution when the budget is used up. */
 std::vector<PassedTurn> run_up(const Parameters& parameters, const RunUp& run,
                                const OperationBudget& budget = {});
 
