@@ -42,6 +42,12 @@ def matrix_market(path):
     return matrix
 
 
+def supported(stiffness, *nodes):
+    """The tables of equal springs along x and y at nodes of a shaft."""
+    return "".join(f"[[support]]\nnode = {node}\n"
+                   f"stiffness_N_per_m = [{stiffness}, {stiffness}]\n" for node in nodes)
+
+
 def half_span(column):
     return np.ptp(column) / 2
 
@@ -411,7 +417,7 @@ acceleration_m_per_s2 = 9.81
         soft = [22.87227, 22.97367, 151.42965, 157.00955, 281.02846, 293.80377]
         for k, expected in [(1e8, soft), (1e12, pinned), (1e16, pinned), (1e20, pinned)]:
             with self.subTest(k=k):
-                found, _ = self.modes(f"""title = "pinned"
+                found, _ = self.modes("""title = "pinned"
 [material]
 youngs_modulus_Pa = 211e9
 shear_modulus_Pa = 81.2e9
@@ -425,10 +431,7 @@ node = 4
 outer_diameter_m = 0.28
 bore_m = 0.05
 thickness_m = 0.07
-[[support]]
-node = 1
-stiffness_N_per_m = [{k}, {k}]
-""", 10, 20, rotor=self.HELD)
+""" + supported(k, 1), 10, 20, rotor=self.HELD)
                 np.testing.assert_allclose(found[:6], expected, rtol=1e-5)
 
     def test_a_free_hollow_shaft(self):
@@ -443,21 +446,15 @@ length_m = 0.3
 diameter_m = 0.03008
 bore_m = 0.007
 elements = 10
-[[support]]
-node = 1
-stiffness_N_per_m = [1e3, 1e3]
-[[support]]
-node = 11
-stiffness_N_per_m = [1e3, 1e3]
-""", "0rpm", "60 rpm")
+""" + supported(1e3, 1, 11), "0rpm", "60 rpm")
         pairs = np.repeat([5.657116, 9.759929, 1536.0617, 4040.4630, 7487.4650], 2)
         np.testing.assert_allclose(found, pairs, rtol=1e-6)
         self.assertFalse(damping.any())
 
     def test_a_massless_shaft(self):
-        """A disk on a shaft of any small density: a mass m on the stiffness of a beam with shear, within 1 %; within 1e-6 of
-        each other."""
-        length, diameter, disk = 1.0, 0.02, (0.2, 0.02, 0.04)
+        """A disk on a shaft of any small density: a mass m on the stiffness of a beam with
+        shear within 3e-3; within 2e-4 of each other."""
+        length, diameter = 1.0, 0.02
         found = []
         for density in (1e-6, 1e-3, 1e-1):
             found.append(self.modes(f"""title = "Laval"
@@ -474,31 +471,44 @@ node = 5
 mass_kg = 10
 polar_inertia_kg_m2 = 0.05
 diametral_inertia_kg_m2 = 0.026
-[[support]]
-node = 1
-stiffness_N_per_m = [1e12, 1e12]
-[[support]]
-node = 9
-stiffness_N_per_m = [1e12, 1e12]
-""", 0, 10)[0][:2])
+""" + supported(1e12, 1, 9), 0, 10)[0][:2])
         bending = 48 * 211e9 * math.pi * diameter**4 / 64 / length**3
         shear = 4 * 81.2e9 * 0.9 * math.pi * diameter**2 / 4 / length
         laval = math.sqrt(1 / (1 / bending + 1 / shear) / 10) / 2 / math.pi
         np.testing.assert_allclose(found, laval, rtol=3e-3)
         np.testing.assert_allclose(np.array(found) / found[0], 1, rtol=2e-4)
 
-    def test_one_stiffness_of_the_bearing_at_rest(self):
-        """check and campbell agree, also for a mass written as matrices; the resonance of the balls lies where they say."""
-        file = machine("passing_6306")
-        rest = self.table("check", file, "--to", 300)
-        values = dict(zip(rest["name"], map(float, rest["value"])))
-        self.assertAlmostEqual(values["f_1_x"], 97.696, delta=0.01)
-        self.assertAlmostEqual(values["passage_f_1_x"], 32.57, delta=0.01)
-        linear = self.table("campbell", file, "--from", 0, "--to", 100, "--count", 2)
-        self.assertAlmostEqual(linear["frequency"][0] / values["f_1_x"], 1, delta=1e-6)
-        damped = self.file("damped.toml", file.read_text(encoding="utf-8").replace(" = 200.0", " = 2000.0"))
-        response = self.table("response", damped, "--from", 28, "--to", 37, "--count", 46)
-        self.assertAlmostEqual(response["f"][response["amp_x_r"].argmax()], values["passage_f_1_x"], delta=0.5)
+    def test_one_linearisation(self):
+        """97.697 Hz is the root of the mean force's slope at the displacement where that
+        force is the weight. With much damping the response to the passing balls is
+        largest where they meet it, and a mass as matrices has the same frequencies."""
+        right, text = 97.697, machine("passing_6306").read_text(encoding="utf-8")
+        speeds = ["--from", 1, "--to", 300]
+        values = self.table("check", machine("passing_6306"), *speeds)
+        values = dict(zip(values["name"], values["value"]))
+        self.assertAlmostEqual(values["f_1_x"] / right, 1, delta=1e-4)
+        self.assertAlmostEqual(values["passage_f_1_x"] / (right / 3), 1, delta=1e-4)
+        critical = self.table("campbell", machine("passing_6306"), *speeds, "--count", 30,
+                              "--critical")
+        self.assertAlmostEqual(critical["f"][0] / right, 1, delta=1e-4)
+        whirl = self.table("campbell", machine("passing_6306"), "--from", 0, "--to", 100,
+                           "--count", 2)
+        self.assertAlmostEqual(whirl["frequency"][0] / values["f_1_x"], 1, delta=1e-6)
+        damped = self.file("damped.toml", text.replace("m = 200.0", "m = 2000.0"))
+        response = self.table("response", damped, "--from", 25, "--to", 45, "--count",
+                              101)
+        peak = response["f"][np.argmax(response["amp_x_r"])]
+        self.assertAlmostEqual(peak, values["passage_f_1_x"], delta=0.5)
+        one = "%%MatrixMarket matrix coordinate real general\n2 2 2\n1 1 {0}\n2 2 {0}\n"
+        for name, value in [("M", 20), ("C", 200), ("K", 0)]:
+            self.file(f"{name}.mtx", one.format(value))
+        start, end = text.index("mass_kg"), text.index("[bearing]")
+        large = self.file("large.toml", text[:start] + 'matrices = "."\nbearing_dofs = '
+                          "[1, 2]\nvertical_dofs = [2]\n" + text[end:])
+        matrices = self.table("check", large, *speeds)
+        matrices = dict(zip(matrices["name"], matrices["value"]))
+        for name, same in [("f_1", "f_1_x"), ("f_2", "f_1_y")]:
+            self.assertAlmostEqual(matrices[name] / values[same], 1, delta=1e-6)
 
 
 class Measures(Case):
@@ -579,35 +589,6 @@ class Measures(Case):
         for command, values in found.items():
             with self.subTest(command):
                 np.testing.assert_allclose(values, right, rtol=2e-3)
-
-    def test_one_linearisation(self):
-        """97.697 Hz is the root of the mean force's slope at the displacement where that
-        force is the weight. With much damping the response to the passing balls is
-        largest where they meet it, and a mass as matrices has the same frequencies."""
-        right, text = 97.697, machine("passing_6306").read_text(encoding="utf-8")
-        speeds = ["--from", 1, "--to", 300]
-        values = self.table("check", machine("passing_6306"), *speeds)
-        values = dict(zip(values["name"], values["value"]))
-        self.assertAlmostEqual(values["f_1_x"] / right, 1, delta=1e-4)
-        self.assertAlmostEqual(values["passage_f_1_x"] / (right / 3), 1, delta=1e-4)
-        critical = self.table("campbell", machine("passing_6306"), *speeds, "--count", 30,
-                              "--critical")
-        self.assertAlmostEqual(critical["f"][0] / right, 1, delta=1e-4)
-        damped = self.file("damped.toml", text.replace("m = 200.0", "m = 2000.0"))
-        response = self.table("response", damped, "--from", 25, "--to", 45, "--count",
-                              101)
-        peak = response["f"][np.argmax(response["amp_x_r"])]
-        self.assertAlmostEqual(peak / (right / 3), 1, delta=0.02)
-        one = "%%MatrixMarket matrix coordinate real general\n2 2 2\n1 1 {0}\n2 2 {0}\n"
-        for name, value in [("M", 20), ("C", 200), ("K", 0)]:
-            self.file(f"{name}.mtx", one.format(value))
-        start, end = text.index("mass_kg"), text.index("[bearing]")
-        large = self.file("large.toml", text[:start] + 'matrices = "."\nbearing_dofs = '
-                          "[1, 2]\nvertical_dofs = [2]\n" + text[end:])
-        matrices = self.table("check", large, *speeds)
-        matrices = dict(zip(matrices["name"], matrices["value"]))
-        for name, same in [("f_1", "f_1_x"), ("f_2", "f_1_y")]:
-            self.assertAlmostEqual(matrices[name] / values[same], 1, delta=1e-6)
 
 
 class Speeds(Case):

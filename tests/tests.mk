@@ -8,8 +8,8 @@ test sanitize:
 	flock build/.lock cmake --build --preset $(preset) --target all tests
 	flock build/.tests ctest --preset $(preset) --no-tests=error -j $$(nproc)
 bench: build/.built  ## time the parts of an iteration, alone on the machine (a minute)
-	cmake --preset release > build/configure.log
-	cmake --build --preset release --target bench
+	flock build/.lock cmake --preset release > build/configure.log
+	flock build/.lock cmake --build --preset release --target bench
 	@mkdir -p data/generated
 	$(PYTHON) tests/bench/table.py build/tests/bench | tee data/generated/bench.tsv | grep -v '^#'
 golden: $(NAME:%=data/generated/%.tsv)  ## renew one golden table: NAME=fig06_orbits; a commit that does says why

@@ -14,7 +14,7 @@ one are rigid. The eigenvalues at a speed are those of C + ωG in these modes, t
 roots of energies as coordinates; without damping that matrix is antisymmetric and has no
 ill-conditioned eigenvalue.
 
-    for (const Mode& mode : LinearMachine(parameters).modes(0)) ... mode.frequency */
+    for (const Mode& mode : LinearMachine(parameters).modes(0, 8)) … mode.frequency */
 #pragma once
 
 #include <vector>
