@@ -132,8 +132,9 @@ readme: all  ## refresh the README's pictures and its generated block
 	$(PYTHON) figures/readme.py --write
 format:  ## clang-format on all C++ sources
 	clang-format-14 -i $$(find src studies tests peers -name '*.?pp')
-list:  ## this list
+list:  ## this list, and how old the kept tables are
 	@sed -nE 's/^([a-z_-]+):.*##  ?(.*)/\1\t\2/p' $(MAKEFILE_LIST) | sort | column -t -s "$$(printf '\t')"
 	@echo "One study: make NAME, of $(studies) $(costs)"
+	@$(PYTHON) paper/ages.py | column -t -s "$$(printf '\t')"
 clean:  ## remove everything that was built, computed or drawn
 	rm -rf build build-debug data/generated figures/generated

@@ -55,7 +55,7 @@ def draw_cost(axes, table, styles):
 def draw_harmonics(axes, table, styles, number, title):
     """m against the speed; where the tolerance was not reached, a cross."""
     rows = table.where("set", number)
-    top = 3 * table["m"].max()
+    top = 2 * table["m"].max()
     for tolerance, colour, marker in styles:
         part = rows.where("tolerance", tolerance)
         reached = part["reached"] == 1
@@ -71,7 +71,7 @@ def draw_harmonics(axes, table, styles, number, title):
     axes.yaxis.set_major_formatter("{x:g}")
 
 
-def legend_of(styles):
+def legend_of(styles, is_missed):
     """Column by column: a tolerance above, and below it what filled, open and crossed marks mean."""
     tolerances = [plt.Line2D([], [], color=colour, marker=marker, ms=5, lw=1,
                              label=f"tolerance $10^{{{np.log10(tolerance):g}}}$")
@@ -79,7 +79,8 @@ def legend_of(styles):
     marks = [plt.Line2D([], [], color="black", marker=marker, mfc=face, ms=ms, ls="", label=label)
              for marker, face, ms, label in (("o", "black", 5, "data set 1 in (a), (b)"),
                                              ("o", "none", 5, "data set 2 in (a), (b)"),
-                                             ("x", "none", 6, "(c), (d): not reached"))]
+                                             ("x", "none", 6, "(c), (d): not reached"))
+             if label[-7:] != "reached" or is_missed]
     return [handle for pair in zip_longest(tolerances, marks) for handle in pair if handle]
 
 
@@ -97,7 +98,7 @@ def draw(table):
         axes.grid(color="#d9d9d9", lw=0.7)
         axes.set_axisbelow(True)
     estimate.xaxis.set_major_locator(LogLocator(numticks=4))
-    key.legend(handles=legend_of(styles), ncols=len(styles), loc="center")
+    key.legend(handles=legend_of(styles, (table["reached"] == 0).any()), ncols=len(styles), loc="center")
     return figure
 
 

@@ -18,12 +18,12 @@ def harmonics_of(table):
 
 def draw_power(axes, sizes, values, exponent, fitted):
     """The measured values, and the fitted line over the sizes it is fitted to."""
-    axes.plot(sizes, values, "o-", color="C0", ms=5, lw=0.8)
+    axes.plot(sizes, values, "o-", color="C0", ms=5, lw=0.8, label="measured")
     if exponent != 0 and (np.diff(values[fitted]) > 0).all():  # no power describes what rises and falls
         x = sizes[fitted]
         log_a = np.mean(np.log(values[fitted]) - exponent * np.log(x))
-        axes.plot(x, np.exp(log_a) * x**exponent, color="C1", label=f"exponent {exponent:.2f}")
-        axes.legend(frameon=False, loc="upper left")
+        axes.plot(x, np.exp(log_a) * x**exponent, color="C1", label=f"power {exponent:.2f} of m, fitted")
+    axes.legend(frameon=False, loc="upper left")
     axes.set(xscale="log", yscale="log", xlabel="harmonics m")
     low, high = axes.get_ylim()
     axes.set_ylim(min(low, high / 30), 3 * high)  # a decade at least, and room for the legend
@@ -38,6 +38,8 @@ def draw(table):
     draw_power(cpu, sizes, 1e3 * rows["cpu_s"], power_cpu, fitted)
     above = rows["memory"] > 0
     draw_power(memory, sizes[above], rows["memory"][above] / 1e6, power_memory, fitted[above])
+    cpu.set_title("(a)", loc="left")
+    memory.set_title("(b)", loc="left")
     cpu.set_ylabel("CPU time [ms]")
     memory.set_ylabel("peak memory [MB]")
     return figure

@@ -42,6 +42,10 @@ set multiplot layout 2, 2 columnsfirst \
   margins 0.09, 0.975, 78.0 / height, from_top(156) spacing 0.13, 140.0 / height
 set key at screen 0.53, from_top(87) center top vertical maxrows 2 Left reverse width 2
 
+# The rows of harmonic balance ($3) once more with t/T ($13) one larger, and the first at the end.
+two_periods = sprintf("< awk -F'\\t' -v OFS='\\t' '/^#/ || !NF { next } !names { names = 1; print; next } \
+  $3 == 1 { row[n++] = $0 } END { for (k = 0; k <= 2 * n; k++) { $0 = row[k %% n]; $13 += int(k / n); print } }' '%s'", table)
+
 # Left: x(t) and y(t). The first panel names the curves.
 set xrange [0 : 2]
 set xlabel "time over period t/T [-]" offset 0, 0.5
@@ -50,23 +54,23 @@ do for [d in "x y"] {
   b = d."_s"
   name(text) = d eq "x" ? text : ""
   set ylabel d." [".unit(largest)."]" offset 1.2, 0
-  set label 2 d eq "x" ? "(a)" : "(b)" at graph 0.03, 0.94 front
+  set label 2 d eq "x" ? "(a)" : "(b)" at graph 0, 1.04 front
   plot \
     table using (of(integrated, column("t_over_T"))):(scaled(r)) \
       with lines ls rotor_time title name("rotor, time integration"), \
     table using (of(integrated, column("t_over_T"))):(scaled(b)) \
       with lines ls stator_time title name("stator, time integration"), \
-    for [k = 1 : 2 * found] table using (of(balance, column("t_over_T") + k - 1)):(scaled(r)) \
-      with lines ls rotor title k == 1 ? name("rotor, harmonic balance") : "", \
-    for [k = 1 : 2 * found] table using (of(balance, column("t_over_T") + k - 1)):(scaled(b)) \
-      with lines ls stator title k == 1 ? name("stator, harmonic balance") : ""
+    for [k = 1 : found] two_periods using "t_over_T":(scaled(r)) \
+      with lines ls rotor title name("rotor, harmonic balance"), \
+    for [k = 1 : found] two_periods using "t_over_T":(scaled(b)) \
+      with lines ls stator title name("stator, harmonic balance")
   unset label 1
 }
 
 # Right, above: the orbits.
 orbit = found ? closed_orbit(panel) : table
 eval orbit_axes
-set label 2 "(c)"
+set label 2 "(c)" at graph 0.03, 0.94
 plot \
   table using (of(integrated, scaled("x_r"))):(scaled("y_r")) with lines ls rotor_time lw 3 notitle, \
   table using (of(integrated, scaled("x_s"))):(scaled("y_s")) with lines ls stator_time lw 3 notitle, \
@@ -83,7 +87,7 @@ set xtics tic_step(2 * span)
 set ytics tic_step(2 * span)
 set xlabel "x of rotor − x of stator [µm]" offset 0, 0.5
 set ylabel "y of rotor − y of stator [µm]" offset 1, 0
-set label 2 "(d)"
+set label 2 "(d)" at graph 0.03, 0.94
 set object 1 circle at 0, 0 size delta_um fs empty border rgb '#000000'
 set key at graph 0.46, 1.025 center bottom vertical maxrows 2 Left reverse width -5
 plot \

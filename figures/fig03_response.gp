@@ -4,10 +4,11 @@
 # Usage: gnuplot -e "table='data/generated/fig03_response.tsv'; output='fig03_response.svg'" \
 #        figures/fig03_response.gp
 # Harmonic balance with the speed rising lies over the same with the speed falling, so that the pale
-# curve shows where they differ; a gap is a speed without solution. Markers are time integration. Below, what the
-# stator moves for a unit of the rotor's motion: near the peak both curves above are one.
+# curve shows where they differ; a gap is a speed without solution. Markers are time integration. The first row shows
+# the resonance on a linear scale, the second the same over five decades; the last what the stator moves for a unit of
+# the rotor's motion: near the peak both curves above are one.
 
-height = 1180
+height = 1480
 load 'figures/style.gp'
 
 up = 1; down = 2; integrated = 3
@@ -24,9 +25,7 @@ stats table using (max(mm("amp_x_s"), mm("amp_y_s"))):(max(mm("amp_x_r"), mm("am
 stats table using "set":"f" name 'F' nooutput
 least = min(low_min_x, low_min_y)
 set xrange [0 : F_max_y]
-set yrange [least / 2 : 15 * max(high_max_x, high_max_y)]
-set logscale y
-set format y '10^{%T}'
+most = max(high_max_x, high_max_y)
 
 title_of(s) = sprintf("data set %d, δ = %g µm: harmonic balance, m = %g", \
                       s, 1e6 * clearance(s), harmonics(s))
@@ -38,9 +37,10 @@ name(text) = first ? text : ""
 set key at screen 0.53, 0.995 center top vertical maxrows 2 Left reverse width -4 font ',14'
 
 letter(row, s) = sprintf("(%s)", "abcdefgh"[2 * row + s - 2 : 2 * row + s - 2])
-set multiplot layout 3, int(F_max_x) margins 0.105, 0.985, 0.06, 0.91 spacing 0.045, 0.025
-do for [row = 1 : 2] {
-  direction = word("x y", row)
+set multiplot layout 4, int(F_max_x) margins 0.105, 0.985, 0.048, 0.928 spacing 0.045, 0.025
+do for [row = 1 : 3] {
+  direction = word("x x y", row)
+  if (row == 1) { unset logscale y; set yrange [0 : 1.25 * most] } else { set logscale y; set yrange [least / 2 : 15 * most] }
   r = "amp_".direction."_r"
   b = "amp_".direction."_s"
   set format x ""
@@ -55,11 +55,11 @@ do for [row = 1 : 2] {
     set format y s == 1 ? "%g" : ""
     if (peak_max_y > 1.01 * least) {
       set label 1 sprintf("rotor: %.1f Hz, %.4g mm", peak_pos_max_y, peak_max_y) \
-        at peak_pos_max_y, peak_max_y right offset 3.5, 1 front point pt 6 ps 1.2
+        at peak_pos_max_y, peak_max_y right offset row == 1 ? -1.5 : 3.5, row == 1 ? 0 : 1 front point pt 6 ps 1.2
     } else {
       unset label 1
     }
-    set label 2 time_sum_x == 0 ? "" : \
+    set label 2 time_sum_x == 0 || row == 1 ? "" : \
       sprintf("not T-periodic at\n%d of %d speeds", \
               time_sum_x, time_records) at graph 0.97, 0.13 right
     set label 3 letter(row, s) at graph 0.03, 0.93
@@ -91,7 +91,7 @@ set key at graph 0.97, 0.32 right top maxrows 2 width 0
 do for [s = 1 : F_max_x] {
   set ylabel s == 1 ? "x of stator over x of rotor [-]" : "" offset 0.8, 0
   set format y s == 1 ? "%g" : ""
-  set label 3 letter(3, s) at graph 0.03, 0.93
+  set label 3 letter(4, s) at graph 0.03, 0.93
   plot \
     table using (point(s, up)):(column("amp_x_s") / column("amp_x_r")) with lines ls relative \
       title s == 1 ? "harmonic balance" : "", \

@@ -34,7 +34,7 @@ COLUMNS = [
 
 def integrated(scene, name, ratio):
     """Rows of the map over the speeds, from rest."""
-    result = explore("map", f"data/{name}.toml", "--method", "rk4", "--longest", scene["settling_s"], "--threads", 1,
+    result = explore("map", f"data/{name}.toml", "--method", "rk4", "--longest", scene["settling_s"], "--threads", 1, "--budget", 1e10,
                      "--x", f"frequency={scene['first_hz']}:{scene['last_hz']}:{scene['speeds']}",
                      "--list", ratio, "--quantity", ",".join(MEASURED))
     if result.returncode:

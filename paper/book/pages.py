@@ -8,6 +8,7 @@ from fnmatch import filter as matching
 from pathlib import Path
 
 from pygments import formatters, highlight, lexers
+from paper.ages import age
 from paper.book.animation import Table, moving
 from paper.include import read_values, render
 
@@ -110,7 +111,8 @@ def page_text(page):
             line += piece.count("\n")
     for name in reversed([name for name in FIGURES if FIGURES[name]["page"] == page]):
         heading, _, told = parts[0].partition("\n")
-        shown = FIGURES[name] | {key: prose(FIGURES[name][key], Path("x"), page) for key in ("caption", "differs")}
+        known = age(FIGURES[name]["table"])
+        shown = FIGURES[name] | {"age": known and f", {known}"} | {key: prose(FIGURES[name][key], Path("x"), page) for key in ("caption", "differs")}
         rows = {} if shown["script"] else Table(shown["table"]).first_rows(6)
         picture = TEMPLATES["table" if rows else "drawing"].format(**shown, **rows)
         parts[0] = TEMPLATES["figure"].format(heading=heading, picture=picture, moving=moving(name), told=told, **shown)
