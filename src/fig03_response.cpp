@@ -22,14 +22,19 @@ one at the next (Eqs 19 to 21). This is done once with rising and once with fall
 Where the two differ, several periodic solutions exist at one speed. A gap is a speed at
 which none was found.
 
-Time integration is the check, at fewer speeds, from rest until the motion has settled. A
+Time integration is the check, at fewer speeds, from rest until the motion has settled,
+and looked at twelve times in a vibration of the contact, which rings some hundred times
+in a slow turn. A
 full point is a motion that repeats after one turn; its distance from the curve is the
 error of harmonic balance. An open point is a motion that does not, and there the curve
 does not describe what the machine does after a start from rest. With the large clearance
 most speeds below the resonance are of this kind, and at low speeds the curve has wide
 gaps. The figure says nothing about stability; the figure `stability` does. */
+#include <algorithm>
+
 #include "figures/response.hpp"
 #include "io/program.hpp"
+#include "motion/motion.hpp"
 
 int main(int argc, char** argv)
 {
@@ -45,11 +50,12 @@ int main(int argc, char** argv)
       figures::add_curve(table, set, figures::Curve::speed_down,
                          sweep(set.machine, angular(downwards), set.harmonics));
       for (double frequency : watched("time integration", scene.time_speeds)) {
-        const auto settled =
-            steady_state(set.machine, angular(frequency), scene.time_integration);
-        figures::add_settled(table, set, frequency,
-                             scene.time_integration.stepper.intervals_per_period,
-                             settled);
+        const double omega = angular(frequency);
+        SteadySettings settings = scene.time_integration;
+        int& instants = settings.stepper.intervals_per_period;
+        instants = std::max(instants, motion::instants_of(set.machine, omega));
+        const SteadyState settled = steady_state(set.machine, omega, settings);
+        figures::add_settled(table, set, frequency, instants, settled);
       }
     }
     return table;

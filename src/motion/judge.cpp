@@ -48,17 +48,6 @@ double apart(const Eighths& a, const Eighths& b, double size)
   return std::sqrt(sum / eighths) / size;
 }
 
-/** At which solutions and motions are compared: 256 to 4096 in a turn, twelve in a
-    vibration of the contact, so that no peak is missed by more than 4 %. */
-int instants_of(const Parameters& parameters, double omega)
-{
-  constexpr int least = 256, most = 16;
-  constexpr double each = 12;
-  const double vibrations = contact_frequency(parameters) / (omega * parameters.turns);
-  const double times = std::clamp(std::ceil(each * vibrations / least), 1.0, 1.0 * most);
-  return parameters.turns * least * static_cast<int>(times);
-}
-
 /** Closes motions of Eq. 7 with one base period, and judges them. */
 class Closer {
 public:

@@ -22,6 +22,15 @@ double larger(double a, double b)
 
 }  // namespace
 
+int instants_of(const Parameters& parameters, double omega)
+{
+  constexpr int least = 256, most = 16;
+  constexpr double each = 12;
+  const double vibrations = contact_frequency(parameters) / (omega * parameters.turns);
+  const double times = std::clamp(std::ceil(each * vibrations / least), 1.0, 1.0 * most);
+  return parameters.turns * least * static_cast<int>(times);
+}
+
 Eigen::MatrixXd displacement_samples(const Motion& motion)
 {
   Eigen::MatrixXd samples(std::ssize(motion.positions), 4);
