@@ -21,6 +21,7 @@ PARAMETERS = ("data/set1.toml", "data/set1-as-printed.toml")
 HATCHES = {"reproduced": "", "partly": "//", "not reproduced": "xx"}  # readable in grey too
 COLOURS = {"reproduced": "C2", "partly": "C4", "not reproduced": "C1"}
 USED = {"marker": "o", "ms": 9, "mfc": "white", "mec": "black", "mew": 1.2, "ls": ""}
+TRANSITION, SHOWN = {"color": "#eeeeee", "zorder": 0}, {"color": "#777777", "ls": "--", "lw": 1}
 LOSS = {"marker": "o", "ms": 3, "mfc": "C1", "mec": "none", "ls": ""}
 
 
@@ -32,8 +33,8 @@ def used_mass(reading):
 def draw_losses(axes, rows, reading):
     """`rows`: set 1 with the paper's peak and the first cage."""
     accepted = RULES["accepted"]
-    axes.axhspan(*accepted["loss_hz"], color="#eeeeee", zorder=0)
-    axes.axhline(accepted["paper_loss_hz"], color="#777777", ls="--", lw=1)
+    axes.axhspan(*accepted["loss_hz"], **TRANSITION)
+    axes.axhline(accepted["paper_loss_hz"], **SHOWN)
     masses, first = np.unique(rows["m_s"], return_index=True)
     axes.plot(masses, rows["f_loss"][first], color="C0")
     lost = rows.rows(rows["contact"] < 1)
@@ -55,16 +56,16 @@ def draw_verdicts(axes, accepted, claims, families):
             axes.barh(np.full(masses.size, bottom), masses * (half - 1 / half), 0.84 / len(families) - 0.03, masses / half,
                       align="edge", color=[COLOURS[verdicts[family][mass]] for mass in masses],
                       hatch=[HATCHES[verdicts[family][mass]] for mass in masses], edgecolor="white", lw=0)
+    for line, (joint, cage) in enumerate(families):  # named in the first claim, in the same order in all
+        words = f"{joint:g} Hz" + ("" if cage == families[0][1] else f", c = {cage:g}")
+        axes.annotate(words, (1.01, -0.42 + 0.84 * (line + 0.45) / len(families)), xycoords=("axes fraction", "data"), va="center",
+                      fontsize=8)
     axes.set_yticks(range(len(claims)), [claim["id"] for claim in claims])
-    axes.set(ylim=(len(claims) - 0.5, -0.5), xscale="log", xlabel="mass of the stator $m_s$ [kg]")
+    masses = [mass for claim in claims for family in accepted.verdicts(claim).values() for mass in family]
+    axes.set(ylim=(len(claims) - 0.5, -0.5), xlim=(min(masses) / 1.1, 1.1 * max(masses)), xscale="log", xlabel="mass of the stator $m_s$ [kg]")
     axes.xaxis.set_major_locator(LogLocator(subs=(1, 2, 3, 4, 5, 6)))
     axes.xaxis.set_major_formatter("{x:g}")
     axes.xaxis.set_minor_formatter("")
-
-
-def family_words(families):
-    """In which order the lines of a claim stand."""
-    return "lines of a claim, from above: " + "; ".join(f"{joint:g} Hz, c = {cage:g}" for joint, cage in families)
 
 
 def draw(table):
@@ -84,9 +85,9 @@ def draw(table):
     grid[1, 0].set_ylabel("claim")
     marks = [plt.Line2D([], [], color="C0", label="closed form"), plt.Line2D([], [], **LOSS, label="integrated"),
              plt.Line2D([], [], **USED, label="masses used"),
+             plt.Rectangle((0, 0), 1, 1, **TRANSITION, label="transition of the text"), plt.Line2D([], [], **SHOWN, label="speed of Fig. 4"),
              *(plt.Rectangle((0, 0), 1, 1, fc=colour, ec="white", hatch=HATCHES[name], label=name) for name, colour in COLOURS.items())]
-    key.legend(handles=marks, loc="upper center", ncols=len(marks), frameon=False, handlelength=1.4, columnspacing=1.2)
-    key.text(0.5, 0.15, family_words(families), ha="center", fontsize=11)
+    key.legend(handles=marks, loc="upper center", ncols=4, frameon=False, handlelength=1.4, columnspacing=1.2)
     return figure
 
 

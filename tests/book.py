@@ -227,7 +227,7 @@ class Browser(unittest.TestCase):
             with self.subTest(page.name):
                 self.open(page.name)
                 self.assertEqual(self.js("""return [...document.querySelectorAll('article *')].filter(
-                  part => part.getBoundingClientRect().right > innerWidth && !part.closest('pre, .table-wrapper, .math, .MathJax_SVG, .image-reference')).map(
+                  part => part.getBoundingClientRect().right > innerWidth && !part.closest('pre, .table-wrapper, .math, .MathJax_SVG')).map(
                   part => part.outerHTML.slice(0, 100))"""), [])
                 asked, given, wrong = self.js("""return [document.querySelectorAll('.math').length,
                   [...document.querySelectorAll('.MathJax_SVG svg')].filter(s => s.getBoundingClientRect().height > 5).length,

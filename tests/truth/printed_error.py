@@ -1,0 +1,141 @@
+"""How far the printed error of harmonic balance is from the true one, on machines drawn at random.
+
+A solution to a tolerance says its error: the largest difference over the largest displacement, and the rms about the mean. Here
+the motion of Eq. 7 comes from the judge (judge.cpp), which shares no code with src. Of one frequency the judge closes it from the
+solution's state; of two, it integrates from rest until nothing of the start is left, where the solution is stable, and 32
+turns are compared. Machines: like those that are built, with one frequency; in bearings of the catalogue; the same with a spall of the
+outer race, of the inner race.
+
+Usage: tests/truth/printed_error.py [COUNT > data/reference/printed_error.tsv]   (from the project's root; COUNT of each kind; without it a test)
+"""
+import random
+import subprocess
+import sys
+import unittest
+from pathlib import Path
+
+import numpy as np
+
+sys.path[1:1] = [str(Path(__file__).parents[1]), str(Path(__file__).parents[2] / "figures")]
+from independent import JUDGE, KEPT, NAMES, POINTS, Model  # noqa: E402
+from machines import entries, random_machine, realistic_machine, written  # noqa: E402
+from project import source_line  # noqa: E402
+from support.explore import Case, Table  # noqa: E402
+from tables import print_columns  # noqa: E402
+
+KINDS = ["one frequency", "catalogue", "outer spall", "inner spall"]
+TOLERANCES = {0: [1e-2, 1e-3, 1e-4], 1: [1e-2, 1e-3], 2: [1e-2, 1e-3], 3: [1e-2, 1e-3]}  # of each kind
+ANOTHER = 0.05  # of the largest displacement: the judge closed another motion
+COLUMNS = [("kind", "-", "0 one frequency, 1 bearing of the catalogue, 2 spall of the outer race, 3 of the inner race"),
+           ("seed", "-", "of the machine"), ("f", "Hz", "speed of rotation"), ("tolerance", "-", "asked for"),
+           ("frequencies", "-", "of the solution; 0 without one"), ("printed", "-", "largest error over the largest displacement"),
+           ("true", "-", "the same by the judge; -1 where it closes nothing near, or the solution is not stable"),
+           ("printed_rms", "-", "rms error about the mean"), ("true_rms", "-", "the same by the judge; -1")]
+
+
+def drawn(kind, seed):
+    """A machine and a speed [Hz]."""
+    dice = random.Random(f"{kind} {seed}")
+    if kind == 0:
+        return random_machine(dice), round(dice.uniform(18, 140), 3)
+    machine, speed = realistic_machine(dice)
+    if kind > 1:
+        machine["bearing.defect"] = {"surface": ["outer_race", "inner_race"][kind - 2], "depth_m": round(dice.uniform(1e-6, 5e-6), 9),
+                                     "width_rad": round(dice.uniform(0.08, 0.3), 4)}
+    return machine, speed
+
+
+def differences(solution, truth):
+    """Largest over the largest displacement; rms about the means over that of the truth. None where it is another motion."""
+    centred = [q - q.mean(axis=0) for q in (solution, truth)]
+    largest = abs(solution - truth).max() / abs(truth).max()
+    return largest, np.linalg.norm(centred[0] - centred[1]) / np.linalg.norm(centred[1])
+
+
+def closed(model, state):
+    """The state at phase 0 of the motion with one base period near a state; None where the judge closes none."""
+    line = " ".join(repr(float(w)) if isinstance(w, float) else str(w) for w in [*model.words(), *map(float, state)])
+    words = subprocess.run([JUDGE], input=line + "\n", stdout=subprocess.PIPE, text=True, check=True).stdout.split()
+    return np.array(words[6:], float) if float(words[0]) and float(words[1]) < 1e-8 else None
+
+
+def truth_of(model, rows):
+    """The judge's motion at the instants of the solution."""
+    if model.two:
+        found = model.from_rest()
+        return found.rows if found.kind == "quasi-periodic" else None
+    orders = np.arange(len(rows) // 2 + 1)[:, None]
+    rates = np.fft.irfft(2j * np.pi * orders / model.base * np.fft.rfft(rows, axis=0), n=len(rows), axis=0)
+    state = closed(model, np.concatenate([rows[0], rates[0]]))
+    return None if state is None else model.settle(state, 0, 0, KEPT, 1)[21:].reshape(-1, 4)
+
+
+class PrintedError(Case):
+    def row(self, kind, seed):
+        machine, speed = drawn(kind, seed)
+        tolerance = TOLERANCES[kind][seed % len(TOLERANCES[kind])]
+        text = written(entries(machine))
+        asked = ["orbit", self.file("drawn.toml", text), "--frequency", repr(speed), "--method", "aft", "--tolerance", tolerance]
+        result = self.run_explore(*asked, "--points", 2)
+        cells = [kind, seed, speed, tolerance]
+        if result.returncode:
+            return [*cells, 0, -1, -1, -1, -1]
+        table = Table.of(result.stdout)
+        two = table.value("base") == "two"
+        cells += [2 if two else 1, table.value("error_largest", -1)]
+        rms = table.value("error_rms", -1)
+        if two and table.value("stability") != "stable":
+            return [*cells, -1, rms, -1]
+        model = Model(self.tables(machine), speed)
+        orbit = Table.of(self.run_explore(*asked, "--points", POINTS, "--periods", KEPT if two else 1, "--no-stability").stdout)
+        rows = np.stack([orbit[name] for name in NAMES], axis=1)
+        truth = truth_of(model, rows)
+        if truth is None:
+            return [*cells, -1, rms, -1]
+        largest, its_rms = differences(rows, truth)
+        return [*cells, largest, rms, its_rms] if largest < ANOTHER else [*cells, -1, rms, -1]
+
+    @staticmethod
+    def tables(machine):
+        """A defect is a table of its bearing."""
+        machine = {name: dict(table) for name, table in machine.items()}
+        defect = machine.pop("bearing.defect", None)
+        if defect:
+            machine["bearing"]["defect"] = defect
+        return machine
+
+    def test_a_few(self):
+        """Would catch an estimate from as many harmonics as the solution has, which was 20 times too small for spalls of the inner race."""
+        rows = [self.row(kind, seed) for kind in range(len(KINDS)) for seed in range(3, 7)]
+        judged = [row for row in rows if row[6] > 0]
+        self.assertGreater(len(judged), 6)
+        for row in judged:
+            self.assertLess(max(row[6] / row[5], row[8] / row[7]), 2, row)
+
+    def test_kept(self):
+        """Of all kinds some, and hardly any error is half as large again as is printed."""
+        table = Table("data/reference/printed_error.tsv")
+        judged = table.rows(table["true"] > 0)
+        self.assertEqual(set(judged["kind"]), set(range(len(KINDS))))
+        beyond = np.maximum(judged["true"] / judged["printed"], judged["true_rms"] / judged["printed_rms"]) > 1.5
+        self.assertLessEqual(beyond.mean(), 0.02)
+
+
+def study(count):
+    """So many machines of each kind."""
+    print("# Printed and true errors of harmonic balance, on machines drawn at random", source_line(), sep="\n")
+    print("# note: machines of each kind, seeds from 1; true: against the motion of an independent integrator")
+    print_columns(COLUMNS)
+    case = PrintedError()
+    for kind in range(len(KINDS)):
+        for seed in range(1, count + 1):
+            case.setUp()
+            print("\t".join(f"{cell:.6g}" for cell in case.row(kind, seed)), flush=True)
+            case.doCleanups()
+
+
+if __name__ == "__main__":
+    if len(sys.argv) > 1 and sys.argv[1].isdigit():
+        study(int(sys.argv[1]))
+    else:
+        unittest.main()
