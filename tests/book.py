@@ -246,8 +246,8 @@ class Browser(unittest.TestCase):
                       const image = document.querySelector(`img[src="_images/${arguments[0]}"]`), box = image.getBoundingClientRect();
                       return [box.left, box.right, image.naturalWidth, document.documentElement.scrollWidth];""", figure.name)
                     self.assertGreater(natural, 0)
-                    self.assertGreater(right - left, 1.5 * width if width == NARROW else 500)
-                    self.assertTrue(left >= 0 and page <= width and (right <= width or width == NARROW), (left, right, page))
+                    self.assertGreater(right - left, 0.8 * width if width == NARROW else 500)
+                    self.assertTrue(left >= 0 and max(page, right) <= width, (left, right, page))
 
     def found(self, words, start=""):
         self.driver.get(f"{start or self.address}book/search.html?q={quote(words)}")
