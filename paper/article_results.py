@@ -484,7 +484,55 @@ def large(add):
            "distance": "distance_largest"})
 
 
+def damped(add):
+    """What the damping decides: shares of all speeds, of the machine that is used and of the others."""
+    table, used = Table(KEPT / "robustness.tsv"), 1
+    for number, m in ((1, 6), (2, 10)):
+        for suspension in (1, 3):
+            part = table.where("set", number).where("suspension", suspension)
+            for contact in np.unique(part["contact_damping"]):
+                rows = part.where("contact_damping", contact).where("machine", used)
+                key = f"damped.set_{number}_x{suspension:g}_{contact:g}"
+                add(f"{key}_periodic", (rows["period"] == 1).mean(), "-", "share of the speeds with a T-periodic motion from rest")
+                right = (rows["period"] == 1) & (rows[f"error_{m}"] <= table.value("tolerance"))
+                add(f"{key}_right", right.mean(), "-", f"share of the speeds at which {m} harmonics are right")
+        plain = table.where("set", number).where("suspension", 1).where("contact_damping", 0)
+        shares = [(plain.where("machine", one)["period"] == 1).mean() for one in np.unique(plain["machine"])]
+        add(f"damped.set_{number}_least", min(shares), "-", "least share of T-periodic speeds of the machines without more damping")
+        add(f"damped.set_{number}_most", max(shares), "-", "largest")
+
+
+def printed(add):
+    """The printed error of solutions drawn at random over the true one."""
+    table = Table(KEPT / "printed_error.tsv")
+    known = table.rows(table["true"] > 0)
+    ratio = np.maximum(known["true"] / known["printed"], known["true_rms"] / known["printed_rms"])
+    add("printed.count", len(known), "-", "solutions compared with an independent integrator")
+    add("printed.unanswered", (table["frequencies"] == 0).sum(), "-", "machines without a solution to the tolerance")
+    add("printed.above", (ratio > 1.1).mean(), "-", "share of the solutions whose true error is more than a tenth above the printed one")
+    add("printed.median", np.median(ratio), "-", "true error over the printed one, median")
+    add("printed.most", ratio.max(), "-", "the same, largest")
+    add("printed.missed", ((known["true"] > known["tolerance"]) | (known["true_rms"] > known["tolerance"])).sum(), "-", "tolerances missed")
+
+
+def orders(add):
+    """How fast the error of RK4 falls with its step, where single balls gain and lose contact in every period."""
+    reference = 1e-8  # below, the error of the reference and of closing takes part
+    table = Table(KEPT / "work_precision.tsv")
+    observed = []
+    for case in np.unique(table["case"]):
+        rows = table.where("case", case).where("method", "shooting-rk4").where("start", "nothing")
+        known = {float(setting.split()[0][5:]): error for setting, error in zip(rows["setting"], rows["error"])
+                 if setting.endswith("closure=1e-06") and error > reference}
+        steps = sorted((step for step in known if step <= 1e-4), reverse=True)
+        observed += [(np.log(known[a] / known[b]) / np.log(a / b), rows.first("f")) for a, b in zip(steps, steps[1:])]
+    for key, (value, f) in (("least", min(observed)), ("most", max(observed))):
+        add(f"order.{key}", value, "-", "observed order of RK4 between two steps")
+        add(f"order.{key}_f", f, "Hz", "its speed")
+    add("order.median", np.median([value for value, _ in observed]), "-", "median of the observed orders")
+
+
 def add_all(add):
     for part in (settings, parameters, accuracy, cages, maps, two_maps, large, costs, growth, peers, outside, answers, truth,
-                 beside_chaos, contact, needed, judged, verdicts):
+                 damped, printed, orders, beside_chaos, contact, needed, judged, verdicts):
         part(add)
