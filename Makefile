@@ -109,8 +109,8 @@ data/generated/truth_intervals.tsv data/generated/as-printed/truth_intervals.tsv
   $(call kept,attractors) $(call kept,validity) $(reader)
 	$(whole) $(PYTHON) $(wordlist 1,3,$^) > $$new; mv $$new $@
 judging := figures/claim_quantities.py figures/claim_ranges.py data/scenes/fig07_contact.toml data/scenes/fig09_contact.toml
-$(claims): data/%/claims.tsv: figures/claims.py $(judging) $(reader) $(patsubst %,data/reference/%.tsv,clearance_stiffness identification \
-  tab02_equal_error large) $(call kept,validity) $(patsubst %,data/\%/%.tsv,tab01_parameters fig03_response fig07_contact fig09_contact \
+$(claims): data/%/claims.tsv: figures/claims.py $(judging) $(reader) $(patsubst %,data/reference/%.tsv,clearance_stiffness clearance_speed \
+  identification tab02_equal_error large) $(call kept,validity) $(patsubst %,data/\%/%.tsv,tab01_parameters fig03_response fig07_contact fig09_contact \
   regimes tab02_timing) | $(timings)
 	$(whole) $(PYTHON) $< $(@D) $$new; mv $$new $@
 live: build/live/index.html  ## the solver as a page for the browser, one file: build/live/index.html

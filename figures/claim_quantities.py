@@ -49,16 +49,21 @@ def peak(rows):
     return f[top] + shift, a[top] * np.polyval(curve, shift)
 
 
+def loaded_once(rows):
+    """Whether every ball gains and loses contact only as the cage carries it on, speed by speed."""
+    return rows["passed_once"] == 1
+
+
 def low_permanent(rows, f_loss):
     """C4."""
-    return float(low(rows)["contact"].mean()) if f_loss >= LOW_TO else 0.0
+    return share(loaded_once(low(rows))) if f_loss >= LOW_TO else 0.0
 
 
 def middle_complex(rows):
     """C5."""
     if middle(rows)["higher_harmonics"].mean() < LIMITS["multi_harmonic"]:
         return 0.0
-    return lost_inside(rows)
+    return share(~loaded_once(middle(rows)))
 
 
 def lost_inside(rows):
@@ -106,9 +111,19 @@ def phases(rows):
     return 1 + held + (rest(after) <= LIMITS["multi_harmonic"]), (lost[0], lost[-1])
 
 
-def harmonics(errors):
-    """C2, C3: smallest m whose error, {m: at each T-periodic speed}, is small at all of them."""
-    enough = [m for m in sorted(errors) if errors[m].size and (errors[m] <= LIMITS["accurate"]).all()]
+def right(errors):
+    """Speed by speed; the error is infinite without a solution, or where no T-periodic motion attracts."""
+    return errors <= LIMITS["accurate"]
+
+
+def harmonics_transition(rows, errors):
+    """C3: smallest m that is right at every T-periodic speed of the middle range, {m: error at each speed of `rows`}; none if
+    fewer than half of its speeds are T-periodic."""
+    inside = (rows["f"] > LOW_TO) & (rows["f"] <= MIDDLE_TO)
+    asked = inside & (rows["periodic"] == 1)
+    if asked.sum() < inside.sum() / 2:
+        return None
+    enough = [m for m in sorted(errors) if right(errors[m][asked]).all()]
     return enough[0] if enough else NOT_ENOUGH
 
 

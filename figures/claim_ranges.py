@@ -3,8 +3,8 @@ import tomllib
 from pathlib import Path
 
 import numpy as np
-from claim_quantities import (LIMITS, RULES, force_rise, harmonics, high_rest, low_permanent, middle_complex, passes,
-                              peak, phases, share, verdict)
+from claim_quantities import (RULES, force_rise, harmonics_transition, high_rest, low_permanent, middle_complex, passes, peak,
+                              phases, right, share, verdict)
 
 PAPER_PEAK = RULES["accepted"]["paper_peak_hz"]
 ARC_SPEEDS = [max(tomllib.loads(Path(f"data/scenes/{figure}.toml").read_text(encoding="utf-8"))["frequencies_hz"])
@@ -13,21 +13,20 @@ JUDGED = (6, 7, 8, 9, 10, 12, 16)  # the numbers of harmonics of identification.
 
 
 def errors(rows):
-    """At the T-periodic speeds, for each m."""
-    closed = rows.where("periodic", 1)
-    return {m: closed[f"error_{m}"] for m in JUDGED}
+    """At each speed, for each m; infinite where the motion is not T-periodic."""
+    return {m: np.where(rows["periodic"] == 1, rows[f"error_{m}"], np.inf) for m in JUDGED}
 
 
 def quantities(first, second):
     """Of one machine with the small and the large clearance. The peak was given where it is not the paper's."""
     f_loss, cage = first.first("f_loss"), first.first("cage_speed_ratio")
     arcs = [np.interp(f, rows["f"], rows["loaded_arc"]) for f, rows in zip(ARC_SPEEDS, (first, second))]
-    right = [errors(rows)[10] <= LIMITS["accurate"] for rows in (first, second)]
+    ten = [share(right(errors(rows)[10])) for rows in (first, second)]
     one = {"C1": peak(first)[0]} if first.first("f_joint") == PAPER_PEAK else {}
-    return one | {"C2": harmonics(errors(first)), "C3": harmonics(errors(second)),
+    return one | {"C2": share(right(errors(first)[6])), "C3": harmonics_transition(second, errors(second)),
             "C4": low_permanent(first, f_loss), "C5": middle_complex(first), "C6": high_rest(first),
             "C7": force_rise(first)[0], "C8": arcs[1] / arcs[0], "C10": passes(first, cage),
-            "C13": phases(second)[0], "C14": min(map(share, right))}
+            "C13": phases(second)[0], "C14": min(ten)}
 
 
 class Accepted:
@@ -45,7 +44,7 @@ class Accepted:
     def values(self, claim):
         """The claim's quantity of every accepted machine; none if it does not depend on the machine."""
         return [machine[claim["id"]] for family in self.families.values() for machine in family.values()
-                if claim["id"] in machine]
+                if machine.get(claim["id"]) is not None]
 
     def verdicts(self, claim):
         """{family: {mass: verdict}} of the families for which the claim is judged."""

@@ -334,8 +334,21 @@ def verdicts(add):
     other = [f"{key} ({word})" for key, word, ours in zip(printed["id"], printed["verdict"], table["verdict"]) if word != ours]
     add("printed.differ", listed(other), "-", "claims with another verdict under the printed frequencies")
     add("printed.count", len(other), "-", "their number")
-    built_in = np.isin(table["id"], ("C1", "C4", "C5", "C6", "C10"))
-    add("claims.built_in", (built_in & (table["verdict"] == "reproduced")).sum(), "-", "reproduced claims that the masses or the cage were chosen by")
+    for reading, of in (("claims", table), ("printed", printed)):
+        reproduced = of["verdict"] == "reproduced"
+        for name, rests_on in (("independent", ["nothing"]), ("built_in", ["masses", "cage"]), ("reduced", ["reduction"])):
+            chosen = reproduced & np.isin(of["rests_on"], rests_on)
+            add(f"{reading}.{name}", chosen.sum(), "-", f"reproduced claims whose verdict rests on {', '.join(rests_on)} of ours")
+            add(f"{reading}.{name}_ids", listed(list(of["id"][chosen])) if chosen.any() else "none", "-", "they")
+        for word in ("reproduced", "partly", "not reproduced", "not tested"):
+            chosen = of["verdict"] == word
+            add(f"{reading}.{word.replace(' ', '_')}_ids", listed(list(of["id"][chosen])) if chosen.any() else "none", "-", f"claims {word}")
+            if reading == "printed":
+                add(f"printed.{word.replace(' ', '_')}", chosen.sum(), "-", f"claims {word}, printed reading")
+    for reading, folder in (("claims", KEPT), ("printed", KEPT / "as-printed")):
+        rows = Table(folder / "validity.tsv").where("set", 1).where("adaptive", 0).where("m", 6)
+        add(f"{reading}.explained", ((rows["periodic"] == 1) & (rows["found"] == 1) & (rows["distance"] <= 0.1)).mean(), "-",
+            "share of all speeds of set 1 at which 6 harmonics are right")
     rules = [(claim["id"], claim["meaning"], *(f"{claim[key][0]:g} to {claim[key][1]:g}" for key in ("reproduced", "partly")))
              for claim in tomllib.loads(Path("data/claims.toml").read_text())["claim"]]
     ranges = [f"{float(low):.3g} to {float(high):.3g}" if low != "-" else "-" for low, high in zip(table["low"], table["high"])]
