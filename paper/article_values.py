@@ -93,6 +93,8 @@ def regimes():
     low, middle, high = (part(table) for part in (quantities.low, quantities.middle, quantities.high))
     joint = Table(GENERATED / "tab01_parameters.tsv").first("f_joint")
     add("C4.low", (low["contact"] == 1).mean(), "-", "low speeds with permanent contact")
+    add("C4.once", quantities.share(quantities.loaded_once(low)), "-", "low speeds at which every ball is loaded once")
+    add("C5.balls", quantities.share(~quantities.loaded_once(middle)), "-", "middle speeds at which not every ball is")
     add("C5.higher", middle["higher_harmonics"].mean(), "-", "higher harmonics in the mean of the middle speeds")
     add("C6.rest", quantities.high_rest(table), "-", "the same of the high speeds")
     top = high["higher_harmonics"].argmax()

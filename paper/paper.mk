@@ -18,7 +18,7 @@ build/book/.built: $(wildcard paper/book/* *.md paper/*.md paper/references.bib 
 	@touch $@
 article: build/paper/article.html  ## the article: build/paper/article.html
 build/paper/article.html: data/generated/article.md paper/render_article.py paper/article.html paper/article.css paper/book/figures.toml paper/references.bib \
-  $(shell sed -nE 's/^!\[.*\]\(figures\/(.*\.svg)\)$$/figures\/generated\/\1/p' paper/article.md)
+  $(shell sed -nE 's/^!\[.*\]\(figures\/(.*\.svg)\)$$/figures\/generated\/\1/p' paper/article.md) | build/book/.built
 	$(PYTHON) paper/render_article.py $< $@
 pdf: build/paper/article.pdf  ## the article as PDF
 build/paper/article.pdf: data/generated/article.md paper/article.tex build/paper/article.html

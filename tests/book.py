@@ -309,8 +309,11 @@ class Browser(unittest.TestCase):
             self.open("article.html", "paper/")
             self.assertLessEqual(self.js("return document.documentElement.scrollWidth"), width)
             self.assertEqual(self.js("return [...document.images].filter(i => !i.naturalWidth).length"), 0)
-            self.assertGreater(self.js("return [...document.querySelectorAll('math')].filter("
-                                       "m => m.getBoundingClientRect().height > 5).length"), 10)
+            asked, drawn, raw = self.js("""return [document.querySelectorAll('.math').length,
+              [...document.querySelectorAll('.math .MathJax_SVG svg')].filter(s => s.getBoundingClientRect().height > 5).length,
+              [...document.querySelectorAll('math')].filter(m => !m.closest('.MJX_Assistive_MathML')).length]""")
+            self.assertGreater(asked, 10)
+            self.assertEqual((drawn, raw), (asked, 0))
 
     def test_animation(self):
         """The picture of Fig. 7 stands still for who wants less motion, moves otherwise, and shows the table's motion: its ball loads

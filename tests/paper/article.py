@@ -1,9 +1,10 @@
 """The article's source holds no typed number: no digit outside generated values, equations, headings, code and references to
 equations, figures, tables, sections, data sets, claims and deviations, and no number in words with a unit. At least twenty
 cited references have a DOI; the others say that none was confirmed. A caption says what its figure shows: eight words or more,
-and every figure and table has one.
+and every figure and table has one. With its numbers filled in the article keeps its length: words with captions, figures, words and
+numbers of the abstract, which cites nothing; its author is that of CITATION.cff.
 
-Usage: tests/paper/article.py   (from the project's root)
+Usage: tests/paper/article.py   (from the project's root, after `make all`)
 """
 import re
 import sys
@@ -54,9 +55,34 @@ def captions(text):
             yield f"{SOURCE}: no caption after {table}"
 
 
+LONGEST = {"words": 5500, "figures": 9, "words of the abstract": 180, "numbers of the abstract": 12}
+
+
+def lengths(text):
+    """What is too long in the text that is read, tables and references left out."""
+    text = re.sub(r"(?s)\A---\n.*?^---\n|^\|.*$|^## References.*", "", text, flags=re.MULTILINE)
+    abstract = re.search(r"(?s)^## Abstract\n(.*?)^\*\*Keywords", text, re.MULTILINE)[1]
+    words = len(re.findall(r"(?<!\S)[^\W_]\S*|(?<!\S)\(\S+", re.sub(r"(?s)\$\$.*?\$\$|\]\([^)]*\)", "", text)))
+    found = {"words": words, "figures": len(re.findall(r"^!\[", text, re.MULTILINE)), "words of the abstract": len(abstract.split()),
+             "numbers of the abstract": len(re.findall(r"\d[\d.,]*", re.sub(r"\(\d{4}\)", "", abstract)))}
+    print(", ".join(f"{count} {name}" for name, count in found.items()))
+    for name, most in LONGEST.items():
+        if found[name] > most:
+            yield f"{SOURCE}: {found[name]} {name}, at most {most}"
+    if "[@" in abstract:
+        yield f"{SOURCE}: the abstract cites"
+
+
+def authors():
+    """Of the article and of CITATION.cff."""
+    names = re.findall(r'^  - name: "(.*)"$', Path("CITATION.cff").read_text(encoding="utf-8"), re.MULTILINE)
+    if f"author: {', '.join(names)}\n" not in SOURCE.read_text(encoding="utf-8"):
+        yield f"{SOURCE}: its author is not that of CITATION.cff"
+
+
 def main():
     text = SOURCE.read_text(encoding="utf-8")
-    bare = [*references(text), *captions(text)]
+    bare = [*references(text), *captions(text), *authors(), *lengths(Path("data/generated/article.md").read_text(encoding="utf-8"))]
     blank = lambda match: re.sub(r"[^\n]", " ", match[0])  # noqa: E731
     for pattern in ALLOWED:
         text = re.sub(pattern, blank, text, flags=re.MULTILINE)
