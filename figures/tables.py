@@ -135,6 +135,11 @@ class Table:
         """r, s: rotor and stator, without a stator that is held."""
         return "r" if self.value("stator") == "rigid" else "rs"
 
+    def speeds(self):
+        """The speeds as the figure's axis shows them, the factor from Hz, and its name: in rpm after --rpm."""
+        factor, unit = (60, "rpm") if self.value("speed_unit", "Hz") == "rpm" else (1, "Hz")
+        return factor * self["f"], factor, f"speed of rotation [{unit}]"
+
     def error(self, name):
         """The larger of the two numbers `NAME_largest` and `NAME_rms`; -1 without them."""
         return max(self.value(f"{name}_largest", -1), self.value(f"{name}_rms", -1))

@@ -45,7 +45,8 @@ Table header_of(const MapTask& task, const std::vector<Quantity>& chosen)
   columns.push_back(
       {"status", "word", "ok, or why a quantity is missing, which is then -"});
   Table table("Map of a machine", columns);
-  const Parameters base = task.read({}, request.frequency.value_or(0));
+  const Parameters base = doubted(task.read({}, request.frequency.value_or(0)), request,
+                                  task.highest_speed());
   describe(table, base);
   table.row_line("keys", {task.keys.begin(), task.keys.end()});
   for (const auto& [name, text] : {std::pair{"x", request.x}, {"y", request.y}})

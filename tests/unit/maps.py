@@ -3,6 +3,7 @@ points of the other commands; what it refuses, and what stands in the row of a p
 
 Usage: tests/unit/maps.py   (from the project's root)
 """
+import re
 import subprocess
 import sys
 import time
@@ -220,6 +221,17 @@ class Values(Case):
         self.assertEqual((result.returncode, result.stderr), (0, "1 of 3 points have no result: see their status\n"))
         self.assertEqual([cell == "-" for cell in table["amplitude"]], [False, True, False])
         self.assertIn("4.5 balls pass", table["status"][1])
+
+    def test_each_point_keeps_its_budget(self):
+        """A sweep of 100,000 speeds took more than a minute, the motion from rest with 1,024 balls hours."""
+        many = self.file("many.toml", re.sub("balls = 16", "balls = 1024", MACHINE))
+        for machine, asked in ((self.machine, "--quantity peak,missed --sweep 1:60:100000 --harmonics 256"),
+                               (many, "--quantity period,lyapunov --frequency 13.4 --method rk4 --longest 1e5")):
+            result = self.run_explore("map", machine, "--x", f"{CLEARANCE}=1e-5:2e-5:2", *asked.split(), "--budget", 1e5, timeout=20)
+            self.assertEqual(result.returncode, 0, result.stderr)
+            rows = Table.of(result.stdout)
+            self.assertTrue(all("the budget of 1e+05 evaluations of the force is used up" in word for word in rows["status"]))
+            self.assertTrue(all(str(cell) in ("-", "-2.0") for name in asked.split()[1].split(",") for cell in rows[name]))
 
 
 class Refusals(Case):
