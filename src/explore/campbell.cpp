@@ -128,6 +128,9 @@ Exploration explore_campbell(const CampbellRequest& request)
     if (modes.empty()) throw;
     unfinished = used_up.what();
   }
+  if (std::ranges::all_of(modes, &std::vector<Mode>::empty))
+    throw NoSolution(
+        format("no mode oscillates from %g to %g Hz", request.from, request.to));
   if (residual > well_solved) table.note("warning: " + doubt(residual));
   put_complete(table, unfinished);
   put_cost(table, budget);
