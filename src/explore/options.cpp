@@ -401,11 +401,11 @@ Check add_options(CLI::App& command, MapRequest& request)
              "relative error; chooses the step of integration, with --method aft m");
   const TimeOptions in_time(command, request.step, request.longest);
   add_number(command, "--threads", request.threads, 1, 1024,
-             "lines at a time (default: OMP_NUM_THREADS, or all cores)");
+             "parts of the map at a time (default: OMP_NUM_THREADS, or all cores)");
   command.add_option("--lines", request.lines, "A:B, only the lines with A <= index < B");
   command.add_option(
       "--resume", request.resume,
-      "table of the same map that was interrupted: its whole lines are taken over");
+      "table of the same map that was interrupted: its rows are taken over");
   return [=, &request] {
     choose_method(request.method, aft, {"auto", "aft", "gauss"});
     in_time.check(request.method);

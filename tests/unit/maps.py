@@ -55,6 +55,19 @@ class Bytes(Case):
             self.assertEqual(self.map("--resume", part), whole, cut)
         self.assertEqual(self.map("--resume", self.file("whole.tsv", whole)), whole)
 
+    def test_one_line_of_points_that_need_no_other(self):
+        """Motions from rest are written, and taken over, in parts of a line. Would catch a map that has nothing before its end."""
+        asked = ["map", self.machine, "--x", "frequency=40:41:130", "--quantity", "regime"]
+        whole = self.run_explore(*asked, "--threads", 1).stdout
+        self.assertEqual(self.run_explore(*asked, "--threads", 3).stdout, whole)
+        names = whole.splitlines(keepends=True)
+        first = next(k for k, line in enumerate(names) if line.startswith("40\t"))
+        for kept, taken in ((63, 0), (64, 64), (129, 128), (130, 130)):
+            part = [*names[:first], *(line.replace("\tperiodic\t", "\tchaotic\t") for line in names[first:first + kept])]
+            found = self.run_explore(*asked, "--resume", self.file("part.tsv", "".join(part))).stdout.splitlines(keepends=True)
+            self.assertEqual(sum("\tchaotic\t" in line for line in found), taken)
+            self.assertEqual([line.replace("\tchaotic\t", "\tperiodic\t") for line in found], names)
+
     def test_rotten_rows_are_refused(self):
         """Cells that are no values, too many or too few of them, a status that does not fit. Would catch a row that is taken
         over as it stands; nothing is written before all rows were looked at."""
