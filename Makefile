@@ -26,6 +26,9 @@ include data/tables.mk
 goals := $(or $(filter-out deps,$(MAKECMDGOALS)),all)
 ifeq ($(filter n q,$(foreach flag,n q,$(findstring $(flag),$(firstword -$(MAKEFLAGS))))),)
 $(if $(shell paper/packages.sh $(if $(filter deps,$(MAKECMDGOALS)),install,check) $(goals) >&2 || echo no),$(error packages are missing))
+# What killed makes have left behind: temporaries with the number of a process that is gone.
+$(shell for one in $(wildcard $(addsuffix /*.[0-9]*.tmp,build data/generated data/generated/as-printed figures/generated figures/generated/as-printed)); do \
+  pid=$${one%.tmp}; kill -0 "$${pid##*.}" 2> /dev/null || rm -f "$$one"; done)
 endif
 MAKEFLAGS += --no-builtin-rules
 
@@ -39,7 +42,7 @@ untimed := $(filter-out $(timings),$(call table,$(paper) $(beside) sensitivity_d
 shown := $(if $(filter exchanged,$(READING)),$(call table,$(paper) truth_intervals) data/generated/deviations.md $(call figure,$(drawn)), \
   $(call table,,$(paper) truth_intervals) $(call figure,,$(drawn)))
 pages := build/book/.built build/paper/article.html
-with_pages := $(filter all book article pdf test sanitize readme dist,$(goals))
+with_pages := $(filter all book article pdf test test-all sanitize readme dist,$(goals))
 .PHONY: deps all figures timing claims studies truth maps $(studies) $(costs) adopt peers book article pdf png readme golden \
   live test sanitize bench format dist list clean
 

@@ -55,6 +55,7 @@ def legend(axes, table):
 
 
 def draw(table):
+    table.columns["f"], _, speed = table.speeds()
     bodies = table.bodies()
     figure, grid = plt.subplots(2, len(bodies), figsize=(10, 7.5), sharex=True, layout="constrained", squeeze=False)
     for row, axis in zip(grid, "xy"):
@@ -68,7 +69,7 @@ def draw(table):
             else:
                 axes.set_ylim(0, 1.05e6 * amplitude.max() or 1)
     for axes in grid[1]:
-        axes.set_xlabel("speed of rotation [Hz]")
+        axes.set_xlabel(speed)
     figure.suptitle("Half peak-to-peak of the displacements")
     legend(grid[0, 0], table)
     return figure

@@ -5,7 +5,6 @@ Gnuplot asks for the value of a key, or the first cells of a list's members: /us
 
 import csv
 import re
-import subprocess
 import sys
 from pathlib import Path
 
@@ -135,6 +134,11 @@ class Table:
         """r, s: rotor and stator, without a stator that is held."""
         return "r" if self.value("stator") == "rigid" else "rs"
 
+    def speeds(self):
+        """The speeds as the figure's axis shows them, the factor from Hz, and its name: in rpm after --rpm."""
+        factor, unit = (60, "rpm") if self.value("speed_unit", "Hz") == "rpm" else (1, "Hz")
+        return factor * self["f"], factor, f"speed of rotation [{unit}]"
+
     def error(self, name):
         """The larger of the two numbers `NAME_largest` and `NAME_rms`; -1 without them."""
         return max(self.value(f"{name}_largest", -1), self.value(f"{name}_rms", -1))
@@ -143,15 +147,6 @@ class Table:
 def read(path):
     """The table in a file: `read(path)["f"]` is a column, `read(path).value("regime")` a key of its header."""
     return Table(path)
-
-
-def explore(*words):
-    """A run of explore; what it refuses ends the program."""
-    result = subprocess.run(["build/explore", *map(str, words)], stdout=subprocess.PIPE, stderr=subprocess.PIPE,
-                            encoding="utf-8", check=False)
-    if result.returncode == 2:
-        sys.exit(result.stderr)
-    return result
 
 
 STABILITY = {"stable": 1, "unstable": 0, "undecided": -1}  # in tables of numbers

@@ -9,7 +9,8 @@ from pathlib import Path
 
 import map_scaling
 import numpy as np
-from tables import Table, cells_as_numbers, explore
+from rotor_stator import run
+from tables import Table, cells_as_numbers
 
 GENERATED, KEPT = Path("data/generated"), Path("data/reference")
 ACCURATE = tomllib.loads(Path("data/claims.toml").read_text())["regimes"]["accurate"]
@@ -442,7 +443,7 @@ def cages(add):
 
 def asked(add, name, machine, f, keys):
     """What the header of an orbit says of it."""
-    table = Table.of(explore("orbit", machine, "--frequency", f, "--method", "aft", "--tolerance", 1e-3, "--points", 8).stdout)
+    table = run("orbit", machine, frequency=f, method="aft", tolerance=1e-3, points=8)
     add(f"{name}.f", f, "Hz", f"speed asked for of {machine}")
     for key, source in keys.items():
         add(f"{name}.{key}", table.value(source), "-", f"{key} of {machine}")

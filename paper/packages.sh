@@ -11,12 +11,12 @@ for goal; do
   [ "$goal" = format ] && packages+=(clang-format-14) && continue
   packages+=(cmake g++ git libcli11-dev libeigen3-dev libfftw3-dev libgsl-dev libtomlplusplus-dev ninja-build
     nlohmann-json3-dev pkg-config)
-  case $goal in bench | build/*) ;; *) packages+=(gnuplot-nox python3-matplotlib) ;; esac
-  case $goal in all | book | article | pdf | test | sanitize | readme | dist)
+  case $goal in bench | fuzz | build/*) ;; *) packages+=(gnuplot-nox python3-matplotlib) ;; esac
+  case $goal in all | book | article | pdf | test | test-all | sanitize | readme | dist)
     packages+=(furo libjs-mathjax pandoc python3-myst-parser python3-sphinx-copybutton python3-sphinxcontrib.bibtex) ;;
   esac
   case $goal in
-    test | sanitize) packages+=(catch2 chromium chromium-driver python3-hypothesis python3-scipy python3-selenium snakemake) ;;
+    test | test-all | sanitize) packages+=(catch2 chromium chromium-driver python3-hypothesis python3-scipy python3-selenium snakemake) ;;
     clearance_speed | clearance_stiffness | stiffness_border) packages+=(snakemake) ;;
     studies | timing) packages+=(snakemake libsundials-dev python3-scipy) ;;
     tab03_answers) packages+=(libsundials-dev python3-scipy) ;;

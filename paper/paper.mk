@@ -12,7 +12,7 @@ data/generated/manual.md: paper/manual.py build/explore data/set1.toml data/roto
 	$(whole) $(PYTHON) $< > $$new; mv $$new $@
 
 book: build/book/.built  ## programs, figures and texts as pages, with a search: build/book/index.html
-build/book/.built: $(wildcard paper/book/* *.md paper/*.md paper/references.bib studies/*.py peers/*.py data/reference/*.tsv build/live/index.html) \
+build/book/.built: $(wildcard paper/book/* *.md paper/*.md tests/hard/*.md paper/references.bib studies/*.py peers/*.py data/reference/*.tsv build/live/index.html) \
   $(sources) $(untimed) $(timings) $(claims) data/generated/article.tsv
 	flock build/.pages bash -c 'mkdir -p build/book-pages && $(PYTHON) -m sphinx -q -W --keep-going -c paper/book -d build/book-pages/.trees build/book-pages $(@D)'
 	@touch $@
@@ -28,5 +28,5 @@ build/paper/article.pdf: data/generated/article.md paper/article.tex build/paper
 archive := rotor-stator-$(shell sed -nE 's/^project.rotor_stator VERSION ([0-9.]+).*/\1/p' CMakeLists.txt)
 dist: all  ## an archive of the commit with its tables, figures and pages: build/rotor-stator-VERSION.tar.gz
 	@git diff --quiet HEAD || { echo "dist: the work tree differs from the commit" >&2; exit 1; }
-	{ git ls-files; find data/generated figures/generated build/book build/paper $(wildcard build/live/index.html) -type f ! -name '*.tmp*'; } | \
-	  sort | tar --mtime=@0 --owner=0 --group=0 --numeric-owner --mode=go+u,go-w --transform 's,^,$(archive)/,' -T - -c | gzip -n > build/$(archive).tar.gz
+	new=build/$(archive).tar.gz.$$BASHPID.tmp; trap 'rm -f $$new' EXIT; { git ls-files; find data/generated figures/generated build/book build/paper $(wildcard build/live/index.html) -type f ! -name '*.tmp*'; } | \
+	  sort | tar --mtime=@0 --owner=0 --group=0 --numeric-owner --mode=go+u,go-w --transform 's,^,$(archive)/,' -T - -c | gzip -n > $$new; mv $$new build/$(archive).tar.gz

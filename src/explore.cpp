@@ -51,6 +51,10 @@ Files files_of(const MapRequest& asked)
 {
   return {.read = {asked.list, asked.resume}};
 }
+Files files_of(const ShaftRequest& asked)
+{
+  return {.read = {asked.folder}};
+}
 Files files_of(const ShapeRequest& asked)
 {
   return {.read = {asked.nodes}};
@@ -63,9 +67,10 @@ void require_files(const Request& asked, Files files)
   files.read.insert(files.read.end(), {asked.parameter_file, asked.overlay});
   std::vector<std::string> inputs, outputs;
   for (const auto& file : files.read)
-    if (file) inputs.push_back(*file);
+    if (file) require_plain_name(*file), inputs.push_back(*file);
   for (const auto& [option, file] : files.written) {
     if (!file) continue;
+    require_plain_name(*file);
     require_writable(option, *file, inputs, asked.force);
     for (const std::string& other : outputs)
       if (is_same_file(*file, other))
@@ -73,6 +78,7 @@ void require_files(const Request& asked, Files files)
     outputs.push_back(*file);
   }
   if (asked.overlay && !asked.plot) throw BadInput("--overlay: needs --plot");
+  if (asked.rpm && !asked.plot) throw BadInput("--rpm: needs --plot");
 }
 
 /** What a command finds; where nothing is found, the file of the machine is named. */
@@ -94,7 +100,8 @@ void run(const Asked& asked, Exploration (*explored)(const Asked&),
 {
   require_files(asked, files_of(asked));
   if (asked.plot) require_plot(*asked.plot, script);
-  const Exploration found = found_by(asked, explored);
+  Exploration found = found_by(asked, explored);
+  if (asked.rpm) found.table.value("speed_unit", "rpm");
   std::vector<std::string> missing{found.unfinished};
   for (const NamedContent& file : found.files) try {
       write_files({file});
@@ -109,6 +116,8 @@ void run(const Asked& asked, Exploration (*explored)(const Asked&),
   if (!found.is_written) write(found.table.text(asked.format));
   for (const std::string& why : missing)
     if (!why.empty()) throw NoSolution(why);
+  if (!asked.doubt.empty() && !asked.quiet)
+    std::fprintf(stderr, "warning: %s\n", printable(asked.doubt).c_str());
 }
 
 /** The commands, each with a request of its own. */

@@ -24,7 +24,8 @@ from concurrent.futures import ThreadPoolExecutor
 from pathlib import Path
 
 sys.path.insert(1, str(Path(__file__).parents[1] / "figures"))
-from tables import Table, displacement_errors, explore, print_columns, print_header  # noqa: E402
+from rotor_stator import attempt, run  # noqa: E402
+from tables import displacement_errors, print_columns, print_header  # noqa: E402
 
 POINTS = 2048
 NEAREST_START = "quasi-static-contact"
@@ -46,8 +47,7 @@ COLUMNS = [
 
 def orbit(machine, speed, *options):
     """The orbit; None without a solution."""
-    result = explore("orbit", machine, "--frequency", speed, "--columns", "x_s,y_s,x_r,y_r", *options)
-    return Table.of(result.stdout) if result.returncode == 0 else None
+    return attempt("orbit", machine, *options, frequency=speed, columns=["x_s", "y_s", "x_r", "y_r"])
 
 
 def over(a, b):
@@ -111,7 +111,7 @@ def main(file):
     with ThreadPoolExecutor(os.cpu_count()) as pool:
         found = list(pool.map(lambda at: rows_of(machines[at[0] - 1], at[1], tolerances, most), speeds))
     print_header("Error estimate, true error and cost of the adaptive number of harmonics",
-                 [Table.of(explore("check", machine).stdout) for machine in machines],
+                 [run("check", machine) for machine in machines],
                  f"modelled: harmonic balance; exact motions by shooting; fixed m up to {most}")
     print_columns(COLUMNS)
     for (number, speed), rows in zip(speeds, found):

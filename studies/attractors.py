@@ -32,7 +32,8 @@ import tomllib
 from pathlib import Path
 
 sys.path.insert(1, str(Path(__file__).parents[1] / "figures"))
-from tables import Table, explore, print_columns, print_header  # noqa: E402
+from rotor_stator import attempt  # noqa: E402
+from tables import Table, print_columns, print_header  # noqa: E402
 
 OF_MOTION = ["motion", "period", "starts", "from_rest", "from_below", "from_above", "from_random", "lyapunov",
              "lyapunov_uncertainty", "amp_x_s", "amp_y_s", "amp_x_r", "amp_y_r"]
@@ -63,9 +64,8 @@ def main(file, reading=""):
         section = Path(folder, "section.tsv")
         for number, name in enumerate(scene["parameters"], 1):
             machine = f"data/{name}{reading and '-' + reading}.toml"
-            result = explore("attractors", machine, "--from", speeds["from"], "--to", speeds["to"], "--count", count,
-                             "--starts", scene["random_starts"], "--seed", scene["seed"], "--budget", 1e15, "--section", section)
-            tables.append(Table.of(result.stdout))
+            tables.append(attempt("attractors", machine, from_=speeds["from"], to=speeds["to"], count=count, starts=scene["random_starts"],
+                                  seed=scene["seed"], budget=1e15, section=section))
             rows += [[number, *row] for row in rows_of(tables[-1], Table(section), scene["points"])]
     print_header("Attractors: their motions and Poincare sections", tables,
                  "starts: at each speed from rest, from the motions at the speeds below and above, and from random states",

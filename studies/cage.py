@@ -19,7 +19,8 @@ from pathlib import Path
 import numpy as np
 
 sys.path.insert(1, str(Path(__file__).parents[1] / "figures"))
-from tables import STABILITY, Table, explore, print_columns  # noqa: E402
+from rotor_stator import attempt, run  # noqa: E402
+from tables import STABILITY, Table, print_columns  # noqa: E402
 
 MEASURED = ["amplitude", "contact_share", "ball_load"]
 COLUMNS = [
@@ -34,20 +35,15 @@ COLUMNS = [
 
 def integrated(scene, name, ratio):
     """Rows of the map over the speeds, from rest."""
-    result = explore("map", f"data/{name}.toml", "--method", "rk4", "--longest", scene["settling_s"], "--threads", 1, "--budget", 1e10,
-                     "--x", f"frequency={scene['first_hz']}:{scene['last_hz']}:{scene['speeds']}",
-                     "--list", ratio, "--quantity", ",".join(MEASURED))
-    if result.returncode:
-        sys.exit(result.stderr)
-    return Table.of(result.stdout)
+    return run("map", f"data/{name}.toml", method="rk4", longest=scene["settling_s"], threads=1, budget=1e10, list=ratio,
+               quantity=list(MEASURED), x=f"frequency={scene['first_hz']}:{scene['last_hz']}:{scene['speeds']}")
 
 
 def solution(machine, speed, tolerance):
     """found, stable, frequencies."""
-    result = explore("orbit", machine, "--frequency", speed, "--method", "aft", "--tolerance", tolerance, "--points", 2)
-    if result.returncode:
+    table = attempt("orbit", machine, frequency=speed, method="aft", tolerance=tolerance, points=2)
+    if table is None:
         return [0, -1, 0]
-    table = Table.of(result.stdout)
     return [1, STABILITY[table.value("stability")], 2 if table.value("base") == "two" else 1]
 
 

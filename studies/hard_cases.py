@@ -22,7 +22,6 @@ import itertools
 import math
 import multiprocessing
 import os
-import subprocess
 import sys
 import tempfile
 import tomllib
@@ -31,9 +30,10 @@ from pathlib import Path
 import numpy as np
 
 sys.path.insert(1, str(Path(__file__).parents[1] / "figures"))
-from tables import Table, print_columns, print_header  # noqa: E402
+import rotor_stator  # noqa: E402
+from tables import print_columns, print_header  # noqa: E402
 
-EXPLORE = str(Path(os.environ.get("BUILD", "build"), "explore"))
+os.environ.setdefault("EXPLORE", str(Path(os.environ.get("BUILD", "build"), "explore")))
 NAMES = ["x_s", "y_s", "x_r", "y_r"]
 POINTS = 256           # instants of a base period
 MOST_STEPS = 30_000    # of the check, over a period
@@ -82,10 +82,8 @@ def solution(harmonics, samples):
 def first_fold(machine, speeds, harmonics, samples):
     """The first speed at which the branch turns back."""
     with tempfile.TemporaryDirectory() as folder:
-        run = subprocess.run([EXPLORE, "response", write(machine, folder), "--from", str(speeds[0]), "--to", str(speeds[1]),
-                              *solution(harmonics, samples), "--columns", "f"],
-                             stdout=subprocess.PIPE, stderr=subprocess.PIPE, encoding="utf-8", check=False)
-    f = Table.of(run.stdout)["f"]
+        f = rotor_stator.attempt("response", write(machine, folder), *solution(harmonics, samples), from_=speeds[0], to=speeds[1],
+                                 columns="f")["f"]
     turns = np.flatnonzero(np.diff(f) < 0)
     if not len(turns):
         sys.exit(f"no fold from {speeds[0]} to {speeds[1]} Hz")
@@ -228,12 +226,10 @@ class Case:
 
     def orbit(self, *words, points=POINTS):
         """Status, table and the reason of a refusal."""
-        run = subprocess.run([EXPLORE, "orbit", self.file, "--frequency", repr(self.f), "--points", str(points), *map(str, words)],
-                             stdout=subprocess.PIPE, stderr=subprocess.PIPE, encoding="utf-8", check=False)
-        if run.returncode not in (0, 2, 3):
-            sys.exit(f"{self.name}, {words}: status {run.returncode}: {run.stderr}")
-        table = Table.of(run.stdout) if run.returncode == 0 else None
-        return table, run.stderr.replace(f"{self.file}: ", "").strip()
+        try:
+            return rotor_stator.run("orbit", self.file, *words, frequency=self.f, points=points), ""
+        except (rotor_stator.NoAnswer, ValueError) as refused:
+            return None, str(refused).replace(f"{self.file}: ", "")
 
     def words(self, method):
         return {"auto": [], "aft": solution(self.m, self.samples),
@@ -336,11 +332,10 @@ def main(file, every=1):
     cases = cases_of(scene)[::every]
     with multiprocessing.Pool() as pool:
         rows = sum(pool.imap(rows_of, [(case, scene) for case in cases]), [])
-    example = subprocess.run([EXPLORE, "orbit", f"data/{scene['parameters']}.toml", "--frequency", "45", "--points", "1"],
-                             stdout=subprocess.PIPE, encoding="utf-8", check=True).stdout
+    example = rotor_stator.run("orbit", f"data/{scene['parameters']}.toml", frequency=45, points=1)
     ends = [("method", [method, *(sum(row["method"] == method and row["verdict"] == end for row in rows)
                                   for end in ("solved", "refused", "silent error", "unconfirmed"))]) for method in METHODS]
-    print_header("How each method ends on the hard cases", [Table.of(example)],
+    print_header("How each method ends on the hard cases", [example],
                  f"rule: claimed when the stated error is at most {scene['accuracy']:g}; false when the check finds more than "
                  f"{scene['most_error_ratio']:g} times it (and {scene['least_error']:g}), or more than {scene['most_error']:g}",
                  "row method: name, cases solved, refused, silent errors, unconfirmed", rows=ends, cases=len(cases))

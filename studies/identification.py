@@ -31,7 +31,8 @@ from pathlib import Path
 import numpy as np
 
 sys.path.insert(1, str(Path(__file__).parents[1] / "figures"))
-from tables import Table, explore, print_columns, print_header  # noqa: E402
+from rotor_stator import run  # noqa: E402
+from tables import Table, print_columns, print_header  # noqa: E402
 
 READINGS = {"exchanged": "", "as-printed": "-as-printed"}
 HARMONICS = (6, 7, 8, 9, 10, 12, 16)
@@ -112,9 +113,8 @@ def candidates(base, text, count):
 
 def errors_of(file, speeds, count, m):
     """rms errors of the solutions with m harmonics, each found on its own; 2 where there is none."""
-    result = explore("map", file, "--y", f"frequency={speeds['from']}:{speeds['to']}:{count}", "--harmonics", m, "--threads", 1,
-                     "--quiet", "--quantity", "error")
-    return [2 if cell == "-" else float(cell) for cell in Table.of(result.stdout)["error"]]
+    table = run("map", file, y=f"frequency={speeds['from']}:{speeds['to']}:{count}", harmonics=m, threads=1, quiet=True, quantity="error")
+    return [2 if cell == "-" else float(cell) for cell in table["error"]]
 
 
 def rows_of_machine(base, joint, point, scene):
@@ -131,7 +131,7 @@ def rows_of_machine(base, joint, point, scene):
                              f"average_s = {2 * regime['longest_s']}\npoints_per_period = 64\n", encoding="utf-8")
         found = subprocess.run(["build/regimes", questions], stdout=subprocess.PIPE, encoding="utf-8", check=True)
         table = Table.of(found.stdout)
-        check = Table.of(explore("check", machine, "--to", 2 * joint).stdout)
+        check = run("check", machine, to=2 * joint)
         loss = dict(zip(check["name"], check["value"]))["contact_loss"]
         errors = np.transpose([errors_of(machine, speeds, len(table), m) for m in HARMONICS])
     errors[table["periodic"] == 0] = -1
@@ -154,7 +154,7 @@ def main(file):
     with ThreadPoolExecutor(os.cpu_count()) as pool:
         found = list(pool.map(lambda one: rows_of_machine(*one[1:], scene), asked))
     print_header("Motions of the machines that the paper's text admits",
-                 [Table.of(explore("check", base.file).stdout) for base in bases],
+                 [run("check", base.file) for base in bases],
                  f"modelled: rk4, at most {scene['regime']['longest_s']:g} s of transient; masses and cage as in the rows; [accepted] of "
                  "data/claims.toml",
                  "row accepted: reading, least and largest mass of the stator [kg], speed of loss of contact [Hz], mass with that",

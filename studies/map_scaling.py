@@ -23,7 +23,8 @@ from typing import NamedTuple
 import numpy as np
 
 sys.path.insert(1, str(Path(__file__).parents[1] / "figures"))
-from tables import Table, cells_as_numbers, explore, print_columns, print_header  # noqa: E402
+from rotor_stator import run  # noqa: E402
+from tables import Table, cells_as_numbers, print_columns, print_header  # noqa: E402
 
 COLUMNS = [
     ("kind", "word", "threads: one map; weak: as many points for every thread; memory; shards: of Snakemake; or a map's name"),
@@ -98,7 +99,7 @@ def measure(scene):
     for name in MAPS:
         study = yaml.safe_load(Path("studies", f"{name}.yaml").read_text(encoding="utf-8"))
         rows += [of_a_line(name, study, place) for place in scene["lines"]]
-    print_header("Cost of maps", [Table.of(explore("check", f"data/{scene['parameters'][0]}.toml").stdout)],
+    print_header("Cost of maps", [run("check", f"data/{scene['parameters'][0]}.toml")],
                  "repetitions of the kinds threads and weak, 1 of the others",
                  cores=len(os.sched_getaffinity(0)), repetitions=scene["repetitions"])
     print_columns(COLUMNS)

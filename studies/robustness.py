@@ -19,7 +19,8 @@ import tomllib
 from pathlib import Path
 
 sys.path.insert(1, str(Path(__file__).parents[1] / "figures"))
-from tables import Table, cells_as_numbers, explore, print_columns, print_header  # noqa: E402
+from rotor_stator import attempt  # noqa: E402
+from tables import cells_as_numbers, print_columns, print_header  # noqa: E402
 
 DAMPINGS = ("bearing.contact_damping_s_per_m", "stator.damping_ratio", "rotor.damping_ratio")
 T_PERIODIC = 1
@@ -44,12 +45,12 @@ def parameters(file):
     return {f"{part}.{key}": value for part, values in table.items() if isinstance(values, dict) for key, value in values.items()}
 
 
-def at_points(file, keys, points, *words):
+def at_points(file, keys, points, **options):
     """The map over these points, one row each, in their order."""
     with tempfile.NamedTemporaryFile("w", suffix=".tsv", encoding="utf-8") as listed:
         print("\t".join(["frequency", *keys]), *("\t".join(f"{cell:.12g}" for cell in point) for point in points), sep="\n",
               file=listed, flush=True)
-        return Table.of(explore("map", file, "--list", listed.name, "--threads", os.cpu_count(), *words).stdout)
+        return attempt("map", file, list=listed.name, threads=os.cpu_count(), **options)
 
 
 def columns(harmonics):
@@ -68,12 +69,12 @@ def rows_of_set(file, scene):
     machines = list(machines_of(scene, parameters(file)))
     keys = machines[0][-1]
     points = [[speeds["from"] + k * step, *values] for *_, values, _ in machines for k in range(speeds["count"])]
-    settled = at_points(file, keys, points, "--quantity", "period")
+    settled = at_points(file, keys, points, quantity="period")
     period = cells_as_numbers(settled["period"])
     repeats = [k for k, one in enumerate(period) if one == T_PERIODIC]
     errors = {k: [-1] * len(scene["harmonics"]) for k in range(len(points))} | {k: [] for k in repeats}
     for m in scene["harmonics"]:
-        found = at_points(file, keys, [points[k] for k in repeats], "--harmonics", m, "--quantity", "error")
+        found = at_points(file, keys, [points[k] for k in repeats], harmonics=m, quantity="error")
         for k, cell in zip(repeats, found["error"]):
             errors[k].append(2 if cell == "-" else float(cell))
     names = [machine["name"] for machine in scene["machine"]]

@@ -22,7 +22,8 @@ from pathlib import Path
 import numpy as np
 
 sys.path.insert(1, str(Path(__file__).parents[1] / "figures"))
-from tables import Table, explore, print_columns, print_header  # noqa: E402
+from rotor_stator import run  # noqa: E402
+from tables import print_columns, print_header  # noqa: E402
 
 COLUMNS = [
     ("seconds", "s", "that the speed takes from end to end; 0 for steady motions"),
@@ -39,25 +40,18 @@ def of_bins(table, width):
     return table.rows(np.array(chosen))
 
 
-def table_of(*words):
-    result = explore(*words)
-    if result.returncode:
-        sys.exit(result.stderr)
-    return Table.of(result.stdout)
-
-
 def runs(scene):
     """Each run as its seconds, direction and table."""
     machine = f"data/{scene['parameters']}.toml"
     ends = scene["speeds_hz"]["from"], scene["speeds_hz"]["to"]
-    names = ",".join(name for name, *_ in COLUMNS[2:])
+    names = [name for name, *_ in COLUMNS[2:]]
     for direction, word in (1, "up"), (-1, "down"):
         first, last = ends[::direction]
         for seconds in scene["seconds"]:
-            run = table_of("runup", machine, "--from", first, "--to", last, "--seconds", seconds, "--columns", names)
-            yield seconds, direction, of_bins(run, scene["bins_hz"])
-        yield 0, direction, table_of("response", machine, "--from", ends[0], "--to", ends[1], "--count",
-                                     scene["steady_speeds"], "--direction", word, "--columns", names)
+            passed = run("runup", machine, from_=first, to=last, seconds=seconds, columns=names)
+            yield seconds, direction, of_bins(passed, scene["bins_hz"])
+        yield 0, direction, run("response", machine, from_=ends[0], to=ends[1], count=scene["steady_speeds"], direction=word,
+                                columns=names)
 
 
 def main(file):

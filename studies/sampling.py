@@ -38,7 +38,8 @@ from pathlib import Path
 import numpy as np
 
 sys.path.insert(1, str(Path(__file__).parents[1] / "figures"))
-from tables import Table, displacement_errors, explore, print_columns, print_header  # noqa: E402
+from rotor_stator import attempt  # noqa: E402
+from tables import displacement_errors, print_columns, print_header  # noqa: E402
 
 POINTS = 1024
 COLUMNS = [
@@ -71,9 +72,7 @@ def rest(n):
 
 def orbit(machine, speed, m, *samples):
     """The orbit with m harmonics and, by default, its usual N; None without a solution."""
-    result = explore("orbit", machine, "--frequency", speed, "--harmonics", m, *samples, "--points", POINTS, "--no-stability",
-                     "--budget", 1e12)
-    return Table.of(result.stdout) if result.returncode == 0 else None
+    return attempt("orbit", machine, *samples, frequency=speed, harmonics=m, points=POINTS, no_stability=True, budget=1e12)
 
 
 def errors(orbit, exact):

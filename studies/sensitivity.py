@@ -24,7 +24,8 @@ from pathlib import Path
 import numpy as np
 
 sys.path.insert(1, str(Path(__file__).parents[1] / "figures"))
-from tables import Table, explore, print_columns  # noqa: E402
+from rotor_stator import attempt  # noqa: E402
+from tables import print_columns  # noqa: E402
 
 PARAMETERS = [("mass", "mass_kg", "kg"), ("mass_ratio", "mass_ratio", "-"), ("cage_ratio", "cage_ratio", "-"),
               ("samples", "samples", "-"), ("step", "step_s", "s")]
@@ -83,11 +84,6 @@ class Study:
         total, ratio = (value, ratio) if parameter == "mass" else (total, value)
         return Model((total / (1 + ratio), total - total / (1 + ratio), cage), self.usual.samples, self.usual.step)
 
-    def explore(self, *words):
-        """The table of explore, None where there is no solution."""
-        result = explore(*words)
-        return Table.of(result.stdout) if result.returncode == 0 else None
-
     def method(self, model, by_balance):
         """The options that say how."""
         if by_balance:
@@ -103,7 +99,7 @@ class Study:
                 where = ["--x", f"frequency={speeds[0]:.17g}:{speeds[-1]:.17g}:{len(speeds)}"]
             else:
                 where = ["--frequency", f"{speeds[0]:.17g}"]
-            table = self.explore("map", self.machine, "--list", points.name, *where, "--quantity", quantity,
+            table = attempt("map", self.machine, "--list", points.name, *where, "--quantity", quantity,
                                  "--threads", 1, *self.method(model, by_balance))
         self.header = self.header or table.header
         column = table[quantity]
@@ -159,7 +155,7 @@ class Study:
         with tempfile.NamedTemporaryFile("w", suffix=".toml") as file:
             file.write(text)
             file.flush()
-            return self.explore("orbit", file.name, "--frequency", self.scene["orbit_hz"], *options)
+            return attempt("orbit", file.name, "--frequency", self.scene["orbit_hz"], *options)
 
     @cache
     def balance_size(self, model):

@@ -16,7 +16,8 @@ from concurrent.futures import ThreadPoolExecutor
 from pathlib import Path
 
 sys.path.insert(1, str(Path(__file__).parents[1] / "figures"))
-from tables import STABILITY, Table, explore, print_columns, print_header  # noqa: E402
+from rotor_stator import attempt  # noqa: E402
+from tables import STABILITY, print_columns, print_header  # noqa: E402
 
 AMPLITUDES = ("amp_x_s", "amp_y_s", "amp_x_r", "amp_y_r")
 OF_CURVE = ("direction", "samples", "folds", "complete", "evaluations")
@@ -36,9 +37,7 @@ COLUMNS = [
 
 def followed(file, scene, m, direction):
     """The branch, as far as explore followed it; None without a solution to begin with."""
-    result = explore("response", file, "--from", scene["from_hz"], "--to", scene["to_hz"], "--harmonics", m,
-                     "--direction", direction, "--stability", "--budget", "1e15")
-    return Table.of(result.stdout) if result.stdout else None
+    return attempt("response", file, from_=scene["from_hz"], to=scene["to_hz"], harmonics=m, direction=direction, stability=True, budget=1e15)
 
 
 def dispensable(table, k, before):

@@ -33,7 +33,8 @@ from concurrent.futures import ThreadPoolExecutor
 from pathlib import Path
 
 sys.path.insert(1, str(Path(__file__).parents[1] / "figures"))
-from tables import STABILITY, Table, displacement_errors, explore, print_columns, print_header  # noqa: E402
+from rotor_stator import attempt  # noqa: E402
+from tables import STABILITY, Table, displacement_errors, print_columns, print_header  # noqa: E402
 
 FORCE = ("F_x", "F_y")
 SAME = 1e-3  # rms distance of two motions on one attractor
@@ -55,8 +56,8 @@ def attractors(machine, scene, speeds):
     """The table of the attractors, and at each speed (period, motion) of each."""
     with tempfile.TemporaryDirectory() as folder:
         file = Path(folder, "motions.tsv")
-        table = Table.of(explore("attractors", machine, "--from", speeds[0], "--to", speeds[-1], "--count", len(speeds), "--starts",
-                                 scene["random_starts"], "--seed", scene["seed"], "--budget", 1e15, "--motions", file).stdout)
+        table = attempt("attractors", machine, from_=speeds[0], to=speeds[-1], count=len(speeds), starts=scene["random_starts"],
+                        seed=scene["seed"], budget=1e15, motions=file)
         motions = Table(file)
     known = {f: [] for f in speeds}
     for f, motion, period in zip(table["f"], table["motion"], table["period"]):
@@ -66,8 +67,7 @@ def attractors(machine, scene, speeds):
 
 def orbit(machine, speed, *options):
     """The orbit at the instants of the attractors' motions; None without a solution."""
-    result = explore("orbit", machine, "--frequency", speed, "--points", 256, *options)
-    return Table.of(result.stdout) if result.returncode == 0 else None
+    return attempt("orbit", machine, *options, frequency=speed, points=256)
 
 
 def stability(solution):

@@ -20,7 +20,8 @@ import tomllib
 from pathlib import Path
 
 sys.path.insert(1, str(Path(__file__).parents[1] / "figures"))
-from tables import Table, explore, print_columns, print_header  # noqa: E402
+from rotor_stator import run  # noqa: E402
+from tables import print_columns, print_header  # noqa: E402
 
 STABILITY = {"stable": "1", "unstable": "0", "undecided": "-1"}
 COLUMNS = [
@@ -52,9 +53,8 @@ def main(file):
     for number, name in enumerate(scene["parameters"], 1):
         for m in scene["harmonics"]:
             # each speed is a line of its own, so that no solution starts from its neighbour
-            result = explore("map", f"data/{name}.toml", "--y", f"frequency={speeds['from']}:{speeds['to']}:{count}",
-                             "--method", "aft", "--harmonics", m, "--budget", scene["most_evaluations"], "--quantity", ",".join(QUANTITIES))
-            table = Table.of(result.stdout)
+            table = run("map", f"data/{name}.toml", y=f"frequency={speeds['from']}:{speeds['to']}:{count}", method="aft", harmonics=m,
+                        budget=scene["most_evaluations"], quantity=list(QUANTITIES))
             for k, frequency in enumerate(table["frequency"]):
                 rows[number, frequency, m] = row({name: str(table[name][k]) for name in QUANTITIES})
         tables.append(table)

@@ -114,6 +114,16 @@ class Files(unittest.TestCase):
         shown = unescape(re.sub(r"<[^>]*>", "", self.page("guide")))
         self.assertRegex(shown, r"/\*\*\n# Two masses and a unilateral spring(?s:.*?)\*/\n#include")
 
+    def test_every_attack_has_its_test(self):
+        """Each row of the page names a file of tests, and tests that stand in it."""
+        rows = Path("tests/hard/attacks.md").read_text(encoding="utf-8").split("What was once found")[1].split("\n")
+        named = [re.findall("`(tests/[^`]+)`(?:: `([^`]+)`(?:, `([^`]+)`)*)?", row) for row in rows if row.startswith("| ")][1:]
+        self.assertGreater(len(named), 15)
+        for file, *tests in sum(named, []):
+            text = Path(file).read_text(encoding="utf-8")
+            self.assertTrue(all(re.search(rf"(def|class) {test}\b", text) for test in tests if test), (file, tests))
+        self.assertTrue(all(named))
+
     def test_every_table_without_figure_is_shown(self):
         """All its columns with their values in the first row, and the file: a page that only speaks of its table would have neither."""
         for page in ("tab01_parameters", "tab02_timing", "tab02_equal_error", "regimes", "deviations"):

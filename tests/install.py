@@ -1,7 +1,7 @@
 """Installs the project into an empty folder and builds a program there with find_package(RotorStator).
 
 It catches a header that is not installed or includes one that is not, a library that the package does not name,
-and an installed explore that needs the source folder, for its figures too.
+and an installed explore that needs the source folder, for its figures and its Python module too.
 
 Usage: tests/install.py BUILD_FOLDER   (from the project's root)
 """
@@ -57,6 +57,12 @@ def main(build):
             "--starts", 0, "--plot", "figure.svg", cwd=folder)
         if "</svg>" not in Path(folder, "figure.svg").read_text(encoding="utf-8"):
             sys.exit("the installed explore draws no figure")
+        script = ("import sys, rotor_stator as r; t = r.run('orbit', sys.argv[1], frequency=45, harmonics=6, plot=True); "
+                  "print(r.explore(), r.__file__, len(t['x_r']), t.value('stability'), '</svg>' in t.svg, sep='\\n')")
+        modules = prefix / "lib/python3/dist-packages"
+        program, module, *ends = run(sys.executable, "-c", script, machine, cwd=outside, env={"PYTHONPATH": str(modules)}).split("\n")
+        if ends != ["256", "stable", "True", ""] or (program + module).count(str(prefix)) != 2:
+            sys.exit(f"the installed module does not run explore: {program} {module} {ends}")
 
 
 if __name__ == "__main__":

@@ -153,10 +153,10 @@ std::vector<PeriodicMotion> sweep(Balance& balance, const std::vector<double>& o
 
 std::vector<PeriodicMotion> sweep(const Parameters& parameters,
                                   const std::vector<double>& omegas, int harmonics,
-                                  int samples)
+                                  int samples, const OperationBudget& budget)
 {
   if (samples == 0) samples = default_samples(harmonics);
-  Balance balance(bearing_problem(parameters, samples), harmonics);
+  Balance balance(bearing_problem(parameters, samples, budget), harmonics);
   auto motions = sweep(
       balance, omegas,
       [&](double omega) { return quasi_static_start(parameters, omega, harmonics); },

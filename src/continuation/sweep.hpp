@@ -24,6 +24,7 @@ fewer points the polynomial has a lower degree. */
 #include <deque>
 
 #include "balance/newton.hpp"
+#include "io/budget.hpp"
 #include "model/parameters.hpp"
 
 namespace rotor_stator {
@@ -89,10 +90,10 @@ std::vector<PeriodicMotion> sweep(Balance& balance, const std::vector<double>& o
                                   const SweepSettings& settings);
 
 /** The same for a machine, cold from quasi-static contact, with the series of both
-    bodies; 0 samples are `default_samples`. */
+    bodies; 0 samples are `default_samples`. Paid for from `budget`. */
 std::vector<PeriodicMotion> sweep(const Parameters& parameters,
                                   const std::vector<double>& omegas, int harmonics,
-                                  int samples = 0);
+                                  int samples = 0, const OperationBudget& budget = {});
 
 /**
 ## The peak of a response curve */

@@ -59,15 +59,21 @@ std::vector<Column> columns_of(bool critical)
 
 Exploration explore_campbell(const CampbellRequest& request)
 {
-  require_range(request.from, request.to);
+  if (request.count > 1)
+    require_range(request.from, request.to);
+  else if (request.from != request.to || request.critical || request.plot)
+    throw BadInput(
+        "--count 1: is for --from equal to --to, without --critical and --plot");
   if (request.critical && request.plot)
     throw BadInput("--plot: draws frequencies; leave out --critical");
-  const Parameters parameters =
+  const Parameters parameters = doubted(
       read_machine(StrictToml(request.parameter_file), {.from = request.from,
                                                         .to = request.to,
                                                         .harmonics = 64,
-                                                        .largest = largest_linear});
-  const LinearMachine linear(parameters);
+                                                        .largest = largest_linear}),
+      request, request.to);
+  const OperationBudget budget = budget_of(request, 60, parameters);
+  const LinearMachine linear(parameters, budget);
   const Eigen::MatrixXd& stiffness = linear.contact();
   const auto columns = columns_of(request.critical);
   Table table(request.critical ? "Critical speeds of the linear machine"
@@ -94,30 +100,41 @@ Exploration explore_campbell(const CampbellRequest& request)
   const auto speeds = evenly_spaced(request.from, request.to, request.count);
   std::vector<std::vector<Mode>> modes;
   double residual = 0;
-  for (const double speed : speeds) {
-    modes.push_back(linear.modes(speed, request.modes));
-    for (std::size_t i = 0; i < modes.back().size() && !request.critical; ++i) {
-      const Mode& mode = modes.back()[i];
-      table.row({speed, i + 1, mode.frequency, mode.damping, mode.whirl});
-    }
-    for (const Mode& mode : modes.back()) residual = std::max(residual, mode.residual);
-  }
-  if (residual > well_solved) table.note("warning: " + doubt(residual));
-  for (const auto& [value, name] : orders)
-    for (std::size_t k = 1; k < speeds.size(); ++k)
-      for (std::size_t i = 0; i < std::min(modes[k - 1].size(), modes[k].size()); ++i) {
-        const double a = modes[k - 1][i].frequency - value * speeds[k - 1],
-                     b = modes[k][i].frequency - value * speeds[k];
-        if ((a > 0) == (b > 0)) continue;
-        const double at =
-            critical_speed(linear, value, i, speeds[k - 1], speeds[k], a, b);
-        const Mode mode = linear.modes(at, i + 1)[i];
-        if (request.critical)
-          table.row({at, name, i + 1, mode.frequency, mode.damping, word(mode.whirl)});
-        else
-          table.row_line("critical_speed", {at, name, i + 1, word(mode.whirl)});
+  std::string unfinished;
+  try {
+    for (const double speed : speeds) {
+      modes.push_back(linear.modes(speed, request.modes));
+      for (std::size_t i = 0; i < modes.back().size() && !request.critical; ++i) {
+        const Mode& mode = modes.back()[i];
+        table.row({speed, i + 1, mode.frequency, mode.damping, mode.whirl});
       }
-  return {std::move(table)};
+      for (const Mode& mode : modes.back()) residual = std::max(residual, mode.residual);
+    }
+    for (const auto& [value, name] : orders)
+      for (std::size_t k = 1; k < speeds.size(); ++k)
+        for (std::size_t i = 0; i < std::min(modes[k - 1].size(), modes[k].size()); ++i) {
+          const double a = modes[k - 1][i].frequency - value * speeds[k - 1],
+                       b = modes[k][i].frequency - value * speeds[k];
+          if ((a > 0) == (b > 0)) continue;
+          const double at =
+              critical_speed(linear, value, i, speeds[k - 1], speeds[k], a, b);
+          const Mode mode = linear.modes(at, i + 1)[i];
+          if (request.critical)
+            table.row({at, name, i + 1, mode.frequency, mode.damping, word(mode.whirl)});
+          else
+            table.row_line("critical_speed", {at, name, i + 1, word(mode.whirl)});
+        }
+  } catch (const NoSolution& used_up) {
+    if (modes.empty()) throw;
+    unfinished = used_up.what();
+  }
+  if (std::ranges::all_of(modes, &std::vector<Mode>::empty))
+    throw NoSolution(
+        format("no mode oscillates from %g to %g Hz", request.from, request.to));
+  if (residual > well_solved) table.note("warning: " + doubt(residual));
+  put_complete(table, unfinished);
+  put_cost(table, budget);
+  return {.table = std::move(table), .unfinished = unfinished};
 }
 
 }  // namespace rotor_stator::explore

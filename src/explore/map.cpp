@@ -45,7 +45,8 @@ Table header_of(const MapTask& task, const std::vector<Quantity>& chosen)
   columns.push_back(
       {"status", "word", "ok, or why a quantity is missing, which is then -"});
   Table table("Map of a machine", columns);
-  const Parameters base = task.read({}, request.frequency.value_or(0));
+  const Parameters base = doubted(task.read({}, request.frequency.value_or(0)), request,
+                                  task.highest_speed());
   describe(table, base);
   table.row_line("keys", {task.keys.begin(), task.keys.end()});
   for (const auto& [name, text] : {std::pair{"x", request.x}, {"y", request.y}})
@@ -70,6 +71,8 @@ Table header_of(const MapTask& task, const std::vector<Quantity>& chosen)
 
 /**
 ## The rows */
+
+constexpr std::size_t side_by_side = 64;  // points
 
 bool is_lost(const std::string& row)
 {
@@ -103,12 +106,42 @@ void require_row(const std::vector<Quantity>& chosen, const std::vector<double>&
     throw BadInput("the status of a row does not fit its cells");
 }
 
-/** Rows in order of their lines, written as soon as all before them are there. */
+/** What is computed at once, in order: whole lines of x where the points of a line start
+    from each other, else blocks of them. */
+struct Pieces {
+  explicit Pieces(const MapTask& task)
+      : first_line(task.grid.first), points(task.grid.x.count),
+        block(task.request.method == "aft" ? points : std::min(side_by_side, points)),
+        of_line((points + block - 1) / block),
+        count((task.grid.last - task.grid.first) * of_line)
+  {
+  }
+
+  std::size_t line(std::size_t piece) const { return first_line + piece / of_line; }
+  std::size_t begin(std::size_t piece) const { return piece % of_line * block; }
+  std::size_t end(std::size_t piece) const
+  {
+    return std::min(begin(piece) + block, points);
+  }
+  /** Of these rows the whole ones, and their rows. */
+  std::size_t in(std::size_t rows) const
+  {
+    return rows / points * of_line + rows % points / block;
+  }
+  std::size_t rows(std::size_t pieces) const
+  {
+    return pieces / of_line * points + pieces % of_line * block;
+  }
+
+  std::size_t first_line, points, block, of_line, count;
+};
+
+/** Rows in order of the pieces, written as soon as all before them are there. */
 class Output {
 public:
   Output(const MapTask& task, const std::vector<Quantity>& chosen,
          const std::string& header)
-      : task_(task), next_(task.grid.first)
+      : task_(task)
   {
     if (task.request.resume)
       copy(*task.request.resume, chosen, header);
@@ -116,11 +149,11 @@ public:
       print(header);
   }
 
-  void take(std::size_t line, std::string rows, std::size_t failed)
+  void take(std::size_t piece, std::string rows, std::size_t failed)
   {
     const std::lock_guard lock(mutex_);
     failed_ += failed;
-    waiting_[line] = std::move(rows);
+    waiting_[piece] = std::move(rows);
     for (; !waiting_.empty() && waiting_.begin()->first == next_; ++next_) {
       print(waiting_.begin()->second);
       waiting_.erase(waiting_.begin());
@@ -138,7 +171,7 @@ private:
     if (task_.request.plot) all_ += text;
   }
 
-  /** The whole lines of x of an interrupted table, after all of it was looked at. */
+  /** The whole pieces of an interrupted table, after all of it was looked at. */
   void copy(const std::string& file, const std::vector<Quantity>& chosen,
             const std::string& header)
   {
@@ -151,8 +184,9 @@ private:
       ++rows;
     });
     print(header);
-    next_ += rows / count;
-    rows = rows / count * count;
+    const Pieces pieces(task_);
+    next_ = pieces.in(rows);
+    rows = pieces.rows(next_);
     each_row_of(file, "map", header, [&](const std::string& row, const auto&) {
       if (rows == 0) return;
       --rows;
@@ -165,22 +199,21 @@ private:
   const MapTask& task_;
   std::mutex mutex_;
   std::map<std::size_t, std::string> waiting_;
-  std::size_t next_, failed_ = 0;
+  std::size_t next_ = 0, failed_ = 0;
   std::string all_;
 };
 
-/** Computes one line of x. Throws NoSolution when the seconds of the run are over. */
-void add_line(const MapTask& task, const std::vector<Quantity>& chosen, std::size_t line,
-              Output& output)
+/** Computes one piece. Throws NoSolution when the seconds of the run are over. */
+void add_piece(const MapTask& task, const std::vector<Quantity>& chosen,
+               const Pieces& pieces, std::size_t piece, Output& output)
 {
   std::string rows;
   std::size_t failed = 0;
   PeriodicMotion before;
-  constexpr std::size_t side_by_side = 64;
   std::vector<std::vector<double>> points;
-  for (std::size_t k = 0; k < task.grid.x.count; ++k) {
-    points.push_back(task.grid.values(line, k));
-    if (points.size() < side_by_side && k + 1 < task.grid.x.count) continue;
+  for (std::size_t k = pieces.begin(piece); k < pieces.end(piece); ++k) {
+    points.push_back(task.grid.values(pieces.line(piece), k));
+    if (points.size() < side_by_side && k + 1 < pieces.end(piece)) continue;
     const auto block = rows_of(task, chosen, points, before);
     points.clear();
     if (const auto& budget = task.request.budget; budget && budget->is_over())
@@ -192,7 +225,7 @@ void add_line(const MapTask& task, const std::vector<Quantity>& chosen, std::siz
       rows += row + "\n";
     }
   }
-  output.take(line, std::move(rows), failed);
+  output.take(piece, std::move(rows), failed);
 }
 
 }  // namespace
@@ -204,12 +237,14 @@ Exploration explore_map(const MapRequest& request)
   if (request.threads > 0) omp_set_num_threads(request.threads);
   const Table header = header_of(task, chosen);
   Output output(task, chosen, header.text());
-  const std::size_t first = output.next(), last = task.grid.last;
-  in_parallel(request.quiet ? "" : "lines", last - first,
-              [&](std::size_t piece) { add_line(task, chosen, first + piece, output); });
+  const Pieces pieces(task);
+  const std::size_t first = output.next();
+  in_parallel(
+      request.quiet ? "" : "parts of the map", pieces.count - first,
+      [&](std::size_t piece) { add_piece(task, chosen, pieces, first + piece, output); });
   if (output.failed() > 0)
     std::fprintf(stderr, "%zu of %zu points have no result: see their status\n",
-                 output.failed(), (last - task.grid.first) * task.grid.x.count);
+                 output.failed(), pieces.rows(pieces.count));
   return {.table = header, .drawn = output.all(), .is_written = true};
 }
 

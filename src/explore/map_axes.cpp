@@ -151,6 +151,17 @@ bool MapTask::has_speed() const
   return std::ranges::find(keys, speed_key) != keys.end();
 }
 
+double MapTask::highest_speed() const
+{
+  double most = sweep.empty() ? request.frequency.value_or(0) : sweep.back();
+  for (const Axis* axis : {&grid.x, &grid.y})
+    if (axis->key == speed_key) most = std::max(axis->from, axis->to);
+  const bool is_listed = grid.list && grid.x.key != speed_key && has_speed();
+  for (std::size_t k = 0; is_listed && k < grid.list->rows(); ++k)
+    most = std::max(most, grid.list->at(k, speed_key));
+  return most;
+}
+
 MapTask task_of(const MapRequest& request)
 {
   Grid grid = grid_of(request);

@@ -55,6 +55,7 @@ struct MapTask {
                   double frequency) const;
 
   bool has_speed() const;
+  double highest_speed() const;  ///< [Hz]
 };
 
 /** Throws BadInput for axes that are none, for options that do not belong together, and

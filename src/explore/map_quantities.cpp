@@ -211,8 +211,9 @@ public:
       Swept all;
       std::vector<CurvePoint> curve;
       for (const PeriodicMotion& at : rotor_stator::sweep(
-               machine_, angular(task_.sweep), task_.harmonics, task_.samples)) {
+               machine_, angular(task_.sweep), task_.harmonics, task_.samples, budget_)) {
         if (!at.found()) continue;
+        budget_.spend(3 * swept_instants);
         const double hertz = at.omega / angular(1);
         const motion::Motion motion = motion::motion_of(at, swept_instants);
         curve.push_back({hertz, motion::half_peak_to_peak(motion)[2]});

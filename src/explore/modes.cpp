@@ -29,8 +29,9 @@ Eigen::MatrixXd cholesky(const Eigen::MatrixXd& a)
 
 }  // namespace
 
-LinearMachine::LinearMachine(const Parameters& parameters)
+LinearMachine::LinearMachine(const Parameters& parameters, const OperationBudget& budget)
     : first_(parameters.stator.rigid ? 2 : 0), machine_(matrices_of(parameters)),
+      budget_(budget), evaluation_(operations_per_evaluation(parameters.bearing.balls)),
       contact_(mean_contact_stiffness(parameters, machine_))
 {
   const auto n = machine_.mass.rows() - first_;
@@ -59,6 +60,8 @@ LinearMachine::LinearMachine(const Parameters& parameters)
 
 std::vector<Mode> LinearMachine::modes(double speed, std::size_t most) const
 {
+  const double rows = static_cast<double>(mass_.rows()), kept = omega_.size();
+  budget_.spend((1e4 + 2 * rows * rows * kept + 200 * kept * kept * kept) / evaluation_);
   const Eigen::MatrixXd c =
       machine_.damping.bottomRightCorner(mass_.rows(), mass_.rows()) +
       angular(speed) * machine_.gyroscopic.bottomRightCorner(mass_.rows(), mass_.rows());

@@ -19,6 +19,7 @@ ill-conditioned eigenvalue.
 
 #include <vector>
 
+#include "io/budget.hpp"
 #include "model/large_machine.hpp"
 
 namespace rotor_stator::explore {
@@ -33,18 +34,21 @@ struct Mode {
 class LinearMachine {
 public:
   /** Throws NoSolution where the stiffness at rest is not positive. */
-  explicit LinearMachine(const Parameters& parameters);
+  explicit LinearMachine(const Parameters& parameters,
+                         const OperationBudget& budget = {});
 
   /** S, 2b × 2b [N/m]. */
   const Eigen::MatrixXd& contact() const { return contact_; }
 
   /** The oscillating modes at a speed [Hz] of lowest frequency, ascending, at most so
-      many. */
+      many. Throws NoSolution where the budget does not pay for them. */
   std::vector<Mode> modes(double speed, std::size_t most) const;
 
 private:
   int first_;  ///< coordinates of a stator that is held come before it
   LargeBodies machine_;
+  OperationBudget budget_;
+  double evaluation_;                   ///< elementary operations
   Eigen::MatrixXd contact_, mass_, k_;  ///< S, M, K + D S Dᵀ
   Eigen::MatrixXd factor_, shapes_;     ///< R; columns of unit modal mass
   Eigen::VectorXd omega_;               ///< [rad/s]

@@ -56,13 +56,6 @@ void refuse(const Options& options, bool used, const char* where,
 /**
 ## Options that several commands have */
 
-void add_plot(CLI::App& command, Request& request)
-{
-  command.add_option("--plot", request.plot, "figure: .svg, .png or .pdf");
-  command.add_flag("--force", request.force,
-                   "replace files that this program did not write, too");
-}
-
 const std::string measures_in_words =
     "; of a motion amp_, peak_, mean_, rms_, amp_1X_ or phase_1X_ of x_s ... y_r, x_r_2, "
     "x_r_out, of a velocity v_x_r or acceleration a_x_r; iso_x_r, mm/s rms of ISO 20816";
@@ -108,7 +101,9 @@ void add_common_options(CLI::App& command, Request& request, const std::string& 
   add_table_options(command, request);
   command.add_flag("--quiet", request.quiet,
                    "no progress on stderr, which a terminal gets after two seconds");
-  add_plot(command, request);
+  command.add_option("--plot", request.plot, "figure: .svg, .png or .pdf");
+  command.add_flag("--force", request.force,
+                   "replace files that this program did not write, too");
   command
       .add_option_function<std::string>(
           "--budget",
@@ -140,6 +135,11 @@ void add_speeds(CLI::App& command, double& from, double& to, bool may_rest = fal
   const auto unit = std::make_shared<std::string>();
   add_speed(command, "--from", from, "first speed", may_rest, unit)->required();
   add_speed(command, "--to", to, "last speed", may_rest, unit)->required();
+}
+
+void add_rpm(CLI::App& command, Request& request)
+{
+  command.add_flag("--rpm", request.rpm, "the figure's speeds in turns a minute");
 }
 
 /** Those of harmonic balance, which are returned; `or_m`: what may stand for the default
@@ -289,6 +289,7 @@ Check add_options(CLI::App& command, ResponseRequest& request)
   CLI::Option* count = add_number(command, "--count", request.count, 1, 100000,
                                   "speeds, evenly spaced (101; 21 of large bodies)");
   add_speeds(command, request.from, request.to);
+  add_rpm(command, request);
   command.add_option("--direction", request.direction,
                      "rest: each speed from rest; up, down: from the motion or solution "
                      "at the speed before");
@@ -400,11 +401,11 @@ Check add_options(CLI::App& command, MapRequest& request)
              "relative error; chooses the step of integration, with --method aft m");
   const TimeOptions in_time(command, request.step, request.longest);
   add_number(command, "--threads", request.threads, 1, 1024,
-             "lines at a time (default: OMP_NUM_THREADS, or all cores)");
+             "parts of the map at a time (default: OMP_NUM_THREADS, or all cores)");
   command.add_option("--lines", request.lines, "A:B, only the lines with A <= index < B");
   command.add_option(
       "--resume", request.resume,
-      "table of the same map that was interrupted: its whole lines are taken over");
+      "table of the same map that was interrupted: its rows are taken over");
   return [=, &request] {
     choose_method(request.method, aft, {"auto", "aft", "gauss"});
     in_time.check(request.method);
@@ -432,15 +433,15 @@ Check add_options(CLI::App& command, ShaftRequest& request)
 
 Check add_options(CLI::App& command, CampbellRequest& request)
 {
-  add_table_options(command, request);
+  add_common_options(command, request, "in the whole run (default: those of 60 s)");
   add_speeds(command, request.from, request.to, true);
-  add_number(command, "--count", request.count, 2, 10000,
+  add_number(command, "--count", request.count, 1, 10000,
              "speeds from --from to --to, evenly spaced")
       ->required();
+  add_rpm(command, request);
   add_number(command, "--modes", request.modes, 1, 1000, "of lowest frequency");
   command.add_flag("--critical", request.critical,
                    "the critical speeds instead of the frequencies");
-  add_plot(command, request);
   return [] {};
 }
 
@@ -448,6 +449,7 @@ Check add_options(CLI::App& command, RunUpRequest& request)
 {
   add_common_options(command, request, "in the whole run (default: those of 60 s)");
   add_speeds(command, request.from, request.to, true);
+  add_rpm(command, request);
   add_number(command, "--seconds", request.seconds, 0.0, 1e6, "how long the run takes")
       ->required();
   return [] {};

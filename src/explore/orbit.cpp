@@ -44,14 +44,20 @@ void require_method_of(const Parameters& parameters, const std::string& method)
 Parameters machine_of(const Request& request, double from, double to,
                       const NumberTable* nodes)
 {
-  Parameters machine =
+  const Parameters machine =
       read_machine(StrictToml(request.parameter_file),
                    {.from = from,
                     .to = to,
                     .harmonics = std::max(64, request.harmonics.value_or(0)),
                     .nodes = nodes});
-  for (const std::string& doubt : doubts(machine, to))
+  return doubted(machine, request, to);
+}
+
+Parameters doubted(Parameters machine, const Request& request, double highest)
+{
+  for (const std::string& doubt : doubts(machine, highest))
     machine.derived.push_back("warning: " + doubt);
+  request.doubt = doubt_of_speed(machine, highest);
   return machine;
 }
 

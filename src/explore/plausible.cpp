@@ -27,11 +27,23 @@ double speed_value(const Bearing& bearing, double hertz)
   return printable_size(1e3 * pitch_diameter(bearing) * 60 * hertz);
 }
 
+std::string doubt_of_speed(const Parameters& machine, double highest)
+{
+  constexpr double fastest = 2e6;  // n d_m of ball bearings [mm/min]
+  for (const Bearing& bearing : bearings_of(machine))
+    if (const double n = speed_value(bearing, highest); n > fastest)
+      return format(
+          "%g Hz are %.4g turns a minute, n d_m = %.3g mm/min, above "
+          "what ball bearings bear: speeds are in Hz, or as 1500rpm",
+          highest, printable_size(60 * highest), n);
+  return "";
+}
+
 std::vector<std::string> doubts(const Parameters& machine, double highest)
 {
   /** Largest pitch of a bearing [m]; K_H over the root of the ball's diameter, of steel
-      [N/m²]; highest n d_m of ball bearings [mm/min]; gravity of any planet [m/s²]. */
-  constexpr double widest = 5, steel = 1e11, fastest = 2e6, heaviest = 30;
+      [N/m²]; gravity of any planet [m/s²]. */
+  constexpr double widest = 5, steel = 1e11, heaviest = 30;
   std::vector<std::string> all;
   for (const Bearing& bearing : bearings_of(machine)) {
     if (const double d = printable_size(pitch_diameter(bearing)); d > widest)
@@ -45,12 +57,9 @@ std::vector<std::string> doubts(const Parameters& machine, double highest)
                    "this size: is the modulus in Pa?",
                    ratio));
     }
-    if (const double n = speed_value(bearing, highest); n > fastest)
-      all.push_back(
-          format("%g Hz are %.4g turns a minute, n d_m = %.3g mm/min, above "
-                 "what ball bearings bear: speeds are in Hz, or as 1500rpm",
-                 highest, printable_size(60 * highest), n));
   }
+  if (const std::string doubt = doubt_of_speed(machine, highest); !doubt.empty())
+    all.push_back(doubt);
   if (machine.gravity > heaviest)
     all.push_back(format("a gravity of %g m/s^2: is it in m/s^2?", machine.gravity));
   const double e = printable_size(machine.unbalance / machine.rotor.mass);

@@ -17,6 +17,9 @@ namespace rotor_stator::explore {
     each. */
 std::vector<std::string> doubts(const Parameters& machine, double highest);
 
+/** The one about the speed; empty where bearings turn so fast. */
+std::string doubt_of_speed(const Parameters& machine, double highest);
+
 /** The same, or the largest number that is printed, 1e300, where it is beyond. */
 double printable_size(double value);
 

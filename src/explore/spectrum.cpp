@@ -102,7 +102,12 @@ Exploration explore_spectrum(const MotionRequest& asked)
   table.choose(asked.columns, line_columns.size(), asked.plot.has_value());
   const Parameters parameters = machine_of(asked, asked.frequency, asked.frequency);
   if (asked.overlay) {
-    for (const char* name : {"f", "amplitude"}) NumberTable(*asked.overlay).at(0, name);
+    const NumberTable measured(*asked.overlay);
+    constexpr double most = 1e30;  // what a figure can show
+    for (std::size_t k = 0; k < std::max<std::size_t>(1, measured.rows()); ++k)
+      for (const char* name : {"f", "amplitude"})
+        if (std::abs(measured.at(k, name)) > most)
+          measured.fail(k, std::string(name) + ": is beyond 1e30, too large to draw");
     table.note("overlay: " + *asked.overlay);
   }
   const MotionRequest request = with_defaults(asked, parameters);

@@ -2,8 +2,10 @@
 
 #include <sys/stat.h>
 #include <unistd.h>
+#include <algorithm>
 #include <array>
 #include <atomic>
+#include <bit>
 #include <cerrno>
 #include <csignal>
 #include <cstdio>
@@ -79,6 +81,23 @@ Temporary::~Temporary()
   for (auto& place : temporaries)
     if (place == name_.c_str()) place = nullptr;
   remove_now(name_.c_str());
+}
+
+void require_plain_name(const std::string& name)
+{
+  for (std::size_t k = 0, length = 1; k < name.size(); k += length) {
+    const auto is_inner = [](char c) { return (c & 0xc0) == 0x80; };
+    const auto first = static_cast<unsigned char>(name[k]);
+    length = std::max(1, std::countl_one(first));
+    const std::string letter = name.substr(k, length);
+    const bool is_whole = letter.size() == length && length <= 4 &&
+                          !is_inner(letter[0]) &&
+                          std::all_of(letter.begin() + 1, letter.end(), is_inner);
+    if (!is_whole || printable(letter) != letter)
+      throw BadInput("'" + name.substr(0, k) + format("\\x%02x...': ", first) +
+                     "names of files hold neither control characters nor bytes that are "
+                     "no UTF-8");
+  }
 }
 
 bool is_same_file(const std::string& a, const std::string& b)

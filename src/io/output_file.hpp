@@ -24,6 +24,10 @@ private:
   const std::string name_;
 };
 
+/** Throws BadInput for the name of a file with tabs or other control characters, or with
+    bytes that are no UTF-8. */
+void require_plain_name(const std::string& name);
+
 /** Whether two names are of one file, there or not yet. */
 bool is_same_file(const std::string& a, const std::string& b);
 

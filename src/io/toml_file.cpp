@@ -505,6 +505,7 @@ std::vector<double> SceneFile::speed_range(const std::string& key)
   const double step = table.number("step", Range::positive);
   table.refuse_unknown_keys();
   if (to <= from) table.fail("to", "must be above from");
+  if ((to - from) / step > 1e5) table.fail("step", "gives more than 100000 speeds");
   const long count = std::lround((to - from) / step);
   if (std::abs(from + static_cast<double>(count) * step - to) > 1e-9 * to)
     table.fail("step", "must divide the range");

@@ -32,7 +32,7 @@ std::vector<int> along_the_body(const SparseMatrix& pattern)
   const auto degree = [&](int i) {
     return pattern.outerIndexPtr()[i + 1] - pattern.outerIndexPtr()[i];
   };
-  std::vector<bool> is_seen;
+  std::vector<bool> is_seen(static_cast<std::size_t>(n));
   const auto breadth_first = [&](int start, std::vector<int>& list) {
     std::size_t at = list.size();
     list.push_back(start);
@@ -48,20 +48,17 @@ std::vector<int> along_the_body(const SparseMatrix& pattern)
     }
   };
   std::vector<int> order;
-  std::vector<bool> is_done(static_cast<std::size_t>(n));
   for (int i = 0; i < n; ++i) {
-    if (is_done[i]) continue;
+    if (is_seen[i]) continue;
     /** The last of a search is far from where it began, and a good begin. */
     int start = i;
     for (int k = 0; k < 3; ++k) {
-      is_seen = is_done;
       std::vector<int> list;
       breadth_first(start, list);
       start = list.back();
+      for (const int seen : list) is_seen[seen] = false;
     }
-    is_seen = is_done;
     breadth_first(start, order);
-    is_done = is_seen;
   }
   std::ranges::reverse(order);
   return order;
@@ -283,9 +280,10 @@ void require_held(const HeldBody& body, const BodyPorts& ports, const std::strin
     held.coeffRef(body.place(dof), body.place(dof)) += ports.spring;
   const Eigen::SimplicialLDLT<SparseMatrix, Eigen::Lower, Eigen::NaturalOrdering<int>>
       factors(held);
+  const Eigen::VectorXd pivots = factors.vectorD();  // a copy each time
   constexpr double rounding = 1e-12;
   for (int i = 0; i < held.rows(); ++i)
-    if (!(factors.vectorD()[i] > rounding * held.coeff(i, i)))
+    if (!(pivots[i] > rounding * held.coeff(i, i)))
       throw BadInput(format(
           "%s: K is singular, and no bearing holds what it leaves free: found at degree "
           "of freedom %d (torsion and axial motion must be held too)",

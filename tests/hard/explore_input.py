@@ -1,15 +1,16 @@
 """Whatever explore is asked, it ends by itself with status 0, 2 or 3 and the output that belongs to it.
 
-    0   a table of finite numbers on stdout, nothing on stderr
+    0   a table of finite numbers on stdout, on stderr at most how many points of a map have no result, and a warning of the speed
     2   bad input: one line on stderr, nothing on stdout
     3   no solution: one line on stderr, at most a part of a table on stdout
 
-No run leaves a file behind that was not asked for, or half of one. The questions are drawn by hypothesis,
+No run takes minutes, whatever the machine, or leaves a file behind that was not asked for, or half of one. The questions are drawn by hypothesis,
 the same in every run; what fails is shrunk to the simplest question that still fails. Other questions:
-EXAMPLES=10 (times as many) SEED=7.
+EXAMPLES=10 (times as many) SEED=7. With ATTACKS=FILE the counts of each test are added to a file (attack.py).
 
 Usage: tests/hard/explore_input.py [TEST…]   (from the project's root)
 """
+import json
 import os
 import re
 import shutil
@@ -34,6 +35,8 @@ SANITIZED = "SANITIZED" in os.environ
 # Evaluations of the force: a few milliseconds of work.
 LITTLE = "1e5"
 GOOD_FILE = written(entries(SET_1)).encode()
+LONGEST = 1200 if SANITIZED else 120  # [s] of a run; with LITTLE most take milliseconds
+WRITTEN = ("--save", "--section", "--motions", "--waterfall", "--plot", "--to")
 
 # ----------------------------------------------------------------------------------------------------
 # What may come of a question
@@ -59,7 +62,7 @@ def fault(status, out, err):
     """What is wrong with the end of a run, or None."""
     one_line = len(err) > 1 and err.count("\n") == 1 and err.endswith("\n")
     if status == 0:
-        if err:
+        if not re.fullmatch(r"(\d+ of \d+ points have no result: see their status\n)?(warning: [^\n]*\n)?", err):
             return "status 0 with words on stderr"
         words = out.startswith("Explores") or "Usage:" in out[:200] or re.match(r"rotor_stator \d", out)
         return None if words else table_fault(out)
@@ -85,11 +88,12 @@ class Folder:
     def ask(self, arguments, files):
         """Runs explore; returns its status, after the check of all that it printed and left."""
         for old in self.path.iterdir():
-            old.unlink()
+            shutil.rmtree(old) if old.is_dir() else old.unlink()
         for name, content in files.items():
             (self.path / name).write_bytes(content)
         words = [str(EXPLORE).encode(), *(word.encode("utf-8", "surrogateescape") for word in arguments)]
-        run = subprocess.run(words, cwd=self.path, stdin=subprocess.DEVNULL, capture_output=True)
+        run = subprocess.run(words, cwd=self.path, stdin=subprocess.DEVNULL, capture_output=True,
+                             timeout=LONGEST if LITTLE in arguments else 1800)
         out, err = (text.decode("utf-8", "surrogateescape") for text in (run.stdout, run.stderr))
         wrong = fault(run.returncode, out, err) or self.left_behind(files, arguments, run.returncode)
         assert not wrong, f"{wrong}\nexplore {arguments}\n{err[:2000]}\n" + "\n".join(
@@ -102,13 +106,17 @@ class Folder:
             if (self.path / name).read_bytes() != content:
                 return f"{name} was changed"
         more = {file.name for file in self.path.iterdir()} - files.keys()
-        asked = {name for option, name in zip(arguments, arguments[1:]) if option in ("--save", "--section", "--motions")}
+        asked = {name for option, name in zip(arguments, arguments[1:]) if option in WRITTEN}
+        asked |= {"M.mtx", "C.mtx", "G.mtx", "K.mtx"} if "." in asked else set()
         if more - asked:
             return f"left behind: {sorted(more)}"
         if more and status == 2:
             return "saved, although the input was bad"
-        if not all((self.path / name).read_bytes().endswith(b"\n") for name in more):
-            return "saved in part"
+        for file in (self.path / name for name in more):
+            if file.is_dir() and {part.name for part in file.iterdir()} != {"M.mtx", "C.mtx", "G.mtx", "K.mtx"}:
+                return "a folder saved in part"
+            if not all(part.read_bytes().endswith(b"\n") for part in (file.iterdir() if file.is_dir() else [file])):
+                return "saved in part"
         return None
 
 
@@ -279,10 +287,11 @@ def response_options(draw, extreme):
         "--harmonics": (2, whole(0, 2.5 if extreme else 1)), "--samples": (4, whole(1, 5 if extreme else 3)),
         "--newton-tolerance": (4, real(-15, -3)), "--direction": (4, st.sampled_from(["up", "down"])),
         "--columns": (4, st.just("all")), "--harmonics-of": (6, st.sampled_from(["x_s", "y_r"])),
-        "--isolated": (8, whole(0, 1)), "--save": (8, st.just("saved.tsv"))}))
+        "--isolated": (8, whole(0, 1)), "--save": (8, st.just("saved.tsv")), "--waterfall": (12, st.just("lines.tsv")),
+        "--plot": (60, st.just("figure.svg"))}))
     if draw(one_in(8)):
         options = [["--subharmonic", draw(st.integers(2, 4).map(str))],
-                   *(option for option in options if option[0] not in ("--isolated", "--save"))]
+                   *(option for option in options if option[0] not in ("--isolated", "--save", "--waterfall"))]
     return [["--from", repr(start)], ["--to", repr(end)], *options]
 
 
@@ -309,14 +318,65 @@ def check_options(draw, extreme):
     return [["--from", repr(start)], ["--to", repr(start * (1 + decade(dice, -3, 4)))]]
 
 
+# Exponents of ten of the values of an axis of a map.
+AXES = {"frequency": (0, 2), "bearing.radial_clearance_m": (-7, -3), "rotor.mass_kg": (-1, 3), "rotor.unbalance_kg_m": (-6, 0),
+        "bearing.contact_stiffness_N_per_m1p5": (7, 13)}
+SWEPT = ["peak", "peak_frequency", "permanent", "loss_first", "loss_last", "largest_load", "missed"]
+HERE = ["amplitude", "mean", "contact_share", "ball_load", "force", "stability", "multiplier", "uncertainty", "period", "regime", "lyapunov",
+        "amp_1X_y_r", "iso_x_r"]
+BALANCED = ["harmonics", "distance", "error", "evaluations", "series", "series_stability"]
+
+
+@st.composite
+def map_options(draw, extreme):
+    dice = draw(st.randoms())
+    is_swept = draw(one_in(4))
+    keys = draw(st.lists(one(*list(AXES)[is_swept:]), min_size=1, max_size=2, unique=True))
+    options = []
+    for option, key in zip(("--x", "--y"), keys):
+        wide = 3 if extreme else 0
+        ends = sorted(decade(dice, AXES[key][0] - wide, AXES[key][1] + wide) for _ in "ab")
+        options.append([option, f"{key}={ends[0]!r}:{ends[1]!r}:{draw(st.integers(1, 4))}" + draw(one("", "", ":log"))])
+    if is_swept:
+        start = decade(dice, 0, 2)
+        options.append(["--sweep", f"{start!r}:{start * (1 + decade(dice, -2, 1))!r}:{draw(whole(0.31, 5 if extreme else 2))}"])
+    elif "frequency" not in keys:
+        options.append(["--frequency", draw(real(-3, 5) if extreme else real(0, 2))])
+    method = draw(one("auto", "aft", "aft", "rk4"))
+    known = SWEPT if is_swept else HERE + BALANCED * (method == "aft")
+    options += [["--quantity", ",".join(draw(st.lists(st.sampled_from(known), min_size=1, max_size=4, unique=True)))]]
+    if method == "aft" or is_swept:
+        return [*options, ["--harmonics", draw(whole(0, 2.5 if extreme else 1))]]
+    return [*options, ["--method", method], *draw(chosen({"--tolerance": (4, real(-8, -1)), "--longest": (4, real(-3, 5))}))]
+
+
+@st.composite
+def campbell_options(draw, extreme):
+    dice = draw(st.randoms())
+    start = 0.0 if draw(one_in(3)) else decade(dice, -4, 4 if extreme else 2)
+    end = start + decade(dice, -3, 5 if extreme else 2)
+    return [["--from", repr(start)], ["--to", repr(end)], ["--count", draw(whole(0.31, 3 if extreme else 1))],
+            *draw(chosen({"--modes": (3, whole(0, 3)), "--plot": (40, st.just("figure.svg"))}))]
+
+
+@st.composite
+def runup_options(draw, extreme):
+    dice = draw(st.randoms())
+    speeds = [decade(dice, -3 if extreme else 0, 4 if extreme else 2), draw(one(0.0, 1.0)) * decade(dice, 0, 2)]
+    dice.shuffle(speeds)
+    return [["--from", repr(speeds[0])], ["--to", repr(speeds[1])], ["--seconds", draw(real(-3, 4 if extreme else 0))],
+            *draw(chosen({"--plot": (40, st.just("figure.svg"))}))]
+
+
 OPTIONS_OF = {"check": check_options, "orbit": motion_options, "contact": motion_options, "spectrum": spectrum_options,
-              "response": response_options, "attractors": attractors_options}
+              "response": response_options, "attractors": attractors_options, "map": map_options, "campbell": campbell_options,
+              "runup": runup_options}
 
 
 @st.composite
 def questions(draw, extreme):
     """A command and its options, as [name, value]."""
-    command = draw(one("orbit", "orbit", "contact", "spectrum", "response", "attractors", "check"))
+    command = draw(one("orbit", "response", *OPTIONS_OF))
     return command, draw(OPTIONS_OF[command](extreme))
 
 
@@ -335,7 +395,7 @@ def options_spoilt(draw, options):
         name, value = options[at]
         which = draw(st.sampled_from(["value"] * 4 + ["missing", "twice", "misspelt", "unknown", "foreign"]))
         if which == "value":
-            options[at] = [name, draw(st.sampled_from(odd.SAVES) if name in ("--save", "--section", "--motions") else WORDS)]
+            options[at] = [name, draw(st.sampled_from(odd.SAVES) if name in WRITTEN else WORDS)]
         elif which == "missing" and len(options) > 1:
             del options[at]
         elif which == "twice":
@@ -379,6 +439,31 @@ def extreme_questions(draw, flags=True, another_kind=False):
     if flags and command == "response" and draw(one_in(4)):
         words.append("--stability")
     return written(entries(machine)).encode(), words
+
+
+@cache
+def rotor_files():
+    """An overhung rotor by its matrices, and where its nodes are, as explore writes them."""
+    folder = Path("data/rotors")
+    nodes = subprocess.run([EXPLORE, "shaft", folder.resolve() / "overhung_shaft.toml", "--to", "matrices"], cwd=tempfile.mkdtemp(),
+                           stdout=subprocess.PIPE, check=True).stdout
+    machine = (folder / "overhung.toml").read_bytes().replace(b'matrices = "overhung"', b'matrices = "."')
+    return {"machine.toml": machine, "nodes.tsv": nodes, **{f"{name}.mtx": (folder / f"overhung/{name}.mtx").read_bytes() for name in "MCGK"}}
+
+
+@st.composite
+def rotor_questions(draw):
+    """Of a shaft, or of a rotor by its matrices, one of its files spoilt as often as not."""
+    command = draw(one("shaft", "shape", "shape", *OPTIONS_OF))
+    if command == "shaft":
+        files, options = {"machine.toml": Path("data/rotors/overhung_shaft.toml").read_bytes()}, [["--to", draw(one("new", "new", ".", "machine.toml", *odd.SAVES[3:]))]]
+    else:
+        files, options = dict(rotor_files()), draw(OPTIONS_OF.get(command, motion_options)(extreme=False))
+        options += [["--nodes", "nodes.tsv"]] * (command == "shape")
+    if draw(st.booleans()):
+        name = draw(one(*files))
+        files[name] = draw(bytes_spoilt(files[name]))
+    return files, [command, "machine.toml", *(word for option in options for word in option)]
 
 
 # What was once counted too cheap, in order: integrations that break down; a large dense block; two branches
@@ -428,6 +513,14 @@ def examples(count):
     return lambda test: drawn(seed(int(os.environ.get("SEED", 0)))(test))
 
 
+def report(what, tally):
+    """How many questions ended with each status."""
+    print(dict(tally))
+    if "ATTACKS" in os.environ:
+        with open(os.environ["ATTACKS"], "a", encoding="utf-8") as file:
+            print(json.dumps([what, tally[0], tally[2], tally[3]]), file=file)
+
+
 class Explore(unittest.TestCase):
     @classmethod
     def setUpClass(cls):
@@ -439,7 +532,7 @@ class Explore(unittest.TestCase):
 
     def ask(self, tally, words, content=GOOD_FILE, budget=LITTLE, **files):
         """Asks, and counts how it ended."""
-        bounded = [*words, "--budget", budget] if budget and words[0] != "check" else words
+        bounded = [*words, "--budget", budget] if budget and words[0] not in ("check", "shaft") else words
         tally[self.folder.ask(bounded, {"machine.toml": content, **files})] += 1
 
     def test_a_good_question_is_answered(self):
@@ -459,7 +552,7 @@ class Explore(unittest.TestCase):
                      content)
 
         run()
-        print(dict(tally))
+        report("files of machines, spoilt", tally)
         self.assertGreater(tally[2], tally[0])
 
     def test_spoilt_options(self):
@@ -471,7 +564,7 @@ class Explore(unittest.TestCase):
             self.ask(tally, words)
 
         run()
-        print(dict(tally))
+        report("command lines, spoilt", tally)
         self.assertGreater(tally[2], tally[0])
 
     def test_spoilt_branches_to_restart(self):
@@ -486,10 +579,23 @@ class Explore(unittest.TestCase):
             self.ask(tally, [*words, "--restart", "branch.tsv", *more], **{"branch.tsv": content})
 
         run()
-        print(dict(tally))
+        report("saved branches, spoilt", tally)
         self.assertGreater(tally[2], tally[0])
 
-    def legal_and_extreme(self, questions):
+    def test_rotors_given_by_matrices(self):
+        tally = Counter()
+
+        @examples(600)
+        @given(rotor_questions())
+        def run(question):
+            files, words = question
+            self.ask(tally, words, files.pop("machine.toml"), **files)
+
+        run()
+        report("rotors given by matrices", tally)
+        self.assertGreater(min(tally[0], tally[2]), 0)
+
+    def legal_and_extreme(self, name, questions):
         tally = Counter()
 
         @examples(600)
@@ -499,14 +605,14 @@ class Explore(unittest.TestCase):
             self.ask(tally, words, content)
 
         run()
-        print(dict(tally))
+        report(name, tally)
         self.assertGreater(tally[0] + tally[3], tally[2])
 
     def test_legal_and_extreme_machines_and_options(self):
-        self.legal_and_extreme(extreme_questions())
+        self.legal_and_extreme("extreme machines and options", extreme_questions())
 
     def test_legal_and_extreme_machines_of_another_kind(self):
-        self.legal_and_extreme(extreme_questions(another_kind=True))
+        self.legal_and_extreme("extreme machines of other kinds", extreme_questions(another_kind=True))
 
     def test_legal_and_extreme_machines_with_the_budget_of_explore(self):
         tally = Counter()
@@ -518,7 +624,7 @@ class Explore(unittest.TestCase):
             self.ask(tally, words, content, "3e6" if SANITIZED else None)
 
         run()
-        print(dict(tally))
+        report("extreme machines without `--budget`", tally)
 
     def test_machines_whose_work_was_once_counted_too_cheap(self):
         tally = Counter()

@@ -111,8 +111,15 @@ diametral_clearance_m = 0.02
 """
         for word in ("are lengths in m?", "is the modulus in Pa?"):
             self.assertIn(word, self.values(HELD + sizes)[1].header)
-        fast = self.table("orbit", self.file("named.toml", HELD + LOOSE), "--frequency", 1797, "--points", 4)
-        self.assertIn("speeds are in Hz, or as 1500rpm", fast.header)
+        own, words = self.file("named.toml", HELD + LOOSE), "speeds are in Hz, or as 1500rpm"
+        for asked in (["orbit", own, "--frequency", 1797, "--points", 4],
+                      ["map", own, "--x", "frequency=10:1797:2", "--quantity", "amplitude"]):
+            fast = self.run_explore(*asked)
+            self.assertIn("#   warning: 1797 Hz", fast.stdout)
+            self.assertIn(words, fast.stdout)
+            self.assertRegex(fast.stderr, rf"\Awarning: 1797 Hz.*{words}\n\Z")
+            self.assertFalse(self.run_explore(*asked, "--quiet").stderr)
+        self.assertIn(words, self.run_explore("campbell", own, "--from", 0, "--to", 1797, "--count", 2).stdout)
         self.assertNotIn("warning", self.table("orbit", self.folder / "named.toml", "--frequency", "1797rpm", "--points", 4).header)
 
     def test_refusals(self):

@@ -168,6 +168,15 @@ class Values(Case):
             with self.subTest(arguments):
                 self.refused(words, *arguments, program=program)
 
+    def test_a_scene_of_many_speeds(self):
+        """Which took 47 GB and a minute."""
+        (self.folder / "scenes").mkdir()
+        for name in ("set1", "set2"):
+            self.file(f"{name}.toml", Path(f"data/{name}.toml").read_text(encoding="utf-8"))
+        scene = Path("data/scenes/fig03_response.toml").read_text(encoding="utf-8").replace("step = 0.1 }", "step = 1e-8 }")
+        self.refused("balance_hz.step gives more than 100000 speeds", self.file("scenes/many.toml", scene),
+                     program=Path(EXPLORE).with_name("fig03_response"))
+
 
 class Save(Case):
     """What --save must never replace, and that it replaces a file whole or not at all."""
@@ -335,11 +344,15 @@ class Files(Case):
                                      MACHINE.replace('title = "', 'title = "' + character))
 
     def test_no_line_from_a_file_name(self):
-        lines = self.lines("orbit", self.file("a\n# regime: none\nb.toml", MACHINE), *ORBIT, "--harmonics", 6)
-        self.assertEqual([line for line in lines if line.startswith("# regime")],
-                         ["# regime: periodic"])
-        self.assertEqual(len([line for line in lines if not line.startswith("#")]), 5)
-        self.refused("no such file", "orbit", "no\nsuch\nfile", *ORBIT)
+        """Nor one that a script could not open, after the work: of what is read and of what is written."""
+        self.file("a\n# regime: none\nb.toml", MACHINE)
+        for name, shown in (("a\n# regime: none\nb.toml", r"'a\x0a...'"), ("a\tb.svg", r"'a\x09...'"), ("é\udcff.svg", r"'é\xff...'"),
+                            ("\udce9\udc80.svg", r"'\xe9...'"), ("\u2028.svg", r"'\xe2...'")):
+            for asked in (["orbit", name, *ORBIT], ["orbit", self.machine, *ORBIT, "--plot", name],
+                          ["spectrum", self.machine, "--frequency", 45, "--plot", "a.svg", "--overlay", name],
+                          ["response", self.machine, *RESPONSE, "--harmonics", 6, "--save", name], ["shaft", self.machine, "--to", name]):
+                self.refused(shown + ": names of files hold neither", *asked)
+        self.lines("orbit", self.file("é 🙂.toml", MACHINE), *ORBIT, "--harmonics", 6)
 
     def test_unknown_key_with_a_suggestion(self):
         for known, unknown in [("balls", "bals"), ("mass_kg", "mass"),

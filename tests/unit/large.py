@@ -4,9 +4,11 @@ integration of all degrees of freedom written here.
 Usage: tests/unit/large.py   (from the project's root)
 """
 import importlib.util
+import os
 import re
 import subprocess
 import sys
+import time
 import tomllib
 import types
 import unittest
@@ -15,7 +17,7 @@ from pathlib import Path
 import numpy as np
 
 sys.path.insert(0, str(Path(__file__).parents[1]))
-from support.explore import EXPLORE, Case  # noqa: E402
+from support.explore import EXPLORE, Case, Table  # noqa: E402
 
 NAMES = ["x_s", "y_s", "x_r", "y_r"]
 GRAVITY = 9.81
@@ -454,6 +456,32 @@ radial_clearance_m = {b["clearance"]}
         values_of_all = np.linalg.eigvals(np.block([[np.zeros((n, n)), np.eye(n)], [-np.linalg.solve(m, k), -np.linalg.solve(m, c)]]))
         exact = np.sort(values_of_all.imag[values_of_all.imag > 1e-6])[:8] / (2 * np.pi)
         np.testing.assert_allclose([values[f"f_{i}"] for i in range(1, 9)], exact, rtol=1e-4)
+
+    def test_campbell_at_one_speed(self):
+        """The rows of that speed; nothing that needs two; and what the budget does not pay for."""
+        machine = Path("data/rotors/overhung.toml").resolve()
+        one, two = (self.table("campbell", machine, "--from", 30, "--to", to, "--count", count) for to, count in ((30, 1), (31, 2)))
+        self.assertTrue(len(one) > 2 and set(one["f"]) == {30})
+        np.testing.assert_array_equal(one["frequency"], two.where("f", 30)["frequency"])
+        for more in (["--to", 31], ["--to", 30, "--critical"], ["--to", 30, "--plot", "a.svg"]):
+            self.refused("--count 1: is for --from equal to --to", "campbell", machine, "--from", 30, "--count", 1, *more)
+        result = self.run_explore("campbell", machine, "--from", 0, "--to", 100, "--count", 10000, "--budget", 1e7)
+        part = Table.of(result.stdout)
+        self.assertEqual((result.returncode, part.value("complete")), (3, "no"))
+        self.assertIn("the budget of 1e+07 evaluations of the force is used up; more with --budget", result.stderr)
+        self.assertTrue(0 < len(np.unique(part["f"])) < 10000)
+
+    def test_a_body_of_very_many_pieces(self):
+        """Unconnected degrees of freedom are put in order, and looked at, in a time that grows as their number does: 300,000
+        of them took 16 s."""
+        (self.folder / "pieces").mkdir()
+        for name, value in (("M", 1), ("C", 10), ("G", 0), ("K", 1e6)):
+            rows = "".join(f"{k} {k} {value}\n" for k in range(1, 300001))
+            self.file(f"pieces/{name}.mtx", f"%%MatrixMarket matrix coordinate real general\n300000 300000 300000\n{rows}")
+        text = Path("data/rotors/overhung.toml").read_text(encoding="utf-8").replace('"overhung"', '"pieces"')
+        began = time.process_time() + sum(os.times()[2:4])
+        self.table("check", self.file("pieces.toml", text))
+        self.assertLess(time.process_time() + sum(os.times()[2:4]) - began, 8)
 
     def nodes(self, elements, every=1):
         """The table of a shaft's nodes, and the degrees of freedom of x and y from 0."""

@@ -3,6 +3,7 @@ points of the other commands; what it refuses, and what stands in the row of a p
 
 Usage: tests/unit/maps.py   (from the project's root)
 """
+import re
 import subprocess
 import sys
 import time
@@ -53,6 +54,19 @@ class Bytes(Case):
             part = self.file("part.tsv", whole[:cut])
             self.assertEqual(self.map("--resume", part), whole, cut)
         self.assertEqual(self.map("--resume", self.file("whole.tsv", whole)), whole)
+
+    def test_one_line_of_points_that_need_no_other(self):
+        """Motions from rest are written, and taken over, in parts of a line. Would catch a map that has nothing before its end."""
+        asked = ["map", self.machine, "--x", "frequency=40:41:130", "--quantity", "regime"]
+        whole = self.run_explore(*asked, "--threads", 1).stdout
+        self.assertEqual(self.run_explore(*asked, "--threads", 3).stdout, whole)
+        names = whole.splitlines(keepends=True)
+        first = next(k for k, line in enumerate(names) if line.startswith("40\t"))
+        for kept, taken in ((63, 0), (64, 64), (129, 128), (130, 130)):
+            part = [*names[:first], *(line.replace("\tperiodic\t", "\tchaotic\t") for line in names[first:first + kept])]
+            found = self.run_explore(*asked, "--resume", self.file("part.tsv", "".join(part))).stdout.splitlines(keepends=True)
+            self.assertEqual(sum("\tchaotic\t" in line for line in found), taken)
+            self.assertEqual([line.replace("\tchaotic\t", "\tperiodic\t") for line in found], names)
 
     def test_rotten_rows_are_refused(self):
         """Cells that are no values, too many or too few of them, a status that does not fit. Would catch a row that is taken
@@ -220,6 +234,17 @@ class Values(Case):
         self.assertEqual((result.returncode, result.stderr), (0, "1 of 3 points have no result: see their status\n"))
         self.assertEqual([cell == "-" for cell in table["amplitude"]], [False, True, False])
         self.assertIn("4.5 balls pass", table["status"][1])
+
+    def test_each_point_keeps_its_budget(self):
+        """A sweep of 100,000 speeds took more than a minute, the motion from rest with 1,024 balls hours."""
+        many = self.file("many.toml", re.sub("balls = 16", "balls = 1024", MACHINE))
+        for machine, asked in ((self.machine, "--quantity peak,missed --sweep 1:60:100000 --harmonics 256"),
+                               (many, "--quantity period,lyapunov --frequency 13.4 --method rk4 --longest 1e5")):
+            result = self.run_explore("map", machine, "--x", f"{CLEARANCE}=1e-5:2e-5:2", *asked.split(), "--budget", 1e5, timeout=20)
+            self.assertEqual(result.returncode, 0, result.stderr)
+            rows = Table.of(result.stdout)
+            self.assertTrue(all("the budget of 1e+05 evaluations of the force is used up" in word for word in rows["status"]))
+            self.assertTrue(all(str(cell) in ("-", "-2.0") for name in asked.split()[1].split(",") for cell in rows[name]))
 
 
 class Refusals(Case):

@@ -187,6 +187,22 @@ class Formats(Case):
         self.refused("--overlay: needs --plot", *spectrum, "--overlay", measured)
         other = self.file("other.tsv", "f\tsize\n45\t1e-3\n")
         self.refused("has no column amplitude", *spectrum, "--plot", "c.svg", "--overlay", other)
+        for row in ("45\t1e308", "1e308\t1", "45\t-1e31"):
+            self.refused("is beyond 1e30, too large to draw", *spectrum, "--plot", "c.svg", "--overlay",
+                         self.file("other.tsv", f"f\tamplitude\n45\t1e-3\n{row}\n"))
+        self.lines(*spectrum, "--plot", "c.svg", "--overlay", self.file("other.tsv", "f\tamplitude\n1e30\t1e30\n45\t-1\n"))
+
+    def test_speeds_in_rpm(self):
+        """Axis and marks, in the figure alone."""
+        for command in (["response", self.machine, "--from", 20, "--to", 21, *SIX],
+                        ["runup", self.machine, "--from", 20, "--to", 21, "--seconds", 1],
+                        ["campbell", self.machine, "--from", 0, "--to", 60, "--count", 7]):
+            in_hertz, in_rpm = (self.lines(*command, "--plot", "a.svg", *more) for more in ([], ["--rpm"]))
+            self.assertEqual([line for line in in_rpm if line != "# speed_unit: rpm"], in_hertz)
+            svg = (self.folder / "a.svg").read_text(encoding="utf-8")
+            self.assertIn("speed of rotation [rpm]", svg)
+            self.assertIn("3000" if command[0] == "campbell" else "1240", svg)
+            self.refused("--rpm: needs --plot", *command, "--rpm")
 
     def progress(self, *options):
         """What a terminal gets on stderr."""

@@ -1,0 +1,81 @@
+"""explore from Python: its tables as arrays and keys, and runs of it.
+
+    import rotor_stator
+    orbit = rotor_stator.run("orbit", "my.toml", frequency=25, tolerance=1e-3, plot=True)
+    orbit["x_r"], orbit.value("regime"), orbit.keys(), orbit.svg
+    measured = rotor_stator.read("measured.tsv")
+
+From the clone PYTHONPATH=figures finds it; `cmake --install` puts it into lib/python3/dist-packages.
+"""
+import os
+import shutil
+import subprocess
+import tempfile
+from pathlib import Path
+
+if not Path(__file__).with_name("tables.py").exists():  # in the clone it stands beside the figures
+    __path__.append(str(Path(__file__).parents[1]))
+from .tables import Table, read  # noqa: E402
+
+__all__ = ["NoAnswer", "Table", "attempt", "explore", "read", "run"]
+
+
+class NoAnswer(RuntimeError):
+    """explore found none, status 3; `table` is what it printed until then, or None."""
+
+    def __init__(self, why, table):
+        super().__init__(why)
+        self.table = table
+
+
+def explore():
+    """The program: EXPLORE of the environment, that of the clone, of the installation, or of the PATH."""
+    here = Path(__file__).resolve()
+    known = [os.environ.get("EXPLORE"), here.parents[2] / "build/explore", here.parents[4] / "bin/explore"]
+    found = next((file for file in known if file and Path(file).is_file()), None) or shutil.which("explore")
+    if not found:
+        raise FileNotFoundError("explore: not built, not installed; EXPLORE names it")
+    return str(found)
+
+
+def words_of(options):
+    """frequency=25, columns=["x_r", "y_r"], quiet=True as words; from_=1 is --from 1. None and False leave an option out."""
+    for name, value in options.items():
+        if value is not None and value is not False:
+            yield "--" + name.strip("_").replace("_", "-")
+            if value is not True:
+                yield ",".join(map(str, value)) if isinstance(value, (list, tuple)) else str(value)
+
+
+class Run(Table):
+    """A table with the figure of its run: `svg`, which a notebook shows."""
+    svg = None
+
+    def _repr_svg_(self):
+        return self.svg
+
+
+def run(command, *words, plot=None, **options):
+    """The table of a run of explore; `plot=True` draws it too, a name draws into that file. Options stand for those of the command
+    (`words_of`), `words` for themselves. What is refused raises ValueError with explore's line, what has no answer NoAnswer."""
+    with tempfile.TemporaryDirectory() as folder:
+        figure = Path(folder, "figure.svg") if plot is True else plot
+        asked = [explore(), command, *words, *words_of(options | ({"plot": figure} if figure else {}))]
+        ran = subprocess.run([str(word) for word in asked], stdin=subprocess.DEVNULL, capture_output=True, encoding="utf-8", check=False)
+        table = Run.of(ran.stdout) if any(line and line[0] != "#" for line in ran.stdout.splitlines()) else None
+        why = ran.stderr.strip()
+        if ran.returncode == 3:
+            raise NoAnswer(why, table)
+        if ran.returncode:
+            raise ValueError(why or f"explore {command}: status {ran.returncode}")
+        if plot is True:
+            table.svg = figure.read_text(encoding="utf-8")
+        return table
+
+
+def attempt(command, *words, **options):
+    """The same; where there is no answer, the table of what was found until then, or None."""
+    try:
+        return run(command, *words, **options)
+    except NoAnswer as end:
+        return end.table
