@@ -60,11 +60,11 @@ LONGEST = {"words": 5500, "figures": 9, "words of the abstract": 180, "numbers o
 
 def lengths(text):
     """What is too long in the text that is read, tables and references left out."""
-    text = re.sub(r"(?s)\A---\n.*?^---\n|^\|.*$|^## References.*", "", text, flags=re.MULTILINE)
+    text = re.sub(r"\A---\n(?s:.*?)^---\n|^\|.*$|^## References(?s:.*)", "", text, flags=re.MULTILINE)
     abstract = re.search(r"(?s)^## Abstract\n(.*?)^\*\*Keywords", text, re.MULTILINE)[1]
     words = len(re.findall(r"(?<!\S)[^\W_]\S*|(?<!\S)\(\S+", re.sub(r"(?s)\$\$.*?\$\$|\]\([^)]*\)", "", text)))
     found = {"words": words, "figures": len(re.findall(r"^!\[", text, re.MULTILINE)), "words of the abstract": len(abstract.split()),
-             "numbers of the abstract": len(re.findall(r"\d[\d.,]*", re.sub(r"\(\d{4}\)", "", abstract)))}
+             "numbers of the abstract": len(re.findall(r"\d[\d.,]*", abstract))}
     print(", ".join(f"{count} {name}" for name, count in found.items()))
     for name, most in LONGEST.items():
         if found[name] > most:
