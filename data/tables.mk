@@ -5,7 +5,7 @@
 paper := fig01_bearing fig02_ball_position tab01_parameters fig03_response fig04_displacements fig05_displacements \
   fig06_orbits fig07_contact fig08_orbits fig09_contact regimes tab02_timing
 # Computed by `make all`, for the exchanged reading alone.
-beside := deviations sampling runup
+beside := deviations sampling runup bound
 
 # Long studies, computed by `make studies`; data/reference keeps their tables.
 studies := attractors validity stability verdicts adaptive hard_cases sensitivity identification robustness cage \
@@ -15,7 +15,7 @@ costs := tab02_equal_error tab02_equal_error_mean work_precision cost_growth lar
 # Of these by Snakemake, from studies/NAME.yaml.
 maps := clearance_speed clearance_stiffness stiffness_border
 # By explore, from studies/NAME.py.
-scripts := adaptive attractors cage hard_cases identification large map_scaling robustness runup sampling sensitivity stability validity verdicts
+scripts := adaptive attractors bound cage hard_cases identification large map_scaling robustness runup sampling sensitivity stability validity verdicts
 # By other people's programs, from peers/NAME.py.
 peers := peers peers_auto
 

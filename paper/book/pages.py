@@ -22,7 +22,7 @@ TEMPLATES = {file.stem: file.read_text("utf-8") for file in Path("paper/book").g
 FIGURES = {name: {"name": name, "page": name, "script": next(Path("figures").glob(f"{name}.*"), None),
                   "table": max(Path("data").glob(f"[gr]e*/{name}.tsv"), default=""), **SHOWN["default"], **SHOWN.get(name, {})}
            for name in sorted({*SHOWN, *(drawing.stem for drawing in Path("figures/generated").glob("*.svg"))} - {"default"})}
-PROSE = re.compile(r'(^/\*\*(?=\s*#|(?:(?!\*/).)*?\$\$).*?\*/[ \t]*\n|\A""".*?"""\n)', re.M | re.S)
+PROSE = re.compile(r'(^/\*\*(?=\s*#|(?:(?!\*/).)*?\$\$).*?\*/[ \t]*\n|\Ar?""".*?"""\n)', re.M | re.S)
 MARK = r"\b(?:figure|table)\s`\w+`|\b(?:Eq|Fig|Figure|Table)s?\.? \d+(?:(?:, | and | to |-)\d+)*|\bD-\d\d\b|(?<!class )\bC(?:1[0-4]|[1-9])\b"
 INLINE = re.compile(  # what has no name stays as it is
     r"^ *(?P<fence>`{3,}).*?^ *(?P=fence)$|^(?:    |#)[^\n]*|\$\$.*?\$\$|\$[^$\n]+\$|<[^>\n]*>|"
@@ -93,7 +93,7 @@ def prose(text, file, page):
         if found["mark"] or found["name"]:
             return marked(found["mark"], page) if found["mark"] else named(found["name"], found[0], page)
         return f"{found['letter']}<sub>{found['index']}</sub>" if found["letter"] else found[0]
-    text = INLINE.sub(linked, re.sub(r'\A"""(.*?)\.?$', r"# \1", inspect.cleandoc(text), flags=re.M))
+    text = INLINE.sub(linked, re.sub(r'\Ar?"""(.*?)\.?$', r"# \1", inspect.cleandoc(text), flags=re.M))
     for pattern, shown in BLOCKS:
         text = re.sub(pattern, shown, text.strip(), flags=re.M)
     return text

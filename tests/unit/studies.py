@@ -21,6 +21,7 @@ for folder in ("tests", "figures", "studies"):  # a study may be called like its
     sys.path.insert(0, folder)
 import adaptive  # noqa: E402
 import attractors  # noqa: E402
+import bound  # noqa: E402
 import identification  # noqa: E402
 import map_scaling  # noqa: E402
 import sampling  # noqa: E402
@@ -358,6 +359,77 @@ class Answers(unittest.TestCase):
                 self.assertLessEqual({"this", "cvode", "rk4", "scipy-lsoda", "scipy-dop853"}, set(rows["method"]))
                 if target > 1e-5:
                     self.assertLessEqual(float(rows.where("method", "this").first("error")), target)
+
+
+class ABound(unittest.TestCase):
+    """The argument of bound.py, where the answer is known otherwise."""
+    INSTANTS, CELLS, TIMES = 8192, 512, 64
+
+    def at_45_hz(self, m):
+        """A solution of data set 1, with its orbit."""
+        scene = {"parameters": "set1", "frequency_hz": 45.0, "points": 4096}
+        orbit = bound.orbit(scene, "--harmonics", m)
+        return bound.Solution(bound.Machine("data/set1.toml", 45), orbit, m, self.INSTANTS), orbit
+
+    def test_without_contact_it_is_the_error(self):
+        """A clearance that is never closed: the motion is a closed form, and of a solution with wrong harmonics the bound is what they
+        are off. Would catch a wrong residual, load or inverse."""
+        machine = bound.Machine("data/set1.toml", 45)
+        machine.clearance = 1.0
+        phi = 2 * np.pi * np.arange(64) / 64
+        whirl = machine.unbalance / (machine.stiffness[2] - machine.mass[2] + 1j * machine.damping[2])
+        sag = machine.weight / machine.stiffness
+        exact = [0 * phi + sag[0], 0 * phi + sag[1], (whirl * np.exp(1j * phi)).real + sag[2], (whirl * np.exp(1j * phi)).imag + sag[3]]
+        off = [1e-6 * np.sin(phi + 1), 2e-6 * np.cos(2 * phi), 3e-6 + 0 * phi, 5e-6 * np.sin(3 * phi) + 1e-6]
+        found = bound.Bound(bound.Solution(machine, dict(zip(bound.NAMES, np.add(exact, off))), 3, self.INSTANTS), self.CELLS, self.TIMES)
+        self.assertTrue(found.closes)
+        self.assertEqual(found.remainder, 0)
+        self.assertAlmostEqual(found.bound / 6e-6, 1, delta=1e-5)
+
+    def test_greens_function(self):
+        """With contact, the integral over all s of G times the residual is e1. Would catch a wrong side of s = t and a wrong sign."""
+        solution, _ = self.at_45_hz(16)
+        line = bound.Linearisation(solution)
+        s, t = np.arange(line.steps), np.array([0, 1000, line.steps // 2])
+        answer = line.green(np.eye(4), t, s, -solution.residual[:-1:2]).sum(axis=2).T * 2 * solution.phi[1]
+        np.testing.assert_allclose(answer, line.first[t], atol=1e-4 * np.abs(line.first).max())
+
+    def test_the_force_is_within_its_bound(self):
+        """What is left of a ball's force beside its linear part, and of its slope, at penetrations and changes of all sizes: never above
+        the bound of the largest change, and at it somewhere in each case, out of contact, near its border and pressed."""
+        alpha = 0.3
+        z, a = np.meshgrid(np.linspace(-1, 1, 201), np.linspace(-alpha, alpha, 101), indexing="ij")
+        root, changed = np.sqrt(np.maximum(z, 0)), np.sqrt(np.maximum(z + a, 0))
+        for derivative, values in enumerate((changed**3 - root**3 - 1.5 * root * a, 1.5 * abs(changed - root))):
+            most, bounds = values.max(axis=1), bound.largest(z[:, 0], z[:, 0], alpha, derivative)
+            self.assertTrue((most <= bounds + 1e-12).all())
+            for reached in z[:, 0] < -alpha, abs(z[:, 0]) < 1e-9, z[:, 0] > alpha + 1e-9:
+                np.testing.assert_allclose(most[reached], bounds[reached], rtol=1e-9, atol=1e-12)
+            wide = bound.largest(z[:, 0] - 0.0501, z[:, 0] + 0.0501, alpha, derivative)
+            self.assertTrue((wide[5:-5] >= [bounds[k - 5:k + 6].max() - 1e-12 for k in range(5, 196)]).all())
+
+    def test_second_order(self):
+        """What shooting finds differs from the solution by e1 up to the remainder, which is far smaller; a solution that is too
+        far away is not bounded."""
+        solution, orbit = self.at_45_hz(64)
+        line, argument = bound.Linearisation(solution), bound.Bound(solution, self.CELLS, self.TIMES)
+        scene = {"parameters": "set1", "frequency_hz": 45.0, "points": 4096}
+        truth = bound.orbit(scene, "--method", "shooting", "--local-error", 1e-13)
+        error = np.column_stack([truth[name] - orbit[name] for name in bound.NAMES])
+        self.assertTrue(argument.closes)
+        self.assertLess(argument.remainder, 0.01 * argument.first)
+        np.testing.assert_allclose(line.first[:-1], error, atol=argument.remainder + 1e-4 * argument.first)
+        self.assertFalse(bound.Bound(self.at_45_hz(6)[0], self.CELLS, self.TIMES).closes)
+
+    def test_rows(self):
+        """Above the truth, with the last solution's bound too, and hardly above it where the argument closes; e1 alone is below it."""
+        table = computed_anew("bound", [("[6, 39, 40, 64, 128, 512]", "[6, 40, 128]"), ("65536", "32768"), ("4096", "1024"), ("512 ", "128 ")])
+        closed = table.rows(table["bound"] >= 0)
+        np.testing.assert_array_equal(closed["m"], [40, 128])
+        self.assertTrue((table["by_last"] >= table["truth"]).all() and (table["truth"] > 0.99 * table["estimate"]).all())
+        self.assertTrue((closed["excess"] > 0).all() and (closed["excess"] < 0.03).all(), closed["excess"])
+        self.assertLess(closed.first("first_order"), closed.first("truth"))
+        np.testing.assert_allclose(closed["bound"], closed["truth"] * (1 + closed["excess"]), rtol=1e-4)
 
 
 class Identification(unittest.TestCase):
