@@ -279,7 +279,8 @@ Exploration explore_orbit(const MotionRequest& request)
   const auto measured = measures.at_instants(
       {motion,
        at.found.base_periods / (at.found.base_frequency * motion.points_per_period),
-       request.frequency, at.found.closes_after > 0});
+       request.frequency,
+       at.found.closes_after > 0 && !base_period(parameters).is_driven_twice()});
   std::vector<std::vector<Vec2>> further;
   for (std::size_t b = 1; b < bearings; ++b) {
     const auto one = motion::at_bearing(at.found.machine, motion, b);
