@@ -108,7 +108,7 @@ kept = $$(subst generated,reference,data/$$*/$(1).tsv)
 data/generated/truth_intervals.tsv data/generated/as-printed/truth_intervals.tsv: data/%/truth_intervals.tsv: figures/truth_intervals.py \
   $(call kept,attractors) $(call kept,validity) $(reader)
 	$(whole) $(PYTHON) $(wordlist 1,3,$^) > $$new; mv $$new $@
-judging := figures/claim_quantities.py figures/claim_ranges.py data/scenes/fig07_contact.toml data/scenes/fig09_contact.toml
+judging := figures/claim_quantities.py figures/claim_ranges.py figures/claim_score.py data/scenes/fig07_contact.toml data/scenes/fig09_contact.toml
 $(claims): data/%/claims.tsv: figures/claims.py $(judging) $(reader) $(patsubst %,data/reference/%.tsv,clearance_stiffness identification \
   tab02_equal_error large) $(call kept,validity) $(patsubst %,data/\%/%.tsv,tab01_parameters fig03_response fig07_contact fig09_contact \
   regimes tab02_timing) | $(timings)

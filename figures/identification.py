@@ -18,8 +18,8 @@ from tables import run
 
 READINGS = ("exchanged: stator 500, rotor 150 rad/s", "as printed: stator 150, rotor 500 rad/s")
 PARAMETERS = ("data/set1.toml", "data/set1-as-printed.toml")
-HATCHES = {"reproduced": "", "partly": "//", "not reproduced": "xx"}  # readable in grey too
-COLOURS = {"reproduced": "C2", "partly": "C4", "not reproduced": "C1"}
+HATCHES = {"reproduced": "", "partly": "//", "not reproduced": "xx", "not tested": ".."}  # readable in grey too
+COLOURS = {"reproduced": "C2", "partly": "C4", "not reproduced": "C1", "not tested": "#bbbbbb"}
 USED = {"marker": "o", "ms": 9, "mfc": "white", "mec": "black", "mew": 1.2, "ls": ""}
 LOSS = {"marker": "o", "ms": 3, "mfc": "C1", "mec": "none", "ls": ""}
 
