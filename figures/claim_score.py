@@ -32,9 +32,10 @@ def listed(words):
     return " and ".join([", ".join(words[:-1])] * (len(words) > 1) + words[-1:])
 
 
-def in_words(claims):
+def in_words(claims, ids=True):
     """`3 confirmed independently (C7, C8 and C13), ...`, without the kinds of no claim."""
-    return listed([f"{len(ids)} {KINDS[name]} ({listed(ids)})" for name, ids in score(claims).items() if ids])
+    return listed([f"{len(found)} {KINDS[name]}" + f" ({listed(found)})" * ids
+                   for name, found in score(claims).items() if found])
 
 
 def changing(claims):
