@@ -43,7 +43,7 @@ OUTCOME = """\
 confirmed only if nothing in the model was chosen so that it holds.
 
 **Table 1.** We exchange two natural frequencies of the paper's Table 1. In the printed order the same rules give:
-{{claims.printed}}. Six harmonics are right at {{right.printed:.0%}} of the speeds with the printed order, at {{right.exchanged:.0%}} with the
+{{claims.printed}}. Six harmonics are right at {{right.C2_printed:.0%}} of the speeds with the printed order, at {{right.C2_exchanged:.0%}} with the
 exchanged one.
 
 **Masses.** The paper prints neither masses nor cage. Its text only bounds the masses; within the bounds the verdicts
