@@ -141,10 +141,10 @@ class Evidence:
         rows = low(self.regimes())
         often = more_often(rows, cage)
         return low_permanent(self.regimes(), f_loss, cage), (
-            f"rotor and stator touch {100 * rows['contact'].mean():.4g} % of the time, and always at "
-            f"{percent_of(share(rows['contact'] == 1))} of the low speeds; single balls lose contact more often than the cage makes them at {percent_of(share(often))}"
-            f"{' (' + listed(rows['f'][often]) + ' Hz)' if 0 < np.sum(often) <= 8 else ''}; gravity is larger up to {f_loss:.2f} Hz "
-            "by closed form")
+            f"single balls lose contact more often than the cage makes them at {percent_of(share(often))} of the low speeds"
+            f"{' (' + listed(rows['f'][often]) + ' Hz)' if 0 < np.sum(often) <= 8 else ''}; rotor and stator touch "
+            f"{100 * rows['contact'].mean():.4g} % of the time, and always at {percent_of(share(rows['contact'] == 1))} of the low speeds; "
+            f"gravity is larger up to {f_loss:.2f} Hz by closed form")
 
     def middle_complex(self):
         rows, cage = self.regimes(), self.landmark("cage_speed_ratio")
@@ -164,7 +164,7 @@ class Evidence:
         value, again = high_rest(self.regimes()), self.landmark("f_gravity")
         top = rows["higher_harmonics"].argmax()
         other = share((rows["contact"] < 1) | (rows["turns"] != 1))
-        words = (f"{100 * value:.2g} % in the mean; largest {100 * rows['higher_harmonics'][top]:.2g} % at "
+        words = (f"higher harmonics and separation {100 * value:.2g} % in the mean; largest {100 * rows['higher_harmonics'][top]:.2g} % at "
                  f"{rows['f'][top]:g} Hz, half the joint mode is {self.landmark('f_joint') / 2:.1f} Hz; "
                  f"{100 * other:.0f} % of the high speeds without permanent rotating contact")
         if again > 0:
@@ -194,7 +194,8 @@ class Evidence:
         equal = (rk4["error"] <= aft["error"]) & (rk4["error_force"] <= aft["error_force"])
         ratio = np.where(equal, rk4["cpu_s"] / aft["cpu_s"], 0)
         compared = self.compared()
-        words = f"compared at {percent_of(compared)} of the speeds, which have a T-periodic motion; " + "; ".join(
+        words = (f"{', '.join(f'{one:.1f}' for one in ratio[:-1])} and {ratio[-1]:.1f} times faster at the {percent_of(compared)} of the "
+                 "speeds that have a T-periodic motion; ") + "; ".join(
             f"m = {m:.0f}: {value:.1f} times faster, errors of displacement and force {100 * one:.2g} % and {100 * two:.2g} %, "
             f"{fewer:.0f} times fewer evaluations of the force" for m, value, one, two, fewer in zip(
                 aft["harmonics"], ratio, aft["error"], aft["error_force"], rk4["evaluations"] / aft["evaluations"]))
@@ -224,7 +225,7 @@ class Evidence:
         rows = high(self.regimes())
         rotating = rows.where("turns", 1)
         value = passes(rows, self.landmark("cage_speed_ratio"))
-        return value, (f"{value:.3g} in two periods, in the mean; the contact rotates at {percent_of(len(rotating) / len(rows))} of the high "
+        return value, (f"{value:.3g} passages in two periods, in the mean; the contact rotates at {percent_of(len(rotating) / len(rows))} of the high "
                        f"speeds; contact is interrupted for a short while at {percent_of(share(rotating['passed_once'] == 0))} of these, "
                        f"{rotating['passages'].mean():.2f} loadings per ball in the mean")
 
@@ -265,8 +266,8 @@ class Evidence:
     def three_phases_set_2(self):
         (count, lost), (_, ours) = (phases(self.regimes(number)) for number in (2, 1))
         if lost is None:
-            return count, f"{count} of 3; contact is never lost"
-        return count, (f"{count} of 3; contact is lost between {lost[0]:g} and {lost[1]:g} Hz"
+            return count, f"{count} of 3 phases; contact is never lost"
+        return count, (f"{count} of 3 phases; contact is lost between {lost[0]:g} and {lost[1]:g} Hz"
                        + (f", with set 1 between {ours[0]:g} and {ours[1]:g} Hz" if ours else ""))
 
     def least_share_right(self):
