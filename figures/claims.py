@@ -225,7 +225,7 @@ class Evidence:
         rows = high(self.regimes())
         rotating = rows.where("turns", 1)
         value = passes(rows, self.landmark("cage_speed_ratio"))
-        return value, (f"{value:.3g} passages in two periods, in the mean; the contact rotates at {percent_of(len(rotating) / len(rows))} of the high "
+        return value, (f"passed {value:.3g} times in two periods, in the mean; the contact rotates at {percent_of(len(rotating) / len(rows))} of the high "
                        f"speeds; contact is interrupted for a short while at {percent_of(share(rotating['passed_once'] == 0))} of these, "
                        f"{rotating['passages'].mean():.2f} loadings per ball in the mean")
 
