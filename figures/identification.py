@@ -70,7 +70,7 @@ def family_words(families):
 def draw(table):
     """A column of two panels for each reading."""
     figure = plt.figure(figsize=(10, 9.6), layout="constrained")
-    panels, key = figure.subfigures(2, 1, height_ratios=(18, 2))
+    panels, key = figure.subfigures(2, 1, height_ratios=(18, 3))
     grid = panels.subplots(2, 2, sharex="col", sharey="row", height_ratios=(4, 7))
     for (above, below), reading in zip(grid.T, (0, 1)):
         accepted = Accepted(table, reading)
@@ -85,8 +85,8 @@ def draw(table):
     marks = [plt.Line2D([], [], color="C0", label="closed form"), plt.Line2D([], [], **LOSS, label="integrated"),
              plt.Line2D([], [], **USED, label="masses used"),
              *(plt.Rectangle((0, 0), 1, 1, fc=colour, ec="white", hatch=HATCHES[name], label=name) for name, colour in COLOURS.items())]
-    key.legend(handles=marks, loc="upper center", ncols=len(marks), frameon=False, handlelength=1.4, columnspacing=1.2)
-    key.text(0.5, 0.15, family_words(families), ha="center", fontsize=11)
+    key.legend(handles=marks, loc="upper center", ncols=4, frameon=False, handlelength=1.4, columnspacing=1.2)
+    key.text(0.5, 0.05, family_words(families), ha="center", fontsize=11)
     return figure
 
 
