@@ -36,7 +36,7 @@ table = $(1:%=data/generated/%.tsv) $(2:%=data/generated/as-printed/%.tsv)
 figure = $(1:%=figures/generated/%.svg) $(2:%=figures/generated/as-printed/%.svg)
 claims := data/generated/claims.tsv data/generated/as-printed/claims.tsv
 timings := $(call table,tab02_timing,tab02_timing)
-texts := $(patsubst %,data/generated/%.md,deviations cage map_scaling manual)
+texts := $(patsubst %,data/generated/%.md,deviations beyond cage map_scaling manual)
 untimed := $(filter-out $(timings),$(call table,$(paper) $(beside) sensitivity_derivatives truth_intervals,$(paper) truth_intervals) \
   $(call figure,$(drawn) $(drawn_beside),$(drawn))) $(texts)
 shown := $(if $(filter exchanged,$(READING)),$(call table,$(paper) truth_intervals) data/generated/deviations.md $(call figure,$(drawn)), \
@@ -111,9 +111,9 @@ kept = $$(subst generated,reference,data/$$*/$(1).tsv)
 data/generated/truth_intervals.tsv data/generated/as-printed/truth_intervals.tsv: data/%/truth_intervals.tsv: figures/truth_intervals.py \
   $(call kept,attractors) $(call kept,validity) $(reader)
 	$(whole) $(PYTHON) $(wordlist 1,3,$^) > $$new; mv $$new $@
-judging := figures/claim_quantities.py figures/claim_ranges.py data/scenes/fig07_contact.toml data/scenes/fig09_contact.toml
-$(claims): data/%/claims.tsv: figures/claims.py $(judging) $(reader) $(patsubst %,data/reference/%.tsv,clearance_stiffness clearance_speed \
-  identification tab02_equal_error large) $(call kept,validity) $(patsubst %,data/\%/%.tsv,tab01_parameters fig03_response fig07_contact fig09_contact \
+judging := figures/claim_quantities.py figures/claim_ranges.py figures/claim_score.py data/scenes/fig07_contact.toml data/scenes/fig09_contact.toml
+$(claims): data/%/claims.tsv: figures/claims.py $(judging) $(reader) $(patsubst %,data/reference/%.tsv,clearance_stiffness identification \
+  tab02_equal_error large) $(call kept,validity) $(patsubst %,data/\%/%.tsv,tab01_parameters fig03_response fig07_contact fig09_contact \
   regimes tab02_timing) | $(timings)
 	$(whole) $(PYTHON) $< $(@D) $$new; mv $$new $@
 live: build/live/index.html  ## the solver as a page for the browser, one file: build/live/index.html

@@ -1,8 +1,9 @@
 """The quantities of data/claims.toml that follow from motions, speed by speed, of one machine.
 
-`rows` is a Table with a row for each speed of one data set: f, contact, turns, higher_harmonics, largest_force,
-amp_x_r, and what else a function names. The same functions judge the machine of the parameter files (regimes.tsv)
-and every other machine that the text admits (identification.tsv). No function depends on the order of the rows.
+`rows` is a Table with a row for each speed of one data set: f, contact, turns, passages,
+higher_harmonics, largest_force, amp_x_r, and what else a function names. The same functions judge
+the masses of the parameter files (regimes.tsv) and all others that the text admits
+(identification.tsv), with both versions of Table 1. No function depends on the order of the rows.
 """
 import tomllib
 from pathlib import Path
@@ -49,27 +50,25 @@ def peak(rows):
     return f[top] + shift, a[top] * np.polyval(curve, shift)
 
 
-def loaded_once(rows):
-    """Whether every ball gains and loses contact only as the cage carries it on, speed by speed."""
-    return rows["passed_once"] == 1
+def more_often(rows, cage):
+    """Where balls are loaded more often than the turning of the cage and of the contact brings about. Two periods
+    are no whole number of turns of the cage unless it is 1/2: a ball may then be counted at both of their ends."""
+    expected = np.maximum(2 * cage, 2 * np.abs(rows["turns"] - cage))
+    return rows["passages"] > (1 + LIMITS["more_often"]) * expected + (0 if cage == 0.5 else 1 / 8)
 
 
-def low_permanent(rows, f_loss):
+def low_permanent(rows, f_loss, cage):
     """C4."""
-    return share(loaded_once(low(rows))) if f_loss >= LOW_TO else 0.0
+    slow = low(rows)
+    return share((slow["contact"] == 1) & ~more_often(slow, cage)) if f_loss >= LOW_TO else 0.0
 
 
-def middle_complex(rows):
+def middle_complex(rows, cage):
     """C5."""
-    if middle(rows)["higher_harmonics"].mean() < LIMITS["multi_harmonic"]:
+    between = middle(rows)
+    if between["higher_harmonics"].mean() < LIMITS["multi_harmonic"]:
         return 0.0
-    return share(~loaded_once(middle(rows)))
-
-
-def lost_inside(rows):
-    """Share of the time without contact, over all speeds, that lies in the middle range; 0 if there is none."""
-    lost = np.sum(1 - rows["contact"])
-    return min(1.0, float(np.sum(1 - middle(rows)["contact"]) / lost)) if lost > 0 else 0.0  # rounding
+    return share(more_often(between, cage))
 
 
 def rest(rows):
@@ -94,10 +93,9 @@ def force_rise(rows):
 
 
 def passes(rows, cage):
-    """C10: of the force's direction over a ball in two periods, where the contact rotates."""
-    rotating = high(rows)
-    turns = rotating["turns"][rotating["turns"] == 1]
-    return float(np.mean(np.abs(2 * turns - 2 * cage))) if turns.size else 0.0
+    """C10: of the force's direction over a ball in two periods; 0 where the contact does not rotate."""
+    turns = high(rows)["turns"]
+    return float(np.mean(np.where(turns == 1, np.abs(2 * turns - 2 * cage), 0.0))) if turns.size else 0.0
 
 
 def phases(rows):
@@ -112,26 +110,31 @@ def phases(rows):
 
 
 def right(errors):
-    """Speed by speed; the error is infinite without a solution, or where no T-periodic motion attracts."""
-    return errors <= LIMITS["accurate"]
+    """C2, C14: share of the speeds with a small error; `errors` is infinite where nothing is T-periodic."""
+    return share(errors <= LIMITS["accurate"])
 
 
-def harmonics_transition(rows, errors):
-    """C3: smallest m that is right at every T-periodic speed of the middle range, {m: error at each speed of `rows`}; none if
-    fewer than half of its speeds are T-periodic."""
-    inside = (rows["f"] > LOW_TO) & (rows["f"] <= MIDDLE_TO)
-    asked = inside & (rows["periodic"] == 1)
-    if asked.sum() < inside.sum() / 2:
+def harmonics(errors):
+    """C3: smallest m whose error, {m: at each speed}, is small at all of them; none if it is infinite with every m at
+    more than half of the speeds."""
+    best = np.min(list(errors.values()), axis=0)
+    if share(np.isfinite(best)) < 0.5:
         return None
-    enough = [m for m in sorted(errors) if right(errors[m][asked]).all()]
+    enough = [m for m in sorted(errors) if (errors[m] <= LIMITS["accurate"]).all()]
     return enough[0] if enough else NOT_ENOUGH
 
 
-def verdict(claim, value):
+def verdict(rule, value):
+    """Of a claim without halves, or of a half."""
     if value is None:
         return "not tested"
     for name in ("reproduced", "partly"):
-        least, most = claim[name]
+        least, most = rule[name]
         if least <= value <= most:
             return name
     return "not reproduced"
+
+
+def joined(verdicts):
+    """Of a claim of halves: theirs if they agree, else partly."""
+    return verdicts[0] if len(set(verdicts)) == 1 else "partly"

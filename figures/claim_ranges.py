@@ -3,8 +3,8 @@ import tomllib
 from pathlib import Path
 
 import numpy as np
-from claim_quantities import (RULES, force_rise, harmonics_transition, high_rest, low_permanent, middle_complex, passes, peak,
-                              phases, right, share, verdict)
+from claim_quantities import (RULES, force_rise, harmonics, high_rest, low_permanent, middle,
+                              middle_complex, passes, peak, phases, right, verdict)
 
 PAPER_PEAK = RULES["accepted"]["paper_peak_hz"]
 ARC_SPEEDS = [max(tomllib.loads(Path(f"data/scenes/{figure}.toml").read_text(encoding="utf-8"))["frequencies_hz"])
@@ -12,21 +12,22 @@ ARC_SPEEDS = [max(tomllib.loads(Path(f"data/scenes/{figure}.toml").read_text(enc
 JUDGED = (6, 7, 8, 9, 10, 12, 16)  # the numbers of harmonics of identification.tsv
 
 
-def errors(rows):
-    """At each speed, for each m; infinite where the motion is not T-periodic."""
-    return {m: np.where(rows["periodic"] == 1, rows[f"error_{m}"], np.inf) for m in JUDGED}
+def errors(rows, m):
+    """At every speed, infinite where the motion is not T-periodic."""
+    return np.where(rows["periodic"] == 1, rows[f"error_{m}"], np.inf)
 
 
 def quantities(first, second):
     """Of one machine with the small and the large clearance. The peak was given where it is not the paper's."""
     f_loss, cage = first.first("f_loss"), first.first("cage_speed_ratio")
     arcs = [np.interp(f, rows["f"], rows["loaded_arc"]) for f, rows in zip(ARC_SPEEDS, (first, second))]
-    ten = [share(right(errors(rows)[10])) for rows in (first, second)]
     one = {"C1": peak(first)[0]} if first.first("f_joint") == PAPER_PEAK else {}
-    return one | {"C2": share(right(errors(first)[6])), "C3": harmonics_transition(second, errors(second)),
-            "C4": low_permanent(first, f_loss), "C5": middle_complex(first), "C6": high_rest(first),
-            "C7": force_rise(first)[0], "C8": arcs[1] / arcs[0], "C10": passes(first, cage),
-            "C13": phases(second)[0], "C14": min(ten)}
+    return one | {"C2": right(errors(first, 6)),
+                  "C3": harmonics({m: errors(middle(second), m) for m in JUDGED}),
+                  "C4": low_permanent(first, f_loss, cage), "C5": middle_complex(first, cage),
+                  "C6": high_rest(first), "C7": force_rise(first)[0], "C8": arcs[1] / arcs[0],
+                  "C10": passes(first, cage), "C13": phases(second)[0],
+                  "C14": min(right(errors(rows, 10)) for rows in (first, second))}
 
 
 class Accepted:
@@ -44,7 +45,7 @@ class Accepted:
     def values(self, claim):
         """The claim's quantity of every accepted machine; none if it does not depend on the machine."""
         return [machine[claim["id"]] for family in self.families.values() for machine in family.values()
-                if machine.get(claim["id"]) is not None]
+                if claim["id"] in machine]
 
     def verdicts(self, claim):
         """{family: {mass: verdict}} of the families for which the claim is judged."""

@@ -18,8 +18,8 @@ from tables import run
 
 READINGS = ("exchanged: stator 500, rotor 150 rad/s", "as printed: stator 150, rotor 500 rad/s")
 PARAMETERS = ("data/set1.toml", "data/set1-as-printed.toml")
-HATCHES = {"reproduced": "", "partly": "//", "not reproduced": "xx"}  # readable in grey too
-COLOURS = {"reproduced": "C2", "partly": "C4", "not reproduced": "C1"}
+HATCHES = {"reproduced": "", "partly": "//", "not reproduced": "xx", "not tested": ".."}  # readable in grey too
+COLOURS = {"reproduced": "C2", "partly": "C4", "not reproduced": "C1", "not tested": "#bbbbbb"}
 USED = {"marker": "o", "ms": 9, "mfc": "white", "mec": "black", "mew": 1.2, "ls": ""}
 TRANSITION, SHOWN = {"color": "#eeeeee", "zorder": 0}, {"color": "#777777", "ls": "--", "lw": 1}
 LOSS = {"marker": "o", "ms": 3, "mfc": "C1", "mec": "none", "ls": ""}
@@ -71,7 +71,7 @@ def draw_verdicts(axes, accepted, claims, families):
 def draw(table):
     """A column of two panels for each reading."""
     figure = plt.figure(figsize=(10, 9.6), layout="constrained")
-    panels, key = figure.subfigures(2, 1, height_ratios=(18, 2))
+    panels, key = figure.subfigures(2, 1, height_ratios=(18, 3))
     grid = panels.subplots(2, 2, sharex="col", sharey="row", height_ratios=(4, 7))
     for (above, below), reading in zip(grid.T, (0, 1)):
         accepted = Accepted(table, reading)

@@ -9,6 +9,7 @@ from pathlib import Path
 
 import map_scaling
 import numpy as np
+from claim_score import listed, stored
 from rotor_stator import run
 from tables import Table, cells_as_numbers
 
@@ -26,10 +27,6 @@ def times(seconds):
     """A CPU time in a unit that suits it."""
     unit, factor = ("s", 1) if seconds >= 1 else ("ms", 1e3) if seconds >= 1e-3 else ("µs", 1e6)
     return f"{seconds * factor:.2g} {unit}" if seconds * factor < 99.5 else f"{seconds * factor:.0f} {unit}"
-
-
-def listed(words):
-    return " and ".join([", ".join(words[:-1])] * (len(words) > 1) + words[-1:])
 
 
 def power(error):
@@ -50,8 +47,8 @@ def costs(add):
             for method in dict.fromkeys(("aft", "shooting-rk4", "rk4", "rk4-lanes", best)):
                 lines.append([reach, power(target), METHODS[method] + (", fastest of all" if method == best else ""),
                               *timed(rows.where("method", method))])
-    add("table.costs", markdown(["speeds [Hz]", "error allowed", "method", "setting", "CPU time", "evaluations", "error reached", "error of the force"],
-                                lines), "-", "CPU time of the sweep at no more than a given error")
+    add("table.costs", markdown(["speeds [Hz]", "error allowed", "method", "setting", "CPU time", "error of the force"], lines), "-",
+        "CPU time of the sweep at no more than a given error")
     low, high = dict.fromkeys(table["range"])
     for reach, name in ((low, "low"), (high, "high")):
         for rival in ("rk4", "shooting-rk4"):
@@ -74,10 +71,6 @@ def costs(add):
     add("cost.algebra", np.median(1 - shares["force_share"] - shares["transform_share"]), "-",
         "share of the CPU time that is neither force nor transform, 6 to 16 Hz, 48 and 96 harmonics, from a solution nearby")
     timing = Table(GENERATED / "tab02_timing.tsv")
-    sweep = timing.where("method", "rk4").where("harmonics", 6).first("cpu_s") / 119
-    study = Table(KEPT / "clearance_stiffness.tsv")
-    add("cost.study", sweep * len(study) * study.value("sweep_count"), "s",
-        "CPU time of the study of clearance and stiffness by RK4, at the time of the sweep a speed")
     rivals, timing = timing.where("method", "rk4"), timing.where("method", "aft")
     slow = rivals.first("paper_cpu")
     add("cost.force_least", timing["error_force"].min(), "-", "least error of the force of the timed sweeps of harmonic balance")
@@ -90,11 +83,10 @@ def costs(add):
 
 
 def timed(row):
-    """Setting, CPU time, evaluations and both errors of a method, or that it does not reach the error."""
+    """Setting, CPU time and error of the force of a method, or that it does not reach the error."""
     if not len(row):
-        return ["", "not reached", "", "", ""]
-    return [f"`{row.first('setting')}`", times(row.first("cpu_s")), f"{row.first('evaluations'):.2g}".replace("e+0", "e"),
-            power(row.first("error")), f"{100 * row.first('error_force'):.2g} %"]
+        return ["", "not reached", ""]
+    return [f"`{row.first('setting')}`", times(row.first("cpu_s")), f"{100 * row.first('error_force'):.2g} %"]
 
 
 def markdown(names, lines):
@@ -284,7 +276,7 @@ def judged(add):
             add(f"verdicts.series_{number}_{m}", wrong[0], "-", 'unstable motions that the series calls "stable"')
             add(f"verdicts.unstable_{number}_{m}", (~stable).sum(), "-", "unstable motions of the machine")
     add("table.verdicts", markdown(
-        ["set", "m", "solutions", "machine stable", "machine unstable", 'series: false "stable"', 'series: false "unstable"'],
+        ["set", "m", "solutions", "stable motions", "unstable motions", 'falsely "stable"', 'falsely "unstable"'],
         lines), "-", "false verdicts by the multipliers of m harmonics")
     known = found.rows(found["machine_stable"] >= 0)
     for limit in (0.01, 0.05):
@@ -325,42 +317,19 @@ def judged(add):
 
 
 def verdicts(add):
-    """Each claim's verdict, and the claims whose verdict changes within the masses that the text admits."""
-    table = Table(GENERATED / "claims.tsv")
-    for key, verdict in zip(table["id"], table["verdict"]):
-        add(f"{key}.verdict", verdict, "-", f"verdict on {key}")
-    changing = [key for key, words in zip(table["id"], table["range"])
-                if len(set(re.findall(r"(not reproduced|partly|reproduced) for m_s", words))) > 1]
-    printed = Table(GENERATED / "as-printed/claims.tsv")
-    other = [f"{key} ({word})" for key, word, ours in zip(printed["id"], printed["verdict"], table["verdict"]) if word != ours]
-    add("printed.differ", listed(other), "-", "claims with another verdict under the printed frequencies")
-    add("printed.count", len(other), "-", "their number")
-    for reading, of in (("claims", table), ("printed", printed)):
-        reproduced = of["verdict"] == "reproduced"
-        for name, rests_on in (("independent", ["nothing"]), ("built_in", ["masses", "cage"]), ("reduced", ["reduction"])):
-            chosen = reproduced & np.isin(of["rests_on"], rests_on)
-            add(f"{reading}.{name}", chosen.sum(), "-", f"reproduced claims whose verdict rests on {', '.join(rests_on)} of ours")
-            add(f"{reading}.{name}_ids", listed(list(of["id"][chosen])) if chosen.any() else "none", "-", "they")
-        for word in ("reproduced", "partly", "not reproduced", "not tested"):
-            chosen = of["verdict"] == word
-            add(f"{reading}.{word.replace(' ', '_')}_ids", listed(list(of["id"][chosen])) if chosen.any() else "none", "-", f"claims {word}")
-            if reading == "printed":
-                add(f"printed.{word.replace(' ', '_')}", chosen.sum(), "-", f"claims {word}, printed reading")
-    for reading, folder in (("claims", KEPT), ("printed", KEPT / "as-printed")):
-        rows = Table(folder / "validity.tsv").where("set", 1).where("adaptive", 0).where("m", 6)
-        add(f"{reading}.explained", ((rows["periodic"] == 1) & (rows["found"] == 1) & (rows["distance"] <= 0.1)).mean(), "-",
-            "share of all speeds of set 1 at which 6 harmonics are right")
-    rules = [(claim["id"], claim["meaning"], *(f"{claim[key][0]:g} to {claim[key][1]:g}" for key in ("reproduced", "partly")))
-             for claim in tomllib.loads(Path("data/claims.toml").read_text())["claim"]]
-    ranges = [f"{float(low):.3g} to {float(high):.3g}" if low != "-" else "-" for low, high in zip(table["low"], table["high"])]
-    add("table.rules", markdown(["claim", "quantity", "reproduced", "partly", "found for all admitted machines"],
-                                [[*rule, own] for rule, own in zip(rules, ranges)]), "-", "the rules of the verdicts")
-    titles = re.findall(r"^## (D-\d\d) (.*)$", Path("paper/deviations.md").read_text(), re.MULTILINE)
-    half = (len(titles) + 1) // 2
-    pairs = [[*one, *two] for one, two in zip(titles[:half], [*titles[half:], ("", "")])]
-    add("table.deviations", markdown(["", "departure", "", "departure"], pairs), "-", "the departures from the paper")
+    """The claims with what was found and both verdicts, and the version of the programs."""
+    claims, printed = (stored(folder / "claims.tsv") for folder in (GENERATED, GENERATED / "as-printed"))
+    lines = [[claim["id"], claim["claim"], found(claim), claim["verdict"] + (
+        f", by the choice of {claim['built_in']}" if claim["verdict"] == "reproduced" and claim["built_in"] != "-" else ""),
+        other["verdict"]] for claim, other in zip(claims, printed)]
+    add("table.claims", markdown(["", "the paper", "found", "verdict", "in the printed order"], lines), "-", "the verdicts")
     add("code.version", re.search(r"VERSION (\d\S+) LANGUAGES", Path("CMakeLists.txt").read_text())[1], "-", "version of the programs")
-    add("claims.changing", ", ".join(changing), "-", "claims whose verdict depends on the masses")
+
+
+def found(claim):
+    """What was found in one sentence: the first of each half."""
+    parts = claim["ours"].split("; ")
+    return "; ".join(parts if claim["id"] == "C11" else parts[:1])
 
 
 def settings(add):
@@ -372,7 +341,7 @@ def settings(add):
 
 
 def parameters(add):
-    """All parameters of the model, from the files of both data sets and of the printed reading."""
+    """All parameters of the model, from the files of both data sets and of the printed order."""
     files = [tomllib.loads(Path(f"data/{name}.toml").read_text()) for name in ("set1", "set2", "set1-as-printed")]
     rows = [("mass of the stator", "$m_s$", "kg", "stator", "mass_kg", 1, "bounded by the text (D-13)"),
             ("mass of the rotor", "$m_r$", "kg", "rotor", "mass_kg", 1, "bounded by the text (D-13)"),
@@ -389,7 +358,7 @@ def parameters(add):
             ("cage over rotor speed", "$\\omega_{cage}/\\omega$", "-", "bearing", "cage_speed_ratio", 1, "not printed (D-11)"),
             ("gravity", "$g$", "m/s^2^", "gravity", "acceleration_m_per_s2", 1, "not printed")]
     add("table.parameters", markdown(
-        ["parameter", "symbol", "unit", "set 1", "set 2", "set 1, printed reading", "source"],
+        ["parameter", "symbol", "unit", "set 1", "set 2", "set 1, printed order", "source"],
         [[words, symbol, unit, *(scientific(factor * file[part][key]) for file in files), source]
          for words, symbol, unit, part, key, factor, source in rows]), "-", "the parameters of the model")
 
@@ -547,6 +516,6 @@ def orders(add):
 
 
 def add_all(add):
-    for part in (settings, parameters, accuracy, cages, maps, two_maps, large, costs, growth, peers, outside, answers, truth,
-                 damped, printed, orders, beside_chaos, contact, needed, judged, verdicts):
+    for part in (settings, parameters, accuracy, cages, maps, two_maps, large, costs, growth, peers, outside, answers, truth, damped, printed, orders,
+                 beside_chaos, contact, needed, judged, verdicts):
         part(add)

@@ -12,6 +12,8 @@ import numpy as np
 sys.path[:0] = ["figures", "studies"]
 import claim_quantities as quantities  # noqa: E402
 from article_results import add_all  # noqa: E402
+from claim_score import KINDS, changing, differing, in_words, listed, score, stored  # noqa: E402
+from claims import Evidence  # noqa: E402
 from project import source_line  # noqa: E402
 from tables import Table  # noqa: E402
 
@@ -39,11 +41,46 @@ def paper_values():
 
 
 def claim_counts():
-    verdicts = Table(GENERATED / "claims.tsv")["verdict"]
-    add("claims.count", len(verdicts), "-", "claims")
-    for verdict in ("reproduced", "partly", "not reproduced", "not tested"):
-        add(f"claims.{verdict.replace(' ', '_')}", sum(verdicts == verdict), "-",
-            f"claims {verdict}, exchanged reading")
+    """The scores of both versions of Table 1, and what decides between them."""
+    claims, printed = (stored(folder / "claims.tsv") for folder in (GENERATED, GENERATED / "as-printed"))
+    add("claims.count", len(claims), "-", "claims")
+    for key, one in (("exchanged", claims), ("printed", printed)):
+        add(f"claims.{key}", in_words(one), "-", f"how many claims end in which way, {key}")
+        add(f"claims.{key}_counts", in_words(one, ids=False), "-", "the same without the claims")
+        for name, ids in score(one).items():
+            add(f"claims.{key}_{name}", len(ids), "-", f"claims {KINDS[name]}, {key}")
+            add(f"claims.{key}_{name}_ids", listed(ids), "-", "these claims")
+    add("claims.changing", listed(changing(claims)), "-", "claims whose verdict depends on the masses")
+    add("claims.differ", listed(differing(claims, printed)), "-", "claims with another verdict in the printed order")
+    for claim in claims:
+        add(f"{claim['id']}.verdict", claim["verdict"], "-", f"verdict on {claim['id']}")
+        if claim["id"] == "C11":
+            for name, half in zip(("first", "second"), claim["ours"].split("; ")):
+                add(f"C11.{name}", half.split(": ")[1], "-", f"verdict on its {name} half")
+    add("claims.confirmed_words", listed([claim["claim"] for claim in claims if claim["id"] in score(claims)["confirmed"]]),
+        "-", "the confirmed claims")
+    for key, one in (("exchanged", claims), ("printed", printed)):
+        for end in ("low", "high"):
+            add(f"C2.{end}_{key}", float(one[1][end]), "-", f"{end}est share of speeds of C2 over the accepted masses, {key}")
+
+
+def shares_right():
+    """C2 and C14: at which share of all speeds few harmonics are right, for both versions of Table 1."""
+    for key, folder in (("exchanged", GENERATED), ("printed", GENERATED / "as-printed")):
+        evidence = Evidence(folder)
+        for name, number, m in (("C2", 1, 6), ("one", 1, 1), ("C14_1", 1, 10), ("C14_2", 2, 10)):
+            add(f"right.{name}_{key}", quantities.right(evidence.errors(number, m)), "-",
+                f"share of all speeds of set {number} at which {m} harmonics are right, {key}")
+        for number in (1, 2):
+            add(f"right.periodic_{number}_{key}", evidence.periodic(number).mean(), "-", "share with a T-periodic motion")
+    evidence = Evidence(GENERATED)
+    add("C2.largest_right", quantities.right(evidence.errors(1, 6, "distance_largest")), "-", "C2 by the largest error")
+    add("C2.limit_least", evidence.same_verdict(evidence.errors(1, 6))[0], "-", "limit of the error from which on the verdict is the same")
+    add("C2.without", (~evidence.periodic(1)).sum(), "-", "speeds of set 1 without a T-periodic motion")
+    inside = (evidence.speeds(2) > quantities.LOW_TO) & (evidence.speeds(2) <= quantities.MIDDLE_TO)
+    add("C3.middle", inside.sum(), "-", "speeds of the transition")
+    add("C3.transition", (evidence.periodic(2) & inside).sum(), "-", "of them with a T-periodic motion")
+    add("C11.seconds", evidence.study_by_integration()[0], "s", "CPU time of the study of clearance and stiffness by RK4")
 
 
 def response():
@@ -66,6 +103,7 @@ def response():
         aperiodic = (time["periodic"] == 0).mean()
         add(f"aperiodic.share_set_{number}", aperiodic, "-",
             "share of the speeds whose integrated motion is not T-periodic")
+        add(f"aperiodic.rest_{number}", 1 - aperiodic, "-", "share of those whose motion is")
 
 
 def displacements():
@@ -92,9 +130,12 @@ def regimes():
     f = table["f"]
     low, middle, high = (part(table) for part in (quantities.low, quantities.middle, quantities.high))
     joint = Table(GENERATED / "tab01_parameters.tsv").first("f_joint")
+    cage = Table(GENERATED / "tab01_parameters.tsv").first("cage_speed_ratio")
+    often = quantities.more_often(low, cage)
     add("C4.low", (low["contact"] == 1).mean(), "-", "low speeds with permanent contact")
-    add("C4.once", quantities.share(quantities.loaded_once(low)), "-", "low speeds at which every ball is loaded once")
-    add("C5.balls", quantities.share(~quantities.loaded_once(middle)), "-", "middle speeds at which not every ball is")
+    add("C4.often", often.mean(), "-", "low speeds at which single balls lose contact more often")
+    add("C4.first", low["f"][often].min(), "Hz", "the first of them")
+    add("C5.often", quantities.more_often(middle, cage).mean(), "-", "middle speeds at which they do")
     add("C5.higher", middle["higher_harmonics"].mean(), "-", "higher harmonics in the mean of the middle speeds")
     add("C6.rest", quantities.high_rest(table), "-", "the same of the high speeds")
     top = high["higher_harmonics"].argmax()
@@ -138,6 +179,13 @@ def environment():
     add("environment.list", f"{', '.join(most)} and {last}", "-", "programs and libraries, with versions")
 
 
+def citation():
+    """Authors and keywords, as CITATION.cff has them."""
+    text = Path("CITATION.cff").read_text(encoding="utf-8").split("references:")[0]
+    add("code.authors", ", ".join(re.findall(r'^  - name: "(.*)"$', text, re.MULTILINE)), "-", "authors")
+    add("code.keywords", ", ".join(re.findall(r'"([^"]*)"', re.search(r"^keywords: (.*)$", text, re.MULTILINE)[1])), "-", "keywords")
+
+
 def rows_of(path):
     """The cells of a table as words."""
     lines = [line for line in path.read_text().splitlines() if line and not line.startswith("#")]
@@ -145,7 +193,7 @@ def rows_of(path):
 
 
 def main():
-    for part in (paper_values, claim_counts, response, displacements, regimes, identification, deviations,
+    for part in (paper_values, claim_counts, shares_right, citation, response, displacements, regimes, identification, deviations,
                  environment):
         part()
     add_all(add)

@@ -20,7 +20,7 @@ DEVIATION = re.compile(r"\bD-(\d\d)\b")
 TABLE = re.compile(r"^<!-- table: (\S+) (.*?) -->$", re.MULTILINE)
 FIGURE = re.compile(r"\]\((figures/(?:as-printed/)?\w+)\.svg\)")
 DRAWN = Path("figures/generated")
-MATHJAX = "--mathjax=../book/_static/MathJax.js?config=TeX-AMS_SVG"  # that of the book
+MATHJAX = "../book/_static/MathJax.js?config=TeX-AMS_SVG"  # that of the book
 SHOWN = tomllib.loads(render(Path("paper/book/figures.toml").read_text(encoding="utf-8"), read_values("data/generated/article.tsv"),
                              "paper/book/figures.toml"))
 
@@ -61,7 +61,7 @@ def as_html(text, output):
     shutil.copy("paper/article.css", output.parent)
     text = FIGURE.sub(lambda match: f'{match[0]}{{alt="{SHOWN[Path(match[1]).name]["alt"]}"}}', text)
     text = DEVIATION.sub(r"[D-\1](../book/list_of_deviations.html#D-\1)", text)
-    pandoc(EQUATION.sub(numbered, text), "--to", "html5", MATHJAX, "--standalone", "--toc",
+    pandoc(EQUATION.sub(numbered, text), "--to", "html5", f"--mathjax={MATHJAX}", "--standalone", "--toc",
            "--toc-depth", "2", "--template", "paper/article.html", "--output", str(output))
 
 
