@@ -18,7 +18,7 @@ from scipy.integrate import solve_ivp
 
 sys.path[:0] = [str(Path(__file__).parent), str(Path(__file__).parent / "truth")]
 from independent import NAMES, Model  # noqa: E402
-from support.explore import Case  # noqa: E402
+from support.explore import MACHINE, Case  # noqa: E402
 from support.keys import keys_of, number  # noqa: E402
 from tables import Table  # noqa: E402
 
@@ -559,6 +559,20 @@ class Measures(Case):
                             ("a_y_r_out", -omega**2 * q[17])]:
             np.testing.assert_allclose(table[name], (value * turning).real,
                                        atol=1e-4 * abs(value))
+
+    def test_rates_at_the_ends_of_a_record_that_does_not_close(self):
+        """By harmonic balance, with two frequencies, and one turn of a motion of five:
+        neither end is joined to the other."""
+        for ratio in (0.43, 0.4):
+            text = MACHINE.replace("cage_speed_ratio = 0.5", f"cage_speed_ratio = {ratio}")
+            table = self.table("orbit", self.file("other.toml", text), "--frequency", 45,
+                               "--method", "aft", "--tolerance", 1e-2, "--points", 2048,
+                               "--columns", "x_r,v_x_r")
+            x, rate = table["x_r"], table["v_x_r"]
+            between = (x[1:] - x[:-1]) * 2048 * 45
+            largest = abs(rate).max()
+            self.assertLess(abs(between[0] - rate[:2].mean()), 0.02 * largest)
+            self.assertLess(abs(between[-1] - rate[-2:].mean()), 0.02 * largest)
 
     def test_measures_of_a_motion_that_never_closes(self):
         """A rotor in a 6205: velocities are those of the equations of motion, by

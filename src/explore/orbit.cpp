@@ -276,11 +276,16 @@ Exploration explore_orbit(const MotionRequest& request)
   const Computed at =
       computed(parameters, request, std::max(recorded, request.periods), table);
   const motion::Motion& motion = at.found.motion;
+  /** Over what is recorded; of a motion by harmonic balance that may be too short. */
+  const int repeats = turns_to_repeat(parameters.bearing);
+  const bool closes = at.found.closes_after > 0 &&
+                      (!is_periodic(request.method) || repeats == 1 ||
+                       base_period(parameters).kind == BasePeriod::Kind::passing ||
+                       (repeats > 0 && recorded % repeats == 0));
   const auto measured = measures.at_instants(
       {motion,
        at.found.base_periods / (at.found.base_frequency * motion.points_per_period),
-       request.frequency,
-       at.found.closes_after > 0 && !base_period(parameters).is_driven_twice()});
+       request.frequency, closes});
   std::vector<std::vector<Vec2>> further;
   for (std::size_t b = 1; b < bearings; ++b) {
     const auto one = motion::at_bearing(at.found.machine, motion, b);
