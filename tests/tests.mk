@@ -31,6 +31,6 @@ fuzz:  ## readers of files against libFuzzer, each for a minute, where clang has
 	@mkdir -p build/fuzz; $(has_fuzzer) || { echo "make fuzz: needs clang++ with libFuzzer: clang and libclang-rt-14-dev of Debian" >&2; exit 2; }
 	$(MAKE) build/fuzz/readers
 	$(PYTHON) tests/fuzz/fuzz.py
-test-all: test  ## every test, then a quarter of an hour of attacks that no commit has seen before
+test-all: test  ## every test, then ten minutes of attacks that no commit has seen before
 	@mkdir -p build/fuzz; if $(has_fuzzer); then $(MAKE) build/fuzz/readers; else rm -f build/fuzz/readers; echo "no libFuzzer here: no reader is attacked" >&2; fi
 	$(PYTHON) tests/hard/attack.py

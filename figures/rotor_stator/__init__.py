@@ -5,7 +5,8 @@
     orbit["x_r"], orbit.value("regime"), orbit.keys(), orbit.svg
     measured = rotor_stator.read("measured.tsv")
 
-From the clone PYTHONPATH=figures finds it; `cmake --install` puts it into lib/python3/dist-packages.
+From the clone PYTHONPATH=figures finds it; `cmake --install` puts it into
+lib/python3/dist-packages.
 """
 import os
 import shutil
@@ -13,7 +14,7 @@ import subprocess
 import tempfile
 from pathlib import Path
 
-if not Path(__file__).with_name("tables.py").exists():  # in the clone it stands beside the figures
+if not Path(__file__).with_name("tables.py").exists():  # in the clone: beside figures
     __path__.append(str(Path(__file__).parents[1]))
 from .tables import Table, read  # noqa: E402
 
@@ -29,22 +30,25 @@ class NoAnswer(RuntimeError):
 
 
 def explore():
-    """The program: EXPLORE of the environment, that of the clone, of the installation, or of the PATH."""
+    """The program: EXPLORE of the environment, that of the clone, of the installation, or
+    of the PATH."""
     here = Path(__file__).resolve()
-    known = [os.environ.get("EXPLORE"), here.parents[2] / "build/explore", here.parents[4] / "bin/explore"]
-    found = next((file for file in known if file and Path(file).is_file()), None) or shutil.which("explore")
-    if not found:
-        raise FileNotFoundError("explore: not built, not installed; EXPLORE names it")
-    return str(found)
+    for file in (os.environ.get("EXPLORE"), here.parents[2] / "build/explore",
+                 here.parents[4] / "bin/explore", shutil.which("explore")):
+        if file and Path(file).is_file():
+            return str(file)
+    raise FileNotFoundError("explore: not built, not installed; EXPLORE names it")
 
 
 def words_of(options):
-    """frequency=25, columns=["x_r", "y_r"], quiet=True as words; from_=1 is --from 1. None and False leave an option out."""
+    """frequency=25, columns=["x_r", "y_r"], quiet=True as words; from_=1 is --from 1.
+    None and False leave an option out."""
     for name, value in options.items():
         if value is not None and value is not False:
             yield "--" + name.strip("_").replace("_", "-")
             if value is not True:
-                yield ",".join(map(str, value)) if isinstance(value, (list, tuple)) else str(value)
+                is_list = isinstance(value, (list, tuple))
+                yield ",".join(map(str, value)) if is_list else str(value)
 
 
 class Run(Table):
@@ -56,13 +60,16 @@ class Run(Table):
 
 
 def run(command, *words, plot=None, **options):
-    """The table of a run of explore; `plot=True` draws it too, a name draws into that file. Options stand for those of the command
-    (`words_of`), `words` for themselves. What is refused raises ValueError with explore's line, what has no answer NoAnswer."""
+    """The table of a run of explore; `plot=True` draws it too, a name draws into that
+    file. Options stand for those of the command (`words_of`), `words` for themselves.
+    What is refused raises ValueError with explore's line, what has no answer NoAnswer."""
     with tempfile.TemporaryDirectory() as folder:
         figure = Path(folder, "figure.svg") if plot is True else plot
-        asked = [explore(), command, *words, *words_of(options | ({"plot": figure} if figure else {}))]
-        ran = subprocess.run([str(word) for word in asked], stdin=subprocess.DEVNULL, capture_output=True, encoding="utf-8", check=False)
-        table = Run.of(ran.stdout) if any(line and line[0] != "#" for line in ran.stdout.splitlines()) else None
+        asked = [explore(), command, *words, *words_of({**options, "plot": figure})]
+        ran = subprocess.run([str(word) for word in asked], stdin=subprocess.DEVNULL,
+                             capture_output=True, encoding="utf-8", check=False)
+        has_rows = any(line and line[0] != "#" for line in ran.stdout.splitlines())
+        table = Run.of(ran.stdout) if has_rows else None
         why = ran.stderr.strip()
         if ran.returncode == 3:
             raise NoAnswer(why, table)
@@ -74,7 +81,7 @@ def run(command, *words, plot=None, **options):
 
 
 def attempt(command, *words, **options):
-    """The same; where there is no answer, the table of what was found until then, or None."""
+    """The same; where there is no answer, what was found until then, or None."""
     try:
         return run(command, *words, **options)
     except NoAnswer as end:

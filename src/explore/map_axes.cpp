@@ -132,8 +132,9 @@ std::pair<Parameters, double> MapTask::machine(const std::vector<double>& values
   for (std::size_t k = 0; k < keys.size(); ++k)
     if (keys[k] != speed_key)
       changes.emplace_back(keys[k], values[k]);
-    else if (frequency = values[k]; !(frequency > 0))
-      throw BadInput(format("%s: must be > 0, got %g", speed_key, frequency));
+    else if (frequency = values[k]; !(frequency >= 1e-300 && frequency <= 1e300))
+      throw BadInput(
+          format("%s: must be in 1e-300...1e+300, got %g", speed_key, frequency));
   return {read(changes, frequency), frequency};
 }
 

@@ -104,7 +104,8 @@ double real_number(const std::string& option, const std::string& value, double l
 double speed_in_hertz(const std::string& option, const std::string& value,
                       std::string& unit, bool may_rest)
 {
-  constexpr double largest = 1e300;  // 2 pi times as much is still a number
+  /** 2π times as much is still a number, and so is the period of the slowest. */
+  constexpr double largest = 1e300;
   std::string number = value, own = "Hz";
   for (const char* known : {"Hz", "rpm"})
     if (value.ends_with(known)) {
@@ -113,10 +114,12 @@ double speed_in_hertz(const std::string& option, const std::string& value,
       if (number.ends_with(' ')) number.pop_back();
     }
   const std::optional<double> speed = decimal(number);
-  if (!speed || *speed < 0 || *speed > largest || (*speed == 0 && !may_rest))
-    throw BadInput(option + " " + value + ": must be " +
-                   (may_rest ? "0 or more" : format("> 0, at most %g", largest)) +
-                   ", a speed in decimal notation, in Hz or as 1500rpm");
+  const bool is_rest = speed && *speed == 0 && may_rest;
+  if (!speed || (!(*speed >= 1 / largest && *speed <= largest) && !is_rest))
+    throw BadInput(
+        option + " " + value + ": must be " +
+        format(may_rest ? "0, or in %g...%g" : "in %g...%g", 1 / largest, largest) +
+        ", a speed in decimal notation, in Hz or as 1500rpm");
   if (unit.empty()) unit = own;
   if (unit != own)
     throw BadInput(option + " " + value + ": is in " + own + ", the other end in " +

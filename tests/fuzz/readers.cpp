@@ -52,8 +52,11 @@ void read_scene(const std::string& text)
   for (const std::string& key : keys)
     for (const std::function<void()>& read : std::vector<std::function<void()>>{
              [&] { scene.speed_range(key); }, [&] { scene.toml().numbers(key, {}); },
-             [&] { scene.toml().with({{key + ".x", 1}}).integers(key, 0, 9); },
-             [&] { scene.data_sets(key); }}) try {
+             [&] {
+               scene.toml().with({{key + ".x", 1}}).integers(key, 0, 9);
+             },
+             [&] { scene.data_sets(key); }})
+      try {
         read();
       } catch (const BadInput&) {
       }
@@ -83,7 +86,8 @@ void write_json(const std::string& text)
   table.row({1e-300, text});
   table.note("end");
   const auto read = nlohmann::json::parse(table.text(TableFormat::json));
-  require(read["rows"].size() == 1 && read["header"].size() == 6 && read["values"].empty());
+  require(read["rows"].size() == 1 && read["header"].size() == 6 &&
+          read["values"].empty());
 }
 
 const std::map<std::string, void (*)(const std::string&)> readers{

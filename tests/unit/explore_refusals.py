@@ -376,7 +376,7 @@ class Options(Case):
         table = self.table("orbit", self.machine, *ORBIT, "--harmonics", "010")
         self.assertEqual((table.value("harmonics"), table.value("samples")), (10, 84))
         for option, values in {"--harmonics": ["0x10", "6.5", "1e1", "", "six", "99999999999", "-1"],
-                               "--frequency": ["0x1p3", "inf", "nan", "1e400", "1e-400", "", "0", "-3"],
+                               "--frequency": ["0x1p3", "inf", "nan", "1e400", "1e-400", "1e-320", "", "0", "-3"],
                                "--budget": ["0", "1e16", "infinity"]}.items():
             for value in values:
                 with self.subTest(option + " " + value):

@@ -10,8 +10,9 @@ import tempfile
 import unittest
 from pathlib import Path
 
-FILES = ["Makefile", "CMakeLists.txt", "data/tables.mk", "paper/paper.mk", "paper/packages.sh", "live/live.mk", "peers/peers.mk",
-         "tests/tests.mk", "src/io/stamp_revision.sh", "paper/article.md"]
+FILES = ["Makefile", "CMakeLists.txt", "data/tables.mk", "paper/paper.mk",
+         "paper/packages.sh", "live/live.mk", "peers/peers.mk", "tests/tests.mk",
+         "src/io/stamp_revision.sh", "paper/article.md"]
 
 
 class Make(unittest.TestCase):
@@ -26,7 +27,8 @@ class Make(unittest.TestCase):
             shutil.copytree(folder, self.folder / folder)
 
     def make(self, *goals, **environment):
-        return subprocess.run(["make", *goals], cwd=self.folder, env={**os.environ, **environment}, capture_output=True, text=True, check=False)
+        return subprocess.run(["make", *goals], cwd=self.folder, capture_output=True,
+                              text=True, env={**os.environ, **environment}, check=False)
 
     def test_a_folder_that_a_shell_would_run(self):
         result = self.make("list")
@@ -38,15 +40,18 @@ class Make(unittest.TestCase):
         """Go with the next make; those of one at work, and what is no temporary, stay."""
         dead = subprocess.Popen(["true"])
         dead.wait()
-        stay = [f"data/generated/a.tsv.{os.getpid()}.tmp", "figures/generated/a.svg", "build/a.tmp"]
-        go = [f"{folder}/a.{dead.pid}.tmp" for folder in ("build", "data/generated/as-printed", "figures/generated")]
+        stay = [f"data/generated/a.tsv.{os.getpid()}.tmp", "figures/generated/a.svg",
+                "build/a.tmp"]
+        go = [f"{folder}/a.{dead.pid}.tmp"
+              for folder in ("build", "data/generated/as-printed", "figures/generated")]
         for name in stay + go:
             (self.folder / name).parent.mkdir(parents=True, exist_ok=True)
             (self.folder / name).touch()
         for words in (["-n", "list"], ["list"]):
             known = len(stay) + len(go) * (words[0] == "-n")
             self.assertEqual(self.make(*words).returncode, 0)
-            left = [str(file.relative_to(self.folder)) for file in self.folder.rglob("a*.*") if file.suffix in (".tmp", ".svg")]
+            left = [str(file.relative_to(self.folder)) for file in
+                    self.folder.rglob("a*.*") if file.suffix in (".tmp", ".svg")]
             self.assertEqual(len(left), known, left)
         self.assertEqual(sorted(left), sorted(stay))
 
@@ -58,17 +63,20 @@ class Make(unittest.TestCase):
         (own / "clang++").chmod(0o755)
         result = self.make("fuzz", PATH=f"{own}:{os.environ['PATH']}")
         self.assertEqual(result.returncode, 2)
-        self.assertRegex(result.stderr, r"\Amake fuzz: needs clang\+\+ with libFuzzer[^\n]*\nmake: [^\n]*\n\Z")
+        self.assertRegex(result.stderr, r"\Amake fuzz: needs clang\+\+ with libFuzzer"
+                                        r"[^\n]*\nmake: [^\n]*\n\Z")
 
     def test_the_revision_is_that_of_the_sources(self):
         """Whatever repository the environment names."""
         subprocess.run(["git", "init", "-q", self.folder / "other"], check=True)
-        subprocess.run(["git", "-c", "user.name=a", "-c", "user.email=a@b", "commit", "-q", "--allow-empty", "-m", "a"],
-                       cwd=self.folder / "other", check=True)
+        commit = "git -c user.name=a -c user.email=a@b commit -q --allow-empty -m a"
+        subprocess.run(commit.split(), cwd=self.folder / "other", check=True)
         run = ["sh", "src/io/stamp_revision.sh", "1.2", "-O2", "out.hpp"]
-        subprocess.run(run, cwd=self.folder, check=True, env={**os.environ, "GIT_DIR": str(self.folder / "other/.git")})
+        other = {"GIT_DIR": str(self.folder / "other/.git")}
+        subprocess.run(run, cwd=self.folder, check=True, env={**os.environ, **other})
         header = (self.folder / "out.hpp").read_text(encoding="utf-8")
-        self.assertEqual(re.findall('rotor_stator 1.2 [^"]*', header), ["rotor_stator 1.2 unknown"])
+        found = re.findall('rotor_stator 1.2 [^"]*', header)
+        self.assertEqual(found, ["rotor_stator 1.2 unknown"])
 
 
 if __name__ == "__main__":
