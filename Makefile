@@ -36,7 +36,7 @@ table = $(1:%=data/generated/%.tsv) $(2:%=data/generated/as-printed/%.tsv)
 figure = $(1:%=figures/generated/%.svg) $(2:%=figures/generated/as-printed/%.svg)
 claims := data/generated/claims.tsv data/generated/as-printed/claims.tsv
 timings := $(call table,tab02_timing,tab02_timing)
-texts := $(patsubst %,data/generated/%.md,deviations beyond cage map_scaling manual)
+texts := $(patsubst %,data/generated/%.md,deviations cage map_scaling manual)
 untimed := $(filter-out $(timings),$(call table,$(paper) $(beside) sensitivity_derivatives truth_intervals,$(paper) truth_intervals) \
   $(call figure,$(drawn) $(drawn_beside),$(drawn))) $(texts)
 shown := $(if $(filter exchanged,$(READING)),$(call table,$(paper) truth_intervals) data/generated/deviations.md $(call figure,$(drawn)), \

@@ -52,7 +52,8 @@ from pathlib import Path
 import numpy as np
 
 sys.path.insert(1, str(Path(__file__).parents[1] / "figures"))
-from tables import Table, explore, print_columns, print_header  # noqa: E402
+from rotor_stator import run  # noqa: E402
+from tables import print_columns, print_header  # noqa: E402
 
 NAMES = ("x_s", "y_s", "x_r", "y_r")
 RELATIVE = np.hstack([-np.eye(2), np.eye(2)])  # P: u = P q; the bearing's force F on the stator is -P' F on both bodies
@@ -206,9 +207,8 @@ def largest(lowest, highest, change, derivative=0):
     return np.where(lowest >= change, far, np.where(highest <= -change, 0, near))
 
 
-def orbit(scene, *words):
-    return Table.of(explore("orbit", f"data/{scene['parameters']}.toml", "--frequency", scene["frequency_hz"],
-                            "--points", scene["points"], "--budget", 1e12, *words).stdout)
+def orbit(scene, **how):
+    return run("orbit", f"data/{scene['parameters']}.toml", frequency=scene["frequency_hz"], points=scene["points"], budget=1e12, **how)
 
 
 def row_of(scene, machine, m, solution, truth, last):
@@ -232,8 +232,8 @@ def row_of(scene, machine, m, solution, truth, last):
 def main(file):
     scene = tomllib.loads(Path(file).read_text(encoding="utf-8"))
     machine = Machine(f"data/{scene['parameters']}.toml", scene["frequency_hz"])
-    truth = orbit(scene, "--method", "shooting", "--local-error", scene["local_error"])
-    solutions = {m: orbit(scene, "--harmonics", m) for m in scene["harmonics"]}
+    truth = orbit(scene, method="shooting", local_error=scene["local_error"])
+    solutions = {m: orbit(scene, harmonics=m) for m in scene["harmonics"]}
     rows, last = [], None
     for m, solution in reversed(solutions.items()):
         whole, row = row_of(scene, machine, m, solution, truth, last)
