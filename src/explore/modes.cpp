@@ -60,7 +60,8 @@ LinearMachine::LinearMachine(const Parameters& parameters, const OperationBudget
 
 std::vector<Mode> LinearMachine::modes(double speed, std::size_t most) const
 {
-  const double rows = static_cast<double>(mass_.rows()), kept = omega_.size();
+  const auto rows = static_cast<double>(mass_.rows()),
+             kept = static_cast<double>(omega_.size());
   budget_.spend((1e4 + 2 * rows * rows * kept + 200 * kept * kept * kept) / evaluation_);
   const Eigen::MatrixXd c =
       machine_.damping.bottomRightCorner(mass_.rows(), mass_.rows()) +
