@@ -3,6 +3,7 @@
 Usage: paper/ages.py   (from the project's root, in a clone)
 """
 import re
+import shutil
 import subprocess
 from pathlib import Path
 
@@ -19,6 +20,8 @@ def age(table):
         return ""
     version, revision = found.groups()
     names = [*RESTS_ON, *map(str, Path("studies").glob(f"{table.stem}.*")), *map(str, Path("peers").glob(f"{table.stem}.py"))]
+    if not shutil.which("git"):
+        return f"kept from version {version}"
     count = subprocess.run(["git", "rev-list", "--count", f"{revision}..HEAD", "--", *names], capture_output=True, encoding="utf-8",
                            check=False)
     if not revision or count.returncode:

@@ -11,8 +11,8 @@ import unittest
 from pathlib import Path
 
 FILES = ["Makefile", "CMakeLists.txt", "data/tables.mk", "paper/paper.mk",
-         "paper/packages.sh", "live/live.mk", "peers/peers.mk", "tests/tests.mk",
-         "src/io/stamp_revision.sh", "paper/article.md"]
+         "paper/packages.sh", "paper/ages.py", "live/live.mk", "peers/peers.mk",
+         "tests/tests.mk", "src/io/stamp_revision.sh", "paper/article.md"]
 
 
 class Make(unittest.TestCase):
@@ -27,8 +27,9 @@ class Make(unittest.TestCase):
             shutil.copytree(folder, self.folder / folder)
 
     def make(self, *goals, **environment):
+        own = {name: value for name, value in os.environ.items() if "MAKE" not in name}
         return subprocess.run(["make", *goals], cwd=self.folder, capture_output=True,
-                              text=True, env={**os.environ, **environment}, check=False)
+                              text=True, env={**own, **environment}, check=False)
 
     def test_a_folder_that_a_shell_would_run(self):
         result = self.make("list")
