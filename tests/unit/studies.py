@@ -368,7 +368,7 @@ class ABound(unittest.TestCase):
     def at_45_hz(self, m):
         """A solution of data set 1, with its orbit."""
         scene = {"parameters": "set1", "frequency_hz": 45.0, "points": 4096}
-        orbit = bound.orbit(scene, "--harmonics", m)
+        orbit = bound.orbit(scene, harmonics=m)
         return bound.Solution(bound.Machine("data/set1.toml", 45), orbit, m, self.INSTANTS), orbit
 
     def test_without_contact_it_is_the_error(self):
@@ -414,7 +414,7 @@ class ABound(unittest.TestCase):
         solution, orbit = self.at_45_hz(64)
         line, argument = bound.Linearisation(solution), bound.Bound(solution, self.CELLS, self.TIMES)
         scene = {"parameters": "set1", "frequency_hz": 45.0, "points": 4096}
-        truth = bound.orbit(scene, "--method", "shooting", "--local-error", 1e-13)
+        truth = bound.orbit(scene, method="shooting", local_error=1e-13)
         error = np.column_stack([truth[name] - orbit[name] for name in bound.NAMES])
         self.assertTrue(argument.closes)
         self.assertLess(argument.remainder, 0.01 * argument.first)
