@@ -76,11 +76,11 @@ def legend_of(styles, is_missed):
     tolerances = [plt.Line2D([], [], color=colour, marker=marker, ms=5, lw=1,
                              label=f"tolerance $10^{{{np.log10(tolerance):g}}}$")
                   for tolerance, colour, marker in styles]
+    meanings = [("o", "black", 5, "data set 1 in (a), (b)"), ("o", "none", 5, "data set 2 in (a), (b)")]
+    if is_missed:
+        meanings.append(("x", "none", 6, "(c), (d): not reached"))
     marks = [plt.Line2D([], [], color="black", marker=marker, mfc=face, ms=ms, ls="", label=label)
-             for marker, face, ms, label in (("o", "black", 5, "data set 1 in (a), (b)"),
-                                             ("o", "none", 5, "data set 2 in (a), (b)"),
-                                             ("x", "none", 6, "(c), (d): not reached"))
-             if label[-7:] != "reached" or is_missed]
+             for marker, face, ms, label in meanings]
     return [handle for pair in zip_longest(tolerances, marks) for handle in pair if handle]
 
 

@@ -8,7 +8,7 @@ import sys
 from pathlib import Path
 
 import numpy as np
-from claim_quantities import (LIMITS, NOT_ENOUGH, RULES, force_rise, harmonics, high, high_rest, joined,
+from claim_quantities import (LIMITS, LOW_TO, MIDDLE_TO, NOT_ENOUGH, RULES, force_rise, harmonics, high, high_rest, joined,
                               losing, low, low_permanent, middle, middle_complex, more_often, passes, peak,
                               phases, right, share, verdict)
 from claim_ranges import Accepted
@@ -95,6 +95,11 @@ class Evidence:
         rows = self.table("validity").where("set", number).where("periodic", 1)
         return np.isin(self.speeds(number), rows["f"])
 
+    def in_transition(self, number):
+        """Whether a speed lies in the transition of the text, at every speed."""
+        speeds = self.speeds(number)
+        return (speeds > LOW_TO) & (speeds <= MIDDLE_TO)
+
     def share_right_set_1(self):
         """The quantity, where the speeds are lost, and what it is by other limits and norms and with fewer harmonics."""
         errors, periodic, speeds = self.errors(1, 6), self.periodic(1), self.speeds(1)
@@ -128,8 +133,7 @@ class Evidence:
         return (limits[before[-1] + 1] if before.size else 0.0, limits[after[0]] if after.size else np.inf)
 
     def harmonics_in_transition(self):
-        speeds, periodic = self.speeds(2), self.periodic(2)
-        inside = (speeds > LIMITS["low_to_hz"]) & (speeds <= LIMITS["middle_to_hz"])
+        periodic, inside = self.periodic(2), self.in_transition(2)
         value = harmonics({m: self.errors(2, m)[inside] for m in range(1, MOST_HARMONICS + 1)})
         outside = right(self.errors(2, 10)[periodic & ~inside])
         return value, (f"{'cannot be tested where it is made' if value is None else named(value)}: a T-periodic motion attracts at "

@@ -47,37 +47,32 @@ def claim_counts():
     for key, one in (("exchanged", claims), ("printed", printed)):
         add(f"claims.{key}", in_words(one), "-", f"how many claims end in which way, {key}")
         add(f"claims.{key}_counts", in_words(one, ids=False), "-", "the same without the claims")
-        for name, ids in score(one).items():
-            add(f"claims.{key}_{name}", len(ids), "-", f"claims {KINDS[name]}, {key}")
-            add(f"claims.{key}_{name}_ids", listed(ids), "-", "these claims")
+    for name, ids in score(claims).items():
+        add(f"claims.exchanged_{name}", len(ids), "-", f"claims {KINDS[name]}, exchanged")
     add("claims.changing", listed(changing(claims)), "-", "claims whose verdict depends on the masses")
     add("claims.differ", listed(differing(claims, printed)), "-", "claims with another verdict in the printed order")
-    for claim in claims:
-        add(f"{claim['id']}.verdict", claim["verdict"], "-", f"verdict on {claim['id']}")
-        if claim["id"] == "C11":
-            for name, half in zip(("first", "second"), claim["ours"].split("; ")):
-                add(f"C11.{name}", half.split(": ")[1], "-", f"verdict on its {name} half")
+    by_id = {claim["id"]: claim for claim in claims}
+    for name in ("C3", "C12"):
+        add(f"{name}.verdict", by_id[name]["verdict"], "-", f"verdict on {name}")
+    for name, half in zip(("first", "second"), by_id["C11"]["ours"].split("; ")):
+        add(f"C11.{name}", half.split(": ")[1], "-", f"verdict on its {name} half")
     add("claims.confirmed_words", listed([claim["claim"] for claim in claims if claim["id"] in score(claims)["confirmed"]]),
         "-", "the confirmed claims")
     for key, one in (("exchanged", claims), ("printed", printed)):
         for end in ("low", "high"):
-            add(f"C2.{end}_{key}", float(one[1][end]), "-", f"{end}est share of speeds of C2 over the accepted masses, {key}")
+            add(f"C2.{end}_{key}", float(next(claim[end] for claim in one if claim["id"] == "C2")), "-", f"{end}est share of speeds of C2 over the accepted masses, {key}")
 
 
 def shares_right():
     """C2 and C14: at which share of all speeds few harmonics are right, for both versions of Table 1."""
-    for key, folder in (("exchanged", GENERATED), ("printed", GENERATED / "as-printed")):
-        evidence = Evidence(folder)
-        for name, number, m in (("C2", 1, 6), ("one", 1, 1), ("C14_1", 1, 10), ("C14_2", 2, 10)):
-            add(f"right.{name}_{key}", quantities.right(evidence.errors(number, m)), "-",
-                f"share of all speeds of set {number} at which {m} harmonics are right, {key}")
-        for number in (1, 2):
-            add(f"right.periodic_{number}_{key}", evidence.periodic(number).mean(), "-", "share with a T-periodic motion")
-    evidence = Evidence(GENERATED)
+    evidence, printed = Evidence(GENERATED), Evidence(GENERATED / "as-printed")
+    for key, one, number, m in (("C2_exchanged", evidence, 1, 6), ("C2_printed", printed, 1, 6), ("one_exchanged", evidence, 1, 1),
+                                ("C14_2_exchanged", evidence, 2, 10)):
+        add(f"right.{key}", quantities.right(one.errors(number, m)), "-", f"share of all speeds of set {number} at which {m} harmonics are right")
     add("C2.largest_right", quantities.right(evidence.errors(1, 6, "distance_largest")), "-", "C2 by the largest error")
     add("C2.limit_least", evidence.same_verdict(evidence.errors(1, 6))[0], "-", "limit of the error from which on the verdict is the same")
     add("C2.without", (~evidence.periodic(1)).sum(), "-", "speeds of set 1 without a T-periodic motion")
-    inside = (evidence.speeds(2) > quantities.LOW_TO) & (evidence.speeds(2) <= quantities.MIDDLE_TO)
+    inside = evidence.in_transition(2)
     add("C3.middle", inside.sum(), "-", "speeds of the transition")
     add("C3.transition", (evidence.periodic(2) & inside).sum(), "-", "of them with a T-periodic motion")
     add("C11.seconds", evidence.study_by_integration()[0], "s", "CPU time of the study of clearance and stiffness by RK4")
@@ -127,7 +122,6 @@ def displacements():
 def regimes():
     """The shares and means that claims C4 to C10 are made of, in the words of data/claims.toml."""
     table = Table(GENERATED / "regimes.tsv").where("set", 1)
-    f = table["f"]
     low, middle, high = (part(table) for part in (quantities.low, quantities.middle, quantities.high))
     joint = Table(GENERATED / "tab01_parameters.tsv").first("f_joint")
     cage = Table(GENERATED / "tab01_parameters.tsv").first("cage_speed_ratio")

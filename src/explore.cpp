@@ -66,8 +66,11 @@ void require_files(const Request& asked, Files files)
   files.written.emplace_back("--plot", asked.plot);
   files.read.insert(files.read.end(), {asked.parameter_file, asked.overlay});
   std::vector<std::string> inputs, outputs;
-  for (const auto& file : files.read)
-    if (file) require_plain_name(*file), inputs.push_back(*file);
+  for (const auto& file : files.read) {
+    if (!file) continue;
+    require_plain_name(*file);
+    inputs.push_back(*file);
+  }
   for (const auto& [option, file] : files.written) {
     if (!file) continue;
     require_plain_name(*file);

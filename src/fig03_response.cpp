@@ -24,12 +24,12 @@ which none was found.
 
 Time integration is the check, at fewer speeds, from rest until the motion has settled,
 and looked at twelve times in a vibration of the contact, which rings some hundred times
-in a slow turn. A
-full point is a motion that repeats after one turn; its distance from the curve is the
-error of harmonic balance. An open point is a motion that does not, and there the curve
-does not describe what the machine does after a start from rest. With the large clearance
-most speeds below the resonance are of this kind, and at low speeds the curve has wide
-gaps. The figure says nothing about stability; the figure `stability` does. */
+in a slow turn. A full point is a motion that repeats after one turn; its distance from
+the curve is the error of harmonic balance. An open point is a motion that does not, and
+there the curve does not describe what the machine does after a start from rest. With the
+large clearance most speeds below the resonance are of this kind, and at low speeds the
+curve has wide gaps. The figure says nothing about stability; the figure `stability`
+does. */
 #include <algorithm>
 
 #include "figures/response.hpp"

@@ -19,7 +19,7 @@ from pathlib import Path
 import numpy as np
 
 sys.path.insert(1, str(Path(__file__).parents[1] / "figures"))
-from rotor_stator import attempt, run  # noqa: E402
+from rotor_stator import attempt, map_at  # noqa: E402
 from tables import STABILITY, Table, print_columns  # noqa: E402
 
 MEASURED = ["amplitude", "contact_share", "ball_load"]
@@ -35,8 +35,8 @@ COLUMNS = [
 
 def integrated(scene, name, ratio):
     """Rows of the map over the speeds, from rest."""
-    return run("map", f"data/{name}.toml", method="rk4", longest=scene["settling_s"], threads=1, budget=1e10, list=ratio,
-               quantity=list(MEASURED), x=f"frequency={scene['first_hz']}:{scene['last_hz']}:{scene['speeds']}")
+    return map_at(f"data/{name}.toml", ["bearing.cage_speed_ratio"], [[ratio]], method="rk4", longest=scene["settling_s"], threads=1,
+                  budget=1e10, quantity=MEASURED, x=f"frequency={scene['first_hz']}:{scene['last_hz']}:{scene['speeds']}")
 
 
 def solution(machine, speed, tolerance):
@@ -132,9 +132,7 @@ def main(file):
             text = Path(f"data/{name}.toml").read_text(encoding="utf-8")
             machine = Path(folder, f"{name}-{ratio}.toml")
             machine.write_text(re.sub(r"(?m)^cage_speed_ratio = .*$", f"cage_speed_ratio = {ratio}", text), encoding="utf-8")
-            points = Path(folder, f"{name}-{ratio}.tsv")
-            points.write_text(f"bearing.cage_speed_ratio\n{ratio}\n", encoding="utf-8")
-            settled = integrated(scene, name, points)
+            settled = integrated(scene, name, ratio)
             return [[ratio, f"{settled['frequency'][k]:.12g}", *(f"{settled[q][k]:.9g}" for q in MEASURED),
                      *solution(machine, settled["frequency"][k], scene["tolerance"])] for k in range(len(settled))], settled
 

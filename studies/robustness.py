@@ -12,14 +12,12 @@ The steel of a real contact damps little: 0.1 to 1 s/m.
 
 Usage: studies/robustness.py data/scenes/robustness.toml > robustness.tsv   (from the project's root)
 """
-import os
 import sys
-import tempfile
 import tomllib
 from pathlib import Path
 
 sys.path.insert(1, str(Path(__file__).parents[1] / "figures"))
-from rotor_stator import attempt  # noqa: E402
+from rotor_stator import map_at  # noqa: E402
 from tables import cells_as_numbers, print_columns, print_header  # noqa: E402
 
 DAMPINGS = ("bearing.contact_damping_s_per_m", "stator.damping_ratio", "rotor.damping_ratio")
@@ -35,7 +33,7 @@ def machines_of(scene, base):
             for machine in scene["machine"]:
                 values = {**base, **machine, DAMPINGS[0]: contact}
                 for key in DAMPINGS[1:]:
-                    values[key] = times * base[key]
+                    values[key] = float(f"{times * base[key]:.12g}")
                 yield machine["name"], times, [values[key] for key in keys], keys
 
 
@@ -43,14 +41,6 @@ def parameters(file):
     """The parameters of a file by the names that `explore map --list` reads."""
     table = tomllib.loads(Path(file).read_text(encoding="utf-8"))
     return {f"{part}.{key}": value for part, values in table.items() if isinstance(values, dict) for key, value in values.items()}
-
-
-def at_points(file, keys, points, **options):
-    """The map over these points, one row each, in their order."""
-    with tempfile.NamedTemporaryFile("w", suffix=".tsv", encoding="utf-8") as listed:
-        print("\t".join(["frequency", *keys]), *("\t".join(f"{cell:.12g}" for cell in point) for point in points), sep="\n",
-              file=listed, flush=True)
-        return attempt("map", file, list=listed.name, threads=os.cpu_count(), **options)
 
 
 def columns(harmonics):
@@ -69,12 +59,12 @@ def rows_of_set(file, scene):
     machines = list(machines_of(scene, parameters(file)))
     keys = machines[0][-1]
     points = [[speeds["from"] + k * step, *values] for *_, values, _ in machines for k in range(speeds["count"])]
-    settled = at_points(file, keys, points, quantity="period")
+    settled = map_at(file, ["frequency", *keys], points, quantity="period")
     period = cells_as_numbers(settled["period"])
     repeats = [k for k, one in enumerate(period) if one == T_PERIODIC]
     errors = {k: [-1] * len(scene["harmonics"]) for k in range(len(points))} | {k: [] for k in repeats}
     for m in scene["harmonics"]:
-        found = at_points(file, keys, [points[k] for k in repeats], harmonics=m, quantity="error")
+        found = map_at(file, ["frequency", *keys], [points[k] for k in repeats], harmonics=m, quantity="error")
         for k, cell in zip(repeats, found["error"]):
             errors[k].append(2 if cell == "-" else float(cell))
     names = [machine["name"] for machine in scene["machine"]]

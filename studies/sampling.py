@@ -35,8 +35,6 @@ import tomllib
 from concurrent.futures import ThreadPoolExecutor
 from pathlib import Path
 
-import numpy as np
-
 sys.path.insert(1, str(Path(__file__).parents[1] / "figures"))
 from rotor_stator import attempt  # noqa: E402
 from tables import displacement_errors, print_columns, print_header  # noqa: E402

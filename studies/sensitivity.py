@@ -24,7 +24,7 @@ from pathlib import Path
 import numpy as np
 
 sys.path.insert(1, str(Path(__file__).parents[1] / "figures"))
-from rotor_stator import attempt  # noqa: E402
+from rotor_stator import attempt, map_at  # noqa: E402
 from tables import print_columns  # noqa: E402
 
 PARAMETERS = [("mass", "mass_kg", "kg"), ("mass_ratio", "mass_ratio", "-"), ("cage_ratio", "cage_ratio", "-"),
@@ -87,20 +87,13 @@ class Study:
     def method(self, model, by_balance):
         """The options that say how."""
         if by_balance:
-            return ["--method", "aft", "--harmonics", self.scene["harmonics"], "--samples", model.samples]
-        return ["--method", "rk4", "--step", model.step, "--longest", self.time["longest_s"]]
+            return {"method": "aft", "harmonics": self.scene["harmonics"], "samples": model.samples}
+        return {"method": "rk4", "step": model.step, "longest": self.time["longest_s"]}
 
     def response(self, model, quantity, speeds, by_balance):
         """A quantity at speeds [Hz] in any order, 0 without a solution."""
-        with tempfile.NamedTemporaryFile("w", suffix=".tsv") as points:
-            points.write("\t".join(KEYS) + "\n" + "\t".join(f"{value:.17g}" for value in model.masses_and_cage) + "\n")
-            points.flush()
-            if len(speeds) > 1:
-                where = ["--x", f"frequency={speeds[0]:.17g}:{speeds[-1]:.17g}:{len(speeds)}"]
-            else:
-                where = ["--frequency", f"{speeds[0]:.17g}"]
-            table = attempt("map", self.machine, "--list", points.name, *where, "--quantity", quantity,
-                                 "--threads", 1, *self.method(model, by_balance))
+        where = {"x": f"frequency={speeds[0]:.17g}:{speeds[-1]:.17g}:{len(speeds)}"} if len(speeds) > 1 else {"frequency": f"{speeds[0]:.17g}"}
+        table = map_at(self.machine, KEYS, [model.masses_and_cage], quantity=quantity, threads=1, **where, **self.method(model, by_balance))
         self.header = self.header or table.header
         column = table[quantity]
         return column if column.dtype.kind == "f" else np.array([0 if c == "-" else float(c) for c in column])
@@ -146,7 +139,7 @@ class Study:
                 keeps = middle
         return (loses + keeps) / 2, uncertainty
 
-    def orbit(self, model, *options):
+    def orbit(self, model, **options):
         """The orbit at the scene's speed, of the machine written with these masses and this cage."""
         text = Path(self.machine).read_text(encoding="utf-8")
         for old, new in zip(self.usual.masses_and_cage, model.masses_and_cage):
@@ -155,7 +148,7 @@ class Study:
         with tempfile.NamedTemporaryFile("w", suffix=".toml") as file:
             file.write(text)
             file.flush()
-            return attempt("orbit", file.name, "--frequency", self.scene["orbit_hz"], *options)
+            return attempt("orbit", file.name, frequency=self.scene["orbit_hz"], **options)
 
     @cache
     def balance_size(self, model):
@@ -163,15 +156,14 @@ class Study:
         passages = self.balls * model.masses_and_cage[2]
         table = None
         if abs(passages - round(passages)) < 1e-9:
-            table = self.orbit(model, *self.method(model, True), "--no-stability", "--points", 4096)
+            table = self.orbit(model, no_stability=True, points=4096, **self.method(model, True))
         return (-1, -1) if table is None else tuple(np.ptp(table[name]) / 2 for name in ("x_r", "y_r"))
 
     @cache
     def integrated_size(self, model):
         """The same by rk4, each the mean over the periods with its standard error; growth rate; whether the period is a turn's."""
         points = self.time["points_per_period"]
-        table = self.orbit(model, *self.method(model, False), "--points", points, "--periods",
-                           self.scene["orbit_periods"])
+        table = self.orbit(model, points=points, periods=self.scene["orbit_periods"], **self.method(model, False))
         sizes = [mean_and_error((crests(table[name], points) + crests(-table[name], points)) / 2)
                  for name in ("x_r", "y_r")]
         return *sizes, table.value("lyapunov"), int(table.value("regime") == "periodic" and table.value("period") == 1)

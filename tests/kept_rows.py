@@ -7,7 +7,6 @@ Usage: tests/kept_rows.py   (from the project's root, after `make all`)
 """
 import hashlib
 import sys
-import tempfile
 import tomllib
 import unittest
 from pathlib import Path
@@ -19,7 +18,7 @@ for folder in ("figures", "studies"):  # a study may be called like its figure
 import identification  # noqa: E402
 import robustness  # noqa: E402
 import sensitivity  # noqa: E402
-from rotor_stator import attempt  # noqa: E402
+from rotor_stator import attempt, map_at  # noqa: E402
 from tables import Table, cells_as_numbers  # noqa: E402
 
 ROWS = 3
@@ -40,13 +39,6 @@ class Kept:
         return [self.table.rows([k]) for k in self.random.choice(rows, ROWS, replace=False)]
 
 
-def at_points(file, keys, points, **options):
-    """`explore map` over a list of points."""
-    with tempfile.NamedTemporaryFile("w", suffix=".tsv", encoding="utf-8") as listed:
-        print("\t".join(keys), *("\t".join(map(str, point)) for point in points), sep="\n", file=listed, flush=True)
-        return attempt("map", file, list=listed.name, **options)
-
-
 def point(row, keys):
     return [repr(float(row.first(key))) for key in keys]
 
@@ -64,7 +56,7 @@ class Rows(unittest.TestCase):
         kept = Kept("clearance_speed")
         rows = kept.drawn((cells_as_numbers(kept.table["period"]) == 1) & (cells_as_numbers(kept.table["contact_share"]) == 1)
                           & (kept.table["frequency"] > 26) & (kept.table["bearing.radial_clearance_m"] < 4e-5))
-        new = at_points(SETS[1], keys, [point(row, keys) for row in rows], quantity="period,lyapunov,contact_share")
+        new = map_at(SETS[1], keys, [point(row, keys) for row in rows], quantity="period,lyapunov,contact_share")
         self.compare(new, rows, {"period": "period", "contact_share": "contact_share"}, 0)
         self.compare(new, rows, {"lyapunov": "lyapunov"}, 0.05)
 
@@ -73,7 +65,7 @@ class Rows(unittest.TestCase):
         keys = ("bearing.radial_clearance_m", "bearing.contact_stiffness_N_per_m1p5")
         kept = Kept("stiffness_border")
         rows = kept.drawn((kept.table["status"] == "ok") & (cells_as_numbers(kept.table["permanent"]) == 1))
-        new = at_points(SETS[1], keys, [point(row, keys) for row in rows], harmonics=6, sweep="1:60:60", frequency=30,
+        new = map_at(SETS[1], keys, [point(row, keys) for row in rows], harmonics=6, sweep="1:60:60", frequency=30,
                         quantity="peak,peak_frequency,permanent,error")
         self.compare(new, rows, {"peak": "peak", "peak_frequency": "peak_frequency", "permanent": "permanent"}, 1e-6)
 
@@ -81,7 +73,7 @@ class Rows(unittest.TestCase):
         """Sweeps in which contact is never lost."""
         kept = Kept("clearance_stiffness")
         rows = kept.drawn((kept.table["f_loss_first"] == -1) & (kept.table["missed"] == 0))
-        new = at_points(SETS[1], ("bearing.radial_clearance_m", "bearing.contact_stiffness_N_per_m1p5"),
+        new = map_at(SETS[1], ("bearing.radial_clearance_m", "bearing.contact_stiffness_N_per_m1p5"),
                         [point(row, ("delta", "K_H")) for row in rows], harmonics=6, sweep="1:60:60",
                         quantity="peak,peak_frequency,largest_load,missed")
         self.compare(new, rows, {"peak": "amp_peak", "peak_frequency": "f_peak", "largest_load": "largest_force", "missed": "missed"}, 1e-6)
@@ -91,7 +83,7 @@ class Rows(unittest.TestCase):
         kept = Kept("attractors")
         rows = kept.drawn((kept.table["motion"] == 1) & (kept.table["period"] == 1) & (kept.table["starts"] >= 6))
         for row in rows:
-            new = at_points(SETS[int(row.first("set"))], ("frequency",), [point(row, ("f",))], quantity="period,amp_x_s,amp_y_r")
+            new = map_at(SETS[int(row.first("set"))], ("frequency",), [point(row, ("f",))], quantity="period,amp_x_s,amp_y_r")
             self.compare(new, [row], {"period": "period"}, 0)
             self.compare(new, [row], {"amp_x_s": "amp_x_s", "amp_y_r": "amp_y_r"}, 0.01)  # 256 instants in a turn
 
@@ -100,7 +92,7 @@ class Rows(unittest.TestCase):
         kept = Kept("verdicts")
         rows = kept.drawn((kept.table["machine_stable"] == 1) & (kept.table["distance"] < 0.01))
         for row in rows:
-            new = at_points(SETS[int(row.first("set"))], ("frequency",), [point(row, ("f",))], method="aft",
+            new = map_at(SETS[int(row.first("set"))], ("frequency",), [point(row, ("f",))], method="aft",
                             harmonics=int(row.first("m")), quantity="multiplier,distance,series")
             self.compare(new, [row], {"multiplier": "machine", "distance": "distance", "series": "series"}, 1e-3)
 
@@ -109,7 +101,7 @@ class Rows(unittest.TestCase):
         kept = Kept("stability")
         rows = kept.drawn((kept.table["set"] == 1) & (kept.table["stable"] == 1) & (kept.table["f"] > 40) & (kept.table["largest_multiplier"] > 0))
         for row in rows:
-            new = at_points(SETS[int(row.first("set"))], ("frequency",), [point(row, ("f",))], method="aft",
+            new = map_at(SETS[int(row.first("set"))], ("frequency",), [point(row, ("f",))], method="aft",
                             harmonics=int(row.first("harmonics")), quantity="amplitude,multiplier")
             self.compare(new, [row], {"amplitude": "amp_x_r", "multiplier": "largest_multiplier"}, 1e-3)
 
@@ -119,7 +111,7 @@ class Rows(unittest.TestCase):
         rows = kept.drawn((kept.table["stable"] == 1) & (kept.table["adaptive"] == 0) & (kept.table["nearest_periodic"] == 1)
                           & (kept.table["distance"] < 0.1))
         for row in rows:
-            new = at_points(SETS[int(row.first("set"))], ("frequency",), [point(row, ("f",))], method="aft",
+            new = map_at(SETS[int(row.first("set"))], ("frequency",), [point(row, ("f",))], method="aft",
                             harmonics=int(row.first("m")), quantity="distance")
             self.compare(new, [row], {"distance": "distance"}, 0.05)  # 256 instants there
 
@@ -164,14 +156,14 @@ class Rows(unittest.TestCase):
             values, keys = next((values, keys) for one, times, values, keys in robustness.machines_of(scene, robustness.parameters(file))
                                 if (one, times, values[keys.index(robustness.DAMPINGS[0])])
                                 == (name, row.first("suspension"), row.first("contact_damping")))
-            new = robustness.at_points(file, keys, [[float(row.first("f")), *values]], harmonics=6, quantity="error")
+            new = map_at(file, ["frequency", *keys], [[float(row.first("f")), *values]], harmonics=6, quantity="error")
             np.testing.assert_allclose(2 if new.first("error") == "-" else float(new.first("error")), row.first("error_6"), rtol=1e-3)
 
     def test_cage(self):
         """Amplitude and contact of motions from rest with another cage, above the resonance."""
         kept = Kept("cage")
         for row in kept.drawn((kept.table["f"] > 40) & (kept.table["found"] == 1) & (kept.table["stable"] == 1)):
-            new = at_points(SETS[int(row.first("set"))], ("frequency", "bearing.cage_speed_ratio"), [point(row, ("f", "c"))],
+            new = map_at(SETS[int(row.first("set"))], ("frequency", "bearing.cage_speed_ratio"), [point(row, ("f", "c"))],
                             method="rk4", longest=6, quantity="amplitude,contact_share")
             self.compare(new, [row], {name: name for name in ("amplitude", "contact_share")}, 0.01)
 

@@ -18,7 +18,7 @@ if not Path(__file__).with_name("tables.py").exists():  # in the clone: beside f
     __path__.append(str(Path(__file__).parents[1]))
 from .tables import Table, read  # noqa: E402
 
-__all__ = ["NoAnswer", "Table", "attempt", "explore", "read", "run"]
+__all__ = ["NoAnswer", "Table", "attempt", "explore", "map_at", "read", "run"]
 
 
 class NoAnswer(RuntimeError):
@@ -86,3 +86,10 @@ def attempt(command, *words, **options):
         return run(command, *words, **options)
     except NoAnswer as end:
         return end.table
+
+
+def map_at(machine, keys, points, **options):
+    """`explore map` over a list of points, a value for each key: the rows of a point follow each other."""
+    with tempfile.NamedTemporaryFile("w", suffix=".tsv", encoding="utf-8") as listed:
+        print("\t".join(keys), *("\t".join(map(str, point)) for point in points), sep="\n", file=listed, flush=True)
+        return run("map", machine, list=listed.name, **options)

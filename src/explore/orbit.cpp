@@ -277,11 +277,10 @@ Exploration explore_orbit(const MotionRequest& request)
       computed(parameters, request, std::max(recorded, request.periods), table);
   const motion::Motion& motion = at.found.motion;
   /** Over what is recorded; of a motion by harmonic balance that may be too short. */
-  const int repeats = turns_to_repeat(parameters.bearing);
+  const BasePeriod base = base_period(parameters);
   const bool closes = at.found.closes_after > 0 &&
-                      (!is_periodic(request.method) || repeats == 1 ||
-                       base_period(parameters).kind == BasePeriod::Kind::passing ||
-                       (repeats > 0 && recorded % repeats == 0));
+                      (!is_periodic(request.method) ||
+                       (!base.is_driven_twice() && recorded % base.turns == 0));
   const auto measured = measures.at_instants(
       {motion,
        at.found.base_periods / (at.found.base_frequency * motion.points_per_period),

@@ -48,7 +48,7 @@ def drawn(kind, seed):
 
 
 def differences(solution, truth):
-    """Largest over the largest displacement; rms about the means over that of the truth. """
+    """Largest over the largest displacement; rms about the means over that of the truth."""
     centred = [q - q.mean(axis=0) for q in (solution, truth)]
     largest = abs(solution - truth).max() / abs(truth).max()
     return largest, np.linalg.norm(centred[0] - centred[1]) / np.linalg.norm(centred[1])
@@ -94,9 +94,9 @@ class PrintedError(Case):
             rates = [f"v_{name}" for name in NAMES]
             first, orbit = (Table.of(self.run_explore(*asked, "--points", points, "--periods", turns, "--no-stability", "--columns",
                                                       ",".join(names)).stdout)
-                            for points, turns, names in ((FINE, 2, [*NAMES, *rates]), (COARSE, TURNS, NAMES)))
-            state = np.array([first[name][FINE] for name in (*NAMES, *rates)])  # rates at the ends are not those of the motion
-            answer = model.settle(state, 1, TURNS - KEPT - 1, KEPT, KEPT, COARSE)
+                            for points, turns, names in ((FINE, 1, [*NAMES, *rates]), (COARSE, TURNS, NAMES)))
+            state = np.array([first[name][0] for name in (*NAMES, *rates)])
+            answer = model.settle(state, 0, TURNS - KEPT, KEPT, KEPT, COARSE)
             pairs = [(positions(orbit)[-KEPT * COARSE:], answer[21:].reshape(-1, 4))]
         else:
             orbit = positions(Table.of(self.run_explore(*asked, "--points", POINTS, "--no-stability").stdout))
