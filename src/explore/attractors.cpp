@@ -257,10 +257,7 @@ void look_closer(const Task& task, std::size_t speed, const Measures& measures,
     found.measured = measures.of({whole.motion, step, found.speed, closes(whole)});
   }
   complete(found.answer, request, task.budget);
-  const std::vector<Vec2> forces =
-      motion::bearing_forces(found.answer.machine, found.answer.motion);
-  found.touches =
-      std::ranges::any_of(forces, [](Vec2 f) { return f.x != 0 || f.y != 0; });
+  found.touches = motion::contact_share(found.answer.machine, found.answer.motion) > 0;
 }
 
 /** One of each attractor in the order of the starts; a decided motion speaks for those

@@ -132,7 +132,8 @@ Exploration explore_check(const CheckRequest& request)
       warn(format("the eccentricity of %.3g m is %.3g times the clearance", e,
                   printable_size(e / gap)));
   }
-  if (!is_large && never_touches(request, machine))
+  const bool is_bare = !machine.bearing.parallel.any();
+  if (!is_large && is_bare && never_touches(request, machine))
     warn(format("nothing touches from %g to %g Hz: the clearance of %g m is never closed",
                 request.from, request.to, machine.bearing.clearance));
   if (!is_large && !machine.stator.rigid)

@@ -6,6 +6,7 @@
 #include <cmath>
 
 #include "io/errors.hpp"
+#include "model/ball_bearing.hpp"
 #include "time/eigenvalues.hpp"
 
 namespace rotor_stator::explore {
@@ -29,14 +30,23 @@ Eigen::MatrixXd cholesky(const Eigen::MatrixXd& a)
 
 }  // namespace
 
-LinearMachine::LinearMachine(const Parameters& parameters, const OperationBudget& budget)
-    : first_(parameters.stator.rigid ? 2 : 0), machine_(matrices_of(parameters)),
-      budget_(budget), evaluation_(operations_per_evaluation(parameters.bearing.balls)),
-      contact_(mean_contact_stiffness(parameters, machine_))
+LinearMachine::LinearMachine(const Parameters& parameters, const OperationBudget& budget,
+                             double speed)
+    : parameters_(parameters), speed_(speed), first_(parameters.stator.rigid ? 2 : 0),
+      machine_(matrices_of(parameters)), budget_(budget),
+      evaluation_(operations_per_evaluation(parameters.bearing.balls)),
+      contact_(mean_contact_stiffness(parameters, machine_, angular(speed)))
 {
   const auto n = machine_.mass.rows() - first_;
-  k_ = (machine_.stiffness + machine_.joints * contact_ * machine_.joints.transpose())
-           .bottomRightCorner(n, n);
+  const Eigen::MatrixXd& d = machine_.joints;
+  const Eigen::MatrixXd even = (contact_ + contact_.transpose()) / 2;
+  k_ = (machine_.stiffness + d * even * d.transpose()).bottomRightCorner(n, n);
+  skew_ = (d * (contact_ - even) * d.transpose()).bottomRightCorner(n, n);
+  const Slopes2 c = BallBearing(parameters.bearing, angular(speed))
+                        .reaction({}, {0, 0}, {0, 0})
+                        .damping;
+  if (parameters.bearing.parallel.any())
+    machine_.damping += d * Eigen::Matrix2d{{c.xx, c.xy}, {c.yx, c.yy}} * d.transpose();
   mass_ = machine_.mass.bottomRightCorner(n, n);
   factor_ = cholesky(k_);
   double shift = 0;  // σ [1/s²]
@@ -60,6 +70,8 @@ LinearMachine::LinearMachine(const Parameters& parameters, const OperationBudget
 
 std::vector<Mode> LinearMachine::modes(double speed, std::size_t most) const
 {
+  if (speed != speed_ && parameters_.bearing.parallel.linear.size() > 1)
+    return LinearMachine(parameters_, budget_, speed).modes(speed, most);
   const auto rows = static_cast<double>(mass_.rows()),
              kept = static_cast<double>(omega_.size());
   budget_.spend((1e4 + 2 * rows * rows * kept + 200 * kept * kept * kept) / evaluation_);
@@ -70,6 +82,10 @@ std::vector<Mode> LinearMachine::modes(double speed, std::size_t most) const
   Eigen::MatrixXd a = Eigen::MatrixXd::Zero(2 * n, 2 * n);
   a.topRightCorner(n, n) = omega_.asDiagonal();
   a.bottomLeftCorner(n, n) = -a.topRightCorner(n, n);
+  if (!skew_.isZero(0))
+    a.bottomLeftCorner(n, n) -=
+        shapes_.transpose() * skew_ * shapes_ *
+        (omega_.array() > 0).select(omega_.array().inverse(), 0.0).matrix().asDiagonal();
   a.bottomRightCorner(n, n) = -shapes_.transpose() * c * shapes_;
   const Eigensystem found = eigensystem(a, true);
   std::vector<Eigen::Index> order;
@@ -82,7 +98,7 @@ std::vector<Mode> LinearMachine::modes(double speed, std::size_t most) const
     const auto lambda = found.values[k];
     const Eigen::VectorXcd q = shapes_ * found.vectors.col(k).tail(n);
     const Eigen::VectorXcd rest =
-        k_ * q + lambda * (c * q) + lambda * lambda * (mass_ * q);
+        (k_ + skew_) * q + lambda * (c * q) + lambda * lambda * (mass_ * q);
     const auto r = factor_.triangularView<Eigen::Lower>();
     const double residual = r.solve(rest).norm() / (factor_.transpose() * q).norm();
     /** The ellipses of all places that are shown, weighted by their areas. */

@@ -33,9 +33,10 @@ struct Mode {
 
 class LinearMachine {
 public:
-  /** Throws NoSolution where the stiffness at rest is not positive. */
-  explicit LinearMachine(const Parameters& parameters,
-                         const OperationBudget& budget = {});
+  /** With what stands beside the balls at a speed [Hz]. Throws NoSolution where the
+      stiffness at rest is not positive. */
+  explicit LinearMachine(const Parameters& parameters, const OperationBudget& budget = {},
+                         double speed = 0);
 
   /** S, 2b × 2b [N/m]. */
   const Eigen::MatrixXd& contact() const { return contact_; }
@@ -45,11 +46,14 @@ public:
   std::vector<Mode> modes(double speed, std::size_t most) const;
 
 private:
-  int first_;  ///< coordinates of a stator that is held come before it
+  Parameters parameters_;
+  double speed_;  ///< [Hz]
+  int first_;     ///< coordinates of a stator that is held come before it
   LargeBodies machine_;
   OperationBudget budget_;
   double evaluation_;                   ///< elementary operations
-  Eigen::MatrixXd contact_, mass_, k_;  ///< S, M, K + D S Dᵀ
+  Eigen::MatrixXd contact_, mass_, k_;  ///< S, M, K + D S Dᵀ, of S what is symmetric
+  Eigen::MatrixXd skew_;                ///< the rest of D S Dᵀ
   Eigen::MatrixXd factor_, shapes_;     ///< R; columns of unit modal mass
   Eigen::VectorXd omega_;               ///< [rad/s]
 };

@@ -198,7 +198,7 @@ FoundMotion closed_motion(const Parameters& parameters, const MotionRequest& req
 
 bool Computed::touches() const
 {
-  return std::ranges::any_of(forces, [](Vec2 f) { return f.x != 0 || f.y != 0; });
+  return motion::contact_share(found.machine, found.motion) > 0;
 }
 
 Computed computed(const Parameters& parameters, const MotionRequest& request,

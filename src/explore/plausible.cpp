@@ -48,7 +48,7 @@ std::vector<std::string> doubts(const Parameters& machine, double highest)
   for (const Bearing& bearing : bearings_of(machine)) {
     if (const double d = printable_size(pitch_diameter(bearing)); d > widest)
       all.push_back(format("a pitch diameter of %.3g m: are lengths in m?", d));
-    if (const double d = bearing.ball_diameter; d > 0 && bearing.is_hertzian()) {
+    if (const double d = bearing.ball_diameter; d > 0 && bearing.exponent == 1.5) {
       const double ratio =
           printable_size(bearing.contact_stiffness / std::sqrt(d) / steel);
       if (ratio < 0.01 || ratio > 100)

@@ -346,7 +346,7 @@ void BalanceBranch::add_branch(const Branch& branch, std::size_t number)
 void BalanceBranch::add_row(const StablePoint& at, std::size_t number)
 {
   PeriodicMotion motion = at.point.motion;
-  touches_ = touches_ || !motion.force.isZero(0);
+  touches_ = touches_ || motion::touches(task_.parameters, motion);
   ResponseRow row{.frequency = task_.hertz(motion.omega),
                   .arc = at.point.arc,
                   .newton = motion.newton.iterations,

@@ -325,7 +325,7 @@ Exploration response_to_tolerance(const ResponseTask& task)
     if (has_further)
       observe(row, task.parameters, motion::motion_of(at.motion, points), at.motion.omega,
               true, measures);
-    if (!at.motion.force.isZero(0)) sweep.touches = true;
+    if (motion::touches(task.parameters, at.motion)) sweep.touches = true;
     return row;
   };
   sweep.rows_at = [&](std::span<const double> speeds,

@@ -12,6 +12,7 @@ BallBearing::BallBearing(const Bearing& bearing, double omega, int turns)
     : bearing_(bearing), is_plain_(bearing.is_plain()), turns_(turns), omega_(omega),
       rotor_speed_(turns * omega), cage_speed_(bearing.cage_speed_ratio * omega),
       place_(Direction::of(bearing.defect.place)),
+      parallel_(bearing.parallel, bearing.parallel.speed_ratio * rotor_speed_),
       contact_stiffness_(bearing.contact_stiffness), clearance_(bearing.clearance),
       clearance_squared_(bearing.clearance * bearing.clearance)
 {
@@ -112,7 +113,7 @@ void BallBearing::each_contact(const Angles& at, Vec2 u, Vec2 rate, Visit visit)
   }
 }
 
-BearingReaction BallBearing::full_reaction(const Angles& at, Vec2 u, Vec2 rate) const
+BearingReaction BallBearing::ball_reaction(const Angles& at, Vec2 u, Vec2 rate) const
 {
   BearingReaction sum{};
   each_contact(at, u, rate, [&](const Contact& on) {
@@ -132,6 +133,13 @@ BearingReaction BallBearing::full_reaction(const Angles& at, Vec2 u, Vec2 rate) 
     sum.speed_slope.y += by_speed * s;
   });
   sum.damping.yx = sum.damping.xy;
+  return sum;
+}
+
+BearingReaction BallBearing::full_reaction(const Angles& at, Vec2 u, Vec2 rate) const
+{
+  BearingReaction sum = ball_reaction(at, u, rate);
+  if (bearing_.parallel.any()) parallel_.add(u, rate, omega_, sum);
   return sum;
 }
 

@@ -39,6 +39,7 @@ back: one sine and one cosine of the cage angle serve all balls. */
 #include <vector>
 
 #include "model/lanes.hpp"
+#include "model/parallel.hpp"
 #include "model/parameters.hpp"
 
 namespace rotor_stator {
@@ -124,21 +125,6 @@ struct Angles {
   Direction spin = {1, 0};  ///< of a damaged ball, seen from the cage
 };
 
-/** ∂F/∂u [N/m] or ∂F/∂u̇ [N s/m]; without damping symmetric. */
-struct Slopes2 {
-  double xx, xy, yx, yy;
-};
-
-/** Force on the stator [N] and its derivative. */
-struct ElasticReaction {
-  Vec2 force;
-  Slopes2 stiffness;  ///< ∂F/∂u [N/m]
-};
-struct BearingReaction : ElasticReaction {
-  Slopes2 damping = {};   ///< ∂F/∂u̇ [N s/m]
-  Vec2 speed_slope = {};  ///< dF/dω along a motion u(φ), φ = ωt [N s]
-};
-
 /** The bearing with its constant ball directions in the cage frame. */
 class BallBearing {
 public:
@@ -161,6 +147,12 @@ public:
   Vec2 force(const Angles& at, Vec2 u, Vec2 rate) const
   {
     return is_plain() ? plain_force(at.cage, u) : full_reaction(at, u, rate).force;
+  }
+
+  /** Of this the part of the balls, without the elements beside them. */
+  Vec2 ball_force(const Angles& at, Vec2 u, Vec2 rate) const
+  {
+    return is_plain() ? plain_force(at.cage, u) : ball_reaction(at, u, rate).force;
   }
 
   /** The same with its derivatives. */
@@ -209,6 +201,7 @@ private:
   };
   template <class Visit>
   void each_contact(const Angles& at, Vec2 u, Vec2 rate, Visit visit) const;
+  BearingReaction ball_reaction(const Angles& at, Vec2 u, Vec2 rate) const;
   BearingReaction full_reaction(const Angles& at, Vec2 u, Vec2 rate) const;
   Vec2 plain_force(Direction cage, Vec2 u) const
   {
@@ -228,6 +221,7 @@ private:
   Direction place_;                                  ///< of the spall's middle
   std::vector<Direction> balls_;                     ///< at cage angle 0
   std::vector<double> cosines_, sines_;              ///< theirs
+  Parallel parallel_;
   double contact_stiffness_;
   double clearance_;
   double clearance_squared_;

@@ -65,6 +65,7 @@ BasePeriod base_period(const Parameters& parameters)
 Parameters over_passage(Parameters parameters)
 {
   parameters.speed_ratio = 1 / passages_per_turn(parameters.bearing);
+  parameters.bearing.parallel.speed_ratio = parameters.speed_ratio;
   parameters.bearing.cage_speed_ratio = 1.0 / parameters.bearing.balls;
   for (Bearing& further : parameters.further)
     further.cage_speed_ratio *= parameters.speed_ratio;

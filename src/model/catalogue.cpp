@@ -8,6 +8,7 @@
 #include "io/errors.hpp"
 #include "model/bearing_catalogue.hpp"
 #include "model/hertz.hpp"
+#include "model/parallel.hpp"
 
 namespace rotor_stator {
 
@@ -340,6 +341,10 @@ Bearing read_bearing(StrictToml& table, std::vector<std::string>& derived)
   if (table.has("defect")) {
     StrictToml defect = table.table("defect");
     bearing.defect = read_defect(defect, bearing);
+  }
+  if (table.has("parallel")) {
+    StrictToml parallel = table.table("parallel");
+    bearing.parallel = read_parallel(parallel);
   }
   if (!has_count || table.has("ball_diameter_m"))
     derived.insert(derived.begin(),

@@ -17,7 +17,7 @@ stiffness. Each of them has several ways to be given, and exactly one is taken:
 These may be added: `contact_angle_rad`, `outer_ring_speed_ratio`,
 `contact_damping_s_per_m`, and a table `defect` with `surface`
 ("outer_race", "inner_race" or "ball"), `depth_m`, `width_rad`, the place `angle_rad` of
-its middle, and for a ball its number `ball`.
+its middle, and for a ball its number `ball`; and a table `parallel` (parallel.hpp).
 
 Designations and classes of clearance are those of data/bearings/deep_groove.toml. Maker,
 seals and cage may stand in a designation; the class of clearance in it counts. */

@@ -450,8 +450,8 @@ void read_bodies(StrictToml& root, Parameters& parameters, const ModelRange& ask
     if (!bearing.is_plain())
       root.fail(
           "bearing",
-          "of bodies given by matrices takes no contact damping, no defect, no other "
-          "contact_exponent and no negative clearance");
+          "of bodies given by matrices takes no contact damping, no defect, nothing in "
+          "parallel, no other contact_exponent and no negative clearance");
   /** The spring is that of a ball that carries all weights and loads. */
   double weight = 0;
   for (const LinearBody& body : all.bodies) {
@@ -561,7 +561,8 @@ struct AtRest {
   Eigen::MatrixXd stiffness;
 };
 
-AtRest at_rest(const Parameters& parameters, const LargeBodies& machine, int angles)
+AtRest at_rest(const Parameters& parameters, const LargeBodies& machine, int angles,
+               double rotor_speed = 0)
 {
   const Eigen::MatrixXd& d = machine.joints;
   const Eigen::SimplicialLDLT<SparseMatrix> held(machine.held_stiffness().sparseView());
@@ -580,10 +581,10 @@ AtRest at_rest(const Parameters& parameters, const LargeBodies& machine, int ang
       for (int k = 0; k < angles; ++k) {
         const double cage =
             bearings[b].cage_phase + angular(1) * k / bearings[b].balls / angles;
-        const auto [f, s] = BallBearing(bearings[b])
+        const auto [f, s] = BallBearing(bearings[b], rotor_speed)
                                 .reaction(Direction::of(cage), {u[2 * b], u[2 * b + 1]});
         Eigen::Matrix2d one;
-        one << s.xx, s.xy, s.xy, s.yy;
+        one << s.xx, s.xy, s.yx, s.yy;
         force.segment<2>(2 * b) += Eigen::Vector2d(f.x, f.y) / angles;
         slope.block<2, 2>(2 * b, 2 * b) += one / angles;
       }
@@ -625,9 +626,9 @@ LargeBodies matrices_of(const Parameters& parameters)
 }
 
 Eigen::MatrixXd mean_contact_stiffness(const Parameters& parameters,
-                                       const LargeBodies& machine)
+                                       const LargeBodies& machine, double rotor_speed)
 {
-  return at_rest(parameters, machine, 64).stiffness;
+  return at_rest(parameters, machine, 64, rotor_speed).stiffness;
 }
 
 State LargeMachine::at_rest(const Parameters& parameters, Direction) const

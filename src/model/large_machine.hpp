@@ -103,9 +103,11 @@ Eigen::VectorXd quasi_static_contacts(const Parameters& parameters,
 LargeBodies matrices_of(const Parameters& parameters);
 
 /** Where the bearings carry the constant loads: the derivative of their forces, means
-    over the cage's angles, 2b × 2b [N/m]. */
+    over the cage's angles, 2b × 2b [N/m], with what stands beside the balls at a speed of
+    the rotor [rad/s]. */
 Eigen::MatrixXd mean_contact_stiffness(const Parameters& parameters,
-                                       const LargeBodies& machine);
+                                       const LargeBodies& machine,
+                                       double rotor_speed = 0);
 
 /** Bodies given by matrices as a machine. */
 class LargeMachine : public Machine {

@@ -6,6 +6,7 @@
 #include "io/errors.hpp"
 #include "io/toml_file.hpp"
 #include "model/catalogue.hpp"
+#include "model/parallel.hpp"
 #include "model/rotor_stator.hpp"
 
 namespace rotor_stator {
@@ -84,6 +85,8 @@ Parameters read_parameters(StrictToml root, const MatrixReader& reader)
     StrictToml bearing = root.table("bearing");
     parameters.bearing = read_bearing(bearing, parameters.derived);
   }
+  for (const Coefficients& at : parameters.bearing.parallel.linear)
+    parameters.identity.add(std::as_bytes(std::span(&at, 1)));
 
   root.refuse_unknown_keys();
   if (parameters.stator.rigid)
@@ -213,6 +216,7 @@ void describe(Table& table, const Parameters& parameters, bool with_keys)
   const Bearing& bearing = parameters.bearing;
   if (bearing.damping > 0)
     table.detail(format("contact damping: lambda = %.15g s/m", bearing.damping));
+  describe_parallel(table, bearing.parallel);
   const char* const surfaces[] = {"none", "outer_race", "inner_race", "ball"};
   const char* const surface = surfaces[static_cast<int>(bearing.defect.surface)];
   if (!bearing.is_damaged(Defect::Surface::none))

@@ -7,6 +7,7 @@ an error, and every value is checked when it is read, so that the programs below
 meet a machine that cannot exist. The bearing's keys are in model/catalogue.hpp. */
 #pragma once
 
+#include <array>
 #include <cstddef>
 #include <functional>
 #include <memory>
@@ -61,6 +62,25 @@ struct Defect {
       0;  ///< that ball's turns about itself per base period, seen from the cage
 };
 
+/** Stiffness [N/m] and damping [N s/m] between rotor and stator at a speed of the rotor
+    [rad/s]: xx, xy, yx and yy. */
+struct Coefficients {
+  double speed = 0;
+  std::array<double, 4> stiffness{}, damping{};
+};
+
+/** What stands between rotor and stator beside the balls [bearing.parallel]
+    (parallel.hpp). */
+struct ParallelElements {
+  double cubic = 0;                       ///< of a spring that hardens [N/m³]
+  double stop_stiffness = 0;              ///< of a ring that the rotor meets [N/m] ...
+  double stop_gap = 0;                    ///< ... where it is so far from the middle [m]
+  std::vector<Coefficients> linear = {};  ///< by ascending speed
+  double speed_ratio = 1;  ///< of the rotor's speed over `turns` base frequencies
+
+  bool any() const { return cubic > 0 || stop_stiffness > 0 || !linear.empty(); }
+};
+
 /** The ball bearing between them. */
 struct Bearing {
   int balls;                 ///< n
@@ -76,11 +96,18 @@ struct Bearing {
   double contact_angle = 0;           ///< α [rad], of the kinematics alone
   double outer_ring_speed_ratio = 0;  ///< ω_outer/ω [-]
   Defect defect = {};
+  ParallelElements parallel = {};
 
   bool is_damaged(Defect::Surface at) const { return defect.surface == at; }
 
-  /** Whether a contact is that of Eq. 5, which the kernels are written for. */
-  bool is_hertzian() const { return exponent == 1.5 && clearance >= 0; }
+  /** Whether the force is that of Eq. 5 alone, which the kernels are written for. */
+  bool is_hertzian() const
+  {
+    return exponent == 1.5 && clearance >= 0 && !parallel.any();
+  }
+
+  /** Whether the force depends on the rate of u. */
+  bool is_damped() const { return damping > 0 || !parallel.linear.empty(); }
 
   /** Whether the kernels know the force; damping they know. */
   bool has_kernel() const { return is_hertzian() && is_damaged(Defect::Surface::none); }

@@ -4,6 +4,7 @@
 #include <numbers>
 
 #include "model/hertz.hpp"
+#include "model/parallel.hpp"
 
 namespace rotor_stator {
 
@@ -68,10 +69,12 @@ Scales scales(const Parameters& parameters)
       size. */
   const double load = std::max(weight + unbalance, hertz_force(k_h, 1e-9, n));
   const double penetration = std::max(-gap, hertz_penetration(k_h, load, n));
+  const double length = std::abs(gap) + penetration;
   return {.load = load,
           .penetration = penetration,
-          .length = std::abs(gap) + penetration,
-          .stiffness = hertz_stiffness(k_h, penetration, n)};
+          .length = length,
+          .stiffness = hertz_stiffness(k_h, penetration, n) +
+                       largest_stiffness(parameters.bearing.parallel, load, length)};
 }
 
 double contact_frequency(const Parameters& parameters)

@@ -133,7 +133,7 @@ struct Scales {
   double load;
   double penetration;  ///< of one ball under that load [m]
   double length;       ///< clearance plus penetration: the size of u [m]
-  double stiffness;    ///< of one ball under that load [N/m]
+  double stiffness;    ///< of one ball under that load, and of what is beside it [N/m]
 };
 Scales scales(const Parameters& parameters);
 

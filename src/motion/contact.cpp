@@ -2,14 +2,25 @@
 
 #include <algorithm>
 
+#include "balance/bearing_problem.hpp"
+#include "motion/quasi_periodic.hpp"
+
 namespace rotor_stator::motion {
 
 double contact_share(const Parameters& parameters, const Motion& motion)
 {
-  const auto forces = bearing_forces(parameters, motion);
-  const auto loaded =
-      std::ranges::count_if(forces, [](Vec2 f) { return f.x != 0 || f.y != 0; });
-  return static_cast<double>(loaded) / static_cast<double>(forces.size());
+  const BearingInstants at(parameters, motion);
+  std::size_t loaded = 0;
+  for (std::size_t k = 0; k < motion.size(); ++k) loaded += at.touches(k);
+  return static_cast<double>(loaded) / static_cast<double>(motion.size());
+}
+
+bool touches(const Parameters& parameters, PeriodicMotion solution)
+{
+  constexpr int points = 256, turns = 16;
+  if (!parameters.bearing.parallel.any()) return !solution.force.isZero(0);
+  solution.bodies = body_series(parameters, solution);
+  return contact_share(parameters, motion_of(parameters, solution, points, turns)) > 0;
 }
 
 ContactEvolution contact_evolution(const Parameters& parameters, const Motion& motion,

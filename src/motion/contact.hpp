@@ -12,6 +12,9 @@ namespace rotor_stator::motion {
 /** Share of the instants with at least one loaded ball [-]. */
 double contact_share(const Parameters& parameters, const Motion& motion);
 
+/** Whether any ball is loaded in a solution of harmonic balance. */
+bool touches(const Parameters& parameters, PeriodicMotion solution);
+
 /** Ball forces at P instants per period. */
 struct ContactEvolution {
   std::vector<double> t_over_period;            ///< 0 ≤ t/T < periods

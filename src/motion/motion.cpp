@@ -182,7 +182,7 @@ BatchMean mean_over(const Motion& motion, int periods,
 BearingInstants::BearingInstants(const Parameters& parameters, const Motion& m)
     : motion(m), bearing(parameters.bearing, m.omega, parameters.turns)
 {
-  if (parameters.bearing.damping > 0 && (m.rates.empty() || m.omega == 0))
+  if (parameters.bearing.is_damped() && (m.rates.empty() || m.omega == 0))
     throw NoSolution("the force of a damped contact needs the rates of the motion");
 }
 

@@ -113,6 +113,11 @@ struct BearingInstants {
     return motion.rates.empty() ? Vec2{0, 0} : motion.rates[k % motion.size()];
   }
   Vec2 force(std::size_t k) const { return bearing.force(angles(k), u(k), rate(k)); }
+  bool touches(std::size_t k) const
+  {
+    const Vec2 f = bearing.ball_force(angles(k), u(k), rate(k));
+    return f.x != 0 || f.y != 0;
+  }
 
   const Motion& motion;
   BallBearing bearing;

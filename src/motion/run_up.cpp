@@ -21,6 +21,7 @@ struct Turning {
   Angles at;
   Direction push;   ///< of the unbalance, over its force at `fastest`
   double cage_lag;  ///< c (ω - `fastest`) [rad/s]
+  double speed;     ///< ω [rad/s]
 };
 
 /** Eq. 7 while the speed changes; its constants are those of the fastest speed. */
@@ -28,7 +29,8 @@ class Changing {
 public:
   Changing(const Parameters& parameters, const RunUp& run, double first_turn)
       : run_(run), fastest_(std::max(run.from, run.to)), first_turn_(first_turn),
-        turns_(Turns::of(parameters)), system_(parameters, fastest_)
+        parallel_(parameters.bearing.parallel), turns_(Turns::of(parameters)),
+        system_(parameters, fastest_)
   {
   }
 
@@ -41,26 +43,34 @@ public:
     const auto [c, s] = at.rotor;
     return {at,
             {inwards * c + along * s, inwards * s - along * c},
-            turns_.cage * (speed - fastest_)};
+            turns_.cage * (speed - fastest_),
+            speed};
   }
 
-  /** Of the bearing, on the stator. The rate at which a ball is pressed knows the speed
-      of the cage. */
-  Vec2 force(const Bodies& q, const Bodies& v, const Turning& now) const
+  /** Of the balls and of all, on the stator. The rate at which a ball is pressed knows
+      the speed of the cage. */
+  struct Forces {
+    Vec2 balls, all;
+  };
+  Forces forces(const Bodies& q, const Bodies& v, const Turning& now) const
   {
     const Vec2 u = q.relative(), rate = v.relative();
-    return system_.bearing().force(
+    const Vec2 balls = system_.bearing().ball_force(
         now.at, u, {rate.x + now.cage_lag * u.y, rate.y - now.cage_lag * u.x});
+    BearingReaction sum{{balls, {}}};
+    if (parallel_.any()) Parallel(parallel_, now.speed).add(u, rate, 0, sum);
+    return {balls, sum.force};
   }
 
   Bodies acceleration(const Bodies& q, const Bodies& v, const Turning& now) const
   {
-    return system_.acceleration(q, v, now.push, force(q, v, now));
+    return system_.acceleration(q, v, now.push, forces(q, v, now).all);
   }
 
 private:
   RunUp run_;
   double fastest_, first_turn_;
+  ParallelElements parallel_;
   Turns turns_;
   RotorStator system_;
 };
@@ -102,16 +112,16 @@ struct Seen {
   long steps = 0, touching = 0;
 
   explicit Seen(const State& state) : low(displacements(state.position)), high(low) {}
-  void add(const State& state, Vec2 f)
+  void add(const State& state, Vec2 balls, Vec2 all)
   {
     const Displacements q = displacements(state.position);
     for (std::size_t i = 0; i < q.size(); ++i) {
       low[i] = std::min(low[i], q[i]);
       high[i] = std::max(high[i], q[i]);
     }
-    force = std::max(force, std::hypot(f.x, f.y));
+    force = std::max(force, std::hypot(all.x, all.y));
     ++steps;
-    touching += f.x != 0 || f.y != 0;
+    touching += balls.x != 0 || balls.y != 0;
   }
 };
 
@@ -146,7 +156,8 @@ std::vector<PassedTurn> run_up(const Parameters& parameters, const RunUp& run,
                        equation.turning((k + 1) * h)};
     nystrom_step(h, at, state.position, state.velocity, acceleration);
     now = at[2];
-    seen.add(state, equation.force(state.position, state.velocity, now));
+    const auto [balls, all_forces] = equation.forces(state.position, state.velocity, now);
+    seen.add(state, balls, all_forces);
     const double t = (k + 1) * h;
     if (!std::isfinite(state.position.rotor.x))
       throw NoSolution(format("integration diverged after %.3g s", t));

@@ -35,8 +35,10 @@ double default_step(const Parameters& parameters)
 {
   const double contact = 2 * std::numbers::pi / contact_frequency(parameters) / 40;
   /** A damper of the contact's own size lets no speed change within a step. */
-  const double rate = parameters.bearing.damping * scales(parameters).load *
-                      (1 / parameters.stator.mass + 1 / parameters.rotor.mass);
+  const double damper = parameters.bearing.damping * scales(parameters).load +
+                        largest_damping(parameters.bearing.parallel);
+  const double rate =
+      damper * (1 / parameters.stator.mass + 1 / parameters.rotor.mass);
   return rate > 0 ? std::min(contact, 0.5 / rate) : contact;
 }
 

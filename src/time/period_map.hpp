@@ -46,7 +46,7 @@ using Disturbances = Eigen::Matrix<double, 8, 4>;
 class DisturbanceRates {
 public:
   explicit DisturbanceRates(const Parameters& p)
-      : bodies_{of(p.stator), of(p.rotor)}, is_damped_(p.bearing.damping > 0)
+      : bodies_{of(p.stator), of(p.rotor)}, is_damped_(p.bearing.is_damped())
   {
   }
 

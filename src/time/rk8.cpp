@@ -230,7 +230,7 @@ Rk8::Rk8(const Parameters& parameters, double omega, int intervals, double toler
       longest_share_(6 * default_step(parameters) * intervals / system_.period()),
       tolerance_(tolerance), per_size_(state_scales(parameters).cwiseInverse()),
       is_general_(!parameters.bearing.has_kernel()),
-      is_damped_(parameters.bearing.damping > 0), budget_(std::move(budget)),
+      is_damped_(parameters.bearing.is_damped()), budget_(std::move(budget)),
       wanted_(first_share_)
 {
 }

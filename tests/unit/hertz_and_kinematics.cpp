@@ -144,3 +144,44 @@ TEST_CASE("Turning the cage by one ball spacing changes labels only")
   CHECK(a.x == Approx(b.x).epsilon(1e-12));
   CHECK(a.y == Approx(b.y).epsilon(1e-12));
 }
+
+TEST_CASE("Elements beside the balls: derivatives against difference quotients")
+{
+  ParallelElements elements{.cubic = 3e13, .stop_stiffness = 2e6, .stop_gap = 1e-5};
+  elements.linear = {{100, {4e4, 1e4, -1e4, 5e4}, {20, 3, -4, 30}},
+                     {300, {8e4, 2e4, 1e4, 4e4}, {10, 0, 4, 60}}};
+  const double omega = 110, turns = 1.5;  // of the rotor in a base period
+  const auto force = [&](Vec2 u, Vec2 rate, double at) {
+    BearingReaction sum{};
+    Parallel(elements, turns * at).add(u, rate, at, sum);
+    return sum;
+  };
+  for (const Vec2 u : {Vec2{4e-6, -3e-6}, Vec2{8e-6, 9e-6}}) {
+    const Vec2 rate{0.002, -0.001};
+    const BearingReaction at = force(u, rate, omega);
+    const auto quotient = [](Vec2 a, Vec2 b, double step) -> Vec2 {
+      return {(a.x - b.x) / (2 * step), (a.y - b.y) / (2 * step)};
+    };
+    const double h = 1e-10, g = 1e-6, e = 1e-3;
+    const Vec2 x = quotient(force({u.x + h, u.y}, rate, omega).force,
+                            force({u.x - h, u.y}, rate, omega).force, h);
+    const Vec2 y = quotient(force({u.x, u.y + h}, rate, omega).force,
+                            force({u.x, u.y - h}, rate, omega).force, h);
+    CHECK(at.stiffness.xx == Approx(x.x).epsilon(1e-6));
+    CHECK(at.stiffness.yx == Approx(x.y).epsilon(1e-6));
+    CHECK(at.stiffness.xy == Approx(y.x).epsilon(1e-6));
+    CHECK(at.stiffness.yy == Approx(y.y).epsilon(1e-6));
+    const Vec2 v = quotient(force(u, {rate.x, rate.y + g}, omega).force,
+                            force(u, {rate.x, rate.y - g}, omega).force, g);
+    CHECK(at.damping.xy == Approx(v.x).epsilon(1e-6));
+    CHECK(at.damping.yy == Approx(v.y).epsilon(1e-6));
+    /** Along u(φ) the rate grows with ω. */
+    const auto faster = [&](double by) {
+      const double s = (omega + by) / omega;
+      return force(u, {s * rate.x, s * rate.y}, omega + by).force;
+    };
+    const Vec2 slope = quotient(faster(e), faster(-e), e);
+    CHECK(at.speed_slope.x == Approx(slope.x).epsilon(1e-6));
+    CHECK(at.speed_slope.y == Approx(slope.y).epsilon(1e-6));
+  }
+}
