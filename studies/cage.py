@@ -88,7 +88,7 @@ def page(table):
         "repeats itself turn by turn. The inner race of a real bearing is smaller than the outer one, its cage is slower, and "
         "the motion has two frequencies: the speed and the passage of the balls. Both data sets were therefore computed again "
         f"with c = {span(ratios, 1, 2)}, at {len(np.unique(table['f']))} speeds of {span(table['f'])} Hz: by integration from "
-        "rest, and by harmonic balance with a verdict on each solution.", "",
+        "rest, and by harmonic balance, within the evaluations that it has by default, with a verdict on each solution.", "",
         "![Response, ball load and stable solutions against the cage ratio](figures/cage.svg)", "",
         "## The response", ""]
     for number in np.unique(table["set"]):
@@ -113,11 +113,16 @@ def page(table):
         for c in np.unique(table["c"]):
             rows = table.where("set", number).where("c", c)
             lines.append(f"| {number:g} | {c:g} | {100 * share(rows['found'] == 1):.3g} | {100 * share(rows['stable'] == 1):.3g} |")
+    repeating = [c for c in ratios if abs(5 * 16 * c - round(5 * 16 * c)) < 1e-9]
+    found = {number: [100 * share(np.concatenate([table.where("set", number).where("c", c)["found"] for c in some]) == 1)
+                      for some in (repeating, [c for c in ratios if c not in repeating])] for number in np.unique(table["set"])}
+    named = " and ".join(f"{16 * 5 * c:.0f}/5 at c = {c:.2f}" for c in repeating)
+    shares = ", ".join(f"{one:.0f} % of the speeds of data set {number:g} with one frequency and {two:.0f} % with two"
+                       for number, (one, two) in found.items())
     lines += ["", "A solution is one within the tolerance of the study; `stable` is the machine's verdict, never that of the "
-              "harmonics. With 16 balls n·c is 32/5 at c = 0.40 and 36/5 at c = 0.45: there harmonic balance takes one frequency with "
-              "orders h/5, and finds fewer solutions of data set 1 than with two frequencies at the neighbouring ratios. Where "
-              "there is none, the motion is aperiodic, has doubled more than once, or needs more "
-              "harmonics than the program tries."]
+              f"harmonics. With 16 balls n·c is {named}: there harmonic balance takes one frequency with orders h/5, at the other "
+              f"ratios two frequencies with more unknowns. The same budget gives solutions at {shares}. Where there is none, "
+              "no such motion attracts, or it needs more harmonics than the budget pays for."]
     return "\n".join(lines)
 
 
