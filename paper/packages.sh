@@ -16,7 +16,8 @@ for goal; do
     packages+=(furo libjs-mathjax pandoc python3-myst-parser python3-sphinx-copybutton python3-sphinxcontrib.bibtex) ;;
   esac
   case $goal in
-    test | test-all | sanitize) packages+=(catch2 chromium chromium-driver python3-hypothesis python3-scipy python3-selenium snakemake) ;;
+    test | test-all | sanitize) packages+=(catch2 chromium chromium-driver jupyter-nbconvert python3-hypothesis
+      python3-ipykernel python3-scipy python3-selenium snakemake) ;;
     clearance_speed | clearance_stiffness | stiffness_border) packages+=(snakemake) ;;
     studies | timing) packages+=(snakemake libsundials-dev python3-scipy) ;;
     tab03_answers) packages+=(libsundials-dev python3-scipy) ;;

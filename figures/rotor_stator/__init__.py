@@ -8,6 +8,7 @@
 From the clone PYTHONPATH=figures finds it; `cmake --install` puts it into
 lib/python3/dist-packages.
 """
+import base64
 import os
 import shutil
 import subprocess
@@ -55,8 +56,10 @@ class Run(Table):
     """A table with the figure of its run: `svg`, which a notebook shows."""
     svg = None
 
-    def _repr_svg_(self):
-        return self.svg
+    def _repr_html_(self):
+        """As a picture: nbconvert empties an SVG that stands in a page."""
+        data = base64.b64encode(self.svg.encode()).decode() if self.svg else None
+        return data and f'<img alt="" src="data:image/svg+xml;base64,{data}">'
 
 
 def run(command, *words, plot=None, **options):

@@ -179,8 +179,8 @@ double read_clearance(StrictToml& table, StrictToml& source,
       std::ranges::any_of(ways, [&](const auto& keys) { return table.has(keys[0]); });
   const std::size_t way = is_given || by_designation.empty() ? table.way(ways) : 2;
   if (way < 2 && !by_designation.empty())
-    table.fail(ways[way][0], "and " + by_designation +
-                                 " of designation are both given; give one of them");
+    derived.push_back("clearance: as given; " + by_designation +
+                      " of the designation is not used");
   if (way == 0) return table.number("radial_clearance_m", Range::any);
   if (way == 1) {
     const double diametral = table.number("diametral_clearance_m", Range::any);
