@@ -6,6 +6,7 @@
 
 #include "explore/modes.hpp"
 #include "io/errors.hpp"
+#include "model/read_machine.hpp"
 
 namespace rotor_stator::explore {
 

@@ -8,7 +8,7 @@
 #include "explore/plausible.hpp"
 #include "io/errors.hpp"
 #include "model/catalogue.hpp"
-#include "model/large_machine.hpp"
+#include "model/read_machine.hpp"
 #include "model/rotor_stator.hpp"
 
 namespace rotor_stator::explore {

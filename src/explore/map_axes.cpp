@@ -5,7 +5,7 @@
 
 #include "io/errors.hpp"
 #include "io/program.hpp"
-#include "model/large_machine.hpp"
+#include "model/read_machine.hpp"
 
 namespace rotor_stator::explore {
 

@@ -21,22 +21,6 @@ namespace {
 constexpr int instants = 512, swept_instants = 128;  // of a period
 constexpr int recorded_periods = 64;
 
-/** A value that is computed when it is first asked for, or the reason why there is
-    none. */
-template <class Value>
-class Once {
-public:
-  template <class Make>
-  const Value& operator()(const Make& make)
-  {
-    if (!made_) made_ = attempt([&]() -> Value { return make(); });
-    return made_->get();
-  }
-
-private:
-  std::optional<Attempt<Value>> made_;
-};
-
 /** A response curve over the speeds of --sweep. */
 struct Swept {
   CurvePoint peak = {};  ///< of x_r [Hz, m]

@@ -11,7 +11,7 @@
 #include "explore/settled_motion.hpp"
 #include "io/errors.hpp"
 #include "io/parallel.hpp"
-#include "model/large_machine.hpp"
+#include "model/read_machine.hpp"
 #include "motion/closed_motion.hpp"
 #include "motion/contact.hpp"
 #include "motion/judge.hpp"

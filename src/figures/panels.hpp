@@ -9,8 +9,8 @@ error is large, or the second does not repeat, the panel shows the integrated mo
 
 #include <optional>
 
+#include "io/scene_file.hpp"
 #include "io/table.hpp"
-#include "io/toml_file.hpp"
 #include "motion/find_periodic.hpp"
 
 namespace rotor_stator::figures {

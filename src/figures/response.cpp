@@ -2,6 +2,7 @@
 
 #include "balance/fourier_transform.hpp"
 #include "io/errors.hpp"
+#include "io/scene_file.hpp"
 #include "motion/contact.hpp"
 
 namespace rotor_stator::figures {

@@ -57,6 +57,22 @@ auto attempt(const Make& make) -> Attempt<decltype(make())>
   }
 }
 
+/** A value that is computed when it is first asked for, or the reason why there is
+    none. */
+template <class Value>
+class Once {
+public:
+  template <class Make>
+  const Value& operator()(const Make& make)
+  {
+    if (!made_) made_ = attempt([&]() -> Value { return make(); });
+    return made_->get();
+  }
+
+private:
+  std::optional<Attempt<Value>> made_;
+};
+
 /**
 ## Messages: numbers and lists as words */
 

@@ -9,8 +9,8 @@
 
 #include "io/output_file.hpp"
 #include "io/parallel.hpp"
+#include "io/scene_file.hpp"
 #include "io/table.hpp"
-#include "io/toml_file.hpp"
 
 namespace CLI {
 class App;

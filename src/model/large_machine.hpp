@@ -69,23 +69,6 @@ struct LargeBodies {
                                      double speed) const;
 };
 
-/** Speeds [Hz] and harmonics at which the coordinates of large bodies must be right, and
-    places of the rotor where they must be too: columns x and y, degrees of freedom from
-    1. */
-struct ModelRange {
-  double from = 1, to = 100;
-  int harmonics = 64;
-  const NumberTable* nodes = nullptr;
-  int largest = 80;  ///< degrees of freedom of a body that is not reduced
-};
-
-/** For what is asked of the linear machine only, which has no small steps to take. */
-constexpr int largest_linear = 400;
-
-/** Reads a parameter file of any machine. Bodies of which at least one has `matrices`
-    take [bearing] or [[bearing]]. Throws BadInput. */
-Parameters read_machine(StrictToml root, const ModelRange& asked = {});
-
 /** The bearings' forces [N] that would keep all u = 0 under the constant loads, 2b, and
     their amplitudes from the unbalance at the speed ω. */
 struct JointForces {

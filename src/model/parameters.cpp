@@ -4,7 +4,7 @@
 #include <numbers>
 
 #include "io/errors.hpp"
-#include "io/toml_file.hpp"
+#include "io/scene_file.hpp"
 #include "model/catalogue.hpp"
 #include "model/parallel.hpp"
 #include "model/rotor_stator.hpp"

@@ -21,6 +21,8 @@ meet a machine that cannot exist. The bearing's keys are in model/catalogue.hpp.
 
 namespace rotor_stator {
 
+class SceneFile;
+
 /** A vector of the x-y plane. */
 template <class Number>
 struct Vec2Of {
@@ -165,7 +167,7 @@ inline const std::vector<std::pair<std::string, std::string>> given_instead{
 using MatrixReader = std::function<void(StrictToml& root, Parameters& parameters)>;
 
 /** Reads and checks a parameter file of two masses; of bodies given by matrices too,
-    where there is a reader of them (`read_machine`, model/large_machine.hpp). Throws
+    where there is a reader of them (`read_machine`, model/read_machine.hpp). Throws
     BadInput with file, line and key. */
 Parameters read_parameters(const std::string& file, const MatrixReader& matrices = {});
 Parameters read_parameters(StrictToml root, const MatrixReader& matrices = {});

@@ -37,8 +37,7 @@ double default_step(const Parameters& parameters)
   /** A damper of the contact's own size lets no speed change within a step. */
   const double damper = parameters.bearing.damping * scales(parameters).load +
                         largest_damping(parameters.bearing.parallel);
-  const double rate =
-      damper * (1 / parameters.stator.mass + 1 / parameters.rotor.mass);
+  const double rate = damper * (1 / parameters.stator.mass + 1 / parameters.rotor.mass);
   return rate > 0 ? std::min(contact, 0.5 / rate) : contact;
 }
 

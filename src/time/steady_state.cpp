@@ -5,6 +5,7 @@
 #include <numbers>
 
 #include "io/errors.hpp"
+#include "io/scene_file.hpp"
 
 namespace rotor_stator {
 

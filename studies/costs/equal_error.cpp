@@ -6,6 +6,7 @@
 
 #include "io/errors.hpp"
 #include "io/program.hpp"
+#include "io/scene_file.hpp"
 
 namespace rotor_stator::costs {
 

@@ -6,6 +6,7 @@
 #include "balance/newton.hpp"
 #include "io/errors.hpp"
 #include "io/program.hpp"
+#include "io/scene_file.hpp"
 
 namespace rotor_stator::costs {
 

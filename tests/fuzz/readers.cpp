@@ -16,7 +16,7 @@ run, and `crash-…` keeps the file. */
 #include "io/errors.hpp"
 #include "io/matrix_market.hpp"
 #include "io/table.hpp"
-#include "model/large_machine.hpp"
+#include "model/read_machine.hpp"
 
 using namespace rotor_stator;
 

@@ -1,0 +1,350 @@
+#include "model/read_machine.hpp"
+
+#include <Eigen/SparseCholesky>
+#include <algorithm>
+#include <cmath>
+#include <filesystem>
+#include <numbers>
+#include <span>
+
+#include "io/errors.hpp"
+#include "model/assembly.hpp"
+#include "model/catalogue.hpp"
+#include "model/hertz.hpp"
+#include "model/large_machine.hpp"
+
+namespace rotor_stator {
+
+namespace {
+
+using Complex = std::complex<double>;
+using Triplets = std::vector<Eigen::Triplet<double, int>>;
+
+/** Degrees of freedom of a body that may all be asked for. */
+constexpr int most_asked = 2100;
+
+/** The name of a matrix, the sign of its transpose, and whether its file may be
+    missing. */
+struct Named {
+  const char* name;
+  double sign;
+  bool required;
+};
+
+SparseMatrix read_one(const std::filesystem::path& folder, const Named& named, int size)
+{
+  const std::string file = (folder / (std::string(named.name) + ".mtx")).string();
+  std::error_code error;
+  const auto found = std::filesystem::status(file, error).type();
+  if (!named.required && found == std::filesystem::file_type::not_found)
+    return SparseMatrix(size, size);
+  const SparseMatrix matrix = read_matrix(file);
+  if (size > 0 && matrix.rows() != size)
+    throw BadInput(format("%s: has %ld rows, and M.mtx %d", file.c_str(),
+                          static_cast<long>(matrix.rows()), size));
+  const SparseMatrix image = named.sign * SparseMatrix(matrix.transpose());
+  constexpr double rounding = 1e-8;
+  if (SparseMatrix(matrix - image).norm() > rounding * matrix.norm())
+    throw BadInput(format(
+        "%s: is not %s", file.c_str(),
+        named.sign > 0 ? "symmetric" : "antisymmetric, as gyroscopic moments are"));
+  return 0.5 * (matrix + image);
+}
+
+/** Every degree of freedom needs mass, and no motion may have none. */
+void require_mass(const SparseMatrix& m, const std::string& file)
+{
+  for (int i = 0; i < m.rows(); ++i)
+    if (!(m.coeff(i, i) > 0))
+      throw BadInput(format("%s: degree of freedom %d has no mass", file.c_str(), i + 1));
+  if (Eigen::SimplicialLLT<SparseMatrix>(m).info() != Eigen::Success)
+    throw BadInput(file + ": is not positive definite");
+}
+
+/** Numbers of degrees of freedom, from 0. */
+std::vector<int> read_dofs(StrictToml& table, const std::string& key, int size,
+                           bool is_pair)
+{
+  std::vector<int> dofs = table.integers(key, 1, size, !is_pair);
+  if (is_pair && (dofs.size() != 2 || dofs[0] == dofs[1]))
+    table.fail(key, "must be [x, y], two degrees of freedom");
+  for (int& dof : dofs) --dof;
+  return dofs;
+}
+
+/** The nodes that are asked for. */
+void read_nodes(const NumberTable& table, LinearBody& body)
+{
+  Triplets ones;
+  for (std::size_t row = 0; row < table.rows(); ++row) {
+    for (const char* axis : {"x", "y"}) {
+      const double dof = table.at(row, axis);
+      if (!(dof >= 1 && dof <= body.size() && dof == std::floor(dof)))
+        table.fail(row, format("%s must be a degree of freedom of the rotor, 1...%d",
+                               axis, body.size()));
+      body.nodes.push_back(static_cast<int>(dof) - 1);
+      ones.emplace_back(static_cast<int>(ones.size()), body.nodes.back(), 1);
+    }
+    if (table.at(row, "x") == table.at(row, "y"))
+      table.fail(row, "x and y must be two degrees of freedom");
+  }
+  body.at_nodes.resize(std::ssize(body.nodes), body.size());
+  body.at_nodes.setFromTriplets(ones.begin(), ones.end());
+}
+
+LinearBody read_matrices(StrictToml& table, const std::string& name, bool has_weight)
+{
+  const auto folder =
+      std::filesystem::path(table.file()).parent_path() / table.string("matrices");
+  std::error_code error;
+  if (!std::filesystem::is_directory(folder, error))
+    table.fail("matrices", "names no folder: " + folder.string());
+  LinearBody body{{read_one(folder, {"M", 1, true}, 0), {}, {}, {}}, name};
+  const int n = body.size();
+  require_mass(body.m, (folder / "M.mtx").string());
+  body.k = read_one(folder, {"K", 1, true}, n);
+  body.c = read_one(folder, {"C", 1, false}, n);
+  body.g = read_one(folder, {"G", -1, false}, n);
+  body.keeps_all = table.has("all_dofs") && table.flag("all_dofs");
+  if (body.keeps_all && n > most_asked)
+    table.fail("all_dofs", format("is for at most %d degrees of freedom", most_asked));
+  body.load = Eigen::VectorXd::Zero(n);
+  body.unbalance = Eigen::VectorXcd::Zero(n);
+  if (table.has("bearing_dofs")) body.joint = read_dofs(table, "bearing_dofs", n, true);
+  if (table.has("output_dofs")) body.output = read_dofs(table, "output_dofs", n, true);
+  if (has_weight && !table.has("vertical_dofs"))
+    table.missing("vertical_dofs", ": where the weight acts; [] for a body without it");
+  if (table.has("vertical_dofs"))
+    body.vertical = read_dofs(table, "vertical_dofs", n, false);
+  if (table.has("unbalance"))
+    for (StrictToml& one : table.tables("unbalance")) {
+      const std::vector<int> dofs = read_dofs(one, "dofs", n, true);
+      const Complex moment = std::polar(one.number("moment_kg_m", Range::not_negative),
+                                        one.number_or("phase_rad", Range::any, 0));
+      body.unbalance[dofs[0]] += moment;
+      body.unbalance[dofs[1]] += Complex(0, -1) * moment;
+    }
+  return body;
+}
+
+/** A single mass that vibrates about as the body does: in the shape that one force on all
+    bearings gives it. */
+Body equivalent(const LinearBody& body, const std::vector<std::array<int, 2>>& joints,
+                double spring)
+{
+  Eigen::VectorXd force = Eigen::VectorXd::Zero(body.size());
+  SparseMatrix held = body.k;
+  for (const auto& joint : joints)
+    for (int dof : joint) {
+      held.coeffRef(dof, dof) += spring;
+      if (dof == joint[1]) force[dof] = 1;
+    }
+  const Eigen::VectorXd shape = Eigen::SimplicialLDLT<SparseMatrix>(held).solve(force);
+  const double count = force.sum(), sag = force.dot(shape) / count;
+  const double stiffness = count / sag - count * spring;
+  const double mass = shape.dot(body.m * shape) / (sag * sag);
+  const bool is_held = stiffness > 1e-6 * count * spring;
+  Body one{.mass = mass,
+           .natural_frequency = is_held ? std::sqrt(stiffness / mass) : 0,
+           .damping_ratio = 0};
+  one.damper = shape.dot(body.c * shape) / (sag * sag);
+  return one;
+}
+
+/** One bearing: [bearing] between the bearing_dofs of both bodies, or one of
+    [[bearing]]. */
+std::array<int, 4> read_place(StrictToml* table, const Assembly& all)
+{
+  std::array<int, 4> place{};
+  for (int body : {0, 1}) {
+    const LinearBody& one = all.bodies[body];
+    const std::string key = body == 0 ? "stator_dofs" : "rotor_dofs";
+    const bool is_given = table && table->has(key);
+    if (!is_given && one.joint.empty()) {
+      if (table) table->missing(key);
+      throw BadInput(one.name + ".bearing_dofs is missing: [x, y], from 1");
+    }
+    const std::vector<int> dofs =
+        is_given ? read_dofs(*table, key, one.size(), true) : one.joint;
+    for (int axis : {0, 1}) place[2 * body + axis] = all.first(body) + dofs[axis];
+  }
+  return place;
+}
+
+void read_bearings(StrictToml& root, Parameters& parameters, Assembly& all)
+{
+  if (!root.has_tables("bearing")) {
+    StrictToml table = root.table("bearing");
+    parameters.bearing = read_bearing(table, parameters.derived);
+    all.places = {read_place(nullptr, all)};
+    return;
+  }
+  std::vector<Bearing> list;
+  for (StrictToml& table : root.tables("bearing")) {
+    std::vector<std::string> derived;
+    list.push_back(read_bearing(table, derived));
+    for (const std::string& line : derived)
+      parameters.derived.push_back(format("bearing %zu: ", list.size()) + line);
+    list.back().cage_phase = table.number_or("cage_phase_rad", Range::any, 0);
+    all.places.push_back(read_place(&table, all));
+    for (std::size_t k = 0; k + 1 < list.size(); ++k)
+      if (all.places[k] == all.places.back())
+        table.fail("rotor_dofs", "and stator_dofs are those of another bearing too");
+  }
+  constexpr std::size_t most = 4;
+  if (list.empty() || list.size() > most)
+    root.fail("bearing", format("must be 1...%zu tables [[bearing]]", most));
+  parameters.bearing = list[0];
+  parameters.further.assign(list.begin() + 1, list.end());
+}
+
+/** Puts coordinates that the bearings, loads and outputs need in the place of a body's
+    own; their number and errors go into `machine`. */
+void reduce_body(Assembly& all, int body, const ReductionRange& range, double gravity,
+                 double spring, std::vector<std::string>& notes, double& error)
+{
+  LinearBody& own = all.bodies[body];
+  BodyPorts ports{.joints = {},
+                  .kept = {},
+                  .load = own.load - gravity * (own.m * own.upright()),
+                  .unbalance = own.unbalance,
+                  .spring = spring,
+                  .nodes = own.nodes};
+  const auto kept = [&](int dof) {
+    const auto at = std::ranges::find(ports.kept, dof);
+    const auto place = static_cast<int>(at - ports.kept.begin());
+    if (at == ports.kept.end()) ports.kept.push_back(dof);
+    return place;
+  };
+  const int begin = all.first(body), more = all.size() - begin - own.size();
+  for (auto& place : all.places)
+    for (int axis : {0, 1}) {
+      int& dof = place[2 * body + axis];
+      dof = begin + kept(dof - begin);
+    }
+  ports.joints = ports.kept;
+  for (int& dof : own.output) dof = kept(dof);
+  const ReducedBody small = reduce(own, ports, range, own.name);
+  notes.push_back(format(
+      "%s: %d degrees of freedom reduced to %ld, error of the receptances %.2g at %d "
+      "random points of 0...%.4g Hz",
+      own.name.c_str(), own.size(), static_cast<long>(small.basis.cols()), small.error,
+      small.points, small.highest / (2 * std::numbers::pi)));
+  error = std::max(error, small.error);
+  const int change = static_cast<int>(small.basis.cols()) - own.size();
+  static_cast<BodyMatrices&>(own) = small.matrices;
+  own.vertical.clear();
+  if (!own.nodes.empty())
+    own.at_nodes = Eigen::MatrixXd(own.at_nodes * small.basis).sparseView();
+  own.load = small.basis.transpose() * ports.load;
+  own.unbalance = small.basis.transpose() * ports.unbalance;
+  if (more > 0)
+    for (auto& place : all.places)
+      for (int axis : {2, 3}) place[axis] += change;
+}
+
+/** Both bodies and the bearings. */
+void read_bodies(StrictToml& root, Parameters& parameters, const ModelRange& asked)
+{
+  StrictToml tables[] = {root.table("stator"), root.table("rotor")};
+  const double gravity = parameters.gravity;
+  Assembly all{.bodies = {}, .is_rigid = parameters.stator.rigid};
+  for (int body : {0, 1}) {
+    const Body& mass = body == 0 ? parameters.stator : parameters.rotor;
+    all.bodies.push_back(
+        tables[body].has("matrices")
+            ? read_matrices(tables[body], body == 0 ? "stator" : "rotor", gravity > 0)
+            : single_mass(mass, body == 0 ? "stator" : "rotor",
+                          body == 0 ? 0 : parameters.unbalance));
+  }
+  for (const LinearBody& body : all.bodies)
+    for (const SparseMatrix* one : {&body.m, &body.c, &body.g, &body.k}) {
+      const auto count = static_cast<std::size_t>(one->nonZeros()),
+                 columns = static_cast<std::size_t>(one->outerSize());
+      parameters.identity.add(std::as_bytes(std::span(one->valuePtr(), count)));
+      parameters.identity.add(std::as_bytes(std::span(one->innerIndexPtr(), count)));
+      parameters.identity.add(std::as_bytes(std::span(one->outerIndexPtr(), columns)));
+    }
+  if (all.is_rigid) all.bodies[0].vertical.clear();
+  read_bearings(root, parameters, all);
+  std::vector<std::pair<int, int>> bearing_nodes;
+  if (asked.nodes && tables[1].has("matrices")) {
+    LinearBody& rotor = all.bodies[1];
+    read_nodes(*asked.nodes, rotor);
+    for (int b = 0; b < std::ssize(all.places); ++b)
+      for (int i = 0; i < std::ssize(rotor.nodes); i += 2)
+        if (all.first(1) + rotor.nodes[i] == all.places[b][2] &&
+            all.first(1) + rotor.nodes[i + 1] == all.places[b][3])
+          bearing_nodes.emplace_back(b, i / 2);
+  }
+  for (const Bearing& bearing : bearings_of(parameters))
+    if (!bearing.is_plain())
+      root.fail(
+          "bearing",
+          "of bodies given by matrices takes no contact damping, no defect, nothing in "
+          "parallel, no other contact_exponent and no negative clearance");
+  /** The spring is that of a ball that carries all weights and loads. */
+  double weight = 0;
+  for (const LinearBody& body : all.bodies) {
+    const Eigen::VectorXd upright = body.upright();
+    weight += gravity * upright.dot(body.m * upright) + body.load.norm();
+  }
+  const double k_h = parameters.bearing.contact_stiffness;
+  const double penetration =
+      hertz_penetration(k_h, std::max(weight, hertz_force(k_h, 1e-6)));
+  const double spring = hertz_stiffness(k_h, penetration);
+
+  if (tables[1].has("matrices"))
+    parameters.unbalance = all.bodies[1].unbalance.cwiseAbs().sum() / 2;
+  double passages = 0;
+  for (const Bearing& bearing : bearings_of(parameters))
+    passages = std::max(passages, passages_per_turn(bearing));
+  const double from = angular(0.9 * asked.from), to = angular(1.1 * asked.to);
+  const ReductionRange range{from, to,
+                             to * std::max(16 * passages, 1.0 * asked.harmonics)};
+  std::vector<std::string> notes;
+  double error = 0;
+  for (int body : {0, 1})
+    if (!all.bodies[body].keeps_all && all.bodies[body].size() > asked.largest)
+      reduce_body(all, body, range, gravity, spring, notes, error);
+
+  std::vector<std::array<int, 2>> joints[2];
+  for (const auto& place : all.places)
+    for (int body : {0, 1})
+      joints[body].push_back(
+          {place[2 * body] - all.first(body), place[2 * body + 1] - all.first(body)});
+  if (tables[1].has("matrices"))
+    parameters.rotor = equivalent(all.bodies[1], joints[1], spring);
+  if (tables[0].has("matrices"))
+    parameters.stator = equivalent(all.bodies[0], joints[0], spring);
+  if (all.is_rigid) {
+    /** Its pair of coordinates, which no force reaches, is damped within the contact's
+        vibration. */
+    const double omega = std::sqrt(spring / parameters.rotor.mass);
+    all.bodies[0] = single_mass(
+        {.mass = 1, .natural_frequency = omega, .damping_ratio = 0.7}, "stator", 0);
+    all.bodies[0].vertical.clear();
+  }
+  all.require_held(spring);
+  LargeBodies machine = assembled(all, gravity, spring);
+  machine.reductions = std::move(notes);
+  machine.reduction_error = error;
+  machine.bearing_nodes = std::move(bearing_nodes);
+  if (asked.from < asked.to) {
+    machine.slowest = from;
+    machine.fastest = to;
+    machine.fits = std::make_shared<RationalFits>();
+  }
+  parameters.machine = std::make_shared<const LargeMachine>(std::move(machine));
+}
+
+}  // namespace
+
+Parameters read_machine(StrictToml root, const ModelRange& asked)
+{
+  return read_parameters(std::move(root), [&](StrictToml& table, Parameters& parameters) {
+    read_bodies(table, parameters, asked);
+  });
+}
+
+}  // namespace rotor_stator
