@@ -8,14 +8,6 @@ import numpy as np
 from tables import run
 
 
-def harmonics_of(table):
-    """The rows and the two exponents. A table of version 0.1.0 has other sizes too, and the exponents in columns."""
-    if "against" not in table.columns:
-        return table, table["harmonics"], *(table.value(f"exponent_{name}", 0) for name in ("cpu", "memory"))
-    rows = table.where("against", "harmonics")
-    return rows, rows["size"], *(rows.first(f"exponent_{name}") for name in ("cpu", "memory"))
-
-
 def draw_power(axes, sizes, values, exponent, fitted):
     """The measured values, and the fitted line over the sizes it is fitted to."""
     axes.plot(sizes, values, "o-", color="C0", ms=5, lw=0.8, label="measured")
@@ -33,11 +25,11 @@ def draw_power(axes, sizes, values, exponent, fitted):
 def draw(table):
     """CPU time, and the peak of memory."""
     figure, (cpu, memory) = plt.subplots(1, 2, figsize=(10, 4.5), layout="constrained")
-    rows, sizes, power_cpu, power_memory = harmonics_of(table)
+    sizes = table["harmonics"]
     fitted = sizes >= table.value("fitted_from_harmonics")
-    draw_power(cpu, sizes, 1e3 * rows["cpu_s"], power_cpu, fitted)
-    above = rows["memory"] > 0
-    draw_power(memory, sizes[above], rows["memory"][above] / 1e6, power_memory, fitted[above])
+    draw_power(cpu, sizes, 1e3 * table["cpu_s"], table.value("exponent_cpu", 0), fitted)
+    above = table["memory"] > 0
+    draw_power(memory, sizes[above], table["memory"][above] / 1e6, table.value("exponent_memory", 0), fitted[above])
     cpu.set_title("(a)", loc="left")
     memory.set_title("(b)", loc="left")
     cpu.set_ylabel("CPU time [ms]")

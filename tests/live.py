@@ -12,7 +12,6 @@ import base64
 import http.server
 import json
 import random
-import re
 import shutil
 import statistics
 import subprocess

@@ -5,7 +5,8 @@ Between rotor and stator, at the bearing, there may stand more than balls: a sea
 squeeze film, a retainer that the rotor meets after a gap. For the relative displacement u
 [m] they press the stator by
 
-$$F = k_3 |u|^2 u + k_{stop}\,(|u| - g)_+ \frac{u}{|u|} + K(\Omega)\,u + C(\Omega)\,\dot u,$$
+$$F = k_3 |u|^2 u + k_{stop}\,(|u| - g)_+ \frac{u}{|u|} + K(\Omega)\,u
+  + C(\Omega)\,\dot u,$$
 
 without friction. K and C, 2 × 2, are numbers or depend on the rotor's speed Ω by a table,
 linear between its rows and constant beyond them. In the machine's file:
