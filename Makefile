@@ -79,8 +79,6 @@ $(call table,$(scripts),$(scripts)): data/generated/%.tsv: studies/$$(*F).py dat
 	$(whole) $(alone) $(PYTHON) $(wordlist 1,2,$^) $(filter as-printed,$(*D)) > $$new; mv $$new $@
 data/generated/%.tsv: build/$$(*F) data/scenes/$$(*F).toml $$(parameters)
 	$(whole) $(alone) $< $(word 2,$^) $(if $(filter as-printed,$(*D)),--reading as-printed) > $$new; mv $$new $@
-data/generated/tab02_equal_error_mean.tsv: build/tab02_equal_error data/scenes/tab02_equal_error.toml data/set1.toml
-	$(whole) $(alone) $< $(word 2,$^) --error mean > $$new; mv $$new $@
 data/generated/sensitivity_derivatives.tsv: figures/sensitivity_derivatives.py data/reference/sensitivity.tsv $(reader)
 	$(whole) $(PYTHON) $(wordlist 1,2,$^) > $$new; mv $$new $@
 data/generated/identification.tsv: build/regimes data/claims.toml data/set1-as-printed.toml data/set2-as-printed.toml

@@ -11,7 +11,7 @@ beside := deviations sampling runup bound
 studies := attractors validity stability verdicts adaptive hard_cases sensitivity identification robustness cage \
   clearance_speed clearance_stiffness stiffness_border
 # The same, but timed: alone on the machine.
-costs := tab02_equal_error tab02_equal_error_mean work_precision cost_growth large map_scaling tab03_answers
+costs := tab02_equal_error work_precision cost_growth large map_scaling tab03_answers
 # Of these by Snakemake, from studies/NAME.yaml.
 maps := clearance_speed clearance_stiffness stiffness_border
 # By explore, from studies/NAME.py.

@@ -31,7 +31,8 @@ drawing accuracy, and has folds that few harmonics do not show.
 The error is the largest difference of a displacement over the largest displacement. At
 low speeds that is mostly the static sag of the suspension, and an error of the vibration
 hides behind it: with `--error mean` the targets bound the root mean square of the
-difference about the mean, over that of the motion, instead.
+difference about the mean, over that of the motion, instead. The column error_mean has
+that error of what is printed.
 
 The CPU time is that of one thread for the whole sweep, the median of several repetitions.
 The table has the least and the largest of them, the setting, and the error that was

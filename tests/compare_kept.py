@@ -28,7 +28,7 @@ COLUMNS = {"attractors": ["set"], "validity": ["found", "distance", "periodic"],
            "hard_cases": ["case", "method", "status", "verdict", "regime"]}
 KEY = {"attractors": ["set", "f", "period", "point"]}
 # The column of the kinds whose CPU times are shown.
-TIMED = {"tab02_timing": "method", "tab02_equal_error": "method", "tab02_equal_error_mean": "method", "work_precision": "method",
+TIMED = {"tab02_timing": "method", "tab02_equal_error": "method", "work_precision": "method",
          "cost_growth": "harmonics"}
 
 
