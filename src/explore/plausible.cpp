@@ -62,6 +62,10 @@ std::vector<std::string> doubts(const Parameters& machine, double highest)
     all.push_back(doubt);
   if (machine.gravity > heaviest)
     all.push_back(format("a gravity of %g m/s^2: is it in m/s^2?", machine.gravity));
+  for (const Body* body : {&machine.stator, &machine.rotor})
+    if (!body->rigid && body->damping_ratio > 0.5)
+      all.push_back(format("a damping ratio of %g: 1 is critical, is it in per cent?",
+                           body->damping_ratio));
   const double e = printable_size(machine.unbalance / machine.rotor.mass);
   if (machine.machine->takes_explicit_steps() && !machine.rotor.rigid && e > 0.1)
     all.push_back(format("an eccentricity of %.3g m: is the unbalance in kg m?", e));

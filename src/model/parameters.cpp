@@ -13,12 +13,25 @@ namespace rotor_stator {
 
 namespace {
 
+/** What a value and the mass give, where a double holds it. */
+double derived(StrictToml& table, const char* key, double value)
+{
+  if (!std::isfinite(value)) table.fail(key, "and mass_kg give more than a double holds");
+  return value;
+}
+
 Body read_body(StrictToml& table)
 {
   Body body{};
   body.mass = table.number("mass_kg", Range::positive);
-  body.natural_frequency =
-      table.number("natural_frequency_rad_per_s", Range::not_negative);
+  constexpr const char *frequency_key = "natural_frequency_rad_per_s",
+                       *stiffness_key = "stiffness_N_per_m";
+  if (table.way({{frequency_key}, {stiffness_key}}) == 0)
+    body.natural_frequency = table.number(frequency_key, Range::not_negative);
+  else
+    body.natural_frequency =
+        derived(table, stiffness_key,
+                std::sqrt(table.number(stiffness_key, Range::not_negative) / body.mass));
   if (table.way({{"damping_ratio"}, {"damping_N_s_per_m"}}) == 0)
     body.damping_ratio = table.number("damping_ratio", Range::not_negative);
   else
@@ -33,6 +46,15 @@ Body read_body(StrictToml& table)
     body.load = {load[0], load[1]};
   }
   return body;
+}
+
+/** m_e e [kg m], or the rotor's mass times its eccentricity. */
+double read_unbalance(StrictToml& table, const Body& rotor)
+{
+  constexpr const char* key = "eccentricity_m";
+  if (table.way({{"unbalance_kg_m"}, {key}}) == 0)
+    return table.number("unbalance_kg_m", Range::not_negative);
+  return derived(table, key, rotor.mass * table.number(key, Range::not_negative));
 }
 
 /** A stator that no force moves: so much heavier than the rotor that its motion is below
@@ -72,7 +94,7 @@ Parameters read_parameters(StrictToml root, const MatrixReader& reader)
       !stator.has(matrices))
     parameters.stator = read_body(stator);
   if (!rotor.has(matrices))
-    parameters.unbalance = rotor.number("unbalance_kg_m", Range::not_negative);
+    parameters.unbalance = read_unbalance(rotor, parameters.rotor);
   StrictToml gravity = root.table("gravity");
   parameters.gravity = gravity.number("acceleration_m_per_s2", Range::not_negative);
   const bool has_matrices = stator.has(matrices) || rotor.has(matrices);

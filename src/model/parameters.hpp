@@ -161,7 +161,11 @@ struct Parameters {
 inline const std::vector<std::pair<std::string, std::string>> given_instead{
     {"radial_clearance_m", "internal_clearance"},
     {"damping_ratio", "damping_N_s_per_m"},
-    {"damping_N_s_per_m", "damping_ratio"}};
+    {"damping_N_s_per_m", "damping_ratio"},
+    {"natural_frequency_rad_per_s", "stiffness_N_per_m"},
+    {"stiffness_N_per_m", "natural_frequency_rad_per_s"},
+    {"unbalance_kg_m", "eccentricity_m"},
+    {"eccentricity_m", "unbalance_kg_m"}};
 
 /** Reads bodies given by matrices, and their bearings, into the parameters. */
 using MatrixReader = std::function<void(StrictToml& root, Parameters& parameters)>;

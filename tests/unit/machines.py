@@ -203,6 +203,15 @@ acceleration_m_per_s2 = 9.81
         self.assertEqual((closed.value("base"), list(closed["period"])), ("turns 5", [1]))
         self.assertEqual(set(attractors(0.4, 20)[1]["period"]), {2})
 
+    def test_other_keys(self):
+        """A stiffness for the natural frequency and an eccentricity for the unbalance: the same motion. Would catch the wrong mass."""
+        text = MACHINE
+        for body in ("stator", "rotor"):
+            text = replaced(text, body, "natural_frequency_rad_per_s", f"stiffness_N_per_mm = {STIFFNESS[body] / 1e3!r}")
+        e = VALUES["rotor"]["unbalance_kg_m"] / VALUES["rotor"]["mass_kg"]
+        text = replaced(text, "rotor", "unbalance_kg_m", f"eccentricity_um = {1e6 * e!r}")
+        self.assert_same_motion(self.orbit(text), self.orbit(MACHINE), 1e-10)
+
     def test_refusals(self):
         zero = "natural_frequency_rad_per_s = 0"
         both = replaced(replaced(carried("rotor"), "stator", "natural_frequency_rad_per_s", zero), "stator",
@@ -213,6 +222,8 @@ acceleration_m_per_s2 = 9.81
                 (MACHINE.replace("[rotor]", "[rotor]\ndamping_N_s_per_m = 3"),
                  "rotor.damping_N_s_per_m and damping_ratio are both given"),
                 (replaced(MACHINE, "rotor", "damping_ratio", ""), "damping_ratio is missing; give it, or damping_N"),
+                (MACHINE.replace("[rotor]", "[rotor]\neccentricity_m = 1"), "rotor.eccentricity_m and unbalance_kg_m are both given"),
+                (replaced(MACHINE, "rotor", "unbalance_kg_m", "eccentricity_m = 1e308"), "and mass_kg give more than a double holds"),
                 (MACHINE.replace("[rotor]", "[rotor]\nload_N = [1]"), "load_N must be [x, y]"),
                 (MACHINE.replace("[rotor]", "[rotor]\nload_N = 1"), "load_N must be a non-empty array"),
                 (MACHINE.replace("[rotor]", "[rotor]\nload_N = [1, inf]"), "load_N must be finite"),
