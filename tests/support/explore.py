@@ -1,5 +1,6 @@
 """Running explore, for the tests; BUILD in the environment names another build folder than build."""
 import os
+import re
 import subprocess
 import sys
 import tempfile
@@ -13,6 +14,15 @@ EXPLORE = Path(os.environ.get("BUILD", "build"), "explore").resolve()
 MACHINE = Path("data/set1.toml").read_text(encoding="utf-8")
 RESPONSE = ["--from", "20", "--to", "21"]
 ORBIT = ["--frequency", "45", "--points", "4"]
+NO_NUMBER = re.compile(r"(?<![^\W_])(nan|inf|infinity)(?![^\W_])", re.IGNORECASE)
+
+
+def changed(text=MACHINE, **values):
+    """The machine with other values of these keys, wherever they stand."""
+    for key, value in values.items():
+        text, count = re.subn(rf"(?m)^{key} = .*$", f"{key} = {value}", text)
+        assert count > 0, key
+    return text
 
 
 class Case(unittest.TestCase):
@@ -62,3 +72,12 @@ class Case(unittest.TestCase):
 
     def table(self, *arguments):
         return Table.of("\n".join(self.lines(*arguments)))
+
+    def rows(self, *arguments):
+        """The lines that are no header."""
+        return [line for line in self.lines(*arguments) if not line.startswith("#")]
+
+    def values(self, *check):
+        """What `check` says, by name."""
+        table = self.table("check", *check)
+        return dict(zip(table["name"], table["value"]))
