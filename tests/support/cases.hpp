@@ -31,15 +31,9 @@ Oscillator duffing();
 Oscillator two_masses_cubic();
 Oscillator two_masses_unilateral();
 
-/** The derivative of the period map of an oscillator with d masses, linearised along the series `x` at
-    `omega`, by RK4 with so many steps; they end where the stiffness jumps, which none straddles. 2d × 2d,
-    displacements first. */
-Eigen::MatrixXd monodromy(const Oscillator& oscillator, const Eigen::VectorXd& x,
-                          double omega, int steps);
-
-/** Its multipliers, and their change from half as many steps. */
-Floquet floquet(const Oscillator& oscillator, const Eigen::VectorXd& x, double omega,
-                int steps = 1000, double tolerance = 1e-6);
+/** The multipliers along the series `x` of an oscillator with a smooth stiffness, by RK4, and their change from half as
+    many steps. */
+Floquet floquet(const Oscillator& oscillator, const Eigen::VectorXd& x, double omega);
 
 /** The amplitude of harmonic `h` of variable `row` in the coefficients `x` with d
     variables. */

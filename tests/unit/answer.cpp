@@ -132,23 +132,6 @@ TEST_CASE("Neighbours part at the rate of the largest multiplier")
   }
 }
 
-TEST_CASE("Kinds of known motions")
-{
-  struct Known {
-    const char* set;
-    double frequency;
-    int period;  ///< 0: chaotic
-  };
-  for (const Known& known :
-       {Known{"set1", 13, 0}, Known{"set1", 30, 1}, Known{"set1", 54, 2},
-        Known{"set2", 10, 0}, Known{"set2", 45, 1}}) {
-    const Parameters parameters =
-        read_parameters(std::string(SOURCE_DIR "/data/") + known.set + ".toml");
-    INFO(known.set << " " << known.frequency << " Hz");
-    CHECK(from_rest_at(parameters, known.frequency).period_number() == known.period);
-  }
-}
-
 TEST_CASE(
     "The distance of a motion to itself is zero, to rest one, and blind to the mean")
 {

@@ -51,16 +51,6 @@ TEST_CASE("Linear response without contact is exact to 1e-10")
     CHECK(error_without_contact(parameters, frequency, 6) < 1e-10);
 }
 
-TEST_CASE("Without gravity and unbalance nothing moves")
-{
-  Parameters parameters = set_1();
-  parameters.gravity = 0;
-  parameters.unbalance = 0;
-  const auto solution = find_periodic({parameters, hertz(20), 6, 64});
-  REQUIRE(solution.found());
-  CHECK(solution.bodies.norm() == 0);
-}
-
 TEST_CASE("An undamped stator at its own resonance divides nothing by zero")
 {
   Parameters parameters = set_1();

@@ -7,7 +7,6 @@
 #include "io/errors.hpp"
 #include "motion/find_periodic.hpp"
 #include "support/cases.hpp"
-#include "time/side_by_side.hpp"
 #include "time/gsl.hpp"
 #include "time/period_map.hpp"
 #include "time/shooting.hpp"
@@ -182,14 +181,6 @@ TEST_CASE("The steady state ends where its spread settles, and counts its work")
   CHECK(steady.evaluations > 0);
 }
 
-TEST_CASE("A step beyond stability is reported, not returned")
-{
-  SteadySettings settings;
-  settings.stepper = {.method = "rk4", .intervals_per_period = 4, .step = 1e-2};
-  CHECK_THROWS_AS(steady_state(set_1(), hertz(10), static_start(set_1()), settings),
-                  NoSolution);
-}
-
 TEST_CASE(
     "Where the bearing alone carries a body, time integration starts in equilibrium")
 {
@@ -214,35 +205,6 @@ TEST_CASE(
   const Bodies a =
       system.acceleration(rest.position, rest.velocity, Angles{{1, 0}, {1, 0}});
   for (double value : displacements(a)) CHECK(std::abs(value) < 1e-8);
-}
-
-/** One starts in contact, the other one out of it. Catches a force that is that of the other state, and evaluations that
-    are not counted. */
-TEST_CASE("Two states that RK4 advances at once go where each goes alone")
-{
-  Parameters machine = set_1();
-  machine.bearing.cage_speed_ratio = 0.4173;
-  const StepSettings settings{.method = "rk4", .intervals_per_period = 8};
-  const auto alone = flow(machine, hertz(25), settings),
-             together = flow(machine, hertz(25), settings);
-  State a = static_start(machine), b = a;
-  b.position.rotor = {0, 1e-5};
-  b.position.stator = {0, 0};
-  State a_alone = a, b_alone = b;
-  const Eigen::VectorXd sizes = state_scales(machine);
-  const auto apart = [&](const State& one, const State& other) {
-    return (vector_of(one) - vector_of(other)).cwiseQuotient(sizes).norm();
-  };
-  for (long k = 0; k < 32; ++k) {
-    CHECK(apart(a, b) > 0.01);
-    const Passage both[] = {{together.get(), k, &a}, {together.get(), k, &b}};
-    CHECK(advance_together(both).empty());
-    alone->advance(k, a_alone);
-    alone->advance(k, b_alone);
-    CHECK(apart(a, a_alone) < 1e-12);
-    CHECK(apart(b, b_alone) < 1e-12);
-  }
-  CHECK(together->evaluations() == alone->evaluations());
 }
 
 TEST_CASE("Other programs are given Eq. 7 and its derivative")
