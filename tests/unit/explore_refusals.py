@@ -149,33 +149,33 @@ class Values(Case):
         self.refused("not reached at 24.3 Hz", "orbit", slow, "--frequency", 24.3, "--method", "aft", "--tolerance", 1e-3, status=3)
         self.refused("not reached at 18.7 Hz", "orbit", odd, "--frequency", 18.7, "--method", "aft", "--tolerance", 1e-6, status=3)
 
-    def test_a_plot_without_matplotlib_is_refused_before_the_work(self):
-        self.refused("install python3-matplotlib", "attractors", self.machine, *RESPONSE, "--count", 3, "--plot",
-                     "a.svg", "--section", "b.tsv", env={**os.environ, "PYTHON": "/bin/false"})
-        self.assertEqual([file.name for file in self.folder.iterdir()], ["machine.toml"])
-
     def test_no_solution(self):
         self.refused("no solution found with 24 harmonics at 13.4 Hz", "orbit",
                      Path("data/set2.toml").resolve(), "--frequency", "13.4", "--harmonics", "24", status=3)
 
-    def test_scenes_and_readings(self):
-        program, scenes = Path(EXPLORE).with_name("fig05_displacements"), Path("data/scenes").resolve()
-        for arguments, words in [
-                (["no/such/scene.toml"], "no such file"),
-                ([scenes / "fig05_displacements.toml", "--reading", "upside-down"],
-                 "must be exchanged or as-printed"),
-                ([scenes / "tab01_parameters.toml"], "title is missing")]:
-            with self.subTest(arguments):
-                self.refused(words, *arguments, program=program)
-
-    def test_a_scene_of_many_speeds(self):
-        """Which took 47 GB and a minute."""
+    def test_scenes(self):
+        """Of programs that compute figures and costs; one with too many speeds took 47 GB and a minute."""
         (self.folder / "scenes").mkdir()
         for name in ("set1", "set2"):
             self.file(f"{name}.toml", Path(f"data/{name}.toml").read_text(encoding="utf-8"))
-        scene = Path("data/scenes/fig03_response.toml").read_text(encoding="utf-8").replace("step = 0.1 }", "step = 1e-8 }")
-        self.refused("balance_hz.step gives more than 100000 speeds", self.file("scenes/many.toml", scene),
-                     program=Path(EXPLORE).with_name("fig03_response"))
+        for program, old, new, words in [
+                ("fig03_response", "step = 0.1 }", "step = 1e-8 }", "balance_hz.step gives more than 100000 speeds"),
+                ("fig05_displacements", "title", "titel", "title is missing"),
+                ("tab02_equal_error", "[1e-2, 1e-3, 1e-6]", "[1e-6, 1e-3, 1e-2]", "targets"),
+                ("tab02_equal_error", "[25.0, 60.0]", "[60.0, 25.0]", "range_ends_hz"),
+                ("tab02_equal_error", '"rkf45"', '"rkf46"', "methods"), ("tab02_equal_error", "closures", "closure", "closures"),
+                ("tab02_equal_error", "[bsimp]", "colour = 1\n[bsimp]", "colour"),
+                ("work_precision", "50.0, 45.0]", "50.0]", "speeds_hz"), ("work_precision", "below_hz = 0.5", "below_hz = 7.0", "below_hz"),
+                ("cost_growth", "below_hz = 29.5", "below_hz = 30.5", "below_hz"), ("cost_growth", "[8, 16, ", "[16, 8, ", "harmonics"),
+                ("cost_growth", "samples_per_harmonic = 8", "samples_per_harmonic = 1", "samples_per_harmonic")]:
+            with self.subTest(program, new=new):
+                scene = Path(f"data/scenes/{program}.toml").read_text(encoding="utf-8")
+                self.assertIn(old, scene)
+                self.refused(words, self.file("scenes/bad.toml", scene.replace(old, new, 1)), program=Path(EXPLORE).with_name(program))
+        for program, *arguments, words in [("fig05_displacements", "no/such/scene.toml", "no such file"),
+                                           ("fig05_displacements", "scenes/bad.toml", "--reading", "upside-down", "exchanged or as-printed"),
+                                           ("deviations", "--reading", "as-printed", "reading")]:
+            self.refused(words, *arguments, program=Path(EXPLORE).with_name(program))
 
 
 class Save(Case):

@@ -44,8 +44,7 @@ class Columns(Case):
             sums = (balls["Q"] * np.sin(balls["angle"])).reshape(-1, 9).sum(axis=1)
             np.testing.assert_allclose(sums, orbit["F_y"], rtol=1e-9, atol=1e-6)
             self.assertTrue((0 <= balls["angle"]).all() and (balls["angle"] < 2 * math.pi).all())
-        rest = self.table("check", own)
-        value = dict(zip(rest["name"], rest["value"]))
+        value = self.values(own)
         loaded = balls["Q"] > 0
         np.testing.assert_allclose(balls["stress"][loaded] / value["stress"],
                                    np.cbrt(balls["Q"][loaded] / value["ball_load"]), rtol=1e-9)
@@ -152,18 +151,26 @@ class Formats(Case):
         self.assertIn("</svg>", (self.folder / "orbit.svg").read_text(encoding="utf-8"))
 
     def test_every_command_draws(self):
-        """On data set 1 and on a balanced 6205, in each format; what is missing is said before any work."""
+        """On data set 1 and on a balanced 6205, in each format, twice alike; what is missing is said before any work."""
         balanced = self.file("own.toml", CARRIED.replace("unbalance_kg_m = 0.05", "unbalance_kg_m = 0.0"))
-        commands = [["orbit", *AT_45], ["contact", *AT_45], ["spectrum", "--frequency", 45], ["response", *TO_45],
-                    ["attractors", "--from", 44, "--to", 45, "--count", 1, "--starts", 0]]
+        axis = ["map", "--frequency", 45, "--x", "bearing.radial_clearance_m=1e-5:2e-5:3", *SIX, "--quantity"]
+        commands = [["orbit", *AT_45, *SIX], ["contact", *AT_45, *SIX], ["spectrum", "--frequency", 45, *SIX], ["response", *TO_45, *SIX],
+                    ["attractors", "--from", 44, "--to", 45, "--count", 1, "--starts", 0], [*axis, "amplitude"],
+                    [*axis, "stability", "--y", "rotor.mass_kg=40:50:2"]]
         for machine in [self.machine, balanced]:
             for k, (command, *options) in enumerate(commands):
                 suffix, begin = [(".svg", b"<?xml"), (".png", b"\x89PNG"), (".pdf", b"%PDF")][k % 3]
-                how = [] if command == "attractors" else SIX
-                self.lines(command, machine, *options, *how, "--plot", "figure" + suffix)
-                self.assertTrue((self.folder / ("figure" + suffix)).read_bytes().startswith(begin), command)
+                names = ["one" + suffix, "two" + suffix]
+                for name in names[:1 if machine == balanced else 2]:
+                    self.lines(command, machine, *options, "--plot", name)
+                figures = [(self.folder / name).read_bytes() for name in names]
+                self.assertTrue(figures[0].startswith(begin), command)
+                if machine == self.machine:
+                    self.assertEqual(*figures, command)
+                before = sorted(self.folder.iterdir())
                 self.refused("install python3-matplotlib", command, machine, *options, "--plot", "none.svg",
                              env={**os.environ, "PYTHON": "/bin/false"})
+                self.assertEqual(sorted(self.folder.iterdir()), before)
 
     def test_nothing_of_the_folder_draws(self):
         """Would catch modules and settings of the folder in which explore runs."""
