@@ -5,8 +5,6 @@ module, a complete page for every figure, links from equations and names to wher
 page all mathematics is set, nothing is wider than the window, no message of the browser and no request but to the pages;
 the search finds what is there; text has contrast and pictures a text (axe-core, where npm has it). Two locales more give
 the same bytes. The animation moves, and shows the motion of the table.
-
-Usage: tests/book.py   (from the project's root, after `make all`)
 """
 import contextlib
 import json

@@ -4,8 +4,6 @@ amplitude, its error.
 Machines are in cases/. Numbers come from integrations, shooting and closed forms written
 apart from this project; where a motion is compared instant by instant, from the judge
 (truth/judge.cpp), which shares no code with src.
-
-Usage: tests/cases.py (from the project's root)
 """
 import math
 import sys
@@ -236,18 +234,6 @@ rotor_dofs = [1, 2]
                             ("attractors", attractors["amp_x_r"][0])]:
             with self.subTest(name):
                 self.assertAlmostEqual(value / right, 1, delta=1e-3)
-
-    def test_a_catalogue_bearing_over_the_speed(self):
-        table = self.asked("map", "motor", "--x", "frequency=10:400:4", "--quantity",
-                              "amplitude,ball_load")
-        self.assertEqual(len(table), 4)
-        self.assertTrue((np.array(table["amplitude"], float) > 0).all())
-        self.assertTrue((np.array(table["ball_load"], float) > 0).all())
-        for first in (10, 40):
-            table = self.asked("response", "motor", "--from", first, "--to", 400)
-            np.testing.assert_allclose(np.array(table["f"], float),
-                                       np.linspace(first, 400, 101))
-            self.assertTrue((np.array(table["amp_x_r"], float) > 0).all())
 
     def test_errors_of_two_frequencies_hold(self):
         self.errors_hold("spall_of_the_inner_race", 60.6, 1e-2, 100)

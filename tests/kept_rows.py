@@ -2,8 +2,6 @@
 
 Rows are drawn among those with one value: motions that repeat themselves and that nothing else competes with. A study that
 continues solutions from speed to speed is compared where the answer does not depend on the way.
-
-Usage: tests/kept_rows.py   (from the project's root, after `make all`)
 """
 import hashlib
 import sys
@@ -71,9 +69,10 @@ class Rows(unittest.TestCase):
         self.at_points("stiffness_border", lambda t: (t["status"] == "ok") & (cells_as_numbers(t["permanent"]) == 1),
                        {clearance: clearance, stiffness: stiffness}, {"harmonics": 6, "sweep": "1:60:60"},
                        {name: (name, 1e-6) for name in ("peak", "peak_frequency", "permanent")})
-        self.at_points("clearance_stiffness", lambda t: (t["f_loss_first"] == -1) & (t["missed"] == 0), {clearance: "delta", stiffness: "K_H"},
-                       {"harmonics": 6, "sweep": "1:60:60"}, {"amp_peak": ("peak", 1e-6), "f_peak": ("peak_frequency", 1e-6),
-                                                              "largest_force": ("largest_load", 1e-6), "missed": ("missed", 1e-6)})
+        self.at_points("clearance_stiffness", lambda t: (t["f_loss_first"] == -1) & (t["missed"] == 0),
+                       {clearance: "delta", stiffness: "K_H"}, {"harmonics": 6, "sweep": "1:60:60"},
+                       {"amp_peak": ("peak", 1e-6), "f_peak": ("peak_frequency", 1e-6), "largest_force": ("largest_load", 1e-6),
+                        "missed": ("missed", 1e-6)})
 
     def test_points(self):
         """The one motion of a speed, where all starts end on one that repeats with every turn; multipliers of the machine, and those
@@ -87,8 +86,8 @@ class Rows(unittest.TestCase):
         self.at_points("stability", lambda t: (t["set"] == 1) & (t["stable"] == 1) & (t["f"] > 40) & (t["largest_multiplier"] > 0), at,
                        {"method": "aft", "harmonics": lambda row: int(row.first("harmonics"))},
                        {"amp_x_r": ("amplitude", 1e-3), "largest_multiplier": ("multiplier", 1e-3)})
-        self.at_points("validity", lambda t: (t["stable"] == 1) & (t["adaptive"] == 0) & (t["nearest_periodic"] == 1) & (t["distance"] < 0.1),
-                       at, fixed, {"distance": ("distance", 0.05)})  # 256 instants there
+        self.at_points("validity", lambda t: (t["stable"] == 1) & (t["adaptive"] == 0) & (t["nearest_periodic"] == 1)
+                       & (t["distance"] < 0.1), at, fixed, {"distance": ("distance", 0.05)})  # 256 instants there
         self.at_points("cage", lambda t: (t["f"] > 40) & (t["found"] == 1) & (t["stable"] == 1), {**at, "bearing.cage_speed_ratio": "c"},
                        {"method": "rk4", "longest": 6}, {name: (name, 0.01) for name in ("amplitude", "contact_share")})
 

@@ -4,8 +4,6 @@ budget of evaluations.
 
 Would catch integration that never ends (many balls, stiff contacts, slow turns),
 divisions by a damping, weight or stiffness that is zero, and results that are no numbers.
-
-Usage: tests/hard/corners.py (from the project's root)
 """
 import copy
 import itertools

@@ -54,8 +54,15 @@ class Case(unittest.TestCase):
         self.assertFalse(result.stdout)
         return result
 
+    def refused_each(self, cases, *command):
+        """Pairs of a command's further options, in one string, and words of the message."""
+        for options, words in cases:
+            with self.subTest(options):
+                self.refused(words, *command, *options.split())
+
     def refused_machine(self, words, text):
-        self.refused(words, "orbit", self.file("bad.toml", text), *ORBIT)
+        with self.subTest(words):
+            self.refused(words, "orbit", self.file("bad.toml", text), *ORBIT)
 
     def refused_change(self, old, new, words, status=2):
         """The machine with one piece of text replaced."""

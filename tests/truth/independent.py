@@ -223,7 +223,7 @@ class Model:
         """The largest multiplier and the state at phase 0 of the motion of one base period
         that the judge's Newton iteration reaches from a state; None where it does not."""
         answer = ask(*self.words(), *state)
-        return (abs(complex(*answer[4:6])), answer[6:]) if answer[0] else None
+        return (abs(complex(*answer[1:3])), answer[3:]) if answer[0] else None
 
     def kind(self, period, exponent, error):
         if period:

@@ -8,7 +8,7 @@ eigenvalues by Eigen. One line in, one line out. A motion is closed with its var
     MACHINE f[Hz] periods  y_1 … y_8
     springs Omega periods  y_1 … y_4      two masses, unilateral spring (NLvib, example 3)
 
-    converged closure largest_multiplier its_change real imaginary  y_1 …
+    converged  largest multiplier, real and imaginary  y_1 …
 
 or a state is followed beside a neighbour from the period `first` on; period 0 begins at
 t = 0. Printed are `kept` periods, the first of them `from` periods after the start:
@@ -24,8 +24,7 @@ both halves of what is observed; errors come from the means of ten parts. MACHIN
         depth width place turning  f_x_s f_y_s f_x_r f_y_r
 
 A period is `periods` turns, which need not be whole. The state is x_s, y_s, x_r, y_r and
-their rates; for the springs q_1, q_2 and their rates. `its_change` is that of the modulus
-between two tolerances of the integration. */
+their rates; for the springs q_1, q_2 and their rates. */
 #include <Eigen/Dense>
 #include <cmath>
 #include <cstdio>
@@ -310,10 +309,7 @@ void judge(const Equation& equation, Vector y)
     if (part <= 1e-3) break;
   }
   const std::complex<double> mu = largest(map.derivative);
-  const Map finer = closure < 1e-6 ? period_map(equation, y, 1e-11) : map;
-  std::printf("%d %.3g %.9g %.3g %.9g %.9g", closure < 1e-6 && finer.whole, closure,
-              std::abs(mu), std::abs(std::abs(largest(finer.derivative)) - std::abs(mu)),
-              mu.real(), mu.imag());
+  std::printf("%d %.9g %.9g", closure < 1e-6, mu.real(), mu.imag());
   for (double value : y) std::printf(" %.15g", value);
   std::printf("\n");
   std::fflush(stdout);

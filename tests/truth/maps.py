@@ -54,7 +54,8 @@ class Point:
 
     def periods_near(self, frequency):
         """K of all motions that explore finds from several starts, where there is more than one."""
-        periods = self.case.table("attractors", self.file, "--from", frequency, "--to", frequency + 0.01, "--count", 2, "--starts", 8)["period"]
+        asked = ["attractors", self.file, "--from", frequency, "--to", frequency + 0.01, "--count", 2, "--starts", 8]
+        periods = self.case.table(*asked)["period"]
         return list(periods) if len(set(periods)) > 1 else []
 
     def error_alone(self, frequency):

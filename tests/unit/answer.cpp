@@ -48,17 +48,6 @@ TEST_CASE("Without contact the amplitude is that of Jeffcott's rotor")
             .epsilon(1e-5));
 }
 
-TEST_CASE("A machine that nothing moves rests")
-{
-  Parameters parameters = set_1();
-  parameters.unbalance = 0;
-  parameters.gravity = 0;
-  const motion::Answer answer = from_rest_at(parameters, 20);
-  CHECK(answer.kind() == Kind::rest);
-  CHECK(answer.period_number() == 1);
-  CHECK(observe(answer).amplitude == Displacements{});
-}
-
 TEST_CASE("Set 1 doubles its period at 20 Hz and is chaotic at 13.4 Hz")
 {
   const motion::Answer doubled = from_rest_at(set_1(), 20);

@@ -1,6 +1,4 @@
 """explore check: rest, frequencies, loss of contact and warnings against closed forms.
-
-Usage: tests/unit/check.py   (from the project's root)
 """
 import math
 import sys

@@ -1,7 +1,5 @@
 """What explore prints: its fixed columns, one method against another, branches that are saved, interrupted or
 isolated, stability along a branch against that of single orbits, and attractors against orbits and the kept study.
-
-Usage: tests/unit/explore_tables.py   (from the project's root)
 """
 import math
 import os
@@ -13,7 +11,7 @@ from pathlib import Path
 import numpy as np
 
 sys.path.insert(0, str(Path(__file__).parents[1]))
-from support.explore import MACHINE, Case, Table  # noqa: E402
+from support.explore import MACHINE, Case, Table, changed  # noqa: E402
 
 KEPT = Path("data/reference/attractors.tsv").resolve()
 SET_2 = Path("data/set2.toml").resolve()
@@ -45,7 +43,7 @@ class Motion(Case):
 
     def test_any_cage(self):
         """Set 1 with c = 0.43: more turns are the same motion, further on; contact adds up to the force of the orbit."""
-        odd = self.file("odd.toml", MACHINE.replace("cage_speed_ratio = 0.5", "cage_speed_ratio = 0.43"))
+        odd = self.file("odd.toml", changed(cage_speed_ratio=0.43))
         one, three = self.orbit(odd, 45, *TO_1E_3), self.orbit(odd, 45, *TO_1E_3, "--periods", 3)
         np.testing.assert_allclose(three["phase"], 2 * math.pi * np.arange(192) / 64, rtol=1e-12)
         np.testing.assert_array_equal(three["x_r"][:64], one["x_r"])
@@ -62,56 +60,35 @@ class Motion(Case):
         np.testing.assert_allclose(force, three["F_x"][:128], rtol=1e-9, atol=1e-6)
         self.assertEqual((list(balls.columns), len(balls), balls["Q"].min()), (["t_over_T", "ball", "Q"], 2 * 64 * 16, 0))
 
-    def test_response_of_any_cage(self):
-        """The last row against the orbit at that speed, over 200 turns where the motion does not repeat."""
-        for old, new, turns, how in [("cage_speed_ratio = 0.5", "cage_speed_ratio = 0.43", 200, TO_1E_3),
-                                     ("cage_speed_ratio = 0.5", "cage_speed_ratio = 0.40625", 2, ["--harmonics", 6])]:
-            odd = self.file("odd.toml", MACHINE.replace(old, new))
-            branch = self.table("response", odd, "--from", 50, "--to", 60, *how)
-            orbit = self.orbit(odd, 60, *how, "--periods", turns)
-            self.assertAlmostEqual(branch["f"][-1], 60)
-            for name in ["x_s", "y_s", "x_r", "y_r"]:
-                self.assertAlmostEqual(branch["amp_" + name][-1] / (np.ptp(orbit[name]) / 2), 1, delta=1e-3)
-
     def test_verdict_on_two_frequencies(self):
         """At 98.6 Hz with c = 0.4173 the torus has doubled, and integration leaves the one that has not."""
         for cage, frequency, is_doubled in [(0.43, 45.4, False), (0.4173, 98.6, True)]:
-            odd = self.file("odd.toml", MACHINE.replace("cage_speed_ratio = 0.5", f"cage_speed_ratio = {cage}"))
+            odd = self.file("odd.toml", changed(cage_speed_ratio=cage))
             table = self.orbit(odd, frequency, *TO_1E_3)
             self.assertEqual([table.value(key) for key in ("stability", "regime", "stays")], ["stable", "quasi-periodic", "yes"])
             self.assertEqual(any(pair.endswith(",-0.5") for pair in table.members("harmonics")[0]), is_doubled)
 
-    def test_a_tolerance_where_quasi_static_contact_leads_nowhere(self):
-        """At 24 Hz of set 1, where steps from there converge to nothing."""
-        table = self.orbit(self.file("set1.toml", MACHINE), 24, *TO_1E_3)
-        self.assertEqual(table.value("stability"), "stable")
-        said, true = table.error("error"), table.error("distance")
-        self.assertLess(true, 1e-3)
-        self.assertTrue(0.3 < said / true < 10, (said, true))
-
     def test_a_torus_that_doubles_late(self):
         """With 7 balls the motion from rest leaves the torus of whole orders after some hundred turns; k_1 alone is then halved."""
-        seven = MACHINE.replace("balls = 16", "balls = 7").replace("cage_speed_ratio = 0.5", "cage_speed_ratio = 0.3917")
+        seven = changed(balls=7, cage_speed_ratio=0.3917)
         own = self.file("seven.toml", seven)
         table = self.orbit(own, 105, "--tolerance", 1e-3)
         self.assertEqual((table.value("regime"), table.value("stability")), ("quasi-periodic", "stable"))
         self.assertLess(table.error("error"), 1e-3)
 
     def test_a_cage_that_repeats_after_two_turns_and_a_rotor_without_unbalance(self):
-        half = MACHINE.replace("cage_speed_ratio = 0.5", "cage_speed_ratio = 0.40625")
+        half = changed(cage_speed_ratio=0.40625)
         table = self.orbit(self.file("half.toml", half), 45, "--harmonics", 6, "--periods", 4)
         self.assertEqual(table.value("base"), "turns 2")
         self.assertAlmostEqual(table.value("base_period"), 2 / 45, delta=1e-15)
         np.testing.assert_array_equal(table["x_r"][128:], table["x_r"][:128])
         self.assertGreater(abs(table["x_r"][64:128] - table["x_r"][:64]).max(), 1e-9)
-        odd = MACHINE.replace("cage_speed_ratio = 0.5", "cage_speed_ratio = 0.43").replace(
-            "unbalance_kg_m = 0.05", "unbalance_kg_m = 0.0")
-        still = self.file("still.toml", odd)
+        still = self.file("still.toml", changed(cage_speed_ratio=0.43, unbalance_kg_m=0.0))
         table = self.orbit(still, 45, "--harmonics", 6)
         self.assertEqual(table.value("base"), "passing")
         self.assertAlmostEqual(table.value("base_period"), 1 / (45 * 16 * 0.43), delta=1e-15)
         # Also where a whole number of balls passes in a turn: six harmonics of a turn would all be zero.
-        whole = self.file("whole.toml", odd.replace("cage_speed_ratio = 0.43", "cage_speed_ratio = 0.5"))
+        whole = self.file("whole.toml", changed(unbalance_kg_m=0.0))
         for how in ([], ["--harmonics", 6]):
             self.assertEqual(self.orbit(whole, 45, *how).value("base"), "passing")
         branch = self.table("response", whole, "--from", 44, "--to", 45, "--harmonics", 6)
@@ -312,7 +289,7 @@ class Shooting(Case):
             self.assertEqual(len(set(at["motion"])), count)
 
     def test_what_it_cannot_do_is_refused(self):
-        slow = self.file("slow.toml", MACHINE.replace("cage_speed_ratio = 0.5", "cage_speed_ratio = 0.43"))
+        slow = self.file("slow.toml", changed(cage_speed_ratio=0.43))
         self.refused("cage_speed_ratio: shooting needs", "orbit", slow, "--frequency", 30, "--method", "shooting")
         self.refused("must be one of auto, aft, shooting", "response", self.machine, "--from", 30, "--to", 40, "--method", "rk4")
         self.refused("--save: is for", "response", self.machine, "--from", 30, "--to", 40, "--method", "shooting", "--save", "x")

@@ -1,7 +1,5 @@
 """Bodies given by matrices: the paper's machine in that form, what is refused, and flexible shafts: the printed force is
 that of the printed motion, and all degrees of freedom answer it as printed.
-
-Usage: tests/unit/large.py   (from the project's root)
 """
 import importlib.util
 import os

@@ -1,7 +1,5 @@
 """explore map: the same bytes whatever the number of threads, of runs and of interruptions; rows against single
 points of the other commands; what it refuses, and what stands in the row of a point without a result.
-
-Usage: tests/unit/maps.py   (from the project's root)
 """
 import re
 import sys
@@ -232,8 +230,7 @@ class Values(Case):
 
 class Refusals(Case):
     def refused_map(self, words, text):
-        with self.subTest(text):
-            self.refused(words, "map", self.machine, *text.split())
+        self.refused_each([(text, words)], "map", self.machine)
 
     def test_axes_and_quantities(self):
         usual = "--frequency 45 --quantity amplitude"

@@ -95,34 +95,20 @@ TEST_CASE("A step of rk8 has an error of order 9, and an estimate of it of order
     this one. */
 TEST_CASE("rk8 goes where GSL's rk8pd goes, and so do their disturbances")
 {
-  Parameters machine = set_1();
-  double frequency = 45;
-  double near = 2e-10, near_derivative = 6e-6;  // where balls begin and cease to touch
-  SECTION("a ball that always touches")
-  {
-    machine = on_one_ball();
-    frequency = 7;
-    near = 1e-12;
-    near_derivative = 3e-7;
-  }
-  SECTION("45 Hz") {}
-  SECTION("30 Hz")
-  {
-    frequency = 30;
-  }
-  SECTION("contact damping and a cage out of step")
-  {
-    machine = damped(2);
-    machine.bearing.cage_speed_ratio = 0.4173;
-  }
-  SECTION("a spall of the outer race")
-  {
-    machine = damaged(2, Defect::Surface::outer_race);
-  }
-  SECTION("a spall of a ball")
-  {
-    machine = damaged(0, Defect::Surface::ball);
-  }
+  Parameters out_of_step = damped(2);
+  out_of_step.bearing.cage_speed_ratio = 0.4173;
+  struct Case {
+    Parameters machine;
+    double frequency = 45;
+    double near = 2e-10, near_derivative = 6e-6;  // where balls begin and cease to touch
+  };
+  const auto [machine, frequency, near, near_derivative] =
+      GENERATE_COPY(values<Case>({{on_one_ball(), 7, 1e-12, 3e-7},
+                                  {set_1()},
+                                  {set_1(), 30},
+                                  {out_of_step},
+                                  {damaged(2, Defect::Surface::outer_race)},
+                                  {damaged(0, Defect::Surface::ball)}}));
   const double omega = hertz(frequency);
   const State start = settled(machine, omega);
   State ours = start, theirs = start;

@@ -1,6 +1,4 @@
 """explore runup: a linear rotor integrated apart, motions at fixed speeds, the direction of the change, and what is refused.
-
-Usage: tests/unit/runup.py   (from the project's root)
 """
 import sys
 import unittest

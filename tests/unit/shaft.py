@@ -2,8 +2,6 @@
 
 The rotors are examples 5.9.1, 5.9.2 and 5.9.9 of Friswell, Penny, Garvey and Lees, Dynamics of Rotating Machines (2010),
 with the frequencies that ROSS prints for them.
-
-Usage: tests/unit/shaft.py   (from the project's root)
 """
 import resource
 import sys

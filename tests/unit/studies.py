@@ -1,7 +1,5 @@
 """Studies of many points: what Snakemake makes of a file in studies/, when it is left alone, when a job fails and when it
 is killed; and what the studies' own scripts compute from what explore prints.
-
-Usage: tests/unit/studies.py   (from the project's root)
 """
 import os
 import shutil
