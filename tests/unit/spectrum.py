@@ -16,6 +16,7 @@ from support.explore import MACHINE, Case, changed  # noqa: E402
 VALUES = tomllib.loads(MACHINE)
 NAMES = ["x_s", "y_s", "x_r", "y_r"]
 BALLS = VALUES["bearing"]["balls"]
+SIX = ["--harmonics", 6, "--no-stability"]
 G = VALUES["gravity"]["acceleration_m_per_s2"]
 
 
@@ -60,18 +61,24 @@ class Spectrum(Case):
 
     def test_a_rotor_that_touches_nothing(self):
         """m_e e ω²/|k - m ω² + i c ω|, one line; another unit or a factor of two would show."""
-        text = changed(radial_clearance_m=0.01)
+        text = changed(radial_clearance_m=0.1)
         m, w0, xi = (VALUES["rotor"][key] for key in ("mass_kg", "natural_frequency_rad_per_s", "damping_ratio"))
-        w = 2 * math.pi * 30
-        amplitude = VALUES["rotor"]["unbalance_kg_m"] * w**2 / m / abs(w0**2 - w**2 + 2j * xi * w0 * w)
-        for method in [["--harmonics", 24, "--no-stability"], ["--method", "shooting", "--no-stability"], ["--method", "rk8pd"]]:
-            with self.subTest(method):
-                table = self.spectrum(text, 30, *method)
+        for speed, *method in [(speed, *SIX) for speed in (0.5, 10, 23, 24, 60, w0 / 2 / math.pi)] + [
+                (30, "--method", "shooting", "--no-stability"), (30, "--method", "rk8pd")]:
+            with self.subTest(speed=speed, method=method):
+                w = 2 * math.pi * speed
+                amplitude = VALUES["rotor"]["unbalance_kg_m"] * w**2 / m / abs(w0**2 - w**2 + 2j * xi * w0 * w)
+                table = self.spectrum(text, speed, *method)
                 self.assertEqual(list(table["name"]), ["1X"])
-                self.assertEqual(table["f"][0], 30)
-                np.testing.assert_allclose([table["x_r"][0], table["y_r"][0]], amplitude, rtol=1e-6)
+                self.assertEqual(table["f"][0], speed)
+                within = 1e-10 if "--harmonics" in method else 1e-6
+                np.testing.assert_allclose([table["x_r"][0], table["y_r"][0]], amplitude, rtol=within)
                 self.assertLess(max(table["x_s"][0], table["y_s"][0]), 1e-9 * amplitude)
                 self.assertAlmostEqual(table.value("mean_y_r") / (-G / w0**2), 1, delta=1e-6)
+        # An undamped stator at its own resonance divides nothing by zero.
+        stator = VALUES["stator"]
+        undamped = text.replace(f"damping_ratio = {stator['damping_ratio']}", "damping_ratio = 0")
+        self.assertEqual(list(self.spectrum(undamped, stator["natural_frequency_rad_per_s"] / 2 / math.pi, *SIX)["name"]), ["1X"])
 
     def test_spalls_stand_where_kinematics_says(self):
         """A light rotor, always on its balls; what is new beside the same machine without a spall."""
