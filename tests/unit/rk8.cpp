@@ -147,7 +147,8 @@ TEST_CASE("A period map is its method's, and its derivative that of its differen
                              {"rk8", damped(5), 2e-6, 1e-5},
                              {"rk8", damaged(5, Defect::Surface::outer_race), 2e-6, 1e-5},
                              {"rk8", damaged(5, Defect::Surface::inner_race), 2e-6, 1e-5},
-                             {"rk4", set_1(), 1e-7, 1e-4}}));
+                             {"rk4", set_1(), 1e-7, 1e-4},
+                             {"rk4", damped(5), 1e-7, 1e-4}}));
   INFO(method << ", damping " << machine.bearing.damping);
   const double omega = hertz(45);
   const StepSettings settings{.method = method,
