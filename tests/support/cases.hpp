@@ -5,8 +5,12 @@ Small oscillators of public harmonic-balance tools (NLvib examples 01 to 03), se
 through the seam of balance/balance.hpp. M q̈ + D q̇ + K q + f(q) = F cos Ωt. */
 #pragma once
 
+#include <array>
+#include <bit>
+#include <cstdint>
+
 #include "balance/balance.hpp"
-#include "model/parameters.hpp"
+#include "model/rotor_stator.hpp"
 #include "time/floquet.hpp"
 
 namespace rotor_stator::tests {
@@ -47,5 +51,13 @@ Parameters set_1();
 
 /** 2π times a frequency. */
 double hertz(double frequency);
+
+using Bits = std::array<std::uint64_t, 8>;
+
+/** The bits of a state: what must be the same to the last one. */
+inline Bits bits(const State& state)
+{
+  return std::bit_cast<Bits>(std::array{state.position, state.velocity});
+}
 
 }  // namespace rotor_stator::tests
