@@ -10,8 +10,7 @@
 using namespace rotor_stator;
 using namespace rotor_stator::tests;
 
-TEST_CASE(
-    "Copies and parts of an account spend the same money, and what cannot be paid empties it")
+TEST_CASE("Copies and parts of an account spend the same money until it is empty")
 {
   const OperationBudget budget(100);
   const OperationBudget copy = budget;

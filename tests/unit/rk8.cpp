@@ -174,8 +174,7 @@ TEST_CASE("A period map is its method's, and its derivative that of its differen
   }
 }
 
-TEST_CASE(
-    "The work of rk8 is counted and paid for, that of rejected steps too, or it says why not")
+TEST_CASE("The work of rk8 is counted and paid for, also of rejected steps")
 {
   OperationBudget budget(1e9);
   Rk8 rk8(set_1(), hertz(20), 16, 1e-10, budget);
