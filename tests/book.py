@@ -4,13 +4,9 @@ Files: no replacement character, no link that leads nowhere, a text for every pi
 module, a complete page for every figure, links from equations and names to where they stand and back. Browser: on every
 page all mathematics is set, nothing is wider than the window, no message of the browser and no request but to the pages;
 the search finds what is there; text has contrast and pictures a text (axe-core, where npm has it). Two locales more give
-the same bytes. The animation moves, and shows the motion of the table. Screenshots of some pages, two widths, light and dark, stand in build/screenshots.
-
-Usage: tests/book.py   (from the project's root, after `make all`)
+the same bytes. The animation moves, and shows the motion of the table.
 """
 import contextlib
-import functools
-import http.server
 import json
 import os
 import re
@@ -18,7 +14,6 @@ import shutil
 import subprocess
 import sys
 import tempfile
-import threading
 import tomllib
 import unittest
 from html import unescape
@@ -27,16 +22,16 @@ from pathlib import Path
 from urllib.parse import quote, unquote, urlsplit
 
 import numpy as np
-from selenium import webdriver
-from selenium.webdriver.chrome.service import Service
 
-sys.path.insert(0, "figures")
-from tables import Table  # noqa: E402
+sys.path.insert(0, str(Path(__file__).parent))
+from support.browser import browser, served  # noqa: E402
+from support.explore import Table  # noqa: E402
 
 BUILD, BOOK, ARTICLE = Path("build"), Path("build/book"), Path("build/paper/article.html")
-SHOTS, AXE = BUILD / "screenshots", BUILD / "npm/node_modules/axe-core/axe.min.js"
+AXE = BUILD / "npm/node_modules/axe-core/axe.min.js"
 FIGURES = tomllib.loads(Path("paper/book/figures.toml").read_text(encoding="utf-8"))
-SHOWN = ["index.html", "chapter-07.html", "fig06_orbits.html", "model-rotor_stator.html", "results.html", "search.html?q=clearance"]
+SHOWN = ["index.html", "chapter-07.html", "fig06_orbits.html", "model-rotor_stator.html", "results.html", "fig07_contact.html",
+         "list_of_deviations.html", "guide.html", "marks.html", "names-model.html"]
 NARROW, WIDE = 400, 1400
 
 
@@ -176,31 +171,15 @@ class Files(unittest.TestCase):
                 self.assertEqual([name for name in made["C"] if made["C"][name] != made[locale][name]], [], locale)
 
 
-class Server(http.server.SimpleHTTPRequestHandler):
-    def log_message(self, *_):
-        pass
-
-
 class Browser(unittest.TestCase):
     """What a browser shows."""
 
     @classmethod
     def setUpClass(cls):
-        SHOTS.mkdir(parents=True, exist_ok=True)
         stack = contextlib.ExitStack()
         cls.addClassCleanup(stack.close)
-        profile = stack.enter_context(tempfile.TemporaryDirectory())
-        server = http.server.ThreadingHTTPServer(("127.0.0.1", 0), functools.partial(Server, directory="build"))
-        threading.Thread(target=server.serve_forever, daemon=True).start()
-        stack.callback(server.server_close)
-        stack.callback(server.shutdown)
-        cls.address = f"http://127.0.0.1:{server.server_address[1]}/"
-        options = webdriver.ChromeOptions()
-        for flag in ("headless=new", "no-sandbox", "disable-gpu", "hide-scrollbars", "no-first-run", "disable-background-networking",
-                     "disable-component-update", "disable-sync", f"user-data-dir={profile}"):
-            options.add_argument(f"--{flag}")
-        options.set_capability("goog:loggingPrefs", {"browser": "ALL", "performance": "ALL"})
-        cls.driver = webdriver.Chrome(service=Service(shutil.which("chromedriver")), options=options)
+        cls.address = served("build", stack.callback)
+        cls.driver = browser(stack.enter_context(tempfile.TemporaryDirectory()))
         stack.callback(cls.driver.quit)
         cls.driver.get("about:blank")
 
@@ -215,9 +194,9 @@ class Browser(unittest.TestCase):
         addresses = {entry["params"]["request"]["url"] for entry in asked if entry["method"] == "Network.requestWillBeSent"}
         self.assertEqual({a for a in addresses if not a.startswith((self.address, "file:///", "data:", "chrome:", "about:"))}, set())
 
-    def show(self, width, scheme="light", height=900):
+    def show(self, width, scheme="light"):
         self.driver.execute_cdp_cmd("Emulation.setDeviceMetricsOverride", {
-            "width": width, "height": height, "deviceScaleFactor": 1, "mobile": False})
+            "width": width, "height": 900, "deviceScaleFactor": 1, "mobile": False})
         self.driver.execute_cdp_cmd("Emulation.setEmulatedMedia", {"features": [{"name": "prefers-color-scheme", "value": scheme}]})
 
     def open(self, page, folder="book/"):
@@ -304,7 +283,7 @@ class Browser(unittest.TestCase):
             self.skipTest("no npm with axe-core here")
         for scheme in ("light", "dark"):
             self.show(WIDE, scheme)
-            for page in [*SHOWN[:5], "fig07_contact.html", "list_of_deviations.html", "guide.html", "marks.html", "names-model.html"]:
+            for page in SHOWN:
                 with self.subTest(page, scheme=scheme):
                     self.open(page)
                     self.js(AXE.read_text(encoding="utf-8"))
@@ -357,14 +336,6 @@ class Browser(unittest.TestCase):
 
     def page(self, name):
         return (BOOK / f"{name}.html").read_text(encoding="utf-8")
-
-    def test_screenshots(self):
-        for scheme in ("light", "dark"):
-            for width in (NARROW, WIDE):
-                self.show(width, scheme, 1600)
-                for page in SHOWN:
-                    self.open(page)
-                    self.driver.save_screenshot(str(SHOTS / f"{re.split(r'[.]', page)[0]}-{width}-{scheme}.png"))
 
 
 if __name__ == "__main__":

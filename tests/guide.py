@@ -1,8 +1,6 @@
 """Runs the follow-up guide and the page on varying compliance as a reader would: its files written and its commands run, in order, in a copy of
 the project. The copy's compiler takes every object whose source is the same from the project's own build, so
 that only what the guide adds is compiled.
-
-Usage: tests/guide.py   (from the project's root, after `make all`)
 """
 import os
 import re

@@ -2,8 +2,6 @@
 
 Rows are drawn among those with one value: motions that repeat themselves and that nothing else competes with. A study that
 continues solutions from speed to speed is compared where the answer does not depend on the way.
-
-Usage: tests/kept_rows.py   (from the project's root, after `make all`)
 """
 import hashlib
 import sys
@@ -50,70 +48,49 @@ class Rows(unittest.TestCase):
             np.testing.assert_allclose(cells_as_numbers(new[new_name]), [float(row.first(old_name)) for row in old], rtol=most,
                                        atol=1e-12, err_msg=f"{old_name} of {[row.columns for row in old]}")
 
-    def test_map_of_clearance_and_speed(self):
-        """Motions from rest that repeat with every turn, lose no contact, and have no other beside them."""
-        keys = ("frequency", "bearing.radial_clearance_m")
-        kept = Kept("clearance_speed")
-        rows = kept.drawn((cells_as_numbers(kept.table["period"]) == 1) & (cells_as_numbers(kept.table["contact_share"]) == 1)
-                          & (kept.table["frequency"] > 26) & (kept.table["bearing.radial_clearance_m"] < 4e-5))
-        new = map_at(SETS[1], keys, [point(row, keys) for row in rows], quantity="period,lyapunov,contact_share")
-        self.compare(new, rows, {"period": "period", "contact_share": "contact_share"}, 0)
-        self.compare(new, rows, {"lyapunov": "lyapunov"}, 0.05)
+    def at_points(self, name, chosen, keys, options, names):
+        """Rows of a kept table by one map: the keys it takes from columns, and {column: (quantity, relative error)}."""
+        kept = Kept(name)
+        for row in kept.drawn(chosen(kept.table)):
+            own = {option: value(row) if callable(value) else value for option, value in options.items()}
+            new = map_at(SETS[int(row.first("set")) if "set" in row.columns else 1], list(keys), [point(row, keys.values())],
+                         quantity=",".join(quantity for quantity, _ in names.values()), **own)
+            for column, (quantity, most) in names.items():
+                with self.subTest(name, column=column):
+                    self.compare(new, [row], {quantity: column}, most)
 
-    def test_map_of_the_border(self):
-        """The peak of a sweep, where the bearing is stiff."""
-        keys = ("bearing.radial_clearance_m", "bearing.contact_stiffness_N_per_m1p5")
-        kept = Kept("stiffness_border")
-        rows = kept.drawn((kept.table["status"] == "ok") & (cells_as_numbers(kept.table["permanent"]) == 1))
-        new = map_at(SETS[1], keys, [point(row, keys) for row in rows], harmonics=6, sweep="1:60:60", frequency=30,
-                        quantity="peak,peak_frequency,permanent,error")
-        self.compare(new, rows, {"peak": "peak", "peak_frequency": "peak_frequency", "permanent": "permanent"}, 1e-6)
+    def test_maps(self):
+        """Motions from rest that repeat with every turn, lose no contact, and have no other beside them; the peak of a sweep, where
+        the bearing is stiff; sweeps in which contact is never lost."""
+        clearance, stiffness = "bearing.radial_clearance_m", "bearing.contact_stiffness_N_per_m1p5"
+        self.at_points("clearance_speed", lambda t: (cells_as_numbers(t["period"]) == 1) & (cells_as_numbers(t["contact_share"]) == 1)
+                       & (t["frequency"] > 26) & (t[clearance] < 4e-5), {"frequency": "frequency", clearance: clearance}, {},
+                       {"period": ("period", 0), "contact_share": ("contact_share", 0), "lyapunov": ("lyapunov", 0.05)})
+        self.at_points("stiffness_border", lambda t: (t["status"] == "ok") & (cells_as_numbers(t["permanent"]) == 1),
+                       {clearance: clearance, stiffness: stiffness}, {"harmonics": 6, "sweep": "1:60:60"},
+                       {name: (name, 1e-6) for name in ("peak", "peak_frequency", "permanent")})
+        self.at_points("clearance_stiffness", lambda t: (t["f_loss_first"] == -1) & (t["missed"] == 0),
+                       {clearance: "delta", stiffness: "K_H"}, {"harmonics": 6, "sweep": "1:60:60"},
+                       {"amp_peak": ("peak", 1e-6), "f_peak": ("peak_frequency", 1e-6), "largest_force": ("largest_load", 1e-6),
+                        "missed": ("missed", 1e-6)})
 
-    def test_clearance_and_stiffness(self):
-        """Sweeps in which contact is never lost."""
-        kept = Kept("clearance_stiffness")
-        rows = kept.drawn((kept.table["f_loss_first"] == -1) & (kept.table["missed"] == 0))
-        new = map_at(SETS[1], ("bearing.radial_clearance_m", "bearing.contact_stiffness_N_per_m1p5"),
-                        [point(row, ("delta", "K_H")) for row in rows], harmonics=6, sweep="1:60:60",
-                        quantity="peak,peak_frequency,largest_load,missed")
-        self.compare(new, rows, {"peak": "amp_peak", "peak_frequency": "f_peak", "largest_load": "largest_force", "missed": "missed"}, 1e-6)
-
-    def test_attractors(self):
-        """The one motion of a speed, where all starts end on one that repeats with every turn."""
-        kept = Kept("attractors")
-        rows = kept.drawn((kept.table["motion"] == 1) & (kept.table["period"] == 1) & (kept.table["starts"] >= 6))
-        for row in rows:
-            new = map_at(SETS[int(row.first("set"))], ("frequency",), [point(row, ("f",))], quantity="period,amp_x_s,amp_y_r")
-            self.compare(new, [row], {"period": "period"}, 0)
-            self.compare(new, [row], {"amp_x_s": "amp_x_s", "amp_y_r": "amp_y_r"}, 0.01)  # 256 instants in a turn
-
-    def test_verdicts(self):
-        """Multipliers of the machine, and those along the harmonics."""
-        kept = Kept("verdicts")
-        rows = kept.drawn((kept.table["machine_stable"] == 1) & (kept.table["distance"] < 0.01))
-        for row in rows:
-            new = map_at(SETS[int(row.first("set"))], ("frequency",), [point(row, ("f",))], method="aft",
-                            harmonics=int(row.first("m")), quantity="multiplier,distance,series")
-            self.compare(new, [row], {"multiplier": "machine", "distance": "distance", "series": "series"}, 1e-3)
-
-    def test_stability(self):
-        """Points of the curves with a stable motion nearby, above the transition: amplitude and multiplier."""
-        kept = Kept("stability")
-        rows = kept.drawn((kept.table["set"] == 1) & (kept.table["stable"] == 1) & (kept.table["f"] > 40) & (kept.table["largest_multiplier"] > 0))
-        for row in rows:
-            new = map_at(SETS[int(row.first("set"))], ("frequency",), [point(row, ("f",))], method="aft",
-                            harmonics=int(row.first("harmonics")), quantity="amplitude,multiplier")
-            self.compare(new, [row], {"amplitude": "amp_x_r", "multiplier": "largest_multiplier"}, 1e-3)
-
-    def test_validity(self):
-        """Distances of stable solutions with few harmonics from the machine's motion."""
-        kept = Kept("validity")
-        rows = kept.drawn((kept.table["stable"] == 1) & (kept.table["adaptive"] == 0) & (kept.table["nearest_periodic"] == 1)
-                          & (kept.table["distance"] < 0.1))
-        for row in rows:
-            new = map_at(SETS[int(row.first("set"))], ("frequency",), [point(row, ("f",))], method="aft",
-                            harmonics=int(row.first("m")), quantity="distance")
-            self.compare(new, [row], {"distance": "distance"}, 0.05)  # 256 instants there
+    def test_points(self):
+        """The one motion of a speed, where all starts end on one that repeats with every turn; multipliers of the machine, and those
+        along the harmonics; points of curves with a stable motion nearby, above the transition; distances of stable solutions with
+        few harmonics from the machine's motion; motions from rest with another cage, above the resonance."""
+        at, fixed = {"frequency": "f"}, {"method": "aft", "harmonics": lambda row: int(row.first("m"))}
+        self.at_points("attractors", lambda t: (t["motion"] == 1) & (t["period"] == 1) & (t["starts"] >= 6), at, {},
+                       {"period": ("period", 0), "amp_x_s": ("amp_x_s", 0.01), "amp_y_r": ("amp_y_r", 0.01)})  # 256 instants in a turn
+        self.at_points("verdicts", lambda t: (t["machine_stable"] == 1) & (t["distance"] < 0.01), at, fixed,
+                       {"machine": ("multiplier", 1e-3), "distance": ("distance", 1e-3), "series": ("series", 1e-3)})
+        self.at_points("stability", lambda t: (t["set"] == 1) & (t["stable"] == 1) & (t["f"] > 40) & (t["largest_multiplier"] > 0), at,
+                       {"method": "aft", "harmonics": lambda row: int(row.first("harmonics"))},
+                       {"amp_x_r": ("amplitude", 1e-3), "largest_multiplier": ("multiplier", 1e-3)})
+        self.at_points("validity", lambda t: (t["stable"] == 1) & (t["adaptive"] == 0) & (t["nearest_periodic"] == 1)
+                       & (t["distance"] < 0.1), at, fixed, {"distance": ("distance", 0.05)})  # 256 instants there
+        self.at_points("cage", lambda t: (t["f"] > 40) & (t["found"] == 1) & (t["stable"] == 1), {**at, "bearing.cage_speed_ratio": "c"},
+                       {"method": "rk4", "longest": 6, "budget": 1e10},
+                       {name: (name, 0.01) for name in ("amplitude", "contact_share", "ball_load")})
 
     def test_adaptive(self):
         """The harmonics that a tolerance needs, and the printed error."""
@@ -158,14 +135,6 @@ class Rows(unittest.TestCase):
                                 == (name, row.first("suspension"), row.first("contact_damping")))
             new = map_at(file, ["frequency", *keys], [[float(row.first("f")), *values]], harmonics=6, quantity="error")
             np.testing.assert_allclose(2 if new.first("error") == "-" else float(new.first("error")), row.first("error_6"), rtol=1e-3)
-
-    def test_cage(self):
-        """Amplitude and contact of motions from rest with another cage, above the resonance."""
-        kept = Kept("cage")
-        for row in kept.drawn((kept.table["f"] > 40) & (kept.table["found"] == 1) & (kept.table["stable"] == 1)):
-            new = map_at(SETS[int(row.first("set"))], ("frequency", "bearing.cage_speed_ratio"), [point(row, ("f", "c"))],
-                            method="rk4", longest=6, quantity="amplitude,contact_share,ball_load", budget=1e10)
-            self.compare(new, [row], {name: name for name in ("amplitude", "contact_share", "ball_load")}, 0.01)
 
 
 if __name__ == "__main__":

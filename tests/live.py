@@ -6,44 +6,26 @@ does: presets, sliders, numbers, dragging, keys, TOML in and out, table, picture
 system and through a server: no message of the browser and no request but the page. A thousand changes leave the memory as
 it was.
 
-Usage: tests/live.py [--measure | --screenshots]   (from the project's root, after `make live` and `make build/explore`)
+Usage: tests/live.py   (from the project's root, after `make live` and `make build/explore`)
 """
-import base64
-import http.server
 import json
 import random
 import shutil
-import statistics
 import subprocess
 import sys
 import tempfile
-import threading
 import time
 import unittest
 import urllib.parse
 import xml.dom.minidom
 from pathlib import Path
 
-sys.path.insert(0, str(Path(__file__).parent / "support"))
-from explore import EXPLORE, MACHINE  # noqa: E402
+sys.path.insert(0, str(Path(__file__).parent))
+from support.browser import browser, served  # noqa: E402
+from support.explore import EXPLORE, MACHINE  # noqa: E402
 
 PAGE = Path("build/live/index.html")
 MACHINES, SPEEDS = 30, (8, 90)
-
-
-def browser(folder):
-    from selenium import webdriver
-    from selenium.webdriver.chrome.service import Service
-    options = webdriver.ChromeOptions()
-    for flag in ("headless=new", "no-sandbox", "disable-gpu", "hide-scrollbars", "no-first-run", "window-size=1400,1000",
-                 "disable-background-networking", "disable-component-update", "disable-sync",
-                 "enable-precise-memory-info", f"user-data-dir={folder}/profile"):
-        options.add_argument(f"--{flag}")
-    options.set_capability("goog:loggingPrefs", {"browser": "ALL", "performance": "ALL"})
-    driver = webdriver.Chrome(service=Service(shutil.which("chromedriver")), options=options)
-    driver.set_script_timeout(300)
-    driver.execute_cdp_cmd("Page.setDownloadBehavior", {"behavior": "allow", "downloadPath": str(folder)})
-    return driver
 
 
 def random_machine(dice):
@@ -79,7 +61,7 @@ class Page(unittest.TestCase):
     def setUpClass(cls):
         cls.scratch = tempfile.TemporaryDirectory()
         cls.folder = Path(cls.scratch.name)
-        cls.driver = browser(cls.folder)
+        cls.driver = browser(cls.folder, "window-size=1400,1000", "enable-precise-memory-info")
         cls.addClassCleanup(cls.scratch.cleanup)
         cls.addClassCleanup(cls.driver.quit)
 
@@ -394,18 +376,7 @@ class Page(unittest.TestCase):
             self.assertAlmostEqual(ours / theirs, 1, delta=1e-9)
 
     def test_no_request_from_file_or_server(self):
-        class Handler(http.server.SimpleHTTPRequestHandler):
-            def __init__(self, *arguments):
-                super().__init__(*arguments, directory=str(PAGE.parent))
-
-            def log_message(self, *_):
-                pass
-
-        server = http.server.ThreadingHTTPServer(("127.0.0.1", 0), Handler)
-        self.addCleanup(server.server_close)
-        self.addCleanup(server.shutdown)
-        threading.Thread(target=server.serve_forever, daemon=True).start()
-        for address in (PAGE.resolve().as_uri(), f"http://127.0.0.1:{server.server_port}/index.html"):
+        for address in (PAGE.resolve().as_uri(), served(PAGE.parent, self.addCleanup) + "index.html"):
             self.driver.get("about:blank")
             self.driver.get_log("performance")
             self.open(address)
@@ -435,56 +406,6 @@ class Page(unittest.TestCase):
         print(f"memory after 200 and 1,000 changes: module {module} and {module_after} bytes, page {heap} and {heap_after} bytes")
 
 
-def measure():
-    """What the closing note of the page says; not a test."""
-    with tempfile.TemporaryDirectory() as folder:
-        driver = browser(folder)
-        driver.get(PAGE.resolve().as_uri())
-        time.sleep(6)
-        driver.execute_script("state.m = 10; setSpeed(45)")
-        time.sleep(3)
-        times = []
-        for k in range(200):
-            driver.execute_script("const s = document.querySelector('[data-key=\"bearing.radial_clearance_m\"] [type=range]');"
-                                  "s.value = arguments[0]; s.dispatchEvent(new Event('input'))", 20 + k % 50)
-            time.sleep(0.06)
-            times.append(float(driver.execute_script("return document.body.dataset.ms")))
-        curves = []
-        for k in range(7):
-            driver.execute_script("delete document.body.dataset.curve; engines.curve.cancel(); followCurve()")
-            while not (done := driver.execute_script("return document.body.dataset.curve")):
-                time.sleep(0.1)
-            curves.append(float(done))
-        driver.quit()
-    packed = subprocess.run(["gzip", "-9c", PAGE], capture_output=True).stdout
-    print(f"slider to orbit, m = 10: median {statistics.median(times):.1f} ms, 95 % below {sorted(times)[189]:.1f} ms")
-    print(f"response 1-60 Hz, m = 10: median {statistics.median(curves) / 1000:.2f} s")
-    print(f"size {PAGE.stat().st_size} bytes, compressed {len(packed)}")
-
-
-def screenshots():
-    """400 and 1,400 pixels, light and dark, in build/screenshots."""
-    shots = Path("build/screenshots")
-    shots.mkdir(parents=True, exist_ok=True)
-    with tempfile.TemporaryDirectory() as folder:
-        driver = browser(folder)
-        for width in (400, 1400):
-            for scheme in ("light", "dark"):
-                driver.execute_cdp_cmd("Emulation.setEmulatedMedia",
-                                       {"features": [{"name": "prefers-color-scheme", "value": scheme}]})
-                driver.execute_cdp_cmd("Emulation.setDeviceMetricsOverride",
-                                       {"width": width, "height": 900, "deviceScaleFactor": 1, "mobile": False})
-                driver.get(PAGE.resolve().as_uri())
-                time.sleep(5)
-                height = driver.execute_cdp_cmd("Page.getLayoutMetrics", {})["cssContentSize"]["height"]
-                whole = {"x": 0, "y": 0, "width": width, "height": height, "scale": 1}
-                shot = driver.execute_cdp_cmd("Page.captureScreenshot", {"captureBeyondViewport": True, "clip": whole})
-                (shots / f"live-{width}-{scheme}.png").write_bytes(base64.b64decode(shot["data"]))
-                wide = driver.execute_script("return document.documentElement.scrollWidth")
-                print(f"{width} {scheme}: {wide} wide")
-        driver.quit()
-
-
 if __name__ == "__main__":
     if not PAGE.exists():
         why = "emscripten is not installed" if not shutil.which("em++") else "it is not built"
@@ -493,7 +414,4 @@ if __name__ == "__main__":
     if subprocess.run(["make", "-q", "live"], capture_output=True).returncode:
         print("skipped: the live page is older than its sources (make live)")
         sys.exit(77)
-    if sys.argv[1:] in (["--measure"], ["--screenshots"]):
-        measure() if sys.argv[1] == "--measure" else screenshots()
-    else:
-        unittest.main()
+    unittest.main()

@@ -35,6 +35,11 @@ def decade(dice, low, high):
     return float(f"{10 ** (low + (high - low) * dice.randrange(2**20) / 2**20):.6e}")
 
 
+def spread(dice):
+    """Draws between two values, evenly in their logarithm, with four digits."""
+    return lambda low, high: float(f"{math.exp(dice.uniform(math.log(low), math.log(high))):.4g}")
+
+
 def one_in(dice, count):
     return dice.randrange(count) == count - 1
 
@@ -57,8 +62,7 @@ def extreme_machine(dice):
 
 def random_machine(dice):
     """A machine like those that are built: ten times more or less of most values."""
-    def between(low, high):
-        return float(f"{math.exp(dice.uniform(math.log(low), math.log(high))):.4g}")
+    between = spread(dice)
     balls = dice.choice([8, 9, 10, 12, 14, 16, 18, 20])
     machine = {name: dict(table) for name, table in SET_1.items()}
     for body, masses, frequencies in (("stator", (5, 60), (150, 900)), ("rotor", (5, 80), (60, 400))):
@@ -117,8 +121,7 @@ def of_another_kind(dice, machine):
 
 def realistic_machine(dice):
     """A rotor in a bearing of the catalogue, in a sprung housing, and its speed [Hz]."""
-    def between(low, high):
-        return float(f"{math.exp(dice.uniform(math.log(low), math.log(high))):.4g}")
+    between = spread(dice)
 
     def damped(mass, hertz):
         """By a ratio, or by a damper that has such a ratio at that frequency."""

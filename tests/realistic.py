@@ -8,10 +8,8 @@ at t = 0, by the judge. A chaotic one is compared by mean and rms. A machine on 
 judge contradicts itself does not count. One row a machine; status 1 where less is
 answered, decided or right than is asked.
 
-Usage, from the root of the project: tests/realistic.py [--count 40] [--seed 1]
-[--kept-aside SEED] [--response] [--quick]
+Usage, from the root of the project: tests/realistic.py [COUNT] [SEED]   (10 machines, seed 1)
 """
-import argparse
 import os
 import random
 import subprocess
@@ -23,19 +21,15 @@ from pathlib import Path
 
 import numpy as np
 
-sys.path[:0] = [str(Path(__file__).parent), str(Path(__file__).parent / "truth"),
-                str(Path(__file__).parents[1] / "figures")]
-from independent import NAMES, POINTS, Model  # noqa: E402
+sys.path[:0] = [str(Path(__file__).parent), str(Path(__file__).parent / "truth")]
+from independent import NAMES, POINTS, Model, displacements, errors, state_at_zero  # noqa: E402
 from machines import entries, realistic_machine, written  # noqa: E402
-from support.keys import NO_NUMBER, keys_of, number  # noqa: E402
-from tables import Table  # noqa: E402
+from support.explore import EXPLORE, NO_NUMBER, Table  # noqa: E402
 
-EXPLORE = Path(os.environ.get("BUILD", "build"), "explore").resolve()
 TOLERANCE = 1e-3  # to which a motion must be right where it prints a smaller error
 FOLLOWED = 256    # base periods through which a printed state must be continued
 THIN = 64         # instants of each that are compared then
 LONGEST = 300     # of a command [s]
-METHOD = []       # options besides those of the question
 COLUMNS = ("name f status regime period judge judge_period judge_exponent agree "
            "difference allowed seconds note")
 
@@ -53,34 +47,8 @@ def ask(command, file, *options):
     return status, result.stdout, time.monotonic() - start
 
 
-def displacements(text):
-    table = Table.of(text)
-    zero = np.zeros(len(table))  # a stator that is held
-    return np.stack([table.columns.get(name, zero) for name in NAMES], axis=1)
-
-
-def errors(ours, theirs):
-    """Of displacements: the largest over the largest displacement, and rms about the mean
-    over that motion's rms."""
-    def scatter(q):
-        return np.linalg.norm(q - q.mean(axis=0))
-    return np.array([abs(ours - theirs).max() / abs(theirs).max(),
-                     scatter(ours - theirs) / scatter(theirs)])
-
-
 def allowed(keys):
-    return np.array([1.5 * max(TOLERANCE, number(keys, name, 0))
-                     for name in ("error_largest", "error_rms")])
-
-
-def state_at_zero(rows, closed, base):
-    """Displacements and rates of the first row."""
-    if closed:
-        orders = 2j * np.pi * np.arange(len(rows) // 2 + 1)[:, None] / len(rows)
-        rates = np.fft.irfft(orders * np.fft.rfft(rows, axis=0), axis=0, n=len(rows))[0]
-    else:
-        rates = np.polynomial.polynomial.polyfit(np.arange(9), rows[:9], 8)[1]
-    return np.concatenate([rows[0], rates * POINTS / base])
+    return np.array([1.5 * max(TOLERANCE, keys.get(name, 0)) for name in ("error_largest", "error_rms")])
 
 
 def turn_with(cage_angle, model):
@@ -91,7 +59,7 @@ def turn_with(cage_angle, model):
 
 def worse(ours, theirs, keys):
     """The larger share of what is allowed, and the error that has it."""
-    found, most = errors(ours, theirs), allowed(keys)
+    found, most = np.array(errors(ours, theirs)), allowed(keys)
     at = int(np.argmax(found / most))
     return found[at], most[at]
 
@@ -99,7 +67,7 @@ def worse(ours, theirs, keys):
 def compared(rows, keys, judged):
     """Yes or no, the difference and what is allowed, of a motion that closes or that two
     frequencies drive."""
-    period = int(number(keys, "period", 0)) if keys["regime"] == "periodic" else 0
+    period = int(keys.get("period", 0)) if keys["regime"] == "periodic" else 0
     best, whole = (np.inf, 1), len(rows) == max(period, 1) * POINTS
     if whole and judged.kind == keys["regime"] and judged.period == period:
         for shift in range(max(period, 1)):
@@ -111,8 +79,10 @@ def compared(rows, keys, judged):
 def followed(file, frequency, rows, keys, model):
     """The same where the judge starts from the printed state."""
     closed, chaotic = keys["regime"] == "periodic", keys["regime"] == "chaotic"
-    first = turn_with(number(keys, "cage_angle", 0), model) if chaotic else 0
-    state = state_at_zero(rows, closed, model.base)
+    first = turn_with(keys.get("cage_angle", 0), model) if chaotic else 0
+    state = state_at_zero(rows, model.base * len(rows) / POINTS)
+    if not closed:
+        state[4:] = np.polynomial.polynomial.polyfit(np.arange(9), rows[:9], 8)[1] * POINTS / model.base
     judged = model.from_state(state, first, FOLLOWED, THIN)
     if judged.kind != keys["regime"]:
         return "no", np.inf, 1
@@ -123,10 +93,10 @@ def followed(file, frequency, rows, keys, model):
         printed = np.tile(thin, (FOLLOWED * THIN // len(thin) + 1, 1))[: FOLLOWED * THIN]
     else:
         turns = ["--periods", FOLLOWED, "--points", THIN]
-        status, text, _ = ask("orbit", file, "--frequency", frequency, *turns, *METHOD)
+        status, text, _ = ask("orbit", file, "--frequency", frequency, *turns)
         if status:
             return "no", np.inf, 1
-        printed = displacements(text)
+        printed = displacements(Table.of(text))
     difference, most = worse(printed, judged.rows, keys)
     return ("yes" if difference <= most else "no"), difference, most
 
@@ -138,9 +108,9 @@ def statistics_agree(keys, judged):
     largest, wrong = judged.statistics[4:, 0].max(), []
     names = [f"{of}_{q}" for of in ("mean", "rms") for q in NAMES]
     for (theirs, their_error), name in zip(judged.statistics, names):
-        error = np.hypot(their_error, number(keys, f"{name}_error"))
+        error = np.hypot(their_error, keys.get(f"{name}_error", np.nan))
         # Not a number, where a key is missing, is wrong.
-        right = abs(number(keys, name) - theirs) <= max(4 * error, 0.05 * largest)
+        right = abs(keys.get(name, np.nan) - theirs) <= max(4 * error, 0.05 * largest)
         wrong.append(not right)
     return ("yes" if np.mean(wrong) <= 0.05 else "no"), np.mean(wrong), 0.05
 
@@ -150,11 +120,11 @@ def answer(name, machine, frequency, folder):
     file = Path(folder, f"{name}.toml")
     file.write_text(written(entries(machine, name)), encoding="utf-8")
     status, text, seconds = ask("orbit", file, "--frequency", frequency, "--points",
-                                POINTS, *METHOD)
-    keys, notes = keys_of(text) if status == 0 else {}, []
+                                POINTS)
+    keys, notes = Table.of(text).keys() if status == 0 else {}, []
     for command in ("contact", "spectrum"):
-        other, printed, _ = ask(command, file, "--frequency", frequency, *METHOD)
-        if other == 0 and keys_of(printed).get("regime") != keys.get("regime"):
+        other, printed, _ = ask(command, file, "--frequency", frequency)
+        if other == 0 and Table.of(printed).keys().get("regime") != keys.get("regime"):
             notes.append(f"{command} has another regime")
         status = status or other
     return {"name": name, "file": file, "machine": machine, "f": frequency,
@@ -167,12 +137,12 @@ def verdict(case):
     model, keys, notes = Model(case["machine"], case["f"]), case["keys"], case["notes"]
     judged, regime = model.from_rest(), keys.get("regime", "-")
     agree, difference, most = "no", np.nan, np.nan
-    if not model.two and abs(number(keys, "base_period", 0) / model.base - 1) > 1e-9:
+    if not model.two and abs(keys.get("base_period", 0) / model.base - 1) > 1e-9:
         notes.append("another base period")
     if regime == "undecided":
         agree = "undecided"
     elif regime in ("periodic", "quasi-periodic", "chaotic"):
-        rows = displacements(case["text"])
+        rows = displacements(Table.of(case["text"]))
         if regime != "chaotic":
             agree, difference, most = compared(rows, keys, judged)
         elif judged.kind == "chaotic":
@@ -201,28 +171,9 @@ def response_complete(case):
     return whole, seconds
 
 
-def asked():
-    parser = argparse.ArgumentParser(description=__doc__.split("\n\n", maxsplit=1)[0])
-    parser.add_argument("--count", type=int, default=40)
-    parser.add_argument("--seed", type=int, default=1)
-    parser.add_argument("--kept-aside", type=int, metavar="SEED",
-                        help="12 other machines")
-    parser.add_argument("--response", action="store_true",
-                        help="response of 12 machines, too")
-    parser.add_argument("--quick", action="store_true",
-                        help="10 machines, response of one")
-    options = parser.parse_args()
-    if options.kept_aside is not None:
-        options.count, options.seed = 12, f"kept aside {options.kept_aside}"
-    if options.quick:
-        options.count = 10
-    return options
-
-
-def main():
-    options = asked()
-    dice = random.Random(options.seed)
-    drawn = [realistic_machine(dice) for _ in range(options.count)]
+def main(number=10, seed=1):
+    dice = random.Random(int(seed))
+    drawn = [realistic_machine(dice) for _ in range(int(number))]
     print(*COLUMNS.split(), sep="\t")
     cores = os.cpu_count()
     with tempfile.TemporaryDirectory() as folder, ThreadPoolExecutor(cores) as pool:
@@ -231,8 +182,7 @@ def main():
         for row in pool.map(verdict, cases):
             rows.append(row)
             print(*(row[name] for name in COLUMNS.split()), sep="\t", flush=True)
-        swept = cases[:12 if options.response else 1 if options.quick else 0]
-        responses = [response_complete(case) for case in swept]
+        responses = [response_complete(case) for case in cases[::10]]
     count = len(rows)
     unanswered = sum(row["status"] != 0 for row in rows)
     undecided = sum(row["regime"] in ("undecided", "-") for row in rows)
@@ -250,4 +200,4 @@ def main():
 
 
 if __name__ == "__main__":
-    sys.exit(1 if main() else 0)
+    sys.exit(1 if main(*sys.argv[1:]) else 0)

@@ -1,8 +1,6 @@
 """One version everywhere: that of CMakeLists.txt in CITATION.cff, codemeta.json, CHANGELOG.md and the
 headers of all computed tables; every scene in data/tables.mk. A kept table may be of an earlier version, but must name one or the
 revision that computed it.
-
-Usage: tests/versions.py   (from the project's root, after `make all`)
 """
 import json
 import re

@@ -4,8 +4,6 @@ budget of evaluations.
 
 Would catch integration that never ends (many balls, stiff contacts, slow turns),
 divisions by a damping, weight or stiffness that is zero, and results that are no numbers.
-
-Usage: tests/hard/corners.py (from the project's root)
 """
 import copy
 import itertools
@@ -15,9 +13,7 @@ from pathlib import Path
 
 sys.path.insert(0, str(Path(__file__).parents[1]))
 from machines import SET_1, entries, written  # noqa: E402
-from support.explore import Case  # noqa: E402
-from support.keys import NO_NUMBER, keys_of  # noqa: E402
-from tables import Table  # noqa: E402
+from support.explore import NO_NUMBER, Case, Table  # noqa: E402
 
 REGIMES = {"rest", "periodic", "quasi-periodic", "chaotic", "undecided"}
 # Of 16 balls pass in a turn: 7, 61/9, nearly 7, 6.9136, and no ratio.
@@ -72,11 +68,10 @@ class Corners(Case):
                 return
             self.assertEqual(result.returncode, 0, result.stderr)
             self.assertIsNone(NO_NUMBER.search(result.stdout))
-            keys = keys_of(result.stdout)
-            regime = keys.get("regime")
-            self.assertIn(regime, REGIMES)
-            self.assertLessEqual(float(keys["evaluations"]), 1.1 * float(keys["budget"]))
             table = Table.of(result.stdout)
+            regime = table.value("regime")
+            self.assertIn(regime, REGIMES)
+            self.assertLessEqual(table.value("evaluations"), 1.1 * table.value("budget"))
             self.assertGreaterEqual(len(table), 64)
             if {"no weight", "balanced"} <= set(corners):
                 self.assertEqual(regime, "rest")

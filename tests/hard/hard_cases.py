@@ -1,8 +1,6 @@
 """The hard cases: every method ends with a confirmed answer or with a reason, and never with a wrong answer that
 claims success. The verdicts of the kept table are formed anew from its numbers, and every seventeenth case is
 computed again. `make hard_cases` computes all.
-
-Usage: tests/hard/hard_cases.py   (from the project's root)
 """
 import os
 import subprocess

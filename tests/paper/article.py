@@ -3,8 +3,6 @@ equations, figures, tables, sections, data sets, claims and deviations, and no n
 cited references have a DOI; the others say that none was confirmed. A caption says what its figure shows: eight words or more,
 and every figure and table has one. The article as it is read, with its numbers: at most 5,500 words with captions, tables and
 references apart; nine figures; an abstract of 180 words with 12 numbers; keywords; no name beside a citation that repeats it.
-
-Usage: tests/paper/article.py   (from the project's root)
 """
 import re
 import sys

@@ -1,7 +1,5 @@
 """The claims' quantities on machines whose verdict is known; the verdicts of the computed tables when rows are left
 out or put in another order; both versions of Table 1 by the same rules, and their scores in README and results.
-
-Usage: tests/paper/claims.py   (from the project's root, after `make all`)
 """
 import sys
 import tomllib

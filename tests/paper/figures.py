@@ -1,6 +1,4 @@
 """Every panel of every figure shows something: marks are counted in the SVG.
-
-Usage: tests/paper/figures.py   (from the project's root, after `make all`)
 """
 import re
 import unittest

@@ -5,8 +5,12 @@ Small oscillators of public harmonic-balance tools (NLvib examples 01 to 03), se
 through the seam of balance/balance.hpp. M q̈ + D q̇ + K q + f(q) = F cos Ωt. */
 #pragma once
 
+#include <array>
+#include <bit>
+#include <cstdint>
+
 #include "balance/balance.hpp"
-#include "model/parameters.hpp"
+#include "model/rotor_stator.hpp"
 #include "time/floquet.hpp"
 
 namespace rotor_stator::tests {
@@ -31,15 +35,9 @@ Oscillator duffing();
 Oscillator two_masses_cubic();
 Oscillator two_masses_unilateral();
 
-/** The derivative of the period map of an oscillator with d masses, linearised along the series `x` at
-    `omega`, by RK4 with so many steps; they end where the stiffness jumps, which none straddles. 2d × 2d,
-    displacements first. */
-Eigen::MatrixXd monodromy(const Oscillator& oscillator, const Eigen::VectorXd& x,
-                          double omega, int steps);
-
-/** Its multipliers, and their change from half as many steps. */
-Floquet floquet(const Oscillator& oscillator, const Eigen::VectorXd& x, double omega,
-                int steps = 1000, double tolerance = 1e-6);
+/** The multipliers along the series `x` of an oscillator with a smooth stiffness, by RK4, and their change from half as
+    many steps. */
+Floquet floquet(const Oscillator& oscillator, const Eigen::VectorXd& x, double omega);
 
 /** The amplitude of harmonic `h` of variable `row` in the coefficients `x` with d
     variables. */
@@ -53,5 +51,13 @@ Parameters set_1();
 
 /** 2π times a frequency. */
 double hertz(double frequency);
+
+using Bits = std::array<std::uint64_t, 8>;
+
+/** The bits of a state: what must be the same to the last one. */
+inline Bits bits(const State& state)
+{
+  return std::bit_cast<Bits>(std::array{state.position, state.velocity});
+}
 
 }  // namespace rotor_stator::tests

@@ -1,5 +1,6 @@
 """Running explore, for the tests; BUILD in the environment names another build folder than build."""
 import os
+import re
 import subprocess
 import sys
 import tempfile
@@ -13,6 +14,15 @@ EXPLORE = Path(os.environ.get("BUILD", "build"), "explore").resolve()
 MACHINE = Path("data/set1.toml").read_text(encoding="utf-8")
 RESPONSE = ["--from", "20", "--to", "21"]
 ORBIT = ["--frequency", "45", "--points", "4"]
+NO_NUMBER = re.compile(r"(?<![^\W_])(nan|inf|infinity)(?![^\W_])", re.IGNORECASE)
+
+
+def changed(text=MACHINE, **values):
+    """The machine with other values of these keys, wherever they stand."""
+    for key, value in values.items():
+        text, count = re.subn(rf"(?m)^{key} = .*$", f"{key} = {value}", text)
+        assert count > 0, key
+    return text
 
 
 class Case(unittest.TestCase):
@@ -44,8 +54,15 @@ class Case(unittest.TestCase):
         self.assertFalse(result.stdout)
         return result
 
+    def refused_each(self, cases, *command):
+        """Pairs of a command's further options, in one string, and words of the message."""
+        for options, words in cases:
+            with self.subTest(options):
+                self.refused(words, *command, *options.split())
+
     def refused_machine(self, words, text):
-        self.refused(words, "orbit", self.file("bad.toml", text), *ORBIT)
+        with self.subTest(words):
+            self.refused(words, "orbit", self.file("bad.toml", text), *ORBIT)
 
     def refused_change(self, old, new, words, status=2):
         """The machine with one piece of text replaced."""
@@ -62,3 +79,12 @@ class Case(unittest.TestCase):
 
     def table(self, *arguments):
         return Table.of("\n".join(self.lines(*arguments)))
+
+    def rows(self, *arguments):
+        """The lines that are no header."""
+        return [line for line in self.lines(*arguments) if not line.startswith("#")]
+
+    def values(self, *check):
+        """What `check` says, by name."""
+        table = self.table("check", *check)
+        return dict(zip(table["name"], table["value"]))

@@ -28,9 +28,17 @@ SAME = 1e-4             # of the largest displacement: what a finer step may cha
 TOLERANCE = 1e-9        # of the judge's local error
 
 
-def hertz(ball, pitch, groove, inside, young, poisson):
-    """K in Q = K p^1.5 of a ball in the groove of a race [N/m^1.5]: Harris, Rolling
-    Bearing Analysis."""
+def ask(*words):
+    """What the judge says of one case."""
+    line = " ".join(repr(float(w)) if isinstance(w, float) else str(w) for w in words)
+    answer = subprocess.run([JUDGE], input=line + "\n", stdout=subprocess.PIPE, text=True,
+                            check=True).stdout
+    return np.array(answer.split(), float)
+
+
+def ellipse(ball, pitch, groove, inside):
+    """Sum of the curvatures of a ball in the groove of a race, ratio k > 1 of the axes of
+    their contact, and its m = 1 - 1/k^2: Harris, Rolling Bearing Analysis."""
     sign = 1 if inside else -1
     along, across = 2 / ball + 2 * sign / (pitch - sign * ball), (2 - 1 / groove) / ball
     total, share = along + across, (along - across) / (along + across)
@@ -40,18 +48,24 @@ def hertz(ball, pitch, groove, inside, young, poisson):
         return ((k**2 + 1) * ellipe(m) - 2 * ellipk(m)) / ((k**2 - 1) * ellipe(m)) - share
 
     k = brentq(excess, 1.001, 1000)
-    m = 1 - 1 / k**2
+    return total, k, 1 - 1 / k**2
+
+
+def hertz(ball, pitch, groove, inside, young, poisson):
+    """K in Q = K p^1.5 [N/m^1.5]."""
+    total, k, m = ellipse(ball, pitch, groove, inside)
     approach = 2 * ellipk(m) / math.pi * (math.pi / (2 * k**2 * ellipe(m))) ** (1 / 3)
     # p = approach (3 Q (1 - nu^2) / (total E))^(2/3) total / 2, two equal elastic bodies
     return (approach * total / 2) ** -1.5 * total * young / (3 * (1 - poisson**2))
 
 
 def bearing_of(table):
-    """n, K_H, delta, c of the table [bearing]."""
+    """n, K, its exponent, delta, c of the table [bearing]."""
     if "designation" not in table:
         delta = table.get("radial_clearance_m", table.get("diametral_clearance_m", 0) / 2)
-        stiffness = table["contact_stiffness_N_per_m1p5"]
-        return table["balls"], stiffness, delta, table["cage_speed_ratio"]
+        exponent = table.get("contact_exponent", 1.5)
+        stiffness = table["contact_stiffness_N_per_m" + ("1p5" if exponent == 1.5 else "n")]
+        return table["balls"], stiffness, exponent, delta, table["cage_speed_ratio"]
     named = table["designation"]
     entry = next(one for one in CATALOGUE["bearing"] if one["designation"] == named)
     ball, pitch = entry["ball_diameter_m"], entry["pitch_diameter_m"]
@@ -60,8 +74,29 @@ def bearing_of(table):
          for side in ("inner", "outer")]
     range_ = next(one for one in CATALOGUE["clearance"]
                   if one["above_m"] < entry["bore_m"] <= one["up_to_m"])
-    return (entry["balls"], sum(one ** (-2 / 3) for one in k) ** -1.5,
+    return (entry["balls"], sum(one ** (-2 / 3) for one in k) ** -1.5, 1.5,
             sum(range_[table["internal_clearance"]]) / 4, (1 - ball / pitch) / 2)
+
+
+def displacements(table):
+    """Of a table's motion, a row for each instant; zero for a stator that is held."""
+    zero = np.zeros(len(table))
+    return np.stack([table.columns.get(name, zero) for name in NAMES], axis=1)
+
+
+def state_at_zero(rows, period):
+    """Displacements and rates of the first row of a motion that closes after `period`."""
+    orders = 2j * np.pi * np.arange(len(rows) // 2 + 1)[:, None] / period
+    rates = np.fft.irfft(orders * np.fft.rfft(rows, axis=0), axis=0, n=len(rows))[0]
+    return np.concatenate([rows[0], rates])
+
+
+def errors(ours, theirs):
+    """Of displacements: the largest over the largest displacement, and rms about the mean
+    over that motion's rms."""
+    def scatter(q):
+        return np.linalg.norm(q - q.mean(axis=0))
+    return abs(ours - theirs).max() / abs(theirs).max(), scatter(ours - theirs) / scatter(theirs)
 
 
 @dataclasses.dataclass
@@ -89,7 +124,7 @@ class Model:
 
     def __init__(self, machine, frequency):
         self.frequency = frequency
-        self.n, self.k_h, self.delta, self.c = bearing_of(machine["bearing"])
+        self.n, self.k_h, self.exponent, self.delta, self.c = bearing_of(machine["bearing"])
         self.damping = machine["bearing"].get("contact_damping_s_per_m", 0)
         self.unbalance = machine["rotor"]["unbalance_kg_m"]
         spall = machine["bearing"].get("defect", {})
@@ -119,8 +154,8 @@ class Model:
 
     def words(self):
         bodies = [value for of in zip(self.m, self.k, self.d) for value in of]
-        return ["eq7", *bodies, self.unbalance, self.n, self.k_h, self.delta, self.c,
-                self.damping, *self.spall,
+        return ["eq7", *bodies, self.unbalance, self.n, self.k_h, self.exponent, self.delta,
+                self.c, self.damping, *self.spall,
                 *self.loads[0], *self.loads[1], self.frequency, self.turns]
 
     def lead(self):
@@ -148,9 +183,10 @@ class Model:
 
         def energy(q):
             p = np.maximum(0, row @ q - self.delta)
-            return springs @ q**2 / 2 + 0.4 * self.k_h * np.sum(p**2.5) - load @ q
+            stored = self.k_h * np.sum(p ** (self.exponent + 1)) / (self.exponent + 1)
+            return springs @ q**2 / 2 + stored - load @ q
 
-        size = self.delta + (np.linalg.norm(load) / self.k_h) ** (2 / 3) + 1e-12
+        size = abs(self.delta) + (np.linalg.norm(load) / self.k_h) ** (2 / 3) + 1e-12
         q, damping = np.zeros(4), np.linalg.norm(load) / size * 1e-3 + 1e-9
         if load.any():
             total = np.sum(self.loads, axis=0)
@@ -158,8 +194,9 @@ class Model:
             q += np.zeros(4) if held else np.tile(total / sum(self.k), 2)
         for _ in range(500):
             p = np.maximum(0, row @ q - self.delta)
-            force = springs * q + self.k_h * row.T @ p**1.5 - load
-            stiff = np.diag(springs) + 1.5 * self.k_h * (row.T * np.sqrt(p)) @ row
+            force = springs * q + self.k_h * row.T @ p**self.exponent - load
+            slopes = self.exponent * self.k_h * p ** (self.exponent - 1)
+            stiff = np.diag(springs) + (row.T * slopes) @ row
             if held:
                 force[:2], stiff[:2], stiff[:, :2] = 0, 0, 0
                 stiff[:2, :2] = np.eye(2)
@@ -174,12 +211,19 @@ class Model:
                tolerance=TOLERANCE):
         """The judge's words; those of the rows come last. `kept` periods after the
         transient."""
-        words = ["settle", first, transient, observed, transient, kept, points,
-                 tolerance, *self.words(), *state]
-        line = " ".join(repr(float(w)) if isinstance(w, float) else str(w) for w in words)
-        answer = subprocess.run([JUDGE], input=line + "\n", stdout=subprocess.PIPE,
-                                text=True, check=True).stdout
-        return np.array(answer.split(), float)
+        return ask("settle", first, transient, observed, transient, kept, points, tolerance,
+                   *self.words(), *state)
+
+    def settled(self, before, turns, points):
+        """The motion in the turns after t = 0, that many base periods after rest."""
+        state = self.rest(-before * self.base)
+        return self.judged(self.settle(state, -before, before, turns, turns, points)).rows
+
+    def closed(self, state):
+        """The largest multiplier and the state at phase 0 of the motion of one base period
+        that the judge's Newton iteration reaches from a state; None where it does not."""
+        answer = ask(*self.words(), *state)
+        return (abs(complex(*answer[1:3])), answer[3:]) if answer[0] else None
 
     def kind(self, period, exponent, error):
         if period:

@@ -8,7 +8,7 @@ eigenvalues by Eigen. One line in, one line out. A motion is closed with its var
     MACHINE f[Hz] periods  y_1 … y_8
     springs Omega periods  y_1 … y_4      two masses, unilateral spring (NLvib, example 3)
 
-    converged closure largest_multiplier its_change real imaginary  y_1 …
+    converged  largest multiplier, real and imaginary  y_1 …
 
 or a state is followed beside a neighbour from the period `first` on; period 0 begins at
 t = 0. Printed are `kept` periods, the first of them `from` periods after the start:
@@ -20,13 +20,11 @@ t = 0. Printed are `kept` periods, the first of them `from` periods after the st
 K periods close to 1e-6, 0: none up to 16, -1: no number left. The exponents [1/s] are of
 both halves of what is observed; errors come from the means of ten parts. MACHINE is
 
-    machine m_s w_s xi_s m_r w_r xi_r m_e_e n K_H delta c g   or, with all there is,
-    eq7 m_s k_s c_s m_r k_r c_r m_e_e n K_H delta c lambda
+    eq7 m_s k_s c_s m_r k_r c_r m_e_e n K exponent delta c lambda
         depth width place turning  f_x_s f_y_s f_x_r f_y_r
 
 A period is `periods` turns, which need not be whole. The state is x_s, y_s, x_r, y_r and
-their rates; for the springs q_1, q_2 and their rates. `its_change` is that of the modulus
-between two tolerances of the integration. */
+their rates; for the springs q_1, q_2 and their rates. */
 #include <Eigen/Dense>
 #include <cmath>
 #include <cstdio>
@@ -50,7 +48,8 @@ struct Equation {
 
 /** Eq. 7 of the paper, written from the page; balls are summed in the cage's frame. */
 struct Machine {
-  double ms, ks, cs, mr, kr, cr, unbalance, stiffness, delta, cage, damping, omega;
+  double ms, ks, cs, mr, kr, cr, unbalance, stiffness, exponent, delta, cage, damping;
+  double omega;
   double depth, width, place, turning;  // of a spall, whose race turns or not (1 or 0)
   double load[4];                       // constant forces, weights included
   std::vector<double> cosine, sine;
@@ -88,13 +87,14 @@ struct Machine {
         p -= by, faster -= speed;
         if (p <= 0) continue;
       }
-      const double root = std::sqrt(p), q = stiffness * p * root;
+      const double root = exponent == 1.5 ? std::sqrt(p) : std::pow(p, exponent - 1);
+      const double q = stiffness * p * root;
       const double share = 1 + damping * faster;
       if (share <= 0) continue;
       fa += share * q * c, fb += share * q * s;
       if (!slopes) continue;
       const Eigen::Vector2d ball(c, s), across(-s, c);
-      by_place += 1.5 * stiffness * root * share * ball * ball.transpose() +
+      by_place += exponent * stiffness * root * share * ball * ball.transpose() +
                   damping * q * w * ball * across.transpose();
       by_rate += damping * q * ball * ball.transpose();
     }
@@ -130,7 +130,8 @@ struct Machine {
   {
     const double weight = std::hypot(load[0] + load[2], load[1] + load[3]);
     const double length =
-        delta + std::pow((weight + 1e-3 * unbalance * ks / ms) / stiffness, 2.0 / 3);
+        std::abs(delta) +
+        std::pow((weight + 1e-3 * unbalance * ks / ms) / stiffness, 2.0 / 3);
     const double joint = std::sqrt((ks + kr) / (ms + mr));
     Vector size(8);
     size << Vector::Constant(4, length),
@@ -140,23 +141,14 @@ struct Machine {
 };
 
 /** The words of a case and its period [s]. */
-Machine read_machine(const std::string& kind, std::istream& in, double& period)
+Machine read_machine(std::istream& in, double& period)
 {
   Machine m{};
   double n, f, periods;
-  if (kind == "machine") {
-    double ws, xs, wr, xr, g;
-    in >> m.ms >> ws >> xs >> m.mr >> wr >> xr >> m.unbalance >> n >> m.stiffness >>
-        m.delta >> m.cage >> g;
-    m.ks = m.ms * ws * ws, m.cs = 2 * xs * m.ms * ws;
-    m.kr = m.mr * wr * wr, m.cr = 2 * xr * m.mr * wr;
-    m.load[1] = -m.ms * g, m.load[3] = -m.mr * g;
-  } else {
-    in >> m.ms >> m.ks >> m.cs >> m.mr >> m.kr >> m.cr >> m.unbalance >> n >>
-        m.stiffness >> m.delta >> m.cage >> m.damping >> m.depth >> m.width >> m.place >>
-        m.turning;
-    for (double& force : m.load) in >> force;
-  }
+  in >> m.ms >> m.ks >> m.cs >> m.mr >> m.kr >> m.cr >> m.unbalance >> n >> m.stiffness >>
+      m.exponent >> m.delta >> m.cage >> m.damping >> m.depth >> m.width >> m.place >>
+      m.turning;
+  for (double& force : m.load) in >> force;
   in >> f >> periods;
   m.omega = 2 * std::numbers::pi * f, period = periods / f;
   for (int j = 0; j < n; ++j) {
@@ -317,10 +309,7 @@ void judge(const Equation& equation, Vector y)
     if (part <= 1e-3) break;
   }
   const std::complex<double> mu = largest(map.derivative);
-  const Map finer = closure < 1e-6 ? period_map(equation, y, 1e-11) : map;
-  std::printf("%d %.3g %.9g %.3g %.9g %.9g", closure < 1e-6 && finer.whole, closure,
-              std::abs(mu), std::abs(std::abs(largest(finer.derivative)) - std::abs(mu)),
-              mu.real(), mu.imag());
+  std::printf("%d %.9g %.9g", closure < 1e-6, mu.real(), mu.imag());
   for (double value : y) std::printf(" %.15g", value);
   std::printf("\n");
   std::fflush(stdout);
@@ -439,7 +428,7 @@ int main()
           asked.kept >> asked.instants >> asked.tolerance >> kind;
     Machine machine{};
     double period = 0;
-    if (kind != "springs") machine = read_machine(kind, in, period);
+    if (kind != "springs") machine = read_machine(in, period);
     const Equation equation =
         kind == "springs" ? springs(in) : equation_of(machine, period);
     Vector y(equation.size.size());

@@ -10,18 +10,18 @@ outer race, of the inner race.
 Usage: tests/truth/printed_error.py [COUNT > data/reference/printed_error.tsv]   (from the project's root; COUNT of each kind; without it a test)
 """
 import random
-import subprocess
 import sys
+import tomllib
 import unittest
 from pathlib import Path
 
 import numpy as np
 
-sys.path[1:1] = [str(Path(__file__).parents[1]), str(Path(__file__).parents[2] / "figures")]
-from independent import JUDGE, KEPT, NAMES, Model  # noqa: E402
+sys.path.insert(1, str(Path(__file__).parents[1]))
+from independent import KEPT, NAMES, Model, displacements, errors, state_at_zero  # noqa: E402
 from machines import entries, random_machine, realistic_machine, written  # noqa: E402
-from project import source_line  # noqa: E402
 from support.explore import Case, Table  # noqa: E402
+from project import source_line  # noqa: E402
 from tables import print_columns  # noqa: E402
 
 KINDS = ["one frequency", "catalogue", "outer spall", "inner spall"]
@@ -47,30 +47,10 @@ def drawn(kind, seed):
     return machine, speed
 
 
-def differences(solution, truth):
-    """Largest over the largest displacement; rms about the means over that of the truth."""
-    centred = [q - q.mean(axis=0) for q in (solution, truth)]
-    largest = abs(solution - truth).max() / abs(truth).max()
-    return largest, np.linalg.norm(centred[0] - centred[1]) / np.linalg.norm(centred[1])
-
-
-def closed(model, state):
-    """The state at phase 0 of the motion with one base period near a state; None where the judge closes none."""
-    line = " ".join(repr(float(w)) if isinstance(w, float) else str(w) for w in [*model.words(), *map(float, state)])
-    words = subprocess.run([JUDGE], input=line + "\n", stdout=subprocess.PIPE, text=True, check=True).stdout.split()
-    return np.array(words[6:], float) if float(words[0]) and float(words[1]) < 1e-8 else None
-
-
 def closed_from(model, rows):
-    """The judge's motion, at as many instants, from the state of a motion of one base period at phase 0."""
-    orders = np.arange(len(rows) // 2 + 1)[:, None]
-    rates = np.fft.irfft(2j * np.pi * orders / model.base * np.fft.rfft(rows, axis=0), n=len(rows), axis=0)
-    state = closed(model, np.concatenate([rows[0], rates[0]]))
-    return None if state is None else model.settle(state, 0, 0, KEPT, 1, POINTS)[21:].reshape(-1, 4)
-
-
-def positions(table):
-    return np.stack([table[name] for name in NAMES], axis=1)
+    """The judge's motion of one base period, at as many instants, from the state of a motion at phase 0; None where it closes none."""
+    found = model.closed(state_at_zero(rows, model.base))
+    return None if found is None else model.settle(found[1], 0, 0, KEPT, 1, POINTS)[21:].reshape(-1, 4)
 
 
 class PrintedError(Case):
@@ -89,7 +69,7 @@ class PrintedError(Case):
         rms = table.value("error_rms", -1)
         if two and table.value("stability") != "stable":
             return [*cells, -1, rms, -1]
-        model = Model(self.tables(machine), speed)
+        model = Model(tomllib.loads(text), speed)
         if two:
             rates = [f"v_{name}" for name in NAMES]
             first, orbit = (Table.of(self.run_explore(*asked, "--points", points, "--periods", turns, "--no-stability", "--columns",
@@ -97,26 +77,17 @@ class PrintedError(Case):
                             for points, turns, names in ((FINE, 1, [*NAMES, *rates]), (COARSE, TURNS, NAMES)))
             state = np.array([first[name][0] for name in (*NAMES, *rates)])
             answer = model.settle(state, 0, TURNS - KEPT, KEPT, KEPT, COARSE)
-            pairs = [(positions(orbit)[-KEPT * COARSE:], answer[21:].reshape(-1, 4))]
+            pairs = [(displacements(orbit)[-KEPT * COARSE:], answer[21:].reshape(-1, 4))]
         else:
-            orbit = positions(Table.of(self.run_explore(*asked, "--points", POINTS, "--no-stability").stdout))
+            orbit = displacements(Table.of(self.run_explore(*asked, "--points", POINTS, "--no-stability").stdout))
             truth = closed_from(model, orbit)
             pairs = [] if truth is None else [(orbit, truth)]
-            if truth is None or differences(orbit, truth)[0] > 1.05 * cells[-1]:  # perhaps another motion
+            if truth is None or errors(orbit, truth)[0] > 1.05 * cells[-1]:  # perhaps another motion
                 beside = self.run_explore(*asked[:4], "--method", "shooting", "--points", POINTS, "--no-stability", "--budget", 2e7)
-                truth = None if beside.returncode else closed_from(model, positions(Table.of(beside.stdout)))
+                truth = None if beside.returncode else closed_from(model, displacements(Table.of(beside.stdout)))
                 pairs += [] if truth is None else [(orbit, truth)]
-        largest, its_rms = min((differences(*pair) for pair in pairs), default=(ANOTHER, 0))
+        largest, its_rms = min((errors(*pair) for pair in pairs), default=(ANOTHER, 0))
         return [*cells, largest, rms, its_rms] if largest < ANOTHER else [*cells, -1, rms, -1]
-
-    @staticmethod
-    def tables(machine):
-        """A defect is a table of its bearing."""
-        machine = {name: dict(table) for name, table in machine.items()}
-        defect = machine.pop("bearing.defect", None)
-        if defect:
-            machine["bearing"]["defect"] = defect
-        return machine
 
     def test_a_few(self):
         """Would catch an estimate from as many harmonics as the solution has, which was 20 times too small for spalls of the inner race."""

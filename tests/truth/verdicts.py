@@ -1,13 +1,9 @@
 """The verdicts of explore, and its motions of period KT, against a judge that shares no code with src: its own equations, integrator, shooting and
 multipliers (judge.cpp). It first reproduces published multipliers. Integrated motions are checked by the balance of
 power, which asks for no method.
-
-Usage: tests/truth/verdicts.py   (from the project's root)
 """
 import math
-import os
 import random
-import subprocess
 import sys
 import tomllib
 import unittest
@@ -15,12 +11,13 @@ from pathlib import Path
 
 import numpy as np
 
-sys.path.insert(0, str(Path(__file__).parents[1]))
-from machines import entries, random_machine, written  # noqa: E402
+sys.path.insert(1, str(Path(__file__).parents[1]))
+from independent import Model, ask, displacements, state_at_zero  # noqa: E402
+from machines import SET_1, entries, random_machine, written  # noqa: E402
 from support.explore import Case, Table  # noqa: E402
 
-JUDGE = Path(os.environ.get("BUILD", "build"), "tests", "judge").resolve()
 SETS = {number: Path(f"data/set{number}.toml").resolve() for number in (1, 2)}
+START = [0.96, 0.66, 0.32, 0.09]  # near the motion of the two masses at 0.635
 SAME, NEAR_ONE = 0.05, 0.002  # of the largest displacement; of the modulus
 # Where six harmonics are right about themselves and wrong about the machine, and some where they are right.
 SIX = ["--harmonics", 6]
@@ -34,71 +31,25 @@ FALSELY_STABLE = [(1, 12.5, 6), (1, 12.5, 8), (1, 13, 6), (1, 13, 10), (1, 13.5,
                   (2, 57, 8), (2, 57, 10), (2, 60, 6), (2, 60, 8), (2, 37.5, 8)]
 
 
-class Judge:
-    """The program judge, one case after the other."""
-
-    def __init__(self):
-        self.process = subprocess.Popen([JUDGE], stdin=subprocess.PIPE, stdout=subprocess.PIPE, text=True)
-
-    def __call__(self, *words):
-        self.process.stdin.write(" ".join(str(word) for word in words) + "\n")
-        self.process.stdin.flush()
-        converged, closure, modulus, change, real, imaginary, *state = map(float, self.process.stdout.readline().split())
-        return {"converged": converged == 1, "multiplier": complex(real, imaginary), "change": change,
-                "state": np.array(state)}
-
-    def machine(self, file, frequency, state):
-        p = tomllib.loads(file.read_text(encoding="utf-8"))
-        stator, rotor, bearing = p["stator"], p["rotor"], p["bearing"]
-        bodies = [body[key] for body in (stator, rotor)
-                  for key in ("mass_kg", "natural_frequency_rad_per_s", "damping_ratio")]
-        return self("machine", *bodies, rotor["unbalance_kg_m"], bearing["balls"],
-                    bearing["contact_stiffness_N_per_m1p5"], bearing["radial_clearance_m"],
-                    bearing["cage_speed_ratio"], p["gravity"]["acceleration_m_per_s2"], frequency, 1, *state)
-
-    def close(self):
-        self.process.stdin.close()
-        self.process.stdout.close()
-        self.process.wait()
-
-
-def settled_springs(omega, periods=80, steps=400):
-    """Two masses with a unilateral spring, by RK4 from rest: q_1, q_2 and their rates at phase 0."""
-    def rate(t, y):
-        return np.array([y[2], y[3],
-                         -(y[0] - y[1]) - 0.03 * (y[2] - y[3]) - 100 * max(0, y[0] - 1),
-                         y[0] - 2 * y[1] + 0.03 * (y[2] - 2 * y[3]) + 0.1 * math.cos(omega * t)])
-    y, h = np.zeros(4), 2 * math.pi / omega / steps
-    for k in range(periods * steps):
-        t = k * h
-        a = rate(t, y)
-        b = rate(t + h / 2, y + h / 2 * a)
-        c = rate(t + h / 2, y + h / 2 * b)
-        y = y + h / 6 * (a + 2 * b + 2 * c + rate(t + h, y + h * c))
-    return y
+def model_of(file, frequency):
+    return Model(tomllib.loads(file.read_text(encoding="utf-8")), frequency)
 
 
 class Verdicts(Case):
-    def setUp(self):
-        super().setUp()
-        self.judge = Judge()
-        self.addCleanup(self.judge.close)
-
     def test_the_judge_finds_published_multipliers(self):
-        state = settled_springs(0.635)
-        found = {}
+        """Of two masses with a unilateral spring, each speed from the one before."""
+        state, found = START, {}
         for omega in (0.635, 0.65, 0.675, 0.7, 0.725, 0.75, 0.635, 0.62, 0.6):
-            if omega in found:
-                state = found[omega]["state"]
-            found[omega] = self.judge("springs", omega, 1, *state)
-            self.assertTrue(found[omega]["converged"], omega)
-            state = found[omega]["state"]
+            state = found.get(omega, (None, state))[1]
+            converged, real, imaginary, *state = ask("springs", omega, 1, *state)
+            self.assertTrue(converged, omega)
+            found[omega] = complex(real, imaginary), state
         # Published along 81 harmonics, which move this one most.
-        self.assertAlmostEqual(found[0.75]["multiplier"].real, -1.197, delta=0.02)
-        self.assertAlmostEqual(abs(found[0.7]["multiplier"]), 0.858, delta=0.002)
-        self.assertAlmostEqual(abs(found[0.635]["multiplier"]), 0.886, delta=0.002)
-        self.assertAlmostEqual(found[0.6]["multiplier"].real, -0.266, delta=0.003)
-        self.assertAlmostEqual(abs(found[0.6]["multiplier"].imag), 1.363, delta=0.003)
+        self.assertAlmostEqual(found[0.75][0].real, -1.197, delta=0.02)
+        self.assertAlmostEqual(abs(found[0.7][0]), 0.858, delta=0.002)
+        self.assertAlmostEqual(abs(found[0.635][0]), 0.886, delta=0.002)
+        self.assertAlmostEqual(found[0.6][0].real, -0.266, delta=0.003)
+        self.assertAlmostEqual(abs(found[0.6][0].imag), 1.363, delta=0.003)
 
     def orbit(self, file, frequency, *options):
         """The verdict, the state at phase 0 of the solution and the largest displacement."""
@@ -106,20 +57,15 @@ class Verdicts(Case):
         if result.returncode == 3:
             self.skipTest(result.stderr)
         table = Table.of(result.stdout)
-        rows = np.column_stack([table[name] for name in ("x_s", "y_s", "x_r", "y_r")])
-        spectrum = np.fft.rfft(rows, axis=0)
-        orders = np.arange(len(spectrum))[:, None]
-        rates = np.fft.irfft(2j * math.pi * frequency * orders * spectrum, axis=0)
-        return table.value("stability"), np.concatenate([rows[0], rates[0]]), abs(rows).max()
+        rows = displacements(table)
+        return table.value("stability"), state_at_zero(rows, 1 / frequency), abs(rows).max()
 
     def judged(self, file, frequency, *options):
         """Whether a verdict was given, if it is known; that it is true is asserted."""
         with self.subTest(file=file.name, frequency=frequency, options=options):
             word, state, size = self.orbit(file, frequency, *options)
-            truth = self.judge.machine(file, frequency, state)
-            modulus = abs(truth["multiplier"])
-            moved = abs(truth["state"] - state)[:4].max() / size
-            if not truth["converged"] or moved > SAME or abs(modulus - 1) < NEAR_ONE:
+            modulus, closed = model_of(file, frequency).closed(state) or (1, state)
+            if abs(closed - state)[:4].max() > SAME * size or abs(modulus - 1) < NEAR_ONE:
                 return []
             if word != "undecided":
                 self.assertEqual(word, "stable" if modulus < 1 else "unstable", modulus)
@@ -148,16 +94,13 @@ class Verdicts(Case):
     def test_nearer_of_two_motions_is_judged(self):
         """Motions 0.1 to 2 % apart whose disturbances grow a thousandfold in a turn, beside stable ones: which of them
         shooting closes from few harmonics is a matter of rounding. Without a second start one solution in five is stable."""
-        machines = [("stator 6.259 293.6 0.02524 rotor 31.21 70.33 0.09603 0.08679 bearing 8 3.678e10 9.78e-5", 83.79),
-                    ("stator 13.37 332.9 0.03622 rotor 5.313 204.5 0.03911 0.01384 bearing 12 3.63e10 5.589e-5", 55.57)]
-        for words, frequency in machines:
-            _, *stator, _, m, w, xi, unbalance, _, balls, stiffness, clearance = words.split()
-            body = "mass_kg = {}\nnatural_frequency_rad_per_s = {}\ndamping_ratio = {}\n".format
-            file = self.file("near.toml", f"title = 'near'\n[stator]\n{body(*stator)}[rotor]\n{body(m, w, xi)}unbalance_kg_m = {unbalance}\n"
-                             f"[bearing]\nballs = {balls}\ncontact_stiffness_N_per_m1p5 = {stiffness}\n"
-                             f"radial_clearance_m = {clearance}\ncage_speed_ratio = 0.5\n[gravity]\nacceleration_m_per_s2 = 0\n")
+        machines = [((6.259, 293.6, 0.02524), (31.21, 70.33, 0.09603, 0.08679), (8, 3.678e10, 9.78e-5), 83.79),
+                    ((13.37, 332.9, 0.03622), (5.313, 204.5, 0.03911, 0.01384), (12, 3.63e10, 5.589e-5), 55.57)]
+        for *values, frequency in machines:
+            near = {table: {**SET_1[table], **dict(zip(SET_1[table], own))} for table, own in zip(SET_1, [*values, [0]])}
+            file = self.file("near.toml", written(entries(near)))
             _, state, _ = self.orbit(file, frequency, "--harmonics", 80)
-            self.assertGreater(abs(self.judge.machine(file, frequency, state)["multiplier"]), 100)
+            self.assertGreater(model_of(file, frequency).closed(state)[0], 100)
             for m in (10, 12, 14, 16, 20):
                 with self.subTest(frequency=frequency, m=m):
                     self.assertEqual(self.orbit(file, frequency, "--harmonics", m)[0], "unstable")
@@ -181,7 +124,7 @@ class Verdicts(Case):
                 how = ["--method", "aft", "--subharmonic", turns, "--no-stability"] if turns > 1 else ["--method", "rk8pd", "--budget", 1e9]
                 rows = self.table("orbit", SETS[number], "--frequency", frequency, "--points", 4096, *how)
                 omega = 2 * math.pi * frequency
-                q = np.stack([rows[name] for name in ("x_s", "y_s", "x_r", "y_r")], axis=1)
+                q = displacements(rows)
                 orders = np.arange(len(q) // 2 + 1)[:, None] / turns
                 v = np.fft.irfft(1j * omega * orders * np.fft.rfft(q, axis=0), axis=0)
                 phase, (u_x, u_y) = rows["phase"], (q[:, 2:] - q[:, :2]).T

@@ -48,17 +48,6 @@ TEST_CASE("Without contact the amplitude is that of Jeffcott's rotor")
             .epsilon(1e-5));
 }
 
-TEST_CASE("A machine that nothing moves rests")
-{
-  Parameters parameters = set_1();
-  parameters.unbalance = 0;
-  parameters.gravity = 0;
-  const motion::Answer answer = from_rest_at(parameters, 20);
-  CHECK(answer.kind() == Kind::rest);
-  CHECK(answer.period_number() == 1);
-  CHECK(observe(answer).amplitude == Displacements{});
-}
-
 TEST_CASE("Set 1 doubles its period at 20 Hz and is chaotic at 13.4 Hz")
 {
   const motion::Answer doubled = from_rest_at(set_1(), 20);
@@ -129,23 +118,6 @@ TEST_CASE("Neighbours part at the rate of the largest multiplier")
                    << exact.value);
     CHECK(exact.error < 0.01);
     CHECK(std::abs(measured.value - exact.value) < 0.5 + 3 * measured.error);
-  }
-}
-
-TEST_CASE("Kinds of known motions")
-{
-  struct Known {
-    const char* set;
-    double frequency;
-    int period;  ///< 0: chaotic
-  };
-  for (const Known& known :
-       {Known{"set1", 13, 0}, Known{"set1", 30, 1}, Known{"set1", 54, 2},
-        Known{"set2", 10, 0}, Known{"set2", 45, 1}}) {
-    const Parameters parameters =
-        read_parameters(std::string(SOURCE_DIR "/data/") + known.set + ".toml");
-    INFO(known.set << " " << known.frequency << " Hz");
-    CHECK(from_rest_at(parameters, known.frequency).period_number() == known.period);
   }
 }
 

@@ -40,9 +40,7 @@ struct Followed {
 };
 
 Followed follow(const Oscillator& oscillator, int harmonics, int samples, double from,
-                double to, double most_step, const Eigen::VectorXd* start = nullptr,
-                const BranchStabilitySettings& marks = {}, int steps_of_map = 1000,
-                double tolerance = 1e-6)
+                double to, double most_step, const Eigen::VectorXd* start = nullptr)
 {
   Balance balance(oscillator.problem(samples), harmonics);
   const Eigen::VectorXd x = start ? *start : Eigen::VectorXd::Zero(balance.unknowns());
@@ -50,10 +48,9 @@ Followed follow(const Oscillator& oscillator, int harmonics, int samples, double
   BalanceCurve curve(balance, settings);
   Followed followed{follow_branch(curve, from, to, x, settings), {}};
   const auto floquet_at = [&](const BranchPoint& p) {
-    return floquet(oscillator, p.motion.x, p.motion.omega, steps_of_map, tolerance);
+    return floquet(oscillator, p.motion.x, p.motion.omega);
   };
-  followed.stability =
-      stability_along(curve, followed.branch, settings, floquet_at, marks);
+  followed.stability = stability_along(curve, followed.branch, settings, floquet_at);
   return followed;
 }
 
@@ -74,65 +71,18 @@ TEST_CASE("Two masses, cubic springs: Neimark-Sacker points and folds as publish
   REQUIRE(folds.size() == 2);
   CHECK(folds[0] == Approx(1.214626).margin(1e-6));
   CHECK(folds[1] == Approx(1.206219).margin(1e-6));
-  for (const StablePoint& p : followed.stability.points)
+  for (const StablePoint& p : followed.stability.points) {
     if (p.bifurcation == Bifurcation::neimark_sacker) {
       CHECK(std::abs(p.floquet.largest() - 1) < 1e-5);
       CHECK(std::abs(p.floquet.multipliers.front().imag()) > 1e-3);
     }
-}
-
-TEST_CASE(
-    "Duffing: a multiplier passes +1 at the folds, more exactly with more harmonics")
-{
-  double before = 1;
-  for (int harmonics : {3, 7}) {
-    const auto followed = follow(duffing(), harmonics, 64, 0.8, 1.6, 0.1);
-    double off = 0;
-    int folds = 0, unstable = 0;
-    for (const StablePoint& p : followed.stability.points) {
-      unstable += p.floquet.unstable();
-      if (p.bifurcation != Bifurcation::fold) continue;
-      ++folds;
-      double nearest = 1;
-      for (const auto& mu : p.floquet.multipliers)
-        nearest = std::min(nearest, std::abs(mu - 1.0));
-      off = std::max(off, nearest);
-    }
-    CHECK(folds == 2);
-    CHECK(unstable > 0);
-    CHECK(followed.speeds(Bifurcation::period_doubling).empty());
-    CHECK(followed.speeds(Bifurcation::neimark_sacker).empty());
-    CHECK(off < before / 10);
-    before = off;
+    if (p.bifurcation != Bifurcation::fold) continue;
+    double nearest = 1;
+    for (const auto& mu : p.floquet.multipliers)
+      nearest = std::min(nearest, std::abs(mu - 1.0));
+    CHECK(nearest < 1e-4);
   }
-  CHECK(before < 1e-4);
-}
-
-TEST_CASE(
-    "Unilateral spring: Neimark-Sacker and period doubling, between published speeds")
-{
-  /** 7 harmonics reach the contact branch; 41 hold the multipliers. */
-  const Oscillator oscillator = two_masses_unilateral();
-  Balance coarse(oscillator.problem(1024), 7);
-  const auto at = [&](double omega) {
-    const Branch lead = follow_branch(
-        coarse, 0.59, omega, Eigen::VectorXd::Zero(coarse.unknowns()), steps(0.02));
-    REQUIRE(lead.covered);
-    return resize_harmonics(lead.points.back().motion.x, 2, 41);
-  };
-  const BranchStabilitySettings rough{.tolerance = 1e-3, .most_halvings = 0};
-  Eigen::VectorXd start = at(0.6);
-  const auto low =
-      follow(oscillator, 41, 1024, 0.6, 0.635, 0.5, &start, rough, 800, 1e-2);
-  CHECK(low.stability.points.front().floquet.largest() > 1);
-  CHECK(low.stability.points.back().floquet.largest() < 1);
-  CHECK_FALSE(low.speeds(Bifurcation::neimark_sacker).empty());
-  start = at(0.7);
-  const auto high =
-      follow(oscillator, 41, 1024, 0.7, 0.75, 0.5, &start, rough, 800, 1e-2);
-  CHECK(high.stability.points.front().floquet.largest() < 1);
-  CHECK(high.stability.points.back().floquet.largest() > 1);
-  CHECK_FALSE(high.speeds(Bifurcation::period_doubling).empty());
+  CHECK(followed.speeds(Bifurcation::period_doubling).empty());
 }
 
 TEST_CASE("Where some points are skipped, a change of stability is found all the same")

@@ -10,37 +10,25 @@
 using namespace rotor_stator;
 using namespace rotor_stator::tests;
 
-TEST_CASE("Copies of an account spend the same money")
+TEST_CASE("Copies and parts of an account spend the same money until it is empty")
 {
   const OperationBudget budget(100);
   const OperationBudget copy = budget;
   copy.spend(30);
   CHECK(budget.left() == 70);
-  CHECK_FALSE(budget.used_up());
-  CHECK_FALSE(OperationBudget().bounded());
-  CHECK_NOTHROW(OperationBudget().part(0.5).spend(1e300));
-}
-
-TEST_CASE("What cannot be paid for empties the account")
-{
-  const OperationBudget budget(100);
-  CHECK_THROWS_AS(budget.spend(101), NoSolution);
-  CHECK(budget.used_up());
-  CHECK_THROWS_AS(budget.spend(1), NoSolution);
-}
-
-TEST_CASE("A part spends from the whole, and ends before it")
-{
-  const OperationBudget budget(100);
   const OperationBudget part = budget.part(0.5);
-  part.spend(40);
-  CHECK(budget.left() == 60);
+  part.spend(25);
   CHECK(part.left() == 10);
   CHECK_THROWS_AS(part.spend(11), NoSolution);
   CHECK(part.used_up());
+  budget.part(1).part(0.5).spend(5);
+  CHECK(budget.left() == 40);
   CHECK_FALSE(budget.used_up());
-  budget.part(1).part(0.5).spend(30);
-  CHECK(budget.left() == 30);
+  CHECK_THROWS_AS(budget.spend(41), NoSolution);
+  CHECK(budget.used_up());
+  CHECK_THROWS_AS(copy.spend(1), NoSolution);
+  CHECK_FALSE(OperationBudget().bounded());
+  CHECK_NOTHROW(OperationBudget().part(0.5).spend(1e300));
 }
 
 TEST_CASE("Nothing is paid for after the seconds of the clock, in parts too")

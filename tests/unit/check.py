@@ -1,6 +1,4 @@
 """explore check: rest, frequencies, loss of contact and warnings against closed forms.
-
-Usage: tests/unit/check.py   (from the project's root)
 """
 import math
 import sys
@@ -36,13 +34,13 @@ LOOSE = NAMED + 'internal_clearance = "C3"\n'
 
 
 class Check(Case):
-    def values(self, text, *options):
+    def checked(self, text, *options):
         table = self.table("check", self.file("own.toml", text), *options)
         return dict(zip(table["name"], table["value"])), table
 
     def test_a_rotor_on_very_many_balls(self):
         """Stribeck's load of the lowest ball, 4.37 W/n, sag, stiffness along and across the load, frequencies."""
-        values, _ = self.values(HELD + MANY, "--from", 0.1, "--to", 80)
+        values, _ = self.checked(HELD + MANY, "--from", 0.1, "--to", 80)
         weight = 2 * G
         sag = (weight / (BALLS * HERTZ * RADIAL)) ** (2 / 3)
         self.assertAlmostEqual(4.37 * RADIAL, 1, delta=1e-3)
@@ -58,7 +56,7 @@ class Check(Case):
     def test_two_bodies(self):
         """Frequencies from the matrices of both bodies; the critical speed within the range only."""
         text = MACHINE[:MACHINE.index("[bearing]")] + MACHINE[MACHINE.index("[gravity]"):] + MANY
-        values, _ = self.values(text)
+        values, _ = self.checked(text)
         m, k = np.array([20, 40.]), np.array([20 * 500.**2, 40 * 150.**2])
         self.assertAlmostEqual(values["f_s"], 500 / (2 * math.pi), delta=1e-9)
         self.assertAlmostEqual(values["f_r"], 150 / (2 * math.pi), delta=1e-9)
@@ -72,33 +70,33 @@ class Check(Case):
             rates = np.linalg.eigvals(np.block([[np.zeros((2, 2)), np.eye(2)], [-stiffness / m[:, None], -damping]])).imag
             for order, frequency in enumerate(np.sort(rates[rates > 0]) / (2 * math.pi), 1):
                 self.assertAlmostEqual(values[f"f_{order}_{axis}"] / frequency, 1, delta=1e-4)
-        self.assertNotIn("passage_f_2_x", self.values(text, "--to", values["f_2_x"] / (0.4 * BALLS) - 1e-6, "--from", 1e-3)[0])
+        self.assertNotIn("passage_f_2_x", self.checked(text, "--to", values["f_2_x"] / (0.4 * BALLS) - 1e-6, "--from", 1e-3)[0])
 
     def test_warnings(self):
         """Each where it holds, one on data set 1: its centre of mass lies 1.25 mm away, 62.5 times the clearance."""
         far = MACHINE.replace("radial_clearance_m = 2e-5", "radial_clearance_m = 20")
-        self.assertEqual(self.values(far)[1].value("warnings"), 1)
-        rest = self.values(far)[0]
+        self.assertEqual(self.checked(far)[1].value("warnings"), 1)
+        rest = self.checked(far)[0]
         self.assertEqual((rest["loaded_balls"], rest["ball_load"]), (0, 0))
-        self.assertEqual(self.values(MACHINE)[1].value("warnings"), 1)
-        self.assertIn("is 62.5 times the clearance", self.values(MACHINE)[1].header)
-        self.assertEqual(self.values(HELD + LOOSE)[1].value("warnings"), 0)
-        self.assertEqual(self.values(HELD + NAMED + "diametral_clearance_m = 2e-3")[1].value("warnings"), 1)
+        self.assertEqual(self.checked(MACHINE)[1].value("warnings"), 1)
+        self.assertIn("is 62.5 times the clearance", self.checked(MACHINE)[1].header)
+        self.assertEqual(self.checked(HELD + LOOSE)[1].value("warnings"), 0)
+        self.assertEqual(self.checked(HELD + NAMED + "diametral_clearance_m = 2e-3")[1].value("warnings"), 1)
         heavy = HELD.replace("mass_kg = 2.0", "mass_kg = 2000") + NAMED + 'internal_clearance = "C3"'
-        values, table = self.values(heavy)
+        values, table = self.checked(heavy)
         self.assertGreater(values["stress"], 4000)
         self.assertEqual(table.value("warnings"), 1)
 
     def test_a_factor_of_a_thousand(self):
         """Every value typed in another unit is doubted, in check and in the header of a motion; closed forms of the values."""
-        values, _ = self.values(HELD + LOOSE, "--to", 25)
+        values, _ = self.checked(HELD + LOOSE, "--to", 25)
         e, omega = 1e-4 / 2, 2 * math.pi * 25
         for name, value in [("eccentricity", e), ("weight", 2 * G), ("unbalance_force", 1e-4 * omega**2), ("balance_grade", 1e3 * e * omega),
                             ("speed_value", 39.04 * 1500)]:
             self.assertAlmostEqual(values[name] / value, 1, delta=1e-6, msg=name)
         for old, new, word in [("unbalance_kg_m = 1e-4", "unbalance_kg_m = 20", "is the unbalance in kg m?"),
                                ("= 9.81", "= 9810", "is it in m/s^2?")]:
-            self.assertIn(word, self.values(HELD.replace(old, new) + LOOSE)[1].header)
+            self.assertIn(word, self.checked(HELD.replace(old, new) + LOOSE)[1].header)
         sizes = """[bearing]
 balls = 9
 ball_diameter_m = 7.94
@@ -110,7 +108,7 @@ poissons_ratio = 0.3
 diametral_clearance_m = 0.02
 """
         for word in ("are lengths in m?", "is the modulus in Pa?"):
-            self.assertIn(word, self.values(HELD + sizes)[1].header)
+            self.assertIn(word, self.checked(HELD + sizes)[1].header)
         own, words = self.file("named.toml", HELD + LOOSE), "speeds are in Hz, or as 1500rpm"
         for asked in (["orbit", own, "--frequency", 1797, "--points", 4],
                       ["map", own, "--x", "frequency=10:1797:2", "--quantity", "amplitude"]):

@@ -1,20 +1,14 @@
 /** What the tables of cost rest on: references, counted operations, fits, and the rivals themselves. No
     time is asserted. */
 #include <cmath>
-#include <filesystem>
 #include "support/catch.hpp"
 
 #include "costs/equal_error.hpp"
 #include "costs/timing.hpp"
 #include "costs/work_precision.hpp"
 #include "io/errors.hpp"
-#include "model/rotor_stator.hpp"
 #include "motion/find_periodic.hpp"
 #include "support/cases.hpp"
-#include "support/command.hpp"
-#include "time/period_map.hpp"
-#include "time/rk4.hpp"
-#include "time/shooting.hpp"
 
 using namespace rotor_stator;
 using namespace rotor_stator::costs;
@@ -31,95 +25,39 @@ TruthSettings truth_settings()
   return settings;
 }
 
-/** A scene of the repository, with one piece of text replaced, beside the data sets. */
-Outcome refused(const std::string& program, const std::string& from,
-                const std::string& to)
-{
-  const std::string root = SOURCE_DIR;
-  std::string content = read_whole(root + "/data/scenes/" + program + ".toml");
-  const auto at = content.find(from);
-  REQUIRE(at != std::string::npos);
-  content.replace(at, from.size(), to);
-  const Scratch scratch;
-  std::filesystem::create_directories(scratch.path("scenes"));
-  for (const char* set : {"set1.toml", "set2.toml"})
-    std::filesystem::copy(root + "/data/" + set, scratch.path(set));
-  return run_program(program + " " + scratch.write("scenes/scene.toml", content));
-}
-
 }  // namespace
 
-TEST_CASE("Scenes of cost: bad input ends with status 2, its key and nothing else")
+/** By the fourth and by the second power of the step. */
+TEST_CASE("Rivals converge to the motion as their order says")
 {
-  struct Bad {
-    const char *program, *from, *to, *key;
-  };
-  const Bad cases[] = {
-      {"tab02_equal_error", "[1e-2, 1e-3, 1e-6]", "[1e-6, 1e-3, 1e-2]", "targets"},
-      {"tab02_equal_error", "[25.0, 60.0]", "[60.0, 25.0]", "range_ends_hz"},
-      {"tab02_equal_error", "\"rkf45\"", "\"rkf46\"", "methods"},
-      {"tab02_equal_error", "closures", "closure", "closures"},
-      {"tab02_equal_error", "[bsimp]", "colour = 1\n[bsimp]", "colour"},
-      {"work_precision", "50.0, 45.0]", "50.0]", "speeds_hz"},
-      {"work_precision", "below_hz = 0.5", "below_hz = 7.0", "below_hz"},
-      {"cost_growth", "below_hz = 29.5", "below_hz = 30.5", "below_hz"},
-      {"cost_growth", "[8, 16, ", "[16, 8, ", "harmonics"},
-      {"cost_growth", "samples_per_harmonic = 8", "samples_per_harmonic = 1",
-       "samples_per_harmonic"}};
-  for (const Bad& bad : cases) {
-    const Outcome outcome = refused(bad.program, bad.from, bad.to);
-    INFO(bad.to << ": " << outcome.err);
-    CHECK(outcome.status == 2);
-    CHECK(outcome.out.empty());
-    CHECK(outcome.err.find(bad.key) != std::string::npos);
-  }
-}
-
-TEST_CASE("RK4's period map is RK4's, and its derivative that of its differences")
-{
-  const Parameters parameters = set_1();
-  const double omega = hertz(45), step = 1e-4;
-  const State start = quasi_static_state(parameters, omega);
-  State expected = start;
-  Rk4(parameters, omega, 1, step).advance(0, expected);
-  const auto map_from = [&](const State& from) {
-    return period_map(parameters, omega, from,
-                      {.method = "rk4", .intervals_per_period = 1, .step = step});
-  };
-  const PeriodMap map = map_from(start);
-  const Vector8 sizes = state_scales(parameters);
-  const Vector8 off = (vector_of(map.end) - vector_of(expected)).cwiseQuotient(sizes);
-  CHECK(off.norm() < 1e-12);
-  for (int j = 0; j < 8; ++j) {
-    const Vector8 step_j = 1e-7 * sizes[j] * Vector8::Unit(j);
-    const Vector8 y = vector_of(start);
-    const Vector8 difference = (vector_of(map_from(state_of(Vector8(y + step_j))).end) -
-                                vector_of(map_from(state_of(Vector8(y - step_j))).end)) /
-                               2e-7;
-    const Vector8 error =
-        (difference - sizes[j] * map.derivative.col(j)).cwiseQuotient(sizes);
-    CHECK(error.norm() < 1e-4 * map.derivative.norm());
-  }
-}
-
-TEST_CASE("Shooting with RK4 converges to the motion with the fourth power of the step")
-{
-  const Parameters parameters = set_1();
-  const TrueMotion truth = true_motion(parameters, 45, truth_settings());
+  const TrueMotion truth = true_motion(set_1(), 45, truth_settings());
   REQUIRE(truth.periodic);
-  const Task task{.parameters = parameters, .frequencies = {45}};
-  double coarse = 0;
-  for (double step : {4e-5, 2e-5}) {
-    const auto shooting = timed_method(task, Setting{.method = "shooting-rk4",
-                                                     .step = step,
-                                                     .transient = 0.3,
-                                                     .periodicity_residual = 1e-9});
-    shooting->run();
-    const auto found = shooting->motion(0, 90);
-    REQUIRE(found);
-    const double error = relative_difference(*found, truth.motion);
-    if (coarse > 0) CHECK(error < coarse / 6);
-    coarse = error;
+  struct Rival {
+    Setting coarse;
+    double least, most;  ///< ratio of the errors with half the step
+  };
+  for (const Rival& rival :
+       {Rival{{.method = "shooting-rk4",
+       .step = 4e-5,
+       .transient = 0.3,
+       .periodicity_residual = 1e-9},
+              6,
+              1e3},
+        Rival{{.method = "central", .step = 2e-5, .transient = 3}, 3.6, 4.4}}) {
+    const auto error = [&](double step) {
+      Setting setting = rival.coarse;
+      setting.step = step;
+      const auto method =
+          timed_method({.parameters = set_1(), .frequencies = {45}}, setting);
+      method->run();
+      const auto found = method->motion(0, 90);
+      REQUIRE(found);
+      return relative_difference(*found, truth.motion);
+    };
+    const double ratio = error(rival.coarse.step) / error(rival.coarse.step / 2);
+    INFO(rival.coarse.method << ": " << ratio);
+    CHECK(ratio > rival.least);
+    CHECK(ratio < rival.most);
   }
 }
 
@@ -131,19 +69,6 @@ TEST_CASE("Shooting and harmonic balance, which share nothing, agree on the refe
   CHECK(truth.periodicity_residual < 1e-10);
   CHECK(agreement(parameters, truth, 512) < 1e-8);
   CHECK(agreement(parameters, truth, 16) > 1e-6);
-}
-
-TEST_CASE("A time method's count is that of its setting")
-{
-  const Task task{.parameters = set_1(), .frequencies = {30, 31}};
-  const auto rk4 =
-      timed_method(task, Setting{.method = "rk4", .step = 1e-4, .transient = 0.25});
-  rk4->run();
-  const long steps =
-      std::lround(8 * std::ceil(1 / (30 * 1e-4)) + 8 * std::ceil(1 / (31 * 1e-4)));
-  CHECK(rk4->counts().force_instants == 4 * steps);
-  rk4->run();
-  CHECK(rk4->counts().force_instants == 4 * steps);
 }
 
 TEST_CASE("Harmonic balance: N of the setting, three transforms or more per evaluation")
@@ -306,25 +231,7 @@ TEST_CASE("Speeds side by side take the steps of each alone and reach its motion
   CHECK(lanes->counts().force_instants == evaluations);
 }
 
-TEST_CASE("Central differences approach the motion with the square of the step")
-{
-  const TrueMotion truth = true_motion(set_1(), 45, truth_settings());
-  REQUIRE(truth.periodic);
-  const Task task{.parameters = set_1(), .frequencies = {45}};
-  double coarse = 0;
-  for (double step : {2e-5, 1e-5}) {
-    const auto central =
-        timed_method(task, Setting{.method = "central", .step = step, .transient = 3});
-    central->run();
-    const auto found = central->motion(0, 90);
-    REQUIRE(found);
-    const double error = relative_difference(*found, truth.motion);
-    if (coarse > 0) CHECK(coarse / error == Approx(4).epsilon(0.1));
-    coarse = error;
-  }
-}
-
-TEST_CASE("A schedule gives each speed its own setting")
+TEST_CASE("A schedule gives each speed its own setting, and its steps are counted once")
 {
   const Schedule schedule({Setting{.method = "rk4", .step = 1e-4, .transient = 0.25},
                            Setting{.method = "rk4", .step = 5e-5, .transient = 0.25}});
@@ -334,5 +241,7 @@ TEST_CASE("A schedule gives each speed its own setting")
   rk4->run();
   const long steps =
       std::lround(8 * std::ceil(1 / (30 * 1e-4)) + 8 * std::ceil(1 / (31 * 5e-5)));
+  CHECK(rk4->counts().force_instants == 4 * steps);
+  rk4->run();
   CHECK(rk4->counts().force_instants == 4 * steps);
 }

@@ -1,7 +1,5 @@
 """explore with files and options that are wrong or could surprise: each is refused with status 2 and one
 line that says what is wrong, before anything is computed, or does what it says.
-
-Usage: tests/unit/explore_refusals.py   (from the project's root)
 """
 import os
 import re
@@ -68,7 +66,7 @@ class Values(Case):
                 self.lines("orbit", self.file("zero.toml", zero), *ORBIT, "--harmonics", 6)
 
     def test_options(self):
-        for options, words in [
+        self.refused_each([
                 ("--frequency 0", "--frequency"), ("--frequency -3", "--frequency"),
                 ("--frequency nan", "--frequency"), ("--frequency fast", "--frequency"),
                 ("", "--frequency"),
@@ -87,10 +85,8 @@ class Values(Case):
                 ("--frequency 30 --method rk4 --step 0", "--step"),
                 ("--frequency 30 --subharmonic 0", "--subharmonic 0: must be in 1...8"),
                 ("--frequency 30 --subharmonic 9", "1...8"), ("--frequency 30 --subharmonic 1.5", "--subharmonic"),
-                ("--frequency 30 --subharmonic 2 --method rk4", "--subharmonic: is for the methods aft")]:
-            with self.subTest(options):
-                self.refused(words, "orbit", self.machine, *options.split())
-        for options, words in [
+                ("--frequency 30 --subharmonic 2 --method rk4", "--subharmonic: is for the methods aft")], "orbit", self.machine)
+        self.refused_each([
                 ("--from 10 --to 10", "--from 10: must be below --to 10"), ("--from 20 --to 10", "--from"),
                 ("--from 0 --to 10", "--from"), ("--from 1 --to inf", "--to"),
                 ("--from 1 --to 10 --newton-tolerance 1", "--newton-tolerance 1"),
@@ -109,10 +105,8 @@ class Values(Case):
                 ("--from 1 --to 2 --restart .", "is a directory"),
                 ("--from 1 --to 2 --restart /dev/zero", "is no regular file"),
                 ("--from 1 --to 2 --restart " + "x" * 300, "File name too long"),
-                ("--from 1 --to 2 --restart machine.toml", "machine.toml:1: '# Branch of")]:
-            with self.subTest(options):
-                self.refused(words, "response", self.machine, *options.split())
-        for options, words in [
+                ("--from 1 --to 2 --restart machine.toml", "machine.toml:1: '# Branch of")], "response", self.machine)
+        self.refused_each([
                 ("--count 0", "--count 0: must be in 1...10000"), ("--count 1.5", "--count"), ("", "--count"),
                 ("--count 3 --starts -1", "--starts -1: must be in 0...1000"), ("--count 3 --starts 1e3", "--starts"),
                 ("--count 10000 --starts 18", "--starts 18: must be in 0...17 with --count 10000"),
@@ -125,10 +119,8 @@ class Values(Case):
                 ("--count 3 --motions machine.toml", "is the input"),
                 ("--count 3 --section same.tsv --motions same.tsv", "is the file of two options"),
                 ("--count 3 --section same.svg --plot same.svg", "is the file of two options"),
-                ("--count 3 --to 10", "--from 10: must be below --to 10")]:
-            with self.subTest(options):
-                end = [] if "--to" in options else ["--to", "20"]
-                self.refused(words, "attractors", self.machine, "--from", "10", *end, *options.split())
+                ("--count 3 --starts 1.5", "--starts")], "attractors", self.machine, "--from", 10, "--to", 20)
+        self.refused("--from 10: must be below --to 10", "attractors", self.machine, "--from", 10, "--to", 10, "--count", 3)
         self.refused("closed no motion of period 2 T", "orbit", self.machine, *ORBIT, "--method", "aft", "--subharmonic", 2,
                      "--budget", 1e9, status=3)
         self.refused("subcommand")
@@ -149,33 +141,33 @@ class Values(Case):
         self.refused("not reached at 24.3 Hz", "orbit", slow, "--frequency", 24.3, "--method", "aft", "--tolerance", 1e-3, status=3)
         self.refused("not reached at 18.7 Hz", "orbit", odd, "--frequency", 18.7, "--method", "aft", "--tolerance", 1e-6, status=3)
 
-    def test_a_plot_without_matplotlib_is_refused_before_the_work(self):
-        self.refused("install python3-matplotlib", "attractors", self.machine, *RESPONSE, "--count", 3, "--plot",
-                     "a.svg", "--section", "b.tsv", env={**os.environ, "PYTHON": "/bin/false"})
-        self.assertEqual([file.name for file in self.folder.iterdir()], ["machine.toml"])
-
     def test_no_solution(self):
         self.refused("no solution found with 24 harmonics at 13.4 Hz", "orbit",
                      Path("data/set2.toml").resolve(), "--frequency", "13.4", "--harmonics", "24", status=3)
 
-    def test_scenes_and_readings(self):
-        program, scenes = Path(EXPLORE).with_name("fig05_displacements"), Path("data/scenes").resolve()
-        for arguments, words in [
-                (["no/such/scene.toml"], "no such file"),
-                ([scenes / "fig05_displacements.toml", "--reading", "upside-down"],
-                 "must be exchanged or as-printed"),
-                ([scenes / "tab01_parameters.toml"], "title is missing")]:
-            with self.subTest(arguments):
-                self.refused(words, *arguments, program=program)
-
-    def test_a_scene_of_many_speeds(self):
-        """Which took 47 GB and a minute."""
+    def test_scenes(self):
+        """Of programs that compute figures and costs; one with too many speeds took 47 GB and a minute."""
         (self.folder / "scenes").mkdir()
         for name in ("set1", "set2"):
             self.file(f"{name}.toml", Path(f"data/{name}.toml").read_text(encoding="utf-8"))
-        scene = Path("data/scenes/fig03_response.toml").read_text(encoding="utf-8").replace("step = 0.1 }", "step = 1e-8 }")
-        self.refused("balance_hz.step gives more than 100000 speeds", self.file("scenes/many.toml", scene),
-                     program=Path(EXPLORE).with_name("fig03_response"))
+        for program, old, new, words in [
+                ("fig03_response", "step = 0.1 }", "step = 1e-8 }", "balance_hz.step gives more than 100000 speeds"),
+                ("fig05_displacements", "title", "titel", "title is missing"),
+                ("tab02_equal_error", "[1e-2, 1e-3, 1e-6]", "[1e-6, 1e-3, 1e-2]", "targets"),
+                ("tab02_equal_error", "[25.0, 60.0]", "[60.0, 25.0]", "range_ends_hz"),
+                ("tab02_equal_error", '"rkf45"', '"rkf46"', "methods"), ("tab02_equal_error", "closures", "closure", "closures"),
+                ("tab02_equal_error", "[bsimp]", "colour = 1\n[bsimp]", "colour"),
+                ("work_precision", "50.0, 45.0]", "50.0]", "speeds_hz"), ("work_precision", "below_hz = 0.5", "below_hz = 7.0", "below_hz"),
+                ("cost_growth", "below_hz = 29.5", "below_hz = 30.5", "below_hz"), ("cost_growth", "[8, 16, ", "[16, 8, ", "harmonics"),
+                ("cost_growth", "samples_per_harmonic = 8", "samples_per_harmonic = 1", "samples_per_harmonic")]:
+            with self.subTest(program, new=new):
+                scene = Path(f"data/scenes/{program}.toml").read_text(encoding="utf-8")
+                self.assertIn(old, scene)
+                self.refused(words, self.file("scenes/bad.toml", scene.replace(old, new, 1)), program=Path(EXPLORE).with_name(program))
+        figure, deviations = (Path(EXPLORE).with_name(program) for program in ("fig05_displacements", "deviations"))
+        self.refused("no such file", "no/such/scene.toml", program=figure)
+        self.refused("must be exchanged or as-printed", "scenes/bad.toml", "--reading", "upside-down", program=figure)
+        self.refused("must be exchanged;", Path("data/scenes/deviations.toml").resolve(), "--reading", "as-printed", program=deviations)
 
 
 class Save(Case):

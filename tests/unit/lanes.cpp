@@ -3,7 +3,6 @@
 #include <memory>
 #include "support/catch.hpp"
 
-#include "support/bits.hpp"
 #include "support/cases.hpp"
 #include "time/flow.hpp"
 #include "time/rk4.hpp"

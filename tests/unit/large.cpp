@@ -1,12 +1,10 @@
 /** Bodies given by matrices: the implicit stepper and its derivative against the explicit steppers of Eq. 7, and the
     condensed blocks against differences. */
-#include <Eigen/LU>
 #include <cmath>
 #include "support/catch.hpp"
 
 #include "balance/bearing_problem.hpp"
 #include "model/rational_fit.hpp"
-#include "model/reduction.hpp"
 #include "motion/find_periodic.hpp"
 #include "support/cases.hpp"
 #include "time/flow.hpp"
@@ -30,18 +28,18 @@ Parameters set_1_by_matrices()
   const std::complex<double> i(0, 1);
   Eigen::VectorXcd unbalance(4);
   unbalance << 0, 0, p.unbalance, -i * p.unbalance;
-  p.machine = std::make_shared<const LargeMachine>(LargeBodies{
-      .mass = diagonal(p.stator.mass, p.rotor.mass),
-      .damping = diagonal(p.stator.damping(), p.rotor.damping()),
-      .gyroscopic = Eigen::MatrixXd::Zero(4, 4),
-      .stiffness = diagonal(p.stator.stiffness(), p.rotor.stiffness()),
-      .joints = joints,
-      .load = -p.gravity * Eigen::Vector4d(0, p.stator.mass, 0, p.rotor.mass),
-      .unbalance = unbalance,
-      .spring = 3e7,
-      .shown = 4,
-      .places = {{0, 1, 2, 3}},
-      .outputs = {}});
+  p.machine = std::make_shared<const LargeMachine>(
+      LargeBodies{.mass = diagonal(p.stator.mass, p.rotor.mass),
+                  .damping = diagonal(p.stator.damping(), p.rotor.damping()),
+                  .gyroscopic = Eigen::MatrixXd::Zero(4, 4),
+                  .stiffness = diagonal(p.stator.stiffness(), p.rotor.stiffness()),
+                  .joints = joints,
+                  .load = -p.gravity * Eigen::Vector4d(0, p.stator.mass, 0, p.rotor.mass),
+                  .unbalance = unbalance,
+                  .spring = 3e7,
+                  .shown = 4,
+                  .places = {{0, 1, 2, 3}},
+                  .outputs = {}});
   return p;
 }
 
@@ -119,69 +117,6 @@ TEST_CASE("Condensed blocks vary with the speed as differences say")
     agrees(at.a_slope, above.a, below.a, at.a.norm());
     agrees(at.b_slope, above.b, below.b, at.b.norm());
     agrees(at.c_slope, above.c, below.c, at.c.norm() + 1e-12);
-  }
-}
-
-/** Two unlike planes that G couples, 60 masses each, the first on a bearing: another sign of G, a C or an unbalance left
-    out, a basis that ends too early would show. */
-TEST_CASE("A reduced chain answers as the whole one does")
-{
-  constexpr int n = 120;
-  Eigen::MatrixXd k = Eigen::MatrixXd::Zero(n, n), m = k, g = k;
-  for (int i = 0; i < n; ++i) {
-    m(i, i) = 0.1 + 0.01 * (i % 7);
-    k(i, i) += i >= n - 2 ? 1e9 : 1e5;
-    if (i + 2 < n)
-      for (const auto& [r, c, sign] :
-           {std::tuple{0, 0, 1}, {2, 2, 1}, {0, 2, -1}, {2, 0, -1}})
-        k(i + r, i + c) += sign * (i % 2 == 0 ? 1e9 : 7e8);
-    if (i % 2 == 0) {
-      g(i, i + 1) = 0.05;
-      g(i + 1, i) = -0.05;
-    }
-  }
-  const Eigen::MatrixXd c = 1e-6 * k + 3 * m;
-  Eigen::VectorXcd unbalance = Eigen::VectorXcd::Zero(n);
-  unbalance[70] = 1;
-  unbalance[71] = {0, -1};
-  const BodyMatrices body{m.sparseView(), c.sparseView(), g.sparseView(), k.sparseView()};
-  const BodyPorts ports{.joints = {0, 1},
-                        .kept = {0, 1, 50, 51},
-                        .load = -9.81 * m.diagonal(),
-                        .unbalance = unbalance,
-                        .spring = 1e6};
-  const ReducedBody small = reduce(body, ports, {hertz(10), hertz(80), hertz(1500)}, "");
-  REQUIRE(small.basis.cols() < 100);
-  CHECK(small.error < 1e-8);
-  const auto rows = [](const Eigen::MatrixXcd& x) -> Eigen::MatrixXcd {
-    return x(std::vector{0, 1, 50, 51}, Eigen::all);
-  };
-  const auto answer = [](const auto& m_, const auto& c_, const auto& g_, const auto& k_,
-                         double at, double speed, const Eigen::MatrixXcd& b) {
-    Eigen::MatrixXcd z = std::complex<double>(0, at) * (c_ + speed * g_);
-    z += k_ - at * at * m_;
-    for (int dof : {0, 1}) z(dof, dof) += std::complex<double>(1e6, at > 0 ? 1e6 : 0);
-    return Eigen::MatrixXcd(z.partialPivLu().solve(b));
-  };
-  Eigen::MatrixXcd inputs = Eigen::MatrixXcd::Identity(n, 4);
-  inputs.col(2) = unbalance;
-  inputs.col(3) = ports.load.cast<std::complex<double>>();
-  const Eigen::MatrixXcd own = small.basis.transpose() * inputs;
-  const auto& [m_r, c_r, g_r, k_r] = small.matrices;
-  for (const auto& [at, speed, first, count] : {std::tuple{0.0, 50.0, 3, 1},
-                                                {hertz(33), hertz(33), 2, 1},
-                                                {hertz(71), hertz(71), 2, 1},
-                                                {hertz(123), hertz(41), 0, 2},
-                                                {hertz(777), hertz(77), 0, 2},
-                                                {hertz(1444), hertz(20), 0, 2}}) {
-    const Eigen::MatrixXcd whole = rows(answer(m, c, g, k, at, speed,
-                                               inputs.middleCols(first, count))),
-                           reduced = answer(Eigen::MatrixXd(m_r), Eigen::MatrixXd(c_r),
-                                            Eigen::MatrixXd(g_r), Eigen::MatrixXd(k_r),
-                                            at, speed, own.middleCols(first, count))
-                                         .topRows(4);
-    CAPTURE(at);
-    CHECK((whole - reduced).norm() < 1e-7 * whole.norm());
   }
 }
 

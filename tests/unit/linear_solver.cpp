@@ -75,6 +75,11 @@ TEST_CASE("Product, leading part and diagonal blocks are those of the dense Jaco
   const Oscillator oscillator = two_masses_cubic();
   Balance cubic(oscillator.problem(48), 9);
   Balance bearing(bearing_problem(set_1(), 19), 9);
+  Parameters own = set_1();
+  own.bearing.damping = 8;
+  own.bearing.defect = {
+      .surface = Defect::Surface::inner_race, .depth = 2e-6, .width = 0.3, .place = 0.4};
+  Balance damaged(bearing_problem(own, 64), 9);
   struct Case {
     Balance& balance;
     Eigen::VectorXd x;
@@ -82,43 +87,28 @@ TEST_CASE("Product, leading part and diagonal blocks are those of the dense Jaco
   };
   for (const auto& [balance, x, omega] :
        {Case{cubic, waves(cubic.unknowns()), 1.1},
-        Case{bearing, 0.98 * quasi_static_start(set_1(), hertz(16), 9), hertz(16)}}) {
+        Case{bearing, 0.98 * quasi_static_start(set_1(), hertz(16), 9), hertz(16)},
+        Case{damaged, 0.98 * quasi_static_start(set_1(), hertz(16), 9), hertz(16)}}) {
     const Eigen::MatrixXd dense = balance.jacobian(x, omega);
     const double size = dense.norm();
     Eigen::VectorXd product(dense.rows());
     balance.apply_jacobian(x, omega, waves(dense.rows()), product);
-    CHECK((product - dense * waves(dense.rows())).norm() < 1e-13 * size);
+    CHECK((product - dense * waves(dense.rows())).norm() < 1e-12 * size);
     Eigen::MatrixXd low;
     balance.jacobian(x, omega, 4, low);
-    CHECK((low - dense.topLeftCorner(18, 18)).norm() < 1e-14 * size);
+    CHECK((low - dense.topLeftCorner(18, 18)).norm() < 1e-12 * size);
     Eigen::MatrixXd blocks;
     balance.diagonal_blocks(x, omega, 1, blocks);
     for (int h : {1, 5, 9}) {
       const auto block = dense.block(2 * (2 * h - 1), 2 * (2 * h - 1), 4, 4);
-      CHECK((blocks.middleCols(4 * (h - 1), 4) - block).norm() < 1e-14 * size);
+      CHECK((blocks.middleCols(4 * (h - 1), 4) - block).norm() < 1e-12 * size);
     }
-  }
-}
-
-/** Catches a preconditioner that GMRES does not converge with, and steps that lead elsewhere. */
-TEST_CASE("With many harmonics GMRES leads where the dense Jacobian leads")
-{
-  for (const auto& [harmonics, frequency] : {std::pair(64, 55.0), std::pair(256, 30.0)}) {
-    INFO("m = " << harmonics);
-    const Eigen::VectorXd start = start_with(harmonics, frequency);
-    Balance balance = balance_with(harmonics), other = balance_with(harmonics);
-    const Eigen::VectorXd dense = solve_densely(other, hertz(frequency), start);
-    BalanceSolver solver(balance);
-    PeriodicMotion motion{.omega = hertz(frequency), .x = start};
-    REQUIRE(solve(balance, solver, motion));
-    CHECK(solver.iterations() > 0);
-    CHECK((motion.x - dense).norm() < 1e-9 * dense.norm());
   }
 }
 
 /** Catches a dense block or a mean stiffness that misses the contact: at these speeds the contact couples 96 to 400 harmonics,
     and at 3 Hz it rests where the load points. */
-TEST_CASE("GMRES needs few iterations at low speeds")
+TEST_CASE("GMRES leads where the dense Jacobian leads, in few iterations at low speeds")
 {
   struct Case {
     int harmonics;
@@ -126,10 +116,12 @@ TEST_CASE("GMRES needs few iterations at low speeds")
     long most_iterations;
   };
   for (const auto& [harmonics, frequency, most] :
-       {Case{96, 6, 300}, Case{512, 3, 300}, Case{512, 11, 300}, Case{512, 16, 300}}) {
+       {Case{96, 6, 300}, Case{512, 3, 300}, Case{512, 11, 300}, Case{512, 16, 300},
+        Case{64, 55, 60}, Case{256, 30, 60}}) {
     INFO(frequency << " Hz, m = " << harmonics);
+    const int known = frequency < 20 ? 64 : 6;
     const Eigen::VectorXd start =
-        motion::find_periodic({set_1(), hertz(frequency), 64}).x;
+        motion::find_periodic({set_1(), hertz(frequency), known}).x;
     REQUIRE(start.size() > 0);
     PeriodicMotion motion{.omega = hertz(frequency),
                           .x = resize_harmonics(start, 2, harmonics)},
@@ -139,6 +131,7 @@ TEST_CASE("GMRES needs few iterations at low speeds")
     REQUIRE(solve(balance, solver, motion));
     REQUIRE(solve(other, dense, reference));
     CHECK((motion.x - reference.x).norm() < 1e-8 * reference.x.norm());
+    CHECK(solver.iterations() > 0);
     CHECK(solver.iterations() <= most);
   }
 }

@@ -1,4 +1,3 @@
-
 /** Lines of a motion: a record that is a sum of known cosines, and the names of orders. */
 #include "support/catch.hpp"
 

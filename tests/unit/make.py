@@ -1,6 +1,4 @@
 """What make leaves behind, and what may stand in the name of its folder.
-
-Usage: tests/unit/make.py   (from the project's root)
 """
 import os
 import re

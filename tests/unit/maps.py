@@ -1,19 +1,15 @@
 """explore map: the same bytes whatever the number of threads, of runs and of interruptions; rows against single
 points of the other commands; what it refuses, and what stands in the row of a point without a result.
-
-Usage: tests/unit/maps.py   (from the project's root)
 """
 import re
-import subprocess
 import sys
-import time
 import unittest
 from pathlib import Path
 
 import numpy as np
 
 sys.path.insert(0, str(Path(__file__).parents[1]))
-from support.explore import EXPLORE, MACHINE, Case, Table  # noqa: E402
+from support.explore import MACHINE, Case, Table  # noqa: E402
 
 CLEARANCE = "bearing.radial_clearance_m"
 SIX = ["--harmonics", 6]
@@ -84,21 +80,6 @@ class Bytes(Case):
                 part = self.file("part.tsv", whole.replace(row, "\t".join(rotten)))
                 result = self.refused(words, "map", self.machine, *GRID, "--resume", part)
                 self.assertEqual(result.stdout, "")
-
-    def test_killed_and_resumed(self):
-        """Killed while it works; what was written is whole lines and at most one that is cut off."""
-        options = [EXPLORE, "map", self.machine, "--x", "frequency=10:50:21", "--y", f"{CLEARANCE}=0:1e-4:41",
-                   "--quantity", "amplitude", "--harmonics", "6", "--threads", "2"]
-        whole = subprocess.run(options, stdout=subprocess.PIPE, check=True, cwd=self.folder, encoding="utf-8").stdout
-        part = self.folder / "part.tsv"
-        with part.open("w") as out, subprocess.Popen(options, stdout=out, cwd=self.folder) as running:
-            while part.stat().st_size < len(whole) // 3 and running.poll() is None:
-                time.sleep(0.001)
-            running.kill()
-        self.assertTrue(whole.startswith(part.read_text(encoding="utf-8")))
-        again = subprocess.run([*options, "--resume", part], stdout=subprocess.PIPE, check=True, cwd=self.folder,
-                               encoding="utf-8")
-        self.assertEqual(again.stdout, whole)
 
 
 class Values(Case):
@@ -249,8 +230,7 @@ class Values(Case):
 
 class Refusals(Case):
     def refused_map(self, words, text):
-        with self.subTest(text):
-            self.refused(words, "map", self.machine, *text.split())
+        self.refused_each([(text, words)], "map", self.machine)
 
     def test_axes_and_quantities(self):
         usual = "--frequency 45 --quantity amplitude"
@@ -309,15 +289,6 @@ class Refusals(Case):
         self.refused("no such file", *usual, "amplitude", "--resume", "none.tsv")
         old = self.file("old.tsv", "# Map of a machine\n# source: rotor_stator 0.1.0 0123456789ab\n# compiler: g++\n# x: frequency=40:45:2\n")
         self.refused("old.tsv: was written by rotor_stator 0.1.0 0123456789ab", *usual, "amplitude", "--resume", old)
-
-
-class Figure(Case):
-    def test_drawn(self):
-        """A map with classes and one over a single key."""
-        for options in (GRID + ["--quantity", "stability"], [*SIX, "--x", "frequency=20:50:5", "--quantity", "amplitude"]):
-            result = self.run_explore("map", self.machine, *options, "--plot", "map.svg")
-            self.assertEqual((result.returncode, result.stderr), (0, ""))
-            self.assertIn("</svg>", (self.folder / "map.svg").read_text(encoding="utf-8"))
 
 
 if __name__ == "__main__":

@@ -1,6 +1,4 @@
 """explore: chosen columns against the usual ones and against orbits, formats, files of lines, figures and progress.
-
-Usage: tests/unit/output.py   (from the project's root)
 """
 import csv
 import io
@@ -44,8 +42,7 @@ class Columns(Case):
             sums = (balls["Q"] * np.sin(balls["angle"])).reshape(-1, 9).sum(axis=1)
             np.testing.assert_allclose(sums, orbit["F_y"], rtol=1e-9, atol=1e-6)
             self.assertTrue((0 <= balls["angle"]).all() and (balls["angle"] < 2 * math.pi).all())
-        rest = self.table("check", own)
-        value = dict(zip(rest["name"], rest["value"]))
+        value = self.values(own)
         loaded = balls["Q"] > 0
         np.testing.assert_allclose(balls["stress"][loaded] / value["stress"],
                                    np.cbrt(balls["Q"][loaded] / value["ball_load"]), rtol=1e-9)
@@ -62,6 +59,7 @@ class Columns(Case):
             odd = text != MACHINE
             orbit = self.table("orbit", own, "--frequency", 45, "--points", 512, "--periods", 64 if odd else 1, *how)
             for name in ["x_r", "y_r", "y_s"]:
+                self.assertAlmostEqual(table["amp_" + name][-1] / (np.ptp(orbit[name]) / 2), 1, delta=1e-2)
                 self.assertAlmostEqual(table["mean_" + name][-1], orbit[name].mean(), delta=1e-3 * abs(orbit[name]).max())
             for name in ["F_x", "F_y"]:
                 self.assertAlmostEqual(table["amp_" + name][-1], np.ptp(orbit[name]) / 2,
@@ -119,26 +117,17 @@ class Formats(Case):
         rows = list(csv.DictReader(io.StringIO("\n".join(self.lines(*arguments, "--format", "csv")))))
         np.testing.assert_array_equal([float(row["x_r"]) for row in rows], table["x_r"])
 
-    def test_a_title_is_no_value(self):
-        """Titles with words of headers. Would catch a reader that takes the first match in the whole header."""
-        words = "stator: rigid, frequency: 99, delta = 7, clearance: 7"
-        own = self.file("own.toml", MACHINE.replace("Data set 1", words))
-        usual, odd = (self.table("orbit", machine, *AT_45, *SIX) for machine in (self.machine, own))
-        self.assertIn(words, odd.header)
-        self.assertEqual((odd.keys(), odd.bodies()), (usual.keys(), "rs"))
-        whole = json.loads("\n".join(self.lines("orbit", own, *AT_45, *SIX, "--format", "json")))
-        self.assertEqual((whole["values"]["frequency"], whole["values"]["clearance"]), (45, 2e-5))
-
     def test_titles_that_look_like_something_else(self):
         """Keys, markup, LaTeX, gnuplot escapes, marks that turn the text around, and 60,000 characters: all are text. Would catch
         a title that becomes structure in a table, in JSON or in a figure."""
         usual = self.table("orbit", self.machine, *AT_45, *SIX)
-        for title in ["x\\\\n# regime: none", "<b>&amp;</svg><script>", "$\\\\frac{1}{0$ \\\\input{x} $", "{/Symbol a}_{@^2} %s %1$n",
+        for title in ["stator: rigid, frequency: 99, delta = 7, clearance: 7", "x\\\\n# regime: none", "<b>&amp;</svg><script>",
+                      "$\\\\frac{1}{0$ \\\\input{x} $", "{/Symbol a}_{@^2} %s %1$n",
                       "\u202eright to left\u2066", "# row panel: 1", '\\"values\\": {', "a" * 60000]:
             with self.subTest(title[:40]):
                 own = self.file("own.toml", MACHINE.replace("Data set 1", title))
                 odd = self.table("orbit", own, *AT_45, *SIX, "--plot", "odd.svg")
-                self.assertEqual(odd.keys(), usual.keys())
+                self.assertEqual((odd.keys(), odd.bodies()), (usual.keys(), "rs"))
                 np.testing.assert_array_equal(odd["x_r"], usual["x_r"])
                 whole = json.loads("\n".join(self.lines("orbit", own, *AT_45, *SIX, "--format", "json")))
                 self.assertEqual(whole["values"], {key: value for key, value in usual.keys().items() if key != "schema"})
@@ -152,18 +141,26 @@ class Formats(Case):
         self.assertIn("</svg>", (self.folder / "orbit.svg").read_text(encoding="utf-8"))
 
     def test_every_command_draws(self):
-        """On data set 1 and on a balanced 6205, in each format; what is missing is said before any work."""
+        """On data set 1 and on a balanced 6205, in each format, twice alike; what is missing is said before any work."""
         balanced = self.file("own.toml", CARRIED.replace("unbalance_kg_m = 0.05", "unbalance_kg_m = 0.0"))
-        commands = [["orbit", *AT_45], ["contact", *AT_45], ["spectrum", "--frequency", 45], ["response", *TO_45],
-                    ["attractors", "--from", 44, "--to", 45, "--count", 1, "--starts", 0]]
+        axis = ["map", "--frequency", 45, "--x", "bearing.radial_clearance_m=1e-5:2e-5:3", *SIX, "--quantity"]
+        commands = [["orbit", *AT_45, *SIX], ["contact", *AT_45, *SIX], ["spectrum", "--frequency", 45, *SIX], ["response", *TO_45, *SIX],
+                    ["attractors", "--from", 44, "--to", 45, "--count", 1, "--starts", 0], [*axis, "amplitude"],
+                    [*axis, "stability", "--y", "rotor.mass_kg=40:50:2"]]
         for machine in [self.machine, balanced]:
             for k, (command, *options) in enumerate(commands):
                 suffix, begin = [(".svg", b"<?xml"), (".png", b"\x89PNG"), (".pdf", b"%PDF")][k % 3]
-                how = [] if command == "attractors" else SIX
-                self.lines(command, machine, *options, *how, "--plot", "figure" + suffix)
-                self.assertTrue((self.folder / ("figure" + suffix)).read_bytes().startswith(begin), command)
+                names = ["one" + suffix, "two" + suffix]
+                for name in names[:1 if machine == balanced else 2]:
+                    self.lines(command, machine, *options, "--plot", name)
+                figures = [(self.folder / name).read_bytes() for name in names]
+                self.assertTrue(figures[0].startswith(begin), command)
+                if machine == self.machine:
+                    self.assertEqual(*figures, command)
+                before = sorted(self.folder.iterdir())
                 self.refused("install python3-matplotlib", command, machine, *options, "--plot", "none.svg",
                              env={**os.environ, "PYTHON": "/bin/false"})
+                self.assertEqual(sorted(self.folder.iterdir()), before)
 
     def test_nothing_of_the_folder_draws(self):
         """Would catch modules and settings of the folder in which explore runs."""

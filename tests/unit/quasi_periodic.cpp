@@ -2,7 +2,6 @@
     machine as one with one frequency, and the rule of the images. */
 #include "support/catch.hpp"
 
-#include "balance/bearing_problem.hpp"
 #include "balance/torus_line.hpp"
 #include "motion/find_periodic.hpp"
 #include "motion/quasi_periodic.hpp"
@@ -127,30 +126,4 @@ TEST_CASE("No image falls on a harmonic that is kept")
         CHECK(place(a) != place(b));
         CHECK((place(a) + place(b)) % n != 0);
       }
-}
-
-/** With z = 8, BPFO and the eighth order of the speed are one: the solution then is that
-    of n c = 8. */
-TEST_CASE("A line on which images fall on kept harmonics gives another solution")
-{
-  const Parameters parameters = machine(1, 16, 0.43);
-  const double omega = hertz(38.2);
-  std::vector<Harmonic> list;
-  for (const Harmonic passing : {Harmonic{0, 0}, {0, 1}, {16, -1}})
-    for (double a = passing.k_1 == 0 && passing.k_2 == 0 ? 0 : -3; a <= 3; ++a)
-      list.push_back({passing.k_1 + a, passing.k_2});
-  const Harmonics kept(std::move(list));
-  const auto solved = [&](const TorusLine& line) {
-    Balance balance(bearing_problem(parameters, line), kept);
-    PeriodicMotion motion =
-        solve(balance, omega,
-              project(quasi_static_start(parameters, omega, 3), 2, Harmonics(3), kept));
-    REQUIRE(motion.found());
-    motion.bodies = body_series(parameters, motion);
-    return motion_of(parameters, motion, 64, 4);
-  };
-  const Harmonics others = orders_up_to(16, parameters.bearing);
-  const Motion right = solved(line_without_images(kept, others, 1024));
-  CHECK(distance(solved(line_without_images(kept, others, 2048)), right) < 2e-4);
-  CHECK(distance(solved({19, 96}), right) > 5e-4);
 }

@@ -2,8 +2,6 @@
 #include <numbers>
 #include "support/catch.hpp"
 
-#include "balance/bearing_problem.hpp"
-#include "balance/newton.hpp"
 #include "costs/timed_method.hpp"
 #include "motion/find_periodic.hpp"
 #include "support/cases.hpp"
@@ -15,32 +13,10 @@ using namespace rotor_stator::tests;
 
 namespace {
 
-/** Coefficients of harmonics ≤ 10 of a function of the phase, from N samples. */
-template <class Function>
-Eigen::RowVectorXd ten_harmonics(int samples, Function f)
+/** The order p of an error that falls as m^-p. */
+double order(const std::vector<double>& m, const std::vector<double>& errors)
 {
-  Eigen::MatrixXd values(samples, 1), series(1, 21);
-  for (int k = 0; k < samples; ++k) values(k, 0) = f(2 * std::numbers::pi * k / samples);
-  FourierTransform(samples).to_series(values, series);
-  return series;
-}
-
-/** Largest error of harmonics ≤ 10 over the first, against 2^17 samples. */
-template <class Function>
-double aliasing(int samples, Function f)
-{
-  const Eigen::RowVectorXd exact = ten_harmonics(1 << 17, f);
-  return (ten_harmonics(samples, f) - exact).cwiseAbs().maxCoeff() / std::abs(exact[1]);
-}
-
-double force_law(double t)
-{
-  return std::pow(std::max(0.0, std::cos(t) - 0.3), 1.5);
-}
-
-double stiffness_law(double t)
-{
-  return std::sqrt(std::max(0.0, std::cos(t) - 0.3));
+  return -fitted_exponent(m, errors);
 }
 
 }  // namespace
@@ -75,68 +51,6 @@ TEST_CASE("Half peak-to-peak of a known motion")
   series << 7, 3, 4, 0, 0;
   CHECK(half_peak_to_peak(series)[0] == Approx(5).epsilon(1e-8));
 }
-
-TEST_CASE("Aliasing of a clipped 3/2 power falls as published")
-{
-  struct Expected {
-    int samples;
-    double force, stiffness;
-  };
-  const Expected cases[] = {{32, 1e-3, 1e-2},
-                            {64, 7e-5, 6e-3},
-                            {128, 2e-5, 1e-3},
-                            {256, 5e-6, 2e-4},
-                            {1024, 2e-8, 6e-5}};
-  for (const Expected& expected : cases) {
-    INFO("N = " << expected.samples);
-    CHECK(aliasing(expected.samples, force_law) < 2 * expected.force);
-    CHECK(aliasing(expected.samples, force_law) > expected.force / 2);
-    CHECK(aliasing(expected.samples, stiffness_law) < 2 * expected.stiffness);
-    CHECK(aliasing(expected.samples, stiffness_law) > expected.stiffness / 2);
-  }
-}
-
-TEST_CASE(
-    "On the bearing the solution converges with N, and the default N is past the "
-    "truncation")
-{
-  const Parameters parameters = set_1();
-  const int m = 16;
-  const auto solution = [&](int samples) {
-    Balance balance(bearing_problem(parameters, samples), m);
-    const auto motion =
-        solve(balance, hertz(30), quasi_static_start(parameters, hertz(30), m));
-    REQUIRE(motion.found());
-    return motion.x;
-  };
-  const Eigen::VectorXd exact = solution(4096);
-  const auto error = [&](int samples) {
-    return (solution(samples) - exact).norm() / exact.norm();
-  };
-  const double at_36 = error(36), at_72 = error(72), at_144 = error(144),
-               at_1152 = error(1152);
-  CHECK(at_72 < 0.5 * at_36);
-  CHECK(at_144 < 0.5 * at_72);
-  CHECK(at_1152 < 1e-6);
-
-  /** The truncation error, seen by doubling the harmonics. */
-  Balance finer(bearing_problem(parameters, 4096), 64);
-  const auto fine = solve(finer, hertz(30), resize_harmonics(exact, 2, 64));
-  REQUIRE(fine.found());
-  const double truncation =
-      (resize_harmonics(fine.x, 2, m) - exact).norm() / exact.norm();
-  CHECK(error(default_samples(m)) < truncation);
-}
-
-namespace {
-
-/** The order p of an error that falls as m^-p. */
-double order(const std::vector<double>& m, const std::vector<double>& errors)
-{
-  return -fitted_exponent(m, errors);
-}
-
-}  // namespace
 
 /** Catches a default N that grows more slowly than m^{7/5} (largest error) or m^{8/5} (rms): with 8m+1 the
     orders are 2.7 and 2.5. The orders 7/2 and 4 are those of a force that begins as d^{3/2}. */

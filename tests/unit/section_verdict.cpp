@@ -95,12 +95,9 @@ TEST_CASE("The period of a section is the fewest points after which it closes")
     CHECK(extent(section_of([&](int n) { return n % k; })) == k - 1);
   }
   CHECK(period([](int n) { return n % 17; }) == 0);
-}
-
-TEST_CASE("A few points cannot show a long period")
-{
-  const std::vector<Displacements> section{{0}, {1}, {0}, {1}, {0}};
-  CHECK(closing_period(section, 0.1, 16) == 0);
+  /** A few points cannot show a long period. */
+  const std::vector<Displacements> few{{0}, {1}, {0}, {1}, {0}};
+  CHECK(closing_period(few, 0.1, 16) == 0);
 }
 
 TEST_CASE("The standard error of alternating rates shrinks with batches")

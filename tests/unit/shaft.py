@@ -2,8 +2,6 @@
 
 The rotors are examples 5.9.1, 5.9.2 and 5.9.9 of Friswell, Penny, Garvey and Lees, Dynamics of Rotating Machines (2010),
 with the frequencies that ROSS prints for them.
-
-Usage: tests/unit/shaft.py   (from the project's root)
 """
 import resource
 import sys
@@ -11,20 +9,43 @@ import unittest
 from pathlib import Path
 
 import numpy as np
+from scipy.io import mmread
 
 sys.path.insert(0, str(Path(__file__).parents[1]))
 from support.explore import Case  # noqa: E402
 
-STEEL = """title = "published shaft"
-[material]
-youngs_modulus_Pa = 211e9
-shear_modulus_Pa = 81.2e9
-density_kg_per_m3 = 7810
+PASSING = Path("tests/cases/passing_6306.toml").resolve()
+# A pin at one end of six elements, a 6308 at the other.
+HELD = """title = "held"
+[stator]
+rigid = true
+[rotor]
+matrices = "shaft"
+vertical_dofs = [2, 6, 10, 14, 18, 22, 26]
+[[bearing]]
+rotor_dofs = [25, 26]
+designation = "6308"
+internal_clearance = "CN"
+[gravity]
+acceleration_m_per_s2 = 9.81
 """
 
 
-def segment(elements):
-    return f"[[segment]]\nlength_m = 1.5\ndiameter_m = 0.05\nelements = {elements}\n"
+def material(young, shear, density):
+    return f"""title = "shaft"
+[material]
+youngs_modulus_Pa = {young}
+shear_modulus_Pa = {shear}
+density_kg_per_m3 = {density}
+"""
+
+
+STEEL = material("211e9", "81.2e9", 7810)
+
+
+def segment(elements, length=1.5, diameter=0.05, bore=0):
+    bored = f"bore_m = {bore}\n" if bore else ""
+    return f"[[segment]]\nlength_m = {length}\ndiameter_m = {diameter}\n{bored}elements = {elements}\n"
 
 
 def disk(node, diameter):
@@ -44,20 +65,10 @@ def two_disks(elements, x, y):
 OVERHUNG = STEEL + segment(6) + disk(7, 0.35) + support(1, 1e7, 1e7) + support(5, 1e7, 1e7)
 
 
-def read(path):
-    rows = [line for line in path.read_text(encoding="utf-8").splitlines() if not line.startswith("%")]
-    n = int(rows[0].split()[0])
-    matrix = np.zeros((n, n))
-    for row in rows[1:]:
-        i, j, value = row.split()
-        matrix[int(i) - 1, int(j) - 1] = float(value)
-    return matrix
-
-
 class Shaft(Case):
     def matrices(self, text):
         self.lines("shaft", self.file("shaft.toml", text), "--to", "shaft")
-        return [read(self.folder / "shaft" / f"{name}.mtx") for name in "MCGK"]
+        return [mmread(self.folder / f"shaft/{name}.mtx").toarray() for name in "MCGK"]
 
     def whirl(self, text, rpm):
         """Frequencies [rad/s], ascending, and whether each whirls in the direction of rotation."""
@@ -100,10 +111,10 @@ class Shaft(Case):
                 for value, printed in zip(found, published):
                     self.assertLess(abs(value - printed), 0.1 if printed > 1000 else 0.01)
 
-    def campbell(self, text, rpm, dofs, extra=""):
+    def untouched(self, text, dofs=([1, 2], [1, 2])):
         """A machine whose bearing does not touch: the shaft on its own supports."""
-        self.lines("shaft", self.file("shaft.toml", text), "--to", "shaft")
-        own = self.file("machine.toml", f"""title = "on its supports"
+        self.lines("shaft", self.file("shaft.toml", text), "--to", "shaft", "--force")
+        return self.file("machine.toml", f"""title = "on its supports"
 [stator]
 rigid = true
 [rotor]
@@ -117,15 +128,49 @@ radial_clearance_m = 1e-3
 cage_speed_ratio = 0.4
 [gravity]
 acceleration_m_per_s2 = 0
-{extra}""")
-        return own, self.table("campbell", own, "--from", 1e-3, "--to", rpm / 60, "--count", 41, "--modes", 6)
+""")
+
+    def modes(self, machine, *speeds):
+        """Frequencies and damping ratios at the first speed."""
+        table = self.table("campbell", machine, "--from", speeds[0], "--to", speeds[1], "--count", 2, "--modes", 10)
+        first = table.where("f", table["f"][0])
+        return first["frequency"], first["damping"]
+
+    def test_a_rigid_support(self):
+        """As its stiffness grows the frequencies at 10 Hz tend to those of the pinned shaft, by LAPACK."""
+        pinned = [22.902093, 23.003923, 152.201128, 157.865066, 283.866147, 297.177125]
+        soft = [22.87227, 22.97367, 151.42965, 157.00955, 281.02846, 293.80377]
+        for k, expected in [(1e8, soft), (1e12, pinned), (1e16, pinned), (1e20, pinned)]:
+            with self.subTest(k=k):
+                self.untouched(STEEL + segment(6) + disk(4, 0.28) + support(1, k, k))
+                np.testing.assert_allclose(self.modes(self.file("held.toml", HELD), 10, 20)[0][:6], expected, rtol=1e-5)
+
+    def test_a_free_hollow_shaft(self):
+        """Isotropic at rest: each frequency, by LAPACK, twice, without damping; speeds from 0."""
+        found, damping = self.modes(self.untouched(material("210e9", "80.769230769e9", 7850) + segment(10, 0.3, 0.03008, 0.007)
+                                                   + support(1, 1e3, 1e3) + support(11, 1e3, 1e3)), "0rpm", "60 rpm")
+        pairs = np.repeat([5.657116, 9.759929, 1536.0617, 4040.4630, 7487.4650], 2)
+        np.testing.assert_allclose(found, pairs, rtol=1e-6)
+        self.assertFalse(damping.any())
+
+    def test_a_massless_shaft(self):
+        """A disk on a shaft of any small density: a mass m on the stiffness of a beam with shear within 3e-3; within 2e-4 of
+        each other."""
+        inertia = "[[disk]]\nnode = 5\nmass_kg = 10\npolar_inertia_kg_m2 = 0.05\ndiametral_inertia_kg_m2 = 0.026\n"
+        found = [self.modes(self.untouched(material("211e9", "81.2e9", density) + segment(8, 1.0, 0.02) + inertia
+                                           + support(1, 1e12, 1e12) + support(9, 1e12, 1e12)), 0, 10)[0][:2]
+                 for density in (1e-6, 1e-3, 1e-1)]
+        bending, shear = 48 * 211e9 * np.pi * 0.02**4 / 64, 4 * 81.2e9 * 0.9 * np.pi * 0.02**2 / 4
+        np.testing.assert_allclose(found, np.sqrt(1 / (1 / bending + 1 / shear) / 10) / 2 / np.pi, rtol=3e-3)
+        np.testing.assert_allclose(np.array(found) / found[0], 1, rtol=2e-4)
 
     def test_campbell_of_published_shafts(self):
         """Radians for hertz, the sign of G, a stator that is held among the modes: each would show."""
         for text, dofs, published, whirl in [
                 (two_disks(6, 1e6, 1e6), ([9, 10], [17, 18]), [85.39, 87.80, 251.78, 294.71, 600.18], [-1, 1, -1, 1, -1]),
                 (OVERHUNG, ([5, 6], [25, 26]), [76.19, 103.91, 565.99, 634.23, 647.75, 1174.2], [-1, 1])]:
-            own, table = self.campbell(text, 4000, dofs)
+            own = self.untouched(text, dofs)
+            table = self.table("campbell", own, "--from", 1e-3, "--to", 4000 / 60, "--count", 41, "--modes", 6)
             last = table.rows(table["f"] > 66.66)
             for value, printed in zip(2 * np.pi * last["frequency"], published):
                 self.assertLess(abs(value - printed), 0.1 if printed > 1000 else 0.01)
@@ -140,41 +185,31 @@ acceleration_m_per_s2 = 0
                 found, _ = self.whirl(text, 60 * speed)
                 self.assertAlmostEqual(found[int(mode) - 1] / (2 * np.pi), frequency, places=4)
 
-    def test_campbell_with_the_mean_contact(self):
-        """A rotor that hangs in its bearing alone vibrates on the slope of the mean force that carries it."""
-        own = self.file("machine.toml", """title = "in its bearing"
-[stator]
-rigid = true
-[rotor]
-mass_kg = 20
-natural_frequency_rad_per_s = 0
-damping_ratio = 0
-unbalance_kg_m = 0
-[bearing]
-balls = 8
-contact_stiffness_N_per_m1p5 = 1e10
-radial_clearance_m = 1e-5
-cage_speed_ratio = 0.375
-[gravity]
-acceleration_m_per_s2 = 9.81
-""")
-        angles = 2 * np.pi / 8 * (np.arange(8)[:, None] + np.arange(64) / 64)
-
-        def mean_force(x, y):
-            pressed = np.maximum(0, np.cos(angles) * x + np.sin(angles) * y - 1e-5)
-            ball = 1e10 * pressed**1.5
-            return np.array([(ball * np.cos(angles)).sum(0).mean(), (ball * np.sin(angles)).sum(0).mean()])
-
-        low, high = -1e-3, 0.0
-        for _ in range(80):
-            middle = (low + high) / 2
-            low, high = (middle, high) if mean_force(0, middle)[1] < -20 * 9.81 else (low, middle)
-        h = 1e-10
-        slopes = [(mean_force(h, low)[0] - mean_force(-h, low)[0]) / (2 * h),
-                  (mean_force(0, low + h)[1] - mean_force(0, low - h)[1]) / (2 * h)]
-        table = self.table("campbell", own, "--from", 1, "--to", 2, "--count", 2)
-        np.testing.assert_allclose(table["frequency"][:2], np.sqrt(np.sort(slopes) / 20) / (2 * np.pi), rtol=1e-5)
-        self.assertEqual(list(table["whirl"]), [0] * 4)
+    def test_one_linearisation(self):
+        """97.697 Hz is the root of the mean force's slope at the displacement where that force is the weight. With much damping
+        the response to the passing balls is largest where they meet it, and a mass as matrices has the same frequencies."""
+        right, text = 97.697, PASSING.read_text(encoding="utf-8")
+        speeds = ["--from", 1, "--to", 300]
+        values = self.values(PASSING, *speeds)
+        self.assertAlmostEqual(values["f_1_x"] / right, 1, delta=1e-4)
+        self.assertAlmostEqual(values["passage_f_1_x"] / (right / 3), 1, delta=1e-4)
+        critical = self.table("campbell", PASSING, *speeds, "--count", 30, "--critical")
+        self.assertAlmostEqual(critical["f"][0] / right, 1, delta=1e-4)
+        whirl = self.table("campbell", PASSING, "--from", 0, "--to", 100, "--count", 2)
+        self.assertAlmostEqual(whirl["frequency"][0] / values["f_1_x"], 1, delta=1e-6)
+        self.assertEqual(set(whirl["whirl"]), {0})
+        damped = self.file("damped.toml", text.replace("m = 200.0", "m = 2000.0"))
+        response = self.table("response", damped, "--from", 25, "--to", 45, "--count", 101)
+        peak = response["f"][np.argmax(response["amp_x_r"])]
+        self.assertAlmostEqual(peak, values["passage_f_1_x"], delta=0.5)
+        one = "%%MatrixMarket matrix coordinate real general\n2 2 2\n1 1 {0}\n2 2 {0}\n"
+        for name, value in [("M", 20), ("C", 200), ("K", 0)]:
+            self.file(f"{name}.mtx", one.format(value))
+        start, end = text.index("mass_kg"), text.index("[bearing]")
+        large = self.file("large.toml", text[:start] + 'matrices = "."\nbearing_dofs = [1, 2]\nvertical_dofs = [2]\n' + text[end:])
+        matrices = self.values(large, *speeds)
+        for name, same in [("f_1", "f_1_x"), ("f_2", "f_1_y")]:
+            self.assertAlmostEqual(matrices[name] / values[same], 1, delta=1e-6)
 
     def test_forward_whirl_becomes_faster(self):
         """The other sign of G only exchanges the two, which the frequencies do not show."""
@@ -183,8 +218,7 @@ acceleration_m_per_s2 = 9.81
 
     def test_hollow_shaft(self):
         """A slender free hollow shaft bends a little slower than the beam of Euler and Bernoulli; M holds its mass."""
-        text = STEEL + "[[segment]]\nlength_m = 1.5\ndiameter_m = 0.05\nbore_m = 0.03\nelements = 30\n"
-        m, _, _, k = self.matrices(text)
+        m, _, _, k = self.matrices(STEEL + segment(30, bore=0.03))
         area = np.pi / 4 * (0.05**2 - 0.03**2)
         upright = np.zeros(len(m))
         upright[1::4] = 1

@@ -3,7 +3,6 @@
 #include "support/catch.hpp"
 
 #include "io/errors.hpp"
-#include "support/bits.hpp"
 #include "support/cases.hpp"
 #include "time/rk4.hpp"
 #include "time/settle.hpp"

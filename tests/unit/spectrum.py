@@ -1,7 +1,5 @@
 """explore spectrum: frequencies from kinematics, amplitudes from closed forms, from a transform of what orbit prints, and
 one method against another.
-
-Usage: tests/unit/spectrum.py   (from the project's root)
 """
 import math
 import re
@@ -13,19 +11,13 @@ from pathlib import Path
 import numpy as np
 
 sys.path.insert(0, str(Path(__file__).parents[1]))
-from support.explore import MACHINE, Case  # noqa: E402
+from support.explore import MACHINE, Case, changed  # noqa: E402
 
 VALUES = tomllib.loads(MACHINE)
 NAMES = ["x_s", "y_s", "x_r", "y_r"]
 BALLS = VALUES["bearing"]["balls"]
+SIX = ["--harmonics", 6, "--no-stability"]
 G = VALUES["gravity"]["acceleration_m_per_s2"]
-
-
-def changed(text=MACHINE, **values):
-    for key, value in values.items():
-        text, count = re.subn(rf"(?m)^{key} = .*$", f"{key} = {value}", text)
-        assert count > 0, key
-    return text
 
 
 def with_cage(cage, **values):
@@ -69,37 +61,24 @@ class Spectrum(Case):
 
     def test_a_rotor_that_touches_nothing(self):
         """m_e e ω²/|k - m ω² + i c ω|, one line; another unit or a factor of two would show."""
-        text = changed(radial_clearance_m=0.01)
+        text = changed(radial_clearance_m=0.1)
         m, w0, xi = (VALUES["rotor"][key] for key in ("mass_kg", "natural_frequency_rad_per_s", "damping_ratio"))
-        w = 2 * math.pi * 30
-        amplitude = VALUES["rotor"]["unbalance_kg_m"] * w**2 / m / abs(w0**2 - w**2 + 2j * xi * w0 * w)
-        for method in [["--harmonics", 24, "--no-stability"], ["--method", "shooting", "--no-stability"], ["--method", "rk8pd"]]:
-            with self.subTest(method):
-                table = self.spectrum(text, 30, *method)
+        for speed, *method in [(speed, *SIX) for speed in (0.5, 10, 23, 24, 60, w0 / 2 / math.pi)] + [
+                (30, "--method", "shooting", "--no-stability"), (30, "--method", "rk8pd")]:
+            with self.subTest(speed=speed, method=method):
+                w = 2 * math.pi * speed
+                amplitude = VALUES["rotor"]["unbalance_kg_m"] * w**2 / m / abs(w0**2 - w**2 + 2j * xi * w0 * w)
+                table = self.spectrum(text, speed, *method)
                 self.assertEqual(list(table["name"]), ["1X"])
-                self.assertEqual(table["f"][0], 30)
-                np.testing.assert_allclose([table["x_r"][0], table["y_r"][0]], amplitude, rtol=1e-6)
+                self.assertEqual(table["f"][0], speed)
+                within = 1e-10 if "--harmonics" in method else 1e-6
+                np.testing.assert_allclose([table["x_r"][0], table["y_r"][0]], amplitude, rtol=within)
                 self.assertLess(max(table["x_s"][0], table["y_s"][0]), 1e-9 * amplitude)
                 self.assertAlmostEqual(table.value("mean_y_r") / (-G / w0**2), 1, delta=1e-6)
-
-    def test_frequencies_of_a_machine_that_stays_in_contact(self):
-        """Without unbalance only the passing balls move it: multiples of n c f. A small unbalance adds the speed and its sums
-        and differences with these, each in proportion."""
-        cage, speed = 0.43, 30
-        still = self.spectrum(with_cage(cage, unbalance_kg_m=0), speed, "--method", "rk8pd", "--longest", 8)
-        self.assert_consistent(still, speed, cage)
-        for k in range(1, 5):
-            self.assertAlmostEqual(np.abs(still["f"] - k * BALLS * cage * speed).min(), 0, delta=1e-9)
-        main = still.rows(np.maximum(still["y_s"], still["y_r"]) > 1e-4 * still["y_s"].max())
-        for name in main["name"]:
-            self.assertRegex(name, r"^\d*BPFO$")
-        one, two = (self.by_name(self.spectrum(with_cage(cage, unbalance_kg_m=unbalance), speed, "--method", "rk8pd",
-                                               "--longest", 8)) for unbalance in (1e-6, 2e-6))
-        still = self.by_name(still)
-        for name in ["1X", "BPFO-1X", "BPFO+1X"]:
-            self.assertNotIn(name, {key: a for key, a in still.items() if a.max() > 1e-5 * still["BPFO"].max()})
-            np.testing.assert_allclose(two[name] / one[name], 2, rtol=0.01, err_msg=name)
-        np.testing.assert_allclose(two["BPFO"], still["BPFO"], rtol=1e-3)
+        # An undamped stator at its own resonance divides nothing by zero.
+        stator = VALUES["stator"]
+        undamped = text.replace(f"damping_ratio = {stator['damping_ratio']}", "damping_ratio = 0")
+        self.assertEqual(list(self.spectrum(undamped, stator["natural_frequency_rad_per_s"] / 2 / math.pi, *SIX)["name"]), ["1X"])
 
     def test_spalls_stand_where_kinematics_says(self):
         """A light rotor, always on its balls; what is new beside the same machine without a spall."""
@@ -162,20 +141,6 @@ class Spectrum(Case):
                 common = balance.keys() & integrated.keys()
                 self.assertTrue({"1X", "2X"} <= common and any("BPF" in name for name in common), common)
 
-    def test_high_passages_of_bearings_from_the_catalogue(self):
-        """The seventh passage meets the contact's vibration: without it no tolerance below 1.2e-3 was reached, nor said."""
-        for designation in ["6002", "6205"]:
-            with self.subTest(designation):
-                text = ("title = 'light'\n[stator]\nrigid = true\n[rotor]\nmass_kg = 2\nnatural_frequency_rad_per_s = 0\n"
-                        "damping_N_s_per_m = 1000\nunbalance_kg_m = 2e-5\nload_N = [0, -100]\n[bearing]\n"
-                        f"designation = '{designation}'\ninternal_clearance = 'C3'\n[gravity]\nacceleration_m_per_s2 = 9.81\n")
-                balance = self.by_name(self.spectrum(text, 30, "--method", "aft", "--tolerance", 1e-3))
-                exact = self.by_name(self.spectrum(text, 30, "--method", "rk8pd", "--points", 512))
-                self.assertIn("7BPFO", exact)
-                size = np.sqrt(sum((a**2).sum() for a in exact.values()))
-                off = np.sqrt(sum(((balance.get(name, 0) - a)**2).sum() for name, a in exact.items()))
-                self.assertLess(off, 1e-3 * size)
-
     def test_harmonic_balance_takes_in_the_passing_balls(self):
         """Six harmonics, the default of orbit, end below BPFO where n c = 8; a tolerance that is given decides."""
         table = self.spectrum(MACHINE, 30, "--method", "aft", "--no-stability")
@@ -224,23 +189,16 @@ class Spectrum(Case):
         self.assertGreater(chaos.value("unexplained"), 1e-3)
 
     def test_refusals(self):
-        for words, options in [("--points: is for shooting", ["--points", 64, "--harmonics", 6]),
-                               ("--step: is for a motion in time, by rk4 or auto", ["--step", 1e-5, "--method", "shooting"]),
-                               ("32", ["--points", 31, "--method", "rk4"]),
-                               ("--points 65536: must be at most 1024", ["--points", 65536, "--method", "rk4"]),
-                               ("--subharmonic: is for", ["--subharmonic", 2, "--method", "rk4"]),
-                               ("must end in .svg", ["--plot", "lines.txt"]),
-                               ("must be one of", ["--method", "rk5"])]:
-            self.refused(words, "spectrum", self.machine, "--frequency", 45, *options)
+        self.refused_each([("--points 64 --harmonics 6", "--points: is for shooting"),
+                           ("--step 1e-5 --method shooting", "--step: is for a motion in time, by rk4 or auto"),
+                           ("--points 31 --method rk4", "32"), ("--points 65536 --method rk4", "--points 65536: must be at most 1024"),
+                           ("--subharmonic 2 --method rk4", "--subharmonic: is for"), ("--plot lines.txt", "must end in .svg"),
+                           ("--method rk5", "must be one of")], "spectrum", self.machine, "--frequency", 45)
         self.refused("budget", "spectrum", self.machine, "--frequency", 45, "--harmonics", 24, "--budget", 1000, "--plot", "a.svg",
                      status=3)
         self.assertFalse((self.folder / "a.svg").exists())
         still = self.file("still.toml", changed(radial_clearance_m=0.01, unbalance_kg_m=0))
         self.refused("nothing moves", "spectrum", still, "--frequency", 45, status=3)
-
-    def test_plot(self):
-        self.lines("spectrum", self.machine, "--frequency", 45, "--harmonics", 24, "--no-stability", "--plot", "lines.svg")
-        self.assertIn("</svg>", (self.folder / "lines.svg").read_text(encoding="utf-8"))
 
 
 if __name__ == "__main__":

@@ -54,27 +54,6 @@ TEST_CASE(
   CHECK(turns_of({{0, 0}, {0, 0}}) == 0);
 }
 
-/** With both bodies as one the unbalance's harmonics meet the joint mode at a k-th of its speed. Would catch harmonics
-    counted wrongly, and a joint mode elsewhere. Harmonic 4 has its peak within the loss of contact. */
-TEST_CASE("Harmonics 2, 3 and 5 of set 1 are largest at that part of the joint resonance")
-{
-  const RegimeSettings settings{.step_over_default = 2,
-                                .longest = 5,
-                                .window = 0.5,
-                                .average = 1,
-                                .points_per_period = 64};
-  const double joint = joint_resonance(set_1()) / angular(1);
-  const auto share = [&](int order, double frequency) {
-    const HigherHarmonics h = regime_at(set_1(), frequency, settings);
-    return order == 2 ? h.h_2 : order == 3 ? h.h_3 : h.h_5;
-  };
-  for (int order : {2, 3, 5}) {
-    const double at = share(order, joint / order);
-    CHECK(at > 1.5 * share(order, 0.85 * joint / order));
-    CHECK(at > 1.5 * share(order, 1.15 * joint / order));
-  }
-}
-
 TEST_CASE("Higher harmonics of a known motion")
 {
   Motion motion{32, 0, {}};

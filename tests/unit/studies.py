@@ -1,7 +1,5 @@
 """Studies of many points: what Snakemake makes of a file in studies/, when it is left alone, when a job fails and when it
 is killed; and what the studies' own scripts compute from what explore prints.
-
-Usage: tests/unit/studies.py   (from the project's root)
 """
 import os
 import shutil
@@ -328,10 +326,6 @@ class Verdicts(unittest.TestCase):
 class Answers(unittest.TestCase):
     def setUp(self):
         """peers/answers.py without the compiled equations, which `make peers` builds."""
-        try:
-            import scipy.integrate  # noqa: F401
-        except ImportError:
-            self.skipTest("needs the Debian package python3-scipy")
         stub = types.SimpleNamespace(ROOT=Path("."), SIZE=8, Case=None, LIBRARY=None, pointer=None)
         with mock.patch.dict(sys.modules, equation7=stub), mock.patch.object(sys, "path", ["peers", *sys.path]):
             import answers
@@ -457,23 +451,6 @@ class Identification(unittest.TestCase):
         """Of 16 balls that do not overlap, two cages have the period of rotation."""
         self.assertEqual(identification.accepted_cages(16), [0.5, 0.4375])
         self.assertEqual(identification.accepted_cages(3), [1 / 3])
-
-    def test_kept(self):
-        """Three speeds of a machine anew, as in the kept table where the motion has the period of rotation; its errors were taken
-        against the motion of rk4. Would catch quantities in another order."""
-        kept = Table("data/reference/identification.tsv")
-        kept = kept.where("m_s", kept["m_s"][0]).where("cage_speed_ratio", 0.4375).where("f_joint", 50).where("reading", 0)
-        speeds = {"from": 5.0, "to": 55.0, "step": 25.0}
-        machine = (50, (*self.base.masses(self.base.mass_losing_at(50, 10), 50), 0.4375))
-        rows = identification.rows_of_machine(self.base, *machine, {"speeds_hz": speeds, "regime": {"longest_s": 5.0}})
-        for row in rows:
-            old = kept.where("set", 1).where("f", row[5])
-            self.assertEqual(row[6], old["periodic"][0])
-            if row[6]:
-                known = [old[name][0] for name, *_ in identification.COLUMNS[2:]]
-                np.testing.assert_allclose(row[:-7], known[:-7], rtol=2e-4, atol=1e-7)
-                np.testing.assert_allclose(row[-7:], known[-7:], rtol=5e-3, atol=1e-7)
-        self.assertTrue(any(row[6] for row in rows))
 
 
 class Stability(unittest.TestCase):

@@ -4,7 +4,6 @@
 
 #include "motion/find_periodic.hpp"
 #include "support/cases.hpp"
-#include "support/command.hpp"
 #include "time/shooting.hpp"
 
 using namespace rotor_stator;
@@ -24,8 +23,7 @@ Motion exact_motion(const PeriodicMotion& solution, int points)
 {
   constexpr double tolerance = 1e-13;
   State state = state_of(solution);
-  REQUIRE(shoot(set_1(), solution.omega, state,
-                {.tolerance = tolerance, .closed = 1e-11})
+  REQUIRE(shoot(set_1(), solution.omega, state, {.tolerance = tolerance, .closed = 1e-11})
               .converged);
   return one_period(set_1(), solution.omega, state,
                     {.intervals_per_period = points, .tolerance = tolerance});
@@ -78,23 +76,4 @@ TEST_CASE("A solution at another speed is the first start")
                                    1e-4);
   REQUIRE(next.reached);
   CHECK(next.motion.start == "a known motion");
-}
-
-TEST_CASE("explore: a tolerance chooses m and says the error, or why not")
-{
-  const std::string orbit =
-      "explore orbit data/set1.toml --frequency 45 --points 64 --method aft ";
-  const Outcome chosen = run_program(orbit + "--tolerance 1e-5");
-  REQUIRE(chosen.status == 0);
-  CHECK(chosen.out.find("\n# error_largest: ") != std::string::npos);
-  CHECK(chosen.out.find("\n# harmonics: 6\n") == std::string::npos);
-  const Outcome given = run_program(orbit + "--tolerance 1e-2 --harmonics 6");
-  REQUIRE(given.status == 0);
-  CHECK(given.out.find("\n# harmonics: 6\n") != std::string::npos);
-  CHECK(given.out.find("\n# error_largest: ") != std::string::npos);
-  const Outcome missed = run_program(orbit + "--tolerance 1e-5 --harmonics 6");
-  CHECK(missed.status == 3);
-  CHECK(missed.out.empty());
-  CHECK(missed.err.find("tolerance 1e-05 not reached at 45 Hz: the nearest motion of "
-                        "Eq. 7 is ") != std::string::npos);
 }
