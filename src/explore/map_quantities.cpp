@@ -8,6 +8,7 @@
 #include "continuation/sweep.hpp"
 #include "explore/measures.hpp"
 #include "io/errors.hpp"
+#include "model/base_period.hpp"
 #include "motion/answer.hpp"
 #include "motion/contact.hpp"
 #include "motion/find_periodic.hpp"
@@ -59,9 +60,9 @@ public:
   {
     return chosen_([&] {
       require_period();
-      motion::Judged at = motion::to_tolerance({.parameters = machine_,
-                                                .omega = omega(),
-                                                .harmonics = 6,
+      motion::Judged at = motion::to_tolerance({.parameters = based_.machine,
+                                                .omega = based_.omega,
+                                                .harmonics = 6 * base_.turns,
                                                 .newton = newton_,
                                                 .budget = budget_},
                                                task_.request.tolerance.value_or(1e-3));
@@ -74,7 +75,7 @@ public:
   {
     return verdict_([&] {
       return is_chosen() ? chosen().verdict
-                         : motion::judge(machine_, solution(), budget_);
+                         : motion::judge(based_.machine, solution(), budget_);
     });
   }
 
@@ -86,7 +87,7 @@ public:
   }
   const Floquet& series()
   {
-    return series_([&] { return series_multipliers(machine_, solution()); });
+    return series_([&] { return series_multipliers(based_.machine, solution()); });
   }
 
   double error()
@@ -95,7 +96,7 @@ public:
     const Settled& there = verdict().from_there;
     if (there.kind == Kind::undecided) throw NoSolution(verdict().reason);
     const auto steps =
-        flow(machine_, omega(),
+        flow(based_.machine, based_.omega,
              {.method = "rk4", .intervals_per_period = instants, .budget = budget_});
     State state = there.at.state;
     return motion::rms_difference(
@@ -111,7 +112,7 @@ public:
   {
     const MapRequest& asked = task_.request;
     return {machine_,
-            {.omega = omega(),
+            {.omega = angular(frequency_),
              .method = is_balance() ? "auto" : asked.method,
              .tolerance = is_balance() ? std::nullopt : asked.tolerance,
              .periods = recorded_periods,
@@ -194,16 +195,18 @@ public:
       require_period();
       Swept all;
       std::vector<CurvePoint> curve;
-      for (const PeriodicMotion& at : rotor_stator::sweep(
-               machine_, angular(task_.sweep), task_.harmonics, task_.samples, budget_)) {
+      std::vector<double> speeds = angular(task_.sweep);
+      for (double& omega : speeds) omega *= base_.per_turn;
+      for (const PeriodicMotion& at :
+           rotor_stator::sweep(based_.machine, speeds, harmonics(), samples(), budget_)) {
         if (!at.found()) continue;
         budget_.spend(3 * swept_instants);
-        const double hertz = at.omega / angular(1);
+        const double hertz = at.omega / (angular(1) * base_.per_turn);
         const motion::Motion motion = motion::motion_of(at, swept_instants);
         curve.push_back({hertz, motion::half_peak_to_peak(motion)[2]});
         all.ball_load =
-            std::max(all.ball_load, motion::largest_ball_load(machine_, motion));
-        if (motion::contact_share(machine_, motion) == 1) {
+            std::max(all.ball_load, motion::largest_ball_load(based_.machine, motion));
+        if (motion::contact_share(based_.machine, motion) == 1) {
           ++all.permanent;
           continue;
         }
@@ -222,13 +225,13 @@ public:
 private:
   MapPoint(const MapTask& task, std::pair<Parameters, double> at, PeriodicMotion& before)
       : task_(task), machine_(std::move(at.first)), frequency_(at.second),
+        base_(base_period(machine_)), based_(over(base_, machine_, angular(frequency_))),
         before_(before),
         budget_(budget_of_each(task.request.budget, seconds_of_a_point, machine_)),
         newton_{.tolerance = task.request.newton_tolerance}
   {
   }
 
-  double omega() const { return angular(frequency_); }
   bool is_balance() const { return task_.request.method == "aft"; }
   /** Whether the tolerance chooses m. */
   bool is_chosen() const { return task_.request.tolerance && !task_.request.harmonics; }
@@ -242,11 +245,15 @@ private:
     if (!is_balance()) return answer().motion;
     return motion_([&] { return motion::motion_of(solution(), instants); });
   }
-  const Parameters& moving() { return is_balance() ? machine_ : answer().machine; }
+  const Parameters& moving() { return is_balance() ? based_.machine : answer().machine; }
+
+  /** Of a base period. */
+  int harmonics() const { return base_.turns * task_.harmonics; }
+  int samples() const { return base_.turns * task_.samples; }
 
   void require_period() const
   {
-    if (!has_rotation_period(machine_.bearing))
+    if (base_.is_driven_twice())
       throw NoSolution(format("%.9g balls pass in a turn, not a whole number",
                               passages_per_turn(machine_.bearing)));
   }
@@ -254,21 +261,23 @@ private:
   PeriodicMotion with_fixed_harmonics() const
   {
     require_period();
-    if (before_.found()) {
-      Balance balance(bearing_problem(machine_, task_.samples, budget_), task_.harmonics);
-      PeriodicMotion next = solve(balance, omega(), before_.x, newton_);
+    if (before_.found() && before_.harmonics.count() == harmonics()) {
+      Balance balance(bearing_problem(based_.machine, samples(), budget_), harmonics());
+      PeriodicMotion next = solve(balance, based_.omega, before_.x, newton_);
       if (next.found()) {
-        next.bodies = body_series(machine_, next);
+        next.bodies = body_series(based_.machine, next);
         return next;
       }
     }
     return motion::find_periodic(
-        {machine_, omega(), task_.harmonics, task_.samples, newton_, budget_});
+        {based_.machine, based_.omega, harmonics(), samples(), newton_, budget_});
   }
 
   const MapTask& task_;
   Parameters machine_;
   double frequency_;  ///< [Hz]
+  BasePeriod base_;
+  Based based_;  ///< the machine over its base period
   PeriodicMotion& before_;
   OperationBudget budget_;
   NewtonSettings newton_;
