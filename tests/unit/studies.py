@@ -394,12 +394,12 @@ class ABound(unittest.TestCase):
         alpha = 0.3
         z, a = np.meshgrid(np.linspace(-1, 1, 201), np.linspace(-alpha, alpha, 101), indexing="ij")
         root, changed = np.sqrt(np.maximum(z, 0)), np.sqrt(np.maximum(z + a, 0))
-        for derivative, values in enumerate((changed**3 - root**3 - 1.5 * root * a, 1.5 * abs(changed - root))):
-            most, bounds = values.max(axis=1), bound.largest(z[:, 0], z[:, 0], alpha, derivative)
+        for order, values in enumerate((changed**3 - root**3 - 1.5 * root * a, 1.5 * abs(changed - root))):
+            most, bounds = values.max(axis=1), bound.largest(z[:, 0], z[:, 0], alpha, order)
             self.assertTrue((most <= bounds + 1e-12).all())
             for reached in z[:, 0] < -alpha, abs(z[:, 0]) < 1e-9, z[:, 0] > alpha + 1e-9:
                 np.testing.assert_allclose(most[reached], bounds[reached], rtol=1e-9, atol=1e-12)
-            wide = bound.largest(z[:, 0] - 0.0501, z[:, 0] + 0.0501, alpha, derivative)
+            wide = bound.largest(z[:, 0] - 0.0501, z[:, 0] + 0.0501, alpha, order)
             self.assertTrue((wide[5:-5] >= [bounds[k - 5:k + 6].max() - 1e-12 for k in range(5, 196)]).all())
 
     def test_second_order(self):
