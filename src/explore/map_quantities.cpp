@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <cmath>
 
-#include "balance/bearing_problem.hpp"
 #include "balance/fourier_transform.hpp"
 #include "continuation/sweep.hpp"
 #include "explore/measures.hpp"
@@ -261,16 +260,15 @@ private:
   PeriodicMotion with_fixed_harmonics() const
   {
     require_period();
-    if (before_.found() && before_.harmonics.count() == harmonics()) {
-      Balance balance(bearing_problem(based_.machine, samples(), budget_), harmonics());
-      PeriodicMotion next = solve(balance, based_.omega, before_.x, newton_);
-      if (next.found()) {
-        next.bodies = body_series(based_.machine, next);
-        return next;
-      }
-    }
-    return motion::find_periodic(
-        {based_.machine, based_.omega, harmonics(), samples(), newton_, budget_});
+    motion::Search search{.parameters = based_.machine,
+                          .omega = based_.omega,
+                          .harmonics = harmonics(),
+                          .samples = samples(),
+                          .newton = newton_,
+                          .budget = budget_};
+    if (before_.found() && before_.harmonics.count() == harmonics())
+      search.starts.push_back(before_.x);
+    return motion::find_periodic(search);
   }
 
   const MapTask& task_;
