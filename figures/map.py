@@ -6,18 +6,32 @@ Usage: /usr/bin/python3 figures/map.py TABLE.tsv OUTPUT.svg
 import matplotlib.pyplot as plt
 import numpy as np
 from matplotlib.colors import BoundaryNorm, ListedColormap
-from tables import cells_as_numbers, run
+from tables import cells_as_numbers, heading, run
 
-CLASSES = {"stability": ["stable", "unstable", "undecided"]}
-PERIODS = {-2: "undecided", -1: "quasi-periodic", 0: "aperiodic"}
-MOST_COLOURS = 10
+VERDICTS, REGIMES = ["stable", "unstable", "undecided"], ["rest", "periodic", "quasi-periodic", "chaotic", "undecided"]
+CLASSES = {"stability": VERDICTS, "series_stability": VERDICTS, "regime": REGIMES}
+PERIODS = {-2: "undecided", -1: "quasi-periodic", 0: "chaotic"}
+COLOURS = {"undecided": "#d0d0d0", "quasi-periodic": "C3", "chaotic": "#404040", "period 1": "C0", "periodic": "C0", "period 2": "C1",
+           "period 3": "C2", "period 4": "C4", "rest": "C6", "stable": "C0", "unstable": "C1"}
+UNITS = {"rad_per_s": "rad/s", "N_per_m1p5": "N/m$^{1.5}$", "N_per_mn": "N/m$^n$", "N_per_mm": "N/mm", "kN_per_m": "kN/m", "N_per_m": "N/m",
+         "N_s_per_m": "N s/m", "m_per_s2": "m/s²", "s_per_m": "s/m", "kg_m": "kg m", "g_mm": "g mm", "um": "µm", "mm": "mm", "m": "m", "kg": "kg",
+         "g": "g", "Hz": "Hz", "rpm": "rpm", "rad": "rad", "deg": "°", "N": "N", "kN": "kN", "Pa": "Pa", "MPa": "MPa", "GPa": "GPa"}
 
 
 def described(table, name):
-    """A column's name with its unit."""
+    """A column's name with its unit, a key of the machine's file in words: (text, factor that its values are drawn with)."""
     line = next(line for line in table.header.split("\n") if line.startswith(f"# column: {name} ["))
     unit = line.split("[", 1)[1].split("]")[0]
-    return name if unit in ("word", "see key") else f"{name} [{unit}]"
+    if unit == "m":
+        return f"{name.replace('_', ' ')} [µm]", 1e6
+    if unit != "see key":
+        words = "speed of rotation" if name == "frequency" else name.replace("_", " ")
+        return words + (f" [{unit}]" if unit != "word" else ""), 1
+    *tables, key = name.split(".")
+    suffix = next((one for one in UNITS if key.endswith("_" + one)), "")
+    words = key[:-len(suffix) - 1] if suffix else key
+    text = words.replace("_", " ") + (f" of the {tables[0]}" if tables else "") + (f" [{UNITS[suffix]}]" if suffix else "")
+    return (text.replace("[m]", "[µm]"), 1e6) if suffix == "m" else (text, 1)
 
 
 def keys_and_quantities(table):
@@ -37,7 +51,7 @@ def is_logarithmic(values):
 def classes_of(name, column):
     """Number of the class of each row, NaN without a result, and the names; None for a quantity that is measured."""
     if name in CLASSES:
-        names = CLASSES[name]
+        names = [one for one in CLASSES[name] if one in column]
         return np.array([names.index(cell) if cell in names else np.nan for cell in column]), names
     if name != "period":
         return None
@@ -80,10 +94,11 @@ def draw_classes(axes, x, y, cells, names, colours):
 def draw_cells(axes, x, y, cells, names):
     """Colours over two keys; beside them the scale, or the names of the classes."""
     if names is not None:
-        draw_classes(axes, x, y, cells, names, [plt.get_cmap("tab10")(k % MOST_COLOURS) for k in range(len(names))])
+        draw_classes(axes, x, y, cells, names, [COLOURS.get(name, f"C{5 + k % 5}") for k, name in enumerate(names)])
         return
-    draw_grid(axes, x, y, cells)
     known = cells[np.isfinite(cells)]
+    is_constant = known.size > 0 and np.ptp(known) < 1e-9 * abs(known).max()
+    draw_grid(axes, x, y, cells, **({"vmin": 0, "vmax": 1.2 * known[0] or 1} if is_constant else {}))
     if min(cells.shape) > 1 and known.size > 3 and np.ptp(known) > 0:
         axes.contour(x, y, np.ma.masked_invalid(cells), 8, colors="white", linewidths=0.6)
 
@@ -99,20 +114,29 @@ def draw(table):
         raise SystemExit("a list of points that is no grid cannot be drawn")
     figure, grid = plt.subplots(len(quantities), 1, figsize=(9, 0.6 + 3.6 * len(quantities)), sharex=True,
                                 squeeze=False, layout="constrained")
+    (x_label, x_factor), (y_label, y_factor) = (described(table, key) for key in (*keys, keys[0])[:2])
+    x, y = x_factor * x, y_factor * y if y is not None else None
+    for key, factor in zip(keys, (x_factor, y_factor)):
+        table.columns[key] = factor * table[key]
     for axes, name in zip(grid.flat, quantities):
         classes = classes_of(name, table[name])
         values, names = classes if classes else (cells_as_numbers(table[name]), None)
-        axes.set_title(described(table, name))
+        label, factor = described(table, name)
+        values = factor * values
+        axes.set_title(label)
         if y is None:
             order = np.argsort(table[keys[0]])
             axes.plot(table[keys[0]][order], values[order], "." if names else ".-")
             if names:
                 axes.set_yticks(range(len(names)), names)
+            elif np.nanmin(values) == np.nanmax(values):
+                axes.set_ylim(sorted((0, 1.2 * np.nanmax(values) or 1)))
         else:
             draw_cells(axes, x, y, over_keys(table, values, keys), names)
-            axes.set(ylabel=described(table, keys[1]), yscale="log" if is_logarithmic(y) else "linear")
+            axes.set(ylabel=y_label, yscale="log" if is_logarithmic(y) else "linear")
         axes.set_xscale("log" if is_logarithmic(x) else "linear")
-    grid.flat[-1].set_xlabel(described(table, keys[0]))
+    grid.flat[-1].set_xlabel(x_label)
+    heading(figure, "Map", table)
     return figure
 
 

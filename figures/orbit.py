@@ -1,23 +1,27 @@
 """One motion of `explore orbit`: orbits of rotor, stator and relative motion, and the same in time with the force.
 
-Marks stand at each quarter turn, the filled one at phase 0; the circle is the clearance.
+Marks stand at each quarter turn of the first two, the filled one at phase 0; the circle is the clearance. In time each
+displacement is drawn about its mean, which stands in the legend.
 Usage: /usr/bin/python3 figures/orbit.py TABLE.tsv OUTPUT.svg
 """
 
 import matplotlib.pyplot as plt
 import numpy as np
 from matplotlib.ticker import MaxNLocator
-from tables import ROTOR, STATOR, run
+from tables import ROTOR, STATOR, heading, run
 
 RELATIVE = "C2"
 
 
 def draw_orbit(axes, x, y, quarter, colour, title):
-    """Closed where the motion is nearly closed."""
+    """Closed where the motion is nearly closed; many turns by a thin line."""
+    turns = len(x) / (4 * quarter)
     gap = np.hypot(x[-1] - x[0], y[-1] - y[0])
     closed = gap < 4 * np.hypot(np.diff(x), np.diff(y)).max()
-    axes.plot(np.append(x, x[0]) if closed else x, np.append(y, y[0]) if closed else y, color=colour)
-    axes.plot(x[::quarter], y[::quarter], "o", ms=5, mfc="white", color=colour)
+    axes.plot(np.append(x, x[0]) if closed else x, np.append(y, y[0]) if closed else y, color=colour,
+              lw=1.8 if turns < 3 else 0.8)
+    marked = slice(None, 8 * quarter, quarter)
+    axes.plot(x[marked], y[marked], "o", ms=5, mfc="white", color=colour)
     axes.plot(x[0], y[0], "o", ms=6, color=colour)
     axes.set_title(title)
     axes.set_aspect("equal", adjustable="datalim")
@@ -48,16 +52,17 @@ def draw(table):
     displacement, force = below.subplots(2, 1, sharex=True)
     for axis, line in (("x", "-"), ("y", "--")):
         for body, colour in zip(bodies, (ROTOR, STATOR)):
-            displacement.plot(phase, micro[f"{axis}_{body}"], line, color=colour, label=f"${axis}_{body}$")
+            values = micro[f"{axis}_{body}"]
+            displacement.plot(phase, values - values.mean(), line, color=colour, label=f"${axis}_{body}$, mean {values.mean():.3g}")
         force.plot(phase, table[f"F_{axis}"], line, color="#404040", label=f"$F_{axis}$")
     for axes in (displacement, force):
         axes.legend(loc="center left", bbox_to_anchor=(1, 0.5), frameon=False)
         axes.yaxis.set_major_locator(MaxNLocator(5))
-    displacement.set_ylabel("displacement [µm]")
+    displacement.set_ylabel("displacement\nabout the mean [µm]")
     force.set_ylabel("force on the stator [N]")
-    force.set(xlabel="turns [-]", xlim=(0, max(phase[-1], phase[1] if len(phase) > 1 else 1)))
+    force.set(xlabel="turns [-]; above: a mark at every quarter turn, the filled one at 0", xlim=(0, len(phase) / per_turn))
     below.align_ylabels()
-    above.suptitle(f"Motion at {table.value('frequency'):g} Hz")
+    heading(above, f"Motion at {table.speed_in_words()}{table.regime_in_words()}", table)
     return figure
 
 

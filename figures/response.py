@@ -6,7 +6,7 @@ Usage: /usr/bin/python3 figures/response.py TABLE.tsv OUTPUT.svg
 
 import matplotlib.pyplot as plt
 import numpy as np
-from tables import ROTOR, STATOR, run
+from tables import ROTOR, STATOR, heading, run
 
 MARKS = {"fold": ("s", "fold"), "plus-one": ("D", "multiplier +1"), "period-doubling": ("^", "period doubling"),
          "neimark-sacker": ("o", "Neimark-Sacker")}
@@ -20,9 +20,18 @@ def branches(table):
     return [table.where("branch", number) for number in np.unique(table["branch"])]
 
 
-def draw_branch(axes, branch, name, colour):
-    """Pieces of one verdict; each ends where the next begins."""
-    f, amplitude = branch["f"], 1e6 * branch[name]
+def never_after_one(table):
+    """Rows of a sweep whose motion does not repeat itself after one base period."""
+    return table["period"] != 1 if "period" in table.columns else np.zeros(len(table), bool)
+
+
+def draw_branch(axes, branch, column, colour):
+    """Pieces of one verdict; each ends where the next begins. Of a sweep a mark at each speed."""
+    f, amplitude = branch["f"], 1e6 * branch[column]
+    if "period" in branch.columns:
+        other = never_after_one(branch)
+        axes.plot(f[~other], amplitude[~other], ".", ms=4, color=colour)
+        axes.plot(f[other], amplitude[other], "o", ms=4, mfc="white", color=colour)
     verdict = branch["verdict"] if "verdict" in branch.columns else np.full(len(branch), "stable")
     start = 0
     for end in range(1, len(branch) + 1):
@@ -50,6 +59,8 @@ def legend(axes, table):
     for kind, (marker, label) in MARKS.items():
         if kind in known and (has_verdicts or np.any(np.diff(np.sign(np.diff(f))))):
             handles += axes.plot([], [], marker, mfc="white", color="#404040", label=label)
+    if never_after_one(table).any():
+        handles += axes.plot([], [], "o", ms=4, mfc="white", color="#404040", label="repeats after several\nperiods or never")
     if handles:
         axes.legend(handles=handles, loc="best", fontsize=10)
 
@@ -57,20 +68,20 @@ def legend(axes, table):
 def draw(table):
     table.columns["f"], _, speed = table.speeds()
     bodies = table.bodies()
-    figure, grid = plt.subplots(2, len(bodies), figsize=(10, 7.5), sharex=True, layout="constrained", squeeze=False)
+    figure, grid = plt.subplots(2, len(bodies), figsize=(10, 7.5), sharex=True, sharey=True, layout="constrained", squeeze=False)
+    shown = np.concatenate([table[f"amp_{axis}_{body}"] for axis in "xy" for body in bodies])
     for row, axis in zip(grid, "xy"):
         for axes, body, word, colour in zip(row, bodies, ("rotor", "stator"), (ROTOR, STATOR)):
             for branch in branches(table):
                 draw_branch(axes, branch, f"amp_{axis}_{body}", colour)
             axes.set_ylabel(f"{word}, {axis} [µm]")
-            amplitude = table[f"amp_{axis}_{body}"]
-            if amplitude.max() > 30 * amplitude.min() > 0:
-                axes.set_yscale("log")
-            else:
-                axes.set_ylim(0, 1.05e6 * amplitude.max() or 1)
+    if shown.max() > 30 * shown.min() > 0:
+        axes.set_yscale("log")
+    else:
+        axes.set_ylim(0, 1.05e6 * shown.max() or 1)
     for axes in grid[1]:
         axes.set_xlabel(speed)
-    figure.suptitle("Half peak-to-peak of the displacements")
+    heading(figure, "Half peak-to-peak of the displacements", table)
     legend(grid[0, 0], table)
     return figure
 

@@ -8,17 +8,17 @@ Usage: /usr/bin/python3 figures/sections.py TABLE.tsv OUTPUT.svg
 
 import matplotlib.pyplot as plt
 import numpy as np
-from tables import run
+from tables import heading, run
 
 # Motions by the period of explore's table: label, chosen rows, marker, its size, colour.
-KINDS = (("aperiodic", lambda k: k == 0, ".", 2.4, "#404040"),
+KINDS = (("chaotic", lambda k: k == 0, ".", 2.4, "#404040"),
          ("quasi-periodic", lambda k: k == -1, ".", 3, "C3"),
          ("period 1", lambda k: k == 1, "o", 4, "C0"),
          ("period 2", lambda k: k == 2, "^", 5, "C1"),
          ("period 3", lambda k: k == 3, "s", 4.5, "C2"),
          ("period 4", lambda k: k == 4, "D", 4, "C4"),
          ("period 5 and more", lambda k: k > 4, "v", 4.5, "C5"),
-         ("undecided", lambda k: k == -2, "x", 4, "#909090"))
+         ("undecided", lambda k: k == -2, "x", 2.5, "#909090"))
 
 # The same, fewer of them, for the study of both data sets.
 KINDS_OF_SETS = (("chaotic", lambda k: k == 0, ".", 2.6, "#8a8a8a"),
@@ -52,6 +52,7 @@ def enlarge_marks(legend):
 def draw_machine(table):
     """What explore found: one machine."""
     clearance = table.value("clearance")
+    table.columns["f"], _, speed = table.speeds()
     figure, (above, below) = plt.subplots(2, 1, figsize=(10, 7.5), sharex=True, layout="constrained",
                                           height_ratios=(3, 2))
     unit, size = ("δ", clearance) if clearance > 0 else ("1 µm", 1e-6)
@@ -60,8 +61,10 @@ def draw_machine(table):
     enlarge_marks(above.legend(loc="lower left", bbox_to_anchor=(0, 1), ncols=shown if shown < 6 else 4, frameon=False,
                                borderaxespad=0.2, handletextpad=0.2, columnspacing=1.2))
     above.set_ylabel(f"section: $(x_r - x_s)$/{unit} at phase 0 [-]")
-    below.set_ylabel("largest Lyapunov exponent\n[1/period]")
-    below.set_xlabel("speed of rotation [Hz]")
+    above.axhline(0, color="#404040", lw=0.5, zorder=0)
+    below.set_ylabel("largest Lyapunov exponent\n[1/base period]")
+    below.set_xlabel(speed)
+    heading(figure, "What the machine settles on: one point in each base period", table)
     return figure
 
 

@@ -7,7 +7,7 @@ Usage: /usr/bin/python3 figures/spectrum.py TABLE.tsv OUTPUT.svg [MEASURED.tsv]
 
 import matplotlib.pyplot as plt
 import numpy as np
-from tables import ROTOR, STATOR, run
+from tables import ROTOR, STATOR, heading, run
 
 MOST_NAMES = 24
 NEAR = 0.018  # of the width: names that would overlap
@@ -31,7 +31,7 @@ def draw(table, measured=None):
     width = 1.04 * orders.max()
     heights = {body: np.maximum(table[f"x_{body}"], table[f"y_{body}"]) for body in bodies}
     top = max(height.max() for height in heights.values())
-    bottom = 0.5 * min(1e-6 * top if len(table) > 1 else 0.1 * top, top)
+    bottom = min(0.5 * min(height[height > 1e-6 * top].min(initial=top) for height in heights.values()), 0.1 * top)
     if measured is not None:
         top = max(top, measured["amplitude"].max())
     for axes, body, name, colour in zip(grid, bodies, ("rotor", "stator"), (ROTOR, STATOR)):
@@ -49,9 +49,11 @@ def draw(table, measured=None):
             axes.plot(measured["f"] / table.value("frequency"), measured["amplitude"], color="#808080", lw=0.9,
                       zorder=0, label="measured")
             axes.legend(loc="upper right", frameon=False)
-    grid[0].set(yscale="log", ylim=(bottom, top * (top / bottom) ** 0.2), xlim=(0, width))
+    grid[0].set(yscale="log", ylim=(bottom, top * (top / bottom) ** 0.35), xlim=(0, width))
+    hertz = table.value("frequency")
+    grid[0].secondary_xaxis("top", functions=(lambda order: order * hertz, lambda f: f / hertz)).set_xlabel("frequency [Hz]")
     grid[-1].set_xlabel("frequency over speed [-]")
-    figure.suptitle(f"Lines of the motion at {table.value('frequency'):g} Hz, larger of x and y")
+    heading(figure, f"Lines of the motion at {table.speed_in_words()}{table.regime_in_words()}, larger of x and y", table)
     return figure
 
 

@@ -6,6 +6,7 @@ Gnuplot asks for the value of a key, or the first cells of a list's members: /us
 import csv
 import re
 import sys
+import warnings
 from pathlib import Path
 
 import numpy as np
@@ -139,9 +140,32 @@ class Table:
         factor, unit = (60, "rpm") if self.value("speed_unit", "Hz") == "rpm" else (1, "Hz")
         return factor * self["f"], factor, f"speed of rotation [{unit}]"
 
+    def speed_in_words(self):
+        """The key `frequency`, in Hz and in turns a minute."""
+        hertz = self.value("frequency")
+        return f"{hertz:g} Hz ({60 * hertz:.5g} rpm)"
+
+    def regime_in_words(self):
+        """", chaotic", ", periodic after 2 base periods"; nothing where the table has no regime."""
+        regime, period = self.value("regime", ""), self.value("period", 1)
+        return f", {regime}" * bool(regime) + f" after {period:g} base periods" * (regime == "periodic" and period > 1)
+
+    def machine_title(self):
+        """The title in the machine's file, at most 80 characters of it, and its bearing where it has a designation."""
+        title = re.search(r"^# parameters: .*? \((.*)\)$", self.header, re.MULTILINE)
+        bearing = re.search(r"^#   (?:bearing 1: )?(\S+): D = ", self.header, re.MULTILINE)
+        words = "".join(letter for letter in title[1] if letter.isprintable()) if title else ""
+        words = words if len(words) <= 80 else words[:79] + "…"
+        return words + (f", {bearing[1]}" if bearing and bearing[1] not in words else "")
+
     def error(self, name):
         """The larger of the two numbers `NAME_largest` and `NAME_rms`; -1 without them."""
         return max(self.value(f"{name}_largest", -1), self.value(f"{name}_rms", -1))
+
+
+def heading(figure, what, table):
+    """What a figure shows and, below, of which machine; the machine's title is no markup."""
+    figure.suptitle(f"{what}\n{table.machine_title()}".rstrip(), parse_math=False, fontsize="medium")
 
 
 def read(path):
@@ -199,6 +223,7 @@ def run(draw):
     plt.rcdefaults()  # whatever the reader's matplotlibrc says
     plt.switch_backend("svg")
     plt.style.use(Path(__file__).with_name("rotor_stator.mplstyle"))
+    warnings.filterwarnings("ignore", "Glyph .* missing")  # a title may be in any language
     figure = draw(*map(read, [sys.argv[1], *sys.argv[3:]]))
     suffix = Path(sys.argv[2]).suffix[1:]
     form = suffix if suffix in ("png", "pdf") else "svg"

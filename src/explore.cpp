@@ -119,8 +119,9 @@ void run(const Asked& asked, Exploration (*explored)(const Asked&),
   if (!found.is_written) write(found.table.text(asked.format));
   for (const std::string& why : missing)
     if (!why.empty()) throw NoSolution(why);
-  if (!asked.doubt.empty() && !asked.quiet)
-    std::fprintf(stderr, "warning: %s\n", printable(asked.doubt).c_str());
+  if (asked.quiet) return;
+  for (const std::string& text : found.table.warnings())
+    std::fprintf(stderr, "warning: %s\n", printable(text).c_str());
 }
 
 /** The commands, each with a request of its own. */

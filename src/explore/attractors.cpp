@@ -331,6 +331,7 @@ std::string section_text(const Task& task, const std::vector<Found>& all)
 {
   Table table("Poincare sections of the attractors", section_columns);
   describe(table, task.machine);
+  if (task.request.rpm) table.value("speed_unit", "rpm");
   table.note(format("points: K of a motion that closes, %d of another", section_points));
   for (const Found& found : all) {
     const motion::Motion& motion = found.answer.motion;

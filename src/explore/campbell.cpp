@@ -72,7 +72,7 @@ Exploration explore_campbell(const CampbellRequest& request)
                                                         .to = request.to,
                                                         .harmonics = 64,
                                                         .largest = largest_linear}),
-      request, request.to);
+      request.to);
   const OperationBudget budget = budget_of(request, 60, parameters);
   const LinearMachine linear(parameters, budget);
   const Eigen::MatrixXd& stiffness = linear.contact();

@@ -6,6 +6,7 @@
 #include <mutex>
 
 #include "explore/map_quantities.hpp"
+#include "explore/plausible.hpp"
 #include "explore/resume.hpp"
 #include "io/errors.hpp"
 #include "io/parallel.hpp"
@@ -23,15 +24,32 @@ void put_method(Table& table, const MapTask& task)
   const MapRequest& request = task.request;
   table.value("method", request.method);
   if (request.method != "aft")
-    return table.note(
-        format("longest step %.15g s (0: from K_H and --tolerance), transient at most "
-               "%.15g s after t = 0",
-               request.step, request.longest));
+    return table.note("longest step " +
+                      (request.step > 0 ? format("%.15g s", request.step)
+                                        : std::string("from K_H and --tolerance")) +
+                      "; transient " +
+                      (request.longest > 0
+                           ? format("at most %.15g s after t = 0", request.longest)
+                           : std::string("until it is over")));
   if (request.tolerance && !request.harmonics)
     return table.note("harmonics: chosen for the tolerance");
   table.value("harmonics", task.harmonics);
   table.value("samples", task.samples);
   table.note(format("relative tolerance of Newton %.15g", request.newton_tolerance));
+}
+
+/** What the first and the last point add to the doubts of the machine. */
+void doubt_corners(const MapTask& task, Parameters& machine)
+{
+  for (const bool is_last : {false, true}) {
+    const auto values = task.grid.values(is_last ? task.grid.last - 1 : task.grid.first,
+                                         is_last ? task.grid.x.count - 1 : 0);
+    for (const std::string& doubt : doubts(task.machine(values).first, 0)) {
+      const std::string line = std::string(doubted_word) + doubt;
+      if (std::ranges::find(machine.derived, line) == machine.derived.end())
+        machine.derived.push_back(line);
+    }
+  }
 }
 
 Table header_of(const MapTask& task, const std::vector<Quantity>& chosen)
@@ -45,8 +63,9 @@ Table header_of(const MapTask& task, const std::vector<Quantity>& chosen)
   columns.push_back(
       {"status", "word", "ok, or why a quantity is missing, which is then -"});
   Table table("Map of a machine", columns);
-  const Parameters base = doubted(task.read({}, request.frequency.value_or(0)), request,
-                                  task.highest_speed());
+  Parameters base =
+      doubted(task.read({}, request.frequency.value_or(0)), task.highest_speed());
+  doubt_corners(task, base);
   describe(table, base);
   table.row_line("keys", {task.keys.begin(), task.keys.end()});
   for (const auto& [name, text] : {std::pair{"x", request.x}, {"y", request.y}})

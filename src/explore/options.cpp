@@ -359,6 +359,7 @@ Check add_options(CLI::App& command, AttractorsRequest& request)
   add_number(command, "--count", request.count, 1, 10000,
              "speeds from --from to --to, evenly spaced")
       ->required();
+  add_rpm(command, request);
   add_number(command, "--starts", request.starts, 0, 1000,
              "random states to start from at each speed");
   add_number(command, "--seed", request.seed, 0, largest_seed, "of the random states");

@@ -26,7 +26,8 @@ bool is_periodic(const std::string& method)
 
 void require_range(double from, double to)
 {
-  if (from >= to) throw BadInput(format("--from %g: must be below --to %g", from, to));
+  if (from >= to)
+    throw BadInput(format("--from %g Hz: must be below --to %g Hz", from, to));
 }
 
 void require_method_of(const Parameters& parameters, const std::string& method)
@@ -50,14 +51,13 @@ Parameters machine_of(const Request& request, double from, double to,
                     .to = to,
                     .harmonics = std::max(64, request.harmonics.value_or(0)),
                     .nodes = nodes});
-  return doubted(machine, request, to);
+  return doubted(machine, to);
 }
 
-Parameters doubted(Parameters machine, const Request& request, double highest)
+Parameters doubted(Parameters machine, double highest)
 {
   for (const std::string& doubt : doubts(machine, highest))
-    machine.derived.push_back("warning: " + doubt);
-  request.doubt = doubt_of_speed(machine, highest);
+    machine.derived.push_back(std::string(doubted_word) + doubt);
   return machine;
 }
 
@@ -120,7 +120,8 @@ void put_contact(Table& table, const Parameters& parameters, bool touches)
   table.value("contact", touches ? "yes" : "no");
   if (!touches)
     table.note(
-        format("warning: no ball touches its race: the clearance of %g m is never closed",
+        format("warning: no ball touches its race in what is printed: the clearance of "
+               "%g m is not closed there",
                parameters.bearing.clearance));
 }
 

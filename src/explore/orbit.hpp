@@ -37,8 +37,7 @@ struct Request {
   bool quiet = false;                                  ///< no progress on stderr
   std::optional<std::string> plot = {}, overlay = {};  ///< files
   bool force = false;                                  ///< outputs replace any file
-  bool rpm = false;                ///< the figure's axis of speeds in turns a minute
-  mutable std::string doubt = {};  ///< of the speed, for the end of stderr
+  bool rpm = false;  ///< the figure's axis of speeds in turns a minute
 };
 
 /** Those that find a periodic motion, stable or not: harmonic balance and shooting. */
@@ -88,9 +87,8 @@ inline const Column time_column{"t", "s", "time since phase 0"};
 Parameters machine_of(const Request& request, double from, double to,
                       const NumberTable* nodes = nullptr);
 
-/** `machine` with its doubts up to a speed [Hz] in its header; that about the speed is
-    the request's too. */
-Parameters doubted(Parameters machine, const Request& request, double highest);
+/** `machine` with its doubts up to a speed [Hz]. */
+Parameters doubted(Parameters machine, double highest);
 
 /** Throws BadInput for a time method that does not integrate such bodies. */
 void require_method_of(const Parameters& parameters, const std::string& method);

@@ -27,9 +27,10 @@ double speed_value(const Bearing& bearing, double hertz)
   return printable_size(1e3 * pitch_diameter(bearing) * 60 * hertz);
 }
 
-std::string doubt_of_speed(const Parameters& machine, double highest)
+/** About the speed; empty where bearings turn so fast. */
+static std::string doubt_of_speed(const Parameters& machine, double highest)
 {
-  constexpr double fastest = 2e6;  // n d_m of ball bearings [mm/min]
+  constexpr double fastest = 1.3e6;  // n d_m of deep groove ball bearings [mm/min]
   for (const Bearing& bearing : bearings_of(machine))
     if (const double n = speed_value(bearing, highest); n > fastest)
       return format(
@@ -42,12 +43,16 @@ std::string doubt_of_speed(const Parameters& machine, double highest)
 std::vector<std::string> doubts(const Parameters& machine, double highest)
 {
   /** Largest pitch of a bearing [m]; K_H over the root of the ball's diameter, of steel
-      [N/m²]; gravity of any planet [m/s²]. */
-  constexpr double widest = 5, steel = 1e11, heaviest = 30;
+      [N/m²]; gravity of any planet [m/s²]; what a suspension sinks by [m]; e [m]. */
+  constexpr double widest = 5, steel = 1e11, heaviest = 30, deepest = 0.03,
+                   most_eccentric = 3e-3;
   std::vector<std::string> all;
   for (const Bearing& bearing : bearings_of(machine)) {
     if (const double d = printable_size(pitch_diameter(bearing)); d > widest)
       all.push_back(format("a pitch diameter of %.3g m: are lengths in m?", d));
+    if (bearing.ball_diameter > 0 && bearing.clearance > 0.1 * bearing.ball_diameter)
+      all.push_back(format("the clearance of %g m is more than a tenth of the ball",
+                           bearing.clearance));
     if (const double d = bearing.ball_diameter; d > 0 && bearing.exponent == 1.5) {
       const double ratio =
           printable_size(bearing.contact_stiffness / std::sqrt(d) / steel);
@@ -66,8 +71,19 @@ std::vector<std::string> doubts(const Parameters& machine, double highest)
     if (!body->rigid && body->damping_ratio > 0.5)
       all.push_back(format("a damping ratio of %g: 1 is critical, is it in per cent?",
                            body->damping_ratio));
+  if (!machine.machine->takes_explicit_steps()) return all;
+  for (const auto& [body, name] :
+       {std::pair{&machine.stator, "stator"}, {&machine.rotor, "rotor"}}) {
+    const double omega = body->natural_frequency;
+    if (!body->rigid && omega > 0 && machine.gravity / (omega * omega) > deepest)
+      all.push_back(
+          format("the %s of %g kg sinks by %.3g m on a suspension of %.3g N/m, "
+                 "%.3g Hz: are its units right?",
+                 name, body->mass, printable_size(machine.gravity / (omega * omega)),
+                 body->stiffness(), omega / angular(1)));
+  }
   const double e = printable_size(machine.unbalance / machine.rotor.mass);
-  if (machine.machine->takes_explicit_steps() && !machine.rotor.rigid && e > 0.1)
+  if (!machine.rotor.rigid && e > most_eccentric)
     all.push_back(format("an eccentricity of %.3g m: is the unbalance in kg m?", e));
   return all;
 }

@@ -3,7 +3,8 @@
 
 Values that differ from those of any real machine by a factor of a hundred and more are
 mostly millimetres in a key of metres, MPa in one of Pa, or 1,500 Hz where 1,500/min was
-meant. Nothing is refused: the words stand in the headers, and `check` counts them. */
+meant. Nothing is refused: the words stand in the header and, at the end, on stderr;
+`check` counts them. */
 #pragma once
 
 #include <string>
@@ -16,9 +17,6 @@ namespace rotor_stator::explore {
 /** Doubts about the machine and the highest speed [Hz] that it is asked for, a sentence
     each. */
 std::vector<std::string> doubts(const Parameters& machine, double highest);
-
-/** The one about the speed; empty where bearings turn so fast. */
-std::string doubt_of_speed(const Parameters& machine, double highest);
 
 /** The same, or the largest number that is printed, 1e300, where it is beyond. */
 double printable_size(double value);

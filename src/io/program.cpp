@@ -38,6 +38,8 @@ std::string unexpected(const CLI::App& app)
       known.push_back(command->get_name());
       commands += (commands.empty() ? "; subcommands: " : ", ") + command->get_name();
     }
+  if (std::ranges::find(known, word) != known.end())
+    return word + ": stands before the command; options come after it";
   return word + ": not expected" + suggestion(word, known) + commands;
 }
 
@@ -107,9 +109,9 @@ double speed_in_hertz(const std::string& option, const std::string& value,
   /** 2π times as much is still a number, and so is the period of the slowest. */
   constexpr double largest = 1e300;
   std::string number = value, own = "Hz";
-  for (const char* known : {"Hz", "rpm"})
+  for (const std::string known : {"Hz", "hz", "rpm", "RPM"})
     if (value.ends_with(known)) {
-      own = known;
+      own = known == "hz" ? "Hz" : known == "RPM" ? "rpm" : known;
       number.erase(value.size() - own.size());
       if (number.ends_with(' ')) number.pop_back();
     }

@@ -102,6 +102,15 @@ public:
       several words. */
   void parameters(const std::string& source) { line("parameters: " + source); }
   void detail(const std::string& text) { sentence("  " + text); }
+
+  /** What the user should know even where only rows are read: also for stderr. */
+  void warning(const std::string& text)
+  {
+    detail("warning: " + text);
+    warnings_.push_back(text);
+  }
+  const std::vector<std::string>& warnings() const { return warnings_; }
+
   void value(const std::string& key, const Cell& value);
   void value(const std::string& key, double number, int digits)
   {
@@ -153,6 +162,7 @@ private:
   std::string json() const;
 
   std::string head_, foot_;
+  std::vector<std::string> warnings_;
   std::vector<KeyValue> values_;
   std::vector<std::pair<std::string, std::vector<Cell>>> lists_;
   std::vector<Column> columns_;

@@ -90,6 +90,9 @@ struct Unit {
 constexpr double turn = 2 * std::numbers::pi;
 constexpr Unit units[]{
     {"_N_per_m", "_N_per_mm", 1e3, 1},
+    {"_N_per_m", "_kN_per_m", 1e3, 1},
+    {"_N", "_kN", 1e3, 1},
+    {"_kg", "_g", 1, 1e3},
     {"_kg_m", "_g_mm", 1, 1e6},
     {"_Pa", "_MPa", 1e6, 1},
     {"_Pa", "_GPa", 1e9, 1},
@@ -116,6 +119,24 @@ std::string own_key(const std::string& key)
   const Unit* const unit = unit_of(key);
   if (!unit) return key;
   return key.substr(0, key.size() - unit->other.size()).append(unit->own);
+}
+
+/** The known key that was meant, in the unit of the one that was found. */
+std::string meant(const std::string& found, std::vector<std::string> known)
+{
+  const auto is_same = [](char a, char b) { return std::tolower(a) == std::tolower(b); };
+  const Unit* const given = unit_of(found);
+  for (std::string& key : known)
+    for (const Unit& unit : units) {
+      if (!key.ends_with(unit.own)) continue;
+      const std::string other =
+          key.substr(0, key.size() - unit.own.size()).append(unit.other);
+      if (std::ranges::equal(found, other, is_same))
+        return "; did you mean " + other + "?";
+      if (&unit == given) key = other;
+      if (&unit == given) break;
+    }
+  return suggestion(found, known);
 }
 
 double in_own_unit(const std::string& key, double value)
@@ -148,7 +169,7 @@ int as_integer(const toml::node& node, int least, int most)
 
 std::string as_string(const toml::node& node)
 {
-  if (!node.is_string()) throw Refused{"must be a string"};
+  if (!node.is_string()) throw Refused{"must be a string, in quotes"};
   const auto value = *node.value<std::string>();
   if (printable(value) != value)
     throw Refused{"must be one line without control characters"};
@@ -161,7 +182,7 @@ struct StrictToml::Content {
   std::string file;
   std::string path;  ///< dotted prefix of this table, "" at the root
   toml::table table;
-  std::set<std::string> read;
+  std::set<std::string> read, asked;  ///< keys; those that may stand here
   std::vector<std::pair<std::string, std::shared_ptr<Content>>> inner_tables;
 
   /** A key as it stands in the file, perhaps in another unit. */
@@ -187,6 +208,7 @@ struct StrictToml::Content {
   {
     const std::string name = written(key);
     read.insert(name);
+    asked.insert(key);
     toml::node* node = table.get(name);
     if (!node) reader.missing(key);
     try {
@@ -214,8 +236,8 @@ struct StrictToml::Content {
   StrictToml inner(toml::node& node, const std::string& key)
   {
     inner_tables.emplace_back(
-        key, std::make_shared<Content>(
-                 Content{file, path + key + ".", std::move(*node.as_table()), {}, {}}));
+        key, std::make_shared<Content>(Content{
+                 file, path + key + ".", std::move(*node.as_table()), {}, {}, {}}));
     return StrictToml(inner_tables.back().second);
   }
 };
@@ -232,8 +254,10 @@ StrictToml::StrictToml(const std::string& file, const std::string& content)
     const std::string message(error.description());
     const auto line = static_cast<int>(error.source().begin.line);
     if (message.find("TOML_MAX_NESTED_VALUES") != message.npos) refuse_levels(file, line);
+    const bool is_word = message.find("could not determine value type") != message.npos;
     throw BadInput(format("%s:%d: not TOML: ", file.c_str(), line) +
-                   message.substr(0, message.find('\n')));
+                   message.substr(0, message.find('\n')) +
+                   (is_word ? "; words stand in quotes" : ""));
   }
   for (const auto& [key, node] : content_->table)
     if (key.str() == "ross_version" || key.str().starts_with("ShaftElement"))
@@ -297,7 +321,7 @@ StrictToml StrictToml::with(
     const std::vector<std::pair<std::string, std::string>>& instead) const
 {
   StrictToml changed(std::make_shared<Content>(
-      Content{content_->file, content_->path, content_->table, {}, {}}));
+      Content{content_->file, content_->path, content_->table, {}, {}, {}}));
   for (const auto& [key, value] : values) {
     if (std::ranges::count(key, '.') > most_levels)
       throw BadInput(format("%.40s...: more than %d levels", key.c_str(), most_levels));
@@ -313,6 +337,7 @@ const std::string& StrictToml::file() const
 
 bool StrictToml::has(const std::string& key) const
 {
+  content_->asked.insert(key);
   return content_->table.contains(content_->written(key));
 }
 
@@ -449,9 +474,9 @@ void StrictToml::missing(const std::string& key, const std::string& advice,
   std::vector<std::string> wanted{key};
   for (const auto& way : ways) wanted.insert(wanted.end(), way.begin(), way.end());
   for (const std::string& found : keys()) {
-    const std::string meant = suggestion(own_key(found), wanted);
-    if (!content_->read.contains(found) && !meant.empty())
-      fail(found, "is not a known key here" + meant + " (" + content_->path + key +
+    const std::string instead = meant(found, wanted);
+    if (!content_->read.contains(found) && !instead.empty())
+      fail(found, "is not a known key here" + instead + " (" + content_->path + key +
                       " is missing" + advice + ")");
   }
   fail(key, "is missing" + advice);
@@ -459,13 +484,12 @@ void StrictToml::missing(const std::string& key, const std::string& advice,
 
 void StrictToml::refuse_unknown_keys() const
 {
-  const std::vector<std::string> known(content_->read.begin(), content_->read.end());
+  const std::vector<std::string> known(content_->asked.begin(), content_->asked.end());
   for (const std::string& key : keys()) {
     if (content_->read.contains(key)) continue;
     std::string list;
     for (const std::string& other : known) list += (list.empty() ? "" : ", ") + other;
-    fail(key, "is not a known key here" + suggestion(own_key(key), known) +
-                  " (known: " + list + ")");
+    fail(key, "is not a known key here" + meant(key, known) + " (known: " + list + ")");
   }
   for (const auto& [name, inner] : content_->inner_tables)
     StrictToml(inner).refuse_unknown_keys();

@@ -70,14 +70,18 @@ Designation read_designation(StrictToml& table)
     not there. */
 StrictToml entry_of(StrictToml& table, const std::string& wanted)
 {
-  std::string there;
+  std::vector<std::string> known;
   for (StrictToml& entry : catalogue("bearing")) {
-    const std::string designation = entry.string(designation_key);
-    if (designation == wanted) return entry;
-    there += (there.empty() ? "" : ", ") + designation;
+    known.push_back(entry.string(designation_key));
+    if (known.back() == wanted) return entry;
   }
-  table.fail(designation_key, "\"" + wanted + "\" is not in the catalogue; there are " +
-                                  there + "; give the bearing's dimensions instead");
+  std::ranges::sort(known);
+  std::string there, text = table.string(designation_key);
+  for (const std::string& one : known) there += (there.empty() ? "" : ", ") + one;
+  const std::string meant = suggestion(text.substr(0, text.find_first_of(" -")), known);
+  table.fail(designation_key, "\"" + text + "\" is not in the catalogue" + meant +
+                                  "; there are " + there +
+                                  "; give the bearing's dimensions instead");
 }
 
 /** Diameters of balls and pitch circle [m], 0 where only the cage's ratio is given. */
@@ -153,20 +157,27 @@ std::vector<double> clearance_range(StrictToml& table, const std::string& wanted
              format("has no %s for a bore of %g m", wanted.c_str(), bore));
 }
 
-/** The class of clearance, by the key or by the designation, C0 being CN. */
+/** C0, which is CN. */
+std::string normal_class(const std::string& name)
+{
+  return name == "C0" ? "CN" : name;
+}
+
+/** The class of clearance, by the key or by the designation. */
 std::string clearance_class(StrictToml& table, const std::string& by_designation)
 {
-  const auto normal = [](const std::string& name) { return name == "C0" ? "CN" : name; };
   constexpr const char* key = "internal_clearance";
-  if (!table.has(key)) return normal(by_designation);
-  const std::string given = table.string(key);
+  if (!table.has(key)) return normal_class(by_designation);
+  std::string given = table.string(key);
+  if (given.starts_with('c') || given.ends_with('n'))
+    for (char& letter : given) letter = static_cast<char>(std::toupper(letter));
   static const std::regex known("C[02345N]");
   if (!std::regex_match(given, known))
     table.fail(key, "\"" + given + "\": must be C2, CN or C0 (normal), C3, C4 or C5");
-  if (!by_designation.empty() && normal(by_designation) != normal(given))
+  if (!by_designation.empty() && normal_class(by_designation) != normal_class(given))
     table.fail(key,
                "\"" + given + "\" contradicts " + by_designation + " of designation");
-  return normal(given);
+  return normal_class(given);
 }
 
 double read_clearance(StrictToml& table, StrictToml& source,
@@ -178,14 +189,22 @@ double read_clearance(StrictToml& table, StrictToml& source,
   const bool is_given =
       std::ranges::any_of(ways, [&](const auto& keys) { return table.has(keys[0]); });
   const std::size_t way = is_given || by_designation.empty() ? table.way(ways) : 2;
-  if (way < 2 && !by_designation.empty())
+  if (way < 2) {
+    const double diametral = way == 0 ? 2 * table.number("radial_clearance_m", Range::any)
+                                      : table.number("diametral_clearance_m", Range::any);
+    if (way == 1)
+      derived.push_back(
+          format("clearance: %.15g m on the diameter, delta is half of it", diametral));
+    if (by_designation.empty()) return diametral / 2;
     derived.push_back("clearance: as given; " + by_designation +
                       " of the designation is not used");
-  if (way == 0) return table.number("radial_clearance_m", Range::any);
-  if (way == 1) {
-    const double diametral = table.number("diametral_clearance_m", Range::any);
-    derived.push_back(
-        format("clearance: %.15g m on the diameter, delta is half of it", diametral));
+    const auto range = clearance_range(table, normal_class(by_designation),
+                                       source.number("bore_m", Range::positive));
+    if (diametral > range[1])
+      derived.push_back(
+          format("warning: a clearance of %g um on the diameter, where %s "
+                 "has at most %g: is it radial?",
+                 1e6 * diametral, by_designation.c_str(), 1e6 * range[1]));
     return diametral / 2;
   }
   if (!table.has(designation_key))

@@ -32,11 +32,16 @@ Body read_body(StrictToml& table)
     body.natural_frequency =
         derived(table, stiffness_key,
                 std::sqrt(table.number(stiffness_key, Range::not_negative) / body.mass));
+  const bool is_free = body.natural_frequency == 0;
+  if (is_free && !table.has("damping_ratio") && !table.has("damping_N_s_per_m"))
+    table.fail("damping_N_s_per_m",
+               "is missing: a body without a suspension has no damping_ratio; 0, or what "
+               "damps it against the ground");
   if (table.way({{"damping_ratio"}, {"damping_N_s_per_m"}}) == 0)
     body.damping_ratio = table.number("damping_ratio", Range::not_negative);
   else
     body.damper = table.number("damping_N_s_per_m", Range::not_negative);
-  if (body.damping_ratio > 0 && body.natural_frequency == 0)
+  if (body.damping_ratio > 0 && is_free)
     table.fail("damping_ratio",
                "damps nothing where natural_frequency_rad_per_s is 0; give "
                "damping_N_s_per_m instead");
@@ -248,7 +253,11 @@ void describe(Table& table, const Parameters& parameters, bool with_keys)
                  (bearing.is_damaged(Defect::Surface::ball)
                       ? format(", ball %d", bearing.defect.ball)
                       : ""));
-  for (const std::string& line : parameters.derived) table.detail(line);
+  for (const std::string& line : parameters.derived)
+    if (line.starts_with(doubted_word))
+      table.warning(line.substr(doubted_word.size()));
+    else
+      table.detail(line);
   if (!with_keys) return;
   table.value("machine", parameters.identity.word());
   table.value("stator", parameters.stator.rigid ? "rigid" : "moving");

@@ -1,11 +1,18 @@
 /**
 # What the machine does: the one answer
 
-Eq. 7 is integrated from rest until it has settled (`settle`). A motion that closes is
-then closed by shooting, which gives its multipliers; its error is what closing it again
-with a hundredth of the local error changes. A motion whose neighbours contract is
-recorded at the same instants with half the step, and the difference is its error. Of a
-chaotic motion the record is one of many: it has no error.
+Eq. 7 is integrated from rest until it has settled (`settle`). What follows depends on
+its kind:
+
+- `rest`: the static equilibrium, error 0.
+- `periodic`: shooting closes the motion over its K base periods, which gives multipliers
+  and with them the stability; the error is what closing it again with a hundredth of the
+  local error changes. Where shooting fails, or a stepper is asked for, it is recorded.
+- Every other motion is recorded. Where neighbours contract it is integrated twice from
+  `settled.before`, the second time with half the step: that one is `motion`, its
+  difference from the first is the error, and it is stable. With a tolerance the step is
+  halved until the error is below it, six times at most.
+- Where they do not contract, the record is one of many: no error, `undecided`.
 
     const Answer answer = motion::answer(parameters, {.omega = angular(25)}, budget);
     // answer.kind, answer.motion, answer.stability, answer.error
@@ -27,23 +34,23 @@ namespace rotor_stator::motion {
 struct Request {
   double omega;  ///< speed of the rotor [rad/s]
   std::string method =
-      "auto";  ///< or the stepper of the record, which is then not closed
+      "auto";  ///< or the stepper of the record; shooting is then not tried
   std::optional<double> tolerance = {};  ///< of the error, largest and rms [-]
   int points = 256;                      ///< P, of a base period
-  int periods = 1;             ///< recorded of a motion that is not closed, at least K
+  int periods = 1;             ///< recorded where shooting closes nothing, at least K
   double step = 0;             ///< longest of rk4 [s]; 0: `step_at`
   double step_ratio = 1;       ///< then: so many times as long
   double local_error = 1e-11;  ///< of shooting and of steppers with error control
-  double longest = 0;          ///< 0: as settle chooses; transient after t = 0 [s]
+  double longest = 0;          ///< `SettleRule::longest` [s]
   bool is_measured = true;     ///< whether error and stability are wanted
 };
 
 struct Answer {
   BasePeriod base;
-  Parameters machine = {};  ///< counted over its base period
+  Parameters machine = {};  ///< its angles counted per base period, `over`
   double omega = 0;         ///< base frequency [rad/s]
   Settled settled;          ///< kind, K, λ, state
-  Motion motion = {};       ///< from t = 0, or from base period `motion.first_period`
+  Motion motion = {};       ///< from base period `motion.first_period`, mostly 0
   std::optional<Error> error = {};
   std::string stability = "undecided";
   double multiplier = 0,
@@ -59,7 +66,8 @@ struct Answer {
   int period_number() const;
 };
 
-/** Throws NoSolution when the integration breaks down or the tolerance cannot be met. A
+/** Throws NoSolution when the integration breaks down or the error stays above the
+    tolerance. A
     budget that ends before the kind is known leaves it undecided, with the reason in
     `settled`. */
 Answer answer(const Parameters& parameters, const Request& request,
@@ -70,8 +78,7 @@ struct Question {
   const Parameters& parameters;
   Request request;
   OperationBudget budget = {};
-  std::optional<State> start = {};  ///< of the machine at the start of one of its base
-                                    ///< periods, as long before t = 0 as rest; else rest
+  std::optional<State> start = {};  ///< in the place of rest, at the same time
   double transient = 1;  ///< share of the budget for what comes before the motion
 };
 
@@ -80,9 +87,9 @@ struct Question {
 std::vector<Attempt<Answer>> settled_answers(std::span<const Question> questions);
 void complete(Answer& answer, const Request& request, const OperationBudget& budget = {});
 
-/** What is reported of x_s, y_s, x_r, y_r [m], with standard errors, which a motion that
-    closes has not: over its K base periods, over 256 base periods of another one, at
-    every second step. */
+/** What is reported of x_s, y_s, x_r, y_r [m]. Of a periodic motion over its K base
+    periods; of every other one over 256 base periods, with standard errors. Taken at
+    every second step of rk4. */
 struct Observation {
   Displacements amplitude{};    ///< half of the largest less the smallest value
   Displacements mean{}, rms{};  ///< rms about the mean

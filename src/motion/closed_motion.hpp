@@ -1,7 +1,8 @@
 /**
 # A motion closed by shooting
 
-The periodic motion of Eq. 7 by a time method alone: shooting over K turns with
+`--method shooting` (what `answer` has integrated it closes by `shoot` itself). The
+periodic motion of Eq. 7 by a time method alone: shooting over K turns with
 error-controlled steps, from quasi-static contact, from the solution of a few harmonics,
 from where time integration settles, until one closes. Its error is measured by closing it
 again with a hundredth of the local error.

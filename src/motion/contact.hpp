@@ -1,8 +1,9 @@
 /**
 # The contact of the balls along a motion
 
-The force Q_j of every ball over two periods, 2T, because with ω_cage = ω/2 each ball is
-passed by the rotating contact once per 2T (D-11, D-20). */
+The force Q_j of every ball over two periods, 2T: with the paper's ω_cage = ω/2 the
+rotating contact passes each ball once in 2T (D-11, D-20). Other bearings keep the two
+periods by convention. */
 #pragma once
 
 #include "motion/motion.hpp"

@@ -82,7 +82,7 @@ public:
         contact's frequency. */
     floquet.change += parameters_.machine->reduction_error() *
                       contact_frequency(parameters_) * angular(1) / omega_;
-    floquet.settled = floquet.change <= 0.1;
+    floquet.converged = floquet.change <= 0.1;
     return floquet;
   }
 

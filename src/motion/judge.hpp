@@ -4,9 +4,10 @@
 A verdict speaks of the motion of Eq. 7 that is nearest to a solution of harmonic balance,
 as shooting over segments and plain shooting from eight phases of the solution find it.
 Its multipliers are computed twice, the second time with a local error a hundred times
-smaller, and what changes is their uncertainty. `stable` and `unstable` leave no
-multiplier within that of the unit circle, and no motion of the other kind less than twice
-as far away.
+smaller, and what changes is their uncertainty. It is `stable` or
+`unstable` when every multiplier is farther from the unit circle than its uncertainty, and
+every motion of the opposite stability that shooting found is at least twice as far from
+the solution.
 
     const Verdict verdict = judge(parameters, solution, budget);
     // verdict.word(), verdict.floquet.largest(), verdict.distance_rms */

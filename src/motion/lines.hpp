@@ -61,7 +61,8 @@ struct LineName {
 };
 
 /** The shortest name of an order, at most `tolerance` off, with k_cage at most n
-    `passages`; halves of both frequencies of a torus up to an eighth of that. */
+    `passages`; half-integer k of both frequencies, of a motion that has doubled its
+    periods, up to an eighth of that. */
 LineName name_of(double order, const Bearing& bearing, double tolerance, int passages);
 
 /** The shortest by any of the bearings: the frequencies of the second are BPFO_2, … */

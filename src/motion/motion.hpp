@@ -31,7 +31,8 @@ struct Motion {
     return static_cast<double>(k) / points_per_period;
   }
 
-  /** The rotor's angle ωt [rad], counted from t = 0. */
+  /** ωt [rad] of the base frequency, counted from t = 0: the rotor's angle where the base
+      period is a turn. */
   double phase(std::size_t k) const;
 };
 

@@ -1,7 +1,7 @@
 /**
-# Motions with two frequencies
+# Motions with two frequencies by harmonic balance
 
-Harmonic balance on the harmonics (k_1, k_2) of k_1 ω + k_2 n ω_cage: on all orders up to
+What integration says of them is in motion/answer. Harmonic balance on the harmonics (k_1, k_2) of k_1 ω + k_2 n ω_cage: on all orders up to
 a sum, or on the largest lines of the motion that Eq. 7 settles on from rest, twice as
 many of them until the solution is near enough to the motion of Eq. 7. That is the one
 from rest or, where doubling does not halve the distance from it, the one that integration
@@ -46,8 +46,7 @@ struct TorusVerdict {
   }
 };
 
-/** Eq. 7 is integrated from the solution until `settle` knows what it does: its windows
-    count natural periods. */
+/** Eq. 7 is integrated from the solution by `settle`. */
 TorusVerdict verdict_on_torus(const Parameters& parameters,
                               const PeriodicMotion& solution, double tolerance,
                               const OperationBudget& budget = {});

@@ -32,7 +32,7 @@ struct HigherHarmonics {
   double h_2 = 0, h_3 = 0, h_4 = 0, h_5 = 0;  ///< one by one
 };
 
-/** Of two periods, those of a ball's passage. */
+/** Of two periods, as motion/contact has them. */
 struct RegimeMeasures : HigherHarmonics {
   double contact = 0;      ///< share of the time with at least one loaded ball [-]
   double turns = 0;        ///< of the force's direction per period, 1 where the contact

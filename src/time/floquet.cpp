@@ -96,10 +96,10 @@ Floquet series_multipliers(const Parameters& parameters, const PeriodicMotion& m
                             most_steps));
   int steps = static_cast<int>(first);
   Floquet result{.multipliers = with_steps(steps)};
-  for (int k = 0; k < most_halvings && steps < 2 * most_steps && !result.settled; ++k) {
+  for (int k = 0; k < most_halvings && steps < 2 * most_steps && !result.converged; ++k) {
     Multipliers finer = with_steps(steps *= 2);
     result.change = largest_move(finer, result.multipliers);
-    result.settled = result.change <= tolerance;
+    result.converged = result.change <= tolerance;
     result.multipliers = std::move(finer);
   }
   return result;

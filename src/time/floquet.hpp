@@ -21,7 +21,7 @@ using Multipliers = std::vector<std::complex<double>>;
 struct Floquet {
   Multipliers multipliers;  ///< 2d, largest modulus first
   double change = 0;        ///< largest |Δμ|/max(1, |μ|) at the last refinement [-]
-  bool settled = false;     ///< `change` is below the tolerance
+  bool converged = false;   ///< `change` is below the tolerance
 
   double largest() const { return std::abs(multipliers.front()); }
 
@@ -29,8 +29,8 @@ struct Floquet {
   double uncertainty() const { return change * std::max(1.0, largest()); }
 
   /** Whether the largest modulus is below 1 by more than its uncertainty. */
-  bool stable() const { return settled && largest() + uncertainty() < 1; }
-  bool unstable() const { return settled && largest() - uncertainty() > 1; }
+  bool stable() const { return converged && largest() + uncertainty() < 1; }
+  bool unstable() const { return converged && largest() - uncertainty() > 1; }
 
   /** "stable", "unstable", or "undecided" within the uncertainty. */
   const char* verdict() const

@@ -62,7 +62,7 @@ void require_method(const std::string& method, std::vector<std::string> others =
 double evaluation_price(const Parameters& parameters, const std::string& method);
 
 /** A step [s] that gives the contact mode about 40 steps per period: RK4 is stable up
-   to 2.8/ω and accurate well below it. The paper gives none (D-16). */
+   to 2.8/ω_contact and accurate well below it. The paper gives none (D-16). */
 double default_step(const Parameters& parameters);
 
 /** The step [s] of rk4 at a base frequency: `default_step`, and less where the force at
@@ -75,8 +75,8 @@ inline double step_at(const Parameters& parameters, double omega)
 /** How many times longer than `step_at` the steps of rk4 may be where a relative error of
     `tolerance` in a settled displacement is enough: `step_at` keeps it near 1e-6, and the
     error grows with the fourth power. At most 2, twenty steps in a vibration of the
-    contact: each takes (ω h)⁶/144 of its amplitude, with ten some 8 % in a turn, enough
-    to settle on an unstable motion. */
+    contact: a step h takes (ω_contact h)⁶/144 of its amplitude, ten in a vibration 0.4 %
+    of it and 8 % in a turn of twenty vibrations, enough to settle on an unstable motion. */
 double step_ratio(std::optional<double> tolerance);
 
 }  // namespace rotor_stator

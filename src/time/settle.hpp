@@ -3,15 +3,23 @@
 
 Eq. 7 is integrated from a state, with a neighbour beside it that is pulled back to its
 first distance after every interval (Benettin). What the distance would have become says
-two things: the transient is over when it has shrunk to 1e-9, and its mean growth λ is the
-largest Lyapunov exponent, which with the Poincaré section decides the kind of the motion.
+two things: a transient that dies out is over when it has shrunk to 1e-9 of the largest
+value that it had, and its mean growth λ is the largest Lyapunov exponent, which with the
+Poincaré section decides the kind of the motion. The first that holds:
 
 - `rest`: all speeds and changes are below 1e-12 of clearance plus static deflection.
-- `periodic`: the section, one point in each base period, closes after K ≤ 16 of them.
-- `quasi-periodic`: λ + 3s < 0 where two frequencies drive; or |λ| ≤ 3s, 3s below 0.1/s
-  and a section that does not close.
+- `periodic`: one frequency drives, and the section, one point in each base period,
+  repeats itself after K ≤ 16 of them.
 - `chaotic`: λ - 3s > 0.
+- `quasi-periodic`: λ + 3s < 0 where two frequencies drive (the motion follows them); or
+  |λ| ≤ 3s, with 3s below 0.1/s, where one does.
 - `undecided`: everything else, with the reason.
+
+A periodic motion begins at t = 0 as it is found, since any whole number of base periods
+may be taken from its time. The state of a motion that two frequencies drive belongs to
+its instant: it is taken as that of an earlier one, so early that contraction forgets the
+difference by t = 0, and integrated from there. Every other motion begins where the
+integration ended.
 
     const BasePeriod base = base_period(parameters);
     const auto [machine, omega] = over(base, parameters, angular(25));
@@ -20,7 +28,7 @@ largest Lyapunov exponent, which with the Poincaré section decides the kind of 
 
 A `Settling` is the same among others (time/side_by_side.hpp).
 
-The machine is one counted over its base period. λ comes with its standard error s, that
+The machine is that of `over`, whose angles are counted per base period. λ comes with its standard error s, that
 of the means of ten batches of the later half of all that was integrated. */
 #pragma once
 
@@ -39,7 +47,8 @@ struct SettleRule {
   double step = 0;       ///< longest of rk4 [s]; 0: `step_at`
   double closed = 1e-6;  ///< spread of a closed section, over the vibration [-]
   int most_period = 16;  ///< K
-  double longest = 0;    ///< after t = 0 [s]; 0: 60, or what the slowest decay asks for
+  double longest = 0;  ///< after t = 0 [s], then it is undecided; 0: 40 over the slowest
+                       ///< decay rate, 60 to 1000
 };
 
 struct Settled {
@@ -47,9 +56,10 @@ struct Settled {
   int period = 0;          ///< K of a closed section, else 0
   Exponent lyapunov{0};    ///< λ and its standard error [1/s]
   bool contracts = false;  ///< λ + 3s < 0
-  double remainder = 1;    ///< what the contraction leaves of the start's distance [-]
-  Instant at;      ///< the motion: at t = 0, where its neighbours contract or it closes
-  Instant before;  ///< the same motion earlier: neighbours have come 1e-7 nearer since
+  double remainder = 1;    ///< what the contraction has left of any distance [-]
+  Instant at;              ///< a state on the motion: see above
+  Instant before;  ///< an earlier one: since then distances shrank by 1e-7, so that
+                   ///< other steps from here forget their start by `at`
   double amplitude =
       0;  ///< half peak-to-peak of the largest displacement in the last base periods [m]
   double seconds = 0;       ///< integrated

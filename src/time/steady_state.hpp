@@ -1,6 +1,7 @@
 /**
 # Steady state by time integration, and whether it is periodic
 
+How the figures of the paper integrate; what `explore` answers comes from time/settle.
 Transients decay in seconds, not in periods, so they are counted in seconds (D-16). The
 motion is looked at once per period T (a Poincaré section); its spread is the largest
 distance between the section points of the last `window` seconds, over the largest

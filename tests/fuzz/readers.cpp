@@ -15,6 +15,7 @@ run, and `crash-…` keeps the file. */
 
 #include "io/errors.hpp"
 #include "io/matrix_market.hpp"
+#include "io/scene_file.hpp"
 #include "io/table.hpp"
 #include "model/read_machine.hpp"
 

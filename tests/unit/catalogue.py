@@ -167,7 +167,7 @@ class Catalogue(Case):
                 ("radial_clearance_m = 2e-5", "radial_clearance_m = 2e-5\nradial_clearance_um = 20",
                  "bearing.radial_clearance_um and radial_clearance_m are both given"),
                 ("natural_frequency_rad_per_s = 500.0", "natural_frequency_Hz = -5", "stator.natural_frequency_Hz must be >= 0, got -5"),
-                ("radial_clearance_m = 2e-5", "radial_clearnce_um = 20", "did you mean radial_clearance_m?"),
+                ("radial_clearance_m = 2e-5", "radial_clearnce_um = 20", "did you mean radial_clearance_um?"),
                 ("damping_ratio = 0.05", "damping_N_s_per_mm = 5", "damping_ratio is missing")]:
             self.refused_change(old, new, words)
         maps = [[row.split("\t")[-1] for row in self.rows("map", self.file("own.toml", text), "--x", axis, "--frequency", 45,
@@ -197,7 +197,7 @@ class Catalogue(Case):
     def test_refusals(self):
         ratios = "\n".join(BY_HAND.splitlines()[3:])
         for bearing, words in [
-                (C3.replace("6205", "6299"), 'bearing.designation "6299" is not in the catalogue; there are 6002, 6203,'),
+                (C3.replace("6205", "6299"), 'bearing.designation "6299" is not in the catalogue; did you mean 6209?; there are 60/22,'),
                 (C3.replace("C3", "C7"), "must be C2, CN or C0 (normal), C3, C4 or C5"),
                 (C3 + "\nballs = 9", "designation and balls are both given"),
                 (C3 + "\ncage_speed_ratio = 0.4", "designation and cage_speed_ratio are both given"),

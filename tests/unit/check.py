@@ -8,7 +8,7 @@ from pathlib import Path
 import numpy as np
 
 sys.path.insert(0, str(Path(__file__).parents[1]))
-from support.explore import MACHINE, Case  # noqa: E402
+from support.explore import MACHINE, Case, Table  # noqa: E402
 
 BALLS, HERTZ, G = 1024, 1e9, 9.81
 RADIAL = math.gamma(1.75) / (2 * math.sqrt(math.pi) * math.gamma(2.25))  # mean of cos^{5/2} over the loaded half
@@ -35,7 +35,11 @@ LOOSE = NAMED + 'internal_clearance = "C3"\n'
 
 class Check(Case):
     def checked(self, text, *options):
-        table = self.table("check", self.file("own.toml", text), *options)
+        """The values, the table; what is doubted is said on stderr too."""
+        result = self.run_explore("check", self.file("own.toml", text), *options)
+        table = Table.of(result.stdout)
+        self.assertEqual(result.returncode, 0)
+        self.assertTrue(all(f"#   {line}" in table.header for line in result.stderr.splitlines()), result.stderr)
         return dict(zip(table["name"], table["value"])), table
 
     def test_a_rotor_on_very_many_balls(self):
@@ -75,7 +79,7 @@ class Check(Case):
     def test_warnings(self):
         """Each where it holds, one on data set 1: its centre of mass lies 1.25 mm away, 62.5 times the clearance."""
         far = MACHINE.replace("radial_clearance_m = 2e-5", "radial_clearance_m = 20")
-        self.assertEqual(self.checked(far)[1].value("warnings"), 1)
+        self.assertEqual(self.checked(far)[1].value("warnings"), 2)
         rest = self.checked(far)[0]
         self.assertEqual((rest["loaded_balls"], rest["ball_load"]), (0, 0))
         self.assertEqual(self.checked(MACHINE)[1].value("warnings"), 1)
@@ -95,8 +99,14 @@ class Check(Case):
                             ("speed_value", 39.04 * 1500)]:
             self.assertAlmostEqual(values[name] / value, 1, delta=1e-6, msg=name)
         for old, new, word in [("unbalance_kg_m = 1e-4", "unbalance_kg_m = 20", "is the unbalance in kg m?"),
+                               ("unbalance_kg_m = 1e-4", "unbalance_kg_m = 0.02", "is the unbalance in kg m?"),
+                               ("rigid = true", "mass_kg = 10\nstiffness_N_per_m = 2526\ndamping_ratio = 0.05", "the stator of 10 kg sinks by 0.0388 m"),
+                               ("mass_kg = 2.0", "mass_kg = 2.0\nload_N = [0, 19.62]", "do the loads lift the rotor"),
                                ("= 9.81", "= 9810", "is it in m/s^2?")]:
+            self.assertIn(old, HELD)
             self.assertIn(word, self.checked(HELD.replace(old, new) + LOOSE)[1].header)
+        radial = HELD + NAMED.replace("6205", "6205 C3") + "radial_clearance_m = 2.05e-5"
+        self.assertIn("41 um on the diameter, where C3 has at most 28: is it radial?", self.checked(radial)[1].header)
         sizes = """[bearing]
 balls = 9
 ball_diameter_m = 7.94
@@ -117,11 +127,13 @@ diametral_clearance_m = 0.02
             self.assertIn(words, fast.stdout)
             self.assertRegex(fast.stderr, rf"\Awarning: 1797 Hz.*{words}\n\Z")
             self.assertFalse(self.run_explore(*asked, "--quiet").stderr)
+        wide = ["map", own, "--frequency", 25, "--x", "bearing.radial_clearance_m=0:30:2", "--quantity", "amplitude"]
+        self.assertRegex(self.run_explore(*wide).stderr, r"\Awarning: the clearance of 30 m is more than a tenth of the ball\n")
         self.assertIn(words, self.run_explore("campbell", own, "--from", 0, "--to", 1797, "--count", 2).stdout)
         self.assertNotIn("warning", self.table("orbit", self.folder / "named.toml", "--frequency", "1797rpm", "--points", 4).header)
 
     def test_refusals(self):
-        self.refused("--from 3: must be below --to 2", "check", self.machine, "--from", 3, "--to", 2)
+        self.refused("--from 3 Hz: must be below --to 2 Hz", "check", self.machine, "--from", 3, "--to", 2)
         self.refused("must be one of tsv, csv, json", "check", self.machine, "--format", "xml")
 
 

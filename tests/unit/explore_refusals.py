@@ -87,7 +87,7 @@ class Values(Case):
                 ("--frequency 30 --subharmonic 9", "1...8"), ("--frequency 30 --subharmonic 1.5", "--subharmonic"),
                 ("--frequency 30 --subharmonic 2 --method rk4", "--subharmonic: is for the methods aft")], "orbit", self.machine)
         self.refused_each([
-                ("--from 10 --to 10", "--from 10: must be below --to 10"), ("--from 20 --to 10", "--from"),
+                ("--from 10 --to 10", "--from 10 Hz: must be below --to 10 Hz"), ("--from 20 --to 10", "--from"),
                 ("--from 0 --to 10", "--from"), ("--from 1 --to inf", "--to"),
                 ("--from 1 --to 10 --newton-tolerance 1", "--newton-tolerance 1"),
                 ("--from 1 --to 2 --direction left", "must be rest, up or down"),
@@ -120,7 +120,7 @@ class Values(Case):
                 ("--count 3 --section same.tsv --motions same.tsv", "is the file of two options"),
                 ("--count 3 --section same.svg --plot same.svg", "is the file of two options"),
                 ("--count 3 --starts 1.5", "--starts")], "attractors", self.machine, "--from", 10, "--to", 20)
-        self.refused("--from 10: must be below --to 10", "attractors", self.machine, "--from", 10, "--to", 10, "--count", 3)
+        self.refused("--from 10 Hz: must be below --to 10 Hz", "attractors", self.machine, "--from", 10, "--to", 10, "--count", 3)
         self.refused("closed no motion of period 2 T", "orbit", self.machine, *ORBIT, "--method", "aft", "--subharmonic", 2,
                      "--budget", 1e9, status=3)
         self.refused("subcommand")

@@ -238,7 +238,7 @@ class Refusals(Case):
     def test_axes_and_quantities(self):
         usual = "--frequency 45 --quantity amplitude"
         for words, text in [
-                ("bearing.colour is not a known key here (known: balls", f"--x bearing.colour=1:2:3 {usual}"),
+                ("bearing.colour is not a known key here (known: ball_diameter_m, ball_radius_m, balls, ", f"--x bearing.colour=1:2:3 {usual}"),
                 ("did you mean balls", f"--x bearing.bals=1:2:3 {usual}"),
                 ("wind is not a known key", f"--x wind.speed=1:2:3 {usual}"),
                 ("title must be a string", f"--x title=1:2:3 {usual}"),
