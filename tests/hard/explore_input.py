@@ -61,7 +61,7 @@ def fault(status, out, err):
     """What is wrong with the end of a run, or None."""
     one_line = len(err) > 1 and err.count("\n") == 1 and err.endswith("\n")
     if status == 0:
-        if not re.fullmatch(r"(\d+ of \d+ points have no result: see their status\n)?(warning: [^\n]*\n)?", err):
+        if not re.fullmatch(r"(\d+ of \d+ points have no result: see their status\n)?(warning: [^\n]*\n)*", err):
             return "status 0 with words on stderr"
         words = out.startswith("Explores") or "Usage:" in out[:200] or re.match(r"rotor_stator \d", out)
         return None if words else table_fault(out)
