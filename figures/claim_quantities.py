@@ -125,7 +125,6 @@ def harmonics(errors):
 
 
 def verdict(rule, value):
-    """Of a claim without halves, or of a half."""
     if value is None:
         return "not tested"
     for name in ("reproduced", "partly"):
@@ -134,7 +133,3 @@ def verdict(rule, value):
             return name
     return "not reproduced"
 
-
-def joined(verdicts):
-    """Of a claim of halves: theirs if they agree, else partly."""
-    return verdicts[0] if len(set(verdicts)) == 1 else "partly"

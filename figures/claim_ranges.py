@@ -26,8 +26,7 @@ def quantities(first, second):
                   "C3": harmonics({m: errors(middle(second), m) for m in JUDGED}),
                   "C4": low_permanent(first, f_loss, cage), "C5": middle_complex(first, cage),
                   "C6": high_rest(first), "C7": force_rise(first)[0], "C8": arcs[1] / arcs[0],
-                  "C10": passes(first, cage), "C13": phases(second)[0],
-                  "C14": min(right(errors(rows, 10)) for rows in (first, second))}
+                  "C10": passes(first, cage), "C13": phases(second)[0]}
 
 
 class Accepted:

@@ -90,11 +90,6 @@ class Quantities(unittest.TestCase):
     def test_a_speed_without_a_periodic_motion_is_not_right(self):
         self.assertEqual(quantities.right(np.array([0.01, 0.2, np.inf, 0.1])), 0.5)
 
-    def test_a_claim_with_one_refuted_half_is_partly_reproduced(self):
-        self.assertEqual(quantities.joined(["reproduced", "not reproduced"]), "partly")
-        self.assertEqual(quantities.joined(["not reproduced", "not reproduced"]), "not reproduced")
-        self.assertEqual(quantities.joined(["reproduced", "reproduced"]), "reproduced")
-
     def test_a_range_names_the_masses_of_each_verdict(self):
         self.assertEqual(spans({10.0: "partly", 12.0: "reproduced", 14.0: "reproduced", 16.0: "partly"}),
                          "partly for m_s in 10, 16 kg; reproduced for m_s in 12...14 kg")
@@ -121,7 +116,7 @@ class Tables(unittest.TestCase):
             self.assertEqual(shuffled, self.verdicts(folder), folder)
 
     def test_a_motion_that_is_not_periodic_counts_against_both_versions(self):
-        """C2 and C14 fall when more speeds lose their T-periodic motion: none leaves the count."""
+        """C2 falls when more speeds lose their T-periodic motion: none leaves the count."""
         def chaotic_above_30_hz(table):
             if "periodic" not in table.columns or "adaptive" not in table.columns:
                 return table
@@ -133,8 +128,7 @@ class Tables(unittest.TestCase):
         for folder in FOLDERS:
             before, after = ({claim["id"]: value for claim, _, value, *_ in judged(folder, change=change)}
                              for change in (lambda table: table, chaotic_above_30_hz))
-            for claim in ("C2", "C14"):
-                self.assertLess(after[claim], before[claim] - 0.2, f"{folder}, {claim}")
+            self.assertLess(after["C2"], before["C2"] - 0.2, folder)
 
     def test_both_versions_are_judged_by_the_same_rules(self):
         """Every claim in both, each verdict that of its quantity by the limits of claims.toml, each counted once."""
@@ -146,7 +140,6 @@ class Tables(unittest.TestCase):
             claims = stored(kept / "claims.tsv")
             self.assertEqual([claim["id"] for claim in claims], list(RULE))
             self.assertEqual(sorted(sum(score(claims).values(), [])), sorted(RULE))
-            self.assertEqual(set(score(claims)), set(KINDS))
             for claim in claims:
                 self.assertEqual(claim["built_in"], RULE[claim["id"]].get("built_in", "-"))
             for text in texts:
