@@ -49,18 +49,15 @@ def claim_counts():
         add(f"claims.{key}_counts", in_words(one, ids=False), "-", "the same without the claims")
     for name, ids in score(claims).items():
         add(f"claims.exchanged_{name}", len(ids), "-", f"claims {KINDS[name]}, exchanged")
-    add("claims.changing", listed(changing(claims)), "-", "claims whose verdict depends on the masses")
+    for key, one in (("changing", claims), ("changing_printed", printed)):
+        add(f"claims.{key}", listed(changing(one)), "-", "claims whose verdict depends on masses or cage")
     add("claims.differ", listed(differing(claims, printed)), "-", "claims with another verdict in the printed order")
     by_id = {claim["id"]: claim for claim in claims}
-    for name in ("C3", "C12"):
+    for name in ("C3", "C11", "C12", "C14"):
         add(f"{name}.verdict", by_id[name]["verdict"], "-", f"verdict on {name}")
-    for name, half in zip(("first", "second"), by_id["C11"]["ours"].split("; ")):
-        add(f"C11.{name}", half.split(": ")[1], "-", f"verdict on its {name} half")
+    add("C11.found", by_id["C11"]["ours"], "-", "what was found on C11")
     add("claims.confirmed_words", listed([claim["claim"] for claim in claims if claim["id"] in score(claims)["confirmed"]]),
         "-", "the confirmed claims")
-    for key, one in (("exchanged", claims), ("printed", printed)):
-        for end in ("low", "high"):
-            add(f"C2.{end}_{key}", float(next(claim[end] for claim in one if claim["id"] == "C2")), "-", f"{end}est share of speeds of C2 over the accepted masses, {key}")
 
 
 def shares_right():
@@ -69,13 +66,17 @@ def shares_right():
     for key, one, number, m in (("C2_exchanged", evidence, 1, 6), ("C2_printed", printed, 1, 6), ("one_exchanged", evidence, 1, 1),
                                 ("C14_2_exchanged", evidence, 2, 10)):
         add(f"right.{key}", quantities.right(one.errors(number, m)), "-", f"share of all speeds of set {number} at which {m} harmonics are right")
+    for key, one in (("exchanged", evidence), ("printed", printed)):
+        periodic = one.periodic(1)
+        add(f"C2.periodic_{key}", periodic.mean(), "-", "share of all speeds at which a T-periodic motion attracts")
+        add(f"C2.among_{key}", quantities.right(one.errors(1, 6)[periodic]), "-", "share of these at which 6 harmonics are right")
+    add("C14.periodic_2", evidence.periodic(2).mean(), "-", "share of all speeds of set 2 at which a T-periodic motion attracts")
     add("C2.largest_right", quantities.right(evidence.errors(1, 6, "distance_largest")), "-", "C2 by the largest error")
     add("C2.limit_least", evidence.same_verdict(evidence.errors(1, 6))[0], "-", "limit of the error from which on the verdict is the same")
     add("C2.without", (~evidence.periodic(1)).sum(), "-", "speeds of set 1 without a T-periodic motion")
     inside = evidence.in_transition(2)
     add("C3.middle", inside.sum(), "-", "speeds of the transition")
     add("C3.transition", (evidence.periodic(2) & inside).sum(), "-", "of them with a T-periodic motion")
-    add("C11.seconds", evidence.study_by_integration()[0], "s", "CPU time of the study of clearance and stiffness by RK4")
 
 
 def response():

@@ -190,22 +190,26 @@ double read_clearance(StrictToml& table, StrictToml& source,
       std::ranges::any_of(ways, [&](const auto& keys) { return table.has(keys[0]); });
   const std::size_t way = is_given || by_designation.empty() ? table.way(ways) : 2;
   if (way < 2) {
-    const double diametral = way == 0 ? 2 * table.number("radial_clearance_m", Range::any)
-                                      : table.number("diametral_clearance_m", Range::any);
-    if (way == 1)
+    double radial = 0;
+    if (way == 0) {
+      radial = table.number("radial_clearance_m", Range::any);
+    } else {
+      const double diametral = table.number("diametral_clearance_m", Range::any);
+      radial = diametral / 2;
       derived.push_back(
           format("clearance: %.15g m on the diameter, delta is half of it", diametral));
-    if (by_designation.empty()) return diametral / 2;
+    }
+    if (by_designation.empty()) return radial;
     derived.push_back("clearance: as given; " + by_designation +
                       " of the designation is not used");
-    const auto range = clearance_range(table, normal_class(by_designation),
-                                       source.number("bore_m", Range::positive));
-    if (diametral > range[1])
+    const double most = clearance_range(table, normal_class(by_designation),
+                                        source.number("bore_m", Range::positive))[1];
+    if (radial > most / 2)
       derived.push_back(
           format("warning: a clearance of %g um on the diameter, where %s "
                  "has at most %g: is it radial?",
-                 1e6 * diametral, by_designation.c_str(), 1e6 * range[1]));
-    return diametral / 2;
+                 2e6 * std::min(radial, 1e300), by_designation.c_str(), 1e6 * most));
+    return radial;
   }
   if (!table.has(designation_key))
     table.fail("internal_clearance",
