@@ -56,10 +56,6 @@ def draw_verdicts(axes, accepted, claims, families):
             axes.barh(np.full(masses.size, bottom), masses * (half - 1 / half), 0.84 / len(families) - 0.03, masses / half,
                       align="edge", color=[COLOURS[verdicts[family][mass]] for mass in masses],
                       hatch=[HATCHES[verdicts[family][mass]] for mass in masses], edgecolor="white", lw=0)
-    for line, (joint, cage) in enumerate(families):  # named in the first claim, in the same order in all
-        words = f"{joint:g} Hz" + ("" if cage == families[0][1] else f", c = {cage:g}")
-        axes.annotate(words, (1.01, -0.42 + 0.84 * (line + 0.45) / len(families)), xycoords=("axes fraction", "data"), va="center",
-                      fontsize=8)
     axes.set_yticks(range(len(claims)), [claim["id"] for claim in claims])
     masses = [mass for claim in claims for family in accepted.verdicts(claim).values() for mass in family]
     axes.set(ylim=(len(claims) - 0.5, -0.5), xlim=(min(masses) / 1.1, 1.1 * max(masses)), xscale="log", xlabel="mass of the stator $m_s$ [kg]")
@@ -87,7 +83,9 @@ def draw(table):
              plt.Line2D([], [], **USED, label="masses used"),
              plt.Rectangle((0, 0), 1, 1, **TRANSITION, label="transition of the text"), plt.Line2D([], [], **SHOWN, label="speed of Fig. 4"),
              *(plt.Rectangle((0, 0), 1, 1, fc=colour, ec="white", hatch=HATCHES[name], label=name) for name, colour in COLOURS.items())]
-    key.legend(handles=marks, loc="upper center", ncols=4, frameon=False, handlelength=1.4, columnspacing=1.2)
+    bars = "; ".join(f"{joint:g} Hz" + ("" if cage == main[1] else f" with c = {cage:g}") for joint, cage in families)
+    key.legend(handles=marks, loc="upper center", ncols=4, frameon=False, handlelength=1.4, columnspacing=1.2,
+               title=f"bars of a claim, from above, by the joint resonance: {bars}")
     return figure
 
 
