@@ -6,7 +6,7 @@ Usage: /usr/bin/python3 figures/shape.py TABLE.tsv OUTPUT.svg
 import matplotlib.pyplot as plt
 import numpy as np
 from matplotlib.ticker import MaxNLocator
-from tables import ROTOR, run
+from tables import ROTOR, heading, run
 
 QUARTER, GREY = "C4", "0.45"
 MOST_ORBITS = 24
@@ -65,8 +65,8 @@ def draw(table):
     for artist in axes.lines:  # beside the square of the axes too
         artist.set_clip_on(False)
     entries = dict(zip(*reversed(axes.get_legend_handles_labels())))
-    figure.legend(entries.values(), entries.keys(), loc="upper center", bbox_to_anchor=(0.5, 0.95), ncols=3, frameon=False)
-    figure.suptitle(f"Rotor at {table.value('frequency'):g} Hz", y=0.99)
+    figure.legend(entries.values(), entries.keys(), loc="upper center", bbox_to_anchor=(0.5, 0.92), ncols=3, frameon=False)
+    heading(figure, f"Rotor at {table.speed_in_words()}{table.regime_in_words()}", table)
     return figure
 
 
