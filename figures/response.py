@@ -1,8 +1,10 @@
 """The branch of `explore response`: amplitudes of rotor and stator against speed, with folds, and with `--stability`
-what is stable and the bifurcations.
+what is stable and the bifurcations. Measures that `--columns` names have panels of their own below, six at most.
 
 Usage: /usr/bin/python3 figures/response.py TABLE.tsv OUTPUT.svg
 """
+
+import re
 
 import matplotlib.pyplot as plt
 import numpy as np
@@ -10,6 +12,9 @@ from tables import ROTOR, STATOR, heading, run
 
 MARKS = {"fold": ("s", "fold"), "plus-one": ("D", "multiplier +1"), "period-doubling": ("^", "period doubling"),
          "neimark-sacker": ("o", "Neimark-Sacker")}
+USUAL = {"f", "t", "period", "error", "arc", "newton", "branch", "verdict", "bifurcation", "multiplier", "multiplier_change",
+         *(f"amp_{one}" for one in ("x_s", "y_s", "x_r", "y_r"))}
+MOST_MEASURES = 6
 LINES = {"stable": ("-", 1.8), "unstable": (":", 1.8), "undecided": ("-", 0.7)}
 
 
@@ -25,9 +30,16 @@ def never_after_one(table):
     return table["period"] != 1 if "period" in table.columns else np.zeros(len(table), bool)
 
 
-def draw_branch(axes, branch, column, colour):
+def measures(table):
+    """The columns of numbers that are not the usual ones, with their units."""
+    units = dict(re.findall(r"^# column: (\S+) \[(.*?)\]", table.header, re.MULTILINE))
+    return [(name, units.get(name, "-")) for name, column in table.columns.items()
+            if name not in USUAL and column.dtype.kind == "f"][:MOST_MEASURES]
+
+
+def draw_branch(axes, branch, column, colour, factor=1e6):
     """Pieces of one verdict; each ends where the next begins. Of a sweep a mark at each speed."""
-    f, amplitude = branch["f"], 1e6 * branch[column]
+    f, amplitude = branch["f"], factor * branch[column]
     if "period" in branch.columns:
         other = never_after_one(branch)
         axes.plot(f[~other], amplitude[~other], ".", ms=4, color=colour)
@@ -68,7 +80,10 @@ def legend(axes, table):
 def draw(table):
     table.columns["f"], _, speed = table.speeds()
     bodies = table.bodies()
-    figure, grid = plt.subplots(2, len(bodies), figsize=(10, 7.5), sharex=True, sharey=True, layout="constrained", squeeze=False)
+    further = measures(table)
+    figure = plt.figure(figsize=(10, 7.5 + 2.5 * len(further)), layout="constrained")
+    above, *below = figure.subfigures(1 + len(further), 1, height_ratios=[7.5, *[2.5] * len(further)], squeeze=False)[:, 0]
+    grid = above.subplots(2, len(bodies), sharex=True, sharey=True, squeeze=False)
     shown = np.concatenate([table[f"amp_{axis}_{body}"] for axis in "xy" for body in bodies])
     for row, axis in zip(grid, "xy"):
         for axes, body, word, colour in zip(row, bodies, ("rotor", "stator"), (ROTOR, STATOR)):
@@ -79,7 +94,12 @@ def draw(table):
         axes.set_yscale("log")
     else:
         axes.set_ylim(0, 1.05e6 * shown.max() or 1)
-    for axes in grid[1]:
+    for part, (name, unit) in zip(below, further):
+        axes = part.subplots()
+        for branch in branches(table):
+            draw_branch(axes, branch, name, "C2", 1e6 if unit == "m" else 1)
+        axes.set_ylabel(f"{name} [{'µm' if unit == 'm' else unit}]")
+    for axes in [*grid[1], *(part.axes[0] for part in below[-1:])]:
         axes.set_xlabel(speed)
     heading(figure, "Half peak-to-peak of the displacements", table)
     legend(grid[0, 0], table)
