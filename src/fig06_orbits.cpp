@@ -52,6 +52,8 @@ the speeds of its panels (entry D-17 of the list of deviations); ours include th
 Figs 4 and 5. */
 #include "figures/panels.hpp"
 #include "io/program.hpp"
+#include "motion/find_periodic.hpp"
+#include "time/steady_state.hpp"
 
 int main(int argc, char** argv)
 {
@@ -64,7 +66,8 @@ int main(int argc, char** argv)
       const PeriodicMotion balance =
           motion::find_periodic({scene.machine, omega, scene.harmonics, scene.samples});
       const auto settled = steady_state(scene.machine, omega, scene.time_integration);
-      add_orbits(table, scene, figures::compare(scene, frequency, balance, settled));
+      figures::add_orbits(table, scene,
+                          figures::compare(scene, frequency, balance, settled));
     }
     return table;
   });

@@ -31,6 +31,8 @@ the machine does not settle on it after a start from rest. It is in the table an
 the drawing. */
 #include "figures/panels.hpp"
 #include "io/program.hpp"
+#include "motion/find_periodic.hpp"
+#include "time/steady_state.hpp"
 
 int main(int argc, char** argv)
 {
@@ -43,7 +45,8 @@ int main(int argc, char** argv)
       const PeriodicMotion balance =
           motion::find_periodic({scene.machine, omega, scene.harmonics, scene.samples});
       const auto settled = steady_state(scene.machine, omega, scene.time_integration);
-      add_orbits(table, scene, figures::compare(scene, frequency, balance, settled));
+      figures::add_orbits(table, scene,
+                          figures::compare(scene, frequency, balance, settled));
     }
     return table;
   });

@@ -227,7 +227,7 @@ IN_PLACE void evaluate_group(const Balls& balls, const Columns& at, Eigen::Index
     const double cos = balls.cos[j], sin = balls.sin[j];
     if (rectangle.is_clear_of(cos, sin, balls.clearance)) continue;
     for (int l = 0; l < lanes; ++l) {
-      const double p = cos * g.x[l] + sin * g.y[l] - balls.clearance;  // Eq. 4
+      const double p = cos * g.x[l] + sin * g.y[l] - balls.clearance;  // Δ_j - δ
       const double pressed = p > 0 ? p : 0.0;
       const double root = std::sqrt(pressed), q = pressed * root;  // Eq. 5 over K_H
       g.f_x[l] += q * cos;

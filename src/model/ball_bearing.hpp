@@ -107,7 +107,7 @@ IN_PLACE Vec2Of<Number> bearing_force(const BallRing& balls,
                                         rate.y - contacts.cage_speed * u.x});
   for (int j = 0; j < balls.count; ++j) {
     const double c = balls.cos[j], s = balls.sin[j];
-    const Number near = c * v.x + s * v.y - contacts.clearance;  // Eq. 4
+    const Number near = c * v.x + s * v.y - contacts.clearance;  // Δ_j - δ
     if (!any_positive(near)) continue;
     const Number pressed = positive(near);
     Number q = pressed * root(pressed);  // Eq. 5 over K_H

@@ -7,9 +7,9 @@ one motion (double) or several of them (lanes), with the same bits for each: no 
 reordered and no product fused.
 
     template <class Number>
-    IN_PLACE Number hertz_force(Number k, Number penetration)
+    IN_PLACE Number pressed_by(Number k, Number approach)
     {
-      const Number p = positive(penetration);
+      const Number p = positive(approach);
       return k * p * root(p);
     }
 

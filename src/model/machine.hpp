@@ -49,7 +49,7 @@ public:
   virtual ~Machine() = default;
 
   /**
-  ## At rest */
+  ## At rest (of two masses: model/rotor_stator.cpp) */
 
   /** Static equilibrium with ball 1 at the angle `cage`; without displacement where none
       is unique. */
@@ -62,7 +62,7 @@ public:
   virtual Eigen::VectorXd state_scales(const Parameters& parameters) const = 0;
 
   /**
-  ## In time */
+  ## In time (time/flow.cpp) */
 
   /** The method of time integration that is its own: "rk4" or "gauss". */
   virtual const char* time_method() const = 0;
@@ -82,7 +82,7 @@ public:
                                long interval) const = 0;
 
   /**
-  ## In harmonics */
+  ## In harmonics (balance/bearing_problem.cpp) */
 
   /** The unknowns, blocks and force of the balance along a line of the torus. */
   virtual void put_equations(const Parameters& parameters, const TorusLine& line,
@@ -107,7 +107,7 @@ public:
   }
 
   /**
-  ## In tables */
+  ## In tables (model/parameters.cpp) */
 
   /** The `#` lines and keys of the bodies. */
   virtual void describe(Table& table, const Parameters& parameters) const = 0;

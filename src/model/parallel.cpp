@@ -102,6 +102,7 @@ double largest_stiffness(const ParallelElements& elements, double load, double l
 {
   double cubic = 0;
   if (elements.cubic > 0) {
+    /** Where it alone carries the load. */
     const double moved = std::min(length, std::cbrt(load / elements.cubic));
     cubic = 3 * elements.cubic * moved * moved;
   }

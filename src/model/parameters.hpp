@@ -102,20 +102,20 @@ struct Bearing {
 
   bool is_damaged(Defect::Surface at) const { return defect.surface == at; }
 
-  /** Whether the force is that of Eq. 5 alone, which the kernels are written for. */
+  /** Which force it is. Eq. 5 of intact balls, damped or not, has kernels (`has_kernel`);
+      without damping it depends on u and the cage's angle alone (`is_plain`), as that of
+      the paper's machines. `is_hertzian`: Eq. 5, of damaged balls too. */
   bool is_hertzian() const
   {
     return exponent == 1.5 && clearance >= 0 && !parallel.any();
   }
 
-  /** Whether the force depends on the rate of u. */
-  bool is_damped() const { return damping > 0 || !parallel.linear.empty(); }
-
-  /** Whether the kernels know the force; damping they know. */
   bool has_kernel() const { return is_hertzian() && is_damaged(Defect::Surface::none); }
 
-  /** Whether moreover it depends on nothing but u and the cage's angle. */
   bool is_plain() const { return damping == 0 && has_kernel(); }
+
+  /** Whether the force depends on the rate of u. */
+  bool is_damped() const { return damping > 0 || !parallel.linear.empty(); }
   double cage_phase = 0;  ///< angle of ball 1 at t = 0 [rad]
 
   /** The angle of ball 1 [rad] at the rotor's angle ωt = `phase`. */

@@ -133,7 +133,7 @@ class Parallel(Case):
         self.file("odd.csv", "f,k_zz\n20,1\n")
         for words, text in (
                 ("stop_gap_m", "stop_stiffness_N_per_m = 1e6\n"), ("stop_stiffness_N_per_m", "stop_gap_m = 1e-6\n"),
-                ("must be [xx, xy, yx, yy]", "stiffness_N_per_m = [1, 2]\n"), ("cubic_stiffness", "cubic_stiffness_N_per_m3 = -1\n"),
+                ("must be [xx, xy, yx, yy]", "stiffness_N_per_m = [1, 2]\n"), ("cubic_stiffness_N_per_m3 must be >= 0", "cubic_stiffness_N_per_m3 = -1\n"),
                 ("not together with coefficients", 'coefficients = "falls.csv"\nstiffness_N_per_m = [1, 2, 3, 4]\n'),
                 ("rise from row to row", 'coefficients = "falls.csv"\n'), ("column k_zz", 'coefficients = "odd.csv"\n'),
                 ("no.csv", 'coefficients = "no.csv"\n'), ("cubic_stifness", "cubic_stifness_N_per_m3 = 1\n")):
