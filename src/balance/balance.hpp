@@ -79,8 +79,8 @@ struct Problem {
   std::function<void(double omega, Harmonic h, LinearBlock& block)> linear;
 
   /** The force at all N samples; `Machine::put_equations` puts that of the bearing here,
-     `SampledBearing` of undamped ones. `q`: N × d; `force`: N × d; `stiffness`, unless it is
-     null: N × d², column i + d j holding ∂f_i/∂q_j. */
+      `SampledBearing` of undamped ones. `q`: N × d; `force`: N × d; `stiffness`, unless
+      it is null: N × d², column i + d j holding ∂f_i/∂q_j. */
   std::function<void(const Eigen::MatrixXd& q, Eigen::MatrixXd& force,
                      Eigen::MatrixXd* stiffness)>
       force;

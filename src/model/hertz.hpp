@@ -11,8 +11,8 @@ $$Q_j = K_H \max(0, \Delta_j - \delta)^{3/2}. \tag{5}$$
 
 Here stands the force of a given penetration, for sizes, static deflections and balls with
 a defect or another exponent. Whole bearings of intact balls are summed by kernels that
-repeat Eq. 5: `bearing_force` in ball_bearing.hpp, for integration, and `evaluate_group` in
-ball_bearing.cpp, for harmonic balance. */
+repeat Eq. 5: `bearing_force` in ball_bearing.hpp, for integration, and
+`evaluate_group` in ball_bearing.cpp, for harmonic balance. */
 #pragma once
 
 #include <cmath>

@@ -76,7 +76,8 @@ inline double step_at(const Parameters& parameters, double omega)
     `tolerance` in a settled displacement is enough: `step_at` keeps it near 1e-6, and the
     error grows with the fourth power. At most 2, twenty steps in a vibration of the
     contact: a step h takes (ω_contact h)⁶/144 of its amplitude, ten in a vibration 0.4 %
-    of it and 8 % in a turn of twenty vibrations, enough to settle on an unstable motion. */
+    of it and 8 % in a turn of twenty vibrations, enough to settle on an unstable
+    motion. */
 double step_ratio(std::optional<double> tolerance);
 
 }  // namespace rotor_stator

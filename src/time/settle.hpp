@@ -28,8 +28,9 @@ integration ended.
 
 A `Settling` is the same among others (time/side_by_side.hpp).
 
-The machine is that of `over`, whose angles are counted per base period. λ comes with its standard error s, that
-of the means of ten batches of the later half of all that was integrated. */
+The machine is that of `over`, whose angles are counted per base period. λ comes with its
+standard error s, that of the means of ten batches of the later half of all that was
+integrated. */
 #pragma once
 
 #include <string>
