@@ -115,7 +115,7 @@ Floquet floquet(const Oscillator& oscillator, const Eigen::VectorXd& x, double o
   Floquet result{.multipliers = multipliers_of(monodromy(oscillator, x, omega, steps))};
   result.change = largest_move(
       result.multipliers, multipliers_of(monodromy(oscillator, x, omega, steps / 2)));
-  result.settled = result.change <= 1e-6;
+  result.converged = result.change <= 1e-6;
   return result;
 }
 

@@ -53,7 +53,7 @@ TEST_CASE("The product of the multipliers is Liouville's, in contact, above 20 H
       std::complex<double> product = 1;
       for (const auto& mu : motion.multipliers) product *= mu;
       INFO(frequency);
-      CHECK(motion.settled);
+      CHECK(motion.converged);
       CHECK(std::abs(product / std::exp(-decay / frequency) - 1.0) < 1e-6);
     }
 }
