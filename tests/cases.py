@@ -244,7 +244,7 @@ rotor_dofs = [1, 2]
         3,000 Hz."""
         for frequency, words in [(300, {"stable"}), (3000, {"stable", "undecided"})]:
             with self.subTest(frequency=frequency):
-                table = self.asked("orbit", "soft_mounting", "--frequency", frequency)
+                table = self.asked("orbit", "soft_mounting", "--frequency", frequency, "--quiet")
                 self.assertIn(table.value("stability"), words)
                 self.assertNotEqual(table.value("regime"), "chaotic")
 
