@@ -132,4 +132,3 @@ def verdict(rule, value):
         if least <= value <= most:
             return name
     return "not reproduced"
-

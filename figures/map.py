@@ -20,8 +20,7 @@ UNITS = {"rad_per_s": "rad/s", "N_per_m1p5": "N/m$^{1.5}$", "N_per_mn": "N/m$^n$
 
 def described(table, name):
     """A column's name with its unit, a key of the machine's file in words: (text, factor that its values are drawn with)."""
-    line = next(line for line in table.header.split("\n") if line.startswith(f"# column: {name} ["))
-    unit = line.split("[", 1)[1].split("]")[0]
+    unit = table.unit(name)
     if unit == "m":
         return f"{name.replace('_', ' ')} [µm]", 1e6
     if unit != "see key":

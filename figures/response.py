@@ -4,8 +4,6 @@ what is stable and the bifurcations. Measures that `--columns` names have panels
 Usage: /usr/bin/python3 figures/response.py TABLE.tsv OUTPUT.svg
 """
 
-import re
-
 import matplotlib.pyplot as plt
 import numpy as np
 from tables import ROTOR, STATOR, heading, run
@@ -32,8 +30,7 @@ def never_after_one(table):
 
 def measures(table):
     """The columns of numbers that are not the usual ones, with their units."""
-    units = dict(re.findall(r"^# column: (\S+) \[(.*?)\]", table.header, re.MULTILINE))
-    return [(name, units.get(name, "-")) for name, column in table.columns.items()
+    return [(name, table.unit(name)) for name, column in table.columns.items()
             if name not in USUAL and column.dtype.kind == "f"][:MOST_MEASURES]
 
 

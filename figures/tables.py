@@ -158,6 +158,10 @@ class Table:
         words = words if len(words) <= 80 else words[:79] + "…"
         return words + (f", {bearing[1]}" if bearing and bearing[1] not in words else "")
 
+    def unit(self, name):
+        """That of a column, as the header has it."""
+        return re.search(rf"^# column: {re.escape(name)} \[(.*?)\]", self.header, re.MULTILINE)[1]
+
     def error(self, name):
         """The larger of the two numbers `NAME_largest` and `NAME_rms`; -1 without them."""
         return max(self.value(f"{name}_largest", -1), self.value(f"{name}_rms", -1))

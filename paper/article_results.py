@@ -425,19 +425,17 @@ def large(add):
 
 def damped(add):
     """What the damping decides: shares of the speeds with a T-periodic motion from rest, of the machine that is used."""
-    rows = Table(KEPT / "robustness.tsv").where("machine", 1).where("contact_damping", 0)
-    for number in (1, 2):
-        for times in (1, 3):
-            part = rows.where("set", number).where("suspension", times)
-            add(f"damped.set_{number}_x{times}", (part["period"] == 1).mean(), "-", "share with so many times the suspensions' damping")
-    every = Table(KEPT / "robustness.tsv").where("machine", 1).where("suspension", 1)
-    strongest = every["contact_damping"].max()
+    table = Table(KEPT / "robustness.tsv").where("machine", 1)
+    strongest = table["contact_damping"].max()
     add("damped.contact", strongest, "s/m", "largest contact damping")
     for number in (1, 2):
-        rows = every.where("set", number)
-        add(f"damped.contact_{number}", (rows.where("contact_damping", strongest)["period"] == 1).mean(), "-", "share with it")
-        for name, value in (("least", 0.3), ("most", 1)):
-            add(f"damped.steel_{name}_{number}", (rows.where("contact_damping", value)["period"] == 1).mean(), "-", "share with a damping as that of steel")
+        rows = table.where("set", number)
+        for times in (1, 3):
+            part = rows.where("contact_damping", 0).where("suspension", times)
+            add(f"damped.set_{number}_x{times}", (part["period"] == 1).mean(), "-", "share with so many times the suspensions' damping")
+        for name, value in (("contact", strongest), ("steel_least", 0.3), ("steel_most", 1)):
+            part = rows.where("contact_damping", value).where("suspension", 1)
+            add(f"damped.{name}_{number}", (part["period"] == 1).mean(), "-", f"share with a contact damping of {value:g} s/m")
 
 
 def printed(add):

@@ -41,14 +41,14 @@ void put_method(Table& table, const MapTask& task)
 /** What the first and the last point add to the doubts of the machine. */
 void doubt_corners(const MapTask& task, Parameters& machine)
 {
+  const auto is_speed = [](const std::string& key) { return key == speed_key; };
+  if (std::ranges::all_of(task.keys, is_speed)) return;  // the same machine everywhere
   for (const bool is_last : {false, true}) {
     const auto values = task.grid.values(is_last ? task.grid.last - 1 : task.grid.first,
                                          is_last ? task.grid.x.count - 1 : 0);
-    for (const std::string& doubt : doubts(task.machine(values).first, 0)) {
-      const std::string line = std::string(doubted_word) + doubt;
-      if (std::ranges::find(machine.derived, line) == machine.derived.end())
-        machine.derived.push_back(line);
-    }
+    for (const std::string& doubt : doubts(task.machine(values).first, 0))
+      if (std::ranges::find(machine.doubts, doubt) == machine.doubts.end())
+        machine.doubts.push_back(doubt);
   }
 }
 

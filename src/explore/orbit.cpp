@@ -56,8 +56,7 @@ Parameters machine_of(const Request& request, double from, double to,
 
 Parameters doubted(Parameters machine, double highest)
 {
-  for (const std::string& doubt : doubts(machine, highest))
-    machine.derived.push_back(std::string(doubted_word) + doubt);
+  machine.doubts = doubts(machine, highest);
   return machine;
 }
 

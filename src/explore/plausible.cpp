@@ -50,6 +50,7 @@ std::vector<std::string> doubts(const Parameters& machine, double highest)
   for (const Bearing& bearing : bearings_of(machine)) {
     if (const double d = printable_size(pitch_diameter(bearing)); d > widest)
       all.push_back(format("a pitch diameter of %.3g m: are lengths in m?", d));
+    if (!bearing.doubt.empty()) all.push_back(bearing.doubt);
     if (bearing.ball_diameter > 0 && bearing.clearance > 0.1 * bearing.ball_diameter)
       all.push_back(format("the clearance of %g m is more than a tenth of the ball",
                            bearing.clearance));

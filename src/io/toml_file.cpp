@@ -133,8 +133,9 @@ std::string meant(const std::string& found, std::vector<std::string> known)
           key.substr(0, key.size() - unit.own.size()).append(unit.other);
       if (std::ranges::equal(found, other, is_same))
         return "; did you mean " + other + "?";
-      if (&unit == given) key = other;
-      if (&unit == given) break;
+      if (&unit != given) continue;
+      key = other;
+      break;
     }
   return suggestion(found, known);
 }

@@ -169,11 +169,10 @@ std::string clearance_class(StrictToml& table, const std::string& by_designation
   constexpr const char* key = "internal_clearance";
   if (!table.has(key)) return normal_class(by_designation);
   std::string given = table.string(key);
-  if (given.starts_with('c') || given.ends_with('n'))
-    for (char& letter : given) letter = static_cast<char>(std::toupper(letter));
-  static const std::regex known("C[02345N]");
+  static const std::regex known("C[02345N]", std::regex::icase);
   if (!std::regex_match(given, known))
     table.fail(key, "\"" + given + "\": must be C2, CN or C0 (normal), C3, C4 or C5");
+  for (char& letter : given) letter = static_cast<char>(std::toupper(letter));
   if (!by_designation.empty() && normal_class(by_designation) != normal_class(given))
     table.fail(key,
                "\"" + given + "\" contradicts " + by_designation + " of designation");
@@ -182,7 +181,7 @@ std::string clearance_class(StrictToml& table, const std::string& by_designation
 
 double read_clearance(StrictToml& table, StrictToml& source,
                       const std::string& by_designation,
-                      std::vector<std::string>& derived)
+                      std::vector<std::string>& derived, std::string& doubt)
 {
   const std::vector<std::vector<std::string>> ways{
       {"radial_clearance_m"}, {"diametral_clearance_m"}, {"internal_clearance"}};
@@ -205,10 +204,10 @@ double read_clearance(StrictToml& table, StrictToml& source,
     const double most = clearance_range(table, normal_class(by_designation),
                                         source.number("bore_m", Range::positive))[1];
     if (radial > most / 2)
-      derived.push_back(
-          format("warning: a clearance of %g um on the diameter, where %s "
-                 "has at most %g: is it radial?",
-                 2e6 * std::min(radial, 1e300), by_designation.c_str(), 1e6 * most));
+      doubt = format(
+          "a clearance of %g um on the diameter, where %s has at most %g: is "
+          "it radial?",
+          2e6 * std::min(radial, 1e300), by_designation.c_str(), 1e6 * most);
     return radial;
   }
   if (!table.has(designation_key))
@@ -359,7 +358,8 @@ Bearing read_bearing(StrictToml& table, std::vector<std::string>& derived)
                "lines BPFO is n omega_cage, of a point at rest",
                bearing.outer_ring_speed_ratio));
   bearing.contact_stiffness = read_stiffness(table, source, diameters, bearing, derived);
-  bearing.clearance = read_clearance(table, source, name.clearance, derived);
+  bearing.clearance =
+      read_clearance(table, source, name.clearance, derived, bearing.doubt);
   bearing.damping = table.number_or("contact_damping_s_per_m", Range::not_negative, 0);
   if (table.has("defect")) {
     StrictToml defect = table.table("defect");

@@ -253,11 +253,8 @@ void describe(Table& table, const Parameters& parameters, bool with_keys)
                  (bearing.is_damaged(Defect::Surface::ball)
                       ? format(", ball %d", bearing.defect.ball)
                       : ""));
-  for (const std::string& line : parameters.derived)
-    if (line.starts_with(doubted_word))
-      table.warning(line.substr(doubted_word.size()));
-    else
-      table.detail(line);
+  for (const std::string& line : parameters.derived) table.detail(line);
+  for (const std::string& doubt : parameters.doubts) table.warning(doubt);
   if (!with_keys) return;
   table.value("machine", parameters.identity.word());
   table.value("stator", parameters.stator.rigid ? "rigid" : "moving");

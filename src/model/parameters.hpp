@@ -99,6 +99,7 @@ struct Bearing {
   double outer_ring_speed_ratio = 0;  ///< ω_outer/ω [-]
   Defect defect = {};
   ParallelElements parallel = {};
+  std::string doubt = {};  ///< of its clearance beside the class of its designation
 
   bool is_damaged(Defect::Surface at) const { return defect.surface == at; }
 
@@ -147,9 +148,9 @@ struct Parameters {
   double unbalance;  ///< m_e e [kg m], on the rotor
   Bearing bearing;
   double gravity;  ///< g [m/s²], along -y
-  /** Lines for headers: what a catalogue's values gave; and, as "warning: …", what is a
-      slip rather than a machine. */
-  std::vector<std::string> derived = {};
+  std::vector<std::string> derived =
+      {};  ///< lines for headers: what a catalogue's values gave
+  std::vector<std::string> doubts = {};  ///< what is a slip rather than a machine
   int turns = 1;  ///< of the rotor in one base period, whose frequency ω is
   /** Of the speed over `turns` ω; not 1 where the base frequency is that of passing
       balls. */
@@ -167,9 +168,6 @@ inline const std::vector<std::pair<std::string, std::string>> given_instead{
     {"stiffness_N_per_m", "natural_frequency_rad_per_s"},
     {"unbalance_kg_m", "eccentricity_m"},
     {"eccentricity_m", "unbalance_kg_m"}};
-
-/** Before what is doubted in `Parameters::derived`. */
-inline constexpr std::string_view doubted_word = "warning: ";
 
 /** Reads bodies given by matrices, and their bearings, into the parameters. */
 using MatrixReader = std::function<void(StrictToml& root, Parameters& parameters)>;

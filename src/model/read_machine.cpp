@@ -184,9 +184,7 @@ void read_bearings(StrictToml& root, Parameters& parameters, Assembly& all)
     std::vector<std::string> derived;
     list.push_back(read_bearing(table, derived));
     for (const std::string& line : derived)
-      parameters.derived.push_back(line.starts_with(doubted_word)
-                                       ? line
-                                       : format("bearing %zu: ", list.size()) + line);
+      parameters.derived.push_back(format("bearing %zu: ", list.size()) + line);
     list.back().cage_phase = table.number_or("cage_phase_rad", Range::any, 0);
     all.places.push_back(read_place(&table, all));
     for (std::size_t k = 0; k + 1 < list.size(); ++k)
