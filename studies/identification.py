@@ -14,9 +14,6 @@ holds. No claim's verdict takes part in the choice.
 Above, the figure shows against the stator's mass the closed form of the loss of contact, and the speeds at which integration
 loses contact; below, the verdict of every claim for every accepted machine. Circles stand at the masses used everywhere else.
 
-The kept table was made by the program that this script replaced. Of 144 rows computed anew all that are T-periodic agree in the
-five digits that are kept; averages of aperiodic motion differ by up to 16 %, since the masses differ in the seventh digit.
-
 Usage: studies/identification.py data/scenes/identification.toml > identification.tsv   (from the project's root)
 """
 import os
@@ -31,7 +28,7 @@ from pathlib import Path
 import numpy as np
 
 sys.path.insert(1, str(Path(__file__).parents[1] / "figures"))
-from rotor_stator import run  # noqa: E402
+from rotor_stator import map_at, run  # noqa: E402
 from tables import Table, print_columns, print_header  # noqa: E402
 
 READINGS = {"exchanged": "", "as-printed": "-as-printed"}
@@ -111,9 +108,11 @@ def candidates(base, text, count):
     return [(joint, (*pair, cage)) for joint, cage in families for pair in masses[joint]]
 
 
-def errors_of(file, speeds, count, m):
-    """rms errors of the solutions with m harmonics, each found on its own; 2 where there is none."""
-    table = run("map", file, y=f"frequency={speeds['from']}:{speeds['to']}:{count}", harmonics=m, threads=1, quiet=True, quantity="error")
+def errors_of(file, speeds, m):
+    """rms errors at so many speeds [Hz] of the solutions with m harmonics, each found on its own; 2 where there is none."""
+    if not len(speeds):
+        return []
+    table = map_at(file, ["frequency"], [[repr(float(f))] for f in speeds], harmonics=m, quantity="error")
     return [2 if cell == "-" else float(cell) for cell in table["error"]]
 
 
@@ -133,8 +132,10 @@ def rows_of_machine(base, joint, point, scene):
         table = Table.of(found.stdout)
         check = run("check", machine, to=2 * joint)
         loss = dict(zip(check["name"], check["value"]))["contact_loss"]
-        errors = np.transpose([errors_of(machine, speeds, len(table), m) for m in HARMONICS])
-    errors[table["periodic"] == 0] = -1
+        periodic = table["periodic"] == 1
+        errors = np.full((len(table), len(HARMONICS)), -1.0)
+        for k, m in enumerate(HARMONICS):
+            errors[periodic, k] = errors_of(machine, table["f"][periodic], m)
     stator, rotor, cage = point
     return [(stator, rotor, joint, cage, float(loss), f, *cells, *error) for f, cells, error in
             zip(table["f"], np.transpose([table[name] for name, *_ in MEASURES]), errors)]
