@@ -22,7 +22,7 @@ OF_LARGEST = 0.02
 COLUMNS = {"attractors": ["set"], "validity": ["found", "distance", "periodic"],
            "identification": ["reading", "set", "m_s", "m_r", "f_loss", "f", "periodic", "turns", "amp_x_r"],
            "large": ["n", "r"],
-           "clearance_speed": ["frequency", "bearing.radial_clearance_m", "period", "loaded"],
+           "clearance_speed": ["frequency", "bearing.radial_clearance_m", "period", "contact_share"],
            "map_scaling": ["kind", "count", "points"],
            "verdicts": ["set", "f", "m", "found", "machine_stable", "distance", "series_stable", "hill_stable"],
            "hard_cases": ["case", "method", "status", "verdict", "regime"]}

@@ -5,6 +5,7 @@
 #include <cmath>
 #include <limits>
 #include <numbers>
+#include <span>
 
 #include "io/errors.hpp"
 
@@ -217,17 +218,28 @@ bool Settling::is_at_rest() const
   return pair_.half_range() < least && speed * pair_.period() < least;
 }
 
-/** Whether the section closes, and after how many base periods at the fewest. */
+/** Whether the section closes, and after how many base periods at the fewest. Where
+    neighbours come nearer slowly, the motion is farther away than two points of its
+    section are apart. A difference that alternates while it decays closes after two
+    periods before it closes after one: K counts when all fewer periods leave the section
+    much farther apart than what is left of the transient. */
 bool Settling::closes(Settled& s) const
 {
+  constexpr double least_nearer = 1e-3, much_farther = 100;
   const auto& all = pair_.section();
   const double size = std::max(pair_.half_range(), 1e-9 * length_);
-  /** Where neighbours come nearer slowly, the motion is farther away than two points of
-      its section are apart. */
-  const double nearer_by = -std::expm1(std::min(0.0, s.lyapunov.value) * pair_.period());
-  const double closed = rule_.closed * size * std::max(1e-3, nearer_by);
-  s.period = closing_period(all, closed, rule_.most_period);
-  if (s.period == 0) return false;
+  const auto nearer_by = [&](int periods) {
+    const double rate = std::min(0.0, s.lyapunov.value);
+    return std::max(least_nearer, -std::expm1(rate * periods * pair_.period()));
+  };
+  const int k =
+      closing_period(all, rule_.closed * size * nearer_by(1), rule_.most_period);
+  if (k == 0) return false;
+  const auto last = std::span(all).last(std::min<std::size_t>(all.size(), 3 * k + 1));
+  const double left = extent(last, k) / nearer_by(k);
+  for (int fewer = 1; fewer < k; ++fewer)
+    if (extent(last, fewer) < much_farther * left) return false;
+  s.period = k;
   s.kind = Kind::periodic;
   s.before.period -= s.at.period;
   s.at.period = 0;

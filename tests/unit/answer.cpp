@@ -60,6 +60,27 @@ TEST_CASE("Set 1 doubles its period at 20 Hz and is chaotic at 13.4 Hz")
   CHECK(!chaos.error);
 }
 
+TEST_CASE("A multiplier near -1 does not double the period")
+{
+  /** The transient alternates from turn to turn, and leaves 2.5 % less each time: two
+      turns later it is nearer than one turn later. */
+  Parameters parameters = set_1();
+  parameters.bearing.clearance = 129e-6;
+  const motion::Answer answer = from_rest_at(parameters, 48.495);
+  CHECK(answer.period() == 1);
+  CHECK(answer.method == "shooting");
+  CHECK(answer.multiplier == Approx(0.97547).epsilon(1e-4));
+  /** A doubling as small as that, 2.7e-6 of the amplitude, which is none of the
+      transient: the motion of one turn has the multiplier -1.032. */
+  parameters = set_1();
+  std::swap(parameters.stator.natural_frequency, parameters.rotor.natural_frequency);
+  parameters.stator.mass = 5.87;
+  parameters.rotor.mass = 2.96;
+  const motion::Answer doubled = from_rest_at(parameters, 46.5);
+  CHECK(doubled.period() == 2);
+  CHECK(doubled.stability == "stable");
+}
+
 TEST_CASE("A torus is put on t = 0, instant by instant that of harmonic balance")
 {
   /** A start at another angle of the cage, or a transient that is not over, would show at once. */
