@@ -1,4 +1,4 @@
-"""The lines of `explore response --waterfall` against speed: one row of lines for each speed, orders as rays.
+"""The lines of `explore response --waterfall`, or `runup`, against speed: one row of lines for each speed, orders as rays.
 
 Usage: /usr/bin/python3 figures/waterfall.py LINES.tsv OUTPUT.svg
 """

@@ -47,6 +47,10 @@ Files files_of(const AttractorsRequest& asked)
 {
   return {{{"--section", asked.section}, {"--motions", asked.motions}}};
 }
+Files files_of(const RunUpRequest& asked)
+{
+  return {{{"--waterfall", asked.waterfall}}};
+}
 Files files_of(const MapRequest& asked)
 {
   return {.read = {asked.list, asked.resume}};

@@ -453,6 +453,8 @@ Check add_options(CLI::App& command, RunUpRequest& request)
   add_rpm(command, request);
   add_number(command, "--seconds", request.seconds, 0.0, 1e6, "how long the run takes")
       ->required();
+  command.add_option("--waterfall", request.waterfall,
+                     "file for the lines of every 16 turns, with their names");
   return [] {};
 }
 

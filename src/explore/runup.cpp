@@ -2,6 +2,7 @@
 
 #include <algorithm>
 
+#include "explore/spectrum.hpp"
 #include "io/errors.hpp"
 #include "motion/run_up.hpp"
 
@@ -38,11 +39,27 @@ Exploration explore_runup(const RunUpRequest& request)
   if (!(turns <= most_rows))
     throw BadInput(format("--seconds %g: would be %.3g turns, more than %d",
                           request.seconds, turns, most_rows));
+  motion::Stretches stretches;
+  if (request.waterfall && turns < stretches.turns)
+    throw BadInput(format("--waterfall: needs %d turns, the run has %.3g",
+                          stretches.turns, turns));
   const Parameters machine = machine_of(request, std::min(request.from, request.to),
                                         std::max(request.from, request.to));
   const OperationBudget budget = budget_of(request, 60, machine);
   const motion::RunUp run{angular(request.from), angular(request.to), request.seconds};
-  const std::vector<motion::PassedTurn> all = motion::run_up(machine, run, budget);
+  Table lines("Lines of a run-up or coast-down", line_columns);
+  describe(lines, machine);
+  lines.note(
+      format("of %d turns each; the change of speed widens them", stretches.turns));
+  if (request.waterfall)
+    stretches.seen = [&](double speed, const motion::Motion& motion) {
+      constexpr int passages = 16;
+      constexpr double smallest = 1e-4, near = 0.6;
+      add_lines(lines, bearings_of(machine), speed / angular(1),
+                lines_of_recorded(bearings_of(machine), motion, near), passages, smallest);
+    };
+  const std::vector<motion::PassedTurn> all =
+      motion::run_up(machine, run, budget, stretches);
   if (all.empty())
     throw BadInput(format("--seconds %g: is less than a turn", request.seconds));
   describe(table, machine);
@@ -64,7 +81,9 @@ Exploration explore_runup(const RunUpRequest& request)
   for (Turn turn : all) table.row(fields, turn);
   conclude(table, machine, std::ranges::any_of(all, [](Turn t) { return t.contact > 0; }),
            budget);
-  return {.table = std::move(table)};
+  Exploration found{.table = std::move(table)};
+  if (request.waterfall) found.files.push_back({*request.waterfall, lines.text()});
+  return found;
 }
 
 }  // namespace rotor_stator::explore

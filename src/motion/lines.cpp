@@ -224,18 +224,19 @@ std::vector<Peak> peaks_of(const Eigen::VectorXd& heights, double lowest)
 
 }  // namespace
 
-Lines lines_of_recorded(const std::vector<Bearing>& bearings, const Motion& motion)
+Lines lines_of_recorded(const std::vector<Bearing>& bearings, const Motion& motion,
+                        double near)
 {
   constexpr std::size_t most_lines = 200;
   constexpr int most_rounds = 12, passages = 16;
-  constexpr double side_lobe = 1e-4, snap = 0.2;       // bins
+  constexpr double side_lobe = 1e-4;                   // bins
   constexpr double apart = 1.5, apart_of_unnamed = 4;  // bins
   const double turns = static_cast<double>(motion.size()) / motion.points_per_period;
   Record record(motion);
   std::vector<double> orders{0};
   std::vector<bool> is_named{true};
   const auto add = [&](double bin) {
-    const LineName name = name_of(bin / turns, bearings, snap / turns, passages);
+    const LineName name = name_of(bin / turns, bearings, near / turns, passages);
     const bool named = !name.name.empty();
     const double order = named ? name.order(bearings[name.bearing]) : bin / turns;
     for (std::size_t h = 0; h < record.size(); ++h)

@@ -125,10 +125,53 @@ struct Seen {
   }
 };
 
+/** Instants at equal angles, from steps of equal time by Hermite's cubic. */
+class ByAngle {
+public:
+  ByAngle(const RunUp& run, const Stretches& wanted)
+      : run_(run), wanted_(wanted), motion_{wanted.instants, 0, {}}
+  {
+  }
+
+  /** The step from `t` on [s]. */
+  void add(double t, double h, const State& from, const State& to)
+  {
+    if (!wanted_.seen) return;
+    for (; angle(next_) <= run_.angle(t + h); ++next_) {
+      const double x = (time_at(angle(next_)) - t) / h, y = 1 - x;
+      motion_.positions.push_back(
+          y * y * (1 + 2 * x) * from.position + x * x * (1 + 2 * y) * to.position +
+          h * x * y * y * from.velocity + (-h * x * x * y) * to.velocity);
+      const long instants = long{wanted_.turns} * wanted_.instants;
+      if (std::ssize(motion_.positions) < instants) continue;
+      wanted_.seen(run_.speed(time_at(angle(next_ - instants / 2))), motion_);
+      motion_.positions.clear();
+    }
+  }
+
+private:
+  double angle(long instant) const
+  {
+    return turn * static_cast<double>(instant) / wanted_.instants;
+  }
+
+  /** From φ = ω_0 t + α t²/2. */
+  double time_at(double angle) const
+  {
+    const double square = run_.from * run_.from + 2 * run_.acceleration() * angle;
+    return angle > 0 ? 2 * angle / (run_.from + std::sqrt(std::max(0.0, square))) : 0;
+  }
+
+  RunUp run_;
+  const Stretches& wanted_;
+  Motion motion_;
+  long next_ = 0;
+};
+
 }  // namespace
 
 std::vector<PassedTurn> run_up(const Parameters& parameters, const RunUp& run,
-                               const OperationBudget& budget)
+                               const OperationBudget& budget, const Stretches& stretches)
 {
   if (!parameters.machine->takes_explicit_steps())
     throw BadInput(parameters.file +
@@ -148,16 +191,19 @@ std::vector<PassedTurn> run_up(const Parameters& parameters, const RunUp& run,
   std::vector<PassedTurn> all;
   State state = first;
   Seen seen(state);
+  ByAngle by_angle(run, stretches);
   double began = 0, made = 0;
   Turning now = equation.turning(0);
   for (double k = 0; k < steps; ++k) {
     budget.spend(4);
     const Turning at[]{now, equation.turning((k + 0.5) * h),
                        equation.turning((k + 1) * h)};
+    const State before = state;
     nystrom_step(h, at, state.position, state.velocity, acceleration);
     now = at[2];
     const auto [balls, all_forces] = equation.forces(state.position, state.velocity, now);
     seen.add(state, balls, all_forces);
+    by_angle.add(k * h, h, before, state);
     const double t = (k + 1) * h;
     if (!std::isfinite(state.position.rotor.x))
       throw NoSolution(format("integration diverged after %.3g s", t));

@@ -18,11 +18,11 @@ linear rotor integrated apart, and against motions at fixed speed (tests/unit/ru
 */
 #pragma once
 
+#include <functional>
 #include <vector>
 
 #include "io/budget.hpp"
-#include "model/parameters.hpp"
-#include "model/rotor_stator.hpp"
+#include "motion/motion.hpp"
 
 namespace rotor_stator::motion {
 
@@ -44,10 +44,19 @@ struct PassedTurn {
   double force;             ///< largest of the bearing [N]
 };
 
+/** Stretches of so many turns each, one after the other, as they pass: the speed in the
+    middle [rad/s] and the motion at equal angles of the rotor, so that what turns with it
+    keeps its order while the speed changes. */
+struct Stretches {
+  int turns = 16, instants = 256;  ///< of a turn
+  std::function<void(double speed, const Motion&)> seen = {};
+};
+
 /** All whole turns in the order of time, by RK4 with the shortest step that a speed of
     the run asks for. Throws BadInput for bodies by matrices and for a damaged bearing
     with contact damping, NoSolution when the budget is used up. */
 std::vector<PassedTurn> run_up(const Parameters& parameters, const RunUp& run,
-                               const OperationBudget& budget = {});
+                               const OperationBudget& budget = {},
+                               const Stretches& stretches = {});
 
 }  // namespace rotor_stator::motion

@@ -8,7 +8,7 @@ import numpy as np
 from scipy.integrate import solve_ivp
 
 sys.path.insert(0, str(Path(__file__).parents[1]))
-from support.explore import MACHINE, Case  # noqa: E402
+from support.explore import MACHINE, Case, Table  # noqa: E402
 
 MASS, FREQUENCY, RATIO, UNBALANCE = 40.0, 150.0, 0.02, 0.05
 WIDE = MACHINE.replace("radial_clearance_m = 2e-5", "radial_clearance_m = 1")
@@ -57,6 +57,21 @@ class RunUp(Case):
                 order = np.argsort(run["f"])
                 found = np.interp(steady["f"][1:-1], run["f"][order], run["amp_x_r"][order])
                 np.testing.assert_allclose(found, steady["amp_x_r"][1:-1], rtol=0.01)
+
+    def test_lines_of_a_slow_run(self):
+        """The lines of every 16 turns near 42 Hz, slowly, are those of the steady motion there, up and down. Would catch angles that
+        are not the rotor's, and a window whose sum is not one."""
+        steady = self.table("spectrum", self.machine, "--frequency", 42)
+        for ends in ((41.5, 42.5), (42.5, 41.5)):
+            self.lines("runup", self.machine, "--from", ends[0], "--to", ends[1], "--seconds", 30, "--waterfall", "lines.tsv")
+            lines = Table(self.folder / "lines.tsv")
+            speeds = lines["f"] / lines["order"]
+            near = lines.rows(abs(speeds - speeds[abs(speeds - 42).argmin()]) < 1e-6)
+            self.assertEqual(near["name"][0], "1X")
+            for name in ("1X", "2X"):
+                for column in ("x_s", "y_r"):
+                    self.assertAlmostEqual(near.where("name", name).first(column) / steady.where("name", name).first(column), 1, delta=0.02)
+        self.refused("--waterfall: needs 16 turns", "runup", self.machine, "--from", 0, "--to", 30, "--seconds", 1, "--waterfall", "a.tsv")
 
     def test_the_direction_decides(self):
         """A rotor that meets its balls near the resonance is pressed against them up to 43 Hz on the way up and to 25 Hz on the way
