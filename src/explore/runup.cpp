@@ -41,8 +41,8 @@ Exploration explore_runup(const RunUpRequest& request)
                           request.seconds, turns, most_rows));
   motion::Stretches stretches;
   if (request.waterfall && turns < stretches.turns)
-    throw BadInput(format("--waterfall: needs %d turns, the run has %.3g",
-                          stretches.turns, turns));
+    throw BadInput(
+        format("--waterfall: needs %d turns, the run has %.3g", stretches.turns, turns));
   const Parameters machine = machine_of(request, std::min(request.from, request.to),
                                         std::max(request.from, request.to));
   const OperationBudget budget = budget_of(request, 60, machine);
@@ -56,7 +56,8 @@ Exploration explore_runup(const RunUpRequest& request)
       constexpr int passages = 16;
       constexpr double smallest = 1e-4, near = 0.6;
       add_lines(lines, bearings_of(machine), speed / angular(1),
-                lines_of_recorded(bearings_of(machine), motion, near), passages, smallest);
+                lines_of_recorded(bearings_of(machine), motion, near), passages,
+                smallest);
     };
   const std::vector<motion::PassedTurn> all =
       motion::run_up(machine, run, budget, stretches);
