@@ -258,7 +258,7 @@ Exploration settled_response(const ResponseRequest& request)
                             .longest = request.longest,
                             .is_measured = false},
                            budgets[k],
-                           std::exchange(state, {}),
+                           std::exchange(state, std::nullopt),
                            0.7});
     auto all = motion::observed_answers(questions);
     Rows rows;
