@@ -1,6 +1,6 @@
 """Clearance against contact stiffness: peak, its speed, permanent contact, and the error of six harmonics against what the
-machine does. White line in (d): an error of 1 %, dashed where the map is walked from large clearances to small ones; the circle
-is data set 1; grey: no result.
+machine does. White line in (d): an error of 1 %; orange, where it differs: the same of the way back, from large clearances to small
+ones. The circle is data set 1; grey: no result.
 Usage: /usr/bin/python3 figures/stiffness_border.py data/reference/stiffness_border.tsv stiffness_border.svg
 """
 
@@ -38,9 +38,9 @@ def draw(table):
     draw_map(permanent, table, 100 * columns["permanent"], "(c) solved speeds with permanent contact [%]")
     drawn = draw_map(error, table, np.maximum(100 * columns["error"], LEAST), "(d) error of six harmonics at 30 Hz [%]",
                      norm=LogNorm())
-    error.contour(*drawn, [BORDER], colors="white", linewidths=1)
     back = over_keys(table, 100 * cells_as_numbers(table["error_back"]), KEYS)
-    error.contour(*drawn[:2], back, [BORDER], colors="white", linewidths=1, linestyles="dashed")
+    error.contour(*drawn[:2], back, [BORDER], colors="C1", linewidths=1.5)
+    error.contour(*drawn, [BORDER], colors="white", linewidths=1)
     figure.supxlabel("radial clearance δ [µm]")
     figure.supylabel("contact stiffness $K_H$ [N/m$^{1.5}$]")
     return figure
