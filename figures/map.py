@@ -3,6 +3,8 @@ with a legend; over one key as a curve. White: no result. A key with equal ratio
 Usage: /usr/bin/python3 figures/map.py TABLE.tsv OUTPUT.svg
 """
 
+import textwrap
+
 import matplotlib.pyplot as plt
 import numpy as np
 from matplotlib.colors import BoundaryNorm, ListedColormap
@@ -122,7 +124,8 @@ def draw(table):
         values, names = classes if classes else (cells_as_numbers(table[name]), None)
         label, factor = described(table, name)
         values = factor * values
-        axes.set_title(label)
+        meaning = "" if names else textwrap.shorten(table.meaning(name), 80, placeholder=" ...")
+        axes.set_title(f"{label}: {meaning}".removesuffix(": "), fontsize="medium")
         if y is None:
             order = np.argsort(table[keys[0]])
             axes.plot(table[keys[0]][order], values[order], "." if names else ".-")
@@ -135,7 +138,7 @@ def draw(table):
             axes.set(ylabel=y_label, yscale="log" if is_logarithmic(y) else "linear")
         axes.set_xscale("log" if is_logarithmic(x) else "linear")
     grid.flat[-1].set_xlabel(x_label)
-    heading(figure, "Map", table)
+    heading(figure, "Map over " + " and ".join(label.split(" [")[0] for label in (x_label, y_label)[:len(keys)]), table)
     return figure
 
 

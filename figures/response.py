@@ -75,12 +75,16 @@ def legend(axes, table):
 
 
 def draw(table):
-    table.columns["f"], _, speed = table.speeds()
+    table.columns["f"], factor, speed = table.speeds()
     bodies = table.bodies()
     further = measures(table)
     figure = plt.figure(figsize=(10, 7.5 + 2.5 * len(further)), layout="constrained")
-    above, *below = figure.subfigures(1 + len(further), 1, height_ratios=[7.5, *[2.5] * len(further)], squeeze=False)[:, 0]
-    grid = above.subplots(2, len(bodies), sharex=True, sharey=True, squeeze=False)
+    places = figure.add_gridspec(2 + len(further), len(bodies), height_ratios=[3.75, 3.75, *[2.5] * len(further)])
+    grid = np.empty((2, len(bodies)), object)
+    for place in np.ndindex(grid.shape):
+        grid[place] = figure.add_subplot(places[place], sharex=grid[0, 0], sharey=grid[0, 0])
+        grid[place].tick_params(labelbottom=place[0] == 1, labelleft=place[1] == 0)
+    below = [figure.add_subplot(places[2 + row, :], sharex=grid[0, 0]) for row in range(len(further))]
     shown = np.concatenate([table[f"amp_{axis}_{body}"] for axis in "xy" for body in bodies])
     for row, axis in zip(grid, "xy"):
         for axes, body, word, colour in zip(row, bodies, ("rotor", "stator"), (ROTOR, STATOR)):
@@ -91,14 +95,17 @@ def draw(table):
         axes.set_yscale("log")
     else:
         axes.set_ylim(0, 1.05e6 * shown.max() or 1)
-    for part, (name, unit) in zip(below, further):
-        axes = part.subplots()
+    for axes, (name, unit) in zip(below, further):
         for branch in branches(table):
             draw_branch(axes, branch, name, "C2", 1e6 if unit == "m" else 1)
-        axes.set_ylabel(f"{name} [{'µm' if unit == 'm' else unit}]")
-    for axes in [*grid[1], *(part.axes[0] for part in below[-1:])]:
+        axes.set_ylabel(name.replace("_", " ") + {"m": " [µm]", "-": ""}.get(unit, f" [{unit}]"))
+    for axes in [*grid[1], *below[-1:]]:
         axes.set_xlabel(speed)
-    heading(figure, "Half peak-to-peak of the displacements", table)
+    how = ""
+    if "t" in table.columns:
+        ends = " to ".join(f"{factor * table.value(end):.6g}" for end in ("from", "to"))
+        how = f", turn by turn: {ends} {'Hz' if factor == 1 else 'rpm'} in {table.value('seconds'):g} s"
+    heading(figure, "Half peak-to-peak of the displacements" + how, table)
     legend(grid[0, 0], table)
     return figure
 

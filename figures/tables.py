@@ -160,7 +160,14 @@ class Table:
 
     def unit(self, name):
         """That of a column, as the header has it."""
-        return re.search(rf"^# column: {re.escape(name)} \[(.*?)\]", self.header, re.MULTILINE)[1]
+        return self._column(name)[1]
+
+    def meaning(self, name):
+        """Likewise, what it is."""
+        return self._column(name)[2].strip()
+
+    def _column(self, name):
+        return re.search(rf"^# column: {re.escape(name)} \[(.*?)\](.*)", self.header, re.MULTILINE)
 
     def error(self, name):
         """The larger of the two numbers `NAME_largest` and `NAME_rms`; -1 without them."""
@@ -228,7 +235,11 @@ def run(draw):
     plt.switch_backend("svg")
     plt.style.use(Path(__file__).with_name("rotor_stator.mplstyle"))
     warnings.filterwarnings("ignore", "Glyph .* missing")  # a title may be in any language
-    figure = draw(*map(read, [sys.argv[1], *sys.argv[3:]]))
+    try:
+        tables = [read(path) for path in (sys.argv[1], *sys.argv[3:])]
+    except (OSError, IndexError, UnicodeDecodeError) as error:
+        sys.exit(f"{sys.argv[1]}: is no table: {error}")
+    figure = draw(*tables)
     suffix = Path(sys.argv[2]).suffix[1:]
     form = suffix if suffix in ("png", "pdf") else "svg"
     figure.savefig(sys.argv[2], format=form, metadata={

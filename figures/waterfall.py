@@ -5,7 +5,7 @@ Usage: /usr/bin/python3 figures/waterfall.py LINES.tsv OUTPUT.svg
 
 import matplotlib.pyplot as plt
 import numpy as np
-from tables import run
+from tables import heading, run
 
 MOST_SPEEDS, DECADES, MOST_RAYS = 60, 4, 12
 
@@ -34,16 +34,17 @@ def draw(table):
     size = {name: decades[table["name"] == name].sum() for name in names}
     right = 1.02 * frequency[shown].max()
     last = -np.inf
-    for name in sorted(sorted(names, key=size.get)[-MOST_RAYS:], key=lambda one: table["order"][table["name"] == one][0]):
+    chosen = {*(name for name in names if name == "1X"), *sorted(names, key=size.get)[-MOST_RAYS:]}
+    for name in sorted(chosen, key=lambda one: table["order"][table["name"] == one][0]):
         order = table["order"][table["name"] == name][0]
         axes.plot([order * low, order * high], [low, high], color="C1", lw=0.7, alpha=0.6, zorder=0)
         place = order * high
         if place - last > 0.02 * right:
             axes.annotate(name, (place, high + step), rotation=90, ha="center", va="bottom", fontsize=10)
             last = place
-    axes.set(xlim=(0, right), ylim=(low - 0.3 * step, high + 0.22 * (high - low) + step),
+    axes.set(xlim=(0, right), ylim=(low - 0.3 * step, high + 0.12 * (high - low) + step),
              xlabel="frequency of the line [Hz]", ylabel="speed of rotation [Hz]")
-    axes.set_title(f"Lines of the rotor, larger of x and y; height: {DECADES} decades below {1e6 * top:.3g} µm")
+    heading(figure, f"Lines of the rotor, larger of x and y; height: {DECADES} decades below {1e6 * top:.3g} µm", table)
     return figure
 
 

@@ -87,10 +87,15 @@ class Base:
                     for mass, natural, damping in zip((stator, rotor), self.omegas, self.dampings))
         return abs(z_s / (z_s + z_r)) * self.unbalance * omega**2 / static
 
+    def ends(self, joint, losses):
+        """The least and the largest mass of the stator that lose contact between two speeds; in the printed order the largest
+        loses it before the last of these."""
+        masses = [self.mass_losing_at(joint, loss) for loss in np.linspace(*losses, 901)]
+        return min(masses), max(masses)
+
     def accepted(self, joint, losses, count):
-        """So many points at equal ratios of the stator's mass, between those that lose contact at two speeds."""
-        ends = [self.mass_losing_at(joint, loss) for loss in losses]
-        return [self.masses(mass, joint) for mass in np.geomspace(*ends, count)]
+        """So many points at equal ratios of the stator's mass, between these."""
+        return [self.masses(mass, joint) for mass in np.geomspace(*self.ends(joint, losses), count)]
 
     def write(self, file, stator, rotor, cage):
         """The machine with these masses and this cage."""
@@ -147,8 +152,8 @@ def main(file):
     accepted, bases = [], []
     for reading, suffix in READINGS.items():
         bases += [Base(f"data/{name}{suffix}.toml") for name in scene["parameters"]]
-        low, high, shown = (bases[-1].mass_losing_at(text["paper_peak_hz"], loss)
-                            for loss in (*text["loss_hz"], text["paper_loss_hz"]))
+        low, high = bases[-1].ends(text["paper_peak_hz"], text["loss_hz"])
+        shown = bases[-1].mass_losing_at(text["paper_peak_hz"], text["paper_loss_hz"])
         accepted.append(("accepted", [reading, *(float(f"{mass:.4g}") for mass in (low, high)), text["paper_loss_hz"], float(f"{shown:.4g}")]))
     asked = [(number, base, *machine) for number, base in enumerate(bases)
              for machine in candidates(base, text, scene["grid"]["masses"])]

@@ -92,10 +92,15 @@ Exploration explore_check(const CheckRequest& request)
     ++warnings;
     table.note("warning: " + text);
   };
+  const std::string at_end = format("at %g Hz", request.to);
   for (std::size_t b = 0; const Bearing& bearing : bearings_of(machine)) {
     const Rest& rest = rests[b++];
     const std::string tail = b == 1 ? "" : format("_%zu", b);
     const KinematicOrders orders = kinematic_orders(bearing);
+    /** What is below rounding of the mean over the cage's angles is none. */
+    const auto seen = [&](double u) {
+      return std::abs(u) > 1e-12 * std::hypot(rest.u.x, rest.u.y) ? u : 0;
+    };
     const double stress = printable_size(1e-6 * bearing.pressure * std::cbrt(rest.most));
     if (stress > 4000)
       warn(format("the stress of %.4g N/mm^2 at rest is above 4000", stress));
@@ -106,13 +111,13 @@ Exploration explore_check(const CheckRequest& request)
     add("BPFO", orders.outer, "1/turn", "balls passing a point of the outer race");
     add("BPFI", orders.inner, "1/turn", "balls passing a point of the inner race");
     add("static_force", rest.force, "N", "of the bearing at rest");
-    add("static_x", rest.u.x, "m", "rotor against stator at rest");
-    add("static_y", rest.u.y, "m", "rotor against stator at rest");
+    add("static_x", seen(rest.u.x), "m", "rotor against stator at rest");
+    add("static_y", seen(rest.u.y), "m", "rotor against stator at rest");
     add("loaded_balls", rest.loaded, "-", "at rest, mean over the cage's angle");
     add("ball_load", rest.most, "N", "largest force of a ball at rest");
     if (stress > 0) add("stress", stress, "N/mm^2", "largest pressure of Hertz at rest");
     if (const double n = speed_value(bearing, request.to); n > 0)
-      add("speed_value", n, "mm/min", "n d_m at --to");
+      add("speed_value", n, "mm/min", ("n d_m " + at_end).c_str());
   }
   const auto is_loaded = [](const Rest& rest) { return rest.loaded > 0; };
   if (machine.gravity > 0 && std::ranges::none_of(rests, is_loaded))
@@ -125,9 +130,9 @@ Exploration explore_check(const CheckRequest& request)
     table.row({"weight", printable_size(machine.rotor.mass * machine.gravity), "N",
                "of the rotor"});
     table.row({"unbalance_force", printable_size(machine.unbalance * omega * omega), "N",
-               "at --to"});
+               at_end});
     table.row({"balance_grade", printable_size(1e3 * e * omega), "mm/s",
-               "e omega at --to, the G of ISO 21940-11"});
+               "e omega " + at_end + ", the G of ISO 21940-11"});
     if (const double gap = machine.bearing.clearance; gap > 0 && e > 10 * gap)
       warn(format("the eccentricity of %.3g m is %.3g times the clearance", e,
                   printable_size(e / gap)));
@@ -149,7 +154,8 @@ Exploration explore_check(const CheckRequest& request)
         is_large ? format("f_%d", ++modes[0])
                  : format("f_%d_%c", ++modes[mode.axis == 'y'], mode.axis);
     table.row({name, mode.frequency, "Hz",
-               "natural, damped, with the mean contact stiffness at rest"});
+               "natural, damped; the bearing's mean force over the cage's angle, "
+               "linear where it carries the load"});
     const double speed = mode.frequency / passages_per_turn(machine.bearing);
     if (speed >= request.from && speed <= request.to)
       table.row(

@@ -270,7 +270,10 @@ Exploration explore_orbit(const MotionRequest& request)
   const std::size_t usual = columns.size() - 1;
   const Measures measures(request.columns, parameters);
   columns.insert(columns.end(), measures.columns().begin(), measures.columns().end());
-  Table table("Orbit of rotor and stator over one period", columns);
+  Table table(request.periods == 1
+                  ? "Orbit of rotor and stator over one period"
+                  : format("Orbit of rotor and stator over %d periods", request.periods),
+              columns);
   table.choose(request.columns, usual, request.plot.has_value());
   const int recorded = measures.needs_whole() ? Measures::open_periods : request.periods;
   const Computed at =

@@ -46,14 +46,17 @@ std::vector<std::string> doubts(const Parameters& machine, double highest)
       [N/m²]; gravity of any planet [m/s²]; what a suspension sinks by [m]; e [m]. */
   constexpr double widest = 5, steel = 1e11, heaviest = 30, deepest = 0.03,
                    most_eccentric = 3e-3;
+  /** Of a suspension [Hz]; of Hertz, where a ball bears for good [Pa]. */
+  constexpr double most_hertz = 1000, most_pressure = 4e9;
   std::vector<std::string> all;
   for (const Bearing& bearing : bearings_of(machine)) {
     if (const double d = printable_size(pitch_diameter(bearing)); d > widest)
       all.push_back(format("a pitch diameter of %.3g m: are lengths in m?", d));
-    if (!bearing.doubt.empty()) all.push_back(bearing.doubt);
     if (bearing.ball_diameter > 0 && bearing.clearance > 0.1 * bearing.ball_diameter)
       all.push_back(format("the clearance of %g m is more than a tenth of the ball",
                            bearing.clearance));
+    else if (!bearing.doubt.empty())
+      all.push_back(bearing.doubt);
     if (const double d = bearing.ball_diameter; d > 0 && bearing.exponent == 1.5) {
       const double ratio =
           printable_size(bearing.contact_stiffness / std::sqrt(d) / steel);
@@ -76,6 +79,11 @@ std::vector<std::string> doubts(const Parameters& machine, double highest)
   for (const auto& [body, name] :
        {std::pair{&machine.stator, "stator"}, {&machine.rotor, "rotor"}}) {
     const double omega = body->natural_frequency;
+    if (!body->rigid && omega > angular(most_hertz))
+      all.push_back(format(
+          "the %s of %g kg on a suspension of %.4g Hz, %.3g N/m: is the "
+          "frequency in Hz?",
+          name, body->mass, omega / angular(1), printable_size(body->stiffness())));
     if (!body->rigid && omega > 0 && machine.gravity / (omega * omega) > deepest)
       all.push_back(
           format("the %s of %g kg sinks by %.3g m on a suspension of %.3g N/m, "
@@ -84,6 +92,16 @@ std::vector<std::string> doubts(const Parameters& machine, double highest)
                  body->stiffness(), omega / angular(1)));
   }
   const double e = printable_size(machine.unbalance / machine.rotor.mass);
+  /** The ball below bears about five of n parts of the weight (Stribeck). */
+  const Bearing& first = machine.bearing;
+  const double pressure =
+      first.pressure *
+      std::cbrt(5 * machine.rotor.mass * machine.gravity / std::max(1, first.balls));
+  if (machine.further.empty() && pressure > most_pressure)
+    all.push_back(format(
+        "a rotor of %g kg presses a ball with about %.3g N/mm^2, more "
+        "than %g: is its mass in kg?",
+        machine.rotor.mass, 1e-6 * printable_size(pressure), 1e-6 * most_pressure));
   if (!machine.rotor.rigid && e > most_eccentric)
     all.push_back(format("an eccentricity of %.3g m: is the unbalance in kg m?", e));
   return all;

@@ -122,6 +122,7 @@ double speed_in_hertz(const std::string& option, const std::string& value,
         option + " " + value + ": must be " +
         format(may_rest ? "0, or in %g...%g" : "in %g...%g", 1 / largest, largest) +
         ", a speed in decimal notation, in Hz or as 1500rpm");
+  if (is_rest && own == "Hz") return 0;  // 0 is one in any unit
   if (unit.empty()) unit = own;
   if (unit != own)
     throw BadInput(option + " " + value + ": is in " + own + ", the other end in " +

@@ -198,16 +198,19 @@ double read_clearance(StrictToml& table, StrictToml& source,
       derived.push_back(
           format("clearance: %.15g m on the diameter, delta is half of it", diametral));
     }
-    if (by_designation.empty()) return radial;
-    derived.push_back("clearance: as given; " + by_designation +
-                      " of the designation is not used");
-    const double most = clearance_range(table, normal_class(by_designation),
-                                        source.number("bore_m", Range::positive))[1];
+    if (!table.has(designation_key)) return radial;
+    if (!by_designation.empty())
+      derived.push_back("clearance: as given; " + by_designation +
+                        " of the designation is not used");
+    const std::string widest =
+        by_designation.empty() ? "C5" : normal_class(by_designation);
+    const double most =
+        clearance_range(table, widest, source.number("bore_m", Range::positive))[1];
     if (radial > most / 2)
       doubt = format(
           "a clearance of %g um on the diameter, where %s has at most %g: is "
           "it radial?",
-          2e6 * std::min(radial, 1e300), by_designation.c_str(), 1e6 * most);
+          2e6 * std::min(radial, 1e300), widest.c_str(), 1e6 * most);
     return radial;
   }
   if (!table.has(designation_key))
@@ -270,6 +273,13 @@ double read_stiffness(StrictToml& table, StrictToml& source, const Diameters& di
   const BallGeometry geometry{diameters.ball, diameters.pitch,
                               groove_ratio(source, "inner_groove_ratio"),
                               groove_ratio(source, "outer_groove_ratio")};
+  constexpr double widest_groove = 0.7;
+  for (const double ratio : {geometry.inner_groove_ratio, geometry.outer_groove_ratio})
+    if (ratio > widest_groove)
+      bearing.doubt = format(
+          "a groove ratio of %g: it is the groove's radius over the ball's diameter, "
+          "about 0.52",
+          std::min(ratio, 1e300));
   StrictToml material =
       way == 2 ? table : StrictToml("deep_groove.toml", bearing_catalogue).table("steel");
   const Solid steel = read_steel(material);

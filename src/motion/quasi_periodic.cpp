@@ -181,7 +181,9 @@ public:
                search.budget);
     if (!rest.settled.contracts)
       throw NoSolution(
-          format("the motion from rest is %s, without lines", word(rest.kind())));
+          format("the motion from rest is %s, without lines that a branch could follow; "
+                 "response without --method has its amplitudes",
+                 word(rest.kind())));
     record_ = rest.motion;
     record_error_ = rest.error.value_or(Error{});
     const Eigen::MatrixXd samples = relative_samples(parameters_, record_);

@@ -102,11 +102,15 @@ class Check(Case):
                                ("unbalance_kg_m = 1e-4", "unbalance_kg_m = 0.02", "is the unbalance in kg m?"),
                                ("rigid = true", "mass_kg = 10\nstiffness_N_per_m = 2526\ndamping_ratio = 0.05", "the stator of 10 kg sinks by 0.0388 m"),
                                ("mass_kg = 2.0", "mass_kg = 2.0\nload_N = [0, 19.62]", "do the loads lift the rotor"),
+                               ("mass_kg = 2.0", "mass_kg = 2000", "is its mass in kg?"),
+                               ("rigid = true", "mass_kg = 10\nnatural_frequency_Hz = 3900\ndamping_ratio = 0.05", "is the frequency in Hz?"),
                                ("= 9.81", "= 9810", "is it in m/s^2?")]:
             self.assertIn(old, HELD)
             self.assertIn(word, self.checked(HELD.replace(old, new) + LOOSE)[1].header)
         radial = HELD + NAMED.replace("6205", "6205 C3") + "radial_clearance_m = 2.05e-5"
         self.assertIn("41 um on the diameter, where C3 has at most 28: is it radial?", self.checked(radial)[1].header)
+        plain = HELD + NAMED + "radial_clearance_um = 32"
+        self.assertIn("64 um on the diameter, where C5 has at most 53: is it radial?", self.checked(plain)[1].header)
         sizes = """[bearing]
 balls = 9
 ball_diameter_m = 7.94
@@ -119,6 +123,7 @@ diametral_clearance_m = 0.02
 """
         for word in ("are lengths in m?", "is the modulus in Pa?"):
             self.assertIn(word, self.checked(HELD + sizes)[1].header)
+        self.assertIn("a groove ratio of 4.1", self.checked(HELD + sizes.replace("= 0.52", "= 4.1"))[1].header)
         own, words = self.file("named.toml", HELD + LOOSE), "speeds are in Hz, or as 1500rpm"
         for asked in (["orbit", own, "--frequency", 1797, "--points", 4],
                       ["map", own, "--x", "frequency=10:1797:2", "--quantity", "amplitude"]):

@@ -205,13 +205,15 @@ class Maps(unittest.TestCase):
     def test_border(self):
         """An error of (δ/20 µm)² (K_H/1e11) per cent has its border at 20 µm for 1e11, at 6.3 µm for 1e12, and is 250 % in the
         corner; a point without result counts neither way. Would catch keys that are mixed up, and missing cells taken for right ones."""
-        rows = [f"{delta:.9g}\t{level:.9g}\t0.01\t50\t0.5\t{'-' if delta == 0 else 0.01 * (delta / 2e-5)**2 * level / 1e11:}\tok"
-                for level in np.geomspace(1e10, 1e12, 21) for delta in np.linspace(0, 1e-4, 1001)]
-        names = [map_scaling.DELTA, map_scaling.STIFFNESS, "peak", "peak_frequency", "permanent", "error", "status"]
+        errors = [(delta, level, 0.01 * (delta / 2e-5)**2 * level / 1e11) for level in np.geomspace(1e10, 1e12, 21) for delta in np.linspace(0, 1e-4, 1001)]
+        rows = [f"{delta:.9g}\t{level:.9g}\t0.01\t50\t0.5\t{error if delta else '-'}\tok\t{(1.2 if delta > 5e-5 else 1) * error}"
+                for delta, level, error in errors]
+        names = [map_scaling.DELTA, map_scaling.STIFFNESS, "peak", "peak_frequency", "permanent", "error", "status", "error_back"]
         said = map_scaling.of_stiffness(Table.of("\n".join(["# frequency: 30 Hz", "\t".join(names), *rows])))
         self.assertAlmostEqual(said["first_um"], 6.4, delta=0.01)
         self.assertAlmostEqual(said["worst"], 2.5)
         self.assertAlmostEqual(said["open"], 1 / 1001)
+        self.assertAlmostEqual(said["moved"], 0.5)
 
     def test_shares(self):
         """Ten points: the shares add to one, and the loss of contact is counted among the aperiodic ones alone."""
@@ -445,6 +447,9 @@ class Identification(unittest.TestCase):
             z_r = rotor * (150**2 - omega**2 + 2j * 0.02 * 150 * omega)
             self.assertAlmostEqual(abs(z_s / (z_s + z_r)) * unbalance * omega**2 / static, 1, delta=1e-5)
         self.assertEqual(masses, sorted(masses))
+        np.testing.assert_allclose(self.base.ends(50, (10, 19)), masses[::2])
+        least, largest = identification.Base("data/set1-as-printed.toml").ends(50, (10, 19))  # there a larger mass loses it at 17.6 Hz
+        np.testing.assert_allclose((least, largest), (3.3982, 6.4593), rtol=1e-4)
         self.assertAlmostEqual(masses[1], 20.8, delta=0.2)
 
     def test_cages(self):
