@@ -89,7 +89,7 @@ class Check(Case):
         heavy = HELD.replace("mass_kg = 2.0", "mass_kg = 2000") + NAMED + 'internal_clearance = "C3"'
         values, table = self.checked(heavy)
         self.assertGreater(values["stress"], 4000)
-        self.assertEqual(table.value("warnings"), 1)
+        self.assertEqual(table.value("warnings"), 2)
 
     def test_a_factor_of_a_thousand(self):
         """Every value typed in another unit is doubted, in check and in the header of a motion; closed forms of the values."""
