@@ -62,8 +62,9 @@ speeds (set 1) and {{periodic_2:.0%}} (set 2). At the others no solution with th
 six harmonics is {{high.rms:.4%}} of the motion about its mean, and the bearing's force is wrong by up to {{high.force:.1%}} of its
 largest value there (with the large clearance and ten harmonics {{accuracy.large_force:.0%}}). At {{low.f:.0f}} Hz these errors are {{low.rms:.0%}} and {{low.force:.0%}}.
 
-**Stability.** Multipliers of 6 harmonics call {{few.false:.0f}} of the only {{few.unstable:.0f}} unstable motions stable
-(set 1), those of 64 harmonics {{many.false:.0f}} of {{many.unstable:.0f}}. The paper says nothing of stability.
+**Stability.** Of set 1 {{few.unstable:.0f}} of the solutions that were judged lie on unstable motions. By multipliers of 6
+harmonics {{few.false:.0f}} of them pass for stable, by those of 64 harmonics {{many.false:.0f}} of {{many.unstable:.0f}}. The
+paper says nothing of stability.
 
 **Misprints and gaps.** In {{deviations.count:.0f}} places the paper cannot be followed as printed;
 the [list of deviations](paper/deviations.md) has the evidence.

@@ -31,13 +31,7 @@ KEY = re.compile(r"# (?!(?:source|compiler|parameters|column|note|row)\b)([a-z]\
 MEMBER = re.compile(r"# row (\S+): (.*)")
 
 # Where the tables that are still kept from version 0.1.0 say what is a key or a list now. It goes when they are kept anew.
-OLD = {"clearance": r"delta = (\S+) m", "speeds": r"(\d+) speeds from", "sweep_count": r"(\d+) speeds from", "sweep_from": r"speeds from (\S+)",
-       "sweep_to": r"speeds from \S+ to (\S+)", "tolerance": r"adaptive: tolerance ([\d.e-]+)|--tolerance (\S+)",
-       "hill_harmonics": r"Hill's method with m harmonics, at most (\d+)", "cores": r"cores: (\d+)", "harmonics": r"harmonic balance: m = (\d+)", "frequency": r"frequency: (\S+) Hz",
-       "fitted_from_harmonics": r"harmonics = (\d+)", "fitted_from_balls": r", balls = (\d+)", "fitted_from_speeds": r", speeds = (\d+)",
-       "fitted_from_bytes": r"bytes = (\S+) on", "paper_ratios": r"8 and 10 harmonics: (\S+) (\S+) (\S+)",
-       "case": r"case (\d+): (\S+) Hz, (\S+);", "nearest": r"(cvode-\S+|scipy-\S+) ([\d.e-]+)(?=,|\n)",
-       "accepted": r"# accepted, (\S+): m_s = (\S+) \.\.\. (\S+) kg; loss of contact at (\S+) Hz: (\S+) kg",
+OLD = {"cores": r"cores: (\d+)", "nearest": r"(cvode-\S+|scipy-\S+) ([\d.e-]+)(?=,|\n)",
        "run": r"# run (\w+): from [^:]*: (\d+) points, (\d+) folds, from (\S+) to (\S+) Hz;",
        "distance": r"# run (\w+): distance .* at (\d+) speeds: median (\S+), largest (\S+) at (\S+) Hz",
        "balance": r"# run (\w+): harmonic balance, m = (\d+), .*?: (\d+) points, folds: (\d+)"}
