@@ -256,9 +256,12 @@ StrictToml::StrictToml(const std::string& file, const std::string& content)
     const auto line = static_cast<int>(error.source().begin.line);
     if (message.find("TOML_MAX_NESTED_VALUES") != message.npos) refuse_levels(file, line);
     const bool is_word = message.find("could not determine value type") != message.npos;
+    const bool is_comma = message.find("saw ','") != message.npos;
     throw BadInput(format("%s:%d: not TOML: ", file.c_str(), line) +
                    message.substr(0, message.find('\n')) +
-                   (is_word ? "; words stand in quotes" : ""));
+                   (is_word    ? "; words stand in quotes"
+                    : is_comma ? "; decimals have a point"
+                               : ""));
   }
   for (const auto& [key, node] : content_->table)
     if (key.str() == "ross_version" || key.str().starts_with("ShaftElement"))
@@ -454,9 +457,7 @@ std::string StrictToml::text_without(const std::string& key) const
 {
   toml::table table = content_->table;
   table.erase(key);
-  std::ostringstream all;
-  all << table;
-  return all.str();
+  return (std::ostringstream() << table).str();
 }
 
 void StrictToml::fail(const std::string& key, const std::string& problem) const

@@ -56,6 +56,7 @@ class Values(Case):
     def test_files_that_are_no_parameter_files(self):
         self.refused_machine("is empty", "")
         self.refused_machine("not TOML", "just some words")
+        self.refused_machine("; decimals have a point", MACHINE.replace("mass_kg = 20.0", "mass_kg = 20,0"))
         self.refused("no such file", "orbit", "no/such/file.toml", *ORBIT)
         self.refused("is a directory", "orbit", self.folder, *ORBIT)
 
