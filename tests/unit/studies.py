@@ -209,7 +209,7 @@ class Maps(unittest.TestCase):
         rows = [f"{delta:.9g}\t{level:.9g}\t0.01\t50\t0.5\t{error if delta else '-'}\tok\t{(1.2 if delta > 5e-5 else 1) * error}"
                 for delta, level, error in errors]
         names = [map_scaling.DELTA, map_scaling.STIFFNESS, "peak", "peak_frequency", "permanent", "error", "status", "error_back"]
-        said = map_scaling.of_stiffness(Table.of("\n".join(["# frequency: 30 Hz", "\t".join(names), *rows])))
+        said = map_scaling.of_stiffness(Table.of("\n".join(["# frequency: 30", "\t".join(names), *rows])))
         self.assertAlmostEqual(said["first_um"], 6.4, delta=0.01)
         self.assertAlmostEqual(said["worst"], 2.5)
         self.assertAlmostEqual(said["open"], 1 / 1001)
