@@ -34,7 +34,7 @@ def draw(table):
     size = {name: decades[table["name"] == name].sum() for name in names}
     right = 1.02 * frequency[shown].max()
     last = -np.inf
-    chosen = {*(name for name in names if name == "1X"), *sorted(names, key=size.get)[-MOST_RAYS:]}
+    chosen = {"1X"} & {*names} | {*sorted(names, key=size.get)[-MOST_RAYS:]}
     for name in sorted(chosen, key=lambda one: table["order"][table["name"] == one][0]):
         order = table["order"][table["name"] == name][0]
         axes.plot([order * low, order * high], [low, high], color="C1", lw=0.7, alpha=0.6, zorder=0)

@@ -18,8 +18,8 @@ def main(there, back):
     there, back = Table(there), Table(back)
     (x, y), = there.members("keys")
     lines = len(np.unique(back[y]))
-    error = back["error"].reshape(lines, -1)[:, ::-1].ravel()
-    np.testing.assert_allclose(back[x].reshape(lines, -1)[:, ::-1].ravel(), there[x], atol=1e-15)
+    clearance, error = (back[name].reshape(lines, -1)[:, ::-1].ravel() for name in (x, "error"))
+    np.testing.assert_allclose(clearance, there[x], atol=1e-15)
     print(there.header, "# column: error_back [-] the same as error, walked from the largest clearance to the smallest", sep="\n")
     print(*there.columns, "error_back", sep="\t")
     for *cells, last in zip(*there.columns.values(), error):

@@ -24,7 +24,7 @@ COLUMNS = {"attractors": ["set"], "validity": ["found", "distance", "periodic"],
            "large": ["n", "r"],
            "clearance_speed": ["frequency", "bearing.radial_clearance_m", "period", "contact_share"],
            "map_scaling": ["kind", "count", "points"],
-           "verdicts": ["set", "f", "m", "found", "machine_stable", "distance", "series_stable", "hill_stable"],
+           "verdicts": ["set", "f", "m", "found", "machine_stable", "distance", "series_stable"],
            "hard_cases": ["case", "method", "status", "verdict", "regime"]}
 KEY = {"attractors": ["set", "f", "period", "point"]}
 # The column of the kinds whose CPU times are shown.

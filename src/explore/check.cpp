@@ -102,8 +102,9 @@ Exploration explore_check(const CheckRequest& request)
       return std::abs(u) > 1e-12 * std::hypot(rest.u.x, rest.u.y) ? u : 0;
     };
     const double stress = printable_size(1e-6 * bearing.pressure * std::cbrt(rest.most));
-    if (stress > 4000)
-      warn(format("the stress of %.4g N/mm^2 at rest is above 4000", stress));
+    if (stress > 1e-6 * most_pressure)
+      warn(format("the stress of %.4g N/mm^2 at rest is above %g", stress,
+                  1e-6 * most_pressure));
     const auto add = [&](const char* name, double value, const char* unit,
                          const char* meaning) {
       table.row({name + tail, value, unit, meaning});

@@ -46,8 +46,7 @@ std::vector<std::string> doubts(const Parameters& machine, double highest)
       [N/m²]; gravity of any planet [m/s²]; what a suspension sinks by [m]; e [m]. */
   constexpr double widest = 5, steel = 1e11, heaviest = 30, deepest = 0.03,
                    most_eccentric = 3e-3;
-  /** Of a suspension [Hz]; of Hertz, where a ball bears for good [Pa]. */
-  constexpr double most_hertz = 1000, most_pressure = 4e9;
+  constexpr double most_hertz = 1000;  // of a suspension
   std::vector<std::string> all;
   for (const Bearing& bearing : bearings_of(machine)) {
     if (const double d = printable_size(pitch_diameter(bearing)); d > widest)
@@ -93,11 +92,10 @@ std::vector<std::string> doubts(const Parameters& machine, double highest)
   }
   const double e = printable_size(machine.unbalance / machine.rotor.mass);
   /** The ball below bears about five of n parts of the weight (Stribeck). */
-  const Bearing& first = machine.bearing;
   const double pressure =
-      first.pressure *
-      std::cbrt(5 * machine.rotor.mass * machine.gravity / std::max(1, first.balls));
-  if (machine.further.empty() && pressure > most_pressure)
+      machine.bearing.pressure *
+      std::cbrt(5 * machine.rotor.mass * machine.gravity / machine.bearing.balls);
+  if (pressure > most_pressure)
     all.push_back(format(
         "a rotor of %g kg presses a ball with about %.3g N/mm^2, more "
         "than %g: is its mass in kg?",

@@ -14,6 +14,9 @@ meant. Nothing is refused: the words stand in the header and, at the end, on std
 
 namespace rotor_stator::explore {
 
+/** Of Hertz, above which a ball marks its race for good [Pa]. */
+inline constexpr double most_pressure = 4e9;
+
 /** Doubts about the machine and the highest speed [Hz] that it is asked for, a sentence
     each. */
 std::vector<std::string> doubts(const Parameters& machine, double highest);

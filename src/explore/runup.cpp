@@ -48,17 +48,18 @@ Exploration explore_runup(const RunUpRequest& request)
   const OperationBudget budget = budget_of(request, 60, machine);
   const motion::RunUp run{angular(request.from), angular(request.to), request.seconds};
   Table lines("Lines of a run-up or coast-down", line_columns);
-  describe(lines, machine);
-  lines.note(
-      format("of %d turns each; the change of speed widens them", stretches.turns));
-  if (request.waterfall)
-    stretches.seen = [&](double speed, const motion::Motion& motion) {
+  if (request.waterfall) {
+    describe(lines, machine);
+    lines.note(
+        format("of %d turns each; the change of speed widens them", stretches.turns));
+    stretches.seen = [&lines, bearings = bearings_of(machine)](
+                         double speed, const motion::Motion& motion) {
       constexpr int passages = 16;
       constexpr double smallest = 1e-4, near = 0.6;
-      add_lines(lines, bearings_of(machine), speed / angular(1),
-                lines_of_recorded(bearings_of(machine), motion, near), passages,
-                smallest);
+      add_lines(lines, bearings, speed / angular(1),
+                lines_of_recorded(bearings, motion, near), passages, smallest);
     };
+  }
   const std::vector<motion::PassedTurn> all =
       motion::run_up(machine, run, budget, stretches);
   if (all.empty())

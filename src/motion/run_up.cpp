@@ -203,10 +203,10 @@ std::vector<PassedTurn> run_up(const Parameters& parameters, const RunUp& run,
     now = at[2];
     const auto [balls, all_forces] = equation.forces(state.position, state.velocity, now);
     seen.add(state, balls, all_forces);
-    by_angle.add(k * h, h, before, state);
     const double t = (k + 1) * h;
     if (!std::isfinite(state.position.rotor.x))
       throw NoSolution(format("integration diverged after %.3g s", t));
+    by_angle.add(k * h, h, before, state);
     if (run.angle(t) < turn * (made + 1) * (1 - 1e-12)) continue;
     const double middle = 0.5 * (began + t);
     Displacements amplitude;

@@ -235,7 +235,7 @@ bool Settling::closes(Settled& s) const
   const int k =
       closing_period(all, rule_.closed * size * nearer_by(1), rule_.most_period);
   if (k == 0) return false;
-  const auto last = std::span(all).last(std::min<std::size_t>(all.size(), 3 * k + 1));
+  const auto last = std::span(all).last(3 * k + 1);
   const double left = extent(last, k) / nearer_by(k);
   for (int fewer = 1; fewer < k; ++fewer)
     if (extent(last, fewer) < much_farther * left) return false;
