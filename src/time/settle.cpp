@@ -44,7 +44,8 @@ SlowestMode slowest_mode(const Parameters& machine)
   a(3, 3) = -r.damping() / r.mass;
   SlowestMode slowest{std::numeric_limits<double>::infinity(),
                       std::numeric_limits<double>::infinity()};
-  for (const auto& value : Eigen::EigenSolver<Eigen::Matrix4d>(a, false).eigenvalues()) {
+  const Eigen::EigenSolver<Eigen::Matrix4d> solver(a, false);
+  for (const auto& value : solver.eigenvalues()) {
     slowest.decay = std::min(slowest.decay, std::max(0.0, -value.real()));
     if (std::abs(value) > 0)
       slowest.frequency = std::min(slowest.frequency, std::abs(value));
