@@ -1,6 +1,7 @@
 """The lines of a motion: amplitudes of rotor and stator against the order, the largest with their names.
 
-Each stem is a line of the table of `explore spectrum`; its height is the larger of the amplitudes in x and y.
+Each stem is a line of the table of `explore spectrum`; its height is the larger of the amplitudes in x and y. The spectrum
+of a chaotic motion is continuous: its stems are samples of it, thin and without marks.
 A measured spectrum, a table with the columns f [Hz] and amplitude [m], is drawn over both.
 Usage: /usr/bin/python3 figures/spectrum.py TABLE.tsv OUTPUT.svg [MEASURED.tsv]
 """
@@ -29,6 +30,7 @@ def draw(table, measured=None):
     grid = grid[:, 0]
     orders = table["order"]
     width = 1.04 * orders.max()
+    is_chaotic = table.value("regime", "") == "chaotic"
     heights = {body: np.maximum(table[f"x_{body}"], table[f"y_{body}"]) for body in bodies}
     top = max(height.max() for height in heights.values())
     bottom = min(0.5 * min(height[height > 1e-6 * top].min(initial=top) for height in heights.values()), 0.1 * top)
@@ -37,8 +39,9 @@ def draw(table, measured=None):
     for axes, body, name, colour in zip(grid, bodies, ("rotor", "stator"), (ROTOR, STATOR)):
         height = heights[body]
         shown = height > bottom
-        axes.vlines(orders[shown], bottom, height[shown], color=colour, lw=1.3)
-        axes.plot(orders[shown], height[shown], "o", ms=3.5, color=colour)
+        axes.vlines(orders[shown], bottom, height[shown], color=colour, lw=0.8 if is_chaotic else 1.3)
+        if not is_chaotic:
+            axes.plot(orders[shown], height[shown], "o", ms=3.5, color=colour)
         names = table["name"][shown]
         for place in chosen(names, orders[shown], height[shown], width):
             axes.annotate(str(names[place]), (orders[shown][place], height[shown][place]),

@@ -12,7 +12,7 @@ namespace rotor_stator::explore {
 
 struct AttractorsRequest : Request {
   double from = 0, to = 0;  ///< [Hz]
-  int count = 0;            ///< speeds, evenly spaced, both edges among them
+  int count = 51;           ///< speeds, evenly spaced, both edges among them
   int starts = 3;           ///< random states at each speed
   int seed = 1;
   std::optional<double> tolerance;              ///< of displacements, relative

@@ -12,7 +12,7 @@ namespace rotor_stator::explore {
 
 struct CampbellRequest : Request {
   double from = 0, to = 0;  ///< speeds [Hz]
-  int count = 0;            ///< of speeds, evenly spaced
+  int count = 51;           ///< of speeds, evenly spaced
   int modes = 8;            ///< of lowest frequency
   bool critical = false;    ///< critical speeds instead of frequencies
 };

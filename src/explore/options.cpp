@@ -357,8 +357,7 @@ Check add_options(CLI::App& command, AttractorsRequest& request)
                      "in the whole run (default: those of 1 s for each start)");
   add_speeds(command, request.from, request.to);
   add_number(command, "--count", request.count, 1, 10000,
-             "speeds from --from to --to, evenly spaced")
-      ->required();
+             "speeds from --from to --to, evenly spaced (51)");
   add_rpm(command, request);
   add_number(command, "--starts", request.starts, 0, 1000,
              "random states to start from at each speed");
@@ -436,14 +435,16 @@ Check add_options(CLI::App& command, CampbellRequest& request)
 {
   add_common_options(command, request, "in the whole run (default: those of 60 s)");
   add_speeds(command, request.from, request.to, true);
-  add_number(command, "--count", request.count, 1, 10000,
-             "speeds from --from to --to, evenly spaced")
-      ->required();
+  CLI::Option* count =
+      add_number(command, "--count", request.count, 1, 10000,
+                 "speeds from --from to --to, evenly spaced (51, 1 of one speed)");
   add_rpm(command, request);
   add_number(command, "--modes", request.modes, 1, 1000, "of lowest frequency");
   command.add_flag("--critical", request.critical,
                    "the critical speeds instead of the frequencies");
-  return [] {};
+  return [&request, count] {
+    if (!is_given(count) && request.from == request.to) request.count = 1;
+  };
 }
 
 Check add_options(CLI::App& command, RunUpRequest& request)

@@ -108,7 +108,7 @@ class Values(Case):
                 ("--from 1 --to 2 --restart " + "x" * 300, "File name too long"),
                 ("--from 1 --to 2 --restart machine.toml", "machine.toml:1: '# Branch of")], "response", self.machine)
         self.refused_each([
-                ("--count 0", "--count 0: must be in 1...10000"), ("--count 1.5", "--count"), ("", "--count"),
+                ("--count 0", "--count 0: must be in 1...10000"), ("--count 1.5", "--count"),
                 ("--count 3 --starts -1", "--starts -1: must be in 0...1000"), ("--count 3 --starts 1e3", "--starts"),
                 ("--count 10000 --starts 18", "--starts 18: must be in 0...17 with --count 10000"),
                 ("--count 3 --budget 0", "--budget"), ("--count 3 --harmonics 6", "--harmonics"),

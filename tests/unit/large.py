@@ -409,8 +409,10 @@ radial_clearance_m = {b["clearance"]}
     def test_campbell_at_one_speed(self):
         """The rows of that speed; nothing that needs two; and what the budget does not pay for."""
         machine = Path("data/rotors/overhung.toml").resolve()
-        one, two = (self.table("campbell", machine, "--from", 30, "--to", to, "--count", count) for to, count in ((30, 1), (31, 2)))
+        one, two, usual = (self.table("campbell", machine, "--from", 30, "--to", to, *count)
+                           for to, count in ((30, []), (31, ["--count", 2]), (80, [])))
         self.assertTrue(len(one) > 2 and set(one["f"]) == {30})
+        np.testing.assert_array_equal(np.unique(usual["f"]), np.linspace(30, 80, 51))
         np.testing.assert_array_equal(one["frequency"], two.where("f", 30)["frequency"])
         for more in (["--to", 31], ["--to", 30, "--critical"], ["--to", 30, "--plot", "a.svg"]):
             self.refused("--count 1: is for --from equal to --to", "campbell", machine, "--from", 30, "--count", 1, *more)
