@@ -44,12 +44,20 @@ double Motion::phase(std::size_t k) const
   return 2 * std::numbers::pi * (static_cast<double>(first_period) + t_over_period(k));
 }
 
+/** Of the first period; zero above what its instants resolve. */
+static Eigen::MatrixXd series_of(const Motion& motion, const Eigen::MatrixXd& samples,
+                                 int harmonics)
+{
+  const int points = motion.points_per_period, known = (points - 1) / 2;
+  Eigen::MatrixXd series = Eigen::MatrixXd::Zero(samples.cols(), 2 * harmonics + 1);
+  FourierTransform(points).to_series(samples.topRows(points),
+                                     series.leftCols(2 * std::min(harmonics, known) + 1));
+  return series;
+}
+
 Eigen::MatrixXd series_of(const Motion& motion, int harmonics)
 {
-  Eigen::MatrixXd series(4, 2 * harmonics + 1);
-  FourierTransform(motion.points_per_period)
-      .to_series(displacement_samples(motion).topRows(motion.points_per_period), series);
-  return series;
+  return series_of(motion, displacement_samples(motion), harmonics);
 }
 
 Eigen::MatrixXd relative_samples(const Parameters& parameters, const Motion& motion)
@@ -68,11 +76,7 @@ Eigen::MatrixXd relative_samples(const Parameters& parameters, const Motion& mot
 Eigen::VectorXd relative_series(const Parameters& parameters, const Motion& motion,
                                 int harmonics)
 {
-  const Eigen::MatrixXd u =
-      relative_samples(parameters, motion).topRows(motion.points_per_period);
-  Eigen::MatrixXd series(u.cols(), 2 * harmonics + 1);
-  FourierTransform(motion.points_per_period).to_series(u, series);
-  return series.reshaped();
+  return series_of(motion, relative_samples(parameters, motion), harmonics).reshaped();
 }
 
 Eigen::VectorXd relative_series(const Motion& motion, int harmonics)

@@ -45,6 +45,18 @@ TEST_CASE("Samples of a series at few points are those of the series")
     CHECK(values(k, 0) == Approx(2 + std::cos(20 * 2 * std::numbers::pi * k / 8)));
 }
 
+TEST_CASE("A motion has no harmonics above those that its instants resolve")
+{
+  Motion motion{16, 0, {}};
+  for (int k = 0; k < 16; ++k)
+    motion.positions.push_back(
+        {{0, 0}, {std::cos(2 * std::numbers::pi * 7 * k / 16), 1}});
+  Eigen::MatrixXd expected = Eigen::MatrixXd::Zero(4, 2 * 40 + 1);
+  expected(2, 2 * 7 - 1) = expected(3, 0) = 1;
+  CHECK((series_of(motion, 40) - expected).norm() < 1e-14);
+  CHECK((relative_series(motion, 40) - expected.bottomRows(2).reshaped()).norm() < 1e-14);
+}
+
 TEST_CASE("Half peak-to-peak of a known motion")
 {
   Eigen::MatrixXd series = Eigen::MatrixXd::Zero(1, 5);
