@@ -56,11 +56,13 @@ SlowestMode slowest_mode(const Parameters& machine)
 Instant from_rest(const Parameters& machine, double omega)
 {
   constexpr double shortest = 4, longest = 25, decays = 25;  // [s], [s], [-]
+  constexpr double most = 1e12;  // periods; more are beyond any budget
   const double seconds =
       std::clamp(decays / slowest_mode(machine).decay, shortest, longest);
   const double speed = rotor_speed(machine, omega);
   const double turns = std::ceil(seconds * speed / (2 * std::numbers::pi));
-  const auto periods = std::lround(std::ceil(turns * omega / speed - 1e-9));
+  const auto periods =
+      std::lround(std::min(std::ceil(turns * omega / speed - 1e-9), most));
   const double cage =
       2 * std::numbers::pi *
       std::fmod(machine.bearing.cage_speed_ratio * static_cast<double>(periods), 1.0);
