@@ -432,7 +432,7 @@ radial_clearance_m = {b["clearance"]}
         text = Path("data/rotors/overhung.toml").read_text(encoding="utf-8").replace('"overhung"', '"pieces"')
         began = time.process_time() + sum(os.times()[2:4])
         self.table("check", self.file("pieces.toml", text))
-        self.assertLess(time.process_time() + sum(os.times()[2:4]) - began, 8)
+        self.assertLess(time.process_time() + sum(os.times()[2:4]) - began, 80 if "SANITIZED" in os.environ else 8)
 
     def nodes(self, elements, every=1):
         """The table of a shaft's nodes, and the degrees of freedom of x and y from 0."""
