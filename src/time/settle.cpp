@@ -1,6 +1,5 @@
 #include "time/settle.hpp"
 
-#include <Eigen/Eigenvalues>
 #include <algorithm>
 #include <cmath>
 #include <limits>
@@ -8,6 +7,7 @@
 #include <span>
 
 #include "io/errors.hpp"
+#include "time/eigenvalues.hpp"
 
 namespace rotor_stator {
 
@@ -44,8 +44,8 @@ SlowestMode slowest_mode(const Parameters& machine)
   a(3, 3) = -r.damping() / r.mass;
   SlowestMode slowest{std::numeric_limits<double>::infinity(),
                       std::numeric_limits<double>::infinity()};
-  const Eigen::EigenSolver<Eigen::Matrix4d> solver(a, false);
-  for (const auto& value : solver.eigenvalues()) {
+  if (!a.allFinite()) return slowest;  // no step is short enough, which is said there
+  for (const auto& value : eigenvalues(a)) {
     slowest.decay = std::min(slowest.decay, std::max(0.0, -value.real()));
     if (std::abs(value) > 0)
       slowest.frequency = std::min(slowest.frequency, std::abs(value));
