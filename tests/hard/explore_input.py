@@ -29,9 +29,8 @@ from hypothesis import strategies as st  # noqa: E402
 sys.path.insert(0, str(Path(__file__).parents[1]))
 from hard import odd  # noqa: E402
 from machines import SET_1, decade, entries, extreme_machine, of_another_kind, written  # noqa: E402
-from support.explore import EXPLORE, NO_NUMBER  # noqa: E402
+from support.explore import EXPLORE, NO_NUMBER, SANITIZED  # noqa: E402
 
-SANITIZED = "SANITIZED" in os.environ
 # Evaluations of the force: a few milliseconds of work.
 LITTLE = "1e5"
 GOOD_FILE = written(entries(SET_1)).encode()
