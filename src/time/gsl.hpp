@@ -13,7 +13,7 @@ Nothing else in the library needs GSL's steppers. */
 #include <string>
 #include <vector>
 
-#include "time/period_map.hpp"
+#include "time/flow.hpp"
 
 namespace rotor_stator {
 
@@ -22,10 +22,6 @@ const std::vector<std::string>& gsl_methods();
 /** Throws BadInput for a method of another name. */
 std::unique_ptr<Flow> gsl_flow(const Parameters& parameters, double omega,
                                const StepSettings& settings);
-
-/** `period_map` by one of the explicit methods. */
-PeriodMap gsl_period_map(const Parameters& parameters, double omega, const State& start,
-                         const StepSettings& settings, long interval);
 
 /** ∂(Eq. 7)/∂y, 8 × 8 by rows, and ∂(Eq. 7)/∂t at y = (x_s, y_s, x_r, y_r, and their
     speeds): what the implicit methods ask for. */

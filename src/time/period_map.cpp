@@ -1,6 +1,5 @@
 #include "time/period_map.hpp"
 
-#include "time/gsl.hpp"
 #include "time/rk4.hpp"
 #include "time/rk8.hpp"
 
@@ -85,12 +84,10 @@ PeriodMap TwoMasses::period_map(const Parameters& parameters, double omega,
                                 long interval) const
 {
   PeriodMap map{.end = start, .derivative = {}, .evaluations = 0};
-  if (settings.method == "rk8")
-    by_rk8(parameters, omega, settings, interval, map);
-  else if (settings.method == "rk4")
+  if (settings.method == "rk4")
     by_rk4(parameters, omega, settings, interval, map);
   else
-    map = gsl_period_map(parameters, omega, start, settings, interval);
+    by_rk8(parameters, omega, settings, interval, map);
   return map;
 }
 

@@ -8,8 +8,8 @@ $$\dot{\delta q} = \delta v,
 \qquad M\, \dot{\delta v} = -(K + k(t))\,\delta q - C\,\delta v,$$
 
 where k(t) is the bearing's stiffness on the motion itself. Both are integrated together,
-72 equations, by rk4, rk8 or one of GSL's explicit steppers; the step is chosen by the
-state alone, which is what the answer depends on.
+72 equations, by rk4 or rk8; the step is chosen by the state alone, which is what the
+answer depends on.
 
     const PeriodMap map = period_map(parameters, omega, state,
                                      {.intervals_per_period = 1, .tolerance = 1e-12}); */

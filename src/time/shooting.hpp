@@ -29,7 +29,7 @@ inline constexpr int eighths = 8;
 using Eighths = std::vector<State>;
 
 struct ShootingSettings {
-  std::string method = "rk8";  ///< "rk4" with a fixed step, "rk8", or one of GSL's
+  std::string method = "rk8";  ///< "rk4" with a fixed step, or "rk8"
   double tolerance = 1e-12;    ///< local error per step, over each component's size
   double step = 0;             ///< rk4: longest step [s]; 0 chooses `step_at`
   double closed = 1e-10;       ///< largest last correction, rms over the sizes [-]

@@ -122,9 +122,7 @@ std::vector<Candidates> read_candidates(StrictToml& toml)
 {
   std::vector<std::string> known{"aft"};
   known.insert(known.end(), time_methods().begin(), time_methods().end());
-  known.insert(known.end(), {"rk4-lanes", "central"});
-  for (const char* stepper : {"rk4", "rk8", "rkf45", "rkck", "rk8pd"})
-    known.push_back(std::string("shooting-") + stepper);
+  known.insert(known.end(), {"rk4-lanes", "central", "shooting-rk4", "shooting-rk8"});
   std::vector<Candidates> all;
   for (const std::string& method : toml.strings("methods")) {
     if (std::find(known.begin(), known.end(), method) == known.end()) {

@@ -123,7 +123,7 @@ const std::vector<Field<Row>> work_precision_fields{
     {"start", "-",
      "nothing: static load or quasi-static contact; below: the motion below",
      [](auto& r) { return std::string(r.continued ? "below" : "nothing"); }},
-    {"method", "-", "aft: harmonic balance; rk4; rk8; GSL's; shooting- with one of them",
+    {"method", "-", "aft: harmonic balance; rk4; rk8; GSL's; shooting- with rk4 or rk8",
      [](auto& r) { return r.schedule.method(); }},
     {"setting", "-", "m, N, tolerance, step [s], transient [s], closure",
      [](auto& r) { return r.schedule.text(); }},

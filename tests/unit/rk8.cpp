@@ -93,17 +93,17 @@ TEST_CASE("A step of rk8 has an error of order 9, and an estimate of it of order
 
 /** The other stepper shares no coefficient, no error estimate and no choice of steps with
     this one. */
-TEST_CASE("rk8 goes where GSL's rk8pd goes, and so do their disturbances")
+TEST_CASE("rk8 goes where GSL's rk8pd goes")
 {
   Parameters out_of_step = damped(2);
   out_of_step.bearing.cage_speed_ratio = 0.4173;
   struct Case {
     Parameters machine;
     double frequency = 45;
-    double near = 2e-10, near_derivative = 6e-6;  // where balls begin and cease to touch
+    double near = 2e-10;  // where balls begin and cease to touch
   };
-  const auto [machine, frequency, near, near_derivative] =
-      GENERATE_COPY(values<Case>({{on_one_ball(), 7, 1e-12, 3e-7},
+  const auto [machine, frequency, near] =
+      GENERATE_COPY(values<Case>({{on_one_ball(), 7, 1e-12},
                                   {set_1()},
                                   {set_1(), 30},
                                   {out_of_step},
@@ -122,17 +122,6 @@ TEST_CASE("rk8 goes where GSL's rk8pd goes, and so do their disturbances")
   }
   CHECK(distance(machine, ours, theirs) < near);
   CHECK(distance(machine, ours, start) > 1e-3);
-
-  const Vector8 sizes = state_scales(machine);
-  const PeriodMap map = period_map(machine, omega, start,
-                                   {.intervals_per_period = 1, .tolerance = 1e-14}),
-                  other = period_map(
-                      machine, omega, start,
-                      {.method = "rk8pd", .intervals_per_period = 1, .tolerance = 1e-14});
-  CHECK(distance(machine, map.end, other.end) < near);
-  const Matrix8 apart = sizes.cwiseInverse().asDiagonal() *
-                        (map.derivative - other.derivative) * sizes.asDiagonal();
-  CHECK(apart.cwiseAbs().maxCoeff() < near_derivative);
 }
 
 TEST_CASE("A period map is its method's, and its derivative that of its differences")
