@@ -10,14 +10,12 @@ balance/.
     std::unique_ptr<Flow> flow = parameters.machine->flow(parameters, omega, settings); */
 #pragma once
 
-#include <Eigen/Core>
+#include <Eigen/SparseCore>
 #include <array>
 #include <memory>
 #include <string>
 #include <utility>
 #include <vector>
-
-#include "io/matrix_market.hpp"
 
 namespace rotor_stator {
 
@@ -128,7 +126,7 @@ public:
 
   /** x and y of the nodes that were asked for, over all coordinates, and the nodes at
       which bearings stand. */
-  virtual const SparseMatrix& nodes() const;
+  virtual const Eigen::SparseMatrix<double>& nodes() const;
   virtual std::vector<std::pair<int, int>> bearing_nodes() const { return {}; }
 };
 

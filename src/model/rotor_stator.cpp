@@ -108,9 +108,9 @@ std::shared_ptr<const Machine> two_masses()
   return one;
 }
 
-const SparseMatrix& Machine::nodes() const
+const Eigen::SparseMatrix<double>& Machine::nodes() const
 {
-  static const SparseMatrix none;
+  static const Eigen::SparseMatrix<double> none;
   return none;
 }
 

@@ -3,7 +3,6 @@
 #include <algorithm>
 
 #include "balance/bearing_problem.hpp"
-#include "motion/quasi_periodic.hpp"
 
 namespace rotor_stator::motion {
 

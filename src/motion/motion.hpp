@@ -82,6 +82,11 @@ Motion motion_of_samples(const Eigen::MatrixXd& samples, int points,
 Motion motion_of(const Eigen::MatrixXd& bodies, int points);
 Motion motion_of(const PeriodicMotion& solution, int points);
 
+/** `turns` turns of a solution with any frequencies, `points` instants each, from turn
+    `first` after t = 0. */
+Motion motion_of(const Parameters& parameters, const PeriodicMotion& solution, int points,
+                 int turns, long first = 0);
+
 /** The state [m, m/s] of a periodic motion at phase 0. */
 State state_of(const PeriodicMotion& motion);
 

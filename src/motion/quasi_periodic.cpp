@@ -323,38 +323,6 @@ Torus judged(const TorusSearch& search, PeriodicMotion motion)
 
 }  // namespace
 
-Motion motion_of(const Parameters& parameters, const PeriodicMotion& solution, int points,
-                 int turns, long first)
-{
-  constexpr double turn = 2 * std::numbers::pi;
-  const auto n = static_cast<Eigen::Index>(points) * turns;
-  Eigen::MatrixXd samples = solution.bodies.col(0).transpose().replicate(n, 1);
-  Eigen::MatrixX2d rates = Eigen::MatrixX2d::Zero(n, 2), wave(n, 2);  // of u; cos, sin
-  const double passages = passages_per_turn(parameters.bearing);
-  for (int h = 1; h <= solution.harmonics.count(); ++h) {
-    const auto& [k_1, k_2] = solution.harmonics.list()[static_cast<std::size_t>(h)];
-    const double order = k_1 + k_2 * passages;
-    const auto step = std::polar(1.0, turn * order / points);
-    for (long since = first; since < first + turns; ++since) {
-      auto now = std::polar(
-          1.0, turn * (k_1 * static_cast<double>(since % 2) +
-                       k_2 * std::fmod(passages * static_cast<double>(since), 2.0)));
-      for (int k = 0; k < points; ++k, now *= step)
-        wave.row((since - first) * points + k) << now.real(), now.imag();
-    }
-    const Eigen::MatrixX2d pair = solution.bodies.middleCols(2 * h - 1, 2);
-    samples += wave.lazyProduct(pair.transpose());
-    const Eigen::Matrix2d u = pair.middleRows<2>(2) - pair.topRows<2>();
-    Eigen::Matrix2d slopes;  // of cos and sin
-    slopes << u.col(1).transpose(), -u.col(0).transpose();
-    rates += wave.lazyProduct(order * solution.omega * slopes);
-  }
-  Motion motion = motion_of_samples(samples, points, first);
-  motion.omega = solution.omega;
-  for (Eigen::Index k = 0; k < n; ++k) motion.rates.push_back({rates(k, 0), rates(k, 1)});
-  return motion;
-}
-
 Eigen::VectorXd half_peak_to_peak_of_torus(const Parameters& parameters,
                                            const PeriodicMotion& solution)
 {

@@ -18,11 +18,6 @@ halve the distance from it, the one that integration from the solution comes to.
 
 namespace rotor_stator::motion {
 
-/** `turns` turns of a solution with any frequencies, `points` instants each, from turn
-    `first` after t = 0. */
-Motion motion_of(const Parameters& parameters, const PeriodicMotion& solution, int points,
-                 int turns, long first = 0);
-
 /** Half of the largest less the smallest value of x_s, y_s, x_r, y_r [m] that a solution
     with two frequencies ever comes near. */
 Eigen::VectorXd half_peak_to_peak_of_torus(const Parameters& parameters,

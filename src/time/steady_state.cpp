@@ -3,9 +3,11 @@
 #include <algorithm>
 #include <cmath>
 #include <numbers>
+#include <span>
 
 #include "io/errors.hpp"
 #include "io/scene_file.hpp"
+#include "time/section.hpp"
 
 namespace rotor_stator {
 

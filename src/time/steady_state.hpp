@@ -19,7 +19,8 @@ over the windows of so many seconds more, which are recorded.
 
 #include <vector>
 
-#include "time/trajectory_pair.hpp"
+#include "time/batch_mean.hpp"
+#include "time/flow.hpp"
 
 namespace rotor_stator {
 

@@ -15,6 +15,7 @@ them. On a T-periodic motion λ is ln|μ|/T of the largest Floquet multiplier. *
 #include <vector>
 
 #include "time/batch_mean.hpp"
+#include "time/section.hpp"
 #include "time/side_by_side.hpp"
 
 namespace rotor_stator {
@@ -94,18 +95,5 @@ private:
   std::vector<Displacements> section_;
   std::vector<Mark> marks_ = {};
 };
-
-/**
-## What a Poincaré section says about a motion */
-
-/** The largest distance of two points of a Poincaré section in one displacement, `apart`
-    points apart; of any two points by default [m]. */
-double extent(std::span<const Displacements> section, std::size_t apart = 0);
-
-/** The fewest base periods K after which a section closes: of its last 3K + 1
-    points, at least nine, those K apart are nearer than `closed` [m]. 0: none up to
-    `most_period`. */
-int closing_period(std::span<const Displacements> section, double closed,
-                   int most_period);
 
 }  // namespace rotor_stator
