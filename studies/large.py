@@ -30,7 +30,7 @@ COLUMNS = [
     ("branch_s", "s", "CPU of the branch with 6 harmonics, after that"), ("points", "-", "of the branch"),
     ("solution_s", "s", "CPU of one solution with 20 harmonics, no verdict; with reading and reduction"),
     ("verdict_s", "s", "CPU of a solution to the tolerance, with its verdict; with reading and reduction"),
-    ("integration_s", "s", "CPU of integration from rest until the motion repeats itself; -1: none"),
+    ("integration_s", "s", "CPU of integration from rest until the motion repeats itself, and again with half the step; -1: none"),
     ("integrated", "-", "degrees of freedom that are integrated"),
     ("memory", "byte", "peak of the branch's process; about 35 MB are those of the Python that starts it"),
     ("error", "-", "rms about the mean, of the solution to the tolerance, against the integration; -1: none")]
@@ -42,10 +42,10 @@ def run(*words):
         child = subprocess.Popen(["build/explore", *map(str, words)], stdout=out, stderr=log)
         _, status, usage = os.wait4(child.pid, 0)
         child.returncode = os.waitstatus_to_exitcode(status)
-        if child.returncode:
-            sys.exit(f"explore {' '.join(map(str, words))}: status {child.returncode}")
         out.seek(0)
         log.seek(0)
+        if child.returncode:
+            sys.exit(f"explore {' '.join(map(str, words))}: status {child.returncode}: {log.read()}")
         return out.read(), usage.ru_utime + usage.ru_stime, 1024 * usage.ru_maxrss, log.read()
 
 
@@ -165,7 +165,7 @@ def row(scene, kind, file, whole, degrees):
     found, along = Table.of(judged[0]), Table.of(branch[0])
     kept, error = int(found.value("degrees_of_freedom", degrees)), along.value("reduction_error", 0)
     method = ["--method", "rk8pd"] if kind == "paper" else ["--method", "gauss", "--local-error", scene["local_error"]]
-    settled = run("orbit", whole or file, *speed, *method, "--longest", 5)
+    settled = run("orbit", whole or file, *speed, *method, "--longest", 5, "--budget", 1e13)
     off = displacement_errors(found, Table.of(settled[0]))[0]
     points = len(along)
     return [kind, degrees, kept, f"{error:.2g}", f"{once:.3g}", f"{alone:.3g}", points, f"{solution[1]:.3g}",
