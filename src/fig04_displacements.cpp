@@ -33,6 +33,7 @@ bearing's force is the largest over the period, over the largest force. It is by
 larger of the two, because a small error of the penetration of a ball is a large error of
 its force. The table also has the largest difference of a displacement, over the largest
 displacement. */
+#include "balance/find.hpp"
 #include "figures/panels.hpp"
 #include "io/program.hpp"
 
@@ -45,7 +46,7 @@ int main(int argc, char** argv)
     for (double frequency : watched(scene.title, scene.frequencies)) {
       const double omega = angular(frequency);
       const PeriodicMotion balance =
-          motion::find_periodic({scene.machine, omega, scene.harmonics, scene.samples});
+          find_near_contact({scene.machine, omega, scene.harmonics, scene.samples});
       const auto settled = steady_state(scene.machine, omega, scene.time_integration);
       add_orbits(table, scene, figures::compare(scene, frequency, balance, settled));
     }

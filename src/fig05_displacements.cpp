@@ -28,6 +28,7 @@ difference of two large displacements: rotor and stator move by millimetres, but
 to each other by about a hundredth of that. A small error of the displacements may
 therefore be a large error of the contact forces. The force in the table is Eq. 6 along
 either motion, not a Fourier series of its own. */
+#include "balance/find.hpp"
 #include "figures/panels.hpp"
 #include "io/program.hpp"
 
@@ -40,7 +41,7 @@ int main(int argc, char** argv)
     for (double frequency : watched(scene.title, scene.frequencies)) {
       const double omega = angular(frequency);
       const PeriodicMotion balance =
-          motion::find_periodic({scene.machine, omega, scene.harmonics, scene.samples});
+          find_near_contact({scene.machine, omega, scene.harmonics, scene.samples});
       const auto settled = steady_state(scene.machine, omega, scene.time_integration);
       add_orbits(table, scene, figures::compare(scene, frequency, balance, settled));
     }

@@ -50,9 +50,9 @@ Where the motion is not T-periodic, no T-periodic solution can represent it, and
 draws five turns of the integrated motion alone. The paper names the three ranges but not
 the speeds of its panels (entry D-17 of the list of deviations); ours include those of
 Figs 4 and 5. */
+#include "balance/find.hpp"
 #include "figures/panels.hpp"
 #include "io/program.hpp"
-#include "motion/find_periodic.hpp"
 #include "time/steady_state.hpp"
 
 int main(int argc, char** argv)
@@ -64,7 +64,7 @@ int main(int argc, char** argv)
     for (double frequency : watched(scene.title, scene.frequencies)) {
       const double omega = angular(frequency);
       const PeriodicMotion balance =
-          motion::find_periodic({scene.machine, omega, scene.harmonics, scene.samples});
+          find_near_contact({scene.machine, omega, scene.harmonics, scene.samples});
       const auto settled = steady_state(scene.machine, omega, scene.time_integration);
       figures::add_orbits(table, scene,
                           figures::compare(scene, frequency, balance, settled));

@@ -31,6 +31,7 @@ shows the integrated motion too, and two other periods would give another pictur
 motions are computed as for Figure 6, at more instants of the period: the largest error of
 the force is found among them, and differs a little from that of Figure 6 at the same
 speed. The force of each ball is Eq. 5. */
+#include "balance/find.hpp"
 #include "figures/contact.hpp"
 #include "io/program.hpp"
 
@@ -43,7 +44,7 @@ int main(int argc, char** argv)
     for (double frequency : watched(scene.title, scene.frequencies)) {
       const double omega = angular(frequency);
       const PeriodicMotion balance =
-          motion::find_periodic({scene.machine, omega, scene.harmonics, scene.samples});
+          find_near_contact({scene.machine, omega, scene.harmonics, scene.samples});
       const auto settled = steady_state(scene.machine, omega, scene.time_integration);
       const figures::Panel panel = figures::compare(scene, frequency, balance, settled);
       add_contact(table, panel, motion::contact_evolution(scene.machine, panel.shown()));

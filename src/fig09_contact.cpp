@@ -30,6 +30,7 @@ error of 34 %. The panel therefore shows the integrated motion: the balls lose a
 their contact several times while they pass through the load. */
 #include "figures/contact.hpp"
 #include "io/program.hpp"
+#include "motion/find_periodic.hpp"
 
 int main(int argc, char** argv)
 {

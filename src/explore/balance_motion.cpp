@@ -105,7 +105,7 @@ motion::Judged solved(const Based& based, const BasePeriod& base,
 {
   constexpr double usual_tolerance = 1e-4;  // few harmonics often miss a subharmonic
   const int m = base.turns * request.harmonics.value_or(usual_harmonics);
-  const motion::Search search{
+  const BalanceSearch search{
       .parameters = based.machine,
       .omega = based.omega,
       .harmonics = m,

@@ -260,12 +260,12 @@ private:
   PeriodicMotion with_fixed_harmonics() const
   {
     require_period();
-    motion::Search search{.parameters = based_.machine,
-                          .omega = based_.omega,
-                          .harmonics = harmonics(),
-                          .samples = samples(),
-                          .newton = newton_,
-                          .budget = budget_};
+    BalanceSearch search{.parameters = based_.machine,
+                         .omega = based_.omega,
+                         .harmonics = harmonics(),
+                         .samples = samples(),
+                         .newton = newton_,
+                         .budget = budget_};
     if (before_.found() && before_.harmonics.count() == harmonics())
       search.starts.push_back(before_.x);
     return motion::find_periodic(search);

@@ -162,11 +162,11 @@ FoundMotion closed_motion(const Parameters& parameters, const MotionRequest& req
 {
   const double omega = angular(request.frequency);
   const int turns = request.subharmonic;
-  const motion::Search search{.parameters = parameters,
-                              .omega = omega,
-                              .harmonics = usual_harmonics,
-                              .budget = budget,
-                              .turns = turns};
+  const BalanceSearch search{.parameters = parameters,
+                             .omega = omega,
+                             .harmonics = usual_harmonics,
+                             .budget = budget,
+                             .turns = turns};
   motion::ClosedMotion closed =
       motion::closed_motion(search, request.points, request.local_error);
   const double error = closed.error.larger();

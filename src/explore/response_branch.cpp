@@ -61,13 +61,13 @@ PeriodicMotion found_start(const ResponseTask& task)
   constexpr double near = 1e-2;  // few harmonics often miss a subharmonic
   const double omega = task.range().from, hertz = task.hertz(omega);
   const int turns = task.request.subharmonic;
-  const motion::Search search{turns > 1 ? task.machine : task.parameters,
-                              turns * omega,
-                              task.harmonics,
-                              task.samples,
-                              task.settings.newton,
-                              task.budget,
-                              turns};
+  const BalanceSearch search{turns > 1 ? task.machine : task.parameters,
+                             turns * omega,
+                             task.harmonics,
+                             task.samples,
+                             task.settings.newton,
+                             task.budget,
+                             turns};
   if (turns > 1 && !task.request.harmonics) {
     motion::Judged at = motion::to_tolerance(search, near);
     if (at.reached) return std::move(at.motion);

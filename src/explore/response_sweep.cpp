@@ -305,10 +305,10 @@ Exploration response_to_tolerance(const ResponseTask& task)
       "harmonics and samples chosen for each speed, from the solution before");
   Eigen::VectorXd before;
   const auto row_at = [&](double frequency, const OperationBudget& budget) {
-    motion::Search search{.parameters = task.parameters,
-                          .omega = task.base(frequency),
-                          .harmonics = 6,
-                          .budget = budget};
+    BalanceSearch search{.parameters = task.parameters,
+                         .omega = task.base(frequency),
+                         .harmonics = 6,
+                         .budget = budget};
     if (before.size() > 0) search.starts = {before};
     const motion::Judged at = motion::to_tolerance(search, tolerance);
     if (!at.reached)

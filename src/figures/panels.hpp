@@ -11,7 +11,7 @@ error is large, or the second does not repeat, the panel shows the integrated mo
 
 #include "io/scene_file.hpp"
 #include "io/table.hpp"
-#include "motion/find_periodic.hpp"
+#include "motion/motion.hpp"
 
 namespace rotor_stator::figures {
 

@@ -7,6 +7,7 @@
 #include <utility>
 
 #include "io/errors.hpp"
+#include "motion/find_periodic.hpp"
 #include "time/eigenvalues.hpp"
 #include "time/settle.hpp"
 #include "time/shooting.hpp"
@@ -18,7 +19,7 @@ namespace {
 constexpr double hunting_error = 1e-11;
 
 /** Shooting over `turns` turns. */
-Shooting shot(const Search& search, int turns, State& state, double local_error)
+Shooting shot(const BalanceSearch& search, int turns, State& state, double local_error)
 {
   return shoot(over_turns(search.parameters, turns), search.omega / turns, state,
                {.tolerance = local_error,
@@ -27,7 +28,7 @@ Shooting shot(const Search& search, int turns, State& state, double local_error)
                 .budget = search.budget});
 }
 
-Motion record(const Search& search, int turns, const State& state, int points,
+Motion record(const BalanceSearch& search, int turns, const State& state, int points,
               double local_error)
 {
   return one_period(over_turns(search.parameters, turns), search.omega / turns, state,
@@ -38,7 +39,7 @@ Motion record(const Search& search, int turns, const State& state, int points,
 
 /** Looks for motions of period KT at one speed. */
 struct Hunt {
-  const Search& search;
+  const BalanceSearch& search;
   int turns;
   std::vector<State> found = {};
 
@@ -108,11 +109,11 @@ struct Hunt {
 
 /** What motions of all periods are looked for from, computed once. */
 struct Sources {
-  Search search;
+  BalanceSearch search;
   Verdict one_turn = {};  ///< on the solution of period T, if there is one
   std::optional<Settled> rest = {};
 
-  explicit Sources(const Search& wanted) : search(wanted)
+  explicit Sources(const BalanceSearch& wanted) : search(wanted)
   {
     search.turns = 1;
     search.starts.clear();
@@ -146,7 +147,7 @@ struct Sources {
 
 using Starts = std::vector<std::pair<std::string, std::function<std::vector<State>()>>>;
 
-Starts starts_of(const Search& search)
+Starts starts_of(const BalanceSearch& search)
 {
   const Parameters& parameters = search.parameters;
   if (search.turns > 1)
@@ -160,9 +161,7 @@ Starts starts_of(const Search& search)
            }},
           {"few harmonics",
            [&] {
-             Search few = search;
-             few.is_thorough = false;
-             const PeriodicMotion solution = find_periodic(few);
+             const PeriodicMotion solution = find_near_contact(search);
              return solution.found() ? std::vector{state_of(parameters, solution)}
                                      : std::vector<State>{};
            }},
@@ -176,7 +175,7 @@ Starts starts_of(const Search& search)
 
 }  // namespace
 
-ClosedMotion closed_motion(const Search& search, int points, double local_error)
+ClosedMotion closed_motion(const BalanceSearch& search, int points, double local_error)
 {
   require_rotation_period(search.parameters, "shooting");
   const int turns = search.turns;

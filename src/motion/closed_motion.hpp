@@ -15,7 +15,8 @@ eigenvector (at -1 the period doubling, Kuznetsov 2004, section 4.4). Shooting o
 turns starts at several distances there. What closes after fewer turns is not counted. */
 #pragma once
 
-#include "motion/find_periodic.hpp"
+#include "balance/find.hpp"
+#include "motion/motion.hpp"
 
 namespace rotor_stator::motion {
 
@@ -32,6 +33,6 @@ struct ClosedMotion {
     turn, by rk8 with a local error of `local_error` over the size of each component.
     Throws NoSolution when none was closed, BadInput when the bearing's force has not the
     period of rotation. */
-ClosedMotion closed_motion(const Search& search, int points, double local_error);
+ClosedMotion closed_motion(const BalanceSearch& search, int points, double local_error);
 
 }  // namespace rotor_stator::motion

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <optional>
 
 #include "balance/bearing_problem.hpp"
 #include "continuation/arc_length.hpp"
@@ -16,129 +17,31 @@ namespace {
 
 constexpr double well_closed = 1e-11;
 
-/** Whether only every p-th harmonic is there, for a prime p that divides K: then the
-    period is shorter. */
-bool repeats_sooner(const PeriodicMotion& motion, int turns)
+/** From the end of the branch that starts at 1 Hz, or at half the speed, by arc length
+    through all its folds; with few harmonics, since many see a fold at every contact
+    resonance. Empty where the branch does not come so far. */
+std::optional<Eigen::VectorXd> end_of_branch(const BalanceSearch& search)
 {
-  constexpr double unnoticed = 1e-5;
-  const Eigen::Map<const Eigen::MatrixXd> u(motion.x.data(), motion.force.rows(),
-                                            motion.force.cols());
-  for (int p : {2, 3, 5, 7}) {
-    if (turns % p != 0) continue;
-    double all = 0, others = 0;
-    for (int h = 1; h <= motion.harmonics.count(); ++h) {
-      const double size = u.middleCols(2 * h - 1, 2).squaredNorm();
-      all += size;
-      if (h % p != 0) others += size;
-    }
-    if (std::sqrt(others) <= unnoticed * std::sqrt(all)) return true;
-  }
-  return false;
+  constexpr int few = 16;
+  const Parameters& parameters = search.parameters;
+  const int m = std::min(few, search.harmonics);
+  const double omega = search.omega, from_omega = std::min(angular(1), omega / 2);
+  ArcLengthSettings settings = arc_length_settings(parameters, search.newton);
+  settings.most_evaluations = std::min(150000, 15000000 / (m * m));
+  Balance balance(
+      bearing_problem(parameters, std::min(search.samples, default_samples(m)),
+                      search.budget.part(0.3)),
+      m);
+  const Branch branch =
+      follow_branch(balance, from_omega, omega,
+                    quasi_static_start(parameters, from_omega, m), settings);
+  if (!branch.covered) return {};
+  return branch.points.back().motion.x;
 }
-
-/** Newton from one start after the other. */
-class Finder {
-public:
-  explicit Finder(const Search& search)
-      : search_(search), longer_(over_turns(search.parameters, search.turns)),
-        balance_(bearing_problem(longer_, search.turns * search.samples, search.budget),
-                 search.turns * search.harmonics)
-  {
-  }
-
-  PeriodicMotion run()
-  {
-    for (const Eigen::VectorXd& x : search_.starts)
-      if (from("a known motion", x)) return std::move(motion_);
-    if (search_.turns > 1 && search_.starts.empty()) from_closed();
-    if (search_.turns == 1 && !from_contact() && !from_fewer() && search_.is_thorough &&
-        !from_settled())
-      from_branch();
-    return std::move(motion_);
-  }
-
-private:
-  bool from(const std::string& name, const Eigen::VectorXd& x)
-  {
-    const long before = motion_.force_samples;
-    motion_ = {
-        .omega = search_.omega / search_.turns,
-        .x = resize_harmonics(x, balance_.problem().dofs, balance_.harmonics().count()),
-        .start = name};
-    solve(balance_, motion_, search_.newton);
-    motion_.force_samples += before;
-    if (search_.turns > 1 && repeats_sooner(motion_, search_.turns))
-      motion_.newton.end = NewtonEnd::no_decrease;
-    if (motion_.found()) motion_.bodies = body_series(longer_, motion_);
-    return motion_.found();
-  }
-
-  /** Only its low harmonics mean much: with more than 128, Newton goes most of its way on
-      fewer. */
-  bool from_contact()
-  {
-    constexpr int most = 128;
-    const int m = search_.harmonics;
-    return m <= most &&
-           from(quasi_static_name, quasi_static_start(longer_, search_.omega, m));
-  }
-
-  bool from_fewer()
-  {
-    constexpr int few = 64, least = 3;
-    Search fewer = search_;
-    fewer.harmonics = std::min(search_.harmonics / 2, few);
-    if (fewer.harmonics < least) return false;
-    fewer.samples = default_samples(fewer.harmonics);
-    fewer.is_thorough = false;
-    const PeriodicMotion start = find_periodic(fewer);
-    motion_.force_samples += start.force_samples;
-    return start.found() && from("fewer harmonics", start.x);
-  }
-
-  bool from_settled()
-  try {
-    return from("time integration", settled_start(search_, search_.harmonics));
-  } catch (const NoSolution&) {
-    return false;
-  }
-
-  /** From the end of the branch that starts at 1 Hz, or at half the speed, by arc length
-      through all its folds; with few harmonics, since many see a fold at every contact
-      resonance. */
-  bool from_branch()
-  {
-    constexpr int few = 16;
-    const int m = std::min(few, search_.harmonics);
-    const double omega = search_.omega, from_omega = std::min(angular(1), omega / 2);
-    ArcLengthSettings settings = arc_length_settings(longer_, search_.newton);
-    settings.most_evaluations = std::min(150000, 15000000 / (m * m));
-    Balance balance(
-        bearing_problem(longer_, std::min(search_.samples, default_samples(m)),
-                        search_.budget.part(0.3)),
-        m);
-    const Branch branch = follow_branch(
-        balance, from_omega, omega, quasi_static_start(longer_, from_omega, m), settings);
-    return branch.covered &&
-           from("arc length from a lower speed", branch.points.back().motion.x);
-  }
-
-  bool from_closed()
-  {
-    const Motion closed = closed_motion(search_, search_.samples, well_closed).motion;
-    return from(format("the motion of period %d T that shooting found", search_.turns),
-                relative_series(longer_, closed, balance_.harmonics().count()));
-  }
-
-  const Search& search_;
-  Parameters longer_;
-  Balance balance_;
-  PeriodicMotion motion_ = {};
-};
 
 /** The distance from the motion that is known; where there is none, or more harmonics
     have not brought the solution nearer by half, from the one that is closed now. */
-void add_distance(Judged& at, const Search& search, double tolerance)
+void add_distance(Judged& at, const BalanceSearch& search, double tolerance)
 {
   const double before = at.error.larger();
   Verdict& verdict = at.verdict;
@@ -171,7 +74,7 @@ void add_distance(Judged& at, const Search& search, double tolerance)
 }
 
 /** Of a motion of period KT it is known before which one it is. */
-void start_from_closed(Search& search, Verdict& verdict)
+void start_from_closed(BalanceSearch& search, Verdict& verdict)
 {
   constexpr int points = 256, harmonics = 64;
   ClosedMotion closed = closed_motion(search, points, well_closed);
@@ -184,12 +87,34 @@ void start_from_closed(Search& search, Verdict& verdict)
 
 }  // namespace
 
-PeriodicMotion find_periodic(const Search& search)
+PeriodicMotion find_periodic(const BalanceSearch& search)
 {
-  return Finder(search).run();
+  PeriodicMotion motion = find_near_contact(search);
+  const auto from = [&](const std::string& name, const Eigen::VectorXd& x) {
+    const long before = motion.force_samples;
+    motion = find_from(search, name, x);
+    motion.force_samples += before;
+  };
+  if (motion.found()) return motion;
+  if (search.turns > 1) {
+    if (!search.starts.empty()) return motion;
+    const Motion closed = closed_motion(search, search.samples, well_closed).motion;
+    from(format("the motion of period %d T that shooting found", search.turns),
+         relative_series(over_turns(search.parameters, search.turns), closed,
+                         search.turns * search.harmonics));
+    return motion;
+  }
+  try {
+    from("time integration", settled_start(search, search.harmonics));
+  } catch (const NoSolution&) {
+    // nothing to start from
+  }
+  if (motion.found()) return motion;
+  if (const auto x = end_of_branch(search)) from("arc length from a lower speed", *x);
+  return motion;
 }
 
-Eigen::VectorXd settled_start(const Search& search, int harmonics)
+Eigen::VectorXd settled_start(const BalanceSearch& search, int harmonics)
 {
   const Parameters& parameters = search.parameters;
   const double omega = search.omega;
@@ -207,7 +132,7 @@ Eigen::VectorXd settled_start(const Search& search, int harmonics)
                          harmonics);
 }
 
-Judged judged(const Search& search, const std::optional<double>& tolerance)
+Judged judged(const BalanceSearch& search, const std::optional<double>& tolerance)
 {
   Judged at{.motion = find_periodic(search)};
   at.force_samples = at.motion.force_samples;
@@ -217,7 +142,7 @@ Judged judged(const Search& search, const std::optional<double>& tolerance)
   return at;
 }
 
-Judged to_tolerance(Search search, double tolerance)
+Judged to_tolerance(BalanceSearch search, double tolerance)
 {
   constexpr int first = 6, few = 48, most = 1536, most_samples = 1 << 14;
   constexpr double infinite = std::numeric_limits<double>::infinity();
@@ -233,16 +158,17 @@ Judged to_tolerance(Search search, double tolerance)
     for (int m = first; turns * m <= most && !at.reached; m *= 2) {
       search.harmonics = m;
       search.samples = std::min(default_samples(m), most_samples / turns);
-      search.is_thorough = m >= few && !is_known && !is_settled;
-      if (search.is_thorough) try {
+      bool is_thorough = m >= few && !is_known && !is_settled;
+      if (is_thorough) try {
           known.push_back(settled_start(search, few));
           search.starts.push_back(known.back());
           is_settled = true;
-          search.is_thorough = false;
+          is_thorough = false;
         } catch (const NoSolution&) {
           if (search.budget.used_up()) throw;
         }
-      PeriodicMotion motion = find_periodic(search);
+      PeriodicMotion motion =
+          is_thorough ? find_periodic(search) : find_near_contact(search);
       at.force_samples += motion.force_samples;
       if (!motion.found() && !at.motion.found() && m >= 4 * few) break;
       if (!motion.found()) continue;

@@ -4,10 +4,9 @@
     PeriodicMotion six = find_periodic({parameters, omega, 6});
     Judged exact = to_tolerance({parameters, omega, 6}, 1e-3);
 
-Newton's method finds the solution that is near its start. A start is a given one (the
-solution at a neighbouring speed), quasi-static contact, the same with fewer harmonics,
-the motion that Eq. 7 settles on from rest, or the end of the branch from a lower speed;
-of a motion that repeats itself after K turns only, one that shooting has closed.
+Where no solution is near quasi-static contact (balance/find), Newton starts from the
+motion that Eq. 7 settles on from rest, or from the end of the branch from a lower speed;
+of a motion that repeats itself after K turns only, from one that shooting has closed.
 
 A solution does not know its own error. It is the distance from the motion of Eq. 7 that
 shooting closes near it, and a tolerance is met by twice as many harmonics until that is
@@ -15,33 +14,15 @@ small enough. The motion is closed from the first solution, and anew when doubli
 not halve the distance. */
 #pragma once
 
-#include <vector>
-
-#include "balance/newton.hpp"
+#include "balance/find.hpp"
 #include "motion/judge.hpp"
 
 namespace rotor_stator::motion {
 
-/** The name of the first start. */
-inline constexpr const char* quasi_static_name = "quasi-static contact";
-
-/** What is looked for, and how. */
-struct Search {
-  const Parameters& parameters;
-  double omega;                              ///< [rad/s]
-  int harmonics;                             ///< m
-  int samples = default_samples(harmonics);  ///< N
-  NewtonSettings newton = {};
-  OperationBudget budget = {};
-  int turns = 1;  ///< K: a motion of period KT, orders h/K up to m, N a turn
-  std::vector<Eigen::VectorXd> starts = {};  ///< coefficients to begin with
-  bool is_thorough = true;                   ///< whether the last two starts are tried
-};
-
 /** The solution with the series of both bodies; its ω is a K-th of the speed. Not found
     means that Newton converges from no start. Throws NoSolution when the budget is used
     up. */
-PeriodicMotion find_periodic(const Search& search);
+PeriodicMotion find_periodic(const BalanceSearch& search);
 
 /** A solution and the motion of Eq. 7 nearest to it. */
 struct Judged {
@@ -56,16 +37,16 @@ struct Judged {
 /** The solution with m = 6, 12, 24, … harmonics, at most 1536 and 2^14 samples, K T being
     the period, whose error is within the tolerance; `search.harmonics` and `samples` are
     not read. */
-Judged to_tolerance(Search search, double tolerance);
+Judged to_tolerance(BalanceSearch search, double tolerance);
 
 /** The solution with the harmonics that are asked for; without a tolerance any error is
     accepted, also none. */
-Judged judged(const Search& search, const std::optional<double>& tolerance = {});
+Judged judged(const BalanceSearch& search, const std::optional<double>& tolerance = {});
 
 /** One base period of what Eq. 7 settles on from rest, as coefficients of the relative
     motion [m]. Throws NoSolution where the integration breaks down, or the motion neither
     closes nor attracts its neighbours: where a chaotic one is differs from processor to
     processor. */
-Eigen::VectorXd settled_start(const Search& search, int harmonics);
+Eigen::VectorXd settled_start(const BalanceSearch& search, int harmonics);
 
 }  // namespace rotor_stator::motion

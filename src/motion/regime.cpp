@@ -6,8 +6,8 @@
 #include <numbers>
 #include <numeric>
 
+#include "balance/find.hpp"
 #include "motion/contact.hpp"
-#include "motion/find_periodic.hpp"
 
 namespace rotor_stator::motion {
 
@@ -63,8 +63,8 @@ SteadyState settled_motion(const Parameters& parameters, double frequency,
       the static load. */
   PeriodicMotion solution;
   if (has_rotation_period(parameters.bearing))
-    solution = find_periodic(
-        {.parameters = parameters, .omega = omega, .harmonics = 6, .is_thorough = false});
+    solution =
+        find_near_contact({.parameters = parameters, .omega = omega, .harmonics = 6});
   return steady_state(parameters, omega,
                       solution.found() ? state_of(solution) : static_start(parameters),
                       steady_settings);
