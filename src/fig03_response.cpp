@@ -30,11 +30,8 @@ there the curve does not describe what the machine does after a start from rest.
 large clearance most speeds below the resonance are of this kind, and at low speeds the
 curve has wide gaps. The figure says nothing about stability; the figure `stability`
 does. */
-#include <algorithm>
-
 #include "figures/response.hpp"
 #include "io/program.hpp"
-#include "motion/motion.hpp"
 
 int main(int argc, char** argv)
 {
@@ -49,14 +46,7 @@ int main(int argc, char** argv)
                          sweep(set.machine, angular(upwards), set.harmonics));
       figures::add_curve(table, set, figures::Curve::speed_down,
                          sweep(set.machine, angular(downwards), set.harmonics));
-      for (double frequency : watched("time integration", scene.time_speeds)) {
-        const double omega = angular(frequency);
-        SteadySettings settings = scene.time_integration;
-        int& instants = settings.stepper.intervals_per_period;
-        instants = std::max(instants, motion::instants_of(set.machine, omega));
-        const SteadyState settled = steady_state(set.machine, omega, settings);
-        figures::add_settled(table, set, frequency, instants, settled);
-      }
+      figures::add_settled(table, set, scene);
     }
     return table;
   });

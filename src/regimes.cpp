@@ -20,9 +20,9 @@ int main(int argc, char** argv)
     Table table = figures::regime_table(scene);
     for (int set = 0; const Parameters& machine : scene.machines) {
       ++set;
-      for (double frequency : watched("regimes", scene.frequencies))
-        figures::add_regime(table, set,
-                            motion::regime_at(machine, frequency, scene.settings));
+      for (const motion::Regime& regime :
+           motion::regimes_of(machine, scene.frequencies, scene.settings))
+        figures::add_regime(table, set, regime);
     }
     return table;
   });

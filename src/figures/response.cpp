@@ -1,7 +1,10 @@
 #include "figures/response.hpp"
 
+#include <algorithm>
+
 #include "balance/fourier_transform.hpp"
 #include "io/errors.hpp"
+#include "io/parallel.hpp"
 #include "io/scene_file.hpp"
 #include "motion/contact.hpp"
 
@@ -131,10 +134,9 @@ static void average_over_turns(Row& row, const Parameters& machine,
   row.contact_error = long_mean(contact).error;
 }
 
-void add_settled(Table& table, const DataSet& set, double frequency, int points,
-                 const SteadyState& settled)
+static Row settled_row(const DataSet& set, double frequency, const motion::Motion& motion,
+                       const SteadyState& settled)
 {
-  const motion::Motion motion = motion::motion_of(settled, points);
   Row row{.set = set.number,
           .curve = Curve::time_integration,
           .segment = 1,
@@ -145,7 +147,28 @@ void add_settled(Table& table, const DataSet& set, double frequency, int points,
           .periodic = settled.periodic,
           .spread_error = settled.spread_error};
   if (!settled.periodic) average_over_turns(row, set.machine, motion);
-  table.row(fields, row);
+  return row;
+}
+
+void add_settled(Table& table, const DataSet& set, const ResponseScene& scene)
+{
+  const std::vector<double>& speeds = scene.time_speeds;
+  std::vector<SteadyRun> runs;
+  for (const double frequency : speeds) {
+    SteadySettings settings = scene.time_integration;
+    int& instants = settings.stepper.intervals_per_period;
+    instants = std::max(instants, motion::instants_of(set.machine, angular(frequency)));
+    runs.push_back(
+        {set.machine, angular(frequency), static_start(set.machine), settings});
+  }
+  std::vector<Row> rows(speeds.size());
+  Progress progress("time integration", speeds.size());
+  steady_states(runs, [&](std::size_t k, const SteadyState& settled) {
+    const int instants = runs[k].settings.stepper.intervals_per_period;
+    rows[k] = settled_row(set, speeds[k], motion::motion_of(settled, instants), settled);
+    progress.step();
+  });
+  for (const Row& row : rows) table.row(fields, row);
 }
 
 }  // namespace rotor_stator::figures

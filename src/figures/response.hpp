@@ -33,8 +33,8 @@ enum class Curve { speed_up = 1, speed_down = 2, time_integration = 3 };
 void add_curve(Table& table, const DataSet& set, Curve curve,
                const std::vector<PeriodicMotion>& solutions);
 
-/** The amplitudes of an integrated motion with so many points per period. */
-void add_settled(Table& table, const DataSet& set, double frequency, int points,
-                 const SteadyState& settled);
+/** Those of the motions that settle from rest at the scene's speeds for time integration,
+    looked at twelve times in a vibration of the contact. */
+void add_settled(Table& table, const DataSet& set, const ResponseScene& scene);
 
 }  // namespace rotor_stator::figures

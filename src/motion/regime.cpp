@@ -7,6 +7,7 @@
 #include <numeric>
 
 #include "balance/find.hpp"
+#include "io/parallel.hpp"
 #include "motion/contact.hpp"
 
 namespace rotor_stator::motion {
@@ -45,30 +46,28 @@ double turns_of(const std::vector<Vec2>& force)
   return std::round(angle / (2 * std::numbers::pi)) + 0.0;  // no -0
 }
 
-SteadyState settled_motion(const Parameters& parameters, double frequency,
-                           const RegimeSettings& settings)
+namespace {
+
+SteadyRun run_of(const Parameters& parameters, double frequency,
+                 const RegimeSettings& settings)
 {
-  const double omega = 2 * std::numbers::pi * frequency;
-  SteadySettings steady_settings;
-  steady_settings.stepper = {
-      .method = "rk4",
-      .intervals_per_period = settings.points_per_period,
-      .step = settings.step_over_default * default_step(parameters)};
-  steady_settings.settled = 1e-7;
-  steady_settings.window = settings.window;
-  steady_settings.longest = settings.longest;
-  steady_settings.shown_periods = 2;
-  steady_settings.average = settings.average;
-  /** On the periodic solution if Newton finds one from the quasi-static contact, else at
-      the static load. */
+  SteadySettings steady;
+  steady.stepper = {.method = "rk4",
+                    .intervals_per_period = settings.points_per_period,
+                    .step = settings.step_over_default * default_step(parameters)};
+  steady.settled = 1e-7;
+  steady.window = settings.window;
+  steady.longest = settings.longest;
+  steady.shown_periods = 2;
+  steady.average = settings.average;
   PeriodicMotion solution;
   if (has_rotation_period(parameters.bearing))
-    solution =
-        find_near_contact({.parameters = parameters, .omega = omega, .harmonics = 6});
-  return steady_state(parameters, omega,
-                      solution.found() ? state_of(solution) : static_start(parameters),
-                      steady_settings);
+    solution = find_near_contact({parameters, angular(frequency), 6});
+  return {parameters, angular(frequency),
+          solution.found() ? state_of(solution) : static_start(parameters), steady};
 }
+
+}  // namespace
 
 RegimeMeasures measures_of(const Parameters& parameters, const Motion& two_periods)
 {
@@ -120,14 +119,28 @@ Regime regime_of(const Parameters& parameters, double frequency,
   return regime;
 }
 
-Regime regime_at(const Parameters& parameters, double frequency,
-                 const RegimeSettings& settings)
+std::vector<Regime> regimes_of(const Parameters& parameters,
+                               const std::vector<double>& frequencies,
+                               const RegimeSettings& settings)
 {
-  return regime_of(
-      parameters, frequency,
-      {settled_motion(parameters, frequency, settings),
-       settled_motion(parameters, frequency * (1 + other_rounding), settings)},
-      settings);
+  std::vector<SteadyRun> runs;
+  for (const double frequency : frequencies)
+    for (const double speed : {frequency, frequency * (1 + other_rounding)})
+      runs.push_back(run_of(parameters, speed, settings));
+  /** Both runs of a speed are judged, and forgotten, as soon as both have ended. */
+  std::vector<Regime> regimes(frequencies.size());
+  std::vector<std::vector<SteadyState>> ended(frequencies.size());
+  Progress progress("regimes", frequencies.size());
+  steady_states(runs, [&](std::size_t run, SteadyState steady) {
+    std::vector<SteadyState>& both = ended[run / 2];
+    both.push_back(std::move(steady));
+    if (both.size() < 2) return;
+    if (both.front().omega > both.back().omega) std::swap(both.front(), both.back());
+    regimes[run / 2] = regime_of(parameters, frequencies[run / 2], both, settings);
+    both = {};
+    progress.step();
+  });
+  return regimes;
 }
 
 RegimeSettings read_regime_settings(SceneFile& scene)

@@ -59,22 +59,19 @@ RegimeMeasures measures_of(const Parameters& parameters, const Motion& two_perio
 Regime regime_of(const Parameters& parameters, double frequency,
                  const std::vector<SteadyState>& runs, const RegimeSettings& settings);
 
-/** The same of the settled motion, integrated twice, at speeds that differ by 1e-11:
-    where several motions are stable, rounding may decide which one is reached. Throws
-    NoSolution when the integration breaks down. */
-Regime regime_at(const Parameters& parameters, double frequency,
-                 const RegimeSettings& settings);
+/** The same of the motions that settle at these speeds, each integrated twice, at speeds
+    that differ by 1e-11: where several motions are stable, rounding may decide which one
+    is reached. The integrations by rk4 begin on the periodic solution if Newton finds one
+    from the quasi-static contact, else at the static load. Throws NoSolution when one of
+    them breaks down. */
+std::vector<Regime> regimes_of(const Parameters& parameters,
+                               const std::vector<double>& frequencies,
+                               const RegimeSettings& settings);
 
 HigherHarmonics higher_harmonics(const Motion& motion);
 
 /** How often a force turns around its origin along the instants of a closed motion;
     instants without force are left out. */
 double turns_of(const std::vector<Vec2>& force);
-
-/** The motion of a machine at one speed, settled, by rk4: from the periodic solution if
-    Newton finds one from the quasi-static contact, else from the static load. Throws
-    NoSolution when the integration breaks down. */
-SteadyState settled_motion(const Parameters& parameters, double frequency,
-                           const RegimeSettings& settings);
 
 }  // namespace rotor_stator::motion

@@ -2,12 +2,13 @@
 
 #include <algorithm>
 #include <cmath>
+#include <memory>
 #include <numbers>
-#include <span>
 
 #include "io/errors.hpp"
 #include "io/scene_file.hpp"
 #include "time/section.hpp"
+#include "time/side_by_side.hpp"
 
 namespace rotor_stator {
 
@@ -25,75 +26,155 @@ double checked_period(double omega, double seconds)
   return period;
 }
 
-SteadyState steady_state(const Parameters& parameters, double omega, const State& start,
-                         const SteadySettings& settings)
-{
-  const double period =
-      checked_period(omega, std::max(settings.window, settings.longest));
-  const long window = std::max(4L, std::lround(std::ceil(settings.window / period)));
-  const long most =
-      std::max(2 * window, std::lround(std::ceil(settings.longest / period)));
-  const int intervals = settings.stepper.intervals_per_period;
-  const auto steps = flow(parameters, omega, settings.stepper);
-  SteadyState steady{.omega = omega};
-  State state = start;
-  std::vector<Displacements> section;
-  double size = 0;  // largest displacement of the last period
-  const auto periods = [&] { return std::ssize(section); };
-  const auto advance_one_period = [&](bool is_shown) {
-    const long first = periods() * intervals;
-    section.push_back(displacements(state.position));
-    size = 0;
-    for (long k = first; k < first + intervals; ++k) {
-      if (is_shown) steady.states.push_back(state);
-      for (double x : displacements(state.position)) size = std::max(size, std::abs(x));
-      steps->advance(k, state);
-    }
-    if (!vector_of(state).allFinite())
-      throw NoSolution(
-          format("time integration diverged after %ld periods", long{periods()}));
-  };
-  const auto spread = [&] {
-    const auto last = std::min<long>(window, periods());
-    const auto latest = std::span(section).last(static_cast<std::size_t>(last));
-    return size > 0 ? extent(latest) / size : 0;
-  };
+namespace {
 
-  std::vector<double> spreads;
-  do {
-    const long block = std::min<long>(window, most - periods());
-    for (long k = 0; k < block; ++k) advance_one_period(false);
-    spreads.push_back(spread());
-  } while (periods() < most && spreads.back() > settings.settled);
+/** One run, base period after base period. */
+class Steadying : public Traveller {
+public:
+  using Ended = std::function<void(SteadyState)>;
+  Steadying(const SteadyRun& run, Ended ended)
+      : run_(run), ended_(std::move(ended)), state_(run.start),
+        period_(checked_period(run.omega,
+                               std::max(run.settings.window, run.settings.longest))),
+        window_(std::max(4L, std::lround(std::ceil(run.settings.window / period_)))),
+        most_(std::max(2 * window_,
+                       std::lround(std::ceil(run.settings.longest / period_)))),
+        flow_(flow(run.parameters, run.omega, run.settings.stepper)),
+        left_(std::min(window_, most_)), steady_{.omega = run.omega}
+  {
+  }
+
+  void next(std::vector<Passage>& all) override
+  {
+    if (phase_ == Phase::ended) return;
+    const int intervals = run_.settings.stepper.intervals_per_period;
+    path_.assign(1, state_);
+    all.push_back({flow_.get(), periods() * intervals, &state_, intervals, &path_});
+  }
+
+  void arrived() override
+  {
+    add_period();
+    --left_;
+    switch (phase_) {
+      case Phase::settling: return settle();
+      case Phase::going_home: return go_home();
+      case Phase::shown: return show();
+      case Phase::ended: break;
+    }
+  }
+
+  void lost(std::exception_ptr why) override { std::rethrow_exception(why); }
+
+private:
+  enum class Phase { settling, going_home, shown, ended };
+
+  long periods() const { return std::ssize(section_); }
+
+  void add_period()
+  {
+    section_.push_back(displacements(path_.front().position));
+    path_.pop_back();  // the first instant of the next one
+    size_ = 0;
+    for (const State& state : path_)
+      for (const double x : displacements(state.position))
+        size_ = std::max(size_, std::abs(x));
+    if (phase_ == Phase::shown)
+      steady_.states.insert(steady_.states.end(), path_.begin(), path_.end());
+    if (!vector_of(state_).allFinite())
+      throw NoSolution(format("time integration diverged after %ld periods", periods()));
+  }
+
+  double spread() const
+  {
+    const auto last = static_cast<std::size_t>(std::min(window_, periods()));
+    return size_ > 0 ? extent(std::span(section_).last(last)) / size_ : 0;
+  }
+
+  void settle()
+  {
+    if (left_ > 0) return;
+    spreads_.push_back(spread());
+    left_ = std::min(window_, most_ - periods());
+    if (left_ > 0 && spreads_.back() > run_.settings.settled) return;
+    phase_ = Phase::going_home;
+    left_ = most_home;
+    go_home();
+  }
 
   /** The shown periods start with the cage at home, where it stood at t = 0, so that ball
       j is the ball j of t = 0; a cage that needs more than `most_home` periods has no
       such start within reach. */
-  constexpr int most_home = 64;
-  const auto cage_is_home = [&] {
+  void go_home()
+  {
     const double turns =
-        parameters.bearing.cage_speed_ratio * static_cast<double>(periods());
-    return std::abs(turns - std::round(turns)) < 1e-9;
-  };
-  for (int k = 0; k < most_home && !cage_is_home(); ++k) advance_one_period(false);
+        run_.parameters.bearing.cage_speed_ratio * static_cast<double>(periods());
+    if (left_ > 0 && !(std::abs(turns - std::round(turns)) < 1e-9)) return;
+    steady_.first_period = periods();
+    steady_.spread = spread();
+    steady_.periodic = steady_.spread < run_.settings.periodic;
+    steady_.seconds = static_cast<double>(periods()) * period_;
+    transient_ = std::ssize(spreads_) / 2;
+    left_ = run_.settings.shown_periods;
+    if (!steady_.periodic)
+      left_ = std::max(left_, std::lround(run_.settings.average / period_));
+    phase_ = Phase::shown;
+  }
 
-  steady.first_period = periods();
-  steady.spread = spread();
-  steady.periodic = steady.spread < settings.periodic;
-  steady.seconds = static_cast<double>(periods()) * period;
-  const auto transient = std::ssize(spreads) / 2;
-  long shown = settings.shown_periods;
-  if (!steady.periodic) shown = std::max(shown, std::lround(settings.average / period));
-  for (long k = 1; k <= shown; ++k) {
-    advance_one_period(true);
-    if (k % window == 0) spreads.push_back(spread());
+  void show()
+  {
+    if ((periods() - steady_.first_period) % window_ == 0) spreads_.push_back(spread());
+    if (left_ > 0) return;
+    if (!steady_.periodic) {
+      const BatchMean mean = long_mean({spreads_.begin() + transient_, spreads_.end()});
+      steady_.spread = mean.value;
+      steady_.spread_error = mean.error;
+    }
+    steady_.evaluations = flow_->evaluations();
+    phase_ = Phase::ended;
+    path_ = {};
+    section_ = {};
+    ended_(std::move(steady_));
   }
-  if (!steady.periodic) {
-    const BatchMean mean = long_mean({spreads.begin() + transient, spreads.end()});
-    steady.spread = mean.value;
-    steady.spread_error = mean.error;
+
+  static constexpr long most_home = 64;
+  const SteadyRun& run_;
+  Ended ended_;
+  State state_;
+  double period_;
+  long window_, most_;  ///< base periods
+  std::unique_ptr<Flow> flow_;
+  Phase phase_ = Phase::settling;
+  long left_;  ///< base periods, until what the phase waits for
+  std::vector<State> path_;
+  std::vector<Displacements> section_;
+  double size_ = 0;  ///< the largest displacement of the last period [m]
+  std::vector<double> spreads_;
+  std::ptrdiff_t transient_ = 0;  ///< of the spreads
+  SteadyState steady_;
+};
+
+}  // namespace
+
+void steady_states(std::span<const SteadyRun> runs,
+                   const std::function<void(std::size_t, SteadyState)>& ended)
+{
+  std::vector<std::unique_ptr<Steadying>> all;
+  std::vector<Traveller*> travellers;
+  for (std::size_t k = 0; k < runs.size(); ++k) {
+    all.push_back(std::make_unique<Steadying>(
+        runs[k], [&ended, k](SteadyState steady) { ended(k, std::move(steady)); }));
+    travellers.push_back(all.back().get());
   }
-  steady.evaluations = steps->evaluations();
+  travel(travellers);
+}
+
+SteadyState steady_state(const Parameters& parameters, double omega, const State& start,
+                         const SteadySettings& settings)
+{
+  SteadyState steady;
+  steady_states(std::vector<SteadyRun>{{parameters, omega, start, settings}},
+                [&](std::size_t, SteadyState one) { steady = std::move(one); });
   return steady;
 }
 

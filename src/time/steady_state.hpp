@@ -17,6 +17,8 @@ over the windows of so many seconds more, which are recorded.
 */
 #pragma once
 
+#include <functional>
+#include <span>
 #include <vector>
 
 #include "time/batch_mean.hpp"
@@ -56,8 +58,21 @@ struct SteadyState {
 /** The period T [s]. Throws NoSolution unless `seconds` of it can be integrated. */
 double checked_period(double omega, double seconds);
 
-/** Integrates from `start` at t = 0. Throws NoSolution when the integration breaks down.
- */
+/** What is integrated from `start` at t = 0. */
+struct SteadyRun {
+  const Parameters& parameters;
+  double omega;  ///< [rad/s]
+  State start;
+  SteadySettings settings;
+};
+
+/** All runs, those by rk4 side by side with the bits that each has alone; `ended` gets
+    the number of a run and its motion as soon as it ends. Throws NoSolution when an
+    integration breaks down. */
+void steady_states(std::span<const SteadyRun> runs,
+                   const std::function<void(std::size_t, SteadyState)>& ended);
+
+/** One of them. */
 SteadyState steady_state(const Parameters& parameters, double omega, const State& start,
                          const SteadySettings& settings);
 

@@ -10,6 +10,7 @@
 #include "time/gsl.hpp"
 #include "time/period_map.hpp"
 #include "time/shooting.hpp"
+#include "time/side_by_side.hpp"
 #include "time/steady_state.hpp"
 
 using namespace rotor_stator;
@@ -142,6 +143,46 @@ TEST_CASE(
   CHECK(steady.evaluations > 0);
   machine.bearing.cage_speed_ratio = 0.4321;  // not in step with the rotor
   CHECK_FALSE(at(6).periodic);
+}
+
+/** The reference is a stepper on its own. Would catch a run that waits for another one, one that is looked at an instant
+    late, and a cage that is not at home. */
+TEST_CASE("Runs to a steady state are the motions that a stepper makes alone")
+{
+  Parameters odd = set_1();
+  odd.bearing.cage_speed_ratio = 0.4;  // at home every five turns
+  SteadySettings settings;
+  settings.stepper = {.method = "rk4", .intervals_per_period = 32};
+  settings.longest = 3;
+  settings.window = 0.5;
+  settings.average = 0.4;
+  settings.shown_periods = 2;
+  std::vector<SteadyRun> runs;
+  for (const double frequency : {45.0, 45.1, 13.4, 13.5, 6.0, 6.1, 30.0, 30.1})
+    runs.push_back({odd, hertz(frequency), static_start(odd), settings});
+  runs.back().settings.stepper.method = "rk8";
+  std::vector<bool> has_ended(runs.size());
+  steady_states(runs, [&](std::size_t k, const SteadyState& steady) {
+    const auto& [machine, omega, start, own] = runs[k];
+    has_ended[k] = true;
+    CHECK(steady.first_period % 5 == 0);
+    const auto stepper = flow(machine, omega, own.stepper);
+    State state = start;
+    std::vector<State> path;
+    const long shown =
+        std::max(2L, steady.periodic ? 0 : std::lround(0.4 * omega / hertz(1)));
+    for (long period = 0; period < steady.first_period + shown; ++period) {
+      if (period == steady.first_period) path.assign(1, state);
+      advance_together(
+          std::vector<Passage>{{stepper.get(), 32 * period, &state, 32, &path}});
+    }
+    path.pop_back();  // the end of the last period
+    REQUIRE(steady.states.size() == path.size());
+    for (std::size_t i = 0; i < path.size(); ++i)
+      REQUIRE(vector_of(steady.states[i]) == vector_of(path[i]));
+    CHECK(steady.evaluations == stepper->evaluations());
+  });
+  CHECK(has_ended == std::vector<bool>(runs.size(), true));
 }
 
 TEST_CASE(
