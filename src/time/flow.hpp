@@ -45,7 +45,8 @@ struct StepSettings {
       {};  ///< for the evaluations of Eq. 7; without one, 1e9 of them
 };
 
-/** Large bodies take Gauss's rule, with a tolerance of 1e-8 where rk4 is asked for.
+/** Large bodies take Gauss's rule; where rk4 is asked for with a tolerance of 1e-8 at
+    `step_at`, and with that of half the step at half of it.
     Throws BadInput for an unknown method, or one that cannot have the bearing's force. */
 std::unique_ptr<Flow> flow(const Parameters& parameters, double omega,
                            const StepSettings& settings);

@@ -26,6 +26,10 @@ struct GaussRule {
   Eigen::Vector2cd s, t;
 };
 
+/** Coordinates up to which one matrix is faster than the factors of a shaft's narrow
+    bands. */
+constexpr Eigen::Index most_dense = 150;
+
 const GaussRule& gauss_rule()
 {
   static const GaussRule known = [] {
@@ -67,7 +71,9 @@ GaussStepper::GaussStepper(const LargeBodies& machine, const Parameters& paramet
     bearings_.emplace_back(bearing);
     balls += bearing.balls;
   }
-  price_ = (2000 + 80 * static_cast<double>(rest_.size()) + 10 * balls) /
+  const auto n = static_cast<double>(rest_.size());
+  price_ = (1750 * static_cast<double>(cages_.size()) + 10 * balls +
+            (n <= most_dense ? 0.75 * n * n : 130 * n)) /
            operations_per_evaluation(parameters.bearing.balls);
 }
 
@@ -85,23 +91,30 @@ GaussStepper::Level& GaussStepper::level(int k)
   if (made->factors.info() != Eigen::Success)
     throw NoSolution("the matrices of the bodies have no factors: " +
                      made->factors.lastErrorMessage());
-  made->to_forces = made->factors.solve(Eigen::MatrixXcd(joints_.cast<Complex>()));
-  const auto d = joints_.cols();
-  const Eigen::MatrixXcd at_joints =
-      joints_.cast<Complex>().transpose() * made->to_forces;
-  const Eigen::Vector2cd by_stage = a * a * t;
-  made->receptance.resize(2 * d, 2 * d);
-  for (int i : {0, 1})
-    for (int j : {0, 1})
-      made->receptance.block(i * d, j * d, d, d) =
-          2 * h * h * (s[j] * by_stage[i] * at_joints).real();
+  const Eigen::MatrixXcd x =
+      made->factors.solve(Eigen::MatrixXcd(joints_.cast<Complex>()));
+  Eigen::MatrixXcd of_both(x.rows(), 2 * x.cols());
+  of_both << s[0] * x, s[1] * x;
+  made->per_force = answer(*made, of_both);
   known = std::move(made);
   return *known;
 }
 
-Eigen::VectorXd GaussStepper::load(double phase) const
+/** What solutions x of the parted stages do, in the columns of `x`. */
+Eigen::MatrixXd GaussStepper::answer(const Level& level, const Eigen::MatrixXcd& x) const
 {
-  return rest_ + (std::polar(1.0, turns_ * phase) * unbalance_).real();
+  const auto& [a, c, lambda, s, t] = gauss_rule();
+  const Eigen::Index n = rest_.size(), d = joints_.cols();
+  const double h = level.step;
+  const Eigen::MatrixXcd joints_x = joints_.cast<Complex>().transpose() * x;
+  const Eigen::Vector2cd by_stage = a * a * t;
+  const Complex to_speed = t.sum() / 2.0, to_place = (a * t).sum() / 2.0;
+  Eigen::MatrixXd rows(2 * (d + n), x.cols());
+  for (int i : {0, 1})
+    rows.middleRows(i * d, d) = 2 * h * h * (by_stage[i] * joints_x).real();
+  rows.middleRows(2 * d, n) = 2 * h * h * (to_place * x).real();
+  rows.bottomRows(n) = 2 * h * (to_speed * x).real();
+  return rows;
 }
 
 /** Forces of the bearings at both stages, 4b, and their derivative by blocks of two. */
@@ -121,69 +134,90 @@ Eigen::VectorXd GaussStepper::reaction(const double* phases, const Eigen::Vector
   return force;
 }
 
-/** The stages without the bearings' forces, of states in the columns of `y`; loads at
-    both stages drive the first one. */
-Eigen::MatrixXcd GaussStepper::unforced(const Level& level, const double* phases,
-                                        const Eigen::MatrixXd& y) const
+/** A step without the bearings' forces, of states in the columns of `y`; with the rotor's
+    angle at its begin the loads drive the first one. */
+Eigen::MatrixXd GaussStepper::unforced_by_factors(const Level& level, const double* angle,
+                                                  const Eigen::MatrixXd& y) const
 {
   const auto& [a, c, lambda, s, t] = gauss_rule();
-  const auto n = rest_.size();
+  const Eigen::Index n = rest_.size(), d = joints_.cols();
+  const double h = level.step;
   const Eigen::MatrixXd v = y.bottomRows(n);
   Eigen::MatrixXcd x = -s.sum() * (stiffness_ * y.topRows(n) + damping_ * v);
-  x -= level.step * s.cwiseProduct(c.cast<Complex>()).sum() * (stiffness_ * v);
-  if (phases) x.col(0) += load(phases[0]) * s[0] + load(phases[1]) * s[1];
-  return level.factors.solve(x);
+  x -= h * s.cwiseProduct(c.cast<Complex>()).sum() * (stiffness_ * v);
+  for (int i = 0; angle && i < 2; ++i) {
+    const auto turned = std::polar(1.0, *angle + turns_ * omega_ * h * c[i]);
+    x.col(0) += (rest_ + (turned * unbalance_).real()) * s[i];
+  }
+  x = level.factors.solve(x);
+  Eigen::MatrixXd rows = answer(level, x);
+  const Eigen::MatrixXd joints_q = joints_.transpose() * y.topRows(n),
+                        joints_v = joints_.transpose() * v;
+  for (int i : {0, 1}) rows.middleRows(i * d, d) += joints_q + h * c[i] * joints_v;
+  rows.middleRows(2 * d, n) += y.topRows(n) + h * v;
+  rows.bottomRows(n) += v;
+  return rows;
+}
+
+/** The same, of few coordinates by one matrix: it is made for disturbances, and for a
+    motion when it has made as many steps as the matrix takes. */
+Eigen::MatrixXd GaussStepper::unforced(Level& level, double angle,
+                                       const Eigen::MatrixXd& y) const
+{
+  const Eigen::Index states = y.rows();
+  const bool is_many = y.cols() > 1 || level.steps > states;
+  if (level.unforced.size() == 0 && !(states <= 2 * most_dense && is_many))
+    return unforced_by_factors(level, &angle, y);
+  if (level.unforced.size() == 0) {
+    constexpr double half = std::numbers::pi, quarter = half / 2;
+    constexpr double zero = 0;
+    const Eigen::VectorXd none = Eigen::VectorXd::Zero(states);
+    const Eigen::VectorXd at_0 = unforced_by_factors(level, &zero, none),
+                          at_half = unforced_by_factors(level, &half, none),
+                          mean = (at_0 + at_half) / 2;
+    level.unforced.resize(at_0.size(), states + 3);
+    level.unforced << unforced_by_factors(level, nullptr,
+                                          Eigen::MatrixXd::Identity(states, states)),
+        mean, at_0 - mean, unforced_by_factors(level, &quarter, none) - mean;
+  }
+  Eigen::MatrixXd rows = level.unforced.leftCols(states) * y;
+  rows.col(0) += level.unforced.rightCols<3>() *
+                 Eigen::Vector3d(1, std::cos(angle), std::sin(angle));
+  return rows;
 }
 
 /** The motion in the first column of `y`, displacements and speeds, and its disturbances
     in the others. False where Newton does not converge. */
 bool GaussStepper::step(Level& level, double phase, Eigen::MatrixXd& y)
 {
-  const Eigen::Index n = rest_.size(), d = joints_.cols(), others = y.cols() - 1;
+  const Eigen::Index d = joints_.cols(), others = y.cols() - 1;
   budget_.spend(price_ * static_cast<double>(y.cols()));
-  const auto& [a, c, lambda, s, t] = gauss_rule();
-  const double h = level.step;
-  const double phases[] = {phase + omega_ * h * c[0], phase + omega_ * h * c[1]};
-  Eigen::MatrixXcd x(n, y.cols());
-  x.col(0) = unforced(level, phases, y.col(0));
-  constexpr Eigen::Index most_dense = 200;
-  if (others > 0 && n <= most_dense) {
-    if (level.all.size() == 0)
-      level.all = unforced(level, nullptr, Eigen::MatrixXd::Identity(2 * n, 2 * n));
-    x.rightCols(others).noalias() = level.all * y.rightCols(others);
-  } else if (others > 0) {
-    x.rightCols(others) = unforced(level, nullptr, y.rightCols(others));
-  }
-
-  const Eigen::MatrixXd joints_q = joints_.transpose() * y.topRows(n),
-                        joints_v = joints_.transpose() * y.bottomRows(n);
-  const Eigen::MatrixXcd joints_x = joints_.cast<Complex>().transpose() * x;
-  const Eigen::Vector2cd by_stage = a * a * t;
-  Eigen::MatrixXd free(2 * d, y.cols()), force(2 * d, y.cols()), stiffness, slope;
+  ++level.steps;
+  const Eigen::Vector2d& c = gauss_rule().c;
+  const double by = omega_ * level.step,
+               phases[] = {phase + by * c[0], phase + by * c[1]};
+  const Eigen::MatrixXd rows = unforced(level, turns_ * phase, y);
+  const auto free = rows.topRows(2 * d);
+  const auto receptance = level.per_force.topRows(2 * d);
+  Eigen::MatrixXd force(2 * d, y.cols()), stiffness, slope;
   Eigen::PartialPivLU<Eigen::MatrixXd> factors;
-  for (int i : {0, 1})
-    free.middleRows(i * d, d) =
-        joints_q + h * c[i] * joints_v + 2 * h * h * (by_stage[i] * joints_x).real();
   Eigen::VectorXd u = free.col(0), change;
   constexpr int most_iterations = 12;
   constexpr double rounding = 1e-12;
   for (int iteration = 0;; ++iteration) {
     if (iteration == most_iterations) return false;
     force.col(0) = reaction(phases, u, stiffness);
-    slope = level.receptance * stiffness;
+    slope.noalias() = receptance * stiffness;
     slope.diagonal().array() += 1;
     factors.compute(slope);
-    change = factors.solve(u - free.col(0) + level.receptance * force.col(0));
+    change = factors.solve(u - free.col(0) + receptance * force.col(0));
     u -= change;
     if (!u.allFinite()) return false;
     if (change.cwiseAbs().maxCoeff() <= rounding * length_) break;
   }
   if (others > 0)
     force.rightCols(others) = stiffness * factors.solve(free.rightCols(others));
-  x -= level.to_forces * (force.topRows(d) * s[0] + force.bottomRows(d) * s[1]);
-  const Complex to_speed = t.sum() / 2.0, to_place = (a * t).sum() / 2.0;
-  y.topRows(n) += h * y.bottomRows(n) + 2 * h * h * (to_place * x).real();
-  y.bottomRows(n) += 2 * h * (to_speed * x).real();
+  y = rows.bottomRows(y.rows()) - level.per_force.bottomRows(y.rows()) * force;
   return true;
 }
 
@@ -242,12 +276,17 @@ double LargeMachine::step(const Parameters& parameters, double) const
   return default_step(parameters);
 }
 
+/** Half the step of rk4 is half the step here: the error of one falls with its fifth
+    power. */
 std::unique_ptr<Flow> LargeMachine::flow(const Parameters& parameters, double omega,
                                          const StepSettings& settings) const
 {
+  constexpr double usual = 1e-8;
+  const double steps = settings.step > 0 ? settings.step / step(parameters, omega) : 1;
   return std::make_unique<GaussStepper>(
       bodies_, parameters, omega, settings.intervals_per_period,
-      settings.method == "rk4" ? 1e-8 : settings.tolerance, settings.budget);
+      settings.method == "rk4" ? usual * std::pow(steps, 5) : settings.tolerance,
+      settings.budget);
 }
 
 /** Steps for the derivative need not be as small as those for the state. */

@@ -44,18 +44,20 @@ public:
 private:
   using Sparse = Eigen::SparseMatrix<std::complex<double>>;
 
-  /** What belongs to a step size. */
+  /** What belongs to a step size. Its matrices give displacements u [m] of the bearings
+      at both stages, 4b rows, above the state after the step, 2n rows. */
   struct Level {
     double step;  ///< [s]
     Eigen::SparseLU<Sparse> factors;
-    Eigen::MatrixXcd to_forces;  ///< answers to unit forces on the joints, n × 2b
-    Eigen::MatrixXd receptance;  ///< u of both stages per force there, 4b × 4b
-    Eigen::MatrixXcd all;  ///< `unforced` of few coordinates, n × 2n; made when needed
+    Eigen::MatrixXd per_force;  ///< what forces of the bearings take, by 4b
+    Eigen::MatrixXd unforced;   ///< of a state, and of 1, cos, sin; where few coordinates
+    long steps = 0;
   };
   Level& level(int k);
-  Eigen::MatrixXcd unforced(const Level& level, const double* phases,
-                            const Eigen::MatrixXd& y) const;
-  Eigen::VectorXd load(double phase) const;
+  Eigen::MatrixXd answer(const Level& level, const Eigen::MatrixXcd& x) const;
+  Eigen::MatrixXd unforced_by_factors(const Level& level, const double* angle,
+                                      const Eigen::MatrixXd& y) const;
+  Eigen::MatrixXd unforced(Level& level, double angle, const Eigen::MatrixXd& y) const;
   Eigen::VectorXd reaction(const double* phases, const Eigen::VectorXd& u,
                            Eigen::MatrixXd& stiffness);
   bool step(Level& level, double phase, Eigen::MatrixXd& y);

@@ -1,5 +1,6 @@
 /** Bodies given by matrices: the implicit stepper and its derivative against the explicit steppers of Eq. 7, and the
     condensed blocks against differences. */
+#include <algorithm>
 #include <cmath>
 #include "support/catch.hpp"
 
@@ -93,6 +94,29 @@ TEST_CASE("The stepper of Gauss has order 4 where the contact stays")
   CHECK(coarse < 1e-2 * 1e-7);
   CHECK(coarse / fine > 14);
   CHECK(coarse / fine < 18);
+}
+
+/** A stepper that is new makes its steps by the sparse factors, one that has made many by their matrix. Would catch a load
+    of another phase, and a matrix of another step or without a body's turning. */
+TEST_CASE("The steps of Gauss by one matrix are those by its factors")
+{
+  Parameters large = set_1_by_matrices();
+  LargeBodies machine = matrices_of(large);
+  machine.gyroscopic(2, 3) = 7;
+  machine.gyroscopic(3, 2) = -7;
+  large.turns = 3;
+  const int intervals = 1024;
+  const double wide = 1e3, omega = hertz(45) / large.turns;
+  GaussStepper lasting(machine, large, omega, intervals, wide);
+  State one = static_start(large), other = one;
+  double largest = 0;
+  for (long k = 0; k < 1000; ++k) {
+    lasting.advance(k, one);
+    GaussStepper(machine, large, omega, intervals, wide).advance(k, other);
+    largest = std::max(largest, vector_of(one).head(4).norm());
+  }
+  CHECK((vector_of(one) - vector_of(other)).head(4).norm() < 1e-9 * largest);
+  CHECK((vector_of(one) - vector_of(static_start(large))).head(4).norm() > 0.1 * largest);
 }
 
 /** The arc length needs them; the gyroscopic part is there so that the speed in S counts beside the frequency. */

@@ -340,6 +340,14 @@ radial_clearance_m = {b["clearance"]}
             one, other = [t["x_r"][t["name"] == name][0] for t in [found, settled]]
             self.assertAlmostEqual(one, other, delta=0.02 * other, msg=name)
 
+    def test_printed_error_of_an_integrated_motion(self):
+        """Half the step is half the step: an error between two runs of equal steps was 5e-18."""
+        run = ["orbit", Path("data/rotors/two_disks.toml").resolve(), "--frequency", 45]
+        usual, exact = self.table(*run), self.table(*run, "--method", "gauss", "--local-error", 1e-11)
+        self.assertGreater(usual.value("error_rms"), 1e-9)
+        for name in NAMES[2:]:
+            self.assertLess(rms(usual[name], exact[name]), usual.value("error_rms"))
+
     def test_one_bearing(self):
         """A wrong G, phase, output or cage angle would show."""
         list(self.answers(4, [(4, {**BEARING, "phase": 0.3, "clearance": 2e-5})], 4e6, [18, 30, 42, 55, 70, 95]))
