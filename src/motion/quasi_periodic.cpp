@@ -176,16 +176,27 @@ public:
     /** Twice as many as the highest order that is looked for. */
     const double contact = contact_frequency(parameters_) / search.omega;
     const int points = contact < 40 ? 128 : 256;
-    const Answer rest =
-        answer(parameters_, {.omega = search.omega, .points = points, .periods = turns},
-               search.budget);
+    const Request request{.omega = search.omega, .points = points};
+    const Question question{.parameters = parameters_,
+                            .request = request,
+                            .budget = search.budget,
+                            .transient = parameters_.machine->patience().transient};
+    Answer rest = std::move(settled_answers({&question, 1}).front().get());
     if (!rest.settled.contracts)
       throw NoSolution(
           format("the motion from rest is %s, without lines that a branch could follow; "
                  "response without --method has its amplitudes",
                  word(rest.kind())));
-    record_ = rest.motion;
-    record_error_ = rest.error.value_or(Error{});
+    const auto completed = [&](int periods, bool is_measured) {
+      Answer answer = rest;
+      Request wanted = request;
+      wanted.periods = periods;
+      wanted.is_measured = is_measured;
+      complete(answer, wanted, search.budget);
+      return answer;
+    };
+    record_ = completed(turns, false).motion;
+    compared_ = completed(compared_turns, true);
     const Eigen::MatrixXd samples = relative_samples(parameters_, record_);
     const Eigen::VectorXd window = blackman_harris(samples.rows());
     for (const auto& column : samples.colwise())
@@ -245,14 +256,8 @@ public:
   }
 
   /** What is compared with solutions, and how exact it is. */
-  Motion record() const
-  {
-    Motion part = record_;
-    part.positions.resize(static_cast<std::size_t>(compared_turns) *
-                          part.points_per_period);
-    return part;
-  }
-  const Error& record_error() const { return record_error_; }
+  const Motion& record() const { return compared_.motion; }
+  Error record_error() const { return compared_.error.value_or(Error{}); }
 
 private:
   static constexpr int turns = 1280;  ///< of the record
@@ -293,7 +298,7 @@ private:
   const TorusSearch& search_;
   const Parameters& parameters_;
   Motion record_ = {};
-  Error record_error_ = {};
+  Answer compared_ = {};
   std::vector<FineTransform> transforms_;  ///< of the relative motions [m]
 };
 
