@@ -30,12 +30,6 @@ def cells_as_numbers(column):
 KEY = re.compile(r"# (?!(?:source|compiler|parameters|column|note|row)\b)([a-z]\w*): (\S+(?: [\d.]+)?)")
 MEMBER = re.compile(r"# row (\S+): (.*)")
 
-# Where the tables that are still kept from version 0.1.0 say what is a key or a list now. It goes when they are kept anew.
-OLD = {"cores": r"cores: (\d+)", "nearest": r"(cvode-\S+|scipy-\S+) ([\d.e-]+)(?=,|\n)",
-       "run": r"# run (\w+): from [^:]*: (\d+) points, (\d+) folds, from (\S+) to (\S+) Hz;",
-       "distance": r"# run (\w+): distance .* at (\d+) speeds: median (\S+), largest (\S+) at (\S+) Hz",
-       "balance": r"# run (\w+): harmonic balance, m = (\d+), .*?: (\d+) points, folds: (\d+)"}
-
 
 def number_or_word(text):
     try:
@@ -77,9 +71,6 @@ class Table:
         keys = self.keys()
         if key in keys:
             return keys[key]
-        old = self._old(key)
-        if old:
-            return old[0][0]
         if default:
             return default[0]
         raise KeyError(f"the header of the table has no key {key}")
@@ -88,13 +79,7 @@ class Table:
         """The members of a list, each a list of numbers and words."""
         found = (MEMBER.fullmatch(line) for line in self.header.split("\n"))
         rows = [match[2].split() for match in found if match and match[1] == name]
-        return [[number_or_word(word) for word in row] for row in rows] or self._old(name)
-
-    def _old(self, name):
-        """What a table of version 0.1.0 says in a sentence."""
-        if "# schema: " in self.header or name not in OLD:
-            return []
-        return [[number_or_word(word) for word in match.groups() if word] for match in re.finditer(OLD[name], self.header)]
+        return [[number_or_word(word) for word in row] for row in rows]
 
     def __getitem__(self, name):
         return self.columns[name]
