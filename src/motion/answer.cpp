@@ -248,6 +248,11 @@ std::vector<Attempt<Answer>> settled_answers(std::span<const Question> questions
   return answers;
 }
 
+Answer settled_answer(const Question& question)
+{
+  return std::move(settled_answers({&question, 1}).front().get());
+}
+
 void complete(Answer& answer, const Request& request, const OperationBudget& budget)
 {
   if (answer.kind() == Kind::rest) return rest(answer, request);
@@ -268,7 +273,7 @@ Answer answer(const Parameters& parameters, const Request& request,
                           .request = request,
                           .budget = budget,
                           .transient = parameters.machine->patience().transient};
-  Answer found = std::move(settled_answers({&question, 1}).front().get());
+  Answer found = settled_answer(question);
   complete(found, request, budget);
   return found;
 }

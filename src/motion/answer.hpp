@@ -85,6 +85,7 @@ struct Question {
 /** The two halves of an answer: what the machine settles on, of all questions side by
     side; and that motion itself, with error and stability. */
 std::vector<Attempt<Answer>> settled_answers(std::span<const Question> questions);
+Answer settled_answer(const Question& question);
 void complete(Answer& answer, const Request& request, const OperationBudget& budget = {});
 
 /** What is reported of x_s, y_s, x_r, y_r [m]. Of a periodic motion over its K base

@@ -181,7 +181,7 @@ public:
                             .request = request,
                             .budget = search.budget,
                             .transient = parameters_.machine->patience().transient};
-    Answer rest = std::move(settled_answers({&question, 1}).front().get());
+    const Answer rest = settled_answer(question);
     if (!rest.settled.contracts)
       throw NoSolution(
           format("the motion from rest is %s, without lines that a branch could follow; "

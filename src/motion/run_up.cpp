@@ -100,7 +100,7 @@ Beginning beginning(const Parameters& parameters, double speed,
     return {rest_state(parameters, Direction::of(parameters.bearing.cage_phase)), 0};
   const Question question{
       .parameters = parameters, .request = {.omega = speed}, .budget = budget};
-  const Answer answer = std::move(settled_answers({&question, 1}).front().get());
+  const Answer answer = settled_answer(question);
   return {answer.settled.at.state,
           static_cast<double>(answer.settled.at.period) / answer.base.per_turn};
 }

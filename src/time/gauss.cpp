@@ -159,27 +159,31 @@ Eigen::MatrixXd GaussStepper::unforced_by_factors(const Level& level, const doub
   return rows;
 }
 
-/** The same, of few coordinates by one matrix: it is made for disturbances, and for a
+/** The same of all states and of the loads by superposition: columns for the coordinates
+    and speeds, and for 1, cos and sin of the rotor's angle. */
+Eigen::MatrixXd GaussStepper::all_unforced(const Level& level) const
+{
+  const Eigen::Index states = 2 * rest_.size();
+  const auto loaded = [&](double angle) -> Eigen::VectorXd {
+    return unforced_by_factors(level, &angle, Eigen::VectorXd::Zero(states));
+  };
+  const Eigen::VectorXd at_0 = loaded(0), mean = (at_0 + loaded(std::numbers::pi)) / 2;
+  Eigen::MatrixXd all(at_0.size(), states + 3);
+  all << unforced_by_factors(level, nullptr, Eigen::MatrixXd::Identity(states, states)),
+      mean, at_0 - mean, loaded(std::numbers::pi / 2) - mean;
+  return all;
+}
+
+/** The same, of few coordinates by that matrix: it is made for disturbances, and for a
     motion when it has made as many steps as the matrix takes. */
 Eigen::MatrixXd GaussStepper::unforced(Level& level, double angle,
                                        const Eigen::MatrixXd& y) const
 {
   const Eigen::Index states = y.rows();
   const bool is_many = y.cols() > 1 || level.steps > states;
-  if (level.unforced.size() == 0 && !(states <= 2 * most_dense && is_many))
-    return unforced_by_factors(level, &angle, y);
-  if (level.unforced.size() == 0) {
-    constexpr double half = std::numbers::pi, quarter = half / 2;
-    constexpr double zero = 0;
-    const Eigen::VectorXd none = Eigen::VectorXd::Zero(states);
-    const Eigen::VectorXd at_0 = unforced_by_factors(level, &zero, none),
-                          at_half = unforced_by_factors(level, &half, none),
-                          mean = (at_0 + at_half) / 2;
-    level.unforced.resize(at_0.size(), states + 3);
-    level.unforced << unforced_by_factors(level, nullptr,
-                                          Eigen::MatrixXd::Identity(states, states)),
-        mean, at_0 - mean, unforced_by_factors(level, &quarter, none) - mean;
-  }
+  if (level.unforced.size() == 0 && states <= 2 * most_dense && is_many)
+    level.unforced = all_unforced(level);
+  if (level.unforced.size() == 0) return unforced_by_factors(level, &angle, y);
   Eigen::MatrixXd rows = level.unforced.leftCols(states) * y;
   rows.col(0) += level.unforced.rightCols<3>() *
                  Eigen::Vector3d(1, std::cos(angle), std::sin(angle));

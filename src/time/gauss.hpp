@@ -57,6 +57,7 @@ private:
   Eigen::MatrixXd answer(const Level& level, const Eigen::MatrixXcd& x) const;
   Eigen::MatrixXd unforced_by_factors(const Level& level, const double* angle,
                                       const Eigen::MatrixXd& y) const;
+  Eigen::MatrixXd all_unforced(const Level& level) const;
   Eigen::MatrixXd unforced(Level& level, double angle, const Eigen::MatrixXd& y) const;
   Eigen::VectorXd reaction(const double* phases, const Eigen::VectorXd& u,
                            Eigen::MatrixXd& stiffness);
