@@ -17,8 +17,9 @@ step and the transient, are found by trying, with the true motions at hand: one 
 for all speeds of a range, or another one at each speed, whichever takes less time.
 
 `rk4` integrates one motion at a time, from speed to speed, and is what the paper compares
-with. `rk4-lanes` is the same integrator with all speeds side by side in the registers of
-the processor. `central` are central differences, which need one force per step, and `rk8`
+with. `splitting` is the rule of order four with which `explore` integrates
+(time/fixed_step.hpp). `rk4-lanes` and `splitting-lanes` are the same integrators with all
+speeds side by side in the registers of the processor. `central` are central differences, which need one force per step, and `rk8`
 is the pair of Dormand and Prince of order eight; both are compiled like `rk4`. `rkf45`
 and the implicit and multistep methods are GSL's, whose calls take time of their own.
 

@@ -14,6 +14,7 @@
 #include "motion/answer.hpp"
 #include "motion/contact.hpp"
 #include "motion/other_starts.hpp"
+#include "time/fixed_step.hpp"
 
 namespace rotor_stator::explore {
 
@@ -381,9 +382,12 @@ void note(Table& table, const Task& task)
 {
   describe(table, task.machine);
   const Machine& machine = *task.machine.machine;
-  table.value("method", machine.time_method());
+  const std::string method = machine.time_method(task.machine);
+  table.value("method", method);
   if (machine.takes_explicit_steps())
-    table.value("step", step_ratio(task.request.tolerance) * default_step(task.machine),
+    table.value("step",
+                (method == "splitting" ? splitting_over_rk4 : 1) *
+                    step_ratio(task.request.tolerance) * default_step(task.machine),
                 4);
   if (task.request.tolerance) table.value("tolerance", *task.request.tolerance);
   table.value("base", task.base.words());

@@ -120,7 +120,8 @@ public:
              .longest = asked.longest},
             budget_,
             {},
-            machine_.machine->patience().transient};
+            machine_.machine->patience().transient,
+            has_record()};
   }
 
   /** What its question came to. */
@@ -144,12 +145,12 @@ public:
   double amplitude()
   {
     return is_balance() ? half_peak_to_peak(solution().bodies)[2]
-                        : observed().amplitude[2];
+                        : settled_.seen.get().amplitude[2];
   }
   double mean()
   {
     return is_balance() ? motion::displacement_samples(motion()).col(3).mean()
-                        : observed().mean[3];
+                        : settled_.seen.get().mean[3];
   }
   double contact_share() { return motion::contact_share(moving(), motion()); }
   double ball_load() { return motion::largest_ball_load(moving(), motion()); }
@@ -235,7 +236,13 @@ private:
   /** Whether the tolerance chooses m. */
   bool is_chosen() const { return task_.request.tolerance && !task_.request.harmonics; }
 
-  const motion::Observation& observed() { return settled_.seen.get(); }
+  /** For these quantities the motion from rest is observed. */
+  bool has_record() const
+  {
+    return std::ranges::any_of(task_.request.quantities, [](const std::string& name) {
+      return name == "amplitude" || name == "mean";
+    });
+  }
 
   /** One period of the solution, or the record of the motion from rest; and the machine
       that counts its periods. */
@@ -436,15 +443,6 @@ std::vector<Quantity> chosen_quantities(const MapTask& task)
 
 namespace {
 
-/** Settles and observes the motions from rest of all points side by side. */
-void settle_together(std::span<MapPoint* const> points)
-{
-  std::vector<motion::Question> questions;
-  for (const auto& point : points) questions.push_back(point->question());
-  auto all = motion::observed_answers(questions);
-  for (std::size_t k = 0; k < points.size(); ++k) points[k]->take(std::move(all[k]));
-}
-
 std::string row_of(MapPoint* point, const std::vector<Quantity>& chosen,
                    std::string status)
 {
@@ -484,10 +482,12 @@ std::vector<std::string> rows_of(const MapTask& task, const std::vector<Quantity
   const bool needs_rest = std::ranges::any_of(chosen, [&](const Quantity& one) {
     return one.source == Source::rest || (one.source == Source::motion && !is_balance);
   });
-  std::vector<MapPoint*> whole;
+  std::vector<motion::Question> questions;
   for (const auto& point : made)
-    if (point && needs_rest) whole.push_back(point.get());
-  settle_together(whole);
+    if (point && needs_rest) questions.push_back(point->question());
+  auto answers = motion::observed_answers(questions);
+  for (auto answer = answers.begin(); const auto& point : made)
+    if (point && needs_rest) point->take(std::move(*answer++));
   std::vector<std::string> rows;
   for (std::size_t k = 0; k < points.size(); ++k) {
     std::string keys;

@@ -171,8 +171,10 @@ struct TimeOptions {
   CLI::Option *step, *longest;
 
   TimeOptions(CLI::App& command, double& step_value, double& longest_value)
-      : step(add_number(command, "--step", step_value, 0.0, largest,
-                        "longest step of rk4 [s] (default: from K_H)")),
+      : step(add_number(
+            command, "--step", step_value, 0.0, largest,
+            "longest step of rk4, a fourth of one of splitting [s] (default: from "
+            "K_H)")),
         longest(add_number(command, "--longest", longest_value, 1e-3, 1e5,
                            "longest transient of a motion in time, after t = 0 [s]"))
   {
@@ -180,8 +182,8 @@ struct TimeOptions {
 
   void check(const std::string& method) const
   {
-    refuse({step}, method == "rk4" || method == "auto",
-           "for a motion in time, by rk4 or auto", method);
+    refuse({step}, method == "auto" || has_fixed_step(method),
+           "for a motion in time, by rk4, splitting or auto", method);
     refuse({longest}, !is_periodic(method), "for a motion in time", method);
   }
 };
@@ -254,8 +256,8 @@ Check add_options(CLI::App& command, MotionRequest& request)
     in_time.check(method);
     if (request.plot && request.points < 2)
       throw BadInput("--points 1: --plot needs two or more");
-    refuse({local_error}, method != "aft" && method != "rk4",
-           "for shooting and the time methods but rk4", method);
+    refuse({local_error}, method != "aft" && !has_fixed_step(method),
+           "for shooting and the time methods without fixed steps", method);
     refuse({points}, !is_spectrum || method != "aft", "for shooting and the time methods",
            method);
   };

@@ -176,7 +176,6 @@ bool touches_somewhere(motion::Answer& answer)
   motion::add(now, answer.settled.at.state);
   if (motion::contact_share(answer.machine, now) > 0) return true;
   complete(answer, {.omega = answer.omega,
-                    .method = "rk4",
                     .points = 64,
                     .periods = 4,
                     .is_measured = false});
@@ -191,8 +190,7 @@ ResponseRow row_of(motion::Answer& answer, const motion::Observation& seen,
 {
   ResponseRow row{.frequency = asked.omega / angular(1),
                   .amplitude = seen.amplitude,
-                  .period = answer.period_number(),
-                  .lyapunov = answer.settled.lyapunov.value};
+                  .period = answer.period_number()};
   if (has_records) {
     if (measures.empty())
       complete(answer, asked, budget);
@@ -203,6 +201,7 @@ ResponseRow row_of(motion::Answer& answer, const motion::Observation& seen,
   } else if (!touches && touches_somewhere(answer)) {
     touches = true;
   }
+  row.lyapunov = answer.settled.lyapunov.value;
   row.mean = seen.mean;
   row.rms = seen.rms;
   return row;
@@ -236,7 +235,7 @@ Exploration settled_response(const ResponseRequest& request)
   const bool has_records =
       sweep.table.choose(request.columns, usual, request.plot.has_value());
   describe(sweep.table, machine);
-  sweep.table.value("method", machine.machine->time_method());
+  sweep.table.value("method", machine.machine->time_method(machine));
   sweep.table.value("kind", "sweep");
   sweep.table.value("base", base_period(machine).words());
   sweep.table.value("direction", direction);
@@ -246,6 +245,8 @@ Exploration settled_response(const ResponseRequest& request)
   sweep.table.note(
       "amplitudes over the K base periods of a motion that closes, over 256 of "
       "another one");
+  const bool needs_multipliers =
+      request.columns == "all" || request.columns.find("lyapunov") != std::string::npos;
   std::optional<State> state;
   sweep.rows_at = [&](std::span<const double> speeds,
                       std::span<const OperationBudget> budgets) {
@@ -256,7 +257,7 @@ Exploration settled_response(const ResponseRequest& request)
                             .periods = 64,
                             .step_ratio = step_ratio(request.tolerance),
                             .longest = request.longest,
-                            .is_measured = false},
+                            .is_measured = needs_multipliers},
                            budgets[k],
                            std::exchange(state, std::nullopt),
                            0.7});

@@ -103,7 +103,7 @@ public:
   State static_start(const Parameters& parameters) const override;
   Eigen::VectorXd state_scales(const Parameters& parameters) const override;
 
-  const char* time_method() const override { return "gauss"; }
+  const char* time_method(const Parameters&) const override { return "gauss"; }
   bool takes_explicit_steps() const override { return false; }
   Patience patience() const override
   {

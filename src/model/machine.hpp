@@ -62,8 +62,9 @@ public:
   /**
   ## In time (time/flow.cpp) */
 
-  /** The method of time integration that is its own: "rk4" or "gauss". */
-  virtual const char* time_method() const = 0;
+  /** The method of time integration that is its own: "splitting", "rk4" where the contact
+      depends on speeds, or "gauss". */
+  virtual const char* time_method(const Parameters& parameters) const = 0;
 
   /** Whether "rk4", "rk8" and GSL's methods integrate it too. */
   virtual bool takes_explicit_steps() const = 0;
@@ -137,7 +138,7 @@ public:
   State static_start(const Parameters& parameters) const override;
   Eigen::VectorXd state_scales(const Parameters& parameters) const override;
 
-  const char* time_method() const override { return "rk4"; }
+  const char* time_method(const Parameters& parameters) const override;
   bool takes_explicit_steps() const override { return true; }
   double step(const Parameters& parameters, double omega) const override;
   std::unique_ptr<Flow> flow(const Parameters& parameters, double omega,

@@ -10,6 +10,7 @@
 #include "io/errors.hpp"
 #include "motion/find_periodic.hpp"
 #include "motion/judge.hpp"
+#include "time/fixed_step.hpp"
 #include "time/shooting.hpp"
 
 namespace rotor_stator::motion {
@@ -32,6 +33,13 @@ namespace {
 double step_of(const Request& request, const Parameters& machine, double omega)
 {
   return request.step > 0 ? request.step : request.step_ratio * step_at(machine, omega);
+}
+
+/** What records the motion. */
+std::string stepper_of(const Answer& answer, const Request& request)
+{
+  return request.method == "auto" ? answer.machine.machine->time_method(answer.machine)
+                                  : request.method;
 }
 
 /** All of a record as one period: what differences are taken over. */
@@ -127,27 +135,33 @@ class Recording {
 public:
   Recording(const Answer& answer, const Request& request, long periods,
             const OperationBudget& budget)
-      : answer_(answer), request_(request), periods_(periods), budget_(budget)
+      : answer_(answer), request_(request), periods_(periods), budget_(budget),
+        begins_earlier_(answer.settled.contracts && can_begin_earlier())
   {
   }
 
-  /** From the same earlier state, so that a motion whose neighbours contract is that of
-      these steps. `finer`: by so much smaller steps, or a local error smaller by its
+  /** Whether a motion whose neighbours contract is that of the steps of the record. */
+  bool begins_earlier() const { return begins_earlier_; }
+
+  /** From the same earlier state, if it can be. `finer`: by so much smaller steps, or a local error smaller by its
       square. */
   Motion operator()(double finer)
   {
     const auto stepper = [&](int intervals) {
-      const bool has_step = request_.method == "auto" || request_.method == "rk4";
-      const double step = step_of(request_, answer_.machine, answer_.omega);
+      double step = step_of(request_, answer_.machine, answer_.omega);
+      /** Half of it shall be half of what is taken. */
+      if (stepper_of(answer_, request_) == "splitting")
+        step = std::min(step, 2 * std::numbers::pi / answer_.omega / request_.points /
+                                  splitting_over_rk4);
       return flow(answer_.machine, answer_.omega,
-                  {.method = has_step ? "rk4" : request_.method,
+                  {.method = request_.method,
                    .intervals_per_period = intervals,
                    .step = step / finer,
                    .tolerance = request_.local_error / (finer * finer),
                    .budget = budget_});
     };
     const Settled& settled = answer_.settled;
-    const Instant& from = settled.contracts ? settled.before : settled.at;
+    const Instant& from = begins_earlier_ ? settled.before : settled.at;
     State state = from.state;
     const auto whole = stepper(1), parts = stepper(request_.points);
     for (long k = from.period; k < settled.at.period; ++k) whole->advance(k, state);
@@ -159,10 +173,21 @@ public:
   double evaluations() const { return evaluations_; }
 
 private:
+  /** Whether the budget is enough for it, and for half the step. */
+  bool can_begin_earlier() const
+  {
+    constexpr double times = 3, motions = 2;
+    const Settled& settled = answer_.settled;
+    const double share = static_cast<double>(settled.at.period - settled.before.period) *
+                         2 * std::numbers::pi / answer_.omega / settled.seconds;
+    return times * share * settled.evaluations / motions < budget_.left();
+  }
+
   const Answer& answer_;
   const Request& request_;
   long periods_;
   OperationBudget budget_;
+  bool begins_earlier_;
   double evaluations_ = 0;
 };
 
@@ -172,9 +197,10 @@ void record(Answer& answer, const Request& request, const OperationBudget& budge
   const Settled& settled = answer.settled;
   Recording recording(answer, request, std::max(request.periods, settled.period), budget);
   answer.motion = recording(1);
-  answer.method = request.method == "auto" ? "rk4" : request.method;
+  answer.method = stepper_of(answer, request);
   answer.how = "integration";
-  if (request.is_measured && settled.contracts) {
+  if (settled.contracts) answer.stability = "stable";
+  if (request.is_measured && recording.begins_earlier()) {
     double finer = 1;
     for (int halvings = 0; halvings < most_halvings; ++halvings) {
       Motion next = recording(finer *= 2);
@@ -184,7 +210,6 @@ void record(Answer& answer, const Request& request, const OperationBudget& budge
       answer.motion = std::move(next);
       if (!request.tolerance || answer.error->larger() <= *request.tolerance) break;
     }
-    answer.stability = "stable";
     answer.how =
         format("integration, with half the step for the error; step over %g", finer);
   }
@@ -200,7 +225,7 @@ void rest(Answer& answer, const Request& request)
     add(answer.motion, answer.settled.at.state);
   answer.error = Error{};
   if (answer.settled.contracts) answer.stability = "stable";
-  answer.method = request.method == "auto" ? "rk4" : request.method;
+  answer.method = stepper_of(answer, request);
   answer.how = "static equilibrium";
 }
 
@@ -222,7 +247,8 @@ static std::unique_ptr<Settling> settling(const Question& question, const Answer
   if (question.start) first.state = *question.start;
   return std::make_unique<Settling>(
       at.machine, at.omega, at.base, first,
-      SettleRule{.step = step_of(question.request, at.machine, at.omega),
+      SettleRule{.method = question.request.method == "rk4" ? "rk4" : "auto",
+                 .step = step_of(question.request, at.machine, at.omega),
                  .longest = question.request.longest},
       question.transient < 1 ? question.budget.part(question.transient)
                              : question.budget);
@@ -332,10 +358,10 @@ public:
       : is_closed_(answer.period() > 0 || answer.kind() == Kind::rest),
         count_(is_closed_ ? std::max(1, answer.period()) : observed),
         period_(2 * std::numbers::pi / answer.omega),
-        intervals_(
-            static_cast<int>(std::clamp(std::ceil(period_ / (2 * step)), 64.0, 1e6))),
+        intervals_(static_cast<int>(
+            std::clamp(std::ceil(period_ / ((is_closed_ ? 2 : 4) * step)), 64.0, 1e6))),
         flow_(flow(answer.machine, answer.omega,
-                   {.method = "rk4",
+                   {.method = "auto",
                     .intervals_per_period = intervals_,
                     .step = step,
                     .budget = budget})),
@@ -428,16 +454,19 @@ std::vector<Observed> observed_answers(std::span<const Question> questions)
   std::vector<Attempt<Answer>> answers = settled_answers(questions);
   std::vector<Attempt<std::unique_ptr<Observing>>> observings;
   for (std::size_t k = 0; k < questions.size(); ++k)
-    observings.push_back(attempt([&] {
+    observings.push_back(attempt([&]() -> std::unique_ptr<Observing> {
       const Answer& at = answers[k].get();
+      if (!questions[k].is_observed) return nullptr;
       return std::make_unique<Observing>(
           at, step_of(questions[k].request, at.machine, at.omega), questions[k].budget);
     }));
   travel(observings);
   std::vector<Observed> all;
   for (std::size_t k = 0; k < questions.size(); ++k)
-    all.push_back(
-        {std::move(answers[k]), attempt([&] { return observings[k].get()->seen(); })});
+    all.push_back({std::move(answers[k]), attempt([&] {
+                     const auto& one = observings[k].get();
+                     return one ? one->seen() : Observation{};
+                   })});
   return all;
 }
 

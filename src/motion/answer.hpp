@@ -11,7 +11,8 @@ its kind:
 - Every other motion is recorded. Where neighbours contract it is integrated twice from
   `settled.before`, the second time with half the step: that one is `motion`, its
   difference from the first is the error, and it is stable. With a tolerance the step is
-  halved until the error is below it, six times at most.
+  halved until the error is below it, six times at most. Without an error where the
+  budget is too small for that.
 - Where they do not contract, the record is one of many: no error, `undecided`.
 
     const Answer answer = motion::answer(parameters, {.omega = angular(25)}, budget);
@@ -79,7 +80,8 @@ struct Question {
   Request request;
   OperationBudget budget = {};
   std::optional<State> start = {};  ///< in the place of rest, at the same time
-  double transient = 1;  ///< share of the budget for what comes before the motion
+  double transient = 1;     ///< share of the budget for what comes before the motion
+  bool is_observed = true;  ///< with an `Observation`
 };
 
 /** The two halves of an answer: what the machine settles on, of all questions side by
@@ -90,7 +92,7 @@ void complete(Answer& answer, const Request& request, const OperationBudget& bud
 
 /** What is reported of x_s, y_s, x_r, y_r [m]. Of a periodic motion over its K base
     periods; of every other one over 256 base periods, with standard errors. Taken at
-    every second step of rk4. */
+    every second step of rk4, of one that does not close at every fourth. */
 struct Observation {
   Displacements amplitude{};    ///< half of the largest less the smallest value
   Displacements mean{}, rms{};  ///< rms about the mean

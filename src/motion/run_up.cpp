@@ -7,7 +7,7 @@
 #include "io/errors.hpp"
 #include "motion/answer.hpp"
 #include "time/flow.hpp"
-#include "time/rk4.hpp"
+#include "time/fixed_step.hpp"
 #include "time/turns.hpp"
 
 namespace rotor_stator::motion {

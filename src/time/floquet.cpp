@@ -7,8 +7,8 @@
 #include "balance/fourier_transform.hpp"
 #include "io/errors.hpp"
 #include "time/eigenvalues.hpp"
+#include "time/fixed_step.hpp"
 #include "time/period_map.hpp"
-#include "time/rk4.hpp"
 
 namespace rotor_stator {
 

@@ -6,8 +6,8 @@
 #include <numbers>
 
 #include "io/errors.hpp"
+#include "time/fixed_step.hpp"
 #include "time/gsl.hpp"
-#include "time/rk4.hpp"
 #include "time/rk8.hpp"
 
 namespace rotor_stator {
@@ -15,7 +15,7 @@ namespace rotor_stator {
 const std::vector<std::string>& time_methods()
 {
   static const std::vector<std::string> names = [] {
-    std::vector<std::string> list{"rk4", "rk8"};
+    std::vector<std::string> list{"rk4", "splitting", "rk8"};
     list.insert(list.end(), gsl_methods().begin(), gsl_methods().end());
     return list;
   }();
@@ -48,26 +48,36 @@ double step_ratio(std::optional<double> tolerance)
 
 double evaluation_price(const Parameters& parameters, const std::string& method)
 {
-  if (method == "rk4") return 1;
+  if (has_fixed_step(method)) return 1;
   if (method == "rk8") return Rk8::price;
   const int balls = parameters.bearing.balls;
   const bool explicit_steps = method == "rkf45" || method == "rkck" || method == "rk8pd";
   return ((explicit_steps ? 75 : 330) + 1.5 * balls) / operations_per_evaluation(balls);
 }
 
+const char* TwoMasses::time_method(const Parameters& parameters) const
+{
+  return parameters.bearing.is_plain() ? "splitting" : "rk4";
+}
+
 /** A contact of Hertz is stiffer with the third root of its force, and vibrates faster
-    with the sixth. */
+    with the sixth. The long steps of the splitting have less to spare, and take 24 steps
+    while a ball passes. */
 double TwoMasses::step(const Parameters& machine, double omega) const
 {
-  constexpr double much = 30;
-  const double usual = default_step(machine);
-  double force = 0;
+  constexpr double in_passage = 24 * splitting_over_rk4;
+  const bool is_splitting = machine.bearing.is_plain();
+  const double much = is_splitting ? 1 : 30;
+  double usual = default_step(machine), force = 0;
   for (const double phase : {0.0, 0.5, 1.0, 1.5}) {
     const Vec2 f = rigid_joint_force(machine, omega, phase);
     force = std::max(force, std::hypot(f.x, f.y));
   }
   const double ratio = force / (much * scales(machine).load);
-  return std::isfinite(ratio) && ratio > 1 ? usual / std::pow(ratio, 1.0 / 6) : usual;
+  if (std::isfinite(ratio) && ratio > 1) usual /= std::pow(ratio, 1.0 / 6);
+  const double passages = machine.bearing.balls * machine.bearing.cage_speed_ratio,
+               passage = 2 * std::numbers::pi / (passages * omega);
+  return is_splitting ? std::min(usual, passage / in_passage) : usual;
 }
 
 std::unique_ptr<Flow> flow(const Parameters& parameters, double omega,
@@ -83,19 +93,26 @@ std::unique_ptr<Flow> flow(const Parameters& parameters, double omega,
 std::unique_ptr<Flow> TwoMasses::flow(const Parameters& parameters, double omega,
                                       const StepSettings& settings) const
 {
-  require_method(settings.method);
-  const bool needs_slopes = settings.method == "bsimp" || settings.method == "msbdf";
-  if (needs_slopes && !parameters.bearing.is_plain())
+  const std::string method =
+      settings.method == "auto" ? time_method(parameters) : settings.method;
+  require_method(method);
+  const bool is_of_plain =
+      method == "bsimp" || method == "msbdf" || method == "splitting";
+  if (is_of_plain && !parameters.bearing.is_plain())
     throw BadInput(
-        "--method " + settings.method +
+        "--method " + method +
         ": knows Hertz's contact alone, undamped and undamaged; take rk4, rk8, rk8pd, "
         "rkf45, rkck or msadams");
   const int intervals = settings.intervals_per_period;
-  if (settings.method == "rk4")
-    return std::make_unique<Rk4>(
-        parameters, omega, intervals,
-        settings.step > 0 ? settings.step : step(parameters, omega), settings.budget);
-  if (settings.method == "rk8")
+  const double longest = settings.step > 0 ? settings.step : step(parameters, omega);
+  if (method == "splitting")
+    return std::make_unique<FixedStep>(parameters, omega, intervals,
+                                       splitting_over_rk4 * longest, Rule::splitting,
+                                       settings.budget);
+  if (method == "rk4")
+    return std::make_unique<FixedStep>(parameters, omega, intervals, longest, Rule::rk4,
+                                       settings.budget);
+  if (method == "rk8")
     return std::make_unique<Rk8>(parameters, omega, intervals, settings.tolerance,
                                  settings.budget);
   return gsl_flow(parameters, omega, settings);

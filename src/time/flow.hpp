@@ -36,23 +36,31 @@ public:
 };
 
 struct StepSettings {
-  std::string method = "rk8";     ///< "rk4" (fixed step), "rk8" or one of GSL's
+  std::string method =
+      "rk8";  ///< "rk4" or "splitting" (fixed step), "rk8", one of GSL's; "auto" is the
+              ///< machine's own
   int intervals_per_period = 64;  ///< P
-  double step = 0;                ///< rk4: longest step [s]; 0 chooses `step_at`
+  double step = 0;                ///< longest of rk4 [s], of others with a fixed step
+                                  ///< that of the same error; 0 chooses `step_at`
   double tolerance =
-      1e-10;  ///< all but rk4: local error per step, over the size of each component
+      1e-10;  ///< of the others: local error per step, over the size of each component
   OperationBudget budget =
       {};  ///< for the evaluations of Eq. 7; without one, 1e9 of them
 };
 
-/** Large bodies take Gauss's rule; where rk4 is asked for with a tolerance of 1e-8 at
-    `step_at`, and with that of half the step at half of it.
+/** Large bodies take Gauss's rule; by "auto" with a tolerance of 1e-8 at `step_at`, which
+    falls with the fifth power of the step.
     Throws BadInput for an unknown method, or one that cannot have the bearing's force. */
 std::unique_ptr<Flow> flow(const Parameters& parameters, double omega,
                            const StepSettings& settings);
 
-/** "rk4", "rk8" and GSL's explicit, multistep and implicit methods. */
+/** "rk4", "splitting", "rk8" and GSL's explicit, multistep and implicit methods. */
 const std::vector<std::string>& time_methods();
+
+inline bool has_fixed_step(const std::string& method)
+{
+  return method == "rk4" || method == "splitting";
+}
 
 /** Throws BadInput for a method that is neither one of `others` nor a time method, naming
     the known ones. */

@@ -289,7 +289,7 @@ std::unique_ptr<Flow> LargeMachine::flow(const Parameters& parameters, double om
   const double steps = settings.step > 0 ? settings.step / step(parameters, omega) : 1;
   return std::make_unique<GaussStepper>(
       bodies_, parameters, omega, settings.intervals_per_period,
-      settings.method == "rk4" ? usual * std::pow(steps, 5) : settings.tolerance,
+      settings.method == "auto" ? usual * std::pow(steps, 5) : settings.tolerance,
       settings.budget);
 }
 

@@ -1,6 +1,6 @@
 #include "time/period_map.hpp"
 
-#include "time/rk4.hpp"
+#include "time/fixed_step.hpp"
 #include "time/rk8.hpp"
 
 namespace rotor_stator {
@@ -40,7 +40,8 @@ void by_rk4(const Parameters& parameters, double omega, const StepSettings& sett
 {
   constexpr double price = 3;  ///< of an evaluation with eight disturbances
   const double longest = settings.step > 0 ? settings.step : step_at(parameters, omega);
-  const Rk4 rk4(parameters, omega, settings.intervals_per_period, longest);
+  const FixedStep rk4(parameters, omega, settings.intervals_per_period, longest,
+                      Rule::rk4);
   const RotorStator system(parameters, omega);
   const DisturbanceRates rates(parameters);
   map.evaluations = 4L * rk4.steps_per_interval();

@@ -6,8 +6,8 @@
 #include <numbers>
 
 #include "io/errors.hpp"
+#include "time/fixed_step.hpp"
 #include "time/flow.hpp"
-#include "time/rk4.hpp"
 
 namespace rotor_stator {
 

@@ -78,18 +78,18 @@ constexpr double nearer = -16.1;     ///< ln 1e-7
 /** From `start`; the neighbour is pulled back at least once in 60 rad of the contact's
     vibration; short base periods are cut into fewer intervals. */
 TrajectoryPair pair_from(const Parameters& machine, double omega, const Instant& start,
-                         double step, const OperationBudget& budget)
+                         const SettleRule& rule, const OperationBudget& budget)
 {
-  constexpr double longest_phase = 60, steps_of_interval = 8;
+  constexpr double longest_phase = 60, steps_of_interval = 32;  // of rk4
   const double period = 2 * std::numbers::pi / omega;
   const double least = std::ceil(period * contact_frequency(machine) / longest_phase);
   const double usual =
-      std::clamp(std::ceil(period / (steps_of_interval * step)), 4.0, 16.0);
+      std::clamp(std::ceil(period / (steps_of_interval * rule.step)), 4.0, 8.0);
   const int intervals = static_cast<int>(std::max(usual, least));
   return {flow(machine, omega,
-               {.method = "rk4",
+               {.method = rule.method,
                 .intervals_per_period = intervals,
-                .step = step,
+                .step = rule.step,
                 .budget = budget}),
           intervals, period, state_scales(machine), start};
 }
@@ -123,8 +123,8 @@ Settling::Settling(const Parameters& machine, double omega, const BasePeriod& ba
                    const OperationBudget& budget)
     : machine_(machine), omega_(omega), base_(base), rule_(filled(rule, machine, omega)),
       budget_(budget), length_(scales(machine).length),
-      least_(least_seconds(machine, omega, rule.most_period)),
-      pair_(pair_from(machine, omega, start, rule_.step, budget))
+      least_(least_seconds(machine, omega, rule.most_period)), start_(start),
+      pair_(pair_from(machine, omega, start, rule_, budget))
 {
 }
 
@@ -145,17 +145,26 @@ void Settling::arrived()
     return;
   }
   pair_.arrived();
-  if (pair_.is_between_periods() && pair_.at().period >= 0 &&
-      (periods_ == 0 || --periods_ == 0))
-    look();
+  if (!pair_.is_between_periods()) return;
+  const bool is_due = periods_ == 0 || --periods_ == 0;
+  if (pair_.at().period == 0 || (is_due && may_be_over())) look();
+}
+
+/** After t = 0; earlier where a motion may have closed, which any base period begins. */
+bool Settling::may_be_over() const
+{
+  return pair_.at().period >= 0 ||
+         (!base_.is_driven_twice() && pair_.contraction() <= forgotten);
 }
 
 /** At the pair, when the transient may be over. */
 void Settling::look()
 {
   settled_ = seen();
-  if (began_ < 0) began_ = pair_.seconds();
-  if (settled_.kind == Kind::undecided && pair_.seconds() - began_ < rule_.longest) {
+  const bool is_early = pair_.at().period < 0;
+  if (began_ < 0 && !is_early) began_ = pair_.seconds();
+  if (settled_.kind == Kind::undecided &&
+      (is_early || pair_.seconds() - began_ < rule_.longest)) {
     periods_ = std::max<std::size_t>(4, pair_.growths().size() / 8);
     return;
   }
@@ -190,6 +199,7 @@ Settled Settling::seen() const
     return s;
   }
   if (!base_.is_driven_twice() && closes(s)) return s;
+  if (pair.at().period < 0) return s;
   const bool is_long_enough = 0.5 * pair.seconds() >= least_ * (1 - 1e-9);
   if (!is_long_enough)
     s.reason = format("%.3g s are too short to tell", pair.seconds());
@@ -197,7 +207,8 @@ Settled Settling::seen() const
     s.kind = Kind::chaotic;
   else if (base_.is_driven_twice() && s.contracts)
     s.kind = pair.contraction() <= forgotten ? Kind::quasi_periodic : Kind::undecided;
-  else if (std::abs(rate) <= doubt && doubt < 0.1 && pair.seconds() > rule_.longest / 2)
+  else if (!base_.is_driven_twice() && std::abs(rate) <= doubt && doubt < 0.1 &&
+           pair.seconds() > rule_.longest / 2)
     s.kind = Kind::quasi_periodic;
   if (s.kind == Kind::undecided && s.reason.empty())
     s.reason = s.contracts
@@ -249,14 +260,17 @@ bool Settling::closes(Settled& s) const
   return true;
 }
 
+/** Neighbours that part more and more slowly, or hardly in the last quarter, are on their
+    way to a motion that is not chaotic. */
 bool Settling::grows_throughout() const
 {
+  constexpr double least = 5;  // ln of the growth
   const auto& all = pair_.growths();
   const auto quarter = std::ssize(all) / 4;
   double third = 0, fourth = 0;
   for (auto k = all.end() - 2 * quarter; k != all.end() - quarter; ++k) third += *k;
   for (auto k = all.end() - quarter; k != all.end(); ++k) fourth += *k;
-  return third > 0 && fourth > 0;
+  return fourth > std::max(least, 0.5 * third);
 }
 
 /** Whether that takes at most so many evaluations; else the motion begins where it was
@@ -277,7 +291,7 @@ void Settling::put_on_zero()
     return std::lround(std::ceil(logarithm / (settled_.lyapunov.value * period)));
   };
   turn_ = flow(machine_, omega_,
-               {.method = "rk4",
+               {.method = rule_.method,
                 .intervals_per_period = 1,
                 .step = rule_.step,
                 .budget = budget_});
@@ -298,6 +312,12 @@ void Settling::end()
 /** The budget has ended, or the integration has broken down. */
 void Settling::lost(std::exception_ptr why)
 {
+  if (!turn_ && !is_again_ && !budget_.used_up()) {
+    is_again_ = true;
+    rule_.step /= 4;
+    pair_ = pair_from(machine_, omega_, start_, rule_, budget_);
+    return;
+  }
   has_ended_ = true;
   if (!turn_) pair_.go_back();
   if (!budget_.used_up() || pair_.growths().empty()) {

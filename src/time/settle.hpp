@@ -26,7 +26,9 @@ integration ended.
     const Settled settled =
         settle(machine, omega, base, from_rest(machine, omega), {}, budget);
 
-A `Settling` is the same among others (time/side_by_side.hpp).
+A `Settling` is the same among others (time/side_by_side.hpp). One that diverges, since an
+impact presses the contact far more than the loads do, is begun again with a fourth of the
+step.
 
 The machine is that of `over`, whose angles are counted per base period. λ comes with its
 standard error s, that of the means of ten batches of the later half of all that was
@@ -45,9 +47,10 @@ enum class Kind { undecided, rest, periodic, quasi_periodic, chaotic };
 const char* word(Kind kind);
 
 struct SettleRule {
-  double step = 0;       ///< longest of rk4 [s]; 0: `step_at`
-  double closed = 1e-6;  ///< spread of a closed section, over the vibration [-]
-  int most_period = 16;  ///< K
+  std::string method = "auto";  ///< or "rk4"
+  double step = 0;              ///< longest of rk4 [s]; 0: `step_at`
+  double closed = 1e-6;         ///< spread of a closed section, over the vibration [-]
+  int most_period = 16;         ///< K
   double longest = 0;  ///< after t = 0 [s], then it is undecided; 0: 40 over the slowest
                        ///< decay rate, 60 to 1000
 };
@@ -84,6 +87,7 @@ public:
   const Settled& settled() const;
 
 private:
+  bool may_be_over() const;
   void look();
   Settled seen() const;
   bool is_at_rest() const;
@@ -99,6 +103,8 @@ private:
   SettleRule rule_;
   OperationBudget budget_;
   double length_, least_;  ///< [m], [s]
+  Instant start_;
+  bool is_again_ = false;
   TrajectoryPair pair_;
   std::size_t periods_ = 0;               ///< until the pair is looked at again
   double began_ = -1;                     ///< seconds that it had when looked at first

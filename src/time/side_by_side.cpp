@@ -4,15 +4,15 @@
 #include <tuple>
 
 #include "io/errors.hpp"
-#include "time/rk4.hpp"
+#include "time/fixed_step.hpp"
 
 namespace rotor_stator {
 
 /** The flow of a passage that goes in lanes, else null. */
-static Rk4* in_lanes(const Passage& one)
+static FixedStep* in_lanes(const Passage& one)
 {
-  const auto rk4 = dynamic_cast<Rk4*>(one.flow);
-  return rk4 && !rk4->is_general() ? rk4 : nullptr;
+  const auto flow = dynamic_cast<FixedStep*>(one.flow);
+  return flow && !flow->is_general() ? flow : nullptr;
 }
 
 static void advance_alone(const Passage& one)
@@ -25,8 +25,8 @@ static void advance_alone(const Passage& one)
 
 std::vector<Failure> advance_together(std::span<const Passage> passages)
 {
-  const std::size_t widest = Rk4::widest_row();
-  using Alike = std::tuple<int, bool>;
+  const std::size_t widest = FixedStep::widest_row();
+  using Alike = std::tuple<int, FixedStep::Work>;
   struct Lane {
     Passage passage;
     Alike alike;
@@ -38,11 +38,10 @@ std::vector<Failure> advance_together(std::span<const Passage> passages)
   for (std::size_t k = 0; k < passages.size(); ++k) {
     const Passage& one = passages[k];
     try {
-      if (Rk4* rk4 = in_lanes(one)) {
-        rk4->pay(one.count);
-        lanes.push_back({one,
-                         {rk4->balls(), rk4->is_damped()},
-                         rk4->steps_per_interval() * one.count});
+      if (FixedStep* flow = in_lanes(one)) {
+        flow->pay(one.count);
+        lanes.push_back(
+            {one, {flow->balls(), flow->work()}, flow->steps_per_interval() * one.count});
       } else {
         advance_alone(one);
       }
@@ -59,7 +58,7 @@ std::vector<Failure> advance_together(std::span<const Passage> passages)
     row.push_back(lanes[k].passage);
     const bool is_last = k + 1 == lanes.size() || lanes[k + 1].alike != lanes[k].alike;
     if (row.size() < widest && !is_last) continue;
-    Rk4::advance_row(row);
+    FixedStep::advance_row(row);
     row.clear();
   }
   return failures;

@@ -60,7 +60,7 @@ void travel(std::vector<Attempt<std::unique_ptr<Kind>>>& all)
 {
   std::vector<Traveller*> begun;
   for (auto& one : all)
-    if (one.has_value()) begun.push_back(one.get().get());
+    if (one.has_value() && one.get()) begun.push_back(one.get().get());
   travel(std::span<Traveller* const>(begun));
 }
 

@@ -183,7 +183,7 @@ SteadySettings read_steady_settings(SceneFile& scene)
   SteadySettings settings;
   StrictToml table = scene.toml().table("time_integration");
   settings.stepper.method = table.string("method");
-  const bool fixed_step = settings.stepper.method == "rk4";
+  const bool fixed_step = has_fixed_step(settings.stepper.method);
   if (fixed_step) settings.stepper.step = table.number("step_s", Range::positive);
   if (!fixed_step)
     settings.stepper.tolerance = table.number("tolerance", Range::positive);

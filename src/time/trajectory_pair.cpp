@@ -10,6 +10,10 @@ namespace rotor_stator {
 /** Far above rounding, far below what bends the motion; over the sizes. */
 static constexpr double first_distance = 1e-7;
 
+/** The least size of a component over its largest value: the rounding of a displacement or
+    speed that is far larger than its size would pass for growth. */
+static constexpr double above_rounding = 1e-4;
+
 TrajectoryPair::TrajectoryPair(std::unique_ptr<Flow> flow, int intervals_per_period,
                                double period, const Eigen::VectorXd& sizes,
                                const Instant& start)
@@ -76,6 +80,12 @@ double TrajectoryPair::pull_back()
 {
   constexpr double met = 1e-8;  ///< rounding keeps neighbours apart that have met
   const Eigen::VectorXd y = vector_of(at_.state);
+  const Eigen::VectorXd least = above_rounding * y.cwiseAbs();
+  if ((least.array() > sizes_.array()).any()) {
+    sizes_ = sizes_.cwiseMax(least);
+    neighbour_ = beside(y);
+    return 0;
+  }
   const Eigen::VectorXd apart = vector_of(neighbour_) - y;
   const double growth = apart.cwiseQuotient(sizes_).norm() / first_distance;
   if (!std::isfinite(growth))

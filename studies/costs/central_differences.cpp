@@ -1,7 +1,7 @@
 #include "costs/central_differences.hpp"
 
 #include "io/errors.hpp"
-#include "time/rk4.hpp"
+#include "time/fixed_step.hpp"
 
 namespace rotor_stator::costs {
 

@@ -165,7 +165,7 @@ const std::vector<Field<Row>> equal_error_fields{
     {"range", "Hz", "first and last T-periodic speed of the sweep", &Row::range},
     {"target", "-", "largest error allowed", &Row::target},
     {"method", "-",
-     "aft: harmonic balance; rk4; rk4-lanes: all speeds side by side; central "
+     "aft: harmonic balance; rk4; splitting; -lanes: all speeds side by side; central "
      "differences; rk8; GSL's; shooting- with one of them",
      [](auto& r) { return r.schedule.method(); }},
     {"setting", "-",

@@ -15,6 +15,7 @@
 #include "costs/central_differences.hpp"
 #include "io/errors.hpp"
 #include "model/rotor_stator.hpp"
+#include "time/fixed_step.hpp"
 #include "time/shooting.hpp"
 #include "time/side_by_side.hpp"
 
@@ -22,12 +23,12 @@ namespace rotor_stator::costs {
 
 bool Setting::has_fixed_step() const
 {
-  return stepper() == "rk4" || method == "central";
+  return rotor_stator::has_fixed_step(stepper()) || method == "central";
 }
 
 std::string Setting::stepper() const
 {
-  if (method == "rk4-lanes") return "rk4";
+  if (is_ensemble()) return method.substr(0, method.find("-lanes"));
   return is_shooting() ? method.substr(method.find('-') + 1) : method;
 }
 
@@ -122,7 +123,8 @@ std::vector<Candidates> read_candidates(StrictToml& toml)
 {
   std::vector<std::string> known{"aft"};
   known.insert(known.end(), time_methods().begin(), time_methods().end());
-  known.insert(known.end(), {"rk4-lanes", "central", "shooting-rk4", "shooting-rk8"});
+  known.insert(known.end(), {"rk4-lanes", "splitting-lanes", "central", "shooting-rk4",
+                             "shooting-rk8"});
   std::vector<Candidates> all;
   for (const std::string& method : toml.strings("methods")) {
     if (std::find(known.begin(), known.end(), method) == known.end()) {
@@ -185,10 +187,11 @@ std::unique_ptr<Flow> TimedMethod::stepper(std::size_t speed, int intervals) con
   if (setting.method == "central")
     return std::make_unique<CentralDifferences>(task_.parameters, omega, intervals,
                                                 setting.step);
+  const std::string method = setting.stepper();
   return flow(task_.parameters, omega,
-              {.method = setting.stepper(),
+              {.method = method,
                .intervals_per_period = intervals,
-               .step = setting.step,
+               .step = setting.step / (method == "splitting" ? splitting_over_rk4 : 1),
                .tolerance = setting.tolerance});
 }
 
@@ -522,7 +525,7 @@ std::unique_ptr<TimedMethod> timed_method(const Task& task, const Schedule& sche
   if (schedule.at(0).is_shooting())
     return std::make_unique<ShootingSweep>(task, schedule);
   if (schedule.method() == "aft") return std::make_unique<BalanceSweep>(task, schedule);
-  if (schedule.method() == "rk4-lanes") return std::make_unique<Ensemble>(task, schedule);
+  if (schedule.at(0).is_ensemble()) return std::make_unique<Ensemble>(task, schedule);
   return std::make_unique<Integration>(task, schedule);
 }
 

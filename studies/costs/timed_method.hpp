@@ -14,8 +14,8 @@ it.
   in the setting, that comes first. Or the paper's sweep, which halves the gap to the last
   speed where Newton fails.
 - Time integration: a transient of whole periods, from the static load or the known state;
-  then from speed to speed. `rk4-lanes` integrates all speeds side by side, each from
-  quasi-static contact.
+  then from speed to speed. `rk4-lanes` and `splitting-lanes` integrate all speeds side by
+  side, each from quasi-static contact.
 - Shooting: the state is extrapolated from speed to speed by the same predictor, and Φ is
   kept. */
 #pragma once
@@ -28,8 +28,8 @@ it.
 namespace rotor_stator::costs {
 
 /** One method at one setting; zero where the method has no such setting. `method` is aft
-    (harmonic balance), a time method, rk4-lanes, central (central differences), or
-    shooting- with a time method behind it. */
+    (harmonic balance), a time method, one with a fixed step and -lanes behind it, central
+    (central differences), or shooting- with a time method behind it. */
 struct Setting {
   std::string method;
   int harmonics = 0;             ///< aft: m
@@ -37,12 +37,13 @@ struct Setting {
   int samples = 0;               ///< aft: N itself, instead
   bool paper_sweep = false;  ///< aft: the paper's continuation, continuation/sweep.hpp
   double tolerance = 0;      ///< aft: Newton's; time: local error
-  double step = 0;           ///< rk4 [s]
+  double step = 0;           ///< fixed, its own [s]
   double transient = 0;      ///< at each speed [s]; of aft, that of its start
   int recorded = 0;          ///< time integration: intervals of a last period
   double periodicity_residual = 0;  ///< shooting; "closure" in files [-]
 
   bool is_shooting() const { return method.starts_with("shooting-"); }
+  bool is_ensemble() const { return method.ends_with("-lanes"); }
   bool has_fixed_step() const;
 
   /** The time method: rk4 of rk4-lanes and shooting-rk4. */

@@ -258,7 +258,7 @@ def motion_options(draw, extreme):
     frequency = draw(real(-3, 5) if extreme else real(0, 2))
     if extreme and draw(one_in(10)):
         frequency = draw(real(-300, 300))
-    method = draw(one("aft", "aft", "aft", "rk4", "rk4", "rkf45", "rkck", "rk8pd", "msadams",
+    method = draw(one("aft", "aft", "aft", "rk4", "splitting", "rkf45", "rkck", "rk8pd", "msadams",
                                    "msbdf", "bsimp"))
     options = [["--frequency", frequency]]
     if method != "aft" or draw(one_in(2)):
@@ -272,7 +272,7 @@ def motion_options(draw, extreme):
             "--newton-tolerance": (4, real(-15, -3))}))
     return options + draw(chosen({
         "--longest": (4, real(-3, 5 if extreme else 0)),
-        **({"--step": (2, real(-12 if extreme else -6, -1))} if method == "rk4" else
+        **({"--step": (2, real(-12 if extreme else -6, -1))} if method in ("rk4", "splitting") else
            {"--local-error": (2, real(-15, -2))})}))
 
 
@@ -340,7 +340,7 @@ def map_options(draw, extreme):
         options.append(["--sweep", f"{start!r}:{start * (1 + decade(dice, -2, 1))!r}:{draw(whole(0.31, 5 if extreme else 2))}"])
     elif "frequency" not in keys:
         options.append(["--frequency", draw(real(-3, 5) if extreme else real(0, 2))])
-    method = draw(one("auto", "aft", "aft", "rk4"))
+    method = draw(one("auto", "aft", "aft", "rk4", "splitting"))
     known = SWEPT if is_swept else HERE + BALANCED * (method == "aft")
     options += [["--quantity", ",".join(draw(st.lists(st.sampled_from(known), min_size=1, max_size=4, unique=True)))]]
     if method == "aft" or is_swept:

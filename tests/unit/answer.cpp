@@ -7,6 +7,7 @@
 #include "motion/quasi_periodic.hpp"
 #include "support/cases.hpp"
 #include "support/catch.hpp"
+#include "time/shooting.hpp"
 
 using namespace rotor_stator;
 using namespace rotor_stator::tests;
@@ -58,6 +59,21 @@ TEST_CASE("Set 1 doubles its period at 20 Hz and is chaotic at 13.4 Hz")
   CHECK(chaos.period_number() == 0);
   CHECK(chaos.settled.lyapunov.value > 3 * chaos.settled.lyapunov.error);
   CHECK(!chaos.error);
+}
+
+/** 25 over the slowest decay rate would be 4 s. */
+TEST_CASE("A motion that closes is seen before t = 0, and is the one of shooting")
+{
+  const Parameters machine = set_1();
+  const double omega = hertz(42);
+  const BasePeriod base = base_period(machine);
+  const Settled settled = settle(machine, omega, base, from_rest(machine, omega));
+  CHECK(settled.period == 1);
+  CHECK(settled.seconds < 3);
+  CHECK(settled.remainder < 1e-8);
+  State closed = settled.at.state;
+  REQUIRE(shoot(machine, omega, closed, {}).converged);
+  CHECK(apart(machine, closed, settled.at.state) < 1e-4);  // the error of the steps
 }
 
 TEST_CASE("A multiplier near -1 does not double the period")

@@ -388,6 +388,7 @@ class Options(Case):
         for method, options in {
                 "rk8pd": ["--harmonics 6", "--samples 64", "--newton-tolerance 1e-9", "--subharmonic 2", "--step 1e-5"],
                 "rk4": ["--harmonics 6", "--subharmonic 2", "--local-error 1e-9"],
+                "splitting": ["--harmonics 6", "--subharmonic 2", "--local-error 1e-9"],
                 "auto": ["--subharmonic 2"],
                 "shooting": ["--harmonics 6", "--samples 64", "--newton-tolerance 1e-9", "--step 1e-5", "--longest 3"],
                 "aft": ["--local-error 1e-9", "--step 1e-5", "--longest 3"]}.items():
@@ -412,7 +413,7 @@ class Options(Case):
 
     def test_help_and_version(self):
         help_of_orbit = "\n".join(self.lines("orbit", "--help"))
-        for name in ["aft", "rk4", "rkf45", "rkck", "rk8pd", "msadams", "msbdf", "bsimp"]:
+        for name in ["aft", "rk4", "splitting", "rkf45", "rkck", "rk8pd", "msadams", "msbdf", "bsimp"]:
             self.assertIn(name, help_of_orbit)
         version = re.search("project.*VERSION ([0-9.]+)", Path("CMakeLists.txt").read_text())[1]
         self.assertIn(version, self.lines("--version")[0])

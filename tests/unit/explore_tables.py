@@ -219,7 +219,7 @@ class Branch(Case):
         self.table("response", same, "--from", 60, "--to", 60.1, "--restart", "branch.tsv")
 
     def test_a_search_for_isolated_branches_that_was_cut_off_says_so(self):
-        table, reason = self.cut_off(SET_2, *WHOLE, "--harmonics", 6, "--isolated", 10, "--budget", "4e7")
+        table, reason = self.cut_off(SET_2, *WHOLE, "--harmonics", 6, "--isolated", 10, "--budget", "2.8e7")
         self.assertIn("cut off", reason)
         self.assertEqual(table.value("complete"), "no")
 
@@ -425,7 +425,7 @@ class Attractors(Case):
                 np.testing.assert_array_equal(rows["motion"], [1, 2])
 
     def test_the_threads_change_nothing_not_even_where_the_budget_ends(self):
-        for budget, status in ((), 0), (("--budget", "2e7"), 3):
+        for budget, status in ((), 0), (("--budget", "1e7"), 3):
             one, three = (self.run_explore("attractors", self.machine, "--from", 20, "--to", 22, "--count", 5, *budget,
                                            env={**os.environ, "OMP_NUM_THREADS": threads}) for threads in "13")
             with self.subTest(budget=budget):

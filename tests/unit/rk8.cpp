@@ -8,7 +8,7 @@
 #include "support/cases.hpp"
 #include "time/flow.hpp"
 #include "time/period_map.hpp"
-#include "time/rk4.hpp"
+#include "time/fixed_step.hpp"
 #include "time/rk8.hpp"
 
 using namespace rotor_stator;

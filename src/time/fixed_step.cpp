@@ -1,8 +1,9 @@
-#include "time/rk4.hpp"
+#include "time/fixed_step.hpp"
 
 #include <algorithm>
 #include <bit>
 #include <cmath>
+#include <cstring>
 
 #include "io/errors.hpp"
 
@@ -14,24 +15,57 @@ int steps_in_interval(double period, int intervals, double longest_step)
   const double steps = std::ceil(period / intervals / longest_step - 1e-9);
   if (!(steps * intervals <= most_steps_per_period))
     throw NoSolution(
-        format("rk4 would need steps of %.3g s in a period of %.3g s, more than %.3g",
+        format("time integration would need steps of %.3g s in a period of %.3g s, more "
+               "than %.3g",
                longest_step, period, most_steps_per_period));
   return std::max(1, static_cast<int>(steps));
 }
 
-Rk4::Rk4(const Parameters& parameters, double omega, int intervals, double longest_step,
-         OperationBudget budget)
+namespace {
+
+/** S_6 of Blanes and Moan: the shares of a step of the drifts and of the
+    kicks between them. The later half mirrors the first. */
+constexpr std::array<double, 3> first_drifts{0.0792036964311957, 0.353172906049774,
+                                             -0.0420650803577195};
+constexpr std::array<double, 4> drifts{
+    first_drifts[0], first_drifts[1], first_drifts[2],
+    1 - 2 * (first_drifts[0] + first_drifts[1] + first_drifts[2])};
+constexpr std::array<double, 3> kicks{0.209515106613362, -0.143851773179818,
+                                      0.5 - 0.209515106613362 + 0.143851773179818};
+
+}  // namespace
+
+FixedStep::FixedStep(const Parameters& parameters, double omega, int intervals,
+                     double longest_step, Rule rule, OperationBudget budget)
     : system_(parameters, omega), turns_(Turns::of(parameters)), intervals_(intervals),
       steps_(steps_in_interval(system_.period(), intervals, longest_step)),
       h_(system_.period() / (static_cast<double>(intervals) * steps_)),
-      is_general_(!parameters.bearing.has_kernel()),
-      is_damped_(parameters.bearing.damping > 0), budget_(std::move(budget))
+      work_(rule == Rule::splitting          ? Work::splitting
+            : parameters.bearing.damping > 0 ? Work::rk4_damped
+                                             : Work::rk4),
+      is_general_(!parameters.bearing.has_kernel()), budget_(std::move(budget))
 {
   half_ = turns_.by(0.5 / (static_cast<double>(intervals) * steps_));
+  if (rule == Rule::splitting)
+    std::ranges::transform(drifts, drifts_.begin(),
+                           [this](double share) { return drift_of(share); });
+}
+
+FixedStep::Drift<double> FixedStep::drift_of(double share) const
+{
+  const Equation7<double>& e = system_.equation();
+  const double time = share * h_, rate_s = e.c_s * e.per_m_s, rate_r = e.c_r * e.per_m_r;
+  const auto shift = [time](double rate) {
+    return rate > 0 ? -std::expm1(-rate * time) / rate : time;
+  };
+  const Angles turns = turns_.by(time / system_.period());
+  return {shift(rate_s), std::exp(-rate_s * time),
+          shift(rate_r), std::exp(-rate_r * time),
+          turns.rotor,   turns.cage};
 }
 
 /** So many steps after the start of an interval. */
-Angles Rk4::angles(long first, long done) const
+Angles FixedStep::angles(long first, long done) const
 {
   const long interval = first + done / steps_, steps = done % steps_;
   const long part = ((interval % intervals_) + intervals_) % intervals_;
@@ -40,9 +74,11 @@ Angles Rk4::angles(long first, long done) const
                        (static_cast<double>(intervals_) * steps_));
 }
 
-void Rk4::pay(long intervals)
+void FixedStep::pay(long intervals)
 {
-  const long evaluations = 4L * steps_ * intervals;
+  constexpr long of_rk4 = 4, of_splitting = 6;
+  const long evaluations =
+      (work_ == Work::splitting ? of_splitting : of_rk4) * steps_ * intervals;
   budget_.spend(static_cast<double>(evaluations));
   evaluations_ += evaluations;
 }
@@ -51,40 +87,53 @@ void Rk4::pay(long intervals)
 ## Motions side by side
 
 A row holds one number of each motion. Lanes without a motion repeat the last one. */
+
+namespace {
+
+/** Writes the numbers of `value` into lane `l` of their rows. */
+template <class Number, class To, class From>
+void put_numbers(To& row, int l, const From& value)
+{
+  constexpr std::size_t size = sizeof(double), count = sizeof(From) / size;
+  static_assert(sizeof(To) == count * sizeof(Number));
+  const auto from = std::bit_cast<std::array<double, count>>(value);
+  auto* const to = reinterpret_cast<std::byte*>(&row) + l * size;
+  for (std::size_t i = 0; i < count; ++i)
+    std::memcpy(to + i * sizeof(Number), &from[i], size);
+}
+
+}  // namespace
+
 template <class Number>
-struct Rk4::Row {
+struct FixedStep::Row {
   BallRing balls;
   Contacts<Number> contacts;
   Equation7<Number> equation;
   DirectionOf<Number> half_rotor, half_cage, rotor, cage;
   BodiesOf<Number> q, v;
   Number h;
+  std::array<Drift<Number>, drifts.size()> drift;  ///< of splitting
 
-  void put(int l, const Rk4& flow, const State& state)
+  void put(int l, const FixedStep& flow, const State& state)
   {
-    const Equation7<double>& e = flow.system_.equation();
-    const Contacts<double> c = flow.system_.bearing().contacts();
-    const auto each = [l]<class To, class From>(To& row, const From& value) {
-      constexpr auto count = sizeof(From) / sizeof(double);
-      auto to = std::bit_cast<std::array<Number, count>>(row);
-      const auto from = std::bit_cast<std::array<double, count>>(value);
-      for (std::size_t i = 0; i < count; ++i) put_lane(to[i], l, from[i]);
-      row = std::bit_cast<To>(to);
-    };
-    each(equation, e);
-    each(contacts, c);
-    each(half_rotor, flow.half_.rotor);
-    each(half_cage, flow.half_.cage);
-    each(q, state.position);
-    each(v, state.velocity);
+    put_numbers<Number>(contacts, l, flow.system_.bearing().contacts());
+    put_numbers<Number>(half_rotor, l, flow.half_.rotor);
+    put_numbers<Number>(half_cage, l, flow.half_.cage);
+    put_numbers<Number>(q, l, state.position);
+    put_numbers<Number>(v, l, state.velocity);
     put_lane(h, l, flow.h_);
+    Equation7<double> e = flow.system_.equation();
+    if (flow.work_ == Work::splitting) {
+      for (std::size_t k = 0; k < drift.size(); ++k)
+        put_numbers<Number>(drift[k], l, flow.drifts_[k]);
+      e.c_s = e.c_r = 0;
+    }
+    put_numbers<Number>(equation, l, e);
   }
   void turn_to(int l, const Angles& at)
   {
-    put_lane(rotor.cos, l, at.rotor.cos);
-    put_lane(rotor.sin, l, at.rotor.sin);
-    put_lane(cage.cos, l, at.cage.cos);
-    put_lane(cage.sin, l, at.cage.sin);
+    put_numbers<Number>(rotor, l, at.rotor);
+    put_numbers<Number>(cage, l, at.cage);
   }
   void get(int l, State& state) const
   {
@@ -111,45 +160,69 @@ struct Rk4::Row {
   }
 
   template <bool is_damped>
-  IN_PLACE void advance(long steps)
+  IN_PLACE void step_of_rk4()
   {
     const Number half = 0.5 * h, sixth = h / 6;
-    for (long k = 0; k < steps; ++k) {
-      const auto a_1 = acceleration<is_damped>(q, v);
-      turn_half_a_step();
-      const auto v_2 = v + half * a_1;
-      const auto a_2 = acceleration<is_damped>(q + half * v, v_2);
-      const auto v_3 = v + half * a_2;
-      const auto a_3 = acceleration<is_damped>(q + half * v_2, v_3);
-      turn_half_a_step();
-      const auto v_4 = v + h * a_3;
-      const auto a_4 = acceleration<is_damped>(q + h * v_3, v_4);
-      q = q + sixth * (v + 2.0 * v_2 + 2.0 * v_3 + v_4);
-      v = v + sixth * (a_1 + 2.0 * a_2 + 2.0 * a_3 + a_4);
+    const auto a_1 = acceleration<is_damped>(q, v);
+    turn_half_a_step();
+    const auto v_2 = v + half * a_1;
+    const auto a_2 = acceleration<is_damped>(q + half * v, v_2);
+    const auto v_3 = v + half * a_2;
+    const auto a_3 = acceleration<is_damped>(q + half * v_2, v_3);
+    turn_half_a_step();
+    const auto v_4 = v + h * a_3;
+    const auto a_4 = acceleration<is_damped>(q + h * v_3, v_4);
+    q = q + sixth * (v + 2.0 * v_2 + 2.0 * v_3 + v_4);
+    v = v + sixth * (a_1 + 2.0 * a_2 + 2.0 * a_3 + a_4);
+  }
+
+  IN_PLACE void drift_by(const Drift<Number>& d)
+  {
+    q = {q.stator + d.shift_s * v.stator, q.rotor + d.shift_r * v.rotor};
+    v = {d.slowing_s * v.stator, d.slowing_r * v.rotor};
+    rotor = turned(rotor, d.rotor);
+    cage = turned(cage, d.cage);
+  }
+  IN_PLACE void step_of_splitting()
+  {
+    for (int k = 0; k < 6; ++k) {
+      drift_by(drift[k < 4 ? k : 6 - k]);
+      v = v + kicks[k < 3 ? k : 5 - k] * h * acceleration<false>(q, v);
     }
+    drift_by(drift[0]);
+  }
+
+  template <Work work>
+  IN_PLACE void advance(long steps)
+  {
+    for (long k = 0; k < steps; ++k)
+      if constexpr (work == Work::splitting)
+        step_of_splitting();
+      else
+        step_of_rk4<work == Work::rk4_damped>();
   }
 };
 
 namespace {
 
 /** One function for each kind of registers: what it calls is a part of it. */
-template <bool is_damped, class Row>
+template <FixedStep::Work work, class Row>
 void advance_plain(Row& row, long steps)
 {
-  row.template advance<is_damped>(steps);
+  row.template advance<work>(steps);
 }
 
 #ifdef HAS_WIDE_REGISTERS
-template <bool is_damped, class Row>
+template <FixedStep::Work work, class Row>
 __attribute__((target("avx2"))) void advance_avx2(Row& row, long steps)
 {
-  row.template advance<is_damped>(steps);
+  row.template advance<work>(steps);
 }
 
-template <bool is_damped, class Row>
+template <FixedStep::Work work, class Row>
 __attribute__((target("avx512f"))) void advance_avx512(Row& row, long steps)
 {
-  row.template advance<is_damped>(steps);
+  row.template advance<work>(steps);
 }
 #endif
 
@@ -168,15 +241,15 @@ Registers& registers_in_use()
   return in_use;
 }
 
-template <bool is_damped, class Row>
+template <FixedStep::Work work, class Row>
 void advance_by(Row& row, long steps)
 {
 #ifdef HAS_WIDE_REGISTERS
   constexpr auto width = sizeof(row.h) / sizeof(double);
-  if constexpr (width > 4) return advance_avx512<is_damped>(row, steps);
-  if (registers_in_use() >= Registers::avx2) return advance_avx2<is_damped>(row, steps);
+  if constexpr (width > 4) return advance_avx512<work>(row, steps);
+  if (registers_in_use() >= Registers::avx2) return advance_avx2<work>(row, steps);
 #endif
-  advance_plain<is_damped>(row, steps);
+  advance_plain<work>(row, steps);
 }
 
 }  // namespace
@@ -191,42 +264,45 @@ void use_registers(Registers widest)
   registers_in_use() = std::min(widest, registers_of_processor());
 }
 
-static Rk4& flow_of(const Passage& one)
+static FixedStep& flow_of(const Passage& one)
 {
-  return static_cast<Rk4&>(*one.flow);
+  return static_cast<FixedStep&>(*one.flow);
 }
 
 /** Lanes that have arrived go on unseen until the last one has. */
 template <class Number>
-void Rk4::advance_lanes(std::span<const Passage> passages)
+void FixedStep::advance_lanes(std::span<const Passage> passages)
 {
   constexpr int width = lanes_in<Number>;
   const auto last = passages.size() - 1;
+  const Work work = flow_of(passages[0]).work_;
   Row<Number> row{};
   row.balls = flow_of(passages[0]).system_.bearing().ring();
   std::array<long, width> done{};
-  bool is_damped = false;
   for (int l = 0; l < width; ++l) {
     const Passage& one = passages[std::min<std::size_t>(l, last)];
     row.put(l, flow_of(one), *one.state);
-    is_damped = is_damped || flow_of(one).is_damped_;
   }
   for (bool is_under_way = true; is_under_way;) {
     long steps = fresh;
     for (int l = 0; l < width; ++l) {
       const Passage& one = passages[std::min<std::size_t>(l, last)];
-      const Rk4& flow = flow_of(one);
+      const FixedStep& flow = flow_of(one);
       const long left = flow.steps_ * one.count - done[l];
       if (left <= 0) continue;
       if (done[l] % fresh == 0) row.turn_to(l, flow.angles(one.first, done[l]));
       steps = std::min({steps, left, fresh - done[l] % fresh});
       if (one.path) steps = std::min(steps, flow.steps_ - done[l] % flow.steps_);
     }
-    is_damped ? advance_by<true>(row, steps) : advance_by<false>(row, steps);
+    switch (work) {
+      case Work::rk4: advance_by<Work::rk4>(row, steps); break;
+      case Work::rk4_damped: advance_by<Work::rk4_damped>(row, steps); break;
+      case Work::splitting: advance_by<Work::splitting>(row, steps); break;
+    }
     is_under_way = false;
     for (int l = 0; l < width; ++l) {
       const Passage& one = passages[std::min<std::size_t>(l, last)];
-      const Rk4& flow = flow_of(one);
+      const FixedStep& flow = flow_of(one);
       const long left = flow.steps_ * one.count - done[l];
       done[l] += steps;
       is_under_way = is_under_way || left > steps;
@@ -238,7 +314,7 @@ void Rk4::advance_lanes(std::span<const Passage> passages)
   }
 }
 
-void Rk4::advance(long interval, State& state)
+void FixedStep::advance(long interval, State& state)
 {
   pay(1);
   const Passage alone{this, interval, &state};
@@ -251,7 +327,7 @@ void Rk4::advance(long interval, State& state)
   });
 }
 
-std::size_t Rk4::widest_row()
+std::size_t FixedStep::widest_row()
 {
   switch (registers_in_use()) {
     case Registers::avx512: return 8;
@@ -261,7 +337,7 @@ std::size_t Rk4::widest_row()
   return 2;
 }
 
-void Rk4::advance_row(std::span<const Passage> passages)
+void FixedStep::advance_row(std::span<const Passage> passages)
 {
 #ifdef HAS_WIDE_REGISTERS
   if (passages.size() > 4) return advance_lanes<Lanes<8>>(passages);
