@@ -170,13 +170,14 @@ PeriodicMotion solved_on(const TorusSearch& search, const Harmonics& kept,
 /** What Eq. 7 settles on from rest, with its lines. */
 class SettledTorus {
 public:
-  explicit SettledTorus(const TorusSearch& search)
+  explicit SettledTorus(const TorusSearch& search, double step_ratio = 1)
       : search_(search), parameters_(search.parameters)
   {
     /** Twice as many as the highest order that is looked for. */
     const double contact = contact_frequency(parameters_) / search.omega;
     const int points = contact < 40 ? 128 : 256;
-    const Request request{.omega = search.omega, .points = points};
+    const Request request{
+        .omega = search.omega, .points = points, .step_ratio = step_ratio};
     const Question question{.parameters = parameters_,
                             .request = request,
                             .budget = search.budget,
@@ -343,7 +344,8 @@ TorusVerdict verdict_on_torus(const Parameters& parameters,
                               const OperationBudget& budget)
 {
   constexpr int points = 64;
-  const double omega = solution.omega, step = step_at(parameters, omega);
+  const double omega = solution.omega,
+               step = step_ratio(tolerance) * step_at(parameters, omega);
   const Instant start{state_of(parameters, solution), 0};
   const auto from_there = [&](double longest_step) {
     return settle(parameters, omega, base_period(parameters), start,
@@ -397,7 +399,7 @@ Torus torus_to_tolerance(const TorusSearch& search, double tolerance)
   constexpr int first = 16, most = 256;
   Torus torus;
   try {
-    const SettledTorus settled(search);
+    const SettledTorus settled(search, step_ratio(tolerance));
     const auto all = settled.all_lines();
     Motion exact = settled.record();
     Error uncertain = settled.record_error();

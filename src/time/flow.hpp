@@ -75,18 +75,19 @@ double evaluation_price(const Parameters& parameters, const std::string& method)
 double default_step(const Parameters& parameters);
 
 /** The step [s] of rk4 at a base frequency: `default_step`, and less where the force at
-    that speed presses the contact much more than the loads do by which that is chosen. */
+    that speed presses the contact much more than the loads do by which that is chosen,
+    and, where the splitting takes steps four times as long, where balls pass fast. */
 inline double step_at(const Parameters& parameters, double omega)
 {
   return parameters.machine->step(parameters, omega);
 }
 
-/** How many times longer than `step_at` the steps of rk4 may be where a relative error of
+/** How many times longer than `step_at` steps may be where a relative error of
     `tolerance` in a settled displacement is enough: `step_at` keeps it near 1e-6, and the
-    error grows with the fourth power. At most 2, twenty steps in a vibration of the
-    contact: a step h takes (ω_contact h)⁶/144 of its amplitude, ten in a vibration 0.4 %
-    of it and 8 % in a turn of twenty vibrations, enough to settle on an unstable
-    motion. */
+    error grows with the fourth power. At most 2. That is five steps of the splitting in a
+    vibration of the contact, and twenty of rk4: one of its steps h takes (ω_contact
+    h)⁶/144 of the amplitude, ten in a vibration 0.4 % of it and 8 % in a turn of twenty
+    vibrations, enough to settle on an unstable motion. */
 double step_ratio(std::optional<double> tolerance);
 
 }  // namespace rotor_stator
