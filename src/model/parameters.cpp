@@ -53,13 +53,21 @@ Body read_body(StrictToml& table)
   return body;
 }
 
-/** m_e e [kg m], or the rotor's mass times its eccentricity. */
+/** m_e e [kg m], or the rotor's mass times its eccentricity, or what a grade G of ISO
+    21940-11, the speed of the eccentricity in mm/s, allows at a speed. */
 double read_unbalance(StrictToml& table, const Body& rotor)
 {
-  constexpr const char* key = "eccentricity_m";
-  if (table.way({{"unbalance_kg_m"}, {key}}) == 0)
-    return table.number("unbalance_kg_m", Range::not_negative);
-  return derived(table, key, rotor.mass * table.number(key, Range::not_negative));
+  constexpr const char *key = "eccentricity_m", *grade = "balance_grade",
+                       *speed = "balance_speed_rad_per_s";
+  switch (table.way({{"unbalance_kg_m"}, {key}, {grade, speed}})) {
+    case 0: return table.number("unbalance_kg_m", Range::not_negative);
+    case 1:
+      return derived(table, key, rotor.mass * table.number(key, Range::not_negative));
+    default: break;
+  }
+  const double e = 1e-3 * table.number(grade, Range::not_negative) /
+                   table.number(speed, Range::positive);
+  return derived(table, grade, rotor.mass * e);
 }
 
 /** A stator that no force moves: so much heavier than the rotor that its motion is below

@@ -167,7 +167,11 @@ inline const std::vector<std::pair<std::string, std::string>> given_instead{
     {"natural_frequency_rad_per_s", "stiffness_N_per_m"},
     {"stiffness_N_per_m", "natural_frequency_rad_per_s"},
     {"unbalance_kg_m", "eccentricity_m"},
-    {"eccentricity_m", "unbalance_kg_m"}};
+    {"unbalance_kg_m", "balance_grade"},
+    {"unbalance_kg_m", "balance_speed_rad_per_s"},
+    {"eccentricity_m", "unbalance_kg_m"},
+    {"eccentricity_m", "balance_grade"},
+    {"eccentricity_m", "balance_speed_rad_per_s"}};
 
 /** Reads bodies given by matrices, and their bearings, into the parameters. */
 using MatrixReader = std::function<void(StrictToml& root, Parameters& parameters)>;

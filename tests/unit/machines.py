@@ -94,8 +94,10 @@ class Machines(Case):
             text = replaced(text, body, "natural_frequency_rad_per_s", f"stiffness_N_per_mm = {k / 1e3!r}")
         e = VALUES["rotor"]["unbalance_kg_m"] / VALUES["rotor"]["mass_kg"]
         text = replaced(text, "rotor", "unbalance_kg_m", f"eccentricity_um = {1e6 * e!r}")
-        motion, same = (displacements(self.table("orbit", self.file("own.toml", keys), "--frequency", 45)) for keys in (MACHINE, text))
-        np.testing.assert_allclose(same, motion, atol=1e-9 * np.ptp(motion))
+        grade = replaced(MACHINE, "rotor", "unbalance_kg_m", f"balance_grade = {1e3 * e * 2 * np.pi * 50!r}\nbalance_speed_rpm = 3000")
+        motion, *others = (displacements(self.table("orbit", self.file("own.toml", keys), "--frequency", 45)) for keys in (MACHINE, text, grade))
+        for same in others:
+            np.testing.assert_allclose(same, motion, atol=1e-9 * np.ptp(motion))
 
     def test_refusals(self):
         zero = "natural_frequency_rad_per_s = 0"
@@ -108,6 +110,7 @@ class Machines(Case):
                  "rotor.damping_N_s_per_m and damping_ratio are both given"),
                 (replaced(MACHINE, "rotor", "damping_ratio", ""), "damping_ratio is missing; give it, or damping_N"),
                 (MACHINE.replace("[rotor]", "[rotor]\neccentricity_m = 1"), "rotor.eccentricity_m and unbalance_kg_m are both given"),
+                (replaced(MACHINE, "rotor", "unbalance_kg_m", "balance_grade = 6.3"), "balance_speed_rad_per_s is missing"),
                 (replaced(MACHINE, "rotor", "unbalance_kg_m", "eccentricity_m = 1e308"), "and mass_kg give more than a double holds"),
                 (MACHINE.replace("[rotor]", "[rotor]\nload_N = [1]"), "load_N must be [x, y]"),
                 (MACHINE.replace("[rotor]", "[rotor]\nload_N = 1"), "load_N must be a non-empty array"),
