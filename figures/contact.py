@@ -14,6 +14,8 @@ from tables import heading, run
 def draw_stress(axes, parts):
     """The largest stress of all balls at each instant."""
     for name, part in parts.items():
+        if not part["stress"].any():
+            continue  # the sizes of its balls are not known
         times, which = np.unique(part["t_over_T"], return_inverse=True)
         largest = np.zeros(times.size)
         np.maximum.at(largest, which, part["stress"])

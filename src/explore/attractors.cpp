@@ -384,11 +384,14 @@ void note(Table& table, const Task& task)
   const Machine& machine = *task.machine.machine;
   const std::string method = machine.time_method(task.machine);
   table.value("method", method);
-  if (machine.takes_explicit_steps())
-    table.value("step",
-                (method == "splitting" ? splitting_over_rk4 : 1) *
-                    step_ratio(task.request.tolerance) * default_step(task.machine),
-                4);
+  if (machine.takes_explicit_steps()) {
+    const Based last = over(task.base, task.machine, angular(task.speeds.back()));
+    const double longer = method == "splitting" ? splitting_over_rk4 : 1;
+    table.value(
+        "step",
+        longer * step_ratio(task.request.tolerance) * step_at(last.machine, last.omega),
+        4);
+  }
   if (task.request.tolerance) table.value("tolerance", *task.request.tolerance);
   table.value("base", task.base.words());
   table.value("speeds", task.speeds.size());

@@ -24,7 +24,7 @@ void put_method(Table& table, const MapTask& task)
   const MapRequest& request = task.request;
   table.value("method", request.method);
   if (request.method != "aft")
-    return table.note("longest step " +
+    return table.note("longest step of rk4, a fourth of one of splitting: " +
                       (request.step > 0 ? format("%.15g s", request.step)
                                         : std::string("from K_H and --tolerance")) +
                       "; transient " +

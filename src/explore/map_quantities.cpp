@@ -96,7 +96,7 @@ public:
     if (there.kind == Kind::undecided) throw NoSolution(verdict().reason);
     const auto steps =
         flow(based_.machine, based_.omega,
-             {.method = "rk4", .intervals_per_period = instants, .budget = budget_});
+             {.method = "auto", .intervals_per_period = instants, .budget = budget_});
     State state = there.at.state;
     return motion::rms_difference(
         motion::motion_of(solution(), instants),
@@ -121,7 +121,7 @@ public:
             budget_,
             {},
             machine_.machine->patience().transient,
-            has_record()};
+            is_observed()};
   }
 
   /** What its question came to. */
@@ -237,7 +237,7 @@ private:
   bool is_chosen() const { return task_.request.tolerance && !task_.request.harmonics; }
 
   /** For these quantities the motion from rest is observed. */
-  bool has_record() const
+  bool is_observed() const
   {
     return std::ranges::any_of(task_.request.quantities, [](const std::string& name) {
       return name == "amplitude" || name == "mean";

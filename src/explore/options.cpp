@@ -174,7 +174,7 @@ struct TimeOptions {
       : step(add_number(
             command, "--step", step_value, 0.0, largest,
             "longest step of rk4, a fourth of one of splitting [s] (default: from "
-            "K_H)")),
+            "K_H and the speed)")),
         longest(add_number(command, "--longest", longest_value, 1e-3, 1e5,
                            "longest transient of a motion in time, after t = 0 [s]"))
   {

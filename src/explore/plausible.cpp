@@ -46,8 +46,8 @@ std::vector<std::string> doubts(const Parameters& machine, double highest)
       [N/m²]; gravity of any planet [m/s²]; what a suspension sinks by [m]; e [m]. */
   constexpr double widest = 5, steel = 1e11, heaviest = 30, deepest = 0.03,
                    most_eccentric = 3e-3;
-  constexpr double most_hertz = 1000;  // of a suspension
-  constexpr double finest_grade = 0.4 / 100;  // G0.4 of ISO 21940-11 [mm/s]
+  constexpr double most_hertz = 1000;       // of a suspension
+  constexpr double least_eccentric = 1e-9;  // a hundredth of G0.4 at 40,000 rpm [m]
   std::vector<std::string> all;
   for (const Bearing& bearing : bearings_of(machine)) {
     if (const double d = printable_size(pitch_diameter(bearing)); d > widest)
@@ -103,12 +103,11 @@ std::vector<std::string> doubts(const Parameters& machine, double highest)
         machine.rotor.mass, 1e-6 * printable_size(pressure), 1e-6 * most_pressure));
   if (!machine.rotor.rigid && e > most_eccentric)
     all.push_back(format("an eccentricity of %.3g m: is the unbalance in kg m?", e));
-  const double grade = 1e3 * e * angular(highest);
-  if (grade > 0 && grade < finest_grade)
+  if (e > 0 && e < least_eccentric)
     all.push_back(
-        format("an unbalance of %.3g kg m is G%.1g at %g Hz, a hundred times finer than "
-               "any balance grade: is it in kg m?",
-               machine.unbalance, grade, highest));
+        format("an unbalance of %.3g kg m is an eccentricity of %.1g m, finer than any "
+               "rotor is balanced: is it in kg m?",
+               machine.unbalance, e));
   return all;
 }
 

@@ -175,10 +175,8 @@ bool touches_somewhere(motion::Answer& answer)
   motion::Motion now{1, answer.settled.at.period, {}, {}, answer.omega};
   motion::add(now, answer.settled.at.state);
   if (motion::contact_share(answer.machine, now) > 0) return true;
-  complete(answer, {.omega = answer.omega,
-                    .points = 64,
-                    .periods = 4,
-                    .is_measured = false});
+  complete(answer,
+           {.omega = answer.omega, .points = 64, .periods = 4, .is_measured = false});
   return motion::contact_share(answer.machine, answer.motion) > 0;
 }
 
@@ -192,16 +190,15 @@ ResponseRow row_of(motion::Answer& answer, const motion::Observation& seen,
                   .amplitude = seen.amplitude,
                   .period = answer.period_number()};
   if (has_records) {
-    if (measures.empty())
-      complete(answer, asked, budget);
-    else
-      answer = whole_motion(answer, asked, budget);
+    motion::Answer closed = answer;
+    if (asked.is_measured || measures.empty()) complete(closed, asked, budget);
+    row.lyapunov = closed.settled.lyapunov.value;
+    answer = measures.empty() ? std::move(closed) : whole_motion(answer, asked, budget);
     observe(row, answer.machine, answer.motion, answer.omega, closes(answer), measures);
     if (row.contact_share > 0) touches = true;
   } else if (!touches && touches_somewhere(answer)) {
     touches = true;
   }
-  row.lyapunov = answer.settled.lyapunov.value;
   row.mean = seen.mean;
   row.rms = seen.rms;
   return row;

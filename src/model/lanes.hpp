@@ -55,16 +55,23 @@ IN_PLACE Number root(Number p)
   }
 }
 
-/** Whether p is positive in any lane. */
+/** Whether p is positive in any lane: halves are compared, since a loop over the lanes
+    would go through the memory. */
 template <class Number>
 IN_PLACE bool any_positive(Number p)
 {
   if constexpr (lanes_in<Number> == 1) {
     return p > 0;
+  } else if constexpr (lanes_in<Number> == 2) {
+    return p[0] > 0 || p[1] > 0;
+  } else if constexpr (lanes_in<Number> == 4) {
+    const Lanes<2> low = __builtin_shufflevector(p, p, 0, 1),
+                   high = __builtin_shufflevector(p, p, 2, 3);
+    return any_positive(low > high ? low : high);
   } else {
-    double largest = p[0];
-    for (int l = 1; l < lanes_in<Number>; ++l) largest = largest > p[l] ? largest : p[l];
-    return largest > 0;
+    const Lanes<4> low = __builtin_shufflevector(p, p, 0, 1, 2, 3),
+                   high = __builtin_shufflevector(p, p, 4, 5, 6, 7);
+    return any_positive(low > high ? low : high);
   }
 }
 

@@ -62,11 +62,11 @@ public:
   /**
   ## In time (time/flow.cpp) */
 
-  /** The method of time integration that is its own: "splitting", "rk4" where the contact
-      depends on speeds, or "gauss". */
+  /** The method of time integration that is its own: "splitting", "rk4" where the bearing
+      is not `is_plain`, or "gauss". */
   virtual const char* time_method(const Parameters& parameters) const = 0;
 
-  /** Whether "rk4", "rk8" and GSL's methods integrate it too. */
+  /** Whether "rk4", "splitting", "rk8" and GSL's methods integrate it too. */
   virtual bool takes_explicit_steps() const = 0;
 
   virtual Patience patience() const { return {}; }

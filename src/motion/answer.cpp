@@ -35,6 +35,19 @@ double step_of(const Request& request, const Parameters& machine, double omega)
   return request.step > 0 ? request.step : request.step_ratio * step_at(machine, omega);
 }
 
+/** Of what follows the transient: no longer than the steps with which that ended well. */
+double step_of(const Request& request, const Answer& answer)
+{
+  const double step = step_of(request, answer.machine, answer.omega);
+  return answer.settled.step > 0 ? std::min(step, answer.settled.step) : step;
+}
+
+/** RK4 where it is asked for, else the machine's own method. */
+const char* stepper_of(const Request& request)
+{
+  return request.method == "rk4" ? "rk4" : "auto";
+}
+
 /** What records the motion. */
 std::string stepper_of(const Answer& answer, const Request& request)
 {
@@ -148,8 +161,8 @@ public:
   Motion operator()(double finer)
   {
     const auto stepper = [&](int intervals) {
-      double step = step_of(request_, answer_.machine, answer_.omega);
-      /** Half of it shall be half of what is taken. */
+      double step = step_of(request_, answer_);
+      /** Not longer than an interval, else half of it would change nothing. */
       if (stepper_of(answer_, request_) == "splitting")
         step = std::min(step, 2 * std::numbers::pi / answer_.omega / request_.points /
                                   splitting_over_rk4);
@@ -178,8 +191,9 @@ private:
   {
     constexpr double times = 3, motions = 2;
     const Settled& settled = answer_.settled;
-    const double share = static_cast<double>(settled.at.period - settled.before.period) *
-                         2 * std::numbers::pi / answer_.omega / settled.seconds;
+    const double periods =
+        static_cast<double>(settled.at.period - settled.before.period + periods_);
+    const double share = periods * 2 * std::numbers::pi / answer_.omega / settled.seconds;
     return times * share * settled.evaluations / motions < budget_.left();
   }
 
@@ -247,7 +261,7 @@ static std::unique_ptr<Settling> settling(const Question& question, const Answer
   if (question.start) first.state = *question.start;
   return std::make_unique<Settling>(
       at.machine, at.omega, at.base, first,
-      SettleRule{.method = question.request.method == "rk4" ? "rk4" : "auto",
+      SettleRule{.method = stepper_of(question.request),
                  .step = step_of(question.request, at.machine, at.omega),
                  .longest = question.request.longest},
       question.transient < 1 ? question.budget.part(question.transient)
@@ -285,6 +299,10 @@ void complete(Answer& answer, const Request& request, const OperationBudget& bud
   const bool is_closed = answer.kind() == Kind::periodic && request.method == "auto" &&
                          close(answer, request, budget);
   if (!is_closed) record(answer, request, budget);
+  if (request.tolerance && request.is_measured && answer.settled.contracts &&
+      !answer.error)
+    throw NoSolution(answer.machine.file +
+                     ": the error needs more than the budget; more with --budget");
   if (request.tolerance && answer.error &&
       !(answer.error->larger() <= *request.tolerance))
     throw NoSolution(format("%s: tolerance %g not reached at %g Hz, error %.2g",
@@ -354,14 +372,15 @@ namespace {
 /** One motion while it is observed. */
 class Observing : public Traveller {
 public:
-  Observing(const Answer& answer, double step, const OperationBudget& budget)
+  Observing(const Answer& answer, const char* method, double step,
+            const OperationBudget& budget)
       : is_closed_(answer.period() > 0 || answer.kind() == Kind::rest),
         count_(is_closed_ ? std::max(1, answer.period()) : observed),
         period_(2 * std::numbers::pi / answer.omega),
         intervals_(static_cast<int>(
             std::clamp(std::ceil(period_ / ((is_closed_ ? 2 : 4) * step)), 64.0, 1e6))),
         flow_(flow(answer.machine, answer.omega,
-                   {.method = "auto",
+                   {.method = method,
                     .intervals_per_period = intervals_,
                     .step = step,
                     .budget = budget})),
@@ -457,8 +476,9 @@ std::vector<Observed> observed_answers(std::span<const Question> questions)
     observings.push_back(attempt([&]() -> std::unique_ptr<Observing> {
       const Answer& at = answers[k].get();
       if (!questions[k].is_observed) return nullptr;
-      return std::make_unique<Observing>(
-          at, step_of(questions[k].request, at.machine, at.omega), questions[k].budget);
+      const Request& request = questions[k].request;
+      return std::make_unique<Observing>(at, stepper_of(request), step_of(request, at),
+                                         questions[k].budget);
     }));
   travel(observings);
   std::vector<Observed> all;
@@ -472,7 +492,7 @@ std::vector<Observed> observed_answers(std::span<const Question> questions)
 
 Observation observe(const Answer& answer, const OperationBudget& budget)
 {
-  Observing one(answer, step_at(answer.machine, answer.omega), budget);
+  Observing one(answer, "auto", step_of({}, answer), budget);
   travel(std::vector<Traveller*>{&one});
   return one.seen();
 }

@@ -198,6 +198,8 @@ public:
     };
     record_ = completed(turns, false).motion;
     compared_ = completed(compared_turns, true);
+    if (!compared_.error)
+      throw NoSolution("the error of the integrated motion needs more than the budget");
     const Eigen::MatrixXd samples = relative_samples(parameters_, record_);
     const Eigen::VectorXd window = blackman_harris(samples.rows());
     for (const auto& column : samples.colwise())
@@ -258,7 +260,7 @@ public:
 
   /** What is compared with solutions, and how exact it is. */
   const Motion& record() const { return compared_.motion; }
-  Error record_error() const { return compared_.error.value_or(Error{}); }
+  Error record_error() const { return *compared_.error; }
 
 private:
   static constexpr int turns = 1280;  ///< of the record
@@ -308,10 +310,11 @@ private:
 constexpr double near = 0.05;
 
 /** What integration from a solution makes of it. */
-void add_verdict(const TorusSearch& search, double tolerance, Torus& torus)
+void add_verdict(const TorusSearch& search, double tolerance, double step_ratio,
+                 Torus& torus)
 try {
-  torus.verdict =
-      verdict_on_torus(search.parameters, torus.motion, tolerance, search.budget);
+  torus.verdict = verdict_on_torus(search.parameters, torus.motion, tolerance, step_ratio,
+                                   search.budget);
   torus.error = torus.verdict->distance;
 } catch (const NoSolution& none) {
   torus.end = none.what();
@@ -323,7 +326,7 @@ Torus judged(const TorusSearch& search, PeriodicMotion motion)
   Torus torus{.motion = std::move(motion)};
   torus.reached = torus.motion.found();
   torus.end = torus.motion.newton.reason();
-  if (torus.reached && search.stability) add_verdict(search, near, torus);
+  if (torus.reached && search.stability) add_verdict(search, near, 1, torus);
   return torus;
 }
 
@@ -341,11 +344,10 @@ Eigen::VectorXd half_peak_to_peak_of_torus(const Parameters& parameters,
 
 TorusVerdict verdict_on_torus(const Parameters& parameters,
                               const PeriodicMotion& solution, double tolerance,
-                              const OperationBudget& budget)
+                              double step_ratio, const OperationBudget& budget)
 {
   constexpr int points = 64;
-  const double omega = solution.omega,
-               step = step_ratio(tolerance) * step_at(parameters, omega);
+  const double omega = solution.omega, step = step_ratio * step_at(parameters, omega);
   const Instant start{state_of(parameters, solution), 0};
   const auto from_there = [&](double longest_step) {
     return settle(parameters, omega, base_period(parameters), start,
@@ -356,7 +358,7 @@ TorusVerdict verdict_on_torus(const Parameters& parameters,
   const Exponent& rate = verdict.settled.lyapunov;
   verdict.uncertainty =
       std::max(3 * rate.error, std::abs(rate.value - coarse.lyapunov.value));
-  /** With error control, from so much earlier that the errors of rk4 are forgotten. */
+  /** With error control, from so much earlier that those of fixed steps are forgotten. */
   const auto stepper =
       flow(parameters, omega,
            {.intervals_per_period = points, .tolerance = 1e-9, .budget = budget});
@@ -414,7 +416,7 @@ Torus torus_to_tolerance(const TorusSearch& search, double tolerance)
       torus.error->rms += uncertain.rms;
       const bool is_far = torus.error->larger() > std::max(tolerance, before / 2);
       if (is_far || (!torus.verdict && search.stability)) {
-        add_verdict(search, tolerance, torus);
+        add_verdict(search, tolerance, step_ratio(tolerance), torus);
         if (!torus.verdict) break;
         exact = torus.verdict->record;
         uncertain = {};

@@ -25,7 +25,7 @@ Eigen::VectorXd half_peak_to_peak_of_torus(const Parameters& parameters,
 
 /** What Eq. 7 makes of a solution with two frequencies. */
 struct TorusVerdict {
-  Settled settled = {};    ///< what the machine does from it, by half the step of rk4
+  Settled settled = {};    ///< what the machine does from it, by half the step
   Motion record = {};      ///< of that, 100 turns
   Error distance = {};     ///< of the solution from it
   double uncertainty = 0;  ///< of λ: three standard errors, or what half the step changes
@@ -41,10 +41,11 @@ struct TorusVerdict {
   }
 };
 
-/** Eq. 7 is integrated from the solution by `settle`. */
+/** Eq. 7 is integrated from the solution by `settle`, with steps so many times as long as
+    `step_at` and half as long. */
 TorusVerdict verdict_on_torus(const Parameters& parameters,
                               const PeriodicMotion& solution, double tolerance,
-                              const OperationBudget& budget = {});
+                              double step_ratio = 1, const OperationBudget& budget = {});
 
 struct TorusSearch {
   const Parameters& parameters;

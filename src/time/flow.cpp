@@ -48,7 +48,7 @@ double step_ratio(std::optional<double> tolerance)
 
 double evaluation_price(const Parameters& parameters, const std::string& method)
 {
-  if (has_fixed_step(method)) return 1;
+  if (method == "auto" || has_fixed_step(method)) return 1;
   if (method == "rk8") return Rk8::price;
   const int balls = parameters.bearing.balls;
   const bool explicit_steps = method == "rkf45" || method == "rkck" || method == "rk8pd";

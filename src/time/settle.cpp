@@ -168,7 +168,7 @@ void Settling::look()
     periods_ = std::max<std::size_t>(4, pair_.growths().size() / 8);
     return;
   }
-  settled_.evaluations = pair_.evaluations();
+  settled_.evaluations = spent_before_ + pair_.evaluations();
   if (base_.is_driven_twice() && settled_.contracts && settled_.at.period != 0 &&
       settled_.kind == Kind::quasi_periodic && can_be_put_on_zero())
     put_on_zero();
@@ -176,7 +176,8 @@ void Settling::look()
     has_ended_ = true;
 }
 
-/** What steps of RK4 change in a growth rate [1/s] of what turns with the base period. */
+/** What steps of RK4, or the longer ones of the splitting, change at most in a growth rate
+    [1/s] of what turns with the base period. */
 static double error_of_rate(double step, double period)
 {
   const double angle = 2 * std::numbers::pi * step / period;
@@ -187,7 +188,10 @@ static double error_of_rate(double step, double period)
 Settled Settling::seen() const
 {
   const TrajectoryPair& pair = pair_;
-  Settled s{.lyapunov = pair.exponent(), .at = pair.at(), .before = pair.since(nearer)};
+  Settled s{.lyapunov = pair.exponent(),
+            .at = pair.at(),
+            .step = rule_.step,
+            .before = pair.since(nearer)};
   s.remainder = std::exp(std::max(-700.0, pair.contraction()));
   s.amplitude = pair.half_range();
   s.seconds = pair.seconds();
@@ -216,6 +220,11 @@ Settled Settling::seen() const
                          "neighbours contract by %.3g/s, but the transient is not over "
                          "after %.3g s",
                          -rate, pair.seconds())
+               : rate - doubt > 0
+                   ? format(
+                         "neighbours part by %.3g/s, but more and more slowly or too "
+                         "little in %.3g s to be called chaos",
+                         rate, pair.seconds())
                    : format(
                          "the growth rate of neighbours, %.2g +- %.1g/s, is not known "
                          "well enough after %.3g s",
@@ -315,8 +324,15 @@ void Settling::lost(std::exception_ptr why)
   if (!turn_ && !is_again_ && !budget_.used_up()) {
     is_again_ = true;
     rule_.step /= 4;
-    pair_ = pair_from(machine_, omega_, start_, rule_, budget_);
-    return;
+    spent_before_ = pair_.evaluations();
+    periods_ = 0;
+    began_ = -1;
+    try {
+      pair_ = pair_from(machine_, omega_, start_, rule_, budget_);
+      return;
+    } catch (const NoSolution&) {
+      why = std::current_exception();
+    }
   }
   has_ended_ = true;
   if (!turn_) pair_.go_back();
@@ -326,7 +342,7 @@ void Settling::lost(std::exception_ptr why)
   }
   settled_ = seen();
   settled_.kind = Kind::undecided;
-  settled_.evaluations = pair_.evaluations();
+  settled_.evaluations = spent_before_ + pair_.evaluations();
   try {
     std::rethrow_exception(why);
   } catch (const NoSolution& ended) {

@@ -10,7 +10,8 @@ Poincaré section decides the kind of the motion. The first that holds:
 - `rest`: all speeds and changes are below 1e-12 of clearance plus static deflection.
 - `periodic`: one frequency drives, and the section, one point in each base period,
   repeats itself after K ≤ 16 of them.
-- `chaotic`: λ - 3s > 0.
+- `chaotic`: λ - 3s > 0, and the growth does not fade: in the last quarter it is at least
+  e⁵, and more than the root of that in the quarter before.
 - `quasi-periodic`: λ + 3s < 0 where two frequencies drive (the motion follows them); or
   |λ| ≤ 3s, with 3s below 0.1/s, where one does.
 - `undecided`: everything else, with the reason.
@@ -19,7 +20,8 @@ A periodic motion begins at t = 0 as it is found, since any whole number of base
 may be taken from its time. The state of a motion that two frequencies drive belongs to
 its instant: it is taken as that of an earlier one, so early that contraction forgets the
 difference by t = 0, and integrated from there. Every other motion begins where the
-integration ended.
+integration ended. A start lies before t = 0, where integration ends at the earliest; only
+a motion that closes may be seen sooner, after neighbours have come nearer by 1e-9.
 
     const BasePeriod base = base_period(parameters);
     const auto [machine, omega] = over(base, parameters, angular(25));
@@ -62,6 +64,7 @@ struct Settled {
   bool contracts = false;  ///< λ + 3s < 0
   double remainder = 1;    ///< what the contraction has left of any distance [-]
   Instant at;              ///< a state on the motion: see above
+  double step = 0;         ///< longest of rk4 that was taken, or of the same error [s]
   Instant before;  ///< an earlier one: since then distances shrank by 1e-7, so that
                    ///< other steps from here forget their start by `at`
   double amplitude =
@@ -106,6 +109,7 @@ private:
   Instant start_;
   bool is_again_ = false;
   TrajectoryPair pair_;
+  double spent_before_ = 0;               ///< evaluations, on a run that diverged
   std::size_t periods_ = 0;               ///< until the pair is looked at again
   double began_ = -1;                     ///< seconds that it had when looked at first
   std::unique_ptr<Flow> turn_ = nullptr;  ///< on the way to t = 0

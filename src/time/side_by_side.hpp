@@ -34,7 +34,7 @@ struct Failure {
   std::exception_ptr why;
 };
 
-/** Makes all passages, those by rk4 in lanes. A passage that fails (NoSolution) leaves
+/** Makes all passages, those with fixed steps in lanes. A passage that fails (NoSolution) leaves
     its state where it stops. */
 std::vector<Failure> advance_together(std::span<const Passage> passages);
 

@@ -76,10 +76,16 @@ State TrajectoryPair::beside(const Eigen::VectorXd& y) const
   return state_of(y + share * sizes_);
 }
 
+void TrajectoryPair::diverged() const
+{
+  throw NoSolution(format("time integration diverged %.3g s after its start", seconds()));
+}
+
 double TrajectoryPair::pull_back()
 {
   constexpr double met = 1e-8;  ///< rounding keeps neighbours apart that have met
   const Eigen::VectorXd y = vector_of(at_.state);
+  if (!y.allFinite()) diverged();
   const Eigen::VectorXd least = above_rounding * y.cwiseAbs();
   if ((least.array() > sizes_.array()).any()) {
     sizes_ = sizes_.cwiseMax(least);
@@ -88,9 +94,7 @@ double TrajectoryPair::pull_back()
   }
   const Eigen::VectorXd apart = vector_of(neighbour_) - y;
   const double growth = apart.cwiseQuotient(sizes_).norm() / first_distance;
-  if (!std::isfinite(growth))
-    throw NoSolution(
-        format("time integration diverged %.3g s after its start", seconds()));
+  if (!std::isfinite(growth)) diverged();
   neighbour_ = growth > met ? state_of(y + apart / growth) : beside(y);
   return std::log(std::max(growth, met));
 }

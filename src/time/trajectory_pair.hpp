@@ -33,7 +33,8 @@ class TrajectoryPair {
 public:
   /** `flow`: of fixed step, since an adaptive one takes other steps for the neighbour and
       its error would pass for growth. `sizes` of the components make the distance a
-      number. */
+      number; where the motion shows to be far larger than they are, they grow, and the
+      neighbour begins anew. */
   TrajectoryPair(std::unique_ptr<Flow> flow, int intervals_per_period, double period,
                  const Eigen::VectorXd& sizes, const Instant& start);
 
@@ -75,6 +76,7 @@ private:
   void end_period();
   State beside(const Eigen::VectorXd& y) const;
   double pull_back();
+  [[noreturn]] void diverged() const;
 
   struct Mark {
     double log_distance;
