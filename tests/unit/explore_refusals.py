@@ -426,8 +426,8 @@ class Options(Case):
         self.refused("the budget of 1e+03 evaluations of the force is used up; more with --budget 4e+03",
                      "orbit", self.machine, *ORBIT, "--method", "aft", "--budget", "1e3", status=3)
         for how in ([], ["--method", "rk4"]):  # the motion may take 0.7 of the budget, the rest is for what is said of it
-            self.refused("the budget of 1e+04 evaluations of the force is used up; more with --budget 4e+04",
-                         "orbit", self.machine, *ORBIT, *how, "--budget", "1e4", status=3)
+            self.refused("the budget of 1e+03 evaluations of the force is used up; more with --budget 4e+03",
+                         "orbit", self.machine, *ORBIT, *how, "--budget", "1e3", status=3)
         table = self.table("orbit", self.machine, *ORBIT, "--method", "rk4", "--step", "2e-5", "--budget", "1e7")
         transient, spent, budget = (table.value(key) for key in ("transient", "evaluations", "budget"))
         self.assertEqual(budget, 1e7)

@@ -14,7 +14,7 @@ MASS, FREQUENCY, RATIO, UNBALANCE = 40.0, 150.0, 0.02, 0.05
 WIDE = MACHINE.replace("radial_clearance_m = 2e-5", "radial_clearance_m = 1")
 
 
-def linear(first, last, seconds, per_second=20000):
+def linear(first, last, seconds, per_second=200000):
     """The rotor alone, of complex place z = x + iy at rest in its static place: m z'' + c z' + k z = m_e e (w^2 - i a) e^{i phi} - i m g.
     z less its static place, phi and time at many instants."""
     rate, c, k = 2 * np.pi * (last - first) / seconds, 2 * RATIO * FREQUENCY, FREQUENCY**2
