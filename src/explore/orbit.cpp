@@ -40,7 +40,8 @@ void require_method_of(const Parameters& parameters, const std::string& method)
                    ": bodies given by matrices take aft, shooting, auto or gauss");
   if (method == "splitting" && !parameters.bearing.is_plain())
     throw BadInput(
-        "--method splitting: knows Hertz's contact alone, undamped and undamaged; take rk4");
+        "--method splitting: knows Hertz's contact alone, undamped and undamaged; take "
+        "rk4");
   if (machine.takes_explicit_steps() && method == "gauss")
     throw BadInput("--method gauss: is for bodies given by matrices");
 }

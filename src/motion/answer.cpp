@@ -156,8 +156,8 @@ public:
   /** Whether a motion whose neighbours contract is that of the steps of the record. */
   bool begins_earlier() const { return begins_earlier_; }
 
-  /** From the same earlier state, if it can be. `finer`: by so much smaller steps, or a local error smaller by its
-      square. */
+  /** From the same earlier state, if it can be. `finer`: by so much smaller steps, or a
+      local error smaller by its square. */
   Motion operator()(double finer)
   {
     const auto stepper = [&](int intervals) {

@@ -4,13 +4,14 @@
 `rk4` is the classical Runge-Kutta method, the paper's rival: four evaluations of Eq. 7 in
 a step. `splitting` is the symmetric splitting S_6 of order 4 of Blanes and Moan [1]: Eq.
 7 falls into a drift, q̇ = v and v̇ = -(c/m) v, and a kick, v̇ = a(q, t), both solved
-exactly. Seven drifts and six kicks, each an evaluation, make a step that may be four times
-as long as that of rk4 at the same error. And it takes nothing of the contact's vibration,
-where rk4 takes (hω)⁶/144 of the amplitude in each step h. It is of Hertz's contact alone,
-intact and undamped (`is_plain`).
+exactly. Seven drifts and six kicks, each an evaluation, make a step that may be four
+times as long as that of rk4 at the same error. And it takes nothing of the contact's
+vibration, where rk4 takes (hω)⁶/144 of the amplitude in each step h. It is of Hertz's
+contact alone, intact and undamped (`is_plain`).
 
 The directions of rotor and cage go on by complex products and are computed anew after at
-most 128 steps, so that a step has no sine or cosine. The step divides the output interval.
+most 128 steps, so that a step has no sine or cosine. The step divides the output
+interval.
 
     FixedStep rk4(parameters, omega, 64, default_step(parameters), Rule::rk4);
     State state = static_start(parameters);

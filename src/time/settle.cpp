@@ -176,8 +176,8 @@ void Settling::look()
     has_ended_ = true;
 }
 
-/** What steps of RK4, or the longer ones of the splitting, change at most in a growth rate
-    [1/s] of what turns with the base period. */
+/** What steps of RK4, or the longer ones of the splitting, change at most in a growth
+    rate [1/s] of what turns with the base period. */
 static double error_of_rate(double step, double period)
 {
   const double angle = 2 * std::numbers::pi * step / period;

@@ -34,8 +34,8 @@ struct Failure {
   std::exception_ptr why;
 };
 
-/** Makes all passages, those with fixed steps in lanes. A passage that fails (NoSolution) leaves
-    its state where it stops. */
+/** Makes all passages, those with fixed steps in lanes. A passage that fails (NoSolution)
+    leaves its state where it stops. */
 std::vector<Failure> advance_together(std::span<const Passage> passages);
 
 class Traveller {

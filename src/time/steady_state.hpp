@@ -66,9 +66,9 @@ struct SteadyRun {
   SteadySettings settings;
 };
 
-/** All runs, those with fixed steps side by side with the bits that each has alone; `ended` gets
-    the number of a run and its motion as soon as it ends. Throws NoSolution when an
-    integration breaks down. */
+/** All runs, those with fixed steps side by side with the bits that each has alone;
+    `ended` gets the number of a run and its motion as soon as it ends. Throws NoSolution
+    when an integration breaks down. */
 void steady_states(std::span<const SteadyRun> runs,
                    const std::function<void(std::size_t, SteadyState)>& ended);
 

@@ -10,8 +10,8 @@ namespace rotor_stator {
 /** Far above rounding, far below what bends the motion; over the sizes. */
 static constexpr double first_distance = 1e-7;
 
-/** The least size of a component over its largest value: the rounding of a displacement or
-    speed that is far larger than its size would pass for growth. */
+/** The least size of a component over its largest value: the rounding of a displacement
+    or speed that is far larger than its size would pass for growth. */
 static constexpr double above_rounding = 1e-4;
 
 TrajectoryPair::TrajectoryPair(std::unique_ptr<Flow> flow, int intervals_per_period,
