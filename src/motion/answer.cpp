@@ -263,6 +263,7 @@ static std::unique_ptr<Settling> settling(const Question& question, const Answer
       at.machine, at.omega, at.base, first,
       SettleRule{.method = stepper_of(question.request),
                  .step = step_of(question.request, at.machine, at.omega),
+                 .is_fixed = question.request.step > 0,
                  .longest = question.request.longest},
       question.transient < 1 ? question.budget.part(question.transient)
                              : question.budget);

@@ -321,7 +321,7 @@ void Settling::end()
 /** The budget has ended, or the integration has broken down. */
 void Settling::lost(std::exception_ptr why)
 {
-  if (!turn_ && !is_again_ && !budget_.used_up()) {
+  if (!turn_ && !is_again_ && !rule_.is_fixed && !budget_.used_up()) {
     is_again_ = true;
     rule_.step /= 4;
     spent_before_ = pair_.evaluations();

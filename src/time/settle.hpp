@@ -51,6 +51,7 @@ const char* word(Kind kind);
 struct SettleRule {
   std::string method = "auto";  ///< or "rk4"
   double step = 0;              ///< longest of rk4 [s]; 0: `step_at`
+  bool is_fixed = false;        ///< the step, also where integration diverges with it
   double closed = 1e-6;         ///< spread of a closed section, over the vibration [-]
   int most_period = 16;         ///< K
   double longest = 0;  ///< after t = 0 [s], then it is undecided; 0: 40 over the slowest
