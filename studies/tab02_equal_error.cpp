@@ -19,9 +19,10 @@ for all speeds of a range, or another one at each speed, whichever takes less ti
 `rk4` integrates one motion at a time, from speed to speed, and is what the paper compares
 with. `splitting` is the rule of order four with which `explore` integrates
 (time/fixed_step.hpp). `rk4-lanes` and `splitting-lanes` are the same integrators with all
-speeds side by side in the registers of the processor. `central` are central differences, which need one force per step, and `rk8`
-is the pair of Dormand and Prince of order eight; both are compiled like `rk4`. `rkf45`
-and the implicit and multistep methods are GSL's, whose calls take time of their own.
+speeds side by side in the registers of the processor. `central` are central differences,
+which need one force per step, and `rk8` is the pair of Dormand and Prince of order eight;
+both are compiled like `rk4`. `rkf45` and the implicit and multistep methods are GSL's,
+whose calls take time of their own.
 
 Other people's programs stand with the figure `peers`: the integrators of SUNDIALS and of
 SciPy, which call the same force, and AUTO-07p, which follows the response by collocation.

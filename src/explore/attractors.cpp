@@ -14,7 +14,7 @@
 #include "motion/answer.hpp"
 #include "motion/contact.hpp"
 #include "motion/other_starts.hpp"
-#include "time/fixed_step.hpp"
+#include "time/flow.hpp"
 
 namespace rotor_stator::explore {
 
@@ -386,11 +386,10 @@ void note(Table& table, const Task& task)
   table.value("method", method);
   if (machine.takes_explicit_steps()) {
     const Based last = over(task.base, task.machine, angular(task.speeds.back()));
-    const double longer = method == "splitting" ? splitting_over_rk4 : 1;
-    table.value(
-        "step",
-        longer * step_ratio(task.request.tolerance) * step_at(last.machine, last.omega),
-        4);
+    table.value("step",
+                steps_of_rk4(method) * step_ratio(task.request.tolerance) *
+                    step_at(last.machine, last.omega),
+                4);
   }
   if (task.request.tolerance) table.value("tolerance", *task.request.tolerance);
   table.value("base", task.base.words());

@@ -38,10 +38,7 @@ void require_method_of(const Parameters& parameters, const std::string& method)
   if (!machine.takes_explicit_steps() && is_of_masses)
     throw BadInput("--method " + method +
                    ": bodies given by matrices take aft, shooting, auto or gauss");
-  if (method == "splitting" && !parameters.bearing.is_plain())
-    throw BadInput(
-        "--method splitting: knows Hertz's contact alone, undamped and undamaged; take "
-        "rk4");
+  require_bearing_of(method, parameters.bearing);
   if (machine.takes_explicit_steps() && method == "gauss")
     throw BadInput("--method gauss: is for bodies given by matrices");
 }

@@ -10,7 +10,7 @@
 #include "io/errors.hpp"
 #include "motion/find_periodic.hpp"
 #include "motion/judge.hpp"
-#include "time/fixed_step.hpp"
+#include "time/flow.hpp"
 #include "time/shooting.hpp"
 
 namespace rotor_stator::motion {
@@ -29,27 +29,25 @@ int Answer::period_number() const
 
 namespace {
 
-/** The longest step of rk4 [s]. */
-double step_of(const Request& request, const Parameters& machine, double omega)
-{
-  return request.step > 0 ? request.step : request.step_ratio * step_at(machine, omega);
-}
-
-/** Of what follows the transient: no longer than the steps with which that ended well. */
+/** The longest step of rk4 [s]; after the transient no longer than those with which that
+    ended well. */
 double step_of(const Request& request, const Answer& answer)
 {
-  const double step = step_of(request, answer.machine, answer.omega);
+  const double step = request.step > 0
+                          ? request.step
+                          : request.step_ratio * step_at(answer.machine, answer.omega);
   return answer.settled.step > 0 ? std::min(step, answer.settled.step) : step;
 }
 
-/** RK4 where it is asked for, else the machine's own method. */
-const char* stepper_of(const Request& request)
+/** What integrates the transient and what is observed: RK4 where it is asked for, else
+    the machine's own method. */
+const char* settling_method(const Request& request)
 {
   return request.method == "rk4" ? "rk4" : "auto";
 }
 
-/** What records the motion. */
-std::string stepper_of(const Answer& answer, const Request& request)
+/** What records the motion, by its name. */
+std::string recording_method(const Request& request, const Answer& answer)
 {
   return request.method == "auto" ? answer.machine.machine->time_method(answer.machine)
                                   : request.method;
@@ -163,9 +161,10 @@ public:
     const auto stepper = [&](int intervals) {
       double step = step_of(request_, answer_);
       /** Not longer than an interval, else half of it would change nothing. */
-      if (stepper_of(answer_, request_) == "splitting")
+      const std::string method = recording_method(request_, answer_);
+      if (method == "splitting")
         step = std::min(step, 2 * std::numbers::pi / answer_.omega / request_.points /
-                                  splitting_over_rk4);
+                                  steps_of_rk4(method));
       return flow(answer_.machine, answer_.omega,
                   {.method = request_.method,
                    .intervals_per_period = intervals,
@@ -211,7 +210,7 @@ void record(Answer& answer, const Request& request, const OperationBudget& budge
   const Settled& settled = answer.settled;
   Recording recording(answer, request, std::max(request.periods, settled.period), budget);
   answer.motion = recording(1);
-  answer.method = stepper_of(answer, request);
+  answer.method = recording_method(request, answer);
   answer.how = "integration";
   if (settled.contracts) answer.stability = "stable";
   if (request.is_measured && recording.begins_earlier()) {
@@ -239,7 +238,7 @@ void rest(Answer& answer, const Request& request)
     add(answer.motion, answer.settled.at.state);
   answer.error = Error{};
   if (answer.settled.contracts) answer.stability = "stable";
-  answer.method = stepper_of(answer, request);
+  answer.method = recording_method(request, answer);
   answer.how = "static equilibrium";
 }
 
@@ -261,8 +260,8 @@ static std::unique_ptr<Settling> settling(const Question& question, const Answer
   if (question.start) first.state = *question.start;
   return std::make_unique<Settling>(
       at.machine, at.omega, at.base, first,
-      SettleRule{.method = stepper_of(question.request),
-                 .step = step_of(question.request, at.machine, at.omega),
+      SettleRule{.method = settling_method(question.request),
+                 .step = step_of(question.request, at),
                  .is_fixed = question.request.step > 0,
                  .longest = question.request.longest},
       question.transient < 1 ? question.budget.part(question.transient)
@@ -478,8 +477,8 @@ std::vector<Observed> observed_answers(std::span<const Question> questions)
       const Answer& at = answers[k].get();
       if (!questions[k].is_observed) return nullptr;
       const Request& request = questions[k].request;
-      return std::make_unique<Observing>(at, stepper_of(request), step_of(request, at),
-                                         questions[k].budget);
+      return std::make_unique<Observing>(at, settling_method(request),
+                                         step_of(request, at), questions[k].budget);
     }));
   travel(observings);
   std::vector<Observed> all;

@@ -6,8 +6,8 @@
 
 #include "io/errors.hpp"
 #include "motion/answer.hpp"
-#include "time/flow.hpp"
 #include "time/fixed_step.hpp"
+#include "time/flow.hpp"
 #include "time/turns.hpp"
 
 namespace rotor_stator::motion {

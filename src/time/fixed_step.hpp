@@ -58,9 +58,6 @@ int steps_in_interval(double period, int intervals, double longest_step);
 
 enum class Rule { rk4, splitting };
 
-/** A step of the splitting, over one of rk4 with about the same error. */
-constexpr double splitting_over_rk4 = 4;
-
 /** The machine's constants, and its directions along one output interval. */
 class FixedStep : public Flow {
 public:

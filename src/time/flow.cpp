@@ -31,6 +31,17 @@ void require_method(const std::string& method, std::vector<std::string> others)
   throw BadInput("--method " + method + ": must be one of " + list);
 }
 
+void require_bearing_of(const std::string& method, const Bearing& bearing)
+{
+  const bool is_of_plain =
+      method == "bsimp" || method == "msbdf" || method == "splitting";
+  if (is_of_plain && !bearing.is_plain())
+    throw BadInput(
+        "--method " + method +
+        ": knows Hertz's contact alone, undamped and undamaged; take rk4, rk8, rk8pd, "
+        "rkf45, rkck or msadams");
+}
+
 double default_step(const Parameters& parameters)
 {
   const double contact = 2 * std::numbers::pi / contact_frequency(parameters) / 40;
@@ -65,8 +76,9 @@ const char* TwoMasses::time_method(const Parameters& parameters) const
     while a ball passes. */
 double TwoMasses::step(const Parameters& machine, double omega) const
 {
-  constexpr double in_passage = 24 * splitting_over_rk4;
-  const bool is_splitting = machine.bearing.is_plain();
+  constexpr double in_passage = 24;
+  const std::string method = time_method(machine);
+  const bool is_splitting = method == "splitting";
   const double much = is_splitting ? 1 : 30;
   double usual = default_step(machine), force = 0;
   for (const double phase : {0.0, 0.5, 1.0, 1.5}) {
@@ -75,9 +87,10 @@ double TwoMasses::step(const Parameters& machine, double omega) const
   }
   const double ratio = force / (much * scales(machine).load);
   if (std::isfinite(ratio) && ratio > 1) usual /= std::pow(ratio, 1.0 / 6);
-  const double passages = machine.bearing.balls * machine.bearing.cage_speed_ratio,
-               passage = 2 * std::numbers::pi / (passages * omega);
-  return is_splitting ? std::min(usual, passage / in_passage) : usual;
+  if (!is_splitting) return usual;
+  const double passage =
+      2 * std::numbers::pi / (passages_per_turn(machine.bearing) * omega);
+  return std::min(usual, passage / (in_passage * steps_of_rk4(method)));
 }
 
 std::unique_ptr<Flow> flow(const Parameters& parameters, double omega,
@@ -96,22 +109,13 @@ std::unique_ptr<Flow> TwoMasses::flow(const Parameters& parameters, double omega
   const std::string method =
       settings.method == "auto" ? time_method(parameters) : settings.method;
   require_method(method);
-  const bool is_of_plain =
-      method == "bsimp" || method == "msbdf" || method == "splitting";
-  if (is_of_plain && !parameters.bearing.is_plain())
-    throw BadInput(
-        "--method " + method +
-        ": knows Hertz's contact alone, undamped and undamaged; take rk4, rk8, rk8pd, "
-        "rkf45, rkck or msadams");
+  require_bearing_of(method, parameters.bearing);
   const int intervals = settings.intervals_per_period;
   const double longest = settings.step > 0 ? settings.step : step(parameters, omega);
-  if (method == "splitting")
-    return std::make_unique<FixedStep>(parameters, omega, intervals,
-                                       splitting_over_rk4 * longest, Rule::splitting,
-                                       settings.budget);
-  if (method == "rk4")
-    return std::make_unique<FixedStep>(parameters, omega, intervals, longest, Rule::rk4,
-                                       settings.budget);
+  if (has_fixed_step(method))
+    return std::make_unique<FixedStep>(
+        parameters, omega, intervals, steps_of_rk4(method) * longest,
+        method == "rk4" ? Rule::rk4 : Rule::splitting, settings.budget);
   if (method == "rk8")
     return std::make_unique<Rk8>(parameters, omega, intervals, settings.tolerance,
                                  settings.budget);

@@ -62,6 +62,15 @@ inline bool has_fixed_step(const std::string& method)
   return method == "rk4" || method == "splitting";
 }
 
+/** How many steps of rk4 one step of a method replaces at about the same error. */
+inline double steps_of_rk4(const std::string& method)
+{
+  return method == "splitting" ? 4 : 1;
+}
+
+/** Throws BadInput for a method that cannot have the bearing's force. */
+void require_bearing_of(const std::string& method, const Bearing& bearing);
+
 /** Throws BadInput for a method that is neither one of `others` nor a time method, naming
     the known ones. */
 void require_method(const std::string& method, std::vector<std::string> others = {});

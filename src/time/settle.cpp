@@ -321,8 +321,8 @@ void Settling::end()
 /** The budget has ended, or the integration has broken down. */
 void Settling::lost(std::exception_ptr why)
 {
-  if (!turn_ && !is_again_ && !rule_.is_fixed && !budget_.used_up()) {
-    is_again_ = true;
+  if (!turn_ && !rule_.is_fixed && !budget_.used_up()) {
+    rule_.is_fixed = true;  // from now on
     rule_.step /= 4;
     spent_before_ = pair_.evaluations();
     periods_ = 0;

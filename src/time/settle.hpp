@@ -108,7 +108,6 @@ private:
   OperationBudget budget_;
   double length_, least_;  ///< [m], [s]
   Instant start_;
-  bool is_again_ = false;
   TrajectoryPair pair_;
   double spent_before_ = 0;               ///< evaluations, on a run that diverged
   std::size_t periods_ = 0;               ///< until the pair is looked at again

@@ -7,7 +7,6 @@
 
 #include "io/errors.hpp"
 #include "io/scene_file.hpp"
-#include "time/fixed_step.hpp"
 #include "time/section.hpp"
 #include "time/side_by_side.hpp"
 
@@ -185,8 +184,9 @@ SteadySettings read_steady_settings(SceneFile& scene)
   StrictToml table = scene.toml().table("time_integration");
   settings.stepper.method = table.string("method");
   const bool fixed_step = has_fixed_step(settings.stepper.method);
-  if (fixed_step) settings.stepper.step = table.number("step_s", Range::positive);
-  if (settings.stepper.method == "splitting") settings.stepper.step /= splitting_over_rk4;
+  if (fixed_step)
+    settings.stepper.step =
+        table.number("step_s", Range::positive) / steps_of_rk4(settings.stepper.method);
   if (!fixed_step)
     settings.stepper.tolerance = table.number("tolerance", Range::positive);
   settings.stepper.intervals_per_period = table.integer("points_per_period", 4, 4096);

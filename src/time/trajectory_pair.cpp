@@ -86,9 +86,8 @@ double TrajectoryPair::pull_back()
   constexpr double met = 1e-8;  ///< rounding keeps neighbours apart that have met
   const Eigen::VectorXd y = vector_of(at_.state);
   if (!y.allFinite()) diverged();
-  const Eigen::VectorXd least = above_rounding * y.cwiseAbs();
-  if ((least.array() > sizes_.array()).any()) {
-    sizes_ = sizes_.cwiseMax(least);
+  if ((above_rounding * y.array().abs() > sizes_.array()).any()) {
+    sizes_ = sizes_.cwiseMax(above_rounding * y.cwiseAbs());
     neighbour_ = beside(y);
     return 0;
   }

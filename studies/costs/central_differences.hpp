@@ -20,8 +20,8 @@ namespace rotor_stator::costs {
 class CentralDifferences : public Flow {
 public:
   /** P = `intervals` per base period, each cut into the fewest steps not longer than
-      `longest_step` [s]. Throws NoSolution as FixedStep does, BadInput for a damaged or damped
-      bearing. */
+      `longest_step` [s]. Throws NoSolution as FixedStep does, BadInput for a damaged or
+      damped bearing. */
   CentralDifferences(const Parameters& parameters, double omega, int intervals,
                      double longest_step);
 

@@ -15,7 +15,6 @@
 #include "costs/central_differences.hpp"
 #include "io/errors.hpp"
 #include "model/rotor_stator.hpp"
-#include "time/fixed_step.hpp"
 #include "time/shooting.hpp"
 #include "time/side_by_side.hpp"
 
@@ -191,7 +190,7 @@ std::unique_ptr<Flow> TimedMethod::stepper(std::size_t speed, int intervals) con
   return flow(task_.parameters, omega,
               {.method = method,
                .intervals_per_period = intervals,
-               .step = setting.step / (method == "splitting" ? splitting_over_rk4 : 1),
+               .step = setting.step / steps_of_rk4(method),
                .tolerance = setting.tolerance});
 }
 

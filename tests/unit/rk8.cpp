@@ -6,9 +6,9 @@
 
 #include "io/errors.hpp"
 #include "support/cases.hpp"
+#include "time/fixed_step.hpp"
 #include "time/flow.hpp"
 #include "time/period_map.hpp"
-#include "time/fixed_step.hpp"
 #include "time/rk8.hpp"
 
 using namespace rotor_stator;
