@@ -17,6 +17,7 @@ GENERATED, KEPT = Path("data/generated"), Path("data/reference")
 ACCURATE = tomllib.loads(Path("data/claims.toml").read_text())["regimes"]["accurate"]
 METHODS = {"aft": "harmonic balance", "rk4": "Runge-Kutta of order 4",
            "rk4-lanes": "the same, all speeds side by side",
+           "splitting": "splitting of order 4", "splitting-lanes": "the splitting, all speeds side by side",
            "central": "central differences", "rk8": "Runge-Kutta of order 8",
            "rkf45": "Runge-Kutta-Fehlberg", "msadams": "Adams", "msbdf": "BDF",
            "bsimp": "Bulirsch-Stoer", "shooting-rk4": "shooting by Runge-Kutta of order 4",
@@ -51,14 +52,14 @@ def costs(add):
         for target in sorted(set(table["target"]), reverse=True):
             rows = {method: cheapest(table, reach, target, method) for method in dict.fromkeys(table["method"])}
             best = min((method for method in rows if len(rows[method])), key=lambda method: rows[method].first("cpu_s"))  # noqa: B023
-            for method in dict.fromkeys(("aft", "shooting-rk4", "rk4", "rk4-lanes", best)):
+            for method in dict.fromkeys(("aft", "shooting-rk4", "rk4", "rk4-lanes", "splitting-lanes", best)):
                 lines.append([reach, power(target), METHODS[method] + (", least time" if method == best else ""),
                               *timed(rows[method])])
     add("table.costs", markdown(["speeds [Hz]", "error allowed", "method", "setting", "CPU time", "error of the force"], lines), "-",
         "CPU time of the sweep at no more than a given error")
     low, high = dict.fromkeys(table["range"])
     for reach, name in ((low, "low"), (high, "high")):
-        for rival, key in (("rk4", "rk4"), ("rk4-lanes", "lanes"), ("shooting-rk4", "shooting")):
+        for rival, key in (("rk4", "rk4"), ("rk4-lanes", "lanes"), ("shooting-rk4", "shooting"), ("splitting-lanes", "splitting")):
             ratios = [(cheapest(table, reach, target, rival).first("cpu_s") / cheapest(table, reach, target, "aft").first("cpu_s"), target)
                       for target in (0.01, 0.001)]
             add(f"cost.{name}_{key}", " and ".join(f"{faster(ratio)} at {power(target)}" for ratio, target in ratios),

@@ -20,6 +20,7 @@ for goal; do
       python3-ipykernel python3-scipy python3-selenium snakemake) ;;
     clearance_speed | clearance_stiffness | stiffness_border) packages+=(snakemake) ;;
     studies | timing) packages+=(snakemake libsundials-dev python3-scipy) ;;
+    hard_cases) packages+=(python3-scipy) ;;
     tab03_answers) packages+=(libsundials-dev python3-scipy) ;;
     pdf) packages+=(librsvg2-bin lmodern texlive-fonts-recommended texlive-latex-recommended texlive-luatex) ;;
     png) packages+=(librsvg2-bin) ;;

@@ -11,14 +11,13 @@ time integration can still answer there, so it has fewer dashes without being th
 be neither confirmed nor refuted is marked as such and not counted as solved.
 
 The methods are those of `explore orbit`. An answer is claimed where it states an error of at most the accuracy of the scene.
-The check of a periodic motion shares no code with the library: Eq. 7 is written here anew, integrated by RK4 over the period from
-the state that the answer has at its beginning, and corrected by Newton's method until it closes. What is not periodic, or takes
-too many steps, is compared with an integration by GSL, rk8pd.
+The check of a periodic motion shares no code with the library: the judge of the tests (tests/truth/judge.cpp) integrates Eq. 7
+over the period from the state that the answer has at its beginning, and corrects it by Newton's method until it closes. What is
+not periodic, or what the judge does not close, is compared with an integration by GSL, rk8pd.
 
-Usage: studies/hard_cases.py data/scenes/hard_cases.toml [--every N] > hard_cases.tsv   (from the project's root)
+Usage: studies/hard_cases.py data/scenes/hard_cases.toml [--every N] > hard_cases.tsv   (from the project's root, with build/tests/judge)
 """
 import copy
-import itertools
 import math
 import multiprocessing
 import os
@@ -29,14 +28,13 @@ from pathlib import Path
 
 import numpy as np
 
-sys.path.insert(1, str(Path(__file__).parents[1] / "figures"))
+sys.path[1:1] = [str(Path(__file__).parents[1] / folder) for folder in ("figures", "tests/truth")]
 import rotor_stator  # noqa: E402
+from independent import Model, displacements, state_at_zero  # noqa: E402
 from tables import print_columns, print_header  # noqa: E402
 
 os.environ.setdefault("EXPLORE", str(Path(os.environ.get("BUILD", "build"), "explore")))
-NAMES = ["x_s", "y_s", "x_r", "y_r"]
 POINTS = 256           # instants of a base period
-MOST_STEPS = 30_000    # of the check, over a period
 METHODS = ["auto", "aft", "aft-tolerance", "shooting"]
 COLUMNS = [
     ("case", "-", "group of the list, varied value, speed"),
@@ -109,112 +107,35 @@ def cases_of(scene):
             if group.get("at") == "fold":
                 speeds = [first_fold(machine, speeds, m, samples)]
             if group.get("at") == "contact resonance":
-                speeds = [Model(machine, 1).contact_speed / (2 * math.pi) / divisor for divisor in group["divisors"]]
+                speeds = [contact_speed(Model(machine, 1)) / (2 * math.pi) / divisor for divisor in group["divisors"]]
             for f in speeds:
                 if group.get("graze"):
-                    machine["bearing"]["radial_clearance_m"] = Model(machine, f).free_displacement()
+                    machine["bearing"]["radial_clearance_m"] = free_displacement(Model(machine, f))
                 cases.append((f"{name}, {f:.6g} Hz", copy.deepcopy(machine), float(f), m, samples))
     return cases
 
 
+def contact_speed(model):
+    """The vibration [rad/s] of both bodies against one ball that bears all loads."""
+    load = -sum(y for _, y in model.loads) + model.unbalance * sum(model.k) / sum(model.m)
+    slope = 1.5 * model.k_h ** (2 / 3) * max(load, model.k_h * 1e-9**1.5) ** (1 / 3)
+    return math.sqrt(slope * sum(1 / m for m in model.m))
+
+
+def free_displacement(model):
+    """The largest relative displacement [m] without contact."""
+    omega = 2 * math.pi * model.frequency
+    whirl = model.unbalance * omega**2 / (model.k[1] - model.m[1] * omega**2 + 1j * model.d[1] * omega)
+    below, sag = (load[1] / k for load, k in zip(model.loads, model.k))
+    return abs(whirl * np.exp(2j * np.pi * np.arange(1 << 14) / (1 << 14)) + 1j * (sag - below)).max()
+
+
 # The check
-
-class Model:
-    """Eq. 7 at one speed. A state is x_s, y_s, x_r, y_r and their rates; the arrays hold many states."""
-
-    def __init__(self, machine, frequency, cage_angle=0.0):
-        self.omega = 2 * math.pi * frequency
-        bearing, bodies = machine["bearing"], [machine["stator"], machine["rotor"]]
-        self.mass = np.repeat([body["mass_kg"] for body in bodies], 2)
-        natural = np.repeat([body["natural_frequency_rad_per_s"] for body in bodies], 2)
-        self.stiffness = self.mass * natural**2
-        self.damping = 2 * self.mass * natural * np.repeat([body["damping_ratio"] for body in bodies], 2)
-        self.unbalance = machine["rotor"]["unbalance_kg_m"] * self.omega**2
-        self.weight = -self.mass * machine["gravity"]["acceleration_m_per_s2"] * [0, 1, 0, 1]
-        self.k_h, self.clearance = bearing["contact_stiffness_N_per_m1p5"], bearing["radial_clearance_m"]
-        self.cage = bearing["cage_speed_ratio"] * self.omega
-        self.balls = cage_angle + 2 * math.pi * np.arange(bearing["balls"]) / bearing["balls"]
-        joint = self.stiffness[::2].sum() / self.mass[::2].sum()
-        load = max(-self.weight.sum() + machine["rotor"]["unbalance_kg_m"] * joint, self.k_h * 1e-9**1.5)
-        slope = 1.5 * self.k_h ** (2 / 3) * load ** (1 / 3)
-        self.contact_speed = math.sqrt(slope * (1 / self.mass[0] + 1 / self.mass[2]))
-        self.size = self.clearance + (load / self.k_h) ** (2 / 3)
-
-    def load(self, t):
-        turn = np.array([0, 0, math.cos(self.omega * t), math.sin(self.omega * t)])
-        return self.weight + self.unbalance * turn
-
-    def rates(self, t, y):
-        q, v = y[:, :4], y[:, 4:]
-        angle = self.balls + self.cage * t
-        direction = np.array([np.cos(angle), np.sin(angle)])
-        penetration = np.maximum((q[:, 2:] - q[:, :2]) @ direction - self.clearance, 0)
-        force = self.k_h * (penetration * np.sqrt(penetration)) @ direction.T
-        total = self.load(t) - self.stiffness * q - self.damping * v + np.hstack([force, -force])
-        return np.hstack([v, total / self.mass])
-
-    def steps(self, interval):
-        """RK4's."""
-        return math.ceil(interval * 40 * self.contact_speed / (2 * math.pi))
-
-    def integrated(self, y, period, points, finer):
-        """The states at the instants of a period, and at its end."""
-        each = finer * self.steps(period / points)
-        h, states = period / points / each, [y]
-        for k in range(points * each):
-            t = k * h
-            a = self.rates(t, y)
-            b = self.rates(t + h / 2, y + h / 2 * a)
-            c = self.rates(t + h / 2, y + h / 2 * b)
-            y = y + h / 6 * (a + 2 * b + 2 * c + self.rates(t + h, y + h * c))
-            if (k + 1) % each == 0:
-                states.append(y)
-        return states
-
-    def closed(self, start, period, points, finer, growth):
-        """The displacements of the closed motion near a state, and its largest multiplier; None where Newton finds none. A step
-        that makes the gap larger by more than `growth` is halved."""
-        sizes, change = np.repeat([self.size, self.size * self.contact_speed], 4), 1e-8
-        step, least = np.zeros(8), math.inf
-        for _ in range(20):
-            trial = start + sizes * step
-            with np.errstate(over="ignore", invalid="ignore"):
-                states = self.integrated(trial + np.vstack([np.zeros(8), change * np.diag(sizes)]), period, points, finer)
-                ends = states[-1] / sizes
-                gap = ends[0] - trial / sizes
-                size = np.linalg.norm(gap)
-            if not size < growth * least:
-                step = step / 2
-                continue
-            start, least = trial, size
-            phi = (ends[1:] - ends[0]).T / change
-            if size < 1e-7:
-                return np.array([state[0, :4] for state in states[:-1]]).T, abs(np.linalg.eigvals(phi)).max()
-            step = np.linalg.lstsq(np.eye(8) - phi, gap, rcond=None)[0]
-        return None
-
-    def free_displacement(self):
-        """The largest relative displacement [m] without contact."""
-        dynamic = self.stiffness - self.mass * self.omega**2 + 1j * self.damping * self.omega
-        whirl = self.unbalance / dynamic[2] * np.exp(2j * np.pi * np.arange(1 << 14) / (1 << 14))
-        rest = (self.weight / self.stiffness)[[1, 3]]
-        return abs(whirl + 1j * (rest[1] - rest[0])).max()
-
-
-def displacements(table):
-    return np.array([table[name] for name in NAMES])
-
 
 def difference(a, b):
     """Of two motions, over the largest displacement; 0 at rest."""
     largest = abs(b).max()
     return abs(a - b).max() / largest if largest > 1e-15 else float(abs(a).max() > 1e-15)
-
-
-def start_of(q, period):
-    """The first state of a periodic motion."""
-    orders = 1j * np.fft.rfftfreq(q.shape[1], period / q.shape[1]) * 2 * np.pi
-    return np.concatenate([q[:, 0], np.fft.irfft(np.fft.rfft(q) * orders, q.shape[1])[:, 0]])
 
 
 class Case:
@@ -268,18 +189,17 @@ class Case:
 
     def check(self, table, method, row):
         """By Eq. 7 as it stands above, or by another integration."""
-        model = Model(self.machine, self.f, table.value("cage_angle", 0))
-        answer = displacements(table)
-        points, period = answer.shape[1], answer.shape[1] / POINTS * table.value("base_period", 0)
-        if row["regime"] == "T-periodic" and table.value("regime", "") != "rest":
-            for finer, growth in itertools.product((1, 4), (1e9, 1)):
-                steps = points * finer * model.steps(period / points)
-                found = model.closed(start_of(answer, period), period, points, finer, growth) if steps <= MOST_STEPS else None
-                if found:
-                    motion, multiplier = found
-                    row |= {"check": "rk4 and Newton", "check_error": difference(answer, motion), "check_multiplier": multiplier}
-                    if verdict(row, self.rule) == "solved":
-                        return
+        model, answer = Model(self.machine, self.f), displacements(table)
+        passed = table.value("cage_angle", 0) * model.n / (2 * math.pi)  # balls by phase 0
+        if row["regime"] == "T-periodic" and table.value("regime", "") != "rest" and abs(passed - round(passed)) < 1e-9:
+            model.base = len(answer) / POINTS * table.value("base_period")
+            model.turns = model.base * self.f
+            if found := model.closed(state_at_zero(answer, model.base)):
+                multiplier, state = found
+                motion = model.judged(model.settle(state, 0, 0, 1, 1, len(answer))).rows
+                row |= {"check": "judge", "check_error": difference(answer, motion), "check_multiplier": multiplier}
+                if verdict(row, self.rule) == "solved":
+                    return
             if row["check"] != "none" or row["stability"] != "stable":  # integration leaves what is unstable
                 return
         self.compare(table, method, row)
@@ -294,7 +214,7 @@ class Case:
             return
         a, b = displacements(table), displacements(exact)
         if not periodic:
-            a, b = (np.ptp(q, axis=1, keepdims=True) / 2 for q in (a, b))
+            a, b = (np.ptp(q, axis=0) / 2 for q in (a, b))
         regime, found = exact.value("regime", "undecided"), row | {"check": "rk8pd"}
         if a.shape != b.shape or regime != "undecided" and periodic != (regime in ("periodic", "rest")):
             return

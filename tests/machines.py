@@ -80,7 +80,8 @@ DESIGNATIONS = ["6002", "6203", "6204", "6205", "6206", "6207", "6208", "6209", 
 
 def of_another_kind(dice, machine):
     """The machine with a rigid stator, a body that only the bearing carries, dampers, loads, a bearing from the
-    catalogue, contact damping or a spall; values as likely as in `extreme_machine`."""
+    catalogue, contact damping, a spall, or elements beside the balls or to the ground; values as likely as in
+    `extreme_machine`."""
     def number(low, high):
         return decade(dice, *((-320, 308) if one_in(dice, 16) else (low, high)))
 
@@ -116,6 +117,12 @@ def of_another_kind(dice, machine):
         widest = 2 * math.pi / machine["bearing"].get("balls", 20)
         machine["bearing.defect"] = {"surface": surface, "depth_m": number(-9, -3),
                                      "width_rad": widest / 2 * (0.01 + 0.99 * dice.random())}
+    if one_in(dice, 4):
+        bodies = ["rotor.ground"] if "rigid" in machine["stator"] else ["rotor.ground", "stator.ground"]
+        direct, coupled, damper = number(3, 9), number(0, 7), number(-3, 5)
+        machine[dice.choice([*bodies, "bearing.parallel"])] = {
+            "cubic_stiffness_N_per_m3": number(8, 16), "stop_stiffness_N_per_m": number(3, 9), "stop_gap_m": number(-7, -3),
+            "stiffness_N_per_m": [direct, coupled, -coupled, direct], "damping_N_s_per_m": [damper, 0, 0, damper]}
     return machine
 
 

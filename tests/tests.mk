@@ -7,6 +7,9 @@ test sanitize:
 	flock build/.lock cmake --preset $(preset) -DPYTHON=$(PYTHON) > build/configure-$@.log
 	flock build/.lock cmake --build --preset $(preset) --target all tests
 	flock build/.tests ctest --preset $(preset) --no-tests=error -j $$(nproc)
+build/tests/judge: tests/truth/judge.cpp build/.built
+	flock build/.lock cmake --build --preset release --target judge
+data/generated/hard_cases.tsv: build/tests/judge
 bench: build/.built  ## time the parts of an iteration, alone on the machine (a minute)
 	flock build/.lock cmake --preset release > build/configure.log
 	flock build/.lock cmake --build --preset release --target bench
@@ -31,6 +34,7 @@ fuzz:  ## readers of files against libFuzzer, each for a minute, where clang has
 	@mkdir -p build/fuzz; $(has_fuzzer) || { echo "make fuzz: needs clang++ with libFuzzer: clang and libclang-rt-14-dev of Debian" >&2; exit 2; }
 	$(MAKE) build/fuzz/readers
 	$(PYTHON) tests/fuzz/fuzz.py
-test-all: test  ## every test, then ten minutes of attacks that no commit has seen before
+test-all: export FULL := 1
+test-all: test  ## every test with all its cases, then ten minutes of attacks that no commit has seen before
 	@mkdir -p build/fuzz; if $(has_fuzzer); then $(MAKE) build/fuzz/readers; else rm -f build/fuzz/readers; echo "no libFuzzer here: no reader is attacked" >&2; fi
 	$(PYTHON) tests/hard/attack.py

@@ -3,7 +3,7 @@
 #include <array>
 #include <cmath>
 #include <numbers>
-#include <tuple>
+#include <utility>
 
 #include "io/errors.hpp"
 #include "model/ball_bearing.hpp"
@@ -112,32 +112,51 @@ void condense(const Parameters& parameters, double ball_stiffness, double omega,
   }
 }
 
-/** The force of a bearing that is not plain, along the line. */
-auto moving_force(const Parameters& parameters, const TorusLine& line)
+}  // namespace
+
+void put_moving_force(const Parameters& parameters, const TorusLine& line,
+                      Problem& problem)
 {
-  const BallBearing there(on(line, parameters.bearing), 0, parameters.turns * line.turns);
-  std::vector<Angles> angles;
-  for (int k = 0; k < line.samples; ++k)
-    angles.push_back(there.angles(2 * std::numbers::pi * k / line.samples));
-  return [parameters, angles](const Eigen::MatrixXd& q, const Eigen::MatrixXd& rate,
-                              double omega, Eigen::MatrixXd& force,
-                              Eigen::MatrixXd* slopes) {
-    const BallBearing bearing(parameters.bearing, omega, parameters.turns);
-    force.resize(q.rows(), 2);
-    if (slopes) slopes->resize(q.rows(), 10);
-    for (Eigen::Index k = 0; k < q.rows(); ++k) {
-      const BearingReaction at =
-          bearing.reaction(angles[k], {q(k, 0), q(k, 1)}, {rate(k, 0), rate(k, 1)});
-      force.row(k) << at.force.x, at.force.y;
-      if (!slopes) continue;
-      const auto& [s, d, by_speed] = std::tie(at.stiffness, at.damping, at.speed_slope);
-      slopes->row(k) << s.xx, s.yx, s.xy, s.yy, d.xx, d.yx, d.xy, d.yy, by_speed.x,
-          by_speed.y;
+  const std::vector<Bearing> joints = joints_of(parameters);
+  std::vector<std::vector<Angles>> angles;  // of each joint
+  for (const Bearing& joint : joints) {
+    const BallBearing there(on(line, joint), 0, parameters.turns * line.turns);
+    for (angles.emplace_back(); std::ssize(angles.back()) < line.samples;)
+      angles.back().push_back(
+          there.angles(2 * std::numbers::pi * static_cast<double>(angles.back().size()) /
+                       line.samples));
+  }
+  problem.operations *= 4;
+  problem.order = [bearing = parameters.bearing](Harmonic h) {
+    return order_of(h, bearing);
+  };
+  problem.moving_force = [turns = parameters.turns, joints, angles](
+                             const Eigen::MatrixXd& q, const Eigen::MatrixXd& rate,
+                             double omega, Eigen::MatrixXd& force,
+                             Eigen::MatrixXd* slopes) {
+    const Eigen::Index d = q.cols();
+    force.resize(q.rows(), d);
+    if (slopes) slopes->setZero(q.rows(), 2 * d * d + d);
+    for (Eigen::Index i = 0; i < d; i += 2) {
+      const auto joint = static_cast<std::size_t>(i / 2);
+      const BallBearing bearing(joints[joint], omega, turns);
+      for (Eigen::Index k = 0; k < q.rows(); ++k) {
+        const BearingReaction at =
+            bearing.reaction(angles[joint][static_cast<std::size_t>(k)],
+                             {q(k, i), q(k, i + 1)}, {rate(k, i), rate(k, i + 1)});
+        force.row(k).segment<2>(i) << at.force.x, at.force.y;
+        if (!slopes) continue;
+        auto row = slopes->row(k);
+        for (const auto& [s, first] :
+             {std::pair{at.stiffness, i + d * i}, {at.damping, i + d * (d + i)}}) {
+          row.segment<2>(first) << s.xx, s.yx;
+          row.segment<2>(first + d) << s.xy, s.yy;
+        }
+        row.segment<2>(2 * d * d + i) << at.speed_slope.x, at.speed_slope.y;
+      }
     }
   };
 }
-
-}  // namespace
 
 Problem bearing_problem(const Parameters& parameters, int samples,
                         const OperationBudget& budget)
@@ -162,11 +181,7 @@ void TwoMasses::put_equations(const Parameters& parameters, const TorusLine& lin
   if (parameters.bearing.is_plain()) {
     problem.force = SampledBearing(on(line, parameters.bearing), line.samples);
   } else {
-    problem.moving_force = moving_force(parameters, line);
-    problem.order = [bearing = parameters.bearing](Harmonic h) {
-      return order_of(h, bearing);
-    };
-    problem.operations *= 4;
+    put_moving_force(parameters, line, problem);
   }
 }
 

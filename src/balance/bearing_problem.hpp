@@ -22,7 +22,7 @@ high harmonics alike. */
 namespace rotor_stator {
 
 /** The bearing's problem: d = 2 unknowns u_x, u_y [m], of a large machine two for each
-    bearing; N samples. Throws NoSolution when the force has not the period of rotation (n
+    joint; N samples. Throws NoSolution when the force has not the period of rotation (n
     ω_cage/ω not whole, D-11): no series in ω can solve it. Evaluations, transforms and
     factorisations are paid for from `budget`. */
 Problem bearing_problem(const Parameters& parameters, int samples,
@@ -31,6 +31,10 @@ Problem bearing_problem(const Parameters& parameters, int samples,
 /** The same with any cage, along a line of the torus. */
 Problem bearing_problem(const Parameters& parameters, const TorusLine& line,
                         const OperationBudget& budget = {});
+
+/** The force of joints of which one is not plain, into `problem`. */
+void put_moving_force(const Parameters& parameters, const TorusLine& line,
+                      Problem& problem);
 
 /** A start for Newton without any previous solution, 2 × (2m+1) coefficients as a vector:
    the motion without contact where it stays inside the clearance; otherwise at each

@@ -1,10 +1,11 @@
 #include "balance/large_problem.hpp"
 
 #include <Eigen/LU>
+#include <algorithm>
 #include <cmath>
 #include <numbers>
 
-#include "balance/torus_line.hpp"
+#include "balance/bearing_problem.hpp"
 #include "io/errors.hpp"
 
 namespace rotor_stator {
@@ -146,12 +147,16 @@ void LargeMachine::put_equations(const Parameters& parameters, const TorusLine& 
                                  Problem& problem) const
 {
   require_one_passage(parameters);
-  problem.dofs = 2 * bodies_.bearings();
+  problem.dofs = static_cast<int>(bodies_.joints.cols());
   problem.linear = [this, parameters](double omega, Harmonic h, LinearBlock& block) {
     block = large_block(bodies_, parameters, omega, h);
   };
+  problem.operations *= static_cast<double>(bodies_.places.size());
+  const std::vector<Bearing> joints = joints_of(parameters);
+  if (!std::ranges::all_of(joints, &Bearing::is_plain))
+    return put_moving_force(parameters, line, problem);
   std::vector<SampledBearing> bearings;
-  for (const Bearing& bearing : bearings_of(parameters))
+  for (const Bearing& bearing : joints)
     bearings.emplace_back(on(line, bearing), line.samples);
   problem.force = [bearings](const Eigen::MatrixXd& u, Eigen::MatrixXd& force,
                              Eigen::MatrixXd* stiffness) {
@@ -167,7 +172,6 @@ void LargeMachine::put_equations(const Parameters& parameters, const TorusLine& 
       k += 2;
     }
   };
-  problem.operations *= bodies_.bearings();
 }
 
 void LargeMachine::prepare(const Parameters& parameters, double omega,
@@ -192,8 +196,23 @@ Eigen::MatrixXd LargeMachine::start_samples(const Parameters& parameters, double
               .real();
     return series;
   };
-  Eigen::MatrixXd u =
-      sampled(rest.a.fullPivLu().solve(rest.c), turning.a.fullPivLu().solve(turning.c));
+  /** Without the balls, and what is beside them as it is at u = 0. */
+  const double speed = rotor_speed(parameters, omega);
+  const auto free = [&](const LinearBlock& block, double frequency) -> Eigen::VectorXcd {
+    SmallMatrix whole = block.a;
+    for (Eigen::Index k = 0; const Bearing& joint : joints_of(parameters)) {
+      BearingReaction beside{};
+      Parallel(joint.parallel, speed).add({0, 0}, {0, 0}, 0, beside);
+      const Slopes2 &s = beside.stiffness, &d = beside.damping;
+      const Complex rate(0, frequency);
+      const Eigen::Matrix2cd slopes{{s.xx + rate * d.xx, s.xy + rate * d.xy},
+                                    {s.yx + rate * d.yx, s.yy + rate * d.yy}};
+      whole.middleCols<2>(k) += block.b.middleCols<2>(k) * slopes;
+      k += 2;
+    }
+    return whole.fullPivLu().solve(block.c);
+  };
+  Eigen::MatrixXd u = sampled(free(rest, 0), free(turning, speed));
   bool is_free = u.allFinite();
   for (Eigen::Index k = 0; const Bearing& bearing : bearings_of(parameters)) {
     is_free =

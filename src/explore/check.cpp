@@ -43,7 +43,7 @@ std::vector<Rest> rest_of(const Parameters& machine)
       const Bearing own = bearings_of(turned)[b];
       const BallBearing bearing(own);
       const auto cage = Direction::of(own.cage_phase);
-      const Vec2 u = motion::at_bearing(turned, motion, b).motion.positions[0].relative();
+      const Vec2 u = motion::relative_at(motion, 0, machine.machine->places(b));
       const Vec2 force = bearing.reaction(cage, u).force;
       const auto q = bearing.ball_forces({{1, 0}, cage}, u, {0, 0});
       rest.u = rest.u + share * u;
@@ -138,14 +138,15 @@ Exploration explore_check(const CheckRequest& request)
       warn(format("the eccentricity of %.3g m is %.3g times the clearance", e,
                   printable_size(e / gap)));
   }
-  const bool is_bare = !machine.bearing.parallel.any();
+  const bool is_bare = !machine.bearing.parallel.any() && machine.grounds.empty();
   if (!is_large && is_bare && never_touches(request, machine))
     warn(format("nothing touches from %g to %g Hz: the clearance of %g m is never closed",
                 request.from, request.to, machine.bearing.clearance));
-  if (!is_large && !machine.stator.rigid)
+  const bool is_alone = !is_large && machine.grounds.empty();
+  if (is_alone && !machine.stator.rigid)
     table.row({"f_s", machine.stator.natural_frequency / turn, "Hz",
                "natural, without contact"});
-  if (!is_large && machine.rotor.natural_frequency > 0)
+  if (is_alone && machine.rotor.natural_frequency > 0)
     table.row({"f_r", machine.rotor.natural_frequency / turn, "Hz",
                "natural, without contact"});
   /** Two masses vibrate mainly along x or y. */
@@ -163,7 +164,7 @@ Exploration explore_check(const CheckRequest& request)
           {"passage_" + name, speed, "Hz", "speed at which the passing balls meet it"});
     if (mode.residual > well_solved) warn(doubt(mode.residual));
   }
-  if (is_large) {
+  if (!is_alone) {
     table.value("warnings", warnings);
     return {std::move(table)};
   }

@@ -6,7 +6,7 @@
 #include <cmath>
 
 #include "io/errors.hpp"
-#include "model/ball_bearing.hpp"
+#include "model/parallel.hpp"
 #include "time/eigenvalues.hpp"
 
 namespace rotor_stator::explore {
@@ -42,11 +42,13 @@ LinearMachine::LinearMachine(const Parameters& parameters, const OperationBudget
   const Eigen::MatrixXd even = (contact_ + contact_.transpose()) / 2;
   k_ = (machine_.stiffness + d * even * d.transpose()).bottomRightCorner(n, n);
   skew_ = (d * (contact_ - even) * d.transpose()).bottomRightCorner(n, n);
-  const Slopes2 c = BallBearing(parameters.bearing, angular(speed))
-                        .reaction({}, {0, 0}, {0, 0})
-                        .damping;
-  if (parameters.bearing.parallel.any())
-    machine_.damping += d * Eigen::Matrix2d{{c.xx, c.xy}, {c.yx, c.yy}} * d.transpose();
+  for (Eigen::Index at = 0; const Bearing& joint : joints_of(parameters)) {
+    const Slopes2 c = Parallel(joint.parallel, angular(speed)).damping();
+    const auto own = d.middleCols<2>(at);
+    machine_.damping +=
+        own * Eigen::Matrix2d{{c.xx, c.xy}, {c.yx, c.yy}} * own.transpose();
+    at += 2;
+  }
   mass_ = machine_.mass.bottomRightCorner(n, n);
   factor_ = cholesky(k_);
   double shift = 0;  // σ [1/s²]
@@ -70,7 +72,10 @@ LinearMachine::LinearMachine(const Parameters& parameters, const OperationBudget
 
 std::vector<Mode> LinearMachine::modes(double speed, std::size_t most) const
 {
-  if (speed != speed_ && parameters_.bearing.parallel.linear.size() > 1)
+  const auto is_by_speed = [](const Bearing& joint) {
+    return joint.parallel.linear.size() > 1;
+  };
+  if (speed != speed_ && std::ranges::any_of(joints_of(parameters_), is_by_speed))
     return LinearMachine(parameters_, budget_, speed).modes(speed, most);
   const auto rows = static_cast<double>(mass_.rows()),
              kept = static_cast<double>(omega_.size());

@@ -38,7 +38,7 @@ void require_method_of(const Parameters& parameters, const std::string& method)
   if (!machine.takes_explicit_steps() && is_of_masses)
     throw BadInput("--method " + method +
                    ": bodies given by matrices take aft, shooting, auto or gauss");
-  require_bearing_of(method, parameters.bearing);
+  require_bearing_of(method, parameters);
   if (machine.takes_explicit_steps() && method == "gauss")
     throw BadInput("--method gauss: is for bodies given by matrices");
 }
@@ -290,10 +290,8 @@ Exploration explore_orbit(const MotionRequest& request)
        at.found.base_periods / (at.found.base_frequency * motion.points_per_period),
        request.frequency, closes});
   std::vector<std::vector<Vec2>> further;
-  for (std::size_t b = 1; b < bearings; ++b) {
-    const auto one = motion::at_bearing(at.found.machine, motion, b);
-    further.push_back(motion::bearing_forces(one.parameters, one.motion));
-  }
+  for (std::size_t b = 1; b < bearings; ++b)
+    further.push_back(motion::bearing_forces(at.found.machine, motion, b));
   const auto rows =
       static_cast<std::size_t>(std::max(request.periods, at.found.closes_after)) *
       request.points;
@@ -341,19 +339,19 @@ Exploration explore_contact(const MotionRequest& request)
   two.periods = 2;
   const Computed at = computed(parameters, two, 2, table);
   for (std::size_t b = 0; b < bearings; ++b) {
-    const auto [one, motion] = motion::at_bearing(at.found.machine, at.found.motion, b);
-    const auto evolution = motion::contact_evolution(one, motion);
+    const motion::Motion& motion = at.found.motion;
+    const Bearing one = bearings_of(at.found.machine)[b];
+    const auto evolution = motion::contact_evolution(at.found.machine, motion, 2, b);
     for (std::size_t k = 0; k < evolution.t_over_period.size(); ++k)
       for (std::size_t j = 0; j < evolution.ball_force[k].size(); ++j) {
         const double turns = evolution.t_over_period[k], q = evolution.ball_force[k][j];
-        const double angle = one.bearing.cage_angle(motion.phase(k)) / angular(1) +
-                             static_cast<double>(j) / one.bearing.balls;
+        const double angle = one.cage_angle(motion.phase(k)) / angular(1) +
+                             static_cast<double>(j) / one.balls;
         std::vector<Cell> row{turns};
         if (bearings > 1) row.emplace_back(b + 1);
         for (double value :
              {static_cast<double>(j + 1), q, turns / at.found.base_frequency,
-              angular(angle - std::floor(angle)),
-              1e-6 * one.bearing.pressure * std::cbrt(q)})
+              angular(angle - std::floor(angle)), 1e-6 * one.pressure * std::cbrt(q)})
           row.emplace_back(value);
         table.row(std::move(row));
       }

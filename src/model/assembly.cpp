@@ -19,7 +19,7 @@ std::vector<std::pair<std::string, int>> outputs_of(const Assembly& all,
 {
   std::vector<std::pair<std::string, int>> list;
   constexpr const char* names[] = {"x_s", "y_s", "x_r", "y_r"};
-  for (std::size_t b = 1; b < all.places.size(); ++b)
+  for (std::size_t b = 1; b < all.bearings; ++b)
     for (int k = 0; k < 4; ++k)
       list.emplace_back(format("%s_%zu", names[k], b + 1), place_of[all.places[b][k]]);
   for (int body : {0, 1})
@@ -65,7 +65,8 @@ SparseMatrix Assembly::joints() const
   for (int b = 0; b < std::ssize(places); ++b)
     for (int axis : {0, 1}) {
       entries.emplace_back(places[b][2 + axis], 2 * b + axis, 1);
-      if (!is_rigid) entries.emplace_back(places[b][axis], 2 * b + axis, -1);
+      if (!is_rigid && places[b][axis] >= 0)
+        entries.emplace_back(places[b][axis], 2 * b + axis, -1);
     }
   SparseMatrix all(size(), 2 * static_cast<int>(places.size()));
   all.setFromTriplets(entries.begin(), entries.end());
@@ -76,7 +77,7 @@ std::pair<std::vector<int>, int> Assembly::order() const
 {
   std::vector<int> list;
   const auto add = [&](int dof) {
-    if (std::ranges::find(list, dof) == list.end()) list.push_back(dof);
+    if (dof >= 0 && std::ranges::find(list, dof) == list.end()) list.push_back(dof);
   };
   for (const auto& place : places)
     for (int dof : place) add(dof);
@@ -136,7 +137,8 @@ LargeBodies assembled(const Assembly& all, double gravity, double spring)
                       .places = all.places,
                       .outputs = outputs_of(all, place_of)};
   for (auto& place : machine.places)
-    for (int& dof : place) dof = place_of[dof];
+    for (int& dof : place)
+      if (dof >= 0) dof = place_of[dof];
   const SparseMatrix& at_nodes = all.bodies[1].at_nodes;
   Triplets entries;
   for (int j = 0; j < at_nodes.outerSize(); ++j)

@@ -37,9 +37,10 @@ LinearBody single_mass(const Body& body, const std::string& name, double unbalan
 
 /** The whole machine, its coordinates in the order of the files. */
 struct Assembly {
-  std::vector<LinearBody> bodies;  ///< stator and rotor
-  bool is_rigid;                   ///< the stator
-  std::vector<std::array<int, 4>> places = {};
+  std::vector<LinearBody> bodies;               ///< stator and rotor
+  bool is_rigid;                                ///< the stator
+  std::vector<std::array<int, 4>> places = {};  ///< of the joints
+  std::size_t bearings = 1;                     ///< those of them that come first
 
   int first(int body) const { return body == 0 ? 0 : bodies[0].size(); }
   int size() const { return bodies[0].size() + bodies[1].size(); }
@@ -52,11 +53,11 @@ struct Assembly {
   /** Degrees of freedom, those first that are shown; their number. */
   std::pair<std::vector<int>, int> order() const;
 
-  /** Throws BadInput for what neither K nor a bearing of this stiffness [N/m] holds. */
+  /** Throws BadInput for what neither K nor a joint of this stiffness [N/m] holds. */
   void require_held(double spring) const;
 };
 
-/** Its matrices, with a spring [N/m] in each bearing (`LargeBodies::spring`). */
+/** Its matrices, with a spring [N/m] in each joint (`LargeBodies::spring`). */
 LargeBodies assembled(const Assembly& all, double gravity, double spring);
 
 }  // namespace rotor_stator

@@ -64,11 +64,12 @@ BasePeriod base_period(const Parameters& parameters)
 
 Parameters over_passage(Parameters parameters)
 {
-  parameters.speed_ratio = 1 / passages_per_turn(parameters.bearing);
-  parameters.bearing.parallel.speed_ratio = parameters.speed_ratio;
+  const double ratio = parameters.speed_ratio = 1 / passages_per_turn(parameters.bearing);
+  change_joints(parameters, [ratio](Bearing& joint) {
+    joint.parallel.speed_ratio = ratio;
+    joint.cage_speed_ratio *= ratio;
+  });
   parameters.bearing.cage_speed_ratio = 1.0 / parameters.bearing.balls;
-  for (Bearing& further : parameters.further)
-    further.cage_speed_ratio *= parameters.speed_ratio;
   return parameters;
 }
 

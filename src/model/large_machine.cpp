@@ -39,7 +39,7 @@ JointForces rigid_joint_forces(const LargeBodies& machine, double speed)
 Eigen::VectorXd quasi_static_contacts(const Parameters& parameters,
                                       const Eigen::VectorXd& forces)
 {
-  Eigen::VectorXd u(forces.size());
+  Eigen::VectorXd u = Eigen::VectorXd::Zero(forces.size());
   for (Eigen::Index k = 0; const Bearing& bearing : bearings_of(parameters)) {
     const Vec2 answer = quasi_static_contact(bearing, {forces[k], forces[k + 1]});
     u.segment<2>(k) << answer.x, answer.y;
@@ -50,8 +50,8 @@ Eigen::VectorXd quasi_static_contacts(const Parameters& parameters,
 
 namespace {
 
-/** At rest, the bearings holding the constant loads: all displacements, and the stiffness
-    of the contacts, 2b × 2b. Forces are means over so many angles of the cage between two
+/** At rest, the joints holding the constant loads: all displacements, and the stiffness
+    of the joints, 2b × 2b. Forces are means over so many angles of the cage between two
     balls, from the cage's phase on. */
 struct AtRest {
   Eigen::VectorXd q;
@@ -66,7 +66,7 @@ AtRest at_rest(const Parameters& parameters, const LargeBodies& machine, int ang
   const Eigen::VectorXd alone = held.solve(machine.load);
   const Eigen::MatrixXd h = d.transpose() * held.solve(d);
   const Eigen::VectorXd c = d.transpose() * alone;
-  const auto bearings = bearings_of(parameters);
+  const std::vector<Bearing> joints = joints_of(parameters);
 
   /** u - c + H (F - k_0 u) and its derivative. */
   Eigen::VectorXd force(c.size());
@@ -74,17 +74,19 @@ AtRest at_rest(const Parameters& parameters, const LargeBodies& machine, int ang
   const auto open = [&](const Eigen::VectorXd& u) -> Eigen::VectorXd {
     slope.setZero();
     force.setZero();
-    for (int b = 0; b < machine.bearings(); ++b)
+    for (Eigen::Index at = 0; const Bearing& joint : joints) {
       for (int k = 0; k < angles; ++k) {
         const double cage =
-            bearings[b].cage_phase + angular(1) * k / bearings[b].balls / angles;
-        const auto [f, s] = BallBearing(bearings[b], rotor_speed)
-                                .reaction(Direction::of(cage), {u[2 * b], u[2 * b + 1]});
+            joint.cage_phase + angular(1) * k / std::max(joint.balls, 1) / angles;
+        const auto [f, s] = BallBearing(joint, rotor_speed)
+                                .reaction(Direction::of(cage), {u[at], u[at + 1]});
         Eigen::Matrix2d one;
         one << s.xx, s.xy, s.yx, s.yy;
-        force.segment<2>(2 * b) += Eigen::Vector2d(f.x, f.y) / angles;
-        slope.block<2, 2>(2 * b, 2 * b) += one / angles;
+        force.segment<2>(at) += Eigen::Vector2d(f.x, f.y) / angles;
+        slope.block<2, 2>(at, at) += one / angles;
       }
+      at += 2;
+    }
     force -= machine.spring * u;
     slope.diagonal().array() -= machine.spring;
     return u - c + h * force;
@@ -161,6 +163,11 @@ void LargeMachine::describe(Table& table, const Parameters&) const
                       bodies_.reductions.empty() ? "all kept" : "reduced",
                       bodies_.spring));
   for (const std::string& line : bodies_.reductions) table.detail(line);
+}
+
+void GroundedMasses::describe(Table& table, const Parameters& parameters) const
+{
+  two_masses()->describe(table, parameters);
 }
 
 void LargeMachine::put_keys(Table& table) const

@@ -5,14 +5,15 @@ A rotor or a stator of a finite-element program comes as mass, damping, gyroscop
 stiffness matrices. With the relative displacements u = Dᵀq of all bearings and their
 forces F on the stator the whole machine is
 
-$$M\ddot q + (C + \omega G)\,\dot q + K q = p(t) - D F(u, t).$$
+$$M\ddot q + (C + \omega G)\,\dot q + K q = p(t) - D F(u, \dot u, t).$$
 
-The first coordinates of q are the displacements that are shown: x_s, y_s, x_r, y_r at the
-first bearing, those of the other bearings, the outputs. A rigid stator is a pair of
-coordinates that nothing moves.
+A joint is a bearing, or what stands between a body and the ground (parallel.hpp): then u
+is the displacement of the body there. The first coordinates of q are the displacements
+that are shown: x_s, y_s, x_r, y_r at the first bearing, those of the other joints, the
+outputs. A rigid stator is a pair of coordinates that nothing moves.
 
-A spring k_0 in each bearing, added to K and taken off F, changes nothing and keeps K +
-k_0 D Dᵀ regular where the bearings carry a body. */
+A spring k_0 in each joint, added to K and taken off F, changes nothing and keeps K + k_0
+D Dᵀ regular where the joints carry a body. */
 #pragma once
 
 #include <Eigen/Core>
@@ -30,7 +31,7 @@ namespace rotor_stator {
 
 class NumberTable;
 
-/** n coordinates, b bearings. */
+/** n coordinates, b joints. */
 struct LargeBodies {
   Eigen::MatrixXd mass, damping, gyroscopic, stiffness;  ///< n × n, SI units
   Eigen::MatrixXd joints;                                ///< D, n × 2b
@@ -38,7 +39,8 @@ struct LargeBodies {
   Eigen::VectorXcd unbalance;  ///< the force is ω² Re(unbalance e^{iωt}) [kg m]
   double spring;               ///< k_0 [N/m]
   int shown;                   ///< coordinates that are shown, at least four
-  std::vector<std::array<int, 4>> places;  ///< of x_s, y_s, x_r, y_r at each bearing
+  /** Of x_s, y_s, x_r, y_r at each joint; -1, -1 and x, y of a body at the ground. */
+  std::vector<std::array<int, 4>> places;
   std::vector<std::pair<std::string, int>>
       outputs;                               ///< further columns, and their coordinates
   std::vector<std::string> reductions = {};  ///< lines for headers
@@ -50,7 +52,6 @@ struct LargeBodies {
   std::vector<std::pair<int, int>> bearing_nodes =
       {};  ///< bearings and the nodes at which they stand, from 0
 
-  int bearings() const { return static_cast<int>(places.size()); }
   Eigen::MatrixXd held_stiffness() const  ///< K + k_0 D Dᵀ
   {
     return stiffness + spring * joints * joints.transpose();
@@ -69,7 +70,7 @@ struct LargeBodies {
                                      double speed) const;
 };
 
-/** The bearings' forces [N] that would keep all u = 0 under the constant loads, 2b, and
+/** The joints' forces [N] that would keep all u = 0 under the constant loads, 2b, and
     their amplitudes from the unbalance at the speed ω. */
 struct JointForces {
   Eigen::VectorXd rest;
@@ -78,14 +79,14 @@ struct JointForces {
 JointForces rigid_joint_forces(const LargeBodies& machine, double speed);
 
 /** The relative displacements [m] with which the bearings answer these forces, each on
-    one ball. */
+    one ball; those of the other joints 0. */
 Eigen::VectorXd quasi_static_contacts(const Parameters& parameters,
                                       const Eigen::VectorXd& forces);
 
 /** The matrices of any machine: its own, or those of two masses. */
 LargeBodies matrices_of(const Parameters& parameters);
 
-/** Where the bearings carry the constant loads: the derivative of their forces, means
+/** Where the joints carry the constant loads: the derivative of their forces, means
     over the cage's angles, 2b × 2b [N/m], with what stands beside the balls at a speed of
     the rotor [rad/s]. */
 Eigen::MatrixXd mean_contact_stiffness(const Parameters& parameters,
@@ -141,6 +142,24 @@ public:
 
 private:
   LargeBodies bodies_;
+};
+
+/** Two masses with elements to the ground: Eq. 7 in time, and in harmonics their
+    matrices, since the two unknowns of the bearing are not enough there. */
+class GroundedMasses : public LargeMachine {
+public:
+  using LargeMachine::LargeMachine;
+
+  bool takes_explicit_steps() const override { return true; }
+  Patience patience() const override { return Machine::patience(); }
+  const char* time_method(const Parameters& parameters) const override;
+  double step(const Parameters& parameters, double omega) const override;
+  std::unique_ptr<Flow> flow(const Parameters& parameters, double omega,
+                             const StepSettings& settings) const override;
+  PeriodMap period_map(const Parameters& parameters, double omega, const State& start,
+                       const StepSettings& settings, long interval) const override;
+  void describe(Table& table, const Parameters& parameters) const override;
+  void put_keys(Table&) const override {}
 };
 
 }  // namespace rotor_stator

@@ -118,7 +118,7 @@ public:
   /** Further displacements that are shown, and their places in a state. */
   virtual std::vector<std::pair<std::string, int>> outputs() const { return {}; }
 
-  /** The places of x_s, y_s, x_r, y_r at bearing k. */
+  /** The places of x_s, y_s, x_r, y_r at joint k, bearings first; of the ground -1. */
   virtual std::array<int, 4> places(std::size_t k) const
   {
     static_cast<void>(k);

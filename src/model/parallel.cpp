@@ -77,24 +77,25 @@ ParallelElements read_parallel(StrictToml& table)
   return elements;
 }
 
-void describe_parallel(Table& table, const ParallelElements& elements)
+void describe_parallel(Table& table, const std::string& name,
+                       const ParallelElements& elements)
 {
   if (elements.cubic > 0)
-    table.detail(format("parallel: k_3 = %.15g N/m^3", elements.cubic));
+    table.detail(name + format(": k_3 = %.15g N/m^3", elements.cubic));
   if (elements.stop_stiffness > 0)
-    table.detail(format("parallel: stop of %.15g N/m after %.15g m",
-                        elements.stop_stiffness, elements.stop_gap));
+    table.detail(name + format(": stop of %.15g N/m after %.15g m",
+                               elements.stop_stiffness, elements.stop_gap));
   if (elements.linear.empty()) return;
   const Coefficients &first = elements.linear.front(), &last = elements.linear.back();
   if (elements.linear.size() > 1)
-    return table.detail(format(
-        "parallel: K and C by %zu speeds from %.9g to %.9g Hz, "
-        "constant beyond",
-        elements.linear.size(), first.speed / angular(1), last.speed / angular(1)));
+    return table.detail(
+        name + format(": K and C by %zu speeds from %.9g to %.9g Hz, constant beyond",
+                      elements.linear.size(), first.speed / angular(1),
+                      last.speed / angular(1)));
   const auto four = [](const std::array<double, 4>& k) {
     return format("(%.9g, %.9g, %.9g, %.9g)", k[0], k[1], k[2], k[3]);
   };
-  table.detail("parallel: K = " + four(first.stiffness) +
+  table.detail(name + ": K = " + four(first.stiffness) +
                " N/m, C = " + four(first.damping) + " N s/m, xx xy yx yy");
 }
 

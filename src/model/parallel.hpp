@@ -19,7 +19,9 @@ linear between its rows and constant beyond them. In the machine's file:
     damping_N_s_per_m = [50, 0, 0, 50]
     coefficients = "seal.tsv"                 # instead of the last two
 
-Each may be left out, and the stiffness of a stop needs its gap. The columns of the table
+A table [rotor.ground] or [stator.ground] has the same keys: there u is the displacement
+of that body and F presses it back. Each may be left out, and the stiffness of a stop
+needs its gap. The columns of the table
 are `f` [Hz] and k_xx … c_yy; those that are missing are 0. */
 #pragma once
 
@@ -45,8 +47,9 @@ struct BearingReaction : ElasticReaction {
 /** Throws BadInput with file, line and key. */
 ParallelElements read_parallel(StrictToml& table);
 
-/** The `#` lines of what is there. */
-void describe_parallel(Table& table, const ParallelElements& elements);
+/** The `#` lines of what is there, which begin with `name`. */
+void describe_parallel(Table& table, const std::string& name,
+                       const ParallelElements& elements);
 
 /** The largest stiffness [N/m] of all together under a load [N] that moves the rotor by
     at most `length` [m], and their largest damping [N s/m]: for the sizes of steps. */
@@ -61,6 +64,12 @@ public:
   /** Adds their force and its derivatives; `omega` is the base frequency [rad/s], 0
       where none is known. */
   void add(Vec2 u, Vec2 rate, double omega, BearingReaction& sum) const;
+
+  Slopes2 damping() const
+  {
+    const auto& c = now_.damping;
+    return {c[0], c[1], c[2], c[3]};
+  }
 
 private:
   double cubic_, stop_stiffness_, stop_gap_;

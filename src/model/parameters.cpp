@@ -1,5 +1,6 @@
 #include "model/parameters.hpp"
 
+#include <algorithm>
 #include <cmath>
 #include <numbers>
 
@@ -110,9 +111,12 @@ Parameters read_parameters(StrictToml root, const MatrixReader& reader)
     parameters.unbalance = read_unbalance(rotor, parameters.rotor);
   StrictToml gravity = root.table("gravity");
   parameters.gravity = gravity.number("acceleration_m_per_s2", Range::not_negative);
-  const bool has_matrices = stator.has(matrices) || rotor.has(matrices);
+  const bool has_matrices = stator.has(matrices) || rotor.has(matrices) ||
+                            stator.has(ground_key) || rotor.has(ground_key);
   if (has_matrices && !reader)
-    throw BadInput(root.file() + ": bodies given by matrices need the program explore");
+    throw BadInput(root.file() +
+                   ": bodies given by matrices, or with elements to the "
+                   "ground, need the program explore");
   if (has_matrices) {
     reader(root, parameters);
     read_rigid(stator, parameters.rotor.mass, parameters.stator);
@@ -120,8 +124,9 @@ Parameters read_parameters(StrictToml root, const MatrixReader& reader)
     StrictToml bearing = root.table("bearing");
     parameters.bearing = read_bearing(bearing, parameters.derived);
   }
-  for (const Coefficients& at : parameters.bearing.parallel.linear)
-    parameters.identity.add(std::as_bytes(std::span(&at, 1)));
+  for (const Bearing& joint : joints_of(parameters))
+    for (const Coefficients& at : joint.parallel.linear)
+      parameters.identity.add(std::as_bytes(std::span(&at, 1)));
 
   root.refuse_unknown_keys();
   if (parameters.stator.rigid)
@@ -146,9 +151,10 @@ double rotor_speed(const Parameters& parameters, double omega)
 Parameters over_turns(Parameters parameters, int turns)
 {
   parameters.turns *= turns;
-  parameters.bearing.cage_speed_ratio *= turns;
-  parameters.bearing.defect.spin *= turns;
-  for (Bearing& bearing : parameters.further) bearing.cage_speed_ratio *= turns;
+  change_joints(parameters, [turns](Bearing& joint) {
+    joint.cage_speed_ratio *= turns;
+    joint.defect.spin *= turns;
+  });
   return parameters;
 }
 
@@ -166,9 +172,11 @@ bool has_rotation_period(const Bearing& bearing)
 
 void require_two_masses(const Parameters& parameters, const char* who)
 {
-  if (!parameters.machine->takes_explicit_steps())
+  if (!parameters.machine->takes_explicit_steps() || !parameters.grounds.empty())
     throw BadInput(
-        format("%s: %s knows no bodies given by matrices", parameters.file.c_str(), who));
+        format("%s: %s knows no bodies given by matrices, and nothing between "
+               "a body and the ground",
+               parameters.file.c_str(), who));
 }
 
 std::vector<Bearing> bearings_of(const Parameters& parameters)
@@ -178,9 +186,23 @@ std::vector<Bearing> bearings_of(const Parameters& parameters)
   return list;
 }
 
+std::vector<Bearing> joints_of(const Parameters& parameters)
+{
+  std::vector<Bearing> list = bearings_of(parameters);
+  list.insert(list.end(), parameters.grounds.begin(), parameters.grounds.end());
+  return list;
+}
+
+/** Whether one of the bearings is damaged there. */
+static bool is_damaged(const Parameters& parameters, Defect::Surface at)
+{
+  return std::ranges::any_of(bearings_of(parameters),
+                             [at](const Bearing& one) { return one.is_damaged(at); });
+}
+
 void require_two_angles(const Parameters& parameters)
 {
-  if (parameters.bearing.is_damaged(Defect::Surface::ball))
+  if (is_damaged(parameters, Defect::Surface::ball))
     throw BadInput(parameters.file +
                    ": bearing.defect: a damaged ball turns about itself, a third "
                    "frequency beside those of rotor and cage; use a time method");
@@ -188,8 +210,7 @@ void require_two_angles(const Parameters& parameters)
 
 bool turns_visibly(const Parameters& parameters)
 {
-  return parameters.unbalance > 0 ||
-         parameters.bearing.is_damaged(Defect::Surface::inner_race);
+  return parameters.unbalance > 0 || is_damaged(parameters, Defect::Surface::inner_race);
 }
 
 void require_rotation_period(const Parameters& parameters, const char* who)
@@ -231,6 +252,41 @@ void TwoMasses::describe(Table& table, const Parameters& parameters) const
                body("rotor", parameters.rotor));
 }
 
+namespace {
+
+const char* surface_of(const Defect& defect)
+{
+  constexpr const char* surfaces[] = {"none", "outer_race", "inner_race", "ball"};
+  return surfaces[static_cast<int>(defect.surface)];
+}
+
+/** The `#` lines of a joint; its number where there are several. */
+void describe(Table& table, const Bearing& joint, const std::string& number)
+{
+  if (joint.balls == 0)
+    return describe_parallel(table, "ground" + number, joint.parallel);
+  table.detail(format("bearing%s: n = %d, K_H = %.15g N/m^%g, delta = %.15g m, "
+                      "omega_cage/omega = %.15g",
+                      number.c_str(), joint.balls, joint.contact_stiffness,
+                      joint.exponent, joint.clearance, joint.cage_speed_ratio) +
+               (joint.cage_phase != 0
+                    ? format(", cage phase = %.15g rad", joint.cage_phase)
+                    : ""));
+  if (joint.damping > 0)
+    table.detail(
+        format("contact damping%s: lambda = %.15g s/m", number.c_str(), joint.damping));
+  describe_parallel(table, "parallel" + number, joint.parallel);
+  const Defect& defect = joint.defect;
+  if (defect.surface == Defect::Surface::none) return;
+  const bool is_ball = defect.surface == Defect::Surface::ball;
+  table.detail(format("defect%s: %s, depth %.15g m, width %.15g rad, angle %.15g rad",
+                      number.c_str(), surface_of(defect), defect.depth, defect.width,
+                      defect.place) +
+               (is_ball ? format(", ball %d", defect.ball) : ""));
+}
+
+}  // namespace
+
 void describe(Table& table, const Parameters& parameters, bool with_keys)
 {
   table.parameters(parameters.file + " (" + parameters.title + ")");
@@ -238,38 +294,19 @@ void describe(Table& table, const Parameters& parameters, bool with_keys)
   table.detail(format("m_e e = %.15g kg m; g = %.15g m/s^2", parameters.unbalance,
                       parameters.gravity));
   const std::vector<Bearing> bearings = bearings_of(parameters);
-  for (std::size_t k = 0; const Bearing& bearing : bearings) {
-    const std::string name = bearings.size() == 1 ? "" : format(" %zu", ++k);
-    table.detail(format("bearing%s: n = %d, K_H = %.15g N/m^%g, delta = %.15g m, "
-                        "omega_cage/omega = %.15g",
-                        name.c_str(), bearing.balls, bearing.contact_stiffness,
-                        bearing.exponent, bearing.clearance, bearing.cage_speed_ratio) +
-                 (bearing.cage_phase != 0
-                      ? format(", cage phase = %.15g rad", bearing.cage_phase)
-                      : ""));
-  }
-  const Bearing& bearing = parameters.bearing;
-  if (bearing.damping > 0)
-    table.detail(format("contact damping: lambda = %.15g s/m", bearing.damping));
-  describe_parallel(table, bearing.parallel);
-  const char* const surfaces[] = {"none", "outer_race", "inner_race", "ball"};
-  const char* const surface = surfaces[static_cast<int>(bearing.defect.surface)];
-  if (!bearing.is_damaged(Defect::Surface::none))
-    table.detail(format("defect: %s, depth %.15g m, width %.15g rad, angle %.15g rad",
-                        surface, bearing.defect.depth, bearing.defect.width,
-                        bearing.defect.place) +
-                 (bearing.is_damaged(Defect::Surface::ball)
-                      ? format(", ball %d", bearing.defect.ball)
-                      : ""));
+  for (const auto& joints : {bearings, parameters.grounds})
+    for (std::size_t k = 0; const Bearing& joint : joints)
+      describe(table, joint, joints.size() == 1 ? "" : format(" %zu", ++k));
   for (const std::string& line : parameters.derived) table.detail(line);
   for (const std::string& doubt : parameters.doubts) table.warning(doubt);
   if (!with_keys) return;
   table.value("machine", parameters.identity.word());
   table.value("stator", parameters.stator.rigid ? "rigid" : "moving");
   parameters.machine->put_keys(table);
-  if (!bearing.is_damaged(Defect::Surface::none)) table.value("defect", surface);
   for (std::size_t k = 0; k < bearings.size(); ++k) {
     const std::string tail = k == 0 ? "" : format("_%zu", k + 1);
+    if (!bearings[k].is_damaged(Defect::Surface::none))
+      table.value("defect" + tail, surface_of(bearings[k].defect));
     table.value("balls" + tail, bearings[k].balls);
     table.value("contact_stiffness" + tail, bearings[k].contact_stiffness);
     table.value("clearance" + tail, bearings[k].clearance);

@@ -7,6 +7,7 @@ an error, and every value is checked when it is read, so that the programs below
 meet a machine that cannot exist. The bearing's keys are in model/catalogue.hpp. */
 #pragma once
 
+#include <algorithm>
 #include <array>
 #include <cstddef>
 #include <functional>
@@ -81,6 +82,12 @@ struct ParallelElements {
   double speed_ratio = 1;  ///< of the rotor's speed over `turns` base frequencies
 
   bool any() const { return cubic > 0 || stop_stiffness > 0 || !linear.empty(); }
+  bool is_damped() const
+  {
+    return std::ranges::any_of(linear, [](const Coefficients& at) {
+      return at.damping != std::array<double, 4>{};
+    });
+  }
 };
 
 /** The ball bearing between them. */
@@ -116,7 +123,7 @@ struct Bearing {
   bool is_plain() const { return damping == 0 && has_kernel(); }
 
   /** Whether the force depends on the rate of u. */
-  bool is_damped() const { return damping > 0 || !parallel.linear.empty(); }
+  bool is_damped() const { return damping > 0 || parallel.is_damped(); }
   double cage_phase = 0;  ///< angle of ball 1 at t = 0 [rad]
 
   /** The angle of ball 1 [rad] at the rotor's angle ωt = `phase`. */
@@ -156,8 +163,13 @@ struct Parameters {
       balls. */
   double speed_ratio = 1;
   std::vector<Bearing> further = {};  ///< bearings beside the first, of a large machine
+  /** Elements between a body and the ground: joints without balls. */
+  std::vector<Bearing> grounds = {};
   std::shared_ptr<const Machine> machine = two_masses();  ///< the bodies
 };
+
+/** Elements between a body and the ground, a table of the body. */
+constexpr const char* ground_key = "ground";
 
 /** Pairs of keys of which a table takes one: a study of the first drops the second. */
 inline const std::vector<std::pair<std::string, std::string>> given_instead{
@@ -173,7 +185,8 @@ inline const std::vector<std::pair<std::string, std::string>> given_instead{
     {"eccentricity_m", "balance_grade"},
     {"eccentricity_m", "balance_speed_rad_per_s"}};
 
-/** Reads bodies given by matrices, and their bearings, into the parameters. */
+/** Reads bodies that two masses on linear suspensions are not, and their bearings, into
+    the parameters. */
 using MatrixReader = std::function<void(StrictToml& root, Parameters& parameters)>;
 
 /** Reads and checks a parameter file of two masses; of bodies given by matrices too,
@@ -214,11 +227,33 @@ bool has_rotation_period(const Bearing& bearing);
     rotation. */
 void require_rotation_period(const Parameters& parameters, const char* who);
 
-/** Throws BadInput, in the name of `who`, for a machine given by matrices. */
+/** Throws BadInput, in the name of `who`, for bodies given by matrices and for elements to
+    the ground. */
 void require_two_masses(const Parameters& parameters, const char* who);
 
-/** All bearings of a machine. */
+/** All bearings of a machine; and after them what joins its bodies to the ground. */
 std::vector<Bearing> bearings_of(const Parameters& parameters);
+std::vector<Bearing> joints_of(const Parameters& parameters);
+
+/** `Bearing::is_plain` and `has_kernel` of all that is between two masses, and between
+    them and the ground. */
+inline bool is_plain(const Parameters& parameters)
+{
+  return parameters.bearing.is_plain() && parameters.grounds.empty();
+}
+inline bool has_kernel(const Parameters& parameters)
+{
+  return parameters.bearing.has_kernel() && parameters.grounds.empty();
+}
+
+/** Calls `change` with every joint of a machine. */
+template <class Change>
+void change_joints(Parameters& parameters, Change change)
+{
+  change(parameters.bearing);
+  for (Bearing& one : parameters.further) change(one);
+  for (Bearing& one : parameters.grounds) change(one);
+}
 
 /** Throws BadInput where a damaged ball adds a third angle to those of rotor and cage. */
 void require_two_angles(const Parameters& parameters);

@@ -12,6 +12,7 @@
 #include "model/catalogue.hpp"
 #include "model/hertz.hpp"
 #include "model/large_machine.hpp"
+#include "model/parallel.hpp"
 
 namespace rotor_stator {
 
@@ -22,6 +23,9 @@ using Triplets = std::vector<Eigen::Triplet<double, int>>;
 
 /** Degrees of freedom of a body that may all be asked for. */
 constexpr int most_asked = 2100;
+
+/** Bearings, and elements to the ground. */
+constexpr std::size_t most_joints = 4;
 
 /** The name of a matrix, the sign of its transpose, and whether its file may be
     missing. */
@@ -127,17 +131,19 @@ LinearBody read_matrices(StrictToml& table, const std::string& name, bool has_we
   return body;
 }
 
-/** A single mass that vibrates about as the body does: in the shape that one force on all
-    bearings gives it. */
-Body equivalent(const LinearBody& body, const std::vector<std::array<int, 2>>& joints,
-                double spring)
+/** A single mass that vibrates about as body 0 or 1 does: in the shape that one force on
+    all bearings gives it. */
+Body equivalent(const Assembly& all, int number, double spring)
 {
+  const LinearBody& body = all.bodies[number];
   Eigen::VectorXd force = Eigen::VectorXd::Zero(body.size());
   SparseMatrix held = body.k;
-  for (const auto& joint : joints)
-    for (int dof : joint) {
+  for (std::size_t joint = 0; joint < all.places.size(); ++joint)
+    for (int axis = 0; axis < 4; ++axis) {
+      const int dof = all.places[joint][axis] - all.first(number);
+      if (dof < 0 || dof >= body.size()) continue;
       held.coeffRef(dof, dof) += spring;
-      if (dof == joint[1]) force[dof] = 1;
+      if (axis % 2 == 1 && joint < all.bearings) force[dof] = 1;
     }
   const Eigen::VectorXd shape = Eigen::SimplicialLDLT<SparseMatrix>(held).solve(force);
   const double count = force.sum(), sag = force.dot(shape) / count;
@@ -191,11 +197,35 @@ void read_bearings(StrictToml& root, Parameters& parameters, Assembly& all)
       if (all.places[k] == all.places.back())
         table.fail("rotor_dofs", "and stator_dofs are those of another bearing too");
   }
-  constexpr std::size_t most = 4;
-  if (list.empty() || list.size() > most)
-    root.fail("bearing", format("must be 1...%zu tables [[bearing]]", most));
+  if (list.empty() || list.size() > most_joints)
+    root.fail("bearing", format("must be 1...%zu tables [[bearing]]", most_joints));
   parameters.bearing = list[0];
   parameters.further.assign(list.begin() + 1, list.end());
+  all.bearings = list.size();
+}
+
+/** What stands between a body and the ground: one table, or several. */
+void read_grounds(StrictToml& table, LinearBody& body, int first, Parameters& parameters,
+                  Assembly& all)
+{
+  if (!table.has(ground_key)) return;
+  std::vector<StrictToml> list;
+  if (table.has_tables(ground_key))
+    list = table.tables(ground_key);
+  else
+    list.push_back(table.table(ground_key));
+  for (StrictToml& one : list) {
+    const bool is_mass = !table.has("matrices");
+    const std::vector<int> dofs =
+        is_mass ? body.joint : read_dofs(one, "dofs", body.size(), true);
+    all.places.push_back({-1, -1, first + dofs[0], first + dofs[1]});
+    Bearing joint{};
+    joint.parallel = read_parallel(one);
+    parameters.grounds.push_back(joint);
+  }
+  if (all.places.size() > most_joints)
+    table.fail(ground_key, format("makes %zu joints with the bearings: at most %zu",
+                                  all.places.size(), most_joints));
 }
 
 /** Puts coordinates that the bearings, loads and outputs need in the place of a body's
@@ -216,12 +246,10 @@ void reduce_body(Assembly& all, int body, const ReductionRange& range, double gr
     if (at == ports.kept.end()) ports.kept.push_back(dof);
     return place;
   };
-  const int begin = all.first(body), more = all.size() - begin - own.size();
+  const int begin = all.first(body), end = begin + own.size();
   for (auto& place : all.places)
-    for (int axis : {0, 1}) {
-      int& dof = place[2 * body + axis];
-      dof = begin + kept(dof - begin);
-    }
+    for (int& dof : place)
+      if (dof >= begin && dof < end) dof = begin + kept(dof - begin);
   ports.joints = ports.kept;
   for (int& dof : own.output) dof = kept(dof);
   const ReducedBody small = reduce(own, ports, range, own.name);
@@ -238,9 +266,9 @@ void reduce_body(Assembly& all, int body, const ReductionRange& range, double gr
     own.at_nodes = Eigen::MatrixXd(own.at_nodes * small.basis).sparseView();
   own.load = small.basis.transpose() * ports.load;
   own.unbalance = small.basis.transpose() * ports.unbalance;
-  if (more > 0)
-    for (auto& place : all.places)
-      for (int axis : {2, 3}) place[axis] += change;
+  for (auto& place : all.places)
+    for (int& dof : place)
+      if (dof >= end) dof += change;
 }
 
 /** Both bodies and the bearings. */
@@ -266,23 +294,21 @@ void read_bodies(StrictToml& root, Parameters& parameters, const ModelRange& ask
       parameters.identity.add(std::as_bytes(std::span(one->outerIndexPtr(), columns)));
     }
   if (all.is_rigid) all.bodies[0].vertical.clear();
+  if (all.is_rigid && tables[0].has(ground_key))
+    tables[0].fail(ground_key, "is for a body that moves, and this one is rigid");
   read_bearings(root, parameters, all);
+  for (int body : {0, 1})
+    read_grounds(tables[body], all.bodies[body], all.first(body), parameters, all);
   std::vector<std::pair<int, int>> bearing_nodes;
   if (asked.nodes && tables[1].has("matrices")) {
     LinearBody& rotor = all.bodies[1];
     read_nodes(*asked.nodes, rotor);
-    for (int b = 0; b < std::ssize(all.places); ++b)
+    for (int b = 0; b < static_cast<int>(all.bearings); ++b)
       for (int i = 0; i < std::ssize(rotor.nodes); i += 2)
         if (all.first(1) + rotor.nodes[i] == all.places[b][2] &&
             all.first(1) + rotor.nodes[i + 1] == all.places[b][3])
           bearing_nodes.emplace_back(b, i / 2);
   }
-  for (const Bearing& bearing : bearings_of(parameters))
-    if (!bearing.is_plain())
-      root.fail(
-          "bearing",
-          "of bodies given by matrices takes no contact damping, no defect, nothing in "
-          "parallel, no other contact_exponent and no negative clearance");
   /** The spring is that of a ball that carries all weights and loads. */
   double weight = 0;
   for (const LinearBody& body : all.bodies) {
@@ -308,15 +334,8 @@ void read_bodies(StrictToml& root, Parameters& parameters, const ModelRange& ask
     if (!all.bodies[body].keeps_all && all.bodies[body].size() > asked.largest)
       reduce_body(all, body, range, gravity, spring, notes, error);
 
-  std::vector<std::array<int, 2>> joints[2];
-  for (const auto& place : all.places)
-    for (int body : {0, 1})
-      joints[body].push_back(
-          {place[2 * body] - all.first(body), place[2 * body + 1] - all.first(body)});
-  if (tables[1].has("matrices"))
-    parameters.rotor = equivalent(all.bodies[1], joints[1], spring);
-  if (tables[0].has("matrices"))
-    parameters.stator = equivalent(all.bodies[0], joints[0], spring);
+  if (tables[1].has("matrices")) parameters.rotor = equivalent(all, 1, spring);
+  if (tables[0].has("matrices")) parameters.stator = equivalent(all, 0, spring);
   if (all.is_rigid) {
     /** Its pair of coordinates, which no force reaches, is damped within the contact's
         vibration. */
@@ -325,7 +344,12 @@ void read_bodies(StrictToml& root, Parameters& parameters, const ModelRange& ask
         {.mass = 1, .natural_frequency = omega, .damping_ratio = 0.7}, "stator", 0);
     all.bodies[0].vertical.clear();
   }
-  all.require_held(spring);
+  Assembly holding = all;
+  for (std::size_t k = parameters.grounds.size(); k-- > 0;)
+    if (largest_stiffness(parameters.grounds[k].parallel, 1, 1) == 0)
+      holding.places.erase(holding.places.begin() +
+                           static_cast<std::ptrdiff_t>(all.bearings + k));
+  holding.require_held(spring);
   LargeBodies machine = assembled(all, gravity, spring);
   machine.reductions = std::move(notes);
   machine.reduction_error = error;
@@ -335,16 +359,24 @@ void read_bodies(StrictToml& root, Parameters& parameters, const ModelRange& ask
     machine.fastest = to;
     machine.fits = std::make_shared<RationalFits>();
   }
-  parameters.machine = std::make_shared<const LargeMachine>(std::move(machine));
+  if (tables[0].has("matrices") || tables[1].has("matrices"))
+    parameters.machine = std::make_shared<const LargeMachine>(std::move(machine));
+  else
+    parameters.machine = std::make_shared<const GroundedMasses>(std::move(machine));
 }
 
 }  // namespace
 
 Parameters read_machine(StrictToml root, const ModelRange& asked)
 {
-  return read_parameters(std::move(root), [&](StrictToml& table, Parameters& parameters) {
-    read_bodies(table, parameters, asked);
-  });
+  const Parameters parameters =
+      read_parameters(std::move(root), [&](StrictToml& table, Parameters& machine) {
+        read_bodies(table, machine, asked);
+      });
+  for (const Bearing& joint : parameters.grounds)
+    if (!joint.parallel.any())
+      throw BadInput(parameters.file + ": ground has nothing that holds or damps a body");
+  return parameters;
 }
 
 }  // namespace rotor_stator

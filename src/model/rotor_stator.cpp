@@ -32,6 +32,15 @@ RotorStator::RotorStator(const Parameters& parameters, double omega)
     : bearing_(parameters.bearing, omega, parameters.turns), omega_(omega),
       equation_(equation_7(parameters, omega))
 {
+  for (std::size_t k = 0; k < parameters.grounds.size(); ++k) {
+    const ParallelElements& elements = parameters.grounds[k].parallel;
+    const std::array<int, 4> places =
+        parameters.machine->places(1 + parameters.further.size() + k);
+    const bool is_rotor = places[2] == 2;
+    grounds_.push_back(
+        {Parallel(elements, elements.speed_ratio * parameters.turns * omega), is_rotor,
+         is_rotor ? equation_.per_m_r : equation_.per_m_s});
+  }
 }
 
 double RotorStator::period() const

@@ -91,6 +91,21 @@ struct Equation7 {
   }
 };
 
+/** An element between a body and the ground, a term of Eq. 7 that the paper has not. */
+struct Ground {
+  Parallel element;
+  bool is_rotor;
+  double per_mass;  ///< [1/kg]
+
+  /** Its force [N] against the displacement q [m] of the body, with derivatives. */
+  BearingReaction reaction(Vec2 q, Vec2 v) const
+  {
+    BearingReaction sum{};
+    element.add(q, v, 0, sum);
+    return sum;
+  }
+};
+
 /** Eq. 7 at one rotor speed with its bearing. */
 class RotorStator {
 public:
@@ -107,18 +122,27 @@ public:
   /** The same for a bearing force `f` [N] that is known already. */
   Bodies acceleration(const Bodies& q, const Bodies& v, Direction rotor, Vec2 f) const
   {
-    return equation_.acceleration(q, v, rotor, f);
+    Bodies a = equation_.acceleration(q, v, rotor, f);
+    for (const Ground& one : grounds_) {
+      const auto body = one.is_rotor ? &Bodies::rotor : &Bodies::stator;
+      const Vec2 held = one.reaction(q.*body, v.*body).force;
+      (a.*body).x -= one.per_mass * held.x;
+      (a.*body).y -= one.per_mass * held.y;
+    }
+    return a;
   }
 
   double omega() const { return omega_; }
   double period() const;
   const BallBearing& bearing() const { return bearing_; }
   const Equation7<double>& equation() const { return equation_; }
+  const std::vector<Ground>& grounds() const { return grounds_; }
 
 private:
   BallBearing bearing_;
   double omega_;
   Equation7<double> equation_;
+  std::vector<Ground> grounds_;
 };
 
 /** Dynamic stiffness Z(Ω) = K - mΩ² + i c Ω of a body alone [N/m], and dZ/dΩ. */

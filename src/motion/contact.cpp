@@ -17,15 +17,17 @@ double contact_share(const Parameters& parameters, const Motion& motion)
 bool touches(const Parameters& parameters, PeriodicMotion solution)
 {
   constexpr int points = 256, turns = 16;
-  if (!parameters.bearing.parallel.any()) return !solution.force.isZero(0);
+  const bool is_bare = std::ranges::none_of(
+      joints_of(parameters), [](const Bearing& one) { return one.parallel.any(); });
+  if (is_bare) return !solution.force.isZero(0);
   solution.bodies = body_series(parameters, solution);
   return contact_share(parameters, motion_of(parameters, solution, points, turns)) > 0;
 }
 
 ContactEvolution contact_evolution(const Parameters& parameters, const Motion& motion,
-                                   long periods)
+                                   long periods, std::size_t bearing)
 {
-  const BearingInstants at(parameters, motion);
+  const BearingInstants at(parameters, motion, bearing);
   ContactEvolution evolution;
   const auto instants = static_cast<std::size_t>(periods * motion.points_per_period);
   for (std::size_t k = 0; k < instants; ++k) {

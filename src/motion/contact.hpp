@@ -23,9 +23,9 @@ struct ContactEvolution {
 };
 
 /** Ball j stands where Eq. 3 puts it, with t counted as the motion counts it. A motion of
-   one period is repeated. */
+    one period is repeated. `bearing` counts from 0. */
 ContactEvolution contact_evolution(const Parameters& parameters, const Motion& motion,
-                                   long periods = 2);
+                                   long periods = 2, std::size_t bearing = 0);
 
 /** The largest force on a ball over so many periods [N]. */
 double largest_ball_load(const Parameters& parameters, const Motion& motion,

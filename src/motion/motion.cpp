@@ -61,16 +61,31 @@ Eigen::MatrixXd series_of(const Motion& motion, int harmonics)
   return series_of(motion, displacement_samples(motion), harmonics);
 }
 
+double shown_at(const Motion& motion, std::size_t k, int place)
+{
+  if (place < 0) return 0;
+  return place < 4 ? displacements(motion.positions[k])[static_cast<std::size_t>(place)]
+                   : motion.further[k][place - 4];
+}
+
+Vec2 relative_at(const Motion& motion, std::size_t k, const std::array<int, 4>& places)
+{
+  const auto& [x_s, y_s, x_r, y_r] = places;
+  return {shown_at(motion, k, x_r) - shown_at(motion, k, x_s),
+          shown_at(motion, k, y_r) - shown_at(motion, k, y_s)};
+}
+
 Eigen::MatrixXd relative_samples(const Parameters& parameters, const Motion& motion)
 {
-  const std::size_t bearings = 1 + parameters.further.size();
-  Eigen::MatrixXd u(std::ssize(motion.positions), 2 * bearings);
-  for (std::size_t k = 0; k < bearings; ++k) {
-    const Eigen::MatrixXd q =
-        displacement_samples(at_bearing(parameters, motion, k).motion);
-    u.middleCols<2>(2 * static_cast<Eigen::Index>(k)) =
-        q.rightCols<2>() - q.leftCols<2>();
-  }
+  const std::size_t joints = joints_of(parameters).size();
+  Eigen::MatrixXd u(std::ssize(motion.positions), 2 * joints);
+  for (std::size_t joint = 0; joint < joints; ++joint)
+    for (std::size_t k = 0; k < motion.size(); ++k) {
+      const Vec2 at = relative_at(motion, k, parameters.machine->places(joint));
+      u.row(static_cast<Eigen::Index>(k))
+          .segment<2>(2 * static_cast<Eigen::Index>(joint)) =
+          Eigen::RowVector2d(at.x, at.y);
+    }
   return u;
 }
 
@@ -102,12 +117,22 @@ Motion motion_of_samples(const Eigen::MatrixXd& samples, int points, long first_
   return motion;
 }
 
+/** From the rates of x_s, y_s, x_r, y_r and of what else is shown, a row for each
+    instant. */
+static void put_rates(Motion& motion, const Eigen::MatrixXd& rates)
+{
+  for (Eigen::Index k = 0; k < rates.rows(); ++k) {
+    motion.rates.push_back({rates(k, 2) - rates(k, 0), rates(k, 3) - rates(k, 1)});
+    if (rates.cols() > 4) motion.velocities.emplace_back(rates.row(k));
+  }
+}
+
 Motion motion_of(const PeriodicMotion& solution, int points)
 {
   Motion motion = motion_of(solution.bodies, points);
   motion.omega = solution.omega;
-  for (const Bodies& rate : motion_of(differentiate(solution.bodies), points).positions)
-    motion.rates.push_back(solution.omega * rate.relative());
+  put_rates(motion,
+            sample_series(solution.omega * differentiate(solution.bodies), points));
   return motion;
 }
 
@@ -117,7 +142,8 @@ Motion motion_of(const Parameters& parameters, const PeriodicMotion& solution, i
   constexpr double turn = 2 * std::numbers::pi;
   const auto n = static_cast<Eigen::Index>(points) * turns;
   Eigen::MatrixXd samples = solution.bodies.col(0).transpose().replicate(n, 1);
-  Eigen::MatrixX2d rates = Eigen::MatrixX2d::Zero(n, 2), wave(n, 2);  // of u; cos, sin
+  Eigen::MatrixXd rates = Eigen::MatrixXd::Zero(n, samples.cols());
+  Eigen::MatrixX2d wave(n, 2);  // cos, sin
   const double passages = passages_per_turn(parameters.bearing);
   for (int h = 1; h <= solution.harmonics.count(); ++h) {
     const auto& [k_1, k_2] = solution.harmonics.list()[static_cast<std::size_t>(h)];
@@ -132,14 +158,13 @@ Motion motion_of(const Parameters& parameters, const PeriodicMotion& solution, i
     }
     const Eigen::MatrixX2d pair = solution.bodies.middleCols(2 * h - 1, 2);
     samples += wave.lazyProduct(pair.transpose());
-    const Eigen::Matrix2d u = pair.middleRows<2>(2) - pair.topRows<2>();
-    Eigen::Matrix2d slopes;  // of cos and sin
-    slopes << u.col(1).transpose(), -u.col(0).transpose();
-    rates += wave.lazyProduct(order * solution.omega * slopes);
+    Eigen::MatrixX2d slopes(pair.rows(), 2);  // of cos and sin
+    slopes << pair.col(1), -pair.col(0);
+    rates += wave.lazyProduct(order * solution.omega * slopes.transpose());
   }
   Motion motion = motion_of_samples(samples, points, first);
   motion.omega = solution.omega;
-  for (Eigen::Index k = 0; k < n; ++k) motion.rates.push_back({rates(k, 0), rates(k, 1)});
+  put_rates(motion, rates);
   return motion;
 }
 
@@ -156,8 +181,10 @@ void add(Motion& motion, const State& state)
 {
   motion.positions.push_back(state.position);
   motion.rates.push_back(state.velocity.relative());
-  if (const auto more = state.inner.size() / 2; more > 0)
-    motion.further.emplace_back(state.inner.head(more));
+  const auto more = state.inner.size() / 2;
+  if (more == 0) return;
+  motion.further.emplace_back(state.inner.head(more));
+  motion.velocities.emplace_back(vector_of(state).tail(4 + more));
 }
 
 State state_of(const Parameters& parameters, const PeriodicMotion& motion)
@@ -204,7 +231,7 @@ std::vector<Motion> pieces(const Motion& motion, int periods)
     parts.push_back({motion.points_per_period,
                      motion.first_period + periods * std::ssize(parts),
                      cut(motion.positions, from), cut(motion.rates, from), motion.omega,
-                     cut(motion.further, from)});
+                     cut(motion.further, from), cut(motion.velocities, from)});
   return parts;
 }
 
@@ -216,39 +243,39 @@ BatchMean mean_over(const Motion& motion, int periods,
   return long_mean(values);
 }
 
-BearingInstants::BearingInstants(const Parameters& parameters, const Motion& m)
-    : motion(m), bearing(parameters.bearing, m.omega, parameters.turns)
+BearingInstants::BearingInstants(const Parameters& parameters, const Motion& m,
+                                 std::size_t joint)
+    : motion(m), bearing(joints_of(parameters)[joint], m.omega, parameters.turns),
+      places(parameters.machine->places(joint))
 {
-  if (parameters.bearing.is_damped() && (m.rates.empty() || m.omega == 0))
+  const bool has_rates = !(joint == 0 ? m.rates.empty() : m.velocities.empty());
+  if (joints_of(parameters)[joint].is_damped() && (!has_rates || m.omega == 0))
     throw NoSolution("the force of a damped contact needs the rates of the motion");
 }
 
-std::vector<Vec2> bearing_forces(const Parameters& parameters, const Motion& motion)
+Vec2 BearingInstants::u(std::size_t k) const
 {
-  const BearingInstants instants(parameters, motion);
+  return relative_at(motion, k % motion.size(), places);
+}
+
+Vec2 BearingInstants::rate(std::size_t k) const
+{
+  const auto& [x_s, y_s, x_r, y_r] = places;
+  if (motion.velocities.empty())
+    return motion.rates.empty() ? Vec2{0, 0} : motion.rates[k % motion.size()];
+  const auto of = [&v = motion.velocities[k % motion.size()]](int place) {
+    return place < 0 ? 0 : v[place];
+  };
+  return {of(x_r) - of(x_s), of(y_r) - of(y_s)};
+}
+
+std::vector<Vec2> bearing_forces(const Parameters& parameters, const Motion& motion,
+                                 std::size_t joint)
+{
+  const BearingInstants instants(parameters, motion, joint);
   std::vector<Vec2> forces;
   for (std::size_t k = 0; k < motion.size(); ++k) forces.push_back(instants.force(k));
   return forces;
-}
-
-double shown_at(const Motion& motion, std::size_t k, int place)
-{
-  return place < 4 ? displacements(motion.positions[k])[static_cast<std::size_t>(place)]
-                   : motion.further[k][place - 4];
-}
-
-AtBearing at_bearing(const Parameters& parameters, const Motion& motion, std::size_t k)
-{
-  const auto [x_s, y_s, x_r, y_r] = parameters.machine->places(k);
-  AtBearing one{parameters, {motion.points_per_period, motion.first_period, {}}};
-  one.parameters.bearing = bearings_of(parameters)[k];
-  if (k == 0) one.motion.rates = motion.rates;
-  one.motion.omega = motion.omega;
-  for (std::size_t i = 0; i < motion.size(); ++i)
-    one.motion.positions.push_back(
-        {{shown_at(motion, i, x_s), shown_at(motion, i, y_s)},
-         {shown_at(motion, i, x_r), shown_at(motion, i, y_r)}});
-  return one;
 }
 
 Displacements half_peak_to_peak(const Motion& motion)

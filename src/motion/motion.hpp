@@ -22,8 +22,8 @@ struct Motion {
   std::vector<Vec2> rates =
       {};            ///< u̇ [m/s], where the force of a damped contact is asked for
   double omega = 0;  ///< the base frequency that belongs to them [rad/s]
-  std::vector<Eigen::VectorXd> further =
-      {};  ///< of a large machine: its other displacements
+  /** Of a large machine: its other displacements, and the rates of all. */
+  std::vector<Eigen::VectorXd> further = {}, velocities = {};
 
   std::size_t size() const { return positions.size(); }
   double t_over_period(std::size_t k) const
@@ -61,7 +61,7 @@ int instants_of(const Parameters& parameters, double omega);
 Eigen::MatrixXd displacement_samples(const Motion& motion);
 
 /** The series of x_s, y_s, x_r, y_r over the first period of a motion [m], 4 × (2m+1);
-    and that of the relative motions u of all bearings as the unknowns of a balance. */
+    and that of the relative motions u of all joints as the unknowns of a balance. */
 Eigen::MatrixXd series_of(const Motion& motion, int harmonics);
 Eigen::VectorXd relative_series(const Parameters& parameters, const Motion& motion,
                                 int harmonics);
@@ -69,7 +69,7 @@ Eigen::VectorXd relative_series(const Parameters& parameters, const Motion& moti
 /** The same of two masses. */
 Eigen::VectorXd relative_series(const Motion& motion, int harmonics);
 
-/** The relative motions u of all bearings at the instants of a motion, N × 2b [m]. */
+/** The relative motions u of all joints at the instants of a motion, N × 2b [m]. */
 Eigen::MatrixXd relative_samples(const Parameters& parameters, const Motion& motion);
 
 /** From x_s, y_s, x_r, y_r and what else a large machine shows, a row for each
@@ -108,16 +108,20 @@ std::vector<Motion> pieces(const Motion& motion, int periods);
 BatchMean mean_over(const Motion& motion, int periods,
                     const std::function<double(const Motion&)>& measure);
 
-/** Where everything in the bearing stands at instant k, and how u changes. Throws
-    NoSolution for a damped contact without rates. */
+/** Coordinate `place` of a large machine at instant k [m]; 0 of the ground, -1. */
+double shown_at(const Motion& motion, std::size_t k, int place);
+
+/** u at instant k of a joint with these places of x_s, y_s, x_r, y_r [m]. */
+Vec2 relative_at(const Motion& motion, std::size_t k, const std::array<int, 4>& places);
+
+/** Where everything in a joint stands at instant k, and how u changes: the joints are
+    counted from 0, bearings first. Throws NoSolution for a damped one without rates. */
 struct BearingInstants {
-  BearingInstants(const Parameters& parameters, const Motion& motion);
+  BearingInstants(const Parameters& parameters, const Motion& motion,
+                  std::size_t joint = 0);
   Angles angles(std::size_t k) const { return bearing.angles(motion.phase(k)); }
-  Vec2 u(std::size_t k) const { return motion.positions[k % motion.size()].relative(); }
-  Vec2 rate(std::size_t k) const
-  {
-    return motion.rates.empty() ? Vec2{0, 0} : motion.rates[k % motion.size()];
-  }
+  Vec2 u(std::size_t k) const;
+  Vec2 rate(std::size_t k) const;
   Vec2 force(std::size_t k) const { return bearing.force(angles(k), u(k), rate(k)); }
   bool touches(std::size_t k) const
   {
@@ -127,21 +131,13 @@ struct BearingInstants {
 
   const Motion& motion;
   BallBearing bearing;
+  std::array<int, 4> places;  ///< of x_s, y_s, x_r, y_r at the joint
 };
 
-/** Eq. 6: the bearing's force [N] on the stator at each instant of a motion. */
-std::vector<Vec2> bearing_forces(const Parameters& parameters, const Motion& motion);
-
-/** Coordinate `place` of a large machine at instant k [m]. */
-double shown_at(const Motion& motion, std::size_t k, int place);
-
-/** A machine as its bearing k = 0, 1, … sees it, and the motion there: the functions that
-    speak of the bearing then speak of that one. */
-struct AtBearing {
-  Parameters parameters;
-  Motion motion;
-};
-AtBearing at_bearing(const Parameters& parameters, const Motion& motion, std::size_t k);
+/** Eq. 6: the bearing's force [N] on the stator at each instant of a motion; also of
+    another bearing than the first. */
+std::vector<Vec2> bearing_forces(const Parameters& parameters, const Motion& motion,
+                                 std::size_t joint = 0);
 
 /** Half peak-to-peak of x_s, y_s, x_r, y_r [m] over the instants of a motion. */
 Displacements half_peak_to_peak(const Motion& motion);

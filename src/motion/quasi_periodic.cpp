@@ -380,7 +380,7 @@ Torus torus_on_orders(const TorusSearch& search, int m)
   const Parameters& parameters = search.parameters;
   const Harmonics kept = orders_up_to(m, parameters.bearing);
   const Harmonics others = lines_of_force(parameters.bearing);
-  const int dofs = 2 * static_cast<int>(bearings_of(parameters).size());
+  const int dofs = 2 * static_cast<int>(joints_of(parameters).size());
   const Eigen::VectorXd x =
       project(quasi_static_start(parameters, search.omega, m), dofs, Harmonics(m), kept);
   PeriodicMotion motion = solved_on(search, kept, others, 1, x, "quasi-static contact");

@@ -173,10 +173,10 @@ private:
 std::vector<PassedTurn> run_up(const Parameters& parameters, const RunUp& run,
                                const OperationBudget& budget, const Stretches& stretches)
 {
-  if (!parameters.machine->takes_explicit_steps())
+  if (!parameters.machine->takes_explicit_steps() || !parameters.grounds.empty())
     throw BadInput(parameters.file +
-                   ": a changing speed is of two masses; of bodies by matrices take "
-                   "response --direction up");
+                   ": a changing speed is of two masses without elements to the ground; "
+                   "take response --direction up");
   if (parameters.bearing.damping > 0 &&
       !parameters.bearing.is_damaged(Defect::Surface::none))
     throw BadInput(parameters.file +

@@ -43,7 +43,7 @@ FixedStep::FixedStep(const Parameters& parameters, double omega, int intervals,
       work_(rule == Rule::splitting          ? Work::splitting
             : parameters.bearing.damping > 0 ? Work::rk4_damped
                                              : Work::rk4),
-      is_general_(!parameters.bearing.has_kernel()), budget_(std::move(budget))
+      is_general_(!has_kernel(parameters)), budget_(std::move(budget))
 {
   half_ = turns_.by(0.5 / (static_cast<double>(intervals) * steps_));
   if (rule == Rule::splitting)

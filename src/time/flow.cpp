@@ -31,11 +31,11 @@ void require_method(const std::string& method, std::vector<std::string> others)
   throw BadInput("--method " + method + ": must be one of " + list);
 }
 
-void require_bearing_of(const std::string& method, const Bearing& bearing)
+void require_bearing_of(const std::string& method, const Parameters& parameters)
 {
   const bool is_of_plain =
       method == "bsimp" || method == "msbdf" || method == "splitting";
-  if (is_of_plain && !bearing.is_plain())
+  if (is_of_plain && !is_plain(parameters))
     throw BadInput(
         "--method " + method +
         ": knows Hertz's contact alone, undamped and undamaged; take rk4, rk8, rk8pd, "
@@ -44,11 +44,19 @@ void require_bearing_of(const std::string& method, const Bearing& bearing)
 
 double default_step(const Parameters& parameters)
 {
-  const double contact = 2 * std::numbers::pi / contact_frequency(parameters) / 40;
+  double contact = 2 * std::numbers::pi / contact_frequency(parameters) / 40;
   /** A damper of the contact's own size lets no speed change within a step. */
   const double damper = parameters.bearing.damping * scales(parameters).load +
                         largest_damping(parameters.bearing.parallel);
-  const double rate = damper * (1 / parameters.stator.mass + 1 / parameters.rotor.mass);
+  double rate = damper * (1 / parameters.stator.mass + 1 / parameters.rotor.mass);
+  const auto [load, penetration, length, stiffness] = scales(parameters);
+  const double mass = std::min(parameters.stator.mass, parameters.rotor.mass);
+  double held = 0;
+  for (const Bearing& ground : parameters.grounds) {
+    held += largest_stiffness(ground.parallel, load, length) / mass;
+    rate += largest_damping(ground.parallel) / mass;
+  }
+  if (held > 0) contact = std::min(contact, 2 * std::numbers::pi / std::sqrt(held) / 40);
   return rate > 0 ? std::min(contact, 0.5 / rate) : contact;
 }
 
@@ -68,7 +76,7 @@ double evaluation_price(const Parameters& parameters, const std::string& method)
 
 const char* TwoMasses::time_method(const Parameters& parameters) const
 {
-  return parameters.bearing.is_plain() ? "splitting" : "rk4";
+  return is_plain(parameters) ? "splitting" : "rk4";
 }
 
 /** A contact of Hertz is stiffer with the third root of its force, and vibrates faster
@@ -109,7 +117,7 @@ std::unique_ptr<Flow> TwoMasses::flow(const Parameters& parameters, double omega
   const std::string method =
       settings.method == "auto" ? time_method(parameters) : settings.method;
   require_method(method);
-  require_bearing_of(method, parameters.bearing);
+  require_bearing_of(method, parameters);
   const int intervals = settings.intervals_per_period;
   const double longest = settings.step > 0 ? settings.step : step(parameters, omega);
   if (has_fixed_step(method))

@@ -68,8 +68,8 @@ inline double steps_of_rk4(const std::string& method)
   return method == "splitting" ? 4 : 1;
 }
 
-/** Throws BadInput for a method that cannot have the bearing's force. */
-void require_bearing_of(const std::string& method, const Bearing& bearing);
+/** Throws BadInput for a method that cannot have the machine's forces. */
+void require_bearing_of(const std::string& method, const Parameters& parameters);
 
 /** Throws BadInput for a method that is neither one of `others` nor a time method, naming
     the known ones. */

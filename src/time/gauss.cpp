@@ -51,7 +51,7 @@ const GaussRule& gauss_rule()
 GaussStepper::GaussStepper(const LargeBodies& machine, const Parameters& parameters,
                            double omega, int intervals, double tolerance,
                            OperationBudget budget)
-    : cages_(bearings_of(parameters)), omega_(omega),
+    : cages_(joints_of(parameters)), omega_(omega),
       turns_(parameters.turns * parameters.speed_ratio),
       speed_(rotor_speed(parameters, omega)), length_(scales(parameters).length),
       interval_(2 * std::numbers::pi / omega / intervals),
@@ -67,13 +67,14 @@ GaussStepper::GaussStepper(const LargeBodies& machine, const Parameters& paramet
   rest_ = machine.load;
   unbalance_ = speed_ * speed_ * machine.unbalance;
   double balls = 0;
-  for (const Bearing& bearing : cages_) {
-    bearings_.emplace_back(bearing);
-    balls += bearing.balls;
+  for (const Bearing& joint : cages_) {
+    forces_.emplace_back(joint, omega, parameters.turns);
+    balls += joint.balls;
+    is_damped_ = is_damped_ || joint.is_damped();
   }
   const auto n = static_cast<double>(rest_.size());
-  price_ = (1750 * static_cast<double>(cages_.size()) + 10 * balls +
-            (n <= most_dense ? 0.75 * n * n : 130 * n)) /
+  price_ = ((is_damped_ ? 1.5 : 1.0) * 1750 * static_cast<double>(cages_.size()) +
+            10 * balls + (n <= most_dense ? 0.75 * n * n : 130 * n)) /
            operations_per_evaluation(parameters.bearing.balls);
 }
 
@@ -107,34 +108,47 @@ Eigen::MatrixXd GaussStepper::answer(const Level& level, const Eigen::MatrixXcd&
   const Eigen::Index n = rest_.size(), d = joints_.cols();
   const double h = level.step;
   const Eigen::MatrixXcd joints_x = joints_.cast<Complex>().transpose() * x;
-  const Eigen::Vector2cd by_stage = a * a * t;
-  const Complex to_speed = t.sum() / 2.0, to_place = (a * t).sum() / 2.0;
-  Eigen::MatrixXd rows(2 * (d + n), x.cols());
-  for (int i : {0, 1})
-    rows.middleRows(i * d, d) = 2 * h * h * (by_stage[i] * joints_x).real();
-  rows.middleRows(2 * d, n) = 2 * h * h * (to_place * x).real();
+  const Eigen::Vector2cd to_rates = a * t, to_places = a * to_rates;
+  const Complex to_speed = t.sum() / 2.0, to_place = to_rates.sum() / 2.0;
+  Eigen::MatrixXd rows(seen() + 2 * n, x.cols());
+  for (int i : {0, 1}) {
+    rows.middleRows(i * d, d) = 2 * h * h * (to_places[i] * joints_x).real();
+    if (is_damped_)
+      rows.middleRows((2 + i) * d, d) = 2 * h * (to_rates[i] * joints_x).real();
+  }
+  rows.middleRows(seen(), n) = 2 * h * h * (to_place * x).real();
   rows.bottomRows(n) = 2 * h * (to_speed * x).real();
   return rows;
 }
 
-/** Forces of the bearings at both stages, 4b, and their derivative by blocks of two. */
-Eigen::VectorXd GaussStepper::reaction(const double* phases, const Eigen::VectorXd& u,
-                                       Eigen::MatrixXd& stiffness)
+/** Forces of the joints at both stages, and their derivatives by blocks of two. */
+GaussStepper::Seen GaussStepper::reaction(const double* phases, const Seen& seen,
+                                          Slopes& slopes)
 {
-  Eigen::VectorXd force(u.size());
-  stiffness.setZero(u.size(), u.size());
+  const Eigen::Index both = 2 * joints_.cols();
+  Seen force(both);
+  slopes.setZero(both, seen.size());
   for (Eigen::Index k = 0, stage = 0; stage < 2; ++stage)
-    for (std::size_t b = 0; b < bearings_.size(); ++b, k += 2) {
-      const Direction cage = Direction::of(cages_[b].cage_angle(phases[stage]));
-      const auto [f, s] = bearings_[b].reaction(cage, {u[k], u[k + 1]});
-      force.segment<2>(k) << f.x, f.y;
-      stiffness.block<2, 2>(k, k) << s.xx, s.xy, s.xy, s.yy;
+    for (std::size_t b = 0; b < forces_.size(); ++b, k += 2) {
+      const Vec2 u{seen[k], seen[k + 1]};
+      const Vec2 rate =
+          is_damped_ ? Vec2{seen[both + k], seen[both + k + 1]} : Vec2{0, 0};
+      const auto at =
+          forces_[b].is_plain()
+              ? Angles{{1, 0}, Direction::of(cages_[b].cage_angle(phases[stage]))}
+          : cages_[b].balls > 0 ? forces_[b].angles(phases[stage])
+                                : Angles{{1, 0}, {1, 0}};
+      const BearingReaction pressed = forces_[b].reaction(at, u, rate);
+      const auto &s = pressed.stiffness, &c = pressed.damping;
+      force.segment<2>(k) << pressed.force.x, pressed.force.y;
+      slopes.block<2, 2>(k, k) << s.xx, s.xy, s.yx, s.yy;
+      if (is_damped_) slopes.block<2, 2>(k, both + k) << c.xx, c.xy, c.yx, c.yy;
     }
   evaluations_ += 2;
   return force;
 }
 
-/** A step without the bearings' forces, of states in the columns of `y`; with the rotor's
+/** A step without the joints' forces, of states in the columns of `y`; with the rotor's
     angle at its begin the loads drive the first one. */
 Eigen::MatrixXd GaussStepper::unforced_by_factors(const Level& level, const double* angle,
                                                   const Eigen::MatrixXd& y) const
@@ -153,8 +167,11 @@ Eigen::MatrixXd GaussStepper::unforced_by_factors(const Level& level, const doub
   Eigen::MatrixXd rows = answer(level, x);
   const Eigen::MatrixXd joints_q = joints_.transpose() * y.topRows(n),
                         joints_v = joints_.transpose() * v;
-  for (int i : {0, 1}) rows.middleRows(i * d, d) += joints_q + h * c[i] * joints_v;
-  rows.middleRows(2 * d, n) += y.topRows(n) + h * v;
+  for (int i : {0, 1}) {
+    rows.middleRows(i * d, d) += joints_q + h * c[i] * joints_v;
+    if (is_damped_) rows.middleRows((2 + i) * d, d) += joints_v;
+  }
+  rows.middleRows(seen(), n) += y.topRows(n) + h * v;
   rows.bottomRows(n) += v;
   return rows;
 }
@@ -194,33 +211,37 @@ Eigen::MatrixXd GaussStepper::unforced(Level& level, double angle,
     in the others. False where Newton does not converge. */
 bool GaussStepper::step(Level& level, double phase, Eigen::MatrixXd& y)
 {
-  const Eigen::Index d = joints_.cols(), others = y.cols() - 1;
+  const Eigen::Index both = 2 * joints_.cols(), others = y.cols() - 1;
   budget_.spend(price_ * static_cast<double>(y.cols()));
   ++level.steps;
   const Eigen::Vector2d& c = gauss_rule().c;
   const double by = omega_ * level.step,
                phases[] = {phase + by * c[0], phase + by * c[1]};
   const Eigen::MatrixXd rows = unforced(level, turns_ * phase, y);
-  const auto free = rows.topRows(2 * d);
-  const auto receptance = level.per_force.topRows(2 * d);
-  Eigen::MatrixXd force(2 * d, y.cols()), stiffness, slope;
-  Eigen::PartialPivLU<Eigen::MatrixXd> factors;
-  Eigen::VectorXd u = free.col(0), change;
+  const auto free = rows.topRows(seen());
+  const auto receptance = level.per_force.topRows(seen());
+  Eigen::MatrixXd force(both, y.cols());
+  Slopes slopes, slope;
+  Eigen::PartialPivLU<Slopes> factors;
+  Seen u = free.col(0), change, pushed;  // with its rates
   constexpr int most_iterations = 12;
   constexpr double rounding = 1e-12;
   for (int iteration = 0;; ++iteration) {
     if (iteration == most_iterations) return false;
-    force.col(0) = reaction(phases, u, stiffness);
-    slope.noalias() = receptance * stiffness;
+    pushed = reaction(phases, u, slopes);
+    slope = slopes.lazyProduct(receptance);
     slope.diagonal().array() += 1;
     factors.compute(slope);
-    change = factors.solve(u - free.col(0) + receptance * force.col(0));
+    change = u - free.col(0) + receptance.lazyProduct(pushed);
+    change -= receptance.lazyProduct(factors.solve(slopes.lazyProduct(change)).eval());
     u -= change;
     if (!u.allFinite()) return false;
+    if (is_damped_) change.tail(both) *= level.step;
     if (change.cwiseAbs().maxCoeff() <= rounding * length_) break;
   }
+  force.col(0) = pushed;
   if (others > 0)
-    force.rightCols(others) = stiffness * factors.solve(free.rightCols(others));
+    force.rightCols(others) = factors.solve(slopes * free.rightCols(others));
   y = rows.bottomRows(y.rows()) - level.per_force.bottomRows(y.rows()) * force;
   return true;
 }
@@ -298,7 +319,7 @@ PeriodMap LargeMachine::period_map(const Parameters& parameters, double omega,
                                    const State& start, const StepSettings& settings,
                                    long interval) const
 {
-  constexpr double coarser = 1e4;
+  constexpr double coarser = 1e2;
   const int intervals = settings.intervals_per_period;
   GaussStepper state(bodies_, parameters, omega, intervals, settings.tolerance,
                      settings.budget);
@@ -309,6 +330,29 @@ PeriodMap LargeMachine::period_map(const Parameters& parameters, double omega,
   map.derivative = varied.derivative(interval, start);
   map.evaluations = state.evaluations() + varied.evaluations();
   return map;
+}
+
+const char* GroundedMasses::time_method(const Parameters& parameters) const
+{
+  return two_masses()->time_method(parameters);
+}
+
+double GroundedMasses::step(const Parameters& parameters, double omega) const
+{
+  return two_masses()->step(parameters, omega);
+}
+
+std::unique_ptr<Flow> GroundedMasses::flow(const Parameters& parameters, double omega,
+                                           const StepSettings& settings) const
+{
+  return two_masses()->flow(parameters, omega, settings);
+}
+
+PeriodMap GroundedMasses::period_map(const Parameters& parameters, double omega,
+                                     const State& start, const StepSettings& settings,
+                                     long interval) const
+{
+  return two_masses()->period_map(parameters, omega, start, settings, interval);
 }
 
 }  // namespace rotor_stator

@@ -9,8 +9,9 @@ $$M W + C\,(v 1^T + h W A^T) + K\,(q 1^T + h v (A1)^T + h^2 W (A^2)^T) = P - D F
 
 C with ωG. One complex eigenvector of Aᵀ, of the eigenvalue λ, parts the stages: a single
 sparse system M + hλ C + h²λ² K, factored once for each step size, answers the loads and
-the unit forces of the bearings. What is left for each step are 4 unknowns a bearing,
-solved by Newton. */
+the unit forces of the joints: bearings, and elements between a body and the ground. What
+is left for each step are the relative displacements at both stages, 4 unknowns a joint,
+with their rates 8 where a force depends on these, solved by Newton. */
 #pragma once
 
 #include <Eigen/SparseLU>
@@ -38,18 +39,19 @@ public:
   /** The derivative of that map at `start`, 2n × 2n. */
   Eigen::MatrixXd derivative(long interval, const State& start);
 
-  /** Of the forces of all bearings. */
+  /** Of the forces of all joints. */
   long evaluations() const override { return evaluations_; }
 
 private:
   using Sparse = Eigen::SparseMatrix<std::complex<double>>;
 
-  /** What belongs to a step size. Its matrices give displacements u [m] of the bearings
-      at both stages, 4b rows, above the state after the step, 2n rows. */
+  /** What belongs to a step size. Its matrices give what the forces depend on, u [m] of
+      the joints at both stages and perhaps u̇ [m/s], above the state after the step, 2n
+      rows. */
   struct Level {
     double step;  ///< [s]
     Eigen::SparseLU<Sparse> factors;
-    Eigen::MatrixXd per_force;  ///< what forces of the bearings take, by 4b
+    Eigen::MatrixXd per_force;  ///< what forces of the joints take at both stages
     Eigen::MatrixXd unforced;   ///< of a state, and of 1, cos, sin; where few coordinates
     long steps = 0;
   };
@@ -59,13 +61,21 @@ private:
                                       const Eigen::MatrixXd& y) const;
   Eigen::MatrixXd all_unforced(const Level& level) const;
   Eigen::MatrixXd unforced(Level& level, double angle, const Eigen::MatrixXd& y) const;
-  Eigen::VectorXd reaction(const double* phases, const Eigen::VectorXd& u,
-                           Eigen::MatrixXd& stiffness);
+  /** At most four joints: small vectors and matrices without heap memory. */
+  static constexpr int most_forces = 16, most_seen = 2 * most_forces;
+  using Seen = Eigen::Matrix<double, Eigen::Dynamic, 1, 0, most_seen, 1>;
+  using Slopes =
+      Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, 0, most_forces, most_seen>;
+  Seen reaction(const double* phases, const Seen& seen, Slopes& slopes);
   bool step(Level& level, double phase, Eigen::MatrixXd& y);
   void integrate(long interval, Eigen::MatrixXd& y);
 
-  std::vector<BallBearing> bearings_;
+  /** Rows of what the forces depend on, at both stages. */
+  Eigen::Index seen() const { return (is_damped_ ? 4 : 2) * joints_.cols(); }
+
+  std::vector<BallBearing> forces_;  ///< of the joints
   std::vector<Bearing> cages_;
+  bool is_damped_ = false;
   double omega_, turns_, speed_, length_, interval_, tolerance_;  ///< interval_ [s]
   SparseMatrix mass_, damping_, stiffness_, joints_;
   Eigen::VectorXd rest_;

@@ -85,7 +85,7 @@ PeriodMap TwoMasses::period_map(const Parameters& parameters, double omega,
                                 long interval) const
 {
   PeriodMap map{.end = start, .derivative = {}, .evaluations = 0};
-  if (settings.method == "rk4")
+  if (settings.method == "rk4" && parameters.grounds.empty())
     by_rk4(parameters, omega, settings, interval, map);
   else
     by_rk8(parameters, omega, settings, interval, map);

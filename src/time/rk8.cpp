@@ -4,6 +4,7 @@
 #include <bit>
 #include <cmath>
 #include <numbers>
+#include <span>
 
 #include "io/errors.hpp"
 #include "time/fixed_step.hpp"
@@ -53,6 +54,7 @@ static constexpr double caution = 5;
 template <int rows>
 struct Rk8::Step {
   const BallBearing* bearing;
+  std::span<const Ground> grounds;
   BallRing balls;
   Contacts<double> contacts;
   bool is_damped;
@@ -69,7 +71,7 @@ struct Rk8::Step {
   Rows<rows> speeds[stages], accelerations[stages];
   double error;  ///< estimated, over the sizes
 
-  /** Which bearing: undamaged, with contact damping too, or any. */
+  /** Which machine: with an undamaged bearing, one with contact damping too, or any. */
   enum class Kind { plain, damped, any };
 
   IN_PLACE Quad accelerate(Quad q_now, Quad v_now, Direction turned_rotor,
@@ -104,6 +106,26 @@ struct Rk8::Step {
     }
   }
 
+  /** Takes off what the elements to the ground do, in a machine that has some. */
+  void hold(const Rows<rows>& q_now, const Rows<rows>& v_now, Rows<rows>& a) const
+  {
+    for (const Ground& one : grounds) {
+      const int x = one.is_rotor ? 2 : 0, y = x + 1;
+      const BearingReaction now =
+          one.reaction({q_now[0][x], q_now[0][y]}, {v_now[0][x], v_now[0][y]});
+      a[0][x] -= one.per_mass * now.force.x;
+      a[0][y] -= one.per_mass * now.force.y;
+      const Slopes2 &s = now.stiffness, &d = now.damping;
+      for (int half = 1; half <= 2 && rows == with_derivative; ++half) {
+        const int at_x = half + 2 * x, at_y = half + 2 * y;
+        const Quad q_x = q_now[at_x], q_y = q_now[at_y];
+        const Quad v_x = v_now[at_x], v_y = v_now[at_y];
+        a[at_x] -= one.per_mass * (s.xx * q_x + s.xy * q_y + d.xx * v_x + d.xy * v_y);
+        a[at_y] -= one.per_mass * (s.yx * q_x + s.yy * q_y + d.yx * v_x + d.yy * v_y);
+      }
+    }
+  }
+
   template <Kind kind>
   IN_PLACE void accelerate(int stage, const Rows<rows>& q_now, const Rows<rows>& v_now,
                            Rows<rows>& a) const
@@ -123,6 +145,7 @@ struct Rk8::Step {
       a[0] = accelerate(q_now[0], v_now[0], at.rotor,
                         bearing_force<damped>(balls, contacts, at.cage, u, w));
     }
+    if constexpr (kind == Kind::any) hold(q_now, v_now, a);
   }
 
   /** The slopes before `stage`, by their weights. */
@@ -229,9 +252,8 @@ Rk8::Rk8(const Parameters& parameters, double omega, int intervals, double toler
           std::min(1.0, default_step(parameters) * intervals / system_.period())),
       longest_share_(6 * default_step(parameters) * intervals / system_.period()),
       tolerance_(tolerance), per_size_(state_scales(parameters).cwiseInverse()),
-      is_general_(!parameters.bearing.has_kernel()),
-      is_damped_(parameters.bearing.is_damped()), budget_(std::move(budget)),
-      wanted_(first_share_)
+      is_general_(!has_kernel(parameters)), is_damped_(parameters.bearing.is_damped()),
+      budget_(std::move(budget)), wanted_(first_share_)
 {
 }
 
@@ -271,6 +293,7 @@ Rk8::Step<rows> Rk8::first_step(const State& state) const
   const Equation7<double>& e = system_.equation();
   Step<rows> step{};
   step.bearing = &system_.bearing();
+  step.grounds = system_.grounds();
   step.balls = system_.bearing().ring();
   step.contacts = system_.bearing().contacts();
   step.is_damped = is_damped_;

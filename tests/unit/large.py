@@ -104,6 +104,47 @@ class Large(Case):
                     for key in ["stability", "regime", "period"]:
                         self.assertEqual(*(table.value(key, None) for table in [a, b]))
 
+    def test_bearings_that_are_not_plain(self):
+        """Contact damping, a spall, preload, rollers and a seal: single masses by matrices answer as two masses do, by harmonic
+        balance, verdict and integration. A rate or a slope that is left out would show."""
+        seal = "[bearing.parallel]\nstiffness_N_per_m = [0, 2e5, -2e5, 0]\ndamping_N_s_per_m = [500, 20, -20, 500]\nstop_stiffness_N_per_m = 1e8\n" \
+               "stop_gap_m = 2.1e-5\n"
+        damped, hertz = "balls = 16\ncontact_damping_s_per_m = 2.0\n", "contact_stiffness_N_per_m1p5 = "
+        plain, paper = self.paper_machine("set1"), Path("data/set1.toml").read_text(encoding="utf-8")
+        for changes, more in [([("balls = 16\n", damped)], ""), ([("clearance_m = 2e-05\n", "clearance_m = -5e-6\n")], ""),
+                              ([("balls = 16\n", "balls = 16\ncontact_exponent = 1.1\n"), (hertz + "100000000000.0", "contact_stiffness_N_per_mn = 1e9")], ""),
+                              ([("balls = 16\n", damped)], '[bearing.defect]\nsurface = "inner_race"\ndepth_m = 2e-6\nwidth_rad = 0.3\n'), ([], seal)]:
+            files = []
+            for name, text in [("own.toml", plain), ("paper.toml", paper.replace("2e-5\n", "2e-05\n").replace("1e11", "100000000000.0"))]:
+                for old, new in changes:
+                    self.assertIn(old, text)
+                    text = text.replace(old, new)
+                files.append(self.file(name, text + more))
+            with self.subTest(changes=changes, more=more):
+                for accuracy, options in [(1e-8, ["--harmonics", 12, "--newton-tolerance", "1e-12"]), (2e-5, [])]:
+                    a, b = (self.table("orbit", file, "--frequency", 45, "--points", 64, *options) for file in files)
+                    for names in [NAMES, ["F_x", "F_y"]]:
+                        size = max(abs(b[column]).max() for column in names)
+                        for column in names:
+                            np.testing.assert_allclose(a[column], b[column], rtol=0, atol=accuracy * size)
+                    self.assertAlmostEqual(a.value("multiplier"), b.value("multiplier"), delta=1e-4)
+                    for key in ["stability", "regime", "period"]:
+                        self.assertEqual(*(table.value(key, None) for table in [a, b]))
+
+    def test_damped_bearings_in_either_order(self):
+        """The force of the second bearing is that of the first where their order is turned round: rates at another place would show."""
+        names = ["x_s", "y_s", "x_r", "y_r", "F_x", "F_y"]
+        pair, tables = [(0, {**BEARING, "phase": 0.3}), (4, {**OTHER, "balls": 8, "cage": 0.375})], []
+        for bearings in [pair, pair[::-1]]:
+            text = self.shaft(4, bearings, 0)[0].replace("contact_stiff", "contact_damping_s_per_m = 1.0\ncontact_stiff")
+            own = self.file("shaft.toml", text)
+            tables.append([self.table("orbit", own, "--frequency", 40, "--points", 64, *options) for options in [["--harmonics", 12], []]])
+        for one, other in zip(*tables):
+            for name in names:
+                size = 1e-6 * max(abs(one[n]).max() for n in (names[:4] if name in names[:4] else names[4:]))
+                np.testing.assert_allclose(one[name], other[name + "_2"], rtol=0, atol=size)
+                np.testing.assert_allclose(one[name + "_2"], other[name], rtol=0, atol=size)
+
     def test_kinds_of_files(self):
         """A triangle that is read as the whole matrix, or one matrix transposed, would give other numbers."""
         text, whole, *_ = self.shaft(2, [(2, BEARING)], 4e6)

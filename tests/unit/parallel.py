@@ -1,10 +1,11 @@
-"""[bearing.parallel]: springs, dampers and a stop beside the balls against closed forms of a whirling rotor, and what is refused.
+"""[bearing.parallel], [rotor.ground]: springs, dampers and a stop beside the balls or to the ground, against closed forms of a whirling rotor, and what is refused.
 
 The balls never touch (they are 2 mm away), so that the rotor z = x + iy obeys m z'' + (c + c_k) z' + (k + k_d - i q) z + f(|z|) z = m_e e w^2 e^{iwt}.
 
 Usage: tests/unit/parallel.py   (from the project's root)
 """
 import sys
+import tomllib
 import unittest
 from pathlib import Path
 
@@ -36,6 +37,7 @@ CUBIC = "cubic_stiffness_N_per_m3 = 3e13\n"
 STOP = "stop_stiffness_N_per_m = 2e6\nstop_gap_m = 1e-5\n"
 SEAL = "stiffness_N_per_m = [4e4, 1e4, -1e4, 4e4]\ndamping_N_s_per_m = [20.0, 3.0, -3.0, 20.0]\n"
 METHODS = ([], ["--method", "rk4"], ["--method", "rkf45"], ["--method", "shooting"], ["--harmonics", 3])
+GROUND = BARE.replace("[bearing.parallel]", "[rotor.ground]")  # beside a rigid stator the same
 
 
 def whirl(hertz, of_radius=lambda r: 0, stiffness=0, damping=0):
@@ -56,9 +58,9 @@ def whirl(hertz, of_radius=lambda r: 0, stiffness=0, damping=0):
 
 
 class Parallel(Case):
-    def radius(self, text, hertz, *method):
+    def radius(self, text, hertz, *method, bare=BARE):
         """Of the orbit, which must be a circle."""
-        orbit = self.table("orbit", self.file("one.toml", BARE + text), "--frequency", hertz, *method)
+        orbit = self.table("orbit", self.file("one.toml", bare + text), "--frequency", hertz, *method)
         self.assertEqual(orbit.value("contact"), "no")
         r = np.hypot(orbit["x_r"], orbit["y_r"])
         self.assertLess(np.ptp(r), 1e-6 * r.mean())
@@ -71,24 +73,26 @@ class Parallel(Case):
                 (CUBIC, 60, whirl(60, lambda r: 3e13 * r**2)), (STOP, 60, whirl(60, lambda r: 2e6 * max(0, 1 - 1e-5 / r))),
                 (SEAL, 70, whirl(70, stiffness=4e4 - 1e4j, damping=20 - 3j)),
                 (CUBIC + STOP + SEAL, 70, whirl(70, lambda r: 3e13 * r**2 + 2e6 * max(0, 1 - 1e-5 / r), 4e4 - 1e4j, 20 - 3j))):
-            for method in METHODS:
-                with self.subTest(text=text, method=method):
-                    self.assertAlmostEqual(self.radius(text, hertz, *method) / closed, 1, delta=2e-6)
+            for bare, methods in ((BARE, METHODS), (GROUND, METHODS)):
+                for method in methods:
+                    with self.subTest(text=text, bare=bare, method=method):
+                        self.assertAlmostEqual(self.radius(text, hertz, *method, bare=bare) / closed, 1, delta=2e-6)
 
     def test_cross_coupling_destabilises(self):
         """m z'' + c z' + (k - iq) z = 0 is unstable above q = c sqrt(k/m): the multiplier of the orbit on both sides, and the modes."""
         limit = SLOW * FREQUENCY
         for q in (0.9 * limit, 1.1 * limit):
-            machine = self.file("one.toml", BARE + f"stiffness_N_per_m = [0, {q}, {-q}, 0]\n")
-            roots = np.roots([MASS, SLOW, MASS * FREQUENCY**2 - 1j * q])
-            worst = roots[np.argmax(roots.real)]
-            orbit = self.table("orbit", machine, "--frequency", 70, "--harmonics", 3)
-            self.assertAlmostEqual(orbit.value("multiplier"), np.exp(worst.real / 70), delta=1e-8)
-            self.assertEqual(orbit.value("stability"), "stable" if q < limit else "unstable")
-            modes = self.table("campbell", machine, "--from", 70, "--to", 70, "--count", 1)
-            forward = np.flatnonzero(modes["whirl"] == 1)[0]
-            self.assertAlmostEqual(modes["damping"][forward], -worst.real / abs(worst), delta=1e-9)
-            self.assertAlmostEqual(modes["frequency"][forward], abs(worst.imag) / 2 / np.pi, delta=1e-6)
+            for bare, accuracy in ((BARE, 1e-8), (GROUND, 1e-6)):
+                machine = self.file("one.toml", bare + f"stiffness_N_per_m = [0, {q}, {-q}, 0]\n")
+                roots = np.roots([MASS, SLOW, MASS * FREQUENCY**2 - 1j * q])
+                worst = roots[np.argmax(roots.real)]
+                orbit = self.table("orbit", machine, "--frequency", 70, "--harmonics", 3)
+                self.assertAlmostEqual(orbit.value("multiplier"), np.exp(worst.real / 70), delta=accuracy)
+                self.assertEqual(orbit.value("stability"), "stable" if q < limit else "unstable")
+                modes = self.table("campbell", machine, "--from", 70, "--to", 70, "--count", 1)
+                forward = np.flatnonzero(modes["whirl"] == 1)[0]
+                self.assertAlmostEqual(modes["damping"][forward], -worst.real / abs(worst), delta=1e-9)
+                self.assertAlmostEqual(modes["frequency"][forward], abs(worst.imag) / 2 / np.pi, delta=1e-6)
 
     def test_coefficients_by_speed(self):
         """Linear between the rows of a table, constant beyond them; in a branch, its multipliers and a slow run-up too. Would catch a table
@@ -99,14 +103,17 @@ class Parallel(Case):
         shares = {10: 0, 40: 0.5, 60: 1, 90: 1}
         for hertz, share in shares.items():
             exact = whirl(hertz, stiffness=share * (8e4 - 2e4j), damping=40 * share)
-            self.assertAlmostEqual(self.radius(text, hertz) / exact, 1, delta=2e-6)
+            for bare in (BARE, GROUND):
+                self.assertAlmostEqual(self.radius(text, hertz, bare=bare) / exact, 1, delta=2e-6)
 
         def closed(f):
             return whirl(f, stiffness=(f - 20) / 40 * (8e4 - 2e4j), damping=f - 20)
 
+        machine, ground = self.file("one.toml", BARE + text), self.file("ground.toml", GROUND + text)
         for options in (["--count", 7], ["--harmonics", 2]):
-            curve = self.table("response", machine, "--from", 30, "--to", 60, *options)
-            np.testing.assert_allclose(curve["amp_x_r"], [closed(f) for f in curve["f"]], rtol=1e-5)
+            for one in (machine, ground):
+                curve = self.table("response", one, "--from", 30, "--to", 60, *options)
+                np.testing.assert_allclose(curve["amp_x_r"], [closed(f) for f in curve["f"]], rtol=1e-5)
         run = self.table("runup", machine, "--from", 30, "--to", 60, "--seconds", 120)
         speeds = np.arange(35, 56, 5.0)
         np.testing.assert_allclose(np.interp(speeds, run["f"], run["amp_x_r"]), [closed(f) for f in speeds], rtol=0.01)
@@ -128,6 +135,31 @@ class Parallel(Case):
         balls = self.table("contact", machine, "--frequency", 45, "--points", 64)
         self.assertLess(balls["Q"].max(), np.hypot(orbits[0]["F_x"], orbits[0]["F_y"]).max())
 
+    def test_two_bodies_to_the_ground(self):
+        """Set 1 with springs between both bodies and the ground is set 1 on stiffer suspensions: the same solution, verdict, motion and
+        rest. Would catch an element at the wrong body, and one that the start, the verdict or `check` leaves out."""
+        springs = {"stator": 8e5, "rotor": 2e5}
+        grounds, stiffer = MACHINE, MACHINE
+        for body, spring in springs.items():
+            values = tomllib.loads(MACHINE)[body]
+            m, w, ratio = values["mass_kg"], values["natural_frequency_rad_per_s"], values["damping_ratio"]
+            old = f"natural_frequency_rad_per_s = {w}\ndamping_ratio = {ratio}\n"
+            self.assertIn(old, stiffer)
+            stiffer = stiffer.replace(old, f"stiffness_N_per_m = {m * w * w + spring!r}\ndamping_N_s_per_m = {2 * ratio * m * w!r}\n")
+            grounds += f"[{body}.ground]\nstiffness_N_per_m = [{spring}, 0, 0, {spring}]\n"
+        machines = self.file("grounds.toml", grounds), self.file("stiffer.toml", stiffer)
+        for speed, *options in ((45, "--harmonics", 6, "--newton-tolerance", "1e-13"), (30,)):
+            one, other = (self.table("orbit", machine, "--frequency", speed, "--points", 64, *options) for machine in machines)
+            for name in ("x_s", "y_s", "x_r", "y_r"):
+                np.testing.assert_allclose(one[name], other[name], rtol=0, atol=(1e-9 if options else 1e-5) * np.ptp(other[name]))
+            self.assertAlmostEqual(one.value("multiplier"), other.value("multiplier"), delta=1e-4)
+            self.assertEqual(one.value("stability"), other.value("stability"))
+        rest, exact = (self.values(machine) for machine in machines)
+        for name in ("static_force", "static_y", "eccentricity", "balance_grade"):
+            self.assertAlmostEqual(rest[name] / exact[name], 1, delta=1e-6, msg=name)
+        for name in ("f_1_x", "f_1_y", "f_2_x", "f_2_y"):
+            self.assertAlmostEqual(rest[name] / exact[name], 1, delta=1e-6, msg=name)
+
     def test_what_is_refused(self):
         self.file("falls.csv", "f,k_xx\n20,1\n10,2\n")
         self.file("odd.csv", "f,k_zz\n20,1\n")
@@ -139,6 +171,10 @@ class Parallel(Case):
                 ("no.csv", 'coefficients = "no.csv"\n'), ("cubic_stifness", "cubic_stifness_N_per_m3 = 1\n")):
             with self.subTest(words):
                 self.refused_machine(words, BARE + text)
+                self.refused_machine(words, GROUND + text)
+        for words, text in (("ground has nothing", BARE + "[rotor.ground]\n"), ("this one is rigid", BARE + "[stator.ground]\n" + CUBIC),
+                            ("at most 4", MACHINE + 4 * ("[[rotor.ground]]\n" + CUBIC)), ("rotor.ground.dofs", GROUND + "dofs = [1, 2]\n" + CUBIC)):
+            self.refused_machine(words, text)
 
 
 if __name__ == "__main__":
