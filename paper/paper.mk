@@ -16,7 +16,7 @@ data/generated/manual.md: paper/manual.py build/explore data/set1.toml data/roto
 book: build/book/.built  ## programs, figures and texts as pages, with a search: build/book/index.html
 build/book/.built: $(wildcard paper/book/* *.md paper/*.md tests/hard/*.md paper/references.bib studies/*.py peers/*.py data/reference/*.tsv build/live/index.html) \
   $(sources) $(untimed) $(timings) $(claims) data/generated/article.tsv data/generated/beyond.md
-	flock build/.pages bash -c 'mkdir -p build/book-pages && $(PYTHON) -m sphinx -q -W --keep-going -c paper/book -d build/book-pages/.trees build/book-pages $(@D)'
+	flock build/.pages bash -c 'mkdir -p build/book-pages && $(PYTHON) -m sphinx -q -W --keep-going -a -c paper/book -d build/book-pages/.trees build/book-pages $(@D)'
 	@touch $@
 article: build/paper/article.html  ## the article: build/paper/article.html
 build/paper/article.html: data/generated/article.md paper/render_article.py paper/article.html paper/article.css paper/book/figures.toml paper/references.bib \

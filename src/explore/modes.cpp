@@ -61,6 +61,8 @@ LinearMachine::LinearMachine(const Parameters& parameters, const OperationBudget
                                                              2);
   const Eigen::VectorXd& values = found.eigenvalues();  // 1/(ω² + σ), ascending
   const auto kept = std::min(most, (values.array() > rigid * values[n - 1]).count());
+  if (kept == 0 || !values.allFinite())
+    throw NoSolution("the frequencies at rest are beyond what a double holds");
   const Eigen::ArrayXd inertia = values.tail(kept).reverse();
   shapes_ = factor_.transpose().triangularView<Eigen::Upper>().solve(
       found.eigenvectors().rightCols(kept).rowwise().reverse());

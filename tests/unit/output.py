@@ -205,7 +205,7 @@ class Formats(Case):
         """What a terminal gets on stderr."""
         ours, theirs = pty.openpty()
         with subprocess.Popen([EXPLORE, "orbit", self.machine, "--frequency", "13.4", "--method", "rk4", "--step", "2e-8",
-                               "--budget", "1e9", *options],
+                               "--budget", "4e8", *options],
                               stdout=subprocess.DEVNULL, stderr=theirs) as run:
             os.close(theirs)
             text = b""
