@@ -6,7 +6,7 @@ sanitize: preset := debug
 test sanitize:
 	flock build/.lock cmake --preset $(preset) -DPYTHON=$(PYTHON) > build/configure-$@.log
 	flock build/.lock cmake --build --preset $(preset) --target all tests
-	flock build/.tests ctest --preset $(preset) --no-tests=error -j $$(nproc)
+	flock build/.tests ctest --preset $(preset) --no-tests=error -j $$(($$(nproc) + 1))  # some wait
 build/tests/judge: tests/truth/judge.cpp build/.built
 	flock build/.lock cmake --build --preset release --target judge
 data/generated/hard_cases.tsv: build/tests/judge

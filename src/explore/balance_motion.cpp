@@ -134,24 +134,17 @@ void note_base(Table& table, const BasePeriod& base, const Bearing& bearing)
                       base.turns));
 }
 
-/** Its motion and lines, told in turns of the rotor. */
-FoundMotion in_turns(const Parameters& parameters, const BasePeriod& base,
-                     const MotionRequest& request, PeriodicMotion solution)
+/** Lines by orders of the rotor's turns. */
+motion::Lines lines_of(const Bearing& bearing, const BasePeriod& base, int subharmonic,
+                       PeriodicMotion solution)
 {
-  const Bearing& bearing = parameters.bearing;
-  if (base.kind == BasePeriod::Kind::passing) {
-    std::vector<Harmonic> list = solution.harmonics.list();
-    for (Harmonic& h : list) h = {0, h.k_1};
-    solution.harmonics = Harmonics(std::move(list));
-    solution.omega /= passages_per_turn(bearing);
-    return {motion::motion_of(parameters, solution, request.points, request.periods),
-            lines_of(bearing, solution)};
-  }
-  const int turns = base.turns * request.subharmonic;
-  motion::Motion motion = motion::motion_of(solution, turns * request.points);
-  motion.points_per_period /= base.turns;
-  motion.omega *= base.turns;
-  return {std::move(motion), lines_of(bearing, solution, turns)};
+  if (base.kind != BasePeriod::Kind::passing)
+    return motion::lines_of(bearing, solution, base.turns * subharmonic);
+  std::vector<Harmonic> list = solution.harmonics.list();
+  for (Harmonic& h : list) h = {0, h.k_1};
+  solution.harmonics = Harmonics(std::move(list));
+  solution.omega /= passages_per_turn(bearing);
+  return motion::lines_of(bearing, solution);
 }
 
 FoundMotion periodic_motion(const Parameters& parameters, const BasePeriod& base,
@@ -180,8 +173,14 @@ FoundMotion periodic_motion(const Parameters& parameters, const BasePeriod& base
     note_verdict(table, based.machine, at.verdict, k);
   else
     note_no_verdict(table);
-  return in_turns(parameters, base, request,
-                  with_all_coordinates(over_turns(based.machine, k), solution));
+  const Parameters machine = over_turns(based.machine, k);
+  return {.motion = motion::motion_of(with_all_coordinates(machine, solution),
+                                      k * request.points),
+          .lines = lines_of(parameters.bearing, base, k, solution),
+          .machine = machine,
+          .base_frequency = based.omega / angular(1),
+          .base_periods = k,
+          .closes_after = k};
 }
 
 /**

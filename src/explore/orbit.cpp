@@ -224,7 +224,7 @@ Computed computed(const Parameters& parameters, const MotionRequest& request,
     at.found = closed_motion(parameters, request, at.budget, table);
   else
     at.found = settled_motion(parameters, request, open_periods, at.budget, table);
-  if (!is_settled) {
+  if (at.found.base_frequency == 0) {
     at.found.machine = over_turns(parameters, request.subharmonic);
     at.found.base_frequency = request.frequency;
     at.found.base_periods = request.subharmonic;
@@ -283,8 +283,7 @@ Exploration explore_orbit(const MotionRequest& request)
   /** Over what is recorded; of a motion by harmonic balance that may be too short. */
   const BasePeriod base = base_period(parameters);
   const bool closes = at.found.closes_after > 0 &&
-                      (!is_periodic(request.method) ||
-                       (!base.is_driven_twice() && recorded % base.turns == 0));
+                      (!is_periodic(request.method) || !base.is_driven_twice());
   const auto measured = measures.at_instants(
       {motion,
        at.found.base_periods / (at.found.base_frequency * motion.points_per_period),

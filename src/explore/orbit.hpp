@@ -79,7 +79,8 @@ constexpr int most_rows = 1 << 20;
 
 inline const Column phase_column{
     "phase", "rad",
-    "omega t, modulo 2 pi, or 2 pi K with --subharmonic K or --periods K"};
+    "2 pi t over the base period, modulo 2 pi, or 2 pi K with --subharmonic K or "
+    "--periods K"};
 inline const Column time_column{"t", "s", "time since phase 0"};
 
 /** The machine, right at these speeds [Hz], the request's harmonics and the rotor's
