@@ -227,8 +227,8 @@ bool has_rotation_period(const Bearing& bearing);
     rotation. */
 void require_rotation_period(const Parameters& parameters, const char* who);
 
-/** Throws BadInput, in the name of `who`, for bodies given by matrices and for elements to
-    the ground. */
+/** Throws BadInput, in the name of `who`, for bodies given by matrices and for elements
+    to the ground. */
 void require_two_masses(const Parameters& parameters, const char* who);
 
 /** All bearings of a machine; and after them what joins its bodies to the ground. */
