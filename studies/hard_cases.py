@@ -188,7 +188,7 @@ class Case:
                 "regime": "T-periodic" if regime in ("periodic", "rest") else "aperiodic"}
 
     def check(self, table, method, row):
-        """By Eq. 7 as it stands above, or by another integration."""
+        """By the judge, or by another integration."""
         model, answer = Model(self.machine, self.f), displacements(table)
         passed = table.value("cage_angle", 0) * model.n / (2 * math.pi)  # balls by phase 0
         if row["regime"] == "T-periodic" and table.value("regime", "") != "rest" and abs(passed - round(passed)) < 1e-9:
@@ -241,7 +241,8 @@ def verdict(row, rule):
         return "unconfirmed"
     stated = max(row["stated_error"], rule["least_error"])
     is_right = error <= min(rule["most_error"], rule["most_error_ratio"] * stated)
-    if row["regime"] == "T-periodic" and not is_right and stated * row["multiplier"] > rule["most_error"]:
+    growth = multiplier if multiplier >= 0 else row["multiplier"]
+    if row["regime"] == "T-periodic" and not is_right and stated * growth > rule["most_error"]:
         return "unconfirmed"  # the stated error grows to that in a period: the judge leaves for another motion
     if row["regime"] == "aperiodic":
         return "solved" if error <= rule["most_change"] else "silent error"

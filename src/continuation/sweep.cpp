@@ -134,11 +134,17 @@ struct Sweep {
 
 }  // namespace
 
+/** A joint to the ground moves as its body does: near the resonance of the joined bodies
+    about ten times as far as their unbalance is eccentric. */
 SweepSettings sweep_settings(const Parameters& parameters)
 {
+  double length = scales(parameters).length;
+  if (!parameters.grounds.empty())
+    length +=
+        10 * parameters.unbalance / (parameters.stator.mass + parameters.rotor.mass);
   return {.newton = {},
           .speed_scale = joint_resonance(parameters),
-          .arc_unknown_scale = scales(parameters).length};
+          .arc_unknown_scale = length};
 }
 
 std::vector<PeriodicMotion> sweep(Balance& balance, const std::vector<double>& omegas,

@@ -164,6 +164,8 @@ Exploration explore_check(const CheckRequest& request)
           {"passage_" + name, speed, "Hz", "speed at which the passing balls meet it"});
     if (mode.residual > well_solved) warn(doubt(mode.residual));
   }
+  if (!machine.grounds.empty())
+    table.note("f_s, f_r, contact_loss: of machines without elements to the ground");
   if (!is_alone) {
     table.value("warnings", warnings);
     return {std::move(table)};

@@ -241,7 +241,8 @@ Check add_options(CLI::App& command, MotionRequest& request)
     command.add_option("--overlay", request.overlay,
                        "table of a measured spectrum for --plot: f [Hz], amplitude [m]");
   if (name == "orbit" || name == "shape")
-    add_number(command, "--periods", request.periods, 1, 1000, "turns that are printed");
+    add_number(command, "--periods", request.periods, 1, 1000,
+               "base periods that are printed");
   command.add_flag("!--no-stability", request.stability,
                    "leave out stability and, of a motion in time, the error");
   const TimeOptions in_time(command, request.step, request.longest);

@@ -280,7 +280,7 @@ Exploration explore_orbit(const MotionRequest& request)
   const Computed at =
       computed(parameters, request, std::max(recorded, request.periods), table);
   const motion::Motion& motion = at.found.motion;
-  /** Over what is recorded; of a motion by harmonic balance that may be too short. */
+  /** Of two frequencies harmonic balance prints a record. */
   const BasePeriod base = base_period(parameters);
   const bool closes = at.found.closes_after > 0 &&
                       (!is_periodic(request.method) || !base.is_driven_twice());

@@ -54,7 +54,7 @@ struct MotionRequest : Request {
   double local_error = 1e-11;       ///< GSL's methods, relative
   double step = 0;                  ///< rk4 [s]; 0: from K_H
   double longest = 0;     ///< 0: as settle chooses; transient at most after t = 0 [s]
-  int periods = 1;        ///< turns that are printed
+  int periods = 1;        ///< base periods that are printed
   bool stability = true;  ///< Floquet multipliers in the header (aft)
 };
 

@@ -84,7 +84,8 @@ std::vector<std::string> doubts(const Parameters& machine, double highest)
           "the %s of %g kg on a suspension of %.4g Hz, %.3g N/m: is the "
           "frequency in Hz?",
           name, body->mass, omega / angular(1), printable_size(body->stiffness())));
-    if (!body->rigid && omega > 0 && machine.gravity / (omega * omega) > deepest)
+    const bool is_alone = !body->rigid && machine.grounds.empty();
+    if (is_alone && omega > 0 && machine.gravity / (omega * omega) > deepest)
       all.push_back(
           format("the %s of %g kg sinks by %.3g m on a suspension of %.3g N/m, "
                  "%.3g Hz: are its units right?",

@@ -113,7 +113,8 @@ PeriodicMotion torus_start(const ResponseTask& task)
       all = joined(all, at.motion.harmonics);
     }
   }
-  start.x = project(start.x, 2, start.harmonics, all);
+  const auto dofs = 2 * static_cast<int>(joints_of(task.machine).size());
+  start.x = project(start.x, dofs, start.harmonics, all);
   start.harmonics = all;
   start.line =
       line_without_images(all, orders_up_to(task.harmonics + beyond, bearing), 1024);

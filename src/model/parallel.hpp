@@ -19,10 +19,10 @@ linear between its rows and constant beyond them. In the machine's file:
     damping_N_s_per_m = [50, 0, 0, 50]
     coefficients = "seal.tsv"                 # instead of the last two
 
-A table [rotor.ground] or [stator.ground] has the same keys: there u is the displacement
-of that body and F presses it back. Each may be left out, and the stiffness of a stop
-needs its gap. The columns of the table
-are `f` [Hz] and k_xx … c_yy; those that are missing are 0. */
+Each may be left out, and the stiffness of a stop needs its gap. The columns of the
+coefficients' file are `f` [Hz] and k_xx … c_yy; those that are missing are 0. A table
+[rotor.ground] or [stator.ground] has the same keys: there u is the displacement of that
+body, and F presses it back. */
 #pragma once
 
 #include "model/parameters.hpp"

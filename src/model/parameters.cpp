@@ -263,8 +263,7 @@ const char* surface_of(const Defect& defect)
 /** The `#` lines of a joint; its number where there are several. */
 void describe(Table& table, const Bearing& joint, const std::string& number)
 {
-  if (joint.balls == 0)
-    return describe_parallel(table, "ground" + number, joint.parallel);
+  if (joint.balls == 0) return describe_parallel(table, joint.place, joint.parallel);
   table.detail(format("bearing%s: n = %d, K_H = %.15g N/m^%g, delta = %.15g m, "
                       "omega_cage/omega = %.15g",
                       number.c_str(), joint.balls, joint.contact_stiffness,

@@ -82,6 +82,14 @@ struct ParallelElements {
   double speed_ratio = 1;  ///< of the rotor's speed over `turns` base frequencies
 
   bool any() const { return cubic > 0 || stop_stiffness > 0 || !linear.empty(); }
+  /** Whether it pushes back in x and in y what is displaced. */
+  bool holds() const
+  {
+    const auto is_spring = [](const Coefficients& at) {
+      return at.stiffness[0] > 0 && at.stiffness[3] > 0;
+    };
+    return cubic > 0 || stop_stiffness > 0 || std::ranges::any_of(linear, is_spring);
+  }
   bool is_damped() const
   {
     return std::ranges::any_of(linear, [](const Coefficients& at) {
@@ -107,6 +115,7 @@ struct Bearing {
   Defect defect = {};
   ParallelElements parallel = {};
   std::string doubt = {};  ///< of its clearance beside the class of its designation
+  std::string place = {};  ///< of an element to the ground, for headers
 
   bool is_damaged(Defect::Surface at) const { return defect.surface == at; }
 
@@ -185,7 +194,7 @@ inline const std::vector<std::pair<std::string, std::string>> given_instead{
     {"eccentricity_m", "balance_grade"},
     {"eccentricity_m", "balance_speed_rad_per_s"}};
 
-/** Reads bodies that two masses on linear suspensions are not, and their bearings, into
+/** Reads bodies given by matrices or with elements to the ground, and their bearings, into
     the parameters. */
 using MatrixReader = std::function<void(StrictToml& root, Parameters& parameters)>;
 

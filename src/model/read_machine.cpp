@@ -221,6 +221,8 @@ void read_grounds(StrictToml& table, LinearBody& body, int first, Parameters& pa
     all.places.push_back({-1, -1, first + dofs[0], first + dofs[1]});
     Bearing joint{};
     joint.parallel = read_parallel(one);
+    joint.place = body.name + "." + ground_key;
+    if (!is_mass) joint.place += format(" at dofs %d, %d", dofs[0] + 1, dofs[1] + 1);
     parameters.grounds.push_back(joint);
   }
   if (all.places.size() > most_joints)
@@ -346,7 +348,7 @@ void read_bodies(StrictToml& root, Parameters& parameters, const ModelRange& ask
   }
   Assembly holding = all;
   for (std::size_t k = parameters.grounds.size(); k-- > 0;)
-    if (largest_stiffness(parameters.grounds[k].parallel, 1, 1) == 0)
+    if (!parameters.grounds[k].parallel.holds())
       holding.places.erase(holding.places.begin() +
                            static_cast<std::ptrdiff_t>(all.bearings + k));
   holding.require_held(spring);
@@ -375,7 +377,8 @@ Parameters read_machine(StrictToml root, const ModelRange& asked)
       });
   for (const Bearing& joint : parameters.grounds)
     if (!joint.parallel.any())
-      throw BadInput(parameters.file + ": ground has nothing that holds or damps a body");
+      throw BadInput(parameters.file + ": " + joint.place +
+                     " has nothing that holds or damps the body");
   return parameters;
 }
 

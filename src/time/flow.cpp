@@ -38,7 +38,8 @@ void require_bearing_of(const std::string& method, const Parameters& parameters)
   if (is_of_plain && !is_plain(parameters))
     throw BadInput(
         "--method " + method +
-        ": knows Hertz's contact alone, undamped and undamaged; take rk4, rk8, rk8pd, "
+        ": knows Hertz's contact alone, undamped, undamaged and without elements beside "
+        "it or to the ground; take rk4, rk8, rk8pd, "
         "rkf45, rkck or msadams");
 }
 

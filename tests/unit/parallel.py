@@ -148,6 +148,12 @@ class Parallel(Case):
             stiffer = stiffer.replace(old, f"stiffness_N_per_m = {m * w * w + spring!r}\ndamping_N_s_per_m = {2 * ratio * m * w!r}\n")
             grounds += f"[{body}.ground]\nstiffness_N_per_m = [{spring}, 0, 0, {spring}]\n"
         machines = self.file("grounds.toml", grounds), self.file("stiffer.toml", stiffer)
+        for ratio, harmonics in ((0.5, 6), (0.43, 5)):  # one frequency and two
+            branches = [self.table("response", self.file("branch.toml", text.replace("ratio = 0.5", f"ratio = {ratio}")), "--from", 40, "--to", 45,
+                                   "--harmonics", harmonics) for text in (grounds, stiffer)]
+            self.assertLess(len(branches[0]), 3 * len(branches[1]))
+            for name in ("amp_x_r", "amp_y_s"):
+                self.assertAlmostEqual(branches[0][name][-1] / branches[1][name][-1], 1, delta=1e-3)
         for speed, *options in ((45, "--harmonics", 6, "--newton-tolerance", "1e-13"), (30,)):
             one, other = (self.table("orbit", machine, "--frequency", speed, "--points", 64, *options) for machine in machines)
             for name in ("x_s", "y_s", "x_r", "y_r"):
@@ -172,8 +178,10 @@ class Parallel(Case):
             with self.subTest(words):
                 self.refused_machine(words, BARE + text)
                 self.refused_machine(words, GROUND + text)
-        for words, text in (("ground has nothing", BARE + "[rotor.ground]\n"), ("this one is rigid", BARE + "[stator.ground]\n" + CUBIC),
-                            ("at most 4", MACHINE + 4 * ("[[rotor.ground]]\n" + CUBIC)), ("rotor.ground.dofs", GROUND + "dofs = [1, 2]\n" + CUBIC)):
+        for words, text in (("rotor.ground has nothing", BARE + "[rotor.ground]\n"), ("this one is rigid", BARE + "[stator.ground]\n" + CUBIC),
+                            ("at most 4", MACHINE + 4 * ("[[rotor.ground]]\n" + CUBIC)), ("rotor.ground.dofs", GROUND + "dofs = [1, 2]\n" + CUBIC),
+                            ("K is singular", MACHINE.replace("s = 500.0", "s = 0").replace("s = 150.0", "s = 0").replace("ratio = 0.05", "ratio = 0")
+                             .replace("damping_ratio = 0.02", "damping_ratio = 0") + "[stator.ground]\nstiffness_N_per_m = [1e6, 0, 0, 0]\n")):
             self.refused_machine(words, text)
 
 
