@@ -194,8 +194,8 @@ inline const std::vector<std::pair<std::string, std::string>> given_instead{
     {"eccentricity_m", "balance_grade"},
     {"eccentricity_m", "balance_speed_rad_per_s"}};
 
-/** Reads bodies given by matrices or with elements to the ground, and their bearings, into
-    the parameters. */
+/** Reads bodies given by matrices or with elements to the ground, and their bearings,
+    into the parameters. */
 using MatrixReader = std::function<void(StrictToml& root, Parameters& parameters)>;
 
 /** Reads and checks a parameter file of two masses; of bodies given by matrices too,
