@@ -250,9 +250,13 @@ FoundMotion quasi_periodic_motion(const Parameters& parameters,
     note_torus_verdict(table, torus);
   else
     note_no_verdict(table);
-  return {motion::motion_of(parameters, with_all_coordinates(parameters, solution),
-                            request.points, request.periods),
-          lines_of(parameters.bearing, solution)};
+  return {
+      .motion = motion::motion_of(parameters, with_all_coordinates(parameters, solution),
+                                  request.points, request.periods),
+      .lines = motion::lines_of(parameters.bearing, solution),
+      .machine = parameters,
+      .base_frequency = request.frequency,
+      .closes_after = 1};
 }
 
 }  // namespace

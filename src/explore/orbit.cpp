@@ -192,7 +192,12 @@ FoundMotion closed_motion(const Parameters& parameters, const MotionRequest& req
   else
     note_no_verdict(table);
   motion::Lines lines = motion::lines_of_closed(closed.motion, turns);
-  return {std::move(closed.motion), std::move(lines)};
+  return {.motion = std::move(closed.motion),
+          .lines = std::move(lines),
+          .machine = over_turns(parameters, turns),
+          .base_frequency = request.frequency,
+          .base_periods = turns,
+          .closes_after = turns};
 }
 
 }  // namespace
@@ -224,12 +229,6 @@ Computed computed(const Parameters& parameters, const MotionRequest& request,
     at.found = closed_motion(parameters, request, at.budget, table);
   else
     at.found = settled_motion(parameters, request, open_periods, at.budget, table);
-  if (at.found.base_frequency == 0) {
-    at.found.machine = over_turns(parameters, request.subharmonic);
-    at.found.base_frequency = request.frequency;
-    at.found.base_periods = request.subharmonic;
-    at.found.closes_after = request.subharmonic;
-  }
   at.forces = motion::bearing_forces(at.found.machine, at.found.motion);
   return at;
 }

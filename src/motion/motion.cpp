@@ -79,13 +79,15 @@ Eigen::MatrixXd relative_samples(const Parameters& parameters, const Motion& mot
 {
   const std::size_t joints = joints_of(parameters).size();
   Eigen::MatrixXd u(std::ssize(motion.positions), 2 * joints);
-  for (std::size_t joint = 0; joint < joints; ++joint)
+  for (std::size_t joint = 0; joint < joints; ++joint) {
+    const std::array<int, 4> places = parameters.machine->places(joint);
     for (std::size_t k = 0; k < motion.size(); ++k) {
-      const Vec2 at = relative_at(motion, k, parameters.machine->places(joint));
+      const Vec2 at = relative_at(motion, k, places);
       u.row(static_cast<Eigen::Index>(k))
           .segment<2>(2 * static_cast<Eigen::Index>(joint)) =
           Eigen::RowVector2d(at.x, at.y);
     }
+  }
   return u;
 }
 

@@ -45,16 +45,16 @@ void require_bearing_of(const std::string& method, const Parameters& parameters)
 
 double default_step(const Parameters& parameters)
 {
+  const Scales sizes = scales(parameters);
   double contact = 2 * std::numbers::pi / contact_frequency(parameters) / 40;
   /** A damper of the contact's own size lets no speed change within a step. */
-  const double damper = parameters.bearing.damping * scales(parameters).load +
+  const double damper = parameters.bearing.damping * sizes.load +
                         largest_damping(parameters.bearing.parallel);
   double rate = damper * (1 / parameters.stator.mass + 1 / parameters.rotor.mass);
-  const auto [load, penetration, length, stiffness] = scales(parameters);
   const double mass = std::min(parameters.stator.mass, parameters.rotor.mass);
   double held = 0;
   for (const Bearing& ground : parameters.grounds) {
-    held += largest_stiffness(ground.parallel, load, length) / mass;
+    held += largest_stiffness(ground.parallel, sizes.load, sizes.length) / mass;
     rate += largest_damping(ground.parallel) / mass;
   }
   if (held > 0) contact = std::min(contact, 2 * std::numbers::pi / std::sqrt(held) / 40);

@@ -99,7 +99,7 @@ class Catalogue(Case):
         for entry in sorted(CATALOGUE["bearing"], key=lambda entry: entry["bore_m"]):
             known.setdefault(next(one["up_to_m"] for one in CATALOGUE["clearance"] if entry["bore_m"] <= one["up_to_m"]), []).append(entry)
         self.assertGreater(len(known), 5)
-        for entry in CATALOGUE["bearing"] if "FULL" in os.environ else [one for range_ in known.values() for one in range_[::len(range_) - 1 or 1]]:
+        for entry in CATALOGUE["bearing"] if "FULL" in os.environ else [end for range_ in known.values() for end in (range_[0], range_[-1])]:
             middles = [self.header(f'designation = "{entry["designation"]}"\ninternal_clearance = "{name}"', "clearance")[0]
                        for name in ["C2", "CN", "C3", "C4", "C5"]]
             self.assertEqual(middles, sorted(set(middles)))
