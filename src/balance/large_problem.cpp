@@ -201,8 +201,8 @@ Eigen::MatrixXd LargeMachine::start_samples(const Parameters& parameters, double
   const auto free = [&](const LinearBlock& block, double frequency) -> Eigen::VectorXcd {
     SmallMatrix whole = block.a;
     for (Eigen::Index k = 0; const Bearing& joint : joints_of(parameters)) {
-      BearingReaction beside{};
-      Parallel(joint.parallel, speed).add({0, 0}, {0, 0}, 0, beside);
+      const BearingReaction beside =
+          Parallel(joint.parallel, speed).reaction({0, 0}, {0, 0});
       const Slopes2 &s = beside.stiffness, &d = beside.damping;
       const Complex rate(0, frequency);
       const Eigen::Matrix2cd slopes{{s.xx + rate * d.xx, s.xy + rate * d.xy},

@@ -43,7 +43,8 @@ LinearMachine::LinearMachine(const Parameters& parameters, const OperationBudget
   k_ = (machine_.stiffness + d * even * d.transpose()).bottomRightCorner(n, n);
   skew_ = (d * (contact_ - even) * d.transpose()).bottomRightCorner(n, n);
   for (Eigen::Index at = 0; const Bearing& joint : joints_of(parameters)) {
-    const Slopes2 c = Parallel(joint.parallel, angular(speed)).damping();
+    const Slopes2 c =
+        Parallel(joint.parallel, angular(speed)).reaction({0, 0}, {0, 0}).damping;
     const auto own = d.middleCols<2>(at);
     machine_.damping +=
         own * Eigen::Matrix2d{{c.xx, c.xy}, {c.yx, c.yy}} * own.transpose();

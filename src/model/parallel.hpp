@@ -65,10 +65,12 @@ public:
       where none is known. */
   void add(Vec2 u, Vec2 rate, double omega, BearingReaction& sum) const;
 
-  Slopes2 damping() const
+  /** These alone. */
+  BearingReaction reaction(Vec2 u, Vec2 rate) const
   {
-    const auto& c = now_.damping;
-    return {c[0], c[1], c[2], c[3]};
+    BearingReaction sum{};
+    add(u, rate, 0, sum);
+    return sum;
   }
 
 private:

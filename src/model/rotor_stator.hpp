@@ -96,14 +96,6 @@ struct Ground {
   Parallel element;
   bool is_rotor;
   double per_mass;  ///< [1/kg]
-
-  /** Its force [N] against the displacement q [m] of the body, with derivatives. */
-  BearingReaction reaction(Vec2 q, Vec2 v) const
-  {
-    BearingReaction sum{};
-    element.add(q, v, 0, sum);
-    return sum;
-  }
 };
 
 /** Eq. 7 at one rotor speed with its bearing. */
@@ -125,7 +117,7 @@ public:
     Bodies a = equation_.acceleration(q, v, rotor, f);
     for (const Ground& one : grounds_) {
       const auto body = one.is_rotor ? &Bodies::rotor : &Bodies::stator;
-      const Vec2 held = one.reaction(q.*body, v.*body).force;
+      const Vec2 held = one.element.reaction(q.*body, v.*body).force;
       (a.*body).x -= one.per_mass * held.x;
       (a.*body).y -= one.per_mass * held.y;
     }

@@ -112,7 +112,7 @@ struct Rk8::Step {
     for (const Ground& one : grounds) {
       const int x = one.is_rotor ? 2 : 0, y = x + 1;
       const BearingReaction now =
-          one.reaction({q_now[0][x], q_now[0][y]}, {v_now[0][x], v_now[0][y]});
+          one.element.reaction({q_now[0][x], q_now[0][y]}, {v_now[0][x], v_now[0][y]});
       a[0][x] -= one.per_mass * now.force.x;
       a[0][y] -= one.per_mass * now.force.y;
       const Slopes2 &s = now.stiffness, &d = now.damping;
