@@ -36,15 +36,6 @@ int main(int argc, char** argv)
 {
   using namespace rotor_stator;
   return run_figure(argc, argv, [](SceneFile& file) {
-    const figures::PanelScene scene = figures::read_panels(file);
-    Table table = figures::orbit_table(scene);
-    for (double frequency : watched(scene.title, scene.frequencies)) {
-      const double omega = angular(frequency);
-      const PeriodicMotion balance =
-          find_near_contact({scene.machine, omega, scene.harmonics, scene.samples});
-      const auto settled = steady_state(scene.machine, omega, scene.time_integration);
-      add_orbits(table, scene, figures::compare(scene, frequency, balance, settled));
-    }
-    return table;
+    return figures::orbits(file, find_near_contact);
   });
 }

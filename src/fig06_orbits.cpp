@@ -20,7 +20,7 @@ at the lowest speed.
 
 Second row, 11.5 to 16 Hz: both forces are about equal. At 11.5 and 16 Hz the bearing's
 force falls nearly to zero once per turn, and the orbits have corners and dents. At
-13.4 Hz it does reach zero: contact is lost and met again several times in a turn (claim
+13.4 Hz it does reach zero: contact is lost and regained several times in a turn (claim
 C5).
 
 Third row, 30 to 55 Hz: the turning force is larger. It presses the rotor against one side
@@ -41,7 +41,7 @@ the root mean square of the difference of both motions about their means, over t
 the integrated motion about its mean. The static deflection does not count: at low speed
 it is much larger than the orbit and would hide a poor solution. Up to an rms error of 10
 % the panel draws the solution of harmonic balance in colour over the integrated motion in
-grey. Above 10 % harmonic balance is no picture of the motion, and the panel draws the
+grey. Above 10 % harmonic balance does not represent the motion, and the panel draws the
 integrated motion alone: this happens at 3 Hz, where six harmonics miss the ripple. The
 table has the error of the bearing's force and the largest error of a displacement as
 well.
@@ -53,22 +53,11 @@ Figs 4 and 5. */
 #include "balance/find.hpp"
 #include "figures/panels.hpp"
 #include "io/program.hpp"
-#include "time/steady_state.hpp"
 
 int main(int argc, char** argv)
 {
   using namespace rotor_stator;
   return run_figure(argc, argv, [](SceneFile& file) {
-    const figures::PanelScene scene = figures::read_panels(file);
-    Table table = figures::orbit_table(scene);
-    for (double frequency : watched(scene.title, scene.frequencies)) {
-      const double omega = angular(frequency);
-      const PeriodicMotion balance =
-          find_near_contact({scene.machine, omega, scene.harmonics, scene.samples});
-      const auto settled = steady_state(scene.machine, omega, scene.time_integration);
-      figures::add_orbits(table, scene,
-                          figures::compare(scene, frequency, balance, settled));
-    }
-    return table;
+    return figures::orbits(file, find_near_contact);
   });
 }

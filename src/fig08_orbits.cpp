@@ -24,30 +24,19 @@ repeats, but the rms error is 34 %, because the rotor vibrates on the contact mu
 than ten harmonics can follow. This panel shows the integrated motion.
 
 Harmonic balance finds a solution at all nine speeds, at some of them after a long search:
-from few harmonics to more, or along the curve of solutions from a lower speed. The header
-of the table says for each panel where the search started and how it ended. Where the
+from few harmonics to more, or along the curve of solutions from a lower speed. The
+lines after the table's rows say for each panel where the search started and how it ended. Where the
 integrated motion does not repeat, such a solution satisfies the truncated equations, but
 the machine does not settle on it after a start from rest. It is in the table and not in
 the drawing. */
 #include "figures/panels.hpp"
 #include "io/program.hpp"
 #include "motion/find_periodic.hpp"
-#include "time/steady_state.hpp"
 
 int main(int argc, char** argv)
 {
   using namespace rotor_stator;
   return run_figure(argc, argv, [](SceneFile& file) {
-    const figures::PanelScene scene = figures::read_panels(file);
-    Table table = figures::orbit_table(scene);
-    for (double frequency : watched(scene.title, scene.frequencies)) {
-      const double omega = angular(frequency);
-      const PeriodicMotion balance =
-          motion::find_periodic({scene.machine, omega, scene.harmonics, scene.samples});
-      const auto settled = steady_state(scene.machine, omega, scene.time_integration);
-      figures::add_orbits(table, scene,
-                          figures::compare(scene, frequency, balance, settled));
-    }
-    return table;
+    return figures::orbits(file, motion::find_periodic);
   });
 }

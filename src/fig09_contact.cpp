@@ -36,16 +36,6 @@ int main(int argc, char** argv)
 {
   using namespace rotor_stator;
   return run_figure(argc, argv, [](SceneFile& file) {
-    const figures::PanelScene scene = figures::read_panels(file);
-    Table table = figures::contact_table(scene);
-    for (double frequency : watched(scene.title, scene.frequencies)) {
-      const double omega = angular(frequency);
-      const PeriodicMotion balance =
-          motion::find_periodic({scene.machine, omega, scene.harmonics, scene.samples});
-      const auto settled = steady_state(scene.machine, omega, scene.time_integration);
-      const figures::Panel panel = figures::compare(scene, frequency, balance, settled);
-      add_contact(table, panel, motion::contact_evolution(scene.machine, panel.shown()));
-    }
-    return table;
+    return figures::contacts(file, motion::find_periodic);
   });
 }

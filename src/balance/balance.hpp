@@ -78,8 +78,8 @@ struct Problem {
       one costs as much. */
   std::function<void(double omega, Harmonic h, LinearBlock& block)> linear;
 
-  /** The force at all N samples; `Machine::put_equations` puts that of the bearing here,
-      `SampledBearing` of undamped ones. `q`: N × d; `force`: N × d; `stiffness`, unless
+  /** The force at all N samples; of a bearing it is set by `Machine::put_equations`, of an
+      undamped one to a `SampledBearing`. `q`: N × d; `force`: N × d; `stiffness`, unless
       it is null: N × d², column i + d j holding ∂f_i/∂q_j. */
   std::function<void(const Eigen::MatrixXd& q, Eigen::MatrixXd& force,
                      Eigen::MatrixXd* stiffness)>
@@ -104,14 +104,6 @@ struct Problem {
   /** Where the samples lie, with two frequencies. */
   TorusLine line = {};
 };
-
-/** The block of M q̈ + D q̇ + K q + f(q) = Re(F e^{iωt}) for real d × d matrices and a
-   complex load amplitude `load` on harmonic 1: Eq. 11 with jω in both diagonal entries
-   (D-12). */
-LinearBlock second_order_block(const Eigen::MatrixXd& mass,
-                               const Eigen::MatrixXd& damping,
-                               const Eigen::MatrixXd& stiffness,
-                               const Eigen::VectorXcd& load, double omega, double h);
 
 /** Complex amplitude of harmonic `h` of a series, and back. */
 SmallVector amplitude(const Eigen::Ref<const Eigen::MatrixXd>& series, int h);

@@ -44,7 +44,7 @@ struct Varying {
   }
 };
 
-/** A body's impedance and the amplitudes of its load in x and y: constant forces on
+/** A body's dynamic stiffness and the amplitudes of its load in x and y: constant forces on
     harmonic 0, unbalance on that of the rotor's turning (cos φ in x and sin φ = Re(-i
     e^{iφ}) in y). */
 struct LoadedBody {
@@ -65,9 +65,8 @@ LoadedBody loaded(const Body& body, double gravity, double unbalance, double ome
   if (!is_loaded(h, turns)) return loaded;
   const double moment = unbalance * turns * turns;
   const Varying force{moment * omega * omega, 2 * moment * omega};
-  const Vec2 rest = body.static_acceleration(gravity);
-  if (h == Harmonic{0, 0})
-    loaded.load = {Varying{body.mass * rest.x, 0}, Varying{body.mass * rest.y, 0}};
+  const Vec2 constant = body.static_load(gravity);
+  if (h == Harmonic{0, 0}) loaded.load = {Varying{constant.x, 0}, Varying{constant.y, 0}};
   if (h == Harmonic{static_cast<double>(turns), 0})
     loaded.load = {force, force * Varying{{0, -1}, 0}};
   return loaded;
@@ -120,7 +119,7 @@ void put_moving_force(const Parameters& parameters, const TorusLine& line,
   const std::vector<Bearing> joints = joints_of(parameters);
   std::vector<std::vector<Angles>> angles;  // of each joint
   for (const Bearing& joint : joints) {
-    const BallBearing there(on(line, joint), 0, parameters.turns * line.turns);
+    const BallBearing there(bearing_along(line, joint), 0, parameters.turns * line.turns);
     for (angles.emplace_back(); std::ssize(angles.back()) < line.samples;)
       angles.back().push_back(
           there.angles(2 * std::numbers::pi * static_cast<double>(angles.back().size()) /
@@ -178,8 +177,8 @@ void TwoMasses::put_equations(const Parameters& parameters, const TorusLine& lin
                        double omega, Harmonic h, LinearBlock& block) {
     condense(parameters, k, omega, h, block);
   };
-  if (parameters.bearing.is_plain()) {
-    problem.force = SampledBearing(on(line, parameters.bearing), line.samples);
+  if (parameters.bearing.is_elastic_hertz()) {
+    problem.force = SampledBearing(bearing_along(line, parameters.bearing), line.samples);
   } else {
     put_moving_force(parameters, line, problem);
   }
@@ -198,7 +197,7 @@ Problem bearing_problem(const Parameters& parameters, const TorusLine& line,
                   .force = {},
                   .operations = 5e3 + line.samples * (8 + 1.5 * parameters.bearing.balls),
                   .line = line};
-  parameters.machine->put_equations(parameters, line, problem);
+  parameters.bodies->put_equations(parameters, line, problem);
   if (budget.bounded())
     problem.spend = [budget, balls = parameters.bearing.balls](double operations) {
       budget.spend(operations / operations_per_evaluation(balls));
@@ -238,7 +237,7 @@ Eigen::VectorXd quasi_static_start(const Parameters& parameters, double omega,
                                    int harmonics)
 {
   const int samples = default_samples(harmonics);
-  const Eigen::MatrixXd u = parameters.machine->start_samples(parameters, omega, samples);
+  const Eigen::MatrixXd u = parameters.bodies->start_samples(parameters, omega, samples);
   Eigen::MatrixXd series(u.cols(), 2 * harmonics + 1);
   FourierTransform(samples).to_series(u, series);
   return series.reshaped();
@@ -246,7 +245,7 @@ Eigen::VectorXd quasi_static_start(const Parameters& parameters, double omega,
 
 Eigen::MatrixXd body_series(const Parameters& parameters, const PeriodicMotion& motion)
 {
-  return parameters.machine->shown_series(parameters, motion);
+  return parameters.bodies->shown_series(parameters, motion);
 }
 
 Eigen::MatrixXd TwoMasses::all_series(const Parameters&,

@@ -11,7 +11,11 @@ h\omega.$$
 Multiplied by Z_s Z_r the equation stays finite where an undamped body resonates, and
 divided by σ = |Z_s Z_r| + k|Z_s + Z_r|, with k the stiffness of one loaded ball, every
 term is a length of the order of the penetration, for soft and stiff suspensions, low and
-high harmonics alike. */
+high harmonics alike. These are A, B and c of Eq. 16 (balance.hpp) for two masses.
+
+Everything is written for two frequencies and for periods of several turns; where the
+force has the period of rotation, a harmonic is its number h and the bearing along the
+line is the bearing itself. */
 #pragma once
 
 #include "balance/balance.hpp"
@@ -32,7 +36,7 @@ Problem bearing_problem(const Parameters& parameters, int samples,
 Problem bearing_problem(const Parameters& parameters, const TorusLine& line,
                         const OperationBudget& budget = {});
 
-/** The force of joints of which one is not plain, into `problem`. */
+/** Sets the force of joints of which one is not Eq. 5 alone. */
 void put_moving_force(const Parameters& parameters, const TorusLine& line,
                       Problem& problem);
 

@@ -33,9 +33,10 @@ bool repeats_sooner(const PeriodicMotion& motion, int turns)
 class Finder {
 public:
   explicit Finder(const BalanceSearch& search)
-      : search_(search), longer_(over_turns(search.parameters, search.turns)),
-        balance_(bearing_problem(longer_, search.turns * search.samples, search.budget),
-                 search.turns * search.harmonics)
+      : search_(search), parameters_(over_turns(search.parameters, search.turns)),
+        balance_(
+            bearing_problem(parameters_, search.turns * search.samples, search.budget),
+            search.turns * search.harmonics)
   {
   }
 
@@ -50,7 +51,7 @@ public:
     motion_.force_samples += before;
     if (search_.turns > 1 && repeats_sooner(motion_, search_.turns))
       motion_.newton.end = NewtonEnd::no_decrease;
-    if (motion_.found()) motion_.bodies = body_series(longer_, motion_);
+    if (motion_.found()) motion_.bodies = body_series(parameters_, motion_);
     return motion_.found();
   }
 
@@ -67,8 +68,8 @@ public:
   {
     constexpr int most = 128;
     const int m = search_.harmonics;
-    return m <= most &&
-           from("quasi-static contact", quasi_static_start(longer_, search_.omega, m));
+    return m <= most && from("quasi-static contact",
+                             quasi_static_start(parameters_, search_.omega, m));
   }
 
   bool from_fewer()
@@ -87,7 +88,7 @@ public:
 
 private:
   const BalanceSearch& search_;
-  Parameters longer_;
+  Parameters parameters_;
   Balance balance_;
   PeriodicMotion motion_ = {};
 };

@@ -153,11 +153,11 @@ void LargeMachine::put_equations(const Parameters& parameters, const TorusLine& 
   };
   problem.operations *= static_cast<double>(bodies_.places.size());
   const std::vector<Bearing> joints = joints_of(parameters);
-  if (!std::ranges::all_of(joints, &Bearing::is_plain))
+  if (!std::ranges::all_of(joints, &Bearing::is_elastic_hertz))
     return put_moving_force(parameters, line, problem);
   std::vector<SampledBearing> bearings;
   for (const Bearing& bearing : joints)
-    bearings.emplace_back(on(line, bearing), line.samples);
+    bearings.emplace_back(bearing_along(line, bearing), line.samples);
   problem.force = [bearings](const Eigen::MatrixXd& u, Eigen::MatrixXd& force,
                              Eigen::MatrixXd* stiffness) {
     const Eigen::Index d = u.cols();

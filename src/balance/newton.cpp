@@ -28,7 +28,7 @@ NewtonReport newton(Equations& equations, LinearSolver& solver, Eigen::VectorXd&
   double norm = equations.residual(x).norm();
   while (report.iterations < settings.most_iterations) {
     if (!std::isfinite(norm)) {
-      report.end = NewtonEnd::singular;
+      report.end = NewtonEnd::not_finite;
       return report;
     }
     const double before = norm, goal = linear_goal(equations, norm, tolerance);
@@ -38,7 +38,7 @@ NewtonReport newton(Equations& equations, LinearSolver& solver, Eigen::VectorXd&
     report.delta_2 = step.norm() / equations.unknown_scale;
     ++report.iterations;
     if (!std::isfinite(report.delta_2)) {
-      report.end = NewtonEnd::singular;
+      report.end = NewtonEnd::not_finite;
       return report;
     }
     start = x;

@@ -13,7 +13,9 @@ $$X \leftarrow X + \lambda \Delta X, \tag{14}$$
 
 $$(A + J)\,\Delta X = -R. \tag{15}$$
 
-λ is 1 and halved until the residual decreases. A step by the factors of an earlier point
+J is the derivative of the force; where the equations carry the force with a factor B
+(Eq. 16 as in balance.hpp) read B J. The code's `step` is -ΔX and its `length` λ, which is
+1 and halved until the residual decreases. A step by the factors of an earlier point
 is taken whole, and only if it leaves a tenth of the residual. Both criteria of the paper
 are reported, relative to the problem's scales (D-22):
 

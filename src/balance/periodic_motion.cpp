@@ -35,7 +35,7 @@ Images Harmonics::images(const TorusLine& line, int samples) const
 std::string NewtonReport::reason() const
 {
   constexpr const char* ends[] = {"converged", "iterations exhausted",
-                                  "no step decreases the residual", "singular Jacobian"};
+                                  "no step decreases the residual", "no finite step"};
   const std::string numbers =
       std::isfinite(delta_1) && std::isfinite(delta_2)
           ? format(" after %d iterations (residual %.1e, step %.1e)", iterations, delta_1,

@@ -64,7 +64,7 @@ private:
 };
 
 /** How Newton's iteration ended. */
-enum class NewtonEnd { converged, too_many_iterations, no_decrease, singular };
+enum class NewtonEnd { converged, too_many_iterations, no_decrease, not_finite };
 
 struct NewtonReport {
   NewtonEnd end = NewtonEnd::too_many_iterations;

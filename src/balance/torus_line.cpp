@@ -10,7 +10,7 @@
 
 namespace rotor_stator {
 
-Bearing on(const TorusLine& line, Bearing bearing)
+Bearing bearing_along(const TorusLine& line, Bearing bearing)
 {
   const bool is_on_it = line.turns == 1 && has_rotation_period(bearing) &&
                         std::lround(passages_per_turn(bearing)) == line.z;

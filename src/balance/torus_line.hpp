@@ -21,8 +21,9 @@ doubled also has halves of k_1 and k_2: the line then closes after two turns. */
 
 namespace rotor_stator {
 
-/** The bearing whose cage turns so that samples at equal steps of ωt lie on the line. */
-Bearing on(const TorusLine& line, Bearing bearing);
+/** The bearing whose cage turns so that samples at equal steps of ωt lie on the line;
+    itself where the line is that of one frequency. */
+Bearing bearing_along(const TorusLine& line, Bearing bearing);
 
 /** k_1 + k_2 n ω_cage/ω, the frequency over the speed. */
 double order_of(Harmonic h, const Bearing& bearing);

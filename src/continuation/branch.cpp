@@ -57,7 +57,7 @@ NewtonEnd Corrector::verdict(const Correction& correction, double length,
                              double ratio) const
 {
   const double residual = correction.motion.newton.delta_1;
-  if (!std::isfinite(length)) return NewtonEnd::singular;
+  if (!std::isfinite(length)) return NewtonEnd::not_finite;
   if (!std::isfinite(residual) || ratio > settings_.most_contraction)
     return NewtonEnd::no_decrease;
   return residual <= settings_.newton.tolerance && length <= last_correction()

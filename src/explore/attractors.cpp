@@ -381,7 +381,7 @@ std::string motion_text(const Task& task, const std::vector<Found>& all)
 void note(Table& table, const Task& task)
 {
   describe(table, task.machine);
-  const Machine& machine = *task.machine.machine;
+  const Machine& machine = *task.machine.bodies;
   const std::string method = machine.time_method(task.machine);
   table.value("method", method);
   if (machine.takes_explicit_steps()) {

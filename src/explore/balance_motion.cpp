@@ -17,11 +17,12 @@ void note_verdict(Table& table, const Parameters& parameters,
   if (verdict.found()) {
     table.value("multiplier", verdict.floquet.largest(), 9);
     table.value("multiplier_uncertainty", verdict.floquet.uncertainty(), 2);
-    if (parameters.machine->reduction_error() > 0)
+    if (parameters.bodies->reduction_error() > 0)
       table.note("multiplier: with the reduced bodies");
   } else
     table.note("stability: " + verdict.reason);
-  if (verdict.refused > 0) table.value("distance_refused", verdict.refused, 2);
+  if (verdict.refused_distance > 0)
+    table.value("distance_refused", verdict.refused_distance, 2);
   if (verdict.distance > 0)
     put_difference(table, "distance", verdict.distance, verdict.distance_rms,
                    "from the motion of Eq. 7 whose multipliers these are");
@@ -45,7 +46,7 @@ void note_verdict(Table& table, const Parameters& parameters,
         "neighbours part by %.3g +- %.1g/s",
         word(there.kind), there.seconds, there.lyapunov.value, 3 * there.lyapunov.error));
   }
-  if (!verdict.lost.empty()) table.note("from the solution: " + verdict.lost);
+  if (!verdict.why_lost.empty()) table.note("from the solution: " + verdict.why_lost);
   table.value("verdict_evaluations", verdict.evaluations, 3);
 }
 
@@ -77,8 +78,8 @@ using motion::lines_of;
     depend on them. */
 PeriodicMotion with_all_coordinates(const Parameters& parameters, PeriodicMotion solution)
 {
-  if (parameters.machine->nodes().rows() > 0)
-    solution.bodies = parameters.machine->all_series(parameters, solution);
+  if (parameters.bodies->nodes().rows() > 0)
+    solution.bodies = parameters.bodies->all_series(parameters, solution);
   return solution;
 }
 

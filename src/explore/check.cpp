@@ -43,7 +43,7 @@ std::vector<Rest> rest_of(const Parameters& machine)
       const Bearing own = bearings_of(turned)[b];
       const BallBearing bearing(own);
       const auto cage = Direction::of(own.cage_phase);
-      const Vec2 u = motion::relative_at(motion, 0, machine.machine->places(b));
+      const Vec2 u = motion::relative_at(motion, 0, machine.bodies->places(b));
       const Vec2 force = bearing.reaction(cage, u).force;
       const auto q = bearing.ball_forces({{1, 0}, cage}, u, {0, 0});
       rest.u = rest.u + share * u;
@@ -123,7 +123,7 @@ Exploration explore_check(const CheckRequest& request)
   const auto is_loaded = [](const Rest& rest) { return rest.loaded > 0; };
   if (machine.gravity > 0 && std::ranges::none_of(rests, is_loaded))
     warn("no ball is loaded at rest: do the loads lift the rotor?");
-  const bool is_large = !machine.machine->takes_explicit_steps();
+  const bool is_large = !machine.bodies->takes_explicit_steps();
   if (!is_large) {
     const double omega = angular(request.to),
                  e = printable_size(machine.unbalance / machine.rotor.mass);

@@ -120,7 +120,7 @@ public:
              .longest = asked.longest},
             budget_,
             {},
-            machine_.machine->patience().transient,
+            machine_.bodies->patience().transient_share,
             is_observed()};
   }
 

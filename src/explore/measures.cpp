@@ -150,7 +150,7 @@ Measures::Measures(const std::string& names, const Parameters& machine,
 {
   std::vector<std::pair<std::string, int>> places{
       {"x_s", 0}, {"y_s", 1}, {"x_r", 2}, {"y_r", 3}};
-  for (const auto& output : machine.machine->outputs()) places.push_back(output);
+  for (const auto& output : machine.bodies->outputs()) places.push_back(output);
   std::istringstream in(names);
   for (std::string name; std::getline(in, name, ',');) {
     if (std::ranges::find(known, name, &Column::name) != known.end()) continue;
@@ -201,7 +201,7 @@ motion::Answer whole_motion(motion::Answer answer, motion::Request request,
 {
   /** Sixteen instants of a vibration of the contact, and few enough for the memory. */
   const double needed = 16 * contact_frequency(answer.machine) / answer.omega;
-  const bool is_fast = answer.machine.machine->takes_explicit_steps();
+  const bool is_fast = answer.machine.bodies->takes_explicit_steps();
   request.points = 256;
   while (is_fast && request.points < std::min(needed, 2048.0)) request.points *= 2;
   request.periods = Measures::open_periods;

@@ -34,7 +34,7 @@ void require_method_of(const Parameters& parameters, const std::string& method)
 {
   const bool is_of_masses =
       std::ranges::find(time_methods(), method) != time_methods().end();
-  const Machine& machine = *parameters.machine;
+  const Machine& machine = *parameters.bodies;
   if (!machine.takes_explicit_steps() && is_of_masses)
     throw BadInput("--method " + method +
                    ": bodies given by matrices take aft, shooting, auto or gauss");
@@ -95,7 +95,7 @@ OperationBudget budget_of_each(const std::optional<Allowance>& allowed, double s
                                const Parameters& parameters)
 {
   const double each = operations_per_evaluation(parameters.bearing.balls);
-  seconds *= parameters.machine->patience().longer;
+  seconds *= parameters.bodies->patience().longer;
   const bool is_counted = allowed && allowed->evaluations > 0;
   return budget_until(allowed, is_counted ? allowed->evaluations : 1e9 * seconds / each,
                       "--budget");
@@ -176,7 +176,7 @@ FoundMotion closed_motion(const Parameters& parameters, const MotionRequest& req
   table.note(
       format("shooting by rk8, local error %g: closed to %.2g of the sizes of the "
              "state after %d periods",
-             request.local_error, closed.periodicity_residual, closed.maps));
+             request.local_error, closed.correction, closed.maps));
   put_difference(table, "error", closed.error.largest, closed.error.rms,
                  "against a hundredth of the local error");
   if (request.tolerance && !(error <= *request.tolerance))
@@ -218,7 +218,7 @@ Computed computed(const Parameters& parameters, const MotionRequest& request,
   table.value("frequency", request.frequency);
   const bool is_settled = !is_periodic(request.method);
   /** Who names a method is willing to wait. */
-  const double settling = parameters.machine->patience().settling;
+  const double settling = parameters.bodies->patience().settling;
   const double seconds = request.method == "auto" ? settling
                          : is_settled             ? std::max(3.0, settling)
                                                   : 3;
@@ -265,7 +265,7 @@ Exploration explore_orbit(const MotionRequest& request)
   for (std::size_t b = 2; b <= bearings; ++b)
     for (const char* axis : {"x", "y"})
       add(format("F_%s_%zu", axis, b), "N", "Eq. 6, of that bearing, on the stator");
-  const auto outputs = parameters.machine->outputs();
+  const auto outputs = parameters.bodies->outputs();
   for (const auto& [name, place] : outputs) add(name, "m", "of a body given by matrices");
   const std::size_t usual = columns.size() - 1;
   const Measures measures(request.columns, parameters);

@@ -75,7 +75,7 @@ std::vector<std::string> doubts(const Parameters& machine, double highest)
     if (!body->rigid && body->damping_ratio > 0.5)
       all.push_back(format("a damping ratio of %g: 1 is critical, is it in per cent?",
                            body->damping_ratio));
-  if (!machine.machine->takes_explicit_steps()) return all;
+  if (!machine.bodies->takes_explicit_steps()) return all;
   for (const auto& [body, name] :
        {std::pair{&machine.stator, "stator"}, {&machine.rotor, "rotor"}}) {
     const double omega = body->natural_frequency;

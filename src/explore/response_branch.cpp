@@ -380,7 +380,7 @@ Exploration branch_by_balance(ResponseTask task)
   const ResponseRequest& request = task.request;
   const bool two = task.has_two_frequencies;
   if (!two)
-    task.parameters.machine->prepare(task.parameters, task.range().from, task.harmonics);
+    task.parameters.bodies->prepare(task.parameters, task.range().from, task.harmonics);
   const std::clock_t read = std::clock();
   PeriodicMotion found;
   if (!task.saved) {

@@ -216,14 +216,14 @@ Exploration settled_response(const ResponseRequest& request)
     throw BadInput("--resume: not with --direction " + direction +
                    ", where each speed starts from the one before");
   const Parameters machine = machine_of(request, request.from, request.to);
-  const Patience patience = machine.machine->patience();
+  const Patience patience = machine.bodies->patience();
   const auto [fields, usual, measures] = columns_of(request, machine, period_field, true);
   Sweep sweep{
       request,
       machine,
       evenly_spaced(request.from, request.to, request.count.value_or(patience.speeds)),
       direction != "rest",
-      direction == "rest" && machine.machine->takes_explicit_steps() ? 32U : 1U,
+      direction == "rest" && machine.bodies->takes_explicit_steps() ? 32U : 1U,
       budget_of_each({}, patience.settling, machine).left(),
       Table("Frequency response, what the machine does", fields),
       fields,
@@ -232,7 +232,7 @@ Exploration settled_response(const ResponseRequest& request)
   const bool has_records =
       sweep.table.choose(request.columns, usual, request.plot.has_value());
   describe(sweep.table, machine);
-  sweep.table.value("method", machine.machine->time_method(machine));
+  sweep.table.value("method", machine.bodies->time_method(machine));
   sweep.table.value("kind", "sweep");
   sweep.table.value("base", base_period(machine).words());
   sweep.table.value("direction", direction);

@@ -47,7 +47,8 @@ void put_answer(Table& table, const motion::Answer& answer)
   table.value("lyapunov", settled.lyapunov.value, 6);
   table.value("lyapunov_uncertainty", settled.lyapunov.error, 2);
   if (answer.error)
-    put_difference(table, "error", answer.error->largest, answer.error->rms, answer.how);
+    put_difference(table, "error", answer.error->largest, answer.error->rms,
+                   answer.error_note);
   if (!settled.reason.empty()) table.note("regime: " + settled.reason);
   table.value("transient", settled.seconds, 6);
   if (answer.base.is_driven_twice()) {

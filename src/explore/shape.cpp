@@ -40,10 +40,10 @@ Exploration explore_shape(const ShapeRequest& request)
   for (std::size_t i = 0; i < nodes.rows(); ++i) nodes.at(i, "z");
   const Parameters parameters =
       machine_of(request, request.frequency, request.frequency, &nodes);
-  if (parameters.machine->nodes().rows() == 0)
+  if (parameters.bodies->nodes().rows() == 0)
     throw BadInput(request.parameter_file +
                    ": rotor.matrices is missing: shape is that of a rotor given by them");
-  const Machine& machine = *parameters.machine;
+  const Machine& machine = *parameters.bodies;
   Table table("Orbits of a rotor's nodes over one period", columns);
   table.choose(request.columns, columns.size() - 1, request.plot.has_value());
   const Computed at = computed(parameters, request, request.periods, table);

@@ -1,5 +1,7 @@
 #include "figures/contact.hpp"
 
+#include "motion/contact.hpp"
+
 namespace rotor_stator::figures {
 
 namespace {
@@ -18,25 +20,24 @@ const auto contact_fields = with_panel_fields<ContactRow>({
 
 }  // namespace
 
-Table contact_table(const PanelScene& scene)
+Table contacts(SceneFile& file, Find find)
 {
+  const PanelScene scene = read_panels(file);
   Table table(scene.title, contact_fields);
   describe(table, scene);
   table.note(
       "modelled: the force of every ball over two periods, of the harmonic-balance "
       "solution or of the integrated motion, as the column `shown` says");
+  each_panel(scene, find, [&](const Panel& panel) {
+    const PanelRow row{panel, panel.shows_balance() ? 1 : 2};
+    const auto all = motion::contact_evolution(scene.parameters, panel.shown());
+    for (std::size_t k = 0; k < all.t_over_period.size(); ++k)
+      for (std::size_t j = 0; j < all.ball_force[k].size(); ++j)
+        table.row(contact_fields,
+                  {row, all.t_over_period[k], j + 1, all.ball_force[k][j]});
+    table.note(panel.ending);
+  });
   return table;
-}
-
-void add_contact(Table& table, const Panel& panel,
-                 const motion::ContactEvolution& evolution)
-{
-  table.note(panel.ending);
-  const PanelRow row{panel, panel.shows_balance() ? 1 : 2};
-  for (std::size_t k = 0; k < evolution.t_over_period.size(); ++k)
-    for (std::size_t j = 0; j < evolution.ball_force[k].size(); ++j)
-      table.row(contact_fields,
-                {row, evolution.t_over_period[k], j + 1, evolution.ball_force[k][j]});
 }
 
 }  // namespace rotor_stator::figures

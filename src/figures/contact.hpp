@@ -1,5 +1,5 @@
 /**
-# The contact of the balls (Figs 7 and 9, code)
+# The contact of the balls (code of Figs 7 and 9)
 
 The force of every ball over two periods of rotation: a cage at half the rotor's speed
 turns once in this time, and each ball meets a load that turns with the rotor once (D-11,
@@ -7,15 +7,10 @@ D-20). */
 #pragma once
 
 #include "figures/panels.hpp"
-#include "motion/contact.hpp"
 
 namespace rotor_stator::figures {
 
-/** The table before its first panel. */
-Table contact_table(const PanelScene& scene);
-
-/** The ball forces of the motion that a panel shows, one row per instant and ball. */
-void add_contact(Table& table, const Panel& panel,
-                 const motion::ContactEvolution& evolution);
+/** The ball forces of the motion that each panel shows, one row per instant and ball. */
+Table contacts(SceneFile& file, Find find);
 
 }  // namespace rotor_stator::figures

@@ -1,11 +1,11 @@
 #include "figures/panels.hpp"
 
-#include <algorithm>
 #include <cmath>
-#include <utility>
+#include <numeric>
 
 #include "balance/fourier_transform.hpp"
 #include "io/errors.hpp"
+#include "io/program.hpp"
 
 namespace rotor_stator::figures {
 
@@ -59,8 +59,10 @@ const auto orbit_fields = with_panel_fields<OrbitRow>({
     {"y_s", "m", "stator", [](const OrbitRow& r) { return r.at.stator.y; }},
     {"x_r", "m", "rotor", [](const OrbitRow& r) { return r.at.rotor.x; }},
     {"y_r", "m", "rotor", [](const OrbitRow& r) { return r.at.rotor.y; }},
-    {"F_x", "N", "Eq. 6, on the stator", [](const OrbitRow& r) { return r.force.x; }},
-    {"F_y", "N", "Eq. 6, on the stator", [](const OrbitRow& r) { return r.force.y; }},
+    {"F_x", "N", "Eq. 6 of these displacements, on the stator",
+     [](const OrbitRow& r) { return r.force.x; }},
+    {"F_y", "N", "Eq. 6 of these displacements, on the stator",
+     [](const OrbitRow& r) { return r.force.y; }},
 });
 
 }  // namespace
@@ -69,7 +71,7 @@ PanelScene read_panels(SceneFile& file)
 {
   StrictToml& toml = file.toml();
   PanelScene scene{.title = toml.string("title"),
-                   .machine = read_parameters(file, "parameters"),
+                   .parameters = read_parameters(file, "parameters"),
                    .frequencies = toml.numbers("frequencies_hz", Range::positive),
                    .harmonics = toml.integer("harmonics", 1, 4096),
                    .samples = 0,
@@ -83,7 +85,7 @@ PanelScene read_panels(SceneFile& file)
 void describe(Table& table, const PanelScene& scene)
 {
   const SteadySettings& integration = scene.time_integration;
-  describe(table, scene.machine);
+  describe(table, scene.parameters);
   table.value("harmonics", scene.harmonics);
   table.value("samples", scene.samples);
   table.note(
@@ -100,66 +102,79 @@ void describe(Table& table, const PanelScene& scene)
              Panel::largest_error_shown));
 }
 
-Table orbit_table(const PanelScene& scene)
-{
-  Table table(scene.title, orbit_fields);
-  describe(table, scene);
-  table.note("modelled: displacements of both bodies over the shown periods");
-  return table;
-}
+namespace {
 
-Panel compare(const PanelScene& scene, double frequency, const PeriodicMotion& balance,
-              const SteadyState& settled)
+/** Of one panel, 1, 2, … */
+Panel compare(const PanelScene& scene, std::size_t number, Find find)
 {
-  const int points = scene.time_integration.stepper.intervals_per_period;
-  const auto& speeds = scene.frequencies;
-  const auto place = std::find(speeds.begin(), speeds.end(), frequency) - speeds.begin();
+  const SteadySettings& integration = scene.time_integration;
+  const int points = integration.stepper.intervals_per_period;
+  const double frequency = scene.frequencies[number - 1], omega = angular(frequency);
+  const PeriodicMotion balance =
+      find({scene.parameters, omega, scene.harmonics, scene.samples});
+  const SteadyState settled = steady_state(scene.parameters, omega, integration);
+  const motion::Motion all = motion::motion_of(settled, points);
   Panel panel{
-      .number = static_cast<std::size_t>(place) + 1,
+      .number = number,
       .frequency = frequency,
       .balance = {},
-      .settled = motion::motion_of(settled, points),
+      .settled = motion::pieces(all, integration.shown_periods).front(),
       .periodic = settled.periodic,
       .spread = settled.spread,
       .spread_error = settled.spread_error,
       .ending = format(
-          "panel %td: %g Hz: harmonic balance from %s, %s; time "
+          "panel %zu: %g Hz: harmonic balance from %s, %s; time "
           "integration %s, spread %.3g%s after %.3g s",
-          place + 1, frequency, balance.start.c_str(), balance.newton.reason().c_str(),
+          number, frequency, balance.start.c_str(), balance.newton.reason().c_str(),
           settled.periodic ? "periodic" : "aperiodic", settled.spread,
           settled.periodic ? "" : format(" +- %.1g", settled.spread_error).c_str(),
           settled.seconds)};
-  /** Drawn are the first turns of a long average. */
-  const motion::Motion all = std::exchange(
-      panel.settled,
-      motion::pieces(panel.settled, scene.time_integration.shown_periods).front());
-  if (balance.found()) {
-    panel.balance = motion::motion_of(balance.bodies, points);
-    const int window = settled.periodic ? scene.time_integration.shown_periods
-                                        : static_cast<int>(std::ceil(frequency));
-    panel.rms_difference = mean_over(all, window, [&](const motion::Motion& piece) {
-      return motion::rms_difference(*panel.balance, piece);
-    });
-    panel.force_difference =
-        motion::relative_force_difference(scene.machine, *panel.balance, panel.settled);
-    panel.difference = motion::relative_difference(*panel.balance, panel.settled);
-  }
+  if (!balance.found()) return panel;
+  panel.balance = motion::motion_of(balance.bodies, points);
+  /** The difference from a motion that is not T-periodic is that of pieces of a second,
+      on average. */
+  const int window = settled.periodic ? integration.shown_periods
+                                      : static_cast<int>(std::ceil(frequency));
+  panel.rms_difference = mean_over(all, window, [&](const motion::Motion& piece) {
+    return motion::rms_difference(*panel.balance, piece);
+  });
+  panel.force_difference =
+      motion::relative_force_difference(scene.parameters, *panel.balance, panel.settled);
+  panel.difference = motion::relative_difference(*panel.balance, panel.settled);
   return panel;
 }
 
-void add_orbits(Table& table, const PanelScene& scene, const Panel& panel)
+}  // namespace
+
+void each_panel(const PanelScene& scene, Find find,
+                const std::function<void(const Panel&)>& add)
 {
-  const auto add = [&](int source, const motion::Motion& motion) {
-    const auto forces = motion::bearing_forces(scene.machine, motion);
-    for (std::size_t k = 0; k < motion.size(); ++k)
-      table.row(
-          orbit_fields,
-          {{panel, source}, motion.t_over_period(k), motion.positions[k], forces[k]});
-    table.gap();
-  };
-  table.note(panel.ending);
-  if (panel.balance) add(1, *panel.balance);
-  add(2, panel.settled);
+  std::vector<std::size_t> numbers(scene.frequencies.size());
+  std::iota(numbers.begin(), numbers.end(), 1);
+  for (std::size_t number : watched(scene.title, numbers))
+    add(compare(scene, number, find));
+}
+
+Table orbits(SceneFile& file, Find find)
+{
+  const PanelScene scene = read_panels(file);
+  Table table(scene.title, orbit_fields);
+  describe(table, scene);
+  table.note("modelled: displacements of both bodies over the shown periods");
+  each_panel(scene, find, [&](const Panel& panel) {
+    const auto add = [&](int source, const motion::Motion& motion) {
+      const auto forces = motion::bearing_forces(scene.parameters, motion);
+      for (std::size_t k = 0; k < motion.size(); ++k)
+        table.row(
+            orbit_fields,
+            {{panel, source}, motion.t_over_period(k), motion.positions[k], forces[k]});
+      table.gap();
+    };
+    if (panel.balance) add(1, *panel.balance);
+    add(2, panel.settled);
+    table.note(panel.ending);
+  });
+  return table;
 }
 
 }  // namespace rotor_stator::figures

@@ -1,14 +1,18 @@
 /**
-# Panels, with the table of the orbits (Figs 4, 5, 6 and 8, code)
+# Panels, with the table of the orbits (code of Figs 4 to 9)
 
 A panel belongs to one speed and holds two motions: the periodic solution of harmonic
 balance, and the motion that time integration settles on. Where the second repeats with
 the period of rotation, the difference of the two is the error of the first. Where that
-error is large, or the second does not repeat, the panel shows the integrated motion. */
+error is large, or the second does not repeat, the panel shows the integrated motion.
+
+    Table table = figures::orbits(scene_file, find_near_contact); */
 #pragma once
 
+#include <functional>
 #include <optional>
 
+#include "balance/find.hpp"
 #include "io/scene_file.hpp"
 #include "io/table.hpp"
 #include "motion/motion.hpp"
@@ -18,7 +22,7 @@ namespace rotor_stator::figures {
 /** What a figure with panels asks for. */
 struct PanelScene {
   std::string title;
-  Parameters machine;
+  Parameters parameters;
   std::vector<double> frequencies;  ///< [Hz], one panel each: our choice (D-17)
   int harmonics;                    ///< m
   int samples;                      ///< N
@@ -26,6 +30,9 @@ struct PanelScene {
 };
 
 PanelScene read_panels(SceneFile& file);
+
+/** What finds a solution of harmonic balance; it has no harmonics where there is none. */
+using Find = PeriodicMotion (*)(const BalanceSearch& search);
 
 /** One speed: both motions, and how far they are apart over one period; -1 without a
     solution of harmonic balance. */
@@ -41,7 +48,7 @@ struct Panel {
   double difference = -1;        ///< of displacement, over the largest displacement [-]
   std::string ending;            ///< the `#` line that says how both computations ended
 
-  /** Above this rms error about the mean [-] a solution is no picture of the motion. */
+  /** Above this rms error about the mean [-] a solution does not represent the motion. */
   static constexpr double largest_error_shown = 0.1;
 
   /** Whether the panel may show the solution of harmonic balance as what the machine
@@ -53,14 +60,12 @@ struct Panel {
   const motion::Motion& shown() const { return shows_balance() ? *balance : settled; }
 };
 
-Panel compare(const PanelScene& scene, double frequency, const PeriodicMotion& balance,
-              const SteadyState& settled);
+/** Calls `add` with every panel of a scene, one after the other. */
+void each_panel(const PanelScene& scene, Find find,
+                const std::function<void(const Panel&)>& add);
 
-/** The table of the orbits before its first panel. */
-Table orbit_table(const PanelScene& scene);
-
-/** Both motions of a panel with the bearing's force, one row per instant. */
-void add_orbits(Table& table, const PanelScene& scene, const Panel& panel);
+/** Both motions of every panel with the bearing's force, one row per instant. */
+Table orbits(SceneFile& file, Find find);
 
 /** What every row of a panel repeats. */
 struct PanelRow {

@@ -1,6 +1,7 @@
 #include "model/ball_bearing.hpp"
 
 #include <algorithm>
+#include <cstring>
 #include <numbers>
 
 #include "model/hertz.hpp"
@@ -9,49 +10,17 @@
 namespace rotor_stator {
 
 BallBearing::BallBearing(const Bearing& bearing, double omega, int turns)
-    : bearing_(bearing), is_plain_(bearing.is_plain()), turns_(turns), omega_(omega),
-      rotor_speed_(turns * omega), cage_speed_(bearing.cage_speed_ratio * omega),
+    : bearing_(bearing), is_elastic_hertz_(bearing.is_elastic_hertz()), turns_(turns),
+      omega_(omega), rotor_speed_(turns * omega),
+      cage_speed_(bearing.cage_speed_ratio * omega),
       place_(Direction::of(bearing.defect.place)),
-      parallel_(bearing.parallel, bearing.parallel.speed_ratio * rotor_speed_),
-      contact_stiffness_(bearing.contact_stiffness), clearance_(bearing.clearance),
-      clearance_squared_(bearing.clearance * bearing.clearance)
+      parallel_(bearing.parallel, bearing.parallel.speed_ratio * rotor_speed_)
 {
   for (int j = 0; j < bearing.balls; ++j) {
-    balls_.push_back(Direction::of(2 * std::numbers::pi * j / bearing.balls));
-    cosines_.push_back(balls_.back().cos);
-    sines_.push_back(balls_.back().sin);
+    const Direction ball = Direction::of(2 * std::numbers::pi * j / bearing.balls);
+    cosines_.push_back(ball.cos);
+    sines_.push_back(ball.sin);
   }
-}
-
-ElasticReaction BallBearing::plain_reaction(Direction cage, Vec2 u) const
-{
-  if (u.x * u.x + u.y * u.y <= clearance_squared_) return {};
-  const Vec2 v = into_frame(cage, u);
-  Vec2 sum{0, 0};
-  struct {
-    double xx = 0, xy = 0, yy = 0;
-  } slope;
-  for (const Direction& ball : balls_) {
-    const double p = ball.cos * v.x + ball.sin * v.y - clearance_;
-    if (p <= 0) continue;
-    const double root = std::sqrt(p);
-    sum.x += p * root * ball.cos;
-    sum.y += p * root * ball.sin;
-    slope.xx += root * ball.cos * ball.cos;
-    slope.xy += root * ball.cos * ball.sin;
-    slope.yy += root * ball.sin * ball.sin;
-  }
-
-  /** The stiffness turns back with the force: R S Rᵀ. */
-  const double c = cage.cos, s = cage.sin, k = 1.5 * contact_stiffness_;
-  const double mixed = 2 * c * s * slope.xy;
-  const double xy = k * (c * s * (slope.xx - slope.yy) + (c * c - s * s) * slope.xy);
-  return {.force = out_of_frame(cage,
-                                {contact_stiffness_ * sum.x, contact_stiffness_ * sum.y}),
-          .stiffness = {.xx = k * (c * c * slope.xx + s * s * slope.yy - mixed),
-                        .xy = xy,
-                        .yx = xy,
-                        .yy = k * (s * s * slope.xx + c * c * slope.yy + mixed)}};
 }
 
 namespace {
@@ -95,20 +64,19 @@ void BallBearing::each_contact(const Angles& at, Vec2 u, Vec2 rate, Visit visit)
   const Vec2 v = into_frame(at.cage, u);
   const Vec2 w{rate.x + cage_speed_ * u.y, rate.y - cage_speed_ * u.x};
   const bool is_damaged = !bearing_.is_damaged(Defect::Surface::none);
-  for (std::size_t j = 0; j < balls_.size(); ++j) {
-    const double near = balls_[j].cos * v.x + balls_[j].sin * v.y - clearance_;
-    if (near <= 0) continue;
-    const Direction ball = turned(balls_[j], at.cage);
+  const double k_h = bearing_.contact_stiffness, n = bearing_.exponent;
+  for (std::size_t j = 0; j < cosines_.size(); ++j) {
+    const double approach = cosines_[j] * v.x + sines_[j] * v.y - bearing_.clearance;
+    if (approach <= 0) continue;
+    const Direction ball = turned({cosines_[j], sines_[j]}, at.cage);
     const Loss lost = is_damaged ? loss(j, ball, at) : Loss{0, 0};
-    const double pressed = near - lost.depth;
-    if (pressed <= 0) continue;
+    const double penetration = approach - lost.depth;
+    if (penetration <= 0) continue;
     const double faster = ball.cos * w.x + ball.sin * w.y - lost.rate;
     const double share = 1 + bearing_.damping * faster;
     if (share <= 0) continue;
-    const double n = bearing_.exponent;
-    const double hertz = hertz_force(contact_stiffness_, pressed, n);
-    visit(Contact{j, ball, share * hertz,
-                  share * hertz_stiffness(contact_stiffness_, pressed, n),
+    const double hertz = hertz_force(k_h, penetration, n);
+    visit(Contact{j, ball, share * hertz, share * hertz_stiffness(k_h, penetration, n),
                   bearing_.damping * hertz, faster});
   }
 }
@@ -145,168 +113,99 @@ BearingReaction BallBearing::full_reaction(const Angles& at, Vec2 u, Vec2 rate) 
 
 std::vector<double> BallBearing::ball_forces(const Angles& at, Vec2 u, Vec2 rate) const
 {
-  std::vector<double> q(balls_.size(), 0.0);
+  std::vector<double> q(cosines_.size(), 0.0);
   each_contact(at, u, rate, [&](const Contact& on) { q[on.ball] = on.force; });
   return q;
 }
 
 namespace {
 
-/** Instants of a group, one per lane: loops of this fixed length become vector
-    instructions. */
-constexpr int lanes = 8;
+constexpr int instants = 8;  ///< of a group
 
-/** Columns of N numbers. */
-struct Columns {
-  const double *cos, *sin;  ///< of the cage
-  const double *x, *y;      ///< relative displacement [m]
-  double *f_x, *f_y;        ///< force [N]
-  double *xx, *xy, *yy;     ///< stiffness [N/m]
-};
-
-struct Balls {
-  Eigen::Index count;
-  const double *cos, *sin;  ///< in the cage frame
-  double contact_stiffness, clearance;
-};
-
-/** Whether a ball touches nowhere in the rectangle of a group's motions: c x + s y ≤ δ.
-    Rounding is monotone, so this holds for the rounded numbers too. */
-struct Rectangle {
-  double left, right, bottom, top;
-
-  Rectangle(const double* x, const double* y)
-      : left(x[0]), right(x[0]), bottom(y[0]), top(y[0])
-  {
-    for (int l = 1; l < lanes; ++l) {
-      left = std::min(left, x[l]);
-      right = std::max(right, x[l]);
-      bottom = std::min(bottom, y[l]);
-      top = std::max(top, y[l]);
-    }
-  }
-  bool is_clear_of(double c, double s, double clearance) const
-  {
-    return std::max(c * left, c * right) + std::max(s * bottom, s * top) <= clearance;
-  }
-};
-
-/** Relative motion in the cage frame [m], and the sums over the balls: the force over
-    K_H, the stiffness over 3/2 K_H. */
-struct Group {
-  double x[lanes], y[lanes];
-  double f_x[lanes] = {}, f_y[lanes] = {};
-  double xx[lanes] = {}, xy[lanes] = {}, yy[lanes] = {};
-};
-
-/** R S Rᵀ. */
-IN_PLACE void put_stiffness(const Group& g, double hertz, const Columns& at,
-                            Eigen::Index k)
+/** Of so many instants from the first on, one in each lane. */
+IN_PLACE Lanes<instants> read(const double* from)
 {
-  for (int l = 0; l < lanes; ++l) {
-    const double c = at.cos[k + l], s = at.sin[k + l], mixed = 2 * c * s * g.xy[l];
-    at.xx[k + l] = 1.5 * hertz * (c * c * g.xx[l] + s * s * g.yy[l] - mixed);
-    at.xy[k + l] =
-        1.5 * hertz * (c * s * (g.xx[l] - g.yy[l]) + (c * c - s * s) * g.xy[l]);
-    at.yy[k + l] = 1.5 * hertz * (s * s * g.xx[l] + c * c * g.yy[l] + mixed);
-  }
+  Lanes<instants> row;
+  std::memcpy(&row, from, sizeof row);
+  return row;
 }
 
-/** One group, from instant k on. */
-template <bool with_stiffness>
-IN_PLACE void evaluate_group(const Balls& balls, const Columns& at, Eigen::Index k)
+IN_PLACE void write(const Lanes<instants>& row, double* to)
 {
-  const double *c = at.cos + k, *s = at.sin + k;
-  Group g;
-  for (int l = 0; l < lanes; ++l) {
-    g.x[l] = c[l] * at.x[k + l] + s[l] * at.y[k + l];
-    g.y[l] = c[l] * at.y[k + l] - s[l] * at.x[k + l];
-  }
-  const Rectangle rectangle(g.x, g.y);
-  for (Eigen::Index j = 0; j < balls.count; ++j) {
-    const double cos = balls.cos[j], sin = balls.sin[j];
-    if (rectangle.is_clear_of(cos, sin, balls.clearance)) continue;
-    for (int l = 0; l < lanes; ++l) {
-      const double p = cos * g.x[l] + sin * g.y[l] - balls.clearance;  // Δ_j - δ
-      const double pressed = p > 0 ? p : 0.0;
-      const double root = std::sqrt(pressed), q = pressed * root;  // Eq. 5 over K_H
-      g.f_x[l] += q * cos;
-      g.f_y[l] += q * sin;
-      if constexpr (with_stiffness) {
-        g.xx[l] += root * (cos * cos);
-        g.xy[l] += root * (cos * sin);
-        g.yy[l] += root * (sin * sin);
-      }
-    }
-  }
-  const double hertz = balls.contact_stiffness;
-  for (int l = 0; l < lanes; ++l) {
-    at.f_x[k + l] = hertz * (c[l] * g.f_x[l] - s[l] * g.f_y[l]);
-    at.f_y[k + l] = hertz * (s[l] * g.f_x[l] + c[l] * g.f_y[l]);
-  }
-  if constexpr (with_stiffness) put_stiffness(g, hertz, at, k);
+  std::memcpy(to, &row, sizeof row);
 }
 
-/** All groups; the last one overlaps the one before where N is no multiple of the
+/** Of N instants; the last group overlaps the one before where N is no multiple of the
     lanes. */
-WIDEST_REGISTERS void evaluate_force(const Balls& balls, const Columns& at,
-                                     Eigen::Index n)
+template <bool with_stiffness>
+IN_PLACE void evaluate(const BallRing& balls, const ContactLaw<double>& law,
+                       const Eigen::MatrixX2d& cage, const Eigen::MatrixXd& u,
+                       Eigen::MatrixXd& force, Eigen::MatrixXd* stiffness)
 {
-  for (Eigen::Index k = 0; k < n; k += lanes)
-    evaluate_group<false>(balls, at, std::min(k, n - lanes));
+  using Number = Lanes<instants>;
+  const ContactLaw<Number> laws{
+      Number{} + law.stiffness, Number{} + law.clearance, {}, {}};
+  for (Eigen::Index begin = 0; begin < u.rows(); begin += instants) {
+    const Eigen::Index k = std::min(begin, u.rows() - instants);
+    SlopeOf<Number> slope{};
+    const auto f = bearing_force<false>(
+        balls, laws, DirectionOf<Number>{read(&cage(k, 0)), read(&cage(k, 1))},
+        Vec2Of<Number>{read(&u(k, 0)), read(&u(k, 1))}, Vec2Of<Number>{},
+        with_stiffness ? &slope : nullptr);
+    write(f.x, &force(k, 0));
+    write(f.y, &force(k, 1));
+    if constexpr (with_stiffness) {
+      write(slope.xx, &(*stiffness)(k, 0));
+      write(slope.xy, &(*stiffness)(k, 1));
+      write(slope.xy, &(*stiffness)(k, 2));
+      write(slope.yy, &(*stiffness)(k, 3));
+    }
+  }
 }
 
-WIDEST_REGISTERS void evaluate_both(const Balls& balls, const Columns& at, Eigen::Index n)
+WIDEST_REGISTERS void evaluate_force(const BallRing& balls, const ContactLaw<double>& law,
+                                     const Eigen::MatrixX2d& cage,
+                                     const Eigen::MatrixXd& u, Eigen::MatrixXd& force)
 {
-  for (Eigen::Index k = 0; k < n; k += lanes)
-    evaluate_group<true>(balls, at, std::min(k, n - lanes));
+  evaluate<false>(balls, law, cage, u, force, nullptr);
+}
+
+WIDEST_REGISTERS void evaluate_both(const BallRing& balls, const ContactLaw<double>& law,
+                                    const Eigen::MatrixX2d& cage,
+                                    const Eigen::MatrixXd& u, Eigen::MatrixXd& force,
+                                    Eigen::MatrixXd& stiffness)
+{
+  evaluate<true>(balls, law, cage, u, force, &stiffness);
 }
 
 }  // namespace
 
 SampledBearing::SampledBearing(const Bearing& bearing, int samples)
-    : samples_(samples), cage_(std::max(samples, lanes), 2), balls_(bearing.balls, 2),
-      contact_stiffness_(bearing.contact_stiffness), clearance_(bearing.clearance)
+    : samples_(samples), cage_(std::max(samples, instants), 2), bearing_(bearing)
 {
-  const auto row = [](Direction d) { return Eigen::RowVector2d(d.cos, d.sin); };
-  for (Eigen::Index k = 0; k < cage_.rows(); ++k)
-    cage_.row(k) = row(Direction::of(bearing.cage_phase +
-                                     bearing.cage_speed_ratio * 2 * std::numbers::pi *
-                                         static_cast<double>(k) / samples));
-  const BallBearing plain(bearing);
-  for (int j = 0; j < bearing.balls; ++j) balls_.row(j) = row(plain.balls()[j]);
+  for (Eigen::Index k = 0; k < cage_.rows(); ++k) {
+    const Direction cage = Direction::of(
+        bearing.cage_angle(2 * std::numbers::pi * static_cast<double>(k) / samples));
+    cage_.row(k) << cage.cos, cage.sin;
+  }
 }
 
+/** Fewer instants than lanes are filled up with motions at rest. */
 void SampledBearing::operator()(const Eigen::MatrixXd& u, Eigen::MatrixXd& force,
                                 Eigen::MatrixXd* stiffness) const
 {
-  if (samples_ < lanes) return force_of_few(u, force, stiffness);
-  force.resize(samples_, 2);
-  if (stiffness) stiffness->resize(samples_, 4);
-  const auto column = [&](Eigen::Index k) {
-    return stiffness ? stiffness->col(k).data() : nullptr;
-  };
-  const Balls balls{balls_.rows(), balls_.col(0).data(), balls_.col(1).data(),
-                    contact_stiffness_, clearance_};
-  const Columns at{cage_.col(0).data(), cage_.col(1).data(), u.col(0).data(),
-                   u.col(1).data(),     force.col(0).data(), force.col(1).data(),
-                   column(0),           column(1),           column(3)};
-  if (!stiffness) return evaluate_force(balls, at, samples_);
-  evaluate_both(balls, at, samples_);
-  stiffness->col(2) = stiffness->col(1);
-}
-
-/** Fewer instants than lanes: filled up with motions at rest. */
-void SampledBearing::force_of_few(const Eigen::MatrixXd& u, Eigen::MatrixXd& force,
-                                  Eigen::MatrixXd* stiffness) const
-{
-  Eigen::MatrixXd filled = Eigen::MatrixXd::Zero(lanes, 2);
-  filled.topRows(samples_) = u;
-  SampledBearing wide = *this;
-  wide.samples_ = lanes;
-  wide(filled, force, stiffness);
-  force.conservativeResize(samples_, 2);
-  if (stiffness) stiffness->conservativeResize(samples_, 4);
+  if (u.rows() < cage_.rows()) {
+    Eigen::MatrixXd filled = Eigen::MatrixXd::Zero(cage_.rows(), 2);
+    filled.topRows(samples_) = u;
+    (*this)(filled, force, stiffness);
+    force.conservativeResize(samples_, 2);
+    if (stiffness) stiffness->conservativeResize(samples_, 4);
+    return;
+  }
+  force.resize(cage_.rows(), 2);
+  if (!stiffness) return evaluate_force(bearing_.ring(), bearing_.law(), cage_, u, force);
+  stiffness->resize(cage_.rows(), 4);
+  evaluate_both(bearing_.ring(), bearing_.law(), cage_, u, force, *stiffness);
 }
 
 }  // namespace rotor_stator

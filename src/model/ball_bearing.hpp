@@ -82,41 +82,60 @@ struct BallRing {
 /** What Eqs 4 to 6 ask of an undamaged bearing, of one motion or of several side by
     side. */
 template <class Number>
-struct Contacts {
+struct ContactLaw {
   Number stiffness;   ///< K_H [N/m^{3/2}]
   Number clearance;   ///< δ [m]
   Number damping;     ///< λ of Hunt and Crossley [s/m]
   Number cage_speed;  ///< ω_cage [rad/s]
 };
 
-/** Eq. 6 of an undamaged bearing: the force [N] on the stator for the relative
-    displacement u [m] and its rate [m/s], which matters where the contact is damped. */
+/** ∂F/∂u [N/m] of an elastic force, which is symmetric. */
+template <class Number>
+struct SlopeOf {
+  Number xx{}, xy{}, yy{};
+};
+
+/** Eqs 4 to 6 of an undamaged bearing: the force [N] on the stator for the relative
+    displacement u [m] and its rate [m/s], which matters where the contact is damped. With
+    `slope` also ∂F/∂u of the undamped bearing. */
 template <bool is_damped, class Number>
 IN_PLACE Vec2Of<Number> bearing_force(const BallRing& balls,
-                                      const Contacts<Number>& contacts,
+                                      const ContactLaw<Number>& law,
                                       DirectionOf<Number> cage, Vec2Of<Number> u,
-                                      Vec2Of<Number> rate)
+                                      Vec2Of<Number> rate,
+                                      SlopeOf<Number>* slope = nullptr)
 {
   Vec2Of<Number> sum{};
-  if (!any_positive(u.x * u.x + u.y * u.y - contacts.clearance * contacts.clearance))
-    return sum;
+  if (!any_positive(u.x * u.x + u.y * u.y - law.clearance * law.clearance)) return sum;
   const Vec2Of<Number> v = into_frame(cage, u);
   Vec2Of<Number> w{};
   if constexpr (is_damped)
-    w = into_frame(cage, Vec2Of<Number>{rate.x + contacts.cage_speed * u.y,
-                                        rate.y - contacts.cage_speed * u.x});
+    w = into_frame(cage, Vec2Of<Number>{rate.x + law.cage_speed * u.y,
+                                        rate.y - law.cage_speed * u.x});
+  SlopeOf<Number> roots{};
   for (int j = 0; j < balls.count; ++j) {
     const double c = balls.cos[j], s = balls.sin[j];
-    const Number near = c * v.x + s * v.y - contacts.clearance;  // Δ_j - δ
-    if (!any_positive(near)) continue;
-    const Number pressed = positive(near);
-    Number q = pressed * root(pressed);  // Eq. 5 over K_H
-    if constexpr (is_damped) q = q * positive(1 + contacts.damping * (c * w.x + s * w.y));
+    const Number approach = c * v.x + s * v.y - law.clearance;  // Δ_j - δ
+    if (!any_positive(approach)) continue;
+    const Number penetration = positive(approach), sqrt = root(penetration);
+    Number q = penetration * sqrt;  // Q_j/K_H, Eq. 5
+    if constexpr (is_damped) q = q * positive(1 + law.damping * (c * w.x + s * w.y));
     sum.x += q * c;
     sum.y += q * s;
+    if (slope) {  // dQ_j/dΔ_j = 3/2 K_H √(Δ_j - δ)
+      roots.xx += sqrt * (c * c);
+      roots.xy += sqrt * (c * s);
+      roots.yy += sqrt * (s * s);
+    }
   }
-  return out_of_frame(
-      cage, Vec2Of<Number>{contacts.stiffness * sum.x, contacts.stiffness * sum.y});
+  if (slope) {  // it turns back with the force: R S Rᵀ
+    const Number c = cage.cos, s = cage.sin, k = 1.5 * law.stiffness;
+    const Number mixed = 2 * c * s * roots.xy;
+    slope->xx = k * (c * c * roots.xx + s * s * roots.yy - mixed);
+    slope->xy = k * (c * s * (roots.xx - roots.yy) + (c * c - s * s) * roots.xy);
+    slope->yy = k * (s * s * roots.xx + c * c * roots.yy + mixed);
+  }
+  return out_of_frame(cage, Vec2Of<Number>{law.stiffness * sum.x, law.stiffness * sum.y});
 }
 
 /** What turns in a bearing. */
@@ -129,10 +148,10 @@ struct Angles {
 class BallBearing {
 public:
   /** `omega` is the base frequency [rad/s], `turns` those of the rotor in one base
-      period: they matter to a bearing that is not plain. */
+      period: they matter to all but Eq. 5 alone. */
   explicit BallBearing(const Bearing& bearing, double omega = 0, int turns = 1);
 
-  bool is_plain() const { return is_plain_; }
+  bool is_elastic_hertz() const { return is_elastic_hertz_; }
 
   /** Where everything stands at `phase` ωt [rad]. */
   Angles angles(double phase) const
@@ -146,49 +165,49 @@ public:
       [m/s]. */
   Vec2 force(const Angles& at, Vec2 u, Vec2 rate) const
   {
-    return is_plain() ? plain_force(at.cage, u) : full_reaction(at, u, rate).force;
+    return is_elastic_hertz() ? elastic_force(at.cage, u)
+                              : full_reaction(at, u, rate).force;
   }
 
   /** Of this the part of the balls, without the elements beside them. */
   Vec2 ball_force(const Angles& at, Vec2 u, Vec2 rate) const
   {
-    return is_plain() ? plain_force(at.cage, u) : ball_reaction(at, u, rate).force;
+    return is_elastic_hertz() ? elastic_force(at.cage, u)
+                              : ball_reaction(at, u, rate).force;
   }
 
   /** The same with its derivatives. */
   BearingReaction reaction(const Angles& at, Vec2 u, Vec2 rate) const
   {
-    return is_plain() ? BearingReaction{plain_reaction(at.cage, u)}
-                      : full_reaction(at, u, rate);
+    return is_elastic_hertz() ? BearingReaction{elastic_reaction(at.cage, u)}
+                              : full_reaction(at, u, rate);
   }
 
   /** The same of an undamaged bearing at rest, with the cage (ball 1) turned to
       `cage`. */
   Vec2 force(Direction cage, Vec2 u) const
   {
-    return bearing_.is_hertzian() ? plain_force(cage, u)
+    return bearing_.is_hertzian() ? elastic_force(cage, u)
                                   : full_reaction({{1, 0}, cage}, u, {}).force;
   }
   ElasticReaction reaction(Direction cage, Vec2 u) const
   {
-    return bearing_.is_hertzian() ? plain_reaction(cage, u)
+    return bearing_.is_hertzian() ? elastic_reaction(cage, u)
                                   : full_reaction({{1, 0}, cage}, u, {});
   }
 
-  double first_ball() const { return bearing_.cage_phase; }  ///< its angle at t = 0 [rad]
   BallRing ring() const
   {
     return {static_cast<int>(cosines_.size()), cosines_.data(), sines_.data()};
   }
-  Contacts<double> contacts() const
+  ContactLaw<double> law() const
   {
-    return {contact_stiffness_, clearance_, bearing_.damping, cage_speed_};
+    return {bearing_.contact_stiffness, bearing_.clearance, bearing_.damping,
+            cage_speed_};
   }
 
   /** Eq. 5: the force Q_j [N] of each ball, j = 1…n in order. */
   std::vector<double> ball_forces(const Angles& at, Vec2 u, Vec2 rate) const;
-
-  const std::vector<Direction>& balls() const { return balls_; }
 
 private:
   struct Contact {
@@ -203,11 +222,16 @@ private:
   void each_contact(const Angles& at, Vec2 u, Vec2 rate, Visit visit) const;
   BearingReaction ball_reaction(const Angles& at, Vec2 u, Vec2 rate) const;
   BearingReaction full_reaction(const Angles& at, Vec2 u, Vec2 rate) const;
-  Vec2 plain_force(Direction cage, Vec2 u) const
+  Vec2 elastic_force(Direction cage, Vec2 u) const
   {
-    return bearing_force<false>(ring(), contacts(), cage, u, {});
+    return bearing_force<false>(ring(), law(), cage, u, {});
   }
-  ElasticReaction plain_reaction(Direction cage, Vec2 u) const;
+  ElasticReaction elastic_reaction(Direction cage, Vec2 u) const
+  {
+    SlopeOf<double> slope;
+    const Vec2 force = bearing_force<false>(ring(), law(), cage, u, {}, &slope);
+    return {force, {slope.xx, slope.xy, slope.xy, slope.yy}};
+  }
 
   /** What a ball has lost of its deflection, and how fast it loses more. */
   struct Loss {
@@ -216,15 +240,11 @@ private:
   Loss loss(std::size_t ball, Direction direction, const Angles& at) const;
 
   Bearing bearing_;
-  bool is_plain_;
+  bool is_elastic_hertz_;
   double turns_, omega_, rotor_speed_, cage_speed_;  ///< [rad/s]
   Direction place_;                                  ///< of the spall's middle
-  std::vector<Direction> balls_;                     ///< at cage angle 0
-  std::vector<double> cosines_, sines_;              ///< theirs
+  std::vector<double> cosines_, sines_;              ///< of the balls at cage angle 0
   Parallel parallel_;
-  double contact_stiffness_;
-  double clearance_;
-  double clearance_squared_;
 };
 
 /**
@@ -232,17 +252,13 @@ private:
 
 Harmonic balance asks for the force at N instants at once. The directions of the cage at
 these instants and those of the balls in its frame are computed once. The instants are
-taken in groups of eight, so that the balls are summed in the same order whatever the
-width of the machine's registers. In the cage frame the relative motions of one group lie
-in a rectangle; a ball that touches nowhere in it is skipped: of 16 balls three or four
-remain. */
+taken side by side in groups of eight, so that the balls are summed in the same order
+whatever the width of the machine's registers. */
 
 class SampledBearing {
 public:
-  /** N = `samples` instants ωt = 2πk/N of one base period, of a plain bearing. */
+  /** N = `samples` instants ωt = 2πk/N of one base period, of Eq. 5 alone. */
   SampledBearing(const Bearing& bearing, int samples);
-
-  int samples() const { return samples_; }
 
   /** Eq. 6: the force on the stator [N], N × 2, for the relative displacement `u` [m], N
       × 2. With `stiffness` also ∂F_i/∂u_j [N/m] in its column i + 2j, N × 4. */
@@ -250,12 +266,9 @@ public:
                   Eigen::MatrixXd* stiffness) const;
 
 private:
-  void force_of_few(const Eigen::MatrixXd& u, Eigen::MatrixXd& force,
-                    Eigen::MatrixXd* stiffness) const;
-
   int samples_;
-  Eigen::MatrixX2d cage_, balls_;  ///< cosines and sines
-  double contact_stiffness_, clearance_;
+  Eigen::MatrixX2d cage_;  ///< cosines and sines; at least of one group
+  BallBearing bearing_;
 };
 
 }  // namespace rotor_stator

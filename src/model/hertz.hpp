@@ -9,10 +9,10 @@ $$Q = K_H\, p^{3/2}, \tag{1}$$
 
 $$Q_j = K_H \max(0, \Delta_j - \delta)^{3/2}. \tag{5}$$
 
-Here stands the force of a given penetration, for sizes, static deflections and balls with
-a defect or another exponent. Whole bearings of intact balls are summed by kernels that
-repeat Eq. 5: `bearing_force` in ball_bearing.hpp, for integration, and
-`evaluate_group` in ball_bearing.cpp, for harmonic balance. */
+Here is the force of a given penetration, for sizes, static deflections and balls with a
+defect or another exponent. For a whole bearing of intact balls Eq. 5 is written once
+more, in `bearing_force` (ball_bearing.hpp), which serves integration and harmonic
+balance. */
 #pragma once
 
 #include <cmath>

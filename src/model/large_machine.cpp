@@ -113,7 +113,7 @@ AtRest at_rest(const Parameters& parameters, const LargeBodies& machine, int ang
 
 LargeBodies matrices_of(const Parameters& parameters)
 {
-  if (const auto* large = dynamic_cast<const LargeMachine*>(parameters.machine.get()))
+  if (const auto* large = dynamic_cast<const LargeMachine*>(parameters.bodies.get()))
     return large->bodies();
   Body stator = parameters.stator;
   if (stator.rigid) stator.mass = 1;  // which nothing moves

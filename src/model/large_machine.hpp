@@ -108,7 +108,7 @@ public:
   bool takes_explicit_steps() const override { return false; }
   Patience patience() const override
   {
-    return {.settling = 1, .longer = 20, .transient = 0.4, .speeds = 21};
+    return {.settling = 1, .longer = 20, .transient_share = 0.4, .speeds = 21};
   }
   double step(const Parameters& parameters, double omega) const override;
   std::unique_ptr<Flow> flow(const Parameters& parameters, double omega,

@@ -3,11 +3,10 @@
 
 What differs between them, and nothing else: every method asks here, once for a motion and
 never for an evaluation, and none asks which of them it has. `TwoMasses` are the bodies of
-Eq. 7; `LargeMachine` (large_machine.hpp) is a finite-element rotor. The members stand in
-the rooms whose business they are: states in model/, flows in time/, equations in
-balance/.
+Eq. 7; `LargeMachine` (large_machine.hpp) is a finite-element rotor. Its members are defined in
+the folders that they belong to: states in model/, flows in time/, equations in balance/.
 
-    std::unique_ptr<Flow> flow = parameters.machine->flow(parameters, omega, settings); */
+    std::unique_ptr<Flow> flow = parameters.bodies->flow(parameters, omega, settings); */
 #pragma once
 
 #include <Eigen/SparseCore>
@@ -36,10 +35,11 @@ struct PeriodicMotion;
 
 /** How long a person waits for it, unless a budget is given. */
 struct Patience {
-  double settling = 10;    ///< for a motion that is integrated [s]
-  double longer = 1;       ///< times that of two masses, for anything
-  double transient = 0.7;  ///< share of a budget for what comes before the record [-]
-  int speeds = 101;        ///< of a response
+  double settling = 10;  ///< for a motion that is integrated [s]
+  double longer = 1;     ///< times that of two masses, for anything
+  double transient_share =
+      0.7;           ///< share of a budget for what comes before the record [-]
+  int speeds = 101;  ///< of a response
 };
 
 class Machine {
@@ -63,7 +63,7 @@ public:
   ## In time (time/flow.cpp) */
 
   /** The method of time integration that is its own: "splitting", "rk4" where the bearing
-      is not `is_plain`, or "gauss". */
+      is not `is_elastic_hertz`, or "gauss". */
   virtual const char* time_method(const Parameters& parameters) const = 0;
 
   /** Whether "rk4", "splitting", "rk8" and GSL's methods integrate it too. */

@@ -172,7 +172,7 @@ bool has_rotation_period(const Bearing& bearing)
 
 void require_two_masses(const Parameters& parameters, const char* who)
 {
-  if (!parameters.machine->takes_explicit_steps() || !parameters.grounds.empty())
+  if (!parameters.bodies->takes_explicit_steps() || !parameters.grounds.empty())
     throw BadInput(
         format("%s: %s knows no bodies given by matrices, and nothing between "
                "a body and the ground",
@@ -289,7 +289,7 @@ void describe(Table& table, const Bearing& joint, const std::string& number)
 void describe(Table& table, const Parameters& parameters, bool with_keys)
 {
   table.parameters(parameters.file + " (" + parameters.title + ")");
-  parameters.machine->describe(table, parameters);
+  parameters.bodies->describe(table, parameters);
   table.detail(format("m_e e = %.15g kg m; g = %.15g m/s^2", parameters.unbalance,
                       parameters.gravity));
   const std::vector<Bearing> bearings = bearings_of(parameters);
@@ -301,7 +301,7 @@ void describe(Table& table, const Parameters& parameters, bool with_keys)
   if (!with_keys) return;
   table.value("machine", parameters.identity.word());
   table.value("stator", parameters.stator.rigid ? "rigid" : "moving");
-  parameters.machine->put_keys(table);
+  parameters.bodies->put_keys(table);
   for (std::size_t k = 0; k < bearings.size(); ++k) {
     const std::string tail = k == 0 ? "" : format("_%zu", k + 1);
     if (!bearings[k].is_damaged(Defect::Surface::none))

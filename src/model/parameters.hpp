@@ -44,7 +44,12 @@ struct Body {
   double stiffness() const { return mass * natural_frequency * natural_frequency; }
   double damping() const { return 2 * damping_ratio * mass * natural_frequency + damper; }
 
-  /** Acceleration [m/s²] under the constant forces, with gravity g along -y. */
+  /** The constant force [N], with gravity g along -y; and the acceleration [m/s²] that it
+      gives. */
+  Vec2 static_load(double gravity) const
+  {
+    return rigid ? Vec2{0, 0} : Vec2{load.x, load.y - mass * gravity};
+  }
   Vec2 static_acceleration(double gravity) const
   {
     return rigid ? Vec2{0, 0} : Vec2{load.x / mass, load.y / mass - gravity};
@@ -112,6 +117,7 @@ struct Bearing {
   double exponent = 1.5;              ///< of the penetration; 10/9 for rollers
   double contact_angle = 0;           ///< α [rad], of the kinematics alone
   double outer_ring_speed_ratio = 0;  ///< ω_outer/ω [-]
+  double cage_phase = 0;              ///< angle of ball 1 at t = 0 [rad]
   Defect defect = {};
   ParallelElements parallel = {};
   std::string doubt = {};  ///< of its clearance beside the class of its designation
@@ -119,21 +125,23 @@ struct Bearing {
 
   bool is_damaged(Defect::Surface at) const { return defect.surface == at; }
 
-  /** Which force it is. Eq. 5 of intact balls, damped or not, has kernels (`has_kernel`);
-      without damping it depends on u and the cage's angle alone (`is_plain`), as that of
-      the paper's machines. `is_hertzian`: Eq. 5, of damaged balls too. */
+  /** Which force it is: Eq. 5, with nothing beside the balls (`is_hertzian`); of intact
+      balls (`is_intact_hertz`); without contact damping too (`is_elastic_hertz`), as in
+      the paper: it then depends on u and the cage's angle alone. */
   bool is_hertzian() const
   {
     return exponent == 1.5 && clearance >= 0 && !parallel.any();
   }
 
-  bool has_kernel() const { return is_hertzian() && is_damaged(Defect::Surface::none); }
+  bool is_intact_hertz() const
+  {
+    return is_hertzian() && is_damaged(Defect::Surface::none);
+  }
 
-  bool is_plain() const { return damping == 0 && has_kernel(); }
+  bool is_elastic_hertz() const { return damping == 0 && is_intact_hertz(); }
 
   /** Whether the force depends on the rate of u. */
   bool is_damped() const { return damping > 0 || parallel.is_damped(); }
-  double cage_phase = 0;  ///< angle of ball 1 at t = 0 [rad]
 
   /** The angle of ball 1 [rad] at the rotor's angle ωt = `phase`. */
   double cage_angle(double phase) const { return cage_phase + cage_speed_ratio * phase; }
@@ -174,7 +182,7 @@ struct Parameters {
   std::vector<Bearing> further = {};  ///< bearings beside the first, of a large machine
   /** Elements between a body and the ground: joints without balls. */
   std::vector<Bearing> grounds = {};
-  std::shared_ptr<const Machine> machine = two_masses();  ///< the bodies
+  std::shared_ptr<const Machine> bodies = two_masses();
 };
 
 /** Elements between a body and the ground, a table of the body. */
@@ -244,15 +252,14 @@ void require_two_masses(const Parameters& parameters, const char* who);
 std::vector<Bearing> bearings_of(const Parameters& parameters);
 std::vector<Bearing> joints_of(const Parameters& parameters);
 
-/** `Bearing::is_plain` and `has_kernel` of all that is between two masses, and between
-    them and the ground. */
-inline bool is_plain(const Parameters& parameters)
+/** The same of all that is between two masses, and between them and the ground. */
+inline bool has_elastic_hertz_alone(const Parameters& parameters)
 {
-  return parameters.bearing.is_plain() && parameters.grounds.empty();
+  return parameters.bearing.is_elastic_hertz() && parameters.grounds.empty();
 }
-inline bool has_kernel(const Parameters& parameters)
+inline bool has_intact_hertz_alone(const Parameters& parameters)
 {
-  return parameters.bearing.has_kernel() && parameters.grounds.empty();
+  return parameters.bearing.is_intact_hertz() && parameters.grounds.empty();
 }
 
 /** Calls `change` with every joint of a machine. */

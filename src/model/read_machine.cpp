@@ -362,9 +362,9 @@ void read_bodies(StrictToml& root, Parameters& parameters, const ModelRange& ask
     machine.fits = std::make_shared<RationalFits>();
   }
   if (tables[0].has("matrices") || tables[1].has("matrices"))
-    parameters.machine = std::make_shared<const LargeMachine>(std::move(machine));
+    parameters.bodies = std::make_shared<const LargeMachine>(std::move(machine));
   else
-    parameters.machine = std::make_shared<const GroundedMasses>(std::move(machine));
+    parameters.bodies = std::make_shared<const GroundedMasses>(std::move(machine));
 }
 
 }  // namespace

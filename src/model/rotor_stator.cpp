@@ -35,7 +35,7 @@ RotorStator::RotorStator(const Parameters& parameters, double omega)
   for (std::size_t k = 0; k < parameters.grounds.size(); ++k) {
     const ParallelElements& elements = parameters.grounds[k].parallel;
     const std::array<int, 4> places =
-        parameters.machine->places(1 + parameters.further.size() + k);
+        parameters.bodies->places(1 + parameters.further.size() + k);
     const bool is_rotor = places[2] == 2;
     grounds_.push_back(
         {Parallel(elements, elements.speed_ratio * parameters.turns * omega), is_rotor,
@@ -55,7 +55,7 @@ DynamicStiffness dynamic_stiffness(const Body& body, double frequency)
           .slope = {-2 * body.mass * frequency, body.damping()}};
 }
 
-double joint_resonance(const Parameters& parameters)
+double common_resonance(const Parameters& parameters)
 {
   if (parameters.stator.rigid)
     return parameters.rotor.stiffness() > 0 ? parameters.rotor.natural_frequency
@@ -69,7 +69,7 @@ Scales scales(const Parameters& parameters)
   const Body &s = parameters.stator, &r = parameters.rotor;
   const double weight = ((s.rigid ? 0 : s.mass) + r.mass) * parameters.gravity +
                         std::hypot(s.load.x, s.load.y) + std::hypot(r.load.x, r.load.y);
-  const double resonance = joint_resonance(parameters);
+  const double resonance = common_resonance(parameters);
   const double unbalance = parameters.unbalance * resonance * resonance;
   const double k_h = parameters.bearing.contact_stiffness;
   const double n = parameters.bearing.exponent, gap = parameters.bearing.clearance;
@@ -132,21 +132,11 @@ Eigen::VectorXd TwoMasses::state_scales(const Parameters& parameters) const
   return sizes;
 }
 
-namespace {
-
-/** The constant force [N] on a body. */
-Vec2 static_load(const Body& body, double gravity)
-{
-  return body.rigid ? Vec2{0, 0} : Vec2{body.load.x, body.load.y - body.mass * gravity};
-}
-
-}  // namespace
-
 Vec2 static_joint_force(const Parameters& parameters)
 {
   const double k_s = parameters.stator.stiffness(), k_r = parameters.rotor.stiffness();
-  const Vec2 f_s = static_load(parameters.stator, parameters.gravity);
-  const Vec2 f_r = static_load(parameters.rotor, parameters.gravity);
+  const Vec2 f_s = parameters.stator.static_load(parameters.gravity);
+  const Vec2 f_r = parameters.rotor.static_load(parameters.gravity);
   return {(k_s * f_r.x - k_r * f_s.x) / (k_s + k_r),
           (k_s * f_r.y - k_r * f_s.y) / (k_s + k_r)};
 }
@@ -228,8 +218,8 @@ Vec2 equilibrium(const Parameters& parameters, Vec2 force, Direction cage = {1, 
   };
   for (int k = 0; k < 4 && off(u) == off({0, 0}); ++k) u = 2.0 * u;
   for (int step = 0; step < 100; ++step) {
-    const auto [pressed, s] = bearing.reaction(cage, u);
-    const Vec2 f = pressed + spring * u;
+    const auto [balls, s] = bearing.reaction(cage, u);
+    const Vec2 f = balls + spring * u;
     const double error = off(u), little = 1e-6 * (s.xx + s.yy) + spring;
     if (!(error > 1e-12 * std::hypot(force.x, force.y)) || little == 0) break;
     const Vec2 rest{force.x - f.x, force.y - f.y};
@@ -259,11 +249,11 @@ State TwoMasses::at_rest(const Parameters& parameters, Direction cage) const
   const Vec2 u = static_equilibrium(parameters, cage);
   const Vec2 force = static_joint_force(parameters) + -(k_s / (k_s + k_r) * k_r) * u;
   if (k_s > 0) {
-    const Vec2 f = force + static_load(parameters.stator, parameters.gravity);
+    const Vec2 f = force + parameters.stator.static_load(parameters.gravity);
     const Vec2 s{f.x / k_s, f.y / k_s};
     return {.position = {.stator = s, .rotor = s + u}, .velocity = {}};
   }
-  const Vec2 f = static_load(parameters.rotor, parameters.gravity) + -1.0 * force;
+  const Vec2 f = parameters.rotor.static_load(parameters.gravity) + -1.0 * force;
   const Vec2 r{f.x / k_r, f.y / k_r};
   return {.position = {.stator = r + -1.0 * u, .rotor = r}, .velocity = {}};
 }
@@ -276,7 +266,7 @@ State TwoMasses::static_start(const Parameters& parameters) const
   const Vec2 u = is_carried ? equilibrium(parameters, force)
                             : quasi_static_contact(parameters.bearing, force);
   const auto displaced = [&](const Body& body, double sign) -> Vec2 {
-    const Vec2 load = static_load(body, parameters.gravity);
+    const Vec2 load = body.static_load(parameters.gravity);
     return {(sign * force.x + load.x) / body.stiffness(),
             (sign * force.y + load.y) / body.stiffness()};
   };

@@ -145,7 +145,7 @@ DynamicStiffness dynamic_stiffness(const Body& body, double frequency);
 
 /** Sizes that make the equations dimensionless. */
 struct Scales {
-  /** Weights and loads of both bodies plus the unbalance at the joint resonance [N]. */
+  /** Weights and loads of both bodies plus the unbalance at the common resonance [N]. */
   double load;
   double penetration;  ///< of one ball under that load [m]
   double length;       ///< clearance plus penetration: the size of u [m]
@@ -159,15 +159,15 @@ double contact_frequency(const Parameters& parameters);
 /** Sizes of the components of a state, for tolerances and norms. */
 inline Eigen::VectorXd state_scales(const Parameters& parameters)
 {
-  return parameters.machine->state_scales(parameters);
+  return parameters.bodies->state_scales(parameters);
 }
 
 /** Resonance [rad/s] of rotor and stator moving as one body on both suspensions; beside a
     rigid stator that of the rotor, on the contact if it has no suspension. */
-double joint_resonance(const Parameters& parameters);
+double common_resonance(const Parameters& parameters);
 
-/** The static part of the next force, from weights and loads: (k_s f_r - k_r f_s)/(k_s +
-    k_r) [N]. */
+/** The static part of `rigid_joint_force`, from weights and loads: (k_s f_r - k_r
+    f_s)/(k_s + k_r) [N]. */
 Vec2 static_joint_force(const Parameters& parameters);
 
 /** The bearing's force [N] that would keep u = 0 at `phase` ωt [rad] in the steady
@@ -198,7 +198,7 @@ Vec2 static_equilibrium(const Parameters& parameters, Direction cage);
     displacement where none is unique. */
 inline State rest_state(const Parameters& parameters, Direction cage)
 {
-  return parameters.machine->at_rest(parameters, cage);
+  return parameters.bodies->at_rest(parameters, cage);
 }
 
 /** A state at rest with the bearing carrying the static load: where time integration
@@ -206,7 +206,7 @@ inline State rest_state(const Parameters& parameters, Direction cage)
     that balance it with ball 1 at angle 0. */
 inline State static_start(const Parameters& parameters)
 {
-  return parameters.machine->static_start(parameters);
+  return parameters.bodies->static_start(parameters);
 }
 
 /**

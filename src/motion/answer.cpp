@@ -2,13 +2,11 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 #include <memory>
 #include <numbers>
 #include <span>
 
 #include "io/errors.hpp"
-#include "motion/find_periodic.hpp"
 #include "motion/judge.hpp"
 #include "time/flow.hpp"
 #include "time/shooting.hpp"
@@ -49,7 +47,7 @@ const char* settling_method(const Request& request)
 /** What records the motion, by its name. */
 std::string recording_method(const Request& request, const Answer& answer)
 {
-  return request.method == "auto" ? answer.machine.machine->time_method(answer.machine)
+  return request.method == "auto" ? answer.machine.bodies->time_method(answer.machine)
                                   : request.method;
 }
 
@@ -92,6 +90,11 @@ public:
         {.intervals_per_period = points, .tolerance = local_error, .budget = budget_});
   }
 
+  Floquet multipliers(const State& state) const
+  {
+    return multipliers_through(machine_, omega_, state, budget_);
+  }
+
 private:
   Parameters machine_;  ///< over K base periods
   double omega_;
@@ -117,21 +120,23 @@ bool close(Answer& answer, const Request& request, const OperationBudget& budget
   answer.settled.at = {state, 0};
   answer.motion = closing.record(state, request.local_error, points);
   answer.method = "shooting";
-  answer.how = format("shooting over %d base periods from where integration settles", k);
+  answer.error_note =
+      format("shooting over %d base periods from where integration settles", k);
   if (request.is_measured) {
-    State finer = state;
-    closing.close(finer, 0.01 * request.local_error);
-    answer.error = difference(answer.motion,
-                              closing.record(finer, 0.01 * request.local_error, points));
-    const Verdict verdict = judge_through(answer.machine, answer.omega, state, budget, k);
-    answer.evaluations += verdict.evaluations;
-    if (verdict.found()) {
-      answer.stability = verdict.word();
-      answer.multiplier = verdict.floquet.largest();
-      answer.uncertainty = verdict.floquet.uncertainty();
+    const double finer_error = 0.01 * request.local_error;
+    if (State finer = state; closing.close(finer, finer_error))
+      answer.error =
+          difference(answer.motion, closing.record(finer, finer_error, points));
+    try {
+      const Floquet floquet = closing.multipliers(state);
+      answer.stability = floquet.verdict();
+      answer.multiplier = floquet.largest();
+      answer.uncertainty = floquet.uncertainty();
       if (answer.multiplier > 10 * answer.uncertainty)
         answer.settled.lyapunov =
-            exponent_of(verdict.floquet, k * 2 * std::numbers::pi / answer.omega);
+            exponent_of(floquet, k * 2 * std::numbers::pi / answer.omega);
+    } catch (const NoSolution&) {
+      answer.stability = "undecided";
     }
   }
   answer.motion.points_per_period = request.points;
@@ -179,10 +184,8 @@ public:
     for (long k = from.period; k < settled.at.period; ++k) whole->advance(k, state);
     Motion motion = recorded(*parts, request_.points, state, settled.at.period, periods_);
     motion.omega = answer_.omega;
-    evaluations_ += static_cast<double>(whole->evaluations() + parts->evaluations());
     return motion;
   }
-  double evaluations() const { return evaluations_; }
 
 private:
   /** Whether the budget is enough for it, and for half the step. */
@@ -201,7 +204,6 @@ private:
   long periods_;
   OperationBudget budget_;
   bool begins_earlier_;
-  double evaluations_ = 0;
 };
 
 void record(Answer& answer, const Request& request, const OperationBudget& budget)
@@ -211,7 +213,7 @@ void record(Answer& answer, const Request& request, const OperationBudget& budge
   Recording recording(answer, request, std::max(request.periods, settled.period), budget);
   answer.motion = recording(1);
   answer.method = recording_method(request, answer);
-  answer.how = "integration";
+  answer.error_note = "integration";
   if (settled.contracts) answer.stability = "stable";
   if (request.is_measured && recording.begins_earlier()) {
     double finer = 1;
@@ -223,10 +225,9 @@ void record(Answer& answer, const Request& request, const OperationBudget& budge
       answer.motion = std::move(next);
       if (!request.tolerance || answer.error->larger() <= *request.tolerance) break;
     }
-    answer.how =
+    answer.error_note =
         format("integration, with half the step for the error; step over %g", finer);
   }
-  answer.evaluations += recording.evaluations();
 }
 
 /** A machine that does not move. */
@@ -239,7 +240,7 @@ void rest(Answer& answer, const Request& request)
   answer.error = Error{};
   if (answer.settled.contracts) answer.stability = "stable";
   answer.method = recording_method(request, answer);
-  answer.how = "static equilibrium";
+  answer.error_note = "static equilibrium";
 }
 
 }  // namespace
@@ -264,8 +265,8 @@ static std::unique_ptr<Settling> settling(const Question& question, const Answer
                  .step = step_of(question.request, at),
                  .is_fixed = question.request.step > 0,
                  .longest = question.request.longest},
-      question.transient < 1 ? question.budget.part(question.transient)
-                             : question.budget);
+      question.transient_share < 1 ? question.budget.part(question.transient_share)
+                                   : question.budget);
 }
 
 std::vector<Attempt<Answer>> settled_answers(std::span<const Question> questions)
@@ -282,7 +283,6 @@ std::vector<Attempt<Answer>> settled_answers(std::span<const Question> questions
     answers[k] = attempt([&] {
       Answer answer = std::move(answers[k].get());
       answer.settled = settlings[k].get()->settled();
-      answer.evaluations = answer.settled.evaluations;
       return answer;
     });
   return answers;
@@ -302,7 +302,7 @@ void complete(Answer& answer, const Request& request, const OperationBudget& bud
   if (request.tolerance && request.is_measured && answer.settled.contracts &&
       !answer.error)
     throw NoSolution(answer.machine.file +
-                     ": the error needs more than the budget; more with --budget");
+                     ": the budget leaves no error; more with --budget");
   if (request.tolerance && answer.error &&
       !(answer.error->larger() <= *request.tolerance))
     throw NoSolution(format("%s: tolerance %g not reached at %g Hz, error %.2g",
@@ -313,10 +313,11 @@ void complete(Answer& answer, const Request& request, const OperationBudget& bud
 Answer answer(const Parameters& parameters, const Request& request,
               const OperationBudget& budget)
 {
-  const Question question{.parameters = parameters,
-                          .request = request,
-                          .budget = budget,
-                          .transient = parameters.machine->patience().transient};
+  const Question question{
+      .parameters = parameters,
+      .request = request,
+      .budget = budget,
+      .transient_share = parameters.bodies->patience().transient_share};
   Answer found = settled_answer(question);
   complete(found, request, budget);
   return found;
@@ -364,10 +365,6 @@ double half_range(std::span<const PeriodSums> periods, std::size_t i)
   }
   return 0.5 * (high - low);
 }
-
-}  // namespace
-
-namespace {
 
 /** One motion while it is observed. */
 class Observing : public Traveller {

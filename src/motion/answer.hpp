@@ -5,15 +5,16 @@ Eq. 7 is integrated from rest until it has settled (`settle`). What follows depe
 its kind:
 
 - `rest`: the static equilibrium, error 0.
-- `periodic`: shooting closes the motion over its K base periods, which gives multipliers
-  and with them the stability; the error is what closing it again with a hundredth of the
-  local error changes. Where shooting fails, or a stepper is asked for, it is recorded.
+- `periodic`: shooting closes the motion over its K base periods, no farther than 1e-2 of
+  the sizes from where integration ended. That gives multipliers and with them the
+  stability; the error is what closing it again with a hundredth of the local error
+  changes. Where shooting fails, or a stepper is asked for, it is recorded.
 - Every other motion is recorded. Where neighbours contract it is integrated twice from
-  `settled.before`, the second time with half the step: that one is `motion`, its
-  difference from the first is the error, and it is stable. With a tolerance the step is
-  halved until the error is below it, six times at most. Without an error where the
-  budget is too small for that.
-- Where they do not contract, the record is one of many: no error, `undecided`.
+  `settled.before`, the second time with half the step, or a fourth of the local error:
+  that one is `motion`, its difference from the first and what is left of the transient
+  are the error, and it is stable. With a tolerance the step is halved until the error is
+  below it, six times at most. Without an error where the budget is too small for that.
+- Where they do not contract, the record depends on rounding: no error, `undecided`.
 
     const Answer answer = motion::answer(parameters, {.omega = angular(25)}, budget);
     // answer.kind, answer.motion, answer.stability, answer.error
@@ -33,9 +34,9 @@ motion/judge.hpp. */
 namespace rotor_stator::motion {
 
 struct Request {
-  double omega;  ///< speed of the rotor [rad/s]
-  std::string method =
-      "auto";  ///< or the stepper of the record; shooting is then not tried
+  double omega;                 ///< speed of the rotor [rad/s]
+  std::string method = "auto";  ///< or the stepper of the record; shooting is then not
+                                ///< tried, and rk4 integrates the transient too
   std::optional<double> tolerance = {};  ///< of the error, largest and rms [-]
   int points = 256;                      ///< P, of a base period
   int periods = 1;             ///< recorded where shooting closes nothing, at least K
@@ -50,15 +51,14 @@ struct Answer {
   BasePeriod base;
   Parameters machine = {};  ///< its angles counted per base period, `over`
   double omega = 0;         ///< base frequency [rad/s]
-  Settled settled;          ///< kind, K, λ, state
-  Motion motion = {};       ///< from base period `motion.first_period`, mostly 0
+  Settled settled;     ///< kind, K, λ, state; after shooting those of the closed one
+  Motion motion = {};  ///< from base period `motion.first_period`, mostly 0
   std::optional<Error> error = {};
   std::string stability = "undecided";
   double multiplier = 0,
-         uncertainty = 0;   ///< largest modulus of a closed motion; 0 unknown
-  std::string method = {};  ///< shooting, or what recorded the motion
-  std::string how = {};     ///< how it was found, in a sentence
-  double evaluations = 0;   ///< of Eq. 7
+         uncertainty = 0;       ///< largest modulus of a closed motion; 0 unknown
+  std::string method = {};      ///< shooting, or what recorded the motion
+  std::string error_note = {};  ///< what the error is measured by
 
   Kind kind() const { return settled.kind; }
   int period() const { return settled.period; }
@@ -67,10 +67,10 @@ struct Answer {
   int period_number() const;
 };
 
-/** Throws NoSolution when the integration breaks down or the error stays above the
-    tolerance. A
-    budget that ends before the kind is known leaves it undecided, with the reason in
-    `settled`. */
+/** Throws NoSolution when the integration breaks down, when the error stays above the
+    tolerance or the budget leaves none, and when the budget ends in the record. A budget
+    that ends before the kind is known leaves it undecided, with the reason in `settled`.
+    */
 Answer answer(const Parameters& parameters, const Request& request,
               const OperationBudget& budget = {});
 
@@ -80,8 +80,9 @@ struct Question {
   Request request;
   OperationBudget budget = {};
   std::optional<State> start = {};  ///< in the place of rest, at the same time
-  double transient = 1;     ///< share of the budget for what comes before the motion
-  bool is_observed = true;  ///< with an `Observation`
+  double transient_share = 1;       ///< of the budget, for what comes before the motion;
+                                    ///< `answer` takes that of the machine
+  bool is_observed = true;          ///< with an `Observation`
 };
 
 /** The two halves of an answer: what the machine settles on, of all questions side by
@@ -90,7 +91,7 @@ std::vector<Attempt<Answer>> settled_answers(std::span<const Question> questions
 Answer settled_answer(const Question& question);
 void complete(Answer& answer, const Request& request, const OperationBudget& budget = {});
 
-/** What is reported of x_s, y_s, x_r, y_r [m]. Of a periodic motion over its K base
+/** What tables report of x_s, y_s, x_r, y_r [m]. Of a periodic motion over its K base
     periods; of every other one over 256 base periods, with standard errors. Taken at
     every second step of rk4, of one that does not close at every fourth. */
 struct Observation {

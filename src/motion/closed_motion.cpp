@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <functional>
 #include <numbers>
 #include <numeric>
 #include <utility>
@@ -155,7 +156,7 @@ Starts starts_of(const BalanceSearch& search)
              [&] { return Sources(search).states(search.turns); }}};
   return {{"quasi-static contact",
            [&] {
-             return std::vector{!parameters.machine->takes_explicit_steps()
+             return std::vector{!parameters.bodies->takes_explicit_steps()
                                     ? static_start(parameters)
                                     : quasi_static_state(parameters, search.omega)};
            }},

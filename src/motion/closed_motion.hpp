@@ -8,8 +8,9 @@ from where time integration settles, until one closes. Its error is measured by 
 again with a hundredth of the local error.
 
 A machine may repeat itself only after K turns: after a period doubling (K = 2), or on a
-motion of its own. The starts then are where integration settles, if that has the period
-KT, and motions of shorter periods dT: if the argument of a multiplier of theirs is near
+motion of its own. The starts then are where the disturbed motion of period T settles, if
+that has the period KT; motions of shorter periods dT; and where integration from rest
+settles. Of the shorter ones: if the argument of a multiplier of theirs is near
 that of a primitive root of unity of order K/d, a motion of period KT may lie along its
 eigenvector (at -1 the period doubling, Kuznetsov 2004, section 4.4). Shooting over K
 turns starts at several distances there. What closes after fewer turns is not counted. */
@@ -21,12 +22,12 @@ turns starts at several distances there. What closes after fewer turns is not co
 namespace rotor_stator::motion {
 
 struct ClosedMotion {
-  std::string start = {};           ///< from where shooting closed it
-  State state = {};                 ///< at phase 0
-  Motion motion = {};               ///< over K turns
-  double periodicity_residual = 0;  ///< ‖P(s) - s‖ over the sizes [-]
-  int maps = 0;                     ///< periods integrated by shooting that closed it
-  Error error = {};                 ///< the distance from the finer one
+  std::string start = {};  ///< from where shooting closed it
+  State state = {};        ///< at phase 0
+  Motion motion = {};      ///< over K turns
+  double correction = 0;   ///< last one of shooting, rms over the sizes [-]
+  int maps = 0;            ///< periods integrated by shooting that closed it
+  Error error = {};        ///< the distance from the finer one
 };
 
 /** The motion of period KT, K ≤ 8, at the speed of `search`, at `points` instants of each

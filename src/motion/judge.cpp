@@ -25,7 +25,7 @@ bool are_opposite(const Verdict& a, const Verdict& b)
 /** The solution's states at eight phases, from the series of all coordinates. */
 Eighths eighths_of(const Parameters& parameters, const PeriodicMotion& solution)
 {
-  const Eigen::MatrixXd series = parameters.machine->all_series(parameters, solution);
+  const Eigen::MatrixXd series = parameters.bodies->all_series(parameters, solution);
   const Eigen::MatrixXd q = sample_series(series, eighths);
   const Eigen::MatrixXd v =
       solution.omega * sample_series(differentiate(series), eighths);
@@ -80,7 +80,7 @@ public:
     floquet.change = largest_move(floquet.multipliers, first);
     /** Receptances that are wrong by ε move no exponent by more than ε times the
         contact's frequency. */
-    floquet.change += parameters_.machine->reduction_error() *
+    floquet.change += parameters_.bodies->reduction_error() *
                       contact_frequency(parameters_) * angular(1) / omega_;
     floquet.converged = floquet.change <= 0.1;
     return floquet;
@@ -164,7 +164,9 @@ public:
   Verdict nearest() const
   {
     constexpr double as_near = 2;
-    Verdict nearest{.reason = reason_, .refused = refused_, .state = start_.front()};
+    Verdict nearest{.reason = reason_,
+                    .refused_distance = refused_distance_,
+                    .state = start_.front()};
     if (!motions_.empty())
       nearest = *std::ranges::min_element(motions_, {}, &Verdict::distance_rms);
     for (const Verdict& other : motions_)
@@ -197,7 +199,8 @@ private:
     const double away = apart(motion, start_, closer_.size());
     if (!(away <= near * own_distance_ + floor)) {
       reason_ = "the motion of its period found from it is too far away to be its own";
-      refused_ = away * closer_.size() / std::max(largest_displacement(judged_), 1e-300);
+      refused_distance_ =
+          away * closer_.size() / std::max(largest_displacement(judged_), 1e-300);
       return;
     }
     try {
@@ -250,7 +253,7 @@ private:
   Closer closer_;
   Eighths start_;
   Motion judged_;
-  double own_distance_ = 0, refused_ = 0, evaluations_ = 0;
+  double own_distance_ = 0, refused_distance_ = 0, evaluations_ = 0;
   std::vector<Verdict> motions_;
   std::string reason_;
 };
@@ -275,7 +278,7 @@ void add_settled(const Parameters& parameters, double omega, const State& state,
       verdict.from_there.reason = "it has not left the unstable motion yet";
     }
   } catch (const NoSolution& error) {
-    verdict.lost = error.what();
+    verdict.why_lost = error.what();
   }
 }
 

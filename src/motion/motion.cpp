@@ -80,7 +80,7 @@ Eigen::MatrixXd relative_samples(const Parameters& parameters, const Motion& mot
   const std::size_t joints = joints_of(parameters).size();
   Eigen::MatrixXd u(std::ssize(motion.positions), 2 * joints);
   for (std::size_t joint = 0; joint < joints; ++joint) {
-    const std::array<int, 4> places = parameters.machine->places(joint);
+    const std::array<int, 4> places = parameters.bodies->places(joint);
     for (std::size_t k = 0; k < motion.size(); ++k) {
       const Vec2 at = relative_at(motion, k, places);
       u.row(static_cast<Eigen::Index>(k))
@@ -191,7 +191,7 @@ void add(Motion& motion, const State& state)
 
 State state_of(const Parameters& parameters, const PeriodicMotion& motion)
 {
-  const Eigen::MatrixXd series = parameters.machine->all_series(parameters, motion);
+  const Eigen::MatrixXd series = parameters.bodies->all_series(parameters, motion);
   Eigen::VectorXd q = series.col(0), v = Eigen::VectorXd::Zero(q.size());
   for (int h = 1; h <= motion.harmonics.count(); ++h) {
     const Harmonic at = motion.harmonics.list()[static_cast<std::size_t>(h)];
@@ -248,7 +248,7 @@ BatchMean mean_over(const Motion& motion, int periods,
 BearingInstants::BearingInstants(const Parameters& parameters, const Motion& m,
                                  std::size_t joint)
     : motion(m), bearing(joints_of(parameters)[joint], m.omega, parameters.turns),
-      places(parameters.machine->places(joint))
+      places(parameters.bodies->places(joint))
 {
   const bool has_rates = !(joint == 0 ? m.rates.empty() : m.velocities.empty());
   if (joints_of(parameters)[joint].is_damped() && (!has_rates || m.omega == 0))

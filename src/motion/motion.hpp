@@ -1,8 +1,8 @@
 /**
 # Motions: what harmonic balance and time integration both give
 
-A motion is a row of bearing states at equal phases. Scenes draw from it and nothing else,
-so that the two methods meet in the same table. */
+A motion is a row of displacements of both bodies at equal phases. Figures are computed
+from it alone, so that the two methods meet in the same table. */
 #pragma once
 
 #include <algorithm>

@@ -178,10 +178,11 @@ public:
     const int points = contact < 40 ? 128 : 256;
     const Request request{
         .omega = search.omega, .points = points, .step_ratio = step_ratio};
-    const Question question{.parameters = parameters_,
-                            .request = request,
-                            .budget = search.budget,
-                            .transient = parameters_.machine->patience().transient};
+    const Question question{
+        .parameters = parameters_,
+        .request = request,
+        .budget = search.budget,
+        .transient_share = parameters_.bodies->patience().transient_share};
     const Answer rest = settled_answer(question);
     if (!rest.settled.contracts)
       throw NoSolution(

@@ -173,7 +173,7 @@ private:
 std::vector<PassedTurn> run_up(const Parameters& parameters, const RunUp& run,
                                const OperationBudget& budget, const Stretches& stretches)
 {
-  if (!parameters.machine->takes_explicit_steps() || !parameters.grounds.empty())
+  if (!parameters.bodies->takes_explicit_steps() || !parameters.grounds.empty())
     throw BadInput(parameters.file +
                    ": a changing speed is of two masses without elements to the ground; "
                    "take response --direction up");

@@ -43,7 +43,7 @@ FixedStep::FixedStep(const Parameters& parameters, double omega, int intervals,
       work_(rule == Rule::splitting          ? Work::splitting
             : parameters.bearing.damping > 0 ? Work::rk4_damped
                                              : Work::rk4),
-      is_general_(!has_kernel(parameters)), budget_(std::move(budget))
+      is_general_(!has_intact_hertz_alone(parameters)), budget_(std::move(budget))
 {
   half_ = turns_.by(0.5 / (static_cast<double>(intervals) * steps_));
   if (rule == Rule::splitting)
@@ -107,7 +107,7 @@ void put_numbers(To& row, int l, const From& value)
 template <class Number>
 struct FixedStep::Row {
   BallRing balls;
-  Contacts<Number> contacts;
+  ContactLaw<Number> law;
   Equation7<Number> equation;
   DirectionOf<Number> half_rotor, half_cage, rotor, cage;
   BodiesOf<Number> q, v;
@@ -116,7 +116,7 @@ struct FixedStep::Row {
 
   void put(int l, const FixedStep& flow, const State& state)
   {
-    put_numbers<Number>(contacts, l, flow.system_.bearing().contacts());
+    put_numbers<Number>(law, l, flow.system_.bearing().law());
     put_numbers<Number>(half_rotor, l, flow.half_.rotor);
     put_numbers<Number>(half_cage, l, flow.half_.cage);
     put_numbers<Number>(q, l, state.position);
@@ -149,8 +149,8 @@ struct FixedStep::Row {
   IN_PLACE BodiesOf<Number> acceleration(const BodiesOf<Number>& q_now,
                                          const BodiesOf<Number>& v_now) const
   {
-    const Vec2Of<Number> force = bearing_force<is_damped>(
-        balls, contacts, cage, q_now.relative(), v_now.relative());
+    const Vec2Of<Number> force =
+        bearing_force<is_damped>(balls, law, cage, q_now.relative(), v_now.relative());
     return equation.acceleration(q_now, v_now, rotor, force);
   }
   IN_PLACE void turn_half_a_step()

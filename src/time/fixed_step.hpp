@@ -7,7 +7,7 @@ a step. `splitting` is the symmetric splitting S_6 of order 4 of Blanes and Moan
 exactly. Seven drifts and six kicks, each an evaluation, make a step that may be four
 times as long as that of rk4 at the same error. And it takes nothing of the contact's
 vibration, where rk4 takes (hω)⁶/144 of the amplitude in each step h. It is of Hertz's
-contact alone, intact and undamped (`is_plain`).
+contact alone, intact and undamped (`is_elastic_hertz`).
 
 The directions of rotor and cage go on by complex products and are computed anew after at
 most 128 steps, so that a step has no sine or cosine. The step divides the output
@@ -63,7 +63,7 @@ class FixedStep : public Flow {
 public:
   /** P = `intervals` per base period, each cut into the fewest steps not longer than
       `longest_step` [s]. Throws NoSolution when a base period would need more than 3e7 of
-      them. Splitting is of bearings with `is_plain`. */
+      them. Splitting is of bearings with `is_elastic_hertz`. */
   FixedStep(const Parameters& parameters, double omega, int intervals,
             double longest_step, Rule rule, OperationBudget budget = {});
 

@@ -21,7 +21,7 @@ using Multipliers = std::vector<std::complex<double>>;
 struct Floquet {
   Multipliers multipliers;  ///< 2d, largest modulus first
   double change = 0;        ///< largest |Δμ|/max(1, |μ|) at the last refinement [-]
-  bool converged = false;   ///< `change` is below the tolerance
+  bool converged = false;   ///< `change` is below what the caller allows, 0.1 or 1e-5
 
   double largest() const { return std::abs(multipliers.front()); }
 

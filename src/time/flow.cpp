@@ -35,7 +35,7 @@ void require_bearing_of(const std::string& method, const Parameters& parameters)
 {
   const bool is_of_plain =
       method == "bsimp" || method == "msbdf" || method == "splitting";
-  if (is_of_plain && !is_plain(parameters))
+  if (is_of_plain && !has_elastic_hertz_alone(parameters))
     throw BadInput(
         "--method " + method +
         ": knows Hertz's contact alone, undamped, undamaged and without elements beside "
@@ -77,7 +77,7 @@ double evaluation_price(const Parameters& parameters, const std::string& method)
 
 const char* TwoMasses::time_method(const Parameters& parameters) const
 {
-  return is_plain(parameters) ? "splitting" : "rk4";
+  return has_elastic_hertz_alone(parameters) ? "splitting" : "rk4";
 }
 
 /** A contact of Hertz is stiffer with the third root of its force, and vibrates faster
@@ -109,7 +109,7 @@ std::unique_ptr<Flow> flow(const Parameters& parameters, double omega,
   /** Bounded in any case: 1e9 evaluations are half a minute of RK4. */
   if (!paid.budget.bounded())
     paid.budget = OperationBudget(1e9 * evaluation_price(parameters, settings.method));
-  return parameters.machine->flow(parameters, omega, paid);
+  return parameters.bodies->flow(parameters, omega, paid);
 }
 
 std::unique_ptr<Flow> TwoMasses::flow(const Parameters& parameters, double omega,

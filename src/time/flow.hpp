@@ -83,20 +83,21 @@ double evaluation_price(const Parameters& parameters, const std::string& method)
    to 2.8/ω_contact and accurate well below it. The paper gives none (D-16). */
 double default_step(const Parameters& parameters);
 
-/** The step [s] of rk4 at a base frequency: `default_step`, and less where the force at
-    that speed presses the contact much more than the loads do by which that is chosen,
-    and, where the splitting takes steps four times as long, where balls pass fast. */
+/** The step [s] of rk4 at a base frequency. It is `default_step`, which is chosen by the
+    constant loads; shorter where the unbalance at that speed presses the contact much
+    more; and shorter where balls pass fast and the splitting takes steps four times as
+    long. */
 inline double step_at(const Parameters& parameters, double omega)
 {
-  return parameters.machine->step(parameters, omega);
+  return parameters.bodies->step(parameters, omega);
 }
 
 /** How many times longer than `step_at` steps may be where a relative error of
-    `tolerance` in a settled displacement is enough: `step_at` keeps it near 1e-6, and the
-    error grows with the fourth power. At most 2. That is five steps of the splitting in a
-    vibration of the contact, and twenty of rk4: one of its steps h takes (ω_contact
-    h)⁶/144 of the amplitude, ten in a vibration 0.4 % of it and 8 % in a turn of twenty
-    vibrations, enough to settle on an unstable motion. */
+    `tolerance` in a settled displacement is enough. `step_at` keeps that error near 1e-6,
+    and it grows with the fourth power of the step. At most 2: then a vibration of the
+    contact has five steps of the splitting or twenty of rk4. With ten, rk4 would lose
+    (ω_contact h)⁶/144 of the amplitude in each step h, 8 % in a turn of twenty
+    vibrations, and could settle on an unstable motion. */
 double step_ratio(std::optional<double> tolerance);
 
 }  // namespace rotor_stator

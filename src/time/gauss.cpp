@@ -134,7 +134,7 @@ GaussStepper::Seen GaussStepper::reaction(const double* phases, const Seen& seen
       const Vec2 rate =
           is_damped_ ? Vec2{seen[both + k], seen[both + k + 1]} : Vec2{0, 0};
       const auto at =
-          forces_[b].is_plain()
+          forces_[b].is_elastic_hertz()
               ? Angles{{1, 0}, Direction::of(cages_[b].cage_angle(phases[stage]))}
           : cages_[b].balls > 0 ? forces_[b].angles(phases[stage])
                                 : Angles{{1, 0}, {1, 0}};

@@ -72,7 +72,7 @@ PeriodMap period_map(const Parameters& parameters, double omega, const State& st
                      const StepSettings& settings, long interval, bool with_derivative)
 {
   if (with_derivative)
-    return parameters.machine->period_map(parameters, omega, start, settings, interval);
+    return parameters.bodies->period_map(parameters, omega, start, settings, interval);
   const auto steps = flow(parameters, omega, settings);
   PeriodMap map{.end = start, .derivative = {}, .evaluations = 0};
   steps->advance(interval, map.end);

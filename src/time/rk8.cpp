@@ -56,7 +56,7 @@ struct Rk8::Step {
   const BallBearing* bearing;
   std::span<const Ground> grounds;
   BallRing balls;
-  Contacts<double> contacts;
+  ContactLaw<double> law;
   bool is_damped;
   Quad k, c, per_m, rest;  ///< of x_s, y_s, x_r and y_r
   double unbalance;
@@ -143,7 +143,7 @@ struct Rk8::Step {
     } else {
       constexpr bool damped = kind == Kind::damped;
       a[0] = accelerate(q_now[0], v_now[0], at.rotor,
-                        bearing_force<damped>(balls, contacts, at.cage, u, w));
+                        bearing_force<damped>(balls, law, at.cage, u, w));
     }
     if constexpr (kind == Kind::any) hold(q_now, v_now, a);
   }
@@ -252,8 +252,9 @@ Rk8::Rk8(const Parameters& parameters, double omega, int intervals, double toler
           std::min(1.0, default_step(parameters) * intervals / system_.period())),
       longest_share_(6 * default_step(parameters) * intervals / system_.period()),
       tolerance_(tolerance), per_size_(state_scales(parameters).cwiseInverse()),
-      is_general_(!has_kernel(parameters)), is_damped_(parameters.bearing.is_damped()),
-      budget_(std::move(budget)), wanted_(first_share_)
+      is_general_(!has_intact_hertz_alone(parameters)),
+      is_damped_(parameters.bearing.is_damped()), budget_(std::move(budget)),
+      wanted_(first_share_)
 {
 }
 
@@ -295,7 +296,7 @@ Rk8::Step<rows> Rk8::first_step(const State& state) const
   step.bearing = &system_.bearing();
   step.grounds = system_.grounds();
   step.balls = system_.bearing().ring();
-  step.contacts = system_.bearing().contacts();
+  step.law = system_.bearing().law();
   step.is_damped = is_damped_;
   step.k = quad(e.k_s, e.k_r);
   step.c = quad(e.c_s, e.c_r);

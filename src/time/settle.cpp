@@ -74,6 +74,7 @@ namespace {
 
 constexpr double forgotten = -20.7;  ///< ln 1e-9
 constexpr double nearer = -16.1;     ///< ln 1e-7
+constexpr int most_period = 16;      ///< K
 
 /** From `start`; the neighbour is pulled back at least once in 60 rad of the contact's
     vibration; short base periods are cut into fewer intervals. */
@@ -95,7 +96,7 @@ TrajectoryPair pair_from(const Parameters& machine, double omega, const Instant&
 }
 
 /** So long a motion is watched before a growth rate is believed, at least [s]. */
-double least_seconds(const Parameters& machine, double omega, int most_period)
+double least_seconds(const Parameters& machine, double omega)
 {
   constexpr double slow_periods = 20, shortest = 2, longest = 25;
   const double turn = 2 * std::numbers::pi;
@@ -123,7 +124,7 @@ Settling::Settling(const Parameters& machine, double omega, const BasePeriod& ba
                    const OperationBudget& budget)
     : machine_(machine), omega_(omega), base_(base), rule_(filled(rule, machine, omega)),
       budget_(budget), length_(scales(machine).length),
-      least_(least_seconds(machine, omega, rule.most_period)), start_(start),
+      least_(least_seconds(machine, omega)), start_(start),
       pair_(pair_from(machine, omega, start, rule_, budget))
 {
 }
@@ -131,15 +132,15 @@ Settling::Settling(const Parameters& machine, double omega, const BasePeriod& ba
 void Settling::next(std::vector<Passage>& all)
 {
   if (has_ended_) return;
-  if (turn_)
-    all.push_back({turn_.get(), at_.period, &at_.state});
+  if (to_zero_)
+    all.push_back({to_zero_.get(), at_.period, &at_.state});
   else
     pair_.next(all);
 }
 
 void Settling::arrived()
 {
-  if (turn_) {
+  if (to_zero_) {
     if (++at_.period == before_.period) before_.state = at_.state;
     if (at_.period == 0) end();
     return;
@@ -193,7 +194,6 @@ Settled Settling::seen() const
             .step = rule_.step,
             .before = pair.since(nearer)};
   s.remainder = std::exp(std::max(-700.0, pair.contraction()));
-  s.amplitude = pair.half_range();
   s.seconds = pair.seconds();
   const double rate = s.lyapunov.value,
                doubt = 3 * s.lyapunov.error + error_of_rate(rule_.step, pair.period());
@@ -248,6 +248,7 @@ bool Settling::is_at_rest() const
     much farther apart than what is left of the transient. */
 bool Settling::closes(Settled& s) const
 {
+  constexpr double closed = 1e-6;  ///< spread of the section, over the vibration [-]
   constexpr double least_nearer = 1e-3, much_farther = 100;
   const auto& all = pair_.section();
   const double size = std::max(pair_.half_range(), 1e-9 * length_);
@@ -255,8 +256,7 @@ bool Settling::closes(Settled& s) const
     const double rate = std::min(0.0, s.lyapunov.value);
     return std::max(least_nearer, -std::expm1(rate * periods * pair_.period()));
   };
-  const int k =
-      closing_period(all, rule_.closed * size * nearer_by(1), rule_.most_period);
+  const int k = closing_period(all, closed * size * nearer_by(1), most_period);
   if (k == 0) return false;
   const auto last = std::span(all).last(3 * k + 1);
   const double left = extent(last, k) / nearer_by(k);
@@ -282,13 +282,14 @@ bool Settling::grows_throughout() const
   return fourth > std::max(least, 0.5 * third);
 }
 
-/** Whether that takes at most so many evaluations; else the motion begins where it was
-    reached. */
+/** Whether that takes at most so many evaluations, and no more than the budget has left;
+    else the motion begins where it was reached. */
 bool Settling::can_be_put_on_zero() const
 {
   constexpr double most = 1e8, motions = 2;
   const double seconds = 2 * forgotten / settled_.lyapunov.value;
-  return seconds * settled_.evaluations / (motions * settled_.seconds) < most;
+  return seconds * settled_.evaluations / (motions * settled_.seconds) <
+         std::min(most, budget_.left());
 }
 
 /** A motion that has contracted after t = 0, put on t = 0: from its state so much earlier
@@ -299,11 +300,11 @@ void Settling::put_on_zero()
   const auto periods = [&](double logarithm) {
     return std::lround(std::ceil(logarithm / (settled_.lyapunov.value * period)));
   };
-  turn_ = flow(machine_, omega_,
-               {.method = rule_.method,
-                .intervals_per_period = 1,
-                .step = rule_.step,
-                .budget = budget_});
+  to_zero_ = flow(machine_, omega_,
+                  {.method = rule_.method,
+                   .intervals_per_period = 1,
+                   .step = rule_.step,
+                   .budget = budget_});
   at_ = {settled_.at.state, -periods(2 * forgotten)};
   before_ = {settled_.at.state, -periods(nearer)};
   if (at_.period >= 0) end();
@@ -314,14 +315,14 @@ void Settling::end()
 {
   settled_.at = at_;
   settled_.before = before_;
-  settled_.evaluations += static_cast<double>(turn_->evaluations());
+  settled_.evaluations += static_cast<double>(to_zero_->evaluations());
   has_ended_ = true;
 }
 
 /** The budget has ended, or the integration has broken down. */
 void Settling::lost(std::exception_ptr why)
 {
-  if (!turn_ && !rule_.is_fixed && !budget_.used_up()) {
+  if (!to_zero_ && !rule_.is_fixed && !budget_.used_up()) {
     rule_.is_fixed = true;  // from now on
     rule_.step /= 4;
     spent_before_ = pair_.evaluations();
@@ -335,7 +336,8 @@ void Settling::lost(std::exception_ptr why)
     }
   }
   has_ended_ = true;
-  if (!turn_) pair_.go_back();
+  if (to_zero_ && budget_.used_up()) return;  // the motion begins where it was reached
+  if (!to_zero_) pair_.go_back();
   if (!budget_.used_up() || pair_.growths().empty()) {
     lost_ = why;
     return;

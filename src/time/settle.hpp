@@ -7,21 +7,27 @@ two things: a transient that dies out is over when it has shrunk to 1e-9 of the 
 value that it had, and its mean growth λ is the largest Lyapunov exponent, which with the
 Poincaré section decides the kind of the motion. The first that holds:
 
-- `rest`: all speeds and changes are below 1e-12 of clearance plus static deflection.
+- `rest`: half of the range of every displacement, and speed times base period, are below
+  1e-12 of clearance plus static deflection.
 - `periodic`: one frequency drives, and the section, one point in each base period,
-  repeats itself after K ≤ 16 of them.
-- `chaotic`: λ - 3s > 0, and the growth does not fade: in the last quarter it is at least
+  repeats itself to 1e-6 of the vibration after K ≤ 16 of them and after no fewer.
+- `chaotic`: λ - d > 0, and the growth does not fade: in the last quarter it is at least
   e⁵, and more than the root of that in the quarter before.
-- `quasi-periodic`: λ + 3s < 0 where two frequencies drive (the motion follows them); or
-  |λ| ≤ 3s, with 3s below 0.1/s, where one does.
+- `quasi-periodic`: two frequencies drive, λ + d < 0 and the transient is over (the motion
+  follows them); or one drives, and |λ| ≤ d < 0.1/s after half of `longest`.
 - `undecided`: everything else, with the reason.
 
-A periodic motion begins at t = 0 as it is found, since any whole number of base periods
-may be taken from its time. The state of a motion that two frequencies drive belongs to
-its instant: it is taken as that of an earlier one, so early that contraction forgets the
-difference by t = 0, and integrated from there. Every other motion begins where the
-integration ended. A start lies before t = 0, where integration ends at the earliest; only
-a motion that closes may be seen sooner, after neighbours have come nearer by 1e-9.
+λ comes with its standard error s, that of the means of ten batches of the later half of
+all that was integrated; d is 3s and what the step may change in λ. The last two kinds are
+decided after 4 to 50 s at the earliest.
+
+A start lies at or before t = 0, and integration ends after t = 0; before it, only where
+neighbours have come nearer by 1e-9 and the motion is at rest or closes. A periodic motion
+begins at t = 0 as it is found, since any whole number of base periods may be taken from
+its time. The state of a motion that two frequencies drive belongs to its instant: where
+neighbours contract it is taken as that of an earlier one, so early that contraction
+forgets the difference by t = 0, and integrated from there, if that takes at most 1e8
+evaluations. Every other motion begins where the integration ended.
 
     const BasePeriod base = base_period(parameters);
     const auto [machine, omega] = over(base, parameters, angular(25));
@@ -29,12 +35,11 @@ a motion that closes may be seen sooner, after neighbours have come nearer by 1e
         settle(machine, omega, base, from_rest(machine, omega), {}, budget);
 
 A `Settling` is the same among others (time/side_by_side.hpp). One that diverges, since an
-impact presses the contact far more than the loads do, is begun again with a fourth of the
-step.
+impact presses the contact far more than the loads do, is begun again once with a fourth
+of the step, unless the step is fixed.
 
-The machine is that of `over`, whose angles are counted per base period. λ comes with its
-standard error s, that of the means of ten batches of the later half of all that was
-integrated. */
+The machine is that of `over`, whose angles are counted per base period; where two
+frequencies drive, that is a turn. */
 #pragma once
 
 #include <string>
@@ -50,10 +55,8 @@ const char* word(Kind kind);
 
 struct SettleRule {
   std::string method = "auto";  ///< or "rk4"
-  double step = 0;              ///< longest of rk4 [s]; 0: `step_at`
-  bool is_fixed = false;        ///< the step, also where integration diverges with it
-  double closed = 1e-6;         ///< spread of a closed section, over the vibration [-]
-  int most_period = 16;         ///< K
+  double step = 0;              ///< longest of rk4 [s]; 0: `step_at`; at most T/32
+  bool is_fixed = false;        ///< the step is kept where integration diverges with it
   double longest = 0;  ///< after t = 0 [s], then it is undecided; 0: 40 over the slowest
                        ///< decay rate, 60 to 1000
 };
@@ -62,15 +65,13 @@ struct Settled {
   Kind kind = Kind::undecided;
   int period = 0;          ///< K of a closed section, else 0
   Exponent lyapunov{0};    ///< λ and its standard error [1/s]
-  bool contracts = false;  ///< λ + 3s < 0
+  bool contracts = false;  ///< λ + d < 0
   double remainder = 1;    ///< what the contraction has left of any distance [-]
   Instant at;              ///< a state on the motion: see above
   double step = 0;         ///< longest of rk4 that was taken, or of the same error [s]
-  Instant before;  ///< an earlier one: since then distances shrank by 1e-7, so that
-                   ///< other steps from here forget their start by `at`
-  double amplitude =
-      0;  ///< half peak-to-peak of the largest displacement in the last base periods [m]
-  double seconds = 0;       ///< integrated
+  Instant before;      ///< an earlier one: since then distances shrank by 1e-7, so that
+                       ///< other steps from here forget their start by `at`
+  double seconds = 0;  ///< integrated
   double evaluations = 0;   ///< of Eq. 7
   std::string reason = {};  ///< why it is undecided
 };
@@ -109,11 +110,11 @@ private:
   double length_, least_;  ///< [m], [s]
   Instant start_;
   TrajectoryPair pair_;
-  double spent_before_ = 0;               ///< evaluations, on a run that diverged
-  std::size_t periods_ = 0;               ///< until the pair is looked at again
-  double began_ = -1;                     ///< seconds that it had when looked at first
-  std::unique_ptr<Flow> turn_ = nullptr;  ///< on the way to t = 0
-  Instant at_ = {}, before_ = {};         ///< then
+  double spent_before_ = 0;                  ///< evaluations, on a run that diverged
+  std::size_t periods_ = 0;                  ///< until the pair is looked at again
+  double began_ = -1;                        ///< seconds that it had when looked at first
+  std::unique_ptr<Flow> to_zero_ = nullptr;  ///< on the way to t = 0
+  Instant at_ = {}, before_ = {};            ///< then
   Settled settled_ = {};
   bool has_ended_ = false;
   std::exception_ptr lost_ = nullptr;

@@ -78,7 +78,6 @@ private:
   {
     if (++report_.maps > settings_.most_maps)
       throw NoSolution(format("not closed after %d periods", settings_.most_maps));
-    if (with_slopes) ++report_.derivatives;
     const StepSettings steps{.method = settings_.method,
                              .intervals_per_period = phases_,
                              .step = settings_.step,

@@ -44,7 +44,6 @@ struct Shooting {
   bool converged = false;
   double correction = 0;    ///< the last one, which was taken [-]
   int maps = 0;             ///< periods integrated, those with the derivative too
-  int derivatives = 0;      ///< of them with the variational equations
   long evaluations = 0;     ///< of Eq. 7, with or without its derivative
   Eigen::VectorXd first{};  ///< first correction, over the sizes [-]
   double contraction = 1;   ///< second correction over the first one [-]; 1: the first

@@ -62,10 +62,11 @@ public:
   /** λ of the later half of all base periods, by ten batches of them. */
   Exponent exponent() const;
 
-  /** ln of what is left of any distance since it was largest. */
+  /** ln of what is left of any distance since it was largest; at most 0. */
   double contraction() const { return log_distance_ - highest_; }
 
-  /** An instant since which neighbours have come so much nearer, if there is one. */
+  /** The last instant since which any distance has shrunk by a factor whose logarithm is
+      `contraction` < 0; without one, where it was largest. */
   Instant since(double contraction) const;
 
   double period() const { return period_; }

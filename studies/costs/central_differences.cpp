@@ -11,7 +11,7 @@ namespace {
 struct Leap {
   Equation7<double> equation;
   BallRing ring;
-  Contacts<double> contacts;
+  ContactLaw<double> law;
   Angles at, by;
   double h;
   Bodies q, v;
@@ -20,8 +20,7 @@ struct Leap {
       on their mean. */
   IN_PLACE void kick(double length)
   {
-    const Vec2 f =
-        bearing_force<false>(ring, contacts, at.cage, q.relative(), Vec2{0, 0});
+    const Vec2 f = bearing_force<false>(ring, law, at.cage, q.relative(), Vec2{0, 0});
     const Bodies a = equation.acceleration(q, {}, at.rotor, f);
     const double stator = 0.5 * length * equation.c_s * equation.per_m_s;
     const double rotor = 0.5 * length * equation.c_r * equation.per_m_r;
@@ -59,7 +58,7 @@ CentralDifferences::CentralDifferences(const Parameters& parameters, double omeg
       steps_(steps_in_interval(system_.period(), intervals, longest_step)),
       h_(system_.period() / (static_cast<double>(intervals) * steps_))
 {
-  if (!parameters.bearing.is_plain())
+  if (!parameters.bearing.is_elastic_hertz())
     throw BadInput("central: knows no contact damping and no defect");
 }
 
@@ -69,7 +68,7 @@ void CentralDifferences::advance(long interval, State& state)
   const double all = static_cast<double>(intervals_) * steps_;
   Leap one{system_.equation(),
            system_.bearing().ring(),
-           system_.bearing().contacts(),
+           system_.bearing().law(),
            turns_.at(static_cast<double>((interval - part) / intervals_),
                      static_cast<double>(part) / intervals_),
            turns_.by(1 / all),

@@ -29,7 +29,7 @@ Parameters set_1_by_matrices()
   const std::complex<double> i(0, 1);
   Eigen::VectorXcd unbalance(4);
   unbalance << 0, 0, p.unbalance, -i * p.unbalance;
-  p.machine = std::make_shared<const LargeMachine>(
+  p.bodies = std::make_shared<const LargeMachine>(
       LargeBodies{.mass = diagonal(p.stator.mass, p.rotor.mass),
                   .damping = diagonal(p.stator.damping(), p.rotor.damping()),
                   .gyroscopic = Eigen::MatrixXd::Zero(4, 4),
@@ -126,7 +126,7 @@ TEST_CASE("Condensed blocks vary with the speed as differences say")
   LargeBodies machine = matrices_of(p);
   machine.gyroscopic(2, 3) = 7;
   machine.gyroscopic(3, 2) = -7;
-  p.machine = std::make_shared<const LargeMachine>(machine);
+  p.bodies = std::make_shared<const LargeMachine>(machine);
   const Problem problem = bearing_problem(p, 32);
   const double omega = hertz(33), step = 1e-4;
   for (const double h : {0, 1, 3}) {
