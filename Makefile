@@ -90,7 +90,7 @@ $(call table,$(costs)): | $(if $(filter studies,$(goals)),$(studies))
 
 # Figures, from the kept table if there is one.
 source = $(or $(wildcard data/reference/$(subst sections,attractors,$(subst truncation,validity,$*)).tsv),data/generated/$*.tsv)
-figures/generated/%.svg: figures/$$(*F).gp figures/style.gp figures/orbit_axes.gp figures/orbits.gp figures/displacements.gp data/claims.toml $$(source)
+figures/generated/%.svg: figures/$$(*F).gp figures/style.gp figures/orbit_axes.gp figures/orbits.gp figures/displacements.gp figures/tables.py $$(source)
 	$(whole) gnuplot -e "table='$(source)'; output='$$new'" $<; mv $$new $@
 figures/generated/%.svg: figures/$$(*F).py figures/rotor_stator.mplstyle figures/tables.py figures/bearing_sketch.py figures/contact_map.py \
   data/claims.toml $$(source)

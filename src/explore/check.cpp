@@ -138,8 +138,7 @@ Exploration explore_check(const CheckRequest& request)
       warn(format("the eccentricity of %.3g m is %.3g times the clearance", e,
                   printable_size(e / gap)));
   }
-  const bool is_bare = !machine.bearing.parallel.any() && machine.grounds.empty();
-  if (!is_large && is_bare && never_touches(request, machine))
+  if (!is_large && is_bare(machine) && never_touches(request, machine))
     warn(format("nothing touches from %g to %g Hz: the clearance of %g m is never closed",
                 request.from, request.to, machine.bearing.clearance));
   const bool is_alone = !is_large && machine.grounds.empty();

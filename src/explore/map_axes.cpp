@@ -144,7 +144,7 @@ Parameters MapTask::read(const std::vector<std::pair<std::string, double>>& chan
   ModelRange range{.harmonics = std::max(64, harmonics)};
   if (frequency > 0) range.from = range.to = frequency;
   if (!sweep.empty()) range.from = sweep.front(), range.to = sweep.back();
-  return read_machine(file.with(changes, given_instead), range);
+  return read_machine(file.with(changes, excludes), range);
 }
 
 bool MapTask::has_speed() const

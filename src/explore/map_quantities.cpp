@@ -19,7 +19,6 @@ namespace rotor_stator::explore {
 namespace {
 
 constexpr int instants = 512, swept_instants = 128;  // of a period
-constexpr int recorded_periods = 64;
 
 /** A response curve over the speeds of --sweep. */
 struct Swept {
@@ -114,7 +113,6 @@ public:
             {.omega = angular(frequency_),
              .method = is_balance() ? "auto" : asked.method,
              .tolerance = is_balance() ? std::nullopt : asked.tolerance,
-             .periods = recorded_periods,
              .step = asked.step,
              .step_ratio = step_ratio(is_balance() ? std::nullopt : asked.tolerance),
              .longest = asked.longest},
@@ -128,13 +126,19 @@ public:
   void take(motion::Observed settled) { settled_ = std::move(settled); }
 
   const motion::Answer& settled() { return settled_.answer.get(); }
+  /** With its stability. */
   const motion::Answer& answer()
   {
     return answer_([&] {
-      motion::Answer whole = settled();
-      complete(whole, question().request, budget_);
-      return whole;
+      motion::Answer measured = settled();
+      complete(measured, question().request, budget_);
+      return measured;
     });
+  }
+  /** Recorded as long as its measures ask. */
+  const motion::Answer& whole()
+  {
+    return whole_([&] { return whole_motion(settled(), question().request, budget_); });
   }
 
   double lyapunov()
@@ -166,14 +170,12 @@ public:
   Cell measured(const std::string& name)
   {
     const Measures measures(name, machine_);
-    const auto value = [&](const motion::Motion& whole, double omega, bool is_closed) {
-      const double step = angular(1) / (omega * whole.points_per_period);
-      return measures.of({whole, step, frequency_, is_closed}).at(0);
+    const auto value = [&](const motion::Motion& motion, double omega, bool is_closed) {
+      const double step = angular(1) / (omega * motion.points_per_period);
+      return measures.of({motion, step, frequency_, is_closed}).at(0);
     };
     if (is_balance()) return value(motion(), solution().omega, true);
-    const motion::Answer& whole =
-        whole_([&] { return whole_motion(settled(), question().request, budget_); });
-    return value(whole.motion, whole.omega, closes(whole));
+    return value(whole().motion, whole().omega, closes(whole()));
   }
 
   std::string stability() { return is_balance() ? verdict().word() : answer().stability; }
@@ -248,10 +250,10 @@ private:
       that counts its periods. */
   const motion::Motion& motion()
   {
-    if (!is_balance()) return answer().motion;
+    if (!is_balance()) return whole().motion;
     return motion_([&] { return motion::motion_of(solution(), instants); });
   }
-  const Parameters& moving() { return is_balance() ? based_.machine : answer().machine; }
+  const Parameters& moving() { return is_balance() ? based_.machine : whole().machine; }
 
   /** Of a base period. */
   int harmonics() const { return base_.turns * task_.harmonics; }
@@ -312,7 +314,7 @@ const std::vector<Quantity> quantities{
     {"mean", "m", "mean of y_r over the period", Source::motion, of<&MapPoint::mean>},
     {"contact_share", "-", "share of the time with at least one loaded ball",
      Source::motion, of<&MapPoint::contact_share>},
-    {"ball_load", "N", "largest force on a ball, over two periods", Source::motion,
+    {"ball_load", "N", "largest force on a ball", Source::motion,
      of<&MapPoint::ball_load>},
     {"force", "N", "largest force of the bearing, Eq. 6", Source::motion,
      of<&MapPoint::force>},

@@ -125,8 +125,7 @@ void observe(ResponseRow& row, const Parameters& parameters, const motion::Motio
   };
   row.force = {half_range(&Vec2::x), half_range(&Vec2::y)};
   row.contact_share = motion::contact_share(parameters, motion);
-  row.ball_load = motion::largest_ball_load(
-      parameters, motion, std::ssize(motion.positions) / motion.points_per_period);
+  row.ball_load = motion::largest_ball_load(parameters, motion);
   const double step = angular(1) / (omega * motion.points_per_period);
   row.measured = measures.of({motion, step, row.frequency, is_closed});
 }

@@ -278,7 +278,7 @@ namespace {
 /** Sets what a dotted key names: a table is new where there is none, the elements of an
     array count from 1. Whole numbers become integers, which are read as numbers too. */
 void set_number(toml::node& at, const std::string& key, double value,
-                const std::vector<std::pair<std::string, std::string>>& instead)
+                StrictToml::Excludes excludes)
 {
   const auto dot = key.find('.');
   const std::string word = key.substr(0, dot);
@@ -291,17 +291,14 @@ void set_number(toml::node& at, const std::string& key, double value,
   if (dot != key.npos)
     return set_number(
         table ? table->insert(word, toml::table{}).first->second : (*array)[place],
-        key.substr(dot + 1), value, instead);
+        key.substr(dot + 1), value, excludes);
   const std::string own = own_key(key);
   value = in_own_unit(key, value);
   if (table) {
     std::set<std::string> replaced;
     for (const auto& [name, node] : *table) {
       const std::string other = own_key(std::string(name.str()));
-      const auto is_other = [&](const auto& pair) {
-        return pair.first == own && pair.second == other;
-      };
-      if (other == own || std::ranges::any_of(instead, is_other))
+      if (other == own || (excludes && excludes(own, other)))
         replaced.insert(std::string(name.str()));
     }
     for (const std::string& name : replaced) table->erase(name);
@@ -320,16 +317,26 @@ void set_number(toml::node& at, const std::string& key, double value,
 
 }  // namespace
 
-StrictToml StrictToml::with(
-    const std::vector<std::pair<std::string, double>>& values,
-    const std::vector<std::pair<std::string, std::string>>& instead) const
+StrictToml StrictToml::with(const std::vector<std::pair<std::string, double>>& values,
+                            Excludes excludes) const
 {
   StrictToml changed(std::make_shared<Content>(
       Content{content_->file, content_->path, content_->table, {}, {}, {}}));
-  for (const auto& [key, value] : values) {
+  const auto parts = [](const std::string& key) {
+    const auto last = key.rfind('.') + 1;
+    return std::pair{key.substr(0, last), own_key(key.substr(last))};
+  };
+  for (auto at = values.begin(); at != values.end(); ++at) {
+    const std::string& key = at->first;
     if (std::ranges::count(key, '.') > most_levels)
       throw BadInput(format("%.40s...: more than %d levels", key.c_str(), most_levels));
-    set_number(changed.content_->table, key, value, instead);
+    const auto [table, own] = parts(key);
+    for (auto before = values.begin(); before != at; ++before)
+      if (const auto [other_table, other] = parts(before->first);
+          table == other_table && (own == other || (excludes && excludes(own, other))))
+        throw BadInput(before->first + " and " + key +
+                       ": a table takes one of them, not both");
+    set_number(changed.content_->table, key, at->second, excludes);
   }
   return changed;
 }

@@ -35,10 +35,11 @@ public:
 
   /** The same tables, nothing of them read yet, with a number set or added at each dotted
       key; `bearing.2.balls` is in the second of [[bearing]], `stator.load_N.2` in an
-      array. */
-  StrictToml with(
-      const std::vector<std::pair<std::string, double>>& values,
-      const std::vector<std::pair<std::string, std::string>>& instead = {}) const;
+      array. What a key `excludes` is dropped; throws BadInput for two values that exclude
+      each other, in whatever units. */
+  using Excludes = bool (*)(const std::string& key, const std::string& other);
+  StrictToml with(const std::vector<std::pair<std::string, double>>& values,
+                  Excludes excludes = nullptr) const;
 
   const std::string& file() const;
   bool has(const std::string& key) const;

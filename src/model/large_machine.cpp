@@ -92,17 +92,25 @@ AtRest at_rest(const Parameters& parameters, const LargeBodies& machine, int ang
     return u - c + h * force;
   };
   Eigen::VectorXd u = quasi_static_contacts(parameters, h.ldlt().solve(c));
-  for (int step = 0; step < 100; ++step) {
+  /** Where nothing is stiff at first, the derivative is singular: then with a share of
+      k_0 more. */
+  bool moves = true;
+  for (int step = 0; step < 100 && moves; ++step) {
     const Eigen::VectorXd rest = open(u);
-    const Eigen::VectorXd change =
-        (Eigen::MatrixXd::Identity(u.size(), u.size()) + h * slope)
-            .partialPivLu()
-            .solve(rest);
-    double length = 1;
-    while (length > 1e-6 && !(open(u - length * change).norm() < rest.norm()))
-      length /= 2;
-    if (!(length > 1e-6)) break;
-    u -= length * change;
+    const Eigen::MatrixXd tangent =
+        Eigen::MatrixXd::Identity(u.size(), u.size()) + h * slope;
+    moves = false;
+    for (const double more : {0.0, 1e-6, 1e-3, 1.0}) {
+      const Eigen::VectorXd change =
+          (tangent + more * machine.spring * h).partialPivLu().solve(rest);
+      double length = 1;
+      while (length > 1e-6 && !(open(u - length * change).norm() < rest.norm()))
+        length /= 2;
+      moves = length > 1e-6;
+      if (!moves) continue;
+      u -= length * change;
+      break;
+    }
   }
   open(u);
   slope.diagonal().array() += machine.spring;

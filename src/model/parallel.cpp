@@ -137,8 +137,7 @@ Parallel::Parallel(const ParallelElements& elements, double rotor_speed)
 void Parallel::add(Vec2 u, Vec2 rate, double omega, BearingReaction& sum) const
 {
   const double square = u.x * u.x + u.y * u.y, distance = std::sqrt(square);
-  /** Of a central force the part along u, over |u|, and its derivative by |u|, over
-      |u|. */
+  /** Of a central force f(r), r = |u|: f/r and (f/r)'/r. */
   double central = cubic_ * square, steeper = 2 * cubic_;
   if (stop_gap_ == 0) {
     central += stop_stiffness_;

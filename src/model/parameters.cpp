@@ -223,6 +223,32 @@ void require_rotation_period(const Parameters& parameters, const char* who)
         parameters.file.c_str(), who, passages_per_turn(parameters.bearing)));
 }
 
+bool is_bare(const Parameters& parameters)
+{
+  return std::ranges::none_of(joints_of(parameters),
+                              [](const Bearing& one) { return one.parallel.any(); });
+}
+
+bool excludes(const std::string& key, const std::string& other)
+{
+  using Ways = std::vector<std::vector<std::string>>;
+  static const std::vector<Ways> all{
+      {{"radial_clearance_m"}, {"diametral_clearance_m"}, {"internal_clearance"}},
+      {{"damping_ratio"}, {"damping_N_s_per_m"}},
+      {{"natural_frequency_rad_per_s"}, {"stiffness_N_per_m"}},
+      {{"unbalance_kg_m"},
+       {"eccentricity_m"},
+       {"balance_grade", "balance_speed_rad_per_s"}}};
+  return std::ranges::any_of(all, [&](const Ways& ways) {
+    const auto way_of = [&](const std::string& name) {
+      return std::ranges::find_if(
+          ways, [&](const auto& keys) { return std::ranges::count(keys, name) > 0; });
+    };
+    const auto one = way_of(key), two = way_of(other);
+    return one != ways.end() && two != ways.end() && one != two;
+  });
+}
+
 Parameters read_parameters(SceneFile& scene, const std::string& key)
 {
   return read_parameters(scene.data_set(key));

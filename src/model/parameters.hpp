@@ -188,19 +188,8 @@ struct Parameters {
 /** Elements between a body and the ground, a table of the body. */
 constexpr const char* ground_key = "ground";
 
-/** Pairs of keys of which a table takes one: a study of the first drops the second. */
-inline const std::vector<std::pair<std::string, std::string>> given_instead{
-    {"radial_clearance_m", "internal_clearance"},
-    {"damping_ratio", "damping_N_s_per_m"},
-    {"damping_N_s_per_m", "damping_ratio"},
-    {"natural_frequency_rad_per_s", "stiffness_N_per_m"},
-    {"stiffness_N_per_m", "natural_frequency_rad_per_s"},
-    {"unbalance_kg_m", "eccentricity_m"},
-    {"unbalance_kg_m", "balance_grade"},
-    {"unbalance_kg_m", "balance_speed_rad_per_s"},
-    {"eccentricity_m", "unbalance_kg_m"},
-    {"eccentricity_m", "balance_grade"},
-    {"eccentricity_m", "balance_speed_rad_per_s"}};
+/** Whether a table takes only one of two keys: a study of one drops the other. */
+bool excludes(const std::string& key, const std::string& other);
 
 /** Reads bodies given by matrices or with elements to the ground, and their bearings,
     into the parameters. */
@@ -261,6 +250,9 @@ inline bool has_intact_hertz_alone(const Parameters& parameters)
 {
   return parameters.bearing.is_intact_hertz() && parameters.grounds.empty();
 }
+
+/** Whether nothing stands beside the balls, nor between a body and the ground. */
+bool is_bare(const Parameters& parameters);
 
 /** Calls `change` with every joint of a machine. */
 template <class Change>

@@ -195,9 +195,19 @@ Vec2 quasi_static_contact(const Bearing& bearing, Vec2 force)
 {
   const double size = std::hypot(force.x, force.y);
   if (size == 0) return {0, 0};
-  const double reach =
-      std::max(0.0, bearing.clearance + hertz_penetration(bearing.contact_stiffness, size,
-                                                          bearing.exponent));
+  const double k = bearing.contact_stiffness, n = bearing.exponent;
+  double reach = std::max(0.0, bearing.clearance + hertz_penetration(k, size, n));
+  if (bearing.parallel.any()) {
+    /** Nearer, where the elements beside the balls carry a part of the force. */
+    const Parallel beside(bearing.parallel, 0);
+    double nearer = 0;
+    for (int halving = 0; halving < 50; ++halving) {
+      const double middle = 0.5 * (nearer + reach);
+      const double carried = beside.reaction({middle, 0}, {0, 0}).force.x +
+                             hertz_force(k, middle - bearing.clearance, n);
+      (carried < size ? nearer : reach) = middle;
+    }
+  }
   return {reach * force.x / size, reach * force.y / size};
 }
 

@@ -187,8 +187,8 @@ std::vector<double> equal_force_speeds(const Parameters& parameters, double high
 Vec2 free_displacement(const Parameters& parameters, double omega, double phase);
 
 /** The relative displacement [m] that the bearing needs to answer with `force`, all of it
-   on one ball: along the force, by the clearance plus the Hertz penetration. A start for
-   iterations. */
+   on one ball and the elements beside it: along the force, at most by the clearance plus
+   the Hertz penetration. A start for iterations. */
 Vec2 quasi_static_contact(const Bearing& bearing, Vec2 force);
 
 /** The relative displacement [m] at rest with ball 1 at the angle `cage`. */

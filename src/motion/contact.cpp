@@ -8,18 +8,19 @@ namespace rotor_stator::motion {
 
 double contact_share(const Parameters& parameters, const Motion& motion)
 {
-  const BearingInstants at(parameters, motion);
+  std::vector<BearingInstants> bearings;
+  for (std::size_t b = 0; b <= parameters.further.size(); ++b)
+    bearings.emplace_back(parameters, motion, b);
   std::size_t loaded = 0;
-  for (std::size_t k = 0; k < motion.size(); ++k) loaded += at.touches(k);
+  for (std::size_t k = 0; k < motion.size(); ++k)
+    loaded += std::ranges::any_of(bearings, [k](auto& at) { return at.touches(k); });
   return static_cast<double>(loaded) / static_cast<double>(motion.size());
 }
 
 bool touches(const Parameters& parameters, PeriodicMotion solution)
 {
   constexpr int points = 256, turns = 16;
-  const bool is_bare = std::ranges::none_of(
-      joints_of(parameters), [](const Bearing& one) { return one.parallel.any(); });
-  if (is_bare) return !solution.force.isZero(0);
+  if (is_bare(parameters)) return !solution.force.isZero(0);
   solution.bodies = body_series(parameters, solution);
   return contact_share(parameters, motion_of(parameters, solution, points, turns)) > 0;
 }
@@ -38,11 +39,13 @@ ContactEvolution contact_evolution(const Parameters& parameters, const Motion& m
   return evolution;
 }
 
-double largest_ball_load(const Parameters& parameters, const Motion& motion, long periods)
+double largest_ball_load(const Parameters& parameters, const Motion& motion)
 {
+  const BearingInstants at(parameters, motion);
   double most = 0;
-  for (const auto& forces : contact_evolution(parameters, motion, periods).ball_force)
-    most = std::max(most, *std::ranges::max_element(forces));
+  for (std::size_t k = 0; k < motion.size(); ++k)
+    most = std::max(most, std::ranges::max(
+                              at.bearing.ball_forces(at.angles(k), at.u(k), at.rate(k))));
   return most;
 }
 

@@ -10,7 +10,7 @@ periods by convention. */
 
 namespace rotor_stator::motion {
 
-/** Share of the instants with at least one loaded ball [-]. */
+/** Share of the instants with at least one loaded ball, of any bearing [-]. */
 double contact_share(const Parameters& parameters, const Motion& motion);
 
 /** Whether any ball is loaded in a solution of harmonic balance. */
@@ -27,9 +27,8 @@ struct ContactEvolution {
 ContactEvolution contact_evolution(const Parameters& parameters, const Motion& motion,
                                    long periods = 2, std::size_t bearing = 0);
 
-/** The largest force on a ball over so many periods [N]. */
-double largest_ball_load(const Parameters& parameters, const Motion& motion,
-                         long periods = 2);
+/** The largest force on a ball along a motion [N]. */
+double largest_ball_load(const Parameters& parameters, const Motion& motion);
 
 /** Times that each ball is loaded anew in two periods, counted around the end. */
 std::vector<int> passages_per_ball(const std::vector<std::vector<double>>& ball_force);

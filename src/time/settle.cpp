@@ -202,7 +202,7 @@ Settled Settling::seen() const
     s.kind = Kind::rest;
     return s;
   }
-  if (!base_.is_driven_twice() && closes(s)) return s;
+  if (closes(s)) return s;
   if (pair.at().period < 0) return s;
   const bool is_long_enough = 0.5 * pair.seconds() >= least_ * (1 - 1e-9);
   if (!is_long_enough)
@@ -248,7 +248,8 @@ bool Settling::is_at_rest() const
     much farther apart than what is left of the transient. */
 bool Settling::closes(Settled& s) const
 {
-  constexpr double closed = 1e-6;  ///< spread of the section, over the vibration [-]
+  /** Spread of the section, over the vibration [-]. */
+  const double closed = base_.is_driven_twice() ? 1e-9 : 1e-6;
   constexpr double least_nearer = 1e-3, much_farther = 100;
   const auto& all = pair_.section();
   const double size = std::max(pair_.half_range(), 1e-9 * length_);

@@ -104,9 +104,19 @@ class Check(Case):
                                ("mass_kg = 2.0", "mass_kg = 2.0\nload_N = [0, 19.62]", "do the loads lift the rotor"),
                                ("mass_kg = 2.0", "mass_kg = 2000", "is its mass in kg?"),
                                ("rigid = true", "mass_kg = 10\nnatural_frequency_Hz = 3900\ndamping_ratio = 0.05", "is the frequency in Hz?"),
+                               ("unbalance_kg_m = 1e-4", "unbalance_kg_m = 1e-8", "finer than any rotor is balanced"),
+                               ("rigid = true", "mass_kg = 10\nnatural_frequency_Hz = 80\ndamping_N_s_per_m = 3e5", "is the damping in N s/m?"),
                                ("= 9.81", "= 9810", "is it in m/s^2?")]:
             self.assertIn(old, HELD)
             self.assertIn(word, self.checked(HELD.replace(old, new) + LOOSE)[1].header)
+        for table, word in [(LOOSE + "contact_damping_s_per_m = 1000", "a contact damping of 1000 s/m"),
+                            (LOOSE + '[bearing.defect]\nsurface = "outer_race"\ndepth_mm = 2\nwidth_rad = 0.1', "a spall of 0.002 m depth"),
+                            (LOOSE + '[bearing.defect]\nsurface = "outer_race"\ndepth_um = 2\nwidth_rad = 0.1\nangle_rad = -90', "an angle of -90 rad"),
+                            (LOOSE + "[bearing.parallel]\nstop_stiffness_N_per_m = 1e6\nstop_gap_m = 80", "a stop after 80 m"),
+                            (NAMED + "radial_clearance_um = -1000", "more than a tenth of the ball"),
+                            (MANY.replace(f"= {BALLS}", "= 9").replace(f"= {HERTZ}", "= 2.7e5"), "a contact stiffness of 2.7e+05 N/m^1.5")]:
+            self.assertIn(word, self.checked(HELD + table)[1].header)
+        self.assertIn("1500 Hz are 9e+04 turns a minute", self.run_explore("orbit", self.file("set1.toml", MACHINE), "--frequency", 1500, "--points", 2).stderr)
         radial = HELD + NAMED.replace("6205", "6205 C3") + "radial_clearance_m = 2.05e-5"
         self.assertIn("41 um on the diameter, where C3 has at most 28: is it radial?", self.checked(radial)[1].header)
         plain = HELD + NAMED + "radial_clearance_um = 32"

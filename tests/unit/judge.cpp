@@ -69,7 +69,7 @@ TEST_CASE("Shooting over segments and from any of the phases close one motion")
   REQUIRE(solution.found());
   State state = state_of(solution);
   const Shooting plain =
-      shoot(parameters, hertz(45), state, {.tolerance = 1e-11, .closed = 1e-10});
+      shoot(parameters, hertz(45), state, {.tolerance = 1e-12, .closed = 1e-10});
   REQUIRE(plain.converged);
   Eighths start(eighths, state);
   for (int k = 1; k < eighths; ++k) {

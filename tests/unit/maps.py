@@ -186,6 +186,25 @@ class Values(Case):
                                "--starts", 0)
             self.assertAlmostEqual(table["lyapunov"][k], known["lyapunov"][0], delta=1e-9)
 
+    def test_same_word_as_in_a_response(self):
+        """Largest forces and shares of contact of a motion that never repeats itself, of 256 base periods in both. Would catch two windows."""
+        names = ["contact_share", "ball_load"]
+        chaotic = self.file("chaotic.toml", MACHINE.replace("= 2e-05", "= 2e-04"))
+        response = self.table("response", chaotic, "--from", 13, "--to", 14, "--count", 2, "--columns", ",".join(["f", "period", *names]))
+        table = self.table("map", chaotic, "--x", "frequency=13:14:2", "--quantity", ",".join(["period", *names]))
+        self.assertEqual(list(table["period"]), list(response["period"]))
+        self.assertLess(table["period"].min(), 1)
+        for name in names:
+            self.assertEqual(list(table[name]), list(response[name]))
+
+    def test_diametral_clearance_and_class(self):
+        """A key drops the other ways to give its value."""
+        named = self.file("named.toml", MACHINE.split("[bearing]")[0] + '[bearing]\ndesignation = "6205"\ninternal_clearance = "C3"\n'
+                          + "[gravity]" + MACHINE.split("[gravity]")[1])
+        values = [self.table("map", named, "--frequency", 45, "--quantity", "amplitude", "--y", f"bearing.{key}=20:30:2")["amplitude"]
+                  for key in ("diametral_clearance_um", "radial_clearance_um")]
+        self.assertNotEqual(values[0][0], values[1][0])
+
     def test_peak_against_response(self):
         """Of the finest response, and its place; by a sweep of 101 speeds. In permanent contact above 20 Hz."""
         table = self.table("map", self.machine, "--y", f"{CLEARANCE}=1e-5:2e-5:2", *SIX,
@@ -256,6 +275,8 @@ class Refusals(Case):
                 ("is given twice", f"--x {CLEARANCE}=0:1e-4:3 --y {CLEARANCE}=0:1e-4:3 {usual}"),
                 ("known: amplitude, mean, contact_share", f"--x {CLEARANCE}=0:1e-4:3 --frequency 45 --quantity colour"),
                 ("is given twice", f"--x {CLEARANCE}=0:1e-4:3 --frequency 45 --quantity force,force"),
+                ("a table takes one of them, not both", f"--x rotor.unbalance_g_mm=1:50:3 --y rotor.unbalance_kg_m=1e-6:1e-5:2 {usual}"),
+                ("a table takes one of them, not both", f"--x rotor.stiffness_N_per_m=1e5:1e6:3 --y rotor.natural_frequency_Hz=10:20:2 {usual}"),
                 ("--frequency: is missing", f"--x {CLEARANCE}=0:1e-4:3 --quantity amplitude"),
                 ("--frequency: is a key", f"--x frequency=1:2:3 {usual}"),
                 ("must be in 1e-300...1e+300", "--x frequency=0:2:3 --quantity amplitude"),

@@ -167,6 +167,16 @@ class Parallel(Case):
         for name in ("f_1_x", "f_1_y", "f_2_x", "f_2_y"):
             self.assertAlmostEqual(rest[name] / exact[name], 1, delta=1e-6, msg=name)
 
+    def test_a_rotor_that_hangs_in_a_spring(self):
+        """Beside the balls and to the ground, where nothing else holds it: its place at rest in closed form. Would catch an equilibrium that
+        is given up where the spring is not stiff yet, as without displacement."""
+        load = MASS * 9.81
+        for bare in (BARE, GROUND):
+            free = bare.replace(f"= {FREQUENCY}", "= 0").replace(f"damping_ratio = {RATIO}", "damping_N_s_per_m = 20").replace("s2 = 0.0", "s2 = 9.81")
+            values = self.values(self.file("free.toml", free + CUBIC))
+            self.assertAlmostEqual(values["static_y"] / -np.cbrt(load / 3e13), 1, delta=1e-9)
+            self.assertAlmostEqual(values["f_1_y"] / (np.sqrt(3 * 3e13 * np.cbrt(load / 3e13)**2 / MASS) / 2 / np.pi), 1, delta=1e-4)
+
     def test_what_is_refused(self):
         self.file("falls.csv", "f,k_xx\n20,1\n10,2\n")
         self.file("odd.csv", "f,k_zz\n20,1\n")

@@ -80,6 +80,15 @@ class Spectrum(Case):
         undamped = text.replace(f"damping_ratio = {stator['damping_ratio']}", "damping_ratio = 0")
         self.assertEqual(list(self.spectrum(undamped, stator["natural_frequency_rad_per_s"] / 2 / math.pi, *SIX)["name"]), ["1X"])
 
+    def test_passing_balls_that_touch_nothing_drive_nothing(self):
+        """Two frequencies by the cage, but one motion of a turn; said on stderr. Would catch a `quasi-periodic` of what is a circle."""
+        loose = self.file("loose.toml", changed(radial_clearance_m=0.1, cage_speed_ratio=0.43))
+        found = self.run_explore("orbit", loose, "--frequency", 30)
+        table = Table.of(found.stdout)
+        self.assertEqual([table.value(key) for key in ("base", "regime", "period", "stability")], ["two", "periodic", 1, "stable"])
+        self.assertIn("warning: no ball touches", found.stderr)
+        self.assertEqual(set(self.table("response", loose, "--from", 20, "--to", 30, "--count", 3)["period"]), {1})
+
     def test_spalls_stand_where_kinematics_says(self):
         """A light rotor, always on its balls; what is new beside the same machine without a spall."""
         cage = 0.41
