@@ -6,7 +6,7 @@ Usage: /usr/bin/python3 figures/contact.py TABLE.tsv OUTPUT.svg
 
 import matplotlib.pyplot as plt
 import numpy as np
-from contact_map import fill_force
+from contact_map import force_map
 from matplotlib.ticker import MaxNLocator
 from tables import heading, run
 
@@ -34,7 +34,10 @@ def draw(table):
     figure, all_axes = plt.subplots(len(heights), figsize=(10, 2 + sum(heights)), sharex=True, squeeze=False, layout="constrained",
                                     height_ratios=heights)
     for axes, (name, part) in zip(all_axes.flat, parts.items()):
-        fill_force(axes, part)
+        force, ends = force_map(part)
+        mesh = axes.pcolormesh(ends, np.arange(len(force) + 1) + 0.5, np.ma.masked_equal(force, 0), vmin=0,
+                               vmax=force.max() or 1, rasterized=True)  # cells of an SVG would show white seams
+        figure.colorbar(mesh, ax=axes, pad=0.03, label="Q [N]", ticks=MaxNLocator(4))
         axes.set(ylabel="ball j" + (", " + name if name else ""))
         axes.yaxis.set_major_locator(MaxNLocator(9, integer=True))
     if has_stress:

@@ -11,10 +11,10 @@ from string import ascii_lowercase
 import matplotlib.pyplot as plt
 import numpy as np
 from matplotlib.cm import ScalarMappable
-from matplotlib.colors import LogNorm, Normalize
+from matplotlib.colors import LogNorm
 from matplotlib.patches import PathPatch
 from matplotlib.path import Path
-from matplotlib.ticker import MaxNLocator, MultipleLocator
+from matplotlib.ticker import MultipleLocator
 
 BALANCE = 1
 COLOURS = 24
@@ -64,16 +64,13 @@ def draw_contact(axes, panel, title):
     axes.set_title(heading_of(panel, title))
 
 
-def fill_force(axes, panel, norm=None):
-    """Q in colour, white where it is zero, with a bar of its own unless a scale is given."""
+def fill_force(axes, panel, norm):
+    """Q in colour, white where it is zero."""
     force, ends = force_map(panel)
-    colours = ScalarMappable(norm or Normalize(0, force.max() or 1), plt.get_cmap(lut=COLOURS))
+    colours = ScalarMappable(norm, plt.get_cmap(lut=COLOURS))
     level = np.clip(COLOURS * np.ma.filled(colours.norm(np.maximum(force, 1e-30)), 0), 0, COLOURS - 1).astype(int)
     for step in range(COLOURS):
         fill(axes, (force > 0) & (level == step), ends, colours.cmap(step))
-    if norm is None:
-        axes.figure.colorbar(colours, ax=axes, pad=0.03, label="Q [N]", ticks=MaxNLocator(4))
-    return colours
 
 
 def draw_block(figure, panels, columns, draw_panel, heading):

@@ -1,5 +1,6 @@
 """What `explore map` computed: each quantity over the two keys, in colour or, where it counts or names, in classes
-with a legend; over one key as a curve. White: no result. A key with equal ratios has a logarithmic axis.
+with a legend; over one key as a curve. White: no result. A key with equal ratios has a logarithmic axis. A Lyapunov
+exponent is blue below 0 and red above, on one scale, with a line between.
 Usage: /usr/bin/python3 figures/map.py TABLE.tsv OUTPUT.svg
 """
 
@@ -8,14 +9,15 @@ import textwrap
 import matplotlib.pyplot as plt
 import numpy as np
 from matplotlib.colors import BoundaryNorm, ListedColormap
-from tables import cells_as_numbers, heading, run
+from matplotlib.ticker import MaxNLocator
+from tables import cells_as_numbers, column_in_words, heading, run, with_subscripts
 
 VERDICTS, REGIMES = ["stable", "unstable", "undecided"], ["rest", "periodic", "quasi-periodic", "chaotic", "undecided"]
 CLASSES = {"stability": VERDICTS, "series_stability": VERDICTS, "regime": REGIMES}
 PERIODS = {-2: "undecided", -1: "quasi-periodic", 0: "chaotic"}
 COLOURS = {"undecided": "#d0d0d0", "quasi-periodic": "C3", "chaotic": "#404040", "period 1": "C0", "periodic": "C0", "period 2": "C1",
            "period 3": "C2", "period 4": "C4", "rest": "C6", "stable": "C0", "unstable": "C1"}
-UNITS = {"rad_per_s": "rad/s", "N_per_m1p5": "N/m$^{1.5}$", "N_per_mn": "N/m$^n$", "N_per_mm": "N/mm", "kN_per_m": "kN/m", "N_per_m": "N/m",
+UNITS = {"rad_per_s": "rad/s", "N_per_m1p5": "N/m$^{1.5}$", "N_per_mn": "N/m$^n$", "N_per_m3": "N/m³", "N_per_mm": "N/mm", "kN_per_m": "kN/m", "N_per_m": "N/m",
          "N_s_per_m": "N s/m", "m_per_s2": "m/s²", "s_per_m": "s/m", "kg_m": "kg m", "g_mm": "g mm", "um": "µm", "mm": "mm", "m": "m", "kg": "kg",
          "g": "g", "Hz": "Hz", "rpm": "rpm", "rad": "rad", "deg": "°", "N": "N", "kN": "kN", "Pa": "Pa", "MPa": "MPa", "GPa": "GPa"}
 
@@ -24,9 +26,9 @@ def described(table, name):
     """A column's name with its unit, a key of the machine's file in words: (text, factor that its values are drawn with)."""
     unit = table.unit(name)
     if unit == "m":
-        return f"{name.replace('_', ' ')} [µm]", 1e6
+        return f"{column_in_words(name)} [µm]", 1e6
     if unit != "see key":
-        words = "speed of rotation" if name == "frequency" else name.replace("_", " ")
+        words = "speed of rotation" if name == "frequency" else column_in_words(name)
         return words + (f" [{unit}]" if unit != "word" else ""), 1
     *tables, key = name.split(".")
     suffix = next((one for one in UNITS if key.endswith("_" + one)), "")
@@ -92,6 +94,15 @@ def draw_classes(axes, x, y, cells, names, colours):
     bar.set_ticks(range(len(names)), labels=names)
 
 
+def draw_about_zero(axes, x, y, cells):
+    """Blue below 0, red above, and a line between."""
+    known = cells[np.isfinite(cells)]
+    largest = abs(known).max(initial=0) or 1
+    draw_grid(axes, x, y, cells, cmap="coolwarm", vmin=-largest, vmax=largest)
+    if min(cells.shape) > 1 and known.size and known.min() < 0 < known.max():
+        axes.contour(x, y, np.ma.masked_invalid(cells), [0], colors="black", linewidths=1)
+
+
 def draw_cells(axes, x, y, cells, names):
     """Colours over two keys; beside them the scale, or the names of the classes."""
     if names is not None:
@@ -101,7 +112,10 @@ def draw_cells(axes, x, y, cells, names):
     is_constant = known.size > 0 and np.ptp(known) < 1e-9 * abs(known).max()
     draw_grid(axes, x, y, cells, **({"vmin": 0, "vmax": 1.2 * known[0] or 1} if is_constant else {}))
     if min(cells.shape) > 1 and known.size > 3 and np.ptp(known) > 0:
-        axes.contour(x, y, np.ma.masked_invalid(cells), 8, colors="white", linewidths=0.6)
+        levels = MaxNLocator(9).tick_values(known.min(), known.max())
+        is_dark = levels > (known.min() + known.max()) / 2
+        axes.contour(x, y, np.ma.masked_invalid(cells), levels, colors=np.where(is_dark, "white", "#404040"),
+                     linewidths=0.6, linestyles="solid")
 
 
 def draw(table):
@@ -125,7 +139,7 @@ def draw(table):
         label, factor = described(table, name)
         values = factor * values
         meaning = "" if names else textwrap.shorten(table.meaning(name), 80, placeholder=" ...")
-        axes.set_title(f"{label}: {meaning}".removesuffix(": "), fontsize="medium")
+        axes.set_title(f"{label}: {with_subscripts(meaning)}".removesuffix(": "), fontsize="medium")
         if y is None:
             order = np.argsort(table[keys[0]])
             axes.plot(table[keys[0]][order], values[order], "." if names else ".-")
@@ -133,8 +147,11 @@ def draw(table):
                 axes.set_yticks(range(len(names)), names)
             elif np.nanmin(values) == np.nanmax(values):
                 axes.set_ylim(sorted((0, 1.2 * np.nanmax(values) or 1)))
+            if name == "lyapunov":
+                axes.axhline(0, color="#404040", lw=0.75)
         else:
-            draw_cells(axes, x, y, over_keys(table, values, keys), names)
+            cells = over_keys(table, values, keys)
+            draw_about_zero(axes, x, y, cells) if name == "lyapunov" else draw_cells(axes, x, y, cells, names)
             axes.set(ylabel=y_label, yscale="log" if is_logarithmic(y) else "linear")
         axes.set_xscale("log" if is_logarithmic(x) else "linear")
     grid.flat[-1].set_xlabel(x_label)

@@ -53,7 +53,8 @@ def draw(table):
     for axis, line in (("x", "-"), ("y", "--")):
         for body, colour in zip(bodies, (ROTOR, STATOR)):
             values = micro[f"{axis}_{body}"]
-            displacement.plot(phase, values - values.mean(), line, color=colour, label=f"${axis}_{body}$, mean {values.mean():.3g} µm")
+            mean = f"{values.mean():.3g}".replace("-", "−")
+            displacement.plot(phase, values - values.mean(), line, color=colour, label=f"${axis}_{body}$, mean {mean} µm")
         force.plot(phase, table[f"F_{axis}"], line, color="#404040", label=f"$F_{axis}$")
     for axes in (displacement, force):
         axes.legend(loc="center left", bbox_to_anchor=(1, 0.5), frameon=False)

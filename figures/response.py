@@ -1,18 +1,25 @@
 """The branch of `explore response`: amplitudes of rotor and stator against speed, with folds, and with `--stability`
-what is stable and the bifurcations. Measures that `--columns` names have panels of their own below, six at most.
+what is stable and the bifurcations; of `--columns all` the first six further measures below. Where `--columns` names
+columns, these alone, up to 24, one below the other, an amplitude above its phase.
 
 Usage: /usr/bin/python3 figures/response.py TABLE.tsv OUTPUT.svg
 """
 
+import re
+import textwrap
+
 import matplotlib.pyplot as plt
 import numpy as np
-from tables import ROTOR, STATOR, heading, run
+from tables import ROTOR, STATOR, column_in_words, heading, run, with_subscripts
 
 MARKS = {"fold": ("s", "fold"), "plus-one": ("D", "multiplier +1"), "period-doubling": ("^", "period doubling"),
          "neimark-sacker": ("o", "Neimark-Sacker")}
-USUAL = {"f", "t", "period", "error", "arc", "newton", "branch", "verdict", "bifurcation", "multiplier", "multiplier_change",
-         *(f"amp_{one}" for one in ("x_s", "y_s", "x_r", "y_r"))}
-MOST_MEASURES = 6
+AMPLITUDES = [f"amp_{one}" for one in ("x_s", "y_s", "x_r", "y_r")]
+# What explore computes without --columns, in its order, before parts of harmonics; of these, measures have panels.
+ORDER = ["f", "t", *AMPLITUDES, "period", "contact_share", "force", "error", "arc", "newton", "multiplier",
+         "multiplier_change", "verdict", "bifurcation", "branch"]
+USUAL = {*ORDER} - {"contact_share", "force"}
+MOST_MEASURES, MOST_PANELS = 6, 24
 LINES = {"stable": ("-", 1.8), "unstable": (":", 1.8), "undecided": ("-", 0.7)}
 
 
@@ -29,9 +36,33 @@ def never_after_one(table):
 
 
 def measures(table):
-    """The columns of numbers that are not the usual ones, with their units."""
-    return [(name, table.unit(name)) for name, column in table.columns.items()
+    """The columns of numbers that are not the usual ones."""
+    return [name for name, column in table.columns.items()
             if name not in USUAL and column.dtype.kind == "f"][:MOST_MEASURES]
+
+
+def asked(table):
+    """The columns of numbers that `--columns` names, an amplitude followed by its phase; none without it, or where all
+    four amplitudes are among them. They stand first, what else the figure needs behind them in the usual order."""
+    names = list(table.columns)
+    rank = [ORDER.index(name) if name in ORDER else len(ORDER) if name.endswith(("_re", "_im")) else -1 for name in names]
+    rank.append(len(ORDER))
+    end = len(names)
+    while end > 0 and 0 <= rank[end - 1] <= rank[end]:
+        end -= 1
+    if {*AMPLITUDES} <= {*names[:end]}:
+        return []
+    chosen = [name for name in names[:end] if name not in ("f", "t") and table[name].dtype.kind == "f"][:MOST_PANELS]
+    whose = [name.replace("phase_", "amp_", 1) for name in chosen]
+    return sorted(chosen, key=lambda name: (whose.index(name.replace("phase_", "amp_", 1)), name))
+
+
+def draw_measure(axes, table, name, colour):
+    """One column, in µm where it is a length."""
+    unit = table.unit(name)
+    for branch in branches(table):
+        draw_branch(axes, branch, name, colour, 1e6 if unit == "m" else 1)
+    axes.set_ylabel(column_in_words(name) + {"m": " [µm]", "-": ""}.get(unit, f" [{unit}]"))
 
 
 def draw_branch(axes, branch, column, colour, factor=1e6):
@@ -74,8 +105,8 @@ def legend(axes, table):
         axes.legend(handles=handles, loc="best", fontsize=10)
 
 
-def draw(table):
-    table.columns["f"], factor, speed = table.speeds()
+def draw_usual(table, speed):
+    """The four displacements and, below them, further measures."""
     bodies = table.bodies()
     further = measures(table)
     figure = plt.figure(figsize=(10, 7.5 + 2.5 * len(further)), layout="constrained")
@@ -95,18 +126,37 @@ def draw(table):
         axes.set_yscale("log")
     else:
         axes.set_ylim(0, 1.05e6 * shown.max() or 1)
-    for axes, (name, unit) in zip(below, further):
-        for branch in branches(table):
-            draw_branch(axes, branch, name, "C2", 1e6 if unit == "m" else 1)
-        axes.set_ylabel(name.replace("_", " ") + {"m": " [µm]", "-": ""}.get(unit, f" [{unit}]"))
+    for axes, name in zip(below, further):
+        draw_measure(axes, table, name, "C2")
     for axes in [*grid[1], *below[-1:]]:
         axes.set_xlabel(speed)
-    how = ""
+    return figure
+
+
+def draw_asked(table, speed, names):
+    """One panel for each column, with its meaning as the table has it."""
+    figure, grid = plt.subplots(len(names), 1, figsize=(10, 1.2 + 2.6 * len(names)), sharex=True, squeeze=False,
+                                layout="constrained")
+    for axes, name in zip(grid.flat, names):
+        body = re.search(r"_([rs])(_|$)", name)
+        draw_measure(axes, table, name, {"r": ROTOR, "s": STATOR}[body[1]] if body else "C2")
+        axes.set_title(with_subscripts(textwrap.shorten(table.meaning(name), 100, placeholder=" ...")), fontsize="medium")
+    grid[-1, 0].set_xlabel(speed)
+    figure.align_ylabels()
+    return figure
+
+
+def draw(table):
+    table.columns["f"], factor, speed = table.speeds()
+    names = asked(table)
+    figure = draw_asked(table, speed, names) if names else draw_usual(table, speed)
+    title = table.header.split("\n")[0].removeprefix("# ") if names else "Half peak-to-peak of the displacements"
     if "t" in table.columns:
         ends = " to ".join(f"{factor * table.value(end):.6g}" for end in ("from", "to"))
-        how = f", turn by turn: {ends} {'Hz' if factor == 1 else 'rpm'} in {table.value('seconds'):g} s"
-    heading(figure, "Half peak-to-peak of the displacements" + how, table)
-    legend(grid[0, 0], table)
+        title = title.removesuffix(", turn by turn")
+        title += f", turn by turn: {ends} {'Hz' if factor == 1 else 'rpm'} in {table.value('seconds'):g} s"
+    heading(figure, title, table)
+    legend(figure.axes[0], table)
     return figure
 
 

@@ -18,7 +18,7 @@ KINDS = (("chaotic", lambda k: k == 0, ".", 2.4, "#404040"),
          ("period 3", lambda k: k == 3, "s", 4.5, "C2"),
          ("period 4", lambda k: k == 4, "D", 4, "C4"),
          ("period 5 and more", lambda k: k > 4, "v", 4.5, "C5"),
-         ("undecided", lambda k: k == -2, "x", 2.5, "#909090"))
+         ("undecided", lambda k: k == -2, ".", 2.4, "#a0a0a0"))
 
 # The same, fewer of them, for the study of both data sets.
 KINDS_OF_SETS = (("chaotic", lambda k: k == 0, ".", 2.6, "#8a8a8a"),
@@ -61,7 +61,9 @@ def draw_machine(table):
     enlarge_marks(above.legend(loc="lower left", bbox_to_anchor=(0, 1), ncols=shown if shown < 6 else 4, frameon=False,
                                borderaxespad=0.2, handletextpad=0.2, columnspacing=1.2))
     above.set_ylabel(f"section: $(x_r - x_s)$/{unit} at phase 0 [-]")
-    above.axhline(0, color="#404040", lw=0.5, zorder=0)
+    low, high = above.get_ylim()
+    if low < 0 < high:
+        above.axhline(0, color="#404040", lw=0.5, zorder=0)
     below.set_ylabel("largest Lyapunov exponent\n[1/base period]")
     below.set_xlabel(speed)
     heading(figure, "What the machine settles on: one point in each base period", table)

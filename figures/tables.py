@@ -153,6 +153,23 @@ class Table:
         return max(self.value(f"{name}_largest", -1), self.value(f"{name}_rms", -1))
 
 
+SYMBOL = re.compile(r"(?<![A-Za-z0-9])(?:[va]_)?[xy]_[rs](?:_[a-z0-9]+)*(?!\w)")
+
+
+def with_subscripts(text):
+    """`x_r`, `v_y_s` or `x_r_out` in a text of a table as symbols."""
+    def symbol(match):
+        letter, *below = match[0].split("_")
+        return f"${letter}_{{{','.join(below)}}}$"
+    return SYMBOL.sub(symbol, text)
+
+
+def column_in_words(name):
+    """A column's name as a label: of `amp_1X_x_r` the displacement as a symbol, the words before it apart."""
+    start = next((match.start() for match in SYMBOL.finditer(name)), len(name))
+    return name[:start].replace("_", " ") + with_subscripts(name[start:])
+
+
 def heading(figure, what, table):
     """What a figure shows and, below, of which machine; the machine's title is no markup."""
     figure.suptitle(f"{what}\n{table.machine_title()}".rstrip(), parse_math=False, fontsize="medium")

@@ -55,6 +55,13 @@ class Catalogue(Case):
         table = self.table("orbit", self.file("own.toml", machine(bearing)), *BRIEF)
         return [table.value(key) for key in keys]
 
+    def test_file_of_the_readme(self):
+        """It is whole, and its damping is that of the ratio beside it at the lowest natural frequency."""
+        text = re.search(r'(?s)```toml\n(title = .*?)```', Path("README.md").read_text(encoding="utf-8"))[1]
+        value, rotor = self.values(self.file("own.toml", text)), tomllib.loads(text)["rotor"]
+        lowest = min(value[name] for name in value if re.fullmatch(r"f_\w+", name))
+        self.assertAlmostEqual(rotor["damping_N_s_per_m"] / (4 * np.pi * 0.03 * rotor["mass_kg"] * lowest), 1, delta=0.01)
+
     def test_kinematics_agree_with_published_factors(self):
         """A wrong ball, pitch diameter or count, and the ball's spin defined otherwise, would be seen."""
         compared = 0

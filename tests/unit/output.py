@@ -6,6 +6,7 @@ import json
 import math
 import os
 import pty
+import re
 import subprocess
 import sys
 import unittest
@@ -200,6 +201,64 @@ class Formats(Case):
             self.assertIn("speed of rotation [rpm]", svg)
             self.assertIn("3000" if command[0] == "campbell" else "1240", svg)
             self.refused("--rpm: needs --plot", *command, "--rpm")
+
+    def drawn(self, *command):
+        """The figure and its texts, in the order in which they are drawn."""
+        self.lines(*command, "--plot", "drawn.svg", "--force")
+        svg = (self.folder / "drawn.svg").read_text(encoding="utf-8")
+        return svg, re.findall("<!-- (.*?) -->", svg)
+
+    def test_asked_columns_alone_are_drawn(self):
+        """A panel each, an amplitude beside its phase, in words and units of the table. All four amplitudes keep their places."""
+        run, two = ["response", self.machine, *TO_45], ["--count", 2]
+        for how in (two, SIX, [*SIX, "--harmonics-of", "y_r"]):
+            _, texts = self.drawn(*run, *how, "--columns", "f,phase_1X_x_r,ball_load,amp_1X_x_r")
+            labels = ["amp 1X $x_{r}$ [µm]", "phase 1X $x_{r}$ [rad]", "ball load [N]"]
+            self.assertEqual([text for text in texts if text in labels], labels)
+            self.assertIn("amplitude at the frequency of rotation of $x_{r}$", texts)
+            self.assertFalse({"rotor, x [µm]", "Half peak-to-peak of the displacements"} & {*texts})
+        for asked, further in [("f", None), ("all", "lyapunov [1/s]"), ("amp_x_s,amp_y_s,amp_x_r,amp_y_r,ball_load", "ball load [N]")]:
+            texts = self.drawn(*run, *two, "--columns", asked)[1]
+            self.assertLessEqual({"rotor, x [µm]", further} - {None}, {*texts})
+        _, texts = self.drawn("runup", self.machine, "--from", 44, "--to", 45, "--seconds", 1, "--columns", "f,force")
+        self.assertEqual([text for text in texts if "[N]" in text or "[µm]" in text], ["force [N]"])
+
+    def test_limits_of_sections_come_from_the_data(self):
+        """Two turns at 1.07 and 1.08 of the clearance are far apart where zero is no tick between."""
+        _, texts = self.drawn("attractors", self.machine, "--from", 19.5, "--to", 20.5, "--count", 3, "--starts", 0)
+        self.assertGreater(len({text for text in texts if re.fullmatch(r"1\.0\d+", text)}), 3)
+
+    def test_spectrum_names_what_stands_out(self):
+        """Set 1 is chaotic at 12.5 Hz. Would catch names of lines of noise, of up to ten multiples."""
+        _, texts = self.drawn("spectrum", self.machine, "--frequency", 12.5)
+        self.assertIn("amplitude of the rotor [µm]", texts)
+        self.assertRegex("\n".join(texts), r"chaotic, .*; [\d.]+ % of the rms in no line")
+        names = [text for text in texts if re.fullmatch(r"[\d/]*(X|BPF).*", text)]
+        self.assertIn("1X", names)
+        self.assertFalse([name for name in names if "/" in name or re.search("[4-9]", name)])
+
+    def test_campbell_names_its_machine_and_modes(self):
+        _, texts = self.drawn("campbell", self.machine, "--from", 0, "--to", 60, "--count", 7)
+        self.assertLessEqual({"Data set 1, exchanged reading", "critical speed", "1X"}, {*texts})
+        self.assertTrue([text for text in texts if re.fullmatch(r"modes? [\d adnot]+", text)])
+
+    def test_map_has_symbols_and_an_exponent_about_zero(self):
+        """Exponents of stable motions alone; the scale is as wide above zero."""
+        _, texts = self.drawn("map", self.machine, "--x", "frequency=44:45:2", "--y", "bearing.radial_clearance_m=1e-5:2e-5:2",
+                              "--quantity", "lyapunov,amplitude")
+        self.assertIn("amplitude [µm]: half peak-to-peak of $x_{r}$", texts)
+        below = [text[1:] for text in texts if text.startswith("−")]
+        self.assertTrue(below)
+        self.assertLessEqual({*below}, {*texts})
+
+    def test_contact_has_no_seams_and_means_no_hyphens(self):
+        """The balls' forces are an image; paths side by side let the paper shine through."""
+        svg, _ = self.drawn("contact", self.machine, *AT_45, *SIX)
+        self.assertTrue("<image" in svg)  # the whole figure is no message
+        self.assertLess(svg.count("<path"), 100)
+        _, texts = self.drawn("orbit", self.machine, *AT_45, *SIX)
+        self.assertIn(", mean −", " ".join(texts))
+        self.assertNotIn(", mean -", " ".join(texts))
 
     def progress(self, *options):
         """What a terminal gets on stderr."""
