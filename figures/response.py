@@ -15,10 +15,8 @@ from tables import ROTOR, STATOR, column_in_words, heading, run, with_subscripts
 MARKS = {"fold": ("s", "fold"), "plus-one": ("D", "multiplier +1"), "period-doubling": ("^", "period doubling"),
          "neimark-sacker": ("o", "Neimark-Sacker")}
 AMPLITUDES = [f"amp_{one}" for one in ("x_s", "y_s", "x_r", "y_r")]
-# What explore computes without --columns, in its order, before parts of harmonics; of these, measures have panels.
-ORDER = ["f", "t", *AMPLITUDES, "period", "contact_share", "force", "error", "arc", "newton", "multiplier",
-         "multiplier_change", "verdict", "bifurcation", "branch"]
-USUAL = {*ORDER} - {"contact_share", "force"}
+# What explore computes without --columns; of what else it has, measures have panels.
+USUAL = {"f", "t", *AMPLITUDES, "period", "error", "arc", "newton", "multiplier", "multiplier_change", "verdict", "bifurcation", "branch"}
 MOST_MEASURES, MOST_PANELS = 6, 24
 LINES = {"stable": ("-", 1.8), "unstable": (":", 1.8), "undecided": ("-", 0.7)}
 
@@ -43,16 +41,11 @@ def measures(table):
 
 def asked(table):
     """The columns of numbers that `--columns` names, an amplitude followed by its phase; none without it, or where all
-    four amplitudes are among them. They stand first, what else the figure needs behind them in the usual order."""
-    names = list(table.columns)
-    rank = [ORDER.index(name) if name in ORDER else len(ORDER) if name.endswith(("_re", "_im")) else -1 for name in names]
-    rank.append(len(ORDER))
-    end = len(names)
-    while end > 0 and 0 <= rank[end - 1] <= rank[end]:
-        end -= 1
-    if {*AMPLITUDES} <= {*names[:end]}:
+    four amplitudes are among them."""
+    names, = table.members("asked") or [[]]
+    if {*AMPLITUDES} <= {*names}:
         return []
-    chosen = [name for name in names[:end] if name not in ("f", "t") and table[name].dtype.kind == "f"][:MOST_PANELS]
+    chosen = [name for name in names if name not in ("f", "t") and table[name].dtype.kind == "f"][:MOST_PANELS]
     whose = [name.replace("phase_", "amp_", 1) for name in chosen]
     return sorted(chosen, key=lambda name: (whose.index(name.replace("phase_", "amp_", 1)), name))
 

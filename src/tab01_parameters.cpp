@@ -45,7 +45,7 @@ int main(int argc, char** argv)
     file.toml().refuse_unknown_keys();
     Table table = figures::data_set_table(machines);
     for (int set = 0; const Parameters& machine : machines) {
-      const double joint = common_resonance(machine);
+      const double joint = joint_resonance(machine);
       std::vector<double> equal = equal_force_speeds(machine, 2 * joint);
       equal.resize(2, angular(-1));  // none
       figures::add_data_set(

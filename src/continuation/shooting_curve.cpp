@@ -7,7 +7,7 @@ namespace rotor_stator {
 static constexpr double sizes_in_a_step = 20;
 
 ShootingCurve::ShootingCurve(const Parameters& parameters, const OperationBudget& budget)
-    : Curve(sizes_in_a_step, common_resonance(parameters)), parameters_(parameters),
+    : Curve(sizes_in_a_step, joint_resonance(parameters)), parameters_(parameters),
       sizes_(state_scales(parameters)), steps_{.intervals_per_period = 1,
                                                .tolerance = 1e-12,
                                                .budget = budget}

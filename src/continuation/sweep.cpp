@@ -143,7 +143,7 @@ SweepSettings sweep_settings(const Parameters& parameters)
     length +=
         10 * parameters.unbalance / (parameters.stator.mass + parameters.rotor.mass);
   return {.newton = {},
-          .speed_scale = common_resonance(parameters),
+          .speed_scale = joint_resonance(parameters),
           .arc_unknown_scale = length};
 }
 

@@ -122,6 +122,9 @@ bool Table::choose(const std::string& names, std::size_t usual, bool is_drawn)
     for (const Column& column : columns_) known += " " + column.name;
     throw BadInput("--columns " + name + ": must be all, or of" + known + ", each once");
   }
+  asked_ = "# row asked:";
+  for (std::size_t k : printed_) asked_ += " " + columns_[k].name;
+  if (!is_list || !is_drawn) asked_.clear();
   drawn_ = printed_;
   for (std::size_t k : printed_) wanted_[k] = true;
   for (std::size_t k = 0; is_drawn && k < usual; ++k)
@@ -266,7 +269,8 @@ std::string Table::text(TableFormat format, bool is_drawn) const
   const auto& places = is_drawn ? drawn_ : printed_;
   std::string out = beginning(format, places);
   for (const auto& row : rows_) out += row_text(row, format, places);
-  return format == TableFormat::tsv ? out + foot_ : out;
+  if (format != TableFormat::tsv) return out;
+  return out + foot_ + (is_drawn && !asked_.empty() ? asked_ + "\n" : "");
 }
 
 namespace {

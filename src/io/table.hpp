@@ -167,6 +167,7 @@ private:
   std::vector<std::pair<std::string, std::vector<Cell>>> lists_;
   std::vector<Column> columns_;
   std::vector<std::size_t> printed_, drawn_;  ///< their places
+  std::string asked_;  ///< the line that tells a figure what `--columns` names
   std::vector<bool> wanted_;
   std::vector<std::vector<Cell>> rows_;                 ///< an empty row is a gap
   std::function<void(const std::string&)> write_ = {};  ///< where rows go at once

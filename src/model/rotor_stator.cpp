@@ -55,7 +55,7 @@ DynamicStiffness dynamic_stiffness(const Body& body, double frequency)
           .slope = {-2 * body.mass * frequency, body.damping()}};
 }
 
-double common_resonance(const Parameters& parameters)
+double joint_resonance(const Parameters& parameters)
 {
   if (parameters.stator.rigid)
     return parameters.rotor.stiffness() > 0 ? parameters.rotor.natural_frequency
@@ -69,7 +69,7 @@ Scales scales(const Parameters& parameters)
   const Body &s = parameters.stator, &r = parameters.rotor;
   const double weight = ((s.rigid ? 0 : s.mass) + r.mass) * parameters.gravity +
                         std::hypot(s.load.x, s.load.y) + std::hypot(r.load.x, r.load.y);
-  const double resonance = common_resonance(parameters);
+  const double resonance = joint_resonance(parameters);
   const double unbalance = parameters.unbalance * resonance * resonance;
   const double k_h = parameters.bearing.contact_stiffness;
   const double n = parameters.bearing.exponent, gap = parameters.bearing.clearance;

@@ -145,7 +145,7 @@ DynamicStiffness dynamic_stiffness(const Body& body, double frequency);
 
 /** Sizes that make the equations dimensionless. */
 struct Scales {
-  /** Weights and loads of both bodies plus the unbalance at the common resonance [N]. */
+  /** Weights and loads of both bodies plus the unbalance at the joint resonance [N]. */
   double load;
   double penetration;  ///< of one ball under that load [m]
   double length;       ///< clearance plus penetration: the size of u [m]
@@ -164,7 +164,7 @@ inline Eigen::VectorXd state_scales(const Parameters& parameters)
 
 /** Resonance [rad/s] of rotor and stator moving as one body on both suspensions; beside a
     rigid stator that of the rotor, on the contact if it has no suspension. */
-double common_resonance(const Parameters& parameters);
+double joint_resonance(const Parameters& parameters);
 
 /** The static part of `rigid_joint_force`, from weights and loads: (k_s f_r - k_r
     f_s)/(k_s + k_r) [N]. */

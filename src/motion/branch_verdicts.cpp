@@ -45,7 +45,7 @@ private:
   std::vector<Eighths> starts_near(const BranchPoint& point) const
   {
     auto near = found_;
-    const double reach = 0.01 * common_resonance(parameters_) / parameters_.turns;
+    const double reach = 0.01 * joint_resonance(parameters_) / parameters_.turns;
     std::erase_if(near, [&](const Found& motion) {
       return std::abs(motion.omega - point.motion.omega) > reach;
     });
@@ -74,7 +74,7 @@ BranchStability machine_stability(const Parameters& parameters, Curve& curve,
                                   const ArcLengthSettings& arc_length,
                                   const OperationBudget& budget)
 {
-  const double width = 0.004 * common_resonance(parameters) / parameters.turns;
+  const double width = 0.004 * joint_resonance(parameters) / parameters.turns;
   Along multipliers(parameters, budget);
   return stability_along(curve, branch, arc_length, std::ref(multipliers),
                          {.chosen = evenly_chosen(branch, width, 2), .widest = width});

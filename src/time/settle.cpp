@@ -248,8 +248,7 @@ bool Settling::is_at_rest() const
     much farther apart than what is left of the transient. */
 bool Settling::closes(Settled& s) const
 {
-  /** Spread of the section, over the vibration [-]. */
-  const double closed = base_.is_driven_twice() ? 1e-9 : 1e-6;
+  constexpr double closed = 1e-6;  ///< spread of the section, over the vibration [-]
   constexpr double least_nearer = 1e-3, much_farther = 100;
   const auto& all = pair_.section();
   const double size = std::max(pair_.half_range(), 1e-9 * length_);
@@ -257,7 +256,8 @@ bool Settling::closes(Settled& s) const
     const double rate = std::min(0.0, s.lyapunov.value);
     return std::max(least_nearer, -std::expm1(rate * periods * pair_.period()));
   };
-  const int k = closing_period(all, closed * size * nearer_by(1), most_period);
+  const int k = closing_period(all, closed * size * nearer_by(1),
+                               base_.is_driven_twice() ? 1 : most_period);
   if (k == 0) return false;
   const auto last = std::span(all).last(3 * k + 1);
   const double left = extent(last, k) / nearer_by(k);

@@ -35,7 +35,7 @@ double joint_resonance_hz(Parameters machine, double stator_mass, double rotor_m
 {
   machine.stator.mass = stator_mass;
   machine.rotor.mass = rotor_mass;
-  return common_resonance(machine) / angular(1);
+  return joint_resonance(machine) / angular(1);
 }
 
 }  // namespace
@@ -108,9 +108,9 @@ EvidenceList two_readings(const DeviationScene& scene)
   const double speed = scene.table("readings").number("speed_hz", Range::positive);
   const Parameters &ours = scene.machine, &printed = scene.printed;
   EvidenceList list{
-      {"D-09.joint_exchanged", common_resonance(ours) / angular(1), "Hz",
+      {"D-09.joint_exchanged", joint_resonance(ours) / angular(1), "Hz",
        "joint resonance, exchanged frequencies with their working masses"},
-      {"D-09.joint_printed", common_resonance(printed) / angular(1), "Hz",
+      {"D-09.joint_printed", joint_resonance(printed) / angular(1), "Hz",
        "joint resonance, printed frequencies with their working masses"},
       {"D-09.joint_printed_masses_exchanged",
        joint_resonance_hz(printed, ours.stator.mass, ours.rotor.mass), "Hz",
@@ -133,14 +133,14 @@ EvidenceList two_readings(const DeviationScene& scene)
                 }));
     add(list, spread_of(format("D-09.spread_%s", name), steady));
     const PeriodicMotion peak = require_periodic(
-        *machine, common_resonance(*machine) / angular(1), scene.harmonics);
+        *machine, joint_resonance(*machine) / angular(1), scene.harmonics);
     list.push_back({format("D-09.peak_%s", name),
                     1e3 * half_peak_to_peak(scene.motion_of(peak))[2], "mm",
                     "half peak-to-peak of x_r at the joint resonance"});
     list.push_back({format("D-09.eccentricity_%s", name),
                     1e3 * machine->unbalance / machine->rotor.mass, "mm",
                     "of the rotor's centre of mass, m_e e/m_r"});
-    const auto equal = equal_force_speeds(*machine, 2 * common_resonance(*machine));
+    const auto equal = equal_force_speeds(*machine, 2 * joint_resonance(*machine));
     for (int number = 0; double omega : equal)
       list.push_back({format("D-09.equal_%s_%d", name, ++number), omega / angular(1),
                       "Hz", "gravity and unbalance load the rigid joint equally"});
@@ -155,10 +155,10 @@ EvidenceList unprinted_masses(const DeviationScene& scene)
       {"D-13.m_r", scene.machine.rotor.mass, "kg", "rotor, exchanged reading"},
       {"D-13.m_s_printed", scene.printed.stator.mass, "kg", "stator, printed reading"},
       {"D-13.m_r_printed", scene.printed.rotor.mass, "kg", "rotor, printed reading"},
-      {"D-13.joint", common_resonance(scene.machine) / angular(1), "Hz",
+      {"D-13.joint", joint_resonance(scene.machine) / angular(1), "Hz",
        "joint resonance"},
       {"D-13.loss",
-       equal_force_speeds(scene.machine, common_resonance(scene.machine)).front() /
+       equal_force_speeds(scene.machine, joint_resonance(scene.machine)).front() /
            angular(1),
        "Hz", "gravity and unbalance load the rigid joint equally"},
       {"D-13.speed", scene.transition_speed, "Hz", "speed of the following"}};

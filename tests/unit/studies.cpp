@@ -22,7 +22,7 @@ TEST_CASE(
 {
   Parameters machine = set_1();
   const double loss =
-      equal_force_speeds(machine, common_resonance(machine)).front() / angular(1);
+      equal_force_speeds(machine, joint_resonance(machine)).front() / angular(1);
   CHECK(loss == Approx(13.155).epsilon(1e-3));
   const auto at = [&](double clearance, double ratio) {
     machine.bearing.clearance = clearance;
