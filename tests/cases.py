@@ -348,8 +348,8 @@ class Speeds(Case):
                 ("map", ["--x", "frequency=45:46:2", "--quantity", "mean"], ["--x", "frequency=2700rpm:2760rpm:2", "--quantity", "mean"])):
             self.assertEqual(*(self.rows(command, self.machine, *asked) for asked in (hertz, rpm)))
         self.refused("--to 50: is in Hz, the other end in rpm", "response", self.machine, "--from", "2700rpm", "--to", 50)
-        self.refused("--from 0: must be in 1e-300", "response", self.machine, "--from", 0, "--to", 50)
-        self.refused("in Hz or as 1500rpm", "orbit", self.machine, "--frequency", "45 rps")
+        self.refused("--from 0: must be a positive speed", "response", self.machine, "--from", 0, "--to", 50)
+        self.refused("in Hz, or as 1500rpm", "orbit", self.machine, "--frequency", "45 rps")
 
 
 if __name__ == "__main__":

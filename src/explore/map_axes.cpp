@@ -5,6 +5,7 @@
 
 #include "io/errors.hpp"
 #include "io/program.hpp"
+#include "io/units.hpp"
 #include "model/read_machine.hpp"
 
 namespace rotor_stator::explore {
@@ -36,6 +37,8 @@ Axis read_axis(const std::string& option, const std::string& text)
   if (logarithmic) parts.pop_back();
   if (equals == 0 || parts.size() != 3) refuse("must be KEY=from:to:count[:log]");
   const std::string key = text.substr(0, equals);
+  for (const char* speed : {"frequency_rad_per_s", "speed_rad_per_s", "speed", "rpm"})
+    if (own_key(key) == speed) refuse("a speed is frequency=600rpm:6000rpm:5");
   std::string unit;
   const auto end = [&](const std::string& word) {
     return key == speed_key ? speed_in_hertz(option, word, unit)
@@ -97,6 +100,37 @@ std::vector<double> swept_speeds(const std::string& text)
   return evenly_spaced(from, to, count);
 }
 
+/** What is wrong with a machine, with the axis whose key it names. */
+BadInput of_axis(const MapTask& task, const std::string& why)
+{
+  const auto& [x, y] = std::tie(task.grid.x.key, task.grid.y.key);
+  const auto is_of = [&](const std::string& key) {
+    return !key.empty() && key != speed_key && why.find(own_key(key)) != why.npos;
+  };
+  return BadInput((is_of(x)   ? "--x " + task.request.x + ": "
+                   : is_of(y) ? "--y " + task.request.y + ": "
+                              : "") +
+                  why);
+}
+
+/** Throws BadInput for a key without its table, with those that take its last value. */
+void require_tables(const MapTask& task)
+{
+  const auto values = task.grid.values(task.grid.lines() - 1, task.grid.x.count - 1);
+  for (std::size_t k = 0; k < values.size(); ++k) {
+    const std::string& key = task.keys[k];
+    if (key == speed_key || key.find('.') != key.npos) continue;
+    std::string known;
+    for (const std::string& table : task.file.keys()) try {
+        task.read({{table + "." + key, values[k]}}, task.request.frequency.value_or(0));
+        known += (known.empty() ? "; did you mean " : " or ") + table + "." + key;
+      } catch (const BadInput&) {
+      }
+    if (!known.empty())
+      throw of_axis(task, own_key(key) + " is not a known key here" + known + "?");
+  }
+}
+
 }  // namespace
 
 double Axis::at(std::size_t k) const
@@ -134,7 +168,7 @@ std::pair<Parameters, double> MapTask::machine(const std::vector<double>& values
       changes.emplace_back(keys[k], values[k]);
     else if (frequency = values[k]; !(frequency >= 1e-300 && frequency <= 1e300))
       throw BadInput(
-          format("%s: must be in 1e-300...1e+300, got %g", speed_key, frequency));
+          format("%s: must be a positive speed in Hz, got %g", speed_key, frequency));
   return {read(changes, frequency), frequency};
 }
 
@@ -178,12 +212,16 @@ MapTask task_of(const MapRequest& request)
     throw BadInput("--frequency: is a key of the map already");
   if (request.tolerance && request.samples && !request.harmonics)
     throw BadInput("--samples: chosen with m for --tolerance; give --harmonics too");
+  require_tables(task);
   /** The corners, so that an unknown key or a range that no machine has is refused at
       once. */
   const std::size_t top = grid.list ? 0 : grid.lines() - 1;
   for (const std::size_t line : {std::size_t{0}, top})
-    for (const std::size_t k : {std::size_t{0}, grid.x.count - 1})
-      task.machine(grid.values(line, k));
+    for (const std::size_t k : {std::size_t{0}, grid.x.count - 1}) try {
+        task.machine(grid.values(line, k));
+      } catch (const BadInput& error) {
+        throw of_axis(task, error.what());
+      }
   return task;
 }
 

@@ -68,9 +68,14 @@ void add_table_options(CLI::App& command, Request& request)
   if (command.get_name() == "map") return;  // its quantities are chosen
   const std::string name = command.get_name();
   const bool has_measures = name == "orbit" || name == "response" || name == "attractors";
-  command.add_option("--columns", request.columns,
-                     "NAME,... that are printed, or all; others are not computed" +
-                         (has_measures ? measures_in_words : ""));
+  command.add_option_function<std::string>(
+      "--columns",
+      [&request](std::string names) {
+        std::erase(names, ' ');
+        request.columns = names;
+      },
+      "NAME,... that are printed, or all; others are not computed" +
+          (has_measures ? measures_in_words : ""));
   command.add_option_function<std::string>(
       "--format",
       [&request](const std::string& word) {
@@ -255,6 +260,9 @@ Check add_options(CLI::App& command, MotionRequest& request)
     choose_method(method, aft, {"auto", "gauss", "aft", "shooting"});
     refuse(periodic, is_periodic(method), "for the methods aft and shooting", method);
     in_time.check(method);
+    if (const double turn = 1 / request.frequency; request.step > turn)
+      throw BadInput(
+          format("--step %g: is too long, a turn takes %.3g s", request.step, turn));
     if (request.plot && request.points < 2)
       throw BadInput("--points 1: --plot needs two or more");
     refuse({local_error}, method != "aft" && !has_fixed_step(method),

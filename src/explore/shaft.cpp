@@ -159,8 +159,7 @@ struct Shaft {
     for (const auto& [key, to] :
          {std::pair{"stiffness_N_per_m", &all.k}, {"damping_N_s_per_m", &all.c}}) {
       if (to == &all.c && !support.has(key)) continue;
-      const std::vector<double> values = support.numbers(key, Range::not_negative);
-      if (values.size() != 2) support.fail(key, "must be [x, y]");
+      const auto values = support.numbers(key, Range::not_negative, "[x, y]");
       for (int axis : {0, 1})
         to->emplace_back(4 * node + axis, 4 * node + axis, values[axis]);
     }

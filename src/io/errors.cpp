@@ -1,11 +1,11 @@
 #include "io/errors.hpp"
 
 #include <algorithm>
+#include <cctype>
 #include <charconv>
 #include <cmath>
 #include <cstdarg>
 #include <cstdio>
-#include <numeric>
 
 namespace rotor_stator {
 
@@ -40,19 +40,26 @@ std::string printable(const std::string& text)
 
 namespace {
 
-/** How many characters have to be put in, left out or changed to make one word of the
-    other. */
+/** What has to be put in, left out or changed to make one word of the other, in any case:
+    4 for a character, 3 for two that change places. */
 std::size_t edits(const std::string& a, const std::string& b)
 {
-  std::vector<std::size_t> row(b.size() + 1);
-  std::iota(row.begin(), row.end(), 0);
+  const auto same = [&](std::size_t i, std::size_t j) {
+    const unsigned char one = a[i], other = b[j];
+    return std::tolower(one) == std::tolower(other);
+  };
+  std::vector<std::size_t> last(b.size() + 1), row(last), next(last);
+  for (std::size_t j = 0; j < row.size(); ++j) row[j] = 4 * j;
   for (std::size_t i = 0; i < a.size(); ++i) {
-    std::size_t diagonal = row[0]++;
+    next[0] = 4 * (i + 1);
     for (std::size_t j = 0; j < b.size(); ++j) {
-      const std::size_t changed = diagonal + (a[i] != b[j]);
-      diagonal = row[j + 1];
-      row[j + 1] = std::min({changed, row[j] + 1, diagonal + 1});
+      next[j + 1] =
+          std::min({row[j] + (same(i, j) ? 0 : 4), row[j + 1] + 4, next[j] + 4});
+      if (i > 0 && j > 0 && same(i, j - 1) && same(i - 1, j))
+        next[j + 1] = std::min(next[j + 1], last[j - 1] + 3);
     }
+    last.swap(row);
+    row.swap(next);
   }
   return row.back();
 }
@@ -62,13 +69,15 @@ std::size_t edits(const std::string& a, const std::string& b)
 std::string suggestion(const std::string& word, const std::vector<std::string>& known)
 {
   std::string nearest;
-  std::size_t least = 100;
+  std::size_t least = 1000;
   for (const std::string& candidate : known) {
     const bool is_part = word.size() >= 4 && candidate.find(word) != std::string::npos;
     const std::size_t distance = edits(word.substr(0, 100), candidate);
-    if (distance >= least || !(is_part || 3 * distance <= candidate.size())) continue;
+    if (candidate == word || distance + !is_part >= least ||
+        !(is_part || 3 * distance <= 4 * candidate.size()))
+      continue;
     nearest = candidate;
-    least = distance;
+    least = distance + !is_part;
   }
   return nearest.empty() ? "" : "; did you mean " + nearest + "?";
 }

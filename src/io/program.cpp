@@ -27,6 +27,10 @@ std::string unexpected(const CLI::App& app)
   const auto left = app.remaining(true);
   if (left.empty()) return "";
   const std::string word = left.front().substr(0, left.front().find('='));
+  /** What others call a speed and a number of speeds. */
+  constexpr std::pair<const char*, const char*> instead[]{
+      {"--rpm", "--frequency"}, {"--speed", "--frequency"}, {"--frequency", "--from"},
+      {"--rpm", "--from"},      {"--speed", "--from"},      {"--step", "--count"}};
   std::vector<std::string> known;
   const auto chosen = app.get_subcommands();
   for (const CLI::Option* option : (chosen.empty() ? app : *chosen.back()).get_options())
@@ -40,6 +44,10 @@ std::string unexpected(const CLI::App& app)
     }
   if (std::ranges::find(known, word) != known.end())
     return word + ": stands before the command; options come after it";
+  for (const auto& [other, own] : instead)
+    if (word == other && std::ranges::find(known, own) != known.end())
+      return word + ": not expected; did you mean " + own +
+             (own == std::string("--count") ? "?" : " 1500rpm?");
   return word + ": not expected" + suggestion(word, known) + commands;
 }
 
@@ -118,10 +126,8 @@ double speed_in_hertz(const std::string& option, const std::string& value,
   const std::optional<double> speed = decimal(number);
   const bool is_rest = speed && *speed == 0 && may_rest;
   if (!speed || (!(*speed >= 1 / largest && *speed <= largest) && !is_rest))
-    throw BadInput(
-        option + " " + value + ": must be " +
-        format(may_rest ? "0, or in %g...%g" : "in %g...%g", 1 / largest, largest) +
-        ", a speed in decimal notation, in Hz or as 1500rpm");
+    throw BadInput(option + " " + value + ": must be " + (may_rest ? "0 or " : "") +
+                   "a positive speed in Hz, or as 1500rpm");
   if (is_rest && own == "Hz") return 0;  // 0 is one in any unit
   if (unit.empty()) unit = own;
   if (unit != own)

@@ -4,12 +4,12 @@
 #include <algorithm>
 #include <cmath>
 #include <filesystem>
-#include <numbers>
 #include <optional>
 #include <set>
 #include <sstream>
 
 #include "io/errors.hpp"
+#include "io/units.hpp"
 
 namespace rotor_stator {
 
@@ -81,73 +81,13 @@ struct Refused {
   std::string why;
 };
 
-/** A unit that a key may end in, beside the one that is read: own = times/over other. */
-struct Unit {
-  std::string_view own, other;
-  double times, over;
-};
-
-constexpr double turn = 2 * std::numbers::pi;
-constexpr Unit units[]{
-    {"_N_per_m", "_N_per_mm", 1e3, 1},
-    {"_N_per_m", "_kN_per_m", 1e3, 1},
-    {"_N", "_kN", 1e3, 1},
-    {"_kg", "_g", 1, 1e3},
-    {"_kg_m", "_g_mm", 1, 1e6},
-    {"_Pa", "_MPa", 1e6, 1},
-    {"_Pa", "_GPa", 1e9, 1},
-    {"_rad_per_s", "_Hz", turn, 1},
-    {"_rad_per_s", "_rpm", turn, 60},
-    {"_rad", "_deg", turn, 360},
-    {"_m", "_mm", 1, 1e3},
-    {"_m", "_um", 1, 1e6},
-};
-
-/** That of a key, if any; the first that fits. A length in a denominator has none. */
-const Unit* unit_of(std::string_view key)
-{
-  const auto found = std::ranges::find_if(
-      units, [&](const Unit& unit) { return key.ends_with(unit.other); });
-  if (found == std::end(units)) return nullptr;
-  const auto stem = key.substr(0, key.size() - found->other.size());
-  return found->own == "_m" && stem.ends_with("_per") ? nullptr : found;
-}
-
-/** The key as it is read. */
-std::string own_key(const std::string& key)
-{
-  const Unit* const unit = unit_of(key);
-  if (!unit) return key;
-  return key.substr(0, key.size() - unit->other.size()).append(unit->own);
-}
-
-/** The known key that was meant, in the unit of the one that was found. */
-std::string meant(const std::string& found, std::vector<std::string> known)
-{
-  const auto is_same = [](char a, char b) { return std::tolower(a) == std::tolower(b); };
-  const Unit* const given = unit_of(found);
-  for (std::string& key : known)
-    for (const Unit& unit : units) {
-      if (!key.ends_with(unit.own)) continue;
-      const std::string other =
-          key.substr(0, key.size() - unit.own.size()).append(unit.other);
-      if (std::ranges::equal(found, other, is_same))
-        return "; did you mean " + other + "?";
-      if (&unit != given) continue;
-      key = other;
-      break;
-    }
-  return suggestion(found, known);
-}
-
-double in_own_unit(const std::string& key, double value)
-{
-  const Unit* const unit = unit_of(key);
-  return unit ? value * unit->times / unit->over : value;
-}
-
 double as_number(const toml::node& node, Range range)
 {
+  if (const auto word = node.value<std::string>()) {
+    const auto at = std::min(word->find_first_of("-.0123456789"), word->size());
+    if (const auto value = decimal(word->substr(at)))
+      throw Refused{format("must be a number, without letters and quotes: %.9g", *value)};
+  }
   if (!node.is_number()) throw Refused{"must be a number"};
   const double value = *node.value<double>();
   if (!std::isfinite(value)) throw Refused{"must be finite"};
@@ -185,6 +125,7 @@ struct StrictToml::Content {
   toml::table table;
   std::set<std::string> read, asked;  ///< keys; those that may stand here
   std::vector<std::pair<std::string, std::shared_ptr<Content>>> inner_tables;
+  std::set<std::string> expected = {};  ///< by may_hold
 
   /** A key as it stands in the file, perhaps in another unit. */
   std::string written(const std::string& key) const
@@ -219,14 +160,17 @@ struct StrictToml::Content {
     }
   }
 
-  /** What `take` makes of each element of an array. */
+  /** What `take` makes of each element of an array, which has as many as its shape. */
   template <class Take>
   auto all(const StrictToml& reader, const std::string& key, Take take,
-           bool may_be_empty = false)
+           const std::string& shape = "a non-empty array")
   {
+    const auto commas = std::count(shape.begin(), std::ranges::find(shape, ']'), ',');
     return one(reader, key, [&](toml::node& node) {
-      if (!node.is_array() || (node.as_array()->empty() && !may_be_empty))
-        throw Refused{may_be_empty ? "must be an array" : "must be a non-empty array"};
+      const std::size_t size = node.is_array() ? node.as_array()->size() : 0;
+      if (!node.is_array() || (commas > 0 && size != commas + 1ul) ||
+          (size == 0 && shape != "an array"))
+        throw Refused{"must be " + shape};
       std::vector<decltype(take(node))> values;
       for (toml::node& element : *node.as_array()) values.push_back(take(element));
       return values;
@@ -368,7 +312,7 @@ std::size_t StrictToml::way(const std::vector<std::vector<std::string>>& ways) c
       if (!has(key) || taken == k) continue;
       if (taken < k) fail(key, "and " + given + " are both given; give one of them");
       taken = k;
-      given = key;
+      given = content_->written(key);
     }
     advice += (k == 0 ? "; give it, or " : k == 1 ? "" : ", or ") + (k == 0 ? "" : keys);
   }
@@ -405,21 +349,21 @@ std::string StrictToml::string(const std::string& key)
   return content_->one(*this, key, as_string);
 }
 
-std::vector<double> StrictToml::numbers(const std::string& key, Range range)
+std::vector<double> StrictToml::numbers(const std::string& key, Range range,
+                                        const std::string& shape)
 {
-  auto values =
-      content_->all(*this, key, [&](auto& node) { return as_number(node, range); });
+  auto values = content_->all(
+      *this, key, [&](auto& node) { return as_number(node, range); }, shape);
   const std::string name = content_->written(key);
   for (double& value : values) value = in_own_unit(name, value);
   return values;
 }
 
 std::vector<int> StrictToml::integers(const std::string& key, int least, int most,
-                                      bool may_be_empty)
+                                      const std::string& shape)
 {
   return content_->all(
-      *this, key, [&](auto& node) { return as_integer(node, least, most); },
-      may_be_empty);
+      *this, key, [&](auto& node) { return as_integer(node, least, most); }, shape);
 }
 
 std::vector<std::string> StrictToml::strings(const std::string& key)
@@ -440,7 +384,8 @@ StrictToml StrictToml::table(const std::string& key)
   for (const auto& [name, known] : content_->inner_tables)
     if (name == key) return StrictToml(known);
   return content_->one(*this, key, [&](auto& node) {
-    if (!node.is_table()) throw Refused{"must be a table"};
+    if (!node.is_table())
+      throw Refused{"must be a table, [" + content_->path + key + "]"};
     return content_->inner(node, key);
   });
 }
@@ -477,16 +422,24 @@ void StrictToml::fail(const std::string& key, const std::string& problem) const
                  content_->path + name + " " + problem);
 }
 
+void StrictToml::may_hold(const std::vector<std::string>& keys) const
+{
+  content_->expected.insert(keys.begin(), keys.end());
+}
+
 void StrictToml::missing(const std::string& key, const std::string& advice,
                          const std::vector<std::vector<std::string>>& ways) const
 {
   std::vector<std::string> wanted{key};
   for (const auto& way : ways) wanted.insert(wanted.end(), way.begin(), way.end());
+  const std::set<std::string>&all = content_->expected, &asked = content_->asked;
   for (const std::string& found : keys()) {
-    const std::string instead = meant(found, wanted);
-    if (!content_->read.contains(found) && !instead.empty())
-      fail(found, "is not a known key here" + instead + " (" + content_->path + key +
-                      " is missing" + advice + ")");
+    const std::string own = own_key(found), instead = meant(found, wanted);
+    if (content_->read.contains(found) || all.contains(own) || asked.contains(own) ||
+        (all.empty() && instead.empty()))
+      continue;
+    fail(found, "is not a known key here" + instead + " (" + content_->path + key +
+                    " is missing" + advice + ")");
   }
   fail(key, "is missing" + advice);
 }

@@ -56,9 +56,12 @@ public:
   int integer(const std::string& key, int least, int most);
   int integer_or(const std::string& key, int least, int most, int otherwise);
   std::string string(const std::string& key);
-  std::vector<double> numbers(const std::string& key, Range range);
+
+  /** Those of an array of this `shape`; as many as it names where it is as "[x, y]". */
+  std::vector<double> numbers(const std::string& key, Range range,
+                              const std::string& shape = "a non-empty array");
   std::vector<int> integers(const std::string& key, int least, int most,
-                            bool may_be_empty = false);
+                            const std::string& shape = "a non-empty array");
   std::vector<std::string> strings(const std::string& key);
   bool flag(const std::string& key);
   StrictToml table(const std::string& key);
@@ -73,6 +76,10 @@ public:
 
   /** Throws BadInput about `key`: file, line, key and `problem`. */
   [[noreturn]] void fail(const std::string& key, const std::string& problem) const;
+
+  /** All keys that may stand here, so that beside a missing one an unknown one is named,
+      whatever it is. */
+  void may_hold(const std::vector<std::string>& keys) const;
 
   /** Throws BadInput about a required key: names the key that it, or one of other `ways`
       to give the value, may have been misspelt as, if any. */

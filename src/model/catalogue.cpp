@@ -35,7 +35,8 @@ Designation read_designation(StrictToml& table)
 {
   const std::string text = table.string(designation_key);
   std::smatch part;
-  static const std::regex whole(R"(((?:[A-Z]+ +)*)([A-Z]*)(\d+(?:/\d\d)?)(?!\d)(.*))",
+  static const std::regex whole(R"(((?:[A-Z]+ +|FAG|KOYO|NACHI|NSK|NTN|SKF|SNR)*))"
+                                R"(([A-Z]*)(\d+(?:/\d\d)?)(?!\d)(.*))",
                                 std::regex::icase);
   if (!std::regex_match(text, part, whole))
     table.fail(designation_key, "\"" + text + "\" holds no number such as 6205");
@@ -66,8 +67,8 @@ Designation read_designation(StrictToml& table)
   return found;
 }
 
-/** The entry of a designation. Throws BadInput, with all that there are, for one that is
-    not there. */
+/** The entry of a designation. Throws BadInput for one that is not there, with the
+    nearest one or, where none is near, all that there are. */
 StrictToml entry_of(StrictToml& table, const std::string& wanted)
 {
   std::vector<std::string> known;
@@ -76,11 +77,12 @@ StrictToml entry_of(StrictToml& table, const std::string& wanted)
     if (known.back() == wanted) return entry;
   }
   std::ranges::sort(known);
-  std::string there, text = table.string(designation_key);
-  for (const std::string& one : known) there += (there.empty() ? "" : ", ") + one;
-  const std::string meant = suggestion(text.substr(0, text.find_first_of(" -")), known);
-  table.fail(designation_key, "\"" + text + "\" is not in the catalogue" + meant +
-                                  "; there are " + there +
+  std::string advice = suggestion(wanted, known);
+  if (advice.empty())
+    for (const std::string& one : known)
+      advice += (advice.empty() ? "; there are " : ", ") + one;
+  table.fail(designation_key, "\"" + table.string(designation_key) +
+                                  "\" is not in the catalogue" + advice +
                                   "; give the bearing's dimensions instead");
 }
 
@@ -350,6 +352,15 @@ KinematicOrders kinematic_orders(const Bearing& bearing)
 
 Bearing read_bearing(StrictToml& table, std::vector<std::string>& derived)
 {
+  table.may_hold({"balls", designation_key, "cage_speed_ratio", "ball_radius_m",
+                  "inner_race_radius_m", "ball_diameter_m", "pitch_diameter_m",
+                  "contact_angle_rad", "outer_ring_speed_ratio", "cage_phase_rad",
+                  "stator_dofs", "rotor_dofs", "defect", "parallel"});
+  table.may_hold({"contact_stiffness_N_per_m1p5", "contact_stiffness_N_per_mn",
+                  "contact_exponent", "inner_groove_ratio", "outer_groove_ratio",
+                  "youngs_modulus_Pa", "poissons_ratio", "radial_clearance_m",
+                  "diametral_clearance_m", "internal_clearance",
+                  "contact_damping_s_per_m"});
   Bearing bearing{};
   const bool has_count = table.way({{"balls"}, {designation_key}}) == 0;
   const Designation name = has_count ? Designation{} : read_designation(table);

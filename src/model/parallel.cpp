@@ -16,9 +16,7 @@ std::array<double, 4> read_four(StrictToml& table, const char* key)
 {
   std::array<double, 4> four{};
   if (!table.has(key)) return four;
-  const std::vector<double> given = table.numbers(key, Range::any);
-  if (given.size() != four.size()) table.fail(key, "must be [xx, xy, yx, yy]");
-  std::ranges::copy(given, four.begin());
+  std::ranges::copy(table.numbers(key, Range::any, "[xx, xy, yx, yy]"), four.begin());
   return four;
 }
 
@@ -26,8 +24,11 @@ std::vector<Coefficients> read_coefficients(StrictToml& table)
 {
   for (const char* key : {stiffness_key, damping_key})
     if (table.has(key)) table.fail(key, "not together with coefficients");
-  const auto folder = std::filesystem::path(table.file()).parent_path();
-  const NumberTable by_speed((folder / table.string(coefficients_key)).string());
+  const auto file =
+      std::filesystem::path(table.file()).parent_path() / table.string(coefficients_key);
+  if (std::error_code error; !std::filesystem::exists(file, error))
+    table.fail(coefficients_key, "names no file: " + file.string());
+  const NumberTable by_speed(file.string());
   constexpr const char* names[] = {"k_xx", "k_xy", "k_yx", "k_yy",
                                    "c_xx", "c_xy", "c_yx", "c_yy"};
   for (const std::string& name : by_speed.names())

@@ -23,6 +23,10 @@ double derived(StrictToml& table, const char* key, double value)
 
 Body read_body(StrictToml& table)
 {
+  table.may_hold({"mass_kg", "natural_frequency_rad_per_s", "stiffness_N_per_m",
+                  "damping_ratio", "damping_N_s_per_m", "load_N", ground_key, "matrices",
+                  "unbalance_kg_m", "eccentricity_m", "balance_grade",
+                  "balance_speed_rad_per_s"});
   Body body{};
   body.mass = table.number("mass_kg", Range::positive);
   constexpr const char *frequency_key = "natural_frequency_rad_per_s",
@@ -35,9 +39,9 @@ Body read_body(StrictToml& table)
                 std::sqrt(table.number(stiffness_key, Range::not_negative) / body.mass));
   const bool is_free = body.natural_frequency == 0;
   if (is_free && !table.has("damping_ratio") && !table.has("damping_N_s_per_m"))
-    table.fail("damping_N_s_per_m",
-               "is missing: a body without a suspension has no damping_ratio; 0, or what "
-               "damps it against the ground");
+    table.missing("damping_N_s_per_m",
+                  ": a body without a suspension has no damping_ratio; 0, or what damps "
+                  "it against the ground");
   if (table.way({{"damping_ratio"}, {"damping_N_s_per_m"}}) == 0)
     body.damping_ratio = table.number("damping_ratio", Range::not_negative);
   else
@@ -47,8 +51,7 @@ Body read_body(StrictToml& table)
                "damps nothing where natural_frequency_rad_per_s is 0; give "
                "damping_N_s_per_m instead");
   if (table.has("load_N")) {
-    const std::vector<double> load = table.numbers("load_N", Range::any);
-    if (load.size() != 2) table.fail("load_N", "must be [x, y]");
+    const std::vector<double> load = table.numbers("load_N", Range::any, "[x, y]");
     body.load = {load[0], load[1]};
   }
   return body;
@@ -77,6 +80,9 @@ double read_unbalance(StrictToml& table, const Body& rotor)
 bool read_rigid(StrictToml& table, double rotor_mass, Body& stator)
 {
   if (!table.has("rigid") || !table.flag("rigid")) return false;
+  for (const std::string& key : table.keys())
+    if (key != "rigid" && key != ground_key)
+      table.fail(key, "is not a known key here: a rigid stator has no other keys");
   constexpr double heavier = 1e15;
   stator = {.mass = heavier * rotor_mass,
             .natural_frequency = 0,
@@ -98,11 +104,13 @@ Parameters read_parameters(StrictToml root, const MatrixReader& reader)
   parameters.file = root.file();
   const std::string read = root.text_without("title");
   parameters.identity.add(std::as_bytes(std::span(read)));
+  constexpr const char *matrices = "matrices", *bearing_key = "bearing",
+                       *gravity_key = "acceleration_m_per_s2";
+  root.may_hold({"title", "stator", "rotor", bearing_key, "gravity"});
   parameters.title = root.string("title");
 
   StrictToml stator = root.table("stator");
   StrictToml rotor = root.table("rotor");
-  constexpr const char* matrices = "matrices";
   if (!rotor.has(matrices)) parameters.rotor = read_body(rotor);
   if (!read_rigid(stator, parameters.rotor.mass, parameters.stator) &&
       !stator.has(matrices))
@@ -110,7 +118,8 @@ Parameters read_parameters(StrictToml root, const MatrixReader& reader)
   if (!rotor.has(matrices))
     parameters.unbalance = read_unbalance(rotor, parameters.rotor);
   StrictToml gravity = root.table("gravity");
-  parameters.gravity = gravity.number("acceleration_m_per_s2", Range::not_negative);
+  gravity.may_hold({gravity_key});
+  parameters.gravity = gravity.number(gravity_key, Range::not_negative);
   const bool has_matrices = stator.has(matrices) || rotor.has(matrices) ||
                             stator.has(ground_key) || rotor.has(ground_key);
   if (has_matrices && !reader)
@@ -121,7 +130,10 @@ Parameters read_parameters(StrictToml root, const MatrixReader& reader)
     reader(root, parameters);
     read_rigid(stator, parameters.rotor.mass, parameters.stator);
   } else {
-    StrictToml bearing = root.table("bearing");
+    if (root.has_tables(bearing_key))
+      root.fail(bearing_key,
+                "must be [bearing]; several are of bodies given by matrices");
+    StrictToml bearing = root.table(bearing_key);
     parameters.bearing = read_bearing(bearing, parameters.derived);
   }
   for (const Bearing& joint : joints_of(parameters))

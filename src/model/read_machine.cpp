@@ -69,9 +69,9 @@ void require_mass(const SparseMatrix& m, const std::string& file)
 std::vector<int> read_dofs(StrictToml& table, const std::string& key, int size,
                            bool is_pair)
 {
-  std::vector<int> dofs = table.integers(key, 1, size, !is_pair);
-  if (is_pair && (dofs.size() != 2 || dofs[0] == dofs[1]))
-    table.fail(key, "must be [x, y], two degrees of freedom");
+  constexpr const char* pair = "[x, y], two degrees of freedom";
+  std::vector<int> dofs = table.integers(key, 1, size, is_pair ? pair : "an array");
+  if (is_pair && dofs[0] == dofs[1]) table.fail(key, std::string("must be ") + pair);
   for (int& dof : dofs) --dof;
   return dofs;
 }
@@ -216,6 +216,8 @@ void read_grounds(StrictToml& table, LinearBody& body, int first, Parameters& pa
     list.push_back(table.table(ground_key));
   for (StrictToml& one : list) {
     const bool is_mass = !table.has("matrices");
+    if (is_mass && std::ranges::count(one.keys(), "dofs") > 0)
+      one.fail("dofs", "is of bodies given by matrices");
     const std::vector<int> dofs =
         is_mass ? body.joint : read_dofs(one, "dofs", body.size(), true);
     all.places.push_back({-1, -1, first + dofs[0], first + dofs[1]});

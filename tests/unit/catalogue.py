@@ -136,7 +136,7 @@ class Catalogue(Case):
         """Maker, seals, cage and grease change nothing and are named; a class of clearance is that of the key."""
         keys = ["balls", "contact_stiffness", "clearance", "cage_speed_ratio"]
         expected = self.header(C3, *keys)
-        for text in ["6205 C3", "6205/C3", "6205C3", "SKF 6205-2RS1/C3", "6205-2Z/C3GJN", "6205 zz c3", "6205/P63"]:
+        for text in ["6205 C3", "6205/C3", "6205C3", "SKF 6205-2RS1/C3", "SKF6205-2Z/C3", "6205-2Z/C3GJN", "6205 zz c3", "6205/P63"]:
             with self.subTest(text):
                 self.assertEqual(self.header(f'designation = "{text}"', *keys), expected)
         for text, unused in [("SKF 6205-2RS", "SKF 2RS"), ("6205-2RS JEM", "2RS JEM"), ("6205ZZ", "ZZ")]:
@@ -210,7 +210,9 @@ class Catalogue(Case):
     def test_refusals(self):
         ratios = "\n".join(BY_HAND.splitlines()[3:])
         for bearing, words in [
-                (C3.replace("6205", "6299"), 'bearing.designation "6299" is not in the catalogue; did you mean 6209?; there are 60/22,'),
+                (C3.replace("6205", "6299"), 'bearing.designation "6299" is not in the catalogue; did you mean 6209?; give the'),
+                (C3.replace("6205", "SKF 6025"), 'designation "SKF 6025" is not in the catalogue; did you mean 6205?; give the'),
+                (C3.replace("6205", "9999"), '"9999" is not in the catalogue; there are 60/22, '),
                 (C3.replace("C3", "C7"), "must be C2, CN or C0 (normal), C3, C4 or C5"),
                 (C3 + "\nballs = 9", "designation and balls are both given"),
                 (C3 + "\ncage_speed_ratio = 0.4", "designation and cage_speed_ratio are both given"),
@@ -233,6 +235,21 @@ class Catalogue(Case):
                 (C3.replace("designation", "designaton"), "did you mean designation?"),
                 (C3.replace("6205", "").replace('""', "6205"), "designation must be a string")]:
             self.refused_machine(words, machine(bearing))
+
+    def test_what_is_missing_makes_nothing_else_unknown(self):
+        """Each key alone left out of machines that have, between them, all keys."""
+        more = "\ncontact_angle_deg = 5\nouter_ring_speed_ratio = 0.1\ncontact_damping_s_per_m = 1e-6"
+        radii = "ball_radius_m = 0.004\ninner_race_radius_m = 0.016\ncontact_stiffness_N_per_mn = 1e10\ncontact_exponent = 1.4"
+        for text in [machine(f"balls = 9\n{radii}\nradial_clearance_m = 0"), machine(C3 + more), machine(
+                BY_HAND + more + "\n[bearing.defect]\nsurface = 'ball'\ndepth_m = 0\nwidth_deg = 9\n[bearing.parallel]").replace(
+                "natural_frequency_rad_per_s = 150.0", "stiffness_N_per_mm = 9e2\nload_N = [0, 1]\nground = {cubic_stiffness_N_per_m3 = 1}").replace(
+                "unbalance_kg_m = 0.05", "balance_grade = 6.3\nbalance_speed_rpm = 3000"), MACHINE]:
+            lines = text.splitlines()
+            for k, line in enumerate(lines):
+                if "=" in line:
+                    with self.subTest(line):
+                        without = self.file("own.toml", "\n".join(lines[:k] + lines[k + 1:]))
+                        self.assertNotIn("not a known key", self.run_explore("check", without).stderr)
 
 
 if __name__ == "__main__":

@@ -46,10 +46,19 @@ class Values(Case):
                 (cage, cage + "\nball_radius_m = 0.01\ninner_race_radius_m = 0.07", "both given"),
                 (cage, "ball_radius_m = 0.01", "inner_race_radius_m is missing"),
                 (cage, "ball_radius_m = 0.03\ninner_race_radius_m = 0.07", "overlap"),
-                ("[gravity]", "[wind]", "gravity is missing"),
+                ("[gravity]", "[wind]", "wind is not a known key here (gravity is missing)"),
+                ("[stator]", "[housing]", "housing is not a known key here (stator is missing)"),
+                ("acceleration_m_per_s2", "g", "gravity.g is not a known key here (gravity.acceleration_m_per_s2 is missing)"),
+                ("damping_ratio = 0.05", "damping_ratio_percent = 5",
+                 f":{line + 2}: stator.damping_ratio_percent is not a known key here (stator.damping_ratio is missing; give it, or"),
+                ("unbalance_kg_m", "unbalance_gmm", "did you mean unbalance_g_mm? (rotor.unbalance_kg_m is missing"),
+                *(("unbalance_kg_m", f"unbalance_{unit}", "did you mean unbalance_g_mm?") for unit in ("g_m", "gcm")),
+                ("unbalance_kg_m", "unbalance_KG_m", "did you mean unbalance_kg_m?"),
                 ("s2 = 9.81", "s2 = -9.81", "gravity.acceleration"),
                 ("title = ", "title = 3 #", "title must be a string"),
-                ("[stator]", "stator = 1\n[other]", "stator must be a table"),
+                ("[stator]", "stator = 1\n[other]", "stator must be a table, [stator]"),
+                ("[rotor]", "[[rotor]]", "rotor must be a table, [rotor]"),
+                ("[bearing]", "[[bearing]]", "bearing must be [bearing]; several are of bodies given by matrices"),
                 ("[stator]", "[stator", "not TOML")]:
             self.refused_change(old, new, words)
 
@@ -84,6 +93,9 @@ class Values(Case):
                 ("--frequency 30 --newton-tolerance 1e6", "must be in 1e-15...0.001"),
                 ("--frequency 30 --method rk8pd --local-error 1e10", "--local-error"),
                 ("--frequency 30 --method rk4 --step 0", "--step"),
+                ("--frequency 30 --step 1", "--step 1: is too long, a turn takes 0.0333 s"),
+                *((f"--frequency {speed}", f"--frequency {speed}: must be a positive speed in Hz, or as 1500rpm\n")
+                  for speed in ("-25", "0", "1500rad/s", "25,0")),
                 ("--frequency 30 --subharmonic 0", "--subharmonic 0: must be in 1...8"),
                 ("--frequency 30 --subharmonic 9", "1...8"), ("--frequency 30 --subharmonic 1.5", "--subharmonic"),
                 ("--frequency 30 --subharmonic 2 --method rk4", "--subharmonic: is for the methods aft")], "orbit", self.machine)
@@ -124,6 +136,7 @@ class Values(Case):
         self.refused("--from 10 Hz: must be below --to 10 Hz", "attractors", self.machine, "--from", 10, "--to", 10, "--count", 3)
         self.refused("closed no motion of period 2 T", "orbit", self.machine, *ORBIT, "--method", "aft", "--subharmonic", 2,
                      "--budget", 1e9, status=3)
+        self.refused("; is --step 0.001 too long?", "orbit", self.machine, *ORBIT, "--step", 1e-3, status=3)
         self.refused("subcommand")
         self.refused("subcommand", "dance")
 
@@ -381,6 +394,9 @@ class Options(Case):
                      "orbit", self.machine, *ORBIT, "--harmonic", "6")
         self.refused("--freqency: not expected; did you mean --frequency?",
                      "orbit", self.machine, "--freqency=45")
+        for command, word, own in [("orbit", "--rpm", "--frequency 1500rpm"), ("orbit", "--speed", "--frequency 1500rpm"),
+                                   ("check", "--frequency", "--from 1500rpm"), ("response", "--step", "--count")]:
+            self.refused(f"{word}: not expected; did you mean {own}?", command, self.machine, word, "25")
         self.refused("orbits: not expected; did you mean orbit?; subcommands: check, orbit, contact, response",
                      "orbits", self.machine, *ORBIT)
 

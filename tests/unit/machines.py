@@ -111,13 +111,19 @@ class Machines(Case):
                 (replaced(MACHINE, "rotor", "damping_ratio", ""), "damping_ratio is missing; give it, or damping_N"),
                 (MACHINE.replace("[rotor]", "[rotor]\neccentricity_m = 1"), "rotor.eccentricity_m and unbalance_kg_m are both given"),
                 (replaced(MACHINE, "rotor", "unbalance_kg_m", "balance_grade = 6.3"), "balance_speed_rad_per_s is missing"),
+                (replaced(MACHINE, "rotor", "unbalance_kg_m", 'balance_grade = "G6.3"\nbalance_speed_rpm = 3000'),
+                 "rotor.balance_grade must be a number, without letters and quotes: 6.3\n"),
+                (replaced(MACHINE, "rotor", "natural_frequency_rad_per_s", "natural_frequency_Hz = 25\nstiffness_N_per_mm = 3"),
+                 "rotor.stiffness_N_per_mm and natural_frequency_Hz are both given"),
+                (both.replace("damping_N_s_per_m", "damping_Ns_per_m"),
+                 "did you mean damping_N_s_per_m? (rotor.damping_N_s_per_m is missing: a body without a suspension"),
                 (replaced(MACHINE, "rotor", "unbalance_kg_m", "eccentricity_m = 1e308"), "and mass_kg give more than a double holds"),
                 (MACHINE.replace("[rotor]", "[rotor]\nload_N = [1]"), "load_N must be [x, y]"),
-                (MACHINE.replace("[rotor]", "[rotor]\nload_N = 1"), "load_N must be a non-empty array"),
+                (MACHINE.replace("[rotor]", "[rotor]\nload_N = 1"), "load_N must be [x, y]"),
                 (MACHINE.replace("[rotor]", "[rotor]\nload_N = [1, inf]"), "load_N must be finite"),
                 (RIGID.replace("rigid = true", "rigid = 1"), "rigid must be true or false"),
                 (RIGID.replace("rigid = true", "rigid = false"), "stator.mass_kg is missing"),
-                (MACHINE.replace("[stator]", "[stator]\nrigid = true"), "stator.damping_ratio is not a known key here"),
+                (MACHINE.replace("[stator]", "[stator]\nrigid = true"), "stator.damping_ratio is not a known key here: a rigid stator has no other keys"),
                 (MACHINE.replace("[rotor]", "[rotor]\nrigid = true"), "rotor.rigid is not a known key here")]:
             self.refused_machine(words, text)
 

@@ -93,6 +93,9 @@ class Columns(Case):
             for name, amplitude in zip(last["name"], last["x_r"]):
                 self.assertAlmostEqual(known[name], amplitude, delta=3e-3 * max(known.values()))
 
+    def test_blanks_between_names(self):
+        self.assertEqual(*(self.rows("orbit", self.machine, *AT_45, "--columns", names) for names in ("phase,x_s", " phase, x_s ")))
+
     def test_refusals(self):
         for words, arguments in [("--columns nope: must be all, or of phase x_s", ["orbit", *AT_45, "--columns", "nope"]),
                                  ("--columns t: must be", ["orbit", *AT_45, "--columns", "t,t"]),

@@ -182,15 +182,17 @@ class Parallel(Case):
         self.file("odd.csv", "f,k_zz\n20,1\n")
         for words, text in (
                 ("stop_gap_m", "stop_stiffness_N_per_m = 1e6\n"), ("stop_stiffness_N_per_m", "stop_gap_m = 1e-6\n"),
-                ("must be [xx, xy, yx, yy]", "stiffness_N_per_m = [1, 2]\n"), ("cubic_stiffness_N_per_m3 must be >= 0", "cubic_stiffness_N_per_m3 = -1\n"),
+                ("must be [xx, xy, yx, yy]", "stiffness_N_per_m = [1, 2]\n"), ("must be [xx, xy, yx, yy]", "stiffness_N_per_m = 1e6\n"),
+                ("_um is not a known key here; did you mean stop_stiffness_N_per_mm?", "stop_stiffness_N_per_um = 1\n"),
+                ("cubic_stiffness_N_per_m3 must be >= 0", "cubic_stiffness_N_per_m3 = -1\n"),
                 ("not together with coefficients", 'coefficients = "falls.csv"\nstiffness_N_per_m = [1, 2, 3, 4]\n'),
                 ("rise from row to row", 'coefficients = "falls.csv"\n'), ("column k_zz", 'coefficients = "odd.csv"\n'),
-                ("no.csv", 'coefficients = "no.csv"\n'), ("cubic_stifness", "cubic_stifness_N_per_m3 = 1\n")):
+                ("coefficients names no file: ", 'coefficients = "no.csv"\n'), ("cubic_stifness", "cubic_stifness_N_per_m3 = 1\n")):
             with self.subTest(words):
                 self.refused_machine(words, BARE + text)
                 self.refused_machine(words, GROUND + text)
         for words, text in (("rotor.ground has nothing", BARE + "[rotor.ground]\n"), ("this one is rigid", BARE + "[stator.ground]\n" + CUBIC),
-                            ("at most 4", MACHINE + 4 * ("[[rotor.ground]]\n" + CUBIC)), ("rotor.ground.dofs", GROUND + "dofs = [1, 2]\n" + CUBIC),
+                            ("at most 4", MACHINE + 4 * ("[[rotor.ground]]\n" + CUBIC)), ("rotor.ground.dofs is of bodies given by matrices", GROUND + "dofs = [1, 2]\n" + CUBIC),
                             ("K is singular", MACHINE.replace("s = 500.0", "s = 0").replace("s = 150.0", "s = 0").replace("ratio = 0.05", "ratio = 0")
                              .replace("damping_ratio = 0.02", "damping_ratio = 0") + "[stator.ground]\nstiffness_N_per_m = [1e6, 0, 0, 0]\n")):
             self.refused_machine(words, text)
