@@ -285,7 +285,7 @@ def found(claim):
 
 def settings(add):
     """What the programs take for T-periodic and for a solution's own motion."""
-    for key, file, name in (("spread", "time/settle.hpp", "closed"), ("near", "motion/judge.cpp", "near"),
+    for key, file, name in (("spread", "time/settle.cpp", "closed"), ("near", "motion/judge.cpp", "near"),
                             ("kept", "model/read_machine.hpp", "largest"), ("receptance", "model/reduction.cpp", "wanted")):
         text = Path(f"src/{file}").read_text()
         add(f"settings.{key}", float(re.search(rf"\b{name} = ([\d.e-]+)[;,]", text)[1]), "-", f"{name} of src/{file}")

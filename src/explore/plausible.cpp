@@ -160,7 +160,7 @@ std::vector<std::string> doubts(const Parameters& machine, double highest)
     if (!body->rigid && omega > angular(most_hertz))
       all.push_back(format(
           "the %s of %g kg on a suspension of %.4g Hz, %.3g N/m: is the "
-          "frequency in Hz?",
+          "frequency in Hz, or the stiffness in N/m?",
           name, body->mass, omega / angular(1), printable_size(body->stiffness())));
     const bool is_alone = !body->rigid && machine.grounds.empty();
     if (is_alone && omega > 0 && machine.gravity / (omega * omega) > deepest)

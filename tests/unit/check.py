@@ -103,7 +103,7 @@ class Check(Case):
                                ("rigid = true", "mass_kg = 10\nstiffness_N_per_m = 2526\ndamping_ratio = 0.05", "the stator of 10 kg sinks by 0.0388 m"),
                                ("mass_kg = 2.0", "mass_kg = 2.0\nload_N = [0, 19.62]", "do the loads lift the rotor"),
                                ("mass_kg = 2.0", "mass_kg = 2000", "is its mass in kg?"),
-                               ("rigid = true", "mass_kg = 10\nnatural_frequency_Hz = 3900\ndamping_ratio = 0.05", "is the frequency in Hz?"),
+                               ("rigid = true", "mass_kg = 10\nnatural_frequency_Hz = 3900\ndamping_ratio = 0.05", "is the frequency in Hz, or the stiffness in N/m?"),
                                ("unbalance_kg_m = 1e-4", "unbalance_kg_m = 1e-8", "finer than any rotor is balanced"),
                                ("rigid = true", "mass_kg = 10\nnatural_frequency_Hz = 80\ndamping_N_s_per_m = 3e5", "is the damping in N s/m?"),
                                ("= 9.81", "= 9810", "is it in m/s^2?")]:
