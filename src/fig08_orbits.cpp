@@ -24,11 +24,11 @@ repeats, but the rms error is 34 %, because the rotor vibrates on the contact mu
 than ten harmonics can follow. This panel shows the integrated motion.
 
 Harmonic balance finds a solution at all nine speeds, at some of them after a long search:
-from few harmonics to more, or along the curve of solutions from a lower speed. The
-lines after the table's rows say for each panel where the search started and how it ended. Where the
-integrated motion does not repeat, such a solution satisfies the truncated equations, but
-the machine does not settle on it after a start from rest. It is in the table and not in
-the drawing. */
+from few harmonics to more, or along the curve of solutions from a lower speed. The lines
+after the table's rows say for each panel where the search started and how it ended. Where
+the integrated motion does not repeat, such a solution satisfies the truncated equations,
+but the machine does not settle on it after a start from rest. It is in the table and not
+in the drawing. */
 #include "figures/panels.hpp"
 #include "io/program.hpp"
 #include "motion/find_periodic.hpp"

@@ -139,10 +139,10 @@ class Files(unittest.TestCase):
             back = mark.removeprefix("eq-")
             self.assertIn(f'href="marks.html#{back}"', self.page(place))
             self.assertIn(f'href="{name}.html"', self.row("marks", back))
-        line = int(re.search(r'href="motion-find_periodic.html#hpp-(\d+)"[^>]*><span class="n[f]?">find_periodic<', self.page("fig08_orbits"))[1])
+        line = int(re.search(r'href="motion-find_periodic.html#hpp-(\d+)"[^>]*><span class="n[f]?">find_periodic<', self.page("explore-map_quantities"))[1])
         self.assertIn("find_periodic(", Path("src/motion/find_periodic.hpp").read_text(encoding="utf-8").split("\n")[line - 1])
         self.assertIn('href="names-motion.html#find_periodic"', self.page("motion-find_periodic"))
-        self.assertIn('href="fig08_orbits.html"', self.row("names-motion", "find_periodic"))
+        self.assertIn('href="explore-map_quantities.html"', self.row("names-motion", "find_periodic"))
 
     def row(self, page, anchor):
         return re.search(rf'id="{anchor}".*?</tr>', self.page(page), re.DOTALL)[0]

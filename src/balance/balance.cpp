@@ -39,6 +39,21 @@ void expand(const SmallMatrix& z, double* to)
 
 }  // namespace
 
+LinearBlock second_order_block(const Eigen::MatrixXd& mass,
+                               const Eigen::MatrixXd& damping,
+                               const Eigen::MatrixXd& stiffness,
+                               const Eigen::VectorXcd& load, double omega, double h)
+{
+  const std::complex<double> i(0, 1);
+  const auto d = mass.rows();
+  return {.a = stiffness - (h * omega) * (h * omega) * mass + i * (h * omega) * damping,
+          .b = SmallMatrix::Identity(d, d),
+          .c = h == 1 ? SmallVector(load) : SmallVector::Zero(d),
+          .a_slope = -2.0 * h * h * omega * mass + i * h * damping,
+          .b_slope = SmallMatrix::Zero(d, d),
+          .c_slope = SmallVector::Zero(d)};
+}
+
 Balance::Balance(Problem problem, Harmonics harmonics)
     : problem_(std::move(problem)), harmonics_(std::move(harmonics)),
       m_(harmonics_.count()), images_(harmonics_.images(problem_.line, problem_.samples)),

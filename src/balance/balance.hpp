@@ -78,7 +78,7 @@ struct Problem {
       one costs as much. */
   std::function<void(double omega, Harmonic h, LinearBlock& block)> linear;
 
-  /** The force at all N samples; of a bearing it is set by `Machine::put_equations`, of an
+  /** The force at all N samples; `Machine::put_equations` sets that of the bearing, of an
       undamped one to a `SampledBearing`. `q`: N × d; `force`: N × d; `stiffness`, unless
       it is null: N × d², column i + d j holding ∂f_i/∂q_j. */
   std::function<void(const Eigen::MatrixXd& q, Eigen::MatrixXd& force,
@@ -104,6 +104,15 @@ struct Problem {
   /** Where the samples lie, with two frequencies. */
   TorusLine line = {};
 };
+
+/** The block of M q̈ + D q̇ + K q + f(q) = Re(F e^{iωt}) for real d × d matrices and a
+   complex load amplitude `load` on harmonic 1: Eq. 11 with jω in both diagonal entries
+   (D-12). For machines that follow CONTRIBUTING; the bearing's block is condensed to two
+   unknowns (bearing_problem.hpp). */
+LinearBlock second_order_block(const Eigen::MatrixXd& mass,
+                               const Eigen::MatrixXd& damping,
+                               const Eigen::MatrixXd& stiffness,
+                               const Eigen::VectorXcd& load, double omega, double h);
 
 /** Complex amplitude of harmonic `h` of a series, and back. */
 SmallVector amplitude(const Eigen::Ref<const Eigen::MatrixXd>& series, int h);

@@ -44,8 +44,8 @@ struct Varying {
   }
 };
 
-/** A body's dynamic stiffness and the amplitudes of its load in x and y: constant forces on
-    harmonic 0, unbalance on that of the rotor's turning (cos φ in x and sin φ = Re(-i
+/** A body's dynamic stiffness and the amplitudes of its load in x and y: constant forces
+    on harmonic 0, unbalance on that of the rotor's turning (cos φ in x and sin φ = Re(-i
     e^{iφ}) in y). */
 struct LoadedBody {
   Varying z;

@@ -7,8 +7,6 @@
 #include "continuation/sweep.hpp"
 #include "explore/measures.hpp"
 #include "io/errors.hpp"
-#include "model/base_period.hpp"
-#include "motion/answer.hpp"
 #include "motion/contact.hpp"
 #include "motion/find_periodic.hpp"
 #include "motion/judge.hpp"
@@ -113,9 +111,11 @@ public:
             {.omega = angular(frequency_),
              .method = is_balance() ? "auto" : asked.method,
              .tolerance = is_balance() ? std::nullopt : asked.tolerance,
+             .periods = Measures::open_periods,
              .step = asked.step,
              .step_ratio = step_ratio(is_balance() ? std::nullopt : asked.tolerance),
-             .longest = asked.longest},
+             .longest = asked.longest,
+             .is_measured = asked.tolerance || is_judged()},
             budget_,
             {},
             machine_.bodies->patience().transient_share,
@@ -126,21 +126,14 @@ public:
   void take(motion::Observed settled) { settled_ = std::move(settled); }
 
   const motion::Answer& settled() { return settled_.answer.get(); }
-  /** With its stability. */
   const motion::Answer& answer()
   {
     return answer_([&] {
-      motion::Answer measured = settled();
-      complete(measured, question().request, budget_);
-      return measured;
+      motion::Answer whole = settled();
+      complete(whole, question().request, budget_);
+      return whole;
     });
   }
-  /** Recorded as long as its measures ask. */
-  const motion::Answer& whole()
-  {
-    return whole_([&] { return whole_motion(settled(), question().request, budget_); });
-  }
-
   double lyapunov()
   {
     return answer().settled.lyapunov.value * angular(1) / answer().omega;
@@ -170,12 +163,13 @@ public:
   Cell measured(const std::string& name)
   {
     const Measures measures(name, machine_);
-    const auto value = [&](const motion::Motion& motion, double omega, bool is_closed) {
-      const double step = angular(1) / (omega * motion.points_per_period);
-      return measures.of({motion, step, frequency_, is_closed}).at(0);
-    };
-    if (is_balance()) return value(motion(), solution().omega, true);
-    return value(whole().motion, whole().omega, closes(whole()));
+    const motion::Answer* const whole = is_balance() ? nullptr : &whole_([&] {
+      return whole_motion(settled(), question().request, budget_);
+    });
+    const motion::Motion& record = whole ? whole->motion : motion();
+    const double omega = whole ? whole->omega : solution().omega;
+    const double step = angular(1) / (omega * record.points_per_period);
+    return measures.of({record, step, frequency_, !whole || closes(*whole)}).at(0);
   }
 
   std::string stability() { return is_balance() ? verdict().word() : answer().stability; }
@@ -238,22 +232,26 @@ private:
   /** Whether the tolerance chooses m. */
   bool is_chosen() const { return task_.request.tolerance && !task_.request.harmonics; }
 
-  /** For these quantities the motion from rest is observed. */
-  bool is_observed() const
+  bool asks_for(const std::vector<std::string>& names) const
   {
-    return std::ranges::any_of(task_.request.quantities, [](const std::string& name) {
-      return name == "amplitude" || name == "mean";
-    });
+    return std::ranges::find_first_of(task_.request.quantities, names) !=
+           task_.request.quantities.end();
+  }
+  /** For these quantities the motion from rest is observed, for those it is judged. */
+  bool is_observed() const { return asks_for({"amplitude", "mean"}); }
+  bool is_judged() const
+  {
+    return asks_for({"stability", "multiplier", "uncertainty", "lyapunov"});
   }
 
   /** One period of the solution, or the record of the motion from rest; and the machine
       that counts its periods. */
   const motion::Motion& motion()
   {
-    if (!is_balance()) return whole().motion;
+    if (!is_balance()) return answer().motion;
     return motion_([&] { return motion::motion_of(solution(), instants); });
   }
-  const Parameters& moving() { return is_balance() ? based_.machine : whole().machine; }
+  const Parameters& moving() { return is_balance() ? based_.machine : answer().machine; }
 
   /** Of a base period. */
   int harmonics() const { return base_.turns * task_.harmonics; }

@@ -118,15 +118,11 @@ OperationBudget budget_of(const Request& request, double seconds,
 void put_contact(Table& table, const Parameters& parameters, bool touches)
 {
   table.value("contact", touches ? "yes" : "no");
-  if (touches) return;
-  const std::string text = format(
-      "no ball touches its race in what is printed: the clearance of %g m is not closed "
-      "there",
-      parameters.bearing.clearance);
-  if (is_bare(parameters))
-    table.warning(text);
-  else
-    table.note(text);
+  if (!touches)
+    table.note(
+        format("warning: no ball touches its race in what is printed: the clearance of "
+               "%g m is not closed there",
+               parameters.bearing.clearance));
 }
 
 void conclude(Table& table, const Parameters& parameters, bool touches,

@@ -191,9 +191,9 @@ ResponseRow row_of(motion::Answer& answer, const motion::Observation& seen,
                   .period = answer.period_number()};
   if (has_records) {
     motion::Answer closed = answer;
-    if (asked.is_measured) complete(closed, asked, budget);
+    if (asked.is_measured || measures.empty()) complete(closed, asked, budget);
     row.lyapunov = closed.settled.lyapunov.value;
-    answer = whole_motion(answer, asked, budget);
+    answer = measures.empty() ? std::move(closed) : whole_motion(answer, asked, budget);
     observe(row, answer.machine, answer.motion, answer.omega, closes(answer), measures);
     if (row.contact_share > 0) touches = true;
   } else if (!touches && touches_somewhere(answer)) {
@@ -251,6 +251,7 @@ Exploration settled_response(const ResponseRequest& request)
     for (std::size_t k = 0; k < speeds.size(); ++k)
       questions.push_back({machine,
                            {.omega = angular(speeds[k]),
+                            .periods = Measures::open_periods,
                             .step_ratio = step_ratio(request.tolerance),
                             .longest = request.longest,
                             .is_measured = needs_multipliers},

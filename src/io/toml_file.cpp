@@ -84,7 +84,8 @@ struct Refused {
 double as_number(const toml::node& node, Range range)
 {
   if (const auto word = node.value<std::string>()) {
-    const auto at = std::min(word->find_first_of("-.0123456789"), word->size());
+    /** Also of G6.3, a balance grade. */
+    const std::size_t at = word->starts_with('G') ? 1 : 0;
     if (const auto value = decimal(word->substr(at)))
       throw Refused{format("must be a number, without letters and quotes: %.9g", *value)};
   }

@@ -55,8 +55,8 @@ IN_PLACE Number root(Number p)
   }
 }
 
-/** Whether p is positive in any lane: halves are compared, since a loop over the lanes
-    would go through the memory. */
+/** Whether p is positive in any lane, whatever the others hold: halves are laid over each
+    other, since a loop over the lanes would go through the memory. */
 template <class Number>
 IN_PLACE bool any_positive(Number p)
 {
@@ -67,11 +67,11 @@ IN_PLACE bool any_positive(Number p)
   } else if constexpr (lanes_in<Number> == 4) {
     const Lanes<2> low = __builtin_shufflevector(p, p, 0, 1),
                    high = __builtin_shufflevector(p, p, 2, 3);
-    return any_positive(low > high ? low : high);
+    return any_positive(low > 0 ? low : high);
   } else {
     const Lanes<4> low = __builtin_shufflevector(p, p, 0, 1, 2, 3),
                    high = __builtin_shufflevector(p, p, 4, 5, 6, 7);
-    return any_positive(low > high ? low : high);
+    return any_positive(low > 0 ? low : high);
   }
 }
 

@@ -97,6 +97,7 @@ AtRest at_rest(const Parameters& parameters, const LargeBodies& machine, int ang
   bool moves = true;
   for (int step = 0; step < 100 && moves; ++step) {
     const Eigen::VectorXd rest = open(u);
+    if (!(rest.norm() > 1e-15 * c.norm())) break;
     const Eigen::MatrixXd tangent =
         Eigen::MatrixXd::Identity(u.size(), u.size()) + h * slope;
     moves = false;

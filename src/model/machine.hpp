@@ -3,8 +3,9 @@
 
 What differs between them, and nothing else: every method asks here, once for a motion and
 never for an evaluation, and none asks which of them it has. `TwoMasses` are the bodies of
-Eq. 7; `LargeMachine` (large_machine.hpp) is a finite-element rotor. Its members are defined in
-the folders that they belong to: states in model/, flows in time/, equations in balance/.
+Eq. 7; `LargeMachine` (large_machine.hpp) is a finite-element rotor. Its members are
+defined in the folders that they belong to: states in model/, flows in time/, equations in
+balance/.
 
     std::unique_ptr<Flow> flow = parameters.bodies->flow(parameters, omega, settings); */
 #pragma once

@@ -115,18 +115,18 @@ bool close(Answer& answer, const Request& request, const OperationBudget& budget
 {
   const int k = answer.settled.period, points = k * request.points;
   const Closing closing(answer, request, budget);
+  const double finer_error = 0.01 * request.local_error;
   State state = answer.settled.at.state;
   if (!closing.close(state, request.local_error)) return false;
+  State finer = state;
+  if (request.is_measured && !closing.close(finer, finer_error)) return false;
   answer.settled.at = {state, 0};
   answer.motion = closing.record(state, request.local_error, points);
   answer.method = "shooting";
   answer.error_note =
       format("shooting over %d base periods from where integration settles", k);
   if (request.is_measured) {
-    const double finer_error = 0.01 * request.local_error;
-    if (State finer = state; closing.close(finer, finer_error))
-      answer.error =
-          difference(answer.motion, closing.record(finer, finer_error, points));
+    answer.error = difference(answer.motion, closing.record(finer, finer_error, points));
     try {
       const Floquet floquet = closing.multipliers(state);
       answer.stability = floquet.verdict();

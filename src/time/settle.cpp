@@ -202,7 +202,7 @@ Settled Settling::seen() const
     s.kind = Kind::rest;
     return s;
   }
-  if (closes(s)) return s;
+  if (!base_.is_driven_twice() && closes(s)) return s;
   if (pair.at().period < 0) return s;
   const bool is_long_enough = 0.5 * pair.seconds() >= least_ * (1 - 1e-9);
   if (!is_long_enough)
@@ -256,8 +256,7 @@ bool Settling::closes(Settled& s) const
     const double rate = std::min(0.0, s.lyapunov.value);
     return std::max(least_nearer, -std::expm1(rate * periods * pair_.period()));
   };
-  const int k = closing_period(all, closed * size * nearer_by(1),
-                               base_.is_driven_twice() ? 1 : most_period);
+  const int k = closing_period(all, closed * size * nearer_by(1), most_period);
   if (k == 0) return false;
   const auto last = std::span(all).last(3 * k + 1);
   const double left = extent(last, k) / nearer_by(k);

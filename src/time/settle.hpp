@@ -9,9 +9,8 @@ Poincaré section decides the kind of the motion. The first that holds:
 
 - `rest`: half of the range of every displacement, and speed times base period, are below
   1e-12 of clearance plus static deflection.
-- `periodic`: the section, one point in each base period, repeats itself to 1e-6 of the
-  vibration after K ≤ 16 of them and after no fewer; where two frequencies drive after one
-  turn, as where no ball touches.
+- `periodic`: one frequency drives, and the section, one point in each base period,
+  repeats itself to 1e-6 of the vibration after K ≤ 16 of them and after no fewer.
 - `chaotic`: λ - d > 0, and the growth does not fade: in the last quarter it is at least
   e⁵, and more than the root of that in the quarter before.
 - `quasi-periodic`: two frequencies drive, λ + d < 0 and the transient is over (the motion

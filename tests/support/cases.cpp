@@ -7,27 +7,6 @@
 
 namespace rotor_stator::tests {
 
-namespace {
-
-/** The block of M q̈ + D q̇ + K q + f(q) = Re(F e^{iωt}) for real d × d matrices and a complex load amplitude on
-    harmonic 1: Eq. 11 with jω in both diagonal entries (D-12). */
-LinearBlock second_order_block(const Eigen::MatrixXd& mass,
-                               const Eigen::MatrixXd& damping,
-                               const Eigen::MatrixXd& stiffness,
-                               const Eigen::VectorXcd& load, double omega, double h)
-{
-  const std::complex<double> i(0, 1);
-  const auto d = mass.rows();
-  return {.a = stiffness - (h * omega) * (h * omega) * mass + i * (h * omega) * damping,
-          .b = SmallMatrix::Identity(d, d),
-          .c = h == 1 ? SmallVector(load) : SmallVector::Zero(d),
-          .a_slope = -2.0 * h * h * omega * mass + i * h * damping,
-          .b_slope = SmallMatrix::Zero(d, d),
-          .c_slope = SmallVector::Zero(d)};
-}
-
-}  // namespace
-
 Problem Oscillator::problem(int samples) const
 {
   const auto all_samples = [law = law](const Eigen::MatrixXd& q, Eigen::MatrixXd& force,

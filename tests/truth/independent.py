@@ -238,9 +238,7 @@ class Model:
         if answer[0] < 0:
             return Judged(["overflow"] * 2, 0, [0, 0, 0, 0], np.zeros((8, 2)),
                           np.zeros((0, 4)))
-        period = int(answer[0])
-        if self.two and period > 1:  # of another frequency, nearly
-            period = 0
+        period = 0 if self.two else int(answer[0])
         statistics = answer[5:21].reshape(8, 2)
         mean, square = statistics[:4], statistics[4:]
         rms = np.sqrt(np.maximum(1e-300, square[:, 0] - mean[:, 0] ** 2))
