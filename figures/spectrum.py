@@ -71,7 +71,7 @@ def draw(table, measured=None):
                           xytext=(0, 6), textcoords="offset points", rotation=90, ha="center", va="bottom",
                           fontsize=10)
             length = (10 + 6.6 * len(names[place])) / 205  # of the name, over the panel's height
-            room = max(room, np.log(height[shown][place] / bottom) / np.log(top / bottom) / (1 - length))
+            room = max(room, np.log(height[shown][place] / bottom) / np.log(top / bottom) / max(0.25, 1 - length))
         axes.set_ylabel(f"amplitude of the {name} [µm]")
         if measured is not None:
             axes.plot(measured["f"] / table.value("frequency"), 1e6 * measured["amplitude"], color="#808080", lw=0.9,
