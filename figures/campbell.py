@@ -44,7 +44,8 @@ def draw(table):
         if end <= f.min():
             continue
         axes.plot([0, end], [0, order * end], color="0.3", lw=0.9, ls="--")
-        free = max(np.linspace(f.min() + 0.92 * (end - f.min()), f.min() + 0.6 * (end - f.min()), 9), key=lambda place: abs(frequency - order * place - NEAR * top).min())
+        places = f.min() + np.linspace(0.92, 0.6, 9) * (end - f.min())
+        free = max(places, key=lambda place: abs(frequency - order * place - NEAR * top).min())
         axes.annotate(name, (free, order * free), xytext=(-4, 2), textcoords="offset points", ha="right", va="bottom",
                       color="0.3")
     critical = table.members("critical_speed")

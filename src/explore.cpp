@@ -96,11 +96,7 @@ try {
 } catch (const NoSolution& error) {
   const std::string why = error.what();
   const bool is_named = why.starts_with(asked.parameter_file);
-  std::string advice;
-  if constexpr (requires { asked.step; })
-    if (asked.step > 0 && why.find("integration diverged") != why.npos)
-      advice = format("; is --step %g too long?", asked.step);
-  throw NoSolution((is_named ? "" : asked.parameter_file + ": ") + why + advice);
+  throw NoSolution((is_named ? "" : asked.parameter_file + ": ") + why);
 }
 
 /** Computes, draws by the script and prints: what cannot be written keeps nothing else

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <tuple>
 
 #include "io/errors.hpp"
 #include "io/program.hpp"
@@ -103,14 +104,13 @@ std::vector<double> swept_speeds(const std::string& text)
 /** What is wrong with a machine, with the axis whose key it names. */
 BadInput of_axis(const MapTask& task, const std::string& why)
 {
-  const auto& [x, y] = std::tie(task.grid.x.key, task.grid.y.key);
-  const auto is_of = [&](const std::string& key) {
-    return !key.empty() && key != speed_key && why.find(own_key(key)) != why.npos;
-  };
-  return BadInput((is_of(x)   ? "--x " + task.request.x + ": "
-                   : is_of(y) ? "--y " + task.request.y + ": "
-                              : "") +
-                  why);
+  for (const auto& [option, axis, text] :
+       {std::tuple{"--x ", &task.grid.x, &task.request.x},
+        {"--y ", &task.grid.y, &task.request.y}})
+    if (const std::string& key = axis->key;
+        !key.empty() && key != speed_key && why.find(own_key(key)) != why.npos)
+      return BadInput(option + *text + ": " + why);
+  return BadInput(why);
 }
 
 /** Throws BadInput for a key without its table, with those that take its last value. */

@@ -63,8 +63,8 @@ void add_stiffness(Doubts& all, const Bearing& bearing)
   constexpr double softest = 3e8, stiffest = 1e13;  // of balls of 1 mm to 10 m [N/m^1.5]
   if (bearing.exponent != 1.5) return;
   const double k = bearing.contact_stiffness, d = bearing.ball_diameter;
-  const double ratio = printable_size(d > 0 ? k / std::sqrt(d) / steel : 1);
-  if (ratio < 0.01 || ratio > 100)
+  const double ratio = printable_size(k / std::sqrt(d) / steel);
+  if (d > 0 && (ratio < 0.01 || ratio > 100))
     all.push_back(
         format("a contact %.2g times as stiff as that of steel balls of "
                "this size: is the modulus in Pa?",

@@ -4,6 +4,7 @@
 #include <numbers>
 
 #include "explore/balance_motion.hpp"
+#include "io/errors.hpp"
 
 namespace rotor_stator::explore {
 
@@ -61,7 +62,7 @@ void put_answer(Table& table, const motion::Answer& answer)
 
 FoundMotion settled_motion(const Parameters& parameters, const MotionRequest& request,
                            int open_periods, const OperationBudget& budget, Table& table)
-{
+try {
   const motion::Answer answer = motion::answer(parameters,
                                                {.omega = angular(request.frequency),
                                                 .method = request.method,
@@ -92,6 +93,9 @@ FoundMotion settled_motion(const Parameters& parameters, const MotionRequest& re
     found.lines = motion::lines_of_closed(whole, answer.period() * found.turns_of_period);
   }
   return found;
+} catch (const Diverged& error) {
+  if (request.step == 0) throw;
+  throw NoSolution(error.what() + format("; is --step %g too long?", request.step));
 }
 
 }  // namespace rotor_stator::explore

@@ -25,6 +25,11 @@ struct NoSolution : std::runtime_error {
   using std::runtime_error::runtime_error;
 };
 
+/** Integration left all numbers: its steps may be too long. */
+struct Diverged : NoSolution {
+  using NoSolution::NoSolution;
+};
+
 /** A value, or why there is none. */
 template <class Value>
 class Attempt {

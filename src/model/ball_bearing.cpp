@@ -135,12 +135,10 @@ IN_PLACE void write(const Lanes<instants>& row, double* to)
   std::memcpy(to, &row, sizeof row);
 }
 
-/** Of N instants; the last group overlaps the one before where N is no multiple of the
-    lanes. */
 template <bool with_stiffness>
-IN_PLACE void evaluate(const BallRing& balls, const ContactLaw<double>& law,
-                       const Eigen::MatrixX2d& cage, const Eigen::MatrixXd& u,
-                       Eigen::MatrixXd& force, Eigen::MatrixXd* stiffness)
+IN_PLACE void evaluate_groups(const BallRing& balls, const ContactLaw<double>& law,
+                              const Eigen::MatrixX2d& cage, const Eigen::MatrixXd& u,
+                              Eigen::MatrixXd& force, Eigen::MatrixXd* stiffness)
 {
   using Number = Lanes<instants>;
   const ContactLaw<Number> laws{
@@ -163,19 +161,16 @@ IN_PLACE void evaluate(const BallRing& balls, const ContactLaw<double>& law,
   }
 }
 
-WIDEST_REGISTERS void evaluate_force(const BallRing& balls, const ContactLaw<double>& law,
-                                     const Eigen::MatrixX2d& cage,
-                                     const Eigen::MatrixXd& u, Eigen::MatrixXd& force)
+/** Of N instants; the last group overlaps the one before where N is no multiple of the
+    lanes. */
+WIDEST_REGISTERS void evaluate(const BallRing& balls, const ContactLaw<double>& law,
+                               const Eigen::MatrixX2d& cage, const Eigen::MatrixXd& u,
+                               Eigen::MatrixXd& force, Eigen::MatrixXd* stiffness)
 {
-  evaluate<false>(balls, law, cage, u, force, nullptr);
-}
-
-WIDEST_REGISTERS void evaluate_both(const BallRing& balls, const ContactLaw<double>& law,
-                                    const Eigen::MatrixX2d& cage,
-                                    const Eigen::MatrixXd& u, Eigen::MatrixXd& force,
-                                    Eigen::MatrixXd& stiffness)
-{
-  evaluate<true>(balls, law, cage, u, force, &stiffness);
+  if (stiffness)
+    evaluate_groups<true>(balls, law, cage, u, force, stiffness);
+  else
+    evaluate_groups<false>(balls, law, cage, u, force, nullptr);
 }
 
 }  // namespace
@@ -203,9 +198,8 @@ void SampledBearing::operator()(const Eigen::MatrixXd& u, Eigen::MatrixXd& force
     return;
   }
   force.resize(cage_.rows(), 2);
-  if (!stiffness) return evaluate_force(bearing_.ring(), bearing_.law(), cage_, u, force);
-  stiffness->resize(cage_.rows(), 4);
-  evaluate_both(bearing_.ring(), bearing_.law(), cage_, u, force, *stiffness);
+  if (stiffness) stiffness->resize(cage_.rows(), 4);
+  evaluate(bearing_.ring(), bearing_.law(), cage_, u, force, stiffness);
 }
 
 }  // namespace rotor_stator

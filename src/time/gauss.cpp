@@ -266,7 +266,7 @@ void GaussStepper::integrate(long interval, Eigen::MatrixXd& y)
       continue;
     }
     if (!std::isfinite(error))
-      throw NoSolution(format("time integration diverged at t = %.9g s", phase / omega_));
+      throw Diverged(format("time integration diverged at t = %.9g s", phase / omega_));
     if (y.cols() > 1) {
       step(half, phase, y);
       step(half, middle, y);

@@ -78,7 +78,7 @@ State TrajectoryPair::beside(const Eigen::VectorXd& y) const
 
 void TrajectoryPair::diverged() const
 {
-  throw NoSolution(format("time integration diverged %.3g s after its start", seconds()));
+  throw Diverged(format("time integration diverged %.3g s after its start", seconds()));
 }
 
 double TrajectoryPair::pull_back()
