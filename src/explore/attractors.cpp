@@ -242,7 +242,7 @@ bool is_same(const Run& a, const Found& b)
     over its starts, whose scatter knows more than one motion does of itself. Throws
     NoSolution when the budget is used up. */
 void look_closer(const Task& task, std::size_t speed, const Measures& measures,
-                 Found& found)
+                 const OperationBudget& budget, Found& found)
 {
   motion::Request request = task.asked_at(speed);
   if (!found.is_closed()) {
@@ -253,11 +253,11 @@ void look_closer(const Task& task, std::size_t speed, const Measures& measures,
     if (!task.request.motions) request.points = 4;
   }
   if (!measures.empty()) {
-    const motion::Answer whole = whole_motion(found.answer, request, task.budget);
+    const motion::Answer whole = whole_motion(found.answer, request, budget);
     const double step = angular(1) / (whole.omega * whole.motion.points_per_period);
     found.measured = measures.of({whole.motion, step, found.speed, closes(whole)});
   }
-  complete(found.answer, request, task.budget);
+  complete(found.answer, request, budget);
   found.touches = motion::contact_share(found.answer.machine, found.answer.motion) > 0;
 }
 
@@ -280,6 +280,48 @@ std::vector<Found> found_at(const Task& task, std::size_t speed, std::vector<Run
     ++one->from[static_cast<std::size_t>(run.origin)];
     one->exponents.push_back(run.answer.settled.lyapunov.value);
     if (!is_decided(run)) ++one->undecided;
+  }
+  return all;
+}
+
+/** The attractors of all speeds; `missing` says first what the budget did not pay for. */
+std::vector<Found> all_found(const Task& task, const Measures& measures,
+                             std::vector<std::vector<Run>> runs, std::string& missing)
+{
+  const double most = task.budget.left();
+  struct Piece {
+    std::vector<Found> all;
+    std::vector<std::string> lost;  ///< of each: why it has no section
+    double spent;
+  };
+  const auto pieces = computed_in_parallel(
+      task.request.quiet ? "" : "motions", runs.size(), [&](std::size_t speed) {
+        const OperationBudget budget =
+            budget_until(task.request.budget, most, "--budget");
+        Piece piece{found_at(task, speed, std::move(runs[speed])), {}, 0};
+        for (Found& found : piece.all) {
+          std::string& lost = piece.lost.emplace_back();
+          try {
+            look_closer(task, speed, measures, budget, found);
+          } catch (const NoSolution& error) {
+            lost = error.what();
+          }
+        }
+        piece.spent = budget.spent();
+        return piece;
+      });
+  std::vector<Found> all;
+  for (const Piece& piece : pieces) {
+    const bool is_paid = task.budget.pay(piece.spent);
+    for (std::size_t k = 0; k < piece.all.size(); ++k) {
+      const Found& found = piece.all[k];
+      const std::string& lost = is_paid ? piece.lost[k] : out_of_budget;
+      if (!lost.empty() && missing.empty())
+        missing = format("%s: partial, no section at %.9g Hz: %s",
+                         task.machine.file.c_str(), found.speed, lost.c_str());
+      if (lost.empty() || found.measured.size() == measures.columns().size())
+        all.push_back(found);
+    }
   }
   return all;
 }
@@ -438,19 +480,7 @@ Exploration explore_attractors(const AttractorsRequest& request)
   for (const Run& run : ended)
     if (run.lost.empty()) runs[run.speed].push_back(run);
   if (std::ranges::all_of(runs, &std::vector<Run>::empty)) throw NoSolution(missing);
-  std::vector<Found> all;
-  for (std::size_t speed = 0; speed < runs.size(); ++speed)
-    for (Found& found : found_at(task, speed, std::move(runs[speed]))) {
-      try {
-        look_closer(task, speed, measures, found);
-      } catch (const NoSolution& error) {
-        if (missing.empty())
-          missing = format("%s: partial, no section at %.9g Hz: %s",
-                           task.machine.file.c_str(), found.speed, error.what());
-        if (found.measured.size() < measures.columns().size()) continue;
-      }
-      all.push_back(std::move(found));
-    }
+  std::vector<Found> all = all_found(task, measures, std::move(runs), missing);
   note(table, task);
   put_complete(table, missing);
   for (const Found& found : all) table.row(fields, found);

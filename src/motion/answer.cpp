@@ -72,11 +72,14 @@ public:
   /** Whether shooting closes the motion that the state is on. */
   bool close(State& state, double local_error) const
   {
-    constexpr double near = 1e-2;  ///< of the sizes: farther away it is another one
+    /** Of the sizes: farther away it is another one; Newton may pass a hundred times as
+        far from it. */
+    constexpr double near = 1e-2;
     State closed = state;
     const Shooting shooting = shoot(machine_, omega_, closed,
                                     {.tolerance = local_error,
                                      .closed = std::max(1e-9, 10 * local_error),
+                                     .farthest = 100 * near,
                                      .budget = budget_});
     if (!shooting.converged || !(apart(machine_, closed, state) < near)) return false;
     state = closed;

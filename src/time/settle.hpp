@@ -56,7 +56,7 @@ const char* word(Kind kind);
 struct SettleRule {
   std::string method = "auto";  ///< or "rk4"
   double step = 0;              ///< longest of rk4 [s]; 0: `step_at`; at most T/32
-  bool is_fixed = false;        ///< the step is kept where integration diverges with it
+  bool is_fixed = false;        ///< the step is kept where it is too long
   double longest = 0;  ///< after t = 0 [s], then it is undecided; 0: 40 over the slowest
                        ///< decay rate, 60 to 1000
 };
@@ -92,8 +92,11 @@ public:
   const Settled& settled() const;
 
 private:
+  std::unique_ptr<Flow> flow_of(double step, int intervals) const;
   bool may_be_over() const;
   void look();
+  bool is_resolved();
+  void begin_anew();
   Settled seen() const;
   bool is_at_rest() const;
   bool closes(Settled& s) const;
@@ -110,7 +113,7 @@ private:
   double length_, least_;  ///< [m], [s]
   Instant start_;
   TrajectoryPair pair_;
-  double spent_before_ = 0;                  ///< evaluations, on a run that diverged
+  double spent_beside_ = 0;                  ///< evaluations that are not of the pair
   std::size_t periods_ = 0;                  ///< until the pair is looked at again
   double began_ = -1;                        ///< seconds that it had when looked at first
   std::unique_ptr<Flow> to_zero_ = nullptr;  ///< on the way to t = 0

@@ -32,6 +32,7 @@ public:
     y_.resize(segments_ * n_);
     for (int i = 0; i < segments_; ++i)
       part(y_, i) = vector_of(start[place(i)]).cwiseQuotient(sizes_);
+    start_ = y_;
   }
 
   Shooting run(std::vector<State>& motion, PeriodicityJacobian& kept)
@@ -155,6 +156,8 @@ private:
       if (is_first && length == 1) report_.contraction = left;
       length_ = length;
       y_ = y;
+      if ((y_ - start_).cwiseAbs().maxCoeff() > settings_.farthest)
+        throw NoSolution("what closes is farther away than asked for");
       return learn(std::move(next), length * step, length, left);
     }
     if (is_fresh_)
@@ -193,7 +196,7 @@ private:
   Eigen::VectorXd sizes_;
   Eigen::Index n_;
   int phases_, first_, segments_ = 1;
-  Eigen::VectorXd y_;
+  Eigen::VectorXd y_, start_;
   Mapped at_;
   Eigen::MatrixXd jacobian_;
   Eigen::PartialPivLU<Eigen::MatrixXd> factors_;

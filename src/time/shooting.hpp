@@ -17,6 +17,7 @@ Steps are shortened until the next correction, by the same derivative, is smalle
 (Deuflhard, Newton Methods for Nonlinear Problems, 2004, section 3.3). */
 #pragma once
 
+#include <limits>
 #include <optional>
 
 #include "time/period_map.hpp"
@@ -34,6 +35,8 @@ struct ShootingSettings {
   double step = 0;             ///< rk4: longest step [s]; 0 chooses `step_at`
   double closed = 1e-10;       ///< largest last correction, rms over the sizes [-]
   int most_maps = 60;          ///< periods integrated
+  double farthest = std::numeric_limits<double>::infinity();  ///< from the start, largest
+                                                              ///< over the sizes [-]
   bool quasi_newton =
       false;  ///< Broyden's updates of Φ while they serve well: for sweeps
   std::optional<int> alone = {};  ///< over the whole period from the state at this eighth

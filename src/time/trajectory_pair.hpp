@@ -69,6 +69,7 @@ public:
       `contraction` < 0; without one, where it was largest. */
   Instant since(double contraction) const;
 
+  int intervals() const { return intervals_; }
   double period() const { return period_; }
   double seconds() const { return static_cast<double>(growths_.size()) * period_; }
   double evaluations() const { return static_cast<double>(flow_->evaluations()); }

@@ -7,6 +7,7 @@
 #include "motion/quasi_periodic.hpp"
 #include "support/cases.hpp"
 #include "support/catch.hpp"
+#include "time/flow.hpp"
 #include "time/shooting.hpp"
 
 using namespace rotor_stator;
@@ -74,6 +75,27 @@ TEST_CASE("A motion that closes is seen before t = 0, and is the one of shooting
   State closed = settled.at.state;
   REQUIRE(shoot(machine, omega, closed, {}).converged);
   CHECK(apart(machine, closed, settled.at.state) < 1e-4);  // the error of the steps
+}
+
+TEST_CASE("A motion that only too long steps keep up is not reported")
+{
+  /** Set 2 at 9.5 Hz, a motion of two turns for the splitting with the default step. Eq. 7
+      leaves it in its first turn and is chaotic: an integration by SciPy's DOP853 shows. */
+  Parameters machine = set_1();
+  machine.bearing.clearance = 2e-4;
+  const double omega = hertz(9.5);
+  const BasePeriod base = base_period(machine);
+  const Instant start{{.position = {{-5.7199193062519014e-05, 0.00033376616078848625},
+                                    {7.558592867442927e-05, -0.00031697237288094503}},
+                       .velocity = {{-0.019811625341296008, 0.24004938507478824},
+                                    {0.011892988023526261, -0.12668864156578732}}},
+                      0};
+  const Settled settled = settle(machine, omega, base, start);
+  CHECK(settled.kind == Kind::chaotic);
+  CHECK(settled.step == step_at(machine, omega) / 4);
+  const Settled kept = settle(machine, omega, base, start, {.is_fixed = true});
+  CHECK(kept.kind == Kind::undecided);
+  CHECK(kept.reason.starts_with("with a quarter of the step"));
 }
 
 TEST_CASE("A multiplier near -1 does not double the period")

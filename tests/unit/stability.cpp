@@ -83,4 +83,8 @@ TEST_CASE("Shooting says why it stops")
   const Shooting shooting = shoot(set_1(), hertz(45), state, {.most_maps = 1});
   CHECK_FALSE(shooting.converged);
   CHECK(shooting.reason.find("1 periods") != std::string::npos);
+  const Shooting away = shoot(set_1(), hertz(45), state, {.farthest = 1e-3});
+  CHECK_FALSE(away.converged);
+  CHECK(away.maps <= 2);
+  CHECK(away.reason == "what closes is farther away than asked for");
 }
