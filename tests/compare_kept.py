@@ -18,27 +18,29 @@ from tables import Table, cells_as_numbers  # noqa: E402
 SHARE_OF_ROWS = 0.97
 OF_LARGEST = 0.02
 
-# The columns that are compared, where not all are; the columns that name a row, where rows may be missing.
-COLUMNS = {"attractors": ["set"], "validity": ["found", "distance", "periodic"],
+# The columns that are compared, where not all are.
+COLUMNS = {"validity": ["found", "distance", "periodic"],
            "identification": ["reading", "set", "m_s", "m_r", "f_loss", "f", "periodic", "turns", "amp_x_r"],
            "large": ["n", "r"],
            "clearance_speed": ["frequency", "bearing.radial_clearance_m", "period", "contact_share"],
            "map_scaling": ["kind", "count", "points"],
            "verdicts": ["set", "f", "m", "found", "machine_stable", "distance", "series_stable"],
            "hard_cases": ["case", "method", "status", "verdict", "regime"]}
-KEY = {"attractors": ["set", "f", "period", "point"]}
+# Where the number of rows at a place may be another one: what is compared there is the set of the words that this column
+# holds, from the least that is decided on.
+KINDS = {"attractors": (["set", "f"], "period", -1), "stability": (["curve", "f"], "stable", 0)}
 # The column of the kinds whose CPU times are shown.
 TIMED = {"tab02_timing": "method", "tab02_equal_error": "method", "work_precision": "method",
          "cost_growth": "harmonics"}
 
 
-def matched(kept, new, key):
-    """The rows of both tables that have a partner, in one order."""
-    rows = [{tuple(values): k for k, values in enumerate(zip(*(table[name] for name in key)))}
-            for table in (kept, new)]
-    common = sorted(rows[0].keys() & rows[1].keys())
-    return [table.rows(np.array([row[one] for one in common], int))
-            for table, row in zip((kept, new), rows)]
+def words_at(table, keys, column, least):
+    """Those of the column at each place, in no order. The places are values of the keys, speeds of a branch by 1 Hz."""
+    places = {}
+    for *place, value in zip(*(np.round(table[key]) if key == "f" and "arc" in table.columns else table[key] for key in keys),
+                             table[column]):
+        places.setdefault(tuple(place), set()).update({value} if value >= least else {})
+    return places
 
 
 def show_times(kept, new, column):
@@ -53,9 +55,11 @@ def show_times(kept, new, column):
 
 def agree(kept, new, name):
     """Whether enough rows agree, in every compared column."""
-    count = max(len(kept), len(new))
-    if name in KEY:
-        kept, new = matched(kept, new, KEY[name])
+    if name in KINDS:
+        before, after = (words_at(table, *KINDS[name]) for table in (kept, new))
+        same = sum(before[place] == after.get(place) for place in before)
+        print(f"  {KINDS[name][1]}: the same at {same} of {len(before | after)} places")
+        return same >= SHARE_OF_ROWS * len(before | after)
     if len(kept) != len(new):
         sys.exit(f"{len(new)} rows, kept {len(kept)}")
     rows = np.full(len(kept), True)
@@ -68,8 +72,8 @@ def agree(kept, new, name):
         off = np.where(np.isnan(before) & np.isnan(after), 0, abs(before - after))
         rows &= off <= OF_LARGEST * np.nanmax(abs(before))
         print(f"  {column}: largest difference {np.nanmax(off):.3g}")
-    print(f"  {rows.sum()} of {count} rows agree")
-    return rows.sum() >= SHARE_OF_ROWS * count
+    print(f"  {rows.sum()} of {len(rows)} rows agree")
+    return rows.sum() >= SHARE_OF_ROWS * len(rows)
 
 
 def compare(file):

@@ -284,7 +284,8 @@ std::vector<Found> found_at(const Task& task, std::size_t speed, std::vector<Run
   return all;
 }
 
-/** The attractors of all speeds; `missing` says first what the budget did not pay for. */
+/** The attractors of all speeds, each with what is left of the budget: as with the starts,
+    what goes beyond it in their order is lost. `missing` says what, unless it is said. */
 std::vector<Found> all_found(const Task& task, const Measures& measures,
                              std::vector<std::vector<Run>> runs, std::string& missing)
 {

@@ -194,10 +194,9 @@ void Settling::look()
 }
 
 /** Whether steps a quarter as long go the same way, interval by interval over one base
-    period. Where a step is long for the contact's vibration the splitting can keep up a
-    motion that Eq. 7 does not have. In units of the sizes its intervals then end 0.6 to 7
-    apart, those of true motions, chaotic ones too, at most 0.0012 (both sets in both
-    readings, 3,320 starts). */
+    period. In units of the sizes the intervals end 0.6 to 7 apart where only the steps
+    keep a motion up, and at most 0.0012 apart elsewhere, where it is chaotic too (both
+    sets in both readings, 3,320 starts). */
 bool Settling::is_resolved()
 {
   constexpr double least_range = 1e-9, apart_at_most = 0.02;

@@ -34,9 +34,13 @@ evaluations. Every other motion begins where the integration ended.
     const Settled settled =
         settle(machine, omega, base, from_rest(machine, omega), {}, budget);
 
-A `Settling` is the same among others (time/side_by_side.hpp). One that diverges, since an
-impact presses the contact far more than the loads do, is begun again once with a fourth
-of the step, unless the step is fixed.
+An impact presses the contact far more than the loads do, and may make it vibrate too fast
+for the step: the integration diverges, or keeps up a motion that Eq. 7 does not have.
+What was found is therefore followed for one base period with a quarter of the step. Where
+that leads elsewhere, or where it diverged, the motion is begun again once with such
+steps; with a fixed step it is `undecided`, or lost.
+
+A `Settling` is the same among others (time/side_by_side.hpp).
 
 The machine is that of `over`, whose angles are counted per base period; where two
 frequencies drive, that is a turn. */
