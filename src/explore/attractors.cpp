@@ -284,8 +284,9 @@ std::vector<Found> found_at(const Task& task, std::size_t speed, std::vector<Run
   return all;
 }
 
-/** The attractors of all speeds, each with what is left of the budget: as with the starts,
-    what goes beyond it in their order is lost. `missing` says what, unless it is said. */
+/** The attractors of all speeds, each paid from what is left of the budget. As with the
+    starts, what goes beyond it in their order is lost; `missing` says what, unless it
+    says something already. */
 std::vector<Found> all_found(const Task& task, const Measures& measures,
                              std::vector<std::vector<Run>> runs, std::string& missing)
 {
