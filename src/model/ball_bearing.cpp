@@ -120,35 +120,38 @@ std::vector<double> BallBearing::ball_forces(const Angles& at, Vec2 u, Vec2 rate
 
 namespace {
 
-constexpr int instants = 8;  ///< of a group
+constexpr int most_instants = 8;  ///< of a group
 
-/** Of so many instants from the first on, one in each lane. */
-IN_PLACE Lanes<instants> read(const double* from)
+/** Of as many instants as lanes from the first on. */
+template <class Number>
+IN_PLACE Number read(const double* from)
 {
-  Lanes<instants> row;
+  Number row;
   std::memcpy(&row, from, sizeof row);
   return row;
 }
 
-IN_PLACE void write(const Lanes<instants>& row, double* to)
+template <class Number>
+IN_PLACE void write(const Number& row, double* to)
 {
   std::memcpy(to, &row, sizeof row);
 }
 
-template <bool with_stiffness>
+template <class Number, bool with_stiffness>
 IN_PLACE void evaluate_groups(const BallRing& balls, const ContactLaw<double>& law,
                               const Eigen::MatrixX2d& cage, const Eigen::MatrixXd& u,
                               Eigen::MatrixXd& force, Eigen::MatrixXd* stiffness)
 {
-  using Number = Lanes<instants>;
+  constexpr Eigen::Index instants = lanes_in<Number>;
   const ContactLaw<Number> laws{
       Number{} + law.stiffness, Number{} + law.clearance, {}, {}};
   for (Eigen::Index begin = 0; begin < u.rows(); begin += instants) {
     const Eigen::Index k = std::min(begin, u.rows() - instants);
     SlopeOf<Number> slope{};
     const auto f = bearing_force<false>(
-        balls, laws, DirectionOf<Number>{read(&cage(k, 0)), read(&cage(k, 1))},
-        Vec2Of<Number>{read(&u(k, 0)), read(&u(k, 1))}, Vec2Of<Number>{},
+        balls, laws,
+        DirectionOf<Number>{read<Number>(&cage(k, 0)), read<Number>(&cage(k, 1))},
+        Vec2Of<Number>{read<Number>(&u(k, 0)), read<Number>(&u(k, 1))}, Vec2Of<Number>{},
         with_stiffness ? &slope : nullptr);
     write(f.x, &force(k, 0));
     write(f.y, &force(k, 1));
@@ -163,20 +166,58 @@ IN_PLACE void evaluate_groups(const BallRing& balls, const ContactLaw<double>& l
 
 /** Of N instants; the last group overlaps the one before where N is no multiple of the
     lanes. */
-WIDEST_REGISTERS void evaluate(const BallRing& balls, const ContactLaw<double>& law,
-                               const Eigen::MatrixX2d& cage, const Eigen::MatrixXd& u,
-                               Eigen::MatrixXd& force, Eigen::MatrixXd* stiffness)
+template <class Number>
+IN_PLACE void evaluate(const BallRing& balls, const ContactLaw<double>& law,
+                       const Eigen::MatrixX2d& cage, const Eigen::MatrixXd& u,
+                       Eigen::MatrixXd& force, Eigen::MatrixXd* stiffness)
 {
   if (stiffness)
-    evaluate_groups<true>(balls, law, cage, u, force, stiffness);
+    evaluate_groups<Number, true>(balls, law, cage, u, force, stiffness);
   else
-    evaluate_groups<false>(balls, law, cage, u, force, nullptr);
+    evaluate_groups<Number, false>(balls, law, cage, u, force, nullptr);
+}
+
+/** One function for each kind of registers, with as many lanes as one holds: GCC takes
+    wider rows through the memory. */
+using Evaluate = void(const BallRing&, const ContactLaw<double>&, const Eigen::MatrixX2d&,
+                      const Eigen::MatrixXd&, Eigen::MatrixXd&, Eigen::MatrixXd*);
+
+void evaluate_plain(const BallRing& balls, const ContactLaw<double>& law,
+                    const Eigen::MatrixX2d& cage, const Eigen::MatrixXd& u,
+                    Eigen::MatrixXd& force, Eigen::MatrixXd* stiffness)
+{
+  evaluate<Lanes<2>>(balls, law, cage, u, force, stiffness);
+}
+
+#ifdef HAS_WIDE_REGISTERS
+__attribute__((target("avx2"))) void evaluate_avx2(
+    const BallRing& balls, const ContactLaw<double>& law, const Eigen::MatrixX2d& cage,
+    const Eigen::MatrixXd& u, Eigen::MatrixXd& force, Eigen::MatrixXd* stiffness)
+{
+  evaluate<Lanes<4>>(balls, law, cage, u, force, stiffness);
+}
+
+__attribute__((target("avx512f"))) void evaluate_avx512(
+    const BallRing& balls, const ContactLaw<double>& law, const Eigen::MatrixX2d& cage,
+    const Eigen::MatrixXd& u, Eigen::MatrixXd& force, Eigen::MatrixXd* stiffness)
+{
+  evaluate<Lanes<8>>(balls, law, cage, u, force, stiffness);
+}
+#endif
+
+Evaluate* widest_evaluate()
+{
+#ifdef HAS_WIDE_REGISTERS
+  if (__builtin_cpu_supports("avx512f")) return evaluate_avx512;
+  if (__builtin_cpu_supports("avx2")) return evaluate_avx2;
+#endif
+  return evaluate_plain;
 }
 
 }  // namespace
 
 SampledBearing::SampledBearing(const Bearing& bearing, int samples)
-    : samples_(samples), cage_(std::max(samples, instants), 2), bearing_(bearing)
+    : samples_(samples), cage_(std::max(samples, most_instants), 2), bearing_(bearing)
 {
   for (Eigen::Index k = 0; k < cage_.rows(); ++k) {
     const Direction cage = Direction::of(
@@ -199,7 +240,8 @@ void SampledBearing::operator()(const Eigen::MatrixXd& u, Eigen::MatrixXd& force
   }
   force.resize(cage_.rows(), 2);
   if (stiffness) stiffness->resize(cage_.rows(), 4);
-  evaluate(bearing_.ring(), bearing_.law(), cage_, u, force, stiffness);
+  static Evaluate* const evaluate_widest = widest_evaluate();
+  evaluate_widest(bearing_.ring(), bearing_.law(), cage_, u, force, stiffness);
 }
 
 }  // namespace rotor_stator
