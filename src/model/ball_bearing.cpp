@@ -137,81 +137,70 @@ IN_PLACE void write(const Number& row, double* to)
   std::memcpy(to, &row, sizeof row);
 }
 
-template <class Number, bool with_stiffness>
-IN_PLACE void evaluate_groups(const BallRing& balls, const ContactLaw<double>& law,
-                              const Eigen::MatrixX2d& cage, const Eigen::MatrixXd& u,
-                              Eigen::MatrixXd& force, Eigen::MatrixXd* stiffness)
-{
-  constexpr Eigen::Index instants = lanes_in<Number>;
-  const ContactLaw<Number> laws{
-      Number{} + law.stiffness, Number{} + law.clearance, {}, {}};
-  for (Eigen::Index begin = 0; begin < u.rows(); begin += instants) {
-    const Eigen::Index k = std::min(begin, u.rows() - instants);
-    SlopeOf<Number> slope{};
-    const auto f = bearing_force<false>(
-        balls, laws,
-        DirectionOf<Number>{read<Number>(&cage(k, 0)), read<Number>(&cage(k, 1))},
-        Vec2Of<Number>{read<Number>(&u(k, 0)), read<Number>(&u(k, 1))}, Vec2Of<Number>{},
-        with_stiffness ? &slope : nullptr);
-    write(f.x, &force(k, 0));
-    write(f.y, &force(k, 1));
-    if constexpr (with_stiffness) {
-      write(slope.xx, &(*stiffness)(k, 0));
-      write(slope.xy, &(*stiffness)(k, 1));
-      write(slope.xy, &(*stiffness)(k, 2));
-      write(slope.yy, &(*stiffness)(k, 3));
+/** The force at N instants, and its slopes where they are asked for. */
+struct Samples {
+  BallRing balls;
+  ContactLaw<double> law;
+  const Eigen::MatrixX2d& cage;
+  const Eigen::MatrixXd& u;
+  Eigen::MatrixXd& force;
+  Eigen::MatrixXd* stiffness;
+
+  template <class Number>
+  IN_PLACE void evaluate() const
+  {
+    if (stiffness)
+      evaluate_groups<Number, true>();
+    else
+      evaluate_groups<Number, false>();
+  }
+
+  /** The last group overlaps the one before where N is no multiple of the lanes. */
+  template <class Number, bool with_stiffness>
+  IN_PLACE void evaluate_groups() const
+  {
+    constexpr Eigen::Index instants = lanes_in<Number>;
+    const ContactLaw<Number> laws{
+        Number{} + law.stiffness, Number{} + law.clearance, {}, {}};
+    for (Eigen::Index begin = 0; begin < u.rows(); begin += instants) {
+      const Eigen::Index k = std::min(begin, u.rows() - instants);
+      SlopeOf<Number> slope{};
+      const auto f = bearing_force<false>(
+          balls, laws,
+          DirectionOf<Number>{read<Number>(&cage(k, 0)), read<Number>(&cage(k, 1))},
+          Vec2Of<Number>{read<Number>(&u(k, 0)), read<Number>(&u(k, 1))},
+          Vec2Of<Number>{}, with_stiffness ? &slope : nullptr);
+      write(f.x, &force(k, 0));
+      write(f.y, &force(k, 1));
+      if constexpr (with_stiffness) {
+        write(slope.xx, &(*stiffness)(k, 0));
+        write(slope.xy, &(*stiffness)(k, 1));
+        write(slope.xy, &(*stiffness)(k, 2));
+        write(slope.yy, &(*stiffness)(k, 3));
+      }
     }
   }
-}
-
-/** Of N instants; the last group overlaps the one before where N is no multiple of the
-    lanes. */
-template <class Number>
-IN_PLACE void evaluate(const BallRing& balls, const ContactLaw<double>& law,
-                       const Eigen::MatrixX2d& cage, const Eigen::MatrixXd& u,
-                       Eigen::MatrixXd& force, Eigen::MatrixXd* stiffness)
-{
-  if (stiffness)
-    evaluate_groups<Number, true>(balls, law, cage, u, force, stiffness);
-  else
-    evaluate_groups<Number, false>(balls, law, cage, u, force, nullptr);
-}
-
-/** One function for each kind of registers, with as many lanes as one holds: GCC takes
-    wider rows through the memory. */
-using Evaluate = void(const BallRing&, const ContactLaw<double>&, const Eigen::MatrixX2d&,
-                      const Eigen::MatrixXd&, Eigen::MatrixXd&, Eigen::MatrixXd*);
-
-void evaluate_plain(const BallRing& balls, const ContactLaw<double>& law,
-                    const Eigen::MatrixX2d& cage, const Eigen::MatrixXd& u,
-                    Eigen::MatrixXd& force, Eigen::MatrixXd* stiffness)
-{
-  evaluate<Lanes<2>>(balls, law, cage, u, force, stiffness);
-}
+};
 
 #ifdef HAS_WIDE_REGISTERS
-__attribute__((target("avx2"))) void evaluate_avx2(
-    const BallRing& balls, const ContactLaw<double>& law, const Eigen::MatrixX2d& cage,
-    const Eigen::MatrixXd& u, Eigen::MatrixXd& force, Eigen::MatrixXd* stiffness)
+__attribute__((target("avx2"))) void evaluate_avx2(const Samples& samples)
 {
-  evaluate<Lanes<4>>(balls, law, cage, u, force, stiffness);
+  samples.evaluate<Lanes<4>>();
 }
 
-__attribute__((target("avx512f"))) void evaluate_avx512(
-    const BallRing& balls, const ContactLaw<double>& law, const Eigen::MatrixX2d& cage,
-    const Eigen::MatrixXd& u, Eigen::MatrixXd& force, Eigen::MatrixXd* stiffness)
+__attribute__((target("avx512f"))) void evaluate_avx512(const Samples& samples)
 {
-  evaluate<Lanes<8>>(balls, law, cage, u, force, stiffness);
+  samples.evaluate<Lanes<8>>();
 }
 #endif
 
-Evaluate* widest_evaluate()
+void evaluate(const Samples& samples)
 {
 #ifdef HAS_WIDE_REGISTERS
-  if (__builtin_cpu_supports("avx512f")) return evaluate_avx512;
-  if (__builtin_cpu_supports("avx2")) return evaluate_avx2;
+  if (widest_registers() == Registers::avx512) return evaluate_avx512(samples);
+  if (widest_registers() == Registers::avx2) return evaluate_avx2(samples);
 #endif
-  return evaluate_plain;
+  samples.evaluate<Lanes<2>>();
 }
 
 }  // namespace
@@ -240,8 +229,7 @@ void SampledBearing::operator()(const Eigen::MatrixXd& u, Eigen::MatrixXd& force
   }
   force.resize(cage_.rows(), 2);
   if (stiffness) stiffness->resize(cage_.rows(), 4);
-  static Evaluate* const evaluate_widest = widest_evaluate();
-  evaluate_widest(bearing_.ring(), bearing_.law(), cage_, u, force, stiffness);
+  evaluate({bearing_.ring(), bearing_.law(), cage_, u, force, stiffness});
 }
 
 }  // namespace rotor_stator

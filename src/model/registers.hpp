@@ -15,3 +15,15 @@ reordered and none fused, so the bits do not depend on the choice. */
 /** What such a function calls must be a part of it, else it is compiled once, for the
     narrowest registers. */
 #define IN_PLACE [[gnu::always_inline]] inline
+
+namespace rotor_stator {
+
+/** The registers that rows of lanes are compiled for: of 2, 4 and 8 doubles. GCC takes
+    wider rows through the memory. */
+enum class Registers { plain, avx2, avx512 };
+Registers widest_registers();
+
+/** For tests: at most these are used from now on. */
+void use_registers(Registers widest);
+
+}  // namespace rotor_stator

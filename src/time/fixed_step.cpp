@@ -226,43 +226,18 @@ __attribute__((target("avx512f"))) void advance_avx512(Row& row, long steps)
 }
 #endif
 
-Registers registers_of_processor()
-{
-#ifdef HAS_WIDE_REGISTERS
-  if (__builtin_cpu_supports("avx512f")) return Registers::avx512;
-  if (__builtin_cpu_supports("avx2")) return Registers::avx2;
-#endif
-  return Registers::plain;
-}
-
-Registers& registers_in_use()
-{
-  static Registers in_use = registers_of_processor();
-  return in_use;
-}
-
 template <FixedStep::Work work, class Row>
 void advance_by(Row& row, long steps)
 {
 #ifdef HAS_WIDE_REGISTERS
   constexpr auto width = sizeof(row.h) / sizeof(double);
   if constexpr (width > 4) return advance_avx512<work>(row, steps);
-  if (registers_in_use() >= Registers::avx2) return advance_avx2<work>(row, steps);
+  if (widest_registers() >= Registers::avx2) return advance_avx2<work>(row, steps);
 #endif
   advance_plain<work>(row, steps);
 }
 
 }  // namespace
-
-Registers widest_registers()
-{
-  return registers_in_use();
-}
-
-void use_registers(Registers widest)
-{
-  registers_in_use() = std::min(widest, registers_of_processor());
-}
 
 static FixedStep& flow_of(const Passage& one)
 {
@@ -329,7 +304,7 @@ void FixedStep::advance(long interval, State& state)
 
 std::size_t FixedStep::widest_row()
 {
-  switch (registers_in_use()) {
+  switch (widest_registers()) {
     case Registers::avx512: return 8;
     case Registers::avx2: return 4;
     case Registers::plain: break;

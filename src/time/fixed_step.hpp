@@ -140,11 +140,4 @@ private:
   long evaluations_ = 0;
 };
 
-/** The registers that rows are compiled for. */
-enum class Registers { plain, avx2, avx512 };
-Registers widest_registers();
-
-/** For tests: at most these are used from now on. */
-void use_registers(Registers widest);
-
 }  // namespace rotor_stator

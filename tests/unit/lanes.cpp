@@ -57,6 +57,25 @@ void with_registers(Registers width, Run run)
 
 }  // namespace
 
+TEST_CASE("The force at all instants of a period has the same bits in any registers")
+{
+  /** 41 instants: the last group overlaps the one before in all of them. */
+  const Parameters machine = set_1();
+  const SampledBearing bearing(machine.bearing, 41);
+  const Eigen::MatrixXd u = 5e-5 * Eigen::MatrixXd::Random(41, 2);
+  std::vector<Eigen::MatrixXd> forces, stiffnesses;
+  for (Registers width : {Registers::plain, Registers::avx2, Registers::avx512})
+    with_registers(width, [&] {
+      bearing(u, forces.emplace_back(), &stiffnesses.emplace_back());
+      Eigen::MatrixXd alone;
+      bearing(u, alone, nullptr);
+      CHECK(alone == forces.front());
+      CHECK(forces.back() == forces.front());
+      CHECK(stiffnesses.back() == stiffnesses.front());
+    });
+  CHECK(forces.front().norm() > 0);
+}
+
 /** Catches constants, steps or directions of another lane, lanes that stop early or late,
     damping in a lane that has none, sums in another order, and evaluations that are not
     counted. */
