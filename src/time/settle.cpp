@@ -76,25 +76,6 @@ constexpr double forgotten = -20.7;  ///< ln 1e-9
 constexpr double nearer = -16.1;     ///< ln 1e-7
 constexpr int most_period = 16;      ///< K
 
-/** From `start`; the neighbour is pulled back at least once in 60 rad of the contact's
-    vibration; short base periods are cut into fewer intervals. */
-TrajectoryPair pair_from(const Parameters& machine, double omega, const Instant& start,
-                         const SettleRule& rule, const OperationBudget& budget)
-{
-  constexpr double longest_phase = 60, steps_of_interval = 32;  // of rk4
-  const double period = 2 * std::numbers::pi / omega;
-  const double least = std::ceil(period * contact_frequency(machine) / longest_phase);
-  const double usual =
-      std::clamp(std::ceil(period / (steps_of_interval * rule.step)), 4.0, 8.0);
-  const int intervals = static_cast<int>(std::max(usual, least));
-  return {flow(machine, omega,
-               {.method = rule.method,
-                .intervals_per_period = intervals,
-                .step = rule.step,
-                .budget = budget}),
-          intervals, period, state_scales(machine), start};
-}
-
 /** So long a motion is watched before a growth rate is believed, at least [s]. */
 double least_seconds(const Parameters& machine, double omega)
 {
@@ -125,7 +106,7 @@ Settling::Settling(const Parameters& machine, double omega, const BasePeriod& ba
     : machine_(machine), omega_(omega), base_(base), rule_(filled(rule, machine, omega)),
       budget_(budget), length_(scales(machine).length),
       least_(least_seconds(machine, omega)), start_(start),
-      pair_(pair_from(machine, omega, start, rule_, budget))
+      pair_(pair_from_start())
 {
 }
 
@@ -165,6 +146,20 @@ std::unique_ptr<Flow> Settling::flow_of(double step, int intervals) const
                .intervals_per_period = intervals,
                .step = step,
                .budget = budget_});
+}
+
+/** The neighbour is pulled back at least once in 60 rad of the contact's vibration; short
+    base periods are cut into fewer intervals. */
+TrajectoryPair Settling::pair_from_start() const
+{
+  constexpr double longest_phase = 60, steps_of_interval = 32;  // of rk4
+  const double period = 2 * std::numbers::pi / omega_;
+  const double least = std::ceil(period * contact_frequency(machine_) / longest_phase);
+  const double usual =
+      std::clamp(std::ceil(period / (steps_of_interval * rule_.step)), 4.0, 8.0);
+  const int intervals = static_cast<int>(std::max(usual, least));
+  return {flow_of(rule_.step, intervals), intervals, period, state_scales(machine_),
+          start_};
 }
 
 /** At the pair, when the transient may be over. */
@@ -364,7 +359,7 @@ void Settling::begin_anew()
   spent_beside_ += pair_.evaluations();
   periods_ = 0;
   began_ = -1;
-  pair_ = pair_from(machine_, omega_, start_, rule_, budget_);
+  pair_ = pair_from_start();
 }
 
 /** The budget has ended, or the integration has broken down. */

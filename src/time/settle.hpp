@@ -97,6 +97,7 @@ public:
 
 private:
   std::unique_ptr<Flow> flow_of(double step, int intervals) const;
+  TrajectoryPair pair_from_start() const;
   bool may_be_over() const;
   void look();
   bool is_resolved();
