@@ -48,9 +48,10 @@ int main(int argc, char** argv)
 {
   using namespace rotor_stator;
   using namespace rotor_stator::costs;
-  const Program program{"--error", "largest",
-                        "what the targets bound: largest, or mean (rms about the mean)"};
-  return run_figure(argc, argv, program, [](SceneFile& file, const std::string& error) {
+  std::string error = "largest";
+  const OwnOption own{
+      "--error", "what the targets bound: largest, or mean (rms about the mean)", &error};
+  const auto compute = [&](SceneFile& file) {
     const EqualErrorScene scene = read_equal_error(file, error);
     const References references =
         true_motions(scene.parameters, scene.frequencies, scene.truth);
@@ -62,5 +63,6 @@ int main(int argc, char** argv)
           rows.push_back(cheapest(scene, range, tried, target, rows));
       }
     return equal_error_table(scene, references, rows);
-  });
+  };
+  return run_figure(argc, argv, compute, own);
 }

@@ -4,7 +4,7 @@
 #include <numbers>
 
 #include "io/errors.hpp"
-#include "io/scene_file.hpp"
+#include "io/toml_file.hpp"
 
 namespace rotor_stator::figures {
 

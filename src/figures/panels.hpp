@@ -13,8 +13,8 @@ error is large, or the second does not repeat, the panel shows the integrated mo
 #include <optional>
 
 #include "balance/find.hpp"
-#include "io/scene_file.hpp"
 #include "io/table.hpp"
+#include "io/toml_file.hpp"
 #include "motion/motion.hpp"
 
 namespace rotor_stator::figures {

@@ -1,7 +1,7 @@
 #include "figures/regimes.hpp"
 
 #include "io/errors.hpp"
-#include "io/scene_file.hpp"
+#include "io/toml_file.hpp"
 
 namespace rotor_stator::figures {
 

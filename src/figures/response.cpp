@@ -5,7 +5,7 @@
 #include "balance/fourier_transform.hpp"
 #include "io/errors.hpp"
 #include "io/parallel.hpp"
-#include "io/scene_file.hpp"
+#include "io/toml_file.hpp"
 #include "motion/contact.hpp"
 
 namespace rotor_stator::figures {

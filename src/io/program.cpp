@@ -37,8 +37,7 @@ std::string unexpected(const CLI::App& app)
     known.push_back(option->get_name());
   std::string commands;
   if (chosen.empty())
-    for (const CLI::App* command :
-         app.get_subcommands([](const CLI::App*) { return true; })) {
+    for (const CLI::App* command : app.get_subcommands({})) {
       known.push_back(command->get_name());
       commands += (commands.empty() ? "; subcommands: " : ", ") + command->get_name();
     }
@@ -136,30 +135,22 @@ double speed_in_hertz(const std::string& option, const std::string& value,
   return own == "rpm" ? *speed / 60 : *speed;
 }
 
-int run_figure(int argc, char** argv, Program program,
-               const std::function<Table(SceneFile&, const std::string& value)>& compute)
+int run_figure(int argc, char** argv, const std::function<Table(SceneFile&)>& compute,
+               const OwnOption& own)
 {
   const std::string name = std::filesystem::path(argv[0]).filename();
   std::string scene_file = "data/scenes/" + name + ".toml", reading = "exchanged";
   CLI::App app("Computes one table; TSV on stdout.");
   app.add_option("scene", scene_file, "scene file")->capture_default_str();
-  if (program.has_readings)
-    app.add_option("--reading", reading, "reading of Table 1: exchanged or as-printed")
-        ->capture_default_str();
-  if (!program.option.empty())
-    app.add_option(program.option, program.value, program.meaning)->capture_default_str();
+  app.add_option("--reading", reading, "reading of Table 1: exchanged or as-printed")
+      ->capture_default_str();
+  if (own.value) app.add_option(own.name, *own.value, own.meaning)->capture_default_str();
   return guarded([&] {
     if (!parse(app, argc, argv)) return 0;
     SceneFile scene(scene_file, reading);
-    write(compute(scene, program.value).text());
+    write(compute(scene).text());
     return 0;
   });
-}
-
-int run_figure(int argc, char** argv, const std::function<Table(SceneFile&)>& compute)
-{
-  return run_figure(argc, argv, {},
-                    [&](SceneFile& scene, const std::string&) { return compute(scene); });
 }
 
 }  // namespace rotor_stator

@@ -9,8 +9,8 @@
 
 #include "io/output_file.hpp"
 #include "io/parallel.hpp"
-#include "io/scene_file.hpp"
 #include "io/table.hpp"
+#include "io/toml_file.hpp"
 
 namespace CLI {
 class App;
@@ -36,19 +36,16 @@ auto watched(std::string what, const std::vector<Item>& list)
 Options in, one table out on stdout, log on stderr; the exit status says how it ended: 0
 done, 2 bad input, 3 no solution. Nothing is written before everything is computed. */
 
-/** What a program reads beside its scene, data/scenes/NAME.toml. */
-struct Program {
-  std::string option = {};   ///< one more, with its dashes, or none
-  std::string value = {};    ///< its default
-  std::string meaning = {};  ///< of it
-  bool has_readings = true;  ///< of Table 1 (D-09)
+/** An option of one program's own, with its dashes; `value` holds its default. */
+struct OwnOption {
+  std::string name, meaning;
+  std::string* value = nullptr;
 };
 
-/** Runs the program of a figure: parses its options, computes the table that the scene
-    and the value of the program's own option ask for, prints it. */
-int run_figure(int argc, char** argv, Program program,
-               const std::function<Table(SceneFile&, const std::string& value)>& compute);
-int run_figure(int argc, char** argv, const std::function<Table(SceneFile&)>& compute);
+/** Runs the program of a figure: parses its options, computes the table that its scene,
+    data/scenes/NAME.toml, asks for, prints it. */
+int run_figure(int argc, char** argv, const std::function<Table(SceneFile&)>& compute,
+               const OwnOption& own = {});
 
 /** The number that an option's value is, in decimal notation. Throws BadInput unless
     `least` ≤ it ≤ `most`; a real number with `least` = 0 must be above it. */

@@ -40,8 +40,8 @@ namespace {
 /** No parameter or scene file comes near it. */
 constexpr std::uintmax_t most_bytes = 1'000'000;
 
-/** The bound of toml++ on values in one another. It has none on the parts of a key, but
-    takes a call for each. */
+/** The bound of toml++ on nested values. It has none on the parts of a key, but takes a
+    call for each. */
 constexpr int most_levels = 256;
 
 [[noreturn]] void refuse_levels(const std::string& file, int line)
@@ -124,8 +124,8 @@ struct StrictToml::Content {
   std::string file;
   std::string path;  ///< dotted prefix of this table, "" at the root
   toml::table table;
-  std::set<std::string> read, asked;  ///< keys; those that may stand here
-  std::vector<std::pair<std::string, std::shared_ptr<Content>>> inner_tables;
+  std::set<std::string> read = {}, asked = {};  ///< keys; those that may stand here
+  std::vector<std::pair<std::string, std::shared_ptr<Content>>> inner_tables = {};
   std::set<std::string> expected = {};  ///< by may_hold
 
   /** A key as it stands in the file, perhaps in another unit. */
@@ -181,10 +181,10 @@ struct StrictToml::Content {
   /** The table in a node of this one. */
   StrictToml inner(toml::node& node, const std::string& key)
   {
-    inner_tables.emplace_back(
-        key, std::make_shared<Content>(Content{
-                 file, path + key + ".", std::move(*node.as_table()), {}, {}, {}}));
-    return StrictToml(inner_tables.back().second);
+    const auto own = std::make_shared<Content>(
+        Content{file, path + key + ".", std::move(*node.as_table())});
+    inner_tables.emplace_back(key, own);
+    return StrictToml(own);
   }
 };
 
@@ -199,14 +199,15 @@ StrictToml::StrictToml(const std::string& file, const std::string& content)
   } catch (const toml::parse_error& error) {
     const std::string message(error.description());
     const auto line = static_cast<int>(error.source().begin.line);
-    if (message.find("TOML_MAX_NESTED_VALUES") != message.npos) refuse_levels(file, line);
-    const bool is_word = message.find("could not determine value type") != message.npos;
-    const bool is_comma = message.find("saw ','") != message.npos;
+    const auto says = [&](const char* words) {
+      return message.find(words) != message.npos;
+    };
+    if (says("TOML_MAX_NESTED_VALUES")) refuse_levels(file, line);
     throw BadInput(format("%s:%d: not TOML: ", file.c_str(), line) +
                    message.substr(0, message.find('\n')) +
-                   (is_word    ? "; words stand in quotes"
-                    : is_comma ? "; decimals have a point"
-                               : ""));
+                   (says("could not determine value type") ? "; words stand in quotes"
+                    : says("saw ','")                      ? "; decimals have a point"
+                                                           : ""));
   }
   for (const auto& [key, node] : content_->table)
     if (key.str() == "ross_version" || key.str().starts_with("ShaftElement"))
@@ -266,7 +267,7 @@ StrictToml StrictToml::with(const std::vector<std::pair<std::string, double>>& v
                             Excludes excludes) const
 {
   StrictToml changed(std::make_shared<Content>(
-      Content{content_->file, content_->path, content_->table, {}, {}, {}}));
+      Content{content_->file, content_->path, content_->table}));
   const auto parts = [](const std::string& key) {
     const auto last = key.rfind('.') + 1;
     return std::pair{key.substr(0, last), own_key(key.substr(last))};
@@ -315,7 +316,7 @@ std::size_t StrictToml::way(const std::vector<std::vector<std::string>>& ways) c
       taken = k;
       given = content_->written(key);
     }
-    advice += (k == 0 ? "; give it, or " : k == 1 ? "" : ", or ") + (k == 0 ? "" : keys);
+    if (k > 0) advice += (k == 1 ? "; give it, or " : ", or ") + keys;
   }
   if (taken == ways.size()) missing(ways[0][0], advice, ways);
   for (const std::string& key : ways[taken])
@@ -329,20 +330,10 @@ double StrictToml::number(const std::string& key, Range range)
   return in_own_unit(content_->written(key), content_->one(*this, key, value));
 }
 
-double StrictToml::number_or(const std::string& key, Range range, double otherwise)
-{
-  return has(key) ? number(key, range) : otherwise;
-}
-
 int StrictToml::integer(const std::string& key, int least, int most)
 {
   return content_->one(*this, key,
                        [&](auto& node) { return as_integer(node, least, most); });
-}
-
-int StrictToml::integer_or(const std::string& key, int least, int most, int otherwise)
-{
-  return has(key) ? integer(key, least, most) : otherwise;
 }
 
 std::string StrictToml::string(const std::string& key)
@@ -456,6 +447,47 @@ void StrictToml::refuse_unknown_keys() const
   }
   for (const auto& [name, inner] : content_->inner_tables)
     StrictToml(inner).refuse_unknown_keys();
+}
+
+/**
+## Scenes */
+
+SceneFile::SceneFile(const std::string& file, const std::string& reading)
+    : reading_(reading), toml_(file)
+{
+  if (reading != "exchanged" && reading != "as-printed")
+    throw BadInput("--reading " + reading + ": must be exchanged or as-printed");
+}
+
+std::string SceneFile::file_of(const std::string& name) const
+{
+  const std::string suffix = reading_ == "exchanged" ? "" : "-" + reading_;
+  const auto data = std::filesystem::path(toml_.file()).parent_path().parent_path();
+  return (data / (name + suffix + ".toml")).string();
+}
+
+std::vector<std::string> SceneFile::data_sets(const std::string& key)
+{
+  std::vector<std::string> files = toml_.strings(key);
+  for (std::string& name : files) name = file_of(name);
+  return files;
+}
+
+std::vector<double> SceneFile::speed_range(const std::string& key)
+{
+  StrictToml table = toml_.table(key);
+  const double from = table.number("from", Range::positive);
+  const double to = table.number("to", Range::positive);
+  const double step = table.number("step", Range::positive);
+  table.refuse_unknown_keys();
+  if (to <= from) table.fail("to", "must be above from");
+  if ((to - from) / step > 1e5) table.fail("step", "gives more than 100000 speeds");
+  const double count = std::round((to - from) / step);
+  if (std::abs(from + count * step - to) > 1e-9 * to)
+    table.fail("step", "must divide the range");
+  std::vector<double> speeds;
+  for (double k = 0; k <= count; ++k) speeds.push_back(from + (to - from) * k / count);
+  return speeds;
 }
 
 }  // namespace rotor_stator

@@ -52,9 +52,15 @@ public:
   std::size_t way(const std::vector<std::vector<std::string>>& ways) const;
 
   double number(const std::string& key, Range range);
-  double number_or(const std::string& key, Range range, double otherwise);
+  double number_or(const std::string& key, Range range, double otherwise)
+  {
+    return has(key) ? number(key, range) : otherwise;
+  }
   int integer(const std::string& key, int least, int most);
-  int integer_or(const std::string& key, int least, int most, int otherwise);
+  int integer_or(const std::string& key, int least, int most, int otherwise)
+  {
+    return has(key) ? integer(key, least, most) : otherwise;
+  }
   std::string string(const std::string& key);
 
   /** Those of an array of this `shape`; as many as it names where it is as "[x, y]". */
@@ -94,6 +100,36 @@ private:
   struct Content;
   StrictToml(std::shared_ptr<Content> content) : content_(std::move(content)) {}
   std::shared_ptr<Content> content_;
+};
+
+/**
+## Scenes
+
+A scene is what one figure asks to be modelled: which data sets, which speeds, how many
+harmonics and samples, how the time integration is set. It is a file in data/scenes/. */
+
+/** A scene file being read, with the reading of Table 1 (D-09): "exchanged" or
+    "as-printed". */
+class SceneFile {
+public:
+  SceneFile(const std::string& file, const std::string& reading);
+
+  StrictToml& toml() { return toml_; }
+  const std::string& reading() const { return reading_; }
+
+  /** The file of the data set named by a key: "set1" is data/set1.toml beside the scenes'
+      folder, or data/set1-as-printed.toml under that reading. */
+  std::string data_set(const std::string& key) { return file_of(toml_.string(key)); }
+  std::vector<std::string> data_sets(const std::string& key);
+
+  /** `from`, `to` and `step` in hertz, both ends included. */
+  std::vector<double> speed_range(const std::string& key);
+
+private:
+  std::string file_of(const std::string& name) const;
+
+  std::string reading_;
+  StrictToml toml_;
 };
 
 }  // namespace rotor_stator

@@ -5,7 +5,6 @@
 #include <numbers>
 
 #include "io/errors.hpp"
-#include "io/scene_file.hpp"
 #include "model/catalogue.hpp"
 #include "model/parallel.hpp"
 #include "model/rotor_stator.hpp"

@@ -8,7 +8,7 @@ a periodic solution the integration starts from it, which shortens the transient
 decides nothing: the integrated motion is what is judged. */
 #pragma once
 
-#include "io/scene_file.hpp"
+#include "io/toml_file.hpp"
 #include "motion/motion.hpp"
 
 namespace rotor_stator::motion {

@@ -6,7 +6,7 @@
 #include <numbers>
 
 #include "io/errors.hpp"
-#include "io/scene_file.hpp"
+#include "io/toml_file.hpp"
 #include "time/section.hpp"
 #include "time/side_by_side.hpp"
 

@@ -6,7 +6,7 @@
 #include "balance/newton.hpp"
 #include "io/errors.hpp"
 #include "io/program.hpp"
-#include "io/scene_file.hpp"
+#include "io/toml_file.hpp"
 
 namespace rotor_stator::costs {
 

@@ -4,7 +4,7 @@
 
 #include "balance/fourier_transform.hpp"
 #include "io/errors.hpp"
-#include "io/scene_file.hpp"
+#include "io/toml_file.hpp"
 #include "model/ball_bearing.hpp"
 
 namespace rotor_stator::costs {

@@ -9,8 +9,8 @@ or one closed form each. What only one entry asks for is read where it is used. 
 #include <functional>
 
 #include "balance/newton.hpp"
-#include "io/scene_file.hpp"
 #include "io/table.hpp"
+#include "io/toml_file.hpp"
 #include "motion/motion.hpp"
 
 namespace rotor_stator::deviations {

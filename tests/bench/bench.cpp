@@ -12,7 +12,7 @@ the same matrix. Everything on data set 1, at its solution at 30 Hz, with the de
 #include "balance/bearing_problem.hpp"
 #include "balance/newton.hpp"
 #include "continuation/sweep.hpp"
-#include "io/scene_file.hpp"
+#include "io/toml_file.hpp"
 #include "motion/find_periodic.hpp"
 #include "motion/motion.hpp"
 

@@ -15,8 +15,8 @@ run, and `crash-…` keeps the file. */
 
 #include "io/errors.hpp"
 #include "io/matrix_market.hpp"
-#include "io/scene_file.hpp"
 #include "io/table.hpp"
+#include "io/toml_file.hpp"
 #include "model/read_machine.hpp"
 
 using namespace rotor_stator;
