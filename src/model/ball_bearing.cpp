@@ -5,7 +5,6 @@
 #include <numbers>
 
 #include "model/hertz.hpp"
-#include "model/registers.hpp"
 
 namespace rotor_stator {
 

@@ -14,14 +14,49 @@ reordered and no product fused.
     }
 
 Functions of lanes are `IN_PLACE`, a part of the function that is compiled for the
-registers at hand: a call would compile them for the narrowest ones. */
+registers at hand. */
 #pragma once
 
+#include <algorithm>
 #include <cmath>
 
-#include "model/registers.hpp"
+#if defined(__x86_64__) && defined(__GLIBC__) && defined(__GNUC__) && !defined(__clang__)
+#define WIDEST_REGISTERS __attribute__((target_clones("avx512f", "avx2", "default")))
+#define HAS_WIDE_REGISTERS
+#else
+#define WIDEST_REGISTERS
+#endif
+
+/** What a function compiled for wide registers calls must be a part of it, else it is
+    compiled once, for the narrowest ones. */
+#define IN_PLACE [[gnu::always_inline]] inline
 
 namespace rotor_stator {
+
+/** The registers that rows of lanes are compiled for: of 2, 4 and 8 doubles, chosen when
+    the program starts. GCC takes wider rows through the memory. */
+enum class Registers { plain, avx2, avx512 };
+
+inline Registers registers_of_processor()
+{
+#ifdef HAS_WIDE_REGISTERS
+  if (__builtin_cpu_supports("avx512f")) return Registers::avx512;
+  if (__builtin_cpu_supports("avx2")) return Registers::avx2;
+#endif
+  return Registers::plain;
+}
+
+inline Registers& widest_registers()
+{
+  static Registers widest = registers_of_processor();
+  return widest;
+}
+
+/** For tests: at most these are used from now on. */
+inline void use_registers(Registers widest)
+{
+  widest_registers() = std::min(widest, registers_of_processor());
+}
 
 template <int count>
 using Lanes [[gnu::vector_size(count * sizeof(double))]] = double;
