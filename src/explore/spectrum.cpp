@@ -26,7 +26,7 @@ MotionRequest with_defaults(MotionRequest request, const Parameters& parameters)
 {
   const bool is_free = !request.harmonics && !request.tolerance && !request.samples &&
                        !request.lines && request.subharmonic == 1;
-  if (request.method == "aft" && is_free && turns_to_repeat(parameters.bearing) > 0)
+  if (request.method == "aft" && is_free && turns_to_repeat({parameters.bearing}) > 0)
     request.harmonics = static_cast<int>(
         std::clamp(std::ceil(3 * passages_per_turn(parameters.bearing)), 6.0, 96.0));
   return request;

@@ -9,27 +9,11 @@ namespace rotor_stator {
 
 std::string BasePeriod::words() const
 {
-  switch (kind) {
-    case Kind::turn: return "turn";
-    case Kind::turns: return format("turns %d", turns);
-    case Kind::passing: return "passing";
-    case Kind::two: break;
-  }
-  return "two";
+  if (kind == Kind::turns) return format("turns %d", turns);
+  return kind == Kind::turn ? "turn" : kind == Kind::passing ? "passing" : "two";
 }
 
-int turns_to_repeat(const Bearing& bearing)
-{
-  for (int q = 1; q <= 8; ++q) {
-    Bearing longer = bearing;
-    longer.cage_speed_ratio *= q;
-    if (has_rotation_period(longer)) return q;
-  }
-  return 0;
-}
-
-/** The least q ≤ 8 that is one of all bearings, 0 where there is none. */
-static int turns_of_all(const std::vector<Bearing>& bearings)
+int turns_to_repeat(const std::vector<Bearing>& bearings)
 {
   for (int q = 1; q <= 8; ++q)
     if (std::ranges::all_of(bearings, [q](Bearing bearing) {
@@ -57,7 +41,7 @@ BasePeriod base_period(const Parameters& parameters)
   const std::vector<Bearing> bearings = bearings_of(parameters);
   if (!turns_visibly(parameters) && has_passing(bearings))
     return {Kind::passing, 1, passages_per_turn(parameters.bearing)};
-  const int q = turns_of_all(bearings);
+  const int q = turns_to_repeat(bearings);
   if (q == 0) return {Kind::two, 1, 1};
   return {q == 1 ? Kind::turn : Kind::turns, q, 1.0 / q};
 }

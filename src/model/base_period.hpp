@@ -32,8 +32,9 @@ struct BasePeriod {
     a turn. */
 BasePeriod base_period(const Parameters& parameters);
 
-/** The fewest turns q ≤ 8 in which a whole number of balls passes, 0 where none is. */
-int turns_to_repeat(const Bearing& bearing);
+/** The fewest turns q ≤ 8 in which a whole number of the balls of each bearing passes, 0
+    where there are none. */
+int turns_to_repeat(const std::vector<Bearing>& bearings);
 
 /** The machine without unbalance, where only the passing balls move anything: its base
     frequency is n ω_cage. */
