@@ -170,8 +170,8 @@ Problem bearing_problem(const Parameters& parameters, int samples,
   return bearing_problem(parameters, TorusLine{z, samples}, budget);
 }
 
-void TwoMasses::put_equations(const Parameters& parameters, const TorusLine& line,
-                              Problem& problem) const
+void Machine::put_equations(const Parameters& parameters, const TorusLine& line,
+                            Problem& problem) const
 {
   problem.linear = [parameters, k = scales(parameters).stiffness](
                        double omega, Harmonic h, LinearBlock& block) {
@@ -221,8 +221,8 @@ Eigen::MatrixXd sampled(int samples, Displacement displacement)
 
 }  // namespace
 
-Eigen::MatrixXd TwoMasses::start_samples(const Parameters& parameters, double omega,
-                                         int samples) const
+Eigen::MatrixXd Machine::start_samples(const Parameters& parameters, double omega,
+                                       int samples) const
 {
   const Eigen::MatrixXd u = sampled(
       samples, [&](double phase) { return free_displacement(parameters, omega, phase); });
@@ -248,14 +248,13 @@ Eigen::MatrixXd body_series(const Parameters& parameters, const PeriodicMotion& 
   return parameters.bodies->shown_series(parameters, motion);
 }
 
-Eigen::MatrixXd TwoMasses::all_series(const Parameters&,
-                                      const PeriodicMotion& motion) const
+Eigen::MatrixXd Machine::all_series(const Parameters&, const PeriodicMotion& motion) const
 {
   return motion.bodies;
 }
 
-Eigen::MatrixXd TwoMasses::shown_series(const Parameters& parameters,
-                                        const PeriodicMotion& motion) const
+Eigen::MatrixXd Machine::shown_series(const Parameters& parameters,
+                                      const PeriodicMotion& motion) const
 {
   const auto columns = motion.harmonics.coefficients();
   const Eigen::Map<const Eigen::MatrixXd> u(motion.x.data(), 2, columns);

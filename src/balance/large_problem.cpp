@@ -143,8 +143,8 @@ void require_one_passage(const Parameters& parameters)
 
 }  // namespace
 
-void LargeMachine::put_equations(const Parameters& parameters, const TorusLine& line,
-                                 Problem& problem) const
+void MatrixMachine::put_equations(const Parameters& parameters, const TorusLine& line,
+                                  Problem& problem) const
 {
   require_one_passage(parameters);
   problem.dofs = static_cast<int>(bodies_.joints.cols());
@@ -174,15 +174,15 @@ void LargeMachine::put_equations(const Parameters& parameters, const TorusLine& 
   };
 }
 
-void LargeMachine::prepare(const Parameters& parameters, double omega,
-                           int harmonics) const
+void MatrixMachine::prepare(const Parameters& parameters, double omega,
+                            int harmonics) const
 {
   for (int h = 0; h <= harmonics; ++h)
     answers_of(bodies_, parameters, omega, {static_cast<double>(h), 0});
 }
 
-Eigen::MatrixXd LargeMachine::start_samples(const Parameters& parameters, double omega,
-                                            int samples) const
+Eigen::MatrixXd MatrixMachine::start_samples(const Parameters& parameters, double omega,
+                                             int samples) const
 {
   const LinearBlock rest = large_block(bodies_, parameters, omega, {0, 0});
   const LinearBlock turning =
@@ -251,8 +251,8 @@ Eigen::MatrixXd series_of(const PeriodicMotion& motion, Eigen::Index joints,
 
 }  // namespace
 
-Eigen::MatrixXd LargeMachine::shown_series(const Parameters& parameters,
-                                           const PeriodicMotion& motion) const
+Eigen::MatrixXd MatrixMachine::shown_series(const Parameters& parameters,
+                                            const PeriodicMotion& motion) const
 {
   return series_of(motion, bodies_.joints.cols(), bodies_.shown,
                    [&](Harmonic h, auto push) -> Eigen::VectorXcd {
@@ -261,8 +261,8 @@ Eigen::MatrixXd LargeMachine::shown_series(const Parameters& parameters,
                    });
 }
 
-Eigen::MatrixXd LargeMachine::all_series(const Parameters& parameters,
-                                         const PeriodicMotion& motion) const
+Eigen::MatrixXd MatrixMachine::all_series(const Parameters& parameters,
+                                          const PeriodicMotion& motion) const
 {
   const Eigen::MatrixXd& d = bodies_.joints;
   return series_of(

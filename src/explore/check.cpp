@@ -38,7 +38,8 @@ std::vector<Rest> rest_of(const Parameters& machine)
     turn_cage(turned.bearing);
     std::ranges::for_each(turned.further, turn_cage);
     motion::Motion motion{1, 0, {}};
-    motion::add(motion, rest_state(turned, Direction::of(turned.bearing.cage_phase)));
+    motion::add(motion,
+                turned.bodies->at_rest(turned, Direction::of(turned.bearing.cage_phase)));
     for (std::size_t b = 0; Rest & rest : rests) {
       const Bearing own = bearings_of(turned)[b];
       const BallBearing bearing(own);

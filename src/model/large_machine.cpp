@@ -7,11 +7,11 @@
 #include <cmath>
 
 #include "io/table.hpp"
-#include "model/assembly.hpp"
 
 namespace rotor_stator {
 
 using Complex = std::complex<double>;
+using Triplets = std::vector<Eigen::Triplet<double, int>>;
 
 Eigen::MatrixXcd LargeBodies::dynamic_stiffness(std::complex<double> k, double frequency,
                                                 double speed) const
@@ -92,8 +92,7 @@ AtRest at_rest(const Parameters& parameters, const LargeBodies& machine, int ang
     return u - c + h * force;
   };
   Eigen::VectorXd u = quasi_static_contacts(parameters, h.ldlt().solve(c));
-  /** Where nothing is stiff at first, the derivative is singular: then with a share of
-      k_0 more. */
+  /** Where nothing is stiff the derivative is singular without a share of k_0. */
   bool moves = true;
   for (int step = 0; step < 100 && moves; ++step) {
     const Eigen::VectorXd rest = open(u);
@@ -122,15 +121,17 @@ AtRest at_rest(const Parameters& parameters, const LargeBodies& machine, int ang
 
 LargeBodies matrices_of(const Parameters& parameters)
 {
-  if (const auto* large = dynamic_cast<const LargeMachine*>(parameters.bodies.get()))
+  if (const auto* large = dynamic_cast<const MatrixMachine*>(parameters.bodies.get()))
     return large->bodies();
   Body stator = parameters.stator;
   if (stator.rigid) stator.mass = 1;  // which nothing moves
-  Assembly all{.bodies = {single_mass(stator, "stator", 0),
-                          single_mass(parameters.rotor, "rotor", parameters.unbalance)},
-               .is_rigid = stator.rigid,
-               .places = {{0, 1, 2, 3}}};
-  return assembled(all, parameters.gravity, scales(parameters).stiffness);
+  const double g = parameters.gravity;
+  const Assembly all{
+      .bodies = {single_mass(stator, "stator", 0, g),
+                 single_mass(parameters.rotor, "rotor", parameters.unbalance, g)},
+      .is_rigid = stator.rigid,
+      .places = {{0, 1, 2, 3}}};
+  return all.assembled(scales(parameters).stiffness);
 }
 
 Eigen::MatrixXd mean_contact_stiffness(const Parameters& parameters,
@@ -139,12 +140,12 @@ Eigen::MatrixXd mean_contact_stiffness(const Parameters& parameters,
   return at_rest(parameters, machine, 64, rotor_speed).stiffness;
 }
 
-State LargeMachine::at_rest(const Parameters& parameters, Direction) const
+State MatrixMachine::at_rest(const Parameters& parameters, Direction) const
 {
   return static_start(parameters);
 }
 
-State LargeMachine::static_start(const Parameters& parameters) const
+State MatrixMachine::static_start(const Parameters& parameters) const
 {
   const Eigen::VectorXd q = rotor_stator::at_rest(parameters, bodies_, 1).q;
   Eigen::VectorXd y = Eigen::VectorXd::Zero(2 * q.size());
@@ -152,7 +153,7 @@ State LargeMachine::static_start(const Parameters& parameters) const
   return state_of(y);
 }
 
-Eigen::VectorXd LargeMachine::state_scales(const Parameters& parameters) const
+Eigen::VectorXd MatrixMachine::state_scales(const Parameters& parameters) const
 {
   const auto n = bodies_.mass.rows();
   const Eigen::VectorXd masses = bodies_.mass.diagonal();
@@ -174,15 +175,135 @@ void LargeMachine::describe(Table& table, const Parameters&) const
   for (const std::string& line : bodies_.reductions) table.detail(line);
 }
 
-void GroundedMasses::describe(Table& table, const Parameters& parameters) const
-{
-  two_masses()->describe(table, parameters);
-}
-
 void LargeMachine::put_keys(Table& table) const
 {
   table.value("degrees_of_freedom", bodies_.mass.rows());
   table.value("reduction_error", bodies_.reduction_error);
+}
+
+LinearBody single_mass(const Body& body, const std::string& name, double unbalance,
+                       double gravity)
+{
+  SparseMatrix one(2, 2);
+  one.setIdentity();
+  const Vec2 load = body.static_load(gravity);
+  const double weight = body.rigid ? 0 : gravity * body.mass;
+  return {.m = body.mass * one,
+          .c = body.damping() * one,
+          .g = SparseMatrix(2, 2),
+          .k = body.stiffness() * one,
+          .name = name,
+          .load = Eigen::Vector2d(load.x, load.y),
+          .size_of_loads = weight + Eigen::Vector2d(body.load.x, body.load.y).norm(),
+          .unbalance = unbalance * Eigen::Vector2cd(1, Complex(0, -1)),
+          .joint = {0, 1}};
+}
+
+SparseMatrix Assembly::joined(SparseMatrix LinearBody::*part) const
+{
+  Triplets entries;
+  for (int body : {0, 1}) {
+    const SparseMatrix& own = bodies[body].*part;
+    for (int j = 0; j < own.outerSize(); ++j)
+      for (SparseMatrix::InnerIterator it(own, j); it; ++it)
+        entries.emplace_back(first(body) + static_cast<int>(it.row()), first(body) + j,
+                             it.value());
+  }
+  SparseMatrix all(size(), size());
+  all.setFromTriplets(entries.begin(), entries.end());
+  return all;
+}
+
+SparseMatrix Assembly::joints() const
+{
+  Triplets entries;
+  for (int b = 0; b < std::ssize(places); ++b)
+    for (int axis : {0, 1}) {
+      entries.emplace_back(places[b][2 + axis], 2 * b + axis, 1);
+      if (!is_rigid && places[b][axis] >= 0)
+        entries.emplace_back(places[b][axis], 2 * b + axis, -1);
+    }
+  SparseMatrix all(size(), 2 * static_cast<int>(places.size()));
+  all.setFromTriplets(entries.begin(), entries.end());
+  return all;
+}
+
+std::pair<std::vector<int>, int> Assembly::order() const
+{
+  std::vector<int> list;
+  const auto add = [&](int dof) {
+    if (dof >= 0 && std::ranges::find(list, dof) == list.end()) list.push_back(dof);
+  };
+  for (const auto& place : places)
+    for (int dof : place) add(dof);
+  for (int body : {0, 1})
+    for (int dof : bodies[body].output) add(first(body) + dof);
+  const int shown = static_cast<int>(list.size());
+  std::vector<bool> taken(static_cast<std::size_t>(size()));
+  for (int dof : list) taken[dof] = true;
+  for (int dof = 0; dof < size(); ++dof)
+    if (!taken[dof]) list.push_back(dof);
+  return {list, shown};
+}
+
+void Assembly::require_held(double spring) const
+{
+  const SparseMatrix d = joints();
+  const SparseMatrix held =
+      joined(&LinearBody::k) + spring * SparseMatrix(d * d.transpose());
+  const Eigen::SimplicialLDLT<SparseMatrix> factors(held);
+  constexpr double rounding = 1e-13;
+  for (int i = 0; i < size(); ++i) {
+    const int dof = factors.permutationPinv().indices()[i];
+    const int body = dof >= first(1);
+    if (!(factors.vectorD()[i] > rounding * held.coeff(dof, dof)))
+      throw BadInput(not_held(bodies[body].name, dof - first(body)));
+  }
+}
+
+LargeBodies Assembly::assembled(double spring) const
+{
+  const auto [order, shown] = this->order();
+  std::vector<int> place_of(order.size());
+  for (int i = 0; i < size(); ++i) place_of[order[i]] = i;
+  const auto dense = [&order = order](const SparseMatrix& a) -> Eigen::MatrixXd {
+    return Eigen::MatrixXd(a)(order, order);
+  };
+  Eigen::VectorXd load(size());
+  Eigen::VectorXcd unbalance(size());
+  load << bodies[0].load, bodies[1].load;
+  unbalance << bodies[0].unbalance, bodies[1].unbalance;
+  LargeBodies machine{.mass = dense(joined(&LinearBody::m)),
+                      .damping = dense(joined(&LinearBody::c)),
+                      .gyroscopic = dense(joined(&LinearBody::g)),
+                      .stiffness = dense(joined(&LinearBody::k)),
+                      .joints = Eigen::MatrixXd(joints())(order, Eigen::all),
+                      .load = load(order),
+                      .unbalance = unbalance(order),
+                      .spring = spring,
+                      .shown = shown,
+                      .places = places,
+                      .outputs = {}};
+  for (auto& place : machine.places)
+    for (int& dof : place)
+      if (dof >= 0) dof = place_of[dof];
+  constexpr const char* names[] = {"x_s", "y_s", "x_r", "y_r"};
+  for (std::size_t b = 1; b < bearings; ++b)
+    for (int k = 0; k < 4; ++k)
+      machine.outputs.emplace_back(format("%s_%zu", names[k], b + 1),
+                                   machine.places[b][k]);
+  for (int body : {0, 1})
+    for (std::size_t axis = 0; axis < bodies[body].output.size(); ++axis)
+      machine.outputs.emplace_back(std::string(names[2 * body + axis]) + "_out",
+                                   place_of[first(body) + bodies[body].output[axis]]);
+  const SparseMatrix& at_nodes = bodies[1].at_nodes;
+  Triplets entries;
+  for (int j = 0; j < at_nodes.outerSize(); ++j)
+    for (SparseMatrix::InnerIterator it(at_nodes, j); it; ++it)
+      entries.emplace_back(it.row(), place_of[first(1) + j], it.value());
+  machine.nodes.resize(at_nodes.rows(), size());
+  machine.nodes.setFromTriplets(entries.begin(), entries.end());
+  return machine;
 }
 
 }  // namespace rotor_stator

@@ -23,13 +23,11 @@ D Dᵀ regular where the joints carry a body. */
 #include <utility>
 #include <vector>
 
-#include "io/matrix_market.hpp"
 #include "model/rational_fit.hpp"
+#include "model/reduction.hpp"
 #include "model/rotor_stator.hpp"
 
 namespace rotor_stator {
-
-class NumberTable;
 
 /** n coordinates, b joints. */
 struct LargeBodies {
@@ -41,16 +39,15 @@ struct LargeBodies {
   int shown;                   ///< coordinates that are shown, at least four
   /** Of x_s, y_s, x_r, y_r at each joint; -1, -1 and x, y of a body at the ground. */
   std::vector<std::array<int, 4>> places;
-  std::vector<std::pair<std::string, int>>
-      outputs;                               ///< further columns, and their coordinates
+  /** Further columns, and their coordinates. */
+  std::vector<std::pair<std::string, int>> outputs;
   std::vector<std::string> reductions = {};  ///< lines for headers
   double reduction_error = 0;                ///< of their receptances, relative
   double slowest = 0, fastest = 0;  ///< speeds [rad/s] over which responses are fitted
   std::shared_ptr<RationalFits> fits = {};  ///< by the ratio of frequency and speed
-  SparseMatrix nodes =
-      {};  ///< x, y of the rotor's nodes asked for, over all coordinates, 2k × n
-  std::vector<std::pair<int, int>> bearing_nodes =
-      {};  ///< bearings and the nodes at which they stand, from 0
+  SparseMatrix nodes = {};  ///< x, y of the rotor's nodes asked for, 2k × n
+  /** Bearings and the nodes at which they stand, from 0. */
+  std::vector<std::pair<int, int>> bearing_nodes = {};
 
   Eigen::MatrixXd held_stiffness() const  ///< K + k_0 D Dᵀ
   {
@@ -93,16 +90,49 @@ Eigen::MatrixXd mean_contact_stiffness(const Parameters& parameters,
                                        const LargeBodies& machine,
                                        double rotor_speed = 0);
 
-/** Bodies given by matrices as a machine. */
-class LargeMachine : public Machine {
+/** A machine whose harmonics are those of its matrices. In time it is Eq. 7: two masses
+    with elements to the ground, for which the two unknowns of the bearing are not
+    enough. */
+class MatrixMachine : public Machine {
 public:
-  explicit LargeMachine(LargeBodies bodies) : bodies_(std::move(bodies)) {}
+  explicit MatrixMachine(LargeBodies bodies) : bodies_(std::move(bodies)) {}
 
   const LargeBodies& bodies() const { return bodies_; }
 
   State at_rest(const Parameters& parameters, Direction cage) const override;
   State static_start(const Parameters& parameters) const override;
   Eigen::VectorXd state_scales(const Parameters& parameters) const override;
+
+  void put_equations(const Parameters& parameters, const TorusLine& line,
+                     Problem& problem) const override;
+  Eigen::MatrixXd start_samples(const Parameters& parameters, double omega,
+                                int samples) const override;
+  Eigen::MatrixXd shown_series(const Parameters& parameters,
+                               const PeriodicMotion& motion) const override;
+  Eigen::MatrixXd all_series(const Parameters& parameters,
+                             const PeriodicMotion& motion) const override;
+  void prepare(const Parameters& parameters, double omega, int harmonics) const override;
+
+  double reduction_error() const override { return bodies_.reduction_error; }
+  std::vector<std::pair<std::string, int>> outputs() const override
+  {
+    return bodies_.outputs;
+  }
+  std::array<int, 4> places(std::size_t k) const override { return bodies_.places[k]; }
+  SparseMatrix nodes() const override { return bodies_.nodes; }
+  std::vector<std::pair<int, int>> bearing_nodes() const override
+  {
+    return bodies_.bearing_nodes;
+  }
+
+protected:
+  LargeBodies bodies_;
+};
+
+/** Bodies given by matrices, in time too. */
+class LargeMachine : public MatrixMachine {
+public:
+  using MatrixMachine::MatrixMachine;
 
   const char* time_method(const Parameters&) const override { return "gauss"; }
   bool takes_explicit_steps() const override { return false; }
@@ -115,51 +145,43 @@ public:
                              const StepSettings& settings) const override;
   PeriodMap period_map(const Parameters& parameters, double omega, const State& start,
                        const StepSettings& settings, long interval) const override;
-
-  void put_equations(const Parameters& parameters, const TorusLine& line,
-                     Problem& problem) const override;
-  Eigen::MatrixXd start_samples(const Parameters& parameters, double omega,
-                                int samples) const override;
-  Eigen::MatrixXd shown_series(const Parameters& parameters,
-                               const PeriodicMotion& motion) const override;
-  Eigen::MatrixXd all_series(const Parameters& parameters,
-                             const PeriodicMotion& motion) const override;
-  void prepare(const Parameters& parameters, double omega, int harmonics) const override;
-
   void describe(Table& table, const Parameters& parameters) const override;
   void put_keys(Table& table) const override;
-  double reduction_error() const override { return bodies_.reduction_error; }
-  std::vector<std::pair<std::string, int>> outputs() const override
-  {
-    return bodies_.outputs;
-  }
-  std::array<int, 4> places(std::size_t k) const override { return bodies_.places[k]; }
-  const SparseMatrix& nodes() const override { return bodies_.nodes; }
-  std::vector<std::pair<int, int>> bearing_nodes() const override
-  {
-    return bodies_.bearing_nodes;
-  }
-
-private:
-  LargeBodies bodies_;
 };
 
-/** Two masses with elements to the ground: Eq. 7 in time, and in harmonics their
-    matrices, since the two unknowns of the bearing are not enough there. */
-class GroundedMasses : public LargeMachine {
-public:
-  using LargeMachine::LargeMachine;
+/**
+## Putting it together
 
-  bool takes_explicit_steps() const override { return true; }
-  Patience patience() const override { return Machine::patience(); }
-  const char* time_method(const Parameters& parameters) const override;
-  double step(const Parameters& parameters, double omega) const override;
-  std::unique_ptr<Flow> flow(const Parameters& parameters, double omega,
-                             const StepSettings& settings) const override;
-  PeriodMap period_map(const Parameters& parameters, double omega, const State& start,
-                       const StepSettings& settings, long interval) const override;
-  void describe(Table& table, const Parameters& parameters) const override;
-  void put_keys(Table&) const override {}
+Stator and rotor are matrices of their own, of single masses too; the assembly joins them
+at the places of the bearings and puts those coordinates first that are shown. */
+
+/** A single mass, the same in x and y, with an unbalance [kg m] and its weight. */
+LinearBody single_mass(const Body& body, const std::string& name, double unbalance,
+                       double gravity);
+
+/** Both bodies, their coordinates in the order of the files. */
+struct Assembly {
+  std::vector<LinearBody> bodies;               ///< stator and rotor
+  bool is_rigid;                                ///< the stator
+  std::vector<std::array<int, 4>> places = {};  ///< of the joints
+  std::size_t bearings = 1;                     ///< those of them that come first
+
+  int first(int body) const { return body == 0 ? 0 : bodies[0].size(); }
+  int size() const { return bodies[0].size() + bodies[1].size(); }
+
+  SparseMatrix joined(SparseMatrix LinearBody::*part) const;
+
+  /** D. */
+  SparseMatrix joints() const;
+
+  /** Degrees of freedom, those first that are shown; their number. */
+  std::pair<std::vector<int>, int> order() const;
+
+  /** Throws BadInput for what neither K nor a joint of this stiffness [N/m] holds. */
+  void require_held(double spring) const;
+
+  /** Its matrices, with a spring [N/m] in each joint (`LargeBodies::spring`). */
+  LargeBodies assembled(double spring) const;
 };
 
 }  // namespace rotor_stator

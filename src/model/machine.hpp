@@ -1,9 +1,9 @@
 /**
 # A machine: two masses, or bodies given by matrices
 
-What differs between them, and nothing else: every method asks here, once for a motion and
-never for an evaluation, and none asks which of them it has. `TwoMasses` are the bodies of
-Eq. 7; `LargeMachine` (large_machine.hpp) is a finite-element rotor. Its members are
+Every method asks here for what differs between them, once for a motion and never for an
+evaluation, and none asks which of them it has. `Machine` itself is the two masses of
+Eq. 7; `LargeMachine` (large_machine.hpp) is a finite-element rotor. The members are
 defined in the folders that they belong to: states in model/, flows in time/, equations in
 balance/.
 
@@ -36,11 +36,10 @@ struct PeriodicMotion;
 
 /** How long a person waits for it, unless a budget is given. */
 struct Patience {
-  double settling = 10;  ///< for a motion that is integrated [s]
-  double longer = 1;     ///< times that of two masses, for anything
-  double transient_share =
-      0.7;           ///< share of a budget for what comes before the record [-]
-  int speeds = 101;  ///< of a response
+  double settling = 10;          ///< for a motion that is integrated [s]
+  double longer = 1;             ///< times that of two masses, for anything
+  double transient_share = 0.7;  ///< of a budget, for what comes before the record [-]
+  int speeds = 101;              ///< of a response
 };
 
 class Machine {
@@ -48,70 +47,70 @@ public:
   virtual ~Machine() = default;
 
   /**
-  ## At rest (of two masses: model/rotor_stator.cpp) */
+  ## At rest (model/rotor_stator.cpp) */
 
   /** Static equilibrium with ball 1 at the angle `cage`; without displacement where none
       is unique. */
-  virtual State at_rest(const Parameters& parameters, DirectionOf<double> cage) const = 0;
+  virtual State at_rest(const Parameters& parameters, DirectionOf<double> cage) const;
 
   /** The bearings carry the constant loads: where the paper's figures start. */
-  virtual State static_start(const Parameters& parameters) const = 0;
+  virtual State static_start(const Parameters& parameters) const;
 
   /** Sizes of the components of a state, for tolerances and norms. */
-  virtual Eigen::VectorXd state_scales(const Parameters& parameters) const = 0;
+  virtual Eigen::VectorXd state_scales(const Parameters& parameters) const;
 
   /**
   ## In time (time/flow.cpp) */
 
   /** The method of time integration that is its own: "splitting", "rk4" where the bearing
       is not `is_elastic_hertz`, or "gauss". */
-  virtual const char* time_method(const Parameters& parameters) const = 0;
+  virtual const char* time_method(const Parameters& parameters) const;
 
   /** Whether "rk4", "splitting", "rk8" and GSL's methods integrate it too. */
-  virtual bool takes_explicit_steps() const = 0;
+  virtual bool takes_explicit_steps() const { return true; }
 
   virtual Patience patience() const { return {}; }
 
   /** The longest step [s] of a fixed one, at a base frequency. */
-  virtual double step(const Parameters& parameters, double omega) const = 0;
+  virtual double step(const Parameters& parameters, double omega) const;
 
   virtual std::unique_ptr<Flow> flow(const Parameters& parameters, double omega,
-                                     const StepSettings& settings) const = 0;
+                                     const StepSettings& settings) const;
   virtual PeriodMap period_map(const Parameters& parameters, double omega,
                                const State& start, const StepSettings& settings,
-                               long interval) const = 0;
+                               long interval) const;
 
   /**
   ## In harmonics (balance/bearing_problem.cpp) */
 
   /** The unknowns, blocks and force of the balance along a line of the torus. */
   virtual void put_equations(const Parameters& parameters, const TorusLine& line,
-                             Problem& problem) const = 0;
+                             Problem& problem) const;
 
   /** Samples of the relative motion [m] without contact where it stays inside the
       clearances, else in quasi-static contact, N × 2 for each bearing. */
   virtual Eigen::MatrixXd start_samples(const Parameters& parameters, double omega,
-                                        int samples) const = 0;
+                                        int samples) const;
 
   /** Series of the displacements that are shown [m]; and of all, of a motion that has
       these as its `bodies`. */
   virtual Eigen::MatrixXd shown_series(const Parameters& parameters,
-                                       const PeriodicMotion& motion) const = 0;
+                                       const PeriodicMotion& motion) const;
   virtual Eigen::MatrixXd all_series(const Parameters& parameters,
-                                     const PeriodicMotion& motion) const = 0;
+                                     const PeriodicMotion& motion) const;
 
   /** Prepares solutions with harmonics 0 … m of a branch from `omega` on. */
-  virtual void prepare(const Parameters& parameters, double omega, int harmonics) const
+  virtual void prepare(const Parameters& /*parameters*/, double /*omega*/,
+                       int /*harmonics*/) const
   {
-    static_cast<void>(parameters), static_cast<void>(omega), static_cast<void>(harmonics);
   }
 
   /**
   ## In tables (model/parameters.cpp) */
 
   /** The `#` lines and keys of the bodies. */
-  virtual void describe(Table& table, const Parameters& parameters) const = 0;
-  virtual void put_keys(Table& table) const { static_cast<void>(table); }
+  virtual void describe(Table& table, const Parameters& parameters) const;
+  virtual void put_keys(Table& /*table*/) const {}
 
   /** Of its receptances where the bodies were reduced, relative. */
   virtual double reduction_error() const { return 0; }
@@ -120,45 +119,12 @@ public:
   virtual std::vector<std::pair<std::string, int>> outputs() const { return {}; }
 
   /** The places of x_s, y_s, x_r, y_r at joint k, bearings first; of the ground -1. */
-  virtual std::array<int, 4> places(std::size_t k) const
-  {
-    static_cast<void>(k);
-    return {0, 1, 2, 3};
-  }
+  virtual std::array<int, 4> places(std::size_t /*k*/) const { return {0, 1, 2, 3}; }
 
   /** x and y of the nodes that were asked for, over all coordinates, and the nodes at
       which bearings stand. */
-  virtual const Eigen::SparseMatrix<double>& nodes() const;
+  virtual Eigen::SparseMatrix<double> nodes() const { return {}; }
   virtual std::vector<std::pair<int, int>> bearing_nodes() const { return {}; }
 };
-
-/** The bodies of Eq. 7. */
-class TwoMasses : public Machine {
-public:
-  State at_rest(const Parameters& parameters, DirectionOf<double> cage) const override;
-  State static_start(const Parameters& parameters) const override;
-  Eigen::VectorXd state_scales(const Parameters& parameters) const override;
-
-  const char* time_method(const Parameters& parameters) const override;
-  bool takes_explicit_steps() const override { return true; }
-  double step(const Parameters& parameters, double omega) const override;
-  std::unique_ptr<Flow> flow(const Parameters& parameters, double omega,
-                             const StepSettings& settings) const override;
-  PeriodMap period_map(const Parameters& parameters, double omega, const State& start,
-                       const StepSettings& settings, long interval) const override;
-
-  void put_equations(const Parameters& parameters, const TorusLine& line,
-                     Problem& problem) const override;
-  Eigen::MatrixXd start_samples(const Parameters& parameters, double omega,
-                                int samples) const override;
-  Eigen::MatrixXd shown_series(const Parameters& parameters,
-                               const PeriodicMotion& motion) const override;
-  Eigen::MatrixXd all_series(const Parameters& parameters,
-                             const PeriodicMotion& motion) const override;
-
-  void describe(Table& table, const Parameters& parameters) const override;
-};
-
-std::shared_ptr<const Machine> two_masses();
 
 }  // namespace rotor_stator

@@ -62,12 +62,10 @@ double read_unbalance(StrictToml& table, const Body& rotor)
 {
   constexpr const char *key = "eccentricity_m", *grade = "balance_grade",
                        *speed = "balance_speed_rad_per_s";
-  switch (table.way({{"unbalance_kg_m"}, {key}, {grade, speed}})) {
-    case 0: return table.number("unbalance_kg_m", Range::not_negative);
-    case 1:
-      return derived(table, key, rotor.mass * table.number(key, Range::not_negative));
-    default: break;
-  }
+  const std::size_t way = table.way({{"unbalance_kg_m"}, {key}, {grade, speed}});
+  if (way == 0) return table.number("unbalance_kg_m", Range::not_negative);
+  if (way == 1)
+    return derived(table, key, rotor.mass * table.number(key, Range::not_negative));
   const double e = 1e-3 * table.number(grade, Range::not_negative) /
                    table.number(speed, Range::positive);
   return derived(table, grade, rotor.mass * e);
@@ -92,11 +90,6 @@ bool read_rigid(StrictToml& table, double rotor_mass, Body& stator)
 
 }  // namespace
 
-Parameters read_parameters(const std::string& file, const MatrixReader& reader)
-{
-  return read_parameters(StrictToml(file), reader);
-}
-
 Parameters read_parameters(StrictToml root, const MatrixReader& reader)
 {
   Parameters parameters{};
@@ -108,24 +101,23 @@ Parameters read_parameters(StrictToml root, const MatrixReader& reader)
   root.may_hold({"title", "stator", "rotor", bearing_key, "gravity"});
   parameters.title = root.string("title");
 
-  StrictToml stator = root.table("stator");
-  StrictToml rotor = root.table("rotor");
-  if (!rotor.has(matrices)) parameters.rotor = read_body(rotor);
+  StrictToml stator = root.table("stator"), rotor = root.table("rotor");
+  const bool is_mass = !rotor.has(matrices);
+  if (is_mass) parameters.rotor = read_body(rotor);
   if (!read_rigid(stator, parameters.rotor.mass, parameters.stator) &&
       !stator.has(matrices))
     parameters.stator = read_body(stator);
-  if (!rotor.has(matrices))
-    parameters.unbalance = read_unbalance(rotor, parameters.rotor);
+  if (is_mass) parameters.unbalance = read_unbalance(rotor, parameters.rotor);
   StrictToml gravity = root.table("gravity");
   gravity.may_hold({gravity_key});
   parameters.gravity = gravity.number(gravity_key, Range::not_negative);
-  const bool has_matrices = stator.has(matrices) || rotor.has(matrices) ||
-                            stator.has(ground_key) || rotor.has(ground_key);
-  if (has_matrices && !reader)
-    throw BadInput(root.file() +
-                   ": bodies given by matrices, or with elements to the "
-                   "ground, need the program explore");
+  const bool has_matrices =
+      !is_mass || stator.has(matrices) || stator.has(ground_key) || rotor.has(ground_key);
   if (has_matrices) {
+    if (!reader)
+      throw BadInput(root.file() +
+                     ": bodies given by matrices, or with elements to the ground, need "
+                     "the program explore");
     reader(root, parameters);
     read_rigid(stator, parameters.rotor.mass, parameters.stator);
   } else {
@@ -184,10 +176,9 @@ bool has_rotation_period(const Bearing& bearing)
 void require_two_masses(const Parameters& parameters, const char* who)
 {
   if (!parameters.bodies->takes_explicit_steps() || !parameters.grounds.empty())
-    throw BadInput(
-        format("%s: %s knows no bodies given by matrices, and nothing between "
-               "a body and the ground",
-               parameters.file.c_str(), who));
+    throw BadInput(parameters.file + ": " + who +
+                   " knows no bodies given by matrices, and nothing between a body and "
+                   "the ground");
 }
 
 std::vector<Bearing> bearings_of(const Parameters& parameters)
@@ -273,7 +264,7 @@ std::vector<Parameters> read_parameter_list(SceneFile& scene, const std::string&
   return list;
 }
 
-void TwoMasses::describe(Table& table, const Parameters& parameters) const
+void Machine::describe(Table& table, const Parameters& parameters) const
 {
   const auto body = [](const std::string& name, const Body& b) {
     if (b.rigid) return name + ": rigid";
@@ -340,19 +331,21 @@ void describe(Table& table, const Parameters& parameters, bool with_keys)
   table.value("stator", parameters.stator.rigid ? "rigid" : "moving");
   parameters.bodies->put_keys(table);
   for (std::size_t k = 0; k < bearings.size(); ++k) {
-    const std::string tail = k == 0 ? "" : format("_%zu", k + 1);
-    if (!bearings[k].is_damaged(Defect::Surface::none))
-      table.value("defect" + tail, surface_of(bearings[k].defect));
-    table.value("balls" + tail, bearings[k].balls);
-    table.value("contact_stiffness" + tail, bearings[k].contact_stiffness);
-    table.value("clearance" + tail, bearings[k].clearance);
-    table.value("cage_speed_ratio" + tail, bearings[k].cage_speed_ratio);
-    if (bearings[k].ball_diameter == 0) continue;
-    const KinematicOrders orders = kinematic_orders(bearings[k]);
-    table.value("ball_diameter" + tail, bearings[k].ball_diameter);
-    table.value("bpfo" + tail, orders.outer);
-    table.value("bpfi" + tail, orders.inner);
-    if (orders.spin > 0) table.value("bsf" + tail, orders.spin);
+    const Bearing& one = bearings[k];
+    const auto put = [&](const char* key, const Cell& value) {
+      table.value(k == 0 ? key : format("%s_%zu", key, k + 1), value);
+    };
+    if (!one.is_damaged(Defect::Surface::none)) put("defect", surface_of(one.defect));
+    put("balls", one.balls);
+    put("contact_stiffness", one.contact_stiffness);
+    put("clearance", one.clearance);
+    put("cage_speed_ratio", one.cage_speed_ratio);
+    if (one.ball_diameter == 0) continue;
+    const KinematicOrders orders = kinematic_orders(one);
+    put("ball_diameter", one.ball_diameter);
+    put("bpfo", orders.outer);
+    put("bpfi", orders.inner);
+    if (orders.spin > 0) put("bsf", orders.spin);
   }
 }
 
@@ -363,8 +356,8 @@ double angular(double hertz)
 
 std::vector<double> angular(const std::vector<double>& hertz)
 {
-  std::vector<double> omegas;
-  for (double frequency : hertz) omegas.push_back(angular(frequency));
+  std::vector<double> omegas = hertz;
+  for (double& omega : omegas) omega = angular(omega);
   return omegas;
 }
 

@@ -2,9 +2,9 @@
 # Parameters of the rotor, the stator and their bearing
 
 One TOML file describes one machine, in the units named in each key, SI or those of
-`units` (io/toml_file.cpp). Every key is required unless said otherwise, an unknown key is
-an error, and every value is checked when it is read, so that the programs below never
-meet a machine that cannot exist. The bearing's keys are in model/catalogue.hpp. */
+io/units.cpp. Every key is required unless said otherwise, an unknown key is an error, and
+every value is checked when it is read, so that no program meets a machine that cannot
+exist. The bearing's keys are in model/catalogue.hpp. */
 #pragma once
 
 #include <algorithm>
@@ -65,9 +65,8 @@ struct Defect {
   double width = 0;  ///< [rad]
   /** Of its middle [rad]: outer race from the x axis, inner race from the unbalance. */
   double place = 0;
-  int ball = 1;  ///< which one, where a ball is damaged
-  double spin =
-      0;  ///< that ball's turns about itself per base period, seen from the cage
+  int ball = 1;     ///< which one, where a ball is damaged
+  double spin = 0;  ///< its turns about itself per base period, seen from the cage
 };
 
 /** Stiffness [N/m] and damping [N s/m] between rotor and stator at a speed of the rotor
@@ -171,10 +170,9 @@ struct Parameters {
   Body rotor;
   double unbalance;  ///< m_e e [kg m], on the rotor
   Bearing bearing;
-  double gravity;  ///< g [m/s²], along -y
-  std::vector<std::string> derived =
-      {};  ///< lines for headers: what a catalogue's values gave
-  std::vector<std::string> doubts = {};  ///< what is a slip rather than a machine
+  double gravity;                         ///< g [m/s²], along -y
+  std::vector<std::string> derived = {};  ///< lines for headers: what a catalogue gave
+  std::vector<std::string> doubts = {};   ///< what is a slip rather than a machine
   int turns = 1;  ///< of the rotor in one base period, whose frequency ω is
   /** Of the speed over `turns` ω; not 1 where the base frequency is that of passing
       balls. */
@@ -182,7 +180,7 @@ struct Parameters {
   std::vector<Bearing> further = {};  ///< bearings beside the first, of a large machine
   /** Elements between a body and the ground: joints without balls. */
   std::vector<Bearing> grounds = {};
-  std::shared_ptr<const Machine> bodies = two_masses();
+  std::shared_ptr<const Machine> bodies = std::make_shared<const Machine>();
 };
 
 /** Elements between a body and the ground, a table of the body. */
@@ -195,11 +193,13 @@ bool excludes(const std::string& key, const std::string& other);
     into the parameters. */
 using MatrixReader = std::function<void(StrictToml& root, Parameters& parameters)>;
 
-/** Reads and checks a parameter file of two masses; of bodies given by matrices too,
-    where there is a reader of them (`read_machine`, model/read_machine.hpp). Throws
-    BadInput with file, line and key. */
-Parameters read_parameters(const std::string& file, const MatrixReader& matrices = {});
+/** Reads and checks a machine of two masses; of bodies given by matrices too, where there
+    is a reader of them (`read_machine`). Throws BadInput with file, line and key. */
 Parameters read_parameters(StrictToml root, const MatrixReader& matrices = {});
+inline Parameters read_parameters(const std::string& file)
+{
+  return read_parameters(StrictToml(file));
+}
 
 /** Those of the data sets that a key of a scene names. */
 Parameters read_parameters(SceneFile& scene, const std::string& key);
@@ -229,8 +229,7 @@ Parameters over_turns(Parameters parameters, int turns);
 double passages_per_turn(const Bearing& bearing);
 bool has_rotation_period(const Bearing& bearing);
 
-/** Throws BadInput, in the name of `who`, when the force has not the period of
-    rotation. */
+/** Throws BadInput, in the name of `who`, when the force has another period. */
 void require_rotation_period(const Parameters& parameters, const char* who);
 
 /** Throws BadInput, in the name of `who`, for bodies given by matrices and for elements
@@ -266,8 +265,7 @@ void change_joints(Parameters& parameters, Change change)
 /** Throws BadInput where a damaged ball adds a third angle to those of rotor and cage. */
 void require_two_angles(const Parameters& parameters);
 
-/** Whether anything turns with the rotor; if not, only the passing balls move the
-    machine. */
+/** Whether anything turns with the rotor; if not, only passing balls move the machine. */
 bool turns_visibly(const Parameters& parameters);
 
 }  // namespace rotor_stator

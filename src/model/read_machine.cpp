@@ -8,7 +8,6 @@
 #include <span>
 
 #include "io/errors.hpp"
-#include "model/assembly.hpp"
 #include "model/catalogue.hpp"
 #include "model/hertz.hpp"
 #include "model/large_machine.hpp"
@@ -27,42 +26,25 @@ constexpr int most_asked = 2100;
 /** Bearings, and elements to the ground. */
 constexpr std::size_t most_joints = 4;
 
-/** The name of a matrix, the sign of its transpose, and whether its file may be
-    missing. */
-struct Named {
-  const char* name;
-  double sign;
-  bool required;
-};
-
-SparseMatrix read_one(const std::filesystem::path& folder, const Named& named, int size)
+/** A matrix, `sign` times its transpose; if not `required`, its file may be missing. */
+SparseMatrix read_one(const std::filesystem::path& file, double sign, bool required,
+                      int size)
 {
-  const std::string file = (folder / (std::string(named.name) + ".mtx")).string();
   std::error_code error;
   const auto found = std::filesystem::status(file, error).type();
-  if (!named.required && found == std::filesystem::file_type::not_found)
+  if (!required && found == std::filesystem::file_type::not_found)
     return SparseMatrix(size, size);
   const SparseMatrix matrix = read_matrix(file);
   if (size > 0 && matrix.rows() != size)
     throw BadInput(format("%s: has %ld rows, and M.mtx %d", file.c_str(),
                           static_cast<long>(matrix.rows()), size));
-  const SparseMatrix image = named.sign * SparseMatrix(matrix.transpose());
+  const SparseMatrix image = sign * SparseMatrix(matrix.transpose());
   constexpr double rounding = 1e-8;
   if (SparseMatrix(matrix - image).norm() > rounding * matrix.norm())
-    throw BadInput(format(
-        "%s: is not %s", file.c_str(),
-        named.sign > 0 ? "symmetric" : "antisymmetric, as gyroscopic moments are"));
+    throw BadInput(
+        format("%s: is not %s", file.c_str(),
+               sign > 0 ? "symmetric" : "antisymmetric, as gyroscopic moments are"));
   return 0.5 * (matrix + image);
-}
-
-/** Every degree of freedom needs mass, and no motion may have none. */
-void require_mass(const SparseMatrix& m, const std::string& file)
-{
-  for (int i = 0; i < m.rows(); ++i)
-    if (!(m.coeff(i, i) > 0))
-      throw BadInput(format("%s: degree of freedom %d has no mass", file.c_str(), i + 1));
-  if (Eigen::SimplicialLLT<SparseMatrix>(m).info() != Eigen::Success)
-    throw BadInput(file + ": is not positive definite");
 }
 
 /** Numbers of degrees of freedom, from 0. */
@@ -96,30 +78,38 @@ void read_nodes(const NumberTable& table, LinearBody& body)
   body.at_nodes.setFromTriplets(ones.begin(), ones.end());
 }
 
-LinearBody read_matrices(StrictToml& table, const std::string& name, bool has_weight)
+LinearBody read_matrices(StrictToml& table, const std::string& name, double gravity)
 {
   const auto folder =
       std::filesystem::path(table.file()).parent_path() / table.string("matrices");
   std::error_code error;
   if (!std::filesystem::is_directory(folder, error))
     table.fail("matrices", "names no folder: " + folder.string());
-  LinearBody body{{read_one(folder, {"M", 1, true}, 0), {}, {}, {}}, name};
+  LinearBody body{.m = read_one(folder / "M.mtx", 1, true, 0), .name = name};
   const int n = body.size();
-  require_mass(body.m, (folder / "M.mtx").string());
-  body.k = read_one(folder, {"K", 1, true}, n);
-  body.c = read_one(folder, {"C", 1, false}, n);
-  body.g = read_one(folder, {"G", -1, false}, n);
+  const std::string mass_file = (folder / "M.mtx").string();
+  for (int i = 0; i < n; ++i)
+    if (!(body.m.coeff(i, i) > 0))
+      throw BadInput(
+          format("%s: degree of freedom %d has no mass", mass_file.c_str(), i + 1));
+  if (Eigen::SimplicialLLT<SparseMatrix>(body.m).info() != Eigen::Success)
+    throw BadInput(mass_file + ": is not positive definite");
+  body.k = read_one(folder / "K.mtx", 1, true, n);
+  body.c = read_one(folder / "C.mtx", 1, false, n);
+  body.g = read_one(folder / "G.mtx", -1, false, n);
   body.keeps_all = table.has("all_dofs") && table.flag("all_dofs");
   if (body.keeps_all && n > most_asked)
     table.fail("all_dofs", format("is for at most %d degrees of freedom", most_asked));
-  body.load = Eigen::VectorXd::Zero(n);
   body.unbalance = Eigen::VectorXcd::Zero(n);
   if (table.has("bearing_dofs")) body.joint = read_dofs(table, "bearing_dofs", n, true);
   if (table.has("output_dofs")) body.output = read_dofs(table, "output_dofs", n, true);
-  if (has_weight && !table.has("vertical_dofs"))
+  if (gravity > 0 && !table.has("vertical_dofs"))
     table.missing("vertical_dofs", ": where the weight acts; [] for a body without it");
+  Eigen::VectorXd upright = Eigen::VectorXd::Zero(n);
   if (table.has("vertical_dofs"))
-    body.vertical = read_dofs(table, "vertical_dofs", n, false);
+    for (int dof : read_dofs(table, "vertical_dofs", n, false)) upright[dof] = 1;
+  body.load = Eigen::VectorXd::Zero(n) - gravity * (body.m * upright);
+  body.size_of_loads = gravity * upright.dot(body.m * upright);
   if (table.has("unbalance"))
     for (StrictToml& one : table.tables("unbalance")) {
       const std::vector<int> dofs = read_dofs(one, "dofs", n, true);
@@ -150,15 +140,13 @@ Body equivalent(const Assembly& all, int number, double spring)
   const double stiffness = count / sag - count * spring;
   const double mass = shape.dot(body.m * shape) / (sag * sag);
   const bool is_held = stiffness > 1e-6 * count * spring;
-  Body one{.mass = mass,
-           .natural_frequency = is_held ? std::sqrt(stiffness / mass) : 0,
-           .damping_ratio = 0};
-  one.damper = shape.dot(body.c * shape) / (sag * sag);
-  return one;
+  return {.mass = mass,
+          .natural_frequency = is_held ? std::sqrt(stiffness / mass) : 0,
+          .damping_ratio = 0,
+          .damper = shape.dot(body.c * shape) / (sag * sag)};
 }
 
-/** One bearing: [bearing] between the bearing_dofs of both bodies, or one of
-    [[bearing]]. */
+/** Of [bearing] between the bearing_dofs of both bodies, or of one [[bearing]]. */
 std::array<int, 4> read_place(StrictToml* table, const Assembly& all)
 {
   std::array<int, 4> place{};
@@ -232,62 +220,43 @@ void read_grounds(StrictToml& table, LinearBody& body, int first, Parameters& pa
                                   all.places.size(), most_joints));
 }
 
-/** Puts coordinates that the bearings, loads and outputs need in the place of a body's
-    own; their number and errors go into `machine`. */
-void reduce_body(Assembly& all, int body, const ReductionRange& range, double gravity,
-                 double spring, std::vector<std::string>& notes, double& error)
+/** Keeps the coordinates of a body that bearings, loads and outputs need. */
+Reduction reduce_body(Assembly& all, int body, const ReductionRange& range)
 {
   LinearBody& own = all.bodies[body];
-  BodyPorts ports{.joints = {},
-                  .kept = {},
-                  .load = own.load - gravity * (own.m * own.upright()),
-                  .unbalance = own.unbalance,
-                  .spring = spring,
-                  .nodes = own.nodes};
-  const auto kept = [&](int dof) {
-    const auto at = std::ranges::find(ports.kept, dof);
-    const auto place = static_cast<int>(at - ports.kept.begin());
-    if (at == ports.kept.end()) ports.kept.push_back(dof);
-    return place;
+  std::vector<int> kept;
+  const auto place_of = [&](int dof) {
+    const auto at = std::ranges::find(kept, dof) - kept.begin();
+    if (at == std::ssize(kept)) kept.push_back(dof);
+    return static_cast<int>(at);
   };
   const int begin = all.first(body), end = begin + own.size();
   for (auto& place : all.places)
     for (int& dof : place)
-      if (dof >= begin && dof < end) dof = begin + kept(dof - begin);
-  ports.joints = ports.kept;
-  for (int& dof : own.output) dof = kept(dof);
-  const ReducedBody small = reduce(own, ports, range, own.name);
-  notes.push_back(format(
-      "%s: %d degrees of freedom reduced to %ld, error of the receptances %.2g at %d "
-      "random points of 0...%.4g Hz",
-      own.name.c_str(), own.size(), static_cast<long>(small.basis.cols()), small.error,
-      small.points, small.highest / (2 * std::numbers::pi)));
-  error = std::max(error, small.error);
-  const int change = static_cast<int>(small.basis.cols()) - own.size();
-  static_cast<BodyMatrices&>(own) = small.matrices;
-  own.vertical.clear();
-  if (!own.nodes.empty())
-    own.at_nodes = Eigen::MatrixXd(own.at_nodes * small.basis).sparseView();
-  own.load = small.basis.transpose() * ports.load;
-  own.unbalance = small.basis.transpose() * ports.unbalance;
+      if (dof >= begin && dof < end) dof = begin + place_of(dof - begin);
+  const std::size_t joints = kept.size();
+  for (int& dof : own.output) dof = place_of(dof);
+  const Reduction done = reduce(own, kept, joints, range);
   for (auto& place : all.places)
     for (int& dof : place)
-      if (dof >= end) dof += change;
+      if (dof >= end) dof += begin + own.size() - end;
+  return done;
 }
 
 /** Both bodies and the bearings. */
 void read_bodies(StrictToml& root, Parameters& parameters, const ModelRange& asked)
 {
   StrictToml tables[] = {root.table("stator"), root.table("rotor")};
+  const bool has_matrices[] = {tables[0].has("matrices"), tables[1].has("matrices")};
   const double gravity = parameters.gravity;
   Assembly all{.bodies = {}, .is_rigid = parameters.stator.rigid};
   for (int body : {0, 1}) {
-    const Body& mass = body == 0 ? parameters.stator : parameters.rotor;
+    const char* const name = body == 0 ? "stator" : "rotor";
     all.bodies.push_back(
-        tables[body].has("matrices")
-            ? read_matrices(tables[body], body == 0 ? "stator" : "rotor", gravity > 0)
-            : single_mass(mass, body == 0 ? "stator" : "rotor",
-                          body == 0 ? 0 : parameters.unbalance));
+        has_matrices[body]
+            ? read_matrices(tables[body], name, gravity)
+            : single_mass(body == 0 ? parameters.stator : parameters.rotor, name,
+                          body == 0 ? 0 : parameters.unbalance, gravity));
   }
   for (const LinearBody& body : all.bodies)
     for (const SparseMatrix* one : {&body.m, &body.c, &body.g, &body.k}) {
@@ -297,14 +266,13 @@ void read_bodies(StrictToml& root, Parameters& parameters, const ModelRange& ask
       parameters.identity.add(std::as_bytes(std::span(one->innerIndexPtr(), count)));
       parameters.identity.add(std::as_bytes(std::span(one->outerIndexPtr(), columns)));
     }
-  if (all.is_rigid) all.bodies[0].vertical.clear();
   if (all.is_rigid && tables[0].has(ground_key))
     tables[0].fail(ground_key, "is for a body that moves, and this one is rigid");
   read_bearings(root, parameters, all);
   for (int body : {0, 1})
     read_grounds(tables[body], all.bodies[body], all.first(body), parameters, all);
   std::vector<std::pair<int, int>> bearing_nodes;
-  if (asked.nodes && tables[1].has("matrices")) {
+  if (asked.nodes && has_matrices[1]) {
     LinearBody& rotor = all.bodies[1];
     read_nodes(*asked.nodes, rotor);
     for (int b = 0; b < static_cast<int>(all.bearings); ++b)
@@ -314,59 +282,52 @@ void read_bodies(StrictToml& root, Parameters& parameters, const ModelRange& ask
           bearing_nodes.emplace_back(b, i / 2);
   }
   /** The spring is that of a ball that carries all weights and loads. */
-  double weight = 0;
-  for (const LinearBody& body : all.bodies) {
-    const Eigen::VectorXd upright = body.upright();
-    weight += gravity * upright.dot(body.m * upright) + body.load.norm();
-  }
-  const double k_h = parameters.bearing.contact_stiffness;
-  const double penetration =
-      hertz_penetration(k_h, std::max(weight, hertz_force(k_h, 1e-6)));
-  const double spring = hertz_stiffness(k_h, penetration);
-
-  if (tables[1].has("matrices"))
+  const double k_h = parameters.bearing.contact_stiffness,
+               loads = all.bodies[0].size_of_loads + all.bodies[1].size_of_loads;
+  const double spring = hertz_stiffness(
+      k_h, hertz_penetration(k_h, std::max(loads, hertz_force(k_h, 1e-6))));
+  if (has_matrices[1])
     parameters.unbalance = all.bodies[1].unbalance.cwiseAbs().sum() / 2;
   double passages = 0;
   for (const Bearing& bearing : bearings_of(parameters))
     passages = std::max(passages, passages_per_turn(bearing));
   const double from = angular(0.9 * asked.from), to = angular(1.1 * asked.to);
   const ReductionRange range{from, to,
-                             to * std::max(16 * passages, 1.0 * asked.harmonics)};
-  std::vector<std::string> notes;
-  double error = 0;
+                             to * std::max(16 * passages, 1.0 * asked.harmonics), spring};
+  std::vector<Reduction> reductions;
   for (int body : {0, 1})
     if (!all.bodies[body].keeps_all && all.bodies[body].size() > asked.largest)
-      reduce_body(all, body, range, gravity, spring, notes, error);
+      reductions.push_back(reduce_body(all, body, range));
 
-  if (tables[1].has("matrices")) parameters.rotor = equivalent(all, 1, spring);
-  if (tables[0].has("matrices")) parameters.stator = equivalent(all, 0, spring);
+  if (has_matrices[1]) parameters.rotor = equivalent(all, 1, spring);
+  if (has_matrices[0]) parameters.stator = equivalent(all, 0, spring);
   if (all.is_rigid) {
-    /** Its pair of coordinates, which no force reaches, is damped within the contact's
-        vibration. */
+    /** Coordinates that no force reaches, damped within the contact's vibration. */
     const double omega = std::sqrt(spring / parameters.rotor.mass);
     all.bodies[0] = single_mass(
-        {.mass = 1, .natural_frequency = omega, .damping_ratio = 0.7}, "stator", 0);
-    all.bodies[0].vertical.clear();
+        {.mass = 1, .natural_frequency = omega, .damping_ratio = 0.7}, "stator", 0, 0);
   }
   Assembly holding = all;
-  for (std::size_t k = parameters.grounds.size(); k-- > 0;)
-    if (!parameters.grounds[k].parallel.holds())
-      holding.places.erase(holding.places.begin() +
-                           static_cast<std::ptrdiff_t>(all.bearings + k));
+  holding.places.resize(all.bearings);
+  for (std::size_t k = 0; k < parameters.grounds.size(); ++k)
+    if (parameters.grounds[k].parallel.holds())
+      holding.places.push_back(all.places[all.bearings + k]);
   holding.require_held(spring);
-  LargeBodies machine = assembled(all, gravity, spring);
-  machine.reductions = std::move(notes);
-  machine.reduction_error = error;
+  LargeBodies machine = all.assembled(spring);
+  for (const auto& [note, error] : reductions) {
+    machine.reductions.push_back(note);
+    machine.reduction_error = std::max(machine.reduction_error, error);
+  }
   machine.bearing_nodes = std::move(bearing_nodes);
   if (asked.from < asked.to) {
     machine.slowest = from;
     machine.fastest = to;
     machine.fits = std::make_shared<RationalFits>();
   }
-  if (tables[0].has("matrices") || tables[1].has("matrices"))
+  if (has_matrices[0] || has_matrices[1])
     parameters.bodies = std::make_shared<const LargeMachine>(std::move(machine));
   else
-    parameters.bodies = std::make_shared<const GroundedMasses>(std::move(machine));
+    parameters.bodies = std::make_shared<const MatrixMachine>(std::move(machine));
 }
 
 }  // namespace

@@ -23,8 +23,8 @@ struct ModelRange {
 /** For what is asked of the linear machine only, which has no small steps to take. */
 constexpr int largest_linear = 400;
 
-/** Reads a parameter file of any machine. Bodies of which at least one has `matrices`
-    take [bearing] or [[bearing]]. Throws BadInput. */
+/** Reads a parameter file of any machine. With `matrices` several [[bearing]] may stand
+    in it. Throws BadInput. */
 Parameters read_machine(StrictToml root, const ModelRange& asked = {});
 
 }  // namespace rotor_stator

@@ -17,45 +17,49 @@ it. */
 #pragma once
 
 #include <Eigen/Core>
+#include <string>
 #include <vector>
 
 #include "io/matrix_market.hpp"
 
 namespace rotor_stator {
 
-struct BodyMatrices {
-  SparseMatrix m, c, g, k;
+/** A body that moves in its own degrees of freedom, counted from 0. */
+struct LinearBody {
+  SparseMatrix m, c = {}, g = {}, k = {};
+  std::string name = {};
+  Eigen::VectorXd load = {};                 ///< constant, weight included [N]
+  double size_of_loads = 0;                  ///< of the weight and of other loads [N]
+  Eigen::VectorXcd unbalance = {};           ///< [kg m]
+  std::vector<int> joint = {}, output = {};  ///< x and y
+  std::vector<int> nodes = {};               ///< x and y of each node that is asked for
+  SparseMatrix at_nodes = {};  ///< their displacements over the body's coordinates
+  bool keeps_all = false;
+
+  int size() const { return static_cast<int>(m.rows()); }
 };
 
-/** Where the reduced body must be right. */
+/** Where the reduced body must be right: speeds and frequencies Ω [rad/s], of which at
+    least ten times that of the contact is taken; and k_0 [N/m]. */
 struct ReductionRange {
-  double from, to;  ///< speeds [rad/s]
-  double
-      highest;  ///< frequency Ω [rad/s]; at least ten times that of the contact is taken
+  double from, to, highest, spring;
 };
 
-/** What the body is driven by, and what of it is shown; degrees of freedom counted from
-    0. */
-struct BodyPorts {
-  std::vector<int> joints;      ///< of bearings
-  std::vector<int> kept;        ///< those first, then outputs: each stays a coordinate
-  Eigen::VectorXd load;         ///< constant [N]
-  Eigen::VectorXcd unbalance;   ///< [kg m]
-  double spring;                ///< k_0 [N/m]
-  std::vector<int> nodes = {};  ///< others whose receptances must be right
+/** What was done, a line for headers; and the largest relative error of the receptances
+    at points that are not in the basis. */
+struct Reduction {
+  std::string note;
+  double error;
 };
 
-struct ReducedBody {
-  Eigen::MatrixXd basis;  ///< n × r; its first coordinates are those kept
-  BodyMatrices matrices;  ///< r × r
-  double error;    ///< largest of the receptances at points not in the basis, relative
-  double highest;  ///< frequency up to which it was measured [rad/s]
-  int points;      ///< that measured it
-};
+/** The message about a degree of freedom that neither K nor a bearing holds. */
+std::string not_held(const std::string& who, int dof);
 
-/** Throws BadInput, in the name of `who`, where K leaves the body free or the factors
-    would not fit into the memory; NoSolution where the error stays above 1e-6. */
-ReducedBody reduce(const BodyMatrices& body, const BodyPorts& ports,
-                   const ReductionRange& range, const std::string& who);
+/** Puts few coordinates in the place of a body's own. The first are the degrees of
+    freedom `kept`, of which so many come first at which joints stand. Throws BadInput
+    where K leaves the body free or the factors would not fit into the memory; NoSolution
+    where the error stays above 1e-6. */
+Reduction reduce(LinearBody& body, const std::vector<int>& kept, std::size_t joints,
+                 const ReductionRange& range);
 
 }  // namespace rotor_stator

@@ -74,8 +74,7 @@ Scales scales(const Parameters& parameters)
   const double k_h = parameters.bearing.contact_stiffness;
   const double n = parameters.bearing.exponent, gap = parameters.bearing.clearance;
 
-  /** Without any load the answer is u = 0 and a nanometre of penetration stands for its
-      size. */
+  /** Without any load u = 0, and a nanometre of penetration stands for its size. */
   const double load = std::max(weight + unbalance, hertz_force(k_h, 1e-9, n));
   const double penetration = std::max(-gap, hertz_penetration(k_h, load, n));
   const double length = std::abs(gap) + penetration;
@@ -111,19 +110,7 @@ State state_of(const Eigen::VectorXd& y)
   return state;
 }
 
-std::shared_ptr<const Machine> two_masses()
-{
-  static const auto one = std::make_shared<const TwoMasses>();
-  return one;
-}
-
-const Eigen::SparseMatrix<double>& Machine::nodes() const
-{
-  static const Eigen::SparseMatrix<double> none;
-  return none;
-}
-
-Eigen::VectorXd TwoMasses::state_scales(const Parameters& parameters) const
+Eigen::VectorXd Machine::state_scales(const Parameters& parameters) const
 {
   const double length = scales(parameters).length;
   Vector8 sizes;
@@ -176,8 +163,7 @@ std::vector<double> equal_force_speeds(const Parameters& parameters, double high
 
 Vec2 free_displacement(const Parameters& parameters, double omega, double phase)
 {
-  /** Without a suspension a loaded body sags without end, an unloaded one stays where it
-      is. */
+  /** Without a suspension a loaded body sags without end, an unloaded one stays. */
   const auto sag = [&](const Body& body) -> Vec2 {
     const double squared = body.natural_frequency * body.natural_frequency;
     const Vec2 a = body.static_acceleration(parameters.gravity);
@@ -244,37 +230,9 @@ Vec2 equilibrium(const Parameters& parameters, Vec2 force, Direction cage = {1, 
   return u;
 }
 
-}  // namespace
-
-Vec2 static_equilibrium(const Parameters& parameters, Direction cage)
+/** Both bodies at rest at the displacement `u`, where the bearing has this `force`. */
+State standing(const Parameters& parameters, Vec2 u, Vec2 force)
 {
-  const double k_s = parameters.stator.stiffness(), k_r = parameters.rotor.stiffness();
-  return equilibrium(parameters, static_joint_force(parameters), cage,
-                     k_s / (k_s + k_r) * k_r);
-}
-
-State TwoMasses::at_rest(const Parameters& parameters, Direction cage) const
-{
-  const double k_s = parameters.stator.stiffness(), k_r = parameters.rotor.stiffness();
-  const Vec2 u = static_equilibrium(parameters, cage);
-  const Vec2 force = static_joint_force(parameters) + -(k_s / (k_s + k_r) * k_r) * u;
-  if (k_s > 0) {
-    const Vec2 f = force + parameters.stator.static_load(parameters.gravity);
-    const Vec2 s{f.x / k_s, f.y / k_s};
-    return {.position = {.stator = s, .rotor = s + u}, .velocity = {}};
-  }
-  const Vec2 f = parameters.rotor.static_load(parameters.gravity) + -1.0 * force;
-  const Vec2 r{f.x / k_r, f.y / k_r};
-  return {.position = {.stator = r + -1.0 * u, .rotor = r}, .velocity = {}};
-}
-
-State TwoMasses::static_start(const Parameters& parameters) const
-{
-  const Vec2 force = static_joint_force(parameters);
-  const bool is_carried =
-      parameters.stator.stiffness() == 0 || parameters.rotor.stiffness() == 0;
-  const Vec2 u = is_carried ? equilibrium(parameters, force)
-                            : quasi_static_contact(parameters.bearing, force);
   const auto displaced = [&](const Body& body, double sign) -> Vec2 {
     const Vec2 load = body.static_load(parameters.gravity);
     return {(sign * force.x + load.x) / body.stiffness(),
@@ -282,10 +240,32 @@ State TwoMasses::static_start(const Parameters& parameters) const
   };
   if (parameters.stator.stiffness() == 0) {
     const Vec2 r = displaced(parameters.rotor, -1);
-    return {.position = {.stator = {r.x - u.x, r.y - u.y}, .rotor = r}, .velocity = {}};
+    return {.position = {.stator = r + -1.0 * u, .rotor = r}, .velocity = {}};
   }
   const Vec2 s = displaced(parameters.stator, 1);
-  return {.position = {.stator = s, .rotor = {s.x + u.x, s.y + u.y}}, .velocity = {}};
+  return {.position = {.stator = s, .rotor = s + u}, .velocity = {}};
+}
+
+}  // namespace
+
+State Machine::at_rest(const Parameters& parameters, Direction cage) const
+{
+  const double k_s = parameters.stator.stiffness(), k_r = parameters.rotor.stiffness();
+  const double spring = k_s / (k_s + k_r) * k_r;
+  const Vec2 force = static_joint_force(parameters);
+  const Vec2 u = equilibrium(parameters, force, cage, spring);
+  return standing(parameters, u, force + -spring * u);
+}
+
+State Machine::static_start(const Parameters& parameters) const
+{
+  const Vec2 force = static_joint_force(parameters);
+  const bool is_carried =
+      parameters.stator.stiffness() == 0 || parameters.rotor.stiffness() == 0;
+  return standing(parameters,
+                  is_carried ? equilibrium(parameters, force)
+                             : quasi_static_contact(parameters.bearing, force),
+                  force);
 }
 
 }  // namespace rotor_stator

@@ -46,12 +46,11 @@ inline Displacements displacements(const Bodies& bodies)
 /** Displacements [m] and speeds [m/s]. */
 struct State {
   Bodies position, velocity;
-  Eigen::VectorXd inner =
-      {};  ///< the further displacements of a large machine, then their speeds
+  /** The further displacements of a large machine, then their speeds. */
+  Eigen::VectorXd inner = {};
 };
 
-/** The same as a vector, 8 where there are two masses: the displacements, then the
-    speeds. */
+/** The same as a vector, 8 of two masses: the displacements, then the speeds. */
 using Vector8 = Eigen::Matrix<double, 8, 1>;
 using Matrix8 = Eigen::Matrix<double, 8, 8>;
 Eigen::VectorXd vector_of(const State& state);
@@ -182,8 +181,7 @@ Vec2 rigid_joint_force(const Parameters& parameters, double omega, double phase)
 std::vector<double> equal_force_speeds(const Parameters& parameters, double highest);
 
 /** The relative displacement [m] of both bodies without any contact, u = G_r f_r - G_s
-   f_s, at `phase` ωt [rad]; infinite where the undamped rotor resonates.
- */
+   f_s, at `phase` ωt [rad]; infinite where the undamped rotor resonates. */
 Vec2 free_displacement(const Parameters& parameters, double omega, double phase);
 
 /** The relative displacement [m] that the bearing needs to answer with `force`, all of it
@@ -191,19 +189,8 @@ Vec2 free_displacement(const Parameters& parameters, double omega, double phase)
    the Hertz penetration. A start for iterations. */
 Vec2 quasi_static_contact(const Bearing& bearing, Vec2 force);
 
-/** The relative displacement [m] at rest with ball 1 at the angle `cage`. */
-Vec2 static_equilibrium(const Parameters& parameters, Direction cage);
-
-/** Both bodies at rest in static equilibrium with ball 1 at the angle `cage`; without
-    displacement where none is unique. */
-inline State rest_state(const Parameters& parameters, Direction cage)
-{
-  return parameters.bodies->at_rest(parameters, cage);
-}
-
-/** A state at rest with the bearing carrying the static load: where time integration
-    starts. The load stands on one ball; where the bearing alone carries a body, on those
-    that balance it with ball 1 at angle 0. */
+/** Where time integration starts: at rest, the static load on one ball; where the bearing
+    alone carries a body, on those that balance it with ball 1 at angle 0. */
 inline State static_start(const Parameters& parameters)
 {
   return parameters.bodies->static_start(parameters);

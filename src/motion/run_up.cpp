@@ -97,7 +97,9 @@ Beginning beginning(const Parameters& parameters, double speed,
                     const OperationBudget& budget)
 {
   if (speed == 0)
-    return {rest_state(parameters, Direction::of(parameters.bearing.cage_phase)), 0};
+    return {parameters.bodies->at_rest(parameters,
+                                       Direction::of(parameters.bearing.cage_phase)),
+            0};
   const Question question{
       .parameters = parameters, .request = {.omega = speed}, .budget = budget};
   const Answer answer = settled_answer(question);

@@ -75,7 +75,7 @@ double evaluation_price(const Parameters& parameters, const std::string& method)
   return ((explicit_steps ? 75 : 330) + 1.5 * balls) / operations_per_evaluation(balls);
 }
 
-const char* TwoMasses::time_method(const Parameters& parameters) const
+const char* Machine::time_method(const Parameters& parameters) const
 {
   return has_elastic_hertz_alone(parameters) ? "splitting" : "rk4";
 }
@@ -83,7 +83,7 @@ const char* TwoMasses::time_method(const Parameters& parameters) const
 /** A contact of Hertz is stiffer with the third root of its force, and vibrates faster
     with the sixth. The long steps of the splitting have less to spare, and take 24 steps
     while a ball passes. */
-double TwoMasses::step(const Parameters& machine, double omega) const
+double Machine::step(const Parameters& machine, double omega) const
 {
   constexpr double in_passage = 24;
   const std::string method = time_method(machine);
@@ -112,8 +112,8 @@ std::unique_ptr<Flow> flow(const Parameters& parameters, double omega,
   return parameters.bodies->flow(parameters, omega, paid);
 }
 
-std::unique_ptr<Flow> TwoMasses::flow(const Parameters& parameters, double omega,
-                                      const StepSettings& settings) const
+std::unique_ptr<Flow> Machine::flow(const Parameters& parameters, double omega,
+                                    const StepSettings& settings) const
 {
   const std::string method =
       settings.method == "auto" ? time_method(parameters) : settings.method;

@@ -332,27 +332,4 @@ PeriodMap LargeMachine::period_map(const Parameters& parameters, double omega,
   return map;
 }
 
-const char* GroundedMasses::time_method(const Parameters& parameters) const
-{
-  return two_masses()->time_method(parameters);
-}
-
-double GroundedMasses::step(const Parameters& parameters, double omega) const
-{
-  return two_masses()->step(parameters, omega);
-}
-
-std::unique_ptr<Flow> GroundedMasses::flow(const Parameters& parameters, double omega,
-                                           const StepSettings& settings) const
-{
-  return two_masses()->flow(parameters, omega, settings);
-}
-
-PeriodMap GroundedMasses::period_map(const Parameters& parameters, double omega,
-                                     const State& start, const StepSettings& settings,
-                                     long interval) const
-{
-  return two_masses()->period_map(parameters, omega, start, settings, interval);
-}
-
 }  // namespace rotor_stator

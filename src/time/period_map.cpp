@@ -80,9 +80,9 @@ PeriodMap period_map(const Parameters& parameters, double omega, const State& st
   return map;
 }
 
-PeriodMap TwoMasses::period_map(const Parameters& parameters, double omega,
-                                const State& start, const StepSettings& settings,
-                                long interval) const
+PeriodMap Machine::period_map(const Parameters& parameters, double omega,
+                              const State& start, const StepSettings& settings,
+                              long interval) const
 {
   PeriodMap map{.end = start, .derivative = {}, .evaluations = 0};
   if (settings.method == "rk4" && parameters.grounds.empty())

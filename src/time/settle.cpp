@@ -66,8 +66,9 @@ Instant from_rest(const Parameters& machine, double omega)
   const double cage =
       2 * std::numbers::pi *
       std::fmod(machine.bearing.cage_speed_ratio * static_cast<double>(periods), 1.0);
-  return {rest_state(machine, Direction::of(machine.bearing.cage_phase - cage)),
-          -periods};
+  return {
+      machine.bodies->at_rest(machine, Direction::of(machine.bearing.cage_phase - cage)),
+      -periods};
 }
 
 namespace {
@@ -105,8 +106,7 @@ Settling::Settling(const Parameters& machine, double omega, const BasePeriod& ba
                    const OperationBudget& budget)
     : machine_(machine), omega_(omega), base_(base), rule_(filled(rule, machine, omega)),
       budget_(budget), length_(scales(machine).length),
-      least_(least_seconds(machine, omega)), start_(start),
-      pair_(pair_from_start())
+      least_(least_seconds(machine, omega)), start_(start), pair_(pair_from_start())
 {
 }
 
