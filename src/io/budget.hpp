@@ -1,15 +1,14 @@
 /**
 # A bound on what a run may cost
 
-A question that is legal can still ask for hours: a stiff contact, many balls, many
-harmonics. What a run does is counted in evaluations of the bearing's force as RK4 makes
-them (Eq. 6 at one instant, all n balls), and not in seconds: the same question ends in
-the same way on every machine. Who asks for seconds of the clock gives that up.
+A legal question can still ask for hours. What a run does is counted in evaluations of the
+bearing's force as RK4 makes them (Eq. 6 at one instant, all n balls), and not in seconds:
+the same question ends in the same way on every machine. Who asks for seconds of the clock
+gives that up.
 
 Everything else that takes time (transforms, factorisations, the overhead of a stepper) is
-charged with as many evaluations as take that time. The prices are given in elementary
-operations, of which a core does about one per nanosecond; one evaluation is 15 + 1.35 n
-of them. */
+charged with as many evaluations as take that time. Prices are in elementary operations,
+of which a core does about one per nanosecond. */
 #pragma once
 
 #include <chrono>
@@ -36,16 +35,12 @@ public:
   /** At most so many evaluations. `option` is what gives more, named where they are used
       up. */
   explicit OperationBudget(double evaluations, std::string option = "")
-      : account_(std::make_shared<Account>(
-            Account{evaluations, evaluations, std::move(option), nullptr}))
+      : account_(std::make_shared<Account>(Account{evaluations, evaluations, option}))
   {
   }
 
   /** Calls `watch` with the share that is spent, whenever something is. */
-  void watch(std::function<void(double share)> watch)
-  {
-    account_->watch = std::move(watch);
-  }
+  void watch(std::function<void(double share)> watch) { account_->watch = watch; }
 
   /** Nothing can be paid from a time of the clock on, `seconds` after the start of the
       run. */
@@ -85,7 +80,7 @@ private:
   struct Account {
     double most, left;
     std::string option;
-    std::shared_ptr<Account> parent;
+    std::shared_ptr<Account> parent = nullptr;
     std::function<void(double share)> watch = {};
     double seconds = 0;  ///< of the clock, 0 for any
     Clock::time_point end = {};

@@ -1,9 +1,8 @@
 /**
 # The two ways a program can end badly
 
-Exit status 2 is the reader's to mend (a parameter file, an option); exit status 3 says
-that the question was well put and no answer was found. Each carries one line for stderr.
-*/
+Exit status 2 is the reader's to mend (a parameter file, an option); 3 says that the
+question was well put and no answer was found. Each carries one line for stderr. */
 #pragma once
 
 #include <exception>
@@ -14,8 +13,7 @@ that the question was well put and no answer was found. Each carries one line fo
 
 namespace rotor_stator {
 
-/** Bad input: the message names the file, line and key, or the option, and what is
-    accepted. */
+/** Bad input: the message names file, line and key, or option, and what is accepted. */
 struct BadInput : std::runtime_error {
   using std::runtime_error::runtime_error;
 };
@@ -62,8 +60,7 @@ auto attempt(const Make& make) -> Attempt<decltype(make())>
   }
 }
 
-/** A value that is computed when it is first asked for, or the reason why there is
-    none. */
+/** A value that is computed when it is first asked for, or why there is none. */
 template <class Value>
 class Once {
 public:
@@ -91,8 +88,7 @@ std::string printable(const std::string& text);
     none is near. */
 std::string suggestion(const std::string& word, const std::vector<std::string>& known);
 
-/** The finite number that a whole word is in decimal notation; nothing for inf, nan,
-    0x1p3 or 1e999. */
+/** The finite number that a whole word is in decimal notation, if it is one. */
 std::optional<double> decimal(const std::string& word);
 
 }  // namespace rotor_stator

@@ -19,8 +19,7 @@ constexpr std::uintmax_t most_bytes = 4'000'000'000;
 constexpr long most_rows = 2'000'000;
 constexpr std::streamsize longest_line = 1024;
 
-/** A file read line by line, without comments and blank lines, word by word in small
-    letters. */
+/** A file without comments and blank lines, word by word in small letters. */
 class Lines {
 public:
   explicit Lines(const std::string& file)
@@ -101,25 +100,18 @@ private:
   long number_ = 0;
 };
 
-/** What the first line says; of a matrix with a sign one triangle is given, and the other
-    is `sign` times it. */
-struct Kind {
-  bool in_full;
-  int sign;
-};
-
-Kind kind_of(Lines& lines)
+/** What the first line says: whether the matrix is given in full; and 0, or where one
+    triangle is given the sign of the other. */
+std::pair<bool, int> kind_of(Lines& lines)
 {
   std::string words[5];
-  bool is_known = lines.next(true);
-  for (std::string& word : words)
-    if (is_known) word = lines.word();
+  if (lines.next(true))
+    for (std::string& word : words) word = lines.word();
   const auto& [banner, object, form, field, half] = words;
-  is_known = is_known && lines.is_at_end() && banner == "%%matrixmarket" &&
-             object == "matrix" && (form == "coordinate" || form == "array") &&
-             (field == "real" || field == "integer") &&
-             (half == "general" || half == "symmetric" || half == "skew-symmetric");
-  if (!is_known)
+  if (!(lines.is_at_end() && banner == "%%matrixmarket" && object == "matrix" &&
+        (form == "coordinate" || form == "array") &&
+        (field == "real" || field == "integer") &&
+        (half == "general" || half == "symmetric" || half == "skew-symmetric")))
     lines.fail(
         "must be %%MatrixMarket matrix, coordinate or array, real or integer, "
         "general, symmetric or skew-symmetric; not pattern, complex or hermitian");
@@ -138,13 +130,11 @@ SparseMatrix read_matrix(const std::string& file)
   const long rows = lines.whole("the number of rows", 1, most_rows);
   if (lines.whole("the number of columns", 1, most_rows) != rows)
     lines.fail("the matrix must be square");
-  const long below = rows * (rows - 1) / 2;
-  const long stored = below + (sign == 0 ? below : 0) + (sign < 0 ? 0 : rows);
+  const long stored = sign == 0 ? rows * rows : rows * (rows + sign) / 2;
   const long count =
       in_full ? stored : lines.whole("the number of entries", 0, 2'000'000'000);
   lines.end_line();
-  /** "0\n" is the shortest number in full, "1 1 0\n" the shortest entry; the last needs
-      no end of line. */
+  /** "0\n" and "1 1 0\n" are the shortest; the last needs no end of line. */
   const double least = (in_full ? 2.0 : 6.0) * static_cast<double>(count);
   if (least > bytes + 1) lines.fail("announces more entries than the file can hold");
 

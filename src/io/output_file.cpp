@@ -52,15 +52,10 @@ bool is_own(const std::string& file, const std::string& option)
 
 std::array<std::atomic<const char*>, 16> temporaries;
 
-void remove_now(const char* name)
-{
-  if (unlink(name) != 0) rmdir(name);
-}
-
 extern "C" void remove_all_and_end(int signal)
 {
   for (auto one = temporaries.rbegin(); one != temporaries.rend(); ++one)
-    if (const char* name = *one) remove_now(name);
+    if (const char* name = *one) std::remove(name);
   std::signal(signal, SIG_DFL);
   raise(signal);
 }
@@ -80,7 +75,7 @@ Temporary::~Temporary()
 {
   for (auto& place : temporaries)
     if (place == name_.c_str()) place = nullptr;
-  remove_now(name_.c_str());
+  std::remove(name_.c_str());
 }
 
 void require_plain_name(const std::string& name)

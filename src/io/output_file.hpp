@@ -1,7 +1,6 @@
 /** # Files that a user names for output
 
-A file is checked before anything is computed, so that no long run ends at a name that
-cannot be written. */
+They are checked first: no long run ends at a name that cannot be written. */
 #pragma once
 
 #include <string>
@@ -33,8 +32,7 @@ bool is_same_file(const std::string& a, const std::string& b);
 
 /** Throws BadInput unless `file`, the value of `option`, can be written to: none yet, in
     a folder that is there, or a regular file that this program wrote and that may be
-    written, or any if `is_forced`; neither one of `inputs` nor the standard output. Asked
-    before the work. */
+    written, or any if `is_forced`; neither one of `inputs` nor the standard output. */
 void require_writable(const std::string& option, const std::string& file,
                       const std::vector<std::string>& inputs, bool is_forced);
 
@@ -42,8 +40,7 @@ struct NamedContent {
   std::string name, content;
 };
 
-/** Writes all files or none: beside them, then renamed. Throws NoSolution when it
-    cannot. */
+/** Writes all files or none, else throws NoSolution: beside them, then renamed. */
 void write_files(const std::vector<NamedContent>& files);
 
 /** Writes all of `text` to stdout. Throws NoSolution when it cannot (a full disk, a

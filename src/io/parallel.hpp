@@ -1,8 +1,7 @@
 /**
 # Long work
 
-Independent pieces of it run several at a time: threads share them, and the results do not
-depend on their number. */
+Threads share its independent pieces; the results do not depend on their number. */
 #pragma once
 
 #include <chrono>

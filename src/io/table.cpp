@@ -3,8 +3,9 @@
 #include <algorithm>
 #include <cctype>
 #include <charconv>
-#include <cmath>
+#include <iomanip>
 #include <nlohmann/json.hpp>
+#include <numeric>
 #include <optional>
 #include <sstream>
 #include <stdexcept>
@@ -49,14 +50,6 @@ std::string joined(const std::vector<std::string>& words, char separator = '\t')
   return line;
 }
 
-/** As csv quotes a word that holds a comma or quotes. */
-std::string quoted(const std::string& word)
-{
-  std::string out = "\"";
-  for (char c : word) out += c == '"' ? "\"\"" : std::string(1, c);
-  return out + "\"";
-}
-
 /** One of "rest", "45", "turns 2". */
 bool is_value(const std::string& text)
 {
@@ -67,29 +60,17 @@ bool is_value(const std::string& text)
 
 }  // namespace
 
-bool Cell::is_finite() const
-{
-  const auto* number = std::get_if<double>(&value_);
-  return !number || std::isfinite(*number);
-}
-
 std::string Cell::text(TableFormat form) const
 {
-  if (const auto* number = std::get_if<double>(&value_)) return fifteen_digits(*number);
+  if (is_number()) return fifteen_digits(std::get<double>(value_));
   const std::string word = printable(std::get<std::string>(value_));
-  const bool is_plain =
-      form == TableFormat::tsv || word.find_first_of(",\"") == std::string::npos;
-  return is_plain ? word : quoted(word);
-}
-
-bool Cell::is_number() const
-{
-  return std::holds_alternative<double>(value_);
+  if (form == TableFormat::tsv || word.find_first_of(",\"") == word.npos) return word;
+  return (std::ostringstream() << std::quoted(word, '"', '"')).str();
 }
 
 std::string one_word(std::string text)
 {
-  std::replace(text.begin(), text.end(), ' ', '-');
+  std::ranges::replace(text, ' ', '-');
   return text;
 }
 
@@ -106,31 +87,30 @@ Table::Table(const std::string& what, std::vector<Column> columns)
 bool Table::choose(const std::string& names, std::size_t usual, bool is_drawn)
 {
   printed_.clear();
-  wanted_.assign(columns_.size(), false);
   const bool is_list = !names.empty() && names != "all";
-  for (std::size_t k = 0; !is_list && k < (names.empty() ? usual : columns_.size()); ++k)
-    printed_.push_back(k);
+  if (!is_list) printed_.resize(names.empty() ? usual : columns_.size());
+  std::iota(printed_.begin(), printed_.end(), 0);
   std::istringstream in(is_list ? names : "");
   for (std::string name; std::getline(in, name, ',');) {
-    printed_.push_back(static_cast<std::size_t>(
-        std::ranges::find(columns_, name, &Column::name) - columns_.begin()));
-    if (const std::size_t k = printed_.back(); k < columns_.size() && !wanted_[k]) {
-      wanted_[k] = true;
-      continue;
+    const auto k = static_cast<std::size_t>(
+        std::ranges::find(columns_, name, &Column::name) - columns_.begin());
+    if (k == columns_.size() || std::ranges::count(printed_, k) > 0) {
+      std::string known;
+      for (const Column& column : columns_) known += " " + column.name;
+      throw BadInput("--columns " + name + ": must be all, or of" + known +
+                     ", each once");
     }
-    std::string known;
-    for (const Column& column : columns_) known += " " + column.name;
-    throw BadInput("--columns " + name + ": must be all, or of" + known + ", each once");
+    printed_.push_back(k);
   }
   asked_ = "# row asked:";
   for (std::size_t k : printed_) asked_ += " " + columns_[k].name;
   if (!is_list || !is_drawn) asked_.clear();
   drawn_ = printed_;
-  for (std::size_t k : printed_) wanted_[k] = true;
   for (std::size_t k = 0; is_drawn && k < usual; ++k)
-    if (!wanted_[k]) drawn_.push_back(k);
+    if (std::ranges::count(printed_, k) == 0) drawn_.push_back(k);
+  wanted_.assign(columns_.size(), false);
   for (std::size_t k : drawn_) wanted_[k] = true;
-  return *std::max_element(drawn_.begin(), drawn_.end()) >= usual;
+  return std::ranges::max(drawn_) >= usual;
 }
 
 void Table::line(const std::string& text)
@@ -156,8 +136,8 @@ void Table::sentence(const std::string& text)
 void Table::value(const std::string& key, const Cell& value)
 {
   if (!value.is_finite()) throw NoSolution("the value of " + key + " is not finite");
-  const bool is_new = std::ranges::find(values_, key, &KeyValue::first) == values_.end();
-  if (!is_new || !is_value(value.text()))
+  const auto is_known = [&](const auto& one) { return one.first == key; };
+  if (std::ranges::any_of(values_, is_known) || !is_value(value.text()))
     throw std::logic_error("header: " + key + ": " + value.text());
   values_.emplace_back(key, value);
   line(key + ": " + value.text());
@@ -321,9 +301,10 @@ NumberTable::NumberTable(const std::string& file, const std::string& first_line)
     : file_(file)
 {
   std::ifstream in = open_file(file, "a table", most_bytes);
-  std::string line(first_line.empty() ? 0 : first_line.size() + 1, ' ');
-  in.read(line.data(), static_cast<std::streamsize>(line.size()));
-  if (!first_line.empty() && line != first_line + "\n") {
+  const std::string begin = first_line.empty() ? "" : first_line + "\n";
+  std::string line(begin.size(), ' ');
+  in.read(line.data(), std::ssize(line));
+  if (line != begin) {
     const std::string writer = writer_of_other_schema(file);
     throw BadInput(file + ":1: '" + first_line + "' is expected" +
                    (writer.empty() ? "" : "; it was written by " + writer));
@@ -334,10 +315,9 @@ NumberTable::NumberTable(const std::string& file, const std::string& first_line)
       throw BadInput(format("%s:%d: the line is cut off", file.c_str(), number));
     if (number == 1 && line.starts_with("\xEF\xBB\xBF")) line.erase(0, 3);
     if (line.ends_with('\r')) line.pop_back();
-    if (const auto colon = line.find(": ");
-        line.starts_with("# ") && colon != std::string::npos)
+    if (const auto colon = line.find(": "); line.starts_with("# ") && colon != line.npos)
       header_[line.substr(2, colon - 2)] = line.substr(colon + 2);
-    if (line.starts_with("# column: ") && line.find(" [word] ") != std::string::npos)
+    if (line.starts_with("# column: ") && line.find(" [word] ") != line.npos)
       words_.insert(line.substr(10, line.find(' ', 10) - 10));
     if (line.empty() || line.front() == '#') continue;
     if (names_.empty()) {
@@ -370,7 +350,7 @@ void NumberTable::read_row(const std::string& line)
 
 double NumberTable::at(std::size_t row, const std::string& column) const
 {
-  const auto found = std::find(names_.begin(), names_.end(), column);
+  const auto found = std::ranges::find(names_, column);
   if (found == names_.end() || words_.contains(column))
     fail("has no column " + column + " of numbers");
   return rows_.at(row).at(static_cast<std::size_t>(found - names_.begin()));

@@ -5,6 +5,7 @@ The source of a table is stamped when the library is compiled. A new commit alon
 no rebuild. */
 #pragma once
 
+#include <cmath>
 #include <concepts>
 #include <functional>
 #include <map>
@@ -61,10 +62,13 @@ public:
   template <class Enum>
   requires std::is_enum_v<Enum> Cell(Enum number) : value_(static_cast<double>(number)) {}
 
-  bool is_number() const;
-  bool is_finite() const;
-  std::string text(
-      TableFormat format = TableFormat::tsv) const;  ///< 15 significant digits
+  bool is_number() const { return std::holds_alternative<double>(value_); }
+  bool is_finite() const
+  {
+    return !is_number() || std::isfinite(std::get<double>(value_));
+  }
+  /** 15 significant digits, or the word. */
+  std::string text(TableFormat format = TableFormat::tsv) const;
 
 private:
   std::variant<double, std::string> value_;
@@ -91,9 +95,9 @@ public:
   {
   }
 
-  /** Prints the columns that `names` lists, separated by commas; without it the first
-      `usual`; "all" of them. A figure is drawn from the usual ones too. Whether others
-      are wanted. Throws BadInput for another name. */
+  /** Prints the columns that `names` lists, separated by commas; "all"; without it the
+      first `usual`, of which a figure is drawn too. Whether others are wanted. Throws
+      BadInput for another name. */
   bool choose(const std::string& names, std::size_t usual, bool is_drawn);
 
   /** Lines of the header before the first row, of the footer after it: what was modelled;
@@ -152,8 +156,6 @@ public:
   void printed_row(const std::vector<Cell>& cells);
 
 private:
-  using KeyValue = std::pair<std::string, Cell>;
-
   void line(const std::string& text);
   void sentence(const std::string& text);
   std::string beginning(TableFormat format, const std::vector<std::size_t>& places) const;
@@ -163,7 +165,7 @@ private:
 
   std::string head_, foot_;
   std::vector<std::string> warnings_;
-  std::vector<KeyValue> values_;
+  std::vector<std::pair<std::string, Cell>> values_;
   std::vector<std::pair<std::string, std::vector<Cell>>> lists_;
   std::vector<Column> columns_;
   std::vector<std::size_t> printed_, drawn_;  ///< their places

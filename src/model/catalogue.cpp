@@ -58,11 +58,13 @@ Designation read_designation(StrictToml& table)
   static const std::regex clearance("[Cc]([02345Nn])(?:[A-Z]{2}.*)?|P[56]([2-5])");
   for (std::sregex_iterator at(tail.begin(), tail.end(), word), end; at != end; ++at) {
     const std::string code = at->str();
-    if (std::regex_match(code, part, clearance))
-      found.clearance = "C" + part[1].str() + part[2].str();
-    else
+    if (std::regex_match(code, part, clearance)) {
+      const std::string name = part[1].str() + part[2].str();
+      found.clearance = name == "0" || name == "n" ? "CN" : "C" + name;
+    } else {
       found.unused +=
           (found.unused.empty() || found.unused.back() == ' ' ? "" : " ") + code;
+    }
   }
   return found;
 }
@@ -91,17 +93,6 @@ struct Diameters {
   double ball, pitch;
 };
 
-/** Throws BadInput about `key` for balls that overlap. */
-void refuse_overlap(StrictToml& table, const std::string& key, int balls,
-                    double radius_ratio)
-{
-  const double most = balls >= 2 ? std::sin(std::numbers::pi / balls) : 1;
-  if (radius_ratio >= most)
-    table.fail(key, format("makes the %d balls overlap: R_b/(R_b+R) = %g must be "
-                           "below sin(pi/n) = %g",
-                           balls, radius_ratio, most));
-}
-
 /** `source`: the catalogue's entry where there is a designation, else the same table. */
 Diameters read_cage(StrictToml& table, StrictToml& source, Bearing& bearing)
 {
@@ -127,24 +118,25 @@ Diameters read_cage(StrictToml& table, StrictToml& source, Bearing& bearing)
                  outer == 0 ? ", or give outer_ring_speed_ratio too" : ""));
     return {};
   }
-  const auto set_cage = [&](StrictToml& from, const char* key, double radius_ratio) {
-    refuse_overlap(from, key, bearing.balls, radius_ratio);
-    const double ratio = radius_ratio * std::cos(angle);
-    bearing.radius_ratio = radius_ratio;
-    bearing.cage_speed_ratio = 0.5 * (1 - ratio) + 0.5 * outer * (1 + ratio);
-    if (bearing.cage_speed_ratio <= 0)
-      table.fail(outer_key, "lets the cage stand still or turn backwards");
-  };
-  if (way == 1) {
-    const double ball = table.number("ball_radius_m", Range::positive);
-    const double race = table.number("inner_race_radius_m", Range::positive);
-    set_cage(table, "ball_radius_m", ball / (ball + race));
-    return {2 * ball, 2 * (ball + race)};
-  }
-  const double ball = source.number("ball_diameter_m", Range::positive);
-  const double pitch = source.number("pitch_diameter_m", Range::positive);
-  set_cage(source, "ball_diameter_m", ball / pitch);
-  return {ball, pitch};
+  const bool has_radii = way == 1;
+  StrictToml& from = has_radii ? table : source;
+  const char* const key = has_radii ? "ball_radius_m" : "ball_diameter_m";
+  const double ball = from.number(key, Range::positive),
+               other = from.number(has_radii ? "inner_race_radius_m" : "pitch_diameter_m",
+                                   Range::positive);
+  const Diameters found =
+      has_radii ? Diameters{2 * ball, 2 * (ball + other)} : Diameters{ball, other};
+  bearing.radius_ratio = found.ball / found.pitch;
+  const double most = bearing.balls >= 2 ? std::sin(std::numbers::pi / bearing.balls) : 1;
+  if (!(bearing.radius_ratio < most))
+    from.fail(key, format("makes the %d balls overlap: R_b/(R_b+R) = %g must be below "
+                          "sin(pi/n) = %g",
+                          bearing.balls, bearing.radius_ratio, most));
+  const double ratio = bearing.radius_ratio * std::cos(angle);
+  bearing.cage_speed_ratio = 0.5 * (1 - ratio) + 0.5 * outer * (1 + ratio);
+  if (bearing.cage_speed_ratio <= 0)
+    table.fail(outer_key, "lets the cage stand still or turn backwards");
+  return found;
 }
 
 /** The range of a class of clearance [m], on the diameter, for a bore. */
@@ -159,26 +151,21 @@ std::vector<double> clearance_range(StrictToml& table, const std::string& wanted
              format("has no %s for a bore of %g m", wanted.c_str(), bore));
 }
 
-/** C0, which is CN. */
-std::string normal_class(const std::string& name)
-{
-  return name == "C0" ? "CN" : name;
-}
-
 /** The class of clearance, by the key or by the designation. */
 std::string clearance_class(StrictToml& table, const std::string& by_designation)
 {
   constexpr const char* key = "internal_clearance";
-  if (!table.has(key)) return normal_class(by_designation);
+  if (!table.has(key)) return by_designation;
   std::string given = table.string(key);
   static const std::regex known("C[02345N]", std::regex::icase);
   if (!std::regex_match(given, known))
     table.fail(key, "\"" + given + "\": must be C2, CN or C0 (normal), C3, C4 or C5");
   for (char& letter : given) letter = static_cast<char>(std::toupper(letter));
-  if (!by_designation.empty() && normal_class(by_designation) != normal_class(given))
+  const std::string wanted = given == "C0" ? "CN" : given;
+  if (!by_designation.empty() && by_designation != wanted)
     table.fail(key,
                "\"" + given + "\" contradicts " + by_designation + " of designation");
-  return normal_class(given);
+  return wanted;
 }
 
 double read_clearance(StrictToml& table, StrictToml& source,
@@ -191,21 +178,16 @@ double read_clearance(StrictToml& table, StrictToml& source,
       std::ranges::any_of(ways, [&](const auto& keys) { return table.has(keys[0]); });
   const std::size_t way = is_given || by_designation.empty() ? table.way(ways) : 2;
   if (way < 2) {
-    double radial = 0;
-    if (way == 0) {
-      radial = table.number("radial_clearance_m", Range::any);
-    } else {
-      const double diametral = table.number("diametral_clearance_m", Range::any);
-      radial = diametral / 2;
+    const double given = table.number(ways[way][0], Range::any),
+                 radial = way == 0 ? given : given / 2;
+    if (way == 1)
       derived.push_back(
-          format("clearance: %.15g m on the diameter, delta is half of it", diametral));
-    }
+          format("clearance: %.15g m on the diameter, delta is half of it", given));
     if (!table.has(designation_key)) return radial;
     if (!by_designation.empty())
       derived.push_back("clearance: as given; " + by_designation +
                         " of the designation is not used");
-    const std::string widest =
-        by_designation.empty() ? "C5" : normal_class(by_designation);
+    const std::string widest = by_designation.empty() ? "C5" : by_designation;
     const double most =
         clearance_range(table, widest, source.number("bore_m", Range::positive))[1];
     if (radial > most / 2)
@@ -236,17 +218,6 @@ double groove_ratio(StrictToml& source, const std::string& key)
     source.fail(key,
                 format("must be > 0.5: groove radius over ball diameter, got %g", ratio));
   return ratio;
-}
-
-Solid read_steel(StrictToml& source)
-{
-  const Solid steel{
-      .young_modulus = source.number("youngs_modulus_Pa", Range::positive),
-      .poisson_ratio = source.number("poissons_ratio", Range::not_negative)};
-  if (steel.poisson_ratio > 0.5)
-    source.fail("poissons_ratio",
-                format("must be in 0...0.5, got %g", steel.poisson_ratio));
-  return steel;
 }
 
 double read_stiffness(StrictToml& table, StrictToml& source, const Diameters& diameters,
@@ -284,7 +255,12 @@ double read_stiffness(StrictToml& table, StrictToml& source, const Diameters& di
           std::min(ratio, 1e300));
   StrictToml material =
       way == 2 ? table : StrictToml("deep_groove.toml", bearing_catalogue).table("steel");
-  const Solid steel = read_steel(material);
+  const Solid steel{
+      .young_modulus = material.number("youngs_modulus_Pa", Range::positive),
+      .poisson_ratio = material.number("poissons_ratio", Range::not_negative)};
+  if (steel.poisson_ratio > 0.5)
+    material.fail("poissons_ratio",
+                  format("must be in 0...0.5, got %g", steel.poisson_ratio));
   const PointContact inner = inner_contact(geometry, steel);
   const PointContact outer = outer_contact(geometry, steel);
   const double stiffness = in_series(inner.stiffness, outer.stiffness);

@@ -13,8 +13,7 @@ double effective_modulus(const Solid& a, const Solid& b)
               (1 - b.poisson_ratio * b.poisson_ratio) / b.young_modulus);
 }
 
-/** The ellipticity whose ratio of curvatures, which grows with it and is larger, is
-    `ratio` ≥ 1. */
+/** The ellipticity for a `ratio` ≥ 1 of curvatures, which grows with it and is larger. */
 double ellipticity_of(double ratio)
 {
   double low = 1, high = ratio;
@@ -64,8 +63,7 @@ PointContact point_contact(double a, double b, const Solid& first, const Solid& 
 
 namespace {
 
-/** `race` is the race's curvature in the plane of rotation [1/m], negative for the outer
-    one. */
+/** `race`: its curvature in the plane of rotation [1/m], negative of the outer one. */
 PointContact ball_on_race(double ball_diameter, double groove_ratio, double race,
                           const Solid& steel)
 {

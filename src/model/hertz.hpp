@@ -2,8 +2,7 @@
 # Hertz contact of a ball with its races (Eq. 5; Eqs 1 and 2)
 
 A ball pressed by the penetration $p > 0$ answers with the force Q; ball j of a bearing,
-approached by Δ_j, with Q_j. Eq. 2, which gives the contact stiffness K_H, stands further
-down.
+approached by Δ_j, with Q_j. Eq. 2 stands further down.
 
 $$Q = K_H\, p^{3/2}, \tag{1}$$
 
@@ -78,11 +77,10 @@ struct PointContact {
    T. A. Harris, Rolling Bearing Analysis, 4th ed. (2001), chapter 6. */
 PointContact point_contact(double a, double b, const Solid& first, const Solid& second);
 
-/** The geometry of a ball bearing, all lengths in metres. */
+/** Lengths [m], and radii of the grooves over the ball's diameter, > 1/2. */
 struct BallGeometry {
   double ball_diameter, pitch_diameter;
-  double inner_groove_ratio,
-      outer_groove_ratio;  ///< groove radius over ball diameter, > 1/2
+  double inner_groove_ratio, outer_groove_ratio;
 };
 
 /** A ball of the bearing against one of its races, whose radius in the plane of rotation
@@ -99,8 +97,7 @@ double in_series(double stiffness_a, double stiffness_b);
    $$K_H = \tfrac43 \sqrt{R_b}\, E^*,
    \qquad 1/E^* = (1-\nu_1^2)/E_1 + (1-\nu_2^2)/E_2. \tag{2}$$
 
-   The figures take K_H from Table 1 instead (D-07:
-   on steel Table 1's 1e11 would need a ball of 0.42 m). */
+   The figures take K_H from Table 1 instead (D-07: it needs a steel ball of 0.42 m). */
 double hertz_contact_stiffness(double ball_radius, const Solid& a, const Solid& b);
 
 }  // namespace rotor_stator

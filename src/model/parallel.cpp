@@ -44,7 +44,6 @@ std::vector<Coefficients> read_coefficients(StrictToml& table)
         (k < 4 ? at.stiffness : at.damping)[k % 4] = by_speed.at(row, names[k]);
     list.push_back(at);
   }
-  if (list.empty()) by_speed.fail("has no rows");
   return list;
 }
 

@@ -15,8 +15,7 @@ using Complex = std::complex<double>;
 
 constexpr Eigen::Index first_intervals = 24, most_samples = 1500, most_support = 100;
 
-/** Few random combinations of all components: poles that they have in common are theirs
-    too. */
+/** Few random combinations of all components, which have their common poles too. */
 Eigen::MatrixXcd combinations(Eigen::Index components)
 {
   std::mt19937 random(1);
