@@ -32,8 +32,7 @@ public:
   /** Without a bound. */
   OperationBudget() = default;
 
-  /** At most so many evaluations. `option` is what gives more, named where they are used
-      up. */
+  /** At most so many evaluations; `option` gives more, for the message. */
   explicit OperationBudget(double evaluations, std::string option = "")
       : account_(std::make_shared<Account>(Account{evaluations, evaluations, option}))
   {
@@ -42,8 +41,7 @@ public:
   /** Calls `watch` with the share that is spent, whenever something is. */
   void watch(std::function<void(double share)> watch) { account_->watch = watch; }
 
-  /** Nothing can be paid from a time of the clock on, `seconds` after the start of the
-      run. */
+  /** Nothing can be paid from `end` on, `seconds` after the start of the run. */
   void end_at(Clock::time_point end, double seconds)
   {
     account_->end = end;
@@ -62,8 +60,7 @@ public:
   /** What is left; infinite without a bound. */
   double left() const;
 
-  /** Whether something could not be paid for from this account, or less than a thousandth
-      of it is left. */
+  /** Whether something could not be paid for, or less than a thousandth is left. */
   bool used_up() const;
 
   /** Takes `evaluations` from the account. Throws NoSolution when they are not there. */
@@ -72,8 +69,7 @@ public:
   /** The same, false instead of thrown: for callbacks that C calls. */
   bool pay(double evaluations) const;
 
-  /** An account of its own with a part of what is left; what it spends is spent here
-      too. */
+  /** An account of its own with a part of what is left; it spends from here too. */
   OperationBudget part(double share) const;
 
 private:

@@ -84,8 +84,7 @@ std::string format(const char* pattern, ...) __attribute__((format(printf, 1, 2)
 /** The text on one line: control characters and Unicode's ends of lines as \xNN. */
 std::string printable(const std::string& text);
 
-/** "; did you mean …?" with the known word that differs least from `word`; empty when
-    none is near. */
+/** "; did you mean …?" with the known word that is nearest to `word`, if one is near. */
 std::string suggestion(const std::string& word, const std::vector<std::string>& known);
 
 /** The finite number that a whole word is in decimal notation, if it is one. */

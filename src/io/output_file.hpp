@@ -23,8 +23,7 @@ private:
   const std::string name_;
 };
 
-/** Throws BadInput for the name of a file with tabs or other control characters, or with
-    bytes that are no UTF-8. */
+/** Throws BadInput for a name with control characters or bytes that are no UTF-8. */
 void require_plain_name(const std::string& name);
 
 /** Whether two names are of one file, there or not yet. */
@@ -43,8 +42,7 @@ struct NamedContent {
 /** Writes all files or none, else throws NoSolution: beside them, then renamed. */
 void write_files(const std::vector<NamedContent>& files);
 
-/** Writes all of `text` to stdout. Throws NoSolution when it cannot (a full disk, a
-    closed pipe). */
+/** Writes all of `text` to stdout, else throws NoSolution (a full disk, closed pipe). */
 void write(const std::string& text);
 
 }  // namespace rotor_stator

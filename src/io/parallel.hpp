@@ -12,8 +12,7 @@ Threads share its independent pieces; the results do not depend on their number.
 
 namespace rotor_stator {
 
-/** A line on stderr that is rewritten in place, only when a person is watching and after
-    two seconds. */
+/** A line on stderr, rewritten in place after two seconds if a person is watching. */
 class Progress {
 public:
   /** Without a name nothing is shown. */

@@ -60,8 +60,7 @@ double real_number(const std::string& option, const std::string& value, double l
 double speed_in_hertz(const std::string& option, const std::string& value,
                       std::string& unit, bool may_rest = false);
 
-/** Parses the options; false when the help or the version was asked for and printed.
-    Throws BadInput. */
+/** Parses the options; false when help or version were printed. Throws BadInput. */
 bool parse(CLI::App& app, int argc, char** argv);
 
 /** Runs `work` and turns its exceptions into the line on stderr and the exit status.

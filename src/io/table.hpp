@@ -37,9 +37,8 @@ Tab-separated text that describes itself. `#` lines stand before and after the r
     # note: no ball touches its race       a sentence, which no program reads
     # column: x_r [m] rotor                then one row of names and the numbers
 
-Titles and names of files stand in `# parameters:` and notes alone. What is known only
-after the rows stands in the footer. There are no dates and no host names: the same source
-gives the same bytes. */
+Titles and names of files stand in `# parameters:` and notes alone, what is known only
+after the rows in the footer. No dates, no host names: the same source, the same bytes. */
 
 /** Of these lines and of the JSON; version 0.1.0 wrote sentences, schema 1. */
 constexpr int schema = 2;
@@ -149,8 +148,7 @@ public:
   /** The lines after the rows, to the stream. */
   void end_stream() const;
 
-  /** All before the rows, of the printed columns; how many these are; and a row of them
-      alone. */
+  /** All before the rows, of the printed columns; their number; and a row of them. */
   std::string beginning() const { return beginning(TableFormat::tsv, printed_); }
   std::size_t printed() const { return printed_.size(); }
   void printed_row(const std::vector<Cell>& cells);
@@ -189,8 +187,7 @@ class NumberTable {
 public:
   /** Separated by tabs, semicolons or commas, with the line ends and the byte order mark
       of any system. Throws BadInput with file and line when it is missing, empty, cut
-      off, longer than 1 GB or not such a table; with `first_line`, when it begins
-      otherwise. */
+      off, longer than 1 GB or not such a table, or does not begin with `first_line`. */
   explicit NumberTable(const std::string& file, const std::string& first_line = "");
 
   const std::vector<std::string>& names() const { return names_; }

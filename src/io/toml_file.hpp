@@ -14,9 +14,8 @@ BadInput with file, line and key. */
 
 namespace rotor_stator {
 
-/** Opens a file to be read. Throws BadInput, naming what is `expected`, when it is
-    missing, longer than `most_bytes`, or no regular file: devices and pipes may never
-    end. */
+/** Opens a file. Throws BadInput, naming what is `expected`, when it is missing,
+    longer than `most_bytes`, or no regular file: devices and pipes may never end. */
 std::ifstream open_file(const std::string& file, const std::string& expected,
                         std::uintmax_t most_bytes);
 
@@ -76,15 +75,13 @@ public:
   /** The keys of this table, in the file's alphabet. */
   std::vector<std::string> keys() const;
 
-  /** All keys but one with their values, none of them read yet: comments and order leave
-      no trace. */
+  /** All keys but one with their values: comments and order leave no trace. */
   std::string text_without(const std::string& key) const;
 
   /** Throws BadInput about `key`: file, line, key and `problem`. */
   [[noreturn]] void fail(const std::string& key, const std::string& problem) const;
 
-  /** All keys that may stand here, so that beside a missing one an unknown one is named,
-      whatever it is. */
+  /** All keys that may stand here: beside a missing one any other is named. */
   void may_hold(const std::vector<std::string>& keys) const;
 
   /** Throws BadInput about a required key: names the key that it, or one of other `ways`
@@ -92,8 +89,7 @@ public:
   [[noreturn]] void missing(const std::string& key, const std::string& advice = "",
                             const std::vector<std::vector<std::string>>& ways = {}) const;
 
-  /** Throws BadInput if a key of this table, or of a table in it that was asked for, was
-      never asked for. */
+  /** Throws BadInput if a key, also of a table in it that was read, was never read. */
   void refuse_unknown_keys() const;
 
 private:

@@ -79,8 +79,7 @@ struct BallRing {
   const double *cos, *sin;
 };
 
-/** What Eqs 4 to 6 ask of an undamaged bearing, of one motion or of several side by
-    side. */
+/** What Eqs 4 to 6 ask of an undamaged bearing, of one motion or of several. */
 template <class Number>
 struct ContactLaw {
   Number stiffness;   ///< K_H [N/m^{3/2}]
@@ -161,8 +160,7 @@ public:
                                      : Direction{1, 0}};
   }
 
-  /** Eq. 6: force [N] on the stator for the relative displacement u [m] and its rate
-      [m/s]. */
+  /** Eq. 6: force [N] on the stator for the displacement u [m] and its rate [m/s]. */
   Vec2 force(const Angles& at, Vec2 u, Vec2 rate) const
   {
     return is_elastic_hertz() ? elastic_force(at.cage, u)
@@ -183,8 +181,7 @@ public:
                               : full_reaction(at, u, rate);
   }
 
-  /** The same of an undamaged bearing at rest, with the cage (ball 1) turned to
-      `cage`. */
+  /** The same of an undamaged bearing at rest, with ball 1 at the angle `cage`. */
   Vec2 force(Direction cage, Vec2 u) const
   {
     return bearing_.is_hertzian() ? elastic_force(cage, u)
@@ -250,10 +247,9 @@ private:
 /**
 ## The bearing's force at all instants of a period (Eqs 3 to 6)
 
-Harmonic balance asks for the force at N instants at once. The directions of the cage at
-these instants and those of the balls in its frame are computed once. The instants are
-taken side by side in groups of eight, so that the balls are summed in the same order
-whatever the width of the machine's registers. */
+Harmonic balance asks for the force at N instants at once. The directions of the cage and
+of the balls in its frame are computed once. As many instants as fit into a register are
+taken side by side; the balls are summed in the same order whatever its width. */
 
 class SampledBearing {
 public:

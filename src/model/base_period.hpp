@@ -28,8 +28,7 @@ struct BasePeriod {
 };
 
 /** A turn where n ω_cage/ω is whole, q turns where it is p/q with q ≤ 8; 2π/(n ω_cage)
-    where nothing turns with the rotor; else two frequencies, and then the base period is
-    a turn. */
+    where nothing turns with the rotor; else a turn, with two frequencies. */
 BasePeriod base_period(const Parameters& parameters);
 
 /** The fewest turns q ≤ 8 in which a whole number of the balls of each bearing passes, 0
@@ -40,8 +39,7 @@ int turns_to_repeat(const std::vector<Bearing>& bearings);
     frequency is n ω_cage. */
 Parameters over_passage(Parameters parameters);
 
-/** A machine whose equations count base periods, and its base frequency [rad/s] at a
-    speed of the rotor. */
+/** A machine whose equations count base periods, and its base frequency [rad/s]. */
 struct Based {
   Parameters machine;
   double omega;

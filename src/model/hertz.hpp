@@ -52,8 +52,8 @@ struct EllipticIntegrals {
   double first, second, difference;
 };
 
-/** Those whose complementary modulus √(1 - k²) is `complement`, in 0 … 1 but not 0, by
-    the arithmetic-geometric mean. */
+/** Those of √(1 - k²) = `complement`, in 0 … 1 but not 0, by the arithmetic-geometric
+    mean. */
 EllipticIntegrals elliptic_integrals(double complement);
 
 /** Hertz's contact of two bodies whose sums of curvatures in the two principal planes are
@@ -83,8 +83,7 @@ struct BallGeometry {
   double inner_groove_ratio, outer_groove_ratio;
 };
 
-/** A ball of the bearing against one of its races, whose radius in the plane of rotation
-    is (d_m ∓ D)/2. */
+/** A ball against a race, whose radius in the plane of rotation is (d_m ∓ D)/2. */
 PointContact inner_contact(const BallGeometry& geometry, const Solid& steel);
 PointContact outer_contact(const BallGeometry& geometry, const Solid& steel);
 

@@ -54,15 +54,13 @@ struct LargeBodies {
     return stiffness + spring * joints * joints.transpose();
   }
 
-  /** k of the added spring for a vibration of so many times the speed: k_0(1 ± i), so
-      that S is never singular. */
+  /** k of the added spring, k_0(1 ± i): at `order` speeds S is not singular. */
   std::complex<double> damped_spring(double order) const
   {
     return {spring, spring * ((order > 0) - (order < 0))};
   }
 
-  /** K + k D Dᵀ - Ω² M + iΩ (C + ωG) at the frequency Ω and the speed ω, for a spring
-      k. */
+  /** K + k D Dᵀ - Ω² M + iΩ (C + ωG) at the frequency Ω and the speed ω. */
   Eigen::MatrixXcd dynamic_stiffness(std::complex<double> k, double frequency,
                                      double speed) const;
 };
@@ -83,16 +81,14 @@ Eigen::VectorXd quasi_static_contacts(const Parameters& parameters,
 /** The matrices of any machine: its own, or those of two masses. */
 LargeBodies matrices_of(const Parameters& parameters);
 
-/** Where the joints carry the constant loads: the derivative of their forces, means
-    over the cage's angles, 2b × 2b [N/m], with what stands beside the balls at a speed of
-    the rotor [rad/s]. */
+/** Where the joints carry the constant loads: the derivative of their mean forces over
+    the cage's angles, 2b × 2b [N/m]; what is beside the balls at a speed [rad/s]. */
 Eigen::MatrixXd mean_contact_stiffness(const Parameters& parameters,
                                        const LargeBodies& machine,
                                        double rotor_speed = 0);
 
-/** A machine whose harmonics are those of its matrices. In time it is Eq. 7: two masses
-    with elements to the ground, for which the two unknowns of the bearing are not
-    enough. */
+/** A machine whose harmonics are those of its matrices; in time Eq. 7: two masses with
+    elements to the ground, for which the two unknowns of the bearing are not enough. */
 class MatrixMachine : public Machine {
 public:
   explicit MatrixMachine(LargeBodies bodies) : bodies_(std::move(bodies)) {}

@@ -49,8 +49,7 @@ public:
   /**
   ## At rest (model/rotor_stator.cpp) */
 
-  /** Static equilibrium with ball 1 at the angle `cage`; without displacement where none
-      is unique. */
+  /** Static equilibrium with ball 1 at the angle `cage`; 0 where none is unique. */
   virtual State at_rest(const Parameters& parameters, DirectionOf<double> cage) const;
 
   /** The bearings carry the constant loads: where the paper's figures start. */
@@ -121,8 +120,7 @@ public:
   /** The places of x_s, y_s, x_r, y_r at joint k, bearings first; of the ground -1. */
   virtual std::array<int, 4> places(std::size_t /*k*/) const { return {0, 1, 2, 3}; }
 
-  /** x and y of the nodes that were asked for, over all coordinates, and the nodes at
-      which bearings stand. */
+  /** x and y of the nodes asked for, over all coordinates; those where bearings stand. */
   virtual Eigen::SparseMatrix<double> nodes() const { return {}; }
   virtual std::vector<std::pair<int, int>> bearing_nodes() const { return {}; }
 };

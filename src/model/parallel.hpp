@@ -61,8 +61,7 @@ class Parallel {
 public:
   Parallel(const ParallelElements& elements, double rotor_speed);
 
-  /** Adds their force and its derivatives; `omega` is the base frequency [rad/s], 0
-      where none is known. */
+  /** Adds force and derivatives; `omega` [rad/s] of the base period, 0 if not known. */
   void add(Vec2 u, Vec2 rate, double omega, BearingReaction& sum) const;
 
   /** These alone. */

@@ -44,8 +44,7 @@ struct Body {
   double stiffness() const { return mass * natural_frequency * natural_frequency; }
   double damping() const { return 2 * damping_ratio * mass * natural_frequency + damper; }
 
-  /** The constant force [N], with gravity g along -y; and the acceleration [m/s²] that it
-      gives. */
+  /** The constant force [N], gravity g along -y; and its acceleration [m/s²]. */
   Vec2 static_load(double gravity) const
   {
     return rigid ? Vec2{0, 0} : Vec2{load.x, load.y - mass * gravity};
@@ -69,15 +68,13 @@ struct Defect {
   double spin = 0;  ///< its turns about itself per base period, seen from the cage
 };
 
-/** Stiffness [N/m] and damping [N s/m] between rotor and stator at a speed of the rotor
-    [rad/s]: xx, xy, yx and yy. */
+/** Stiffness [N/m] and damping [N s/m], xx, xy, yx and yy, at a rotor speed [rad/s]. */
 struct Coefficients {
   double speed = 0;
   std::array<double, 4> stiffness{}, damping{};
 };
 
-/** What stands between rotor and stator beside the balls [bearing.parallel]
-    (parallel.hpp). */
+/** What stands beside the balls [bearing.parallel] (parallel.hpp). */
 struct ParallelElements {
   double cubic = 0;                       ///< of a spring that hardens [N/m³]
   double stop_stiffness = 0;              ///< of a ring that the rotor meets [N/m] ...
@@ -174,8 +171,7 @@ struct Parameters {
   std::vector<std::string> derived = {};  ///< lines for headers: what a catalogue gave
   std::vector<std::string> doubts = {};   ///< what is a slip rather than a machine
   int turns = 1;  ///< of the rotor in one base period, whose frequency ω is
-  /** Of the speed over `turns` ω; not 1 where the base frequency is that of passing
-      balls. */
+  /** Of the speed over `turns` ω; not 1 where balls passing make the base frequency. */
   double speed_ratio = 1;
   std::vector<Bearing> further = {};  ///< bearings beside the first, of a large machine
   /** Elements between a body and the ground: joints without balls. */
@@ -189,8 +185,7 @@ constexpr const char* ground_key = "ground";
 /** Whether a table takes only one of two keys: a study of one drops the other. */
 bool excludes(const std::string& key, const std::string& other);
 
-/** Reads bodies given by matrices or with elements to the ground, and their bearings,
-    into the parameters. */
+/** Reads bodies given by matrices or with elements to the ground, and their bearings. */
 using MatrixReader = std::function<void(StrictToml& root, Parameters& parameters)>;
 
 /** Reads and checks a machine of two masses; of bodies given by matrices too, where there
@@ -205,8 +200,7 @@ inline Parameters read_parameters(const std::string& file)
 Parameters read_parameters(SceneFile& scene, const std::string& key);
 std::vector<Parameters> read_parameter_list(SceneFile& scene, const std::string& key);
 
-/** The `#` lines of a machine: its file and its values, and the keys of a table that has
-    one machine only. */
+/** The `#` lines of a machine; with the keys, in a table that has one machine only. */
 void describe(Table& table, const Parameters& parameters, bool with_keys = true);
 
 /** ω [rad/s] of a frequency [Hz]. */
@@ -232,8 +226,7 @@ bool has_rotation_period(const Bearing& bearing);
 /** Throws BadInput, in the name of `who`, when the force has another period. */
 void require_rotation_period(const Parameters& parameters, const char* who);
 
-/** Throws BadInput, in the name of `who`, for bodies given by matrices and for elements
-    to the ground. */
+/** Throws BadInput, in the name of `who`, for matrices and for elements to the ground. */
 void require_two_masses(const Parameters& parameters, const char* who);
 
 /** All bearings of a machine; and after them what joins its bodies to the ground. */

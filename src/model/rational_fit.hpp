@@ -23,8 +23,7 @@ class RationalFit {
 public:
   using Function = std::function<Eigen::VectorXcd(double)>;
 
-  /** On [from, to], to `tolerance` of the largest value of each component, or of a tenth
-      of the largest of all. */
+  /** On [from, to]; `tolerance` of each component's largest, or a tenth of all's. */
   RationalFit(const Function& f, double from, double to, double tolerance);
 
   /** False where it needs too many samples, and outside [from, to]. */

@@ -10,9 +10,8 @@ may say beside them is in paper/guide.md. */
 
 namespace rotor_stator {
 
-/** Speeds [Hz] and harmonics at which the coordinates of large bodies must be right, and
-    places of the rotor where they must be too: columns x and y, degrees of freedom from
-    1. */
+/** Speeds [Hz], harmonics and places of the rotor (columns x and y, degrees of freedom
+    from 1) at which the coordinates of large bodies must be right. */
 struct ModelRange {
   double from = 1, to = 100;
   int harmonics = 64;

@@ -100,8 +100,7 @@ struct Ground {
 /** Eq. 7 at one rotor speed with its bearing. */
 class RotorStator {
 public:
-  /** `omega` is the base frequency [rad/s], the rotor's speed where that turns once per
-      period. */
+  /** `omega` is the base frequency [rad/s], the rotor's speed if it turns once in it. */
   RotorStator(const Parameters& parameters, double omega);
 
   /** Accelerations [m/s²]. */
@@ -165,13 +164,11 @@ inline Eigen::VectorXd state_scales(const Parameters& parameters)
     rigid stator that of the rotor, on the contact if it has no suspension. */
 double joint_resonance(const Parameters& parameters);
 
-/** The static part of `rigid_joint_force`, from weights and loads: (k_s f_r - k_r
-    f_s)/(k_s + k_r) [N]. */
+/** The static part of `rigid_joint_force`, (k_s f_r - k_r f_s)/(k_s + k_r) [N]. */
 Vec2 static_joint_force(const Parameters& parameters);
 
-/** The bearing's force [N] that would keep u = 0 at `phase` ωt [rad] in the steady
-   state: F = (Z_s f_r - Z_r f_s)/(Z_s + Z_r) for weights and loads and for
-   the unbalance. */
+/** The steady force [N] of the bearing that would keep u = 0 at `phase` ωt [rad]:
+    F = (Z_s f_r - Z_r f_s)/(Z_s + Z_r) for weights and loads and for the unbalance. */
 Vec2 rigid_joint_force(const Parameters& parameters, double omega, double phase);
 
 /** The speeds [rad/s] up to `highest` at which the static part of that force, from
