@@ -15,18 +15,16 @@ SmallVector amplitude(const Eigen::Ref<const Eigen::MatrixXd>& series, int h)
 }
 
 void put_amplitude(Eigen::Ref<Eigen::MatrixXd> series, int h,
-                   const SmallVector& amplitude)
+                   const Eigen::Ref<const Eigen::VectorXcd>& amplitude)
 {
   series.col(h == 0 ? 0 : 2 * h - 1) = amplitude.real();
   if (h > 0) series.col(2 * h) = -amplitude.imag();
 }
 
-namespace {
-
 /** A complex matrix z as it acts on (cosine, sine) coefficients, q = a - ib: ((Re z, Im
     z), (-Im z, Re z)). */
 template <int d>
-void expand(const SmallMatrix& z, double* to)
+static void expand(const SmallMatrix& z, double* to)
 {
   Eigen::Map<Eigen::Matrix<double, 2 * d, 2 * d>> block(to);
   for (int j = 0; j < d; ++j)
@@ -36,8 +34,6 @@ void expand(const SmallMatrix& z, double* to)
       block(d + i, j) = -z(i, j).imag();
     }
 }
-
-}  // namespace
 
 LinearBlock second_order_block(const Eigen::MatrixXd& mass,
                                const Eigen::MatrixXd& damping,
@@ -88,13 +84,6 @@ void Balance::refresh_blocks(double omega)
   omega_ = omega;
 }
 
-SmallMatrix Balance::b(int h) const
-{
-  const int d = problem_.dofs;
-  return b_.block(0, 2 * h * d, d, d) +
-         std::complex(0.0, 1.0) * b_.block(0, (2 * h + 1) * d, d, d);
-}
-
 /** Of the rate of a series, at the present speed. */
 void Balance::rate_samples(const Eigen::Ref<const Eigen::MatrixXd>& series,
                            Eigen::MatrixXd& samples)
@@ -139,10 +128,10 @@ bool Balance::at(const Eigen::VectorXd& x, double omega) const
 }
 
 const Eigen::VectorXd& Balance::residual(const Eigen::VectorXd& x, double omega,
-                                         With with)
+                                         bool with_stiffness)
 {
   const bool known = at(x, omega);
-  if (known && (has_stiffness_ || with == With::force)) return residual_;
+  if (known && (has_stiffness_ || !with_stiffness)) return residual_;
   evaluated_ = has_spectra_ = false;  // should the budget end here
   if (!known) {
     spend(2 * problem_.dofs * transform_.operations());
@@ -152,7 +141,7 @@ const Eigen::VectorXd& Balance::residual(const Eigen::VectorXd& x, double omega,
   }
   spend(problem_.operations);
   ++evaluations_;
-  has_stiffness_ = with == With::stiffness;
+  has_stiffness_ = with_stiffness;
   Eigen::MatrixXd* slopes = has_stiffness_ ? &stiffness_samples_ : nullptr;
   if (is_moving()) {
     rate_samples(series_, rate_samples_);
@@ -170,21 +159,24 @@ const Eigen::VectorXd& Balance::residual(const Eigen::VectorXd& x, double omega,
 
 const Eigen::MatrixXd& Balance::force(const Eigen::VectorXd& x, double omega)
 {
-  residual(x, omega, With::force);
+  residual(x, omega, false);
   return force_series_;
 }
 
 const Eigen::VectorXd& Balance::speed_derivative(const Eigen::VectorXd& x, double omega)
 {
-  residual(x, omega, is_moving() ? With::stiffness : With::force);
+  residual(x, omega, is_moving());
   combine(a_slope_, b_slope_, series_, force_series_, speed_derivative_);
   speed_derivative_ -= c_slope_.reshaped();
   if (!is_moving()) return speed_derivative_;
-  product_force_ = stiffness_samples_.rightCols(c_.rows());
+  const Eigen::Index d = problem_.dofs;
+  product_force_ = stiffness_samples_.rightCols(d);
   transform_.to_series(product_force_, product_series_, images_);
-  Eigen::Map<Eigen::MatrixXd> slope(speed_derivative_.data(), c_.rows(), c_.cols());
+  Eigen::Map<Eigen::MatrixXd> slope(speed_derivative_.data(), d, c_.cols());
   for (int h = 0; h <= m_; ++h) {
-    const SmallVector sum = amplitude(slope, h) + b(h) * amplitude(product_series_, h);
+    const SmallMatrix b = b_.block(0, 2 * h * d, d, d) +
+                          std::complex(0.0, 1.0) * b_.block(0, (2 * h + 1) * d, d, d);
+    const SmallVector sum = amplitude(slope, h) + b * amplitude(product_series_, h);
     put_amplitude(slope, h, sum);
   }
   return speed_derivative_;
@@ -194,13 +186,6 @@ const Eigen::VectorXd& Balance::speed_derivative(const Eigen::VectorXd& x, doubl
 ## The derivative of the balance
 
 As a matrix, as a product, and the block of one harmonic. */
-
-namespace {
-
-/** Three dense matrices of this size, as the arc length needs, stay below 0.5 GB. */
-constexpr Eigen::Index most_unknowns = 4200;
-
-}  // namespace
 
 void Balance::need_spectra(const Eigen::VectorXd& x, double omega)
 {
@@ -222,27 +207,21 @@ std::complex<double> Balance::conjugate_kappa(int p, Eigen::Index column) const
   return 2 * p <= n ? std::conj(spectra_(p, column)) : spectra_(n - p, column);
 }
 
-/** The same for all sums and differences of `images`. */
-void Balance::extend_spectrum(Eigen::Index column, const Images& images)
-{
-  int reach = 0;
-  for (int p : images) reach = std::max(reach, 2 * std::abs(p));
-  extended_.resize(2 * reach + 1);
-  for (int p = 0; p <= reach; ++p) {
-    extended_[reach + p] = conjugate_kappa(p, column);
-    extended_[reach - p] = std::conj(extended_[reach + p]);
-  }
-}
-
 /** Entries ∂(coefficients of f_i)/∂(coefficients of q_j) before the blocks B_h multiply
     them: cosine column q and row p hold α_{p-q} + α_{p+q} and so on. The mean's row and
     column come first. */
-void Balance::fill_force_jacobian(int i, int j, Eigen::Index column, const Images& images,
-                                  Eigen::MatrixXd& jacobian)
+void Balance::fill_force_jacobian(int i, int j, Eigen::Index column,
+                                  std::span<const int> images, Eigen::MatrixXd& jacobian)
 {
   const int d = problem_.dofs, count = static_cast<int>(images.size());
-  extend_spectrum(column, images);
-  const std::complex<double>* middle = &extended_[extended_.size() / 2];
+  int reach = 0;  // of their sums and differences
+  for (int p : images) reach = std::max(reach, 2 * std::abs(p));
+  extended_.resize(2 * reach + 1);
+  std::complex<double>* middle = &extended_[reach];
+  for (int p = 0; p <= reach; ++p) {
+    middle[p] = conjugate_kappa(p, column);
+    middle[-p] = std::conj(middle[p]);
+  }
   for (int q = 0; q < count; ++q) {
     const std::complex<double>*sums = middle + images[q],
           *differences = middle - images[q];
@@ -269,15 +248,15 @@ void Balance::jacobian(const Eigen::VectorXd& x, double omega, int harmonics,
   const auto n = static_cast<double>(size);
   spend(1.5e4 + 10 * n * n + n * n * n / 18);  // with its factorisation
   need_spectra(x, omega);
-  part_images_.assign(images_.begin(), images_.begin() + harmonics + 1);
+  const auto images = std::span(images_).first(static_cast<std::size_t>(harmonics) + 1);
   jacobian.resize(size, size);
   if (is_moving()) damping_jacobian_.resize(size, size);
   for (int j = 0; j < dofs; ++j)
     for (int i = 0; i < dofs; ++i) {
       const Eigen::Index column = i + dofs * j;
-      fill_force_jacobian(i, j, column, part_images_, jacobian);
+      fill_force_jacobian(i, j, column, images, jacobian);
       if (is_moving())
-        fill_force_jacobian(i, j, dofs * dofs + column, part_images_, damping_jacobian_);
+        fill_force_jacobian(i, j, dofs * dofs + column, images, damping_jacobian_);
     }
   /** The rate of a cosine is -Ω times the sine, that of a sine Ω times the cosine. */
   for (int q = 1; is_moving() && q <= harmonics; ++q) {
@@ -311,6 +290,8 @@ void Balance::jacobian(const Eigen::VectorXd& x, double omega, int harmonics,
 
 const Eigen::MatrixXd& Balance::jacobian(const Eigen::VectorXd& x, double omega)
 {
+  /** Three dense matrices of this size, as the arc length needs, stay below 0.5 GB. */
+  constexpr Eigen::Index most_unknowns = 4200;
   if (unknowns() > most_unknowns)
     throw NoSolution(
         format("%d harmonics give %ld unknowns; the dense Jacobian stops at %ld", m_,

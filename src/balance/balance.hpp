@@ -24,22 +24,21 @@ residual
 
 $$R_h = A_h q_h + B_h f_h(q) - c_h \tag{16}$$
 
-takes the force through time: Γ⁻¹ to samples, the force at each sample, Γ back to
-coefficients (Cameron and Griffin). The Jacobian is A + J with
+takes the force through time: Γ⁻¹, the force at each sample, Γ (Cameron and Griffin). The
+Jacobian is A + J with
 
 $$J = \Gamma\, \mathrm{diag}\!\left(\partial f/\partial q\,(\varphi_k)\right)
 \Gamma^{-1}, \tag{12}$$
 
 exact for the N samples used: with κ_p the discrete Fourier coefficients of a stiffness
-series, Γ diag(k) Γ⁻¹ has the entries of a Toeplitz plus a Hankel matrix, so no product
-with Γ is ever formed. Its product with a vector takes the way of the residual, through
-the samples. */
+series, Γ diag(k) Γ⁻¹ has the entries of a Toeplitz plus a Hankel matrix. Its product with
+a vector goes through the samples, as the residual does. */
 #pragma once
 
 #include <Eigen/Core>
 #include <functional>
 #include <memory>
-#include <optional>
+#include <span>
 #include <type_traits>
 
 #include "balance/fourier_transform.hpp"
@@ -85,9 +84,9 @@ struct Problem {
                      Eigen::MatrixXd* stiffness)>
       force;
 
-  /** Instead of it, where the force depends on q̇ too. `rate`: N × d, q̇ at speed
-      `omega`; `slopes`, unless it is null: N × (2d² + d), ∂f_i/∂q_j in column i + d j,
-      then ∂f_i/∂q̇_j, then df_i/dω along q(φ). */
+  /** Instead of it, where the force depends on q̇, `rate`, N × d, too. `slopes`, unless
+      it is null: N × (2d² + d), ∂f_i/∂q_j in column i + d j, then ∂f_i/∂q̇_j, then df_i/dω
+      along q(φ). */
   std::function<void(const Eigen::MatrixXd& q, const Eigen::MatrixXd& rate, double omega,
                      Eigen::MatrixXd& force, Eigen::MatrixXd* slopes)>
       moving_force = {};
@@ -107,8 +106,7 @@ struct Problem {
 
 /** The block of M q̈ + D q̇ + K q + f(q) = Re(F e^{iωt}) for real d × d matrices and a
    complex load amplitude `load` on harmonic 1: Eq. 11 with jω in both diagonal entries
-   (D-12). For machines that follow CONTRIBUTING; the bearing's block is condensed to two
-   unknowns (bearing_problem.hpp). */
+   (D-12). */
 LinearBlock second_order_block(const Eigen::MatrixXd& mass,
                                const Eigen::MatrixXd& damping,
                                const Eigen::MatrixXd& stiffness,
@@ -117,7 +115,7 @@ LinearBlock second_order_block(const Eigen::MatrixXd& mass,
 /** Complex amplitude of harmonic `h` of a series, and back. */
 SmallVector amplitude(const Eigen::Ref<const Eigen::MatrixXd>& series, int h);
 void put_amplitude(Eigen::Ref<Eigen::MatrixXd> series, int h,
-                   const SmallVector& amplitude);
+                   const Eigen::Ref<const Eigen::VectorXcd>& amplitude);
 
 /** Calls `work` with `dofs` = 1 … 4, 6 or 8 as a std::integral_constant: small matrices
     of a size that the compiler knows are multiplied without loops. */
@@ -146,13 +144,10 @@ public:
   const Harmonics& harmonics() const { return harmonics_; }
   Eigen::Index unknowns() const { return residual_.size(); }
 
-  /** What `residual` evaluates beside the force; the stiffness can follow later, at the
-      price of another evaluation. */
-  enum class With { force, stiffness };
-
-  /** The residual R (Eq. 16, real: cosine and sine rows). */
+  /** The residual R (Eq. 16, real: cosine and sine rows). The stiffness is evaluated with
+      it; it can follow later, at the price of another evaluation. */
   const Eigen::VectorXd& residual(const Eigen::VectorXd& x, double omega,
-                                  With with = With::stiffness);
+                                  bool with_stiffness = true);
 
   /** Coefficients of the nonlinear force, d × (2m+1). */
   const Eigen::MatrixXd& force(const Eigen::VectorXd& x, double omega);
@@ -189,9 +184,6 @@ public:
   }
 
 private:
-  /** B_h at the point that was evaluated last, of a harmonic of the list. */
-  SmallMatrix b(int h) const;
-
   void refresh_blocks(double omega);
   bool at(const Eigen::VectorXd& x, double omega) const;
   void need_spectra(const Eigen::VectorXd& x, double omega);
@@ -199,8 +191,7 @@ private:
                const Eigen::Ref<const Eigen::MatrixXd>& series,
                const Eigen::MatrixXd& force, Eigen::VectorXd& sum) const;
   std::complex<double> conjugate_kappa(int p, Eigen::Index column) const;
-  void extend_spectrum(Eigen::Index column, const Images& images);
-  void fill_force_jacobian(int i, int j, Eigen::Index column, const Images& images,
+  void fill_force_jacobian(int i, int j, Eigen::Index column, std::span<const int> images,
                            Eigen::MatrixXd& jacobian);
   bool is_moving() const { return static_cast<bool>(problem_.moving_force); }
   void rate_samples(const Eigen::Ref<const Eigen::MatrixXd>& series,
@@ -210,7 +201,7 @@ private:
   Problem problem_;
   Harmonics harmonics_;
   int m_;  ///< how many vibrate
-  Images images_, part_images_;
+  Images images_;
   FourierTransform transform_;
   double omega_;
   /** A_h and B_h as real 2d × 2d blocks side by side, in the list's order, c, d × (2m+1),

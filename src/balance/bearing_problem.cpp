@@ -49,7 +49,7 @@ struct Varying {
     e^{iφ}) in y). */
 struct LoadedBody {
   Varying z;
-  std::array<Varying, 2> load = {};
+  std::array<Varying, 2> load;
 };
 
 bool is_loaded(Harmonic h, int turns)
@@ -57,26 +57,21 @@ bool is_loaded(Harmonic h, int turns)
   return h == Harmonic{0, 0} || h == Harmonic{static_cast<double>(turns), 0};
 }
 
-LoadedBody loaded(const Body& body, double gravity, double unbalance, double omega,
-                  int turns, Harmonic h, double order)
-{
-  const auto z = dynamic_stiffness(body, order * omega);
-  LoadedBody loaded{{z.value, order * z.slope}};
-  if (!is_loaded(h, turns)) return loaded;
-  const double moment = unbalance * turns * turns;
-  const Varying force{moment * omega * omega, 2 * moment * omega};
-  const Vec2 constant = body.static_load(gravity);
-  if (h == Harmonic{0, 0}) loaded.load = {Varying{constant.x, 0}, Varying{constant.y, 0}};
-  if (h == Harmonic{static_cast<double>(turns), 0})
-    loaded.load = {force, force * Varying{{0, -1}, 0}};
-  return loaded;
-}
-
 std::array<LoadedBody, 2> stator_and_rotor(const Parameters& p, double omega, Harmonic h)
 {
   const double order = order_of(h, p.bearing);
-  return {loaded(p.stator, p.gravity, 0, omega, p.turns, h, order),
-          loaded(p.rotor, p.gravity, p.unbalance, omega, p.turns, h, order)};
+  const auto loaded = [&](const Body& body) -> LoadedBody {
+    const auto [value, slope] = dynamic_stiffness(body, order * omega);
+    const Vec2 constant = h == Harmonic{0, 0} ? body.static_load(p.gravity) : Vec2{0, 0};
+    return {{value, order * slope}, {Varying{constant.x, 0}, Varying{constant.y, 0}}};
+  };
+  std::array<LoadedBody, 2> bodies{loaded(p.stator), loaded(p.rotor)};
+  if (h == Harmonic{static_cast<double>(p.turns), 0}) {
+    const double moment = p.unbalance * p.turns * p.turns;
+    const Varying force{moment * omega * omega, 2 * moment * omega};
+    bodies[1].load = {force, force * Varying{{0, -1}, 0}};
+  }
+  return bodies;
 }
 
 void put_isotropic(Complex value, SmallMatrix& matrix)
@@ -205,11 +200,9 @@ Problem bearing_problem(const Parameters& parameters, const TorusLine& line,
   return problem;
 }
 
-namespace {
-
 /** N samples of a relative displacement that depends on the rotor's angle. */
 template <class Displacement>
-Eigen::MatrixXd sampled(int samples, Displacement displacement)
+static Eigen::MatrixXd sampled(int samples, Displacement displacement)
 {
   Eigen::MatrixXd u(samples, 2);
   for (int k = 0; k < samples; ++k) {
@@ -218,8 +211,6 @@ Eigen::MatrixXd sampled(int samples, Displacement displacement)
   }
   return u;
 }
-
-}  // namespace
 
 Eigen::MatrixXd Machine::start_samples(const Parameters& parameters, double omega,
                                        int samples) const

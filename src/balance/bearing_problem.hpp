@@ -13,9 +13,7 @@ divided by σ = |Z_s Z_r| + k|Z_s + Z_r|, with k the stiffness of one loaded bal
 term is a length of the order of the penetration, for soft and stiff suspensions, low and
 high harmonics alike. These are A, B and c of Eq. 16 (balance.hpp) for two masses.
 
-Everything is written for two frequencies and for periods of several turns; where the
-force has the period of rotation, a harmonic is its number h and the bearing along the
-line is the bearing itself. */
+All is written for two frequencies and for periods of several turns. */
 #pragma once
 
 #include "balance/balance.hpp"
@@ -26,9 +24,8 @@ line is the bearing itself. */
 namespace rotor_stator {
 
 /** The bearing's problem: d = 2 unknowns u_x, u_y [m], of a large machine two for each
-    joint; N samples. Throws NoSolution when the force has not the period of rotation (n
-    ω_cage/ω not whole, D-11): no series in ω can solve it. Evaluations, transforms and
-    factorisations are paid for from `budget`. */
+    joint; N samples; paid for from `budget`. Throws NoSolution when the force has not the
+    period of rotation (n ω_cage/ω not whole, D-11): no series in ω can solve it. */
 Problem bearing_problem(const Parameters& parameters, int samples,
                         const OperationBudget& budget = {});
 
@@ -40,10 +37,9 @@ Problem bearing_problem(const Parameters& parameters, const TorusLine& line,
 void put_moving_force(const Parameters& parameters, const TorusLine& line,
                       Problem& problem);
 
-/** A start for Newton without any previous solution, 2 × (2m+1) coefficients as a vector:
-   the motion without contact where it stays inside the clearance; otherwise at each
-   instant the force that would hold both bodies together, answered quasi-statically by
-   one ball. */
+/** A start for Newton, 2 × (2m+1) coefficients as a vector: the motion without contact
+   where it stays inside the clearance; otherwise at each instant the force that would
+   hold both bodies together, answered quasi-statically by one ball. */
 Eigen::VectorXd quasi_static_start(const Parameters& parameters, double omega,
                                    int harmonics);
 

@@ -30,85 +30,61 @@ bool repeats_sooner(const PeriodicMotion& motion, int turns)
 }
 
 /** Newton from one start after the other. */
-class Finder {
-public:
-  explicit Finder(const BalanceSearch& search)
-      : search_(search), parameters_(over_turns(search.parameters, search.turns)),
-        balance_(
-            bearing_problem(parameters_, search.turns * search.samples, search.budget),
-            search.turns * search.harmonics)
-  {
-  }
+struct Finder {
+  const BalanceSearch& search;
+  Parameters parameters = over_turns(search.parameters, search.turns);
+  Balance balance{
+      bearing_problem(parameters, search.turns* search.samples, search.budget),
+      search.turns* search.harmonics};
+  PeriodicMotion motion = {};
 
   bool from(const std::string& name, const Eigen::VectorXd& x)
   {
-    const long before = motion_.force_samples;
-    motion_ = {
-        .omega = search_.omega / search_.turns,
-        .x = resize_harmonics(x, balance_.problem().dofs, balance_.harmonics().count()),
-        .start = name};
-    solve(balance_, motion_, search_.newton);
-    motion_.force_samples += before;
-    if (search_.turns > 1 && repeats_sooner(motion_, search_.turns))
-      motion_.newton.end = NewtonEnd::no_decrease;
-    if (motion_.found()) motion_.bodies = body_series(parameters_, motion_);
-    return motion_.found();
+    const long before = motion.force_samples;
+    motion =
+        solve(balance, search.omega / search.turns,
+              resize_harmonics(x, balance.problem().dofs, balance.harmonics().count()),
+              search.newton);
+    motion.start = name;
+    motion.force_samples += before;
+    if (search.turns > 1 && repeats_sooner(motion, search.turns))
+      motion.newton.end = NewtonEnd::no_decrease;
+    if (motion.found()) motion.bodies = body_series(parameters, motion);
+    return motion.found();
   }
-
-  bool from_given()
-  {
-    return std::ranges::any_of(search_.starts, [&](const Eigen::VectorXd& x) {
-      return from("a known motion", x);
-    });
-  }
-
-  /** Only its low harmonics mean much: with more than 128, Newton goes most of its way on
-      fewer. */
-  bool from_contact()
-  {
-    constexpr int most = 128;
-    const int m = search_.harmonics;
-    return m <= most && from("quasi-static contact",
-                             quasi_static_start(parameters_, search_.omega, m));
-  }
-
-  bool from_fewer()
-  {
-    constexpr int few = 64, least = 3;
-    BalanceSearch fewer = search_;
-    fewer.harmonics = std::min(search_.harmonics / 2, few);
-    if (fewer.harmonics < least) return false;
-    fewer.samples = default_samples(fewer.harmonics);
-    const PeriodicMotion start = find_near_contact(fewer);
-    motion_.force_samples += start.force_samples;
-    return start.found() && from("fewer harmonics", start.x);
-  }
-
-  PeriodicMotion motion() { return std::move(motion_); }
-
-private:
-  const BalanceSearch& search_;
-  Parameters parameters_;
-  Balance balance_;
-  PeriodicMotion motion_ = {};
 };
 
 }  // namespace
 
 PeriodicMotion find_near_contact(const BalanceSearch& search)
 {
-  Finder finder(search);
-  if (!finder.from_given() && search.turns == 1 && !finder.from_contact())
-    finder.from_fewer();
-  return finder.motion();
+  constexpr int most_from_contact = 128, few = 64, least = 3;
+  const int m = search.harmonics;
+  Finder finder{search};
+  for (const Eigen::VectorXd& x : search.starts)
+    if (finder.from("a known motion", x)) return finder.motion;
+  if (search.turns > 1) return finder.motion;
+  /** Only its low harmonics mean much: with more, Newton goes most of its way on fewer. */
+  if (m <= most_from_contact &&
+      finder.from("quasi-static contact",
+                  quasi_static_start(finder.parameters, search.omega, m)))
+    return finder.motion;
+  BalanceSearch fewer = search;
+  fewer.harmonics = std::min(m / 2, few);
+  if (fewer.harmonics < least) return finder.motion;
+  fewer.samples = default_samples(fewer.harmonics);
+  const PeriodicMotion start = find_near_contact(fewer);
+  finder.motion.force_samples += start.force_samples;
+  if (start.found()) finder.from("fewer harmonics", start.x);
+  return finder.motion;
 }
 
 PeriodicMotion find_from(const BalanceSearch& search, const std::string& name,
                          const Eigen::VectorXd& x)
 {
-  Finder finder(search);
+  Finder finder{search};
   finder.from(name, x);
-  return finder.motion();
+  return finder.motion;
 }
 
 }  // namespace rotor_stator

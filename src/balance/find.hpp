@@ -3,10 +3,9 @@
 
     PeriodicMotion six = find_near_contact({parameters, omega, 6});
 
-Newton's method finds the solution that is near its start. The starts are, in this order:
-given ones, as the solution at a neighbouring speed; quasi-static contact; the solution
-with fewer harmonics. Where none of them leads to a solution, motion/find_periodic has
-more. */
+The starts of Newton's method are, in this order: given ones, as the solution at a
+neighbouring speed; quasi-static contact; the solution with fewer harmonics.
+motion/find_periodic has more. */
 #pragma once
 
 #include <string>

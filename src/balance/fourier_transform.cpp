@@ -4,7 +4,6 @@
 #include <cmath>
 #include <complex>
 #include <mutex>
-#include <numeric>
 #ifdef ROTOR_STATOR_EIGEN_FFT
 #include <unsupported/Eigen/FFT>
 #else
@@ -24,8 +23,6 @@ struct FourierTransform::Plans {
   Engine engine{{}, Engine::Flag(Engine::HalfSpectrum | Engine::Unscaled)};
 
   explicit Plans(int n) : samples(n) {}
-  void plan_forward() {}
-  void plan_backward() {}
   double operations() const { return samples * (2.5 * std::log2(samples) + 5); }
   void forward() { engine.fwd(frequency.data(), time.data(), samples); }
   void backward() { engine.inv(time.data(), frequency.data(), samples); }
@@ -40,16 +37,12 @@ struct FftwFree {
 };
 
 /** FFTW's planner is shared by all threads; executing a plan is not. */
-std::mutex& planner()
-{
-  static std::mutex mutex;
-  return mutex;
-}
+std::mutex planner;
 
 struct DestroyPlan {
   void operator()(fftw_plan plan) const
   {
-    const std::lock_guard lock(planner());
+    const std::lock_guard lock(planner);
     fftw_destroy_plan(plan);
   }
 };
@@ -58,13 +51,13 @@ using Plan = std::unique_ptr<std::remove_pointer_t<fftw_plan>, DestroyPlan>;
 
 }  // namespace
 
-/** FFTW_ESTIMATE plans do not depend on timings: the same machine gives the same bits. */
+/** FFTW_ESTIMATE plans do not depend on timings: the same machine gives the same bits.
+    They are made when they are needed: many serve in one direction only. */
 struct FourierTransform::Plans {
   int samples;
   std::unique_ptr<double[], FftwFree> time;
   std::unique_ptr<std::complex<double>[], FftwFree> frequency;
-  Plan to_frequency,
-      to_time;  ///< made when they are needed: many serve in one direction only
+  Plan to_frequency, to_time;
 
   explicit Plans(int n)
       : samples(n), time(fftw_alloc_real(n)),
@@ -75,29 +68,30 @@ struct FourierTransform::Plans {
   void plan_forward()
   {
     if (to_frequency) return;
-    const std::lock_guard lock(planner());
+    const std::lock_guard lock(planner);
     to_frequency.reset(
         fftw_plan_dft_r2c_1d(samples, time.get(), spectrum(), FFTW_ESTIMATE));
   }
-  void plan_backward()
+  void forward()
   {
-    if (to_time) return;
-    const std::lock_guard lock(planner());
-    to_time.reset(fftw_plan_dft_c2r_1d(samples, spectrum(), time.get(), FFTW_ESTIMATE));
+    plan_forward();
+    fftw_execute(to_frequency.get());
   }
-  void forward() { fftw_execute(to_frequency.get()); }
-  void backward() { fftw_execute(to_time.get()); }
+  void backward()
+  {
+    if (!to_time) {
+      const std::lock_guard lock(planner);
+      to_time.reset(fftw_plan_dft_c2r_1d(samples, spectrum(), time.get(), FFTW_ESTIMATE));
+    }
+    fftw_execute(to_time.get());
+  }
   double operations()
   {
-    if (counted > 0) return counted;
     plan_forward();
     double additions, products, both;
     fftw_flops(to_frequency.get(), &additions, &products, &both);
-    return counted = additions + products + 2 * both + 5.0 * samples;
+    return additions + products + 2 * both + 5.0 * samples;
   }
-
-private:
-  double counted = 0;
 };
 
 #endif
@@ -134,24 +128,16 @@ std::multimap<int, std::unique_ptr<FourierTransform::Plans>>& FourierTransform::
 FourierTransform::FourierTransform(int samples)
 {
   auto waiting = idle().extract(samples);
-  plans_ =
-      waiting.empty() ? std::make_unique<Plans>(samples) : std::move(waiting.mapped());
+  plans_.reset(waiting.empty() ? new Plans(samples) : waiting.mapped().release());
 }
 
-FourierTransform::~FourierTransform()
+void FourierTransform::KeepForNext::operator()(Plans* plans) const
 {
   constexpr int longest = 1 << 14;
   constexpr std::size_t most = 64;
-  if (plans_ && plans_->samples <= longest && idle().size() < most)
-    idle().emplace(plans_->samples, std::move(plans_));
-}
-
-FourierTransform::FourierTransform(FourierTransform&&) noexcept = default;
-FourierTransform& FourierTransform::operator=(FourierTransform&&) noexcept = default;
-
-int FourierTransform::samples() const
-{
-  return plans_->samples;
+  std::unique_ptr<Plans> own(plans);
+  if (own->samples <= longest && idle().size() < most)
+    idle().emplace(own->samples, std::move(own));
 }
 
 double FourierTransform::operations() const
@@ -159,28 +145,10 @@ double FourierTransform::operations() const
   return plans_->operations();
 }
 
-namespace {
-
-/** Those of Eq. 9. */
-Images consecutive(Eigen::Index columns)
+/** Where harmonic h stands. */
+static Eigen::Index place(const Images& images, Eigen::Index h)
 {
-  Images images(static_cast<std::size_t>(columns / 2 + 1));
-  std::iota(images.begin(), images.end(), 0);
-  return images;
-}
-
-}  // namespace
-
-void FourierTransform::to_samples(const Eigen::Ref<const Eigen::MatrixXd>& series,
-                                  Eigen::MatrixXd& samples)
-{
-  to_samples(series, samples, consecutive(series.cols()));
-}
-
-void FourierTransform::to_series(const Eigen::MatrixXd& samples,
-                                 Eigen::Ref<Eigen::MatrixXd> series)
-{
-  to_series(samples, series, consecutive(series.cols()));
+  return images.empty() ? h : images[h];
 }
 
 void FourierTransform::to_samples(const Eigen::Ref<const Eigen::MatrixXd>& series,
@@ -189,13 +157,12 @@ void FourierTransform::to_samples(const Eigen::Ref<const Eigen::MatrixXd>& serie
   const int n = plans_->samples;
   const auto harmonics = (series.cols() - 1) / 2;
   std::complex<double>* spectrum = &plans_->frequency[0];
-  plans_->plan_backward();
   samples.resize(n, series.rows());
   for (Eigen::Index row = 0; row < series.rows(); ++row) {
     std::fill(spectrum + 1, spectrum + n / 2 + 1, 0.0);
     spectrum[0] = series(row, 0);
     for (Eigen::Index h = 1; h <= harmonics; ++h) {
-      const int p = images[h];
+      const Eigen::Index p = place(images, h);
       const double sine = series(row, 2 * h);
       spectrum[std::abs(p)] =
           0.5 * std::complex(series(row, 2 * h - 1), p < 0 ? sine : -sine);
@@ -213,7 +180,7 @@ void FourierTransform::to_series(const Eigen::MatrixXd& samples,
     const auto kappa = spectrum(samples.col(row));
     series(row, 0) = kappa[0].real();
     for (Eigen::Index h = 1; h <= harmonics; ++h) {
-      const int p = images[h];
+      const Eigen::Index p = place(images, h);
       const double sine = 2 * kappa[std::abs(p)].imag();
       series(row, 2 * h - 1) = 2 * kappa[std::abs(p)].real();
       series(row, 2 * h) = p < 0 ? sine : -sine;
@@ -225,7 +192,6 @@ Eigen::Map<const Eigen::VectorXcd> FourierTransform::spectrum(
     const Eigen::Ref<const Eigen::VectorXd>& column)
 {
   const int n = plans_->samples;
-  plans_->plan_forward();
   std::copy_n(column.data(), n, &plans_->time[0]);
   plans_->forward();
   Eigen::Map<Eigen::VectorXcd> kappa(&plans_->frequency[0], n / 2 + 1);
@@ -251,22 +217,6 @@ Eigen::MatrixXd differentiate(const Eigen::MatrixXd& series)
   return slope;
 }
 
-namespace {
-
-/** Half of the largest less the smallest value of a periodic sequence, both refined by
-    the parabola through their neighbours. */
-double refined_half_range(const double* samples, std::ptrdiff_t n)
-{
-  const auto [least, most] = std::minmax_element(samples, samples + n);
-  const auto height = [&](const double* at) {
-    const std::ptrdiff_t k = at - samples;
-    return vertex(samples[(k + n - 1) % n], *at, samples[(k + 1) % n]).height;
-  };
-  return 0.5 * (height(most) - height(least));
-}
-
-}  // namespace
-
 Vertex vertex(double before, double top, double after)
 {
   const double curvature = before - 2 * top + after;
@@ -275,27 +225,22 @@ Vertex vertex(double before, double top, double after)
   return {-slope / curvature, top - 0.5 * slope * slope / curvature};
 }
 
-FourierTransform amplitude_transform(int harmonics)
-{
-  return FourierTransform(fast_transform_size(std::max(256, 8 * (2 * harmonics + 1))));
-}
-
-Eigen::VectorXd half_peak_to_peak(const Eigen::MatrixXd& series,
-                                  FourierTransform& transform)
-{
-  Eigen::MatrixXd samples;
-  transform.to_samples(series, samples);
-  Eigen::VectorXd amplitude(series.rows());
-  for (Eigen::Index row = 0; row < series.rows(); ++row)
-    amplitude[row] = refined_half_range(samples.col(row).data(), samples.rows());
-  return amplitude;
-}
-
 Eigen::VectorXd half_peak_to_peak(const Eigen::MatrixXd& series)
 {
-  FourierTransform transform =
-      amplitude_transform(static_cast<int>(series.cols() - 1) / 2);
-  return half_peak_to_peak(series, transform);
+  const int n = fast_transform_size(std::max(256, 8 * static_cast<int>(series.cols())));
+  Eigen::MatrixXd samples;
+  FourierTransform(n).to_samples(series, samples);
+  Eigen::VectorXd amplitude(series.rows());
+  for (Eigen::Index row = 0; row < series.rows(); ++row) {
+    const auto x = samples.col(row);
+    const auto [least, most] = std::minmax_element(x.begin(), x.end());
+    const auto height = [&](auto at) {
+      const auto k = at - x.begin();
+      return vertex(x[(k + n - 1) % n], x[k], x[(k + 1) % n]).height;
+    };
+    amplitude[row] = 0.5 * (height(most) - height(least));
+  }
+  return amplitude;
 }
 
 }  // namespace rotor_stator

@@ -31,41 +31,30 @@ namespace rotor_stator {
 int fast_transform_size(int at_least);
 
 /** Samples per period for m harmonics when nothing else is asked (D-14): at least 8m+1,
-    2/3 m^{8/5} and 32. Sampling folds a spectrum that falls as k^{-5/2}, so its error
-    falls as N^{-5/2}; that of truncation as m^{-7/2} in the largest norm and as m^{-4} in
-    the rms about the mean. A fixed N/m loses an order or more; N ∝ m^{8/5} keeps both. Up
-    to m = 64, 8m+1 is larger and sampling adds less than truncation (figure `sampling`).
-    Beyond 2^17 the error of sampling is that of rounding. */
+    2/3 m^{8/5} and 32. The error of sampling falls as N^{-5/2}; that of truncation as
+    m^{-7/2} in the largest norm and as m^{-4} in the rms about the mean. A fixed N/m
+    loses an order or more; N ∝ m^{8/5} keeps both (figure `sampling`). Beyond 2^17 the
+    error of sampling is that of rounding. */
 int default_samples(int harmonics);
 
 /** Real transforms of one length N, with their buffers. */
 class FourierTransform {
 public:
   explicit FourierTransform(int samples);
-  ~FourierTransform();
-  FourierTransform(FourierTransform&&) noexcept;
-  FourierTransform& operator=(FourierTransform&&) noexcept;
-
-  int samples() const;
 
   /** Operations of one transform, with the copies around it: many where N has a large
       prime factor. */
   double operations() const;
 
   /** Γ⁻¹: series coefficients (rows = variables, columns = X_0, X_1, … X_2m) to samples
-      (rows = instants, columns = variables). N ≥ 2m+1. */
+      (rows = instants, columns = variables). N ≥ 2m+1. The harmonics are those of Eq. 9,
+      or stand at `images`, no two of which are the same or opposite. */
   void to_samples(const Eigen::Ref<const Eigen::MatrixXd>& series,
-                  Eigen::MatrixXd& samples);
-
-  /** The same for harmonics that stand at `images`, no two of which are the same or
-      opposite. */
-  void to_samples(const Eigen::Ref<const Eigen::MatrixXd>& series,
-                  Eigen::MatrixXd& samples, const Images& images);
+                  Eigen::MatrixXd& samples, const Images& images = {});
 
   /** Γ: samples to the coefficients of as many harmonics as `series` has columns for. */
-  void to_series(const Eigen::MatrixXd& samples, Eigen::Ref<Eigen::MatrixXd> series);
   void to_series(const Eigen::MatrixXd& samples, Eigen::Ref<Eigen::MatrixXd> series,
-                 const Images& images);
+                 const Images& images = {});
 
   /** The discrete Fourier coefficients κ_p = (1/N) Σ_k x(φ_k) e^{-ipφ_k}, p = 0…N/2, of
      one column of samples; valid until the next call. */
@@ -74,8 +63,11 @@ public:
 
 private:
   struct Plans;
+  struct KeepForNext {
+    void operator()(Plans* plans) const;
+  };
   static std::multimap<int, std::unique_ptr<Plans>>& idle();
-  std::unique_ptr<Plans> plans_;
+  std::unique_ptr<Plans, KeepForNext> plans_;
 };
 
 /** Samples of a series at `points` equal phases of one period, for any number of points.
@@ -91,13 +83,8 @@ struct Vertex {
 };
 Vertex vertex(double before, double top, double after);
 
-/** The transform of the next function for m harmonics, planned once for many series. */
-FourierTransform amplitude_transform(int harmonics);
-
 /** Half peak-to-peak of each row of a series over the period, the extremes refined by a
    parabola through three samples. */
-Eigen::VectorXd half_peak_to_peak(const Eigen::MatrixXd& series,
-                                  FourierTransform& transform);
 Eigen::VectorXd half_peak_to_peak(const Eigen::MatrixXd& series);
 
 }  // namespace rotor_stator

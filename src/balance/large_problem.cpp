@@ -1,5 +1,16 @@
-#include "balance/large_problem.hpp"
+/**
+# Bodies given by matrices as a harmonic-balance problem
 
+However large the bodies, the balance has two unknowns per harmonic and bearing. Per
+harmonic of frequency Ω all n unknowns condense exactly to the relative displacements u =
+Dᵀq of the b bearings,
+
+$$(I - k H)\, u_h + H F_h(u) = D^T S^{-1} p_h, \qquad H = D^T S^{-1} D,\qquad
+S = K + k D D^T - \Omega^2 M + i\Omega\,(C + \omega G),$$
+
+for any spring k that is added to the bearings and taken off their forces. Here it is k_0
+at rest and k_0(1 + i) for a vibration, so that no resonance of the bodies with k_0,
+however little damped, makes S singular. */
 #include <Eigen/LU>
 #include <algorithm>
 #include <cmath>
@@ -7,6 +18,7 @@
 
 #include "balance/bearing_problem.hpp"
 #include "io/errors.hpp"
+#include "model/large_machine.hpp"
 
 namespace rotor_stator {
 
@@ -20,29 +32,19 @@ struct HarmonicAlone {
   Complex spring;
   Eigen::PartialPivLU<Eigen::MatrixXcd> factors;
   Eigen::VectorXcd load, load_slope;
-};
 
-HarmonicAlone harmonic_of(const LargeBodies& machine, const Parameters& p, double omega,
-                          Harmonic h)
-{
-  const double order = order_of(h, p.bearing), frequency = order * omega;
-  const double speed = rotor_speed(p, omega), per_omega = rotor_speed(p, 1);
-  const Complex spring = machine.damped_spring(order);
-  Eigen::VectorXcd load = Eigen::VectorXcd::Zero(machine.load.size()), slope = load;
-  if (h == Harmonic{0, 0}) load = machine.load;
-  if (h == Harmonic{static_cast<double>(p.turns), 0}) {
+  HarmonicAlone(const LargeBodies& machine, const Parameters& p, double omega, Harmonic h)
+      : order(order_of(h, p.bearing)), frequency(order * omega),
+        speed(rotor_speed(p, omega)), spring(machine.damped_spring(order)),
+        factors(machine.dynamic_stiffness(spring, frequency, speed)),
+        load(Eigen::VectorXcd::Zero(machine.load.size())), load_slope(load)
+  {
+    if (h == Harmonic{0, 0}) load = machine.load;
+    if (h != Harmonic{static_cast<double>(p.turns), 0}) return;
     load = speed * speed * machine.unbalance;
-    slope = 2 * speed * per_omega * machine.unbalance;
+    load_slope = 2 * speed * rotor_speed(p, 1) * machine.unbalance;
   }
-  return {order,
-          frequency,
-          speed,
-          spring,
-          Eigen::PartialPivLU<Eigen::MatrixXcd>(
-              machine.dynamic_stiffness(spring, frequency, speed)),
-          load,
-          slope};
-}
+};
 
 /** The first coordinates, which are shown, as unit forces on the joints (held by k) and
     the loads move them; derivatives with respect to ω. */
@@ -55,7 +57,7 @@ struct Answers {
 Answers exact_answers(const LargeBodies& machine, const Parameters& p, double omega,
                       Harmonic h)
 {
-  const HarmonicAlone at = harmonic_of(machine, p, omega, h);
+  const HarmonicAlone at(machine, p, omega, h);
   const auto n = machine.mass.rows();
   const Eigen::MatrixXcd x = at.factors.solve(machine.joints.cast<Complex>());
   const Eigen::VectorXcd driven = at.factors.solve(at.load);
@@ -227,13 +229,11 @@ Eigen::MatrixXd MatrixMachine::start_samples(const Parameters& parameters, doubl
   return u;
 }
 
-namespace {
-
 /** Of q_h = `answer`(h, push), where push(k) are the amplitudes of the bearings' forces
     with the spring k taken off. */
 template <class Answer>
-Eigen::MatrixXd series_of(const PeriodicMotion& motion, Eigen::Index joints,
-                          Eigen::Index rows, Answer answer)
+static Eigen::MatrixXd series_of(const PeriodicMotion& motion, Eigen::Index joints,
+                                 Eigen::Index rows, Answer answer)
 {
   const auto columns = motion.harmonics.coefficients();
   const Eigen::Map<const Eigen::MatrixXd> u(motion.x.data(), joints, columns);
@@ -242,14 +242,10 @@ Eigen::MatrixXd series_of(const PeriodicMotion& motion, Eigen::Index joints,
     const auto push = [&](Complex spring) -> Eigen::VectorXcd {
       return amplitude(motion.force, h) - spring * amplitude(u, h);
     };
-    const Eigen::VectorXcd q = answer(motion.harmonics.list()[h], push);
-    series.col(h == 0 ? 0 : 2 * h - 1) = q.real();
-    if (h > 0) series.col(2 * h) = -q.imag();
+    put_amplitude(series, h, answer(motion.harmonics.list()[h], push));
   }
   return series;
 }
-
-}  // namespace
 
 Eigen::MatrixXd MatrixMachine::shown_series(const Parameters& parameters,
                                             const PeriodicMotion& motion) const
@@ -265,11 +261,11 @@ Eigen::MatrixXd MatrixMachine::all_series(const Parameters& parameters,
                                           const PeriodicMotion& motion) const
 {
   const Eigen::MatrixXd& d = bodies_.joints;
-  return series_of(
-      motion, d.cols(), d.rows(), [&](Harmonic h, auto push) -> Eigen::VectorXcd {
-        const HarmonicAlone at = harmonic_of(bodies_, parameters, motion.omega, h);
-        return at.factors.solve(at.load - d * push(at.spring));
-      });
+  return series_of(motion, d.cols(), d.rows(),
+                   [&](Harmonic h, auto push) -> Eigen::VectorXcd {
+                     const HarmonicAlone at(bodies_, parameters, motion.omega, h);
+                     return at.factors.solve(at.load - d * push(at.spring));
+                   });
 }
 
 }  // namespace rotor_stator

@@ -98,23 +98,16 @@ int largest_low(const Balance& balance)
 
 }  // namespace
 
-/** Of the dense block. */
-int BalanceSolver::low_harmonics(const Eigen::VectorXd& x) const
+void BalanceSolver::factor(const Eigen::VectorXd& x, double omega)
 {
-  const int all = balance_.harmonics().count();
-  int low = all;
+  const int two = 2 * balance_.problem().dofs, all = balance_.harmonics().count();
+  low_ = all;
   if (!is_dense_ && all > least_low_ && balance_.unknowns() > most_direct_unknowns) {
-    low = std::min(balance_.highest_coupled(x, omega, weak_coupling), most_low);
-    low = std::max(least_low_, low);
-    if (low >= most_low_share * all) low = all;
+    low_ = std::min(balance_.highest_coupled(x, omega, weak_coupling), most_low);
+    low_ = std::max(least_low_, low_);
+    if (low_ >= most_low_share * all) low_ = all;
   }
-  return std::min(low, largest_low(balance_));
-}
-
-void BalanceSolver::factor(const Eigen::VectorXd& x)
-{
-  const int two = 2 * balance_.problem().dofs;
-  low_ = low_harmonics(x);
+  low_ = std::min(low_, largest_low(balance_));
   balance_.jacobian(x, omega, low_, jacobian_);
   factors_.compute(jacobian_);
   balance_.diagonal_blocks(x, omega, low_ + 1, high_inverses_);
@@ -146,11 +139,11 @@ void BalanceSolver::refresh()
   if (balance_.unknowns() <= most_direct_unknowns) is_factored_ = false;
 }
 
-Solved BalanceSolver::solve(const Eigen::VectorXd& x, const Eigen::VectorXd& b,
-                            double goal, Eigen::VectorXd& s)
+Solved BalanceSolver::solve(const Eigen::VectorXd& x, double omega,
+                            const Eigen::VectorXd& b, double goal, Eigen::VectorXd& s)
 {
   const bool are_new = !is_factored_;
-  if (are_new) factor(x);
+  if (are_new) factor(x, omega);
   const Eigen::Index n = b.size(), dense = jacobian_.rows();
   if (dense == n && (are_new || n <= most_direct_unknowns)) {
     s = factors_.solve(b);
@@ -177,7 +170,7 @@ Solved BalanceSolver::solve(const Eigen::VectorXd& x, const Eigen::VectorXd& b,
     if (low_ >= largest_low(balance_)) return Solved::poorly;
     least_low_ = 2 * low_;
   }
-  return solve(x, b, goal, s);
+  return solve(x, omega, b, goal, s);
 }
 
 }  // namespace rotor_stator

@@ -4,9 +4,8 @@
 ## GMRES
 
 The generalised minimal residual method of Saad and Schultz (1986), preconditioned from
-the right, so that its residual is that of the equations. Eigen's own (unsupported) takes
-a relative tolerance only, allocates at each call and wants the operator dressed as a
-sparse matrix. */
+the right, so that its residual is that of the equations. Eigen's (unsupported) takes a
+relative tolerance only and allocates at each call. */
 #pragma once
 
 #include <Eigen/Core>
@@ -46,33 +45,19 @@ private:
 ## LU where it fits, else GMRES
 
     BalanceSolver solver(balance);
-    solver.omega = omega;
-    solver.solve(x, balance.residual(x, omega), goal, step);  // (A + B J) step = R
+    solver.solve(x, omega, balance.residual(x, omega), goal, step);  // (A + B J) step = R
 
 With few harmonics the Jacobian is factored whole. With more, GMRES solves with its
-product, m log m operations an iteration. What preconditions it are the factors of a dense
-block, of the low harmonics, which the contact couples, and above it one small inverse per
-harmonic, with the contact's mean stiffness, where inertia decides. Factors are kept from
-call to call until they need too many iterations. */
+product, m log m operations an iteration, preconditioned by the factors of a dense block
+of the low harmonics, which the contact couples, and above it by one small inverse per
+harmonic, with the contact's mean stiffness. Factors are kept until they need too many
+iterations. */
 
 /** How a solution was found: by the factors of this point; by those of an earlier one,
     which leaves an error of their distance; by GMRES; or not, by GMRES. */
 enum class Solved { directly, by_old_factors, iteratively, poorly };
 
-/** J s = b at the points that an iteration passes. */
-class LinearSolver {
-public:
-  virtual ~LinearSolver() = default;
-
-  /** Solves J(x) `s` = `b`; by iteration until ‖b - J s‖ ≤ `goal`. */
-  virtual Solved solve(const Eigen::VectorXd& x, const Eigen::VectorXd& b, double goal,
-                       Eigen::VectorXd& s) = 0;
-
-  /** Old factors are no solution any more; they may still precondition. */
-  virtual void refresh() = 0;
-};
-
-class BalanceSolver : public LinearSolver {
+class BalanceSolver {
 public:
   /** With `is_dense` all harmonics are in the dense block, however many. */
   explicit BalanceSolver(Balance& balance, bool is_dense = false)
@@ -80,18 +65,18 @@ public:
   {
   }
 
-  double omega = 0;  ///< of the balance [rad/s]
+  /** Solves J `s` = `b` at the point (x, ω); by iteration until ‖b - J s‖ ≤ `goal`. */
+  Solved solve(const Eigen::VectorXd& x, double omega, const Eigen::VectorXd& b,
+               double goal, Eigen::VectorXd& s);
 
-  Solved solve(const Eigen::VectorXd& x, const Eigen::VectorXd& b, double goal,
-               Eigen::VectorXd& s) override;
-  void refresh() override;
+  /** Old factors are no solution any more; they may still precondition. */
+  void refresh();
 
   long factorisations() const { return factorisations_; }
   long iterations() const { return iterations_; }
 
 private:
-  void factor(const Eigen::VectorXd& x);
-  int low_harmonics(const Eigen::VectorXd& x) const;
+  void factor(const Eigen::VectorXd& x, double omega);
   void precondition(const Eigen::VectorXd& r, Eigen::VectorXd& z) const;
 
   Balance& balance_;

@@ -36,29 +36,26 @@ std::string NewtonReport::reason() const
 {
   constexpr const char* ends[] = {"converged", "iterations exhausted",
                                   "no step decreases the residual", "no finite step"};
-  const std::string numbers =
-      std::isfinite(delta_1) && std::isfinite(delta_2)
-          ? format(" after %d iterations (residual %.1e, step %.1e)", iterations, delta_1,
-                   delta_2)
-          : format(" after %d iterations (residual or step not finite)", iterations);
-  return ends[static_cast<int>(end)] + numbers;
+  const bool is_finite = std::isfinite(delta_1) && std::isfinite(delta_2);
+  return format("%s after %d iterations (", ends[static_cast<int>(end)], iterations) +
+         (is_finite ? format("residual %.1e, step %.1e)", delta_1, delta_2)
+                    : "residual or step not finite)");
 }
 
 Eigen::VectorXd project(const Eigen::VectorXd& x, int dofs, const Harmonics& from,
                         const Harmonics& to)
 {
   std::map<std::pair<double, double>, Eigen::Index> place;
-  for (const auto& [k_1, k_2] : from.list()) {
-    const auto h = static_cast<Eigen::Index>(place.size());
-    place[{k_1, k_2}] = h;
-  }
-  const auto first = [&](Eigen::Index h) { return h == 0 ? 0 : (2 * h - 1) * dofs; };
+  for (Eigen::Index h = 0; const auto& [k_1, k_2] : from.list()) place[{k_1, k_2}] = h++;
+  const auto part = [dofs](auto& coefficients, Eigen::Index h) {
+    return coefficients.segment(h == 0 ? 0 : (2 * h - 1) * dofs,
+                                h == 0 ? dofs : 2 * dofs);
+  };
   Eigen::VectorXd y = Eigen::VectorXd::Zero(to.coefficients() * dofs);
-  for (Eigen::Index h = 0; h <= to.count(); ++h) {
-    const auto& [k_1, k_2] = to.list()[static_cast<std::size_t>(h)];
+  for (Eigen::Index h = 0; const auto& [k_1, k_2] : to.list()) {
     const auto at = place.find({k_1, k_2});
-    const Eigen::Index size = h == 0 ? dofs : 2 * dofs;
-    if (at != place.end()) y.segment(first(h), size) = x.segment(first(at->second), size);
+    if (at != place.end()) part(y, h) = part(x, at->second);
+    ++h;
   }
   return y;
 }

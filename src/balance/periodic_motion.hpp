@@ -2,8 +2,7 @@
 # A periodic motion
 
 What one method hands on to the next: a speed, the coefficients of the relative motion at
-a list of harmonics, and what is known of how they were found and how far they are from
-the exact motion. */
+a list of harmonics, and how they were found. */
 #pragma once
 
 #include <Eigen/Core>

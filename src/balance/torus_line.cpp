@@ -24,12 +24,10 @@ double order_of(Harmonic h, const Bearing& bearing)
   return h.k_1 + h.k_2 * passages_per_turn(bearing);
 }
 
-namespace {
-
 /** One of each pair of opposite ones, that of positive order, ascending after the
     mean. */
-Harmonics ascending(const std::set<std::pair<double, double>>& pairs,
-                    const Bearing& bearing)
+static Harmonics ascending(const std::set<std::pair<double, double>>& pairs,
+                           const Bearing& bearing)
 {
   std::vector<Harmonic> list;
   for (const auto& [k_1, k_2] : pairs) {
@@ -42,8 +40,6 @@ Harmonics ascending(const std::set<std::pair<double, double>>& pairs,
   std::rotate(list.begin(), mean, mean + 1);
   return Harmonics(std::move(list));
 }
-
-}  // namespace
 
 Harmonics orders_up_to(int m, const Bearing& bearing)
 {

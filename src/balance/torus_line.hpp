@@ -7,13 +7,13 @@ number, the motion is sought as
 
 $$x = \sum_{(k_1, k_2)} x_{k_1 k_2}\, e^{i (k_1 \theta_1 + k_2 \theta_2)}.$$
 
-Its coefficients, and those of the force at them, do not depend on the two frequencies, so
-that the samples may be taken along any closed line θ_2 = z θ_1 with z whole: there the
-harmonic (k_1, k_2) is the harmonic k_1 + z k_2 of one real transform (artificial
-frequency mapping: Kundert 1990; a rank-1 lattice: Kämmerer, Potts and Volkmer 2015). The
-true frequencies k_1 ω + k_2 n ω_cage enter the linear blocks alone. N samples tell two
-harmonics apart unless one is an image of the other: h' = ±h modulo N. A motion that has
-doubled also has halves of k_1 and k_2: the line then closes after two turns. */
+The coefficients of the force at a motion do not depend on the two frequencies, so that
+samples may be taken along any closed line θ_2 = z θ_1 with z whole: there the harmonic
+(k_1, k_2) is the harmonic k_1 + z k_2 of one real transform (artificial frequency
+mapping: Kundert 1990; a rank-1 lattice: Kämmerer, Potts and Volkmer 2015). The true
+frequencies enter the linear blocks alone. N samples tell two harmonics apart unless one
+is an image of the other: h' = ±h modulo N. A motion that has doubled also has halves of
+k_1 and k_2: the line then closes after two turns. */
 #pragma once
 
 #include "balance/periodic_motion.hpp"

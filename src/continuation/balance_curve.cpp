@@ -4,8 +4,7 @@ namespace rotor_stator {
 
 Eigen::VectorXd BalanceCurve::residual(const Eigen::VectorXd& y, bool with_slope)
 {
-  using With = Balance::With;
-  return balance_.residual(x(y), omega(y), with_slope ? With::stiffness : With::force);
+  return balance_.residual(x(y), omega(y), with_slope);
 }
 
 Eigen::MatrixXd BalanceCurve::slope(const Eigen::VectorXd& y)

@@ -197,7 +197,7 @@ public:
                           found.harmonics)
                 : Balance(bearing_problem(task.parameters, task.samples, task.budget),
                           task.harmonics)),
-        curve_(balance_, task.settings), transform_(amplitude_transform(task.harmonics)),
+        curve_(balance_, task.settings),
         lines_("Lines of the motions along the branch", line_columns)
   {
     describe(lines_, task.machine);
@@ -251,7 +251,7 @@ private:
   {
     return task_.has_two_frequencies
                ? motion::half_peak_to_peak_of_torus(task_.machine, motion)
-               : half_peak_to_peak(body_series(task_.parameters, motion), transform_);
+               : half_peak_to_peak(body_series(task_.parameters, motion));
   }
 
   BranchStability multipliers_of(const Branch& branch, std::size_t number);
@@ -265,7 +265,6 @@ private:
   bool has_further_;  ///< columns that need the instants
   Balance balance_;
   BalanceCurve curve_;
-  FourierTransform transform_;
   Table lines_;  ///< of the followed branch, where they are asked for
   Branch main_;
   std::vector<IsolatedBranch> beside_;

@@ -118,7 +118,6 @@ void iterate(benchmark::State& state, bool fresh)
 {
   Solved solved(state);
   BalanceSolver solver(solved.balance);
-  solver.omega = omega;
   const double scale = solved.balance.problem().residual_scale;
   const Eigen::VectorXd points[] = {(1 + 1e-6) * solved.x, (1 + 2e-6) * solved.x};
   Eigen::VectorXd residual, step;
@@ -127,7 +126,7 @@ void iterate(benchmark::State& state, bool fresh)
     const Eigen::VectorXd& x = points[++k % 2];
     if (fresh) solver.refresh();
     residual = solved.balance.residual(x, omega);
-    solver.solve(x, residual, 1e-4 * scale, step);
+    solver.solve(x, omega, residual, 1e-4 * scale, step);
     benchmark::DoNotOptimize(step.data());
   }
 }
