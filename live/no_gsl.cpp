@@ -4,10 +4,9 @@
 
 namespace rotor_stator {
 
-const std::vector<std::string>& gsl_methods()
+std::vector<std::string> gsl_methods()
 {
-  static const std::vector<std::string> none;
-  return none;
+  return {};
 }
 
 std::unique_ptr<Flow> gsl_flow(const Parameters&, double, const StepSettings& settings)

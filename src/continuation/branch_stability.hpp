@@ -23,7 +23,7 @@ Kuznetsov (2004), sections 10.2 and 10.3. */
 #include <string>
 
 #include "continuation/branch.hpp"
-#include "time/floquet.hpp"
+#include "time/period_map.hpp"
 
 namespace rotor_stator {
 

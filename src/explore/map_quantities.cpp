@@ -10,7 +10,7 @@
 #include "motion/contact.hpp"
 #include "motion/find_periodic.hpp"
 #include "motion/judge.hpp"
-#include "time/floquet.hpp"
+#include "time/period_map.hpp"
 
 namespace rotor_stator::explore {
 

@@ -15,7 +15,7 @@ the eight phases is left out where Newton's corrections shrink at once.
 #pragma once
 
 #include "motion/motion.hpp"
-#include "time/floquet.hpp"
+#include "time/period_map.hpp"
 #include "time/settle.hpp"
 #include "time/shooting.hpp"
 

@@ -123,6 +123,9 @@ std::vector<Regime> regimes_of(const Parameters& parameters,
                                const std::vector<double>& frequencies,
                                const RegimeSettings& settings)
 {
+  /** A chaotic motion is another one after so little a change of the speed, as it is on
+      another processor; no other motion changes visibly. */
+  constexpr double other_rounding = 1e-11;
   std::vector<SteadyRun> runs;
   for (const double frequency : frequencies)
     for (const double speed : {frequency, frequency * (1 + other_rounding)})

@@ -6,13 +6,15 @@ Ordinary Differential Equations I, second edition, Springer 1993, II.5 and II.10
 */
 #pragma once
 
+#include <array>
+
 namespace rotor_stator::dop853 {
 
 inline constexpr int stages = 12;
 
-/** Row i: the weights of the slopes before stage i; the last row gives the state after
-    the step. */
-inline constexpr double weights[stages + 1][stages]{
+/** Row i: the weights of the slopes before stage i; then those that give the state after
+    the step, and its error by the estimate of order 5. */
+inline constexpr double weights[stages + 2][stages]{
     {},
     {5.260015195876773187855e-2},
     {1.972505698453789945445e-2, 5.917517095361369836337e-2},
@@ -39,8 +41,21 @@ inline constexpr double weights[stages + 1][stages]{
      -8.872856933530629544335, 1.236056717579430306472e1, 6.433927460157635303559e-1},
     {5.429373411656876223805e-2, 0, 0, 0, 0, 4.450312892752408881441,
      1.891517899314500383042, -5.801203960010584781467, 3.111643669578198944089e-1,
-     -1.521609496625160785561e-1, 2.013654008040303483747e-1,
-     4.471061572777259051768e-2}};
+     -1.521609496625160785561e-1, 2.013654008040303483747e-1, 4.471061572777259051768e-2},
+    {1.312004499419488073250e-2, 0, 0, 0, 0, -1.225156446376204440720,
+     -4.957589496572501915214e-1, 1.664377182454986536961, -3.503288487499736816886e-1,
+     3.341791187130174790297e-1, 8.192320648511571246570e-2,
+     -2.235530786388629525884e-2}};
+inline constexpr auto& error_5 = weights[stages + 1];
+
+/** By the estimate of order 3. */
+inline constexpr auto error_3 = [] {
+  auto row = std::to_array(weights[stages]);
+  row[0] -= 0.2440944881889763779527;
+  row[8] -= 0.7338466882816118573413;
+  row[11] -= 2.205882352941176470588e-2;
+  return row;
+}();
 
 /** The instants of the stages, in a step of length 1: the sums of the rows. */
 inline constexpr double nodes[stages]{0,
@@ -55,31 +70,5 @@ inline constexpr double nodes[stages]{0,
                                       0.6,
                                       6. / 7,
                                       1};
-
-/** Weights of the slopes in the error estimates. */
-inline constexpr double error_5[stages]{1.312004499419488073250e-2,
-                                        0,
-                                        0,
-                                        0,
-                                        0,
-                                        -1.225156446376204440720,
-                                        -4.957589496572501915214e-1,
-                                        1.664377182454986536961,
-                                        -3.503288487499736816886e-1,
-                                        3.341791187130174790297e-1,
-                                        8.192320648511571246570e-2,
-                                        -2.235530786388629525884e-2};
-inline constexpr double error_3[stages]{weights[stages][0] - 0.2440944881889763779527,
-                                        0,
-                                        0,
-                                        0,
-                                        0,
-                                        weights[stages][5],
-                                        weights[stages][6],
-                                        weights[stages][7],
-                                        weights[stages][8] - 0.7338466882816118573413,
-                                        weights[stages][9],
-                                        weights[stages][10],
-                                        weights[stages][11] - 2.205882352941176470588e-2};
 
 }  // namespace rotor_stator::dop853

@@ -46,9 +46,8 @@ FixedStep::FixedStep(const Parameters& parameters, double omega, int intervals,
       is_general_(!has_intact_hertz_alone(parameters)), budget_(std::move(budget))
 {
   half_ = turns_.by(0.5 / (static_cast<double>(intervals) * steps_));
-  if (rule == Rule::splitting)
-    std::ranges::transform(drifts, drifts_.begin(),
-                           [this](double share) { return drift_of(share); });
+  for (std::size_t k = 0; rule == Rule::splitting && k < drifts.size(); ++k)
+    drifts_[k] = drift_of(drifts[k]);
 }
 
 FixedStep::Drift<double> FixedStep::drift_of(double share) const
@@ -192,52 +191,23 @@ struct FixedStep::Row {
     drift_by(drift[0]);
   }
 
+  /** In registers as wide as the row, or those of the next width. */
   template <Work work>
-  IN_PLACE void advance(long steps)
+  void advance(long steps)
   {
-    for (long k = 0; k < steps; ++k)
-      if constexpr (work == Work::splitting)
-        step_of_splitting();
-      else
-        step_of_rk4<work == Work::rk4_damped>();
+    const Registers registers = lanes_in<Number> > 4
+                                    ? Registers::avx512
+                                    : std::min(widest_registers(), Registers::avx2);
+    in_registers(
+        registers, [&]() __attribute__((always_inline)) {
+          for (long k = 0; k < steps; ++k)
+            if constexpr (work == Work::splitting)
+              step_of_splitting();
+            else
+              step_of_rk4<work == Work::rk4_damped>();
+        });
   }
 };
-
-namespace {
-
-/** One function for each kind of registers: what it calls is a part of it. */
-template <FixedStep::Work work, class Row>
-void advance_plain(Row& row, long steps)
-{
-  row.template advance<work>(steps);
-}
-
-#ifdef HAS_WIDE_REGISTERS
-template <FixedStep::Work work, class Row>
-__attribute__((target("avx2"))) void advance_avx2(Row& row, long steps)
-{
-  row.template advance<work>(steps);
-}
-
-template <FixedStep::Work work, class Row>
-__attribute__((target("avx512f"))) void advance_avx512(Row& row, long steps)
-{
-  row.template advance<work>(steps);
-}
-#endif
-
-template <FixedStep::Work work, class Row>
-void advance_by(Row& row, long steps)
-{
-#ifdef HAS_WIDE_REGISTERS
-  constexpr auto width = sizeof(row.h) / sizeof(double);
-  if constexpr (width > 4) return advance_avx512<work>(row, steps);
-  if (widest_registers() >= Registers::avx2) return advance_avx2<work>(row, steps);
-#endif
-  advance_plain<work>(row, steps);
-}
-
-}  // namespace
 
 static FixedStep& flow_of(const Passage& one)
 {
@@ -270,9 +240,9 @@ void FixedStep::advance_lanes(std::span<const Passage> passages)
       if (one.path) steps = std::min(steps, flow.steps_ - done[l] % flow.steps_);
     }
     switch (work) {
-      case Work::rk4: advance_by<Work::rk4>(row, steps); break;
-      case Work::rk4_damped: advance_by<Work::rk4_damped>(row, steps); break;
-      case Work::splitting: advance_by<Work::splitting>(row, steps); break;
+      case Work::rk4: row.template advance<Work::rk4>(steps); break;
+      case Work::rk4_damped: row.template advance<Work::rk4_damped>(steps); break;
+      case Work::splitting: row.template advance<Work::splitting>(steps); break;
     }
     is_under_way = false;
     for (int l = 0; l < width; ++l) {

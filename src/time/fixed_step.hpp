@@ -4,23 +4,21 @@
 `rk4` is the classical Runge-Kutta method, the paper's rival: four evaluations of Eq. 7 in
 a step. `splitting` is the symmetric splitting S_6 of order 4 of Blanes and Moan [1]: Eq.
 7 falls into a drift, q̇ = v and v̇ = -(c/m) v, and a kick, v̇ = a(q, t), both solved
-exactly. Seven drifts and six kicks, each an evaluation, make a step that may be four
-times as long as that of rk4 at the same error. And it takes nothing of the contact's
-vibration, where rk4 takes (hω)⁶/144 of the amplitude in each step h. It is of Hertz's
-contact alone, intact and undamped (`is_elastic_hertz`).
+exactly. A step of seven drifts and six kicks, each an evaluation, may be four times as
+long as that of rk4 at the same error, and damps no vibration of the contact, where rk4
+takes (hω)⁶/144 of the amplitude in each step h. It is of Hertz's contact alone, intact
+and undamped (`is_elastic_hertz`).
 
-The directions of rotor and cage go on by complex products and are computed anew after at
-most 128 steps, so that a step has no sine or cosine. The step divides the output
-interval.
+The step divides the output interval. The directions of rotor and cage go on by complex
+products and are computed anew after at most 128 steps.
 
     FixedStep rk4(parameters, omega, 64, default_step(parameters), Rule::rk4);
     State state = static_start(parameters);
     rk4.advance(0, state);                  // over the first of 64 intervals
 
-Several motions take much less than several times as long where their numbers lie side by
-side in the registers of the processor. Each has its own machine, speed, step and phase,
-and the bits that it has alone. Who has several motions asks for them by
-time/side_by_side.hpp.
+Several motions are fastest where their numbers lie side by side in the registers of the
+processor (side_by_side.hpp). Each has its own machine, speed, step and phase, and the
+bits that it has alone.
 
 [1] S. Blanes, P. C. Moan, Practical symplectic partitioned Runge-Kutta and
 Runge-Kutta-Nyström methods, J. Comput. Appl. Math. 142 (2002) 313-330. */
@@ -35,9 +33,8 @@ Runge-Kutta-Nyström methods, J. Comput. Appl. Math. 142 (2002) 313-330. */
 
 namespace rotor_stator {
 
-/** One step of length `h` of q̈ = a(q, q̇, t) in Nyström's form of the classical rule:
-    the four slopes of q are speeds that the slopes of q̇ already hold. `at`: begin,
-    middle and end of the step. */
+/** One step of length `h` of q̈ = a(q, q̇, t) in Nyström's form of the classical rule.
+    `at`: begin, middle and end of the step. */
 template <class Length, class Q, class At, class Acceleration>
 void nystrom_step(Length h, const At* at, Q& q, Q& v, const Acceleration& acceleration)
 {
@@ -50,6 +47,32 @@ void nystrom_step(Length h, const At* at, Q& q, Q& v, const Acceleration& accele
   const Q a_4 = acceleration(q + h * v_3, v_4, at[2]);
   q = q + h / 6 * (v + 2 * v_2 + 2 * v_3 + v_4);
   v = v + h / 6 * (a_1 + 2 * a_2 + 2 * a_3 + a_4);
+}
+
+#ifdef HAS_WIDE_REGISTERS
+template <class Work>
+__attribute__((target("avx2"))) void in_avx2(const Work& work)
+{
+  work();
+}
+
+template <class Work>
+__attribute__((target("avx512f"))) void in_avx512(const Work& work)
+{
+  work();
+}
+#endif
+
+/** Calls `work`, always inline, in a function that is compiled for these registers. */
+template <class Work>
+void in_registers(Registers registers, const Work& work)
+{
+#ifdef HAS_WIDE_REGISTERS
+  if (registers == Registers::avx512) return in_avx512(work);
+  if (registers == Registers::avx2) return in_avx2(work);
+#endif
+  static_cast<void>(registers);
+  work();
 }
 
 /** The fewest steps per output interval, `intervals` to a `period` [s], that are not

@@ -15,8 +15,8 @@ namespace rotor_stator {
 const std::vector<std::string>& time_methods()
 {
   static const std::vector<std::string> names = [] {
-    std::vector<std::string> list{"rk4", "splitting", "rk8"};
-    list.insert(list.end(), gsl_methods().begin(), gsl_methods().end());
+    std::vector<std::string> list = gsl_methods();
+    list.insert(list.begin(), {"rk4", "splitting", "rk8"});
     return list;
   }();
   return names;

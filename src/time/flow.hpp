@@ -36,16 +36,14 @@ public:
 };
 
 struct StepSettings {
-  std::string method =
-      "rk8";  ///< "rk4" or "splitting" (fixed step), "rk8", one of GSL's; "auto" is the
-              ///< machine's own
+  /** "rk4" or "splitting" (fixed step), "rk8", one of GSL's; "auto": the machine's own. */
+  std::string method = "rk8";
   int intervals_per_period = 64;  ///< P
-  double step = 0;                ///< longest of rk4 [s], of others with a fixed step
-                                  ///< that of the same error; 0 chooses `step_at`
-  double tolerance =
-      1e-10;  ///< of the others: local error per step, over the size of each component
-  OperationBudget budget =
-      {};  ///< for the evaluations of Eq. 7; without one, 1e9 of them
+  /** Longest of rk4 [s], of others with a fixed step that of the same error; 0 chooses
+      `step_at`. */
+  double step = 0;
+  double tolerance = 1e-10;     ///< of the others: local error of a step over the sizes
+  OperationBudget budget = {};  ///< in evaluations of Eq. 7; without one, 1e9 of them
 };
 
 /** Large bodies take Gauss's rule; by "auto" with a tolerance of 1e-8 at `step_at`, which
@@ -83,21 +81,19 @@ double evaluation_price(const Parameters& parameters, const std::string& method)
    to 2.8/ω_contact and accurate well below it. The paper gives none (D-16). */
 double default_step(const Parameters& parameters);
 
-/** The step [s] of rk4 at a base frequency. It is `default_step`, which is chosen by the
-    constant loads; shorter where the unbalance at that speed presses the contact much
-    more; and shorter where balls pass fast and the splitting takes steps four times as
-    long. */
+/** The step [s] of rk4 at a base frequency: `default_step`, which the constant loads
+    choose; shorter where the unbalance presses the contact much more, and where balls
+    pass fast and the splitting takes steps four times as long. */
 inline double step_at(const Parameters& parameters, double omega)
 {
   return parameters.bodies->step(parameters, omega);
 }
 
 /** How many times longer than `step_at` steps may be where a relative error of
-    `tolerance` in a settled displacement is enough. `step_at` keeps that error near 1e-6,
-    and it grows with the fourth power of the step. At most 2: then a vibration of the
-    contact has five steps of the splitting or twenty of rk4. With ten, rk4 would lose
-    (ω_contact h)⁶/144 of the amplitude in each step h, 8 % in a turn of twenty
-    vibrations, and could settle on an unstable motion. */
+    `tolerance` in a settled displacement is enough: `step_at` keeps it near 1e-6, and it
+    grows with the fourth power of the step. At most 2, five steps of the splitting or
+    twenty of rk4 in a vibration of the contact: with ten, rk4 would lose (ω_contact
+    h)⁶/144 of the amplitude in each step h, and could settle on an unstable motion. */
 double step_ratio(std::optional<double> tolerance);
 
 }  // namespace rotor_stator

@@ -24,6 +24,17 @@ struct GaussRule {
   Eigen::Vector2d c;
   Complex lambda;
   Eigen::Vector2cd s, t;
+
+  GaussRule()
+  {
+    const double d = std::sqrt(3.0) / 6;
+    a << 0.25, 0.25 - d, 0.25 + d, 0.25;
+    c << 0.5 - d, 0.5 + d;
+    const Eigen::EigenSolver<Eigen::Matrix2d> parts(a.transpose());
+    lambda = parts.eigenvalues()[0];
+    s = parts.eigenvectors().col(0);
+    t = parts.eigenvectors().inverse().row(0).transpose();
+  }
 };
 
 /** Coordinates up to which one matrix is faster than the factors of a shaft's narrow
@@ -32,18 +43,8 @@ constexpr Eigen::Index most_dense = 150;
 
 const GaussRule& gauss_rule()
 {
-  static const GaussRule known = [] {
-    const double d = std::sqrt(3.0) / 6;
-    GaussRule rule;
-    rule.a << 0.25, 0.25 - d, 0.25 + d, 0.25;
-    rule.c << 0.5 - d, 0.5 + d;
-    const Eigen::EigenSolver<Eigen::Matrix2d> parts(rule.a.transpose());
-    rule.lambda = parts.eigenvalues()[0];
-    rule.s = parts.eigenvectors().col(0);
-    rule.t = parts.eigenvectors().inverse().row(0).transpose();
-    return rule;
-  }();
-  return known;
+  static const GaussRule rule;
+  return rule;
 }
 
 }  // namespace

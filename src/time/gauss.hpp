@@ -7,11 +7,11 @@ II, IV.5 and IV.8). The accelerations W of both stages of a step h solve
 
 $$M W + C\,(v 1^T + h W A^T) + K\,(q 1^T + h v (A1)^T + h^2 W (A^2)^T) = P - D F,$$
 
-C with ωG. One complex eigenvector of Aᵀ, of the eigenvalue λ, parts the stages: a single
-sparse system M + hλ C + h²λ² K, factored once for each step size, answers the loads and
-the unit forces of the joints: bearings, and elements between a body and the ground. What
-is left for each step are the relative displacements at both stages, 4 unknowns a joint,
-with their rates 8 where a force depends on these, solved by Newton. */
+C with ωG. One complex eigenvector of Aᵀ, of the eigenvalue λ, parts the stages: one
+sparse system M + hλ C + h²λ² K, factored for each step size, answers the loads and the
+unit forces of the joints: bearings, and elements to the ground. What is left for each
+step are the relative displacements at both stages, 4 unknowns a joint, with their rates 8
+where a force depends on these, solved by Newton. */
 #pragma once
 
 #include <Eigen/SparseLU>
@@ -33,7 +33,6 @@ public:
 
   /** Advances over output interval `interval`, counted from t = 0. Throws NoSolution when
       the budget is used up. */
-  using Flow::advance;
   void advance(long interval, State& state) override;
 
   /** The derivative of that map at `start`, 2n × 2n. */

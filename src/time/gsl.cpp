@@ -10,26 +10,17 @@
 
 namespace rotor_stator {
 
-namespace {
-
-const std::map<std::string, const gsl_odeiv2_step_type*>& step_types()
+static std::map<std::string, const gsl_odeiv2_step_type*> step_types()
 {
-  static const std::map<std::string, const gsl_odeiv2_step_type*> types{
-      {"rkf45", gsl_odeiv2_step_rkf45}, {"rkck", gsl_odeiv2_step_rkck},
-      {"rk8pd", gsl_odeiv2_step_rk8pd}, {"msadams", gsl_odeiv2_step_msadams},
-      {"msbdf", gsl_odeiv2_step_msbdf}, {"bsimp", gsl_odeiv2_step_bsimp}};
-  return types;
+  return {{"rkf45", gsl_odeiv2_step_rkf45}, {"rkck", gsl_odeiv2_step_rkck},
+          {"rk8pd", gsl_odeiv2_step_rk8pd}, {"msadams", gsl_odeiv2_step_msadams},
+          {"msbdf", gsl_odeiv2_step_msbdf}, {"bsimp", gsl_odeiv2_step_bsimp}};
 }
 
-}  // namespace
-
-const std::vector<std::string>& gsl_methods()
+std::vector<std::string> gsl_methods()
 {
-  static const std::vector<std::string> names = [] {
-    std::vector<std::string> list;
-    for (const auto& [name, type] : step_types()) list.push_back(name);
-    return list;
-  }();
+  std::vector<std::string> names;
+  for (const auto& [name, type] : step_types()) names.push_back(name);
   return names;
 }
 
@@ -71,63 +62,26 @@ void equation_7_slopes(const Parameters& p, const RotorStator& system, double t,
 
 namespace {
 
-/** What GSL's callbacks see. */
-struct Forced {
-  Parameters parameters;
-  RotorStator system;
-  OperationBudget budget;
-  double price;  ///< of one evaluation
-  long count = 0;
-
-  /** False when the budget does not pay for one more. */
-  bool pay()
-  {
-    ++count;
-    return budget.pay(price);
-  }
-};
-
-int derivative(double t, const double y[], double dydt[], void* data)
-{
-  auto& equation = *static_cast<Forced*>(data);
-  if (!equation.pay()) return GSL_EBADFUNC;
-  const double phase = equation.system.omega() * t;
-  const RotorStator& system = equation.system;
-  std::copy_n(y + 4, 4, dydt);
-  put(system.acceleration(bodies_at(y), bodies_at(y + 4), system.bearing().angles(phase)),
-      dydt + 4);
-  return Eigen::Map<Vector8>(dydt).allFinite() ? GSL_SUCCESS : GSL_EBADFUNC;
-}
-
-int jacobian(double t, const double y[], double* dfdy, double dfdt[], void* data)
-{
-  auto& equation = *static_cast<Forced*>(data);
-  if (!equation.pay()) return GSL_EBADFUNC;
-  equation_7_slopes(equation.parameters, equation.system, t, y, dfdy, dfdt);
-  return GSL_SUCCESS;
-}
-
 /** Eq. 7 advanced by GSL. */
 class GslStepper : public Flow {
 public:
   GslStepper(const Parameters& parameters, double omega, const StepSettings& settings)
-      : equation_{parameters,
-                  {parameters, omega},
-                  settings.budget,
-                  evaluation_price(parameters, settings.method)},
-        interval_length_(equation_.system.period() / settings.intervals_per_period),
+      : parameters_(parameters), system_(parameters, omega), budget_(settings.budget),
+        price_(evaluation_price(parameters, settings.method)),
+        interval_length_(system_.period() / settings.intervals_per_period),
         driver_(nullptr, gsl_odeiv2_driver_free)
   {
-    const auto type = step_types().find(settings.method);
-    if (type == step_types().end())
+    const auto types = step_types();
+    const auto type = types.find(settings.method);
+    if (type == types.end())
       throw BadInput("method " + settings.method + ": not one of GSL's steppers");
     /** GSL calls abort() on errors unless told otherwise. */
     static const auto handler = gsl_set_error_handler_off();
     (void)handler;
     const double first_step = std::min(interval_length_, default_step(parameters));
-    driver_.reset(gsl_odeiv2_driver_alloc_scaled_new(&system_, type->second, first_step,
-                                                     settings.tolerance, 0, 1, 0,
-                                                     state_scales(parameters).data()));
+    driver_.reset(gsl_odeiv2_driver_alloc_scaled_new(&equations_, type->second,
+                                                     first_step, settings.tolerance, 0, 1,
+                                                     0, state_scales(parameters).data()));
     if (!driver_)
       throw NoSolution(format("%s cannot start with a step of %g s and a tolerance of %g",
                               settings.method.c_str(), first_step, settings.tolerance));
@@ -135,7 +89,6 @@ public:
 
   /** A jump to another interval than the next one is a new start; the step size is
       kept. */
-  using Flow::advance;
   void advance(long interval, State& state) override
   {
     if (interval != next_) gsl_odeiv2_driver_reset(driver_.get());
@@ -145,17 +98,45 @@ public:
     const double end = static_cast<double>(next_) * interval_length_;
     const int status = gsl_odeiv2_driver_apply(driver_.get(), &t, end, y.data());
     if (status != GSL_SUCCESS) {
-      equation_.budget.spend(equation_.price);  // throws where that was the reason
+      budget_.spend(price_);  // throws where that was the reason
       throw NoSolution(
           format("time integration stopped at t = %.9g s: %s", t, gsl_strerror(status)));
     }
     state = state_of(y);
   }
-  long evaluations() const override { return equation_.count; }
+  long evaluations() const override { return evaluations_; }
 
 private:
-  Forced equation_;
-  gsl_odeiv2_system system_{derivative, jacobian, 8, &equation_};
+  /** What GSL calls. They fail where the budget does not pay for one more. */
+  static int derivative(double t, const double y[], double dydt[], void* stepper)
+  {
+    auto& own = *static_cast<GslStepper*>(stepper);
+    if (!own.pays()) return GSL_EBADFUNC;
+    const Angles at = own.system_.bearing().angles(own.system_.omega() * t);
+    std::copy_n(y + 4, 4, dydt);
+    put(own.system_.acceleration(bodies_at(y), bodies_at(y + 4), at), dydt + 4);
+    return Eigen::Map<Vector8>(dydt).allFinite() ? GSL_SUCCESS : GSL_EBADFUNC;
+  }
+  static int jacobian(double t, const double y[], double* dfdy, double dfdt[],
+                      void* stepper)
+  {
+    auto& own = *static_cast<GslStepper*>(stepper);
+    if (!own.pays()) return GSL_EBADFUNC;
+    equation_7_slopes(own.parameters_, own.system_, t, y, dfdy, dfdt);
+    return GSL_SUCCESS;
+  }
+  bool pays()
+  {
+    ++evaluations_;
+    return budget_.pay(price_);
+  }
+
+  Parameters parameters_;
+  RotorStator system_;
+  OperationBudget budget_;
+  double price_;  ///< of one evaluation
+  long evaluations_ = 0;
+  gsl_odeiv2_system equations_{derivative, jacobian, 8, this};
   double interval_length_;  ///< T/P [s]
   std::unique_ptr<gsl_odeiv2_driver, void (*)(gsl_odeiv2_driver*)> driver_;
   long next_ = 0;  ///< the interval that would continue the motion

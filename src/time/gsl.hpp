@@ -17,7 +17,7 @@ Nothing else in the library needs GSL's steppers. */
 
 namespace rotor_stator {
 
-const std::vector<std::string>& gsl_methods();
+std::vector<std::string> gsl_methods();
 
 /** Throws BadInput for a method of another name. */
 std::unique_ptr<Flow> gsl_flow(const Parameters& parameters, double omega,

@@ -1,5 +1,5 @@
 /**
-# The period map and its derivative
+# The period map, its derivative and the Floquet multipliers
 
 The period map P takes a state over one period T = 2π/ω of Eq. 7. Its derivative Φ solves
 the variational equations
@@ -8,15 +8,21 @@ $$\dot{\delta q} = \delta v,
 \qquad M\, \dot{\delta v} = -(K + k(t))\,\delta q - C\,\delta v,$$
 
 where k(t) is the bearing's stiffness on the motion itself. Both are integrated together,
-72 equations, by rk4 or rk8; the step is chosen by the state alone, which is what the
-answer depends on.
+72 equations, by rk4 or rk8; the state alone chooses the step.
 
     const PeriodMap map = period_map(parameters, omega, state,
-                                     {.intervals_per_period = 1, .tolerance = 1e-12}); */
+                                     {.intervals_per_period = 1, .tolerance = 1e-12});
+
+The eigenvalues of Φ, the multipliers, say how small disturbances grow over one period: the
+motion is stable when all of them lie inside the unit circle. Along a truncated series they
+may differ from those of the exact motion far more than the amplitudes do. */
 #pragma once
 
 #include <Eigen/Core>
+#include <complex>
+#include <vector>
 
+#include "balance/periodic_motion.hpp"
 #include "time/flow.hpp"
 
 namespace rotor_stator {
@@ -34,58 +40,41 @@ PeriodMap period_map(const Parameters& parameters, double omega, const State& st
                      const StepSettings& settings, long interval = 0,
                      bool with_derivative = true);
 
-/**
-## The variational equations of Eq. 7
+using Multipliers = std::vector<std::complex<double>>;
 
-Eight small disturbances of the state at once. Displacement (or speed) i of disturbance j
-is in row j and column i, so that the eight of one displacement lie side by side in
-memory, where the compiler's vectors share them. */
+struct Floquet {
+  Multipliers multipliers;  ///< 2d, largest modulus first
+  double change = 0;        ///< largest |Δμ|/max(1, |μ|) at the last refinement [-]
+  bool converged = false;   ///< `change` is below what the caller allows, 0.1 or 1e-5
 
-using Disturbances = Eigen::Matrix<double, 8, 4>;
+  double largest() const { return std::abs(multipliers.front()); }
 
-class DisturbanceRates {
-public:
-  explicit DisturbanceRates(const Parameters& p)
-      : bodies_{of(p.stator), of(p.rotor)}, is_damped_(p.bearing.is_damped())
+  /** Uncertainty of the largest modulus. */
+  double uncertainty() const { return change * std::max(1.0, largest()); }
+
+  /** Whether the largest modulus is below 1 by more than its uncertainty. */
+  bool stable() const { return converged && largest() + uncertainty() < 1; }
+  bool unstable() const { return converged && largest() - uncertainty() > 1; }
+
+  /** "stable", "unstable", or "undecided" within the uncertainty. */
+  const char* verdict() const
   {
+    return stable() ? "stable" : unstable() ? "unstable" : "undecided";
   }
-
-  /** Accelerations of the disturbances `q` and their speeds `v`, with the bearing's
-      reaction at that instant of the motion. */
-  template <class Q, class V>
-  Disturbances acceleration(const BearingReaction& bearing, const Q& q, const V& v) const
-  {
-    using Eight = Eigen::Matrix<double, 8, 1>;
-    const Eight u_x = q.col(2) - q.col(0), u_y = q.col(3) - q.col(1);
-    const Slopes2& s = bearing.stiffness;
-    Eight force[2] = {s.xx * u_x + s.xy * u_y, s.yx * u_x + s.yy * u_y};
-    if (is_damped_) {
-      const Eight w_x = v.col(2) - v.col(0), w_y = v.col(3) - v.col(1);
-      const Slopes2& d = bearing.damping;
-      force[0] += d.xx * w_x + d.xy * w_y;
-      force[1] += d.yx * w_x + d.yy * w_y;
-    }
-    Disturbances a;
-    for (int i = 0; i < 4; ++i) {
-      const Rates& body = bodies_[i / 2];
-      const double per_mass = i < 2 ? body.per_mass : -body.per_mass;
-      a.col(i) =
-          per_mass * force[i % 2] - body.damping * v.col(i) - body.stiffness * q.col(i);
-    }
-    return a;
-  }
-
-private:
-  struct Rates {
-    double per_mass, damping, stiffness;  ///< 1/m, c/m, k/m
-  };
-  static Rates of(const Body& b)
-  {
-    return {1 / b.mass, b.damping() / b.mass, b.stiffness() / b.mass};
-  }
-
-  Rates bodies_[2];
-  bool is_damped_;
 };
+
+/** The multipliers of both bodies (Eq. 7), with the bearing's stiffness along the series
+    of `motion` instead of along a motion of Eq. 7, by RK4; its steps are halved until no
+    multiplier changes by more than 1e-5. Throws NoSolution where they overflow or a
+    period is too long. */
+Floquet series_multipliers(const Parameters& parameters, const PeriodicMotion& motion);
+
+/** The eigenvalues of a period map's derivative, largest modulus first, of a conjugate
+    pair the upper half first. Throws NoSolution when it is not finite. */
+Multipliers multipliers_of(const Eigen::MatrixXd& phi);
+
+/** The largest distance |Δμ|/max(1, |μ|) of a multiplier to its nearest partner among as
+    many others. */
+double largest_move(const Multipliers& a, Multipliers b);
 
 }  // namespace rotor_stator

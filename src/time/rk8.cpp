@@ -205,46 +205,6 @@ struct Rk8::Step {
   }
 };
 
-namespace {
-
-/** One function for each kind of registers: what it calls is a part of it. */
-template <auto kind, class Step>
-void take_plain(Step& step)
-{
-  step.template take<kind>();
-}
-
-#ifdef HAS_WIDE_REGISTERS
-template <auto kind, class Step>
-__attribute__((target("avx2"))) void take_avx2(Step& step)
-{
-  step.template take<kind>();
-}
-
-template <auto kind, class Step>
-__attribute__((target("avx512f"))) void take_avx512(Step& step)
-{
-  step.template take<kind>();
-}
-#endif
-
-template <auto kind, class Step>
-double take(Step& step)
-{
-#ifdef HAS_WIDE_REGISTERS
-  switch (widest_registers()) {
-    case Registers::avx512: take_avx512<kind>(step); break;
-    case Registers::avx2: take_avx2<kind>(step); break;
-    case Registers::plain: take_plain<kind>(step); break;
-  }
-#else
-  take_plain<kind>(step);
-#endif
-  return step.error;
-}
-
-}  // namespace
-
 Rk8::Rk8(const Parameters& parameters, double omega, int intervals, double tolerance,
          OperationBudget budget)
     : system_(parameters, omega), turns_(Turns::of(parameters)), intervals_(intervals),
@@ -335,10 +295,16 @@ double Rk8::attempt(Step<rows>& step)
   using Kind = typename Step<rows>::Kind;
   budget_.spend(stages * (rows == alone ? price : price_with_derivative));
   evaluations_ += stages;
-  if (is_general_) return take<Kind::any>(step);
-  if constexpr (rows == alone)
-    if (is_damped_) return take<Kind::damped>(step);
-  return take<Kind::plain>(step);
+  in_registers(
+      widest_registers(), [&]() __attribute__((always_inline)) {
+        if (is_general_)
+          step.template take<Kind::any>();
+        else if (is_damped_ && rows == alone)
+          step.template take<rows == alone ? Kind::damped : Kind::plain>();
+        else
+          step.template take<Kind::plain>();
+      });
+  return step.error;
 }
 
 void Rk8::stop(long interval, double passed) const
@@ -393,7 +359,12 @@ void Rk8::integrate(long interval, Step<rows>& step)
       divide_what_is_left();
       continue;
     }
-    accept(step);
+    constexpr int last = stages - 1;  // at the end of the step
+    step.q = step.q_next;
+    step.v = step.v_next;
+    step.begin.rotor = turned(step.begin.rotor, rotor_.at(last));
+    step.begin.cage = turned(step.begin.cage, cage_.at(last));
+    if (turns_.spin > 0) step.begin.spin = turned(step.begin.spin, spin_.at(last));
     ++steps;
     --left;
     passed += length_;
@@ -407,29 +378,16 @@ void Rk8::integrate(long interval, Step<rows>& step)
     if (!std::isfinite(step.q[0][i]) || !std::isfinite(step.v[0][i])) stop(interval, 1);
 }
 
-template <int rows>
-void Rk8::accept(Step<rows>& step)
+static State state_of(const Quad& q, const Quad& v)
 {
-  constexpr int last = stages - 1;  // at the end of the step
-  step.q = step.q_next;
-  step.v = step.v_next;
-  step.begin.rotor = turned(step.begin.rotor, rotor_.at(last));
-  step.begin.cage = turned(step.begin.cage, cage_.at(last));
-  if (turns_.spin > 0) step.begin.spin = turned(step.begin.spin, spin_.at(last));
-}
-
-template <int rows>
-static State state_of(const Rows<rows>& q, const Rows<rows>& v)
-{
-  return {.position = std::bit_cast<Bodies>(q[0]),
-          .velocity = std::bit_cast<Bodies>(v[0])};
+  return {std::bit_cast<Bodies>(q), std::bit_cast<Bodies>(v)};
 }
 
 void Rk8::advance(long interval, State& state)
 {
   auto step = first_step<alone>(state);
   integrate(interval, step);
-  state = state_of<alone>(step.q, step.v);
+  state = state_of(step.q[0], step.v[0]);
 }
 
 void Rk8::advance(long interval, State& state, Matrix8& derivative)
@@ -446,7 +404,7 @@ void Rk8::advance(long interval, State& state, Matrix8& derivative)
   each([](Quad& row, int lane, double value) { row[lane] = value; });
   integrate(interval, step);
   each([](const Quad& row, int lane, double& value) { value = row[lane]; });
-  state = state_of<with_derivative>(step.q, step.v);
+  state = state_of(step.q[0], step.v[0]);
 }
 
 double Rk8::step(double share, State& state)
@@ -455,7 +413,7 @@ double Rk8::step(double share, State& state)
   one.begin = turns_.at(0, 0);
   set_length(one, share);
   const double error = attempt(one);
-  state = state_of<alone>(one.q_next, one.v_next);
+  state = state_of(one.q_next[0], one.v_next[0]);
   return error;
 }
 

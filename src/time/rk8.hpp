@@ -3,18 +3,16 @@
 
 The pair of Dormand and Prince (dop853.hpp) on Eq. 7: the local error of each step, its
 largest component over the size of that component (`state_scales`), stays below the
-tolerance. Steps divide what is left of an output interval evenly. Their length changes
-rarely, and with it the turns of rotor and cage up to the stages: a step that keeps its
+tolerance. Steps divide what is left of an output interval evenly; a step that keeps its
 length takes no sine or cosine.
 
-    Rk8 rk8(parameters, omega, 64, 1e-10); State state = static_start(parameters);
-    rk8.advance(0, state);                    // over the first of 64 intervals of the
-    base period
+    Rk8 rk8(parameters, omega, 64, 1e-10);
+    State state = static_start(parameters);
+    rk8.advance(0, state);           // over the first of 64 intervals of the base period
 
-Beside the state go, where they are asked for, eight disturbances of it, which the
-variational equations of Eq. 7 advance in the same steps: the derivative of the map from
-the start of an interval to its end. They have no say in the steps, but vibrate on the
-contact where the state may not: at least six steps are taken in a period of that
+Beside the state go, where they are asked for, eight disturbances of it by the variational
+equations of Eq. 7: the derivative of the map over an interval. They have no say in the
+steps, but may vibrate on the contact: at least six steps are taken in a period of that
 vibration. */
 #pragma once
 
@@ -32,7 +30,6 @@ public:
   Rk8(const Parameters& parameters, double omega, int intervals, double tolerance,
       OperationBudget budget = {});
 
-  using Flow::advance;
   void advance(long interval, State& state) override;
 
   /** The same, with the derivative of the states before. */
@@ -68,8 +65,6 @@ private:
   double attempt(Step<rows>& step);
   template <int rows>
   void set_length(Step<rows>& step, double share);
-  template <int rows>
-  void accept(Step<rows>& step);
   [[noreturn]] void stop(long interval, double passed) const;
 
   RotorStator system_;

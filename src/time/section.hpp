@@ -1,10 +1,12 @@
 /**
-# What a Poincaré section says about a motion
+# What a Poincaré section says about a motion, and means over many periods
 
-The displacements at the same instant of one base period after the other. */
+The section is the displacements at the same instant of one base period after the
+other. */
 #pragma once
 
 #include <span>
+#include <vector>
 
 #include "model/rotor_stator.hpp"
 
@@ -19,5 +21,16 @@ double extent(std::span<const Displacements> section, std::size_t apart = 0);
     `most_period`. */
 int closing_period(std::span<const Displacements> section, double closed,
                    int most_period);
+
+/** The mean of a series and its standard error: that of the means of a few long batches
+    of neighbours, which know little of each other. */
+struct BatchMean {
+  double value, error = 0;
+};
+BatchMean batch_mean(const std::vector<double>& series, std::size_t most_batches = 10);
+
+/** Of chaotic motion, which may stay near one motion for many periods and then near
+    another: the larger error of ten and of four batches. */
+BatchMean long_mean(const std::vector<double>& series);
 
 }  // namespace rotor_stator

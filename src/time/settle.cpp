@@ -4,6 +4,7 @@
 #include <cmath>
 #include <limits>
 #include <numbers>
+#include <numeric>
 #include <span>
 
 #include "io/errors.hpp"
@@ -13,14 +14,9 @@ namespace rotor_stator {
 
 const char* word(Kind kind)
 {
-  switch (kind) {
-    case Kind::rest: return "rest";
-    case Kind::periodic: return "periodic";
-    case Kind::quasi_periodic: return "quasi-periodic";
-    case Kind::chaotic: return "chaotic";
-    case Kind::undecided: break;
-  }
-  return "undecided";
+  constexpr const char* words[] = {"undecided", "rest", "periodic", "quasi-periodic",
+                                   "chaotic"};
+  return words[static_cast<int>(kind)];
 }
 
 double apart(const Parameters& machine, const State& a, const State& b)
@@ -30,6 +26,14 @@ double apart(const Parameters& machine, const State& a, const State& b)
       .cwiseAbs()
       .maxCoeff();
 }
+
+namespace {
+
+/** The slowest decay rate and the lowest natural frequency [1/s] of both bodies joined by
+    a loaded contact; a frequency of 0 is left out. */
+struct SlowestMode {
+  double decay = std::numeric_limits<double>::infinity(), frequency = decay;
+};
 
 /** Eigenvalues of one direction: x_s, x_r and their speeds. */
 SlowestMode slowest_mode(const Parameters& machine)
@@ -42,8 +46,7 @@ SlowestMode slowest_mode(const Parameters& machine)
       joint / r.mass, -(r.stiffness() + joint) / r.mass;
   a(2, 2) = -s.damping() / s.mass;
   a(3, 3) = -r.damping() / r.mass;
-  SlowestMode slowest{std::numeric_limits<double>::infinity(),
-                      std::numeric_limits<double>::infinity()};
+  SlowestMode slowest;
   if (!a.allFinite()) return slowest;  // no step is short enough, which is said there
   for (const auto& value : eigenvalues(a)) {
     slowest.decay = std::min(slowest.decay, std::max(0.0, -value.real()));
@@ -52,6 +55,8 @@ SlowestMode slowest_mode(const Parameters& machine)
   }
   return slowest;
 }
+
+}  // namespace
 
 Instant from_rest(const Parameters& machine, double omega)
 {
@@ -123,20 +128,20 @@ void Settling::arrived()
 {
   if (to_zero_) {
     if (++at_.period == before_.period) before_.state = at_.state;
-    if (at_.period == 0) end();
+    if (at_.period < 0) return;
+    settled_.at = at_;
+    settled_.before = before_;
+    settled_.evaluations += static_cast<double>(to_zero_->evaluations());
+    has_ended_ = true;
     return;
   }
   pair_.arrived();
   if (!pair_.is_between_periods()) return;
+  /** After t = 0; earlier where a motion may have closed, which any base period begins. */
+  const bool may_be_over = pair_.at().period >= 0 ||
+                           (!base_.is_driven_twice() && pair_.contraction() <= forgotten);
   const bool is_due = periods_ == 0 || --periods_ == 0;
-  if (pair_.at().period == 0 || (is_due && may_be_over())) look();
-}
-
-/** After t = 0; earlier where a motion may have closed, which any base period begins. */
-bool Settling::may_be_over() const
-{
-  return pair_.at().period >= 0 ||
-         (!base_.is_driven_twice() && pair_.contraction() <= forgotten);
+  if (pair_.at().period == 0 || (is_due && may_be_over)) look();
 }
 
 std::unique_ptr<Flow> Settling::flow_of(double step, int intervals) const
@@ -223,47 +228,45 @@ static double error_of_rate(double step, double period)
 /** What the pair says of the motion so far. */
 Settled Settling::seen() const
 {
-  const TrajectoryPair& pair = pair_;
-  Settled s{.lyapunov = pair.exponent(),
-            .at = pair.at(),
+  Settled s{.lyapunov = pair_.exponent(),
+            .remainder = std::exp(std::max(-700.0, pair_.contraction())),
+            .at = pair_.at(),
             .step = rule_.step,
-            .before = pair.since(nearer)};
-  s.remainder = std::exp(std::max(-700.0, pair.contraction()));
-  s.seconds = pair.seconds();
+            .before = pair_.since(nearer),
+            .seconds = pair_.seconds()};
   const double rate = s.lyapunov.value,
-               doubt = 3 * s.lyapunov.error + error_of_rate(rule_.step, pair.period());
+               doubt = 3 * s.lyapunov.error + error_of_rate(rule_.step, pair_.period());
   s.contracts = rate + doubt < 0;
   if (is_at_rest()) {
     s.kind = Kind::rest;
     return s;
   }
   if (!base_.is_driven_twice() && closes(s)) return s;
-  if (pair.at().period < 0) return s;
-  const bool is_long_enough = 0.5 * pair.seconds() >= least_ * (1 - 1e-9);
-  if (!is_long_enough)
-    s.reason = format("%.3g s are too short to tell", pair.seconds());
+  if (s.at.period < 0) return s;
+  if (!(0.5 * s.seconds >= least_ * (1 - 1e-9)))
+    s.reason = format("%.3g s are too short to tell", s.seconds);
   else if (rate - doubt > 0 && grows_throughout())
     s.kind = Kind::chaotic;
   else if (base_.is_driven_twice() && s.contracts)
-    s.kind = pair.contraction() <= forgotten ? Kind::quasi_periodic : Kind::undecided;
+    s.kind = pair_.contraction() <= forgotten ? Kind::quasi_periodic : Kind::undecided;
   else if (!base_.is_driven_twice() && std::abs(rate) <= doubt && doubt < 0.1 &&
-           pair.seconds() > rule_.longest / 2)
+           s.seconds > rule_.longest / 2)
     s.kind = Kind::quasi_periodic;
-  if (s.kind == Kind::undecided && s.reason.empty())
-    s.reason = s.contracts
-                   ? format(
-                         "neighbours contract by %.3g/s, but the transient is not over "
-                         "after %.3g s",
-                         -rate, pair.seconds())
-               : rate - doubt > 0
-                   ? format(
-                         "neighbours part by %.3g/s, but more and more slowly or too "
-                         "little in %.3g s to be called chaos",
-                         rate, pair.seconds())
-                   : format(
-                         "the growth rate of neighbours, %.2g +- %.1g/s, is not known "
-                         "well enough after %.3g s",
-                         rate, doubt, pair.seconds());
+  if (s.kind != Kind::undecided || !s.reason.empty()) return s;
+  if (s.contracts)
+    s.reason = format(
+        "neighbours contract by %.3g/s, but the transient is not over after %.3g s",
+        -rate, s.seconds);
+  else if (rate - doubt > 0)
+    s.reason = format(
+        "neighbours part by %.3g/s, but more and more slowly or too little in %.3g s to "
+        "be called chaos",
+        rate, s.seconds);
+  else
+    s.reason = format(
+        "the growth rate of neighbours, %.2g +- %.1g/s, is not known well enough after "
+        "%.3g s",
+        rate, doubt, s.seconds);
   return s;
 }
 
@@ -310,11 +313,9 @@ bool Settling::grows_throughout() const
 {
   constexpr double least = 5;  // ln of the growth
   const auto& all = pair_.growths();
-  const auto quarter = std::ssize(all) / 4;
-  double third = 0, fourth = 0;
-  for (auto k = all.end() - 2 * quarter; k != all.end() - quarter; ++k) third += *k;
-  for (auto k = all.end() - quarter; k != all.end(); ++k) fourth += *k;
-  return fourth > std::max(least, 0.5 * third);
+  const auto last = all.end() - std::ssize(all) / 4, before = last - std::ssize(all) / 4;
+  return std::accumulate(last, all.end(), 0.0) >
+         std::max(least, 0.5 * std::accumulate(before, last, 0.0));
 }
 
 /** Whether that takes at most so many evaluations, and no more than the budget has left;
@@ -338,16 +339,6 @@ void Settling::put_on_zero()
   to_zero_ = flow_of(rule_.step, 1);
   at_ = {settled_.at.state, -periods(2 * forgotten)};
   before_ = {settled_.at.state, -periods(nearer)};
-  if (at_.period >= 0) end();
-}
-
-/** On t = 0. */
-void Settling::end()
-{
-  settled_.at = at_;
-  settled_.before = before_;
-  settled_.evaluations += static_cast<double>(to_zero_->evaluations());
-  has_ended_ = true;
 }
 
 /** From the start, with a quarter of the step. Throws NoSolution when a period would need

@@ -1,11 +1,10 @@
 /**
 # What a machine does after a start
 
-Eq. 7 is integrated from a state, with a neighbour beside it that is pulled back to its
-first distance after every interval (Benettin). What the distance would have become says
-two things: a transient that dies out is over when it has shrunk to 1e-9 of the largest
-value that it had, and its mean growth λ is the largest Lyapunov exponent, which with the
-Poincaré section decides the kind of the motion. The first that holds:
+Eq. 7 is integrated from a state, with a neighbour beside it (trajectory_pair.hpp). A
+transient that dies out is over when their distance has shrunk to 1e-9 of its largest
+value; its mean growth λ, the largest Lyapunov exponent, and the Poincaré section decide
+the kind of the motion. The first that holds:
 
 - `rest`: half of the range of every displacement, and speed times base period, are below
   1e-12 of clearance plus static deflection.
@@ -17,33 +16,30 @@ Poincaré section decides the kind of the motion. The first that holds:
   follows them); or one drives, and |λ| ≤ d < 0.1/s after half of `longest`.
 - `undecided`: everything else, with the reason.
 
-λ comes with its standard error s, that of the means of ten batches of the later half of
-all that was integrated; d is 3s and what the step may change in λ. The last two kinds are
-decided after 4 to 50 s at the earliest.
+λ comes with its standard error s, from ten batches of the later half of all that was
+integrated; d is 3s and what the step may change in λ. The last two kinds are decided
+after 4 to 50 s at the earliest.
 
-A start lies at or before t = 0, and integration ends after t = 0; before it, only where
-neighbours have come nearer by 1e-9 and the motion is at rest or closes. A periodic motion
-begins at t = 0 as it is found, since any whole number of base periods may be taken from
-its time. The state of a motion that two frequencies drive belongs to its instant: where
-neighbours contract it is taken as that of an earlier one, so early that contraction
-forgets the difference by t = 0, and integrated from there, if that takes at most 1e8
-evaluations. Every other motion begins where the integration ended.
+Integration starts at or before t = 0 and ends after it; before, only where neighbours
+have come nearer by 1e-9 and the motion is at rest or closes. A periodic motion is then
+said to begin at t = 0. The state of a motion that two frequencies drive belongs to its
+instant: where neighbours contract, it is taken as that of so early an instant that
+contraction forgets the difference by t = 0, and integrated from there, if that takes at
+most 1e8 evaluations. Every other motion begins where the integration ended.
 
     const BasePeriod base = base_period(parameters);
     const auto [machine, omega] = over(base, parameters, angular(25));
     const Settled settled =
         settle(machine, omega, base, from_rest(machine, omega), {}, budget);
 
-An impact presses the contact far more than the loads do, and may make it vibrate too fast
-for the step: the integration diverges, or keeps up a motion that Eq. 7 does not have.
-What was found is therefore followed for one base period with a quarter of the step. Where
-that leads elsewhere, or where it diverged, the motion is begun again once with such
-steps; with a fixed step it is `undecided`, or lost.
+An impact may make the contact vibrate too fast for the step: the integration diverges, or
+keeps up a motion that Eq. 7 does not have. What was found is therefore followed for one
+base period with a quarter of the step. Where that leads elsewhere, or where it diverged,
+the motion is begun again once with such steps; with a fixed step it is `undecided`, or
+lost.
 
-A `Settling` is the same among others (time/side_by_side.hpp).
-
-The machine is that of `over`, whose angles are counted per base period; where two
-frequencies drive, that is a turn. */
+A `Settling` is the same among others (side_by_side.hpp). The machine is that of `over`,
+whose angles are counted per base period; where two frequencies drive, per turn. */
 #pragma once
 
 #include <string>
@@ -61,8 +57,7 @@ struct SettleRule {
   std::string method = "auto";  ///< or "rk4"
   double step = 0;              ///< longest of rk4 [s]; 0: `step_at`; at most T/32
   bool is_fixed = false;        ///< the step is kept where it is too long
-  double longest = 0;  ///< after t = 0 [s], then it is undecided; 0: 40 over the slowest
-                       ///< decay rate, 60 to 1000
+  double longest = 0;  ///< after t = 0 [s]; 0: 40 over the slowest decay rate, 60 to 1000
 };
 
 struct Settled {
@@ -73,8 +68,7 @@ struct Settled {
   double remainder = 1;    ///< what the contraction has left of any distance [-]
   Instant at;              ///< a state on the motion: see above
   double step = 0;         ///< longest of rk4 that was taken, or of the same error [s]
-  Instant before;      ///< an earlier one: since then distances shrank by 1e-7, so that
-                       ///< other steps from here forget their start by `at`
+  Instant before;      ///< since this one distances shrank by 1e-7: other steps forget it
   double seconds = 0;  ///< integrated
   double evaluations = 0;   ///< of Eq. 7
   std::string reason = {};  ///< why it is undecided
@@ -98,7 +92,6 @@ public:
 private:
   std::unique_ptr<Flow> flow_of(double step, int intervals) const;
   TrajectoryPair pair_from_start() const;
-  bool may_be_over() const;
   void look();
   bool is_resolved();
   void begin_anew();
@@ -108,7 +101,6 @@ private:
   bool grows_throughout() const;
   bool can_be_put_on_zero() const;
   void put_on_zero();
-  void end();
 
   Parameters machine_;
   double omega_;
@@ -140,12 +132,5 @@ double apart(const Parameters& machine, const State& a, const State& b);
     before t = 0 that a linear machine has forgotten its start: 25 over its slowest decay
     rate, 4 to 25 s, in whole turns. */
 Instant from_rest(const Parameters& machine, double omega);
-
-/** The slowest decay rate and the lowest natural frequency [1/s] of both bodies joined by
-    a loaded contact; a frequency of 0 is left out. */
-struct SlowestMode {
-  double decay, frequency;
-};
-SlowestMode slowest_mode(const Parameters& machine);
 
 }  // namespace rotor_stator

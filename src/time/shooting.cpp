@@ -35,11 +35,11 @@ public:
     start_ = y_;
   }
 
-  Shooting run(std::vector<State>& motion, PeriodicityJacobian& kept)
+  Shooting run(std::vector<State>& motion, PeriodicityJacobian* kept)
   {
     try {
-      if (kept) {
-        jacobian_ = *kept;
+      if (kept && *kept) {
+        jacobian_ = **kept;
         factors_.compute(jacobian_);
         is_fresh_ = false;
         at_ = map(y_, false);
@@ -53,7 +53,7 @@ public:
     } catch (const NoSolution& none) {
       report_.reason = none.what();
     }
-    if (jacobian_.size() > 0) kept = jacobian_;
+    if (kept && jacobian_.size() > 0) *kept = jacobian_;
     return report_;
   }
 
@@ -110,14 +110,11 @@ private:
     return sizes_.cwiseInverse().asDiagonal() * derivative * sizes_.asDiagonal();
   }
 
-  void linearise()
-  {
-    at_ = map(y_, true);
-    factor();
-  }
+  void linearise() { factor(map(y_, true)); }
 
-  void factor()
+  void factor(Mapped at)
   {
+    at_ = std::move(at);
     jacobian_ = Eigen::MatrixXd::Zero(y_.size(), y_.size());
     for (int i = 0; i < segments_; ++i) {
       jacobian_.block(i * n_, i * n_, n_, n_) += at_.slopes[static_cast<std::size_t>(i)];
@@ -170,10 +167,7 @@ private:
   void learn(Mapped next, const Eigen::VectorXd& step, double length, double left)
   {
     constexpr double well = 0.3;
-    if (!settings_.quasi_newton) {
-      at_ = std::move(next);
-      return factor();
-    }
+    if (!settings_.quasi_newton) return factor(std::move(next));
     if (left > well) return linearise();
     jacobian_ +=
         (next.open - (1 - length) * at_.open) * step.transpose() / step.squaredNorm();
@@ -208,19 +202,16 @@ private:
 }  // namespace
 
 Shooting shoot(const Parameters& parameters, double omega, Eighths& motion,
-               const ShootingSettings& settings)
+               const ShootingSettings& settings, PeriodicityJacobian* jacobian)
 {
-  PeriodicityJacobian none;
-  return Iteration(parameters, omega, motion, settings).run(motion, none);
+  return Iteration(parameters, omega, motion, settings).run(motion, jacobian);
 }
 
 Shooting shoot(const Parameters& parameters, double omega, State& state,
                const ShootingSettings& settings, PeriodicityJacobian* jacobian)
 {
-  PeriodicityJacobian none;
-  std::vector<State> motion{state};
-  const Shooting report = Iteration(parameters, omega, motion, settings)
-                              .run(motion, jacobian ? *jacobian : none);
+  Eighths motion{state};
+  const Shooting report = shoot(parameters, omega, motion, settings, jacobian);
   state = motion.front();
   return report;
 }

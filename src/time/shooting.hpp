@@ -2,12 +2,12 @@
 # Shooting: the periodic motion as a fixed point of the period map
 
 P(s) = s is solved by Newton, (Φ - 1) Δs = s - P(s), with Φ from the variational
-equations. No transient has to decay, and unstable motions are found like stable ones: the
-fair rival of harmonic balance, and an independent check of it.
+equations. Unstable motions are found like stable ones: the fair rival of harmonic
+balance, and an independent check of it.
 
-A motion whose disturbances grow a hundred-thousandfold in a period cannot be followed
-over a period. It is held by its states at eight equal phases; each is integrated over an
-eighth, and Newton's iteration is for the eight states together (multiple shooting).
+Where disturbances grow a hundred-thousandfold in a period, the motion is held by its
+states at eight equal phases; each is integrated over an eighth, and Newton's iteration is
+for the eight states together (multiple shooting).
 
     Eighths motion = eighths_of(solution);
     const Shooting shooting = shoot(parameters, omega, motion,
@@ -37,8 +37,7 @@ struct ShootingSettings {
   int most_maps = 60;          ///< periods integrated
   double farthest = std::numeric_limits<double>::infinity();  ///< from the start, largest
                                                               ///< over the sizes [-]
-  bool quasi_newton =
-      false;  ///< Broyden's updates of Φ while they serve well: for sweeps
+  bool quasi_newton = false;      ///< Broyden's updates of Φ while they serve well
   std::optional<int> alone = {};  ///< over the whole period from the state at this eighth
   OperationBudget budget = {};    ///< for the evaluations of Eq. 7
 };
@@ -49,8 +48,7 @@ struct Shooting {
   int maps = 0;             ///< periods integrated, those with the derivative too
   long evaluations = 0;     ///< of Eq. 7, with or without its derivative
   Eigen::VectorXd first{};  ///< first correction, over the sizes [-]
-  double contraction = 1;   ///< second correction over the first one [-]; 1: the first
-                            ///< was shortened
+  double contraction = 1;   ///< second over first correction [-]; 1: that was shortened
   Eigen::MatrixXd derivative{};  ///< Φ over the period, before the last correction
   std::string reason{};          ///< why it was not closed
 };
@@ -59,12 +57,12 @@ struct Shooting {
 using PeriodicityJacobian = std::optional<Eigen::MatrixXd>;
 
 /** `motion` becomes the closed motion. Of large machines one state alone is iterated: the
-    equations for eight would be too many. */
+    equations for eight would be too many. With `jacobian`, the iteration starts from what
+    it holds, if anything, and leaves its own there. */
 Shooting shoot(const Parameters& parameters, double omega, Eighths& motion,
-               const ShootingSettings& settings);
+               const ShootingSettings& settings, PeriodicityJacobian* jacobian = nullptr);
 
-/** From `state` at phase 0. With `jacobian`, the iteration starts from what it holds, if
-    anything, and leaves its own there. */
+/** From `state` at phase 0. */
 Shooting shoot(const Parameters& parameters, double omega, State& state,
                const ShootingSettings& settings = {},
                PeriodicityJacobian* jacobian = nullptr);

@@ -8,21 +8,6 @@
 
 namespace rotor_stator {
 
-/** The flow of a passage that goes in lanes, else null. */
-static FixedStep* in_lanes(const Passage& one)
-{
-  const auto flow = dynamic_cast<FixedStep*>(one.flow);
-  return flow && !flow->is_general() ? flow : nullptr;
-}
-
-static void advance_alone(const Passage& one)
-{
-  for (long k = 0; k < one.count; ++k) {
-    one.flow->advance(one.first + k, *one.state);
-    if (one.path) one.path->push_back(*one.state);
-  }
-}
-
 std::vector<Failure> advance_together(std::span<const Passage> passages)
 {
   const std::size_t widest = FixedStep::widest_row();
@@ -37,13 +22,18 @@ std::vector<Failure> advance_together(std::span<const Passage> passages)
   std::vector<Failure> failures;
   for (std::size_t k = 0; k < passages.size(); ++k) {
     const Passage& one = passages[k];
+    const auto fixed = dynamic_cast<FixedStep*>(one.flow);
     try {
-      if (FixedStep* flow = in_lanes(one)) {
-        flow->pay(one.count);
-        lanes.push_back(
-            {one, {flow->balls(), flow->work()}, flow->steps_per_interval() * one.count});
-      } else {
-        advance_alone(one);
+      if (fixed && !fixed->is_general()) {
+        fixed->pay(one.count);
+        lanes.push_back({one,
+                         {fixed->balls(), fixed->work()},
+                         fixed->steps_per_interval() * one.count});
+        continue;
+      }
+      for (long i = 0; i < one.count; ++i) {
+        one.flow->advance(one.first + i, *one.state);
+        if (one.path) one.path->push_back(*one.state);
       }
     } catch (const NoSolution&) {
       failures.push_back({k, std::current_exception()});

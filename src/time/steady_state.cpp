@@ -7,16 +7,16 @@
 
 #include "io/errors.hpp"
 #include "io/toml_file.hpp"
-#include "time/section.hpp"
 #include "time/side_by_side.hpp"
 
 namespace rotor_stator {
 
-/** Beyond this the section alone fills the memory. */
-static constexpr double most_periods = 1e7;
+namespace {
 
+/** The period T [s]. Throws NoSolution unless `seconds` of it can be integrated. */
 double checked_period(double omega, double seconds)
 {
+  constexpr double most_periods = 1e7;  // beyond this the section alone fills the memory
   const double period = 2 * std::numbers::pi / omega;
   if (!std::isfinite(period))
     throw NoSolution("the period of rotation is too long to be integrated");
@@ -25,8 +25,6 @@ double checked_period(double omega, double seconds)
         format("%g s are more than %g periods of rotation", seconds, most_periods));
   return period;
 }
-
-namespace {
 
 /** One run, base period after base period. */
 class Steadying : public Traveller {
@@ -169,11 +167,12 @@ void steady_states(std::span<const SteadyRun> runs,
   travel(travellers);
 }
 
-SteadyState steady_state(const Parameters& parameters, double omega, const State& start,
+SteadyState steady_state(const Parameters& parameters, double omega,
                          const SteadySettings& settings)
 {
   SteadyState steady;
-  steady_states(std::vector<SteadyRun>{{parameters, omega, start, settings}},
+  const SteadyRun run{parameters, omega, static_start(parameters), settings};
+  steady_states({&run, 1},
                 [&](std::size_t, SteadyState one) { steady = std::move(one); });
   return steady;
 }
@@ -183,23 +182,16 @@ SteadySettings read_steady_settings(SceneFile& scene)
   SteadySettings settings;
   StrictToml table = scene.toml().table("time_integration");
   settings.stepper.method = table.string("method");
-  const bool fixed_step = has_fixed_step(settings.stepper.method);
-  if (fixed_step)
+  if (has_fixed_step(settings.stepper.method))
     settings.stepper.step =
         table.number("step_s", Range::positive) / steps_of_rk4(settings.stepper.method);
-  if (!fixed_step)
+  else
     settings.stepper.tolerance = table.number("tolerance", Range::positive);
   settings.stepper.intervals_per_period = table.integer("points_per_period", 4, 4096);
   settings.longest = table.number("longest_s", Range::positive);
   settings.shown_periods = table.integer("shown_periods", 1, 1000);
   settings.average = table.number_or("average_s", Range::positive, 0);
   return settings;
-}
-
-SteadyState steady_state(const Parameters& parameters, double omega,
-                         const SteadySettings& settings)
-{
-  return steady_state(parameters, omega, static_start(parameters), settings);
 }
 
 }  // namespace rotor_stator

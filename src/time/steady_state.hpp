@@ -2,33 +2,26 @@
 # Steady state by time integration, and whether it is periodic
 
 How the figures of the paper integrate; what `explore` answers comes from time/settle.
-Transients decay in seconds, not in periods, so they are counted in seconds (D-16). The
-motion is looked at once per period T (a Poincaré section); its spread is the largest
-distance between the section points of the last `window` seconds, over the largest
-displacement of the orbit. Integration ends when the spread falls below `settled`, or
+Transients are counted in seconds, in which they decay (D-16). The spread is the largest
+distance between the points of the Poincaré section of the last `window` seconds, over the
+largest displacement of the orbit. Integration ends when it falls below `settled`, or
 after `longest` seconds; the motion is then called periodic if the spread is below
-`periodic`, aperiodic (with period T) otherwise, and the periods that a scene shows are
-recorded from there on.
+`periodic`, and the periods that a scene shows are recorded.
 
-Chaotic motion differs in every digit from processor to processor; only its averages are
-numbers of the machine. The spread of an aperiodic motion is therefore the mean over the
-windows of the second half of the integration, with its standard error; with `average`,
-over the windows of so many seconds more, which are recorded.
-*/
+Only averages of a chaotic motion are the same on all processors. The spread of an
+aperiodic motion is therefore the mean over the windows of the second half of the
+integration, with its standard error; with `average`, over the windows of so many seconds
+more, which are recorded. */
 #pragma once
 
 #include <functional>
 #include <span>
 #include <vector>
 
-#include "time/batch_mean.hpp"
 #include "time/flow.hpp"
+#include "time/section.hpp"
 
 namespace rotor_stator {
-
-/** Relative. A chaotic motion is another one after so little a change of the speed, as it
-    is on another processor; no other motion changes visibly. */
-inline constexpr double other_rounding = 1e-11;
 
 struct SteadySettings {
   StepSettings stepper;
@@ -55,9 +48,6 @@ struct SteadyState {
   double omega = 0;      ///< the base frequency [rad/s]
 };
 
-/** The period T [s]. Throws NoSolution unless `seconds` of it can be integrated. */
-double checked_period(double omega, double seconds);
-
 /** What is integrated from `start` at t = 0. */
 struct SteadyRun {
   const Parameters& parameters;
@@ -72,11 +62,7 @@ struct SteadyRun {
 void steady_states(std::span<const SteadyRun> runs,
                    const std::function<void(std::size_t, SteadyState)>& ended);
 
-/** One of them. */
-SteadyState steady_state(const Parameters& parameters, double omega, const State& start,
-                         const SteadySettings& settings);
-
-/** From rest under the static load. */
+/** One from rest under the static load. */
 SteadyState steady_state(const Parameters& parameters, double omega,
                          const SteadySettings& settings);
 

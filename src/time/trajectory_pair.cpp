@@ -43,18 +43,7 @@ void TrajectoryPair::arrived()
     low_[i] = std::min(low_[i], q[i]);
     high_[i] = std::max(high_[i], q[i]);
   }
-  if (++interval_ == intervals_) end_period();
-}
-
-void TrajectoryPair::go_back()
-{
-  at_ = before_;
-  neighbour_ = neighbour_before_;
-  interval_ = 0;
-}
-
-void TrajectoryPair::end_period()
-{
+  if (++interval_ < intervals_) return;
   interval_ = 0;
   ++at_.period;
   section_.push_back(displacements(before_.state.position));
@@ -69,6 +58,13 @@ void TrajectoryPair::end_period()
     marks_.push_back({log_distance_, at_});
 }
 
+void TrajectoryPair::go_back()
+{
+  at_ = before_;
+  neighbour_ = neighbour_before_;
+  interval_ = 0;
+}
+
 /** At the first distance, off in all directions, so that none is missed. */
 State TrajectoryPair::beside(const Eigen::VectorXd& y) const
 {
@@ -76,24 +72,19 @@ State TrajectoryPair::beside(const Eigen::VectorXd& y) const
   return state_of(y + share * sizes_);
 }
 
-void TrajectoryPair::diverged() const
-{
-  throw Diverged(format("time integration diverged %.3g s after its start", seconds()));
-}
-
 double TrajectoryPair::pull_back()
 {
   constexpr double met = 1e-8;  ///< rounding keeps neighbours apart that have met
-  const Eigen::VectorXd y = vector_of(at_.state);
-  if (!y.allFinite()) diverged();
-  if ((above_rounding * y.array().abs() > sizes_.array()).any()) {
+  const Eigen::VectorXd y = vector_of(at_.state), apart = vector_of(neighbour_) - y;
+  const double growth = apart.cwiseQuotient(sizes_).norm() / first_distance;
+  const bool is_large = (above_rounding * y.array().abs() > sizes_.array()).any();
+  if (!y.allFinite() || !(is_large || std::isfinite(growth)))
+    throw Diverged(format("time integration diverged %.3g s after its start", seconds()));
+  if (is_large) {
     sizes_ = sizes_.cwiseMax(above_rounding * y.cwiseAbs());
     neighbour_ = beside(y);
     return 0;
   }
-  const Eigen::VectorXd apart = vector_of(neighbour_) - y;
-  const double growth = apart.cwiseQuotient(sizes_).norm() / first_distance;
-  if (!std::isfinite(growth)) diverged();
   neighbour_ = growth > met ? state_of(y + apart / growth) : beside(y);
   return std::log(std::max(growth, met));
 }

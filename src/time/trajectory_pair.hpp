@@ -14,7 +14,6 @@ them. On a T-periodic motion λ is ln|μ|/T of the largest Floquet multiplier. *
 #include <span>
 #include <vector>
 
-#include "time/batch_mean.hpp"
 #include "time/section.hpp"
 #include "time/side_by_side.hpp"
 
@@ -31,10 +30,9 @@ struct Instant {
 
 class TrajectoryPair {
 public:
-  /** `flow`: of fixed step, since an adaptive one takes other steps for the neighbour and
-      its error would pass for growth. `sizes` of the components make the distance a
-      number; where the motion shows to be far larger than they are, they grow, and the
-      neighbour begins anew. */
+  /** `flow`: of fixed step, since the error of an adaptive one would pass for growth.
+      `sizes` of the components make the distance a number; where the motion is far larger
+      than they are, they grow, and the neighbour begins anew. */
   TrajectoryPair(std::unique_ptr<Flow> flow, int intervals_per_period, double period,
                  const Eigen::VectorXd& sizes, const Instant& start);
 
@@ -75,10 +73,8 @@ public:
   double evaluations() const { return static_cast<double>(flow_->evaluations()); }
 
 private:
-  void end_period();
   State beside(const Eigen::VectorXd& y) const;
   double pull_back();
-  [[noreturn]] void diverged() const;
 
   struct Mark {
     double log_distance;

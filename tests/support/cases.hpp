@@ -11,7 +11,7 @@ through the seam of balance/balance.hpp. M q̈ + D q̇ + K q + f(q) = F cos Ωt.
 
 #include "balance/balance.hpp"
 #include "model/rotor_stator.hpp"
-#include "time/floquet.hpp"
+#include "time/period_map.hpp"
 
 namespace rotor_stator::tests {
 

@@ -78,7 +78,6 @@ TEST_CASE("An integration that breaks down is paid for up to there")
   SteadySettings settings;
   settings.stepper = {
       .method = "rk4", .intervals_per_period = 4, .step = 1e-2, .budget = budget};
-  CHECK_THROWS_AS(steady_state(set_1(), hertz(10), static_start(set_1()), settings),
-                  NoSolution);
+  CHECK_THROWS_AS(steady_state(set_1(), hertz(10), settings), NoSolution);
   CHECK(budget.left() <= 1e9 - 4 * 4);
 }

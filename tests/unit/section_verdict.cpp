@@ -28,7 +28,6 @@ public:
       : a_(std::move(a)), h_(2 * std::numbers::pi / omega / steps)
   {
   }
-  using Flow::advance;
   void advance(long interval, State& state) override
   {
     using Pair = std::complex<double>;  // x + i ẋ

@@ -4,7 +4,7 @@
 #include "motion/find_periodic.hpp"
 #include "support/cases.hpp"
 #include "time/eigenvalues.hpp"
-#include "time/floquet.hpp"
+#include "time/period_map.hpp"
 #include "time/shooting.hpp"
 
 using namespace rotor_stator;

@@ -175,7 +175,7 @@ TEST_CASE(
   settings.longest = 6;
   Parameters machine = set_1();
   const auto at = [&](double frequency) {
-    return steady_state(machine, hertz(frequency), static_start(machine), settings);
+    return steady_state(machine, hertz(frequency), settings);
   };
   const SteadyState steady = at(30);
   CHECK(steady.periodic);
