@@ -14,10 +14,4 @@ std::unique_ptr<Flow> gsl_flow(const Parameters&, double, const StepSettings& se
   throw BadInput("--method " + settings.method + ": needs the program explore");
 }
 
-PeriodMap gsl_period_map(const Parameters&, double, const State&,
-                         const StepSettings& settings, long)
-{
-  throw BadInput("--method " + settings.method + ": needs the program explore");
-}
-
 }  // namespace rotor_stator
