@@ -88,9 +88,8 @@ try {
   found.turns_of_period = 1 / answer.base.per_turn;
   if (answer.method == "shooting") {
     found.closes_after = answer.period();
-    motion::Motion whole = answer.motion;
-    whole.points_per_period = static_cast<int>(whole.size());
-    found.lines = motion::lines_of_closed(whole, answer.period() * found.turns_of_period);
+    found.lines = motion::lines_of_closed(as_one_period(answer.motion),
+                                          answer.period() * found.turns_of_period);
   }
   return found;
 } catch (const Diverged& error) {

@@ -51,96 +51,70 @@ std::string recording_method(const Request& request, const Answer& answer)
                                   : request.method;
 }
 
-/** All of a record as one period: what differences are taken over. */
-Motion as_one_period(Motion motion)
-{
-  motion.points_per_period = static_cast<int>(motion.size());
-  return motion;
-}
-
 /**
 ## A motion that closes */
 
-class Closing {
-public:
-  Closing(const Answer& answer, const Request& request, const OperationBudget& budget)
-      : machine_(over_turns(answer.machine, answer.settled.period)),
-        omega_(answer.omega / answer.settled.period), request_(request), budget_(budget)
-  {
-  }
-
-  /** Whether shooting closes the motion that the state is on. */
-  bool close(State& state, double local_error) const
-  {
-    /** Of the sizes: farther away it is another one; Newton may pass a hundred times as
-        far from it. */
-    constexpr double near = 1e-2;
-    State closed = state;
-    const Shooting shooting = shoot(machine_, omega_, closed,
-                                    {.tolerance = local_error,
-                                     .closed = std::max(1e-9, 10 * local_error),
-                                     .farthest = 100 * near,
-                                     .budget = budget_});
-    if (!shooting.converged || !(apart(machine_, closed, state) < near)) return false;
-    state = closed;
-    return true;
-  }
-
-  Motion record(const State& state, double local_error, int points) const
-  {
-    return one_period(
-        machine_, omega_, state,
-        {.intervals_per_period = points, .tolerance = local_error, .budget = budget_});
-  }
-
-  Floquet multipliers(const State& state) const
-  {
-    return multipliers_through(machine_, omega_, state, budget_);
-  }
-
-private:
-  Parameters machine_;  ///< over K base periods
-  double omega_;
-  const Request& request_;
-  OperationBudget budget_;
-};
-
-/** λ [1/s] of a closed motion from its largest multiplier. */
-Exponent exponent_of(const Floquet& floquet, double period)
+/** The closed motion that the state is on; none where shooting closes none so near. */
+std::optional<State> closed(const Parameters& machine, double omega, const State& state,
+                            double local_error, const OperationBudget& budget)
 {
-  const double largest = floquet.largest();
-  return {std::log(largest) / period, floquet.uncertainty() / largest / period};
+  /** Of the sizes: farther away it is another one; Newton may pass a hundred times as
+      far from it. */
+  constexpr double near = 1e-2;
+  State at = state;
+  const Shooting shooting = shoot(machine, omega, at,
+                                  {.tolerance = local_error,
+                                   .closed = std::max(1e-9, 10 * local_error),
+                                   .farthest = 100 * near,
+                                   .budget = budget});
+  if (!shooting.converged || !(apart(machine, at, state) < near)) return {};
+  return at;
+}
+
+/** The stability of a closed motion, and λ from its largest multiplier. */
+void judge_closed(Answer& answer, const Parameters& machine, double omega,
+                  const OperationBudget& budget)
+try {
+  const Floquet floquet =
+      multipliers_through(machine, omega, answer.settled.at.state, budget);
+  answer.stability = floquet.verdict();
+  answer.multiplier = floquet.largest();
+  answer.uncertainty = floquet.uncertainty();
+  const double period = answer.settled.period * 2 * std::numbers::pi / answer.omega;
+  if (answer.multiplier > 10 * answer.uncertainty)
+    answer.settled.lyapunov = {std::log(answer.multiplier) / period,
+                               answer.uncertainty / answer.multiplier / period};
+} catch (const NoSolution&) {
+  answer.stability = "undecided";
 }
 
 /** False where shooting does not close the motion: the integrated one is then
     recorded. */
 bool close(Answer& answer, const Request& request, const OperationBudget& budget)
 {
-  const int k = answer.settled.period, points = k * request.points;
-  const Closing closing(answer, request, budget);
-  const double finer_error = 0.01 * request.local_error;
-  State state = answer.settled.at.state;
-  if (!closing.close(state, request.local_error)) return false;
-  State finer = state;
-  if (request.is_measured && !closing.close(finer, finer_error)) return false;
-  answer.settled.at = {state, 0};
-  answer.motion = closing.record(state, request.local_error, points);
+  const int k = answer.settled.period;
+  const Parameters machine = over_turns(answer.machine, k);
+  const double omega = answer.omega / k;
+  const auto record = [&](const State& state, double local_error) {
+    return one_period(machine, omega, state,
+                      {.intervals_per_period = k * request.points,
+                       .tolerance = local_error,
+                       .budget = budget});
+  };
+  const double local_error = request.local_error, finer_error = 0.01 * local_error;
+  const auto state = closed(machine, omega, answer.settled.at.state, local_error, budget);
+  if (!state) return false;
+  const auto finer =
+      request.is_measured ? closed(machine, omega, *state, finer_error, budget) : state;
+  if (!finer) return false;
+  answer.settled.at = {*state, 0};
+  answer.motion = record(*state, local_error);
   answer.method = "shooting";
   answer.error_note =
       format("shooting over %d base periods from where integration settles", k);
   if (request.is_measured) {
-    answer.error = difference(answer.motion, closing.record(finer, finer_error, points));
-    try {
-      const Floquet floquet = closing.multipliers(state);
-      answer.stability = floquet.verdict();
-      answer.multiplier = floquet.largest();
-      answer.uncertainty = floquet.uncertainty();
-      if (answer.multiplier > 10 * answer.uncertainty)
-        answer.settled.lyapunov =
-            exponent_of(floquet, k * 2 * std::numbers::pi / answer.omega);
-    } catch (const NoSolution&) {
-      answer.stability = "undecided";
-    }
+    answer.error = difference(answer.motion, record(*finer, finer_error));
+    judge_closed(answer, machine, omega, budget);
   }
   answer.motion.points_per_period = request.points;
   answer.motion.omega = answer.omega;
@@ -150,94 +124,75 @@ bool close(Answer& answer, const Request& request, const OperationBudget& budget
 /**
 ## A motion that is recorded */
 
-class Recording {
-public:
-  Recording(const Answer& answer, const Request& request, long periods,
-            const OperationBudget& budget)
-      : answer_(answer), request_(request), periods_(periods), budget_(budget),
-        begins_earlier_(answer.settled.contracts && can_begin_earlier())
-  {
-  }
+/** Whether the budget is enough for a record of so many base periods from the earlier
+    state, and for another one with half the step. */
+bool can_begin_earlier(const Answer& answer, long periods, const OperationBudget& budget)
+{
+  constexpr double times = 3, motions = 2;
+  const Settled& settled = answer.settled;
+  const auto all =
+      static_cast<double>(settled.at.period - settled.before.period + periods);
+  const double share = all * 2 * std::numbers::pi / answer.omega / settled.seconds;
+  return times * share * settled.evaluations / motions < budget.left();
+}
 
-  /** Whether a motion whose neighbours contract is that of the steps of the record. */
-  bool begins_earlier() const { return begins_earlier_; }
-
-  /** From the same earlier state, if it can be. `finer`: by so much smaller steps, or a
-      local error smaller by its square. */
-  Motion operator()(double finer)
-  {
-    const auto stepper = [&](int intervals) {
-      double step = step_of(request_, answer_);
-      /** Not longer than an interval, else half of it would change nothing. */
-      const std::string method = recording_method(request_, answer_);
-      if (method == "splitting")
-        step = std::min(step, 2 * std::numbers::pi / answer_.omega / request_.points /
-                                  steps_of_rk4(method));
-      return flow(answer_.machine, answer_.omega,
-                  {.method = request_.method,
-                   .intervals_per_period = intervals,
-                   .step = step / finer,
-                   .tolerance = request_.local_error / (finer * finer),
-                   .budget = budget_});
-    };
-    const Settled& settled = answer_.settled;
-    const Instant& from = begins_earlier_ ? settled.before : settled.at;
-    State state = from.state;
-    const auto whole = stepper(1), parts = stepper(request_.points);
-    for (long k = from.period; k < settled.at.period; ++k) whole->advance(k, state);
-    Motion motion = recorded(*parts, request_.points, state, settled.at.period, periods_);
-    motion.omega = answer_.omega;
-    return motion;
-  }
-
-private:
-  /** Whether the budget is enough for it, and for half the step. */
-  bool can_begin_earlier() const
-  {
-    constexpr double times = 3, motions = 2;
-    const Settled& settled = answer_.settled;
-    const double periods =
-        static_cast<double>(settled.at.period - settled.before.period + periods_);
-    const double share = periods * 2 * std::numbers::pi / answer_.omega / settled.seconds;
-    return times * share * settled.evaluations / motions < budget_.left();
-  }
-
-  const Answer& answer_;
-  const Request& request_;
-  long periods_;
-  OperationBudget budget_;
-  bool begins_earlier_;
-};
+/** So many base periods, from an earlier instant. `finer`: by so much smaller steps, or a
+    local error smaller by its square. */
+Motion recorded_from(const Instant& from, const Answer& answer, const Request& request,
+                     long periods, double finer, const OperationBudget& budget)
+{
+  double step = step_of(request, answer);
+  /** Not longer than an interval, else half of it would change nothing. */
+  const std::string method = recording_method(request, answer);
+  if (method == "splitting")
+    step = std::min(step, 2 * std::numbers::pi / answer.omega / request.points /
+                              steps_of_rk4(method));
+  const auto stepper = [&](int intervals) {
+    return flow(answer.machine, answer.omega,
+                {.method = request.method,
+                 .intervals_per_period = intervals,
+                 .step = step / finer,
+                 .tolerance = request.local_error / (finer * finer),
+                 .budget = budget});
+  };
+  const auto whole = stepper(1), parts = stepper(request.points);
+  const long first = answer.settled.at.period;
+  State state = from.state;
+  for (long k = from.period; k < first; ++k) whole->advance(k, state);
+  Motion motion = recorded(*parts, request.points, state, first, periods);
+  motion.omega = answer.omega;
+  return motion;
+}
 
 void record(Answer& answer, const Request& request, const OperationBudget& budget)
 {
-  constexpr int most_halvings = 6;
+  constexpr double finest = 64;
   const Settled& settled = answer.settled;
-  Recording recording(answer, request, std::max(request.periods, settled.period), budget);
-  answer.motion = recording(1);
+  const long periods = std::max(request.periods, settled.period);
+  const bool begins_earlier =
+      settled.contracts && can_begin_earlier(answer, periods, budget);
+  const Instant& from = begins_earlier ? settled.before : settled.at;
+  answer.motion = recorded_from(from, answer, request, periods, 1, budget);
   answer.method = recording_method(request, answer);
   answer.error_note = "integration";
   if (settled.contracts) answer.stability = "stable";
-  if (request.is_measured && recording.begins_earlier()) {
-    double finer = 1;
-    for (int halvings = 0; halvings < most_halvings; ++halvings) {
-      Motion next = recording(finer *= 2);
-      answer.error = difference(as_one_period(answer.motion), as_one_period(next));
-      answer.error->largest += settled.remainder;
-      answer.error->rms += settled.remainder;
-      answer.motion = std::move(next);
-      if (!request.tolerance || answer.error->larger() <= *request.tolerance) break;
-    }
+  if (!request.is_measured || !begins_earlier) return;
+  for (double finer = 2; finer <= finest; finer *= 2) {
+    Motion next = recorded_from(from, answer, request, periods, finer, budget);
+    answer.error = difference(as_one_period(answer.motion), as_one_period(next));
+    answer.error->largest += settled.remainder;
+    answer.error->rms += settled.remainder;
+    answer.motion = std::move(next);
     answer.error_note =
         format("integration, with half the step for the error; step over %g", finer);
+    if (!request.tolerance || answer.error->larger() <= *request.tolerance) return;
   }
 }
 
 /** A machine that does not move. */
 void rest(Answer& answer, const Request& request)
 {
-  answer.motion = {request.points, 0, {}};
-  answer.motion.omega = answer.omega;
+  answer.motion = {request.points, 0, {}, {}, answer.omega};
   for (int k = 0; k < request.periods * request.points; ++k)
     add(answer.motion, answer.settled.at.state);
   answer.error = Error{};
@@ -246,10 +201,8 @@ void rest(Answer& answer, const Request& request)
   answer.error_note = "static equilibrium";
 }
 
-}  // namespace
-
 /** Nothing but the machine that counts its base periods. */
-static Answer begun(const Question& question)
+Answer begun(const Question& question)
 {
   Answer answer{.base = base_period(question.parameters), .settled = {}};
   Based based = over(answer.base, question.parameters, question.request.omega);
@@ -258,19 +211,22 @@ static Answer begun(const Question& question)
   return answer;
 }
 
-static std::unique_ptr<Settling> settling(const Question& question, const Answer& at)
+std::unique_ptr<Settling> settling(const Question& question, const Answer& at)
 {
+  const Request& request = question.request;
   Instant first = from_rest(at.machine, at.omega);
   if (question.start) first.state = *question.start;
-  return std::make_unique<Settling>(
-      at.machine, at.omega, at.base, first,
-      SettleRule{.method = settling_method(question.request),
-                 .step = step_of(question.request, at),
-                 .is_fixed = question.request.step > 0,
-                 .longest = question.request.longest},
-      question.transient_share < 1 ? question.budget.part(question.transient_share)
-                                   : question.budget);
+  return std::make_unique<Settling>(at.machine, at.omega, at.base, first,
+                                    SettleRule{.method = settling_method(request),
+                                               .step = step_of(request, at),
+                                               .is_fixed = request.step > 0,
+                                               .longest = request.longest},
+                                    question.transient_share < 1
+                                        ? question.budget.part(question.transient_share)
+                                        : question.budget);
 }
+
+}  // namespace
 
 std::vector<Attempt<Answer>> settled_answers(std::span<const Question> questions)
 {
@@ -361,12 +317,10 @@ double turning_point(double a, double s, double b, double t)
 
 double half_range(std::span<const PeriodSums> periods, std::size_t i)
 {
-  double low = periods.front().low[i], high = periods.front().high[i];
-  for (const PeriodSums& one : periods) {
-    low = std::min(low, one.low[i]);
-    high = std::max(high, one.high[i]);
-  }
-  return 0.5 * (high - low);
+  const auto low = [i](const PeriodSums& one) { return one.low[i]; };
+  const auto high = [i](const PeriodSums& one) { return one.high[i]; };
+  return 0.5 * (high(*std::ranges::max_element(periods, {}, high)) -
+                low(*std::ranges::min_element(periods, {}, low)));
 }
 
 /** One motion while it is observed. */
@@ -405,12 +359,11 @@ public:
     PeriodSums& one = periods_.emplace_back(PeriodSums{first, first});
     for (const State& to : path_) {
       const Displacements a = displacements(from.position),
-                          a_speed = displacements(from.velocity),
+                          a_slope = displacements(interval * from.velocity),
                           b = displacements(to.position),
-                          b_speed = displacements(to.velocity);
+                          b_slope = displacements(interval * to.velocity);
       for (std::size_t i = 0; i < 4; ++i) {
-        const double turning =
-            turning_point(a[i], interval * a_speed[i], b[i], interval * b_speed[i]);
+        const double turning = turning_point(a[i], a_slope[i], b[i], b_slope[i]);
         one.low[i] = std::min({one.low[i], b[i], turning});
         one.high[i] = std::max({one.high[i], b[i], turning});
         const double off = b[i] - origin_[i];

@@ -5,15 +5,14 @@ Eq. 7 is integrated from rest until it has settled (`settle`). What follows depe
 its kind:
 
 - `rest`: the static equilibrium, error 0.
-- `periodic`: shooting closes the motion over its K base periods, no farther than 1e-2 of
-  the sizes from where integration ended. That gives multipliers and with them the
-  stability; the error is what closing it again with a hundredth of the local error
-  changes. Where shooting fails, or a stepper is asked for, it is recorded.
-- Every other motion is recorded. Where neighbours contract it is integrated twice from
-  `settled.before`, the second time with half the step, or a fourth of the local error:
-  that one is `motion`, its difference from the first and what is left of the transient
-  are the error, and it is stable. With a tolerance the step is halved until the error is
-  below it, six times at most. Without an error where the budget is too small for that.
+- `periodic`: shooting closes the motion over its K base periods, within 1e-2 of the sizes
+  of where integration ended, and gives its multipliers; the error is what a hundredth of
+  the local error changes. Where shooting fails, or a stepper is asked for, it is recorded.
+- Every other motion is recorded. Where neighbours contract it is stable, and recorded
+  twice from `settled.before`, the second time with half the step, or a fourth of the
+  local error: that one is `motion`, its difference from the first and what is left of the
+  transient are the error. With a tolerance the step is halved six times at most. Where
+  the budget is too small there is no error.
 - Where they do not contract, the record depends on rounding: no error, `undecided`.
 
     const Answer answer = motion::answer(parameters, {.omega = angular(25)}, budget);
@@ -35,8 +34,7 @@ namespace rotor_stator::motion {
 
 struct Request {
   double omega;                 ///< speed of the rotor [rad/s]
-  std::string method = "auto";  ///< or the stepper of the record; shooting is then not
-                                ///< tried, and rk4 integrates the transient too
+  std::string method = "auto";  ///< or what records, without shooting; rk4 also settles
   std::optional<double> tolerance = {};  ///< of the error, largest and rms [-]
   int points = 256;                      ///< P, of a base period
   int periods = 1;             ///< recorded where shooting closes nothing, at least K
@@ -55,10 +53,9 @@ struct Answer {
   Motion motion = {};  ///< from base period `motion.first_period`, mostly 0
   std::optional<Error> error = {};
   std::string stability = "undecided";
-  double multiplier = 0,
-         uncertainty = 0;       ///< largest modulus of a closed motion; 0 unknown
-  std::string method = {};      ///< shooting, or what recorded the motion
-  std::string error_note = {};  ///< what the error is measured by
+  double multiplier = 0, uncertainty = 0;  ///< largest modulus of a closed one; else 0
+  std::string method = {};                 ///< shooting, or what recorded the motion
+  std::string error_note = {};             ///< what the error is measured by
 
   Kind kind() const { return settled.kind; }
   int period() const { return settled.period; }
@@ -68,9 +65,8 @@ struct Answer {
 };
 
 /** Throws NoSolution when the integration breaks down, when the error stays above the
-    tolerance or the budget leaves none, and when the budget ends in the record. A budget
-    that ends before the kind is known leaves it undecided, with the reason in `settled`.
-    */
+    tolerance or is unknown, and when the budget ends in the record. A budget that ends
+    before leaves the kind undecided, with the reason in `settled`. */
 Answer answer(const Parameters& parameters, const Request& request,
               const OperationBudget& budget = {});
 
@@ -80,8 +76,7 @@ struct Question {
   Request request;
   OperationBudget budget = {};
   std::optional<State> start = {};  ///< in the place of rest, at the same time
-  double transient_share = 1;       ///< of the budget, for what comes before the motion;
-                                    ///< `answer` takes that of the machine
+  double transient_share = 1;       ///< of the budget, until it has settled
   bool is_observed = true;          ///< with an `Observation`
 };
 
@@ -91,9 +86,8 @@ std::vector<Attempt<Answer>> settled_answers(std::span<const Question> questions
 Answer settled_answer(const Question& question);
 void complete(Answer& answer, const Request& request, const OperationBudget& budget = {});
 
-/** What tables report of x_s, y_s, x_r, y_r [m]. Of a periodic motion over its K base
-    periods; of every other one over 256 base periods, with standard errors. Taken at
-    every second step of rk4, of one that does not close at every fourth. */
+/** What tables report of x_s, y_s, x_r, y_r [m]: of a periodic motion over its K base
+    periods, of every other one over 256, with standard errors. */
 struct Observation {
   Displacements amplitude{};    ///< half of the largest less the smallest value
   Displacements mean{}, rms{};  ///< rms about the mean

@@ -30,8 +30,7 @@ ContactEvolution contact_evolution(const Parameters& parameters, const Motion& m
 {
   const BearingInstants at(parameters, motion, bearing);
   ContactEvolution evolution;
-  const auto instants = static_cast<std::size_t>(periods * motion.points_per_period);
-  for (std::size_t k = 0; k < instants; ++k) {
+  for (long k = 0; k < periods * motion.points_per_period; ++k) {
     evolution.t_over_period.push_back(motion.t_over_period(k));
     evolution.ball_force.push_back(
         at.bearing.ball_forces(at.angles(k), at.u(k), at.rate(k)));
@@ -41,11 +40,10 @@ ContactEvolution contact_evolution(const Parameters& parameters, const Motion& m
 
 double largest_ball_load(const Parameters& parameters, const Motion& motion)
 {
-  const BearingInstants at(parameters, motion);
+  const auto periods = std::ssize(motion.positions) / motion.points_per_period;
   double most = 0;
-  for (std::size_t k = 0; k < motion.size(); ++k)
-    most = std::max(most, std::ranges::max(
-                              at.bearing.ball_forces(at.angles(k), at.u(k), at.rate(k))));
+  for (const auto& forces : contact_evolution(parameters, motion, periods).ball_force)
+    most = std::max(most, std::ranges::max(forces));
   return most;
 }
 

@@ -18,13 +18,8 @@
 
 namespace rotor_stator::motion {
 
-namespace {
-
-constexpr double turn = 2 * std::numbers::pi;
-constexpr double least = 1e-6;  ///< of the largest line
-constexpr double window_terms[] = {0.35875, -0.48829, 0.14128, -0.01168};
-
-}  // namespace
+static constexpr double turn = 2 * std::numbers::pi;
+static constexpr double window_terms[] = {0.35875, -0.48829, 0.14128, -0.01168};
 
 Eigen::VectorXd blackman_harris(Eigen::Index samples)
 {
@@ -36,34 +31,21 @@ Eigen::VectorXd blackman_harris(Eigen::Index samples)
   return window / window.sum();
 }
 
-double Line::largest() const
-{
-  return *std::ranges::max_element(amplitude);
-}
-
 /**
 ## From a series */
 
-namespace {
-
 /** Of a series of Eq. 9 with any frequencies. */
-Lines lines_of(const Eigen::MatrixXd& series, const std::vector<double>& orders)
+static Lines lines_of(const Eigen::MatrixXd& series, const std::vector<double>& orders)
 {
   Lines all;
-  for (Eigen::Index i = 0; i < 4; ++i)
-    all.mean[static_cast<std::size_t>(i)] = series(i, 0);
+  for (int i = 0; i < 4; ++i) all.mean[i] = series(i, 0);
   for (std::size_t h = 1; h < orders.size(); ++h) {
-    Line line{orders[h], {}};
-    const auto column = static_cast<Eigen::Index>(2 * h);
-    for (Eigen::Index i = 0; i < 4; ++i)
-      line.amplitude[static_cast<std::size_t>(i)] =
-          std::hypot(series(i, column - 1), series(i, column));
-    all.lines.push_back(line);
+    Line& line = all.lines.emplace_back(Line{orders[h], {}});
+    for (int i = 0; i < 4; ++i)
+      line.amplitude[i] = std::hypot(series(i, 2 * h - 1), series(i, 2 * h));
   }
   return all;
 }
-
-}  // namespace
 
 Lines lines_of(const Bearing& bearing, const PeriodicMotion& solution, int turns)
 {
@@ -88,16 +70,14 @@ Lines lines_of_closed(const Motion& motion, double turns)
 namespace {
 
 /** Frequencies are in bins, periods in the record. */
-class Record {
-public:
-  explicit Record(const Motion& motion)
-      : n_(std::ssize(motion.positions)), samples_(displacement_samples(motion)),
-        weights_(blackman_harris(n_)), left_(samples_)
-  {
-    add(0);
-  }
-
-  std::size_t size() const { return bins_.size(); }
+struct Record {
+  Eigen::MatrixXd samples;  ///< N × 4 [m]
+  Eigen::Index n = samples.rows();
+  Eigen::VectorXd weights = blackman_harris(n);
+  Eigen::MatrixXd left = samples;  ///< without the lines
+  std::vector<double> bins = {};   ///< of the lines, that of the mean first
+  Eigen::MatrixXd moments = {};    ///< weighted products of the columns with the samples
+  Eigen::MatrixXd series = {};     ///< as of Eq. 9
 
   /** One more line, whose amplitude the next `fit` finds. */
   void add(double bin)
@@ -105,29 +85,27 @@ public:
     Eigen::Matrix<std::complex<double>, 1, 4> sum;
     sum.setZero();
     std::complex<double> wave = 1;
-    const auto step = std::polar(1.0, turn * bin / static_cast<double>(n_));
-    for (Eigen::Index k = 0; k < n_; ++k, wave *= step)
-      sum += (weights_[k] * wave) * samples_.row(k);
-    bins_.push_back(bin);
-    moments_.conservativeResize(2 * std::ssize(bins_) - 1, 4);
-    const Eigen::Index at = moments_.rows() - 1;
-    moments_.row(at) = sum.imag();
-    moments_.row(std::max<Eigen::Index>(0, at - 1)) = sum.real();
+    const auto step = std::polar(1.0, turn * bin / static_cast<double>(n));
+    for (Eigen::Index k = 0; k < n; ++k, wave *= step)
+      sum += (weights[k] * wave) * samples.row(k);
+    bins.push_back(bin);
+    moments.conservativeResize(2 * std::ssize(bins) - 1, 4);
+    const Eigen::Index at = moments.rows() - 1;
+    moments.row(at) = sum.imag();
+    moments.row(std::max<Eigen::Index>(0, at - 1)) = sum.real();
   }
 
   /** All amplitudes by weighted least squares, and what they leave. */
   void fit()
   {
-    series_ = normal_matrix().ldlt().solve(moments_).transpose();
-    left_ = samples_.rowwise() - series_.col(0).transpose();
-    for (std::size_t h = 1; h < bins_.size(); ++h) {
-      const auto column = static_cast<Eigen::Index>(2 * h);
-      const Eigen::RowVector4d cosine = series_.col(column - 1),
-                               sine = series_.col(column);
+    series = normal_matrix().ldlt().solve(moments).transpose();
+    left = samples.rowwise() - series.col(0).transpose();
+    for (std::size_t h = 1; h < bins.size(); ++h) {
+      const Eigen::RowVector4d cosine = series.col(2 * h - 1), sine = series.col(2 * h);
       std::complex<double> wave = 1;
-      const auto step = std::polar(1.0, turn * bins_[h] / static_cast<double>(n_));
-      for (Eigen::Index k = 0; k < n_; ++k, wave *= step)
-        left_.row(k) -= wave.real() * cosine + wave.imag() * sine;
+      const auto step = std::polar(1.0, turn * bins[h] / static_cast<double>(n));
+      for (Eigen::Index k = 0; k < n; ++k, wave *= step)
+        left.row(k) -= wave.real() * cosine + wave.imag() * sine;
     }
   }
 
@@ -135,33 +113,30 @@ public:
       bin by bin. */
   Eigen::VectorXd spectrum_left() const
   {
-    FourierTransform transform(static_cast<int>(n_));
-    Eigen::VectorXd squares = Eigen::VectorXd::Zero(n_ / 2 + 1);
+    FourierTransform transform(static_cast<int>(n));
+    Eigen::VectorXd squares = Eigen::VectorXd::Zero(n / 2 + 1);
     for (Eigen::Index i = 0; i < 4; ++i) {
       const Eigen::VectorXd weighted =
-          2.0 * static_cast<double>(n_) * left_.col(i).cwiseProduct(weights_);
+          2.0 * static_cast<double>(n) * left.col(i).cwiseProduct(weights);
       squares += transform.spectrum(weighted).cwiseAbs2();
     }
     return squares.cwiseSqrt();
   }
 
-  const Eigen::MatrixXd& series() const { return series_; }
-
   double rest() const
   {
-    const double all = (samples_.rowwise() - samples_.colwise().mean()).norm();
-    return all > 0 ? left_.norm() / all : 0;
+    const double all = (samples.rowwise() - samples.colwise().mean()).norm();
+    return all > 0 ? left.norm() / all : 0;
   }
 
-private:
   /** Σ_k e^{2πi bk/N} */
   std::complex<double> sum_of_waves(double bin) const
   {
-    const auto n = static_cast<double>(n_);
-    const double angle = std::numbers::pi * bin / n;
+    const auto count = static_cast<double>(n);
+    const double angle = std::numbers::pi * bin / count;
     const double ratio =
-        std::abs(angle) < 1e-12 ? n : std::sin(n * angle) / std::sin(angle);
-    return std::polar(1.0, angle * (n - 1)) * ratio;
+        std::abs(angle) < 1e-12 ? count : std::sin(count * angle) / std::sin(angle);
+    return std::polar(1.0, angle * (count - 1)) * ratio;
   }
 
   /** Σ_k w_k e^{2πi bk/N} over Σ_k w_k */
@@ -170,38 +145,27 @@ private:
     std::complex<double> sum = 0;
     for (int k = 0; k < 4; ++k)
       sum += 0.5 * window_terms[k] * (sum_of_waves(bin + k) + sum_of_waves(bin - k));
-    return sum / (window_terms[0] * static_cast<double>(n_));
+    return sum / (window_terms[0] * static_cast<double>(n));
   }
 
-  /** Weighted products of the columns 1, cos, sin, … */
+  /** Weighted products of the columns 1, cos, sin, …, below the diagonal. */
   Eigen::MatrixXd normal_matrix() const
   {
-    Eigen::MatrixXd matrix(moments_.rows(), moments_.rows());
-    const auto lines = std::ssize(bins_);
+    Eigen::MatrixXd matrix(moments.rows(), moments.rows());
+    const auto lines = std::ssize(bins);
     for (Eigen::Index i = 0; i < lines; ++i)
       for (Eigen::Index j = 0; j <= i; ++j) {
-        const double a = bins_[static_cast<std::size_t>(i)],
-                     b = bins_[static_cast<std::size_t>(j)];
-        const auto sum = 0.5 * window_at(a + b), difference = 0.5 * window_at(a - b);
+        const auto sum = 0.5 * window_at(bins[i] + bins[j]),
+                   difference = 0.5 * window_at(bins[i] - bins[j]);
         Eigen::Matrix2d block;  // rows: cos, sin of a; columns: of b
         block << sum.real() + difference.real(), sum.imag() - difference.imag(),
             sum.imag() + difference.imag(), difference.real() - sum.real();
         const Eigen::Index row = i == 0 ? 0 : 2 * i - 1, column = j == 0 ? 0 : 2 * j - 1;
         const Eigen::Index rows = i == 0 ? 1 : 2, columns = j == 0 ? 1 : 2;
         matrix.block(row, column, rows, columns) = block.topLeftCorner(rows, columns);
-        matrix.block(column, row, columns, rows) =
-            block.topLeftCorner(rows, columns).transpose();
       }
     return matrix;
   }
-
-  Eigen::Index n_;
-  Eigen::MatrixXd samples_;  ///< N × 4 [m]
-  Eigen::VectorXd weights_;
-  Eigen::MatrixXd left_;      ///< without the lines
-  std::vector<double> bins_;  ///< of the lines, that of the mean first
-  Eigen::MatrixXd moments_;   ///< weighted products of the columns with the samples
-  Eigen::MatrixXd series_;    ///< as of Eq. 9
 };
 
 struct Peak {
@@ -228,18 +192,20 @@ Lines lines_of_recorded(const std::vector<Bearing>& bearings, const Motion& moti
                         double near)
 {
   constexpr std::size_t most_lines = 200;
+  constexpr double least = 1e-6;  // of the largest line
   constexpr int most_rounds = 12, passages = 16;
   constexpr double side_lobe = 1e-4;                   // bins
   constexpr double apart = 1.5, apart_of_unnamed = 4;  // bins
   const double turns = static_cast<double>(motion.size()) / motion.points_per_period;
-  Record record(motion);
+  Record record{displacement_samples(motion)};
+  record.add(0);
   std::vector<double> orders{0};
   std::vector<bool> is_named{true};
   const auto add = [&](double bin) {
     const LineName name = name_of(bin / turns, bearings, near / turns, passages);
     const bool named = !name.name.empty();
     const double order = named ? name.order(bearings[name.bearing]) : bin / turns;
-    for (std::size_t h = 0; h < record.size(); ++h)
+    for (std::size_t h = 0; h < record.bins.size(); ++h)
       if (std::abs(order - orders[h]) * turns <
           (is_named[h] && named ? apart : apart_of_unnamed))
         return false;
@@ -257,11 +223,11 @@ Lines lines_of_recorded(const std::vector<Bearing>& bearings, const Motion& moti
     bool is_new = false;
     for (const Peak& peak :
          peaks_of(heights, std::max(0.5 * least * largest, side_lobe * highest)))
-      if (record.size() <= most_lines && add(peak.bin)) is_new = true;
+      if (record.bins.size() <= most_lines && add(peak.bin)) is_new = true;
     if (!is_new) break;
   }
   record.fit();
-  Lines all = lines_of(record.series(), orders);
+  Lines all = lines_of(record.series, orders);
   all.rest = record.rest();
   return all;
 }
@@ -292,48 +258,57 @@ std::string term(int h, int denominator, const char* symbol)
 struct Sum {
   int h, denominator, outer, passing, inner;
 
-  /** Smaller is shorter. */
-  auto length() const
+  double length() const
   {
-    return std::tuple(static_cast<double>(std::abs(h)) / denominator +
-                          2.0 * std::abs(outer) / passing + 2 * std::abs(inner),
-                      (h != 0) + (outer != 0) + (inner != 0), std::abs(inner));
+    return static_cast<double>(std::abs(h)) / denominator +
+           2.0 * std::abs(outer) / passing + 2 * std::abs(inner);
+  }
+
+  bool is_shorter_than(const Sum& other) const
+  {
+    const auto key = [](const Sum& s) {
+      return std::tuple(s.length(), (s.h != 0) + (s.outer != 0) + (s.inner != 0),
+                        std::abs(s.inner));
+    };
+    return key(*this) < key(other);
   }
 
   /** Positive terms first. */
-  std::string name() const
+  LineName name(int balls) const
   {
     std::string text;
-    const auto write = [&](int sign) {
-      const auto one = [&](int multiple, int of, const char* symbol) {
-        if (sign * multiple <= 0) return;
-        if (sign < 0)
-          text += "-";
-        else if (!text.empty())
-          text += "+";
+    for (const int sign : {1, -1})
+      for (const auto& [multiple, of, symbol] : {std::tuple{inner, 1, "BPFI"},
+                                                 {outer, passing, "BPFO"},
+                                                 {h, denominator, "X"}}) {
+        if (sign * multiple <= 0) continue;
+        if (sign < 0 || !text.empty()) text += sign < 0 ? "-" : "+";
         text += term(std::abs(multiple), of, symbol);
-      };
-      one(inner, 1, "BPFI");
-      one(outer, passing, "BPFO");
-      one(h, denominator, "X");
-    };
-    write(1);
-    write(-1);
-    return text;
+      }
+    return {static_cast<double>(h) / denominator + balls * inner,
+            balls * (static_cast<double>(outer) / passing - inner), 0, text, length()};
   }
 };
 
-/** The shortest with the multiple h/K of X in all: k_1 = h/K + n inner, k_2/L = outer/L -
-    inner. */
-void shorten(std::optional<Sum>& best, int h, int denominator, int k_2, int passing,
-             int balls)
+/** The shortest in parts of X, and in as many parts of BPFO; |k_2| at most `most`. In all
+    k_1 = h/K + n inner and k_2/L = outer/L - inner. */
+std::optional<Sum> sum_of(double order, const Bearing& bearing, double tolerance,
+                          int parts, int passing, int most)
 {
-  const int most = std::abs(h) / (denominator * balls) + 1;
-  for (int inner = -most; inner <= most; ++inner) {
-    const Sum sum{h - denominator * balls * inner, denominator, k_2 + passing * inner,
-                  passing, inner};
-    if (!best || sum.length() < best->length()) best = sum;
+  std::optional<Sum> best;
+  for (int k_2 = -most * passing; k_2 <= most * passing; ++k_2) {
+    const double k_1 = order - k_2 * passages_per_turn(bearing) / passing;
+    const double rounded = std::round(parts * k_1);
+    if (!(std::abs(k_1 - rounded / parts) <= tolerance && std::abs(rounded) < 1e6))
+      continue;
+    const int h = static_cast<int>(rounded), each = parts * bearing.balls;
+    const int inners = std::abs(h) / each + 1;
+    for (int inner = -inners; inner <= inners; ++inner) {
+      const Sum sum{h - each * inner, parts, k_2 + passing * inner, passing, inner};
+      if (!best || sum.is_shorter_than(*best)) best = sum;
+    }
   }
+  return best;
 }
 
 LineName multiple_of(const char* symbol, double order, double unit, int most,
@@ -343,31 +318,6 @@ LineName multiple_of(const char* symbol, double order, double unit, int most,
   if (multiple < 1 || multiple > most || std::abs(order - multiple * unit) > tolerance)
     return {};
   return {0, 0, 0, term(static_cast<int>(multiple), 1, symbol)};
-}
-
-}  // namespace
-
-namespace {
-
-/** The shortest in parts of X, and in as many parts of BPFO; |k_2| at most `most`. */
-std::optional<Sum> sum_of(double order, const Bearing& bearing, double tolerance,
-                          int parts, int passing, int most)
-{
-  std::optional<Sum> best;
-  for (int k_2 = -most * passing; k_2 <= most * passing; ++k_2) {
-    const double k_1 = order - k_2 * passages_per_turn(bearing) / passing;
-    const double h = std::round(parts * k_1);
-    if (std::abs(k_1 - h / parts) <= tolerance && std::abs(h) < 1e6)
-      shorten(best, static_cast<int>(h), parts, k_2, passing, bearing.balls);
-  }
-  return best;
-}
-
-LineName name_of(const Sum& sum, int balls)
-{
-  return {static_cast<double>(sum.h) / sum.denominator + balls * sum.inner,
-          balls * (static_cast<double>(sum.outer) / sum.passing - sum.inner), 0,
-          sum.name(), std::get<0>(sum.length())};
 }
 
 /** Of a damaged ball, which meets a race every half turn and stands elsewhere each time:
@@ -407,11 +357,11 @@ LineName name_of(double order, const Bearing& bearing, double tolerance, int pas
   for (int parts = 1; parts <= fractions && !sum; ++parts)
     sum = sum_of(order, bearing, tolerance, parts, 1, passages);
   if (bearing.is_damaged(Defect::Surface::ball))
-    if (const auto spin = name_of_spin(
-            order, bearing, tolerance,
-            sum ? std::get<0>(sum->length()) : std::numeric_limits<double>::infinity()))
+    if (const auto spin =
+            name_of_spin(order, bearing, tolerance,
+                         sum ? sum->length() : std::numeric_limits<double>::infinity()))
       return *spin;
-  if (sum) return name_of(*sum, bearing.balls);
+  if (sum) return sum->name(bearing.balls);
   const KinematicOrders orders = kinematic_orders(bearing);
   LineName name = multiple_of("FTF", order, orders.cage, bearing.balls, tolerance);
   name.cage = std::round(order / orders.cage);
@@ -423,7 +373,7 @@ LineName name_of(double order, const Bearing& bearing, double tolerance, int pas
   /** A torus that has doubled has halves of both; as many would name anything. */
   if (!is_periodic)
     if (const auto halves = sum_of(order, bearing, tolerance, 2, 2, passages / 8))
-      return name_of(*halves, bearing.balls);
+      return halves->name(bearing.balls);
   return {};
 }
 

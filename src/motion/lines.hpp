@@ -28,7 +28,7 @@ struct Line {
   double order;             ///< f over the speed [-]
   Displacements amplitude;  ///< of x_s, y_s, x_r, y_r [m]
 
-  double largest() const;
+  double largest() const { return std::ranges::max(amplitude); }
 };
 
 struct Lines {

@@ -21,6 +21,44 @@ double larger(double a, double b)
   return std::isfinite(b) ? std::max(a, b) : std::numeric_limits<double>::infinity();
 }
 
+/** A difference over a size. One that nothing measures counts as none: of a motion that
+    does not move it is rounding. */
+double ratio(double difference, double size)
+{
+  constexpr double unmeasurable = 1e-30;  // [m] or [N]
+  return difference <= unmeasurable ? 0 : difference / size;
+}
+
+/** Of the first period; zero above what its instants resolve. */
+Eigen::MatrixXd series_of(const Motion& motion, const Eigen::MatrixXd& samples,
+                          int harmonics)
+{
+  const int points = motion.points_per_period, known = (points - 1) / 2;
+  Eigen::MatrixXd series = Eigen::MatrixXd::Zero(samples.cols(), 2 * harmonics + 1);
+  FourierTransform(points).to_series(samples.topRows(points),
+                                     series.leftCols(2 * std::min(harmonics, known) + 1));
+  return series;
+}
+
+/** From x_s, y_s, x_r, y_r and what else a large machine shows, and from their rates, a
+    row for each instant. */
+Motion motion_of_samples(const Eigen::MatrixXd& samples, int points, long first_period,
+                         double omega, const Eigen::MatrixXd& rates)
+{
+  Motion motion{points, first_period, {}, {}, omega};
+  for (Eigen::Index k = 0; k < samples.rows(); ++k) {
+    motion.positions.push_back(
+        {{samples(k, 0), samples(k, 1)}, {samples(k, 2), samples(k, 3)}});
+    if (samples.cols() > 4)
+      motion.further.emplace_back(samples.row(k).tail(samples.cols() - 4));
+  }
+  for (Eigen::Index k = 0; k < rates.rows(); ++k) {
+    motion.rates.push_back({rates(k, 2) - rates(k, 0), rates(k, 3) - rates(k, 1)});
+    if (rates.cols() > 4) motion.velocities.emplace_back(rates.row(k));
+  }
+  return motion;
+}
+
 }  // namespace
 
 int instants_of(const Parameters& parameters, double omega)
@@ -45,17 +83,6 @@ double Motion::phase(std::size_t k) const
   return 2 * std::numbers::pi * (static_cast<double>(first_period) + t_over_period(k));
 }
 
-/** Of the first period; zero above what its instants resolve. */
-static Eigen::MatrixXd series_of(const Motion& motion, const Eigen::MatrixXd& samples,
-                                 int harmonics)
-{
-  const int points = motion.points_per_period, known = (points - 1) / 2;
-  Eigen::MatrixXd series = Eigen::MatrixXd::Zero(samples.cols(), 2 * harmonics + 1);
-  FourierTransform(points).to_series(samples.topRows(points),
-                                     series.leftCols(2 * std::min(harmonics, known) + 1));
-  return series;
-}
-
 Eigen::MatrixXd series_of(const Motion& motion, int harmonics)
 {
   return series_of(motion, displacement_samples(motion), harmonics);
@@ -64,7 +91,7 @@ Eigen::MatrixXd series_of(const Motion& motion, int harmonics)
 double shown_at(const Motion& motion, std::size_t k, int place)
 {
   if (place < 0) return 0;
-  return place < 4 ? displacements(motion.positions[k])[static_cast<std::size_t>(place)]
+  return place < 4 ? displacements(motion.positions[k])[place]
                    : motion.further[k][place - 4];
 }
 
@@ -83,9 +110,7 @@ Eigen::MatrixXd relative_samples(const Parameters& parameters, const Motion& mot
     const std::array<int, 4> places = parameters.bodies->places(joint);
     for (std::size_t k = 0; k < motion.size(); ++k) {
       const Vec2 at = relative_at(motion, k, places);
-      u.row(static_cast<Eigen::Index>(k))
-          .segment<2>(2 * static_cast<Eigen::Index>(joint)) =
-          Eigen::RowVector2d(at.x, at.y);
+      u.row(k).segment<2>(2 * joint) << at.x, at.y;
     }
   }
   return u;
@@ -97,45 +122,16 @@ Eigen::VectorXd relative_series(const Parameters& parameters, const Motion& moti
   return series_of(motion, relative_samples(parameters, motion), harmonics).reshaped();
 }
 
-Eigen::VectorXd relative_series(const Motion& motion, int harmonics)
-{
-  return relative_series(Parameters{}, motion, harmonics);
-}
-
 Motion motion_of(const Eigen::MatrixXd& bodies, int points)
 {
-  return motion_of_samples(sample_series(bodies, points), points);
-}
-
-Motion motion_of_samples(const Eigen::MatrixXd& samples, int points, long first_period)
-{
-  Motion motion{points, first_period, {}};
-  for (Eigen::Index k = 0; k < samples.rows(); ++k) {
-    motion.positions.push_back(
-        {{samples(k, 0), samples(k, 1)}, {samples(k, 2), samples(k, 3)}});
-    if (samples.cols() > 4)
-      motion.further.emplace_back(samples.row(k).tail(samples.cols() - 4));
-  }
-  return motion;
-}
-
-/** From the rates of x_s, y_s, x_r, y_r and of what else is shown, a row for each
-    instant. */
-static void put_rates(Motion& motion, const Eigen::MatrixXd& rates)
-{
-  for (Eigen::Index k = 0; k < rates.rows(); ++k) {
-    motion.rates.push_back({rates(k, 2) - rates(k, 0), rates(k, 3) - rates(k, 1)});
-    if (rates.cols() > 4) motion.velocities.emplace_back(rates.row(k));
-  }
+  return motion_of_samples(sample_series(bodies, points), points, 0, 0, {});
 }
 
 Motion motion_of(const PeriodicMotion& solution, int points)
 {
-  Motion motion = motion_of(solution.bodies, points);
-  motion.omega = solution.omega;
-  put_rates(motion,
-            sample_series(solution.omega * differentiate(solution.bodies), points));
-  return motion;
+  return motion_of_samples(
+      sample_series(solution.bodies, points), points, 0, solution.omega,
+      sample_series(solution.omega * differentiate(solution.bodies), points));
 }
 
 Motion motion_of(const Parameters& parameters, const PeriodicMotion& solution, int points,
@@ -148,7 +144,7 @@ Motion motion_of(const Parameters& parameters, const PeriodicMotion& solution, i
   Eigen::MatrixX2d wave(n, 2);  // cos, sin
   const double passages = passages_per_turn(parameters.bearing);
   for (int h = 1; h <= solution.harmonics.count(); ++h) {
-    const auto& [k_1, k_2] = solution.harmonics.list()[static_cast<std::size_t>(h)];
+    const auto& [k_1, k_2] = solution.harmonics.list()[h];
     const double order = k_1 + k_2 * passages;
     const auto step = std::polar(1.0, turn * order / points);
     for (long since = first; since < first + turns; ++since) {
@@ -164,10 +160,7 @@ Motion motion_of(const Parameters& parameters, const PeriodicMotion& solution, i
     slopes << pair.col(1), -pair.col(0);
     rates += wave.lazyProduct(order * solution.omega * slopes.transpose());
   }
-  Motion motion = motion_of_samples(samples, points, first);
-  motion.omega = solution.omega;
-  put_rates(motion, rates);
-  return motion;
+  return motion_of_samples(samples, points, first, solution.omega, rates);
 }
 
 State state_of(const PeriodicMotion& motion)
@@ -194,7 +187,7 @@ State state_of(const Parameters& parameters, const PeriodicMotion& motion)
   const Eigen::MatrixXd series = parameters.bodies->all_series(parameters, motion);
   Eigen::VectorXd q = series.col(0), v = Eigen::VectorXd::Zero(q.size());
   for (int h = 1; h <= motion.harmonics.count(); ++h) {
-    const Harmonic at = motion.harmonics.list()[static_cast<std::size_t>(h)];
+    const Harmonic at = motion.harmonics.list()[h];
     q += series.col(2 * h - 1);
     v += order_of(at, parameters.bearing) * motion.omega * series.col(2 * h);
   }
@@ -219,10 +212,16 @@ Motion one_period(const Parameters& parameters, double omega, State state,
   return motion;
 }
 
+Motion as_one_period(Motion motion)
+{
+  motion.points_per_period = static_cast<int>(motion.size());
+  return motion;
+}
+
 std::vector<Motion> pieces(const Motion& motion, int periods)
 {
   std::vector<Motion> parts;
-  const auto length = static_cast<std::ptrdiff_t>(periods) * motion.points_per_period;
+  const std::ptrdiff_t length = std::ptrdiff_t{periods} * motion.points_per_period;
   const auto cut = [&](const auto& whole, std::ptrdiff_t from) {
     return whole.empty()
                ? whole
@@ -294,24 +293,12 @@ double largest_displacement(const Motion& motion)
   return displacement_samples(motion).cwiseAbs().maxCoeff();
 }
 
-namespace {
-
-/** A difference over a size. One that nothing measures counts as none: of a motion that
-    does not move it is rounding. */
-double ratio(double difference, double size)
-{
-  constexpr double unmeasurable = 1e-30;  // [m] or [N]
-  return difference <= unmeasurable ? 0 : difference / size;
-}
-
-}  // namespace
-
 double relative_difference(const Motion& motion, const Motion& reference)
 {
   double difference = 0, size = 0;
   for (int k = 0; k < reference.points_per_period; ++k) {
-    const auto a = displacements(motion.positions[k]);
-    const auto b = displacements(reference.positions[k]);
+    const auto a = displacements(motion.positions[k]),
+               b = displacements(reference.positions[k]);
     for (int i = 0; i < 4; ++i) {
       difference = larger(difference, std::abs(a[i] - b[i]));
       size = std::max(size, std::abs(b[i]));
@@ -333,9 +320,7 @@ double rms_difference(const Motion& motion, const Motion& reference)
   const Eigen::MatrixXd samples = displacement_samples(motion),
                         exact = displacement_samples(reference);
   const Eigen::Index times = exact.rows() / samples.rows();
-  const double size = norm(centred(exact));
-  const double off = norm(centred(samples.replicate(times, 1) - exact));
-  return ratio(off, size);
+  return ratio(norm(centred(samples.replicate(times, 1) - exact)), norm(centred(exact)));
 }
 
 Error difference(const Motion& motion, const Motion& exact)

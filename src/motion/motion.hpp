@@ -19,9 +19,8 @@ struct Motion {
   int points_per_period;
   long first_period;  ///< periods since t = 0, for the cage's angle
   std::vector<Bodies> positions;
-  std::vector<Vec2> rates =
-      {};            ///< u̇ [m/s], where the force of a damped contact is asked for
-  double omega = 0;  ///< the base frequency that belongs to them [rad/s]
+  std::vector<Vec2> rates = {};  ///< u̇ [m/s], for the force of a damped contact
+  double omega = 0;              ///< the base frequency that belongs to them [rad/s]
   /** Of a large machine: its other displacements, and the rates of all. */
   std::vector<Eigen::VectorXd> further = {}, velocities = {};
 
@@ -66,16 +65,8 @@ Eigen::MatrixXd series_of(const Motion& motion, int harmonics);
 Eigen::VectorXd relative_series(const Parameters& parameters, const Motion& motion,
                                 int harmonics);
 
-/** The same of two masses. */
-Eigen::VectorXd relative_series(const Motion& motion, int harmonics);
-
 /** The relative motions u of all joints at the instants of a motion, N × 2b [m]. */
 Eigen::MatrixXd relative_samples(const Parameters& parameters, const Motion& motion);
-
-/** From x_s, y_s, x_r, y_r and what else a large machine shows, a row for each
-    instant. */
-Motion motion_of_samples(const Eigen::MatrixXd& samples, int points,
-                         long first_period = 0);
 
 /** `points` instants of one period of a solution, from its series of both bodies; the
     second with its rates. */
@@ -87,10 +78,9 @@ Motion motion_of(const PeriodicMotion& solution, int points);
 Motion motion_of(const Parameters& parameters, const PeriodicMotion& solution, int points,
                  int turns, long first = 0);
 
-/** The state [m, m/s] of a periodic motion at phase 0. */
+/** The state [m, m/s] of a periodic motion at phase 0; the second of any machine, and of
+    a motion with two frequencies. */
 State state_of(const PeriodicMotion& motion);
-
-/** The same of any machine, and of a motion with two frequencies. */
 State state_of(const Parameters& parameters, const PeriodicMotion& motion);
 
 /** The periods kept by a time integration. */
@@ -100,6 +90,9 @@ Motion motion_of(const SteadyState& steady, int points_per_period);
     into. */
 Motion one_period(const Parameters& parameters, double omega, State state,
                   const StepSettings& settings);
+
+/** All of a record as one period: what differences are taken over. */
+Motion as_one_period(Motion motion);
 
 /** A recorded motion cut into pieces of so many periods; an odd rest is left out. */
 std::vector<Motion> pieces(const Motion& motion, int periods);
@@ -151,7 +144,7 @@ double relative_difference(const Motion& motion, const Motion& reference);
 
 /** The rms difference of the two motions about their means, over that of `reference`
     about its mean, all four displacements together, at all instants of `reference`, along
-    which `motion` is repeated: blind to the static sag [-]. */
+    which `motion` is repeated: blind to the static deflection [-]. */
 double rms_difference(const Motion& motion, const Motion& reference);
 
 /** Both, as the error of a motion. */

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <limits>
 #include <numbers>
+#include <numeric>
 
 #include "balance/bearing_problem.hpp"
 #include "balance/torus_line.hpp"
@@ -32,17 +33,14 @@ double length_of_name(Harmonic h, const Bearing& bearing)
 std::vector<int> distinct(const Harmonics& harmonics, const Bearing& bearing,
                           double main_lobe)
 {
-  const auto at = [&](int h) { return harmonics.list()[static_cast<std::size_t>(h)]; };
-  std::vector<double> lengths{0}, orders{0};
-  std::vector<int> places;
-  for (int h = 1; h <= harmonics.count(); ++h) {
-    places.push_back(h);
-    lengths.push_back(length_of_name(at(h), bearing));
-  }
-  std::ranges::stable_sort(places, {},
-                           [&](int h) { return lengths[static_cast<std::size_t>(h)]; });
+  const std::vector<Harmonic>& list = harmonics.list();
+  std::vector<double> lengths, orders{0};
+  for (const Harmonic h : list) lengths.push_back(length_of_name(h, bearing));
+  std::vector<int> places(list.size() - 1);
+  std::iota(places.begin(), places.end(), 1);
+  std::ranges::stable_sort(places, {}, [&](int h) { return lengths[h]; });
   std::erase_if(places, [&](int h) {
-    const double order = order_of(at(h), bearing);
+    const double order = order_of(list[h], bearing);
     const bool is_near = std::ranges::any_of(
         orders, [&](double other) { return std::abs(order - other) < main_lobe / 2; });
     if (!is_near) orders.push_back(order);
@@ -97,13 +95,6 @@ private:
   Eigen::VectorXcd values_;
 };
 
-/** All of a record as one period: what differences are taken over. */
-Motion as_one_period(Motion motion)
-{
-  motion.points_per_period = static_cast<int>(motion.size());
-  return motion;
-}
-
 constexpr int compared_turns = 100;
 
 bool is_whole(Harmonic h)
@@ -126,29 +117,17 @@ Error distance(const Parameters& parameters, PeriodicMotion solution,
   const Error one = off();
   if (solution.line.turns == 1) return one;
   for (int h = 1; h <= solution.harmonics.count(); ++h)
-    if (!is_whole(solution.harmonics.list()[static_cast<std::size_t>(h)]))
+    if (!is_whole(solution.harmonics.list()[h]))
       solution.bodies.middleCols(2 * h - 1, 2) *= -1;
   const Error other = off();
   return one.larger() < other.larger() ? one : other;
 }
 
-/** Candidates for lines: whole pairs, and those moved by `half`. */
-Harmonics candidates(const Parameters& parameters, double omega, Harmonic half)
-{
-  constexpr double beyond_contact = 1.3, least = 40, most = 120;
-  constexpr int passages = 16;
-  const double contact = contact_frequency(parameters) / omega;
-  return up_to(std::clamp(beyond_contact * contact, least, most), passages,
-               parameters.bearing, half);
-}
-
-/** The force has lines that inertia keeps out of the motion: sampled, none of these may
-    fall on one that is kept. */
+/** The force has lines that inertia keeps out of the motion, here all up to order 40:
+    sampled, none of these may fall on one that is kept. */
 Harmonics lines_of_force(const Bearing& bearing, Harmonic half = {})
 {
-  constexpr double highest = 40;
-  constexpr int passages = 8;
-  return up_to(highest, passages, bearing, half);
+  return up_to(40, 8, bearing, half);
 }
 
 /** Newton on these harmonics, along a line on which others do not disturb them. */
@@ -168,22 +147,26 @@ PeriodicMotion solved_on(const TorusSearch& search, const Harmonics& kept,
 }
 
 /** What Eq. 7 settles on from rest, with its lines. */
-class SettledTorus {
-public:
-  explicit SettledTorus(const TorusSearch& search, double step_ratio = 1)
-      : search_(search), parameters_(search.parameters)
+struct SettledTorus {
+  static constexpr int turns = 1280;  ///< of the record
+
+  const TorusSearch& search;
+  const Parameters& parameters = search.parameters;
+  Answer compared = {};                        ///< with solutions, and how exact it is
+  long first_period = 0;                       ///< of the record
+  std::vector<FineTransform> transforms = {};  ///< of the relative motions [m]
+
+  explicit SettledTorus(const TorusSearch& wanted, double step_ratio = 1) : search(wanted)
   {
     /** Twice as many as the highest order that is looked for. */
-    const double contact = contact_frequency(parameters_) / search.omega;
+    const double contact = contact_frequency(parameters) / search.omega;
     const int points = contact < 40 ? 128 : 256;
-    const Request request{
-        .omega = search.omega, .points = points, .step_ratio = step_ratio};
-    const Question question{
-        .parameters = parameters_,
-        .request = request,
-        .budget = search.budget,
-        .transient_share = parameters_.bodies->patience().transient_share};
-    const Answer rest = settled_answer(question);
+    Request request{.omega = search.omega, .points = points, .step_ratio = step_ratio};
+    const Answer rest = settled_answer(
+        {.parameters = parameters,
+         .request = request,
+         .budget = search.budget,
+         .transient_share = parameters.bodies->patience().transient_share});
     if (!rest.settled.contracts)
       throw NoSolution(
           format("the motion from rest is %s, without lines that a branch could follow; "
@@ -191,39 +174,34 @@ public:
                  word(rest.kind())));
     const auto completed = [&](int periods, bool is_measured) {
       Answer answer = rest;
-      Request wanted = request;
-      wanted.periods = periods;
-      wanted.is_measured = is_measured;
-      complete(answer, wanted, search.budget);
+      request.periods = periods;
+      request.is_measured = is_measured;
+      complete(answer, request, search.budget);
       return answer;
     };
-    record_ = completed(turns, false).motion;
-    compared_ = completed(compared_turns, true);
-    if (!compared_.error)
+    const Motion record = completed(turns, false).motion;
+    first_period = record.first_period;
+    compared = completed(compared_turns, true);
+    if (!compared.error)
       throw NoSolution("the error of the integrated motion needs more than the budget");
-    const Eigen::MatrixXd samples = relative_samples(parameters_, record_);
+    const Eigen::MatrixXd samples = relative_samples(parameters, record);
     const Eigen::VectorXd window = blackman_harris(samples.rows());
     for (const auto& column : samples.colwise())
-      transforms_.emplace_back(column.cwiseProduct(window));
+      transforms.emplace_back(column.cwiseProduct(window));
   }
 
   /** The amplitudes of its lines as coefficients of the relative motions [m]; of lines
       that the window cannot tell apart the one with the shortest name is taken. */
   Eigen::VectorXd lines(const Harmonics& harmonics) const
   {
-    const auto dofs = static_cast<Eigen::Index>(transforms_.size());
-    Eigen::MatrixXd series = Eigen::MatrixXd::Zero(dofs, harmonics.coefficients());
-    for (Eigen::Index i = 0; i < dofs; ++i)
-      series(i, 0) = transforms_[static_cast<std::size_t>(i)](0).real();
-    for (int h : distinct(harmonics, parameters_.bearing, 8.0 / turns)) {
-      const double order =
-          order_of(harmonics.list()[static_cast<std::size_t>(h)], parameters_.bearing);
-      const double since =
-          std::fmod(order * static_cast<double>(record_.first_period), 1.0);
+    Eigen::MatrixXd series = Eigen::MatrixXd::Zero(dofs(), harmonics.coefficients());
+    for (int i = 0; i < dofs(); ++i) series(i, 0) = transforms[i](0).real();
+    for (int h : distinct(harmonics, parameters.bearing, 8.0 / turns)) {
+      const double order = order_of(harmonics.list()[h], parameters.bearing);
+      const double since = std::fmod(order * static_cast<double>(first_period), 1.0);
       const auto wave = std::polar(2.0, -2 * std::numbers::pi * since);
-      SmallVector line(dofs);
-      for (Eigen::Index i = 0; i < dofs; ++i)
-        line[i] = wave * transforms_[static_cast<std::size_t>(i)](order * turns);
+      SmallVector line(dofs());
+      for (int i = 0; i < dofs(); ++i) line[i] = wave * transforms[i](order * turns);
       put_amplitude(series, h, line);
     }
     return series.reshaped();
@@ -232,7 +210,7 @@ public:
   struct Lines {
     Harmonic half;
     Harmonics harmonics;
-    Eigen::VectorXd x;
+    Eigen::VectorXd x = {};
     double halves = 0, all = 0;  ///< norms of those that are not whole, and of all
   };
 
@@ -253,40 +231,6 @@ public:
   /** The solution on the `count` largest of them. */
   PeriodicMotion solution(const Lines& all, int count) const
   {
-    const Harmonics kept = largest(all, count);
-    return solved_on(search_, kept, lines_of_force(parameters_.bearing, all.half),
-                     all.halves > 0 ? 2 : 1, project(all.x, dofs(), all.harmonics, kept),
-                     "time integration");
-  }
-
-  /** What is compared with solutions, and how exact it is. */
-  const Motion& record() const { return compared_.motion; }
-  Error record_error() const { return *compared_.error; }
-
-private:
-  static constexpr int turns = 1280;  ///< of the record
-
-  int dofs() const { return static_cast<int>(transforms_.size()); }
-
-  double size(const Lines& lines, int h) const
-  {
-    return lines.x.segment((2 * h - 1) * dofs(), 2 * dofs()).norm();
-  }
-
-  Lines lines_moved_by(Harmonic half) const
-  {
-    Lines all{half, candidates(parameters_, search_.omega, half), {}};
-    all.x = lines(all.harmonics);
-    for (int h = 1; h <= all.harmonics.count(); ++h) {
-      all.all = std::hypot(all.all, size(all, h));
-      if (!is_whole(all.harmonics.list()[static_cast<std::size_t>(h)]))
-        all.halves = std::hypot(all.halves, size(all, h));
-    }
-    return all;
-  }
-
-  Harmonics largest(const Lines& all, int count) const
-  {
     std::vector<int> places;
     for (int h = 1; h <= all.harmonics.count(); ++h)
       if (size(all, h) > 0) places.push_back(h);
@@ -294,29 +238,76 @@ private:
     places.resize(std::min(places.size(), static_cast<std::size_t>(count)));
     std::ranges::sort(places);
     std::vector<Harmonic> list{{0, 0}};
-    for (int h : places)
-      list.push_back(all.harmonics.list()[static_cast<std::size_t>(h)]);
-    return Harmonics(std::move(list));
+    for (int h : places) list.push_back(all.harmonics.list()[h]);
+    const Harmonics kept(std::move(list));
+    return solved_on(search, kept, lines_of_force(parameters.bearing, all.half),
+                     all.halves > 0 ? 2 : 1, project(all.x, dofs(), all.harmonics, kept),
+                     "time integration");
   }
 
-  const TorusSearch& search_;
-  const Parameters& parameters_;
-  Motion record_ = {};
-  Answer compared_ = {};
-  std::vector<FineTransform> transforms_;  ///< of the relative motions [m]
+  int dofs() const { return static_cast<int>(transforms.size()); }
+
+  double size(const Lines& lines, int h) const
+  {
+    return lines.x.segment((2 * h - 1) * dofs(), 2 * dofs()).norm();
+  }
+
+  /** Whole pairs, and those moved by `half`. */
+  Lines lines_moved_by(Harmonic half) const
+  {
+    constexpr double beyond_contact = 1.3, least = 40, most = 120;
+    constexpr int passages = 16;
+    const double contact = contact_frequency(parameters) / search.omega;
+    const double highest = std::clamp(beyond_contact * contact, least, most);
+    Lines all{half, up_to(highest, passages, parameters.bearing, half)};
+    all.x = lines(all.harmonics);
+    for (int h = 1; h <= all.harmonics.count(); ++h) {
+      all.all = std::hypot(all.all, size(all, h));
+      if (!is_whole(all.harmonics.list()[h]))
+        all.halves = std::hypot(all.halves, size(all, h));
+    }
+    return all;
+  }
 };
 
 /** Without a tolerance a solution is of the motion that integration from it comes to,
     where that is so near. */
 constexpr double near = 0.05;
 
-/** What integration from a solution makes of it. */
+/** What Eq. 7 makes of the solution: it is integrated from there by `settle`, with steps
+    so many times as long as `step_at` and half as long. */
 void add_verdict(const TorusSearch& search, double tolerance, double step_ratio,
                  Torus& torus)
 try {
-  torus.verdict = verdict_on_torus(search.parameters, torus.motion, tolerance, step_ratio,
-                                   search.budget);
-  torus.error = torus.verdict->distance;
+  constexpr int points = 64;
+  const Parameters& parameters = search.parameters;
+  const double omega = search.omega, step = step_ratio * step_at(parameters, omega);
+  const Instant start{state_of(parameters, torus.motion), 0};
+  const auto from_there = [&](double longest_step) {
+    return settle(parameters, omega, base_period(parameters), start,
+                  {.step = longest_step}, search.budget.part(0.4));
+  };
+  const Settled coarse = from_there(step);
+  TorusVerdict verdict{.settled = from_there(step / 2)};
+  const Settled& settled = verdict.settled;
+  verdict.uncertainty =
+      std::max(3 * settled.lyapunov.error,
+               std::abs(settled.lyapunov.value - coarse.lyapunov.value));
+  /** With error control, from so much earlier that those of fixed steps are forgotten. */
+  const auto stepper =
+      flow(parameters, omega,
+           {.intervals_per_period = points, .tolerance = 1e-9, .budget = search.budget});
+  const Instant& from = settled.contracts ? settled.before : settled.at;
+  State state = from.state;
+  const long first = settled.at.period;
+  for (long k = from.period * points; k < first * points; ++k) stepper->advance(k, state);
+  verdict.record = recorded(*stepper, points, state, first, compared_turns);
+  verdict.distance = distance(parameters, torus.motion, verdict.record);
+  verdict.stays = verdict.distance.larger() <= tolerance;
+  verdict.evaluations = coarse.evaluations + settled.evaluations +
+                        static_cast<double>(stepper->evaluations());
+  torus.error = verdict.distance;
+  torus.verdict = std::move(verdict);
 } catch (const NoSolution& none) {
   torus.end = none.what();
 }
@@ -343,44 +334,11 @@ Eigen::VectorXd half_peak_to_peak_of_torus(const Parameters& parameters,
   return 0.5 * (samples.colwise().maxCoeff() - samples.colwise().minCoeff());
 }
 
-TorusVerdict verdict_on_torus(const Parameters& parameters,
-                              const PeriodicMotion& solution, double tolerance,
-                              double step_ratio, const OperationBudget& budget)
-{
-  constexpr int points = 64;
-  const double omega = solution.omega, step = step_ratio * step_at(parameters, omega);
-  const Instant start{state_of(parameters, solution), 0};
-  const auto from_there = [&](double longest_step) {
-    return settle(parameters, omega, base_period(parameters), start,
-                  {.step = longest_step}, budget.part(0.4));
-  };
-  const Settled coarse = from_there(step);
-  TorusVerdict verdict{.settled = from_there(step / 2)};
-  const Exponent& rate = verdict.settled.lyapunov;
-  verdict.uncertainty =
-      std::max(3 * rate.error, std::abs(rate.value - coarse.lyapunov.value));
-  /** With error control, from so much earlier that those of fixed steps are forgotten. */
-  const auto stepper =
-      flow(parameters, omega,
-           {.intervals_per_period = points, .tolerance = 1e-9, .budget = budget});
-  const Instant& from =
-      verdict.settled.contracts ? verdict.settled.before : verdict.settled.at;
-  State state = from.state;
-  const long first = verdict.settled.at.period;
-  for (long k = from.period * points; k < first * points; ++k) stepper->advance(k, state);
-  verdict.record = recorded(*stepper, points, state, first, compared_turns);
-  verdict.distance = distance(parameters, solution, verdict.record);
-  verdict.stays = verdict.distance.larger() <= tolerance;
-  verdict.evaluations = coarse.evaluations + verdict.settled.evaluations +
-                        static_cast<double>(stepper->evaluations());
-  return verdict;
-}
-
 Torus torus_on_orders(const TorusSearch& search, int m)
 {
   const Parameters& parameters = search.parameters;
-  const Harmonics kept = orders_up_to(m, parameters.bearing);
-  const Harmonics others = lines_of_force(parameters.bearing);
+  const Harmonics kept = orders_up_to(m, parameters.bearing),
+                  others = lines_of_force(parameters.bearing);
   const int dofs = 2 * static_cast<int>(joints_of(parameters).size());
   const Eigen::VectorXd x =
       project(quasi_static_start(parameters, search.omega, m), dofs, Harmonics(m), kept);
@@ -404,8 +362,8 @@ Torus torus_to_tolerance(const TorusSearch& search, double tolerance)
   try {
     const SettledTorus settled(search, step_ratio(tolerance));
     const auto all = settled.all_lines();
-    Motion exact = settled.record();
-    Error uncertain = settled.record_error();
+    Motion exact = settled.compared.motion;
+    Error uncertain = *settled.compared.error;
     double before = std::numeric_limits<double>::infinity();
     for (int lines = first; lines <= most && !torus.reached; lines *= 2) {
       PeriodicMotion motion = settled.solution(all, lines);

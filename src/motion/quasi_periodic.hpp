@@ -41,12 +41,6 @@ struct TorusVerdict {
   }
 };
 
-/** Eq. 7 is integrated from the solution by `settle`, with steps so many times as long as
-    `step_at` and half as long. */
-TorusVerdict verdict_on_torus(const Parameters& parameters,
-                              const PeriodicMotion& solution, double tolerance,
-                              double step_ratio = 1, const OperationBudget& budget = {});
-
 struct TorusSearch {
   const Parameters& parameters;
   double omega;  ///< [rad/s]

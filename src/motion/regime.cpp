@@ -31,43 +31,33 @@ HigherHarmonics higher_harmonics(const Motion& motion)
 
 double turns_of(const std::vector<Vec2>& force)
 {
-  std::complex<double> last = 0;
+  std::vector<std::complex<double>> along;
+  for (const Vec2& f : force)
+    if (f.x != 0 || f.y != 0) along.emplace_back(f.x, f.y);
   double angle = 0;
-  const auto turn_to = [&](Vec2 f) {
-    const std::complex<double> next(f.x, f.y);
-    if (next == 0.0) return;
-    if (last != 0.0) angle += std::arg(next / last);
-    last = next;
-  };
-  for (const Vec2& f : force) turn_to(f);
-  const auto first =
-      std::ranges::find_if(force, [](const Vec2& f) { return f.x != 0 || f.y != 0; });
-  if (first != force.end()) turn_to(*first);
+  for (std::size_t k = 0; k < along.size(); ++k)
+    angle += std::arg(along[(k + 1) % along.size()] / along[k]);
   return std::round(angle / (2 * std::numbers::pi)) + 0.0;  // no -0
 }
 
-namespace {
-
-SteadyRun run_of(const Parameters& parameters, double frequency,
-                 const RegimeSettings& settings)
+static SteadyRun run_of(const Parameters& parameters, double frequency,
+                        const RegimeSettings& settings)
 {
-  SteadySettings steady;
-  steady.stepper = {.method = "rk4",
-                    .intervals_per_period = settings.points_per_period,
-                    .step = settings.step_over_default * default_step(parameters)};
-  steady.settled = 1e-7;
-  steady.window = settings.window;
-  steady.longest = settings.longest;
-  steady.shown_periods = 2;
-  steady.average = settings.average;
+  const SteadySettings steady{
+      .stepper = {.method = "rk4",
+                  .intervals_per_period = settings.points_per_period,
+                  .step = settings.step_over_default * default_step(parameters)},
+      .settled = 1e-7,
+      .window = settings.window,
+      .longest = settings.longest,
+      .shown_periods = 2,
+      .average = settings.average};
   PeriodicMotion solution;
   if (has_rotation_period(parameters.bearing))
     solution = find_near_contact({parameters, angular(frequency), 6});
   return {parameters, angular(frequency),
           solution.found() ? state_of(solution) : static_start(parameters), steady};
 }
-
-}  // namespace
 
 RegimeMeasures measures_of(const Parameters& parameters, const Motion& two_periods)
 {
@@ -92,8 +82,9 @@ RegimeMeasures measures_of(const Parameters& parameters, const Motion& two_perio
   return measures;
 }
 
-Regime regime_of(const Parameters& parameters, double frequency,
-                 const std::vector<SteadyState>& runs, const RegimeSettings& settings)
+static Regime regime_of(const Parameters& parameters, double frequency,
+                        const std::vector<SteadyState>& runs,
+                        const RegimeSettings& settings)
 {
   using M = RegimeMeasures;
   constexpr double M::*each[] = {&M::all,        &M::h_2,           &M::h_3,

@@ -13,7 +13,7 @@ decides nothing: the integrated motion is what is judged. */
 
 namespace rotor_stator::motion {
 
-/** How the motion of a regime is integrated, by rk4. */
+/** How the motion of a regime is integrated, by rk4: the table [regime] of a scene. */
 struct RegimeSettings {
   double step_over_default;  ///< RK4's step over `default_step` [-]
   double longest;            ///< integration at most [s]
@@ -21,8 +21,6 @@ struct RegimeSettings {
   double average;            ///< at least so long an aperiodic motion is recorded [s]
   int points_per_period;     ///< of the recorded motion
 };
-
-/** The table [regime] of a scene. */
 RegimeSettings read_regime_settings(SceneFile& scene);
 
 /** Of the first period of a motion, over the amplitude of the first harmonic, for the
@@ -35,12 +33,10 @@ struct HigherHarmonics {
 /** Of two periods, as motion/contact has them. */
 struct RegimeMeasures : HigherHarmonics {
   double contact = 0;      ///< share of the time with at least one loaded ball [-]
-  double turns = 0;        ///< of the force's direction per period, 1 where the contact
-                           ///< rotates with the rotor, 0 where gravity holds it
+  double turns = 0;        ///< of the force per period: 1 with the rotor, 0 with gravity
   double passed_once = 0;  ///< 1 if every ball is loaded exactly once
   double passages = 0;     ///< times a ball is loaded, mean over the balls [-]
-  double loaded_arc =
-      0;  ///< mean over time of the balls loaded at once, times 2π/n [rad]
+  double loaded_arc = 0;   ///< balls loaded at once, mean over time, times 2π/n [rad]
   double largest_force = 0;  ///< on one ball [N]
   double amp_x_r = 0;        ///< half peak-to-peak of x_r [m]
 };
@@ -56,12 +52,8 @@ struct Regime : RegimeMeasures {
 
 RegimeMeasures measures_of(const Parameters& parameters, const Motion& two_periods);
 
-Regime regime_of(const Parameters& parameters, double frequency,
-                 const std::vector<SteadyState>& runs, const RegimeSettings& settings);
-
-/** The same of the motions that settle at these speeds, each integrated twice, at speeds
-    that differ by 1e-11: where several motions are stable, rounding may decide which one
-    is reached. The integrations by rk4 begin on the periodic solution if Newton finds one
+/** Of the motions that settle at these speeds, each integrated twice, at speeds that
+    differ by 1e-11: where several are stable, rounding may decide which is reached. The integrations by rk4 begin on the periodic solution if Newton finds one
     from the quasi-static contact, else at the static load. Throws NoSolution when one of
     them breaks down. */
 std::vector<Regime> regimes_of(const Parameters& parameters,

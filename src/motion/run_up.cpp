@@ -25,54 +25,39 @@ struct Turning {
 };
 
 /** Eq. 7 while the speed changes; its constants are those of the fastest speed. */
-class Changing {
-public:
-  Changing(const Parameters& parameters, const RunUp& run, double first_turn)
-      : run_(run), fastest_(std::max(run.from, run.to)), first_turn_(first_turn),
-        parallel_(parameters.bearing.parallel), turns_(Turns::of(parameters)),
-        system_(parameters, fastest_)
-  {
-  }
+struct Changing {
+  const Parameters& parameters;
+  RunUp run;
+  double first_turn;
+  double fastest = std::max(run.from, run.to);
+  Turns angles = Turns::of(parameters);
+  RotorStator system{parameters, fastest};
 
   Turning turning(double t) const
   {
-    const double turns = first_turn_ + run_.angle(t) / turn, whole = std::floor(turns);
-    const double speed = run_.speed(t), square = fastest_ * fastest_;
-    const double inwards = speed * speed / square, along = run_.acceleration() / square;
-    const Angles at = turns_.at(whole, turns - whole);
+    const double turns = first_turn + run.angle(t) / turn, whole = std::floor(turns);
+    const double speed = run.speed(t), square = fastest * fastest;
+    const double inwards = speed * speed / square, along = run.acceleration() / square;
+    const Angles at = angles.at(whole, turns - whole);
     const auto [c, s] = at.rotor;
     return {at,
             {inwards * c + along * s, inwards * s - along * c},
-            turns_.cage * (speed - fastest_),
+            angles.cage * (speed - fastest),
             speed};
   }
 
   /** Of the balls and of all, on the stator. The rate at which a ball is pressed knows
       the speed of the cage. */
-  struct Forces {
-    Vec2 balls, all;
-  };
-  Forces forces(const Bodies& q, const Bodies& v, const Turning& now) const
+  std::pair<Vec2, Vec2> forces(const Bodies& q, const Bodies& v, const Turning& now) const
   {
     const Vec2 u = q.relative(), rate = v.relative();
-    const Vec2 balls = system_.bearing().ball_force(
+    const Vec2 balls = system.bearing().ball_force(
         now.at, u, {rate.x + now.cage_lag * u.y, rate.y - now.cage_lag * u.x});
     BearingReaction sum{{balls, {}}};
-    if (parallel_.any()) Parallel(parallel_, now.speed).add(u, rate, 0, sum);
+    const ParallelElements& parallel = parameters.bearing.parallel;
+    if (parallel.any()) Parallel(parallel, now.speed).add(u, rate, 0, sum);
     return {balls, sum.force};
   }
-
-  Bodies acceleration(const Bodies& q, const Bodies& v, const Turning& now) const
-  {
-    return system_.acceleration(q, v, now.push, forces(q, v, now).all);
-  }
-
-private:
-  RunUp run_;
-  double fastest_, first_turn_;
-  ParallelElements parallel_;
-  Turns turns_;
-  RotorStator system_;
 };
 
 /** The shortest step [s] at so many speeds of the run, and 256 in the fastest turn. */
@@ -89,12 +74,8 @@ double shortest_step(const Parameters& parameters, const RunUp& run)
 
 /** Where the run begins: at rest, or on the motion that the machine has settled on, at so
     many turns. */
-struct Beginning {
-  State state;
-  double turns;
-};
-Beginning beginning(const Parameters& parameters, double speed,
-                    const OperationBudget& budget)
+std::pair<State, double> beginning(const Parameters& parameters, double speed,
+                                   const OperationBudget& budget)
 {
   if (speed == 0)
     return {parameters.bodies->at_rest(parameters,
@@ -128,46 +109,39 @@ struct Seen {
 };
 
 /** Instants at equal angles, from steps of equal time by Hermite's cubic. */
-class ByAngle {
-public:
-  ByAngle(const RunUp& run, const Stretches& wanted)
-      : run_(run), wanted_(wanted), motion_{wanted.instants, 0, {}}
-  {
-  }
+struct ByAngle {
+  const RunUp& run;
+  const Stretches& wanted;
+  Motion motion{wanted.instants, 0, {}};
+  long next_instant = 0;
 
   /** The step from `t` on [s]. */
   void add(double t, double h, const State& from, const State& to)
   {
-    if (!wanted_.seen) return;
-    for (; angle(next_) <= run_.angle(t + h); ++next_) {
-      const double x = (time_at(angle(next_)) - t) / h, y = 1 - x;
-      motion_.positions.push_back(
+    if (!wanted.seen) return;
+    for (; angle(next_instant) <= run.angle(t + h); ++next_instant) {
+      const double x = (time_at(angle(next_instant)) - t) / h, y = 1 - x;
+      motion.positions.push_back(
           y * y * (1 + 2 * x) * from.position + x * x * (1 + 2 * y) * to.position +
           h * x * y * y * from.velocity + (-h * x * x * y) * to.velocity);
-      const long instants = long{wanted_.turns} * wanted_.instants;
-      if (std::ssize(motion_.positions) < instants) continue;
-      wanted_.seen(run_.speed(time_at(angle(next_ - instants / 2))), motion_);
-      motion_.positions.clear();
+      const long instants = long{wanted.turns} * wanted.instants;
+      if (std::ssize(motion.positions) < instants) continue;
+      wanted.seen(run.speed(time_at(angle(next_instant - instants / 2))), motion);
+      motion.positions.clear();
     }
   }
 
-private:
   double angle(long instant) const
   {
-    return turn * static_cast<double>(instant) / wanted_.instants;
+    return turn * static_cast<double>(instant) / wanted.instants;
   }
 
   /** From φ = ω_0 t + α t²/2. */
   double time_at(double angle) const
   {
-    const double square = run_.from * run_.from + 2 * run_.acceleration() * angle;
-    return angle > 0 ? 2 * angle / (run_.from + std::sqrt(std::max(0.0, square))) : 0;
+    const double square = run.from * run.from + 2 * run.acceleration() * angle;
+    return angle > 0 ? 2 * angle / (run.from + std::sqrt(std::max(0.0, square))) : 0;
   }
-
-  RunUp run_;
-  const Stretches& wanted_;
-  Motion motion_;
-  long next_ = 0;
 };
 
 }  // namespace
@@ -183,17 +157,17 @@ std::vector<PassedTurn> run_up(const Parameters& parameters, const RunUp& run,
       !parameters.bearing.is_damaged(Defect::Surface::none))
     throw BadInput(parameters.file +
                    ": a changing speed knows no damaged bearing with contact damping");
-  const auto [first, turns] = beginning(parameters, run.from, budget);
-  const Changing equation(parameters, run, turns);
+  auto [state, turns] = beginning(parameters, run.from, budget);
+  const Changing equation{parameters, run, turns};
   const auto steps = std::ceil(run.seconds / shortest_step(parameters, run));
   const double h = run.seconds / steps;
   const auto acceleration = [&](const Bodies& q, const Bodies& v, const Turning& now) {
-    return equation.acceleration(q, v, now);
+    return equation.system.acceleration(q, v, now.push,
+                                        equation.forces(q, v, now).second);
   };
   std::vector<PassedTurn> all;
-  State state = first;
   Seen seen(state);
-  ByAngle by_angle(run, stretches);
+  ByAngle by_angle{run, stretches};
   double began = 0, made = 0;
   Turning now = equation.turning(0);
   for (double k = 0; k < steps; ++k) {

@@ -52,8 +52,9 @@ double agreement(const Parameters& parameters, const TrueMotion& truth, int harm
   const motion::Motion fine =
       one_period(parameters, truth.frequency, truth.state, 2 * harmonics + 2, tolerance);
   Balance balance(bearing_problem(parameters, samples), harmonics);
-  const PeriodicMotion solution = solve(
-      balance, omega, motion::relative_series(fine, harmonics), {.tolerance = 1e-11});
+  const PeriodicMotion solution =
+      solve(balance, omega, motion::relative_series(parameters, fine, harmonics),
+            {.tolerance = 1e-11});
   if (!solution.found())
     throw NoSolution(format("no balance of %d harmonics at %g Hz: %s", harmonics,
                             truth.frequency, solution.newton.reason().c_str()));
