@@ -3,57 +3,71 @@
 #include <algorithm>
 #include <cmath>
 
-#include "continuation/balance_curve.hpp"
-#include "continuation/locate.hpp"
 #include "io/errors.hpp"
 
 namespace rotor_stator {
 
-StepOfBranch::StepOfBranch(Corrector& corrector, const BranchPoint& a,
-                           const BranchPoint& b, const ArcLengthSettings& settings)
-    : corrector_(corrector), a_(a), b_(b), settings_(settings)
-{
-  const double room = 0.1 * (b.arc - a.arc) * settings.speed_scale;
-  low_ = std::min(a.motion.omega, b.motion.omega) - room;
-  high_ = std::max(a.motion.omega, b.motion.omega) + room;
-}
+namespace {
 
-bool StepOfBranch::holds(const BranchPoint& point)
-{
-  if (point.motion.omega < low_ || point.motion.omega > high_) return false;
-  if (chord_.size() == 0) {  // not before a point has the speed for it: most have not
-    start_ = scaled(a_, settings_);
-    chord_ = scaled(b_, settings_) - start_;
+constexpr double fold_tolerance = 1e-8;  // of the folds' speeds, relative
+constexpr double least_step = 1e-7;
+constexpr std::size_t most_points = 100000;
+
+/** What the step shrinks above and grows below, and what takes it back: κ, α and β. */
+constexpr double wanted_contraction = 0.15;
+constexpr double wanted_turn = 0.25, most_turn = 0.5;  // [rad]
+constexpr double wanted_bend = 0.03, most_bend = 0.1;  // [rad]
+
+/** The step from one point of a branch to the next, in whose way others may lie. */
+struct StepOfBranch {
+  Corrector& corrector;
+  const BranchPoint &a, &b;
+  const Curve& curve = corrector.curve();
+  /** The speeds of the step, with room for its bend. */
+  double room = 0.1 * (b.arc - a.arc) * curve.settings().speed_scale;
+  double low = std::min(a.motion.omega, b.motion.omega) - room,
+         high = std::max(a.motion.omega, b.motion.omega) + room;
+  Eigen::VectorXd start = {}, chord = {};
+
+  /** Whether the solution `point` lies on the step, to the length that Newton's last
+      correction may have. */
+  bool holds(const BranchPoint& point)
+  {
+    constexpr double near = 0.1, rounding = 1e-6;
+    if (point.motion.omega < low || point.motion.omega > high) return false;
+    if (chord.size() == 0) {  // not before a point has the speed for it: most have not
+      start = curve.scaled(a.motion);
+      chord = curve.scaled(b.motion) - start;
+    }
+    curve.spend(50 + 3 * static_cast<double>(start.size()));
+    const Eigen::VectorXd y = curve.scaled(point.motion);
+    const double share = (y - start).dot(chord) / chord.squaredNorm();
+    if (share < -rounding || share > 1 + rounding) return false;
+    Eigen::VectorXd predicted = between(curve, a, b, share);
+    if ((y - predicted).norm() > near * chord.norm()) return false;
+    predicted += point.tangent * point.tangent.dot(y - predicted);
+    const Correction corrected = corrector.correct(point.tangent, predicted);
+    return corrected.motion.found() &&
+           (corrected.y - y).norm() <= corrector.last_correction();
   }
-  constexpr double near = 0.1, rounding = 1e-6;
-  corrector_.curve().spend(50 + 3 * static_cast<double>(start_.size()));
-  const Eigen::VectorXd y = scaled(point, settings_);
-  const double share = (y - start_).dot(chord_) / chord_.squaredNorm();
-  if (share < -rounding || share > 1 + rounding) return false;
-  Eigen::VectorXd predicted = between(a_, b_, share, settings_);
-  if ((y - predicted).norm() > near * chord_.norm()) return false;
-  predicted += point.tangent * point.tangent.dot(y - predicted);
-  const Correction corrected = corrector_.correct(point.tangent, predicted);
-  return corrected.motion.found() &&
-         (corrected.y - y).norm() <= corrector_.last_correction();
-}
+};
+
+}  // namespace
 
 std::optional<Passed> BranchHistory::passed(Corrector& corrector,
                                             const std::vector<BranchPoint>& points,
-                                            const BranchPoint& next,
-                                            const ArcLengthSettings& settings) const
+                                            const BranchPoint& next) const
 {
   const BranchPoint& last = points.back();
   const double reach = 2 * (next.arc - last.arc);
-  StepOfBranch step(corrector, last, next, settings);
+  StepOfBranch step{corrector, last, next};
   std::optional<Passed> first;
-  for (auto near = index_.lower_bound(step.low()), end = index_.upper_bound(step.high());
+  for (auto near = index_.lower_bound(step.low), end = index_.upper_bound(step.high);
        near != end; ++near) {
     const std::size_t k = near->second;
     if (first && first->index < k) continue;
-    if (last.arc - points[k].arc < reach) continue;
-    if (!step.holds(points[k])) continue;
-    first = Passed{k, step.agrees_with(points[k])};
+    if (last.arc - points[k].arc < reach || !step.holds(points[k])) continue;
+    first = Passed{k, points[k].tangent.dot(step.chord) > 0};
   }
   return first;
 }
@@ -63,10 +77,10 @@ namespace {
 /** The walk along the branch, one accepted point after the other. */
 struct Walk {
   Curve& curve;
-  const ArcLengthSettings& settings;
   SpeedRange range;
-  Corrector corrector{curve, settings};
-  double step = settings.first_step, factor = 1;
+  std::function<void(const BranchPoint&)> watch;
+  Corrector corrector{curve};
+  double step = curve.settings().first_step, factor = 1;
   long evaluations_before = curve.evaluations();
   bool positive = true, next_positive = true;  ///< sign of the determinant
   std::string refusal = {};                    ///< why the last step was shortened
@@ -89,7 +103,7 @@ struct Walk {
   void begin(const BranchPoint& start)
   {
     auto [motion, y, contraction] =
-        corrector.correct(start.tangent, scaled(start, settings));
+        corrector.correct(start.tangent, curve.scaled(start.motion));
     if (!motion.found())
       throw NoSolution(format("no start at omega = %g rad/s: %s", start.motion.omega,
                               motion.newton.reason().c_str()));
@@ -106,7 +120,7 @@ struct Walk {
   void keep(BranchPoint point)
   {
     history.add(point);
-    if (settings.watch) settings.watch(point);
+    if (watch) watch(point);
     branch.points.push_back(std::move(point));
   }
 
@@ -118,21 +132,20 @@ struct Walk {
     done = true;
   }
 
-  void shorten() { step /= 2; }
-
   /** At the shortest steps no sign can be had from a nearby leg: the walk goes on. */
-  bool long_step() const { return step > 100 * settings.least_step; }
+  bool long_step() const { return step > 100 * least_step; }
 
   bool out_of_bounds()
   {
-    if (static_cast<int>(branch.points.size()) >= settings.most_points)
-      stop(BranchEnd::points, format("the bound of %d points", settings.most_points));
-    else if (curve.evaluations() - evaluations_before >= settings.most_evaluations)
-      stop(BranchEnd::work, format("the bound on work, %ld evaluations of the force",
-                                   settings.most_evaluations));
-    else if (step < settings.least_step)
+    const long most_evaluations = curve.settings().most_evaluations;
+    if (branch.points.size() >= most_points)
+      stop(BranchEnd::points, format("the bound of %zu points", most_points));
+    else if (curve.evaluations() - evaluations_before >= most_evaluations)
+      stop(BranchEnd::work,
+           format("the bound on work, %ld evaluations of the force", most_evaluations));
+    else if (step < least_step)
       stop(BranchEnd::step,
-           format("the step fell below %g (%s)", settings.least_step, refusal.c_str()));
+           format("the step fell below %g (%s)", least_step, refusal.c_str()));
     return done;
   }
 
@@ -141,16 +154,16 @@ struct Walk {
   {
     if (out_of_bounds()) return;
     std::optional<BranchPoint> point = corrected();
-    if (!point) return shorten();
-    try {
-      take(std::move(*point));
-    } catch (const NoSolution& error) {
-      refusal = error.what();
-      return shorten();
-    }
-    positive = next_positive;
-    refusal.clear();
-    step = std::min(settings.most_step, step / std::clamp(factor, 0.5, 2.0));
+    if (point) try {
+        take(std::move(*point));
+        positive = next_positive;
+        refusal.clear();
+        step = std::min(curve.settings().most_step, step / std::clamp(factor, 0.5, 2.0));
+        return;
+      } catch (const NoSolution& error) {
+        refusal = error.what();
+      }
+    step /= 2;
   }
 
   std::optional<BranchPoint> refused(const std::string& why)
@@ -170,7 +183,7 @@ struct Walk {
     const BranchPoint& before = branch.points[n - 2];
     const double length = last().arc - before.arc;
     if (!(step <= longest * length)) return along;
-    Eigen::VectorXd off = between(before, last(), 1 + step / length, settings) - along;
+    Eigen::VectorXd off = between(curve, before, last(), 1 + step / length) - along;
     off -= last().tangent * last().tangent.dot(off);
     return off.norm() <= near * step ? along + off : along;
   }
@@ -179,7 +192,7 @@ struct Walk {
       f. */
   std::optional<BranchPoint> corrected()
   {
-    const Eigen::VectorXd &before = last().tangent, start = scaled(last(), settings);
+    const Eigen::VectorXd &before = last().tangent, start = curve.scaled(last().motion);
     auto [motion, y, contraction] = corrector.correct(before, predicted(start));
     if (!motion.found()) return refused(motion.newton.reason());
     const Tangent tangent = corrector.tangent(y, before);
@@ -189,14 +202,13 @@ struct Walk {
         angle((y - start) / length, (before + tangent.direction).normalized());
     /** Where two branches nearly meet, the corner is sharper than the shortest steps. */
     const double ease = long_step() ? 1 : 2.5;
-    if (!(turn <= ease * settings.most_turn && bend <= ease * settings.most_bend))
+    if (!(turn <= ease * most_turn && bend <= ease * most_bend))
       return refused(
           format("the tangent turns by %.2g rad, the chord by %.2g", turn, bend));
     if (tangent.positive != positive && long_step()) return refused("another leg");
     next_positive = tangent.positive;
-    factor =
-        std::max({std::sqrt(contraction / settings.wanted_contraction),
-                  turn / settings.wanted_turn, std::sqrt(bend / settings.wanted_bend)});
+    factor = std::max({std::sqrt(contraction / wanted_contraction), turn / wanted_turn,
+                       std::sqrt(bend / wanted_bend)});
     return BranchPoint{std::move(motion), last().arc + length, tangent.direction};
   }
 
@@ -204,16 +216,17 @@ struct Walk {
       before. */
   void take(BranchPoint next)
   {
-    const auto passed = history.passed(corrector, branch.points, next, settings);
+    const auto passed = history.passed(corrector, branch.points, next);
     if (passed) {
       next = branch.points[passed->index];
-      next.arc = last().arc + (scaled(last(), settings) - scaled(next, settings)).norm();
+      next.arc =
+          last().arc + (curve.scaled(last().motion) - curve.scaled(next.motion)).norm();
       if (!passed->same_direction) next = reversed(std::move(next));
     }
     if (last().speed_direction() * next.speed_direction() < 0) {
       BranchPoint fold = locate(
           curve, last(), next, [](const BranchPoint& p) { return p.speed_direction(); },
-          settings.fold_tolerance, settings);
+          fold_tolerance);
       refuse_hidden_folds(last(), fold);
       refuse_hidden_folds(fold, next);
       const double omega = fold.motion.omega;
@@ -224,22 +237,18 @@ struct Walk {
       refuse_hidden_folds(last(), next);
     }
     go_to(std::move(next));
-    if (!done && passed) end_on_itself(*passed);
+    if (done || !passed) return;
+    if (passed->index == 0 && passed->same_direction)
+      return stop(BranchEnd::closed, "the branch is closed");
+    stop(BranchEnd::on_itself, passed->same_direction
+                                   ? "the branch ran into one of its earlier points"
+                                   : "the branch turned round onto itself");
   }
 
   void refuse_hidden_folds(const BranchPoint& a, const BranchPoint& b)
   {
-    if (long_step() && turns_between(corrector, a, b, settings))
+    if (long_step() && turns_between(corrector, a, b))
       throw NoSolution("more folds in one step than its ends show");
-  }
-
-  void end_on_itself(const Passed& passed)
-  {
-    if (passed.index == 0 && passed.same_direction)
-      return stop(BranchEnd::closed, "the branch is closed");
-    stop(BranchEnd::on_itself, passed.same_direction
-                                   ? "the branch ran into one of its earlier points"
-                                   : "the branch turned round onto itself");
   }
 
   void go_to(BranchPoint next)
@@ -253,33 +262,100 @@ struct Walk {
   /** The last point, at the edge of the range between the last kept point and `next`. */
   void finish(const BranchPoint& next, double edge)
   {
-    if (last().motion.omega != edge)
-      keep(point_between(curve, last(), next, edge, settings));
+    if (last().motion.omega != edge) keep(point_between(curve, last(), next, edge));
     if (edge == range.to) return stop(BranchEnd::goal, "the end of the range");
     stop(BranchEnd::came_back, "the branch came back to where the range begins");
   }
 };
 
+/** Whether the solution `point` lies on `branch`. */
+bool lies_on(Curve& curve, const Branch& branch, const BranchPoint& point)
+{
+  Corrector corrector(curve);
+  for (std::size_t k = 1; k < branch.points.size(); ++k)
+    if (StepOfBranch{corrector, branch.points[k - 1], branch.points[k]}.holds(point))
+      return true;
+  return false;
+}
+
+bool at_an_edge(const Branch& branch)
+{
+  return branch.kind == BranchEnd::goal || branch.kind == BranchEnd::came_back;
+}
+
+/** `behind`, walked backwards from the start that it shares with `ahead`, and then
+    `ahead`. */
+Branch joined(const Branch& behind, Branch ahead)
+{
+  Branch whole{};
+  const double length = behind.points.back().arc;
+  for (std::size_t k = behind.points.size(); k-- > 1;) {
+    BranchPoint point = reversed(behind.points[k]);
+    point.arc = length - point.arc;
+    whole.points.push_back(std::move(point));
+  }
+  for (BranchPoint& point : ahead.points) {
+    point.arc += length;
+    whole.points.push_back(std::move(point));
+  }
+  whole.folds.assign(behind.folds.rbegin(), behind.folds.rend());
+  whole.folds.insert(whole.folds.end(), ahead.folds.begin(), ahead.folds.end());
+  whole.evaluations = behind.evaluations + ahead.evaluations;
+  whole.covered = at_an_edge(behind) && at_an_edge(ahead);
+  const Branch& worse = at_an_edge(behind) ? ahead : behind;
+  whole.kind = worse.kind;
+  whole.end = whole.covered ? "the edges of the range" : worse.end;
+  return whole;
+}
+
 }  // namespace
 
 Branch follow_branch(Curve& curve, const BranchPoint& start, SpeedRange range,
-                     const ArcLengthSettings& settings)
+                     std::function<void(const BranchPoint&)> watch)
 {
-  return Walk{curve, settings, range}.run(start);
+  return Walk{curve, range, std::move(watch)}.run(start);
 }
 
-Branch follow_branch(Curve& curve, double from, double to, const Eigen::VectorXd& x,
-                     const ArcLengthSettings& settings)
+Branch follow_branch(Curve& curve, double from, double to, const Eigen::VectorXd& x)
 {
-  const BranchPoint start = point_of(curve, from, x, to > from, settings);
-  return follow_branch(curve, start, {from, to}, settings);
+  return follow_branch(curve, point_of(curve, from, x, to > from), {from, to});
 }
 
 Branch follow_branch(Balance& balance, double from, double to, const Eigen::VectorXd& x,
                      const ArcLengthSettings& settings)
 {
   BalanceCurve curve(balance, settings);
-  return follow_branch(curve, from, to, x, settings);
+  return follow_branch(curve, from, to, x);
+}
+
+Branch follow_both_ways(Curve& curve, const BranchPoint& start, SpeedRange range)
+{
+  Branch ahead = follow_branch(curve, start, range);
+  ahead.covered = ahead.kind == BranchEnd::closed;
+  if (ahead.covered) return ahead;
+  try {
+    return joined(follow_branch(curve, reversed(start), range), ahead);
+  } catch (const NoSolution& nothing_behind) {
+    ahead.end = nothing_behind.what();
+    ahead.kind = BranchEnd::work;
+    return ahead;
+  }
+}
+
+std::vector<IsolatedBranch> isolated_branches(
+    Curve& curve, const Branch& main, const std::vector<PeriodicMotion>& candidates,
+    SpeedRange range)
+{
+  std::vector<IsolatedBranch> found;
+  for (const PeriodicMotion& candidate : candidates) try {
+      const BranchPoint start = point_of(curve, candidate.omega, candidate.x, true);
+      const auto on = [&](const Branch& branch) { return lies_on(curve, branch, start); };
+      if (on(main) || std::ranges::any_of(found, on, &IsolatedBranch::branch)) continue;
+      found.push_back({follow_both_ways(curve, start, range), candidate});
+    } catch (const NoSolution&) {
+      // Newton found nothing from this candidate
+    }
+  return found;
 }
 
 }  // namespace rotor_stator

@@ -8,38 +8,13 @@ cubic in the plane across the point's own tangent: the same solution comes out, 
 another. */
 #pragma once
 
+#include <functional>
 #include <map>
 #include <optional>
 
 #include "continuation/branch.hpp"
 
 namespace rotor_stator {
-
-/** The step from one point of a branch to the next, in whose way others may lie. Points,
-    settings and corrector must outlive it. */
-class StepOfBranch {
-public:
-  StepOfBranch(Corrector& corrector, const BranchPoint& a, const BranchPoint& b,
-               const ArcLengthSettings& settings);
-
-  /** The speeds of the step, with room for its bend. */
-  double low() const { return low_; }
-  double high() const { return high_; }
-
-  /** Whether the solution `point` lies on the step, to the length that Newton's last
-      correction may have. */
-  bool holds(const BranchPoint& point);
-
-  /** Whether a point that the step holds was passed in the step's own direction. */
-  bool agrees_with(const BranchPoint& held) const { return held.tangent.dot(chord_) > 0; }
-
-private:
-  Corrector& corrector_;
-  const BranchPoint &a_, &b_;
-  const ArcLengthSettings& settings_;
-  double low_, high_;
-  Eigen::VectorXd start_, chord_;
-};
 
 struct Passed {
   std::size_t index;    ///< of the earlier point
@@ -58,8 +33,7 @@ public:
       the last of them to `next`. */
   std::optional<Passed> passed(Corrector& corrector,
                                const std::vector<BranchPoint>& points,
-                               const BranchPoint& next,
-                               const ArcLengthSettings& settings) const;
+                               const BranchPoint& next) const;
 
 private:
   std::multimap<double, std::size_t> index_;
@@ -92,17 +66,39 @@ struct SpeedRange {
 };
 
 /** Follows the branch from `start`, along its tangent, until it leaves the range or ends
-    as `BranchEnd` says. Folds are located to `fold_tolerance` and become points of the
-    branch. Throws NoSolution when `start` cannot be corrected onto a branch. */
+    as `BranchEnd` says; `watch` sees each point when it is kept. Folds are located and
+    become points of the branch. Throws NoSolution when `start` cannot be corrected onto a
+    branch. */
 Branch follow_branch(Curve& curve, const BranchPoint& start, SpeedRange range,
-                     const ArcLengthSettings& settings);
+                     std::function<void(const BranchPoint&)> watch = {});
 
 /** The same from the solution near `x` at ω = `from`, towards `to`. */
-Branch follow_branch(Curve& curve, double from, double to, const Eigen::VectorXd& x,
-                     const ArcLengthSettings& settings);
+Branch follow_branch(Curve& curve, double from, double to, const Eigen::VectorXd& x);
 
 /** The same of harmonic balance. */
 Branch follow_branch(Balance& balance, double from, double to, const Eigen::VectorXd& x,
                      const ArcLengthSettings& settings);
+
+/** The branch through `start` on both sides, each until it leaves the range: covered when
+    it is closed, or ends at an edge of the range on both. */
+Branch follow_both_ways(Curve& curve, const BranchPoint& start, SpeedRange range);
+
+/**
+## Isolated branches
+
+A solution found in another way (time integration, a random start) that does not lie on
+the branch that was followed belongs to another one. That may be closed, or leave the
+range at both ends; whether it joins the first outside the range is not asked. */
+
+struct IsolatedBranch {
+  Branch branch;
+  PeriodicMotion candidate;  ///< what it was found from
+};
+
+/** The branches inside the range that pass through solutions near the candidates, and are
+    not `main`. A candidate from which Newton finds nothing is passed over. */
+std::vector<IsolatedBranch> isolated_branches(
+    Curve& curve, const Branch& main, const std::vector<PeriodicMotion>& candidates,
+    SpeedRange range);
 
 }  // namespace rotor_stator

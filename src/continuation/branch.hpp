@@ -10,33 +10,9 @@ the cubic with both tangents stands for it. */
 #include <functional>
 
 #include "continuation/curve.hpp"
-#include "continuation/sweep.hpp"
+#include "model/parameters.hpp"
 
 namespace rotor_stator {
-
-struct BranchPoint;
-
-/** The first three have no default: two scales of the problem and Newton's settings.
-    Lengths are scaled arc lengths [-]. */
-struct ArcLengthSettings {
-  NewtonSettings newton;
-  double speed_scale;        ///< ω_ref [rad/s]
-  double arc_unknown_scale;  ///< ℓ, in the unknowns' unit
-  double first_step = 0.01;
-  double least_step = 1e-7;
-  double most_step = 0.05;
-  double most_turn = 0.5;            ///< angle between successive tangents [rad]
-  double wanted_turn = 0.25;         ///< the step grows below it, shrinks above it [rad]
-  double most_bend = 0.1;            ///< angle between chord and mean tangent [rad]
-  double wanted_bend = 0.03;         ///< as for the turn [rad]
-  double most_contraction = 0.5;     ///< second over first Newton correction [-]
-  double wanted_contraction = 0.15;  ///< as for the turn [-]
-  double fold_tolerance = 1e-8;      ///< of the folds' speeds, relative
-  int most_points = 100000;
-  long most_evaluations = 1000000;  ///< of the force: the bound on work
-  std::function<void(const BranchPoint&)> watch =
-      {};  ///< sees each point when it is kept
-};
 
 struct BranchPoint {
   PeriodicMotion motion;
@@ -65,16 +41,13 @@ struct Branch {
   long evaluations = 0;  ///< of the force: the work done
 };
 
-/** y = (X/ℓ, ω/ω_ref), n+1 values. */
-Eigen::VectorXd scaled(const BranchPoint& point, const ArcLengthSettings& settings);
-
 /** Angle [rad] between two unit vectors, accurate when it is small. */
 double angle(const Eigen::VectorXd& a, const Eigen::VectorXd& b);
 
 /** The cubic through `a` and `b` with both tangents, scaled: between them at 0 ≤ r ≤ 1,
     continued beyond b at r > 1. */
-Eigen::VectorXd between(const BranchPoint& a, const BranchPoint& b, double r,
-                        const ArcLengthSettings& settings);
+Eigen::VectorXd between(const Curve& curve, const BranchPoint& a, const BranchPoint& b,
+                        double r);
 
 /** The same point, walked through the other way. */
 BranchPoint reversed(BranchPoint point);
@@ -106,7 +79,7 @@ struct Tangent {
 
 class Corrector {
 public:
-  Corrector(Curve& curve, const ArcLengthSettings& settings);
+  explicit Corrector(Curve& curve);
 
   Curve& curve() const { return curve_; }
 
@@ -120,12 +93,10 @@ public:
   Tangent tangent(const Eigen::VectorXd& y, const Eigen::VectorXd& previous);
 
 private:
-  NewtonEnd verdict(const Correction& correction, double length, double ratio) const;
   void factor(const Eigen::VectorXd& y, const Eigen::VectorXd& last_row);
   bool refine(const Eigen::VectorXd& y, double error, Eigen::VectorXd& tangent);
 
   Curve& curve_;
-  const ArcLengthSettings& settings_;
   Eigen::Index n_;
   Eigen::MatrixXd matrix_;
   Eigen::PartialPivLU<Eigen::MatrixXd> factors_;
@@ -134,7 +105,43 @@ private:
 
 /** The solution near `x` at `omega` with its tangent, on the side of higher speeds if
     `upwards`. Throws NoSolution when there is none. */
-BranchPoint point_of(Curve& curve, double omega, const Eigen::VectorXd& x, bool upwards,
-                     const ArcLengthSettings& settings);
+BranchPoint point_of(Curve& curve, double omega, const Eigen::VectorXd& x, bool upwards);
+
+/**
+## Where a quantity vanishes along a branch
+
+A fold is a zero of the speed's component of the tangent; a period doubling, a zero of 1 +
+μ for a Floquet multiplier μ. Both are found in the same way: between two points of a
+branch where the quantity has opposite signs the bracket is narrowed by the Illinois
+method (a regula falsi that halves the weight of an end that stays), with a bisection
+whenever two steps have not halved it; each trial point is corrected onto the branch. */
+
+/** A quantity at a point of the branch. */
+using TestFunction = std::function<double(const BranchPoint&)>;
+
+/** The point between `a` and `b` (successive points of one branch, with tangents) where
+    `test` changes its sign: the speed is right to `tolerance`, relative, and the point is
+    a solution to Newton's tolerance. Throws NoSolution when `test` has the same sign at
+    both ends, is not finite, or the branch cannot be corrected between them. */
+BranchPoint locate(Curve& curve, const BranchPoint& a, const BranchPoint& b,
+                   const TestFunction& test, double tolerance);
+
+/** The point between `a` and `b`, on both sides of the speed `omega` [rad/s], at that
+    speed. Throws NoSolution as `locate` does. */
+BranchPoint point_between(Curve& curve, const BranchPoint& a, const BranchPoint& b,
+                          double omega);
+
+/**
+## Folds inside a step
+
+The speed's component of the tangent changes its sign at a fold, and does not show two
+folds between two points. Contact laws make many such pairs: where a branch is steep,
+small kinks of it turn back for a moment. */
+
+/** Whether the branch turns in ω between `a` and `b`, which are both on one side of a
+    fold, or one of them a fold: by the cubic through both and, where the step turns
+    enough to hide a fold, by the tangent half-way. Pairs that are much shorter than the
+    step stay unseen. */
+bool turns_between(Corrector& corrector, const BranchPoint& a, const BranchPoint& b);
 
 }  // namespace rotor_stator

@@ -2,12 +2,10 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
+#include <iterator>
 #include <map>
 #include <optional>
-#include <utility>
 
-#include "continuation/locate.hpp"
 #include "io/errors.hpp"
 
 namespace rotor_stator {
@@ -64,9 +62,8 @@ double passing_modulus(Bifurcation kind, const Multipliers& multipliers)
 /** Multipliers outside the unit circle. */
 auto unstable_count(const StablePoint& point)
 {
-  const Multipliers& multipliers = point.floquet.multipliers;
-  return std::count_if(multipliers.begin(), multipliers.end(),
-                       [](Complex mu) { return std::abs(mu) > 1; });
+  return std::ranges::count_if(point.floquet.multipliers,
+                               [](Complex mu) { return std::abs(mu) > 1; });
 }
 
 bool changes(Bifurcation kind, const StablePoint& a, const StablePoint& b)
@@ -76,147 +73,114 @@ bool changes(Bifurcation kind, const StablePoint& a, const StablePoint& b)
          0;
 }
 
+constexpr double tolerance = 1e-7;  ///< of the bifurcations' speeds, relative
+
 struct Walk {
   Curve& curve;
-  const ArcLengthSettings& arc_length;
   const FloquetAt& floquet_at;
-  const BranchStabilitySettings& settings;
-  std::vector<bool> is_fold = {};  ///< of the branch's points
+  double widest;
+  std::vector<StablePoint> own = {};  ///< points of the branch
   BranchStability result = {};
 
-  BranchStability along(const Branch& branch)
+  BranchStability along(const Branch& branch, const std::vector<bool>& chosen)
   {
-    mark_folds(branch);
+    for (std::size_t folds = 0; const BranchPoint& point : branch.points) {
+      const bool is_fold =
+          folds < branch.folds.size() && point.motion.omega == branch.folds[folds];
+      if (is_fold) ++folds;
+      own.push_back({point, {}, is_fold ? Bifurcation::fold : Bifurcation::none});
+    }
     /** The points themselves first: they are what is left where the work does not go
         further. */
-    std::vector<std::pair<std::size_t, StablePoint>> examined;
-    for (std::size_t k = 0; k < branch.points.size(); ++k)
-      if (settings.chosen.empty() || settings.chosen[k])
-        examined.emplace_back(k, known(branch, k));
-    retry(branch, examined);
-    std::size_t last = 0;
-    for (auto& [k, next] : examined) {
-      if (k == 0)
-        result.points.push_back(std::move(next));
-      else
-        pass(branch, last, k, std::move(next));
-      last = k;
+    std::vector<std::size_t> places;
+    for (std::size_t k = 0; k < own.size(); ++k) {
+      if (!chosen.empty() && !chosen[k]) continue;
+      places.push_back(k);
+      examine(own[k]);
     }
+    /** Points whose multipliers could not be had, from the other end, where a neighbour
+        has its own. */
+    for (std::size_t i = places.size(); i-- > 1;) {
+      StablePoint& before = own[places[i - 1]];
+      if (before.examined() || !own[places[i]].examined()) continue;
+      --result.failed;
+      examine(before);
+    }
+    result.points.push_back(own.front());
+    for (std::size_t i = 1; i < places.size(); ++i) pass(places[i - 1], places[i]);
     return std::move(result);
   }
 
-  /** Points whose multipliers could not be had, from the other end, where a neighbour has
-      its own. */
-  void retry(const Branch& branch,
-             std::vector<std::pair<std::size_t, StablePoint>>& examined)
+  void examine(StablePoint& point)
   {
-    for (auto point = examined.rbegin(); point != examined.rend(); ++point) {
-      if (point->second.examined() || point == examined.rbegin() ||
-          !std::prev(point)->second.examined())
-        continue;
-      --result.failed;
-      point->second = known(branch, point->first);
-    }
-  }
-
-  void mark_folds(const Branch& branch)
-  {
-    std::size_t folds = 0;
-    for (const BranchPoint& point : branch.points) {
-      is_fold.push_back(folds < branch.folds.size() &&
-                        point.motion.omega == branch.folds[folds]);
-      if (is_fold.back()) ++folds;
-    }
-  }
-
-  StablePoint unknown(const Branch& branch, std::size_t k) const
-  {
-    return {branch.points[k], {}, is_fold[k] ? Bifurcation::fold : Bifurcation::none};
-  }
-
-  StablePoint known(const Branch& branch, std::size_t k)
-  {
-    StablePoint point = unknown(branch, k);
     try {
       point.floquet = floquet_at(point.point);
     } catch (const NoSolution& error) {
       if (result.failed++ == 0) result.failure = error.what();
     }
-    return point;
   }
 
-  static bool is_stable(const StablePoint& point) { return unstable_count(point) == 0; }
-
-  /** From point a of the branch, the last one found, to point b > a, whose multipliers
-      are `next`. */
-  void pass(const Branch& branch, std::size_t a, std::size_t b, StablePoint next)
+  /** From point a of the branch, the last one found, to point b > a. */
+  void pass(std::size_t a, std::size_t b)
   {
-    const StablePoint& last = result.points.back();
-    if (b == a + 1) return go_to(std::move(next), settings.most_halvings);
-    if (last.examined() && next.examined() &&
-        (is_stable(last) != is_stable(next) || is_wide(last, next))) {
+    constexpr int most_halvings = 6;  // of a step of the branch
+    if (b == a + 1) return go_to(own[b], most_halvings);
+    if (own[a].examined() && own[b].examined() &&
+        ((unstable_count(own[a]) == 0) != (unstable_count(own[b]) == 0) ||
+         is_wide(own[a], own[b]))) {
       const std::size_t middle = a + (b - a) / 2;
-      pass(branch, a, middle, known(branch, middle));
-      return pass(branch, middle, b, std::move(next));
+      examine(own[middle]);
+      pass(a, middle);
+      return pass(middle, b);
     }
-    for (std::size_t k = a + 1; k < b; ++k) result.points.push_back(unknown(branch, k));
-    result.points.push_back(std::move(next));
+    result.points.insert(result.points.end(), own.begin() + static_cast<long>(a) + 1,
+                         own.begin() + static_cast<long>(b) + 1);
   }
 
   /** What happens between the last point and `next`, then `next`. */
   void go_to(StablePoint next, int halvings)
   {
     const StablePoint last = result.points.back();
-    if (!last.examined() || !next.examined()) {
-      result.points.push_back(std::move(next));
-      return;
-    }
-    if (halvings > 0 && hides_something(last, next)) {
+    const bool are_examined = last.examined() && next.examined();
+    if (are_examined && halvings > 0 && hides_something(last, next))
       if (auto middle = between(last, next)) {
         go_to(std::move(*middle), halvings - 1);
         return go_to(std::move(next), halvings - 1);
       }
-    }
     std::vector<StablePoint> passed;
-    for (const Bifurcation kind : located_kinds)
-      if (changes(kind, last, next)) add(kind, last, next, passed);
-    std::sort(passed.begin(), passed.end(),
-              [](const auto& a, const auto& b) { return a.point.arc < b.point.arc; });
-    for (StablePoint& point : passed) result.points.push_back(std::move(point));
+    if (are_examined)
+      for (const Bifurcation kind : located_kinds)
+        if (changes(kind, last, next)) add(kind, last, next, passed);
+    std::ranges::sort(passed, {}, [](const StablePoint& p) { return p.point.arc; });
+    std::ranges::move(passed, std::back_inserter(result.points));
     result.points.push_back(std::move(next));
   }
 
   bool is_wide(const StablePoint& a, const StablePoint& b) const
   {
-    return std::abs(a.point.motion.omega - b.point.motion.omega) > settings.widest;
+    return std::abs(a.point.motion.omega - b.point.motion.omega) > widest;
   }
 
   bool hides_something(const StablePoint& a, const StablePoint& b) const
   {
-    if (largest_move(a.floquet.multipliers, b.floquet.multipliers) > settings.most_move ||
+    constexpr double most_move = 0.5;  // of a multiplier, over max(1, |μ|)
+    if (largest_move(a.floquet.multipliers, b.floquet.multipliers) > most_move ||
         is_wide(a, b))
       return true;
-    const auto happened =
-        std::count_if(std::begin(located_kinds), std::end(located_kinds),
-                      [&](Bifurcation kind) { return changes(kind, a, b); });
+    const auto happened = std::ranges::count_if(
+        located_kinds, [&](Bifurcation kind) { return changes(kind, a, b); });
     return happened > 1 || (happened == 0 && unstable_count(a) != unstable_count(b));
-  }
-
-  StablePoint examined(BranchPoint point) const
-  {
-    Floquet floquet = floquet_at(point);
-    return {std::move(point), std::move(floquet)};
   }
 
   /** The point at the mean speed; none at the end of what numbers resolve. */
   std::optional<StablePoint> between(const StablePoint& a, const StablePoint& b) const
   {
     const double omega = 0.5 * (a.point.motion.omega + b.point.motion.omega);
-    if (std::abs(a.point.motion.omega - b.point.motion.omega) <=
-        settings.tolerance * omega)
+    if (std::abs(a.point.motion.omega - b.point.motion.omega) <= tolerance * omega)
       return {};
     try {
-      return examined(point_between(curve, a.point, b.point, omega, arc_length));
+      const BranchPoint middle = point_between(curve, a.point, b.point, omega);
+      return StablePoint{middle, floquet_at(middle)};
     } catch (const NoSolution&) {
       return {};
     }
@@ -224,38 +188,33 @@ struct Walk {
 
   void add(Bifurcation kind, const StablePoint& a, const StablePoint& b,
            std::vector<StablePoint>& passed)
-  {
+  try {
     const TestFunction test = [&](const BranchPoint& p) {
       return test_value(kind, floquet_at(p).multipliers);
     };
-    StablePoint point;
-    try {
-      point =
-          examined(locate(curve, a.point, b.point, test, settings.tolerance, arc_length));
-    } catch (const NoSolution&) {
-      ++result.missed;
-      return;
-    }
+    StablePoint point{locate(curve, a.point, b.point, test, tolerance), {}, kind};
+    point.floquet = floquet_at(point.point);
     if (kind == Bifurcation::neimark_sacker &&
         !is_complex_pair(point.floquet.multipliers))
       return;
     if (kind == Bifurcation::plus_one && (at_fold(a, point) || at_fold(b, point))) return;
-    point.bifurcation = kind;
     const auto modulus = [kind](const StablePoint& p) {
       return passing_modulus(kind, p.floquet.multipliers);
     };
     const double speeds = std::abs(b.point.motion.omega - a.point.motion.omega);
-    point.uncertainty = settings.tolerance * point.point.motion.omega +
+    point.uncertainty = tolerance * point.point.motion.omega +
                         point.floquet.change * speeds / std::abs(modulus(b) - modulus(a));
     passed.push_back(std::move(point));
+  } catch (const NoSolution&) {
+    ++result.missed;
   }
 
   /** Whether +1 is passed at the fold itself, as far as it was located. */
-  bool at_fold(const StablePoint& fold, const StablePoint& point) const
+  static bool at_fold(const StablePoint& fold, const StablePoint& point)
   {
     return fold.bifurcation == Bifurcation::fold &&
            std::abs(fold.point.motion.omega - point.point.motion.omega) <=
-               10 * settings.tolerance * fold.point.motion.omega;
+               10 * tolerance * fold.point.motion.omega;
   }
 };
 
@@ -285,11 +244,10 @@ std::vector<bool> evenly_chosen(const Branch& branch, double width, int most)
 }
 
 BranchStability stability_along(Curve& curve, const Branch& branch,
-                                const ArcLengthSettings& arc_length,
                                 const FloquetAt& floquet_at,
-                                const BranchStabilitySettings& settings)
+                                const std::vector<bool>& chosen, double widest)
 {
-  return Walk{curve, arc_length, floquet_at, settings}.along(branch);
+  return Walk{curve, floquet_at, widest}.along(branch, chosen);
 }
 
 }  // namespace rotor_stator

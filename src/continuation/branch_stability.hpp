@@ -7,9 +7,8 @@ its stability. The bifurcations that are told apart:
 - A fold, where the tangent's speed component vanishes (the branch has located it
   already);
 - a multiplier passes +1, where Π (1 - μ_i) changes its sign. For an exact motion that is
-  a fold, or the branching point of another branch. Along a series cut at m harmonics the
-  two part, because the multipliers are those of the linearisation along it and the fold
-  is that of the cut equations;
+  a fold, or the branching point of another branch; along a series cut at m harmonics,
+  whose fold is that of the cut equations, the two differ;
 - a period doubling, where a multiplier passes -1: Π (1 + μ_i);
 - a Neimark-Sacker point, where a complex pair passes the unit circle: Π (1 - μ_i μ_j), i
   < j, which is the bialternate product. It also vanishes where two real multipliers have
@@ -39,10 +38,10 @@ At every point of a branch its Floquet multipliers, and between two points the
 bifurcations, located on the branch. Where multipliers move far between two points, or
 more than one thing happens, points are added until each step shows at most one.
 
-Multipliers cost more than the branch. Where a branch has thousands of points within a
-hertz they are computed at some of its points only; between two of these that are both
-stable or both unstable nothing is looked for, and where stability changes the points
-between are examined by bisection. */
+Multipliers cost more than the branch. Where it has thousands of points within a hertz
+they are computed at some of them only; between two of these that are both stable or both
+unstable nothing is looked for, and where stability changes the points between are
+examined by bisection. */
 
 struct StablePoint {
   BranchPoint point;
@@ -55,15 +54,6 @@ struct StablePoint {
 
 using FloquetAt = std::function<Floquet(const BranchPoint&)>;
 
-struct BranchStabilitySettings {
-  double tolerance = 1e-7;        ///< of the bifurcations' speeds, relative
-  double most_move = 0.5;         ///< of a multiplier between points, over max(1, |μ|)
-  int most_halvings = 6;          ///< of a step of the branch
-  std::vector<bool> chosen = {};  ///< points of the branch to examine; empty: all
-  double widest =
-      std::numeric_limits<double>::infinity();  ///< most speed between points [rad/s]
-};
-
 struct BranchStability {
   std::vector<StablePoint> points;  ///< of the branch, added ones, bifurcations, in order
   int missed = 0;            ///< changes of sign that could not be located on the branch
@@ -71,12 +61,13 @@ struct BranchStability {
   std::string failure = {};  ///< why the first of them could not
 };
 
-/** `curve` and `arc_length` are those the branch was followed with. A point at which
-    `floquet_at` throws NoSolution stays without multipliers. */
+/** `curve` is that the branch was followed on; `chosen` are the points of the branch to
+    examine, all where it is empty, and `widest` is the most speed between points [rad/s].
+    A point at which `floquet_at` throws NoSolution stays without multipliers. */
 BranchStability stability_along(Curve& curve, const Branch& branch,
-                                const ArcLengthSettings& arc_length,
                                 const FloquetAt& floquet_at,
-                                const BranchStabilitySettings& settings = {});
+                                const std::vector<bool>& chosen = {},
+                                double widest = std::numeric_limits<double>::infinity());
 
 /** The points to examine where at most `most` are wanted in each interval of speed of the
     length `width` [rad/s]: all where there are fewer, else the first of every k in their

@@ -92,8 +92,9 @@ struct Sweep {
 
   PeriodicMotion solve_at(double omega)
   {
+    constexpr int most_halvings = 4;
     PeriodicMotion motion{.omega = omega, .start = from_predictor};
-    if (!predictor.empty()) approach(motion, omega, settings.most_halvings);
+    if (!predictor.empty()) approach(motion, omega, most_halvings);
     if (!motion.found()) {
       predictor.clear();
       attempt(motion, omega, cold_start(omega));
@@ -174,9 +175,7 @@ std::vector<PeriodicMotion> sweep(const Parameters& parameters,
 
 CurvePoint refined_peak(const std::vector<CurvePoint>& curve)
 {
-  const auto top = std::max_element(
-      curve.begin(), curve.end(),
-      [](const CurvePoint& a, const CurvePoint& b) { return a.amplitude < b.amplitude; });
+  const auto top = std::ranges::max_element(curve, {}, &CurvePoint::amplitude);
   if (top == curve.begin() || top + 1 == curve.end()) return *top;
   /** Newton's form of the parabola, for neighbours at any distance. */
   const CurvePoint &a = *(top - 1), &b = *top, &c = *(top + 1);

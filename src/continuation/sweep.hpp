@@ -68,7 +68,6 @@ struct SweepSettings {
   NewtonSettings newton;
   double speed_scale;        ///< ω_ref [rad/s] of Eq. 19
   double arc_unknown_scale;  ///< ℓ of Eq. 19
-  int most_halvings = 4;
 };
 
 /** Those for one machine: Eq. 19 scaled by the bearing's length and by the joint

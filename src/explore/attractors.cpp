@@ -13,7 +13,7 @@
 #include "io/parallel.hpp"
 #include "motion/answer.hpp"
 #include "motion/contact.hpp"
-#include "motion/other_starts.hpp"
+#include "motion/find_periodic.hpp"
 #include "time/flow.hpp"
 
 namespace rotor_stator::explore {

@@ -23,14 +23,14 @@ void note_verdict(Table& table, const Parameters& parameters,
     table.note("stability: " + verdict.reason);
   if (verdict.refused_distance > 0)
     table.value("distance_refused", verdict.refused_distance, 2);
-  if (verdict.distance > 0)
-    put_difference(table, "distance", verdict.distance, verdict.distance_rms,
+  if (verdict.distance.largest > 0)
+    put_difference(table, "distance", verdict.distance.largest, verdict.distance.rms,
                    "from the motion of Eq. 7 whose multipliers these are");
-  if (verdict.distance_rms > 0.1)
+  if (verdict.distance.rms > 0.1)
     table.note(
         format("warning: the solution is not accurate, its rms error about the mean "
                "is %.2g %%; more harmonics or --tolerance help",
-               100 * verdict.distance_rms));
+               100 * verdict.distance.rms));
   const Settled& there = verdict.from_there;
   if (!verdict.stable())
     put_regime(table, there.period, word(there.kind), there.reason);
@@ -168,7 +168,7 @@ FoundMotion periodic_motion(const Parameters& parameters, const BasePeriod& base
   table.note("newton: " + solution.newton.reason());
   table.value("force_samples", std::max(at.force_samples, solution.force_samples));
   if (at.verdict.found() && (request.tolerance || k > 1))
-    put_difference(table, "error", at.error.largest, at.error.rms,
+    put_difference(table, "error", at.verdict.distance.largest, at.verdict.distance.rms,
                    "against the nearest motion of Eq. 7");
   if (request.stability)
     note_verdict(table, based.machine, at.verdict, k);

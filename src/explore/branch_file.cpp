@@ -100,7 +100,7 @@ SavedBranch read_branch(const std::string& file, const Parameters& parameters, i
 }
 
 BranchPoint restart_point(const SavedBranch& branch, const double* omega,
-                          const ArcLengthSettings& settings)
+                          const Curve& curve)
 {
   const auto& points = branch.points;
   std::size_t k = points.size() - 1;
@@ -113,7 +113,7 @@ BranchPoint restart_point(const SavedBranch& branch, const double* omega,
   const BranchPoint &before = points[k == 0 ? 0 : k - 1],
                     &after = points[std::min(k + 1, points.size() - 1)];
   const double speed = point.speed_direction();
-  point.tangent = scaled(after, settings) - scaled(before, settings);
+  point.tangent = curve.scaled(after.motion) - curve.scaled(before.motion);
   /** A branch of one point: its direction is that of the speed. */
   if (points.size() == 1) point.tangent[point.motion.x.size()] = speed < 0 ? -1 : 1;
   point.tangent.normalize();

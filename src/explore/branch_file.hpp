@@ -33,6 +33,6 @@ SavedBranch read_branch(const std::string& file, const Parameters& parameters,
 /** The point of the branch nearest to `omega` [rad/s], with the direction of the branch
     there as its tangent; the last point without `omega`. */
 BranchPoint restart_point(const SavedBranch& branch, const double* omega,
-                          const ArcLengthSettings& settings);
+                          const Curve& curve);
 
 }  // namespace rotor_stator::explore

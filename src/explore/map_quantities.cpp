@@ -88,7 +88,7 @@ public:
 
   double error()
   {
-    if (verdict().found()) return verdict().distance_rms;
+    if (verdict().found()) return verdict().distance.rms;
     const Settled& there = verdict().from_there;
     if (there.kind == Kind::undecided) throw NoSolution(verdict().reason);
     const auto steps =
@@ -339,7 +339,7 @@ const std::vector<Quantity> quantities{
     {"distance", "-",
      "of the solution from the motion behind stability, rms about the mean",
      Source::solution,
-     [](auto& p) -> Cell { return p.floquet(), p.verdict().distance_rms; }},
+     [](auto& p) -> Cell { return p.floquet(), p.verdict().distance.rms; }},
     {"error", "-",
      "of the solution, rms about the mean: distance or, where no motion was found near "
      "it, that from what integration settles on from the solution",

@@ -12,8 +12,8 @@
 #include "io/errors.hpp"
 #include "io/parallel.hpp"
 #include "model/read_machine.hpp"
-#include "motion/closed_motion.hpp"
 #include "motion/contact.hpp"
+#include "motion/find_periodic.hpp"
 #include "motion/judge.hpp"
 #include "time/flow.hpp"
 

@@ -5,16 +5,12 @@
 #include <ctime>
 
 #include "balance/bearing_problem.hpp"
-#include "continuation/balance_curve.hpp"
-#include "continuation/shooting_curve.hpp"
 #include "explore/spectrum.hpp"
 #include "io/errors.hpp"
 #include "io/output_file.hpp"
-#include "motion/branch_verdicts.hpp"
-#include "motion/closed_motion.hpp"
 #include "motion/contact.hpp"
+#include "motion/find_periodic.hpp"
 #include "motion/judge.hpp"
-#include "motion/other_starts.hpp"
 #include "motion/quasi_periodic.hpp"
 #include "time/flow.hpp"
 
@@ -32,8 +28,7 @@ BranchPoint saved_start(const ResponseTask& task, Curve& curve, Table& table)
 {
   const ResponseRequest& request = task.request;
   const double at = angular(request.at.value_or(0));
-  BranchPoint point =
-      restart_point(*task.saved, request.at ? &at : nullptr, task.settings);
+  BranchPoint point = restart_point(*task.saved, request.at ? &at : nullptr, curve);
   const double omega = point.motion.omega, frequency = omega / angular(1);
   if (omega < angular(request.from) || omega > angular(request.to))
     throw BadInput(format("%s: the point at %.9g Hz is outside --from %g --to %g",
@@ -201,15 +196,13 @@ public:
         lines_("Lines of the motions along the branch", line_columns)
   {
     describe(lines_, task.machine);
-    const BranchPoint start =
-        task.saved ? saved_start(task, curve_, table)
-                   : point_of(curve_, found.omega, found.x, task.upwards, task.settings);
-    ArcLengthSettings watched = task.settings;
-    if (task.request.watch)
-      watched.watch = [&](const BranchPoint& p) {
+    const BranchPoint start = task.saved
+                                  ? saved_start(task, curve_, table)
+                                  : point_of(curve_, found.omega, found.x, task.upwards);
+    main_ = follow_branch(curve_, start, task.range(), [&](const BranchPoint& p) {
+      if (task.request.watch)
         task.request.watch(task.hertz(p.motion.omega), amplitude(p.motion));
-      };
-    main_ = follow_branch(curve_, start, task.range(), watched);
+    });
   }
 
   const Branch& main() const { return main_; }
@@ -275,13 +268,10 @@ private:
 void BalanceBranch::look_beside()
 {
   const OperationBudget& budget = task_.budget;
-  const auto starts =
-      motion::other_starts(task_.parameters, task_.range(), task_.harmonics,
-                           {.speeds = task_.request.isolated,
-                            .seed = static_cast<std::uint64_t>(task_.request.seed)},
-                           budget);
-  beside_ =
-      isolated_branches(curve_, main_, starts.candidates, task_.range(), task_.settings);
+  const auto starts = motion::other_starts(
+      task_.parameters, task_.range(), task_.harmonics, task_.request.isolated,
+      static_cast<std::uint64_t>(task_.request.seed), budget);
+  beside_ = isolated_branches(curve_, main_, starts.candidates, task_.range());
   int number = 1;
   for (const auto& [branch, candidate] : beside_) {
     const auto [low, high] = std::ranges::minmax_element(
@@ -315,8 +305,7 @@ BranchStability BalanceBranch::multipliers_of(const Branch& branch, std::size_t 
       stability.points.push_back({.point = point, .floquet = {}});
     return stability;
   }
-  stability = motion::machine_stability(task_.parameters, curve_, branch, task_.settings,
-                                        task_.budget);
+  stability = motion::machine_stability(task_.parameters, curve_, branch, task_.budget);
   table_.row_line("undecided", {number, stability.failed, stability.missed});
   if (stability.failed > 0) {
     const auto first = std::ranges::find(stability.points, false, &StablePoint::examined);
@@ -445,8 +434,8 @@ Exploration branch_by_shooting(const ResponseTask& task)
     state = closed.state;
   }
   ShootingCurve curve(machine, task.budget);
-  const Branch branch = follow_branch(curve, range.from, range.to,
-                                      curve.unknowns_of(state), curve.settings());
+  const Branch branch =
+      follow_branch(curve, range.from, range.to, curve.unknowns_of(state));
   const auto [fields, usual, measures] = branch_columns(task, Harmonics(task.harmonics));
   Table table("Frequency response along the branch", fields);
   const bool has_further = table.choose(request.columns, usual, request.plot.has_value());

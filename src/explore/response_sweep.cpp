@@ -314,7 +314,7 @@ Exploration response_to_tolerance(const ResponseTask& task)
     before = at.motion.x;
     const Eigen::MatrixXd& bodies = at.motion.bodies;
     const Eigen::VectorXd amplitude = half_peak_to_peak(bodies);
-    ResponseRow row{.frequency = frequency, .error = at.error.larger()};
+    ResponseRow row{.frequency = frequency, .error = at.verdict.distance.larger()};
     std::ranges::copy(amplitude, row.amplitude.begin());
     row.harmonics =
         harmonics_of(task, resize_harmonics(bodies.reshaped(), 4, task.harmonics)

@@ -2,20 +2,224 @@
 
 #include <algorithm>
 #include <cmath>
+#include <functional>
 #include <limits>
+#include <numbers>
+#include <numeric>
 #include <optional>
 
 #include "balance/bearing_problem.hpp"
-#include "continuation/arc_length.hpp"
 #include "io/errors.hpp"
-#include "motion/closed_motion.hpp"
+#include "time/eigenvalues.hpp"
 #include "time/settle.hpp"
+#include "time/shooting.hpp"
 
 namespace rotor_stator::motion {
+
+/**
+## A motion closed by shooting */
+
+namespace {
+
+constexpr double hunting_error = 1e-11;
+
+/** Shooting over `turns` turns. */
+Shooting shot(const BalanceSearch& search, int turns, State& state, double local_error)
+{
+  return shoot(over_turns(search.parameters, turns), search.omega / turns, state,
+               {.tolerance = local_error,
+                .closed = std::max(1e-9, 10 * local_error),
+                .most_maps = turns > 1 ? 30 : 60,
+                .budget = search.budget});
+}
+
+Motion record(const BalanceSearch& search, int turns, const State& state, int points,
+              double local_error)
+{
+  return one_period(over_turns(search.parameters, turns), search.omega / turns, state,
+                    {.intervals_per_period = points * turns,
+                     .tolerance = local_error,
+                     .budget = search.budget});
+}
+
+/** Where the machine settles from rest under the constant loads. */
+Settled settled_from_load(const BalanceSearch& search)
+{
+  return settle(search.parameters, search.omega, BasePeriod{},
+                {static_start(search.parameters), 0}, {}, search.budget);
+}
+
+/** Looks for motions of period KT at one speed; what all periods need is computed once. */
+struct Hunt {
+  BalanceSearch search;
+  Verdict one_turn = {};  ///< on the solution of period T, if there is one
+  Once<Settled> rest = {};
+
+  explicit Hunt(const BalanceSearch& wanted) : search(wanted)
+  {
+    search.turns = 1;
+    search.starts.clear();
+    one_turn = judged(search).verdict;
+  }
+
+  /** Where the machine settles from rest. */
+  const Settled& at_rest()
+  {
+    return rest([&] { return settled_from_load(search); });
+  }
+
+  /** States [m, m/s] at phase 0 of motions with the period KT and none shorter, K ≤ 8;
+      those on one motion count as one. */
+  std::vector<State> states(int turns)
+  {
+    std::vector<State> found;
+    if (one_turn.from_there.period == turns)
+      add(one_turn.from_there.at.state, turns, found);
+    if (found.empty() && one_turn.floquet.multipliers.size() > 0)
+      add_along_eigenvectors(one_turn.state, 1, turns, found);
+    if (found.empty() && at_rest().period == turns) add(at_rest().at.state, turns, found);
+    for (int d = 2; d < turns && found.empty(); ++d)
+      if (turns % d == 0)
+        for (const State& state : states(d))
+          add_along_eigenvectors(state, d, turns, found);
+    return found;
+  }
+
+  /** Adds the motion that shooting over K turns closes from `start`, if it has no shorter
+      period and is not known. */
+  void add(State start, int turns, std::vector<State>& found) const
+  {
+    constexpr double same = 1e-5;
+    if (!shot(search, turns, start, hunting_error).converged) return;
+    const auto steps = flow(
+        search.parameters, search.omega,
+        {.intervals_per_period = 1, .tolerance = hunting_error, .budget = search.budget});
+    std::vector<State> section;  // after 1, 2, … K turns
+    State state = start;
+    for (int k = 0; k < turns; ++k) {
+      steps->advance(k, state);
+      section.push_back(state);
+    }
+    const auto passes = [&](const State& other, int first) {
+      return std::any_of(section.begin(), section.begin() + first, [&](const State& at) {
+        return !(apart(search.parameters, at, other) > same);
+      });
+    };
+    const auto is_known = [&](const State& known) { return passes(known, turns); };
+    if (passes(start, turns - 1) || std::ranges::any_of(found, is_known)) return;
+    found.push_back(start);
+  }
+
+  /** Along the eigenvectors of the motion of period dT through `state` whose multipliers
+      are near a primitive root of unity of order K/d. */
+  void add_along_eigenvectors(const State& state, int d, int turns,
+                              std::vector<State>& found) const
+  {
+    const Eigen::VectorXd sizes = state_scales(search.parameters);
+    const PeriodMap map = period_map(
+        over_turns(search.parameters, d), search.omega / d, state,
+        {.intervals_per_period = 1, .tolerance = hunting_error, .budget = search.budget});
+    const auto [values, vectors] = eigensystem(
+        sizes.cwiseInverse().asDiagonal() * map.derivative * sizes.asDiagonal(), true);
+    const int order = turns / d;
+    for (Eigen::Index i = 0; i < values.size(); ++i) {
+      const std::complex<double> mu = values[i];
+      const double angle = std::arg(mu) * order / (2 * std::numbers::pi);
+      const int root = static_cast<int>(std::lround(angle));
+      /** Of a pair one is enough. */
+      if (mu.imag() < 0 || std::abs(mu) < 0.5 || std::abs(angle - root) > 0.25 ||
+          std::gcd(root, order) != 1)
+        continue;
+      const Eigen::VectorXd along = vectors.col(i).real();
+      const Eigen::VectorXd direction =
+          along.cwiseProduct(sizes) / along.cwiseAbs().maxCoeff();
+      const std::size_t known = found.size();
+      for (double size : {0.003, -0.003, 0.01, -0.01, 0.03, -0.03, 0.1, -0.1, 0.3, -0.3})
+        if (found.size() == known)
+          add(rotor_stator::state_of(vector_of(state) + size * direction), turns, found);
+    }
+  }
+};
+
+/** From where shooting starts, and what it is called. */
+struct Start {
+  std::string name;
+  std::function<std::vector<State>()> states;
+};
+
+std::vector<Start> starts_of(const BalanceSearch& search)
+{
+  const Parameters& parameters = search.parameters;
+  if (search.turns > 1)
+    return {{format("a motion of period %d T", search.turns),
+             [&] { return Hunt(search).states(search.turns); }}};
+  const auto contact = [&] {
+    return std::vector{parameters.bodies->takes_explicit_steps()
+                           ? quasi_static_state(parameters, search.omega)
+                           : static_start(parameters)};
+  };
+  const auto balance = [&] {
+    const PeriodicMotion solution = find_near_contact(search);
+    return solution.found() ? std::vector{state_of(parameters, solution)}
+                            : std::vector<State>{};
+  };
+  const auto settled = [&] { return std::vector{settled_from_load(search).at.state}; };
+  return {{"quasi-static contact", contact},
+          {"few harmonics", balance},
+          {"time integration", settled}};
+}
+
+}  // namespace
+
+ClosedMotion closed_motion(const BalanceSearch& search, int points, double local_error)
+{
+  require_rotation_period(search.parameters, "shooting");
+  const int turns = search.turns;
+  std::string why = "no start";
+  for (const auto& [name, states] : starts_of(search))
+    for (State state : states()) {
+      const Shooting shooting = shot(search, turns, state, local_error);
+      why = "from " + name + ": " + shooting.reason;
+      if (!shooting.converged) continue;
+      State finer = state;
+      const Motion motion = record(search, turns, state, points, local_error);
+      if (!shot(search, turns, finer, 0.01 * local_error).converged) finer = state;
+      const Motion exact = record(search, turns, finer, points, 0.01 * local_error);
+      return {name,          state,
+              motion,        shooting.correction,
+              shooting.maps, difference(motion, exact)};
+    }
+  throw NoSolution(format("%s: shooting closed no motion of period %s at %g Hz: %s",
+                          search.parameters.file.c_str(),
+                          turns > 1 ? format("%d T", turns).c_str() : "T",
+                          search.omega / angular(1), why.c_str()));
+}
+
+/**
+## Harmonic balance */
 
 namespace {
 
 constexpr double well_closed = 1e-11;
+
+/** One base period of what Eq. 7 settles on from rest, as coefficients of the relative
+    motion [m]. Throws NoSolution where the integration breaks down, or the motion neither
+    closes nor attracts its neighbours: where a chaotic one is differs from processor to
+    processor. */
+Eigen::VectorXd settled_start(const BalanceSearch& search, int harmonics)
+{
+  const Parameters& parameters = search.parameters;
+  const double omega = search.omega;
+  const Settled settled = settle(parameters, omega, BasePeriod{},
+                                 from_rest(parameters, omega), {}, search.budget);
+  if (settled.kind != Kind::rest && settled.period != 1 && !settled.contracts)
+    throw NoSolution("integration settles on no motion with one period");
+  const Motion motion = one_period(parameters, omega, settled.at.state,
+                                   {.intervals_per_period = default_samples(harmonics),
+                                    .tolerance = 1e-9,
+                                    .budget = search.budget});
+  return relative_series(parameters, motion, harmonics);
+}
 
 /** From the end of the branch that starts at 1 Hz, or at half the speed, by arc length
     through all its folds; with few harmonics, since many see a fold at every contact
@@ -43,34 +247,29 @@ std::optional<Eigen::VectorXd> end_of_branch(const BalanceSearch& search)
     have not brought the solution nearer by half, from the one that is closed now. */
 void add_distance(Judged& at, const BalanceSearch& search, double tolerance)
 {
-  const double before = at.error.larger();
   Verdict& verdict = at.verdict;
   bool is_near = verdict.found();
   if (is_near) {
+    const double before = verdict.distance.larger();
     const Motion& exact = verdict.record;
-    at.error = difference(motion_of(at.motion.bodies, exact.points_per_period), exact);
-    is_near = at.error.larger() <= std::max(tolerance, before / 2);
+    verdict.distance =
+        difference(motion_of(at.motion.bodies, exact.points_per_period), exact);
+    is_near = verdict.distance.larger() <= std::max(tolerance, before / 2);
   }
   if (!is_near) {
     Verdict nearer = judge(search.parameters, at.motion, search.budget, search.turns);
-    if (nearer.found() || !verdict.found()) {
-      verdict = std::move(nearer);
-      at.error = {verdict.distance, verdict.distance_rms};
-    }
+    if (nearer.found() || !verdict.found()) verdict = std::move(nearer);
   }
-  verdict.distance = at.error.largest;
-  verdict.distance_rms = at.error.rms;
-  at.reached = verdict.found() ? at.error.larger() <= tolerance : std::isinf(tolerance);
-  at.end = verdict.found()
-               ? format(
-                     "the nearest motion of Eq. 7 is %.2g away from the solution with "
-                     "%d harmonics",
-                     at.error.larger(), search.harmonics)
-               : format(
-                     "no motion of Eq. 7 is known near the solution with %d "
-                     "harmonics: ",
-                     search.harmonics) +
-                     verdict.reason;
+  const double away = verdict.distance.larger();
+  at.reached = verdict.found() ? away <= tolerance : std::isinf(tolerance);
+  at.end =
+      verdict.found()
+          ? format(
+                "the nearest motion of Eq. 7 is %.2g away from the solution with %d "
+                "harmonics",
+                away, search.harmonics)
+          : format("no motion of Eq. 7 is known near the solution with %d harmonics: %s",
+                   search.harmonics, verdict.reason.c_str());
 }
 
 /** Of a motion of period KT it is known before which one it is. */
@@ -114,24 +313,6 @@ PeriodicMotion find_periodic(const BalanceSearch& search)
   return motion;
 }
 
-Eigen::VectorXd settled_start(const BalanceSearch& search, int harmonics)
-{
-  const Parameters& parameters = search.parameters;
-  const double omega = search.omega;
-  const Settled settled = settle(parameters, omega, BasePeriod{},
-                                 from_rest(parameters, omega), {}, search.budget);
-  if (settled.kind != Kind::rest && settled.period != 1 && !settled.contracts)
-    throw NoSolution("integration settles on no motion with one period");
-  const int points = default_samples(harmonics);
-  return relative_series(parameters,
-                         one_period(parameters, omega, settled.at.state,
-                                    {.method = "rk8",
-                                     .intervals_per_period = points,
-                                     .tolerance = 1e-9,
-                                     .budget = search.budget}),
-                         harmonics);
-}
-
 Judged judged(const BalanceSearch& search, const std::optional<double>& tolerance)
 {
   Judged at{.motion = find_periodic(search)};
@@ -148,9 +329,10 @@ Judged to_tolerance(BalanceSearch search, double tolerance)
   constexpr double infinite = std::numeric_limits<double>::infinity();
   constexpr double near = 0.1;  // farther away it is another motion
   const int turns = search.turns;
-  Judged at{.error = {infinite, infinite}, .end = "no solution found"};
+  Judged at{.end = "no solution found"};
   try {
     if (turns > 1) start_from_closed(search, at.verdict);
+    at.verdict.distance = {infinite, infinite};
     const Parameters longer = over_turns(search.parameters, turns);
     std::vector<Eigen::VectorXd> known = search.starts;
     bool is_known = false;        ///< whether the solution's own motion is
@@ -176,7 +358,7 @@ Judged to_tolerance(BalanceSearch search, double tolerance)
       search.starts.insert(search.starts.begin(), motion.x);
       at.motion = std::move(motion);
       add_distance(at, search, tolerance);
-      is_known = at.verdict.found() && at.error.larger() < near;
+      is_known = at.verdict.found() && at.verdict.distance.larger() < near;
       if (is_known)
         search.starts.insert(search.starts.begin(),
                              relative_series(longer, at.verdict.record, 2 * turns * m));
@@ -185,6 +367,51 @@ Judged to_tolerance(BalanceSearch search, double tolerance)
     at.end = none.what();
   }
   return at;
+}
+
+double uniform(std::mt19937_64& generator)
+{
+  return 2 * static_cast<double>(generator() >> 11) * 0x1p-53 - 1;
+}
+
+OtherStarts other_starts(const Parameters& parameters, SpeedRange range, int harmonics,
+                         int speeds, std::uint64_t seed, const OperationBudget& budget)
+{
+  constexpr int randoms = 8;  // at each speed
+  /** The motion of the rings is free to be several clearances wide. */
+  const double size = 2 * scales(parameters).length;
+  std::mt19937_64 generator(seed);
+  const OperationBudget half = budget.part(0.5);
+  OtherStarts starts;
+  for (int k = 1; k <= speeds; ++k) {
+    const double omega = range.from + (range.to - range.from) * k / (speeds + 1);
+    const auto add = [&](Eigen::VectorXd x, const std::string& name) {
+      starts.candidates.push_back(
+          {.omega = omega, .harmonics = harmonics, .x = std::move(x), .start = name});
+    };
+    const OperationBudget share = half.part(1.0 / (speeds - k + 1));
+    try {
+      add(settled_start({.parameters = parameters,
+                         .omega = omega,
+                         .harmonics = harmonics,
+                         .budget = share},
+                        harmonics),
+          "time integration");
+    } catch (const NoSolution&) {
+      // cut off, broken down or not settled: only random starts here
+      starts.cut_off += share.used_up();
+    }
+    for (int j = 1; j <= randoms; ++j) {
+      Eigen::VectorXd x(2 * (2 * harmonics + 1));
+      for (Eigen::Index i = 0; i < x.size(); ++i) {
+        const double order = static_cast<double>((i / 2 + 1) / 2);
+        x[i] = size * uniform(generator) / ((1 + order) * (1 + order));
+      }
+      add(std::move(x), format("random start %d of seed %llu", j,
+                               static_cast<unsigned long long>(seed)));
+    }
+  }
+  return starts;
 }
 
 }  // namespace rotor_stator::motion

@@ -2,18 +2,19 @@
 # The verdict on a solution
 
 A verdict speaks of the motion of Eq. 7 that is nearest to a solution of harmonic balance,
-as shooting over segments and plain shooting from eight phases of the solution find it.
-Its multipliers are computed twice, the second time with a local error a hundred times
-smaller, and what changes is their uncertainty, to which the reduction of large bodies
-adds its own. It is `stable` or `unstable` when the largest multiplier is farther from the
-unit circle than its uncertainty, which is at most 0.1, and every motion of the opposite
-stability that shooting found is at least twice as far from the solution. Shooting from
-the eight phases is left out where Newton's corrections shrink at once.
+as shooting finds it from the solution's states at eight phases, together and each alone.
+It is `stable` or `unstable` when the largest multiplier is farther from the unit circle
+than its uncertainty, at most 0.1: what closing the motion again with a hundredth of the
+local error changes, and what the reduction of large bodies may. It is `undecided` besides
+where that motion is more than ten times as far as Newton's first correction says, or one
+of the opposite stability less than twice as far. Where Newton's corrections shrink at
+once the eight phases are not tried alone.
 
     const Verdict verdict = judge(parameters, solution, budget);
-    // verdict.word(), verdict.floquet.largest(), verdict.distance_rms */
+    // verdict.word(), verdict.floquet.largest(), verdict.distance.rms */
 #pragma once
 
+#include "continuation/branch_stability.hpp"
 #include "motion/motion.hpp"
 #include "time/period_map.hpp"
 #include "time/settle.hpp"
@@ -29,11 +30,9 @@ struct Verdict {
   Eighths at = {};              ///< of the motion found
   Motion record = {};           ///< of it, one period
   bool moves = true;            ///< the motion found is not at rest
-  double distance =
-      0;  ///< of the solution over the period, over the largest displacement [-]
-  double distance_rms = 0;  ///< the same, rms about the mean [-]
-  Settled from_there =
-      {};  ///< where it is not stable: what the machine does after a small disturbance
+  Error distance = {};          ///< of the solution from it
+  /** Where it is not stable: what the machine does after a small disturbance. */
+  Settled from_there = {};
   std::string why_lost = {};  ///< why that could not be integrated
   double evaluations = 0;     ///< of the force, without `from_there`
 
@@ -60,10 +59,12 @@ Verdict judge_through(const Parameters& parameters, double omega, const State& s
 Floquet multipliers_through(const Parameters& parameters, double omega,
                             const State& state, const OperationBudget& budget = {});
 
-/** The motion nearest to a solution over one base period; shooting starts from `further`
-    motions too. */
-Verdict nearest_motion(const Parameters& parameters, const PeriodicMotion& solution,
-                       const OperationBudget& budget,
-                       const std::vector<Eighths>& further = {});
+/** The multipliers of the motions of Eq. 7 along a branch of harmonic balance, and its
+    bifurcations: at points no further apart than 0.4 % of the joint resonance, because
+    they change over less speed than the curve of few harmonics does. A point costs at
+    most 4 % of `budget`, at least 2e6 and at most 8e7 evaluations. */
+BranchStability machine_stability(const Parameters& parameters, Curve& curve,
+                                  const Branch& branch,
+                                  const OperationBudget& budget = {});
 
 }  // namespace rotor_stator::motion

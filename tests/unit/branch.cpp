@@ -5,9 +5,6 @@
 
 #include "balance/bearing_problem.hpp"
 #include "continuation/arc_length.hpp"
-#include "continuation/balance_curve.hpp"
-#include "continuation/isolated.hpp"
-#include "continuation/locate.hpp"
 #include "io/errors.hpp"
 #include "motion/find_periodic.hpp"
 #include "support/cases.hpp"
@@ -82,8 +79,7 @@ Branch follow(const Parameters& parameters, int harmonics, int samples, double f
 struct Round {
   Balance balance{circle(1), 0};
   BalanceCurve curve{balance, plain};
-  Branch branch =
-      follow_branch(curve, point_of(curve, 2, at(1), true, plain), {0.5, 3.5}, plain);
+  Branch branch = follow_branch(curve, point_of(curve, 2, at(1), true), {0.5, 3.5});
 };
 
 std::vector<double> in_order(std::vector<double> folds)
@@ -141,8 +137,8 @@ TEST_CASE("A circle is followed once round and recognised as closed, either way"
   for (bool upwards : {true, false}) {
     Balance balance(circle(0.7), 0);
     BalanceCurve curve(balance, plain);
-    const BranchPoint start = point_of(curve, 2, at(0.7), upwards, plain);
-    const Branch branch = follow_branch(curve, start, {0.5, 3.5}, plain);
+    const BranchPoint start = point_of(curve, 2, at(0.7), upwards);
+    const Branch branch = follow_branch(curve, start, {0.5, 3.5});
     CHECK(branch.kind == BranchEnd::closed);
     CHECK_FALSE(branch.covered);
     check_same(in_order(branch.folds), {1.3, 2.7}, 1e-8);
@@ -150,7 +146,7 @@ TEST_CASE("A circle is followed once round and recognised as closed, either way"
     CHECK(branch.points.back().motion.x == branch.points.front().motion.x);
     /** The chords of a circle are shorter than its arcs. */
     CHECK(branch.points.back().arc == Approx(2 * M_PI * 0.7).epsilon(1e-3));
-    CHECK(follow_both_ways(curve, start, {0.5, 3.5}, plain).covered);
+    CHECK(follow_both_ways(curve, start, {0.5, 3.5}).covered);
   }
 }
 
@@ -158,8 +154,8 @@ TEST_CASE("A closed branch that leaves the range is followed to both edges")
 {
   Balance balance(circle(0.7), 0);
   BalanceCurve curve(balance, plain);
-  const BranchPoint start = point_of(curve, 2.2, at(0.6), true, plain);
-  const Branch branch = follow_both_ways(curve, start, {2.0, 3.5}, plain);
+  const BranchPoint start = point_of(curve, 2.2, at(0.6), true);
+  const Branch branch = follow_both_ways(curve, start, {2.0, 3.5});
   CHECK(branch.covered);
   CHECK(branch.points.front().motion.omega == 2.0);
   CHECK(branch.points.back().motion.omega == 2.0);
@@ -179,7 +175,7 @@ TEST_CASE("An isolated branch is found from starts off the main one, once")
       {.omega = 1.5, .x = at(-1.9), .start = "main"},
       {.omega = 2.2, .x = at(1.5), .start = "first"},
       {.omega = 1.8, .x = at(0.5), .start = "second"}};
-  const auto found = isolated_branches(curve, main, candidates, {0.5, 3.5}, plain);
+  const auto found = isolated_branches(curve, main, candidates, {0.5, 3.5});
   REQUIRE(found.size() == 1);
   CHECK(found[0].candidate.start == "first");
   CHECK(found[0].branch.kind == BranchEnd::closed);
@@ -193,8 +189,7 @@ TEST_CASE("An isolated branch is found from starts off the main one, once")
   REQUIRE(line.covered);
   const double inner = std::sqrt(0.5) / 2, outer = std::sqrt(4.5) / 2;
   check_same(line.folds, {2 - inner, 2 - outer, 2 + outer, 2 + inner}, 1e-8);
-  CHECK(isolated_branches(joined_curve, line, {{.omega = 2.0, .x = at(2)}}, {0.5, 3.5},
-                          plain)
+  CHECK(isolated_branches(joined_curve, line, {{.omega = 2.0, .x = at(2)}}, {0.5, 3.5})
             .empty());
 }
 
@@ -206,16 +201,16 @@ TEST_CASE("Between two points of a branch a quantity's value and a speed are fou
   for (std::size_t k = 1; k < round.branch.points.size(); ++k) {
     const BranchPoint &a = round.branch.points[k - 1], &b = round.branch.points[k];
     if (quantity(a) * quantity(b) >= 0)
-      CHECK_THROWS_AS(locate(round.curve, a, b, quantity, 1e-10, plain), NoSolution);
+      CHECK_THROWS_AS(locate(round.curve, a, b, quantity, 1e-10), NoSolution);
     else {
-      const BranchPoint point = locate(round.curve, a, b, quantity, 1e-10, plain);
+      const BranchPoint point = locate(round.curve, a, b, quantity, 1e-10);
       CHECK(std::abs(point.motion.omega - 2) == Approx(0.8).epsilon(1e-9));
       CHECK(point.arc > a.arc);
       CHECK(point.arc < b.arc);
       ++found;
     }
     if ((a.motion.omega - 2.3) * (b.motion.omega - 2.3) >= 0) continue;
-    const BranchPoint point = point_between(round.curve, a, b, 2.3, plain);
+    const BranchPoint point = point_between(round.curve, a, b, 2.3);
     CHECK(point.motion.omega == 2.3);
     CHECK(std::abs(point.motion.x[0]) == Approx(std::sqrt(0.91)));
     ++passed;
@@ -228,12 +223,12 @@ TEST_CASE("A step that passes an earlier point knows which way it goes")
 {
   Round round;
   const Branch& branch = round.branch;
-  Corrector corrector(round.curve, plain);
+  Corrector corrector(round.curve);
   std::vector<BranchPoint> walked(branch.points.begin(), branch.points.begin() + 12);
   const auto passed_to = [&](const BranchPoint& next) {
     BranchHistory history;
     for (const BranchPoint& point : walked) history.add(point);
-    return history.passed(corrector, walked, next, plain);
+    return history.passed(corrector, walked, next);
   };
   CHECK_FALSE(passed_to(branch.points[12]));
 
@@ -279,13 +274,11 @@ TEST_CASE("A branch has the same folds upwards and downwards and with half the s
     check_same(in_order(other.folds), folds, 1e-6);
   }
   Balance balance(bearing_problem(parameters, 21), 10);
-  const ArcLengthSettings settings = arc_length_settings(parameters);
-  BalanceCurve curve(balance, settings);
+  BalanceCurve curve(balance, arc_length_settings(parameters));
   const BranchPoint& middle = up.points[up.points.size() / 2];
   const SpeedRange range{hertz(1), hertz(60)};
-  const Branch ahead = follow_branch(curve, middle, range, settings);
-  const Branch back =
-      follow_branch(curve, reversed(middle), {range.to, range.from}, settings);
+  const Branch ahead = follow_branch(curve, middle, range);
+  const Branch back = follow_branch(curve, reversed(middle), {range.to, range.from});
   const auto close = [](const BranchPoint& a, const BranchPoint& b) {
     return (a.motion.x - b.motion.x).norm() < 1e-8 * b.motion.x.norm();
   };

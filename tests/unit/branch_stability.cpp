@@ -6,7 +6,6 @@
 
 #include "balance/bearing_problem.hpp"
 #include "continuation/arc_length.hpp"
-#include "continuation/balance_curve.hpp"
 #include "continuation/branch_stability.hpp"
 #include "io/errors.hpp"
 #include "support/cases.hpp"
@@ -44,13 +43,12 @@ Followed follow(const Oscillator& oscillator, int harmonics, int samples, double
 {
   Balance balance(oscillator.problem(samples), harmonics);
   const Eigen::VectorXd x = start ? *start : Eigen::VectorXd::Zero(balance.unknowns());
-  const ArcLengthSettings settings = steps(most_step);
-  BalanceCurve curve(balance, settings);
-  Followed followed{follow_branch(curve, from, to, x, settings), {}};
+  BalanceCurve curve(balance, steps(most_step));
+  Followed followed{follow_branch(curve, from, to, x), {}};
   const auto floquet_at = [&](const BranchPoint& p) {
     return floquet(oscillator, p.motion.x, p.motion.omega);
   };
-  followed.stability = stability_along(curve, followed.branch, settings, floquet_at);
+  followed.stability = stability_along(curve, followed.branch, floquet_at);
   return followed;
 }
 
@@ -89,20 +87,18 @@ TEST_CASE("Where some points are skipped, a change of stability is found all the
 {
   const Oscillator oscillator = two_masses_cubic();
   Balance balance(oscillator.problem(64), 5);
-  const ArcLengthSettings settings = steps(0.005);
-  BalanceCurve curve(balance, settings);
-  const Branch branch = follow_branch(
-      curve, 1.05, 1.2, Eigen::VectorXd::Zero(balance.unknowns()), settings);
+  BalanceCurve curve(balance, steps(0.005));
+  const Branch branch =
+      follow_branch(curve, 1.05, 1.2, Eigen::VectorXd::Zero(balance.unknowns()));
   long asked = 0;
   const auto floquet_at = [&](const BranchPoint& p) {
     ++asked;
     return floquet(oscillator, p.motion.x, p.motion.omega);
   };
-  const auto all = stability_along(curve, branch, settings, floquet_at);
+  const auto all = stability_along(curve, branch, floquet_at);
   const long asked_for_all = std::exchange(asked, 0);
-  BranchStabilitySettings few;
-  few.chosen = evenly_chosen(branch, 0.05, 4);
-  const auto some = stability_along(curve, branch, settings, floquet_at, few);
+  const auto some =
+      stability_along(curve, branch, floquet_at, evenly_chosen(branch, 0.05, 4));
   CHECK(asked < asked_for_all / 2);
   CHECK(some.points.size() >= branch.points.size());
 
@@ -132,12 +128,11 @@ TEST_CASE("A point whose multipliers cannot be had is kept without them")
 {
   const Oscillator oscillator = two_masses_cubic();
   Balance balance(oscillator.problem(64), 5);
-  const ArcLengthSettings settings = steps(0.02);
-  BalanceCurve curve(balance, settings);
-  const Branch branch = follow_branch(
-      curve, 1.1, 1.13, Eigen::VectorXd::Zero(balance.unknowns()), settings);
+  BalanceCurve curve(balance, steps(0.02));
+  const Branch branch =
+      follow_branch(curve, 1.1, 1.13, Eigen::VectorXd::Zero(balance.unknowns()));
   const auto stability = stability_along(
-      curve, branch, settings,
+      curve, branch,
       [](const BranchPoint&) -> Floquet { throw NoSolution("no more work"); });
   CHECK(stability.points.size() == branch.points.size());
   CHECK(stability.failed == static_cast<int>(branch.points.size()));

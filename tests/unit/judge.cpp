@@ -34,11 +34,11 @@ TEST_CASE("What grows 32,177 times in a turn is closed, and called unstable")
   const motion::Verdict first = judged(case_of("grows_32177"), 71.23, 500);
   CHECK(std::string(first.word()) == "unstable");
   CHECK(first.floquet.largest() == Approx(32177).epsilon(1e-4));
-  CHECK(first.distance < 1e-5);
+  CHECK(first.distance.largest < 1e-5);
   const motion::Verdict second = judged(case_of("grows_17565"), 77.32, 500);
   CHECK(std::string(second.word()) == "unstable");
   CHECK(second.floquet.largest() == Approx(17565).epsilon(1e-4));
-  CHECK(second.distance < 1e-5);
+  CHECK(second.distance.largest < 1e-5);
 }
 
 /** A stable motion is 2.13e-4 away, an unstable one 1.76e-4. */
@@ -57,8 +57,8 @@ TEST_CASE("A machine at rest is stable, and its distances are numbers")
   const motion::Verdict verdict = judged(parameters, 45, 6);
   CHECK(verdict.stable());
   CHECK_FALSE(verdict.moves);
-  CHECK(verdict.distance == 0);
-  CHECK(verdict.distance_rms == 0);
+  CHECK(verdict.distance.largest == 0);
+  CHECK(verdict.distance.rms == 0);
 }
 
 /** Catches segments in a wrong order, and phases that are not counted from the first. */

@@ -1,26 +1,56 @@
-#include "continuation/shooting_curve.hpp"
+#include "continuation/curve.hpp"
 
 namespace rotor_stator {
+
+Eigen::VectorXd BalanceCurve::residual(const Eigen::VectorXd& y, bool with_slope)
+{
+  return balance_.residual(x(y), omega(y), with_slope);
+}
+
+Eigen::MatrixXd BalanceCurve::slope(const Eigen::VectorXd& y)
+{
+  Eigen::MatrixXd slope(unknowns(), unknowns() + 1);
+  slope << settings_.arc_unknown_scale * balance_.jacobian(x(y), omega(y)),
+      settings_.speed_scale * balance_.speed_derivative(x(y), omega(y));
+  return slope;
+}
+
+Eigen::VectorXd BalanceCurve::slope_along(const Eigen::VectorXd& y,
+                                          const Eigen::VectorXd& direction)
+{
+  const Eigen::VectorXd at = x(y);
+  Eigen::VectorXd product(unknowns());
+  balance_.apply_jacobian(at, omega(y), direction.head(unknowns()), product);
+  return settings_.arc_unknown_scale * product +
+         settings_.speed_scale * direction[unknowns()] *
+             balance_.speed_derivative(at, omega(y));
+}
+
+PeriodicMotion BalanceCurve::motion_at(const Eigen::VectorXd& y)
+{
+  PeriodicMotion motion{.omega = omega(y), .x = x(y)};
+  motion.force = balance_.force(motion.x, motion.omega);
+  motion.harmonics = balance_.harmonics();
+  motion.samples = balance_.problem().samples;
+  motion.line = balance_.problem().line;
+  return motion;
+}
 
 /** ℓ: a step may change the state by so many of its sizes over the one in which it may
     change the speed by ω_ref. Vibrations are many clearances wide near a resonance. */
 static constexpr double sizes_in_a_step = 20;
 
 ShootingCurve::ShootingCurve(const Parameters& parameters, const OperationBudget& budget)
-    : Curve(sizes_in_a_step, joint_resonance(parameters)), parameters_(parameters),
+    : Curve({.newton = {.tolerance = 1e-9},
+             .speed_scale = joint_resonance(parameters),
+             .arc_unknown_scale = sizes_in_a_step,
+             .most_step = 0.2,
+             .most_evaluations = std::numeric_limits<long>::max()}),
+      parameters_(parameters),
       sizes_(state_scales(parameters)), steps_{.intervals_per_period = 1,
                                                .tolerance = 1e-12,
                                                .budget = budget}
 {
-}
-
-ArcLengthSettings ShootingCurve::settings() const
-{
-  ArcLengthSettings settings{
-      .newton = {.tolerance = 1e-9}, .speed_scale = speed_, .arc_unknown_scale = length_};
-  settings.most_step = 0.2;
-  settings.most_evaluations = std::numeric_limits<long>::max();
-  return settings;
 }
 
 Eigen::VectorXd ShootingCurve::ends(const Eigen::VectorXd& y, double omega)
@@ -41,10 +71,10 @@ Eigen::VectorXd ShootingCurve::residual(const Eigen::VectorXd& y, bool with_slop
       (ends(y, w * (1 + step)) - ends(y, w * (1 - step))) / (2 * step * w);
   at_ = y;
   slope_.resize(unknowns(), unknowns() + 1);
-  slope_ << length_ * sizes_.cwiseInverse().asDiagonal() * map.derivative *
+  slope_ << sizes_in_a_step * sizes_.cwiseInverse().asDiagonal() * map.derivative *
                 sizes_.asDiagonal(),
-      speed_ * by_speed;
-  slope_.diagonal().array() -= length_;
+      settings_.speed_scale * by_speed;
+  slope_.diagonal().array() -= sizes_in_a_step;
   return unknowns_of(map.end) - x(y);
 }
 
