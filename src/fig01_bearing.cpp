@@ -33,15 +33,5 @@ The table has one row for each circle: its centre, its radius and, for a ball, i
 int main(int argc, char** argv)
 {
   using namespace rotor_stator;
-  return run_figure(argc, argv, [](SceneFile& file) {
-    const figures::BearingScene scene = figures::read_bearing_scene(file);
-    Table table = figures::bearing_table(scene);
-    figures::add_races(table, scene);
-    for (int ball = 1; ball <= scene.machine.bearing.balls; ++ball) {
-      const double angle = figures::ball_angle(scene, ball);          // Eq. 3
-      const double penetration = figures::penetration(scene, angle);  // Eqs 4, 5
-      figures::add_ball(table, scene, ball, angle, penetration);
-    }
-    return table;
-  });
+  return run_figure(argc, argv, figures::bearing);
 }

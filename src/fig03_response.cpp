@@ -30,23 +30,169 @@ there the curve does not describe what the machine does after a start from rest.
 large clearance most speeds below the resonance are of this kind, and at low speeds the
 curve has wide gaps. The figure says nothing about stability; the figure `stability`
 does. */
-#include "figures/response.hpp"
+#include "balance/fourier_transform.hpp"
+#include "continuation/sweep.hpp"
 #include "io/program.hpp"
+#include "motion/contact.hpp"
+
+namespace {
+
+using namespace rotor_stator;
+
+struct DataSet {
+  int number;  ///< 1, 2, … in the scene's order
+  Parameters machine;
+  int harmonics;  ///< m
+};
+
+enum class Curve { speed_up = 1, speed_down = 2, time_integration = 3 };
+
+struct Row {
+  int set;
+  Curve curve;
+  int segment;
+  double frequency;
+  std::array<double, 4> amplitude;  ///< of x_s, y_s, x_r, y_r [m]
+  double contact;
+  int newton = 0;
+  double spread = 0;
+  bool periodic = true;  ///< harmonic balance finds nothing else
+  /** Standard errors. */
+  double spread_error = 0, contact_error = 0;
+  std::array<double, 4> amplitude_error = {};
+};
+
+using Fields = std::vector<Field<Row>>;
+const Fields fields =
+    Fields{{"set", "-", "data set", &Row::set},
+           {"curve", "-", "1 harmonic balance speed up, 2 speed down, 3 time integration",
+            &Row::curve},
+           {"segment", "-", "counts the gaps where no solution was found", &Row::segment},
+           {"f", "Hz", "speed of rotation", &Row::frequency}} +
+    displacement_fields<Row>("amp_", "half peak-to-peak of ", &Row::amplitude) +
+    Fields{{"contact", "-", "share of the time with at least one loaded ball",
+            &Row::contact},
+           {"newton", "-", "Newton iterations, 0 for time integration", &Row::newton},
+           {"spread", "-", "Poincare spread over the largest displacement", &Row::spread},
+           {"periodic", "-",
+            "1 if the motion has the period of rotation; where 0, the amplitudes and the "
+            "share of contact are means over single turns, the spread over windows of a "
+            "second",
+            &Row::periodic},
+           {"spread_error", "-", "standard error of spread", &Row::spread_error},
+           {"contact_error", "-", "standard error of contact", &Row::contact_error}} +
+    displacement_fields<Row>("amp_", "standard error of amp_", &Row::amplitude_error,
+                             "_error");
+
+/** The amplitudes along a sweep, with a gap wherever no solution was found. */
+void add_curve(Table& table, const DataSet& set, Curve curve,
+               const std::vector<PeriodicMotion>& solutions)
+{
+  int segment = 1;
+  bool connected = false;
+  table.gap();
+  for (const PeriodicMotion& solution : solutions) {
+    /** After a cold start it may lie on another branch. */
+    if (connected && (!solution.found() || solution.start != from_predictor)) {
+      ++segment;
+      table.gap();
+    }
+    connected = solution.found();
+    if (!solution.found()) continue;
+    const Eigen::Vector4d a = half_peak_to_peak(solution.bodies);
+    table.row(fields, {.set = set.number,
+                       .curve = curve,
+                       .segment = segment,
+                       .frequency = solution.omega / angular(1),
+                       .amplitude = {a[0], a[1], a[2], a[3]},
+                       .contact = motion::contact_share(
+                           set.machine, motion::motion_of(solution.bodies, 256)),
+                       .newton = solution.newton.iterations});
+  }
+  table.gap();
+}
+
+/** Of an aperiodic motion, the amplitudes and the contact of a turn. */
+void average_over_turns(Row& row, const Parameters& machine, const motion::Motion& motion)
+{
+  std::array<std::vector<double>, 4> amplitudes;
+  std::vector<double> contact;
+  for (const motion::Motion& turn : motion::pieces(motion, 1)) {
+    const Displacements amplitude = half_peak_to_peak(turn);
+    for (std::size_t i = 0; i < 4; ++i) amplitudes[i].push_back(amplitude[i]);
+    contact.push_back(motion::contact_share(machine, turn));
+  }
+  for (std::size_t i = 0; i < 4; ++i) {
+    const BatchMean mean = long_mean(amplitudes[i]);
+    row.amplitude[i] = mean.value;
+    row.amplitude_error[i] = mean.error;
+  }
+  row.contact_error = long_mean(contact).error;
+}
+
+/** Those of the motions that settle from rest, looked at twelve times in a vibration of
+    the contact. */
+void add_settled(Table& table, const DataSet& set, const std::vector<double>& speeds,
+                 const SteadySettings& integration)
+{
+  std::vector<SteadyRun> runs;
+  for (const double frequency : speeds) {
+    SteadySettings settings = integration;
+    int& instants = settings.stepper.intervals_per_period;
+    instants = std::max(instants, motion::instants_of(set.machine, angular(frequency)));
+    runs.push_back(
+        {set.machine, angular(frequency), static_start(set.machine), settings});
+  }
+  std::vector<Row> rows(speeds.size());
+  Progress progress("time integration", speeds.size());
+  steady_states(runs, [&](std::size_t k, const SteadyState& settled) {
+    const int instants = runs[k].settings.stepper.intervals_per_period;
+    const motion::Motion motion = motion::motion_of(settled, instants);
+    rows[k] = {.set = set.number,
+               .curve = Curve::time_integration,
+               .segment = 1,
+               .frequency = speeds[k],
+               .amplitude = half_peak_to_peak(motion),
+               .contact = motion::contact_share(set.machine, motion),
+               .spread = settled.spread,
+               .periodic = settled.periodic,
+               .spread_error = settled.spread_error};
+    if (!settled.periodic) average_over_turns(rows[k], set.machine, motion);
+    progress.step();
+  });
+  for (const Row& row : rows) table.row(fields, row);
+}
+
+}  // namespace
 
 int main(int argc, char** argv)
 {
-  using namespace rotor_stator;
   return run_figure(argc, argv, [](SceneFile& file) {
-    const figures::ResponseScene scene = figures::read_response(file);
-    Table table = figures::response_table(scene);
-    const std::vector<double>& upwards = scene.balance_speeds;
-    const std::vector<double> downwards(upwards.rbegin(), upwards.rend());
-    for (const figures::DataSet& set : scene.sets) {
-      figures::add_curve(table, set, figures::Curve::speed_up,
-                         sweep(set.machine, angular(upwards), set.harmonics));
-      figures::add_curve(table, set, figures::Curve::speed_down,
-                         sweep(set.machine, angular(downwards), set.harmonics));
-      figures::add_settled(table, set, scene);
+    const auto machines = read_parameter_list(file, "parameters");
+    const auto harmonics = file.toml().integers("harmonics", 1, 4096);
+    const std::vector<double> upwards = file.speed_range("balance_hz"),
+                              downwards(upwards.rbegin(), upwards.rend()),
+                              time_speeds = file.speed_range("time_integration_hz");
+    const SteadySettings integration = read_steady_settings(file);
+    if (harmonics.size() != machines.size())
+      file.toml().fail("harmonics", "must have one value for each of parameters");
+    file.toml().refuse_unknown_keys();
+    Table table("Frequency response (Fig. 3)", fields);
+    for (std::size_t k = 0; k < machines.size(); ++k) {
+      describe(table, machines[k], false);
+      table.row_line("clearance", {machines[k].bearing.clearance});
+      table.row_line("harmonics", {harmonics[k], default_samples(harmonics[k])});
+    }
+    table.note("rows of each data set; harmonics: m, N");
+    table.note("modelled: amplitudes of the m-harmonic solution; time integration by " +
+               integration.stepper.method + " from rest at each of its speeds");
+    for (std::size_t k = 0; k < machines.size(); ++k) {
+      const DataSet set{static_cast<int>(k) + 1, machines[k], harmonics[k]};
+      add_curve(table, set, Curve::speed_up,
+                sweep(set.machine, angular(upwards), set.harmonics));
+      add_curve(table, set, Curve::speed_down,
+                sweep(set.machine, angular(downwards), set.harmonics));
+      add_settled(table, set, time_speeds, integration);
     }
     return table;
   });

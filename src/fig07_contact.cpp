@@ -32,7 +32,7 @@ motions are computed as for Figure 6, at more instants of the period: the larges
 the force is found among them, and differs a little from that of Figure 6 at the same
 speed. The force of each ball is Eq. 5. */
 #include "balance/find.hpp"
-#include "figures/contact.hpp"
+#include "figures/panels.hpp"
 #include "io/program.hpp"
 
 int main(int argc, char** argv)

@@ -28,7 +28,7 @@ accurate, because the penetrations that decide the force are small against the
 displacements. At 3 Hz the motion repeats after one turn, but ten harmonics have an rms
 error of 34 %. The panel therefore shows the integrated motion: the balls lose and meet
 their contact several times while they pass through the load. */
-#include "figures/contact.hpp"
+#include "figures/panels.hpp"
 #include "io/program.hpp"
 #include "motion/find_periodic.hpp"
 

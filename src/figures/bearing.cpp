@@ -4,7 +4,7 @@
 #include <numbers>
 
 #include "io/errors.hpp"
-#include "io/toml_file.hpp"
+#include "model/ball_bearing.hpp"
 
 namespace rotor_stator::figures {
 
@@ -30,84 +30,51 @@ const std::vector<Field<Circle>> fields{
     {"penetration", "m", "Delta_j - delta of Eqs 4, 5, not enlarged; 0 for a race",
      &Circle::penetration}};
 
-/** Distance of the balls' centres from that of the outer race, drawn [m]. */
-double pitch_radius(const BearingScene& scene)
-{
-  return scene.inner_race_radius + scene.ball_radius +
-         scene.machine.bearing.clearance * scene.clearance_factor;
-}
-
 }  // namespace
 
-BearingScene read_bearing_scene(SceneFile& file)
+Table bearing(SceneFile& file)
 {
   StrictToml& toml = file.toml();
-  BearingScene scene{};
-  scene.machine = read_parameters(file, "parameters");
-  scene.inner_race_radius = toml.number("drawn_inner_race_radius_m", Range::positive);
+  const Parameters machine = read_parameters(file, "parameters");
+  const int balls = machine.bearing.balls;
+  const double clearance = machine.bearing.clearance;
+  const double inner = toml.number("drawn_inner_race_radius_m", Range::positive);  // R
   double ratio = toml.number("drawn_radius_ratio", Range::positive);
-  if (scene.machine.bearing.radius_ratio > 0) ratio = scene.machine.bearing.radius_ratio;
+  if (machine.bearing.radius_ratio > 0) ratio = machine.bearing.radius_ratio;
   if (ratio >= 1) toml.fail("drawn_radius_ratio", "R_b/(R_b+R) must be below 1");
-  scene.ball_radius = scene.inner_race_radius * ratio / (1 - ratio);
-  scene.clearance_factor = toml.number("clearance_factor", Range::positive);
-  scene.displacement_factor = toml.number_or("displacement_factor", Range::positive, 1);
+  const double ball_radius = inner * ratio / (1 - ratio);  // R_b
+  const double widened = toml.number("clearance_factor", Range::positive);
+  const double enlarged = toml.number_or("displacement_factor", Range::positive, 1);
   const double displacement = toml.number_or("displacement_m", Range::not_negative, 0);
   const double direction = toml.number_or("displacement_angle_rad", Range::any, 0);
-  scene.relative_displacement = {displacement * std::cos(direction),
-                                 displacement * std::sin(direction)};
-  scene.marked_ball = toml.integer_or("marked_ball", 1, scene.machine.bearing.balls, 0);
-  scene.cage_angle = toml.number_or("cage_angle_rad", Range::any, 0);
+  const Vec2 u{displacement * std::cos(direction), displacement * std::sin(direction)};
+  const int marked = toml.integer_or("marked_ball", 1, balls, 0);
+  const double cage_angle = toml.number_or("cage_angle_rad", Range::any, 0);
   toml.refuse_unknown_keys();
-  return scene;
-}
-
-Table bearing_table(const BearingScene& scene)
-{
   Table table("Bearing geometry (Figs 1, 2)", fields);
-  describe(table, scene.machine);
+  describe(table, machine);
   table.note("modelled: geometry alone");
-  table.value("clearance_factor", scene.clearance_factor);
-  table.value("displacement_factor", scene.displacement_factor);
-  table.value("drawn_inner_radius", scene.inner_race_radius);
-  table.value("drawn_ball_radius", scene.ball_radius);
+  table.value("clearance_factor", widened);
+  table.value("displacement_factor", enlarged);
+  table.value("drawn_inner_radius", inner);
+  table.value("drawn_ball_radius", ball_radius);
+  /** The outer race, centred, and the inner one, displaced by the enlarged u. The balls
+      ride on the outer race: the whole clearance shows at the inner one. */
+  const double pitch = inner + ball_radius + clearance * widened;
+  table.row(fields, {Part::outer_race, 0, {0, 0}, pitch + ball_radius});
+  table.row(fields, {Part::inner_race, 0, {enlarged * u.x, enlarged * u.y}, inner});
+  for (int ball = 1; ball <= balls; ++ball) {
+    const double angle = cage_angle + 2 * std::numbers::pi * (ball - 1) / balls;  // Eq. 3
+    const Direction d = Direction::of(angle);
+    const double penetration = d.cos * u.x + d.sin * u.y - clearance;  // Eqs 4, 5
+    table.row(fields, {ball == marked ? Part::marked_ball : Part::ball,
+                       ball,
+                       {pitch * d.cos, pitch * d.sin},
+                       ball_radius,
+                       angle,
+                       penetration});
+  }
   return table;
-}
-
-void add_races(Table& table, const BearingScene& scene)
-{
-  const double outer = pitch_radius(scene) + scene.ball_radius;
-  const double enlarged = scene.displacement_factor;
-  const Vec2 u = scene.relative_displacement;
-  table.row(fields, {Part::outer_race, 0, {0, 0}, outer});
-  table.row(
-      fields,
-      {Part::inner_race, 0, {enlarged * u.x, enlarged * u.y}, scene.inner_race_radius});
-}
-
-double ball_angle(const BearingScene& scene, int ball)
-{
-  return scene.cage_angle +
-         2 * std::numbers::pi * (ball - 1) / scene.machine.bearing.balls;
-}
-
-double penetration(const BearingScene& scene, double angle)
-{
-  const Direction d = Direction::of(angle);
-  const Vec2 u = scene.relative_displacement;
-  return d.cos * u.x + d.sin * u.y - scene.machine.bearing.clearance;
-}
-
-void add_ball(Table& table, const BearingScene& scene, int ball, double angle,
-              double penetration)
-{
-  const double pitch = pitch_radius(scene);
-  const Direction d = Direction::of(angle);
-  table.row(fields, {ball == scene.marked_ball ? Part::marked_ball : Part::ball,
-                     ball,
-                     {pitch * d.cos, pitch * d.sin},
-                     scene.ball_radius,
-                     angle,
-                     penetration});
 }
 
 }  // namespace rotor_stator::figures

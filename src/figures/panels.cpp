@@ -1,71 +1,76 @@
 #include "figures/panels.hpp"
 
 #include <cmath>
-#include <numeric>
 
 #include "balance/fourier_transform.hpp"
 #include "io/errors.hpp"
 #include "io/program.hpp"
+#include "motion/contact.hpp"
 
 namespace rotor_stator::figures {
 
-const std::vector<Field<PanelRow>>& panel_fields()
-{
-  static const std::vector<Field<PanelRow>> fields{
-      {"panel", "-", "panel of the figure", [](auto& r) { return r.panel.number; }},
-      {"f", "Hz", "speed of rotation", [](auto& r) { return r.panel.frequency; }},
-      {"source", "-", "1 harmonic balance, 2 time integration", &PanelRow::source},
-      {"found", "-", "1 if harmonic balance found a solution at this speed",
-       [](auto& r) { return r.panel.balance.has_value(); }},
-      {"periodic", "-", "1 if the integrated motion has the period of rotation",
-       [](auto& r) { return r.panel.periodic; }},
-      {"spread", "-",
-       "Poincare spread of the integrated motion; where it is not periodic the mean over "
-       "windows of a second",
-       [](auto& r) { return r.panel.spread; }},
-      {"spread_error", "-", "standard error of spread",
-       [](auto& r) { return r.panel.spread_error; }},
-      {"shown", "-",
-       "the motion that the panel shows as the machine's: 1 harmonic balance, 2 time "
-       "integration",
-       [](auto& r) { return r.panel.shows_balance() ? 1 : 2; }},
-      {"difference_rms", "-",
-       "rms difference of harmonic balance and time integration about their means, over "
-       "the rms of the latter about its mean; where that is not periodic the mean over "
-       "windows of a second; -1 without solution",
-       [](auto& r) { return r.panel.rms_difference.value; }},
-      {"difference_rms_error", "-", "standard error of difference_rms",
-       [](auto& r) { return r.panel.rms_difference.error; }},
-      {"difference_force", "-",
-       "largest difference of the bearing's force, over the largest force",
-       [](auto& r) { return r.panel.force_difference; }},
-      {"difference", "-",
-       "largest difference of a displacement, over the largest displacement",
-       [](auto& r) { return r.panel.difference; }}};
-  return fields;
-}
-
 namespace {
 
-struct OrbitRow : PanelRow {
+/** A row of either table; what the other one prints stays empty. */
+struct Row {
+  const Panel& panel;
+  int source;  ///< 1 harmonic balance, 2 time integration
   double t_over_period;
-  Bodies at;
-  Vec2 force;
+  Bodies at = {};
+  Vec2 force = {};
+  std::size_t ball = 0;
+  double ball_force = 0;
 };
+using Fields = std::vector<Field<Row>>;
 
-const auto orbit_fields = with_panel_fields<OrbitRow>({
-    {"t_over_T", "-", "time over the period", &OrbitRow::t_over_period},
-    {"x_s", "m", "stator", [](const OrbitRow& r) { return r.at.stator.x; }},
-    {"y_s", "m", "stator", [](const OrbitRow& r) { return r.at.stator.y; }},
-    {"x_r", "m", "rotor", [](const OrbitRow& r) { return r.at.rotor.x; }},
-    {"y_r", "m", "rotor", [](const OrbitRow& r) { return r.at.rotor.y; }},
-    {"F_x", "N", "Eq. 6 of these displacements, on the stator",
-     [](const OrbitRow& r) { return r.force.x; }},
-    {"F_y", "N", "Eq. 6 of these displacements, on the stator",
-     [](const OrbitRow& r) { return r.force.y; }},
-});
+const Fields panel_fields{
+    {"panel", "-", "panel of the figure", [](auto& r) { return r.panel.number; }},
+    {"f", "Hz", "speed of rotation", [](auto& r) { return r.panel.frequency; }},
+    {"source", "-", "1 harmonic balance, 2 time integration", &Row::source},
+    {"found", "-", "1 if harmonic balance found a solution at this speed",
+     [](auto& r) { return r.panel.balance.has_value(); }},
+    {"periodic", "-", "1 if the integrated motion has the period of rotation",
+     [](auto& r) { return r.panel.periodic; }},
+    {"spread", "-",
+     "Poincare spread of the integrated motion; where it is not periodic the mean over "
+     "windows of a second",
+     [](auto& r) { return r.panel.spread; }},
+    {"spread_error", "-", "standard error of spread",
+     [](auto& r) { return r.panel.spread_error; }},
+    {"shown", "-",
+     "the motion that the panel shows as the machine's: 1 harmonic balance, 2 time "
+     "integration",
+     [](auto& r) { return r.panel.shows_balance() ? 1 : 2; }},
+    {"difference_rms", "-",
+     "rms difference of harmonic balance and time integration about their means, over "
+     "the rms of the latter about its mean; where that is not periodic the mean over "
+     "windows of a second; -1 without solution",
+     [](auto& r) { return r.panel.rms_difference.value; }},
+    {"difference_rms_error", "-", "standard error of difference_rms",
+     [](auto& r) { return r.panel.rms_difference.error; }},
+    {"difference_force", "-",
+     "largest difference of the bearing's force, over the largest force",
+     [](auto& r) { return r.panel.force_difference; }},
+    {"difference", "-",
+     "largest difference of a displacement, over the largest displacement",
+     [](auto& r) { return r.panel.difference; }}};
 
-}  // namespace
+const Fields orbit_fields =
+    panel_fields + Fields{{"t_over_T", "-", "time over the period", &Row::t_over_period},
+                          {"x_s", "m", "stator", [](auto& r) { return r.at.stator.x; }},
+                          {"y_s", "m", "stator", [](auto& r) { return r.at.stator.y; }},
+                          {"x_r", "m", "rotor", [](auto& r) { return r.at.rotor.x; }},
+                          {"y_r", "m", "rotor", [](auto& r) { return r.at.rotor.y; }},
+                          {"F_x", "N", "Eq. 6 of these displacements, on the stator",
+                           [](auto& r) { return r.force.x; }},
+                          {"F_y", "N", "Eq. 6 of these displacements, on the stator",
+                           [](auto& r) { return r.force.y; }}};
+
+const Fields contact_fields =
+    panel_fields +
+    Fields{{"t_over_T", "-", "time over the period, 0 to 2", &Row::t_over_period},
+           {"ball", "-", "j of Eq. 3", &Row::ball},
+           {"Q", "N", "Eq. 5, force of the ball", &Row::ball_force}};
 
 PanelScene read_panels(SceneFile& file)
 {
@@ -82,6 +87,7 @@ PanelScene read_panels(SceneFile& file)
   return scene;
 }
 
+/** The `#` lines that say with what the panels were computed. */
 void describe(Table& table, const PanelScene& scene)
 {
   const SteadySettings& integration = scene.time_integration;
@@ -102,14 +108,12 @@ void describe(Table& table, const PanelScene& scene)
              Panel::largest_error_shown));
 }
 
-namespace {
-
 /** Of one panel, 1, 2, … */
-Panel compare(const PanelScene& scene, std::size_t number, Find find)
+Panel compare(const PanelScene& scene, std::size_t number, double frequency, Find find)
 {
   const SteadySettings& integration = scene.time_integration;
   const int points = integration.stepper.intervals_per_period;
-  const double frequency = scene.frequencies[number - 1], omega = angular(frequency);
+  const double omega = angular(frequency);
   const PeriodicMotion balance =
       find({scene.parameters, omega, scene.harmonics, scene.samples});
   const SteadyState settled = steady_state(scene.parameters, omega, integration);
@@ -146,13 +150,12 @@ Panel compare(const PanelScene& scene, std::size_t number, Find find)
 
 }  // namespace
 
-void each_panel(const PanelScene& scene, Find find,
-                const std::function<void(const Panel&)>& add)
+std::vector<Panel> panels_of(const PanelScene& scene, Find find)
 {
-  std::vector<std::size_t> numbers(scene.frequencies.size());
-  std::iota(numbers.begin(), numbers.end(), 1);
-  for (std::size_t number : watched(scene.title, numbers))
-    add(compare(scene, number, find));
+  std::vector<Panel> panels;
+  for (const double frequency : watched(scene.title, scene.frequencies))
+    panels.push_back(compare(scene, panels.size() + 1, frequency, find));
+  return panels;
 }
 
 Table orbits(SceneFile& file, Find find)
@@ -161,19 +164,40 @@ Table orbits(SceneFile& file, Find find)
   Table table(scene.title, orbit_fields);
   describe(table, scene);
   table.note("modelled: displacements of both bodies over the shown periods");
-  each_panel(scene, find, [&](const Panel& panel) {
+  for (const Panel& panel : panels_of(scene, find)) {
     const auto add = [&](int source, const motion::Motion& motion) {
       const auto forces = motion::bearing_forces(scene.parameters, motion);
       for (std::size_t k = 0; k < motion.size(); ++k)
-        table.row(
-            orbit_fields,
-            {{panel, source}, motion.t_over_period(k), motion.positions[k], forces[k]});
+        table.row(orbit_fields, {panel, source, motion.t_over_period(k),
+                                 motion.positions[k], forces[k]});
       table.gap();
     };
     if (panel.balance) add(1, *panel.balance);
     add(2, panel.settled);
     table.note(panel.ending);
-  });
+  }
+  return table;
+}
+
+Table contacts(SceneFile& file, Find find)
+{
+  const PanelScene scene = read_panels(file);
+  Table table(scene.title, contact_fields);
+  describe(table, scene);
+  table.note(
+      "modelled: the force of every ball over two periods, of the harmonic-balance "
+      "solution or of the integrated motion, as the column `shown` says");
+  for (const Panel& panel : panels_of(scene, find)) {
+    const auto all = motion::contact_evolution(scene.parameters, panel.shown());
+    for (std::size_t k = 0; k < all.t_over_period.size(); ++k)
+      for (std::size_t j = 0; j < all.ball_force[k].size(); ++j)
+        table.row(contact_fields, {.panel = panel,
+                                   .source = panel.shows_balance() ? 1 : 2,
+                                   .t_over_period = all.t_over_period[k],
+                                   .ball = j + 1,
+                                   .ball_force = all.ball_force[k][j]});
+    table.note(panel.ending);
+  }
   return table;
 }
 

@@ -9,7 +9,6 @@ error is large, or the second does not repeat, the panel shows the integrated mo
     Table table = figures::orbits(scene_file, find_near_contact); */
 #pragma once
 
-#include <functional>
 #include <optional>
 
 #include "balance/find.hpp"
@@ -28,8 +27,6 @@ struct PanelScene {
   int samples;                      ///< N
   SteadySettings time_integration;
 };
-
-PanelScene read_panels(SceneFile& file);
 
 /** What finds a solution of harmonic balance; it has no harmonics where there is none. */
 using Find = PeriodicMotion (*)(const BalanceSearch& search);
@@ -60,33 +57,15 @@ struct Panel {
   const motion::Motion& shown() const { return shows_balance() ? *balance : settled; }
 };
 
-/** Calls `add` with every panel of a scene, one after the other. */
-void each_panel(const PanelScene& scene, Find find,
-                const std::function<void(const Panel&)>& add);
+/** The panels of a scene in its order. */
+std::vector<Panel> panels_of(const PanelScene& scene, Find find);
 
 /** Both motions of every panel with the bearing's force, one row per instant. */
 Table orbits(SceneFile& file, Find find);
 
-/** What every row of a panel repeats. */
-struct PanelRow {
-  const Panel& panel;
-  int source;  ///< 1 harmonic balance, 2 time integration
-};
-
-const std::vector<Field<PanelRow>>& panel_fields();
-
-/** The panel's fields and then those of one table. */
-template <class Row>
-std::vector<Field<Row>> with_panel_fields(const std::vector<Field<Row>>& others)
-{
-  std::vector<Field<Row>> fields;
-  for (const Field<PanelRow>& field : panel_fields())
-    fields.push_back({field, field.value});
-  fields.insert(fields.end(), others.begin(), others.end());
-  return fields;
-}
-
-/** The `#` lines that say with what the panels were computed. */
-void describe(Table& table, const PanelScene& scene);
+/** The force of every ball in the motion that each panel shows, one row per instant and
+    ball, over two periods of rotation: a cage at half the rotor's speed turns once in this
+    time, and each ball meets a load that turns with the rotor once (D-11, D-20). */
+Table contacts(SceneFile& file, Find find);
 
 }  // namespace rotor_stator::figures

@@ -82,6 +82,30 @@ struct Field : Column {
   std::function<Cell(const Row&)> value;
 };
 
+/** One list of fields after the other. */
+template <class Row>
+std::vector<Field<Row>> operator+(std::vector<Field<Row>> all,
+                                  const std::vector<Field<Row>>& more)
+{
+  all.insert(all.end(), more.begin(), more.end());
+  return all;
+}
+
+/** Fields of x_s, y_s, x_r, y_r [m], the four numbers that are `value` of a row. */
+template <class Row, class Value>
+std::vector<Field<Row>> displacement_fields(const std::string& before,
+                                            const std::string& meaning, Value value,
+                                            const std::string& after = "")
+{
+  std::vector<Field<Row>> fields;
+  for (std::size_t k = 0; const std::string name : {"x_s", "y_s", "x_r", "y_r"}) {
+    fields.push_back({before + name + after, "m", meaning + name,
+                      [=](const Row& row) { return std::invoke(value, row)[k]; }});
+    ++k;
+  }
+  return fields;
+}
+
 class Table {
 public:
   /** `what` is the first line of the header. */

@@ -59,10 +59,7 @@ TEST_CASE("A panel shows harmonic balance only up to an rms error of 10 % about 
                                     .harmonics = 6,
                                     .samples = default_samples(6),
                                     .time_integration = accurate};
-    std::optional<figures::Panel> first;
-    figures::each_panel(scene, find_periodic,
-                        [&](const figures::Panel& one) { first = one; });
-    const figures::Panel& panel = first.value();
+    const figures::Panel panel = figures::panels_of(scene, find_periodic).at(0);
     REQUIRE(panel.balance);
     const double rms = rms_by_harmonics(*panel.balance, panel.settled);
     CHECK(panel.rms_difference.value == Approx(rms).epsilon(0.01));
