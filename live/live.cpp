@@ -8,7 +8,7 @@ What `explore` does, for the page: a question goes in as strings and numbers, on
 #include <cstdlib>
 #include <fstream>
 
-#include "explore/response.hpp"
+#include "explore/orbit.hpp"
 #include "io/errors.hpp"
 #include "model/base_period.hpp"
 #include "motion/contact.hpp"

@@ -17,9 +17,7 @@ The general program for follow-up studies: any parameter file, any speed, harmon
 or one of the time integrators. A table on stdout, errors on stderr. */
 #include <CLI/CLI.hpp>
 
-#include "explore/options.hpp"
-#include "explore/plot.hpp"
-#include "explore/spectrum.hpp"
+#include "explore/commands.hpp"
 #include "io/errors.hpp"
 #include "io/program.hpp"
 
@@ -28,61 +26,17 @@ namespace {
 using namespace rotor_stator;
 using namespace rotor_stator::explore;
 
-/** Files that a command writes, by the option that names them, and reads beside its
-    machine. */
-struct Files {
-  std::vector<std::pair<const char*, std::optional<std::string>>> written = {};
-  std::vector<std::optional<std::string>> read = {};
-};
-Files files_of(const Request&)
-{
-  return {};
-}
-Files files_of(const ResponseRequest& asked)
-{
-  return {{{"--save", asked.save}, {"--waterfall", asked.waterfall}},
-          {asked.restart, asked.resume}};
-}
-Files files_of(const AttractorsRequest& asked)
-{
-  return {{{"--section", asked.section}, {"--motions", asked.motions}}};
-}
-Files files_of(const RunUpRequest& asked)
-{
-  return {{{"--waterfall", asked.waterfall}}};
-}
-Files files_of(const MapRequest& asked)
-{
-  return {.read = {asked.list, asked.resume}};
-}
-Files files_of(const ShaftRequest& asked)
-{
-  return {.read = {asked.folder}};
-}
-Files files_of(const ShapeRequest& asked)
-{
-  return {.read = {asked.nodes}};
-}
-
 /** Throws BadInput where a file cannot be written, or is that of another option too. */
-void require_files(const Request& asked, Files files)
+void require_files(const Request& asked)
 {
-  files.written.emplace_back("--plot", asked.plot);
-  files.read.insert(files.read.end(), {asked.parameter_file, asked.overlay});
-  std::vector<std::string> inputs, outputs;
-  for (const auto& file : files.read) {
-    if (!file) continue;
-    require_plain_name(*file);
-    inputs.push_back(*file);
-  }
-  for (const auto& [option, file] : files.written) {
-    if (!file) continue;
-    require_plain_name(*file);
-    require_writable(option, *file, inputs, asked.force);
-    for (const std::string& other : outputs)
-      if (is_same_file(*file, other))
-        throw BadInput(*file + ": is the file of two options");
-    outputs.push_back(*file);
+  std::ranges::for_each(asked.inputs, require_plain_name);
+  for (auto file = asked.outputs.begin(); file != asked.outputs.end(); ++file) {
+    const auto& [option, name] = *file;
+    require_plain_name(name);
+    require_writable(option, name, asked.inputs, asked.force);
+    for (auto other = asked.outputs.begin(); other != file; ++other)
+      if (is_same_file(name, other->second))
+        throw BadInput(name + ": is the file of two options");
   }
   if (asked.overlay && !asked.plot) throw BadInput("--overlay: needs --plot");
   if (asked.rpm && !asked.plot) throw BadInput("--rpm: needs --plot");
@@ -105,7 +59,7 @@ template <class Asked>
 void run(const Asked& asked, Exploration (*explored)(const Asked&),
          const std::string& script)
 {
-  require_files(asked, files_of(asked));
+  require_files(asked);
   if (asked.plot) require_plot(*asked.plot, script);
   Exploration found = found_by(asked, explored);
   if (asked.rpm) found.table.value("speed_unit", "rpm");
@@ -128,34 +82,19 @@ void run(const Asked& asked, Exploration (*explored)(const Asked&),
     std::fprintf(stderr, "warning: %s\n", printable(text).c_str());
 }
 
-/** The commands, each with a request of its own. */
-class Commands {
-public:
-  explicit Commands(CLI::App& app) : app_(app) {}
-
-  template <class Asked>
-  void add(const char* name, Exploration (*explored)(const Asked&), const char* script,
-           const char* meaning)
-  {
-    CLI::App* command = app_.add_subcommand(name, meaning);
-    const auto asked = std::make_shared<Asked>();
-    const Check check = add_options(*command, *asked);
-    runs_.emplace_back(command, [=] {
-      check();
-      run(*asked, explored, script);
-    });
-  }
-
-  void run_chosen() const
-  {
-    for (const auto& [command, run] : runs_)
-      if (command->parsed()) run();
-  }
-
-private:
-  CLI::App& app_;
-  std::vector<std::pair<CLI::App*, std::function<void()>>> runs_;
-};
+/** A command with its options, run once these are parsed. */
+template <class Asked>
+void add(CLI::App& app, const char* name, Exploration (*explored)(const Asked&),
+         const char* script, const char* meaning)
+{
+  CLI::App* command = app.add_subcommand(name, meaning);
+  const auto asked = std::make_shared<Asked>();
+  const Check check = add_options(*command, *asked);
+  command->callback([=] {
+    check();
+    run(*asked, explored, script);
+  });
+}
 
 }  // namespace
 
@@ -163,27 +102,27 @@ int main(int argc, char** argv)
 {
   CLI::App app("Explores a rotor and a stator in a ball bearing; a table on stdout.");
   app.require_subcommand(1);
-  Commands all(app);
-  all.add("check", explore_check, "", "what a machine is, before anything is computed");
-  all.add("orbit", explore_orbit, "orbit.py", "displacements and force over one period");
-  all.add("contact", explore_contact, "contact.py",
-          "force of every ball over two periods");
-  all.add("response", explore_response, "response.py",
-          "amplitudes against speed: what the machine does, or a branch");
-  all.add("spectrum", explore_spectrum, "spectrum.py",
-          "lines of the motion, with names such as BPFO-1X");
-  all.add("attractors", explore_attractors, "sections.py",
-          "what the machine settles on, speed by speed");
-  all.add("runup", explore_runup, "response.py",
-          "run-up or coast-down: amplitudes while the speed changes");
-  all.add("map", explore_map, "map.py", "quantities over two keys of the parameter file");
-  all.add("shaft", explore_shaft, "", "matrices of a shaft of beam elements, in files");
-  all.add("shape", explore_shape, "shape.py",
-          "orbits along a rotor given by matrices, at one speed");
-  all.add("campbell", explore_campbell, "campbell.py",
-          "whirl frequencies against speed, critical speeds");
+  add(app, "check", explore_check, "", "what a machine is, before anything is computed");
+  add(app, "orbit", explore_orbit, "orbit.py", "displacements and force over one period");
+  add(app, "contact", explore_contact, "contact.py",
+      "force of every ball over two periods");
+  add(app, "response", explore_response, "response.py",
+      "amplitudes against speed: what the machine does, or a branch");
+  add(app, "spectrum", explore_spectrum, "spectrum.py",
+      "lines of the motion, with names such as BPFO-1X");
+  add(app, "attractors", explore_attractors, "sections.py",
+      "what the machine settles on, speed by speed");
+  add(app, "runup", explore_runup, "response.py",
+      "run-up or coast-down: amplitudes while the speed changes");
+  add(app, "map", explore_map, "map.py",
+      "quantities over two keys of the parameter file");
+  add(app, "shaft", explore_shaft, "", "matrices of a shaft of beam elements, in files");
+  add(app, "shape", explore_shape, "shape.py",
+      "orbits along a rotor given by matrices, at one speed");
+  add(app, "campbell", explore_campbell, "campbell.py",
+      "whirl frequencies against speed, critical speeds");
   return guarded([&] {
-    if (parse(app, argc, argv)) all.run_chosen();
+    parse(app, argc, argv);
     return 0;
   });
 }

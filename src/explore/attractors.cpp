@@ -1,13 +1,17 @@
-#include "explore/attractors.hpp"
+/**
+# explore attractors
 
+The bifurcation diagram of one machine: at each speed the motions on which time
+integration settles, begun at rest, on the motion at the speed below, at the speed above,
+and at random states. */
 #include <algorithm>
 #include <array>
 #include <atomic>
 #include <numbers>
 #include <random>
 
-#include "explore/balance_motion.hpp"
 #include "explore/measures.hpp"
+#include "explore/orbit.hpp"
 #include "io/errors.hpp"
 #include "io/output_file.hpp"
 #include "io/parallel.hpp"
@@ -142,9 +146,8 @@ std::vector<Run> runs_of_chains(const Task& task, double most)
       both.push_back({count - 1 - k, k == 0 ? Origin::rest : Origin::above, states[1]});
     integrate(task, both, most);
     for (std::size_t chain = 0; chain < both.size(); ++chain) {
-      const bool is_lost = !both[chain].lost.empty();
       states[chain].reset();
-      if (!is_lost) states[chain] = both[chain].answer.settled.at.state;
+      if (both[chain].lost.empty()) states[chain] = both[chain].answer.settled.at.state;
       most = std::max(0.0, most - both[chain].spent);
     }
     std::ranges::move(both, std::back_inserter(all));
@@ -158,12 +161,10 @@ std::vector<Run> runs_of_speed(const Task& task, std::size_t speed, double most)
   std::vector<Run> runs;
   if (speed > 0 && speed + 1 < task.speeds.size()) runs.push_back({speed, Origin::rest});
   const Based at = over(task.base, task.machine, angular(task.speeds[speed]));
-  for (int k = 0; k < task.request.starts; ++k) {
-    const auto seed = (static_cast<std::uint64_t>(task.request.seed) << 32) +
-                      (static_cast<std::uint64_t>(speed) << 16) +
-                      static_cast<std::uint64_t>(k);
-    runs.push_back({speed, Origin::random, random_state(at, seed)});
-  }
+  const std::uint64_t seed =
+      (static_cast<std::uint64_t>(task.request.seed) << 32) + (speed << 16);
+  for (int k = 0; k < task.request.starts; ++k)
+    runs.push_back({speed, Origin::random, random_state(at, seed + k)});
   integrate(task, runs, most);
   return runs;
 }
@@ -209,14 +210,16 @@ struct Found {
   std::vector<double> exponents = {};  ///< of the motions of these starts [1/s]
   bool touches = false;
   std::vector<double> measured = {};
+  std::string lost = {};  ///< why it has no section
 
   bool is_closed() const { return answer.period() > 0 || answer.kind() == Kind::rest; }
   int starts() const { return from[0] + from[1] + from[2] + from[3]; }
-  double of_period(double rate) const
+  Exponent exponent() const  ///< over a base period
   {
-    return rate * 2 * std::numbers::pi / answer.omega;
+    const auto [rate, error] = answer.settled.lyapunov;
+    const double omega = answer.omega;
+    return {rate * 2 * std::numbers::pi / omega, error * 2 * std::numbers::pi / omega};
   }
-  Exponent exponent() const { return answer.settled.lyapunov; }
 };
 
 /** Whether two motions of one speed are on one attractor: both close after as many
@@ -234,8 +237,7 @@ bool is_same(const Run& a, const Found& b)
                       std::abs(a.seen.rms[i] - b.seen.rms[i])});
     size = std::max({size, a.seen.rms[i], b.seen.rms[i]});
   }
-  const bool is_closed = a.answer.period() > 0;
-  return apart <= size * (is_closed ? same_closed : same_open);
+  return apart <= size * (a.answer.period() > 0 ? same_closed : same_open);
 }
 
 /** The motion itself, closed where it closes. Of another one the exponent is the mean
@@ -247,8 +249,8 @@ void look_closer(const Task& task, std::size_t speed, const Measures& measures,
   motion::Request request = task.asked_at(speed);
   if (!found.is_closed()) {
     const BatchMean mean = batch_mean(found.exponents);
-    found.answer.settled.lyapunov = {mean.value,
-                                     std::max(mean.error, found.exponent().error)};
+    found.answer.settled.lyapunov = {
+        mean.value, std::max(mean.error, found.answer.settled.lyapunov.error)};
     request.is_measured = false;
     if (!task.request.motions) request.points = 4;
   }
@@ -268,9 +270,8 @@ std::vector<Found> found_at(const Task& task, std::size_t speed, std::vector<Run
   const auto is_decided = [](const Run& run) {
     return run.answer.kind() != Kind::undecided;
   };
-  std::stable_sort(runs.begin(), runs.end(),
-                   [](const Run& a, const Run& b) { return a.origin < b.origin; });
-  std::stable_partition(runs.begin(), runs.end(), is_decided);
+  std::ranges::stable_sort(runs, {}, &Run::origin);
+  std::ranges::stable_partition(runs, is_decided);
   std::vector<Found> all;
   for (const Run& run : runs) {
     auto one = std::ranges::find_if(all, [&](const Found& f) { return is_same(run, f); });
@@ -291,33 +292,23 @@ std::vector<Found> all_found(const Task& task, const Measures& measures,
                              std::vector<std::vector<Run>> runs, std::string& missing)
 {
   const double most = task.budget.left();
-  struct Piece {
-    std::vector<Found> all;
-    std::vector<std::string> lost;  ///< of each: why it has no section
-    double spent;
-  };
   const auto pieces = computed_in_parallel(
       task.request.quiet ? "" : "motions", runs.size(), [&](std::size_t speed) {
         const OperationBudget budget =
             budget_until(task.request.budget, most, "--budget");
-        Piece piece{found_at(task, speed, std::move(runs[speed])), {}, 0};
-        for (Found& found : piece.all) {
-          std::string& lost = piece.lost.emplace_back();
-          try {
+        auto all = found_at(task, speed, std::move(runs[speed]));
+        for (Found& found : all) try {
             look_closer(task, speed, measures, budget, found);
           } catch (const NoSolution& error) {
-            lost = error.what();
+            found.lost = error.what();
           }
-        }
-        piece.spent = budget.spent();
-        return piece;
+        return std::pair{std::move(all), budget.spent()};
       });
   std::vector<Found> all;
-  for (const Piece& piece : pieces) {
-    const bool is_paid = task.budget.pay(piece.spent);
-    for (std::size_t k = 0; k < piece.all.size(); ++k) {
-      const Found& found = piece.all[k];
-      const std::string& lost = is_paid ? piece.lost[k] : out_of_budget;
+  for (const auto& [found_here, spent] : pieces) {
+    const bool is_paid = task.budget.pay(spent);
+    for (const Found& found : found_here) {
+      const std::string lost = is_paid ? found.lost : out_of_budget;
       if (!lost.empty() && missing.empty())
         missing = format("%s: partial, no section at %.9g Hz: %s",
                          task.machine.file.c_str(), found.speed, lost.c_str());
@@ -333,48 +324,43 @@ std::vector<Found> all_found(const Task& task, const Measures& measures,
 
 using Fields = std::vector<Field<Found>>;
 
-template <int k>
-constexpr auto amplitude = [](const Found& f) -> Cell { return f.seen.amplitude[k]; };
 template <Origin origin>
 constexpr auto from =
     [](const Found& f) -> Cell { return f.from[static_cast<std::size_t>(origin)]; };
 
-const Fields usual_fields{
-    {"f", "Hz", "speed of rotation", &Found::speed},
-    {"motion", "-", "number of the motion at this speed", &Found::number},
-    {"period", "-", "K base periods; 0 aperiodic, -1 quasi-periodic, -2 undecided",
-     [](auto& f) { return f.answer.period_number(); }},
-    {"starts", "-", "how many ended there", &Found::starts},
-    {"lyapunov", "1/base period", "largest Lyapunov exponent",
-     [](auto& f) { return f.of_period(f.exponent().value); }},
-    {"lyapunov_uncertainty", "1/base period",
-     "its standard error; of a closed motion, the change at the last refinement",
-     [](auto& f) { return f.of_period(f.exponent().error); }},
-    {"amp_x_s", "m", "half peak-to-peak of x_s", amplitude<0>},
-    {"amp_y_s", "m", "half peak-to-peak of y_s", amplitude<1>},
-    {"amp_x_r", "m", "half peak-to-peak of x_r", amplitude<2>},
-    {"amp_y_r", "m", "half peak-to-peak of y_r", amplitude<3>},
-    {"from_rest", "-", "starts at rest that ended there", from<Origin::rest>},
-    {"from_below", "-", "carried on from the next lower speed", from<Origin::below>},
-    {"from_above", "-", "carried on from the next higher speed", from<Origin::above>},
-    {"from_random", "-", "at random states", from<Origin::random>},
-    {"undecided", "-", "of these starts, whose own motion is undecided",
-     &Found::undecided}};
-
-const std::vector<Column> section_columns{
-    {"f", "Hz", "speed of rotation"},
-    {"motion", "-", "number of the motion at this speed"},
-    {"x_s", "m", "stator, at phase 0"},
-    {"y_s", "m", "stator"},
-    {"x_r", "m", "rotor"},
-    {"y_r", "m", "rotor"},
-    {"period", "-", "of the motion, as in the table of attractors"},
-    {"lyapunov", "1/base period", "of the motion"},
-    {"lyapunov_uncertainty", "1/base period", ""}};
+const Fields usual_fields =
+    Fields{{"f", "Hz", "speed of rotation", &Found::speed},
+           {"motion", "-", "number of the motion at this speed", &Found::number},
+           {"period", "-", "K base periods; 0 aperiodic, -1 quasi-periodic, -2 undecided",
+            [](auto& f) { return f.answer.period_number(); }},
+           {"starts", "-", "how many ended there", &Found::starts},
+           {"lyapunov", "1/base period", "largest Lyapunov exponent",
+            [](auto& f) { return f.exponent().value; }},
+           {"lyapunov_uncertainty", "1/base period",
+            "its standard error; of a closed motion, the change at the last refinement",
+            [](auto& f) { return f.exponent().error; }}} +
+    displacement_fields<Found>("amp_", "half peak-to-peak of ",
+                               [](auto& f) { return f.seen.amplitude; }) +
+    Fields{
+        {"from_rest", "-", "starts at rest that ended there", from<Origin::rest>},
+        {"from_below", "-", "carried on from the next lower speed", from<Origin::below>},
+        {"from_above", "-", "carried on from the next higher speed", from<Origin::above>},
+        {"from_random", "-", "at random states", from<Origin::random>},
+        {"undecided", "-", "of these starts, whose own motion is undecided",
+         &Found::undecided}};
 
 std::string section_text(const Task& task, const std::vector<Found>& all)
 {
-  Table table("Poincare sections of the attractors", section_columns);
+  Table table("Poincare sections of the attractors",
+              {{"f", "Hz", "speed of rotation"},
+               {"motion", "-", "number of the motion at this speed"},
+               {"x_s", "m", "stator, at phase 0"},
+               {"y_s", "m", "stator"},
+               {"x_r", "m", "rotor"},
+               {"y_r", "m", "rotor"},
+               {"period", "-", "of the motion, as in the table of attractors"},
+               {"lyapunov", "1/base period", "of the motion"},
+               {"lyapunov_uncertainty", "1/base period", ""}});
   describe(table, task.machine);
   if (task.request.rpm) table.value("speed_unit", "rpm");
   table.note(format("points: K of a motion that closes, %d of another", section_points));
@@ -384,27 +370,25 @@ std::string section_text(const Task& task, const std::vector<Found>& all)
     for (std::size_t k = 0; k < motion.size(); k += step) {
       const Displacements q = displacements(motion.positions[k]);
       table.row({found.speed, found.number, q[0], q[1], q[2], q[3],
-                 found.answer.period_number(), found.of_period(found.exponent().value),
-                 found.of_period(found.exponent().error)});
+                 found.answer.period_number(), found.exponent().value,
+                 found.exponent().error});
     }
   }
   return table.text();
 }
 
-const std::vector<Column> motion_columns{
-    {"f", "Hz", "speed of rotation"},
-    {"motion", "-", "number of the motion at this speed"},
-    {"t_over_T", "-", "time over the base period, from phase 0"},
-    {"x_s", "m", "stator"},
-    {"y_s", "m", "stator"},
-    {"x_r", "m", "rotor"},
-    {"y_r", "m", "rotor"},
-    {"F_x", "N", "Eq. 6, on the stator"},
-    {"F_y", "N", "Eq. 6, on the stator"}};
-
 std::string motion_text(const Task& task, const std::vector<Found>& all)
 {
-  Table table("Motions on the attractors", motion_columns);
+  Table table("Motions on the attractors",
+              {{"f", "Hz", "speed of rotation"},
+               {"motion", "-", "number of the motion at this speed"},
+               {"t_over_T", "-", "time over the base period, from phase 0"},
+               {"x_s", "m", "stator"},
+               {"y_s", "m", "stator"},
+               {"x_r", "m", "rotor"},
+               {"y_r", "m", "rotor"},
+               {"F_x", "N", "Eq. 6, on the stator"},
+               {"F_y", "N", "Eq. 6, on the stator"}});
   describe(table, task.machine);
   table.note(format("periods: K of a motion that closes, %d of another", motion_periods));
   for (const Found& found : all) {
@@ -425,10 +409,9 @@ std::string motion_text(const Task& task, const std::vector<Found>& all)
 void note(Table& table, const Task& task)
 {
   describe(table, task.machine);
-  const Machine& machine = *task.machine.bodies;
-  const std::string method = machine.time_method(task.machine);
+  const std::string method = task.machine.bodies->time_method(task.machine);
   table.value("method", method);
-  if (machine.takes_explicit_steps()) {
+  if (task.machine.bodies->takes_explicit_steps()) {
     const Based last = over(task.base, task.machine, angular(task.speeds.back()));
     table.value("step",
                 steps_of_rk4(method) * step_ratio(task.request.tolerance) *

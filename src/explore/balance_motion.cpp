@@ -1,4 +1,9 @@
-#include "explore/balance_motion.hpp"
+/**
+# The motion that harmonic balance finds, for explore
+
+With one frequency or two, with m harmonics or those that a tolerance chooses; how it was
+found, its error and its verdict go to the table's header. */
+#include "explore/orbit.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -10,9 +15,14 @@
 
 namespace rotor_stator::explore {
 
-void note_verdict(Table& table, const Parameters& parameters,
-                  const motion::Verdict& verdict, int turns)
+void put_verdict(Table& table, const Parameters& parameters, const motion::Verdict* found,
+                 int turns)
 {
+  if (!found) {
+    table.note("stability is not tested");
+    return put_regime(table, 0);
+  }
+  const motion::Verdict& verdict = *found;
   table.value("stability", verdict.word());
   if (verdict.found()) {
     table.value("multiplier", verdict.floquet.largest(), 9);
@@ -24,7 +34,7 @@ void note_verdict(Table& table, const Parameters& parameters,
   if (verdict.refused_distance > 0)
     table.value("distance_refused", verdict.refused_distance, 2);
   if (verdict.distance.largest > 0)
-    put_difference(table, "distance", verdict.distance.largest, verdict.distance.rms,
+    put_difference(table, "distance", verdict.distance,
                    "from the motion of Eq. 7 whose multipliers these are");
   if (verdict.distance.rms > 0.1)
     table.note(
@@ -50,26 +60,6 @@ void note_verdict(Table& table, const Parameters& parameters,
   table.value("verdict_evaluations", verdict.evaluations, 3);
 }
 
-void note_no_verdict(Table& table)
-{
-  table.note("stability is not tested");
-  put_regime(table, 0);
-}
-
-void put_base(Table& table, const std::string& base, double frequency)
-{
-  table.value("base", base);
-  if (std::isfinite(1 / frequency)) table.value("base_period", 1 / frequency);
-}
-
-void put_difference(Table& table, const std::string& name, double largest, double rms,
-                    const std::string& meaning)
-{
-  if (std::isfinite(largest)) table.value(name + "_largest", largest, 3);
-  if (std::isfinite(rms)) table.value(name + "_rms", rms, 3);
-  table.note(name + ": " + meaning);
-}
-
 namespace {
 
 using motion::lines_of;
@@ -87,13 +77,12 @@ NoSolution not_reached(const Parameters& parameters, const MotionRequest& reques
                        const std::string& end)
 {
   if (end.starts_with(parameters.file)) return NoSolution(end);
-  const int m = request.harmonics.value_or(usual_harmonics);
-  const bool is_chosen = request.subharmonic > 1 || request.lines;
-  return NoSolution(parameters.file + ": " +
-                    (request.tolerance
-                         ? format("tolerance %g not reached", *request.tolerance)
-                     : is_chosen ? "no solution found"
-                                 : format("no solution found with %d harmonics", m)) +
+  std::string what = "no solution found";
+  if (request.tolerance)
+    what = format("tolerance %g not reached", *request.tolerance);
+  else if (request.subharmonic == 1 && !request.lines)
+    what += format(" with %d harmonics", request.harmonics.value_or(usual_harmonics));
+  return NoSolution(parameters.file + ": " + what +
                     format(" at %g Hz: ", request.frequency) + end);
 }
 
@@ -124,17 +113,6 @@ motion::Judged solved(const Based& based, const BasePeriod& base,
   return at;
 }
 
-void note_base(Table& table, const BasePeriod& base, const Bearing& bearing)
-{
-  const double passages = passages_per_turn(bearing);
-  if (base.kind == BasePeriod::Kind::passing)
-    table.note("no unbalance: one frequency, n omega_cage");
-  if (base.kind == BasePeriod::Kind::turns)
-    table.note(format("n omega_cage/omega = %.9g = %ld/%d: one frequency, orders h/%d",
-                      passages, std::lround(base.turns * passages), base.turns,
-                      base.turns));
-}
-
 /** Lines by orders of the rotor's turns. */
 motion::Lines lines_of(const Bearing& bearing, const BasePeriod& base, int subharmonic,
                        PeriodicMotion solution)
@@ -157,7 +135,13 @@ FoundMotion periodic_motion(const Parameters& parameters, const BasePeriod& base
   if (!at.reached) throw not_reached(parameters, request, at.end);
   const PeriodicMotion& solution = at.motion;
   const int k = request.subharmonic;
-  note_base(table, base, parameters.bearing);
+  const double passages = passages_per_turn(parameters.bearing);
+  if (base.kind == BasePeriod::Kind::passing)
+    table.note("no unbalance: one frequency, n omega_cage");
+  if (base.kind == BasePeriod::Kind::turns)
+    table.note(format("n omega_cage/omega = %.9g = %ld/%d: one frequency, orders h/%d",
+                      passages, std::lround(base.turns * passages), base.turns,
+                      base.turns));
   table.value("method", "aft");
   put_base(table, base.words(), based.omega / angular(1));
   if (request.tolerance) table.value("tolerance", *request.tolerance);
@@ -168,12 +152,8 @@ FoundMotion periodic_motion(const Parameters& parameters, const BasePeriod& base
   table.note("newton: " + solution.newton.reason());
   table.value("force_samples", std::max(at.force_samples, solution.force_samples));
   if (at.verdict.found() && (request.tolerance || k > 1))
-    put_difference(table, "error", at.verdict.distance.largest, at.verdict.distance.rms,
-                   "against the nearest motion of Eq. 7");
-  if (request.stability)
-    note_verdict(table, based.machine, at.verdict, k);
-  else
-    note_no_verdict(table);
+    put_difference(table, "error", at.verdict.distance, "against the nearest motion of Eq. 7");
+  put_verdict(table, based.machine, request.stability ? &at.verdict : nullptr, k);
   const Parameters machine = over_turns(based.machine, k);
   return {.motion = motion::motion_of(with_all_coordinates(machine, solution),
                                       k * request.points),
@@ -186,19 +166,6 @@ FoundMotion periodic_motion(const Parameters& parameters, const BasePeriod& base
 
 /**
 ## Two frequencies */
-
-motion::Torus solved_torus(const Parameters& parameters, const MotionRequest& request,
-                           const OperationBudget& budget)
-{
-  const motion::TorusSearch search{parameters,
-                                   angular(request.frequency),
-                                   {.tolerance = request.newton_tolerance},
-                                   budget,
-                                   request.stability};
-  if (request.harmonics) return motion::torus_on_orders(search, *request.harmonics);
-  if (request.lines) return motion::torus_on_lines(search, *request.lines);
-  return motion::torus_to_tolerance(search, request.tolerance.value_or(1e-3));
-}
 
 void note_torus_verdict(Table& table, const motion::Torus& torus)
 {
@@ -213,7 +180,7 @@ void note_torus_verdict(Table& table, const motion::Torus& torus)
     table.value("lyapunov_uncertainty", verdict.uncertainty, 2);
   }
   table.value("stays", verdict.stays ? "yes" : "no");
-  put_difference(table, "distance", verdict.distance.largest, verdict.distance.rms,
+  put_difference(table, "distance", verdict.distance,
                  format("from where integration from the solution is after %.3g s, over "
                         "100 turns",
                         verdict.settled.seconds));
@@ -225,7 +192,16 @@ FoundMotion quasi_periodic_motion(const Parameters& parameters,
                                   const MotionRequest& request,
                                   const OperationBudget& budget, Table& table)
 {
-  const motion::Torus torus = solved_torus(parameters, request, budget);
+  const motion::TorusSearch search{parameters,
+                                   angular(request.frequency),
+                                   {.tolerance = request.newton_tolerance},
+                                   budget,
+                                   request.stability};
+  const motion::Torus torus =
+      request.harmonics ? motion::torus_on_orders(search, *request.harmonics)
+      : request.lines
+          ? motion::torus_on_lines(search, *request.lines)
+          : motion::torus_to_tolerance(search, request.tolerance.value_or(1e-3));
   if (!torus.reached) throw not_reached(parameters, request, torus.end);
   const PeriodicMotion& solution = torus.motion;
   table.value("method", "aft");
@@ -245,12 +221,12 @@ FoundMotion quasi_periodic_motion(const Parameters& parameters,
   table.value("start", one_word(solution.start));
   table.note("newton: " + solution.newton.reason());
   if (torus.error && !request.harmonics && !request.lines)
-    put_difference(table, "error", torus.error->largest, torus.error->rms,
+    put_difference(table, "error", *torus.error,
                    "against the nearest motion of Eq. 7, by integration");
   if (request.stability)
     note_torus_verdict(table, torus);
   else
-    note_no_verdict(table);
+    put_verdict(table, parameters, nullptr, 1);
   return {
       .motion = motion::motion_of(parameters, with_all_coordinates(parameters, solution),
                                   request.points, request.periods),

@@ -1,4 +1,10 @@
-#include "explore/branch_file.hpp"
+/**
+# A branch in a file
+
+A table with all coefficients of each point and 17 digits, so that a branch that was
+followed once can be gone on with. The header says what the branch belongs to: the
+machine's values, m, N, and the direction of the walk. */
+#include "explore/response.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -39,7 +45,7 @@ std::vector<Column> columns_of(int harmonics)
 }  // namespace
 
 std::string branch_text(const Parameters& parameters, int harmonics, int samples,
-                        bool upwards, const std::vector<const Branch*>& branches)
+                        bool upwards, const std::vector<Branch>& branches)
 {
   Table table(what, columns_of(harmonics));
   describe(table, parameters);
@@ -47,7 +53,7 @@ std::string branch_text(const Parameters& parameters, int harmonics, int samples
   table.value("samples", samples);
   table.value("direction", upwards ? "up" : "down");
   for (std::size_t k = 0; k < branches.size(); ++k)
-    for (const BranchPoint& point : branches[k]->points) {
+    for (const BranchPoint& point : branches[k].points) {
       std::vector<Cell> row{k + 1, exact(point.motion.omega), exact(point.arc),
                             exact(point.speed_direction())};
       for (double value : point.motion.x) row.emplace_back(exact(value));
@@ -103,15 +109,14 @@ BranchPoint restart_point(const SavedBranch& branch, const double* omega,
                           const Curve& curve)
 {
   const auto& points = branch.points;
-  std::size_t k = points.size() - 1;
+  auto near = points.end() - 1;
   if (omega)
-    for (std::size_t j = 0; j < points.size(); ++j)
-      if (std::abs(points[j].motion.omega - *omega) <
-          std::abs(points[k].motion.omega - *omega))
-        k = j;
-  BranchPoint point = points[k];
-  const BranchPoint &before = points[k == 0 ? 0 : k - 1],
-                    &after = points[std::min(k + 1, points.size() - 1)];
+    near = std::ranges::min_element(points, {}, [&](const BranchPoint& p) {
+      return std::abs(p.motion.omega - *omega);
+    });
+  BranchPoint point = *near;
+  const BranchPoint &before = near == points.begin() ? *near : near[-1],
+                    &after = near + 1 == points.end() ? *near : near[1];
   const double speed = point.speed_direction();
   point.tangent = curve.scaled(after.motion) - curve.scaled(before.motion);
   /** A branch of one point: its direction is that of the speed. */

@@ -1,10 +1,15 @@
-#include "explore/campbell.hpp"
+/**
+# explore campbell
 
+Frequencies and damping ratios of the linear machine (`modes.hpp`) at each speed, and
+whether a mode whirls forward, its ellipses turning as the rotor does. At a critical speed
+a frequency is that of the unbalance (1X) or of the passing balls. */
 #include <algorithm>
 #include <cmath>
 #include <vector>
 
 #include "explore/modes.hpp"
+#include "explore/orbit.hpp"
 #include "io/errors.hpp"
 #include "model/read_machine.hpp"
 
@@ -17,14 +22,8 @@ const char* word(int whirl)
   return whirl > 0 ? "forward" : whirl < 0 ? "backward" : "planar";
 }
 
-/** Frequency less that of the order at a speed: zero where it is critical. */
-double beyond(const LinearMachine& machine, double order, std::size_t mode, double speed)
-{
-  const auto modes = machine.modes(speed, mode + 1);
-  return mode < modes.size() ? modes[mode].frequency - order * speed : 0;
-}
-
-/** Between two speeds of other sign, by bisection with secants. */
+/** Where the frequency of a mode is that of the order, between two speeds at which their
+    differences have other signs, by bisection with secants. */
 double critical_speed(const LinearMachine& machine, double order, std::size_t mode,
                       double low, double high, double at_low, double at_high)
 {
@@ -32,7 +31,8 @@ double critical_speed(const LinearMachine& machine, double order, std::size_t mo
     double middle = step % 3 == 2 ? (low + high) / 2
                                   : low + (high - low) * at_low / (at_low - at_high);
     middle = std::clamp(middle, low + 1e-3 * (high - low), high - 1e-3 * (high - low));
-    const double found = beyond(machine, order, mode, middle);
+    const auto modes = machine.modes(middle, mode + 1);
+    const double found = mode < modes.size() ? modes[mode].frequency - order * middle : 0;
     const bool is_low = (found > 0) == (at_low > 0);
     (is_low ? low : high) = middle;
     (is_low ? at_low : at_high) = found;
@@ -87,16 +87,12 @@ Exploration explore_campbell(const CampbellRequest& request)
                                stiffness(k + 1, k + 1)});
   table.note(
       "row bearing: mean contact stiffness xx, xy, yy [N/m], 0: no contact at rest");
-  struct Order {
-    double value;
-    std::string name;
-  };
-  std::vector<Order> orders{{1, "1X"}};
+  std::vector<std::pair<double, std::string>> orders{{1, "1X"}};
   for (const Bearing& bearing : bearings_of(parameters))
     if (const double value = passages_per_turn(bearing);
-        std::abs(value - orders.back().value) > 1e-9)
-      orders.push_back(
-          {value, orders.size() == 1 ? "BPFO" : "BPFO_" + std::to_string(orders.size())});
+        std::abs(value - orders.back().first) > 1e-9)
+      orders.emplace_back(
+          value, orders.size() == 1 ? "BPFO" : "BPFO_" + std::to_string(orders.size()));
   for (const auto& [value, name] : orders) table.row_line("order", {name, value});
   const auto speeds = evenly_spaced(request.from, request.to, request.count);
   std::vector<std::vector<Mode>> modes;
@@ -105,11 +101,11 @@ Exploration explore_campbell(const CampbellRequest& request)
   try {
     for (const double speed : speeds) {
       modes.push_back(linear.modes(speed, request.modes));
-      for (std::size_t i = 0; i < modes.back().size() && !request.critical; ++i) {
-        const Mode& mode = modes.back()[i];
-        table.row({speed, i + 1, mode.frequency, mode.damping, mode.whirl});
+      for (int number = 1; const Mode& mode : modes.back()) {
+        residual = std::max(residual, mode.residual);
+        if (!request.critical)
+          table.row({speed, number++, mode.frequency, mode.damping, mode.whirl});
       }
-      for (const Mode& mode : modes.back()) residual = std::max(residual, mode.residual);
     }
     for (const auto& [value, name] : orders)
       for (std::size_t k = 1; k < speeds.size(); ++k)

@@ -1,11 +1,15 @@
-#include "explore/check.hpp"
+/**
+# explore check
 
+What one machine is, before anything is computed: its values, its rest, its linear
+frequencies, and what may go wrong. Of bodies given by matrices: the rest of every
+bearing, and the frequencies that `explore campbell` finds without rotation. */
 #include <algorithm>
 #include <cmath>
 #include <numbers>
 
 #include "explore/modes.hpp"
-#include "explore/plausible.hpp"
+#include "explore/orbit.hpp"
 #include "io/errors.hpp"
 #include "model/catalogue.hpp"
 #include "model/read_machine.hpp"
@@ -93,6 +97,10 @@ Exploration explore_check(const CheckRequest& request)
     ++warnings;
     table.note("warning: " + text);
   };
+  const auto add = [&](const std::string& name, double value, const char* unit,
+                       const std::string& meaning) {
+    table.row({name, value, unit, meaning});
+  };
   const std::string at_end = format("at %g Hz", request.to);
   for (std::size_t b = 0; const Bearing& bearing : bearings_of(machine)) {
     const Rest& rest = rests[b++];
@@ -106,20 +114,17 @@ Exploration explore_check(const CheckRequest& request)
     if (stress > 1e-6 * most_pressure)
       warn(format("the stress of %.4g N/mm^2 at rest is above %g", stress,
                   1e-6 * most_pressure));
-    const auto add = [&](const char* name, double value, const char* unit,
-                         const char* meaning) {
-      table.row({name + tail, value, unit, meaning});
-    };
-    add("BPFO", orders.outer, "1/turn", "balls passing a point of the outer race");
-    add("BPFI", orders.inner, "1/turn", "balls passing a point of the inner race");
-    add("static_force", rest.force, "N", "of the bearing at rest");
-    add("static_x", seen(rest.u.x), "m", "rotor against stator at rest");
-    add("static_y", seen(rest.u.y), "m", "rotor against stator at rest");
-    add("loaded_balls", rest.loaded, "-", "at rest, mean over the cage's angle");
-    add("ball_load", rest.most, "N", "largest force of a ball at rest");
-    if (stress > 0) add("stress", stress, "N/mm^2", "largest pressure of Hertz at rest");
+    add("BPFO" + tail, orders.outer, "1/turn", "balls passing a point of the outer race");
+    add("BPFI" + tail, orders.inner, "1/turn", "balls passing a point of the inner race");
+    add("static_force" + tail, rest.force, "N", "of the bearing at rest");
+    add("static_x" + tail, seen(rest.u.x), "m", "rotor against stator at rest");
+    add("static_y" + tail, seen(rest.u.y), "m", "rotor against stator at rest");
+    add("loaded_balls" + tail, rest.loaded, "-", "at rest, mean over the cage's angle");
+    add("ball_load" + tail, rest.most, "N", "largest force of a ball at rest");
+    if (stress > 0)
+      add("stress" + tail, stress, "N/mm^2", "largest pressure of Hertz at rest");
     if (const double n = speed_value(bearing, request.to); n > 0)
-      add("speed_value", n, "mm/min", ("n d_m " + at_end).c_str());
+      add("speed_value" + tail, n, "mm/min", "n d_m " + at_end);
   }
   const auto is_loaded = [](const Rest& rest) { return rest.loaded > 0; };
   if (machine.gravity > 0 && std::ranges::none_of(rests, is_loaded))
@@ -128,13 +133,13 @@ Exploration explore_check(const CheckRequest& request)
   if (!is_large) {
     const double omega = angular(request.to),
                  e = printable_size(machine.unbalance / machine.rotor.mass);
-    table.row({"eccentricity", e, "m", "e, unbalance over the rotor's mass"});
-    table.row({"weight", printable_size(machine.rotor.mass * machine.gravity), "N",
-               "of the rotor"});
-    table.row({"unbalance_force", printable_size(machine.unbalance * omega * omega), "N",
-               at_end});
-    table.row({"balance_grade", printable_size(1e3 * e * omega), "mm/s",
-               "e omega " + at_end + ", the G of ISO 21940-11"});
+    add("eccentricity", e, "m", "e, unbalance over the rotor's mass");
+    add("weight", printable_size(machine.rotor.mass * machine.gravity), "N",
+        "of the rotor");
+    add("unbalance_force", printable_size(machine.unbalance * omega * omega), "N",
+        at_end);
+    add("balance_grade", printable_size(1e3 * e * omega), "mm/s",
+        "e omega " + at_end + ", the G of ISO 21940-11");
     if (const double gap = machine.bearing.clearance; gap > 0 && e > 10 * gap)
       warn(format("the eccentricity of %.3g m is %.3g times the clearance", e,
                   printable_size(e / gap)));
@@ -144,36 +149,29 @@ Exploration explore_check(const CheckRequest& request)
                 request.from, request.to, machine.bearing.clearance));
   const bool is_alone = !is_large && machine.grounds.empty();
   if (is_alone && !machine.stator.rigid)
-    table.row({"f_s", machine.stator.natural_frequency / turn, "Hz",
-               "natural, without contact"});
+    add("f_s", machine.stator.natural_frequency / turn, "Hz", "natural, without contact");
   if (is_alone && machine.rotor.natural_frequency > 0)
-    table.row({"f_r", machine.rotor.natural_frequency / turn, "Hz",
-               "natural, without contact"});
+    add("f_r", machine.rotor.natural_frequency / turn, "Hz", "natural, without contact");
   /** Two masses vibrate mainly along x or y. */
   int modes[] = {0, 0};
   for (const Mode& mode : LinearMachine(machine).modes(0, 8)) {
     const std::string name =
         is_large ? format("f_%d", ++modes[0])
                  : format("f_%d_%c", ++modes[mode.axis == 'y'], mode.axis);
-    table.row({name, mode.frequency, "Hz",
-               "natural, damped; the bearing's mean force over the cage's angle, "
-               "linear where it carries the load"});
+    add(name, mode.frequency, "Hz",
+        "natural, damped; the bearing's mean force over the cage's angle, "
+        "linear where it carries the load");
     const double speed = mode.frequency / passages_per_turn(machine.bearing);
     if (speed >= request.from && speed <= request.to)
-      table.row(
-          {"passage_" + name, speed, "Hz", "speed at which the passing balls meet it"});
+      add("passage_" + name, speed, "Hz", "speed at which the passing balls meet it");
     if (mode.residual > well_solved) warn(doubt(mode.residual));
   }
   if (!machine.grounds.empty())
     table.note("f_s, f_r, contact_loss: of machines without elements to the ground");
-  if (!is_alone) {
-    table.value("warnings", warnings);
-    return {std::move(table)};
-  }
-  const auto lost = equal_force_speeds(machine, angular(request.to));
-  if (!lost.empty())
-    table.row({"contact_loss", lost.front() / turn, "Hz",
-               "speed at which the unbalance lifts the static load, at u = 0"});
+  if (is_alone)
+    if (const auto lost = equal_force_speeds(machine, angular(request.to)); !lost.empty())
+      add("contact_loss", lost.front() / turn, "Hz",
+          "speed at which the unbalance lifts the static load, at u = 0");
   table.value("warnings", warnings);
   return {std::move(table)};
 }

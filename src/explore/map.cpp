@@ -1,13 +1,9 @@
-#include "explore/map.hpp"
-
 #include <omp.h>
 #include <algorithm>
 #include <map>
 #include <mutex>
 
-#include "explore/map_quantities.hpp"
-#include "explore/plausible.hpp"
-#include "explore/resume.hpp"
+#include "explore/map.hpp"
 #include "io/errors.hpp"
 #include "io/parallel.hpp"
 #include "io/program.hpp"
@@ -125,54 +121,49 @@ void require_row(const std::vector<Quantity>& chosen, const std::vector<double>&
     throw BadInput("the status of a row does not fit its cells");
 }
 
-/** What is computed at once, in order: whole lines of x where the points of a line start
-    from each other, else blocks of them. */
-struct Pieces {
-  explicit Pieces(const MapTask& task)
-      : first_line(task.grid.first), points(task.grid.x.count),
-        block(task.request.method == "aft" ? points : std::min(side_by_side, points)),
-        of_line((points + block - 1) / block),
-        count((task.grid.last - task.grid.first) * of_line)
-  {
-  }
-
-  std::size_t line(std::size_t piece) const { return first_line + piece / of_line; }
-  std::size_t begin(std::size_t piece) const { return piece % of_line * block; }
-  std::size_t end(std::size_t piece) const
-  {
-    return std::min(begin(piece) + block, points);
-  }
-  /** Of these rows the whole ones, and their rows. */
-  std::size_t in(std::size_t rows) const
-  {
-    return rows / points * of_line + rows % points / block;
-  }
-  std::size_t rows(std::size_t pieces) const
-  {
-    return pieces / of_line * points + pieces % of_line * block;
-  }
-
-  std::size_t first_line, points, block, of_line, count;
-};
-
-/** Rows in order of the pieces, written as soon as all before them are there. */
+/** The rows in order. Pieces of them are computed at once: whole lines of x where the
+    points of a line start from each other; each is written as soon as all before it are
+    there. */
 class Output {
 public:
   Output(const MapTask& task, const std::vector<Quantity>& chosen,
          const std::string& header)
-      : task_(task)
+      : task_(task), chosen_(chosen), points_(task.grid.x.count),
+        rows_((task.grid.last - task.grid.first) * points_),
+        of_piece_(task.request.method == "aft" ? points_
+                                               : std::min(side_by_side, points_))
   {
     if (task.request.resume)
-      copy(*task.request.resume, chosen, header);
+      copy(*task.request.resume, header);
     else
       print(header);
   }
 
-  void take(std::size_t piece, std::string rows, std::size_t failed)
+  /** Computes a piece. Throws NoSolution when the seconds of the run are over. */
+  void add(std::size_t piece)
   {
+    std::string text;
+    std::size_t failed = 0;
+    PeriodicMotion before;
+    std::vector<std::vector<double>> block;
+    const std::size_t begin = piece * of_piece_, end = std::min(begin + of_piece_, rows_);
+    for (std::size_t row = begin; row < end; ++row) {
+      block.push_back(values(row));
+      if (block.size() < side_by_side && row + 1 < end) continue;
+      const auto found = rows_of(task_, chosen_, block, before);
+      block.clear();
+      if (task_.request.budget.is_over())
+        throw NoSolution(
+            task_.request.parameter_file + ": " + task_.request.budget.words() +
+            " is used up; --resume FILE goes on with the rows that are written");
+      for (const std::string& one : found) {
+        failed += is_lost(one);
+        text += one + "\n";
+      }
+    }
     const std::lock_guard lock(mutex_);
     failed_ += failed;
-    waiting_[piece] = std::move(rows);
+    waiting_[piece] = std::move(text);
     for (; !waiting_.empty() && waiting_.begin()->first == next_; ++next_) {
       print(waiting_.begin()->second);
       waiting_.erase(waiting_.begin());
@@ -180,10 +171,17 @@ public:
   }
 
   std::size_t next() const { return next_; }
+  std::size_t pieces() const { return (rows_ + of_piece_ - 1) / of_piece_; }
+  std::size_t rows() const { return rows_; }
   std::size_t failed() const { return failed_; }
   const std::string& all() const { return all_; }
 
 private:
+  std::vector<double> values(std::size_t row) const
+  {
+    return task_.grid.values(task_.grid.first + row / points_, row % points_);
+  }
+
   void print(const std::string& text)
   {
     write(text);
@@ -191,21 +189,16 @@ private:
   }
 
   /** The whole pieces of an interrupted table, after all of it was looked at. */
-  void copy(const std::string& file, const std::vector<Quantity>& chosen,
-            const std::string& header)
+  void copy(const std::string& file, const std::string& header)
   {
-    const Grid& grid = task_.grid;
-    const std::size_t count = grid.x.count;
     std::size_t rows = 0;
     each_row_of(file, "map", header, [&](const std::string&, const auto& cells) {
-      if (rows == (grid.last - grid.first) * count) throw BadInput("holds other points");
-      require_row(chosen, grid.values(grid.first + rows / count, rows % count), cells);
-      ++rows;
+      if (rows == rows_) throw BadInput("holds other points");
+      require_row(chosen_, values(rows++), cells);
     });
     print(header);
-    const Pieces pieces(task_);
-    next_ = pieces.in(rows);
-    rows = pieces.rows(next_);
+    next_ = rows == rows_ ? pieces() : rows / of_piece_;
+    rows = std::min(next_ * of_piece_, rows_);
     each_row_of(file, "map", header, [&](const std::string& row, const auto&) {
       if (rows == 0) return;
       --rows;
@@ -216,36 +209,13 @@ private:
   }
 
   const MapTask& task_;
+  const std::vector<Quantity>& chosen_;
+  const std::size_t points_, rows_, of_piece_;  ///< on a line, in all, in a piece
   std::mutex mutex_;
   std::map<std::size_t, std::string> waiting_;
   std::size_t next_ = 0, failed_ = 0;
   std::string all_;
 };
-
-/** Computes one piece. Throws NoSolution when the seconds of the run are over. */
-void add_piece(const MapTask& task, const std::vector<Quantity>& chosen,
-               const Pieces& pieces, std::size_t piece, Output& output)
-{
-  std::string rows;
-  std::size_t failed = 0;
-  PeriodicMotion before;
-  std::vector<std::vector<double>> points;
-  for (std::size_t k = pieces.begin(piece); k < pieces.end(piece); ++k) {
-    points.push_back(task.grid.values(pieces.line(piece), k));
-    if (points.size() < side_by_side && k + 1 < pieces.end(piece)) continue;
-    const auto block = rows_of(task, chosen, points, before);
-    points.clear();
-    if (const auto& budget = task.request.budget; budget && budget->is_over())
-      throw NoSolution(
-          task.request.parameter_file + ": " + budget->words() +
-          " is used up; --resume FILE goes on with the rows that are written");
-    for (const std::string& row : block) {
-      failed += is_lost(row);
-      rows += row + "\n";
-    }
-  }
-  output.take(piece, std::move(rows), failed);
-}
 
 }  // namespace
 
@@ -256,14 +226,12 @@ Exploration explore_map(const MapRequest& request)
   if (request.threads > 0) omp_set_num_threads(request.threads);
   const Table header = header_of(task, chosen);
   Output output(task, chosen, header.text());
-  const Pieces pieces(task);
   const std::size_t first = output.next();
-  in_parallel(
-      request.quiet ? "" : "parts of the map", pieces.count - first,
-      [&](std::size_t piece) { add_piece(task, chosen, pieces, first + piece, output); });
+  in_parallel(request.quiet ? "" : "parts of the map", output.pieces() - first,
+              [&](std::size_t piece) { output.add(first + piece); });
   if (output.failed() > 0)
     std::fprintf(stderr, "%zu of %zu points have no result: see their status\n",
-                 output.failed(), pieces.rows(pieces.count));
+                 output.failed(), output.rows());
   return {.table = header, .drawn = output.all(), .is_written = true};
 }
 

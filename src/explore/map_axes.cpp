@@ -1,7 +1,12 @@
-#include "explore/map_axes.hpp"
+/**
+# Where the points of a map are
+
+On lines of x: one for each value of y, or for each row of a list. */
+#include "explore/map.hpp"
 
 #include <algorithm>
 #include <cmath>
+#include <ranges>
 #include <tuple>
 
 #include "io/errors.hpp"
@@ -17,12 +22,9 @@ constexpr int most_points = 10'000'000;
 
 std::vector<std::string> parts_of(const std::string& text, char between)
 {
-  std::vector<std::string> parts{""};
-  for (const char c : text)
-    if (c == between)
-      parts.emplace_back();
-    else
-      parts.back() += c;
+  std::vector<std::string> parts;
+  for (const auto part : std::views::split(text, between))
+    parts.emplace_back(part.begin(), part.end());
   return parts;
 }
 
@@ -46,13 +48,10 @@ Axis read_axis(const std::string& option, const std::string& text)
                             : real_number(option, word, -1e300, 1e300);
   };
   const double from = end(parts[0]), to = end(parts[1]);
-  Axis axis{key, from, to,
-            static_cast<std::size_t>(whole_number(option, parts[2], 1, most_points)),
-            logarithmic};
-  if (axis.count > 1 && axis.from == axis.to) refuse("from and to must differ");
-  if (logarithmic && (axis.from <= 0 || axis.to <= 0))
-    refuse("log needs from > 0 and to > 0");
-  return axis;
+  const int count = whole_number(option, parts[2], 1, most_points);
+  if (count > 1 && from == to) refuse("from and to must differ");
+  if (logarithmic && (from <= 0 || to <= 0)) refuse("log needs from > 0 and to > 0");
+  return {key, from, to, static_cast<std::size_t>(count), logarithmic};
 }
 
 /** A:B, two whole numbers. */
@@ -64,9 +63,8 @@ void read_lines(const std::string& text, Grid& grid)
   if (parts.size() != 2) throw BadInput("--lines " + text + ": must be A:B");
   const int most = static_cast<int>(std::min<std::size_t>(grid.lines(), most_points));
   const int first = whole_number("--lines", parts[0], 0, most - 1);
-  grid.first = static_cast<std::size_t>(first);
-  grid.last =
-      static_cast<std::size_t>(whole_number("--lines", parts[1], first + 1, most));
+  grid.first = first;
+  grid.last = whole_number("--lines", parts[1], first + 1, most);
 }
 
 Grid grid_of(const MapRequest& request)
@@ -179,11 +177,6 @@ Parameters MapTask::read(const std::vector<std::pair<std::string, double>>& chan
   if (frequency > 0) range.from = range.to = frequency;
   if (!sweep.empty()) range.from = sweep.front(), range.to = sweep.back();
   return read_machine(file.with(changes, excludes), range);
-}
-
-bool MapTask::has_speed() const
-{
-  return std::ranges::find(keys, speed_key) != keys.end();
 }
 
 double MapTask::highest_speed() const

@@ -1,4 +1,8 @@
-#include "explore/map_quantities.hpp"
+/**
+# The quantities of a map
+
+Each is a column: what its value is taken from, and how a point knows it. */
+#include "explore/map.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -31,8 +35,9 @@ struct Swept {
 /** One point. Its functions throw NoSolution where it has no such value. */
 class MapPoint {
 public:
-  MapPoint(const MapTask& task, const std::vector<double>& values, PeriodicMotion& before)
-      : MapPoint(task, task.machine(values), before)
+  /** A machine at its speed [Hz]. */
+  MapPoint(const MapTask& task, std::pair<Parameters, double> at, PeriodicMotion& before)
+      : task_(task), machine_(std::move(at.first)), frequency_(at.second), before_(before)
   {
   }
 
@@ -107,19 +112,21 @@ public:
   motion::Question question() const
   {
     const MapRequest& asked = task_.request;
+    const auto tolerance = is_balance() ? std::nullopt : asked.tolerance;
     return {machine_,
             {.omega = angular(frequency_),
              .method = is_balance() ? "auto" : asked.method,
-             .tolerance = is_balance() ? std::nullopt : asked.tolerance,
+             .tolerance = tolerance,
              .periods = Measures::open_periods,
              .step = asked.step,
-             .step_ratio = step_ratio(is_balance() ? std::nullopt : asked.tolerance),
+             .step_ratio = step_ratio(tolerance),
              .longest = asked.longest,
-             .is_measured = asked.tolerance || is_judged()},
+             .is_measured = asked.tolerance || asks_for({"stability", "multiplier",
+                                                         "uncertainty", "lyapunov"})},
             budget_,
             {},
             machine_.bodies->patience().transient_share,
-            is_observed()};
+            asks_for({"amplitude", "mean"})};
   }
 
   /** What its question came to. */
@@ -194,7 +201,8 @@ public:
       std::vector<double> speeds = angular(task_.sweep);
       for (double& omega : speeds) omega *= base_.per_turn;
       for (const PeriodicMotion& at :
-           rotor_stator::sweep(based_.machine, speeds, harmonics(), samples(), budget_)) {
+           rotor_stator::sweep(based_.machine, speeds, base_.turns * task_.harmonics,
+                               base_.turns * task_.samples, budget_)) {
         if (!at.found()) continue;
         budget_.spend(3 * swept_instants);
         const double hertz = at.omega / (angular(1) * base_.per_turn);
@@ -219,15 +227,6 @@ public:
   int missed() { return static_cast<int>(task_.sweep.size()) - swept().solved; }
 
 private:
-  MapPoint(const MapTask& task, std::pair<Parameters, double> at, PeriodicMotion& before)
-      : task_(task), machine_(std::move(at.first)), frequency_(at.second),
-        base_(base_period(machine_)), based_(over(base_, machine_, angular(frequency_))),
-        before_(before),
-        budget_(budget_of_each(task.request.budget, seconds_of_a_point, machine_)),
-        newton_{.tolerance = task.request.newton_tolerance}
-  {
-  }
-
   bool is_balance() const { return task_.request.method == "aft"; }
   /** Whether the tolerance chooses m. */
   bool is_chosen() const { return task_.request.tolerance && !task_.request.harmonics; }
@@ -236,12 +235,6 @@ private:
   {
     return std::ranges::find_first_of(task_.request.quantities, names) !=
            task_.request.quantities.end();
-  }
-  /** For these quantities the motion from rest is observed, for those it is judged. */
-  bool is_observed() const { return asks_for({"amplitude", "mean"}); }
-  bool is_judged() const
-  {
-    return asks_for({"stability", "multiplier", "uncertainty", "lyapunov"});
   }
 
   /** One period of the solution, or the record of the motion from rest; and the machine
@@ -253,10 +246,6 @@ private:
   }
   const Parameters& moving() { return is_balance() ? based_.machine : answer().machine; }
 
-  /** Of a base period. */
-  int harmonics() const { return base_.turns * task_.harmonics; }
-  int samples() const { return base_.turns * task_.samples; }
-
   void require_period() const
   {
     if (base_.is_driven_twice())
@@ -267,13 +256,14 @@ private:
   PeriodicMotion with_fixed_harmonics() const
   {
     require_period();
+    const int m = base_.turns * task_.harmonics;
     BalanceSearch search{.parameters = based_.machine,
                          .omega = based_.omega,
-                         .harmonics = harmonics(),
-                         .samples = samples(),
+                         .harmonics = m,
+                         .samples = base_.turns * task_.samples,
                          .newton = newton_,
                          .budget = budget_};
-    if (before_.found() && before_.harmonics.count() == harmonics())
+    if (before_.found() && before_.harmonics.count() == m)
       search.starts.push_back(before_.x);
     return motion::find_periodic(search);
   }
@@ -281,11 +271,12 @@ private:
   const MapTask& task_;
   Parameters machine_;
   double frequency_;  ///< [Hz]
-  BasePeriod base_;
-  Based based_;  ///< the machine over its base period
+  BasePeriod base_ = base_period(machine_);
+  Based based_ = over(base_, machine_, angular(frequency_));
   PeriodicMotion& before_;
-  OperationBudget budget_;
-  NewtonSettings newton_;
+  OperationBudget budget_ =
+      budget_of_each(task_.request.budget, seconds_of_a_point, machine_);
+  NewtonSettings newton_{.tolerance = task_.request.newton_tolerance};
   Once<PeriodicMotion> solution_;
   Once<motion::Judged> chosen_;
   Once<motion::Motion> motion_;
@@ -299,102 +290,82 @@ private:
 
 namespace {
 
-/** The value of a function of the point. */
-template <auto function>
-Cell of(MapPoint& point)
-{
-  return (point.*function)();
-}
-
 const std::vector<Quantity> quantities{
-    {"amplitude", "m", "half peak-to-peak of x_r", Source::motion,
-     of<&MapPoint::amplitude>},
-    {"mean", "m", "mean of y_r over the period", Source::motion, of<&MapPoint::mean>},
+    {"amplitude", "m", "half peak-to-peak of x_r", Source::motion, &MapPoint::amplitude},
+    {"mean", "m", "mean of y_r over the period", Source::motion, &MapPoint::mean},
     {"contact_share", "-", "share of the time with at least one loaded ball",
-     Source::motion, of<&MapPoint::contact_share>},
-    {"ball_load", "N", "largest force on a ball", Source::motion,
-     of<&MapPoint::ball_load>},
+     Source::motion, &MapPoint::contact_share},
+    {"ball_load", "N", "largest force on a ball", Source::motion, &MapPoint::ball_load},
     {"force", "N", "largest force of the bearing, Eq. 6", Source::motion,
-     of<&MapPoint::force>},
+     &MapPoint::force},
     {"stability", "word",
      "of the motion, or of that of Eq. 7 found from the solution: stable, unstable, "
      "undecided",
-     Source::motion, of<&MapPoint::stability>},
+     Source::motion, &MapPoint::stability},
     {"multiplier", "-", "largest modulus of the multipliers behind stability",
-     Source::motion, [](auto& p) -> Cell { return p.multiplier().first; }},
+     Source::motion, [](auto& p) { return p.multiplier().first; }},
     {"uncertainty", "-", "of multiplier", Source::motion,
-     [](auto& p) -> Cell { return p.multiplier().second; }},
+     [](auto& p) { return p.multiplier().second; }},
 
     {"period", "-",
      "K of the motion from rest; 0 chaotic, -1 quasi-periodic, -2 undecided",
-     Source::rest, [](auto& p) -> Cell { return p.settled().period_number(); }},
+     Source::rest, [](auto& p) { return p.settled().period_number(); }},
     {"regime", "word",
      "of the motion from rest: rest, periodic, quasi-periodic, chaotic, undecided",
-     Source::rest, [](auto& p) -> Cell { return word(p.settled().kind()); }},
+     Source::rest, [](auto& p) { return word(p.settled().kind()); }},
     {"lyapunov", "1/base period", "largest Lyapunov exponent of the motion from rest",
-     Source::rest, of<&MapPoint::lyapunov>},
+     Source::rest, &MapPoint::lyapunov},
 
     {"harmonics", "-", "m that --tolerance needs, 1e-3 without it", Source::solution,
-     [](auto& p) -> Cell { return p.chosen().motion.harmonics.count(); }},
+     [](auto& p) { return p.chosen().motion.harmonics.count(); }},
     {"distance", "-",
      "of the solution from the motion behind stability, rms about the mean",
-     Source::solution,
-     [](auto& p) -> Cell { return p.floquet(), p.verdict().distance.rms; }},
+     Source::solution, [](auto& p) { return p.floquet(), p.verdict().distance.rms; }},
     {"error", "-",
      "of the solution, rms about the mean: distance or, where no motion was found near "
      "it, that from what integration settles on from the solution",
-     Source::solution, of<&MapPoint::error>},
+     Source::solution, &MapPoint::error},
     {"evaluations", "-", "of the force, for the verdict of stability", Source::solution,
-     [](auto& p) -> Cell { return p.verdict().evaluations; }},
+     [](auto& p) { return p.verdict().evaluations; }},
     {"series", "-", "largest modulus of the multipliers along the m harmonics",
-     Source::solution, [](auto& p) -> Cell { return p.series().largest(); }, true},
+     Source::solution, [](auto& p) { return p.series().largest(); }, true},
     {"series_uncertainty", "-", "of series", Source::solution,
-     [](auto& p) -> Cell { return p.series().uncertainty(); }, true},
+     [](auto& p) { return p.series().uncertainty(); }, true},
     {"series_stability", "word", "what they say: stable, unstable, undecided",
-     Source::solution, [](auto& p) -> Cell { return p.series().verdict(); }, true},
+     Source::solution, [](auto& p) { return p.series().verdict(); }, true},
 
     {"peak", "m", "largest amplitude over the speeds of --sweep, refined by a parabola",
-     Source::sweep, [](auto& p) -> Cell { return p.swept().peak.amplitude; }},
+     Source::sweep, [](auto& p) { return p.swept().peak.amplitude; }},
     {"peak_frequency", "Hz", "its speed", Source::sweep,
-     [](auto& p) -> Cell { return p.swept().peak.frequency; }},
+     [](auto& p) { return p.swept().peak.frequency; }},
     {"permanent", "-", "share of the solved speeds of --sweep with permanent contact",
-     Source::sweep,
-     [](auto& p) -> Cell { return 1.0 * p.swept().permanent / p.swept().solved; }},
+     Source::sweep, [](auto& p) { return 1.0 * p.swept().permanent / p.swept().solved; }},
     {"loss_first", "Hz", "first speed of --sweep at which contact is lost; -1: none",
-     Source::sweep, [](auto& p) -> Cell { return p.swept().loss_first; }},
+     Source::sweep, [](auto& p) { return p.swept().loss_first; }},
     {"loss_last", "Hz", "last such speed; -1: none", Source::sweep,
-     [](auto& p) -> Cell { return p.swept().loss_last; }},
+     [](auto& p) { return p.swept().loss_last; }},
     {"largest_load", "N", "largest force on a ball over the speeds of --sweep",
-     Source::sweep, [](auto& p) -> Cell { return p.swept().ball_load; }},
+     Source::sweep, [](auto& p) { return p.swept().ball_load; }},
     {"missed", "-", "speeds of --sweep without a solution", Source::sweep,
-     of<&MapPoint::missed>}};
+     &MapPoint::missed}};
 
-std::vector<Quantity> named(const std::vector<std::string>& names,
-                            const std::function<Parameters()>& machine)
+/** The quantity, or the measure of a machine, of that name. */
+Quantity named(const std::string& name, const std::function<Parameters()>& machine)
 {
-  std::vector<Quantity> chosen;
-  for (const std::string& name : names) {
-    const auto found = std::ranges::find(quantities, name, &Quantity::name);
-    std::optional<Quantity> measure;
-    if (found == quantities.end())
-      if (const Measures one(name, machine()); one.needs_whole())
-        measure = Quantity{one.columns()[0], Source::motion,
-                           [name](MapPoint& p) { return p.measured(name); }};
-    if (found == quantities.end() && !measure) {
-      std::vector<std::string> known;
-      std::string list;
-      for (const Quantity& q : quantities) {
-        known.push_back(q.name);
-        list += (list.empty() ? "" : ", ") + q.name;
-      }
-      throw BadInput("--quantity " + name + ": is not a quantity" +
-                     suggestion(name, known) + " (known: " + list + ")");
-    }
-    if (std::ranges::find(chosen, name, &Quantity::name) != chosen.end())
-      throw BadInput("--quantity " + name + ": is given twice");
-    chosen.push_back(measure ? *measure : *found);
+  if (const auto found = std::ranges::find(quantities, name, &Quantity::name);
+      found != quantities.end())
+    return *found;
+  if (const Measures one(name, machine()); one.needs_whole())
+    return {one.columns()[0], Source::motion,
+            [name](MapPoint& p) { return p.measured(name); }};
+  std::vector<std::string> known;
+  std::string list;
+  for (const Quantity& q : quantities) {
+    known.push_back(q.name);
+    list += (list.empty() ? "" : ", ") + q.name;
   }
-  return chosen;
+  throw BadInput("--quantity " + name + ": is not a quantity" + suggestion(name, known) +
+                 " (known: " + list + ")");
 }
 
 }  // namespace
@@ -411,7 +382,12 @@ std::vector<Quantity> chosen_quantities(const MapTask& task)
   const auto first = [&] {
     return task.machine(task.grid.values(task.grid.first, 0)).first;
   };
-  const std::vector<Quantity> chosen = named(request.quantities, first);
+  std::vector<Quantity> chosen;
+  for (const std::string& name : request.quantities) {
+    chosen.push_back(named(name, first));
+    if (std::ranges::count(chosen, name, &Quantity::name) > 1)
+      throw BadInput("--quantity " + name + ": is given twice");
+  }
   /** The first of these sources, or nothing. */
   const auto of = [&](auto... sources) {
     const auto one = std::ranges::find_if(
@@ -472,7 +448,7 @@ std::vector<std::string> rows_of(const MapTask& task, const std::vector<Quantity
   std::vector<std::unique_ptr<MapPoint>> made;
   std::vector<std::string> statuses;
   for (const auto& values : points) try {
-      made.push_back(std::make_unique<MapPoint>(task, values, before));
+      made.push_back(std::make_unique<MapPoint>(task, task.machine(values), before));
       statuses.emplace_back(all_well);
     } catch (const std::runtime_error& none) {
       made.push_back(nullptr);

@@ -1,8 +1,11 @@
-#include "explore/options.hpp"
+/**
+# The options of explore
 
+Those of each command, read into its request. */
 #include <CLI/CLI.hpp>
 #include <algorithm>
 
+#include "explore/orbit.hpp"
 #include "io/errors.hpp"
 #include "io/program.hpp"
 #include "time/flow.hpp"
@@ -60,10 +63,37 @@ const std::string measures_in_words =
     "; of a motion amp_, peak_, mean_, rms_, amp_1X_ or phase_1X_ of x_s ... y_r, x_r_2, "
     "x_r_out, of a velocity v_x_r or acceleration a_x_r; iso_x_r, mm/s rms of ISO 20816";
 
+/** A file to be read. */
+template <class Name>
+CLI::Option* add_input(CLI::App& command, Request& request, const std::string& option,
+                       Name& file, const std::string& meaning)
+{
+  return command.add_option_function<std::string>(
+      option,
+      [&](const std::string& name) {
+        file = name;
+        request.inputs.push_back(name);
+      },
+      meaning);
+}
+
+/** A file to be written. */
+CLI::Option* add_output(CLI::App& command, Request& request, const std::string& option,
+                        File& file, const std::string& meaning)
+{
+  return command.add_option_function<std::string>(
+      option,
+      [&, option](const std::string& name) {
+        file = name;
+        request.outputs.emplace_back(option, name);
+      },
+      meaning);
+}
+
 /** The machine, and how the table is written. */
 void add_table_options(CLI::App& command, Request& request)
 {
-  command.add_option("parameters", request.parameter_file, "TOML parameter file")
+  add_input(command, request, "parameters", request.parameter_file, "TOML parameter file")
       ->required();
   if (command.get_name() == "map") return;  // its quantities are chosen
   const std::string name = command.get_name();
@@ -79,11 +109,11 @@ void add_table_options(CLI::App& command, Request& request)
   command.add_option_function<std::string>(
       "--format",
       [&request](const std::string& word) {
-        if (word != "tsv" && word != "csv" && word != "json")
+        constexpr std::array words{"tsv", "csv", "json"};  // in the order of the type
+        const auto found = std::ranges::find(words, word);
+        if (found == words.end())
           throw BadInput("--format " + word + ": must be one of tsv, csv, json");
-        request.format = word == "csv"    ? TableFormat::csv
-                         : word == "json" ? TableFormat::json
-                                          : TableFormat::tsv;
+        request.format = static_cast<TableFormat>(found - words.begin());
       },
       "tsv, csv (without the # lines) or json");
 }
@@ -106,7 +136,7 @@ void add_common_options(CLI::App& command, Request& request, const std::string& 
   add_table_options(command, request);
   command.add_flag("--quiet", request.quiet,
                    "no progress on stderr, which a terminal gets after two seconds");
-  command.add_option("--plot", request.plot, "figure: .svg, .png or .pdf");
+  add_output(command, request, "--plot", request.plot, "figure: .svg, .png or .pdf");
   command.add_flag("--force", request.force,
                    "replace files that this program did not write, too");
   command
@@ -135,11 +165,14 @@ CLI::Option* add_speed(CLI::App& command, const std::string& name, Number& speed
       ->type_name("SPEED");
 }
 
-void add_speeds(CLI::App& command, double& from, double& to, bool may_rest = false)
+void add_speeds(CLI::App& command, RangeRequest& request, bool may_rest = false,
+                bool is_required = true)
 {
   const auto unit = std::make_shared<std::string>();
-  add_speed(command, "--from", from, "first speed", may_rest, unit)->required();
-  add_speed(command, "--to", to, "last speed", may_rest, unit)->required();
+  add_speed(command, "--from", request.from, "first speed", may_rest, unit)
+      ->required(is_required);
+  add_speed(command, "--to", request.to, "last speed", may_rest, unit)
+      ->required(is_required);
 }
 
 void add_rpm(CLI::App& command, Request& request)
@@ -171,27 +204,23 @@ const char* const usual_budget =
     "those of 3 s, 8.2e7 with 16 balls; in response 60 s with --stability, 30 s with "
     "--subharmonic or two frequencies)";
 
-/** Options of a motion in time, and whose they are. */
-struct TimeOptions {
-  CLI::Option *step, *longest;
-
-  TimeOptions(CLI::App& command, double& step_value, double& longest_value)
-      : step(add_number(
-            command, "--step", step_value, 0.0, largest,
-            "longest step of rk4, a fourth of one of splitting [s] (default: from "
-            "K_H and the speed)")),
-        longest(add_number(command, "--longest", longest_value, 1e-3, 1e5,
-                           "longest transient of a motion in time, after t = 0 [s]"))
-  {
-  }
-
-  void check(const std::string& method) const
-  {
+/** Options of a motion in time. */
+template <class Asked>
+Check add_time_options(CLI::App& command, Asked& request)
+{
+  const auto step = add_number(
+      command, "--step", request.step, 0.0, largest,
+      "longest step of rk4, a fourth of one of splitting [s] (default: from K_H and the "
+      "speed)");
+  const auto longest =
+      add_number(command, "--longest", request.longest, 1e-3, 1e5,
+                 "longest transient of a motion in time, after t = 0 [s]");
+  return [=, &method = request.method] {
     refuse({step}, method == "auto" || has_fixed_step(method),
            "for a motion in time, by rk4, splitting or auto", method);
     refuse({longest}, !is_periodic(method), "for a motion in time", method);
-  }
-};
+  };
+}
 
 std::string methods_in_words(bool has_shooting)
 {
@@ -243,14 +272,14 @@ Check add_options(CLI::App& command, MotionRequest& request)
   Options periodic;
   if (name != "contact") periodic.push_back(add_subharmonic(command, request));
   if (is_spectrum)
-    command.add_option("--overlay", request.overlay,
-                       "table of a measured spectrum for --plot: f [Hz], amplitude [m]");
+    add_input(command, request, "--overlay", request.overlay,
+              "table of a measured spectrum for --plot: f [Hz], amplitude [m]");
   if (name == "orbit" || name == "shape")
     add_number(command, "--periods", request.periods, 1, 1000,
                "base periods that are printed");
   command.add_flag("!--no-stability", request.stability,
                    "leave out stability and, of a motion in time, the error");
-  const TimeOptions in_time(command, request.step, request.longest);
+  const Check check_time = add_time_options(command, request);
   const auto local_error =
       add_number(command, "--local-error", request.local_error, 1e-15, 1e-2,
                  "relative, per step, of GSL's methods and of shooting, with which auto "
@@ -259,7 +288,7 @@ Check add_options(CLI::App& command, MotionRequest& request)
     std::string& method = request.method;
     choose_method(method, aft, {"auto", "gauss", "aft", "shooting"});
     refuse(periodic, is_periodic(method), "for the methods aft and shooting", method);
-    in_time.check(method);
+    check_time();
     if (const double turn = 1 / request.frequency; request.step > turn)
       throw BadInput(
           format("--step %g: is too long, a turn takes %.3g s", request.step, turn));
@@ -274,9 +303,8 @@ Check add_options(CLI::App& command, MotionRequest& request)
 
 Check add_options(CLI::App& command, ShapeRequest& request)
 {
-  command
-      .add_option("--nodes", request.nodes,
-                  "table of nodes, as shaft prints: z [m], x and y, degrees of freedom")
+  add_input(command, request, "--nodes", request.nodes,
+            "table of nodes, as shaft prints: z [m], x and y, degrees of freedom")
       ->required();
   return add_options(command, static_cast<MotionRequest&>(request));
 }
@@ -299,7 +327,7 @@ Check add_options(CLI::App& command, ResponseRequest& request)
                  "with two frequencies, of the five that choose the harmonics");
   CLI::Option* count = add_number(command, "--count", request.count, 1, 100000,
                                   "speeds, evenly spaced (101; 21 of large bodies)");
-  add_speeds(command, request.from, request.to);
+  add_speeds(command, request);
   add_rpm(command, request);
   command.add_option("--direction", request.direction,
                      "rest: each speed from rest; up, down: from the motion or solution "
@@ -310,12 +338,12 @@ Check add_options(CLI::App& command, ResponseRequest& request)
   branch.push_back(command.add_option(
       "--harmonics-of", request.harmonics_of,
       "x_s, y_s, x_r or y_r: its harmonics at each point, complex amplitudes"));
-  aft.push_back(command.add_option("--waterfall", request.waterfall,
-                                   "file for the lines of each point, with their names"));
-  aft.push_back(command.add_option("--save", request.save,
-                                   "file for the branch, all coefficients"));
-  CLI::Option* restart =
-      command.add_option("--restart", request.restart, "file of --save to continue from");
+  aft.push_back(add_output(command, request, "--waterfall", request.waterfall,
+                           "file for the lines of each point, with their names"));
+  aft.push_back(add_output(command, request, "--save", request.save,
+                           "file for the branch, all coefficients"));
+  CLI::Option* restart = add_input(command, request, "--restart", request.restart,
+                                   "file of --save to continue from");
   add_speed(command, "--at", request.at, "restart near this speed (default: the end)")
       ->needs(restart);
   add_number(command, "--branch", request.branch, 1, 1000000,
@@ -329,9 +357,8 @@ Check add_options(CLI::App& command, ResponseRequest& request)
              "of the random starts of --isolated")
       ->needs(isolated);
   const Options sweep{
-      command.add_option(
-          "--resume", request.resume,
-          "table of the same sweep that was interrupted: its rows are kept"),
+      add_input(command, request, "--resume", request.resume,
+                "table of the same sweep that was interrupted: its rows are kept"),
       add_number(command, "--longest", request.longest, 1e-3, 1e5,
                  "longest transient of a sweep after t = 0 [s]")};
   return [=, &request] {
@@ -366,7 +393,7 @@ Check add_options(CLI::App& command, AttractorsRequest& request)
 {
   add_common_options(command, request,
                      "in the whole run (default: those of 1 s for each start)");
-  add_speeds(command, request.from, request.to);
+  add_speeds(command, request);
   add_number(command, "--count", request.count, 1, 10000,
              "speeds from --from to --to, evenly spaced (51)");
   add_rpm(command, request);
@@ -375,10 +402,10 @@ Check add_options(CLI::App& command, AttractorsRequest& request)
   add_number(command, "--seed", request.seed, 0, largest_seed, "of the random states");
   add_number(command, "--tolerance", request.tolerance, 1e-8, 0.1,
              "relative error; chooses the step of integration");
-  command.add_option("--section", request.section,
-                     "file for the points of the Poincare sections");
-  command.add_option("--motions", request.motions,
-                     "file for the motions themselves, with the bearing's force");
+  add_output(command, request, "--section", request.section,
+             "file for the points of the Poincare sections");
+  add_output(command, request, "--motions", request.motions,
+             "file for the motions themselves, with the bearing's force");
   return [] {};
 }
 
@@ -396,8 +423,8 @@ Check add_options(CLI::App& command, MapRequest& request)
       "KEY=from:to:count[:log]; KEY: frequency [Hz], or of the parameter file, "
       "as bearing.radial_clearance_m; the points of a line start from each other");
   command.add_option("--y", request.y, "the same, a line for each value");
-  command.add_option("--list", request.list,
-                     "table whose columns are keys, a line for each row, instead of --y");
+  add_input(command, request, "--list", request.list,
+            "table whose columns are keys, a line for each row, instead of --y");
   command.add_option("--quantity", request.quantities, known + measures_in_words)
       ->delimiter(',')
       ->required();
@@ -410,32 +437,32 @@ Check add_options(CLI::App& command, MapRequest& request)
       ->capture_default_str();
   add_number(command, "--tolerance", request.tolerance, 1e-8, 0.1,
              "relative error; chooses the step of integration, with --method aft m");
-  const TimeOptions in_time(command, request.step, request.longest);
+  const Check check_time = add_time_options(command, request);
   add_number(command, "--threads", request.threads, 1, 1024,
              "parts of the map at a time (default: OMP_NUM_THREADS, or all cores)");
   command.add_option("--lines", request.lines, "A:B, only the lines with A <= index < B");
-  command.add_option(
-      "--resume", request.resume,
-      "table of the same map that was interrupted: its rows are taken over");
+  add_input(command, request, "--resume", request.resume,
+            "table of the same map that was interrupted: its rows are taken over");
   return [=, &request] {
     choose_method(request.method, aft, {"auto", "aft", "gauss"});
-    in_time.check(request.method);
+    check_time();
   };
 }
 
 Check add_options(CLI::App& command, CheckRequest& request)
 {
   add_table_options(command, request);
-  const auto unit = std::make_shared<std::string>();
-  add_speed(command, "--from", request.from, "first speed", false, unit);
-  add_speed(command, "--to", request.to, "last speed", false, unit);
+  request.from = 1;
+  request.to = 60;
+  add_speeds(command, request, false, false);
   return [] {};
 }
 
 Check add_options(CLI::App& command, ShaftRequest& request)
 {
   add_table_options(command, request);
-  command.add_option("--to", request.folder, "folder for M.mtx, C.mtx, G.mtx and K.mtx")
+  add_input(command, request, "--to", request.folder,
+            "folder for M.mtx, C.mtx, G.mtx and K.mtx")
       ->required();
   command.add_flag("--force", request.force,
                    "replace files that this program did not write, too");
@@ -445,7 +472,7 @@ Check add_options(CLI::App& command, ShaftRequest& request)
 Check add_options(CLI::App& command, CampbellRequest& request)
 {
   add_common_options(command, request, "in the whole run (default: those of 60 s)");
-  add_speeds(command, request.from, request.to, true);
+  add_speeds(command, request, true);
   CLI::Option* count =
       add_number(command, "--count", request.count, 1, 10000,
                  "speeds from --from to --to, evenly spaced (51, 1 of one speed)");
@@ -461,12 +488,12 @@ Check add_options(CLI::App& command, CampbellRequest& request)
 Check add_options(CLI::App& command, RunUpRequest& request)
 {
   add_common_options(command, request, "in the whole run (default: those of 60 s)");
-  add_speeds(command, request.from, request.to, true);
+  add_speeds(command, request, true);
   add_rpm(command, request);
   add_number(command, "--seconds", request.seconds, 0.0, 1e6, "how long the run takes")
       ->required();
-  command.add_option("--waterfall", request.waterfall,
-                     "file for the lines of every 16 turns, with their names");
+  add_output(command, request, "--waterfall", request.waterfall,
+             "file for the lines of every 16 turns, with their names");
   return [] {};
 }
 

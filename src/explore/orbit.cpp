@@ -3,15 +3,14 @@
 #include <algorithm>
 #include <cmath>
 #include <numbers>
+#include <tuple>
 
 #include "balance/fourier_transform.hpp"
-#include "explore/balance_motion.hpp"
 #include "explore/measures.hpp"
-#include "explore/plausible.hpp"
-#include "explore/settled_motion.hpp"
 #include "io/errors.hpp"
 #include "io/parallel.hpp"
 #include "model/read_machine.hpp"
+#include "motion/answer.hpp"
 #include "motion/contact.hpp"
 #include "motion/find_periodic.hpp"
 #include "motion/judge.hpp"
@@ -34,25 +33,24 @@ void require_method_of(const Parameters& parameters, const std::string& method)
 {
   const bool is_of_masses =
       std::ranges::find(time_methods(), method) != time_methods().end();
-  const Machine& machine = *parameters.bodies;
-  if (!machine.takes_explicit_steps() && is_of_masses)
+  const bool is_large = !parameters.bodies->takes_explicit_steps();
+  if (is_large && is_of_masses)
     throw BadInput("--method " + method +
                    ": bodies given by matrices take aft, shooting, auto or gauss");
   require_bearing_of(method, parameters);
-  if (machine.takes_explicit_steps() && method == "gauss")
+  if (!is_large && method == "gauss")
     throw BadInput("--method gauss: is for bodies given by matrices");
 }
 
 Parameters machine_of(const Request& request, double from, double to,
                       const NumberTable* nodes)
 {
-  const Parameters machine =
-      read_machine(StrictToml(request.parameter_file),
-                   {.from = from,
-                    .to = to,
-                    .harmonics = std::max(64, request.harmonics.value_or(0)),
-                    .nodes = nodes});
-  return doubted(machine, to);
+  return doubted(read_machine(StrictToml(request.parameter_file),
+                              {.from = from,
+                               .to = to,
+                               .harmonics = std::max(64, request.harmonics.value_or(0)),
+                               .nodes = nodes}),
+                 to);
 }
 
 Parameters doubted(Parameters machine, double highest)
@@ -83,29 +81,28 @@ std::string Allowance::words() const
                      : format("the budget of %.3g evaluations of the force", evaluations);
 }
 
-OperationBudget budget_until(const std::optional<Allowance>& allowed, double evaluations,
+OperationBudget budget_until(const Allowance& allowed, double evaluations,
                              const std::string& option)
 {
   OperationBudget budget(evaluations, option);
-  if (allowed && allowed->seconds > 0) budget.end_at(allowed->end, allowed->seconds);
+  if (allowed.seconds > 0) budget.end_at(allowed.end, allowed.seconds);
   return budget;
 }
 
-OperationBudget budget_of_each(const std::optional<Allowance>& allowed, double seconds,
+OperationBudget budget_of_each(const Allowance& allowed, double seconds,
                                const Parameters& parameters)
 {
   const double each = operations_per_evaluation(parameters.bearing.balls);
   seconds *= parameters.bodies->patience().longer;
-  const bool is_counted = allowed && allowed->evaluations > 0;
-  return budget_until(allowed, is_counted ? allowed->evaluations : 1e9 * seconds / each,
-                      "--budget");
+  return budget_until(
+      allowed, allowed.evaluations > 0 ? allowed.evaluations : 1e9 * seconds / each,
+      "--budget");
 }
 
 OperationBudget budget_of(const Request& request, double seconds,
                           const Parameters& parameters)
 {
-  if (request.budget && request.budget->seconds > 0)
-    seconds = 4 * request.budget->seconds;
+  if (request.budget.seconds > 0) seconds = 4 * request.budget.seconds;
   OperationBudget budget = budget_of_each(request.budget, seconds, parameters);
   const auto progress =
       std::make_shared<Progress>(request.quiet ? "" : "share of --budget", 1);
@@ -156,8 +153,23 @@ void put_complete(Table& table, const std::string& missing)
   if (!missing.empty()) table.note("incomplete: " + missing);
 }
 
+void put_base(Table& table, const std::string& base, double frequency)
+{
+  table.value("base", base);
+  if (std::isfinite(1 / frequency)) table.value("base_period", 1 / frequency);
+}
+
+void put_difference(Table& table, const std::string& name, const motion::Error& error,
+                    const std::string& meaning)
+{
+  if (std::isfinite(error.largest)) table.value(name + "_largest", error.largest, 3);
+  if (std::isfinite(error.rms)) table.value(name + "_rms", error.rms, 3);
+  table.note(name + ": " + meaning);
+}
+
 namespace {
 
+/** By shooting. */
 FoundMotion closed_motion(const Parameters& parameters, const MotionRequest& request,
                           const OperationBudget& budget, Table& table)
 {
@@ -177,20 +189,17 @@ FoundMotion closed_motion(const Parameters& parameters, const MotionRequest& req
       format("shooting by rk8, local error %g: closed to %.2g of the sizes of the "
              "state after %d periods",
              request.local_error, closed.correction, closed.maps));
-  put_difference(table, "error", closed.error.largest, closed.error.rms,
-                 "against a hundredth of the local error");
+  put_difference(table, "error", closed.error, "against a hundredth of the local error");
   if (request.tolerance && !(error <= *request.tolerance))
     throw NoSolution(
         format("%s: tolerance %g not reached at %g Hz, error %.2g: "
                "--local-error is too large",
                parameters.file.c_str(), *request.tolerance, request.frequency, error));
   put_base(table, "turn", request.frequency);
+  std::optional<motion::Verdict> verdict;
   if (request.stability)
-    note_verdict(table, parameters,
-                 motion::judge_through(parameters, omega, closed.state, budget, turns),
-                 turns);
-  else
-    note_no_verdict(table);
+    verdict = motion::judge_through(parameters, omega, closed.state, budget, turns);
+  put_verdict(table, parameters, verdict ? &*verdict : nullptr, turns);
   motion::Lines lines = motion::lines_of_closed(closed.motion, turns);
   return {.motion = std::move(closed.motion),
           .lines = std::move(lines),
@@ -198,6 +207,82 @@ FoundMotion closed_motion(const Parameters& parameters, const MotionRequest& req
           .base_frequency = request.frequency,
           .base_periods = turns,
           .closes_after = turns};
+}
+
+/** Mean, rms and amplitude of a motion that never repeats itself, with their standard
+    errors. */
+void put_statistics(Table& table, const motion::Observation& seen)
+{
+  const std::tuple<std::string, Displacements, Displacements> all[] = {
+      {"mean_", seen.mean, seen.mean_error},
+      {"rms_", seen.rms, seen.rms_error},
+      {"amp_", seen.amplitude, seen.amplitude_error}};
+  for (const auto& [what, values, errors] : all)
+    for (std::size_t i = 0; const char* name : {"x_s", "y_s", "x_r", "y_r"}) {
+      table.value(what + name, values[i], 6);
+      table.value(what + name + "_error", errors[i++], 2);
+    }
+  table.note(
+      "mean, rms about the mean and amplitude over 256 base periods, with standard "
+      "errors; an amplitude grows with the window");
+}
+
+/** What the machine does from rest, `open_periods` of a motion that does not close. */
+FoundMotion settled_motion(const Parameters& parameters, const MotionRequest& request,
+                           int open_periods, const OperationBudget& budget, Table& table)
+try {
+  const motion::Answer answer = motion::answer(parameters,
+                                               {.omega = angular(request.frequency),
+                                                .method = request.method,
+                                                .tolerance = request.tolerance,
+                                                .points = request.points,
+                                                .periods = open_periods,
+                                                .step = request.step,
+                                                .local_error = request.local_error,
+                                                .longest = request.longest,
+                                                .is_measured = request.stability},
+                                               budget);
+  const Settled& settled = answer.settled;
+  table.value("method", answer.method);
+  put_base(table, answer.base.words(), answer.omega / angular(1));
+  table.value("regime", word(answer.kind()));
+  if (answer.period() > 0) table.value("period", answer.period());
+  table.value("stability", answer.stability);
+  if (answer.multiplier > 0) {
+    table.value("multiplier", answer.multiplier, 9);
+    table.value("multiplier_uncertainty", answer.uncertainty, 2);
+  }
+  table.value("lyapunov", settled.lyapunov.value, 6);
+  table.value("lyapunov_uncertainty", settled.lyapunov.error, 2);
+  if (answer.error) put_difference(table, "error", *answer.error, answer.error_note);
+  if (!settled.reason.empty()) table.note("regime: " + settled.reason);
+  table.value("transient", settled.seconds, 6);
+  if (answer.base.is_driven_twice()) {
+    const double turns =
+        answer.machine.bearing.cage_speed_ratio * static_cast<double>(settled.at.period) +
+        answer.machine.bearing.cage_phase / angular(1);
+    table.value("cage_angle", angular(turns - std::floor(turns)));
+  }
+  FoundMotion found{.motion = answer.motion, .machine = answer.machine};
+  if (answer.kind() == Kind::chaotic) {
+    auto seen = attempt([&] { return observe(answer, budget); });
+    found.has_statistics = seen.has_value();
+    if (seen.has_value())
+      put_statistics(table, seen.get());
+    else
+      table.note("mean, rms and amplitude need more than the budget");
+  }
+  found.base_frequency = answer.omega / angular(1);
+  found.turns_of_period = 1 / answer.base.per_turn;
+  if (answer.method == "shooting") {
+    found.closes_after = answer.period();
+    found.lines = motion::lines_of_closed(as_one_period(answer.motion),
+                                          answer.period() * found.turns_of_period);
+  }
+  return found;
+} catch (const Diverged& error) {
+  if (request.step == 0) throw;
+  throw NoSolution(error.what() + format("; is --step %g too long?", request.step));
 }
 
 }  // namespace
@@ -216,12 +301,10 @@ Computed computed(const Parameters& parameters, const MotionRequest& request,
   require_method_of(parameters, request.method);
   describe(table, parameters);
   table.value("frequency", request.frequency);
-  const bool is_settled = !is_periodic(request.method);
   /** Who names a method is willing to wait. */
-  const double settling = parameters.bodies->patience().settling;
-  const double seconds = request.method == "auto" ? settling
-                         : is_settled             ? std::max(3.0, settling)
-                                                  : 3;
+  double seconds = request.method == "auto" ? 0 : 3;
+  if (!is_periodic(request.method))
+    seconds = std::max(seconds, parameters.bodies->patience().settling);
   Computed at{.budget = budget_of(request, seconds, parameters)};
   if (request.method == "aft")
     at.found = balance_motion(parameters, request, at.budget, table);
@@ -233,41 +316,26 @@ Computed computed(const Parameters& parameters, const MotionRequest& request,
   return at;
 }
 
-namespace {
-
-const std::vector<Column> orbit_columns{phase_column,
-                                        {"x_s", "m", "stator"},
-                                        {"y_s", "m", "stator"},
-                                        {"x_r", "m", "rotor"},
-                                        {"y_r", "m", "rotor"},
-                                        {"F_x", "N", "Eq. 6, on the stator"},
-                                        {"F_y", "N", "Eq. 6, on the stator"},
-                                        time_column};
-
-const std::vector<Column> contact_columns{
-    {"t_over_T", "-", "time over the period, 0 to 2"},
-    {"ball", "-", "j of Eq. 3"},
-    {"Q", "N", "Eq. 5, force of the ball"},
-    time_column,
-    {"angle", "rad", "theta_j of Eq. 3, modulo 2 pi"},
-    {"stress", "N/mm^2", "largest pressure of Hertz on the races"}};
-
-}  // namespace
-
 Exploration explore_orbit(const MotionRequest& request)
 {
   const Parameters parameters = machine_of(request, request.frequency, request.frequency);
-  auto columns = orbit_columns;
-  const auto add = [&](const std::string& name, const char* unit, const char* meaning) {
-    columns.insert(columns.end() - 1, {name, unit, meaning});
-  };
+  std::vector<Column> columns{phase_column,
+                              {"x_s", "m", "stator"},
+                              {"y_s", "m", "stator"},
+                              {"x_r", "m", "rotor"},
+                              {"y_r", "m", "rotor"},
+                              {"F_x", "N", "Eq. 6, on the stator"},
+                              {"F_y", "N", "Eq. 6, on the stator"}};
   const std::size_t bearings = 1 + parameters.further.size();
   for (std::size_t b = 2; b <= bearings; ++b)
     for (const char* axis : {"x", "y"})
-      add(format("F_%s_%zu", axis, b), "N", "Eq. 6, of that bearing, on the stator");
+      columns.push_back(
+          {format("F_%s_%zu", axis, b), "N", "Eq. 6, of that bearing, on the stator"});
   const auto outputs = parameters.bodies->outputs();
-  for (const auto& [name, place] : outputs) add(name, "m", "of a body given by matrices");
-  const std::size_t usual = columns.size() - 1;
+  for (const auto& [name, place] : outputs)
+    columns.push_back({name, "m", "of a body given by matrices"});
+  const std::size_t usual = columns.size();
+  columns.push_back(time_column);
   const Measures measures(request.columns, parameters);
   columns.insert(columns.end(), measures.columns().begin(), measures.columns().end());
   Table table(request.periods == 1
@@ -287,9 +355,9 @@ Exploration explore_orbit(const MotionRequest& request)
       {motion,
        at.found.base_periods / (at.found.base_frequency * motion.points_per_period),
        request.frequency, closes});
-  std::vector<std::vector<Vec2>> further;
+  std::vector<std::vector<Vec2>> forces{at.forces};
   for (std::size_t b = 1; b < bearings; ++b)
-    further.push_back(motion::bearing_forces(at.found.machine, motion, b));
+    forces.push_back(motion::bearing_forces(at.found.machine, motion, b));
   const auto rows =
       static_cast<std::size_t>(std::max(request.periods, at.found.closes_after)) *
       request.points;
@@ -297,16 +365,11 @@ Exploration explore_orbit(const MotionRequest& request)
     const std::size_t same = k % motion.size();
     const auto& [stator, rotor] = motion.positions[same];
     const double periods = at.found.base_periods * motion.t_over_period(k);
-    std::vector<Cell> row{2 * std::numbers::pi * periods,
-                          stator.x,
-                          stator.y,
-                          rotor.x,
-                          rotor.y,
-                          at.forces[same].x,
-                          at.forces[same].y};
-    for (const auto& forces : further) {
-      row.emplace_back(forces[same].x);
-      row.emplace_back(forces[same].y);
+    std::vector<Cell> row{2 * std::numbers::pi * periods, stator.x, stator.y, rotor.x,
+                          rotor.y};
+    for (const auto& own : forces) {
+      row.emplace_back(own[same].x);
+      row.emplace_back(own[same].y);
     }
     for (const auto& [name, place] : outputs)
       row.emplace_back(motion::shown_at(motion, same, place));
@@ -322,7 +385,13 @@ Exploration explore_contact(const MotionRequest& request)
 {
   const Parameters parameters = machine_of(request, request.frequency, request.frequency);
   const Bearing& bearing = parameters.bearing;
-  auto columns = contact_columns;
+  std::vector<Column> columns{
+      {"t_over_T", "-", "time over the period, 0 to 2"},
+      {"ball", "-", "j of Eq. 3"},
+      {"Q", "N", "Eq. 5, force of the ball"},
+      time_column,
+      {"angle", "rad", "theta_j of Eq. 3, modulo 2 pi"},
+      {"stress", "N/mm^2", "largest pressure of Hertz on the races"}};
   if (bearing.pressure == 0) columns.pop_back();
   const std::size_t bearings = 1 + parameters.further.size();
   if (bearings > 1)
@@ -339,18 +408,20 @@ Exploration explore_contact(const MotionRequest& request)
   for (std::size_t b = 0; b < bearings; ++b) {
     const motion::Motion& motion = at.found.motion;
     const Bearing one = bearings_of(at.found.machine)[b];
-    const auto evolution = motion::contact_evolution(at.found.machine, motion, 2, b);
-    for (std::size_t k = 0; k < evolution.t_over_period.size(); ++k)
-      for (std::size_t j = 0; j < evolution.ball_force[k].size(); ++j) {
-        const double turns = evolution.t_over_period[k], q = evolution.ball_force[k][j];
+    const auto [times, forces] =
+        motion::contact_evolution(at.found.machine, motion, 2, b);
+    for (std::size_t k = 0; k < times.size(); ++k)
+      for (std::size_t j = 0; j < forces[k].size(); ++j) {
+        const double q = forces[k][j];
         const double angle = one.cage_angle(motion.phase(k)) / angular(1) +
                              static_cast<double>(j) / one.balls;
-        std::vector<Cell> row{turns};
-        if (bearings > 1) row.emplace_back(b + 1);
-        for (double value :
-             {static_cast<double>(j + 1), q, turns / at.found.base_frequency,
-              angular(angle - std::floor(angle)), 1e-6 * one.pressure * std::cbrt(q)})
-          row.emplace_back(value);
+        std::vector<Cell> row{times[k],
+                              j + 1,
+                              q,
+                              times[k] / at.found.base_frequency,
+                              angular(angle - std::floor(angle)),
+                              1e-6 * one.pressure * std::cbrt(q)};
+        if (bearings > 1) row.insert(row.begin() + 1, b + 1);
         table.row(std::move(row));
       }
   }

@@ -1,78 +1,20 @@
 /**
-# explore orbit, explore contact
+# One motion at one speed, and what all commands share
 
-One motion of one machine at one speed, by harmonic balance or in time, as a table. */
+`explore orbit` and `explore contact` print a motion, by harmonic balance or in time; the
+other commands read their machine, bound their work and end their tables likewise. */
 #pragma once
 
-#include <optional>
-#include <string>
-
-#include "io/budget.hpp"
-#include "io/output_file.hpp"
-#include "io/table.hpp"
+#include "explore/commands.hpp"
 #include "model/parameters.hpp"
+#include "motion/judge.hpp"
 #include "motion/lines.hpp"
 
 namespace rotor_stator::explore {
 
-/** --budget: evaluations of the force or, with an s, seconds of the clock. */
-struct Allowance {
-  double evaluations = 0, seconds = 0;  ///< one of them
-  Clock::time_point end = {};           ///< of the seconds
-
-  bool is_over() const { return seconds > 0 && Clock::now() >= end; }
-  std::string words() const;  ///< "the budget of 60 s"
-};
-
-/** What the options of all commands ask for, each in its range. */
-struct Request {
-  std::string parameter_file;
-  std::optional<int> harmonics;     ///< m; without it 6, or what the command knows better
-  std::optional<int> samples;       ///< N
-  double newton_tolerance = 1e-10;  ///< relative
-  std::optional<Allowance> budget;
-  int subharmonic = 1;       ///< K: motions of period KT
-  std::string columns = {};  ///< names, "all", or empty: the usual ones
-  TableFormat format = TableFormat::tsv;
-  bool quiet = false;                                  ///< no progress on stderr
-  std::optional<std::string> plot = {}, overlay = {};  ///< files
-  bool force = false;                                  ///< outputs replace any file
-  bool rpm = false;  ///< the figure's axis of speeds in turns a minute
-};
-
 /** Those that find a periodic motion, stable or not: harmonic balance and shooting. */
 inline const std::vector<std::string> periodic_methods{"aft", "shooting"};
 bool is_periodic(const std::string& method);
-
-struct MotionRequest : Request {
-  double frequency = 0;  ///< [Hz]
-  /** What the machine does from rest; or one of `periodic_methods`, or a time method. */
-  std::string method = "auto";
-  std::optional<double> tolerance;  ///< of displacement, relative
-  std::optional<int> lines = {};    ///< of the settled motion, with two frequencies (aft)
-  int points = 256;                 ///< P
-  double local_error = 1e-11;       ///< GSL's methods, relative
-  double step = 0;                  ///< rk4 [s]; 0: from K_H
-  double longest = 0;     ///< 0: as settle chooses; transient at most after t = 0 [s]
-  int periods = 1;        ///< base periods that are printed
-  bool stability = true;  ///< Floquet multipliers in the header (aft)
-};
-
-struct Exploration {
-  Table table;
-  std::vector<NamedContent> files = {};  ///< beside the table
-  std::string unfinished = {};  ///< why a branch stopped early; empty when it did not
-  std::string drawn = {};       ///< the table of the figure, where it is another one
-  bool is_written = false;      ///< row by row, on stdout
-};
-
-/** Throw BadInput for options that contradict each other, NoSolution when nothing was
-    found. */
-Exploration explore_orbit(const MotionRequest& request);
-Exploration explore_contact(const MotionRequest& request);
-
-/**
-## What the other commands need too */
 
 /** A table of this length takes about a second and 0.4 GB to write. */
 constexpr int most_rows = 1 << 20;
@@ -90,6 +32,22 @@ Parameters machine_of(const Request& request, double from, double to,
 
 /** `machine` with its doubts up to a speed [Hz]. */
 Parameters doubted(Parameters machine, double highest);
+
+/** Of Hertz, above which a ball marks its race for good [Pa]. */
+inline constexpr double most_pressure = 4e9;
+
+/** Doubts about the machine and the highest speed [Hz] that it is asked for, a sentence
+    each. */
+std::vector<std::string> doubts(const Parameters& machine, double highest);
+
+/** A value, or the largest number that is printed, 1e300, where it is beyond. */
+double printable_size(double value);
+
+/** n d_m, by which makers bound the speed [mm/min]; 0 where the sizes are not known. */
+double speed_value(const Bearing& bearing, double hertz);
+
+/**
+## A motion */
 
 /** Throws BadInput for a time method that does not integrate such bodies. */
 void require_method_of(const Parameters& parameters, const std::string& method);
@@ -121,6 +79,14 @@ struct Computed {
 Computed computed(const Parameters& parameters, const MotionRequest& request,
                   int open_periods, Table& table);
 
+/** m where none is asked for. */
+inline constexpr int usual_harmonics = 6;
+
+/** What harmonic balance finds. Throws BadInput for options that the machine does not
+    allow, NoSolution when nothing was found. */
+FoundMotion balance_motion(const Parameters& parameters, const MotionRequest& request,
+                           const OperationBudget& budget, Table& table);
+
 /** Throws BadInput unless --from is below --to. */
 void require_range(double from, double to);
 
@@ -137,11 +103,11 @@ OperationBudget budget_of(const Request& request, double seconds,
                           const Parameters& parameters);
 
 /** So many evaluations, and no longer than a user's seconds. */
-OperationBudget budget_until(const std::optional<Allowance>& allowed, double evaluations,
+OperationBudget budget_until(const Allowance& allowed, double evaluations,
                              const std::string& option = "");
 
 /** Of one motion of many: a user's seconds are those of the whole run. */
-OperationBudget budget_of_each(const std::optional<Allowance>& allowed, double seconds,
+OperationBudget budget_of_each(const Allowance& allowed, double seconds,
                                const Parameters& parameters);
 
 /** The key `contact`, with a warning where no ball touched; what was spent; both. */
@@ -157,5 +123,38 @@ void put_regime(Table& table, int period, const std::string& otherwise = "undeci
 
 /** The key `complete`, and what is missing. */
 void put_complete(Table& table, const std::string& missing);
+
+/** `base` with its period, where a frequency [Hz] has one. */
+void put_base(Table& table, const std::string& base, double frequency);
+
+/** `NAME_largest` and `NAME_rms` of a difference of displacements, and what it is. The
+    rms is left out where nothing moves about the mean. */
+void put_difference(Table& table, const std::string& name, const motion::Error& error,
+                    const std::string& meaning);
+
+/** What stands behind a verdict, as keys; that it is not tested, without one. */
+void put_verdict(Table& table, const Parameters& parameters,
+                 const motion::Verdict* verdict, int turns);
+
+/** Of a spectrum, and of the waterfall of a branch or a run-up. */
+extern const std::vector<Column> line_columns;
+
+/** The rows of a motion at the speed `frequency` [Hz], down to `smallest` of its largest
+    line; names have k_cage up to n `passages`. False where no line is above rounding. */
+bool add_lines(Table& table, const std::vector<Bearing>& bearings, double frequency,
+               motion::Lines all, int passages, double smallest);
+
+/** Takes a row, as its line and its cells. */
+using TakeRow =
+    std::function<void(const std::string& row, const std::vector<std::string>& cells)>;
+
+/** Calls `take` for each whole row. Throws BadInput unless the table in `file`, the value
+    of --resume, begins as `beginning` does, or is cut off within it; `what`: a map or a
+    response. */
+void each_row_of(const std::string& file, const std::string& what,
+                 const std::string& beginning, const TakeRow& take);
+
+/** The finite number that a cell is, as tables write it; nothing for another cell. */
+std::optional<double> number_of(const std::string& cell);
 
 }  // namespace rotor_stator::explore

@@ -1,4 +1,9 @@
-#include "explore/plot.hpp"
+/**
+# Figures of what explore computed
+
+Drawn by a script of the folder figures, in the source tree or installed, with Matplotlib.
+ */
+#include "explore/commands.hpp"
 
 #include <fcntl.h>
 #include <spawn.h>
@@ -54,17 +59,6 @@ std::string temporary_folder()
   return name;
 }
 
-/** The folder in which a script works, gone when it has. */
-struct Workplace {
-  Temporary folder{temporary_folder()}, log{folder.name() + "/log"},
-      table{folder.name() + "/table.tsv"}, figure;
-
-  explicit Workplace(const std::string& suffix = "")
-      : figure(folder.name() + "/figure" + suffix)
-  {
-  }
-};
-
 /** Status 0 where both can be imported; to import them takes ten times as long. */
 const std::string has_modules =
     "import sys; from importlib.util import find_spec; "
@@ -106,25 +100,27 @@ void require_plot(const std::string& file, const std::string& script)
   if (suffix != ".svg" && suffix != ".png" && suffix != ".pdf")
     throw BadInput("--plot '" + file + "': must end in .svg, .png or .pdf");
   script_file(script);
-  const Workplace place;
-  if (!run_python({has_modules}, place.log.name()))
+  const Temporary folder(temporary_folder());  // that there can be one
+  if (!run_python({has_modules}, "/dev/null"))
     throw BadInput("--plot: needs Matplotlib in " + python() +
                    ": install python3-matplotlib, or name another Python in PYTHON");
 }
 
 std::string plot(const std::string& file, const std::string& script,
-                 const std::string& table, const std::optional<std::string>& overlay)
+                 const std::string& table, const File& overlay)
 try {
-  const Workplace place(path(file).extension());
-  write_files({{place.table.name(), table}});
-  std::vector<std::string> words{isolated + run_script, script_file(script),
-                                 place.table.name(), place.figure.name()};
+  const Temporary folder(temporary_folder()), log(folder.name() + "/log"),
+      drawn(folder.name() + "/table.tsv"),
+      figure(folder.name() + "/figure" + std::string(path(file).extension()));
+  write_files({{drawn.name(), table}});
+  std::vector<std::string> words{isolated + run_script, script_file(script), drawn.name(),
+                                 figure.name()};
   if (overlay) words.push_back(*overlay);
-  if (run_python(words, place.log.name())) {
-    write_files({{file, content_of(place.figure.name())}});
+  if (run_python(words, log.name())) {
+    write_files({{file, content_of(figure.name())}});
     return "";
   }
-  std::string why = content_of(place.log.name());
+  std::string why = content_of(log.name());
   while (!why.empty() && why.back() == '\n') why.pop_back();
   if (why.empty()) why = "ended without a word";
   return "--plot: " + script + ": " + printable(why.substr(why.rfind('\n') + 1));

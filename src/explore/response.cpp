@@ -5,8 +5,6 @@
 #include <limits>
 
 #include "balance/bearing_problem.hpp"
-#include "explore/response_branch.hpp"
-#include "explore/response_sweep.hpp"
 #include "io/errors.hpp"
 #include "io/output_file.hpp"
 #include "model/base_period.hpp"
@@ -17,28 +15,11 @@ namespace rotor_stator::explore {
 
 namespace {
 
-/** Component k of a value in each direction. */
-template <Displacements ResponseRow::*what, int k>
-constexpr auto part = [](const ResponseRow& r) -> Cell { return (r.*what)[k]; };
 using Row = ResponseRow;
 
-const ResponseFields usual_fields{
-    {"f", "Hz", "speed of rotation", &Row::frequency},
-    {"amp_x_s", "m", "half peak-to-peak of x_s", part<&Row::amplitude, 0>},
-    {"amp_y_s", "m", "half peak-to-peak of y_s", part<&Row::amplitude, 1>},
-    {"amp_x_r", "m", "half peak-to-peak of x_r", part<&Row::amplitude, 2>},
-    {"amp_y_r", "m", "half peak-to-peak of y_r", part<&Row::amplitude, 3>}};
-
-const ResponseFields means{{"mean_x_s", "m", "mean of x_s", part<&Row::mean, 0>},
-                           {"mean_y_s", "m", "mean of y_s", part<&Row::mean, 1>},
-                           {"mean_x_r", "m", "mean of x_r", part<&Row::mean, 2>},
-                           {"mean_y_r", "m", "mean of y_r", part<&Row::mean, 3>}};
-
-const ResponseFields rms{
-    {"rms_x_s", "m", "rms of x_s about the mean", part<&Row::rms, 0>},
-    {"rms_y_s", "m", "rms of y_s about the mean", part<&Row::rms, 1>},
-    {"rms_x_r", "m", "rms of x_r about the mean", part<&Row::rms, 2>},
-    {"rms_y_r", "m", "rms of y_r about the mean", part<&Row::rms, 3>}};
+const ResponseFields usual_fields =
+    ResponseFields{{"f", "Hz", "speed of rotation", &Row::frequency}} +
+    displacement_fields<Row>("amp_", "half peak-to-peak of ", &Row::amplitude);
 
 const ResponseFields contact_fields{
     {"amp_F_x", "N", "half peak-to-peak of F_x", [](auto& r) { return r.force.x; }},
@@ -46,13 +27,15 @@ const ResponseFields contact_fields{
     {"contact_share", "-", "share of the time with a loaded ball", &Row::contact_share},
     {"ball_load", "N", "largest force of a ball", &Row::ball_load}};
 
-const std::vector<std::string> displacement_names{"x_s", "y_s", "x_r", "y_r"};
-
-/** The row of the displacement whose harmonics are asked for. */
-Eigen::Index displacement_row(const ResponseTask& task)
+/** The row of the displacement whose harmonics are asked for. Throws BadInput. */
+Eigen::Index displacement_row(const ResponseRequest& request)
 {
-  return std::ranges::find(displacement_names, task.request.harmonics_of) -
-         displacement_names.begin();
+  constexpr std::array names{"x_s", "y_s", "x_r", "y_r"};
+  const auto found = std::ranges::find(names, request.harmonics_of);
+  if (found == names.end())
+    throw BadInput("--harmonics-of " + request.harmonics_of +
+                   ": must be one of x_s, y_s, x_r, y_r");
+  return found - names.begin();
 }
 
 /** Throws BadInput for options that do not belong together, before anything is read. */
@@ -65,11 +48,7 @@ void require_options(const ResponseRequest& request)
   if (!request.direction.empty() && request.direction != "up" &&
       request.direction != "down")
     throw BadInput("--direction " + request.direction + ": must be up or down");
-  if (!request.harmonics_of.empty() &&
-      std::ranges::find(displacement_names, request.harmonics_of) ==
-          displacement_names.end())
-    throw BadInput("--harmonics-of " + request.harmonics_of +
-                   ": must be one of x_s, y_s, x_r, y_r");
+  if (!request.harmonics_of.empty()) displacement_row(request);
   if (request.subharmonic > 1 && is_beside)
     throw BadInput("--subharmonic: not together with --save, --restart or --isolated");
   if (request.tolerance &&
@@ -133,17 +112,15 @@ void observe(ResponseRow& row, const Parameters& parameters, const motion::Motio
 ResponseColumns columns_of(const ResponseRequest& request, const Parameters& parameters,
                            const ResponseFields& own, bool is_settled)
 {
-  ResponseFields all = usual_fields;
-  const auto add = [&](const ResponseFields& some) {
-    all.insert(all.end(), some.begin(), some.end());
-  };
-  add(own);
+  ResponseFields all = usual_fields + own;
   const std::size_t usual = all.size();
   if (is_settled)
-    add({{"lyapunov", "1/s", "growth rate of neighbouring motions", &Row::lyapunov}});
-  add(means);
-  if (is_settled) add(rms);
-  add(contact_fields);
+    all.push_back(
+        {"lyapunov", "1/s", "growth rate of neighbouring motions", &Row::lyapunov});
+  all = all + displacement_fields<Row>("mean_", "mean of ", &Row::mean);
+  if (is_settled)
+    all = all + displacement_fields<Row>("rms_", "rms about the mean of ", &Row::rms);
+  all = all + contact_fields;
   if (const double pressure = parameters.bearing.pressure; pressure > 0)
     all.push_back({"stress", "N/mm^2", "largest pressure of Hertz under ball_load",
                    [=](auto& r) { return 1e-6 * pressure * std::cbrt(r.ball_load); }});
@@ -151,7 +128,38 @@ ResponseColumns columns_of(const ResponseRequest& request, const Parameters& par
   return {all, usual, measures};
 }
 
-ResponseTask response_task(const ResponseRequest& request)
+ResponseFields harmonic_fields(const ResponseTask& task, const Harmonics& harmonics)
+{
+  const std::string& whose = task.request.harmonics_of;
+  if (whose.empty()) return {};
+  ResponseFields fields;
+  const bool two = task.has_two_frequencies;
+  for (std::size_t k = 0; const Harmonic& h : harmonics.list()) {
+    const double order = two ? order_of(h, task.machine.bearing)
+                             : h.k_1 * task.passages / task.parameters.turns;
+    const std::string name =
+        whose + format("_%g", h.k_1) + (two ? format("_%g", h.k_2) : "");
+    fields.push_back({name + "_re", "m", format("order %.9g, real part", order),
+                      [=](auto& r) { return r.harmonics[k].real(); }});
+    fields.push_back({name + "_im", "m", format("order %.9g, imaginary part", order),
+                      [=](auto& r) { return r.harmonics[k].imag(); }});
+    ++k;
+  }
+  return fields;
+}
+
+std::vector<std::complex<double>> harmonics_of(const ResponseTask& task,
+                                               const Eigen::MatrixXd& series)
+{
+  if (task.request.harmonics_of.empty()) return {};
+  std::vector<std::complex<double>> all;
+  for (int k = 0; 2 * k < series.cols(); ++k)
+    all.push_back(amplitude(series, k)[displacement_row(task.request)]);
+  return all;
+}
+
+/** The request, checked. */
+static ResponseTask response_task(const ResponseRequest& request)
 {
   require_range(request.from, request.to);
   const Parameters parameters = machine_of(request, request.from, request.to);
@@ -186,36 +194,6 @@ ResponseTask response_task(const ResponseRequest& request)
       settings,         upwards,    budget_of(request, seconds, parameters)};
   take_any_cage(request, task);
   return task;
-}
-
-ResponseFields harmonic_fields(const ResponseTask& task, const Harmonics& harmonics)
-{
-  ResponseFields fields;
-  const std::string& whose = task.request.harmonics_of;
-  if (whose.empty()) return fields;
-  const bool two = task.has_two_frequencies;
-  for (std::size_t k = 0; const Harmonic& h : harmonics.list()) {
-    const double order = two ? order_of(h, task.machine.bearing)
-                             : h.k_1 * task.passages / task.parameters.turns;
-    const std::string name = whose + (two ? format("_%g_%g", 1.0 * h.k_1, 1.0 * h.k_2)
-                                          : format("_%g", 1.0 * h.k_1));
-    fields.push_back({name + "_re", "m", format("order %.9g, real part", order),
-                      [=](auto& r) { return r.harmonics[k].real(); }});
-    fields.push_back({name + "_im", "m", format("order %.9g, imaginary part", order),
-                      [=](auto& r) { return r.harmonics[k].imag(); }});
-    ++k;
-  }
-  return fields;
-}
-
-std::vector<std::complex<double>> harmonics_of(const ResponseTask& task,
-                                               const Eigen::MatrixXd& series)
-{
-  std::vector<std::complex<double>> all;
-  if (task.request.harmonics_of.empty()) return all;
-  for (int k = 0; 2 * k < series.cols(); ++k)
-    all.push_back(amplitude(series, k)[displacement_row(task)]);
-  return all;
 }
 
 Exploration explore_response(const ResponseRequest& request)

@@ -1,11 +1,15 @@
-#include "explore/response_branch.hpp"
+/**
+# explore response along a branch of periodic solutions
+
+By harmonic balance with its folds, on demand the branches beside it, multipliers and
+bifurcations; or by shooting. */
+#include "explore/response.hpp"
 
 #include <algorithm>
 #include <cmath>
 #include <ctime>
 
 #include "balance/bearing_problem.hpp"
-#include "explore/spectrum.hpp"
 #include "io/errors.hpp"
 #include "io/output_file.hpp"
 #include "motion/contact.hpp"
@@ -120,10 +124,6 @@ PeriodicMotion torus_start(const ResponseTask& task)
 /**
 ## The columns */
 
-const ResponseFields branch_fields{
-    {"arc", "-", "scaled arc length from the first point", &ResponseRow::arc},
-    {"newton", "-", "Newton iterations of the corrector", &ResponseRow::newton}};
-
 const ResponseFields stability_fields{
     {"multiplier", "-",
      "largest modulus of the Floquet multipliers of the motion of Eq. 7 found there; -1",
@@ -139,15 +139,14 @@ const ResponseFields stability_fields{
 
 ResponseColumns branch_columns(const ResponseTask& task, const Harmonics& harmonics)
 {
-  ResponseFields own = branch_fields;
-  const auto add = [&](const ResponseFields& some) {
-    own.insert(own.end(), some.begin(), some.end());
-  };
-  if (task.request.stability) add(stability_fields);
+  ResponseFields own{
+      {"arc", "-", "scaled arc length from the first point", &ResponseRow::arc},
+      {"newton", "-", "Newton iterations of the corrector", &ResponseRow::newton}};
+  if (task.request.stability) own = own + stability_fields;
   if (task.request.isolated > 0)
-    add({{"branch", "-", "1 the branch followed, then those beside it",
-          &ResponseRow::branch}});
-  add(harmonic_fields(task, harmonics));
+    own.push_back({"branch", "-", "1 the branch followed, then those beside it",
+                   &ResponseRow::branch});
+  own = own + harmonic_fields(task, harmonics);
   return columns_of(task.request, task.machine, own);
 }
 
@@ -159,14 +158,13 @@ void put_multipliers(ResponseRow& row, const Floquet& floquet)
 }
 
 /** The branch that was followed, as keys. */
-void put_branch(Table& table, const ResponseTask& task, std::size_t folds,
-                long evaluations)
+void put_branch(Table& table, const ResponseTask& task, const Branch& branch)
 {
   table.value("kind", "branch");
   table.value("base", task.base_period);
   table.value("direction", task.upwards ? "up" : "down");
-  table.value("folds", folds);
-  table.value("branch_evaluations", evaluations);
+  table.value("folds", branch.folds.size());
+  table.value("branch_evaluations", branch.evaluations);
 }
 
 std::string stopped_at(const ResponseTask& task, double omega, const std::string& end)
@@ -184,46 +182,67 @@ class BalanceBranch {
 public:
   BalanceBranch(const ResponseTask& task, const PeriodicMotion& found, Table& table,
                 const ResponseColumns& columns, bool has_further)
-      : task_(task), table_(table), fields_(columns.fields), measures_(columns.measures),
-        has_further_(has_further),
+      : task_(task), table_(table), columns_(columns), has_further_(has_further),
         balance_(
             task.has_two_frequencies
                 ? Balance(bearing_problem(task.parameters, found.line, task.budget),
                           found.harmonics)
                 : Balance(bearing_problem(task.parameters, task.samples, task.budget),
                           task.harmonics)),
-        curve_(balance_, task.settings),
-        lines_("Lines of the motions along the branch", line_columns)
+        curve_(balance_, task.settings)
   {
-    describe(lines_, task.machine);
-    const BranchPoint start = task.saved
-                                  ? saved_start(task, curve_, table)
-                                  : point_of(curve_, found.omega, found.x, task.upwards);
-    main_ = follow_branch(curve_, start, task.range(), [&](const BranchPoint& p) {
-      if (task.request.watch)
-        task.request.watch(task.hertz(p.motion.omega), amplitude(p.motion));
-    });
+    describe(lines, task.machine);
+    const BranchPoint start =
+        task.saved ? saved_start(task, curve_, table)
+                   : point_of(curve_, found.omega, found.x, task.upwards);
+    all.push_back(
+        follow_branch(curve_, start, task.range(), [&](const BranchPoint& p) {
+          if (task.request.watch)
+            task.request.watch(task.hertz(p.motion.omega), amplitude(p.motion));
+        }));
   }
-
-  const Branch& main() const { return main_; }
-  bool touches() const { return touches_; }
-  const Table& lines() const { return lines_; }
 
   /** Looks for branches beside it; what is said of each stands in the table's header. */
-  void look_beside();
-
-  /** Adds the rows of all branches. */
-  void add_rows()
+  void look_beside()
   {
-    add_branch(main_, 1);
-    for (std::size_t k = 0; k < beside_.size(); ++k) add_branch(beside_[k].branch, k + 2);
+    const OperationBudget& budget = task_.budget;
+    const auto starts = motion::other_starts(
+        task_.parameters, task_.range(), task_.harmonics, task_.request.isolated,
+        static_cast<std::uint64_t>(task_.request.seed), budget);
+    const auto beside = isolated_branches(curve_, all[0], starts.candidates,
+                                          task_.range());
+    for (const auto& [branch, candidate] : beside) {
+      all.push_back(branch);
+      const auto [low, high] = std::ranges::minmax_element(
+          branch.points, {}, [](auto& p) { return p.motion.omega; });
+      table_.row_line("branch",
+                      {all.size(), task_.hertz(low->motion.omega),
+                       task_.hertz(high->motion.omega), branch.points.size(),
+                       branch.folds.size(), branch.covered ? "complete" : "incomplete"});
+      table_.note(
+          format("branch %zu: off the branches before it, found at %g Hz from %s; %s",
+                 all.size(), task_.hertz(candidate.omega), candidate.start.c_str(),
+                 branch.end.c_str()));
+    }
+    if (budget.used_up())
+      missing_beside_ =
+          "the budget is used up, more with --budget: not every start was followed";
+    else if (starts.cut_off > 0)
+      missing_beside_ =
+          format("the budget cut off %d of %d time integrations, more with --budget",
+                 starts.cut_off, task_.request.isolated);
+    table_.value("other_branches", beside.size());
+    table_.value("other_starts", starts.candidates.size());
   }
 
-  std::vector<const Branch*> all() const
+  void add_rows()
   {
-    std::vector<const Branch*> branches{&main_};
-    for (const IsolatedBranch& other : beside_) branches.push_back(&other.branch);
-    return branches;
+    for (std::size_t number = 1; const Branch& branch : all) {
+      for (const StablePoint& at : multipliers_of(branch, number).points)
+        add_row(at, number);
+      if (task_.request.isolated > 0) table_.gap();
+      ++number;
+    }
   }
 
   /** The first thing that is missing, in the order in which it was asked for. */
@@ -231,13 +250,18 @@ public:
   {
     /** A branch of period KT meets that of period T, and comes back as the same motions a
         turn later. */
-    const bool is_whole = main_.covered || (task_.request.subharmonic > 1 &&
-                                            main_.kind == BranchEnd::came_back);
+    const Branch& main = all[0];
+    const bool is_whole = main.covered || (task_.request.subharmonic > 1 &&
+                                           main.kind == BranchEnd::came_back);
     const std::string& file = task_.parameters.file;
-    if (!is_whole) return stopped_at(task_, main_.points.back().motion.omega, main_.end);
+    if (!is_whole) return stopped_at(task_, main.points.back().motion.omega, main.end);
     if (!missing_beside_.empty()) return file + ": isolated branches: " + missing_beside_;
     return missing_multipliers_.empty() ? "" : file + ": " + missing_multipliers_;
   }
+
+  std::vector<Branch> all;  ///< the one that is followed, then those beside it
+  Table lines{"Lines of the motions along the branch", line_columns};  ///< of the first
+  bool touches = false;
 
 private:
   Eigen::VectorXd amplitude(const PeriodicMotion& motion)
@@ -248,52 +272,16 @@ private:
   }
 
   BranchStability multipliers_of(const Branch& branch, std::size_t number);
-  void add_branch(const Branch& branch, std::size_t number);
   void add_row(const StablePoint& at, std::size_t number);
 
   const ResponseTask& task_;
   Table& table_;
-  const ResponseFields fields_;
-  const Measures measures_;
+  const ResponseColumns& columns_;
   bool has_further_;  ///< columns that need the instants
   Balance balance_;
   BalanceCurve curve_;
-  Table lines_;  ///< of the followed branch, where they are asked for
-  Branch main_;
-  std::vector<IsolatedBranch> beside_;
-  bool touches_ = false;
   std::string missing_beside_, missing_multipliers_;
 };
-
-void BalanceBranch::look_beside()
-{
-  const OperationBudget& budget = task_.budget;
-  const auto starts = motion::other_starts(
-      task_.parameters, task_.range(), task_.harmonics, task_.request.isolated,
-      static_cast<std::uint64_t>(task_.request.seed), budget);
-  beside_ = isolated_branches(curve_, main_, starts.candidates, task_.range());
-  int number = 1;
-  for (const auto& [branch, candidate] : beside_) {
-    const auto [low, high] = std::ranges::minmax_element(
-        branch.points, {}, [](auto& p) { return p.motion.omega; });
-    table_.row_line("branch",
-                    {++number, task_.hertz(low->motion.omega),
-                     task_.hertz(high->motion.omega), branch.points.size(),
-                     branch.folds.size(), branch.covered ? "complete" : "incomplete"});
-    table_.note(format(
-        "branch %d: off the branches before it, found at %g Hz from %s; %s", number,
-        task_.hertz(candidate.omega), candidate.start.c_str(), branch.end.c_str()));
-  }
-  if (budget.used_up())
-    missing_beside_ =
-        "the budget is used up, more with --budget: not every start was followed";
-  else if (starts.cut_off > 0)
-    missing_beside_ =
-        format("the budget cut off %d of %d time integrations, more with --budget",
-               starts.cut_off, task_.request.isolated);
-  table_.value("other_branches", beside_.size());
-  table_.value("other_starts", starts.candidates.size());
-}
 
 /** With the multipliers where they are asked for. The header says how many points have no
     verdict, which bifurcations were seen and not located, and where the others are. */
@@ -326,16 +314,10 @@ BranchStability BalanceBranch::multipliers_of(const Branch& branch, std::size_t 
   return stability;
 }
 
-void BalanceBranch::add_branch(const Branch& branch, std::size_t number)
-{
-  for (const StablePoint& at : multipliers_of(branch, number).points) add_row(at, number);
-  if (task_.request.isolated > 0) table_.gap();
-}
-
 void BalanceBranch::add_row(const StablePoint& at, std::size_t number)
 {
   PeriodicMotion motion = at.point.motion;
-  touches_ = touches_ || motion::touches(task_.parameters, motion);
+  touches = touches || motion::touches(task_.parameters, motion);
   ResponseRow row{.frequency = task_.hertz(motion.omega),
                   .arc = at.point.arc,
                   .newton = motion.newton.iterations,
@@ -347,18 +329,19 @@ void BalanceBranch::add_row(const StablePoint& at, std::size_t number)
   if (has_further_ || has_lines || !task_.request.harmonics_of.empty())
     motion.bodies = body_series(task_.parameters, motion);
   row.harmonics = harmonics_of(task_, motion.bodies);
+  const Measures& measures = columns_.measures;
   if (has_further_)
     observe(row, task_.parameters,
             task_.has_two_frequencies
                 ? motion::motion_of(task_.parameters, motion, 128,
-                                    measures_.empty() ? 64 : Measures::open_periods)
+                                    measures.empty() ? 64 : Measures::open_periods)
                 : motion::motion_of(motion, std::max(256, 4 * task_.harmonics + 4)),
-            motion.omega, !task_.has_two_frequencies, measures_);
-  table_.row(fields_, row);
+            motion.omega, !task_.has_two_frequencies, measures);
+  table_.row(columns_.fields, row);
   if (!has_lines) return;
-  auto all = motion::lines_of(task_.machine.bearing, motion, task_.parameters.turns);
-  for (motion::Line& line : all.lines) line.order *= task_.passages;
-  add_lines(lines_, bearings_of(task_.machine), row.frequency, all, 128, 1e-4);
+  auto found = motion::lines_of(task_.machine.bearing, motion, task_.parameters.turns);
+  for (motion::Line& line : found.lines) line.order *= task_.passages;
+  add_lines(lines, bearings_of(task_.machine), row.frequency, found, 128, 1e-4);
 }
 
 }  // namespace
@@ -376,35 +359,34 @@ Exploration branch_by_balance(ResponseTask task)
     if (!two) task.harmonics = found.harmonics.count();
     task.samples = found.samples;
   }
-  const auto [fields, usual, measures] =
+  const ResponseColumns columns =
       branch_columns(task, two ? found.harmonics : Harmonics(task.harmonics));
-  Table table("Frequency response along the branch", fields);
-  const bool has_further = table.choose(request.columns, usual, request.plot.has_value());
+  Table table("Frequency response along the branch", columns.fields);
+  const bool has_further =
+      table.choose(request.columns, columns.usual, request.plot.has_value());
   if (!task.saved) table.value("start", one_word(found.start));
-  BalanceBranch branch(task, found, table, {fields, usual, measures}, has_further);
-  const Branch& main = branch.main();
+  BalanceBranch branch(task, found, table, columns, has_further);
   describe(table, task.machine);
   const int turns = task.parameters.turns;
   table.value("method", "aft");
   table.value("harmonics", two ? found.harmonics.count() : task.harmonics / turns);
   table.value("samples", two ? found.line.samples : task.samples / turns);
-  put_branch(table, task, main.folds.size(), main.evaluations);
+  put_branch(table, task, branch.all[0]);
   if (two)
     table.note(format("harmonics of all points of the branch, z = %d", found.line.z));
   table.note(
       format("pseudo-arc-length, relative tolerance %g", request.newton_tolerance));
-  table.note("end of the branch: " + main.end);
+  table.note("end of the branch: " + branch.all[0].end);
   if (request.isolated > 0) branch.look_beside();
   branch.add_rows();
   std::vector<NamedContent> files;
   if (request.save)
-    files.push_back(
-        {*request.save, branch_text(task.parameters, task.harmonics, task.samples,
-                                    task.upwards, branch.all())});
-  if (request.waterfall) files.push_back({*request.waterfall, branch.lines().text()});
+    files.push_back({*request.save, branch_text(task.parameters, task.harmonics,
+                                                task.samples, task.upwards, branch.all)});
+  if (request.waterfall) files.push_back({*request.waterfall, branch.lines.text()});
   const std::string unfinished = branch.unfinished();
   put_complete(table, unfinished);
-  conclude(table, task.machine, branch.touches(), task.budget);
+  conclude(table, task.machine, branch.touches, task.budget);
   if (request.times && unfinished.empty())
     std::fprintf(stderr, "cpu_machine_s: %.5f\ncpu_branch_s: %.5f\n",
                  static_cast<double>(read) / CLOCKS_PER_SEC,
@@ -442,7 +424,7 @@ Exploration branch_by_shooting(const ResponseTask& task)
   table.value("start", one_word(start));
   describe(table, machine);
   table.value("method", "shooting");
-  put_branch(table, task, branch.folds.size(), branch.evaluations);
+  put_branch(table, task, branch);
   table.note("end of the branch: " + branch.end);
   int undecided = 0;
   bool touches = false;

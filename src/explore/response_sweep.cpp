@@ -1,4 +1,11 @@
-#include "explore/response_sweep.hpp"
+/**
+# explore response, speed by speed
+
+A row for every speed, both ends included, written as soon as it is known: the motion that
+integration from rest settles on or, with --direction up or down, from the motion at the
+speed before. With --method aft and --tolerance: the solution with the harmonics that it
+needs, from that at the speed before. */
+#include "explore/response.hpp"
 
 #include <algorithm>
 #include <atomic>
@@ -6,8 +13,6 @@
 #include <span>
 #include <utility>
 
-#include "explore/resume.hpp"
-#include "explore/settled_motion.hpp"
 #include "io/errors.hpp"
 #include "io/output_file.hpp"
 #include "io/parallel.hpp"
@@ -18,27 +23,46 @@ namespace rotor_stator::explore {
 
 namespace {
 
-const ResponseFields period_field{
-    {"period", "-", "K base periods; 0 chaotic, -1 quasi-periodic, -2 undecided",
-     &ResponseRow::period}};
-const ResponseFields error_field{
-    {"error", "-",
-     "of the solution: the larger of the largest difference of a displacement over the "
-     "largest displacement and the rms about the mean",
-     &ResponseRow::error}};
-
 using Rows = std::vector<Attempt<ResponseRow>>;
 
 /** What the rows have in common. */
 struct Sweep {
+  Sweep(const ResponseRequest& asked, const Parameters& of, const char* title,
+        ResponseColumns all, const std::string& towards, int count, double seconds_of_one)
+      : request(asked), machine(of), columns(std::move(all)),
+        table(title, columns.fields),
+        has_further(table.choose(asked.columns, columns.usual, asked.plot.has_value())),
+        direction(towards), is_chain(towards != "rest"),
+        speeds(evenly_spaced(asked.from, asked.to, asked.count.value_or(count))),
+        evaluations_of_one(budget_of_each({}, seconds_of_one, of).left())
+  {
+    if (direction == "down") std::ranges::reverse(speeds);
+  }
+
+  void describe(const std::string& method, const std::string& base,
+                const std::string& note)
+  {
+    rotor_stator::describe(table, machine);
+    table.value("method", method);
+    table.value("kind", "sweep");
+    table.value("base", base);
+    table.value("direction", direction);
+    if (request.tolerance) table.value("tolerance", *request.tolerance);
+    if (request.longest > 0) table.value("longest", request.longest);
+    table.value("speeds", speeds.size());
+    table.note(note);
+  }
+
   const ResponseRequest& request;
   const Parameters& machine;
-  std::vector<double> speeds;  ///< [Hz], in the order in which they are computed
-  bool is_chain;               ///< each from the one before
-  std::size_t side_by_side;    ///< speeds that are given to `rows_at`
-  double evaluations_of_one;
+  const ResponseColumns columns;
   Table table;
-  ResponseFields fields;
+  bool has_further;  ///< whether columns beside the usual ones are wanted
+  std::string direction;
+  bool is_chain;               ///< each from the one before
+  std::vector<double> speeds;  ///< [Hz], in the order in which they are computed
+  double evaluations_of_one;
+  std::size_t side_by_side = 1;  ///< speeds that are given to `rows_at`
 
   /** The rows of some speeds [Hz], each paid from its own budget. */
   std::function<Rows(std::span<const double>, std::span<const OperationBudget>)> rows_at;
@@ -46,11 +70,8 @@ struct Sweep {
   std::atomic<bool> touches = false;
 };
 
-/** What a speed has come to, and the evaluations that it took. */
-struct Ended {
-  Attempt<ResponseRow> row;
-  double spent;
-};
+/** A row, and the evaluations that it took. */
+using Ended = std::pair<Attempt<ResponseRow>, double>;
 
 /** Of speeds side by side, at most `each` evaluations for one. */
 std::vector<Ended> ended_at(const Sweep& sweep, std::span<const double> speeds,
@@ -61,7 +82,7 @@ std::vector<Ended> ended_at(const Sweep& sweep, std::span<const double> speeds,
     budgets.push_back(budget_until(sweep.request.budget, each));
   std::vector<Ended> all;
   for (Rows rows = sweep.rows_at(speeds, budgets); auto& row : rows)
-    all.push_back({std::move(row), budgets[all.size()].spent()});
+    all.emplace_back(std::move(row), budgets[all.size()].spent());
   return all;
 }
 
@@ -90,7 +111,7 @@ std::vector<std::vector<Cell>> rows_to_resume(const Sweep& sweep)
 Exploration computed(Sweep& sweep)
 {
   const ResponseRequest& request = sweep.request;
-  const auto& budget = request.budget;
+  const Allowance& budget = request.budget;
   Table& table = sweep.table;
   const auto known = rows_to_resume(sweep);
   const bool is_streamed = request.format != TableFormat::json;
@@ -107,9 +128,8 @@ Exploration computed(Sweep& sweep)
   double spent = 0;
   std::size_t lost = 0, next = known.size();
   std::string missing, first_lost;
-  const double most = budget && budget->evaluations > 0
-                          ? budget->evaluations
-                          : std::numeric_limits<double>::infinity();
+  const double most = budget.evaluations > 0 ? budget.evaluations
+                                             : std::numeric_limits<double>::infinity();
   const std::size_t block = sweep.side_by_side,
                     group = sweep.is_chain
                                 ? 1
@@ -124,8 +144,7 @@ Exploration computed(Sweep& sweep)
           return ended_at(
               sweep, speeds.subspan(first, std::min(block, speeds.size() - first)), each);
         });
-    const bool is_short =
-        each < sweep.evaluations_of_one || (budget && budget->is_over());
+    const bool is_short = each < sweep.evaluations_of_one || budget.is_over();
     std::vector<Ended> ended;
     for (const auto& one : blocks) ended.insert(ended.end(), one.begin(), one.end());
     for (auto& [row, cost] : ended) {
@@ -135,7 +154,7 @@ Exploration computed(Sweep& sweep)
       if (spent > most || (is_short && !is_known)) {
         missing =
             format("%s: %s is used up at %g Hz; ", request.parameter_file.c_str(),
-                   budget->words().c_str(), frequency) +
+                   budget.words().c_str(), frequency) +
             (sweep.is_chain ? "more with --budget"
                             : "--resume FILE goes on with the rows that are written");
         break;
@@ -144,7 +163,7 @@ Exploration computed(Sweep& sweep)
       try {
         const ResponseRow& found = row.get();
         begin();
-        table.row(sweep.fields, found);
+        table.row(sweep.columns.fields, found);
         if (request.watch)
           request.watch(frequency,
                         Eigen::Map<const Eigen::Vector4d>(found.amplitude.data()));
@@ -182,22 +201,22 @@ bool touches_somewhere(motion::Answer& answer)
 
 /** The row of a settled motion. */
 ResponseRow row_of(motion::Answer& answer, const motion::Observation& seen,
-                   const motion::Request& asked, bool has_records,
-                   const Measures& measures, std::atomic<bool>& touches,
+                   const motion::Request& asked, Sweep& sweep,
                    const OperationBudget& budget)
 {
+  const Measures& measures = sweep.columns.measures;
   ResponseRow row{.frequency = asked.omega / angular(1),
                   .amplitude = seen.amplitude,
                   .period = answer.period_number()};
-  if (has_records) {
+  if (sweep.has_further) {
     motion::Answer closed = answer;
     if (asked.is_measured || measures.empty()) complete(closed, asked, budget);
     row.lyapunov = closed.settled.lyapunov.value;
     answer = measures.empty() ? std::move(closed) : whole_motion(answer, asked, budget);
     observe(row, answer.machine, answer.motion, answer.omega, closes(answer), measures);
-    if (row.contact_share > 0) touches = true;
-  } else if (!touches && touches_somewhere(answer)) {
-    touches = true;
+    if (row.contact_share > 0) sweep.touches = true;
+  } else if (!sweep.touches && touches_somewhere(answer)) {
+    sweep.touches = true;
   }
   row.mean = seen.mean;
   row.rms = seen.rms;
@@ -217,29 +236,16 @@ Exploration settled_response(const ResponseRequest& request)
                    ", where each speed starts from the one before");
   const Parameters machine = machine_of(request, request.from, request.to);
   const Patience patience = machine.bodies->patience();
-  const auto [fields, usual, measures] = columns_of(request, machine, period_field, true);
-  Sweep sweep{
-      request,
-      machine,
-      evenly_spaced(request.from, request.to, request.count.value_or(patience.speeds)),
-      direction != "rest",
-      direction == "rest" && machine.bodies->takes_explicit_steps() ? 32U : 1U,
-      budget_of_each({}, patience.settling, machine).left(),
-      Table("Frequency response, what the machine does", fields),
-      fields,
-      {}};
-  if (direction == "down") std::ranges::reverse(sweep.speeds);
-  const bool has_records =
-      sweep.table.choose(request.columns, usual, request.plot.has_value());
-  describe(sweep.table, machine);
-  sweep.table.value("method", machine.bodies->time_method(machine));
-  sweep.table.value("kind", "sweep");
-  sweep.table.value("base", base_period(machine).words());
-  sweep.table.value("direction", direction);
-  if (request.tolerance) sweep.table.value("tolerance", *request.tolerance);
-  if (request.longest > 0) sweep.table.value("longest", request.longest);
-  sweep.table.value("speeds", sweep.speeds.size());
-  sweep.table.note(
+  Sweep sweep(request, machine, "Frequency response, what the machine does",
+              columns_of(request, machine,
+                         {{"period", "-",
+                           "K base periods; 0 chaotic, -1 quasi-periodic, -2 undecided",
+                           &ResponseRow::period}},
+                         true),
+              direction, patience.speeds, patience.settling);
+  if (!sweep.is_chain && machine.bodies->takes_explicit_steps()) sweep.side_by_side = 32;
+  sweep.describe(
+      machine.bodies->time_method(machine), base_period(machine).words(),
       "amplitudes over the K base periods of a motion that closes, over 256 of "
       "another one");
   const bool needs_multipliers =
@@ -264,8 +270,7 @@ Exploration settled_response(const ResponseRequest& request)
       rows.push_back(attempt([&] {
         motion::Answer& answer = all[k].answer.get();
         if (sweep.is_chain) state = answer.settled.at.state;
-        return row_of(answer, all[k].seen.get(), questions[k].request, has_records,
-                      measures, sweep.touches, budgets[k]);
+        return row_of(answer, all[k].seen.get(), questions[k].request, sweep, budgets[k]);
       }));
     return rows;
   };
@@ -276,31 +281,17 @@ Exploration response_to_tolerance(const ResponseTask& task)
 {
   const ResponseRequest& request = task.request;
   const double tolerance = *request.tolerance;
-  ResponseFields own = error_field;
-  for (auto& field : harmonic_fields(task, Harmonics(task.harmonics)))
-    own.push_back(std::move(field));
-  const auto [fields, usual, measures] = columns_of(request, task.machine, own);
-  Sweep sweep{request,
-              task.machine,
-              evenly_spaced(request.from, request.to, request.count.value_or(101)),
-              true,
-              1,
-              budget_of_each({}, 1, task.machine).left(),
-              Table("Frequency response at evenly spaced speeds", fields),
-              fields,
-              {}};
-  if (!task.upwards) std::ranges::reverse(sweep.speeds);
-  const bool has_further =
-      sweep.table.choose(request.columns, usual, request.plot.has_value());
-  describe(sweep.table, task.machine);
-  sweep.table.value("method", "aft");
-  sweep.table.value("kind", "sweep");
-  sweep.table.value("base", task.base_period);
-  sweep.table.value("direction", task.upwards ? "up" : "down");
-  sweep.table.value("tolerance", tolerance);
-  sweep.table.value("speeds", sweep.speeds.size());
-  sweep.table.note(
-      "harmonics and samples chosen for each speed, from the solution before");
+  ResponseFields own{
+      {"error", "-",
+       "of the solution: the larger of the largest difference of a displacement over the "
+       "largest displacement and the rms about the mean",
+       &ResponseRow::error}};
+  own = own + harmonic_fields(task, Harmonics(task.harmonics));
+  Sweep sweep(request, task.machine, "Frequency response at evenly spaced speeds",
+              columns_of(request, task.machine, own), task.upwards ? "up" : "down", 101,
+              1);
+  sweep.describe("aft", task.base_period,
+                 "harmonics and samples chosen for each speed, from the solution before");
   Eigen::VectorXd before;
   const auto row_at = [&](double frequency, const OperationBudget& budget) {
     BalanceSearch search{.parameters = task.parameters,
@@ -320,18 +311,15 @@ Exploration response_to_tolerance(const ResponseTask& task)
         harmonics_of(task, resize_harmonics(bodies.reshaped(), 4, task.harmonics)
                                .reshaped(4, 2 * task.harmonics + 1));
     const int points = std::max(256, 4 * at.motion.harmonics.count() + 4);
-    if (has_further)
+    if (sweep.has_further)
       observe(row, task.parameters, motion::motion_of(at.motion, points), at.motion.omega,
-              true, measures);
+              true, sweep.columns.measures);
     if (motion::touches(task.parameters, at.motion)) sweep.touches = true;
     return row;
   };
   sweep.rows_at = [&](std::span<const double> speeds,
-                      std::span<const OperationBudget> budgets) {
-    Rows rows;
-    for (std::size_t k = 0; k < speeds.size(); ++k)
-      rows.push_back(attempt([&] { return row_at(speeds[k], budgets[k]); }));
-    return rows;
+                      std::span<const OperationBudget> budgets) -> Rows {
+    return {attempt([&] { return row_at(speeds[0], budgets[0]); })};
   };
   return computed(sweep);
 }

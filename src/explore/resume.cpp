@@ -1,4 +1,9 @@
-#include "explore/resume.hpp"
+/**
+# The rows of an interrupted table
+
+A map or a sweep that was stopped goes on from the rows that it has written, if they
+answer the same question: the lines before the rows must be the same. */
+#include "explore/orbit.hpp"
 
 #include <fstream>
 #include <sstream>
@@ -10,9 +15,7 @@
 namespace rotor_stator::explore {
 
 void each_row_of(const std::string& file, const std::string& what,
-                 const std::string& beginning,
-                 const std::function<void(const std::string& row,
-                                          const std::vector<std::string>& cells)>& take)
+                 const std::string& beginning, const TakeRow& take)
 try {
   std::ifstream in = open_file(file, "a " + what, std::uintmax_t{1} << 60);
   std::string found(beginning.size(), '\0');

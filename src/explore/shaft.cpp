@@ -1,11 +1,28 @@
-#include "explore/shaft.hpp"
+/**
+# explore shaft
 
+The matrices of a turning shaft of round Timoshenko beam elements with disks, concentrated
+masses and linear supports. Node k has four degrees of freedom, 4(k-1) + 1 … 4: x, y [m]
+and their slopes dx/dz, dy/dz. In either plane an element of length L with Φ = 12 EI/(κ GA
+L²) has, over (x₁, x₁', x₂, x₂'),
+
+$$K = \frac{EI}{L^3 (1 + \Phi)}
+\begin{pmatrix} 12 & 6L & -12 & 6L \\ & (4+\Phi) L^2 & -6L & (2-\Phi) L^2 \\
+& & 12 & -6L \\ & & & (4+\Phi) L^2
+\end{pmatrix},$$
+
+the consistent masses ρA and ρI of the same shape functions, and gyroscopic moments of
+twice the rotary inertia between the planes (Friswell, Penny, Garvey and Lees, Dynamics of
+Rotating Machines, 2010, chapter 5). κ is Cowper's. The moments of a body with polar
+inertia I_p at the speed ω are I_p ω d(dy/dz)/dt on dx/dz and the opposite on dy/dz: a
+whirl in the direction of rotation becomes faster with the speed. */
 #include <array>
 #include <cmath>
 #include <filesystem>
 #include <numbers>
 #include <utility>
 
+#include "explore/orbit.hpp"
 #include "io/errors.hpp"
 #include "io/matrix_market.hpp"
 #include "io/output_file.hpp"
@@ -26,23 +43,22 @@ struct Matrices {
   using Triplets = std::vector<Eigen::Triplet<double, int>>;
   Triplets m, c, g, k;
 
-  /** A symmetric matrix in both planes, over degrees of freedom of the plane of x. */
-  template <std::size_t size>
-  static void add(Triplets& to, const std::array<int, size>& dofs,
-                  const Eigen::MatrixXd& block)
+  using Dofs = std::vector<int>;  // of the plane of x
+
+  /** A symmetric matrix in both planes. */
+  static void add(Triplets& to, const Dofs& dofs, const Eigen::MatrixXd& block)
   {
     for (int axis : {0, 1})
-      for (std::size_t i = 0; i < size; ++i)
-        for (std::size_t j = 0; j < size; ++j)
+      for (std::size_t i = 0; i < dofs.size(); ++i)
+        for (std::size_t j = 0; j < dofs.size(); ++j)
           to.emplace_back(dofs[i] + axis, dofs[j] + axis, block(i, j));
   }
 
   /** Moments ω R q̇_y on the plane of x, -ω R q̇_x on that of y. */
-  template <std::size_t size>
-  void add_gyroscopic(const std::array<int, size>& dofs, const Eigen::MatrixXd& r)
+  void add_gyroscopic(const Dofs& dofs, const Eigen::MatrixXd& r)
   {
-    for (std::size_t i = 0; i < size; ++i)
-      for (std::size_t j = 0; j < size; ++j) {
+    for (std::size_t i = 0; i < dofs.size(); ++i)
+      for (std::size_t j = 0; j < dofs.size(); ++j) {
         g.emplace_back(dofs[i], dofs[j] + 1, r(i, j));
         g.emplace_back(dofs[i] + 1, dofs[j], -r(i, j));
       }
@@ -52,9 +68,9 @@ struct Matrices {
   void add_body(int node, double mass, double diametral, double polar)
   {
     const auto one = [](double value) { return Eigen::MatrixXd::Constant(1, 1, value); };
-    add(m, std::array{4 * node}, one(mass));
-    add(m, std::array{4 * node + 2}, one(diametral));
-    add_gyroscopic(std::array{4 * node + 2}, one(polar));
+    add(m, {4 * node}, one(mass));
+    add(m, {4 * node + 2}, one(diametral));
+    add_gyroscopic({4 * node + 2}, one(polar));
   }
 };
 
@@ -93,7 +109,7 @@ void add_element(Matrices& all, int node, double l, double outer, double inner,
       steel.density * moment * per * per / (30 * l) *
       symmetric(
           {36, r_2, -36, r_2, r_3, -r_2, (-1 - 5 * f + 5 * f2) * l * l, 36, -r_2, r_3});
-  const std::array dofs{4 * node, 4 * node + 2, 4 * node + 4, 4 * node + 6};
+  const Matrices::Dofs dofs{4 * node, 4 * node + 2, 4 * node + 4, 4 * node + 6};
   Matrices::add(all.k, dofs, stiffness);
   Matrices::add(all.m, dofs, mass + rotary);
   all.add_gyroscopic(dofs, 2 * rotary);
@@ -108,7 +124,8 @@ struct Shaft {
 
   std::vector<StrictToml> tables(const std::string& key)
   {
-    return file.has(key) ? file.tables(key) : std::vector<StrictToml>{};
+    if (!file.has(key)) return {};
+    return file.tables(key);
   }
   int node_of(StrictToml& table) const
   {

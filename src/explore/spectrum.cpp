@@ -1,4 +1,8 @@
-#include "explore/spectrum.hpp"
+/**
+# explore spectrum
+
+The lines of one motion, their amplitudes and their names, by any method. */
+#include "explore/orbit.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -14,12 +18,6 @@ namespace {
 constexpr int most_samples = 1 << 18;  // of a record; larger ones take minutes
 constexpr double least = 1e-6;         // of the largest line
 
-/** Ten seconds in 64 to 256 turns. */
-int recorded_turns(double frequency)
-{
-  return static_cast<int>(std::clamp(std::ceil(10 * frequency), 64.0, 256.0));
-}
-
 /** What stands for the defaults of orbit: turns enough to tell lines apart, and harmonics
     up to three times BPFO. */
 MotionRequest with_defaults(MotionRequest request, const Parameters& parameters)
@@ -30,18 +28,6 @@ MotionRequest with_defaults(MotionRequest request, const Parameters& parameters)
     request.harmonics = static_cast<int>(
         std::clamp(std::ceil(3 * passages_per_turn(parameters.bearing)), 6.0, 96.0));
   return request;
-}
-
-void note_names(Table& table, const motion::Lines& lines, bool has_means)
-{
-  for (int k = 0; const char* name : {"mean_x_s", "mean_y_s", "mean_x_r", "mean_y_r"})
-    if (!has_means) table.value(name, lines.mean[k++]);
-  table.note(format("rows: amplitudes down to %g of the largest, largest first", least));
-  table.note(
-      "name: sum of multiples of X (rotation), BPFO and BPFI with the smallest sum of "
-      "their absolute values, BPFO and BPFI counted twice, then the fewest terms, then "
-      "the smallest multiple of BPFI; else a multiple of FTF or BSF; of a second bearing "
-      "BPFO_2, ..., and k_cage counts its cage");
 }
 
 /** Those that harmonic balance or shooting have found, or read from the record. */
@@ -112,7 +98,11 @@ Exploration explore_spectrum(const MotionRequest& asked)
   }
   const MotionRequest request = with_defaults(asked, parameters);
   const bool is_recorded = !is_periodic(request.method);
-  const int turns = is_recorded ? recorded_turns(request.frequency) : request.subharmonic;
+  /** Ten seconds in 64 to 256 turns. */
+  const int turns =
+      is_recorded
+          ? static_cast<int>(std::clamp(std::ceil(10 * request.frequency), 64.0, 256.0))
+          : request.subharmonic;
   if (request.points > most_samples / turns)
     throw BadInput(format("--points %d: must be at most %d with %d turns", request.points,
                           most_samples / turns, turns));
@@ -123,7 +113,14 @@ Exploration explore_spectrum(const MotionRequest& asked)
                "higher ones are folded onto these",
                request.points, request.points / 2));
   const motion::Lines lines = lines_of(request, at, table);
-  note_names(table, lines, at.found.has_statistics);
+  for (int k = 0; const char* name : {"mean_x_s", "mean_y_s", "mean_x_r", "mean_y_r"})
+    if (!at.found.has_statistics) table.value(name, lines.mean[k++]);
+  table.note(format("rows: amplitudes down to %g of the largest, largest first", least));
+  table.note(
+      "name: sum of multiples of X (rotation), BPFO and BPFI with the smallest sum of "
+      "their absolute values, BPFO and BPFI counted twice, then the fewest terms, then "
+      "the smallest multiple of BPFI; else a multiple of FTF or BSF; of a second bearing "
+      "BPFO_2, ..., and k_cage counts its cage");
   if (!add_lines(table, bearings_of(parameters), request.frequency, lines,
                  at.found.closes_after > 0 ? 128 : 16, least))
     throw NoSolution(parameters.file + ": the motion has no line, nothing moves");
