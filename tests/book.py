@@ -23,9 +23,8 @@ from urllib.parse import quote, unquote, urlsplit
 
 import numpy as np
 
-sys.path.insert(0, str(Path(__file__).parent))
-from support.browser import browser, served  # noqa: E402
-from support.explore import Table  # noqa: E402
+from tests.support.browser import browser, served
+from tests.support.explore import Table
 
 BUILD, BOOK, ARTICLE = Path("build"), Path("build/book"), Path("build/paper/article.html")
 AXE = BUILD / "npm/node_modules/axe-core/axe.min.js"
@@ -340,7 +339,3 @@ class Browser(unittest.TestCase):
 
     def page(self, name):
         return (BOOK / f"{name}.html").read_text(encoding="utf-8")
-
-
-if __name__ == "__main__":
-    unittest.main()

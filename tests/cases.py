@@ -6,17 +6,14 @@ apart from this project; where a motion is compared instant by instant, from the
 (truth/judge.cpp), which shares no code with src.
 """
 import math
-import sys
 import tomllib
-import unittest
 from pathlib import Path
 
 import numpy as np
 from scipy.io import mmread
 
-sys.path[:0] = [str(Path(__file__).parent), str(Path(__file__).parent / "truth")]
-from independent import Model, displacements, errors  # noqa: E402
-from support.explore import MACHINE, Case  # noqa: E402
+from tests.truth.independent import Model, displacements, errors
+from tests.support.explore import MACHINE, Case
 
 CASES = Path("tests/cases").resolve()
 
@@ -350,7 +347,3 @@ class Speeds(Case):
         self.refused("--to 50: is in Hz, the other end in rpm", "response", self.machine, "--from", "2700rpm", "--to", 50)
         self.refused("--from 0: must be a positive speed", "response", self.machine, "--from", 0, "--to", 50)
         self.refused("in Hz, or as 1500rpm", "orbit", self.machine, "--frequency", "45 rps")
-
-
-if __name__ == "__main__":
-    unittest.main()

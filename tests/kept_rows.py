@@ -4,20 +4,17 @@ Rows are drawn among those with one value: motions that repeat themselves and th
 continues solutions from speed to speed is compared where the answer does not depend on the way.
 """
 import hashlib
-import sys
 import tomllib
 import unittest
 from pathlib import Path
 
 import numpy as np
 
-for folder in ("figures", "studies"):  # a study may be called like its figure
-    sys.path.insert(0, folder)
-import identification  # noqa: E402
-import robustness  # noqa: E402
-import sensitivity  # noqa: E402
-from rotor_stator import attempt, map_at  # noqa: E402
-from tables import Table, cells_as_numbers  # noqa: E402
+import identification
+import robustness
+import sensitivity
+from rotor_stator import attempt, map_at
+from tables import Table, cells_as_numbers
 
 ROWS = 3
 SETS = {1: "data/set1.toml", 2: "data/set2.toml"}
@@ -135,7 +132,3 @@ class Rows(unittest.TestCase):
                                 == (name, row.first("suspension"), row.first("contact_damping")))
             new = map_at(file, ["frequency", *keys], [[float(row.first("f")), *values]], harmonics=6, quantity="error")
             np.testing.assert_allclose(2 if new.first("error") == "-" else float(new.first("error")), row.first("error_6"), rtol=1e-3)
-
-
-if __name__ == "__main__":
-    unittest.main()

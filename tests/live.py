@@ -6,7 +6,7 @@ does: presets, sliders, numbers, dragging, keys, TOML in and out, table, picture
 system and through a server: no message of the browser and no request but the page. A thousand changes leave the memory as
 it was.
 
-Usage: tests/live.py   (from the project's root, after `make live` and `make build/explore`)
+Usage: python3 -m tests.live   (from the project's root, after `make live` and `make build/explore`)
 """
 import json
 import random
@@ -20,9 +20,8 @@ import urllib.parse
 import xml.dom.minidom
 from pathlib import Path
 
-sys.path.insert(0, str(Path(__file__).parent))
-from support.browser import browser, served  # noqa: E402
-from support.explore import EXPLORE, MACHINE  # noqa: E402
+from tests.support.browser import browser, served
+from tests.support.explore import EXPLORE, MACHINE
 
 PAGE = Path("build/live/index.html")
 MACHINES, SPEEDS = 30, (8, 90)

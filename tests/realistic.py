@@ -8,7 +8,7 @@ at t = 0, by the judge. A chaotic one is compared by mean and rms. A machine on 
 judge contradicts itself does not count. One row a machine; status 1 where less is
 answered, decided or right than is asked.
 
-Usage, from the root of the project: tests/realistic.py [COUNT] [SEED]   (10 machines, seed 1)
+Usage, from the root of the project: python3 -m tests.realistic [COUNT] [SEED]   (10 machines, seed 1)
 """
 import os
 import random
@@ -21,10 +21,9 @@ from pathlib import Path
 
 import numpy as np
 
-sys.path[:0] = [str(Path(__file__).parent), str(Path(__file__).parent / "truth")]
-from independent import NAMES, POINTS, Model, displacements, errors, state_at_zero  # noqa: E402
-from machines import entries, realistic_machine, written  # noqa: E402
-from support.explore import EXPLORE, NO_NUMBER, Table  # noqa: E402
+from tests.truth.independent import NAMES, POINTS, Model, displacements, errors, state_at_zero
+from tests.machines import entries, realistic_machine, written
+from tests.support.explore import EXPLORE, NO_NUMBER, Table
 
 TOLERANCE = 1e-3  # to which a motion must be right where it prints a smaller error
 FOLLOWED = 256    # base periods through which a printed state must be continued

@@ -32,8 +32,7 @@ def questions(times, seed):
     broken ends the program."""
     with tempfile.TemporaryDirectory() as folder:
         counts = Path(folder, "counts")
-        words = [Path(__file__).with_name("explore_input.py"),
-                 *(f"Explore.test_{name}" for name in TESTS)]
+        words = ["-m", "unittest", *(f"tests.hard.explore_input.Explore.test_{name}" for name in TESTS)]
         drawn = {"ATTACKS": str(counts), "EXAMPLES": str(times), "SEED": str(seed)}
         run = subprocess.run([sys.executable, *words], env={**os.environ, **drawn},
                              check=False)

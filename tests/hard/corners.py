@@ -7,13 +7,9 @@ divisions by a damping, weight or stiffness that is zero, and results that are n
 """
 import copy
 import itertools
-import sys
-import unittest
-from pathlib import Path
 
-sys.path.insert(0, str(Path(__file__).parents[1]))
-from machines import SET_1, entries, written  # noqa: E402
-from support.explore import NO_NUMBER, Case, Table  # noqa: E402
+from tests.machines import SET_1, entries, written
+from tests.support.explore import NO_NUMBER, Case, Table
 
 REGIMES = {"rest", "periodic", "quasi-periodic", "chaotic", "undecided"}
 # Of 16 balls pass in a turn: 7, 61/9, nearly 7, 6.9136, and no ratio.
@@ -93,7 +89,3 @@ class Corners(Case):
             self.ends_well(tuple(CORNERS), cage)
             for without in CORNERS:
                 self.ends_well(tuple(set(CORNERS) - {without}), cage)
-
-
-if __name__ == "__main__":
-    unittest.main()

@@ -8,14 +8,13 @@ No run takes minutes, whatever the machine, or leaves a file behind that was not
 the same in every run; what fails is shrunk to the simplest question that still fails. Other questions:
 EXAMPLES=10 (times as many) SEED=7. With ATTACKS=FILE the counts of each test are added to a file (attack.py).
 
-Usage: tests/hard/explore_input.py [TEST…]   (from the project's root)
+Usage: python3 -m unittest tests/hard/explore_input.py   (from the project's root)
 """
 import json
 import os
 import re
 import shutil
 import subprocess
-import sys
 import tempfile
 import unittest
 from collections import Counter
@@ -23,13 +22,12 @@ from functools import cache
 from pathlib import Path
 
 os.environ.setdefault("HYPOTHESIS_STORAGE_DIRECTORY", "build/hypothesis")
-from hypothesis import HealthCheck, given, seed, settings  # noqa: E402
-from hypothesis import strategies as st  # noqa: E402
+from hypothesis import HealthCheck, given, seed, settings
+from hypothesis import strategies as st
 
-sys.path.insert(0, str(Path(__file__).parents[1]))
-from hard import odd  # noqa: E402
-from machines import SET_1, decade, entries, extreme_machine, of_another_kind, written  # noqa: E402
-from support.explore import EXPLORE, NO_NUMBER, SANITIZED  # noqa: E402
+from tests.hard import odd
+from tests.machines import SET_1, decade, entries, extreme_machine, of_another_kind, written
+from tests.support.explore import EXPLORE, NO_NUMBER, SANITIZED
 
 # Evaluations of the force: a few milliseconds of work.
 LITTLE = "1e5"
@@ -612,7 +610,3 @@ class Explore(unittest.TestCase):
                 self.ask(tally, ["response", "machine.toml", *words.split()], written(entries(machine)).encode(),
                          "3e6" if SANITIZED else None)
         self.assertEqual(tally[0] + tally[3], len(ONCE_TOO_CHEAP))
-
-
-if __name__ == "__main__":
-    unittest.main()

@@ -10,10 +10,8 @@ import tomllib
 import unittest
 from pathlib import Path
 
-ROOT = Path(__file__).parents[2]
-sys.path[:0] = [str(ROOT / "studies"), str(ROOT / "figures")]  # the study, not its drawing
-import hard_cases  # noqa: E402
-from tables import Table  # noqa: E402
+import hard_cases
+from tables import Table
 
 SCENE = "data/scenes/hard_cases.toml"
 RULE = tomllib.loads(Path(SCENE).read_text(encoding="utf-8"))
@@ -72,7 +70,3 @@ class HardCases(unittest.TestCase):
                     one.check(table, method, row)
                     ends.append(hard_cases.verdict(row, RULE))
                 self.assertEqual(ends, ["solved", "silent error"], method)
-
-
-if __name__ == "__main__":
-    unittest.main()

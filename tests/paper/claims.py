@@ -1,19 +1,17 @@
 """The claims' quantities on machines whose verdict is known; the verdicts of the computed tables when rows are left
 out or put in another order; both versions of Table 1 by the same rules, and their scores in README and results.
 """
-import sys
 import tomllib
 import unittest
 from pathlib import Path
 
 import numpy as np
 
-sys.path.insert(0, "figures")
-import claim_quantities as quantities  # noqa: E402
-from claim_ranges import spans  # noqa: E402
-from claim_score import KINDS, in_words, score, stored  # noqa: E402
-from claims import judged, possible  # noqa: E402
-from tables import Table  # noqa: E402
+import claim_quantities as quantities
+from claim_ranges import spans
+from claim_score import in_words, score, stored
+from claims import judged, possible
+from tables import Table
 
 FOLDERS = (Path("data/generated"), Path("data/generated/as-printed"))
 KEPT = Path("data/reference")
@@ -160,7 +158,3 @@ class Tables(unittest.TestCase):
             static = abs(m_s * g - m_s * w_s ** 2 * sag)
             rotating = abs((m_s * w_s ** 2 - m_s * omega ** 2 + 2j * xi_s * m_s * w_s * omega) * swing)
             self.assertAlmostEqual(rotating / static, 1, delta=1e-4)
-
-
-if __name__ == "__main__":
-    unittest.main()

@@ -38,7 +38,3 @@ class Figures(unittest.TestCase):
         for file in files:
             with self.subTest(file.stem):
                 self.assertEqual(empty_panels(file), [])
-
-
-if __name__ == "__main__":
-    unittest.main()

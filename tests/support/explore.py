@@ -2,13 +2,11 @@
 import os
 import re
 import subprocess
-import sys
 import tempfile
 import unittest
 from pathlib import Path
 
-sys.path.insert(0, str(Path(__file__).parents[2] / "figures"))
-from tables import Table  # noqa: E402
+from tables import Table
 
 EXPLORE = Path(os.environ.get("BUILD", "build"), "explore").resolve()
 MACHINE = Path("data/set1.toml").read_text(encoding="utf-8")

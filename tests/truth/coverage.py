@@ -2,21 +2,17 @@
 motion of Eq. 7 itself, which shooting closes (one frequency) or which integration follows for at least 100 turns (two).
 A distance from another motion, or a solution that has not converged, would show.
 
-Usage: tests/truth/coverage.py [COUNT]   (from the project's root; 60 machines, with FULL in the environment 100)
+60 machines, with FULL in the environment 100, or COUNT.
 """
 import math
 import os
 import random
-import sys
-import unittest
-from pathlib import Path
 
-sys.path.insert(0, str(Path(__file__).parents[1]))
-from machines import entries, random_machine, written  # noqa: E402
-from support.explore import Case, Table  # noqa: E402
+from tests.machines import entries, random_machine, written
+from tests.support.explore import Case, Table
 
 TOLERANCES = [1e-2, 1e-3, 1e-4]
-COUNT = int(sys.argv.pop()) if len(sys.argv) > 1 and sys.argv[-1].isdigit() else 100 if "FULL" in os.environ else 60
+COUNT = int(os.environ.get("COUNT", 100 if "FULL" in os.environ else 60))
 
 
 def drawn(seed):
@@ -89,7 +85,3 @@ class Coverage(Case):
         print(f"{COUNT} machines: {unanswered} without an answer, {judged} judged, beyond the tolerance: {beyond}")
         self.assertGreater(judged, 0.6 * COUNT)
         self.assertLessEqual(len(beyond), math.floor(0.01 * COUNT))
-
-
-if __name__ == "__main__":
-    unittest.main()

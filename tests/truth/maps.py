@@ -5,22 +5,20 @@ the motion closes or, where it does not, how fast the neighbours part. Clearance
 motion of one turn from the orbit of six harmonics or, where it finds none, integrates from there; the distance of the orbit from
 that motion, rms about the mean, stands against that of the map, the motion's amplitude at the speed of the peak against the peak.
 
-Usage: tests/truth/maps.py [COUNT > data/reference/map_checks.tsv]   (from the project's root; without COUNT a test of a few)
+Usage: python3 -m tests.truth.maps COUNT > data/reference/map_checks.tsv   (from the project's root)
 """
 import random
 import re
 import sys
 import tomllib
-import unittest
 from pathlib import Path
 
 import numpy as np
 
-sys.path.insert(1, str(Path(__file__).parents[1]))
-from independent import Model, displacements, errors, state_at_zero  # noqa: E402
-from support.explore import MACHINE, Case, Table  # noqa: E402
-from project import source_line  # noqa: E402
-from tables import cells_as_numbers, print_columns  # noqa: E402
+from tests.truth.independent import Model, displacements, errors, state_at_zero
+from tests.support.explore import MACHINE, Case, Table
+from project import source_line
+from tables import cells_as_numbers, print_columns
 
 KEPT = Path("data/reference").resolve()
 INSTANTS, SAME = 64, 0.05  # of a turn; of the largest displacement
@@ -144,12 +142,9 @@ class Maps(Case):
 
 
 if __name__ == "__main__":
-    if len(sys.argv) > 1 and sys.argv[1].isdigit():
-        print("# Random points of the kept maps against an independent judge", source_line(), sep="\n")
-        print_columns(COLUMNS)
-        case = Maps()
-        case.setUp()
-        for row in case.checked(int(sys.argv[1])):
-            print("\t".join(f"{float(cell):.12g}" for cell in row), flush=True)
-    else:
-        unittest.main()
+    print("# Random points of the kept maps against an independent judge", source_line(), sep="\n")
+    print_columns(COLUMNS)
+    case = Maps()
+    case.setUp()
+    for row in case.checked(int(sys.argv[1])):
+        print("\t".join(f"{float(cell):.12g}" for cell in row), flush=True)

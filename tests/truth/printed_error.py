@@ -7,22 +7,19 @@ solution's state for so many turns that its error has done its work, where the s
 compared. Machines: like those that are built, with one frequency; in bearings of the catalogue; the same with a spall of the
 outer race, of the inner race.
 
-Usage: tests/truth/printed_error.py [COUNT > data/reference/printed_error.tsv]   (from the project's root; COUNT of each kind; without it a test)
+Usage: python3 -m tests.truth.printed_error COUNT > data/reference/printed_error.tsv   (from the project's root; COUNT of each kind)
 """
 import random
 import sys
 import tomllib
-import unittest
-from pathlib import Path
 
 import numpy as np
 
-sys.path.insert(1, str(Path(__file__).parents[1]))
-from independent import KEPT, NAMES, Model, displacements, errors, state_at_zero  # noqa: E402
-from machines import entries, random_machine, realistic_machine, written  # noqa: E402
-from support.explore import Case, Table  # noqa: E402
-from project import source_line  # noqa: E402
-from tables import print_columns  # noqa: E402
+from tests.truth.independent import KEPT, NAMES, Model, displacements, errors, state_at_zero
+from tests.machines import entries, random_machine, realistic_machine, written
+from tests.support.explore import Case, Table
+from project import source_line
+from tables import print_columns
 
 KINDS = ["one frequency", "catalogue", "outer spall", "inner spall"]
 TOLERANCES = {0: [1e-2, 1e-3, 1e-4], 1: [1e-2, 1e-3], 2: [1e-2, 1e-3], 3: [1e-2, 1e-3]}  # of each kind
@@ -106,21 +103,13 @@ class PrintedError(Case):
         self.assertLessEqual(beyond.mean(), 0.02)
 
 
-def study(count):
-    """So many machines of each kind."""
+if __name__ == "__main__":
     print("# Printed and true errors of harmonic balance, on machines drawn at random", source_line(), sep="\n")
     print("# note: machines of each kind, seeds from 1; true: against the motion of an independent integrator")
     print_columns(COLUMNS)
     case = PrintedError()
-    for seed in range(1, count + 1):
+    for seed in range(1, int(sys.argv[1]) + 1):
         for kind in range(len(KINDS)):
             case.setUp()
             print("\t".join(f"{cell:.6g}" for cell in case.row(kind, seed)), flush=True)
             case.doCleanups()
-
-
-if __name__ == "__main__":
-    if len(sys.argv) > 1 and sys.argv[1].isdigit():
-        study(int(sys.argv[1]))
-    else:
-        unittest.main()

@@ -4,17 +4,14 @@ power, which asks for no method.
 """
 import math
 import random
-import sys
 import tomllib
-import unittest
 from pathlib import Path
 
 import numpy as np
 
-sys.path.insert(1, str(Path(__file__).parents[1]))
-from independent import Model, ask, displacements, state_at_zero  # noqa: E402
-from machines import SET_1, entries, random_machine, written  # noqa: E402
-from support.explore import Case, Table  # noqa: E402
+from tests.truth.independent import Model, ask, displacements, state_at_zero
+from tests.machines import SET_1, entries, random_machine, written
+from tests.support.explore import Case, Table
 
 SETS = {number: Path(f"data/set{number}.toml").resolve() for number in (1, 2)}
 START = [0.96, 0.66, 0.32, 0.09]  # near the motion of the two masses at 0.635
@@ -172,7 +169,3 @@ class Verdicts(Case):
             table = self.table("orbit", self.machine, "--frequency", 54, "--method", *options)
             self.assertEqual((table.value("regime"), table.value("period", None)), ("periodic", 2), options)
         self.refused("diverged", "orbit", self.machine, "--frequency", 54, "--method", "rk4", "--step", "1e-3", status=3)
-
-
-if __name__ == "__main__":
-    unittest.main()

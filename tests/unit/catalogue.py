@@ -4,17 +4,14 @@ give, and what is refused.
 import math
 import os
 import re
-import sys
 import tomllib
-import unittest
 from pathlib import Path
 
 import numpy as np
 from scipy.special import ellipe
 
-sys.path[:0] = [str(Path(__file__).parents[1]), str(Path(__file__).parents[1] / "truth")]
-from independent import ellipse  # noqa: E402
-from support.explore import MACHINE, Case  # noqa: E402
+from tests.truth.independent import ellipse
+from tests.support.explore import MACHINE, Case
 
 CATALOGUE = tomllib.loads(Path("data/bearings/deep_groove.toml").read_text(encoding="utf-8"))
 BRIEF = ["--frequency", 100, "--method", "rk8pd", "--longest", 0.01, "--points", 1]
@@ -250,7 +247,3 @@ class Catalogue(Case):
                     with self.subTest(line):
                         without = self.file("own.toml", "\n".join(lines[:k] + lines[k + 1:]))
                         self.assertNotIn("not a known key", self.run_explore("check", without).stderr)
-
-
-if __name__ == "__main__":
-    unittest.main()

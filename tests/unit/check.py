@@ -1,14 +1,10 @@
 """explore check: rest, frequencies, loss of contact and warnings against closed forms.
 """
 import math
-import sys
-import unittest
-from pathlib import Path
 
 import numpy as np
 
-sys.path.insert(0, str(Path(__file__).parents[1]))
-from support.explore import MACHINE, Case, Table  # noqa: E402
+from tests.support.explore import MACHINE, Case, Table
 
 BALLS, HERTZ, G = 1024, 1e9, 9.81
 RADIAL = math.gamma(1.75) / (2 * math.sqrt(math.pi) * math.gamma(2.25))  # mean of cos^{5/2} over the loaded half
@@ -150,7 +146,3 @@ diametral_clearance_m = 0.02
     def test_refusals(self):
         self.refused("--from 3 Hz: must be below --to 2 Hz", "check", self.machine, "--from", 3, "--to", 2)
         self.refused("must be one of tsv, csv, json", "check", self.machine, "--format", "xml")
-
-
-if __name__ == "__main__":
-    unittest.main()

@@ -6,13 +6,11 @@ import re
 import resource
 import signal
 import subprocess
-import sys
 import time
 import unittest
 from pathlib import Path
 
-sys.path.insert(0, str(Path(__file__).parents[1]))
-from support.explore import EXPLORE, MACHINE, ORBIT, RESPONSE, Case  # noqa: E402
+from tests.support.explore import EXPLORE, MACHINE, ORBIT, RESPONSE, Case
 
 
 OWN = "# Old\n# source: rotor_stator 0.1.0\n"  # a table of this program
@@ -456,7 +454,3 @@ class Options(Case):
         result = self.run_explore("response", self.machine, "--from", "1", "--to", "60", "--harmonics", 6, "--budget", "3e5")
         self.assertEqual(result.returncode, 3)
         self.assertRegex(result.stderr, r"stopped at [0-9.]+ Hz, before --to 60 Hz: the budget .* --budget")
-
-
-if __name__ == "__main__":
-    unittest.main()

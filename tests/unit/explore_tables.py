@@ -5,13 +5,11 @@ import math
 import os
 import re
 import sys
-import unittest
 from pathlib import Path
 
 import numpy as np
 
-sys.path.insert(0, str(Path(__file__).parents[1]))
-from support.explore import MACHINE, Case, Table, changed  # noqa: E402
+from tests.support.explore import MACHINE, Case, Table, changed
 
 KEPT = Path("data/reference/attractors.tsv").resolve()
 SET_2 = Path("data/set2.toml").resolve()
@@ -470,7 +468,3 @@ class Rounding(Case):
                 for other in others:
                     if first is not None:
                         self.assertLess(difference(other, first), 1e-6)
-
-
-if __name__ == "__main__":
-    unittest.main()

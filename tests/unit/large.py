@@ -9,15 +9,13 @@ import sys
 import time
 import tomllib
 import types
-import unittest
 from pathlib import Path
 
 import numpy as np
 from scipy.sparse import csc_matrix
 from scipy.sparse.linalg import spsolve
 
-sys.path.insert(0, str(Path(__file__).parents[1]))
-from support.explore import EXPLORE, SANITIZED, Case, Table  # noqa: E402
+from tests.support.explore import EXPLORE, SANITIZED, Case, Table
 
 NAMES = ["x_s", "y_s", "x_r", "y_r"]
 GRAVITY = 9.81
@@ -561,7 +559,3 @@ radial_clearance_m = {b["clearance"]}
         kept = [line for line in lines[3:] if "101" not in line.split()[:2]]
         self.file("shaft/K.mtx", "\n".join([*lines[:2], f"244 244 {len(kept)}", *kept, ""]))
         self.refused("degree of freedom 101 (torsion", "orbit", own, "--frequency", 30)
-
-
-if __name__ == "__main__":
-    unittest.main()

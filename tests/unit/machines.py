@@ -2,16 +2,13 @@
 """
 import math
 import re
-import sys
 import tomllib
-import unittest
 from pathlib import Path
 
 import numpy as np
 
-sys.path[:0] = [str(Path(__file__).parents[1]), str(Path(__file__).parents[1] / "truth")]
-from independent import Model, displacements  # noqa: E402
-from support.explore import MACHINE, Case, changed  # noqa: E402
+from tests.truth.independent import Model, displacements
+from tests.support.explore import MACHINE, Case, changed
 
 VALUES = tomllib.loads(MACHINE)
 RIGID = re.sub(r"(?s)(\[stator\]\n).*?(?=\n\[rotor)", r"\1rigid = true\n", MACHINE)
@@ -126,7 +123,3 @@ class Machines(Case):
                 (MACHINE.replace("[stator]", "[stator]\nrigid = true"), "stator.damping_ratio is not a known key here: a rigid stator has no other keys"),
                 (MACHINE.replace("[rotor]", "[rotor]\nrigid = true"), "rotor.rigid is not a known key here")]:
             self.refused_machine(words, text)
-
-
-if __name__ == "__main__":
-    unittest.main()

@@ -76,7 +76,3 @@ class Make(unittest.TestCase):
         header = (self.folder / "out.hpp").read_text(encoding="utf-8")
         found = re.findall('rotor_stator 1.2 [^"]*', header)
         self.assertEqual(found, ["rotor_stator 1.2 unknown"])
-
-
-if __name__ == "__main__":
-    unittest.main()

@@ -2,14 +2,10 @@
 points of the other commands; what it refuses, and what stands in the row of a point without a result.
 """
 import re
-import sys
-import unittest
-from pathlib import Path
 
 import numpy as np
 
-sys.path.insert(0, str(Path(__file__).parents[1]))
-from support.explore import MACHINE, Case, Table  # noqa: E402
+from tests.support.explore import MACHINE, Case, Table
 
 CLEARANCE = "bearing.radial_clearance_m"
 SIX = ["--harmonics", 6]
@@ -320,7 +316,3 @@ class Refusals(Case):
         self.refused("no such file", *usual, "amplitude", "--resume", "none.tsv")
         old = self.file("old.tsv", "# Map of a machine\n# source: rotor_stator 0.1.0 0123456789ab\n# compiler: g++\n# x: frequency=40:45:2\n")
         self.refused("old.tsv: was written by rotor_stator 0.1.0 0123456789ab", *usual, "amplitude", "--resume", old)
-
-
-if __name__ == "__main__":
-    unittest.main()

@@ -1,17 +1,13 @@
 """paper/machine.ipynb runs from top to bottom and shows its pictures.
-
-Usage: tests/unit/notebook.py   (from the project's root)
 """
 import json
 import os
 import subprocess
-import sys
 import tempfile
 import unittest
 from pathlib import Path
 
-sys.path.insert(0, str(Path(__file__).parents[1]))
-from support.explore import EXPLORE  # noqa: E402
+from tests.support.explore import EXPLORE
 
 NOTEBOOK = Path("paper/machine.ipynb")
 
@@ -34,7 +30,3 @@ class Notebook(unittest.TestCase):
         """A number in it would be one that was typed."""
         for cell in json.loads(NOTEBOOK.read_text(encoding="utf-8"))["cells"]:
             self.assertFalse(cell.get("outputs"))
-
-
-if __name__ == "__main__":
-    unittest.main()

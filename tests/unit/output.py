@@ -8,15 +8,11 @@ import os
 import pty
 import re
 import subprocess
-import sys
-import unittest
-from pathlib import Path
 from xml.etree import ElementTree
 
 import numpy as np
 
-sys.path.insert(0, str(Path(__file__).parents[1]))
-from support.explore import EXPLORE, MACHINE, Case, Table  # noqa: E402
+from tests.support.explore import EXPLORE, MACHINE, Case, Table
 
 AT_45 = ["--frequency", 45, "--points", 64]
 TO_45 = ["--from", 44, "--to", 45]
@@ -283,7 +279,3 @@ class Formats(Case):
     def test_progress_is_for_terminals(self):
         self.assertIn(" %", self.progress())
         self.assertNotIn(" %", self.progress("--quiet"))
-
-
-if __name__ == "__main__":
-    unittest.main()

@@ -2,18 +2,12 @@
 rotor, and what is refused.
 
 The balls never touch (they are 2 mm away), so that the rotor z = x + iy obeys m z'' + (c + c_k) z' + (k + k_d - i q) z + f(|z|) z = m_e e w^2 e^{iwt}.
-
-Usage: tests/unit/parallel.py   (from the project's root)
 """
-import sys
 import tomllib
-import unittest
-from pathlib import Path
 
 import numpy as np
 
-sys.path.insert(0, str(Path(__file__).parents[1]))
-from support.explore import MACHINE, Case  # noqa: E402
+from tests.support.explore import MACHINE, Case
 
 MASS, FREQUENCY, RATIO, UNBALANCE = 3.0, 300.0, 0.03, 6e-5
 BARE = f"""title = "A rotor between springs"
@@ -196,7 +190,3 @@ class Parallel(Case):
                             ("K is singular", MACHINE.replace("s = 500.0", "s = 0").replace("s = 150.0", "s = 0").replace("ratio = 0.05", "ratio = 0")
                              .replace("damping_ratio = 0.02", "damping_ratio = 0") + "[stator.ground]\nstiffness_N_per_m = [1e6, 0, 0, 0]\n")):
             self.refused_machine(words, text)
-
-
-if __name__ == "__main__":
-    unittest.main()

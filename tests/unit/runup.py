@@ -1,14 +1,11 @@
 """explore runup: a linear rotor integrated apart, motions at fixed speeds, the direction of the change, and what is refused.
 """
-import sys
-import unittest
 from pathlib import Path
 
 import numpy as np
 from scipy.integrate import solve_ivp
 
-sys.path.insert(0, str(Path(__file__).parents[1]))
-from support.explore import MACHINE, Case, Table  # noqa: E402
+from tests.support.explore import MACHINE, Case, Table
 
 MASS, FREQUENCY, RATIO, UNBALANCE = 40.0, 150.0, 0.02, 0.05
 WIDE = MACHINE.replace("radial_clearance_m = 2e-5", "radial_clearance_m = 1")
@@ -92,7 +89,3 @@ class RunUp(Case):
             with self.subTest(words):
                 self.refused(words, "runup", self.machine, *options)
         self.refused("the budget", "runup", self.machine, "--from", 1, "--to", 50, "--seconds", 5, "--budget", 1e4, status=3)
-
-
-if __name__ == "__main__":
-    unittest.main()

@@ -4,15 +4,12 @@ The rotors are examples 5.9.1, 5.9.2 and 5.9.9 of Friswell, Penny, Garvey and Le
 with the frequencies that ROSS prints for them.
 """
 import resource
-import sys
-import unittest
 from pathlib import Path
 
 import numpy as np
 from scipy.io import mmread
 
-sys.path.insert(0, str(Path(__file__).parents[1]))
-from support.explore import Case  # noqa: E402
+from tests.support.explore import Case
 
 PASSING = Path("tests/cases/passing_6306.toml").resolve()
 # A pin at one end of six elements, a 6308 at the other.
@@ -262,7 +259,3 @@ acceleration_m_per_s2 = 0
         own = self.file("good.toml", good)
         self.refused("--to", "shaft", own, "--to", own)
         self.refused("--to", "shaft", own, "--to", "no/such/folder")
-
-
-if __name__ == "__main__":
-    unittest.main()

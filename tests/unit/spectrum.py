@@ -3,15 +3,11 @@ one method against another.
 """
 import math
 import re
-import sys
 import tomllib
-import unittest
-from pathlib import Path
 
 import numpy as np
 
-sys.path.insert(0, str(Path(__file__).parents[1]))
-from support.explore import MACHINE, Case, changed  # noqa: E402
+from tests.support.explore import MACHINE, Case, changed
 
 VALUES = tomllib.loads(MACHINE)
 NAMES = ["x_s", "y_s", "x_r", "y_r"]
@@ -202,7 +198,3 @@ class Spectrum(Case):
         self.assertFalse((self.folder / "a.svg").exists())
         still = self.file("still.toml", changed(radial_clearance_m=0.01, unbalance_kg_m=0))
         self.refused("nothing moves", "spectrum", still, "--frequency", 45, status=3)
-
-
-if __name__ == "__main__":
-    unittest.main()

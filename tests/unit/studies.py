@@ -15,21 +15,19 @@ from unittest import mock
 
 import numpy as np
 
-for folder in ("tests", "figures", "studies"):  # a study may be called like its figure
-    sys.path.insert(0, folder)
-import adaptive  # noqa: E402
-import attractors  # noqa: E402
-import bound  # noqa: E402
-import identification  # noqa: E402
-import map_scaling  # noqa: E402
-import sampling  # noqa: E402
-import sensitivity  # noqa: E402
-import validity  # noqa: E402
-import verdicts  # noqa: E402
-from sensitivity_derivatives import derivative  # noqa: E402
-from tables import displacement_errors  # noqa: E402
-from stability import rows_of  # noqa: E402
-from support.explore import EXPLORE, Case, Table  # noqa: E402
+import adaptive
+import attractors
+import bound
+import identification
+import map_scaling
+import sampling
+import sensitivity
+import validity
+import verdicts
+from sensitivity_derivatives import derivative
+from tables import displacement_errors
+from stability import rows_of
+from tests.support.explore import EXPLORE, Case, Table
 
 STUDY = """machine: {machine}
 x: frequency=20:50:5
@@ -468,7 +466,3 @@ class Stability(unittest.TestCase):
         self.assertEqual([row[0] for row in found], ["20", "20.06", "20.1", "20.3", "20.4"])
         self.assertEqual([row[-1] for row in found], ["0", "0", "1e-05", "0", "0.002"])
         self.assertEqual([row[-3] for row in found], ["1", "-2", "-1", "-2", "-1"])
-
-
-if __name__ == "__main__":
-    unittest.main()
