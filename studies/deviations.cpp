@@ -22,9 +22,18 @@ int main(int argc, char** argv)
       criteria_without_scale};
   return run_figure(argc, argv, [&](SceneFile& file) {
     const DeviationScene scene = read_deviation_scene(file);
-    Table table = evidence_table(scene);
+    const std::vector<Field<Evidence>> fields{
+        {"key", "-", "entry and name", &Evidence::key},
+        {"value", "-", "in the unit of its row", &Evidence::value},
+        {"unit", "-", "of the value", &Evidence::unit},
+        {"meaning", "-", "what the value is", &Evidence::meaning}};
+    Table table(
+        "Evidence for the deviations from the printed paper (paper/deviations.md)",
+        fields);
+    describe(table, scene.machine, false);
+    describe(table, scene.printed, false);
     for (const auto entry : watched("deviations", entries))
-      add_evidence(table, entry(scene));
+      for (const Evidence& evidence : entry(scene)) table.row(fields, evidence);
     file.toml().refuse_unknown_keys();
     return table;
   });

@@ -58,7 +58,7 @@ int main(int argc, char** argv)
     std::vector<EqualErrorRow> rows;
     for (const References& range : periodic_ranges(scene, references))
       for (const Candidates& method : watched("methods", scene.candidates)) {
-        const std::vector<Trial> tried = try_settings(scene, range, method);
+        const std::vector<Measurement> tried = try_settings(scene, range, method);
         for (double target : scene.targets)
           rows.push_back(cheapest(scene, range, tried, target, rows));
       }

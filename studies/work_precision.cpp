@@ -21,16 +21,225 @@ header says how well they agree.
 
 Each motion is computed twice: from nothing, and from the known motion at a speed a little
 below. The second is what a sweep over the speeds costs at each of its steps. Repetitions
-are timed one after the other.
+are timed one after the other. The force inside harmonic balance is timed in a run of its
+own; all other shares of the time are numbers of operations times what one takes in the
+same run.
 
 Modelled: seven T-periodic motions of both data sets, four of which are drawn. */
-#include "costs/work_precision.hpp"
+#include "balance/fourier_transform.hpp"
+#include "costs/timed_method.hpp"
+#include "io/errors.hpp"
 #include "io/program.hpp"
+#include "model/ball_bearing.hpp"
+
+namespace {
+
+using namespace rotor_stator;
+using namespace rotor_stator::costs;
+
+struct WorkPrecisionScene {
+  std::vector<Parameters> sets;     ///< one for each speed
+  std::vector<double> frequencies;  ///< [Hz]
+  double below;                     ///< the known motion is that far below the speed [Hz]
+  std::vector<Candidates> candidates;
+  int repetitions;
+  double long_run;          ///< [s]: a run above it is repeated twice only
+  int reference_harmonics;  ///< of the second, independent reference
+  TruthSettings truth;
+};
+
+WorkPrecisionScene read_work_precision(SceneFile& file)
+{
+  StrictToml& toml = file.toml();
+  WorkPrecisionScene scene{
+      .sets = read_parameter_list(file, "parameters"),
+      .frequencies = toml.numbers("speeds_hz", Range::positive),
+      .below = toml.number("below_hz", Range::positive),
+      .candidates = read_candidates(toml),
+      .repetitions = toml.integer("repetitions", 1, 1000),
+      .long_run = toml.number("long_run_s", Range::positive),
+      .reference_harmonics = toml.integer("reference_harmonics", 1, 4096),
+      .truth = {.settling = read_steady_settings(file)}};
+  if (scene.sets.size() != scene.frequencies.size())
+    toml.fail("speeds_hz", "must have one value for each of parameters");
+  for (double frequency : scene.frequencies)
+    if (frequency <= scene.below) toml.fail("below_hz", "must be below every speed");
+  toml.refuse_unknown_keys();
+  return scene;
+}
+
+/** One machine at one speed, and its references. */
+struct WorkCase {
+  std::size_t number;  ///< from 1
+  Parameters parameters;
+  TrueMotion truth, before;  ///< at the speed, and below it
+  double agreement;          ///< of shooting and harmonic balance [-]
+};
+
+struct WorkPoint : Measurement {
+  std::size_t number;  ///< of the case
+  double frequency;    ///< [Hz]
+  bool continued;      ///< from the motion below, else from nothing
+  double force_share = 0, transform_share = 0;  ///< of the CPU time [-]
+
+  bool found() const { return std::isfinite(displacement); }
+};
+
+/** The scene's case of that number. Throws NoSolution when a reference cannot be had or
+    is not T-periodic. */
+WorkCase work_case(const WorkPrecisionScene& scene, std::size_t number)
+{
+  const Parameters& parameters = scene.sets[number - 1];
+  const auto periodic_motion = [&](double frequency) {
+    TrueMotion truth = true_motion(parameters, frequency, scene.truth);
+    if (!truth.periodic)
+      throw NoSolution(
+          format("the motion at %g Hz is not T-periodic (Poincare spread %.1e)",
+                 frequency, truth.spread));
+    return truth;
+  };
+  const double frequency = scene.frequencies[number - 1];
+  WorkCase reference{number, parameters, periodic_motion(frequency),
+                     periodic_motion(frequency - scene.below), 0};
+  reference.agreement = agreement(parameters, reference.truth, scene.reference_harmonics);
+  return reference;
+}
+
+/** Evaluations that are timed together, enough for the clock. */
+constexpr int instants = 20000;
+
+/** CPU seconds of one evaluation of the bearing's force by a time method, along a
+    motion. */
+double seconds_of_force(const Parameters& parameters, const motion::Motion& motion)
+{
+  const BallBearing bearing(parameters.bearing);
+  std::vector<Direction> cage;
+  for (std::size_t k = 0; k < motion.size(); ++k)
+    cage.push_back(Direction::of(parameters.bearing.cage_speed_ratio * motion.phase(k)));
+  volatile double kept = 0;
+  const CpuTime time = time_of(5, [&] {
+    double sum = 0;
+    for (int k = 0; k < instants; ++k) {
+      const std::size_t at = k % motion.size();
+      sum += bearing.force(cage[at], motion.positions[at].relative()).x;
+    }
+    kept = sum;
+  });
+  return time.median / instants;
+}
+
+/** CPU seconds of one Fourier transform of a series of N samples, copies included. */
+double seconds_of_transform(int samples)
+{
+  FourierTransform transform(samples);
+  const int times = std::max(1, instants / samples);
+  Eigen::MatrixXd values = Eigen::MatrixXd::Ones(samples, 1);
+  Eigen::MatrixXd series = Eigen::MatrixXd::Zero(1, 2 * (samples / 4) + 1);
+  const CpuTime time = time_of(5, [&] {
+    for (int k = 0; k < times; ++k) {
+      transform.to_series(values, series);
+      transform.to_samples(series, values);
+    }
+  });
+  return time.median / (2 * times);
+}
+
+/** A run in which the force is timed, or the number of evaluations times what one
+    takes. */
+void split_time(WorkPoint& point, const References& references)
+{
+  if (point.schedule.method() != "aft") {
+    const double force =
+        static_cast<double>(point.force_instants) *
+        seconds_of_force(references.parameters, *references.motions.front());
+    point.force_share = std::min(1.0, force / point.median);
+    return;
+  }
+  Task task = references;
+  task.profiled = true;
+  const auto method = timed_method(task, point.schedule);
+  double force = 0;
+  const CpuTime profiled = time_of(point.repetitions, [&] {
+    method->run();
+    force += method->counts().force_seconds / point.repetitions;
+  });
+  point.force_share = std::min(1.0, force / profiled.median);
+  if (point.transforms == 0) return;
+  const auto samples = static_cast<int>(point.transformed / point.transforms);
+  const double transforms =
+      static_cast<double>(point.transforms) * seconds_of_transform(samples);
+  point.transform_share = std::min(1 - point.force_share, transforms / point.median);
+}
+
+using Row = WorkPoint;
+
+const std::vector<Field<Row>> work_precision_fields{
+    {"case", "-", "number of the case in the header", &Row::number},
+    {"f", "Hz", "speed", &Row::frequency},
+    {"start", "-",
+     "nothing: static load or quasi-static contact; below: the motion below",
+     [](auto& r) { return std::string(r.continued ? "below" : "nothing"); }},
+    {"method", "-", "aft: harmonic balance; rk4; rk8; GSL's; shooting- with rk4 or rk8",
+     [](auto& r) { return r.schedule.method(); }},
+    {"setting", "-", "m, N, tolerance, step [s], transient [s], closure",
+     [](auto& r) { return r.schedule.text(); }},
+    {"found", "-", "whether it gave a motion", [](auto& r) { return r.found(); }},
+    {"cpu_s", "s", "CPU of one thread, median of the repetitions", &Row::median},
+    {"cpu_min_s", "s", "least", &Row::least},
+    {"cpu_max_s", "s", "most", &Row::most},
+    {"repetitions", "-", "fewer for the long runs", &Row::repetitions},
+    {"error", "-", "largest relative error of displacement; -1 when not found",
+     [](auto& r) { return r.found() ? r.displacement : -1; }},
+    {"error_force", "-", "largest relative error of force; -1 when not found",
+     [](auto& r) { return r.found() ? r.force : -1; }},
+    {"force_share", "-", "of the CPU time in the bearing's force", &Row::force_share},
+    {"transform_share", "-", "of the CPU time in Fourier transforms",
+     &Row::transform_share},
+    {"evaluations", "-", "evaluations of the bearing's force, one instant each",
+     &Row::force_instants},
+    {"transforms", "-", "Fourier transforms of one series", &Row::transforms}};
+
+/** One setting, measured. */
+WorkPoint work_point(const WorkPrecisionScene& scene, const WorkCase& reference,
+                     bool continued, const Setting& setting)
+{
+  const auto& [number, parameters, truth, before, agreement] = reference;
+  References references{{parameters, {truth.frequency}}, {truth.motion}};
+  if (continued) references.before = {before.frequency, before.state};
+  const double once = measure(references, setting, 1).median;
+  const int repetitions = once > scene.long_run ? 2 : scene.repetitions;
+  WorkPoint point{measure(references, setting, repetitions), number, truth.frequency,
+                  continued};
+  if (point.found()) split_time(point, references);
+  return point;
+}
+
+Table work_precision_table(const WorkPrecisionScene& scene,
+                           const std::vector<WorkCase>& cases,
+                           const std::vector<WorkPoint>& points)
+{
+  Table table("Work against precision: one periodic motion, every method",
+              work_precision_fields);
+  table.value("below", scene.below);
+  table.value("repetitions", scene.repetitions);
+  table.note("below: the motion known is so many Hz below the speed");
+  table.note(what_is_timed);
+  table.note(format(
+      "reference: shooting by rk8, tolerance %g; agreement: with harmonic balance, m = "
+      "%d",
+      scene.truth.tolerance, scene.reference_harmonics));
+  for (const WorkCase& c : cases)
+    table.row_line("case", {c.number, c.truth.frequency, one_word(c.parameters.file),
+                            c.truth.spread, c.truth.periodicity_residual, c.agreement});
+  table.note("row case: number, speed, file, Poincare spread, closure, agreement");
+  for (const WorkPoint& point : points) table.row(work_precision_fields, point);
+  return table;
+}
+
+}  // namespace
 
 int main(int argc, char** argv)
 {
-  using namespace rotor_stator;
-  using namespace rotor_stator::costs;
   return run_figure(argc, argv, [](SceneFile& file) {
     const WorkPrecisionScene scene = read_work_precision(file);
     std::vector<WorkCase> cases;

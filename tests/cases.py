@@ -86,20 +86,20 @@ class Cases(Case):
                  "open end": plain.replace("\t", ",")[:-1],
                  "decimal comma": plain.replace("\t", ";").replace(".", ","),
                  "quotes": plain.replace("\t", ",").replace("f,", '"f",')}
+        spectrum = ["spectrum", self.machine, "--frequency", 45, "--harmonics", 6,
+                    "--plot", "s.svg", "--overlay"]
         figures = {}
         for name, text in forms.items():
             overlay = self.file("overlay.tsv", "")
             overlay.write_bytes(text.encode())
-            self.lines("spectrum", machine("motor"), "--frequency", 50, "--plot", "s.svg",
-                       "--overlay", overlay)
+            self.lines(*spectrum, overlay)
             figures[name] = (self.folder / "s.svg").read_bytes()
         for name, figure in figures.items():
             self.assertEqual(figure, figures["plain"], name)
         for text, words in [("f,amplitude\n50,1e-7\n51,x\n", ":3: 'x' is not a finite"),
                             ("f,amplitude\n50,1e-7,3\n", ":2: 3 cells, must be 2"),
                             ("f,g\n50,1e-7\n", "has no column amplitude of numbers")]:
-            self.refused(words, "spectrum", machine("motor"), "--frequency", 50, "--plot",
-                         "s.svg", "--overlay", self.file("bad.csv", text))
+            self.refused(words, *spectrum, self.file("bad.csv", text))
         ask = ["map", machine("rolling"), "--quantity", "amplitude"]
         lists = [self.file("list.tsv", "frequency\trotor.mass_kg\n40\t2\n50\t2.5\n")]
         lists.append(self.file("list.csv", lists[0].read_text().replace("\t", ",")))
@@ -217,21 +217,6 @@ rotor_dofs = [1, 2]
         self.assertEqual(list(table["f"]), [10, 30, 50])
         self.assertEqual(abs(table["amp_x_r"]).max(), 0)
 
-    def test_one_meaning_of_amplitude(self):
-        """Half of largest less smallest over 256 turns, by Runge-Kutta."""
-        right, speeds = 1.262981e-6, ["--from", 50, "--to", 51, "--count", 2]
-        orbit = self.asked("orbit", "motor", "--frequency", 50, "--periods", 256)
-        response = self.asked("response", "motor", *speeds)
-        of_map = self.asked("map", "motor", "--x", "frequency=50:51:2", "--quantity",
-                               "amplitude")
-        attractors = self.asked("attractors", "motor", *speeds, "--starts", 1)
-        for name, value in [("orbit", half_span(orbit["x_r"])),
-                            ("response", response["amp_x_r"][0]),
-                            ("map", of_map["amplitude"][0]),
-                            ("attractors", attractors["amp_x_r"][0])]:
-            with self.subTest(name):
-                self.assertAlmostEqual(value / right, 1, delta=1e-3)
-
     def test_errors_of_two_frequencies_hold(self):
         self.errors_hold("spall_of_the_inner_race", 60.6, 1e-2, 100)
         self.errors_hold("long_transient", 86.58, 1e-3, 100)
@@ -246,7 +231,19 @@ rotor_dofs = [1, 2]
                 self.assertNotEqual(table.value("regime"), "chaotic")
 
 
+def commands_at(f):
+    """What measures the motion at a speed, and how columns are asked for."""
+    speeds = ["--from", f, "--to", f + 1, "--count", 2]
+    return [(["orbit", "--frequency", f], "--columns"), (["response", *speeds], "--columns"),
+            (["attractors", *speeds, "--starts", 0], "--columns"),
+            (["map", "--x", f"frequency={f}:{f + 1}:2"], "--quantity")]
+
+
 class Measures(Case):
+    def measured(self, file, command, how, names):
+        table = self.table(command[0], file, *command[1:], how, ",".join(names))
+        return [float(table[name][0]) for name in names]
+
     def test_measures_of_a_linear_shaft(self):
         """A shaft on its supports, its disk unbalanced: the receptance of its matrices at
         the other disk gives all measures, by every command."""
@@ -263,29 +260,22 @@ class Measures(Case):
         names = ["amp_x_r_out", "amp_v_x_r_out", "amp_a_x_r_out", "peak_x_r_out",
                  "rms_v_y_r_out", "iso_x_r_out", "amp_1X_x_r_out", "phase_1X_x_r_out",
                  "phase_1X_v_x_r_out", "mean_x_r_out"]
-        for f in (60,):
-            omega = 2 * np.pi * f
-            force = np.zeros(len(m), complex)
-            force[8:10] = 1e-3 * omega**2 * np.exp(0.3j) * np.array([1, -1j])
-            q = np.linalg.solve(k + 1j * omega * (c + omega * g) - omega**2 * m, force)
-            x, y = abs(q[16]), abs(q[17])
-            right = [x, omega * x, omega**2 * x, x, omega * y / math.sqrt(2),
-                     1e3 * omega * x / math.sqrt(2), x, np.angle(q[16]),
-                     np.angle(1j * q[16]), 0]
-            speeds = ["--from", f, "--to", f + 1, "--count", 2]
-            for command in (["orbit", "--frequency", f], ["response", *speeds],
-                            ["attractors", *speeds, "--starts", 0],
-                            ["orbit", "--frequency", f, "--harmonics", 3],
-                            ["response", "--from", f, "--to", f + 1, "--harmonics", 3],
-                            ["map", "--x", f"frequency={f}:{f + 1}:2"]):
-                with self.subTest(f=f, command=command):
-                    how = "--quantity" if command[0] == "map" else "--columns"
-                    table = self.table(command[0], "own.toml", *command[1:], how,
-                                       ",".join(names))
-                    found = [float(table[name][0]) for name in names]
-                    # A motion in time still has some of its transient.
-                    within = 1e-6 if "--harmonics" in command else 2e-4
-                    np.testing.assert_allclose(found, right, rtol=within, atol=1e-11)
+        f, omega = 60, 120 * np.pi
+        force = np.zeros(len(m), complex)
+        force[8:10] = 1e-3 * omega**2 * np.exp(0.3j) * np.array([1, -1j])
+        q = np.linalg.solve(k + 1j * omega * (c + omega * g) - omega**2 * m, force)
+        x, y = abs(q[16]), abs(q[17])
+        right = [x, omega * x, omega**2 * x, x, omega * y / math.sqrt(2),
+                 1e3 * omega * x / math.sqrt(2), x, np.angle(q[16]),
+                 np.angle(1j * q[16]), 0]
+        three = ["--harmonics", 3]
+        for command, how in [*commands_at(f), (["orbit", "--frequency", f, *three], "--columns"),
+                             (["response", "--from", f, "--to", f + 1, *three], "--columns")]:
+            with self.subTest(command=command):
+                # A motion in time still has some of its transient.
+                within = 1e-6 if "--harmonics" in command else 2e-4
+                found = self.measured("own.toml", command, how, names)
+                np.testing.assert_allclose(found, right, rtol=within, atol=1e-11)
         table = self.table("orbit", "own.toml", "--frequency", f, "--columns",
                            "phase,v_x_r_out,a_y_r_out")
         turning = np.exp(1j * table["phase"])
@@ -310,17 +300,9 @@ class Measures(Case):
 
     def test_measures_of_a_motion_that_never_closes(self):
         """A rotor in a 6205: velocities are those of the equations of motion, by
-        Runge-Kutta; the amplitude means what it does elsewhere."""
+        Runge-Kutta; the amplitude, half of largest less smallest over 256 turns, means the
+        same in every command."""
         names = ["amp_x_r", "rms_v_x_r", "amp_1X_x_r", "iso_x_r", "rms_a_x_r"]
-        found = {}
-        for command in (["orbit", "--frequency", 50],
-                        ["response", "--from", 50, "--to", 51, "--count", 2],
-                        ["attractors", "--from", 50, "--to", 51, "--count", 2, "--starts",
-                         0], ["map", "--x", "frequency=50:51:2"]):
-            how = "--quantity" if command[0] == "map" else "--columns"
-            table = self.table(command[0], machine("motor"), *command[1:], how,
-                               ",".join(names))
-            found[command[0]] = [float(table[name][0]) for name in names]
         turns, points = 256, 256
         x = model_of(machine("motor"), 50).settled(3000, turns, points)[:, 2]
         n, step = len(x), 1 / (50 * points)
@@ -331,8 +313,10 @@ class Measures(Case):
         right = [half_span(x), math.sqrt(power.sum()), 2 * abs(lines[turns]) / n,
                  1e3 * math.sqrt(power[(hertz >= 10) & (hertz <= 1000)].sum()),
                  math.sqrt((power * (2 * np.pi * hertz)**2).sum())]
-        for command, values in found.items():
-            with self.subTest(command):
+        for command, how in commands_at(50):
+            with self.subTest(command=command):
+                values = self.measured(machine("motor"), command, how, names)
+                self.assertAlmostEqual(values[0] / right[0], 1, delta=1e-3)
                 np.testing.assert_allclose(values, right, rtol=2e-3)
 
 

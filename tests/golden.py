@@ -34,10 +34,9 @@ class Rules:
         self.lines = [line for line in header.splitlines() if not line.startswith("# statistics:")]
         self.every = next(int(words[1]) for words in said if words[0] == "every:")
         self.key = next(words[1:] for words in said if words[0] == "key:")
-        self.tolerances = {words[1]: (float(words[2]), float(words[3]))
-                           for words in said if words[0] == "tolerance:"}
-        self.aperiodic = {words[1]: (float(words[2]), float(words[3]))
-                          for words in said if words[0] == "aperiodic:"}
+        self.tolerances, self.aperiodic = (
+            {words[1]: (float(words[2]), float(words[3])) for words in said if words[0] == name}
+            for name in ("tolerance:", "aperiodic:"))
         self.statistics = {(float(words[1]), words[2]): (float(words[3]), float(words[4]))
                            for words in said if words[0] == "statistics:"}
         share = next((words for words in said if words[0] == "agreeing:"), None)

@@ -2,6 +2,7 @@
 
 #include "io/errors.hpp"
 #include "time/fixed_step.hpp"
+#include "time/turns.hpp"
 
 namespace rotor_stator::costs {
 
@@ -50,37 +51,55 @@ WIDEST_REGISTERS void kick_by_half(Leap& leap)
   leap.kick(0.5 * leap.h);
 }
 
+class CentralDifferences : public Flow {
+public:
+  CentralDifferences(const Parameters& parameters, double omega, int intervals,
+                     double longest_step)
+      : system_(parameters, omega), turns_(Turns::of(parameters)), intervals_(intervals),
+        steps_(steps_in_interval(system_.period(), intervals, longest_step)),
+        h_(system_.period() / (static_cast<double>(intervals) * steps_))
+  {
+  }
+
+  void advance(long interval, State& state) override
+  {
+    const long part = ((interval % intervals_) + intervals_) % intervals_;
+    const double all = static_cast<double>(intervals_) * steps_;
+    Leap one{system_.equation(),
+             system_.bearing().ring(),
+             system_.bearing().law(),
+             turns_.at(static_cast<double>((interval - part) / intervals_),
+                       static_cast<double>(part) / intervals_),
+             turns_.by(1 / all),
+             h_,
+             state.position,
+             state.velocity};
+    kick_by_half(one);
+    leap(one, steps_);
+    kick_by_half(one);
+    state.position = one.q;
+    state.velocity = one.v;
+    evaluations_ += steps_ + 1;
+  }
+
+  long evaluations() const override { return evaluations_; }
+
+private:
+  RotorStator system_;
+  Turns turns_;
+  int intervals_, steps_;
+  double h_;
+  long evaluations_ = 0;
+};
+
 }  // namespace
 
-CentralDifferences::CentralDifferences(const Parameters& parameters, double omega,
-                                       int intervals, double longest_step)
-    : system_(parameters, omega), turns_(Turns::of(parameters)), intervals_(intervals),
-      steps_(steps_in_interval(system_.period(), intervals, longest_step)),
-      h_(system_.period() / (static_cast<double>(intervals) * steps_))
+std::unique_ptr<Flow> central_differences(const Parameters& parameters, double omega,
+                                          int intervals, double longest_step)
 {
   if (!parameters.bearing.is_elastic_hertz())
     throw BadInput("central: knows no contact damping and no defect");
-}
-
-void CentralDifferences::advance(long interval, State& state)
-{
-  const long part = ((interval % intervals_) + intervals_) % intervals_;
-  const double all = static_cast<double>(intervals_) * steps_;
-  Leap one{system_.equation(),
-           system_.bearing().ring(),
-           system_.bearing().law(),
-           turns_.at(static_cast<double>((interval - part) / intervals_),
-                     static_cast<double>(part) / intervals_),
-           turns_.by(1 / all),
-           h_,
-           state.position,
-           state.velocity};
-  kick_by_half(one);
-  leap(one, steps_);
-  kick_by_half(one);
-  state.position = one.q;
-  state.velocity = one.v;
-  evaluations_ += steps_ + 1;
+  return std::make_unique<CentralDifferences>(parameters, omega, intervals, longest_step);
 }
 
 }  // namespace rotor_stator::costs

@@ -53,11 +53,12 @@ std::vector<References> periodic_ranges(const EqualErrorScene& scene,
   return ranges;
 }
 
-std::vector<Trial> try_settings(const EqualErrorScene& scene, const References& range,
-                                const Candidates& candidates)
+std::vector<Measurement> try_settings(const EqualErrorScene& scene,
+                                      const References& range,
+                                      const Candidates& candidates)
 {
   constexpr double clearly = 1.3;
-  std::vector<Trial> tried;
+  std::vector<Measurement> tried;
   double used = 0, least = std::numeric_limits<double>::infinity();
   for (const SettingGroup& group : watched(candidates.method, candidates.groups))
     for (const Setting& setting : group) {
@@ -74,13 +75,13 @@ std::vector<Trial> try_settings(const EqualErrorScene& scene, const References& 
 /** The least CPU over all speeds, one of the settings `allowed` at each; a speed whose
     setting is not that of the speed before costs a median speed of it more, for the start
     and the factors that a change loses. Empty where a speed has none. */
-static std::vector<std::size_t> least_path(const std::vector<Trial>& tried,
+static std::vector<std::size_t> least_path(const std::vector<Measurement>& tried,
                                            const std::vector<std::vector<bool>>& allowed)
 {
   constexpr double never = std::numeric_limits<double>::infinity();
   const std::size_t speeds = allowed.size(), settings = tried.size();
   std::vector<double> change;
-  for (const Trial& trial : tried) {
+  for (const Measurement& trial : tried) {
     std::vector<double> seconds = trial.seconds;
     std::ranges::nth_element(seconds, seconds.begin() + seconds.size() / 2);
     change.push_back(seconds[seconds.size() / 2]);
@@ -105,13 +106,14 @@ static std::vector<std::size_t> least_path(const std::vector<Trial>& tried,
 
 std::optional<Schedule> schedule_by_speed(const EqualErrorScene& scene,
                                           const References& range,
-                                          const std::vector<Trial>& tried, double target)
+                                          const std::vector<Measurement>& tried,
+                                          double target)
 {
   constexpr int attempts = 12;
   const std::size_t speeds = range.frequencies.size();
   std::vector<std::vector<bool>> allowed(speeds);
   for (std::size_t k = 0; k < speeds; ++k)
-    for (const Trial& trial : tried)
+    for (const Measurement& trial : tried)
       allowed[k].push_back(trial.errors[k].*scene.error <= target);
   for (int attempt = 0; attempt < attempts; ++attempt) {
     const std::vector<std::size_t> path = least_path(tried, allowed);
@@ -129,26 +131,26 @@ std::optional<Schedule> schedule_by_speed(const EqualErrorScene& scene,
 }
 
 EqualErrorRow cheapest(const EqualErrorScene& scene, const References& range,
-                       const std::vector<Trial>& tried, double target,
+                       const std::vector<Measurement>& tried, double target,
                        const std::vector<EqualErrorRow>& rows)
 {
   constexpr std::size_t few = 4;
-  std::vector<Measurement> good(tried.begin(), tried.end());
+  std::vector<Measurement> good = tried;
   std::erase_if(good, [&](auto& m) { return !(m.*scene.error <= target); });
   std::ranges::sort(good, {}, &Measurement::median);
   if (good.size() > few) good.erase(good.begin() + few, good.end());
   for (Measurement& m : good) m = measure(range, m.schedule, scene.repetitions);
   if (const auto schedule = schedule_by_speed(scene, range, tried, target))
     good.push_back(measure(range, *schedule, scene.repetitions));
-  EqualErrorRow row{good.empty()
-                        ? static_cast<const Measurement&>(*std::ranges::min_element(
-                              tried, {}, [&](auto& m) { return m.*scene.error; }))
-                        : *std::ranges::min_element(good, {}, &Measurement::median),
-                    format("%g-%g", range.frequencies.front(), range.frequencies.back()),
-                    range.frequencies.size(),
-                    tried.size(),
-                    target,
-                    !good.empty()};
+  EqualErrorRow row{
+      good.empty()
+          ? *std::ranges::min_element(tried, {}, [&](auto& m) { return m.*scene.error; })
+          : *std::ranges::min_element(good, {}, &Measurement::median),
+      format("%g-%g", range.frequencies.front(), range.frequencies.back()),
+      range.frequencies.size(),
+      tried.size(),
+      target,
+      !good.empty()};
   if (row.reached && row.schedule.method() == "aft") row.ratio = 1;
   for (const EqualErrorRow& aft : rows)
     if (aft.schedule.method() == "aft" && aft.reached && aft.range == row.range &&

@@ -36,15 +36,17 @@ std::vector<References> periodic_ranges(const EqualErrorScene& scene,
                                         const References& references);
 
 /** The settings of one method in one range, group by group. */
-std::vector<Trial> try_settings(const EqualErrorScene& scene, const References& range,
-                                const Candidates& candidates);
+std::vector<Measurement> try_settings(const EqualErrorScene& scene,
+                                      const References& range,
+                                      const Candidates& candidates);
 
 /** The settings that stay below the target at their speeds and take the least CPU
     together. A speed that misses the target among its new neighbours takes another
     one. */
 std::optional<Schedule> schedule_by_speed(const EqualErrorScene& scene,
                                           const References& range,
-                                          const std::vector<Trial>& tried, double target);
+                                          const std::vector<Measurement>& tried,
+                                          double target);
 
 /** One method in one range at one target: its cheapest settings that reach the target, or
     the setting with the least error where none does. */
@@ -58,7 +60,7 @@ struct EqualErrorRow : Measurement {
 
 /** Of the settings tried. `rows` has that of aft, if it is to be compared with. */
 EqualErrorRow cheapest(const EqualErrorScene& scene, const References& range,
-                       const std::vector<Trial>& tried, double target,
+                       const std::vector<Measurement>& tried, double target,
                        const std::vector<EqualErrorRow>& rows);
 
 Table equal_error_table(const EqualErrorScene& scene, const References& references,

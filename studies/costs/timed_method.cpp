@@ -184,8 +184,7 @@ std::unique_ptr<Flow> TimedMethod::stepper(std::size_t speed, int intervals) con
   const double omega = angular(task_.frequencies[speed]);
   const Setting& setting = schedule_.at(speed);
   if (setting.method == "central")
-    return std::make_unique<CentralDifferences>(task_.parameters, omega, intervals,
-                                                setting.step);
+    return central_differences(task_.parameters, omega, intervals, setting.step);
   const std::string method = setting.stepper();
   return flow(task_.parameters, omega,
               {.method = method,
@@ -547,12 +546,14 @@ Measurement measure(const References& sweep, const Schedule& schedule, int repet
   return judged(*method, sweep, schedule, time, repetitions);
 }
 
-Trial tried_once(const References& sweep, const Schedule& schedule)
+Measurement tried_once(const References& sweep, const Schedule& schedule)
 {
   const auto method = timed_method(sweep, schedule);
   const std::vector<double> seconds = method->seconds_by_speed();
   const double all = std::accumulate(seconds.begin(), seconds.end(), 0.0);
-  return {judged(*method, sweep, schedule, {all, all, all}, 1), seconds};
+  Measurement result = judged(*method, sweep, schedule, {all, all, all}, 1);
+  result.seconds = seconds;
+  return result;
 }
 
 MotionError error_up_to(double bound, const References& sweep, const Schedule& schedule)

@@ -12,46 +12,34 @@
 
 namespace rotor_stator::costs {
 
-namespace {
-
-/** One period from `state` by rk8. */
-motion::Motion one_period(const Parameters& parameters, double frequency,
-                          const State& state, int points, double tolerance)
-{
-  return motion::one_period(parameters, angular(frequency), state,
-                            {.intervals_per_period = points, .tolerance = tolerance});
-}
-
-}  // namespace
-
 TrueMotion true_motion(const Parameters& parameters, double frequency,
                        const TruthSettings& settings)
 {
-  const SteadyState steady =
-      steady_state(parameters, angular(frequency), settings.settling);
+  const double omega = angular(frequency);
+  const SteadyState steady = steady_state(parameters, omega, settings.settling);
   TrueMotion truth{frequency, steady.periodic, steady.spread, steady.states.front()};
   if (!truth.periodic) return truth;
   const Shooting shooting =
-      shoot(parameters, angular(frequency), truth.state,
+      shoot(parameters, omega, truth.state,
             {.tolerance = settings.tolerance, .closed = settings.periodicity_residual});
   if (!shooting.converged)
     throw NoSolution(
         format("no reference at %g Hz: %s", frequency, shooting.reason.c_str()));
   truth.periodicity_residual = shooting.correction;
-  truth.motion =
-      one_period(parameters, frequency, truth.state,
-                 settings.settling.stepper.intervals_per_period, settings.tolerance);
+  truth.motion = motion::one_period(
+      parameters, omega, truth.state,
+      {.intervals_per_period = settings.settling.stepper.intervals_per_period,
+       .tolerance = settings.tolerance});
   return truth;
 }
 
 double agreement(const Parameters& parameters, const TrueMotion& truth, int harmonics)
 {
-  constexpr double tolerance = 1e-12;
-  const int samples = default_samples(harmonics);
   const double omega = angular(truth.frequency);
   const motion::Motion fine =
-      one_period(parameters, truth.frequency, truth.state, 2 * harmonics + 2, tolerance);
-  Balance balance(bearing_problem(parameters, samples), harmonics);
+      motion::one_period(parameters, omega, truth.state,
+                         {.intervals_per_period = 2 * harmonics + 2, .tolerance = 1e-12});
+  Balance balance(bearing_problem(parameters, default_samples(harmonics)), harmonics);
   const PeriodicMotion solution =
       solve(balance, omega, motion::relative_series(parameters, fine, harmonics),
             {.tolerance = 1e-11});

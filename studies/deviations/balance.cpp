@@ -76,8 +76,7 @@ EvidenceList printed_block(const DeviationScene& scene)
     const motion::Motion printed = plain_solution(scene, frequency, FirstEntry::printed);
     const motion::Motion ours = plain_solution(scene, frequency, FirstEntry::corrected);
     const std::string at = format("_%gHz", frequency);
-    list.insert(
-        list.end(),
+    add(list,
         {{"D-12.printed" + at, motion::relative_difference(printed, truth), "-",
           "distance to time integration with the printed block"},
          {"D-12.ours" + at, motion::relative_difference(ours, truth), "-",
@@ -150,13 +149,12 @@ EvidenceList samples_as_printed(const DeviationScene& scene)
                         quasi_static_start(scene.machine, from, m), settings);
       const motion::Motion motion =
           scene.motion_of(require_periodic(scene.machine, scene.speed, m, n));
-      list.insert(list.end(),
-                  {{"D-05.folds" + where, static_cast<double>(branch.folds.size()), "-",
-                    "folds of the branch, " + with},
-                   {"D-05.end" + where, branch.points.back().motion.omega / angular(1),
-                    "Hz", "speed where the branch ended, " + with + ": " + branch.end},
-                   {"D-05.error" + where, motion::relative_difference(motion, truth), "-",
-                    "distance to time integration, " + with}});
+      add(list, {{"D-05.folds" + where, static_cast<double>(branch.folds.size()), "-",
+                  "folds of the branch, " + with},
+                 {"D-05.end" + where, branch.points.back().motion.omega / angular(1),
+                  "Hz", "speed where the branch ended, " + with + ": " + branch.end},
+                 {"D-05.error" + where, motion::relative_difference(motion, truth), "-",
+                  "distance to time integration, " + with}});
     }
   }
   return list;

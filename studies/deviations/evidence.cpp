@@ -1,6 +1,7 @@
 #include "deviations/evidence.hpp"
 
 #include "io/errors.hpp"
+#include "motion/contact.hpp"
 #include "motion/find_periodic.hpp"
 
 namespace rotor_stator::deviations {
@@ -77,28 +78,12 @@ EvidenceList mean_of(const std::string& key, const std::string& meaning,
           {key + "_error", mean.error, "-", "its standard error over the turns"}};
 }
 
-namespace {
-
-const std::vector<Field<Evidence>> fields{
-    {"key", "-", "entry and name", &Evidence::key},
-    {"value", "-", "in the unit of its row", &Evidence::value},
-    {"unit", "-", "of the value", &Evidence::unit},
-    {"meaning", "-", "what the value is", &Evidence::meaning}};
-
-}  // namespace
-
-Table evidence_table(const DeviationScene& scene)
+EvidenceList contact_of(const std::string& key, const std::string& meaning,
+                        const Parameters& machine, const motion::Motion& motion)
 {
-  Table table("Evidence for the deviations from the printed paper (paper/deviations.md)",
-              fields);
-  describe(table, scene.machine, false);
-  describe(table, scene.printed, false);
-  return table;
-}
-
-void add_evidence(Table& table, const EvidenceList& list)
-{
-  for (const Evidence& evidence : list) table.row(fields, evidence);
+  return mean_of(key, meaning, motion, 1, [&](const motion::Motion& turn) {
+    return motion::contact_share(machine, turn);
+  });
 }
 
 }  // namespace rotor_stator::deviations

@@ -89,9 +89,9 @@ EvidenceList mean_of(const std::string& key, const std::string& meaning,
                      const motion::Motion& motion, int periods,
                      const std::function<double(const motion::Motion&)>& measure);
 
-/** The table that paper/deviations.md quotes: one row per number. */
-Table evidence_table(const DeviationScene& scene);
-void add_evidence(Table& table, const EvidenceList& list);
+/** The same of the share of the time with a loaded ball, over all turns. */
+EvidenceList contact_of(const std::string& key, const std::string& meaning,
+                        const Parameters& machine, const motion::Motion& motion);
 
 /**
 ## The entries */

@@ -9,7 +9,6 @@ Contact, readings, masses. */
 #include "deviations/printed_equations.hpp"
 #include "io/errors.hpp"
 #include "model/hertz.hpp"
-#include "motion/contact.hpp"
 
 namespace rotor_stator::deviations {
 
@@ -126,11 +125,9 @@ EvidenceList two_readings(const DeviationScene& scene)
   for (const auto& [name, machine] :
        {std::pair{"exchanged", &ours}, std::pair{"printed", &printed}}) {
     const SteadyState steady = scene.settled(*machine, speed);
-    add(list,
-        mean_of(format("D-09.contact_%s", name), "share of the time with a loaded ball",
-                scene.motion_of(steady), 1, [&](const motion::Motion& turn) {
-                  return motion::contact_share(*machine, turn);
-                }));
+    add(list, contact_of(format("D-09.contact_%s", name),
+                         "share of the time with a loaded ball", *machine,
+                         scene.motion_of(steady)));
     add(list, spread_of(format("D-09.spread_%s", name), steady));
     const PeriodicMotion peak = require_periodic(
         *machine, joint_resonance(*machine) / angular(1), scene.harmonics);
@@ -169,12 +166,10 @@ EvidenceList unprinted_masses(const DeviationScene& scene)
     machine.stator.mass *= factor;
     machine.rotor.mass *= factor;
     const SteadyState steady = scene.settled(machine, scene.transition_speed);
-    add(list,
-        mean_of(format("D-13.contact_%d", number),
-                format("share of the time in contact with both masses times %g", factor),
-                scene.motion_of(steady), 1, [&](const motion::Motion& turn) {
-                  return motion::contact_share(machine, turn);
-                }));
+    add(list, contact_of(format("D-13.contact_%d", number),
+                         format("share of the time in contact with both masses times %g",
+                                factor),
+                         machine, scene.motion_of(steady)));
     add(list, spread_of(format("D-13.spread_%d", number), steady,
                         format("Poincare spread with both masses times %g", factor)));
   }

@@ -42,14 +42,13 @@ EvidenceList amplitude_definitions(const DeviationScene& scene)
               .maxCoeff();
       const double rms = series.row(row).tail(series.cols() - 1).norm();  // times √2
       const std::string key = format("_%s_%s", row == 2 ? "x_r" : "y_r", name);
-      list.insert(list.end(),
-                  {{"D-10.half" + key, half, "m", "half peak-to-peak"},
-                   {"D-10.largest" + key, largest / half, "-",
-                    "largest modulus over half peak-to-peak"},
-                   {"D-10.rms" + key, rms / half, "-",
-                    "rms about the mean times sqrt 2, over half peak-to-peak"},
-                   {"D-10.first" + key, harmonic(series, row, 1) / half, "-",
-                    "first harmonic over half peak-to-peak"}});
+      add(list, {{"D-10.half" + key, half, "m", "half peak-to-peak"},
+                 {"D-10.largest" + key, largest / half, "-",
+                  "largest modulus over half peak-to-peak"},
+                 {"D-10.rms" + key, rms / half, "-",
+                  "rms about the mean times sqrt 2, over half peak-to-peak"},
+                 {"D-10.first" + key, harmonic(series, row, 1) / half, "-",
+                  "first harmonic over half peak-to-peak"}});
     }
   }
   return list;
@@ -116,17 +115,14 @@ EvidenceList speeds_of_panels(const DeviationScene& scene)
     const double frequency = speeds[k];
     const SteadyState steady = scene.settled(scene.machine, frequency);
     const motion::Motion motion = scene.motion_of(steady);
-    const auto contact = [&](const motion::Motion& turn) {
-      return motion::contact_share(scene.machine, turn);
-    };
     const auto higher = [&](const motion::Motion& turn) {
       const Eigen::MatrixXd series = motion::series_of(turn, scene.harmonics);
       return series.row(2).tail(series.cols() - 3).norm() / harmonic(series, 2, 1);
     };
     const std::string key = format("_%zu", k + 1);
     list.push_back({"D-17.speed" + key, frequency, "Hz", "speed of the panel"});
-    add(list, mean_of("D-17.contact" + key, "share of the time with a loaded ball",
-                      motion, 1, contact));
+    add(list, contact_of("D-17.contact" + key, "share of the time with a loaded ball",
+                         scene.machine, motion));
     add(list, mean_of("D-17.higher" + key, "harmonics 2 and more of x_r over the first",
                       motion, 1, higher));
     add(list, spread_of("D-17.spread" + key, steady));

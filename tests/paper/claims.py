@@ -3,7 +3,9 @@ out or put in another order; both versions of Table 1 by the same rules, and the
 """
 import tomllib
 import unittest
+from functools import cache
 from pathlib import Path
+from unittest import mock
 
 import numpy as np
 
@@ -94,7 +96,11 @@ class Quantities(unittest.TestCase):
 
 
 class Tables(unittest.TestCase):
-    """The computed tables of both readings."""
+    """The computed tables of both readings, each file read once."""
+
+    @classmethod
+    def setUpClass(cls):
+        cls.enterClassContext(mock.patch("claims.Table", cache(Table)))
 
     def verdicts(self, folder, change=lambda table: table):
         return {claim["id"]: found for claim, found, *_ in judged(folder, change=change)}

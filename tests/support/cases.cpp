@@ -1,9 +1,6 @@
 #include "support/cases.hpp"
 
-#include <Eigen/LU>
-#include <cmath>
-#include <complex>
-#include <numbers>
+#include "balance/fourier_transform.hpp"
 
 namespace rotor_stator::tests {
 
@@ -67,47 +64,32 @@ Oscillator two_masses_unilateral()
           }};
 }
 
-namespace {
-
 /** The derivative of the period map of an oscillator with d masses, linearised along the series `x` at
     `omega`, by RK4 with so many steps. 2d × 2d, displacements first. */
-Eigen::MatrixXd monodromy(const Oscillator& oscillator, const Eigen::VectorXd& x,
-                          double omega, int steps)
+static Eigen::MatrixXd monodromy(const Oscillator& oscillator, const Eigen::VectorXd& x,
+                                 double omega, int steps)
 {
   const auto d = oscillator.mass.rows();
-  const Eigen::MatrixXd series = x.reshaped(d, x.size() / d);
+  const Eigen::MatrixXd q = sample_series(x.reshaped(d, x.size() / d), 2 * steps);
   const Eigen::MatrixXd per_mass = oscillator.mass.inverse();
-  const auto stiffness = [&](double phase) -> Eigen::MatrixXd {
-    const std::complex<double> turn = std::polar(1.0, phase);
-    std::complex<double> power = 1;
-    Eigen::VectorXd q = series.col(0);
-    for (Eigen::Index h = 1; h < series.cols(); h += 2) {
-      power *= turn;
-      q += power.real() * series.col(h) + power.imag() * series.col(h + 1);
-    }
-    return oscillator.law(q).stiffness;
-  };
-  Eigen::MatrixXd phi = Eigen::MatrixXd::Identity(2 * d, 2 * d);
-  const auto rate = [&](const Eigen::MatrixXd& k, const Eigen::MatrixXd& y) {
+  const auto rate = [&](int half_step, const Eigen::MatrixXd& y) {
+    const Eigen::MatrixXd k =
+        oscillator.stiffness + oscillator.law(q.row(half_step % (2 * steps))).stiffness;
     Eigen::MatrixXd slope(2 * d, 2 * d);
-    slope << y.bottomRows(d), -per_mass * ((oscillator.stiffness + k) * y.topRows(d) +
-                                           oscillator.damping * y.bottomRows(d));
+    slope << y.bottomRows(d),
+        -per_mass * (k * y.topRows(d) + oscillator.damping * y.bottomRows(d));
     return slope;
   };
+  Eigen::MatrixXd phi = Eigen::MatrixXd::Identity(2 * d, 2 * d);
   const double h = 2 * std::numbers::pi / omega / steps;
-  for (int k = 0; k < steps; ++k) {
-    const double at = omega * h * k;
-    const Eigen::MatrixXd middle = stiffness(at + omega * h / 2),
-                          s_1 = rate(stiffness(at), phi),
-                          s_2 = rate(middle, phi + h / 2 * s_1),
-                          s_3 = rate(middle, phi + h / 2 * s_2),
-                          s_4 = rate(stiffness(at + omega * h), phi + h * s_3);
+  for (int k = 0; k < 2 * steps; k += 2) {
+    const Eigen::MatrixXd s_1 = rate(k, phi), s_2 = rate(k + 1, phi + h / 2 * s_1),
+                          s_3 = rate(k + 1, phi + h / 2 * s_2),
+                          s_4 = rate(k + 2, phi + h * s_3);
     phi += h / 6 * (s_1 + 2 * s_2 + 2 * s_3 + s_4);
   }
   return phi;
 }
-
-}  // namespace
 
 Floquet floquet(const Oscillator& oscillator, const Eigen::VectorXd& x, double omega)
 {
@@ -130,6 +112,14 @@ double rms(const Eigen::VectorXd& x, int dofs, int row)
   for (Eigen::Index h = 1; 2 * h * dofs + row < x.size(); ++h)
     sum += 0.5 * std::pow(harmonic_amplitude(x, dofs, row, static_cast<int>(h)), 2);
   return std::sqrt(sum);
+}
+
+void check_same(const std::vector<double>& found, const std::vector<double>& known,
+                double tolerance)
+{
+  REQUIRE(found.size() == known.size());
+  for (std::size_t k = 0; k < found.size(); ++k)
+    CHECK(found[k] == Approx(known[k]).epsilon(tolerance));
 }
 
 Parameters set_1()

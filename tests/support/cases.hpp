@@ -1,16 +1,26 @@
 /**
-# Cases that others defined
+# What every unit test needs
 
-Small oscillators of public harmonic-balance tools (NLvib examples 01 to 03), set up
-through the seam of balance/balance.hpp. M q̈ + D q̇ + K q + f(q) = F cos Ωt. */
+And cases that others defined: small oscillators of public harmonic-balance tools (NLvib
+examples 01 to 03), set up through the seam of balance/balance.hpp.
+M q̈ + D q̇ + K q + f(q) = F cos Ωt. */
 #pragma once
 
+#include <Eigen/LU>
+#include <algorithm>
 #include <array>
 #include <bit>
+#include <cmath>
+#include <complex>
 #include <cstdint>
+#include <memory>
+#include <numbers>
+#include <optional>
 
-#include "balance/balance.hpp"
-#include "model/rotor_stator.hpp"
+#include "balance/bearing_problem.hpp"
+#include "io/errors.hpp"
+#include "motion/find_periodic.hpp"
+#include "support/catch.hpp"
 #include "time/period_map.hpp"
 
 namespace rotor_stator::tests {
@@ -51,6 +61,10 @@ Parameters set_1();
 
 /** 2π times a frequency. */
 double hertz(double frequency);
+
+/** Equally many numbers, each within a relative tolerance. */
+void check_same(const std::vector<double>& found, const std::vector<double>& known,
+                double tolerance);
 
 using Bits = std::array<std::uint64_t, 8>;
 

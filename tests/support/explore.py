@@ -6,10 +6,14 @@ import tempfile
 import unittest
 from pathlib import Path
 
+import numpy as np
 from tables import Table
 
 EXPLORE = Path(os.environ.get("BUILD", "build"), "explore").resolve()
-MACHINE = Path("data/set1.toml").read_text(encoding="utf-8")
+SETS = {number: Path(f"data/set{number}.toml").resolve() for number in (1, 2)}
+MACHINE = SETS[1].read_text(encoding="utf-8")
+NAMES, FORCES = ["x_s", "y_s", "x_r", "y_r"], ["F_x", "F_y"]
+AMPLITUDES = [f"amp_{name}" for name in NAMES]
 RESPONSE = ["--from", "20", "--to", "21"]
 ORBIT = ["--frequency", "45", "--points", "4"]
 SANITIZED = "SANITIZED" in os.environ  # slower, ten times and more
@@ -69,6 +73,17 @@ class Case(unittest.TestCase):
         with self.subTest(f"{old} -> {new}"):
             self.refused(words, "orbit", self.file("bad.toml", MACHINE.replace(old, new, 1)), *ORBIT,
                          status=status)
+
+    def same(self, one, other, within, *groups):
+        """Columns of two tables differ by at most this share of the largest value in their group."""
+        for names in groups or [NAMES]:
+            size = within * max(abs(other[name]).max() for name in names)
+            for name in names:
+                np.testing.assert_allclose(one[name], other[name], rtol=0, atol=size, err_msg=name)
+
+    def said(self, table, *keys):
+        """Values of keys of the header, None where it has none."""
+        return [table.value(key, None) for key in keys]
 
     def lines(self, *arguments):
         """All that is printed where all goes well."""

@@ -5,15 +5,13 @@ power, which asks for no method.
 import math
 import random
 import tomllib
-from pathlib import Path
 
 import numpy as np
 
 from tests.truth.independent import Model, ask, displacements, state_at_zero
 from tests.machines import SET_1, entries, random_machine, written
-from tests.support.explore import Case, Table
+from tests.support.explore import AMPLITUDES, SETS, Case, Table
 
-SETS = {number: Path(f"data/set{number}.toml").resolve() for number in (1, 2)}
 START = [0.96, 0.66, 0.32, 0.09]  # near the motion of the two masses at 0.635
 SAME, NEAR_ONE = 0.05, 0.002  # of the largest displacement; of the modulus
 # Where six harmonics are right about themselves and wrong about the machine, and some where they are right.
@@ -133,31 +131,28 @@ class Verdicts(Case):
                 # Neither of the two alone gives it at every speed.
                 self.assertGreater(max(abs(unbalance.mean()), abs(cage.mean())), 0.3 * dampers.mean())
 
-    def test_motions_of_two_turns_by_three_ways(self):
-        attractors = self.table("attractors", SETS[1], "--from", 19.75, "--to", 20.25, "--count", 3)
-        branch = self.table("response", SETS[1], "--from", 19.75, "--to", 20.35, "--method", "aft", "--subharmonic", 2)
-        doubling = self.table("response", SETS[1], "--from", 20.2, "--to", 20.4, "--harmonics", 6, "--stability")
-        point = next(f for _, kind, f, _ in doubling.members("bifurcation") if kind == "period-doubling")
+    def test_branch_of_motions_of_two_turns(self):
+        """It ends where the branch of one turn has its only doubling, right to 1e-3 in speed, and passes the attractors."""
+        attractors = self.table("attractors", SETS[1], "--from", 20, "--to", 20.25, "--count", 2, "--starts", 0)
+        branch = self.table("response", SETS[1], "--from", 20, "--to", 20.35, "--method", "aft", "--subharmonic", 2)
+        doubling = self.table("response", SETS[1], "--from", 19.9, "--to", 20.6, "--harmonics", 6, "--stability")
+        point, = doubling["f"][doubling["bifurcation"] == "period-doubling"]
+        self.assertEqual([f for _, kind, f, _ in doubling.members("bifurcation") if kind == "period-doubling"], [point])
         self.assertAlmostEqual(branch["f"].max(), point, delta=0.02)
-        names = ["amp_x_s", "amp_y_s", "amp_x_r", "amp_y_r"]
         upwards = slice(0, int(branch["f"].argmax()))
-        for k, frequency in enumerate(attractors["f"]):
-            with self.subTest(frequency=frequency):
-                self.assertEqual(attractors["period"][k], 2)
-                orbit = self.table("orbit", SETS[1], "--frequency", frequency, "--method", "aft", "--subharmonic", 2, "--points", 2048)
-                self.assertEqual((orbit.value("regime"), orbit.value("period")), ("periodic", 2))
-                self.assertEqual(len(orbit), 4096)
-                for name in names:
-                    on_branch = np.interp(frequency, branch["f"][upwards], branch[name][upwards])
-                    by_orbit = np.ptp(orbit[name.removeprefix("amp_")]) / 2
-                    self.assertAlmostEqual(by_orbit / attractors[name][k], 1, delta=1e-4)
-                    self.assertAlmostEqual(on_branch / attractors[name][k], 1, delta=5e-4)
+        self.assertEqual(list(attractors["period"]), [2, 2])
+        orbit = self.table("orbit", SETS[1], "--frequency", 20, "--method", "aft", "--subharmonic", 2, "--points", 2048)
+        self.assertEqual((self.said(orbit, "regime", "period"), len(orbit)), (["periodic", 2], 4096))
+        for name in AMPLITUDES:
+            on_branch = np.interp(attractors["f"], branch["f"][upwards], branch[name][upwards])
+            np.testing.assert_allclose(on_branch, attractors[name], rtol=5e-4)
+            self.assertAlmostEqual(np.ptp(orbit[name[4:]]) / 2 / attractors[name][0], 1, delta=1e-4)
 
     def test_what_six_harmonics_hid(self):
         for frequency, *answer in [(20, "unstable", "periodic", 2), (54, "unstable", "periodic", 2),
                                    (13.4, "undecided", "chaotic", None), (45, "stable", "periodic", 1)]:
             table = self.table("orbit", self.machine, "--frequency", frequency, "--points", 4, *SIX)
-            self.assertEqual([table.value(key, None) for key in ("stability", "regime", "period")], answer)
+            self.assertEqual(self.said(table, "stability", "regime", "period"), answer)
 
     def test_an_inaccurate_picture_is_said_to_be_one(self):
         table = self.table("orbit", SETS[1], "--frequency", 1, "--points", 4, *SIX)

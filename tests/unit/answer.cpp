@@ -1,12 +1,7 @@
 /** What the machine does from rest: kinds, exponents, amplitudes and errors against closed forms and other methods. */
 #include "motion/answer.hpp"
-
-#include <cmath>
-#include <numbers>
-
 #include "motion/quasi_periodic.hpp"
 #include "support/cases.hpp"
-#include "support/catch.hpp"
 #include "time/flow.hpp"
 #include "time/shooting.hpp"
 
@@ -20,20 +15,13 @@ motion::Answer from_rest_at(const Parameters& parameters, double frequency)
   return motion::answer(parameters, {.omega = hertz(frequency)});
 }
 
-/** Set 1 with a clearance that is never closed: the rotor alone on its suspension. */
-Parameters free_rotor()
-{
-  Parameters parameters = set_1();
-  parameters.bearing.clearance = 1;
-  return parameters;
-}
-
 }  // namespace
 
 TEST_CASE("Without contact the amplitude is that of Jeffcott's rotor")
 {
   /** A wrong phase, unbalance or number of base periods would show. */
-  const Parameters parameters = free_rotor();
+  Parameters parameters = set_1();
+  parameters.bearing.clearance = 1;
   const motion::Answer answer = from_rest_at(parameters, 30);
   const double omega = hertz(30), r = omega / parameters.rotor.natural_frequency;
   const double expected = parameters.unbalance / parameters.rotor.mass * r * r /
@@ -136,18 +124,6 @@ TEST_CASE("A torus is put on t = 0, instant by instant that of harmonic balance"
   exact.points_per_period = solution.points_per_period = 256;
   CHECK(motion::relative_difference(solution, exact) < 2e-4);
   CHECK(answer.error->larger() < 1e-4);
-}
-
-TEST_CASE("The base period is decided by what drives the machine")
-{
-  Parameters parameters = set_1();
-  CHECK(base_period(parameters).words() == "turn");
-  parameters.bearing.cage_speed_ratio = 7.0 / 16 + 1.0 / 48;
-  CHECK(base_period(parameters).words() == "turns 3");
-  parameters.bearing.cage_speed_ratio = 0.4321;
-  CHECK(base_period(parameters).words() == "two");
-  parameters.unbalance = 0;
-  CHECK(base_period(parameters).words() == "passing");
 }
 
 TEST_CASE("A start from rest is in equilibrium, whole turns before t = 0")

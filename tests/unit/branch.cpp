@@ -1,12 +1,6 @@
 /** Branches against closed forms: folds, closed and isolated branches, restarts, bounds. The branches of
    set 1 followed both ways and with half the step must have the same folds. */
-#include <algorithm>
-#include "support/catch.hpp"
-
-#include "balance/bearing_problem.hpp"
 #include "continuation/arc_length.hpp"
-#include "io/errors.hpp"
-#include "motion/find_periodic.hpp"
 #include "support/cases.hpp"
 
 using namespace rotor_stator;
@@ -88,49 +82,7 @@ std::vector<double> in_order(std::vector<double> folds)
   return folds;
 }
 
-void check_same(const std::vector<double>& found, const std::vector<double>& known,
-                double tolerance)
-{
-  REQUIRE(found.size() == known.size());
-  for (std::size_t k = 0; k < found.size(); ++k)
-    CHECK(found[k] == Approx(known[k]).epsilon(tolerance));
-}
-
 }  // namespace
-
-TEST_CASE("Folds of Duffing as published, up and down, at any step")
-{
-  for (double most_step : {0.5, 0.05, 0.005}) {
-    Balance balance(duffing().problem(128), 1);
-    ArcLengthSettings settings = plain;
-    settings.most_step = most_step;
-    const Eigen::VectorXd rest = Eigen::VectorXd::Zero(3);
-    const Branch up = follow_branch(balance, 0.5, 1.6, rest, settings);
-    const Branch down = follow_branch(balance, 1.6, 0.5, rest, settings);
-    REQUIRE(up.covered);
-    REQUIRE(down.covered);
-    check_same(up.folds, {1.267537, 1.115586}, 1e-6);
-    check_same(down.folds, {up.folds.rbegin(), up.folds.rend()}, 1e-8);
-    CHECK(up.points.back().motion.omega == 1.6);
-    CHECK(up.points.back().arc == Approx(down.points.back().arc).epsilon(1e-3));
-  }
-}
-
-TEST_CASE("A fold is a point of its branch, with a tangent across the speed")
-{
-  Balance balance(duffing().problem(128), 7);
-  const Branch branch =
-      follow_branch(balance, 0.5, 1.6, Eigen::VectorXd::Zero(15), plain);
-  REQUIRE(branch.folds.size() == 2);
-  for (double fold : branch.folds) {
-    const auto point =
-        std::find_if(branch.points.begin(), branch.points.end(),
-                     [&](const auto& p) { return p.motion.omega == fold; });
-    REQUIRE(point != branch.points.end());
-    CHECK(std::abs(point->speed_direction()) < 1e-4);
-    CHECK(balance.residual(point->motion.x, point->motion.omega).norm() < 1e-9);
-  }
-}
 
 TEST_CASE("A circle is followed once round and recognised as closed, either way")
 {

@@ -1,9 +1,5 @@
 /** The account that bounds what a run may cost. */
-#include "support/catch.hpp"
-
-#include "balance/bearing_problem.hpp"
 #include "io/budget.hpp"
-#include "io/errors.hpp"
 #include "support/cases.hpp"
 #include "time/steady_state.hpp"
 
@@ -29,6 +25,12 @@ TEST_CASE("Copies and parts of an account spend the same money until it is empty
   CHECK_THROWS_AS(copy.spend(1), NoSolution);
   CHECK_FALSE(OperationBudget().bounded());
   CHECK_NOTHROW(OperationBudget().part(0.5).spend(1e300));
+  /** Callbacks are told what cannot be paid for. */
+  const OperationBudget own(100, "--budget");
+  CHECK(own.pay(80));
+  CHECK_FALSE(own.pay(40));
+  CHECK(own.used_up());
+  CHECK_THROWS_WITH(own.spend(1), contains("100 evaluations") && contains("--budget"));
 }
 
 TEST_CASE("Nothing is paid for after the seconds of the clock, in parts too")
@@ -41,15 +43,6 @@ TEST_CASE("Nothing is paid for after the seconds of the clock, in parts too")
   OperationBudget later(100);
   later.end_at(Clock::now() + std::chrono::hours(1), 3600);
   CHECK_NOTHROW(later.spend(1));
-}
-
-TEST_CASE("Callbacks are told what cannot be paid for")
-{
-  const OperationBudget budget(100, "--budget");
-  CHECK(budget.pay(80));
-  CHECK_FALSE(budget.pay(40));
-  CHECK(budget.used_up());
-  CHECK_THROWS_WITH(budget.spend(1), contains("100 evaluations") && contains("--budget"));
 }
 
 /** What was once counted too cheap, in counts: no seconds are needed to see it. */

@@ -1,13 +1,7 @@
 /** What the tables of cost rest on: references, counted operations, fits, and the rivals themselves. No
     time is asserted. */
-#include <cmath>
-#include "support/catch.hpp"
-
 #include "costs/equal_error.hpp"
 #include "costs/timing.hpp"
-#include "costs/work_precision.hpp"
-#include "io/errors.hpp"
-#include "motion/find_periodic.hpp"
 #include "support/cases.hpp"
 
 using namespace rotor_stator;

@@ -1,14 +1,10 @@
 /** What the printed equations do, against closed forms and bounds: the numbers that
  * paper/deviations.md quotes. */
-#include <cmath>
 #include <fstream>
 #include <sstream>
-#include "model/hertz.hpp"
-#include "support/catch.hpp"
-
 #include "deviations/evidence.hpp"
 #include "deviations/printed_equations.hpp"
-#include "io/errors.hpp"
+#include "model/hertz.hpp"
 #include "support/cases.hpp"
 
 using namespace rotor_stator;

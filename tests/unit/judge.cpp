@@ -1,7 +1,4 @@
 /** Verdicts on solutions, against motions that another shooting has closed. */
-#include "support/catch.hpp"
-
-#include "motion/find_periodic.hpp"
 #include "motion/judge.hpp"
 #include "support/cases.hpp"
 #include "time/flow.hpp"

@@ -1,12 +1,6 @@
 /** Bodies given by matrices: the implicit stepper and its derivative against the explicit steppers of Eq. 7, and the
     condensed blocks against differences. */
-#include <algorithm>
-#include <cmath>
-#include "support/catch.hpp"
-
-#include "balance/bearing_problem.hpp"
 #include "model/rational_fit.hpp"
-#include "motion/find_periodic.hpp"
 #include "support/cases.hpp"
 #include "time/flow.hpp"
 #include "time/gauss.hpp"

@@ -1,12 +1,5 @@
-/** Factors that are kept, GMRES and chord steps, against dense Newton at every point; and what a
-    solution costs, in counts. */
-#include <Eigen/LU>
-#include "support/catch.hpp"
-
-#include "balance/bearing_problem.hpp"
+/** GMRES and parts of the Jacobian against dense matrices; and what a solution costs, in counts. */
 #include "balance/newton.hpp"
-#include "continuation/sweep.hpp"
-#include "motion/find_periodic.hpp"
 #include "support/cases.hpp"
 
 using namespace rotor_stator;
@@ -14,28 +7,9 @@ using namespace rotor_stator::tests;
 
 namespace {
 
-/** A start for m harmonics: the solution with 6. */
-Eigen::VectorXd start_with(int harmonics, double frequency)
-{
-  Balance balance(bearing_problem(set_1(), 64), 6);
-  const auto motion =
-      solve(balance, hertz(frequency), quasi_static_start(set_1(), hertz(frequency), 6));
-  REQUIRE(motion.found());
-  return resize_harmonics(motion.x, 2, harmonics);
-}
-
 Balance balance_with(int harmonics)
 {
   return {bearing_problem(set_1(), default_samples(harmonics)), harmonics};
-}
-
-/** Newton with a dense matrix, factored at every point. */
-Eigen::VectorXd solve_densely(Balance& balance, double omega, Eigen::VectorXd x)
-{
-  for (int k = 0; k < 20; ++k)
-    x -= balance.jacobian(x, omega).partialPivLu().solve(balance.residual(x, omega));
-  REQUIRE(balance.residual(x, omega).norm() < 1e-10 * balance.problem().residual_scale);
-  return x;
 }
 
 Eigen::VectorXd waves(Eigen::Index size)
@@ -136,22 +110,6 @@ TEST_CASE("GMRES leads where the dense Jacobian leads, in few iterations at low 
   }
 }
 
-/** Catches old factors that are kept though they mislead. */
-TEST_CASE("Steps by old factors lead where Newton's own steps lead")
-{
-  std::vector<double> omegas;
-  for (double f = 1; f <= 60; f += 0.5) omegas.push_back(hertz(f));
-  Balance balance = balance_with(6), other = balance_with(6);
-  for (const PeriodicMotion& at : sweep(
-           balance, omegas,
-           [](double omega) { return quasi_static_start(set_1(), omega, 6); },
-           sweep_settings(set_1()))) {
-    REQUIRE(at.found());
-    const Eigen::VectorXd exact = solve_densely(other, at.omega, at.x);
-    CHECK((at.x - exact).norm() < 1e-8 * exact.norm());
-  }
-}
-
 TEST_CASE("What a solution costs, in iterations, evaluations and factorisations")
 {
   struct Bound {
@@ -162,7 +120,10 @@ TEST_CASE("What a solution costs, in iterations, evaluations and factorisations"
     INFO("m = " << bound.harmonics);
     Balance balance = balance_with(bound.harmonics);
     BalanceSolver solver(balance);
-    PeriodicMotion motion{.omega = hertz(30), .x = start_with(bound.harmonics, 30)};
+    PeriodicMotion motion{
+        .omega = hertz(30),
+        .x = resize_harmonics(motion::find_periodic({set_1(), hertz(30), 6, 64}).x, 2,
+                              bound.harmonics)};
     REQUIRE(solve(balance, solver, motion));
     CHECK(motion.newton.iterations <= bound.iterations);
     CHECK(balance.evaluations() <= bound.evaluations);

@@ -1,10 +1,4 @@
 /** Lines of a motion: a record that is a sum of known cosines, and the names of orders. */
-#include "support/catch.hpp"
-
-#include <algorithm>
-#include <cmath>
-#include <numbers>
-
 #include "motion/lines.hpp"
 #include "support/cases.hpp"
 

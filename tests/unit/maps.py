@@ -5,7 +5,7 @@ import re
 
 import numpy as np
 
-from tests.support.explore import MACHINE, Case, Table
+from tests.support.explore import MACHINE, NAMES, Case, Table
 
 CLEARANCE = "bearing.radial_clearance_m"
 SIX = ["--harmonics", 6]
@@ -164,9 +164,8 @@ class Values(Case):
         six = self.table("orbit", machine, "--frequency", 30, *SIX, "--no-stability", "--points", 256)
         long = self.table("orbit", machine, "--frequency", 30, "--method", "rk8pd", "--periods", 40, "--points", 256)
         self.assertEqual(long.value("regime"), "chaotic")
-        names = ["x_s", "y_s", "x_r", "y_r"]
-        true = np.array([long[name] - long[name].mean() for name in names])
-        off = np.array([np.tile(six[name], 40) - long[name] for name in names])
+        true = np.array([long[name] - long[name].mean() for name in NAMES])
+        off = np.array([np.tile(six[name], 40) - long[name] for name in NAMES])
         off -= off.mean(axis=1, keepdims=True)
         self.assertAlmostEqual(table["error"] / (np.linalg.norm(off) / np.linalg.norm(true)), 1, delta=0.2)
 

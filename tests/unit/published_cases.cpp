@@ -1,10 +1,9 @@
 /** Duffing, two masses with cubic springs, two masses with a unilateral spring: the
    numbers of the public examples NLvib 01 to 03 (Krack and Gross, Harmonic Balance for
-   Nonlinear Vibration Problems, 2019), recomputed with that tool or independently. */
-#include <Eigen/LU>
-#include "support/catch.hpp"
-
+   Nonlinear Vibration Problems, 2019), recomputed with that tool or independently; and
+   the stability along their branches. */
 #include "continuation/arc_length.hpp"
+#include "continuation/branch_stability.hpp"
 #include "support/cases.hpp"
 
 using namespace rotor_stator;
@@ -38,22 +37,54 @@ Peak peak_of(const std::vector<BranchPoint>& points,
   return {at[1], at[0]};
 }
 
-ArcLengthSettings fine_steps(double most_step)
+ArcLengthSettings steps(double most_step)
 {
   return {.newton = {}, .speed_scale = 1, .arc_unknown_scale = 1, .most_step = most_step};
 }
 
-Branch branch_of(const Oscillator& oscillator, int harmonics, int samples, double from,
-                 double to, double most_step)
+/** An oscillator's branch, from rest where there is no other start. */
+struct Followed {
+  Oscillator oscillator;
+  Balance balance;
+  ArcLengthSettings settings;
+  BalanceCurve curve{balance, settings};
+  Branch branch;
+
+  Followed(Oscillator of, int harmonics, int samples, double from, double to,
+           double most_step, const Eigen::VectorXd* start = nullptr)
+      : oscillator(std::move(of)), balance(oscillator.problem(samples), harmonics),
+        settings(steps(most_step)),
+        branch(follow_branch(
+            curve, from, to,
+            start ? *start : Eigen::VectorXd::Zero(balance.unknowns()).eval(), settings))
+  {
+  }
+
+  BranchStability stability(const BranchStabilitySettings& how = {},
+                            long* asked = nullptr)
+  {
+    const auto floquet_at = [&](const BranchPoint& p) {
+      if (asked) ++*asked;
+      return floquet(oscillator, p.motion.x, p.motion.omega);
+    };
+    return stability_along(curve, branch, settings, floquet_at, how);
+  }
+};
+
+/** Speeds of the bifurcations of these kinds, in order. */
+std::vector<double> speeds(const BranchStability& stability,
+                           const std::vector<Bifurcation>& kinds)
 {
-  Balance balance(oscillator.problem(samples), harmonics);
-  const Eigen::VectorXd x = Eigen::VectorXd::Zero(balance.unknowns());
-  return follow_branch(balance, from, to, x, fine_steps(most_step));
+  std::vector<double> found;
+  for (const StablePoint& p : stability.points)
+    if (std::ranges::count(kinds, p.bifurcation)) found.push_back(p.point.motion.omega);
+  return found;
 }
 
 }  // namespace
 
-TEST_CASE("Duffing: peak and both folds with 1, 7 and 15 harmonics")
+TEST_CASE(
+    "Duffing: peak and both folds with 1, 7 and 15 harmonics, up and down, at any step")
 {
   const auto amplitude = [](const Eigen::VectorXd& x) {
     return harmonic_amplitude(x, 1, 0, 1);
@@ -65,21 +96,36 @@ TEST_CASE("Duffing: peak and both folds with 1, 7 and 15 harmonics")
   const Expected cases[] = {{1, 2.841625, 1.266633, 1.267537, 1.115586},
                             {7, 2.830198, 1.268716, 1.269602, 1.115700},
                             {15, 2.830198, 1.268716, 1.269602, 1.115700}};
-  for (const Expected& expected : cases) {
-    const Branch branch = branch_of(duffing(), expected.harmonics, 128, 0.5, 1.6, 0.01);
-    REQUIRE(branch.covered);
-    REQUIRE(branch.folds.size() == 2);
-    const Peak peak = peak_of(branch.points, amplitude);
-    CHECK(peak.height == Approx(expected.peak).epsilon(1e-6));
-    CHECK(peak.omega == Approx(expected.at).epsilon(2e-6));
-    CHECK(branch.folds[0] == Approx(expected.upper_fold).epsilon(1e-6));
-    CHECK(branch.folds[1] == Approx(expected.lower_fold).epsilon(1e-6));
-  }
+  for (const Expected& expected : cases)
+    for (double most_step : {0.5, 0.05, 0.01, 0.005}) {
+      Followed up(duffing(), expected.harmonics, 128, 0.5, 1.6, most_step);
+      const Followed down(duffing(), expected.harmonics, 128, 1.6, 0.5, most_step);
+      const Branch& branch = up.branch;
+      REQUIRE(branch.covered);
+      REQUIRE(down.branch.covered);
+      check_same(branch.folds, {expected.upper_fold, expected.lower_fold}, 1e-6);
+      check_same(down.branch.folds, {branch.folds.rbegin(), branch.folds.rend()}, 1e-8);
+      CHECK(branch.points.back().motion.omega == 1.6);
+      CHECK(branch.points.back().arc ==
+            Approx(down.branch.points.back().arc).epsilon(1e-3));
+      /** A fold is a point of its branch, with a tangent across the speed. */
+      for (double fold : branch.folds) {
+        const auto point = std::ranges::find(
+            branch.points, fold, [](const BranchPoint& p) { return p.motion.omega; });
+        REQUIRE(point != branch.points.end());
+        CHECK(std::abs(point->speed_direction()) < 1e-4);
+        CHECK(up.balance.residual(point->motion.x, fold).norm() < 1e-9);
+      }
+      if (most_step != 0.01) continue;
+      const Peak peak = peak_of(branch.points, amplitude);
+      CHECK(peak.height == Approx(expected.peak).epsilon(1e-6));
+      CHECK(peak.omega == Approx(expected.at).epsilon(2e-6));
+    }
 }
 
 TEST_CASE("Two masses with cubic springs: peak with 7 harmonics")
 {
-  const Branch branch = branch_of(two_masses_cubic(), 7, 64, 0.8, 1.4, 0.004);
+  const Branch branch = Followed(two_masses_cubic(), 7, 64, 0.8, 1.4, 0.004).branch;
   REQUIRE(branch.covered);
   std::vector<BranchPoint> first_resonance;
   for (const BranchPoint& point : branch.points)
@@ -109,8 +155,7 @@ TEST_CASE("Unilateral spring: amplitudes converge with the harmonics as publishe
   Eigen::VectorXd x = Eigen::VectorXd::Zero(coarse.unknowns());
   double omega = 0.59;
   for (const Expected& expected : cases) {
-    const Branch branch =
-        follow_branch(coarse, omega, expected.omega, x, fine_steps(0.02));
+    const Branch branch = follow_branch(coarse, omega, expected.omega, x, steps(0.02));
     REQUIRE(branch.covered);
     x = branch.points.back().motion.x;
     omega = expected.omega;
@@ -126,4 +171,83 @@ TEST_CASE("Unilateral spring: amplitudes converge with the harmonics as publishe
             Approx(expected.amplitude[k]).epsilon(k == 0 ? 3e-6 : 1.5e-6));
     }
   }
+}
+
+TEST_CASE("Two masses, cubic springs: Neimark-Sacker points and folds as published")
+{
+  Followed followed(two_masses_cubic(), 15, 128, 0.8, 1.4, 0.05);
+  REQUIRE(followed.branch.covered);
+  const BranchStability stability = followed.stability();
+  CHECK(stability.missed == 0);
+  const auto circle = speeds(stability, {Bifurcation::neimark_sacker});
+  REQUIRE(circle.size() == 2);
+  /** The published speed is lower by 1e-4, its conditions unknown. */
+  CHECK(circle[0] == Approx(1.1126).margin(2e-4));
+  CHECK(circle[1] == Approx(1.1957).margin(5e-5));
+  const auto folds = speeds(stability, {Bifurcation::fold});
+  REQUIRE(folds.size() == 2);
+  CHECK(folds[0] == Approx(1.214626).margin(1e-6));
+  CHECK(folds[1] == Approx(1.206219).margin(1e-6));
+  for (const StablePoint& p : stability.points) {
+    if (p.bifurcation == Bifurcation::neimark_sacker) {
+      CHECK(std::abs(p.floquet.largest() - 1) < 1e-5);
+      CHECK(std::abs(p.floquet.multipliers.front().imag()) > 1e-3);
+    }
+    if (p.bifurcation != Bifurcation::fold) continue;
+    double nearest = 1;
+    for (const auto& mu : p.floquet.multipliers)
+      nearest = std::min(nearest, std::abs(mu - 1.0));
+    CHECK(nearest < 1e-4);
+  }
+  CHECK(speeds(stability, {Bifurcation::period_doubling}).empty());
+}
+
+TEST_CASE("Where some points are skipped, a change of stability is found all the same")
+{
+  Followed followed(two_masses_cubic(), 5, 64, 1.05, 1.2, 0.005);
+  long asked_for_all = 0, asked = 0;
+  const auto all = followed.stability({}, &asked_for_all);
+  BranchStabilitySettings few;
+  few.chosen = evenly_chosen(followed.branch, 0.05, 4);
+  const auto some = followed.stability(few, &asked);
+  CHECK(asked < asked_for_all / 2);
+  CHECK(some.points.size() >= followed.branch.points.size());
+
+  /** The same speeds of the bifurcations, and at each point the same verdict or none. */
+  const std::vector<Bifurcation> any{Bifurcation::fold, Bifurcation::plus_one,
+                                     Bifurcation::period_doubling,
+                                     Bifurcation::neimark_sacker};
+  REQUIRE_FALSE(speeds(all, any).empty());
+  check_same(speeds(some, any), speeds(all, any), 1e-6);
+  long unexamined = 0;
+  for (const StablePoint& p : some.points) {
+    if (!p.examined()) ++unexamined;
+    for (const StablePoint& q : all.points)
+      if (p.examined() && q.point.arc == p.point.arc)
+        CHECK(p.floquet.largest() == Approx(q.floquet.largest()));
+  }
+  CHECK(unexamined > 10);
+}
+
+TEST_CASE("A point whose multipliers cannot be had is kept without them")
+{
+  Followed followed(two_masses_cubic(), 5, 64, 1.1, 1.13, 0.02);
+  const Branch& branch = followed.branch;
+  const auto stability = stability_along(
+      followed.curve, branch, followed.settings,
+      [](const BranchPoint&) -> Floquet { throw NoSolution("no more work"); });
+  CHECK(stability.points.size() == branch.points.size());
+  CHECK(stability.failed == static_cast<int>(branch.points.size()));
+  CHECK(stability.failure == "no more work");
+  for (const StablePoint& p : stability.points) CHECK_FALSE(p.examined());
+}
+
+TEST_CASE("Bifurcations are the same whichever way the branch is walked")
+{
+  Followed up(two_masses_cubic(), 5, 64, 1.1, 1.13, 0.02);
+  const Eigen::VectorXd start = up.branch.points.back().motion.x;
+  Followed down(two_masses_cubic(), 5, 64, 1.13, 1.1, 0.03, &start);
+  const auto circle = speeds(up.stability(), {Bifurcation::neimark_sacker});
+  REQUIRE(circle.size() == 1);
+  check_same(speeds(down.stability(), {Bifurcation::neimark_sacker}), circle, 1e-6);
 }

@@ -1,10 +1,7 @@
 /** Motions with two frequencies: against eighth-order integration, against the same
     machine as one with one frequency, and the rule of the images. */
-#include "support/catch.hpp"
-
-#include "balance/torus_line.hpp"
-#include "motion/find_periodic.hpp"
 #include "motion/quasi_periodic.hpp"
+#include "balance/torus_line.hpp"
 #include "support/cases.hpp"
 
 using namespace rotor_stator;

@@ -1,9 +1,5 @@
 /** Transforms, and how the error falls with the sample count N. */
-#include <numbers>
-#include "support/catch.hpp"
-
 #include "costs/timed_method.hpp"
-#include "motion/find_periodic.hpp"
 #include "support/cases.hpp"
 
 using namespace rotor_stator;

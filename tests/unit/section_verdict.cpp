@@ -1,10 +1,5 @@
 /** Sections and growth rates, against sections and oscillators whose kind is known. */
-#include <cmath>
-#include <complex>
-#include <functional>
-#include <numbers>
-#include "support/catch.hpp"
-
+#include "support/cases.hpp"
 #include "time/trajectory_pair.hpp"
 
 using namespace rotor_stator;

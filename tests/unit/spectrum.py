@@ -7,17 +7,12 @@ import tomllib
 
 import numpy as np
 
-from tests.support.explore import MACHINE, Case, changed
+from tests.support.explore import MACHINE, NAMES, Case, changed
 
 VALUES = tomllib.loads(MACHINE)
-NAMES = ["x_s", "y_s", "x_r", "y_r"]
 BALLS = VALUES["bearing"]["balls"]
 SIX = ["--harmonics", 6, "--no-stability"]
 G = VALUES["gravity"]["acceleration_m_per_s2"]
-
-
-def with_cage(cage, **values):
-    return changed(cage_speed_ratio=cage, **values)
 
 
 # Rotation, cage and spin of each symbol.
@@ -79,7 +74,7 @@ class Spectrum(Case):
     def test_spalls_stand_where_kinematics_says(self):
         """A light rotor, always on its balls; what is new beside the same machine without a spall."""
         cage = 0.41
-        text = with_cage(cage, unbalance_kg_m=1e-4, radial_clearance_m=0)
+        text = changed(cage_speed_ratio=cage, unbalance_kg_m=1e-4, radial_clearance_m=0)
         whole = self.by_name(self.spectrum(text, 30, "--method", "rk8pd", "--longest", 8))
         size = max(whole["BPFO"])
         for surface, line, sidebands in [("outer_race", "2BPFO", []), ("inner_race", "BPFI", ["BPFI-1X", "BPFI+1X"]),
@@ -111,7 +106,7 @@ class Spectrum(Case):
                                      (0.5, 1, ["--method", "shooting", "--no-stability"]),
                                      (0.5, 1, ["--harmonics", 24, "--no-stability"])]:
             with self.subTest(cage=cage, options=options):
-                text = with_cage(cage)
+                text = changed(cage_speed_ratio=cage)
                 periods = ["--periods", turns] if turns > 1 else []
                 orbit = self.table("orbit", self.file("own.toml", text), "--frequency", 45, *options, *periods)
                 table = self.spectrum(text, 45, *options)
@@ -127,7 +122,7 @@ class Spectrum(Case):
         """Every line within the tolerance of the largest."""
         for cage, speed in [(0.43, 45), (0.43, 30), (0.5, 30)]:
             with self.subTest(cage=cage, speed=speed):
-                text = with_cage(cage)
+                text = changed(cage_speed_ratio=cage)
                 balance = self.by_name(self.spectrum(text, speed, "--method", "aft", "--tolerance", 1e-3, "--no-stability"))
                 integrated = self.by_name(self.spectrum(text, speed, "--method", "rk8pd"))
                 size = max(integrated["1X"])
@@ -148,7 +143,7 @@ class Spectrum(Case):
     def test_a_torus_that_has_doubled(self):
         """Halves of the orders and of the passages, by harmonic balance as by integration. Without them harmonic balance
         has no line at (13 - BPFO)/2, or another amplitude."""
-        text = with_cage(0.3983).replace("balls = 16", "balls = 9")
+        text = changed(cage_speed_ratio=0.3983, balls=9)
         with_halves = [self.spectrum(text, 88.2, *options) for options in (["--method", "aft", "--tolerance", "1e-3"], ["--method", "rk4"])]
         self.assertEqual(with_halves[0].value("stability"), "stable")
         rotation, cage = with_halves[0]["k_rotation"], with_halves[0]["k_cage"]

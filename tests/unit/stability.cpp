@@ -1,7 +1,4 @@
 /** Floquet multipliers and shooting, against closed forms and each other. */
-#include "support/catch.hpp"
-
-#include "motion/find_periodic.hpp"
 #include "support/cases.hpp"
 #include "time/eigenvalues.hpp"
 #include "time/period_map.hpp"

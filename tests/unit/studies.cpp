@@ -1,9 +1,5 @@
 /** Regimes, and pieces of work on several threads. */
 #include <atomic>
-#include <cmath>
-#include <numbers>
-#include "support/catch.hpp"
-
 #include "io/parallel.hpp"
 #include "motion/contact.hpp"
 #include "motion/regime.hpp"

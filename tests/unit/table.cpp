@@ -2,13 +2,10 @@
 # Headers of tables
 
 What is a key, what is a sentence, and where it stands. */
+#include "io/table.hpp"
 #include <fstream>
 #include <limits>
-#include <stdexcept>
-
-#include "io/errors.hpp"
-#include "io/table.hpp"
-#include "support/catch.hpp"
+#include "support/cases.hpp"
 
 using namespace rotor_stator;
 
