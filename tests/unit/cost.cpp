@@ -11,21 +11,20 @@ using namespace rotor_stator::tests;
 
 namespace {
 
-TruthSettings truth_settings()
-{
-  TruthSettings settings;
-  settings.settling = {.stepper = {.method = "rk4", .intervals_per_period = 90},
-                       .longest = 12};
-  return settings;
-}
+const TruthSettings truth_settings{
+    .settling = {.stepper = {.method = "rk4", .intervals_per_period = 90},
+                 .longest = 12}};
 
 }  // namespace
 
-/** By the fourth and by the second power of the step. */
-TEST_CASE("Rivals converge to the motion as their order says")
+/** Shooting and harmonic balance share nothing. The rivals converge by the fourth and by the second power of the step. */
+TEST_CASE("Harmonic balance and rivals converge to the reference as their order says")
 {
-  const TrueMotion truth = true_motion(set_1(), 45, truth_settings());
+  const TrueMotion truth = true_motion(set_1(), 45, truth_settings);
   REQUIRE(truth.periodic);
+  CHECK(truth.periodicity_residual < 1e-10);
+  CHECK(agreement(set_1(), truth, 512) < 1e-8);
+  CHECK(agreement(set_1(), truth, 16) > 1e-6);
   struct Rival {
     Setting coarse;
     double least, most;  ///< ratio of the errors with half the step
@@ -53,16 +52,6 @@ TEST_CASE("Rivals converge to the motion as their order says")
     CHECK(ratio > rival.least);
     CHECK(ratio < rival.most);
   }
-}
-
-TEST_CASE("Shooting and harmonic balance, which share nothing, agree on the reference")
-{
-  const Parameters parameters = set_1();
-  const TrueMotion truth = true_motion(parameters, 45, truth_settings());
-  REQUIRE(truth.periodic);
-  CHECK(truth.periodicity_residual < 1e-10);
-  CHECK(agreement(parameters, truth, 512) < 1e-8);
-  CHECK(agreement(parameters, truth, 16) > 1e-6);
 }
 
 TEST_CASE("Harmonic balance: N of the setting, three transforms or more per evaluation")
@@ -125,7 +114,7 @@ TEST_CASE("Equal error: what the table calls reached is reached, and aft is its 
                         .candidates = {},
                         .repetitions = 1,
                         .search = 100,
-                        .truth = truth_settings()};
+                        .truth = truth_settings};
   const Setting aft{
       .method = "aft", .harmonics = 8, .samples_per_harmonic = 4, .tolerance = 1e-6};
   const Setting rk4{.method = "rk4", .step = 2e-4, .transient = 2};
@@ -167,7 +156,7 @@ TEST_CASE("Table 2: the RK4 setting reaches the error, and no cheaper one does")
                     .paper_cpu = {1, 1},
                     .rk4 = {},
                     .repetitions = 1,
-                    .truth = truth_settings()};
+                    .truth = truth_settings};
   for (double step : {1e-3, 4e-4, 2e-4, 1e-4, 5e-5})
     scene.rk4.push_back({.method = "rk4", .step = step, .transient = 2, .recorded = 90});
   const References references =

@@ -196,30 +196,22 @@ TEST_CASE("Elements beside the balls: derivatives against difference quotients")
   for (const Vec2 u : {Vec2{4e-6, -3e-6}, Vec2{8e-6, 9e-6}}) {
     const Vec2 rate{0.002, -0.001};
     const BearingReaction at = force(u, rate, omega);
-    const auto quotient = [](Vec2 a, Vec2 b, double step) -> Vec2 {
-      return {(a.x - b.x) / (2 * step), (a.y - b.y) / (2 * step)};
+    /** The force's change with a shift of u, of its rate, and of ω; along u(φ) the rate grows with ω. */
+    const auto slope_is = [&](Vec2 du, Vec2 dv, double by, double x, double y) {
+      const auto shifted = [&](double sign) {
+        const double faster = 1 + sign * by / omega;
+        return force(u + sign * du, faster * rate + sign * dv, faster * omega).force;
+      };
+      const Vec2 high = shifted(1), low = shifted(-1);
+      const double step = 2 * (du.x + du.y + dv.x + dv.y + by);
+      CHECK((high.x - low.x) / step == Approx(x).epsilon(1e-6));
+      CHECK((high.y - low.y) / step == Approx(y).epsilon(1e-6));
     };
-    const double h = 1e-10, g = 1e-6, e = 1e-3;
-    const Vec2 x = quotient(force({u.x + h, u.y}, rate, omega).force,
-                            force({u.x - h, u.y}, rate, omega).force, h);
-    const Vec2 y = quotient(force({u.x, u.y + h}, rate, omega).force,
-                            force({u.x, u.y - h}, rate, omega).force, h);
-    CHECK(at.stiffness.xx == Approx(x.x).epsilon(1e-6));
-    CHECK(at.stiffness.yx == Approx(x.y).epsilon(1e-6));
-    CHECK(at.stiffness.xy == Approx(y.x).epsilon(1e-6));
-    CHECK(at.stiffness.yy == Approx(y.y).epsilon(1e-6));
-    const Vec2 v = quotient(force(u, {rate.x, rate.y + g}, omega).force,
-                            force(u, {rate.x, rate.y - g}, omega).force, g);
-    CHECK(at.damping.xy == Approx(v.x).epsilon(1e-6));
-    CHECK(at.damping.yy == Approx(v.y).epsilon(1e-6));
-    /** Along u(φ) the rate grows with ω. */
-    const auto faster = [&](double by) {
-      const double s = (omega + by) / omega;
-      return force(u, {s * rate.x, s * rate.y}, omega + by).force;
-    };
-    const Vec2 slope = quotient(faster(e), faster(-e), e);
-    CHECK(at.speed_slope.x == Approx(slope.x).epsilon(1e-6));
-    CHECK(at.speed_slope.y == Approx(slope.y).epsilon(1e-6));
+    const double h = 1e-10, g = 1e-6;
+    slope_is({h, 0}, {}, 0, at.stiffness.xx, at.stiffness.yx);
+    slope_is({0, h}, {}, 0, at.stiffness.xy, at.stiffness.yy);
+    slope_is({}, {0, g}, 0, at.damping.xy, at.damping.yy);
+    slope_is({}, {}, 1e-3, at.speed_slope.x, at.speed_slope.y);
   }
 }
 
