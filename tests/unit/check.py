@@ -142,7 +142,3 @@ diametral_clearance_m = 0.02
         self.assertRegex(self.run_explore(*wide).stderr, r"\Awarning: the clearance of 30 m is more than a tenth of the ball\n")
         self.assertIn(words, self.run_explore("campbell", own, "--from", 0, "--to", 1797, "--count", 2).stdout)
         self.assertNotIn("warning", self.table("orbit", self.folder / "named.toml", "--frequency", "1797rpm", "--points", 4).header)
-
-    def test_refusals(self):
-        self.refused("--from 3 Hz: must be below --to 2 Hz", "check", self.machine, "--from", 3, "--to", 2)
-        self.refused("must be one of tsv, csv, json", "check", self.machine, "--format", "xml")
