@@ -132,7 +132,8 @@ class Values(Case):
                 ("--count 3 --section same.svg --plot same.svg", "is the file of two options"),
                 ("--count 3 --starts 1.5", "--starts")], "attractors", self.machine, "--from", 10, "--to", 20)
         self.refused("--from 10 Hz: must be below --to 10 Hz", "attractors", self.machine, "--from", 10, "--to", 10, "--count", 3)
-        self.refused_each([("--from 3 --to 2", "--from 3 Hz: must be below --to 2 Hz"), ("--format xml", "must be one of tsv, csv, json")], "check", self.machine)
+        self.refused_each([("--from 3 --to 2", "--from 3 Hz: must be below --to 2 Hz"), ("--format xml", "must be one of tsv, csv, json")],
+                          "check", self.machine)
         self.refused("closed no motion of period 2 T", "orbit", self.machine, *ORBIT, "--method", "aft", "--subharmonic", 2,
                      "--budget", 1e9, status=3)
         self.refused("; is --step 0.001 too long?", "orbit", self.machine, *ORBIT, "--step", 1e-3, status=3)
