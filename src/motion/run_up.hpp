@@ -14,8 +14,7 @@ the second derivative of its place with the sign turned. All else of Eq. 7 stays
       … turn.speed, turn.amplitude[2] …
 
 Where the run begins above standstill the machine has settled there. Checked against a
-linear rotor integrated apart, and against motions at fixed speed (tests/unit/runup.py).
-*/
+linear rotor integrated apart and motions at fixed speed (tests/unit/runup.py). */
 #pragma once
 
 #include <functional>
