@@ -17,7 +17,9 @@ The general program for follow-up studies: any parameter file, any speed, harmon
 or one of the time integrators. A table on stdout, errors on stderr. */
 #include <CLI/CLI.hpp>
 
-#include "explore/commands.hpp"
+#include "explore/options.hpp"
+#include "explore/plot.hpp"
+#include "explore/spectrum.hpp"
 #include "io/errors.hpp"
 #include "io/program.hpp"
 

@@ -85,8 +85,8 @@ struct Problem {
       force;
 
   /** Instead of it, where the force depends on q̇, `rate`, N × d, too. `slopes`, unless
-      it is null: N × (2d² + d), ∂f_i/∂q_j in column i + d j, then ∂f_i/∂q̇_j, then df_i/dω
-      along q(φ). */
+      it is null: N × (2d² + d), ∂f_i/∂q_j in column i + d j, then ∂f_i/∂q̇_j, then
+      df_i/dω along q(φ). */
   std::function<void(const Eigen::MatrixXd& q, const Eigen::MatrixXd& rate, double omega,
                      Eigen::MatrixXd& force, Eigen::MatrixXd* slopes)>
       moving_force = {};

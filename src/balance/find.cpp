@@ -64,7 +64,7 @@ PeriodicMotion find_near_contact(const BalanceSearch& search)
   for (const Eigen::VectorXd& x : search.starts)
     if (finder.from("a known motion", x)) return finder.motion;
   if (search.turns > 1) return finder.motion;
-  /** Only its low harmonics mean much: with more, Newton goes most of its way on fewer. */
+  /** Its low harmonics alone mean much: with more, Newton goes most of its way on few. */
   if (m <= most_from_contact &&
       finder.from("quasi-static contact",
                   quasi_static_start(finder.parameters, search.omega, m)))

@@ -1,9 +1,5 @@
-/**
-# explore attractors
+#include "explore/attractors.hpp"
 
-The bifurcation diagram of one machine: at each speed the motions on which time
-integration settles, begun at rest, on the motion at the speed below, at the speed above,
-and at random states. */
 #include <algorithm>
 #include <array>
 #include <atomic>
@@ -11,7 +7,6 @@ and at random states. */
 #include <random>
 
 #include "explore/measures.hpp"
-#include "explore/orbit.hpp"
 #include "io/errors.hpp"
 #include "io/output_file.hpp"
 #include "io/parallel.hpp"

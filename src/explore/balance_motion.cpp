@@ -1,9 +1,4 @@
-/**
-# The motion that harmonic balance finds, for explore
-
-With one frequency or two, with m harmonics or those that a tolerance chooses; how it was
-found, its error and its verdict go to the table's header. */
-#include "explore/orbit.hpp"
+#include "explore/balance_motion.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -152,7 +147,8 @@ FoundMotion periodic_motion(const Parameters& parameters, const BasePeriod& base
   table.note("newton: " + solution.newton.reason());
   table.value("force_samples", std::max(at.force_samples, solution.force_samples));
   if (at.verdict.found() && (request.tolerance || k > 1))
-    put_difference(table, "error", at.verdict.distance, "against the nearest motion of Eq. 7");
+    put_difference(table, "error", at.verdict.distance,
+                   "against the nearest motion of Eq. 7");
   put_verdict(table, based.machine, request.stability ? &at.verdict : nullptr, k);
   const Parameters machine = over_turns(based.machine, k);
   return {.motion = motion::motion_of(with_all_coordinates(machine, solution),

@@ -1,10 +1,4 @@
-/**
-# A branch in a file
-
-A table with all coefficients of each point and 17 digits, so that a branch that was
-followed once can be gone on with. The header says what the branch belongs to: the
-machine's values, m, N, and the direction of the walk. */
-#include "explore/response.hpp"
+#include "explore/branch_file.hpp"
 
 #include <algorithm>
 #include <cmath>

@@ -1,15 +1,11 @@
-/**
-# explore campbell
+#include "explore/campbell.hpp"
 
-Frequencies and damping ratios of the linear machine (`modes.hpp`) at each speed, and
-whether a mode whirls forward, its ellipses turning as the rotor does. At a critical speed
-a frequency is that of the unbalance (1X) or of the passing balls. */
 #include <algorithm>
 #include <cmath>
 #include <vector>
 
 #include "explore/modes.hpp"
-#include "explore/orbit.hpp"
+#include "explore/plausible.hpp"
 #include "io/errors.hpp"
 #include "model/read_machine.hpp"
 

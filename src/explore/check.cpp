@@ -1,15 +1,11 @@
-/**
-# explore check
+#include "explore/check.hpp"
 
-What one machine is, before anything is computed: its values, its rest, its linear
-frequencies, and what may go wrong. Of bodies given by matrices: the rest of every
-bearing, and the frequencies that `explore campbell` finds without rotation. */
 #include <algorithm>
 #include <cmath>
 #include <numbers>
 
 #include "explore/modes.hpp"
-#include "explore/orbit.hpp"
+#include "explore/plausible.hpp"
 #include "io/errors.hpp"
 #include "model/catalogue.hpp"
 #include "model/read_machine.hpp"

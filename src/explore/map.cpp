@@ -1,9 +1,13 @@
+#include "explore/map.hpp"
+
 #include <omp.h>
 #include <algorithm>
 #include <map>
 #include <mutex>
 
-#include "explore/map.hpp"
+#include "explore/map_quantities.hpp"
+#include "explore/plausible.hpp"
+#include "explore/resume.hpp"
 #include "io/errors.hpp"
 #include "io/parallel.hpp"
 #include "io/program.hpp"

@@ -1,14 +1,11 @@
-/**
-# Where the points of a map are
-
-On lines of x: one for each value of y, or for each row of a list. */
-#include "explore/map.hpp"
+#include "explore/map_axes.hpp"
 
 #include <algorithm>
 #include <cmath>
 #include <ranges>
 #include <tuple>
 
+#include "explore/balance_motion.hpp"
 #include "io/errors.hpp"
 #include "io/program.hpp"
 #include "io/units.hpp"

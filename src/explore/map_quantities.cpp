@@ -1,8 +1,4 @@
-/**
-# The quantities of a map
-
-Each is a column: what its value is taken from, and how a point knows it. */
-#include "explore/map.hpp"
+#include "explore/map_quantities.hpp"
 
 #include <algorithm>
 #include <cmath>

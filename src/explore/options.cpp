@@ -1,11 +1,9 @@
-/**
-# The options of explore
+#include "explore/options.hpp"
 
-Those of each command, read into its request. */
 #include <CLI/CLI.hpp>
 #include <algorithm>
 
-#include "explore/orbit.hpp"
+#include "explore/map_quantities.hpp"
 #include "io/errors.hpp"
 #include "io/program.hpp"
 #include "time/flow.hpp"

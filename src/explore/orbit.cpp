@@ -6,7 +6,9 @@
 #include <tuple>
 
 #include "balance/fourier_transform.hpp"
+#include "explore/balance_motion.hpp"
 #include "explore/measures.hpp"
+#include "explore/plausible.hpp"
 #include "io/errors.hpp"
 #include "io/parallel.hpp"
 #include "model/read_machine.hpp"

@@ -5,12 +5,30 @@
 other commands read their machine, bound their work and end their tables likewise. */
 #pragma once
 
-#include "explore/commands.hpp"
+#include "explore/request.hpp"
 #include "model/parameters.hpp"
-#include "motion/judge.hpp"
 #include "motion/lines.hpp"
+#include "motion/motion.hpp"
 
 namespace rotor_stator::explore {
+
+/** Of orbit, contact and spectrum. */
+struct MotionRequest : Request {
+  double frequency = 0;  ///< [Hz]
+  /** What the machine does from rest; or one of `periodic_methods`, or a time method. */
+  std::string method = "auto";
+  std::optional<double> tolerance;  ///< of displacement, relative
+  std::optional<int> lines = {};    ///< of the settled motion, with two frequencies (aft)
+  int points = 256;                 ///< P
+  double local_error = 1e-11;       ///< GSL's methods, relative
+  double step = 0;                  ///< rk4 [s]; 0: from K_H
+  double longest = 0;     ///< 0: as settle chooses; transient at most after t = 0 [s]
+  int periods = 1;        ///< base periods that are printed
+  bool stability = true;  ///< Floquet multipliers in the header (aft)
+};
+
+Exploration explore_orbit(const MotionRequest& request);
+Exploration explore_contact(const MotionRequest& request);
 
 /** Those that find a periodic motion, stable or not: harmonic balance and shooting. */
 inline const std::vector<std::string> periodic_methods{"aft", "shooting"};
@@ -29,22 +47,6 @@ inline const Column time_column{"t", "s", "time since phase 0"};
     `nodes`. Throws BadInput. */
 Parameters machine_of(const Request& request, double from, double to,
                       const NumberTable* nodes = nullptr);
-
-/** `machine` with its doubts up to a speed [Hz]. */
-Parameters doubted(Parameters machine, double highest);
-
-/** Of Hertz, above which a ball marks its race for good [Pa]. */
-inline constexpr double most_pressure = 4e9;
-
-/** Doubts about the machine and the highest speed [Hz] that it is asked for, a sentence
-    each. */
-std::vector<std::string> doubts(const Parameters& machine, double highest);
-
-/** A value, or the largest number that is printed, 1e300, where it is beyond. */
-double printable_size(double value);
-
-/** n d_m, by which makers bound the speed [mm/min]; 0 where the sizes are not known. */
-double speed_value(const Bearing& bearing, double hertz);
 
 /**
 ## A motion */
@@ -78,14 +80,6 @@ struct Computed {
     found goes to the table's header. */
 Computed computed(const Parameters& parameters, const MotionRequest& request,
                   int open_periods, Table& table);
-
-/** m where none is asked for. */
-inline constexpr int usual_harmonics = 6;
-
-/** What harmonic balance finds. Throws BadInput for options that the machine does not
-    allow, NoSolution when nothing was found. */
-FoundMotion balance_motion(const Parameters& parameters, const MotionRequest& request,
-                           const OperationBudget& budget, Table& table);
 
 /** Throws BadInput unless --from is below --to. */
 void require_range(double from, double to);
@@ -131,30 +125,5 @@ void put_base(Table& table, const std::string& base, double frequency);
     rms is left out where nothing moves about the mean. */
 void put_difference(Table& table, const std::string& name, const motion::Error& error,
                     const std::string& meaning);
-
-/** What stands behind a verdict, as keys; that it is not tested, without one. */
-void put_verdict(Table& table, const Parameters& parameters,
-                 const motion::Verdict* verdict, int turns);
-
-/** Of a spectrum, and of the waterfall of a branch or a run-up. */
-extern const std::vector<Column> line_columns;
-
-/** The rows of a motion at the speed `frequency` [Hz], down to `smallest` of its largest
-    line; names have k_cage up to n `passages`. False where no line is above rounding. */
-bool add_lines(Table& table, const std::vector<Bearing>& bearings, double frequency,
-               motion::Lines all, int passages, double smallest);
-
-/** Takes a row, as its line and its cells. */
-using TakeRow =
-    std::function<void(const std::string& row, const std::vector<std::string>& cells)>;
-
-/** Calls `take` for each whole row. Throws BadInput unless the table in `file`, the value
-    of --resume, begins as `beginning` does, or is cut off within it; `what`: a map or a
-    response. */
-void each_row_of(const std::string& file, const std::string& what,
-                 const std::string& beginning, const TakeRow& take);
-
-/** The finite number that a cell is, as tables write it; nothing for another cell. */
-std::optional<double> number_of(const std::string& cell);
 
 }  // namespace rotor_stator::explore

@@ -1,11 +1,4 @@
-/**
-# What is a slip rather than a machine
-
-Values that differ from those of any real machine by a factor of a hundred and more are
-mostly millimetres in a key of metres, MPa in one of Pa, or 1,500 Hz where 1,500/min was
-meant. Nothing is refused: the words stand in the header and, at the end, on stderr;
-`check` counts them. */
-#include "explore/orbit.hpp"
+#include "explore/plausible.hpp"
 
 #include <algorithm>
 #include <cmath>

@@ -1,9 +1,4 @@
-/**
-# Figures of what explore computed
-
-Drawn by a script of the folder figures, in the source tree or installed, with Matplotlib.
- */
-#include "explore/commands.hpp"
+#include "explore/plot.hpp"
 
 #include <fcntl.h>
 #include <spawn.h>

@@ -5,6 +5,8 @@
 #include <limits>
 
 #include "balance/bearing_problem.hpp"
+#include "explore/response_branch.hpp"
+#include "explore/response_sweep.hpp"
 #include "io/errors.hpp"
 #include "io/output_file.hpp"
 #include "model/base_period.hpp"

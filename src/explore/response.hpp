@@ -13,12 +13,38 @@ its motions. */
 #include <complex>
 
 #include "continuation/arc_length.hpp"
-#include "continuation/branch.hpp"
+#include "explore/branch_file.hpp"
 #include "explore/measures.hpp"
 #include "explore/orbit.hpp"
 #include "motion/motion.hpp"
 
 namespace rotor_stator::explore {
+
+struct ResponseRequest : RangeRequest {
+  /** What the machine does; or a branch, by one of `periodic_methods`. */
+  std::string method = "auto";
+  /** "rest", "up", "down", or empty: rest; of a branch the saved one's, or up. */
+  std::string direction;
+  File resume;         ///< of an interrupted sweep
+  double longest = 0;  ///< as of a motion [s]
+  File save, restart, waterfall;
+  int branch = 1;            ///< number in the file `restart`
+  std::optional<double> at;  ///< speed to restart from [Hz]
+  int isolated = 0;          ///< speeds at which isolated branches are looked for
+  int seed = 1;
+  std::string harmonics_of = {};  ///< a displacement, or empty
+  /** Of solutions at evenly spaced speeds, each with its own orders. */
+  std::optional<double> tolerance;
+  std::optional<int> count;  ///< so many; without it 101, of large bodies 21
+  bool stability = false;    ///< multipliers at each point, and the bifurcations
+  bool times = false;        ///< CPU seconds on stderr
+  /** Sees the points of the main branch while it is followed: speed [Hz], half
+      peak-to-peak [m]. */
+  std::function<void(double f, const Eigen::VectorXd& amplitude)> watch = {};
+};
+
+/** One that is not along a branch writes its table to stdout as it goes. */
+Exploration explore_response(const ResponseRequest& request);
 
 struct ResponseRow {
   double frequency;           ///< [Hz]
@@ -57,27 +83,6 @@ struct ResponseColumns {
 ResponseColumns columns_of(const ResponseRequest& request, const Parameters& parameters,
                            const ResponseFields& own, bool is_settled = false);
 
-struct SavedBranch {
-  int harmonics, samples;  ///< m and N
-  bool upwards;            ///< the walk led to higher speeds
-  /** With the speed's part of the tangent alone, none corrected yet. */
-  std::vector<BranchPoint> points;
-};
-
-/** The text of a file with the branches of one machine, numbered from 1. */
-std::string branch_text(const Parameters& parameters, int harmonics, int samples,
-                        bool upwards, const std::vector<Branch>& branches);
-
-/** Reads branch `number`. Throws BadInput with file and line when the file is not one of
-    these, is of another machine, is cut off, or has no such branch. */
-SavedBranch read_branch(const std::string& file, const Parameters& parameters,
-                        int number);
-
-/** The point of the branch nearest to `omega` [rad/s], with the direction of the branch
-    there as its tangent; the last point without `omega`. */
-BranchPoint restart_point(const SavedBranch& branch, const double* omega,
-                          const Curve& curve);
-
 struct ResponseTask {
   const ResponseRequest& request;
   Parameters machine;
@@ -110,14 +115,5 @@ struct ResponseTask {
 ResponseFields harmonic_fields(const ResponseTask& task, const Harmonics& harmonics);
 std::vector<std::complex<double>> harmonics_of(const ResponseTask& task,
                                                const Eigen::MatrixXd& series);
-
-/** Speed by speed, written to stdout row by row; what is returned has all of it, for --plot
-    and JSON. Throw NoSolution where no speed has a value. */
-Exploration settled_response(const ResponseRequest& request);
-Exploration response_to_tolerance(const ResponseTask& task);
-
-/** Along a branch: by harmonic balance, or by shooting. */
-Exploration branch_by_balance(ResponseTask task);
-Exploration branch_by_shooting(const ResponseTask& task);
 
 }  // namespace rotor_stator::explore

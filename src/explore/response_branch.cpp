@@ -1,15 +1,11 @@
-/**
-# explore response along a branch of periodic solutions
-
-By harmonic balance with its folds, on demand the branches beside it, multipliers and
-bifurcations; or by shooting. */
-#include "explore/response.hpp"
+#include "explore/response_branch.hpp"
 
 #include <algorithm>
 #include <cmath>
 #include <ctime>
 
 #include "balance/bearing_problem.hpp"
+#include "explore/spectrum.hpp"
 #include "io/errors.hpp"
 #include "io/output_file.hpp"
 #include "motion/contact.hpp"
@@ -192,14 +188,13 @@ public:
         curve_(balance_, task.settings)
   {
     describe(lines, task.machine);
-    const BranchPoint start =
-        task.saved ? saved_start(task, curve_, table)
-                   : point_of(curve_, found.omega, found.x, task.upwards);
-    all.push_back(
-        follow_branch(curve_, start, task.range(), [&](const BranchPoint& p) {
-          if (task.request.watch)
-            task.request.watch(task.hertz(p.motion.omega), amplitude(p.motion));
-        }));
+    const BranchPoint start = task.saved
+                                  ? saved_start(task, curve_, table)
+                                  : point_of(curve_, found.omega, found.x, task.upwards);
+    all.push_back(follow_branch(curve_, start, task.range(), [&](const BranchPoint& p) {
+      if (task.request.watch)
+        task.request.watch(task.hertz(p.motion.omega), amplitude(p.motion));
+    }));
   }
 
   /** Looks for branches beside it; what is said of each stands in the table's header. */
@@ -209,8 +204,8 @@ public:
     const auto starts = motion::other_starts(
         task_.parameters, task_.range(), task_.harmonics, task_.request.isolated,
         static_cast<std::uint64_t>(task_.request.seed), budget);
-    const auto beside = isolated_branches(curve_, all[0], starts.candidates,
-                                          task_.range());
+    const auto beside =
+        isolated_branches(curve_, all[0], starts.candidates, task_.range());
     for (const auto& [branch, candidate] : beside) {
       all.push_back(branch);
       const auto [low, high] = std::ranges::minmax_element(

@@ -1,11 +1,4 @@
-/**
-# explore response, speed by speed
-
-A row for every speed, both ends included, written as soon as it is known: the motion that
-integration from rest settles on or, with --direction up or down, from the motion at the
-speed before. With --method aft and --tolerance: the solution with the harmonics that it
-needs, from that at the speed before. */
-#include "explore/response.hpp"
+#include "explore/response_sweep.hpp"
 
 #include <algorithm>
 #include <atomic>
@@ -13,6 +6,7 @@ needs, from that at the speed before. */
 #include <span>
 #include <utility>
 
+#include "explore/resume.hpp"
 #include "io/errors.hpp"
 #include "io/output_file.hpp"
 #include "io/parallel.hpp"

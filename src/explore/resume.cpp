@@ -1,9 +1,4 @@
-/**
-# The rows of an interrupted table
-
-A map or a sweep that was stopped goes on from the rows that it has written, if they
-answer the same question: the lines before the rows must be the same. */
-#include "explore/orbit.hpp"
+#include "explore/resume.hpp"
 
 #include <fstream>
 #include <sstream>

@@ -1,12 +1,8 @@
-/**
-# explore runup
+#include "explore/runup.hpp"
 
-A run-up or coast-down: Eq. 7 while the speed changes evenly from --from to --to in
---seconds (motion/run_up.hpp). A row for each turn of the rotor, and in the file of
---waterfall the lines of every 16 turns. */
 #include <algorithm>
 
-#include "explore/orbit.hpp"
+#include "explore/spectrum.hpp"
 #include "io/errors.hpp"
 #include "motion/run_up.hpp"
 

@@ -1,13 +1,8 @@
-/**
-# explore shape
+#include "explore/shape.hpp"
 
-The shape of a rotor given by matrices while it runs at one speed (operating deflection
-shape): the orbits of its nodes along the shaft, at the same instants. The motion is that
-of `explore orbit`. */
 #include <algorithm>
 #include <numbers>
 
-#include "explore/orbit.hpp"
 #include "io/errors.hpp"
 #include "io/table.hpp"
 #include "model/large_machine.hpp"

@@ -1,8 +1,4 @@
-/**
-# explore spectrum
-
-The lines of one motion, their amplitudes and their names, by any method. */
-#include "explore/orbit.hpp"
+#include "explore/spectrum.hpp"
 
 #include <algorithm>
 #include <cmath>

@@ -6,8 +6,8 @@ enlarged, by factors of the scene file that the figure states. A data set that g
 cage's speed ratio alone has no radii (D-11); the scene file then says which to draw. */
 #pragma once
 
-#include "io/scene_file.hpp"
 #include "io/table.hpp"
+#include "io/toml_file.hpp"
 
 namespace rotor_stator::figures {
 

@@ -64,8 +64,8 @@ std::vector<Panel> panels_of(const PanelScene& scene, Find find);
 Table orbits(SceneFile& file, Find find);
 
 /** The force of every ball in the motion that each panel shows, one row per instant and
-    ball, over two periods of rotation: a cage at half the rotor's speed turns once in this
-    time, and each ball meets a load that turns with the rotor once (D-11, D-20). */
+    ball, over two periods of rotation: a cage at half the rotor's speed turns once in
+    this time, and each ball meets a load that turns with the rotor once (D-11, D-20). */
 Table contacts(SceneFile& file, Find find);
 
 }  // namespace rotor_stator::figures

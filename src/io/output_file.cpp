@@ -52,10 +52,16 @@ bool is_own(const std::string& file, const std::string& option)
 
 std::array<std::atomic<const char*>, 16> temporaries;
 
+/** By calls that a handler of signals may make. */
+void remove_now(const char* name)
+{
+  if (unlink(name) != 0) rmdir(name);
+}
+
 extern "C" void remove_all_and_end(int signal)
 {
   for (auto one = temporaries.rbegin(); one != temporaries.rend(); ++one)
-    if (const char* name = *one) std::remove(name);
+    if (const char* name = *one) remove_now(name);
   std::signal(signal, SIG_DFL);
   raise(signal);
 }
@@ -75,7 +81,7 @@ Temporary::~Temporary()
 {
   for (auto& place : temporaries)
     if (place == name_.c_str()) place = nullptr;
-  std::remove(name_.c_str());
+  remove_now(name_.c_str());
 }
 
 void require_plain_name(const std::string& name)

@@ -7,7 +7,8 @@ its kind:
 - `rest`: the static equilibrium, error 0.
 - `periodic`: shooting closes the motion over its K base periods, within 1e-2 of the sizes
   of where integration ended, and gives its multipliers; the error is what a hundredth of
-  the local error changes. Where shooting fails, or a stepper is asked for, it is recorded.
+  the local error changes. Where shooting fails, or a stepper is asked for, it is
+  recorded.
 - Every other motion is recorded. Where neighbours contract it is stable, and recorded
   twice from `settled.before`, the second time with half the step, or a fourth of the
   local error: that one is `motion`, its difference from the first and what is left of the

@@ -49,7 +49,7 @@ Settled settled_from_load(const BalanceSearch& search)
                 {static_start(search.parameters), 0}, {}, search.budget);
 }
 
-/** Looks for motions of period KT at one speed; what all periods need is computed once. */
+/** Looks for motions of period KT at one speed; what all K need is computed once. */
 struct Hunt {
   BalanceSearch search;
   Verdict one_turn = {};  ///< on the solution of period T, if there is one

@@ -53,9 +53,10 @@ struct Regime : RegimeMeasures {
 RegimeMeasures measures_of(const Parameters& parameters, const Motion& two_periods);
 
 /** Of the motions that settle at these speeds, each integrated twice, at speeds that
-    differ by 1e-11: where several are stable, rounding may decide which is reached. The integrations by rk4 begin on the periodic solution if Newton finds one
-    from the quasi-static contact, else at the static load. Throws NoSolution when one of
-    them breaks down. */
+    differ by 1e-11: where several are stable, rounding may decide which is reached. The
+    integrations by rk4 begin on the periodic solution if Newton finds one from the
+    quasi-static contact, else at the static load. Throws NoSolution when one of them
+    breaks down. */
 std::vector<Regime> regimes_of(const Parameters& parameters,
                                const std::vector<double>& frequencies,
                                const RegimeSettings& settings);

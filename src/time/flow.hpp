@@ -36,7 +36,7 @@ public:
 };
 
 struct StepSettings {
-  /** "rk4" or "splitting" (fixed step), "rk8", one of GSL's; "auto": the machine's own. */
+  /** "rk4", "splitting" (fixed step), "rk8", one of GSL's; "auto": the machine's own. */
   std::string method = "rk8";
   int intervals_per_period = 64;  ///< P
   /** Longest of rk4 [s], of others with a fixed step that of the same error; 0 chooses

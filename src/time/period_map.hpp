@@ -13,9 +13,9 @@ where k(t) is the bearing's stiffness on the motion itself. Both are integrated 
     const PeriodMap map = period_map(parameters, omega, state,
                                      {.intervals_per_period = 1, .tolerance = 1e-12});
 
-The eigenvalues of Φ, the multipliers, say how small disturbances grow over one period: the
-motion is stable when all of them lie inside the unit circle. Along a truncated series they
-may differ from those of the exact motion far more than the amplitudes do. */
+The eigenvalues of Φ, the multipliers, say how small disturbances grow over one period:
+the motion is stable when all of them lie inside the unit circle. Along a truncated series
+they may differ from those of the exact motion far more than the amplitudes do. */
 #pragma once
 
 #include <Eigen/Core>

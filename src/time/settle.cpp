@@ -137,7 +137,7 @@ void Settling::arrived()
   }
   pair_.arrived();
   if (!pair_.is_between_periods()) return;
-  /** After t = 0; earlier where a motion may have closed, which any base period begins. */
+  /** After t = 0; earlier where the motion may have closed: any base period begins it. */
   const bool may_be_over = pair_.at().period >= 0 ||
                            (!base_.is_driven_twice() && pair_.contraction() <= forgotten);
   const bool is_due = periods_ == 0 || --periods_ == 0;

@@ -72,7 +72,6 @@ class Motion(Case):
         self.assertLess(table.error("error"), 1e-3)
 
     def test_a_cage_that_repeats_after_two_turns_and_a_rotor_without_unbalance(self):
-        """What the latter does, by both methods, is in tests/cases.py: passing balls alone."""
         half = changed(cage_speed_ratio=0.40625)
         table = self.orbit(self.file("half.toml", half), 45, "--harmonics", 6, "--periods", 4)
         self.assertEqual(table.value("base"), "turns 2")
@@ -87,6 +86,16 @@ class Motion(Case):
         table = self.orbit(still, 45, "--harmonics", 6)
         self.assertEqual(table.value("base"), "passing")
         self.assertAlmostEqual(table.value("base_period"), 1 / (45 * 16 * 0.43), delta=1e-15)
+        # Also where a whole number of balls passes in a turn: six harmonics of a turn would all be zero.
+        whole = self.file("whole.toml", changed(unbalance_kg_m=0.0))
+        integrated, solved = (self.orbit(whole, 30, *how) for how in ([], ["--harmonics", 24]))
+        self.assertEqual((integrated.value("base"), solved.value("base")), ("passing", "passing"))
+        np.testing.assert_allclose(solved["y_r"], integrated["y_r"], rtol=0, atol=0.01 * np.ptp(integrated["y_r"]))
+        # The same motion by integration.
+        exact, series = (self.orbit(still, 90, *how) for how in (["--method", "rk8pd"], ["--harmonics", 40]))
+        self.assertEqual(self.said(exact, "base", "period"), ["passing", 1])
+        for name in NAMES:
+            self.assertAlmostEqual(np.ptp(series[name]) / np.ptp(exact[name]), 1, delta=2e-3)
 
 
 class Branch(Case):
