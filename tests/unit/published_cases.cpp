@@ -46,28 +46,26 @@ ArcLengthSettings steps(double most_step)
 struct Followed {
   Oscillator oscillator;
   Balance balance;
-  ArcLengthSettings settings;
-  BalanceCurve curve{balance, settings};
+  BalanceCurve curve;
   Branch branch;
 
   Followed(Oscillator of, int harmonics, int samples, double from, double to,
            double most_step, const Eigen::VectorXd* start = nullptr)
       : oscillator(std::move(of)), balance(oscillator.problem(samples), harmonics),
-        settings(steps(most_step)),
+        curve(balance, steps(most_step)),
         branch(follow_branch(
             curve, from, to,
-            start ? *start : Eigen::VectorXd::Zero(balance.unknowns()).eval(), settings))
+            start ? *start : Eigen::VectorXd::Zero(balance.unknowns()).eval()))
   {
   }
 
-  BranchStability stability(const BranchStabilitySettings& how = {},
-                            long* asked = nullptr)
+  BranchStability stability(const std::vector<bool>& chosen = {}, long* asked = nullptr)
   {
     const auto floquet_at = [&](const BranchPoint& p) {
       if (asked) ++*asked;
       return floquet(oscillator, p.motion.x, p.motion.omega);
     };
-    return stability_along(curve, branch, settings, floquet_at, how);
+    return stability_along(curve, branch, floquet_at, chosen);
   }
 };
 
@@ -207,9 +205,7 @@ TEST_CASE("Where some points are skipped, a change of stability is found all the
   Followed followed(two_masses_cubic(), 5, 64, 1.05, 1.2, 0.005);
   long asked_for_all = 0, asked = 0;
   const auto all = followed.stability({}, &asked_for_all);
-  BranchStabilitySettings few;
-  few.chosen = evenly_chosen(followed.branch, 0.05, 4);
-  const auto some = followed.stability(few, &asked);
+  const auto some = followed.stability(evenly_chosen(followed.branch, 0.05, 4), &asked);
   CHECK(asked < asked_for_all / 2);
   CHECK(some.points.size() >= followed.branch.points.size());
 
@@ -234,7 +230,7 @@ TEST_CASE("A point whose multipliers cannot be had is kept without them")
   Followed followed(two_masses_cubic(), 5, 64, 1.1, 1.13, 0.02);
   const Branch& branch = followed.branch;
   const auto stability = stability_along(
-      followed.curve, branch, followed.settings,
+      followed.curve, branch,
       [](const BranchPoint&) -> Floquet { throw NoSolution("no more work"); });
   CHECK(stability.points.size() == branch.points.size());
   CHECK(stability.failed == static_cast<int>(branch.points.size()));
