@@ -34,8 +34,9 @@ inline from_chars_result from_chars(const char* first, const char* last, double&
 inline to_chars_result to_chars(char* first, char* last, double value, chars_format,
                                 int digits)
 {
-  return {first + snprintf(first, static_cast<size_t>(last - first), "%.*g", digits, value),
-          errc()};
+  return {
+      first + snprintf(first, static_cast<size_t>(last - first), "%.*g", digits, value),
+      errc()};
 }
 
 namespace ranges {
@@ -60,11 +61,12 @@ WITH_ORDER(min_element)
 WITH_ORDER(max_element)
 WITH_ORDER(minmax_element)
 
-#define WITH_TEST(name)                               \
-  template <class Range, class Test>                  \
-  auto name(Range&& range, Test test)                 \
-  {                                                   \
-    return std::name(begin(range), end(range), test); \
+#define WITH_TEST(name)                                                            \
+  template <class Range, class Test, class Key = identity>                         \
+  auto name(Range&& range, Test test, Key key = {})                                \
+  {                                                                                \
+    return std::name(begin(range), end(range),                                     \
+                     [&](auto& item) { return invoke(test, invoke(key, item)); }); \
   }
 WITH_TEST(find_if)
 WITH_TEST(count_if)
@@ -72,7 +74,6 @@ WITH_TEST(all_of)
 WITH_TEST(any_of)
 WITH_TEST(none_of)
 WITH_TEST(for_each)
-WITH_TEST(copy)
 
 #define WITH_VALUE(name)                                                             \
   template <class Range, class Value, class Key = identity>                          \
@@ -82,6 +83,39 @@ WITH_TEST(copy)
   }
 WITH_VALUE(find)
 WITH_VALUE(count)
+
+template <class Range, class Value, class Before = less, class Key = identity>
+auto upper_bound(Range&& range, const Value& value, Before before = {}, Key key = {})
+{
+  return std::upper_bound(begin(range), end(range), value,
+                          [&](const auto& bound, const auto& item) {
+                            return invoke(before, bound, invoke(key, item));
+                          });
+}
+
+template <class Range>
+auto max(const Range& range)
+{
+  return *std::max_element(begin(range), end(range));
+}
+
+template <class Range, class Value>
+void replace(Range&& range, const Value& old, const Value& value)
+{
+  std::replace(begin(range), end(range), old, value);
+}
+
+template <class Range, class Output>
+void copy(Range&& range, Output output)
+{
+  std::copy(begin(range), end(range), output);
+}
+
+template <class Range, class Output>
+void move(Range&& range, Output output)
+{
+  std::move(begin(range), end(range), output);
+}
 
 template <class Range>
 void reverse(Range&& range)
