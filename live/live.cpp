@@ -8,7 +8,7 @@ What `explore` does, for the page: a question goes in as strings and numbers, on
 #include <cstdlib>
 #include <fstream>
 
-#include "explore/orbit.hpp"
+#include "explore/response.hpp"
 #include "io/errors.hpp"
 #include "model/base_period.hpp"
 #include "motion/contact.hpp"
@@ -32,7 +32,7 @@ constexpr int drawn_periods = 8, recorded_periods = 64;
 motion::Lines lines_of(const FoundMotion& found)
 {
   if (found.closes_after > 0) return found.lines;
-  motion::Lines lines = motion::lines_of_recorded(found.machine.bearing, found.motion);
+  motion::Lines lines = motion::lines_of_recorded({found.machine.bearing}, found.motion);
   for (motion::Line& line : lines.lines) line.order /= found.turns_of_period;
   return lines;
 }
