@@ -8,7 +8,8 @@ The figure shows how strongly rotor and stator vibrate at each speed of rotation
 small clearance (left) and the large one (right). The first row is the horizontal motion
 x, the second the vertical motion y, the third the amplitude of the stator's x over that
 of the rotor's. The amplitude of a displacement is half the difference between its largest
-and its smallest value in one turn; the paper does not define it (D-10).
+and its smallest value in one turn; the paper defines neither it (D-10) nor the range of
+speeds (D-19).
 
 The peak is the resonance of both bodies moving as one: the unbalance presses them
 together, and they vibrate like a single mass on both suspensions. Its speed follows from
