@@ -181,25 +181,22 @@ struct Samples {
   }
 };
 
-#ifdef HAS_WIDE_REGISTERS
-__attribute__((target("avx2"))) void evaluate_avx2(const Samples& samples)
+template <Registers registers>
+void evaluate(const Samples& samples)
 {
-  samples.evaluate<Lanes<4>>();
+  in_registers(
+      registers, [&]() __attribute__((always_inline)) {
+        samples.evaluate<Lanes<static_cast<int>(registers)>>();
+      });
 }
-
-__attribute__((target("avx512f"))) void evaluate_avx512(const Samples& samples)
-{
-  samples.evaluate<Lanes<8>>();
-}
-#endif
 
 void evaluate(const Samples& samples)
 {
-#ifdef HAS_WIDE_REGISTERS
-  if (widest_registers() == Registers::avx512) return evaluate_avx512(samples);
-  if (widest_registers() == Registers::avx2) return evaluate_avx2(samples);
-#endif
-  samples.evaluate<Lanes<2>>();
+  switch (widest_registers()) {
+    case Registers::avx512: return evaluate<Registers::avx512>(samples);
+    case Registers::avx2: return evaluate<Registers::avx2>(samples);
+    case Registers::plain: return evaluate<Registers::plain>(samples);
+  }
 }
 
 }  // namespace

@@ -21,10 +21,7 @@ registers at hand. */
 #include <cmath>
 
 #if defined(__x86_64__) && defined(__GLIBC__) && defined(__GNUC__) && !defined(__clang__)
-#define WIDEST_REGISTERS __attribute__((target_clones("avx512f", "avx2", "default")))
 #define HAS_WIDE_REGISTERS
-#else
-#define WIDEST_REGISTERS
 #endif
 
 /** What a function compiled for wide registers calls must be a part of it, else it is
@@ -33,9 +30,9 @@ registers at hand. */
 
 namespace rotor_stator {
 
-/** The registers that rows of lanes are compiled for: of 2, 4 and 8 doubles, chosen when
-    the program starts. GCC takes wider rows through the memory. */
-enum class Registers { plain, avx2, avx512 };
+/** The registers that rows of lanes are compiled for, by the doubles that one holds,
+    chosen when the program starts. GCC takes wider rows through the memory. */
+enum class Registers { plain = 2, avx2 = 4, avx512 = 8 };
 
 inline Registers registers_of_processor()
 {
@@ -56,6 +53,32 @@ inline Registers& widest_registers()
 inline void use_registers(Registers widest)
 {
   widest_registers() = std::min(widest, registers_of_processor());
+}
+
+#ifdef HAS_WIDE_REGISTERS
+template <class Work>
+__attribute__((target("avx2"))) void in_avx2(const Work& work)
+{
+  work();
+}
+
+template <class Work>
+__attribute__((target("avx512f"))) void in_avx512(const Work& work)
+{
+  work();
+}
+#endif
+
+/** Calls `work`, always inline, in a function that is compiled for these registers. */
+template <class Work>
+void in_registers(Registers registers, const Work& work)
+{
+#ifdef HAS_WIDE_REGISTERS
+  if (registers == Registers::avx512) return in_avx512(work);
+  if (registers == Registers::avx2) return in_avx2(work);
+#endif
+  static_cast<void>(registers);
+  work();
 }
 
 template <int count>

@@ -274,12 +274,7 @@ void FixedStep::advance(long interval, State& state)
 
 std::size_t FixedStep::widest_row()
 {
-  switch (widest_registers()) {
-    case Registers::avx512: return 8;
-    case Registers::avx2: return 4;
-    case Registers::plain: break;
-  }
-  return 2;
+  return static_cast<std::size_t>(widest_registers());
 }
 
 void FixedStep::advance_row(std::span<const Passage> passages)

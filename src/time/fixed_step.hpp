@@ -49,32 +49,6 @@ void nystrom_step(Length h, const At* at, Q& q, Q& v, const Acceleration& accele
   v = v + h / 6 * (a_1 + 2 * a_2 + 2 * a_3 + a_4);
 }
 
-#ifdef HAS_WIDE_REGISTERS
-template <class Work>
-__attribute__((target("avx2"))) void in_avx2(const Work& work)
-{
-  work();
-}
-
-template <class Work>
-__attribute__((target("avx512f"))) void in_avx512(const Work& work)
-{
-  work();
-}
-#endif
-
-/** Calls `work`, always inline, in a function that is compiled for these registers. */
-template <class Work>
-void in_registers(Registers registers, const Work& work)
-{
-#ifdef HAS_WIDE_REGISTERS
-  if (registers == Registers::avx512) return in_avx512(work);
-  if (registers == Registers::avx2) return in_avx2(work);
-#endif
-  static_cast<void>(registers);
-  work();
-}
-
 /** The fewest steps per output interval, `intervals` to a `period` [s], that are not
     longer than `longest_step` [s]. Throws NoSolution for more than 3e7 in a period. */
 int steps_in_interval(double period, int intervals, double longest_step);

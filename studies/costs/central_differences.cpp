@@ -33,23 +33,23 @@ struct Leap {
     q = q + h * v;
     at = turned(at, by);
   }
-};
 
-/** So many drifts, kicked between them. */
-WIDEST_REGISTERS void leap(Leap& leap, long steps)
-{
-  for (long k = 1; k < steps; ++k) {
-    leap.drift();
-    leap.kick(leap.h);
+  /** So many drifts, kicked between them; by half a kick the speeds leave a whole step
+      and come to one. */
+  void advance(long steps)
+  {
+    in_registers(
+        widest_registers(), [&]() __attribute__((always_inline)) {
+          kick(0.5 * h);
+          for (long k = 1; k < steps; ++k) {
+            drift();
+            kick(h);
+          }
+          drift();
+          kick(0.5 * h);
+        });
   }
-  leap.drift();
-}
-
-/** Half a kick, by which the speeds leave a whole step or come to one. */
-WIDEST_REGISTERS void kick_by_half(Leap& leap)
-{
-  leap.kick(0.5 * leap.h);
-}
+};
 
 class CentralDifferences : public Flow {
 public:
@@ -74,9 +74,7 @@ public:
              h_,
              state.position,
              state.velocity};
-    kick_by_half(one);
-    leap(one, steps_);
-    kick_by_half(one);
+    one.advance(steps_);
     state.position = one.q;
     state.velocity = one.v;
     evaluations_ += steps_ + 1;
