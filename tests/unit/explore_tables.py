@@ -91,6 +91,10 @@ class Motion(Case):
         integrated, solved = (self.orbit(whole, 30, *how) for how in ([], ["--harmonics", 24]))
         self.assertEqual((integrated.value("base"), solved.value("base")), ("passing", "passing"))
         np.testing.assert_allclose(solved["y_r"], integrated["y_r"], rtol=0, atol=0.01 * np.ptp(integrated["y_r"]))
+        branch = self.table("response", whole, "--from", 44, "--to", 45, "--harmonics", 6)
+        self.assertEqual(branch.value("base"), "passing")
+        fine = self.table("orbit", whole, "--frequency", 45, "--harmonics", 6, "--points", 1024)
+        self.assertAlmostEqual(branch["amp_y_r"][-1] / (np.ptp(fine["y_r"]) / 2), 1, delta=1e-2)
         # The same motion by integration.
         exact, series = (self.orbit(still, 90, *how) for how in (["--method", "rk8pd"], ["--harmonics", 40]))
         self.assertEqual(self.said(exact, "base", "period"), ["passing", 1])
@@ -306,6 +310,16 @@ class Stability(Case):
         """Verdict and largest multiplier."""
         table = self.table("orbit", self.machine, "--points", 1, "--frequency", repr(float(frequency)), "--harmonics", harmonics)
         return table.value("stability"), table.value("multiplier")
+
+    def test_a_period_doubling_is_right_to_1e_3_in_speed(self):
+        table = self.table("response", self.machine, "--from", 19.9, "--to", 20.6, "--harmonics", 6, "--stability")
+        # It ends a stretch of unstable motions, which the series of six harmonics does not show.
+        frequency, = table["f"][table["bifurcation"] == "period-doubling"]
+        self.assertEqual([f for _, kind, f, _ in table.members("bifurcation") if kind == "period-doubling"], [frequency])
+        for side in (-1, 1):
+            with self.subTest(frequency=frequency, side=side):
+                _, multiplier = self.orbit_at(frequency * (1 + side * 1e-3))
+                self.assertLess((multiplier - 1) * side, 0)
 
     def test_what_the_budget_does_not_allow_is_said(self):
         result = self.run_explore("response", self.machine, *WHOLE, "--harmonics", 6, "--stability", "--budget", "2.7e7")

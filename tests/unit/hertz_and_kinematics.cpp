@@ -115,6 +115,22 @@ TEST_CASE("Eq. 3: the cage turns at half the rotor's speed for small balls")
   CHECK(cage_speed_ratio(0.01, 0.07) == Approx(7.0 / 16));
 }
 
+TEST_CASE("Eqs 4 to 6: a rotor pushed onto one ball meets that ball's Hertz force")
+{
+  const BallBearing bearing(bearing_with(4, 1e-5));
+  const double angle = 0.3;
+  const Direction cage = Direction::of(angle);
+  const Vec2 u{1.5e-5 * cage.cos, 1.5e-5 * cage.sin};
+  const Vec2 force = bearing.force(cage, u);
+  CHECK(force.x == Approx(hertz_force(1e11, 5e-6) * cage.cos));
+  CHECK(force.y == Approx(hertz_force(1e11, 5e-6) * cage.sin));
+
+  const auto q = bearing.ball_forces({{1, 0}, cage}, u, {0, 0});
+  CHECK(q[0] == Approx(hertz_force(1e11, 5e-6)));
+  CHECK(q[1] == 0);
+  CHECK(q[2] == 0);
+}
+
 TEST_CASE("Hunt and Crossley: one ball, with the cage's turning, and never a pull")
 {
   Bearing damped = bearing_with(4, 1e-5);
@@ -172,6 +188,16 @@ TEST_CASE("The force at all instants is the plain sum over the balls")
     }
 }
 
+TEST_CASE("Outside contact the force at all instants is nothing")
+{
+  const SampledBearing sampled(bearing_with(16, 2e-5), 50);
+  Eigen::MatrixXd u = Eigen::MatrixXd::Zero(50, 2), force, stiffness;
+  u.col(1).setConstant(-2e-5);
+  sampled(u, force, &stiffness);
+  CHECK(force.norm() == 0);
+  CHECK(stiffness.norm() == 0);
+}
+
 TEST_CASE("Grazing contact: a penetration of rounding size gives a force of that size")
 {
   /** The penetration itself is known to 1e-16 of |u| only: its square root to 1e-8. */
@@ -180,6 +206,16 @@ TEST_CASE("Grazing contact: a penetration of rounding size gives a force of that
     CHECK(e.force < 1e-14);
     CHECK(e.stiffness < 3e-8);
   }
+}
+
+TEST_CASE("Turning the cage by one ball spacing changes labels only")
+{
+  const BallBearing bearing(bearing_with(7, 1e-6));
+  const Vec2 u{4e-6, -3e-6};
+  const Vec2 a = bearing.force(Direction::of(0.2), u);
+  const Vec2 b = bearing.force(Direction::of(0.2 + 2 * std::numbers::pi / 7), u);
+  CHECK(a.x == Approx(b.x).epsilon(1e-12));
+  CHECK(a.y == Approx(b.y).epsilon(1e-12));
 }
 
 TEST_CASE("Elements beside the balls: derivatives against difference quotients")

@@ -68,6 +68,12 @@ class Machines(Case):
             self.assertAlmostEqual(branch[name].max() / peak, 1, delta=0.003)
             self.assertAlmostEqual(3 * branch["f"][branch[name].argmax()], passages, delta=0.1)
 
+    def test_attractors_and_response_take_them(self):
+        rigid = self.file("rigid.toml", RIGID)
+        table = self.table("response", rigid, "--from", 44, "--to", 46, "--harmonics", 6)
+        self.assertLess(table["amp_x_s"].max(), 1e-13)
+        self.lines("attractors", rigid, "--from", 45, "--to", 46, "--count", 1, "--starts", 0)
+
     def test_attractors_with_any_cage(self):
         """With n c = 32/5 a motion of one base period of five turns at 45 Hz, and of two at 20 Hz, where that of c = 1/2 has two turns."""
         for speed, period in [(45, 1), (20, 2)]:

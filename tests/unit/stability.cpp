@@ -3,8 +3,8 @@
 #include "motion/judge.hpp"
 #include "support/cases.hpp"
 #include "time/eigenvalues.hpp"
-#include "time/period_map.hpp"
 #include "time/flow.hpp"
+#include "time/period_map.hpp"
 #include "time/shooting.hpp"
 
 using namespace rotor_stator;
