@@ -541,8 +541,8 @@ class Explore(unittest.TestCase):
 
     def test_spoilt_branches_to_restart(self):
         words = ["response", "machine.toml", "--from", "40", "--to", "41"]
-        self.assertEqual(self.ask([*words, "--harmonics", "6", "--save", "saved.tsv"]), 0)
         self.assertEqual(self.ask(["orbit", "machine.toml", "--frequency", "45", "--harmonics", "6"], budget=None), 0)
+        self.assertEqual(self.ask([*words, "--harmonics", "6", "--save", "saved.tsv"]), 0)
         saved = (self.folder.path / "saved.tsv").read_bytes()
         tally = self.asked("saved branches, spoilt", 400, spoilt_branches(saved),
                            st.sampled_from([[], ["--at", "40.5"], ["--direction", "down"]]), question=lambda branch, more: (

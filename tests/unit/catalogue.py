@@ -145,7 +145,8 @@ class Catalogue(Case):
             with self.subTest(text):
                 self.assertIn(f"bearing data of Case Western Reserve University; not used: {unused}", self.checked(C3.replace("6205", text)).header)
         own = self.header('designation = "6201-2Z"\ninternal_clearance = "C0"', *keys)
-        self.assertEqual(own, self.header('designation = "6201 CN"\ninternal_clearance = "C0"', *keys))
+        for text in ["6201 CN", "6201 Cn"]:
+            self.assertEqual(own, self.header(f'designation = "{text}"\ninternal_clearance = "C0"', *keys))
         self.assertAlmostEqual(own[2], (3e-6 + 18e-6) / 4, delta=1e-18)
         self.assertAlmostEqual(*self.header('designation = "6205 C5"', "clearance"), (30e-6 + 53e-6) / 4, delta=1e-18)
         mounted = 'designation = "6205 C3"\nradial_clearance_m = 6e-6'
