@@ -192,11 +192,12 @@ void evaluate(const Samples& samples)
 
 void evaluate(const Samples& samples)
 {
-  switch (widest_registers()) {
-    case Registers::avx512: return evaluate<Registers::avx512>(samples);
-    case Registers::avx2: return evaluate<Registers::avx2>(samples);
-    case Registers::plain: return evaluate<Registers::plain>(samples);
-  }
+#ifdef HAS_WIDE_REGISTERS
+  if (widest_registers() == Registers::avx512)
+    return evaluate<Registers::avx512>(samples);
+  if (widest_registers() == Registers::avx2) return evaluate<Registers::avx2>(samples);
+#endif
+  evaluate<Registers::plain>(samples);
 }
 
 }  // namespace
