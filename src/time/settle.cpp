@@ -253,7 +253,12 @@ Settled Settling::seen() const
            s.seconds > rule_.longest / 2)
     s.kind = Kind::quasi_periodic;
   if (s.kind != Kind::undecided || !s.reason.empty()) return s;
-  if (s.contracts)
+  if (s.contracts && pair_.contraction() <= forgotten)
+    s.reason = format(
+        "neighbours contract by %.3g/s, but the motion does not repeat itself within %d "
+        "base periods",
+        -rate, most_period);
+  else if (s.contracts)
     s.reason = format(
         "neighbours contract by %.3g/s, but the transient is not over after %.3g s",
         -rate, s.seconds);
