@@ -171,9 +171,9 @@ void note_torus_verdict(Table& table, const motion::Torus& torus)
   }
   const motion::TorusVerdict& verdict = *torus.verdict;
   table.value("stability", verdict.word());
-  if (std::isfinite(verdict.rate()) && std::isfinite(verdict.uncertainty)) {
+  if (std::isfinite(verdict.rate()) && std::isfinite(verdict.settled.doubt)) {
     table.value("lyapunov", verdict.rate(), 3);
-    table.value("lyapunov_uncertainty", verdict.uncertainty, 2);
+    table.value("lyapunov_uncertainty", verdict.settled.doubt, 2);
   }
   table.value("stays", verdict.stays ? "yes" : "no");
   put_difference(table, "distance", verdict.distance,

@@ -275,24 +275,19 @@ struct SettledTorus {
 constexpr double near = 0.05;
 
 /** What Eq. 7 makes of the solution: it is integrated from there by `settle`, with steps
-    so many times as long as `step_at` and half as long. */
+    so many times as long as `step_at`. */
 void add_verdict(const TorusSearch& search, double tolerance, double step_ratio,
                  Torus& torus)
 try {
   constexpr int points = 64;
   const Parameters& parameters = search.parameters;
-  const double omega = search.omega, step = step_ratio * step_at(parameters, omega);
-  const Instant start{state_of(parameters, torus.motion), 0};
-  const auto from_there = [&](double longest_step) {
-    return settle(parameters, omega, base_period(parameters), start,
-                  {.step = longest_step}, search.budget.part(0.4));
-  };
-  const Settled coarse = from_there(step);
-  TorusVerdict verdict{.settled = from_there(step / 2)};
+  const double omega = search.omega;
+  TorusVerdict verdict{.settled =
+                           settle(parameters, omega, base_period(parameters),
+                                  {state_of(parameters, torus.motion), 0},
+                                  {.step = step_ratio * step_at(parameters, omega)},
+                                  search.budget.part(0.8))};
   const Settled& settled = verdict.settled;
-  verdict.uncertainty =
-      std::max(3 * settled.lyapunov.error,
-               std::abs(settled.lyapunov.value - coarse.lyapunov.value));
   /** With error control, from so much earlier that those of fixed steps are forgotten. */
   const auto stepper =
       flow(parameters, omega,
@@ -304,8 +299,7 @@ try {
   verdict.record = recorded(*stepper, points, state, first, compared_turns);
   verdict.distance = distance(parameters, torus.motion, verdict.record);
   verdict.stays = verdict.distance.larger() <= tolerance;
-  verdict.evaluations = coarse.evaluations + settled.evaluations +
-                        static_cast<double>(stepper->evaluations());
+  verdict.evaluations = settled.evaluations + static_cast<double>(stepper->evaluations());
   torus.error = verdict.distance;
   torus.verdict = std::move(verdict);
 } catch (const NoSolution& none) {

@@ -25,16 +25,15 @@ Eigen::VectorXd half_peak_to_peak_of_torus(const Parameters& parameters,
 
 /** What Eq. 7 makes of a solution with two frequencies. */
 struct TorusVerdict {
-  Settled settled = {};    ///< what the machine does from it, by half the step
+  Settled settled = {};    ///< what the machine does from it
   Motion record = {};      ///< of that, 100 turns
   Error distance = {};     ///< of the solution from it
-  double uncertainty = 0;  ///< of λ: three standard errors, or what half the step changes
   bool stays = false;      ///< the distance is within the tolerance
   double evaluations = 0;  ///< of Eq. 7
 
   double rate() const { return settled.lyapunov.value; }  ///< λ [1/s]
-  bool stable() const { return stays && rate() + uncertainty < 0; }
-  bool unstable() const { return rate() - uncertainty > 0; }
+  bool stable() const { return stays && settled.contracts; }
+  bool unstable() const { return rate() - settled.doubt > 0; }
   const char* word() const
   {
     return stable() ? "stable" : unstable() ? "unstable" : "undecided";

@@ -234,8 +234,8 @@ Settled Settling::seen() const
             .step = rule_.step,
             .before = pair_.since(nearer),
             .seconds = pair_.seconds()};
-  const double rate = s.lyapunov.value,
-               doubt = 3 * s.lyapunov.error + error_of_rate(rule_.step, pair_.period());
+  s.doubt = 3 * s.lyapunov.error + error_of_rate(rule_.step, pair_.period());
+  const double rate = s.lyapunov.value, doubt = s.doubt;
   s.contracts = rate + doubt < 0;
   if (is_at_rest()) {
     s.kind = Kind::rest;

@@ -64,6 +64,7 @@ struct Settled {
   Kind kind = Kind::undecided;
   int period = 0;          ///< K of a closed section, else 0
   Exponent lyapunov{0};    ///< λ and its standard error [1/s]
+  double doubt = 0;        ///< d [1/s]
   bool contracts = false;  ///< λ + d < 0
   double remainder = 1;    ///< what the contraction has left of any distance [-]
   Instant at;              ///< a state on the motion: see above
